@@ -98,6 +98,11 @@ void say_forces(const VerdictInput& in, Sentences& out) {
   const cycle::SceneOutcome& o = *in.cycle;
   const Sums sums(o);
   say_pairs(in, sums, out);
+  if (in.contacts && in.contacts->ties && in.contacts->ties->ties > 0)
+    out.add("tie_forces",
+            fmt::format("Forces of {} are not computed.",
+                        count(in.contacts->ties->ties, "tie (TYPE2)", "ties (TYPE2)")),
+            {});
   if (in.steps != nullptr && sums.tied > 0)
     out.add("tied_now", count(sums.tied, "pair is tied then.", "pairs are tied then."), {});
   if (sums.by_step > 0)

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <optional>
 #include <random>
 
 #include "contact/small_deck.hpp"
@@ -328,9 +327,8 @@ TEST(Ties, ALoadedDeckFindsThemWhenAsked) {
   EXPECT_EQ(count_ties(ties[0]).not_found, 1U);
 }
 
-TEST(Ties, CoordinatesThatAreNoNumbersAreNotEvaluated) {
-  const Built built(sheet({{5, 5, std::numeric_limits<double>::infinity()}}).add(tie_card({})),
-                    with_ties());
+TEST(Ties, ASearchThatTheSolverDoesNotHaveIsNotEvaluated) {
+  const Built built(sheet({{5, 5, 1}}).add(tie_card({.isearch = 3})), with_ties());
   EXPECT_FALSE(tie_of(built).not_evaluated.empty());
 }
 

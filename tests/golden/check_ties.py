@@ -65,7 +65,7 @@ def deck_of(folder, record, scratch):
         with open(path, "w", encoding="latin-1") as f:
             f.write(overwritten(open(found, encoding="latin-1").read(), record["variant"]))
         return path
-    return os.path.join(folder, name + "_0000.rad")
+    return sorted(glob.glob(os.path.join(folder, "*_0000.rad*")))[0]
 
 
 def run(deck, *arguments):

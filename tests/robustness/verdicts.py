@@ -142,10 +142,10 @@ def not_examined(c, tmp):
     base = without_contacts(read(SAMPLE["too_close"]))
     contact = read(SAMPLE["too_close"])[len(base):].replace(b"/END\n", b"")
     others = b"".join(b"/INTER/TYPE25/%d\nother\n         1         2\n" % i for i in (4, 5, 6))
-    decks = {"others": base + others + b"/END\n", "mixed": base + contact + others + b"/INTER/TYPE3/9\nother\n/END\n", "none": base + b"/END\n"}
-    says = {"others": "3 interfaces of TYPE25 (ids 4, 5, 6)", "mixed": "1 interface of TYPE3 (id 9), 3 interfaces of TYPE25 (ids 4, 5, 6)",
+    decks = {"others": base + others + b"/END\n", "mixed": base + contact + others + b"/INTER/TYPE18/9\nother\n/END\n", "none": base + b"/END\n"}
+    says = {"others": "3 interfaces of TYPE25 (ids 4, 5, 6)", "mixed": "1 interface of TYPE18 (id 9), 3 interfaces of TYPE25 (ids 4, 5, 6)",
             "none": "no contact interface"}
-    expected = {"others": [("/INTER/TYPE25", 3, [4, 5, 6])], "mixed": [("/INTER/TYPE3", 1, [9]), ("/INTER/TYPE25", 3, [4, 5, 6])], "none": []}
+    expected = {"others": [("/INTER/TYPE25", 3, [4, 5, 6])], "mixed": [("/INTER/TYPE18", 1, [9]), ("/INTER/TYPE25", 3, [4, 5, 6])], "none": []}
     for name, data in decks.items():
         path = write(os.path.join(tmp, name + "_0000.rad"), data)
         for verb in ("gaps", "cycle", "params", "lint"):

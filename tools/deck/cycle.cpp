@@ -221,6 +221,7 @@ int run(const Options& o) {
     scene_options.threads = options.threads;
     scene_options.candidates = !o.html.empty();  // the page counts them
     scene_options.nodal_stiffness = true;
+    scene_options.ties = true;  // for the verdict, the same as of gaps
     scene_options.only = o.only;
     scene_options.accuracy = accuracy_of(o.accuracy);
     scene_options.limits = o.common.limits;

@@ -272,7 +272,7 @@ std::string cycle_json(const CycleInput& input, bool all, const TextDrain& drain
   write_json_deck(j, input.path, *input.deck, &model, input.scene->interfaces);
   write_verdict(j, cycle_verdict(input));
   if (input.gate != nullptr) write_gate(j, *input.deck, *input.scene, *input.view, *input.gate);
-  write_json_coverage(j, coverage_of(*input.deck, *input.scene->interfaces));
+  write_json_coverage(j, coverage_of(*input.deck, *input.scene->interfaces, input.scene->examined));
   j.field("dt1", input.options.dt1).field("dt12", input.options.dt12);
   j.field("time", input.options.time);
   j.field("model", input.options.model == cycle::Model::reference ? "reference" : "robust");

@@ -60,6 +60,7 @@ Result<Side> read_side(const Options& o, const std::string& path, const SchemaSe
   progress.step("contacts of " + path);
   SceneOptions scene = side.loaded.scene_options();
   scene.candidates = scene.nodal_stiffness = false;
+  scene.ties = true;
   scene.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
   side.loaded.set_scene_options(scene);
   side.view = make_view(side.loaded.scene());

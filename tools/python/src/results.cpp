@@ -65,6 +65,7 @@ ScenePointer contacts_of(const DeckPointer& deck, const std::vector<std::int64_t
   options.only = only;
   options.accuracy = accuracy_of(accuracy);
   options.candidates = !forces;
+  options.ties = true;
   const auto known = [&](std::int64_t id) -> const InterBase* {
     for (const InterBase* i : loaded.interfaces().ordered)
       if (i->id == id) return i;
