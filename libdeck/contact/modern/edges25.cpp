@@ -186,6 +186,14 @@ class NearAlongMesh {
   NearPairs out_;
 };
 
+/// Sum of two directions of borders, which the solver has in single precision.
+Vec sum_single(const Vec& a, const Vec& b) {
+  const auto sum = [](double u, double v) {
+    return static_cast<double>(static_cast<float>(u) + static_cast<float>(v));
+  };
+  return {sum(a.x, b.x), sum(a.y, b.y), sum(a.z, b.z)};
+}
+
 /// Two edges of sheets.
 class EdgePairs {
  public:
@@ -238,7 +246,7 @@ class EdgePairs {
       const std::size_t corner =
           s_.faces[e.face].nodes[e.side] == e.nodes[k] ? e.side : (e.side + 1) % 4;
       const Topology::Vertex& v = t_.vertices[t_.vertex[e.face][corner]];
-      Vec d = v.first + v.second;
+      Vec d = sum_single(v.first, v.second);
       double c = dot(d, b);
       if (c < 0) {
         d = d - (2 * c) * b;

@@ -203,7 +203,7 @@ void set_sheet(SceneContext& c, const Settings& set, Face& face) {
   if (face.element == no_index) return;
   const double f = set.factor;
   double k = shell_stiffness(c.model, f, shell_kind(face.carrier), face.element);
-  const bool constant = set.type == 25 && set.istf == 1;
+  const bool constant = set.type == 25 && f < 0;
   if (constant && !face.opposite_side()) k = std::max(f, k);
   if (face.kind == SegmentKind::coat && face.solid != no_index)
     k = std::max(k, solid_stiffness(c, f, area_of(c.scene.coordinates, face), face.solid));

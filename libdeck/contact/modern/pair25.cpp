@@ -16,15 +16,6 @@ struct Facet {
   Vec normal, closest;
 };
 
-/// Unit vector as the solver forms it of directions that it has in single precision.
-Vec unit_single(const Vec& v) {
-  const Point3<float> s{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-  const float l = std::sqrt(dot(s, s));
-  if (!(l > 0.0F)) return {};
-  const float f = 1.0F / l;
-  return {f * s.x, f * s.y, f * s.z};
-}
-
 struct Corners {
   std::array<Vec, 4> p;
   Vec centre;
@@ -228,7 +219,7 @@ class Pair {
     const Vec h = foot_ - c_.p[k];
     const bool first = dot(h, at.first) < node_.gap, second = dot(h, at.second) < node_.gap;
     if (!first && !second) return false;
-    direction = first && second ? unit_single(at.first + at.second)
+    direction = first && second ? unit(at.first + at.second)
                 : first         ? at.first
                                 : at.second;
     v = dot(h, direction);

@@ -148,8 +148,8 @@ void set_vertices(const std::vector<Face>& faces, const Joiner& joiner, Topology
   t.vertices.resize(count);
 }
 
-Single single(const Coordinates& x, NodeIndex n) {
-  return {static_cast<float>(x.x[n]), static_cast<float>(x.y[n]), static_cast<float>(x.z[n])};
+Single rounded(const Vec& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 Single unit(const Single& v) {
   const float l = std::sqrt(dot(v, v));
@@ -160,7 +160,7 @@ Vec to_double(const Single& v) { return {v.x, v.y, v.z}; }
 /// Normal of each facet; a mirrored segment has the negatives of its opposite's.
 std::array<Single, 4> facet_normals(const Coordinates& x, const Face& f) {
   Single p[4];
-  for (std::size_t k = 0; k < 4; ++k) p[k] = single(x, f.nodes[k]);
+  for (std::size_t k = 0; k < 4; ++k) p[k] = rounded(at(x, f.nodes[k]));
   std::array<Single, 4> out;
   if (f.triangle()) {
     out.fill(unit(cross(p[0] - p[2], p[1] - p[2])));
@@ -205,7 +205,8 @@ Topology make_topology(const Coordinates& x, const std::vector<Face>& faces) {
         t.direction[i][k] = to_double(unit(normals[i][k] + other));
         continue;
       }
-      const Vec outward = to_double(unit(cross(single(x, b) - single(x, a), normals[i][k])));
+      const Vec along = at(x, b) - at(x, a);
+      const Vec outward = to_double(unit(cross(rounded(along), normals[i][k])));
       t.direction[i][k] = outward;
       for (const std::uint32_t corner : {k, (k + 1) % 4}) {
         Topology::Vertex& v = t.vertices[t.vertex[i][corner]];
