@@ -63,7 +63,7 @@ class Lister {
   }
 
   Vec normal(const Face& f) const {
-    return unit(cross(at(x_, f.nodes[2]) - at(x_, f.nodes[0]),
+    return unit_of(cross(at(x_, f.nodes[2]) - at(x_, f.nodes[0]),
                       at(x_, f.nodes[3]) - at(x_, f.nodes[1])));
   }
 
@@ -186,14 +186,6 @@ class NearAlongMesh {
   NearPairs out_;
 };
 
-/// Sum of two directions of borders, which the solver has in single precision.
-Vec sum_single(const Vec& a, const Vec& b) {
-  const auto sum = [](double u, double v) {
-    return static_cast<double>(static_cast<float>(u) + static_cast<float>(v));
-  };
-  return {sum(a.x, b.x), sum(a.y, b.y), sum(a.z, b.z)};
-}
-
 /// Two edges of sheets.
 class EdgePairs {
  public:
@@ -254,7 +246,7 @@ class EdgePairs {
       }
       const double size = dot(d, d);
       if (2 * c * c < size) d = d + (std::sqrt(size - c * c) - c) * b;
-      d = unit(d);
+      d = unit_of(d);
       const double along = dot(d, b);
       if (along != 0) end[k] = end[k] - (by / along) * d;
     }

@@ -37,7 +37,7 @@ std::vector<Vec> node_normals(const Coordinates& x, const Sides& s) {
     std::array<Vec, 4> normal;
     for (std::size_t k = 0; k < corners; ++k) {
       const Vec p = at(x, f.nodes[k]);
-      normal[k] = unit(cross(at(x, f.nodes[(k + 1) % corners]) - p,
+      normal[k] = unit_of(cross(at(x, f.nodes[(k + 1) % corners]) - p,
                              at(x, f.nodes[(k + corners - 1) % corners]) - p));
     }
     if (f.triangle()) normal[2] = normal[1];
@@ -47,7 +47,7 @@ std::vector<Vec> node_normals(const Coordinates& x, const Sides& s) {
     }
   }
   for (std::size_t n = 0; n < out.size(); ++n)
-    if (count[n] > 1) out[n] = unit(out[n]);
+    if (count[n] > 1) out[n] = unit_of(out[n]);
   return out;
 }
 
@@ -125,7 +125,7 @@ Foot foot_of(const Coordinates& x, const Face& f, const Vec& q) {
   for (std::size_t k = 0; k < 4; ++k) sum = sum + cross(p[k] - o, p[(k + 1) % 4] - o);
   Foot out;
   out.area = 0.5 * norm(sum);
-  out.normal = unit(sum);
+  out.normal = unit_of(sum);
   std::array<double, 4> a{}, c{};
   for (std::size_t k = 0; k < 4; ++k) {
     a[k] = dot(out.normal, cross(p[k] - o, p[(k + 1) % 4] - o));

@@ -33,16 +33,43 @@ Corners corners_of(const Coordinates& x, const Face& f) {
   return c;
 }
 
-Facet facet_of(const Corners& c, std::size_t k, const Vec& q) {
-  const Vec &o = c.centre, &p1 = c.p[k], &p2 = c.p[(k + 1) % 4];
-  const Vec a = p1 - o, b = p2 - o, r = q - o, n = cross(a, b);
+double within01(double v) { return std::max(0.0, std::min(1.0, v)); }
+
+/// The closest point of a facet by the rule of all contacts, in the order of operations of this
+/// type: which of two equally near segments counts hangs on the last digit. `o`, `a`, `b` become
+/// the weights of the centre and the two corners.
+Facet facet_of(const Corners& c, std::size_t k, const Vec& q, double& o, double& a, double& b) {
+  const Vec &p0 = c.centre, &p1 = c.p[k], &p2 = c.p[(k + 1) % 4];
+  const Vec u = p1 - p0, v = p2 - p0, n = cross(u, v);
+  const Vec r0 = p0 - q, r1 = p1 - q, r2 = p2 - q;
   Facet f;
   f.side = k;
   f.normal = unit(n);
+  f.behind = dot(f.normal, r0);
   const double s = 1 / std::max(1e-30, dot(n, n));
-  f.a = s * dot(n, cross(r, b));
-  f.b = s * dot(n, cross(a, r));
-  f.behind = -dot(f.normal, r);
+  f.a = a = s * dot(n, cross(r2, r0));
+  f.b = b = s * dot(n, cross(r0, r1));
+  o = 1 - a - b;
+  const Vec e = p2 - p1;
+  const double ee = std::max(1e-20, dot(e, e)), vv = std::max(1e-30, dot(v, v)),
+               uu = std::max(1e-30, dot(u, u));
+  const double ho = o * std::fabs(o) / ee, ha = a * std::fabs(a) / vv, hb = b * std::fabs(b) / uu;
+  if (o < 0 && ho <= ha && ho <= hb) {
+    a = within01(dot(r2, e) / ee);
+    b = 1 - a;
+    o = 0;
+  } else if (a < 0 && ha <= hb && ha <= ho) {
+    a = 0;
+    b = within01(-dot(r0, v) / vv);
+    o = 1 - b;
+  } else if (b < 0 && hb <= ho && hb <= ha) {
+    b = 0;
+    a = within01(-dot(r0, u) / uu);
+    o = 1 - a;
+  }
+  f.closest = o * p0 + a * p1 + b * p2;
+  const Vec d = q - f.closest;
+  f.distance_squared = dot(d, d);
   return f;
 }
 
@@ -83,12 +110,9 @@ class Pair {
     std::array<Facet, 4> all;
     double least = 0;
     for (std::size_t k = 0; k < c_.facets; ++k) {
-      Facet& f = all[k] = facet_of(c_, k, q_);
-      const auto closest =
-          closest_detail::reference_sub_triangle(q_, c_.centre, c_.p[k], c_.p[(k + 1) % 4]);
-      f.closest = q_ - closest.vector;
-      f.distance_squared = closest.distance_squared;
-      f.gap = gap_at(k, closest.weight_o, closest.weight_a, closest.weight_b);
+      double o = 0, a = 0, b = 0;
+      Facet& f = all[k] = facet_of(c_, k, q_, o, a, b);
+      f.gap = gap_at(k, o, a, b);
       least = k == 0 ? f.distance_squared : std::min(least, f.distance_squared);
     }
     double best = 0;
@@ -219,7 +243,7 @@ class Pair {
     const Vec h = foot_ - c_.p[k];
     const bool first = dot(h, at.first) < node_.gap, second = dot(h, at.second) < node_.gap;
     if (!first && !second) return false;
-    direction = first && second ? unit(at.first + at.second)
+    direction = first && second ? unit(sum_single(at.first, at.second))
                 : first         ? at.first
                                 : at.second;
     v = dot(h, direction);
@@ -282,9 +306,8 @@ double facet_distance_squared(const Coordinates& x, const Face& face, NodeIndex 
   const Vec q = at(x, node);
   double least = 0;
   for (std::size_t k = 0; k < c.facets; ++k) {
-    const double d =
-        closest_detail::reference_sub_triangle(q, c.centre, c.p[k], c.p[(k + 1) % 4])
-            .distance_squared;
+    double o = 0, a = 0, b = 0;
+    const double d = facet_of(c, k, q, o, a, b).distance_squared;
     least = k == 0 ? d : std::min(least, d);
   }
   return least;

@@ -12,6 +12,20 @@ namespace deck::detail::modern {
 
 constexpr double never = 1e30;  ///< the solver's "no limit"
 
+/// Unit vector, divided as the solver does; the null vector stays null.
+inline Vec unit_of(const Vec& v) {
+  const double l = norm(v);
+  return l > 0 ? Vec{v.x / l, v.y / l, v.z / l} : Vec{};
+}
+
+/// Sum of two directions of borders, which the solver has in single precision.
+inline Vec sum_single(const Vec& a, const Vec& b) {
+  const auto sum = [](double u, double v) {
+    return static_cast<double>(static_cast<float>(u) + static_cast<float>(v));
+  };
+  return {sum(a.x, b.x), sum(a.y, b.y), sum(a.z, b.z)};
+}
+
 /// Where a node or segment comes from.
 constexpr std::uint8_t from_first = 1, from_second = 2, from_group = 4;
 

@@ -45,7 +45,7 @@ class Joiner {
   NodeIndex from(std::uint32_t i, std::uint32_t k) const { return faces_[i].nodes[k]; }
   NodeIndex to(std::uint32_t i, std::uint32_t k) const { return faces_[i].nodes[(k + 1) % 4]; }
   Vec normal(const Face& f) const {
-    return unit(cross(at(x_, f.nodes[2]) - at(x_, f.nodes[0]), at(x_, f.nodes[3]) - at(x_, f.nodes[1])));
+    return unit_of(cross(at(x_, f.nodes[2]) - at(x_, f.nodes[0]), at(x_, f.nodes[3]) - at(x_, f.nodes[1])));
   }
 
   bool fits(const Face& i, const Face& j, NodeIndex a, NodeIndex b) const {
@@ -79,9 +79,9 @@ class Joiner {
       if (!fits(faces_[i], faces_[s->face], a, b)) continue;
       if (best == nullptr) {
         ni = normal(faces_[i]);
-        yi = unit(cross(ni, d));
+        yi = unit_of(cross(ni, d));
       }
-      const Vec yj = -1.0 * unit(cross(normal(faces_[s->face]), d));
+      const Vec yj = -1.0 * unit_of(cross(normal(faces_[s->face]), d));
       const double c = dot(yi, yj);
       const bool front = dot(ni, yj) >= 0;
       const bool better = best == nullptr || (front && !best_front) ||
