@@ -115,12 +115,14 @@ void list_penetrations(SceneContext& context, Selections& selections, const Side
   out.largest_accepted = found.largest_accepted;
 }
 
-void not_evaluated(SceneContext& context, Contact& contact, const std::string& why) {
+/// What is left open is said, and the contact is no clean one.
+void not_evaluated(SceneContext& context, Contact& contact, const std::string& why,
+                   const char* what = "the contact was not evaluated") {
   contact.evaluated = false;
   const std::string keyword = "/INTER/TYPE" + std::to_string(contact.type);
   Diagnostic d = finding_of(RuleId::DK380, contact.inter->span,
-                            keyword + " " + std::to_string(contact.inter->id) + ": " + why +
-                                "; the contact was not evaluated");
+                            keyword + " " + std::to_string(contact.inter->id) + ": " + why + "; " +
+                                what);
   d.keyword = keyword;
   d.id = contact.inter->id;
   context.diagnostics.report(std::move(d));
@@ -128,10 +130,11 @@ void not_evaluated(SceneContext& context, Contact& contact, const std::string& w
 
 void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
               const InterBase& inter, bool evaluated) {
+  const std::vector<SideEdge> edges = make_edges(context, s, topology);
+  if (edges.empty()) return;
   Contact out = head(inter, s.set, ContactKind::edge_edge);
   out.evaluated = evaluated;
   out.max_gap = s.largest;
-  const std::vector<SideEdge> edges = make_edges(context, s, topology);
   for (const SideEdge& e : edges) {
     ContactEdge edge;
     edge.nodes = e.nodes;
@@ -146,9 +149,7 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
   }
   out.main_edges = out.secondary_edges;
   std::vector<EdgePenetration> found;
-  if (edges.empty()) {
-    out.dropped = true;
-  } else if (evaluated && !find_edges25(context, s, topology, edges, found)) {
+  if (evaluated && !find_edges25(context, s, topology, edges, found)) {
     not_evaluated(context, out, "too many pairs of edges");
   }
   for (const EdgePenetration& p : found) {
@@ -165,6 +166,17 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
     row.p0 = stored(s.set, p.penetration);
     out.penetrations.push_back(row);
   }
+  if (evaluated && s.set.solid_edges() != 0)
+    not_evaluated(context, out, "Iedge = " + std::to_string(s.set.iedge),
+                  "edges against faces of solids were not evaluated");
+  context.scene.contacts.push_back(std::move(out));
+}
+
+/// Points that a TYPE24 adds on edges: their places are not established.
+void points_on_edges(SceneContext& context, const Sides& s, const InterBase& inter) {
+  Contact out = head(inter, s.set, ContactKind::edge_edge);
+  not_evaluated(context, out, "Iedge = " + std::to_string(s.set.iedge),
+                "the points that the solver adds on edges were not evaluated");
   context.scene.contacts.push_back(std::move(out));
 }
 
@@ -193,6 +205,7 @@ void build_contacts(SceneContext& context, Selections& selections, const InterBa
   }
   context.scene.contacts.push_back(std::move(out));
   if (ready25 && s.set.iedge != 0) edges_of(context, s, topology, inter, ready);
+  if (ready && inter.type == 24 && s.set.iedge > 0) points_on_edges(context, s, inter);
 }
 
 }  // namespace deck::detail::modern
