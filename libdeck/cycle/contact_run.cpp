@@ -425,11 +425,29 @@ void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in, s
     for (std::size_t c = 0; c < 3; ++c) view.normal[k][c] = data(pairs.normal[k][c]);
 }
 
+namespace {
+
+/// What of a TYPE24 or TYPE25 pushes from the start.
+std::string initial_forces_text(const Contact& contact) {
+  const auto n = std::count_if(
+      contact.penetrations.begin(), contact.penetrations.end(),
+      [](const PenetrationRow& r) { return r.action == PenetrationAction::initial_force; });
+  return n == 0 ? std::string() : "; pairs with a force from the start: " + std::to_string(n);
+}
+
+}  // namespace
+
 NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcome& out,
                           NodalSums& all) {
   const Contact& contact = *out.contact;
   const CycleOptions& options = run.options;
   if (contact.dropped) return {};
+  if (is_modern(contact.type)) {
+    out.notes.push_back("forces of TYPE" + std::to_string(contact.type) + " are not computed" +
+                        initial_forces_text(contact));
+    out.complete = false;
+    return {};
+  }
   if (!m.plan) m.plan = make_plan(out.card, options.model, options.plan);
   const KernelPlan& plan = *m.plan;
   out.effects = plan.account;

@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "deck/base/count.hpp"
 #include "deck/base/paths.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/model/coverage.hpp"
@@ -235,7 +236,15 @@ std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& o
     if (const auto text = not_examined_text(
             coverage_of(input.deck, *input.interfaces, Examined::contacts_and_ties));
         !text.empty())
-      out.push_back({text, "only types 2, 7, 10, 11 and 19 have rules"});
+      out.push_back({text, "only types 2, 7, 10, 11, 19, 24 and 25 have rules"});
+  if (input.interfaces != nullptr)
+    if (const auto n = std::count_if(
+            input.interfaces->ordered.begin(), input.interfaces->ordered.end(),
+            [](const InterBase* i) { return is_modern(i->type); });
+        n > 0)
+      out.push_back({"forces of " + count(static_cast<std::size_t>(n), "interface", "interfaces") +
+                         " of TYPE24 and TYPE25",
+                     "they are not computed"});
   if (!opaque.empty())
     out.push_back({"encrypted blocks: " + joined(opaque), "their cards cannot be read"});
   std::set<std::string> missing;

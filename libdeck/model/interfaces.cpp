@@ -146,7 +146,90 @@ class Rules {
     rest(t);
   }
 
+  void apply(InterType24& t) const {
+    default_flag(t.Istf, "Istf", nothing);
+    default_flag(t.Irem_i2, "Irem_i2", 1);
+    default_flag(t.Idel, "Idel", nothing);
+    default_flag(t.Iedge, "Iedge", nothing);
+    default_flag(t.Igap0, "Igap0", nothing);
+    default_flag(t.Ipen0, "Ipen0", nothing);
+    default_flag(t.Inacti, "Inacti", nothing);
+    if (t.Istf.value >= 10 && t.Istf.value != nothing) overrule(t.Istf, t.Istf.value - 10);
+    if (const std::int64_t i = flag(t.Inacti); i == -2)
+      overrule(t.Istf, 2);
+    else
+      modern_inacti(t);
+    if (flag(t.Iedge) <= 0 || level_of(t.surf_ID1.value, t.surf_ID2.value) == 3)
+      settle(t.Iedge, nothing);
+    stiffness_bounds(t, flag(t.Istf) > 1 || t.Istf.value == -1);
+    modern_rest(t);
+  }
+
+  void apply(InterType25& t) const {
+    default_flag(t.Istf, "Istf", nothing);
+    default_flag(t.Igap, "Igap", 1);
+    default_flag(t.Irem_i2, "Irem_i2", 1);
+    default_flag(t.Idel, "Idel", nothing);
+    default_flag(t.Iedge, "Iedge", nothing);
+    default_flag(t.Igap0, "Igap0", nothing);
+    default_flag(t.Ishape, "Ishape", 1);
+    default_flag(t.Inacti, "Inacti", nothing);
+    default_flag(t.Ithick, "Ithick", nothing);
+    if (t.Igap.value == 3 && t.Ishape.value == 1) overrule(t.Ishape, 2);
+    if (model_.implicit && flag(t.Inacti) == 0) settle<std::int64_t>(t.Inacti, -1);
+    modern_inacti(t);
+    mesh_fraction(t);
+    fallback(t.Gap_scale, 1.0);
+    fallback(t.Stmax, never);
+    fallback<std::int64_t>(t.IVIS2, 1);
+    if (t.IVIS2.value == 5) fallback(t.VISs, 1.0);
+    if (t.Igap.value == 5) {
+      fallback(t.THICK_S_SCALE, 1.0);
+      fallback(t.THICK_M_SCALE, 1.0);
+    }
+    if (t.Ithe.value > 0) {
+      fallback(t.AscaleK, 1.0);
+      if (!model_.has_thermal_material) settle<std::int64_t>(t.Ithe, 0);
+    }
+    modern_rest(t);
+  }
+
  private:
+  /// What an Inacti comes to, and what it makes of other fields.
+  template <class Inter>
+  static void modern_inacti(Inter& t) {
+    const std::int64_t i = t.Inacti.value;
+    if (i > 0 && i != 5 && i != nothing) overrule(t.Inacti, 5);
+    if (i < -1) overrule(t.Inacti, nothing);
+    if (i == -1 && flag(t.Istf) == 0) {
+      t.Istf.value = 4;
+      t.Istf.origin = Origin::derived;
+    }
+  }
+
+  /// What TYPE24 and TYPE25 have in common.
+  template <class Inter>
+  static void modern_rest(Inter& t) {
+    const auto derived = [](auto& e, auto value) {
+      e.value = value;
+      e.origin = Origin::derived;
+    };
+    deletion(t.Idel, nothing);
+    if (t.Istf.value == 7) {
+      derived(t.IPSTIF, 1);
+      if (t.STFAC_MDT.value == 0) derived(t.STFAC_MDT, 0.1);
+    }
+    if (t.IPSTIF.value == 1) fallback(t.STFAC_MDT, 0.1);
+    if (flag(t.Iedge) != 0) fallback(t.Edge_angle, 135.0);
+    fallback(t.Gap_max_s, never);
+    fallback(t.Gap_max_m, never);
+    fallback(t.Stfac, 1.0);
+    fallback(t.Tstop, never);
+    fallback(t.VISs, 0.05);
+    if (t.Inacti.value != -1 && t.Inacti.value != -2) settle(t.Tpressfit, 0.0);
+    if (t.Xfreq.value == 0) settle<std::int64_t>(t.Ifiltr, 0);
+  }
+
   void default_flag(EffectiveInt& e, std::string_view name, std::int64_t hard) const {
     if (e.value != 0) return;
     const auto* given = defaults_ ? defaults_->find(name) : nullptr;

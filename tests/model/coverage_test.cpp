@@ -19,19 +19,19 @@ const std::string type7 = "/INTER/TYPE7/3\ncontact\n\n\n\n\n\n\n";
 
 TEST(Coverage, NamesInterfacesOfOtherTypesWithCountAndIds) {
   const Coverage c =
-      coverage(type7 + "/INTER/TYPE2/9\na\n/INTER/TYPE25/4\na\n/INTER/TYPE25/6\na\n");
+      coverage(type7 + "/INTER/TYPE2/9\na\n/INTER/TYPE23/4\na\n/INTER/TYPE23/6\na\n");
   EXPECT_EQ(c.examined, 1u);
   ASSERT_EQ(c.not_examined.size(), 2u);
-  EXPECT_EQ(c.not_examined[1].keyword, "/INTER/TYPE25");
+  EXPECT_EQ(c.not_examined[1].keyword, "/INTER/TYPE23");
   EXPECT_EQ(c.not_examined[1].ids, (std::vector<std::int64_t>{4, 6}));
   EXPECT_EQ(coverage_lead(c), "") << "something was examined";
   EXPECT_EQ(coverage_tail(c),
-            " Not examined: 1 interface of TYPE2 (id 9), 2 interfaces of TYPE25 (ids 4, 6).");
+            " Not examined: 1 interface of TYPE2 (id 9), 2 interfaces of TYPE23 (ids 4, 6).");
 }
 
 TEST(Coverage, ComesFirstWhereNothingWasExamined) {
-  const Coverage c = coverage("/INTER/TYPE25/4\na\n/INTER/TYPE25/5\na\n/INTER/TYPE25/6\na\n");
-  EXPECT_EQ(coverage_lead(c), "Nothing examined: 3 interfaces of TYPE25 (ids 4, 5, 6).");
+  const Coverage c = coverage("/INTER/TYPE23/4\na\n/INTER/TYPE23/5\na\n/INTER/TYPE23/6\na\n");
+  EXPECT_EQ(coverage_lead(c), "Nothing examined: 3 interfaces of TYPE23 (ids 4, 5, 6).");
   EXPECT_EQ(coverage_tail(c), "") << "said already";
 }
 
@@ -55,7 +55,7 @@ TEST(Coverage, NoVerdictWithoutAllFiles) {
 
 TEST(Coverage, LongListsOfIdsAreCut) {
   std::string blocks;
-  for (int i = 1; i <= 25; ++i) blocks += "/INTER/TYPE24/" + std::to_string(i) + "\na\n";
+  for (int i = 1; i <= 25; ++i) blocks += "/INTER/TYPE22/" + std::to_string(i) + "\na\n";
   const Coverage c = coverage(blocks);
   EXPECT_EQ(c.not_examined.at(0).ids.size(), 25u);
   EXPECT_NE(coverage_lead(c).find("9, 10 and 15 more"), std::string::npos) << coverage_lead(c);

@@ -119,9 +119,9 @@ def options(c, tmp):
     if c.check("--interface 1,4", r.code in (0, 1), r.text[-200:]):
         some = [i["id"] for i in json.loads(r.out)["interfaces"] if i["contacts"]]
         c.check("--interface 1,4: both", sorted(some) == [1, 4], str(some))
-    other = write(os.path.join(tmp, "other_0000.rad"), read(path).replace(b"/END", b"/INTER/TYPE25/99\nother\n/END"))
+    other = write(os.path.join(tmp, "other_0000.rad"), read(path).replace(b"/END", b"/INTER/TYPE23/99\nother\n/END"))
     r = c.run("gaps", other, "--interface", "99")
-    c.check("an interface of another type is named as such", r.code == 2 and "TYPE25/99" in r.text, r.text[-300:])
+    c.check("an interface of another type is named as such", r.code == 2 and "TYPE23/99" in r.text, r.text[-300:])
 
 
 # ---- what was not examined -----------------------------------------------------------------------
@@ -141,11 +141,11 @@ def page_text(path):
 def not_examined(c, tmp):
     base = without_contacts(read(SAMPLE["too_close"]))
     contact = read(SAMPLE["too_close"])[len(base):].replace(b"/END\n", b"")
-    others = b"".join(b"/INTER/TYPE25/%d\nother\n         1         2\n" % i for i in (4, 5, 6))
+    others = b"".join(b"/INTER/TYPE23/%d\nother\n         1         2\n" % i for i in (4, 5, 6))
     decks = {"others": base + others + b"/END\n", "mixed": base + contact + others + b"/INTER/TYPE18/9\nother\n/END\n", "none": base + b"/END\n"}
-    says = {"others": "3 interfaces of TYPE25 (ids 4, 5, 6)", "mixed": "1 interface of TYPE18 (id 9), 3 interfaces of TYPE25 (ids 4, 5, 6)",
+    says = {"others": "3 interfaces of TYPE23 (ids 4, 5, 6)", "mixed": "1 interface of TYPE18 (id 9), 3 interfaces of TYPE23 (ids 4, 5, 6)",
             "none": "no contact interface"}
-    expected = {"others": [("/INTER/TYPE25", 3, [4, 5, 6])], "mixed": [("/INTER/TYPE18", 1, [9]), ("/INTER/TYPE25", 3, [4, 5, 6])], "none": []}
+    expected = {"others": [("/INTER/TYPE23", 3, [4, 5, 6])], "mixed": [("/INTER/TYPE18", 1, [9]), ("/INTER/TYPE23", 3, [4, 5, 6])], "none": []}
     for name, data in decks.items():
         path = write(os.path.join(tmp, name + "_0000.rad"), data)
         for verb in ("gaps", "cycle", "params", "lint"):

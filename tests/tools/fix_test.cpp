@@ -229,11 +229,11 @@ TEST_F(FixCommand, ATieIsTreatedOnlyWhereThatIsAskedFor) {
 TEST_F(FixCommand, NothingExaminedIsNoSuccess) {
   std::string text = too_close_;
   const auto at = text.find("/INTER/TYPE7/1");
-  text.replace(at, text.find("/END") - at, "/INTER/TYPE25/1\nnot examined\n");
+  text.replace(at, text.find("/END") - at, "/INTER/TYPE23/1\nnot examined\n");
   write(dir_ / "other_0000.rad", text);
   for (const char* strategy : {"", " --strategy move-nodes", " --strategy inacti"}) {
     EXPECT_EQ(deck(std::string("fix other_0000.rad --json fix.json") + strategy), 1);
-    EXPECT_NE(out().find("Nothing examined: 1 interface of TYPE25 (id 1)."), std::string::npos)
+    EXPECT_NE(out().find("Nothing examined: 1 interface of TYPE23 (id 1)."), std::string::npos)
         << out();
     EXPECT_EQ(out().find("nothing to fix"), std::string::npos) << out();
     const auto report = nlohmann::json::parse(read(dir_ / "fix.json"));

@@ -100,7 +100,7 @@ TEST(Verdict, AnErrorOfTheDeckStopsTheSolver) {
 
 TEST(Verdict, AnInterfaceThatIsNotExaminedIsSaid) {
   Plates p;
-  p.card = "Gapmin=0.1\n/INTER/TYPE25/9\nother\n         1         2";
+  p.card = "Gapmin=0.1\n/INTER/TYPE23/9\nother\n         1         2";
   const Verdict v = of(plates(p));
   EXPECT_EQ(v.level, VerdictLevel::not_examined) << v.text;
   EXPECT_EQ(v.count("interfaces_not_examined"), 1u);

@@ -20,6 +20,14 @@ const char* to_string(PenetrationAction action) {
       return "gap-reduced";
     case PenetrationAction::edge_stiffness_zero:
       return "edge-stiffness-zero";
+    case PenetrationAction::ignored:
+      return "ignored";
+    case PenetrationAction::offset_stored:
+      return "offset-stored";
+    case PenetrationAction::initial_force:
+      return "initial-force";
+    case PenetrationAction::removed_tied:
+      return "removed-tied";
   }
   return "none";
 }

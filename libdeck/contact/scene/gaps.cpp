@@ -50,7 +50,8 @@ std::vector<double> node_limits(std::size_t nodes, const std::vector<MainSegment
   return out;
 }
 
-/// Half thickness of the thickest shell at each node, 0: none.
+}  // namespace
+
 const std::vector<double>& shell_half_thickness(const Surroundings& c) {
   std::vector<double>& half = c.shells.half_thickness;
   if (!half.empty()) return half;
@@ -74,11 +75,8 @@ const std::vector<double>& shell_half_thickness(const Surroundings& c) {
   return half;
 }
 
-/// Half thickness of the thickest thing attached to a node, before Fscalegap; `shells` is
-/// shell_half_thickness().
-double node_half_thickness(const Surroundings& c, const std::vector<double>& shells,
-                           NodeIndex node) {
-  double half = shells[node];
+double line_half_thickness(const Surroundings& c, NodeIndex node) {
+  double half = 0;
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = c.model.family(kind);
     for (const std::uint32_t e : c.connectivity.elements(kind, node)) {
@@ -92,6 +90,15 @@ double node_half_thickness(const Surroundings& c, const std::vector<double>& she
     }
   }
   return half;
+}
+
+namespace {
+
+/// Half thickness of the thickest thing attached to a node, before Fscalegap; `shells` is
+/// shell_half_thickness().
+double node_half_thickness(const Surroundings& c, const std::vector<double>& shells,
+                           NodeIndex node) {
+  return std::max(shells[node], line_half_thickness(c, node));
 }
 
 /// What a gap is bounded by, over some items.

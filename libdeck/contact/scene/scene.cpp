@@ -7,6 +7,7 @@
 
 #include "base/pages.hpp"
 #include "base/parallel.hpp"
+#include "contact/modern/parts.hpp"
 #include "contact/rules/gaps.hpp"
 #include "contact/scene/doubts.hpp"
 #include "contact/scene/scene_parts.hpp"
@@ -116,6 +117,13 @@ class Builder {
         case 19:
           type19_nodes(static_cast<const InterType19&>(*base), ContactRole::primary);
           later.push_back(static_cast<const InterType19*>(base));
+          break;
+        case 24:
+        case 25:
+          detail::modern::build_contacts(c_, selections_, *base, [this](Contact& contact) {
+            report_empty_sides(contact);
+            return computable(contact);
+          });
           break;
         default:
           break;
@@ -392,7 +400,12 @@ void copy_coordinates(const Nodes& nodes, Coordinates& out, int threads) {
 detail::CardSettings detail::card_settings(const InterBase& inter) {
   CardSettings c;
   visit_interface(inter, [&](const auto& i) {
-    if constexpr (requires { i.Gap; }) {
+    if constexpr (requires { i.Gap_max_s; }) {
+      c.inacti = flag(i.Inacti);
+      if constexpr (requires { i.Igap; }) c.igap = static_cast<int>(i.Igap.value);
+      if constexpr (requires { i.Gap_scale; }) c.gap_scale = i.Gap_scale.value;
+      if constexpr (requires { i.mesh_size; }) c.mesh_fraction = i.mesh_size.value;
+    } else if constexpr (requires { i.Gap; }) {
       c.gapmin = i.Gap.before_geometry();
     } else {
       c.gapmin = i.Gapmin.before_geometry();

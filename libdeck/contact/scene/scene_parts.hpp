@@ -60,6 +60,24 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics&
 /// segments, orients faces of single solids outward, notes degenerate ones.
 void make_main_segments(SceneContext& context, const SegmentList& segments, Contact& contact);
 
+/// First matching rule of the solver's repair (warning 106). True if something changed.
+bool repair(std::array<NodeIndex, 4>& segment);
+/// The solids that have all nodes of a segment.
+struct SolidsOfSegment {
+  std::uint32_t first = no_index, best = no_index;  ///< best: largest user id
+  int count = 0;
+};
+SolidsOfSegment solids_of(SceneContext& context, const std::array<NodeIndex, 4>& segment);
+/// Thickest shell holding all nodes; of equally thick ones the stiffest.
+struct ShellOfSegment {
+  ElementKind kind{};
+  std::uint32_t element = no_index;
+};
+ShellOfSegment shell_of(SceneContext& context, const std::array<NodeIndex, 4>& segment);
+/// Turns the segment away from the centroid of its solid. True if the order was reversed.
+bool orient_outward(SceneContext& context, std::uint32_t solid,
+                    std::array<NodeIndex, 4>& segment);
+
 // thickness.cpp — sections and materials of elements
 /// Contact thickness of a shell (kind shell4 or shell3).
 double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e);
@@ -98,6 +116,10 @@ struct PlainSides {
   double shortest_side = 0;  ///< as Contact::shortest_side, with the nodes where `around` has them
 };
 PlainSides plain_sides(const Surroundings& around, const Contact& contact);
+/// Half thickness of the thickest shell at each node, 0: none.
+const std::vector<double>& shell_half_thickness(const Surroundings& around);
+/// Half thickness of the thickest truss, beam or spring at a node, 0: none.
+double line_half_thickness(const Surroundings& around, NodeIndex node);
 /// What default gaps are formed of: thickness of the main shells; of one side of a line contact.
 ThicknessSamples shell_thickness(const Contact& contact);
 EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges);

@@ -13,8 +13,9 @@ namespace {
 
 using Quad = std::array<NodeIndex, 4>;
 
-/// First matching rule of the solver's repair (warning 106). True if something changed.
-bool repair(Quad& n) {
+}  // namespace
+
+bool repair(std::array<NodeIndex, 4>& n) {
   if (n[0] == n[3]) {
     n[3] = n[2];
     return true;
@@ -29,6 +30,8 @@ bool repair(Quad& n) {
   }
   return false;
 }
+
+namespace {
 
 bool contains_all(const NodeIndex* nodes, int width, const Quad& segment) {
   return std::all_of(segment.begin(), segment.end(), [&](NodeIndex s) {
@@ -52,21 +55,20 @@ bool solid_contains(const Model& model, std::uint32_t e, const Quad& segment) {
   return contains_all(all, count, segment);
 }
 
-struct Solids {
-  std::uint32_t best = no_index;  // largest user id
-  int count = 0;
-};
+}  // namespace
 
-Solids solids_of(SceneContext& c, const Quad& segment) {
-  Solids found;
+SolidsOfSegment solids_of(SceneContext& c, const std::array<NodeIndex, 4>& segment) {
+  SolidsOfSegment found;
   const Elements& family = c.model.solid8;
   for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, segment[0])) {
     if (!solid_contains(c.model, e, segment)) continue;
-    ++found.count;
+    if (found.count++ == 0) found.first = e;
     if (found.best == no_index || family.id[e] > family.id[found.best]) found.best = e;
   }
   return found;
 }
+
+namespace {
 
 /// A solid that has all nodes of a quadrangle, but not as one of its faces: solids overlap there.
 bool inside_a_solid(SceneContext& c, const Quad& segment) {
@@ -84,14 +86,10 @@ bool inside_a_solid(SceneContext& c, const Quad& segment) {
   });
 }
 
-struct Shell {
-  ElementKind kind{};
-  std::uint32_t element = no_index;
-};
+}  // namespace
 
-/// Thickest shell holding all nodes; of equally thick ones the stiffest.
-Shell shell_of(SceneContext& c, const Quad& segment) {
-  Shell best;
+ShellOfSegment shell_of(SceneContext& c, const std::array<NodeIndex, 4>& segment) {
+  ShellOfSegment best;
   double thickness = 0, young = 0;
   const auto look = [&](ElementKind kind, bool last_wins) {
     const Elements& family = c.model.family(kind);
@@ -112,8 +110,7 @@ Shell shell_of(SceneContext& c, const Quad& segment) {
   return best;
 }
 
-/// Turns the segment away from the centroid of its solid. True if the order was reversed.
-bool orient_outward(SceneContext& c, std::uint32_t solid, Quad& n) {
+bool orient_outward(SceneContext& c, std::uint32_t solid, std::array<NodeIndex, 4>& n) {
   const Coordinates& x = c.scene.coordinates;
   Vec centre, middle;
   const NodeIndex* slots = c.model.solid8.of(solid);
@@ -130,6 +127,8 @@ bool orient_outward(SceneContext& c, std::uint32_t solid, Quad& n) {
     n = {n[3], n[2], n[1], n[0]};
   return true;
 }
+
+namespace {
 
 /// Area vanishes or the opposite corners point in opposite directions (solver error 558).
 bool degenerate(const Coordinates& c, const Quad& n) {
@@ -170,7 +169,7 @@ void add_segment(SceneContext& c, int type, const Segment& segment, Piece& out) 
   bool outward = false, inside = false;
   std::uint32_t solid = m.element;
   if (segment.carrier == Carrier::none) {
-    const Solids found = solids_of(c, m.nodes);
+    const SolidsOfSegment found = solids_of(c, m.nodes);
     solid = found.best;
     outward = found.count == 1;
     if (found.count > 2) out.crowded.push_back(here);
@@ -178,7 +177,7 @@ void add_segment(SceneContext& c, int type, const Segment& segment, Piece& out) 
       m.carrier = Carrier::solid;
       m.element = found.best;
     }
-    if (const Shell shell = shell_of(c, m.nodes); shell.element != no_index) {
+    if (const ShellOfSegment shell = shell_of(c, m.nodes); shell.element != no_index) {
       m.carrier = shell.kind == ElementKind::shell4 ? Carrier::shell4 : Carrier::shell3;
       m.element = shell.element;
     }

@@ -78,9 +78,10 @@ bool without_element(const Contact& contact) {
 
 Obstacle obstacle_of(const Contact& contact) {
   if (contact.dropped) return Obstacle::none;
+  if (is_modern(contact.type) && contact.kind == ContactKind::edge_edge) return Obstacle::none;
   if (contact.main_empty()) return Obstacle::empty_main;
   if (contact.secondary_empty()) return Obstacle::empty_secondary;
-  if (!(contact.gapmin > 0)) return Obstacle::no_gap;
+  if (!is_modern(contact.type) && !(contact.gapmin > 0)) return Obstacle::no_gap;
   if (contact.degenerate_segments > 0) return Obstacle::no_area;
   if (without_element(contact)) return Obstacle::no_element;
   const bool idle = contact.kind == ContactKind::node_segment &&

@@ -123,6 +123,9 @@ void take_card(const Scene& scene, const InterType19& i, const Contact& contact,
 void take_card(const Scene& scene, const InterType11& i, const Contact& contact, ContactCard& c) {
   take_common_fields(scene, i, contact, c);
 }
+/// No forces of these two are computed.
+void take_card(const Scene&, const InterType24&, const Contact&, ContactCard&) {}
+void take_card(const Scene&, const InterType25&, const Contact&, ContactCard&) {}
 void take_card(const Scene&, const InterType10& i, const Contact& contact, ContactCard& c) {
   c.stfac = i.Stfac.value;
   c.viss = i.VISs.value;

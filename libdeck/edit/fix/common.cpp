@@ -55,6 +55,7 @@ std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options) 
 bool is_wanted(const FixOptions& options, const Contact& contact) {
   const auto& list = options.interfaces;
   if (contact.ties() && !options.ties) return false;
+  if (is_modern(contact.type)) return false;  // no strategy knows their gaps and sides
   return list.empty() || std::find(list.begin(), list.end(), contact.inter->id) != list.end();
 }
 

@@ -245,6 +245,7 @@ void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
     if (sides.empty() || card.type == 11) continue;
     const std::string_view main = sides.back().field;
     if (card.given(main) || (card.type == 19 && card.given("surf_IDs"))) continue;
+    if (is_modern(card.type) && card.given("surf_ID1")) continue;
     Diagnostic* d = report_at(r, rule, card, main, name_of(card) + " has no main surface");
     if (d != nullptr && card.type == 0) d->reference = rule.message(119);
   }

@@ -63,6 +63,39 @@ void write_sides(const Rows& rows, const Model& model, const Contact& c) {
   side("main", c.main_edges);
 }
 
+/// TYPE24 and TYPE25: nodes and segments with what they are; edges of its other contact.
+void write_modern_sides(const Rows& rows, const Model& model, const Contact& c,
+                        const Contact* edges) {
+  JsonWriter& j = rows.json;
+  j.key("secondary").begin_array();
+  for (const SecondaryNode& s : c.secondary) {
+    j.begin_object(true).field("node", model.node_id(s.node)).field("stiffness", s.multiplier);
+    j.field("gap", s.gap);
+    rows.end_row();
+  }
+  j.end_array().key("main").begin_array();
+  for (std::size_t i = 0; i < c.main.size(); ++i) {
+    const MainSegment& m = c.main[i];
+    j.begin_object(true).key("nodes");
+    write_nodes(j, model, m.nodes.data(), 4);
+    j.field("stiffness", m.stiffness).field("gap", m.gap);
+    j.field("kind", to_string(c.segment_kinds[i]));
+    rows.end_row();
+  }
+  j.end_array().key("edges").begin_array();
+  for (std::size_t i = 0; edges != nullptr && i < edges->main_edges.size(); ++i) {
+    const ContactEdge& e = edges->main_edges[i];
+    j.begin_object(true).key("edge");
+    write_nodes(j, model, e.nodes.data(), 2);
+    j.field("stiffness", e.stiffness).field("gap", e.gap);
+    j.field("kind", edges->edge_kinds[i] == 1   ? "solid"
+                    : edges->edge_kinds[i] == 2 ? "shell"
+                                                : "solid-flat");
+    rows.end_row();
+  }
+  j.end_array();
+}
+
 /// A row of the view, and the line of its secondary node.
 struct PlacedRow {
   const NamedPenetration* named = nullptr;
@@ -85,10 +118,11 @@ std::vector<std::vector<PlacedRow>> rows_of_contacts(const Scene& scene, const S
 }
 
 void write_penetrations(const Rows& rows, const Deck& deck, const Scene& scene,
-                        const std::vector<PlacedRow>& named, const Contact& c) {
+                        const std::vector<PlacedRow>& named, const Contact& c,
+                        const char* list = "penetrations") {
   const Model& model = *scene.model;
   JsonWriter& j = rows.json;
-  j.key("penetrations").begin_array();
+  j.key(list).begin_array();
   for (const auto& [p, span] : named) {
     const PenetrationRow& r = c.penetrations[p->row];
     const bool edges = c.kind == ContactKind::edge_edge;
@@ -111,6 +145,7 @@ void write_penetrations(const Rows& rows, const Deck& deck, const Scene& scene,
       j.key("solver").begin_object(true);
       j.field("penetration", r.gap * r.gap - r.distance).field("gap", r.gap * r.gap).end_object();
     }
+    if (is_modern(c.type)) j.field("stored", r.p0);
     if (c.ties()) j.field("tie", true);
     j.key("normal");
     write_vector(j, r.normal);
@@ -223,6 +258,13 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
       for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
         const Contact& c = scene.contacts[i];
         if (c.inter != inter || c.role != role || c.dropped) continue;
+        // The edges of a TYPE25 stand with its nodes.
+        const bool modern = is_modern(c.type);
+        if (modern && role == ContactRole::edges) continue;
+        const Contact* const edges =
+            modern && i + 1 < scene.contacts.size() && scene.contacts[i + 1].inter == inter
+                ? &scene.contacts[i + 1]
+                : nullptr;
         j.begin_object().field("kind", to_string(c.kind));
         // A TYPE11 of the user is the primary contact of its interface; that of a TYPE19 its edges.
         j.field("role", to_string(c.role)).field("igap", c.igap == 0 ? 1000 : c.igap);
@@ -239,8 +281,17 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
         j.field("shortest_main_side", c.shortest_side).key("totals").begin_object(true);
         write_totals(j, view.contacts[i]);
         j.end_object();
-        if (all) write_sides(rows, *scene.model, c);
+        if (all && modern)
+          write_modern_sides(rows, *scene.model, c, edges);
+        else if (all)
+          write_sides(rows, *scene.model, c);
         write_penetrations(rows, deck, scene, named[i], c);
+        if (edges != nullptr) {
+          j.key("edge_totals").begin_object(true);
+          write_totals(j, view.contacts[i + 1]);
+          j.end_object();
+          write_penetrations(rows, deck, scene, named[i + 1], *edges, "edge_penetrations");
+        }
         if (crossings != nullptr)
           write_crossings(j, scene, *crossings, static_cast<std::uint32_t>(i));
         j.end_object();

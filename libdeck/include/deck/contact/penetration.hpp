@@ -15,6 +15,10 @@ enum class PenetrationAction : std::uint8_t {
   node_moved,              ///< Inacti 3
   gap_reduced,             ///< Inacti 5, 6
   edge_stiffness_zero,     ///< TYPE11: Inacti 1, 2, or deeper than 99.5 % of the gap with 5, 6
+  ignored,                 ///< TYPE24, 25: Inacti 0
+  offset_stored,           ///< TYPE24, 25: Inacti 5, taken off the penetration from then on
+  initial_force,           ///< TYPE24, 25: Inacti -1, a force from the start
+  removed_tied,            ///< TYPE24, 25: a tie holds the node, Irem_i2
 };
 const char* to_string(PenetrationAction action);  ///< "none", "node-stiffness-zero", ...
 
@@ -32,6 +36,7 @@ struct PenetrationRow {
   PenetrationAction action = PenetrationAction::none;
   bool has_gap0 = false;
   double p0 = 0, gap0 = 0;            ///< Inacti 5, 6: stored penetration and gap left
+                                      ///< (TYPE24, 25: what is stored, no gap left)
   std::array<double, 3> moved_by{};   ///< Inacti 3
   double weight_s = 0, weight_m = 0;  ///< edge pairs: weights of the first nodes
 };

@@ -57,6 +57,17 @@ struct ContactEdge {
   double stored_penetration = 0;  ///< Inacti 5, 6: what the solver takes off every pair gap
 };
 
+/// TYPE24 and TYPE25: what a main segment is. A shell has one segment a side.
+enum class SegmentKind : std::uint8_t { solid, shell, shell_opposite, coat, coat_opposite };
+const char* to_string(SegmentKind kind);  ///< "solid", "shell", "shell-opposite", "coat", ...
+
+/// TYPE25: an edge that passes through a main segment of a solid beside one of its sides.
+struct EdgeThroughSegment {
+  std::uint32_t edge = 0, main = 0;  ///< positions in the edges of the interface, and in `main`
+  int side = 0;                      ///< 1 to 4: from that corner of the segment to the next
+  double depth = 0;
+};
+
 /// Which arithmetic decides that a pair is in contact, and gives its figures.
 enum class Accuracy : std::uint8_t {
   fast,       ///< plain double, closest point by the robust formula
@@ -90,7 +101,7 @@ struct Contact {
   const InterBase* inter = nullptr;
   ContactKind kind = ContactKind::node_segment;
   ContactRole role = ContactRole::primary;
-  int type = 7;           ///< 7, 10 or 11: whose rules it follows
+  int type = 7;           ///< 7, 10, 11, 24 or 25: whose rules it follows
   bool dropped = false;   ///< TYPE19 edges: no edges, the solver drops the part
   bool evaluated = true;  ///< false: too many pairs, or coordinates that are no numbers; whether
                           ///< anything penetrates is not known then
@@ -114,6 +125,12 @@ struct Contact {
   std::uint64_t candidates = 0;     ///< pairs within gap + margin; edge pairs: within gap
   std::uint64_t removed_pairs = 0;  ///< candidates taken out by Irem_gap = 2
   std::vector<PenetrationRow> penetrations;
+
+  // TYPE24 and TYPE25 only.
+  std::vector<SegmentKind> segment_kinds;  ///< parallel to `main`
+  std::vector<std::int8_t> edge_kinds;     ///< parallel to the edges: 1 solids, 2 other, -1 carrier
+  std::vector<EdgeThroughSegment> edges_through_segments;
+  double largest_accepted = 0;  ///< TYPE24: deepest penetration that counts
 
   int repaired_segments = 0;                          ///< solver warning 106
   int degenerate_segments = 0;                        ///< solver error 558

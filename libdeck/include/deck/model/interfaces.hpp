@@ -1,5 +1,5 @@
 // The contact interfaces as plain structs of effective values: what the solver will use for every
-// field of /INTER/TYPE2, 7, 10, 11, 19, where each value came from, and what the card said.
+// field of /INTER/TYPE2, 7, 10, 11, 19, 24, 25, where each value came from, and what the card said.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -24,13 +24,13 @@ struct InterfaceTraits {
   int type;
   std::string_view keyword;
   Side secondary, main;
-  std::string_view gap;  ///< field of the minimum gap
+  std::string_view gap;  ///< field of the minimum gap; empty: there is none
 };
 
 /// What every interface has.
 struct InterBase {
   std::int64_t id = 0;
-  int type = 0;  ///< 2, 7, 10, 11, 19
+  int type = 0;  ///< 2, 7, 10, 11, 19, 24, 25
   std::string title;
   const Block* block = nullptr;
   Span span;              ///< header
@@ -146,6 +146,60 @@ struct InterType19 : InterBase {
   void for_each(F&& f) const;
 };
 
+/// Segments against nodes, of one surface or of two; no minimum gap: gaps follow the thicknesses.
+struct InterType24 : InterBase {
+  static constexpr InterfaceTraits traits{
+      24, "/INTER/TYPE24", {"surf_ID1", "surf"}, {"surf_ID2", "surf"}, ""};
+  EffectiveInt surf_ID1, surf_ID2, Istf, Irem_i2, Idel, IPSTIF, grnd_IDs, Iedge;
+  EffectiveReal Edge_angle, Gap_max_s, Gap_max_m, Stmin, Stmax;
+  EffectiveInt Igap0, Ipen0;
+  EffectiveReal Ipen_max, Ipen_min, STFAC_MDT, Stfac, Fric, Tstart, Tstop;
+  EffectiveText IBC;
+  EffectiveInt Inacti;
+  EffectiveReal VISs, Tpressfit;
+  EffectiveInt Ifric, Ifiltr;
+  EffectiveReal Xfreq;
+  EffectiveInt sens_ID;
+  EffectiveReal DTSTIF;
+  EffectiveInt fric_ID;
+  EffectiveReal C1, C2, C3, C4, C5, C6;
+  template <class F>
+  void for_each(F&& f);
+  template <class F>
+  void for_each(F&& f) const;
+};
+
+/// The same with both sides of the mesh joined to a whole: what current models use.
+struct InterType25 : InterBase {
+  static constexpr InterfaceTraits traits{
+      25, "/INTER/TYPE25", {"surf_ID1", "surf"}, {"surf_ID2", "surf"}, ""};
+  EffectiveInt surf_ID1, surf_ID2, Istf, Ithe, Igap, Irem_i2, Idel, Iedge, IPSTIF, grnd_IDs;
+  EffectiveReal Gap_scale, mesh_size, Gap_max_s, Gap_max_m, Stmin, Stmax;
+  EffectiveInt Igap0, Ishape;
+  EffectiveReal Edge_angle, STFAC_MDT, Stfac, Fric, Tpressfit, Tstart, Tstop;
+  EffectiveText IBC;
+  EffectiveInt IVIS2, Inacti;
+  EffectiveReal VISs;
+  EffectiveInt Ithick;
+  EffectiveReal Pmax;
+  EffectiveInt Ifric, Ifiltr;
+  EffectiveReal Xfreq;
+  EffectiveInt sens_ID;
+  EffectiveReal DTSTIF;
+  EffectiveInt fric_ID;
+  EffectiveReal C1, C2, C3, C4, C5, C6, ViscFluid, SigMaxAdh, ViscAdhFact, Kthe;
+  EffectiveInt fct_IDK;
+  EffectiveReal Tint;
+  EffectiveInt Ithe_form;
+  EffectiveReal AscaleK, Frad, Drad, Fheats, Fheatm;
+  EffectiveInt FRIC_FUN, Fcond;
+  EffectiveReal Dcond, THICK_S, THICK_S_SCALE, THICK_M, THICK_M_SCALE;
+  template <class F>
+  void for_each(F&& f);
+  template <class F>
+  void for_each(F&& f) const;
+};
+
 /// /DEFAULT/INTER/TYPEn: the non-zero fields.
 struct DefaultInter {
   int type = 0;
@@ -182,6 +236,8 @@ struct Interfaces {
   std::vector<InterType10> type10;
   std::vector<InterType11> type11;
   std::vector<InterType19> type19;
+  std::vector<InterType24> type24;
+  std::vector<InterType25> type25;
   std::vector<InterType2> type2;       ///< ties, in deck order; not in `ordered`
   std::vector<DefaultInter> defaults;  ///< honoured ones only, at most one of a type
   std::vector<Friction> frictions;
@@ -209,16 +265,17 @@ struct Interfaces {
   /// Calls f(list) for the list of every type of contact.
   template <class F>
   void each_list(F&& f) {
-    f(type7), f(type10), f(type11), f(type19);
+    f(type7), f(type10), f(type11), f(type19), f(type24), f(type25);
   }
   template <class F>
   void each_list(F&& f) const {
-    f(type7), f(type10), f(type11), f(type19);
+    f(type7), f(type10), f(type11), f(type19), f(type24), f(type25);
   }
 };
 
-inline constexpr std::array<const InterfaceTraits*, 4> interface_types{
-    &InterType7::traits, &InterType10::traits, &InterType11::traits, &InterType19::traits};
+inline constexpr std::array<const InterfaceTraits*, 6> interface_types{
+    &InterType7::traits,  &InterType10::traits, &InterType11::traits,
+    &InterType19::traits, &InterType24::traits, &InterType25::traits};
 /// The row of an interface type; nullptr for types that are not read.
 inline const InterfaceTraits* traits_of(int type) {
   for (const InterfaceTraits* t : interface_types)
@@ -226,6 +283,14 @@ inline const InterfaceTraits* traits_of(int type) {
   return nullptr;
 }
 inline const InterfaceTraits& traits_of(const InterBase& inter) { return *traits_of(inter.type); }
+/// TYPE24 and TYPE25: segments with two sides, penetrations that only the first cycle acts on.
+inline bool is_modern(int type) { return type == 24 || type == 25; }
+/// What such a contact is between: 1 the nodes and segments of one surface, 2 of two surfaces,
+/// 3 a node group and the second surface, 0 nothing.
+inline int level_of(std::int64_t surf_ID1, std::int64_t surf_ID2) {
+  if (surf_ID1 == 0) return surf_ID2 == 0 ? 0 : 3;
+  return surf_ID2 == 0 || surf_ID2 == surf_ID1 ? 1 : 2;
+}
 
 /// Decodes the interface blocks and forms the effective values in the reference solver's order of
 /// evaluation. `model` supplies what some defaults depend on (thermal materials, adaptive meshing,

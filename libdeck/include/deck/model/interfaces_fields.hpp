@@ -212,6 +212,116 @@ void visit_fields(Self& s, F& f) {
   f("Fheatm", s.Fheatm);
 }
 
+template <class Self, class F>
+requires std::is_same_v<std::remove_const_t<Self>, InterType24>
+void visit_fields(Self& s, F& f) {
+  f("surf_ID1", s.surf_ID1);
+  f("surf_ID2", s.surf_ID2);
+  f("Istf", s.Istf);
+  f("Irem_i2", s.Irem_i2);
+  f("Idel", s.Idel);
+  f("IPSTIF", s.IPSTIF);
+  f("grnd_IDs", s.grnd_IDs);
+  f("Iedge", s.Iedge);
+  f("Edge_angle", s.Edge_angle);
+  f("Gap_max_s", s.Gap_max_s);
+  f("Gap_max_m", s.Gap_max_m);
+  f("Stmin", s.Stmin);
+  f("Stmax", s.Stmax);
+  f("Igap0", s.Igap0);
+  f("Ipen0", s.Ipen0);
+  f("Ipen_max", s.Ipen_max);
+  f("Ipen_min", s.Ipen_min);
+  f("STFAC_MDT", s.STFAC_MDT);
+  f("Stfac", s.Stfac);
+  f("Fric", s.Fric);
+  f("Tstart", s.Tstart);
+  f("Tstop", s.Tstop);
+  f("IBC", s.IBC);
+  f("Inacti", s.Inacti);
+  f("VISs", s.VISs);
+  f("Tpressfit", s.Tpressfit);
+  f("Ifric", s.Ifric);
+  f("Ifiltr", s.Ifiltr);
+  f("Xfreq", s.Xfreq);
+  f("sens_ID", s.sens_ID);
+  f("DTSTIF", s.DTSTIF);
+  f("fric_ID", s.fric_ID);
+  f("C1", s.C1);
+  f("C2", s.C2);
+  f("C3", s.C3);
+  f("C4", s.C4);
+  f("C5", s.C5);
+  f("C6", s.C6);
+}
+
+template <class Self, class F>
+requires std::is_same_v<std::remove_const_t<Self>, InterType25>
+void visit_fields(Self& s, F& f) {
+  f("surf_ID1", s.surf_ID1);
+  f("surf_ID2", s.surf_ID2);
+  f("Istf", s.Istf);
+  f("Ithe", s.Ithe);
+  f("Igap", s.Igap);
+  f("Irem_i2", s.Irem_i2);
+  f("Idel", s.Idel);
+  f("Iedge", s.Iedge);
+  f("IPSTIF", s.IPSTIF);
+  f("grnd_IDs", s.grnd_IDs);
+  f("Gap_scale", s.Gap_scale);
+  f("%mesh_size", s.mesh_size);
+  f("Gap_max_s", s.Gap_max_s);
+  f("Gap_max_m", s.Gap_max_m);
+  f("Stmin", s.Stmin);
+  f("Stmax", s.Stmax);
+  f("Igap0", s.Igap0);
+  f("Ishape", s.Ishape);
+  f("Edge_angle", s.Edge_angle);
+  f("STFAC_MDT", s.STFAC_MDT);
+  f("Stfac", s.Stfac);
+  f("Fric", s.Fric);
+  f("Tpressfit", s.Tpressfit);
+  f("Tstart", s.Tstart);
+  f("Tstop", s.Tstop);
+  f("IBC", s.IBC);
+  f("IVIS2", s.IVIS2);
+  f("Inacti", s.Inacti);
+  f("VISs", s.VISs);
+  f("Ithick", s.Ithick);
+  f("Pmax", s.Pmax);
+  f("Ifric", s.Ifric);
+  f("Ifiltr", s.Ifiltr);
+  f("Xfreq", s.Xfreq);
+  f("sens_ID", s.sens_ID);
+  f("DTSTIF", s.DTSTIF);
+  f("fric_ID", s.fric_ID);
+  f("C1", s.C1);
+  f("C2", s.C2);
+  f("C3", s.C3);
+  f("C4", s.C4);
+  f("C5", s.C5);
+  f("C6", s.C6);
+  f("ViscFluid", s.ViscFluid);
+  f("SigMaxAdh", s.SigMaxAdh);
+  f("ViscAdhFact", s.ViscAdhFact);
+  f("Kthe", s.Kthe);
+  f("fct_IDK", s.fct_IDK);
+  f("Tint", s.Tint);
+  f("Ithe_form", s.Ithe_form);
+  f("AscaleK", s.AscaleK);
+  f("Frad", s.Frad);
+  f("Drad", s.Drad);
+  f("Fheats", s.Fheats);
+  f("Fheatm", s.Fheatm);
+  f("FRIC_FUN", s.FRIC_FUN);
+  f("Fcond", s.Fcond);
+  f("Dcond", s.Dcond);
+  f("THICK_S", s.THICK_S);
+  f("THICK_S_SCALE", s.THICK_S_SCALE);
+  f("THICK_M", s.THICK_M);
+  f("THICK_M_SCALE", s.THICK_M_SCALE);
+}
+
 }  // namespace detail
 
 template <class F>
@@ -254,6 +364,22 @@ template <class F>
 void InterType19::for_each(F&& f) const {
   detail::visit_fields(*this, f);
 }
+template <class F>
+void InterType24::for_each(F&& f) {
+  detail::visit_fields(*this, f);
+}
+template <class F>
+void InterType24::for_each(F&& f) const {
+  detail::visit_fields(*this, f);
+}
+template <class F>
+void InterType25::for_each(F&& f) {
+  detail::visit_fields(*this, f);
+}
+template <class F>
+void InterType25::for_each(F&& f) const {
+  detail::visit_fields(*this, f);
+}
 
 /// Calls f(contact) with the contact as its own type; `base` must be in Interfaces::ordered.
 template <class F>
@@ -262,6 +388,8 @@ decltype(auto) visit_interface(const InterBase& base, F&& f) {
   if (base.type == InterType10::traits.type) return f(static_cast<const InterType10&>(base));
   if (base.type == InterType11::traits.type) return f(static_cast<const InterType11&>(base));
   if (base.type == InterType19::traits.type) return f(static_cast<const InterType19&>(base));
+  if (base.type == InterType24::traits.type) return f(static_cast<const InterType24&>(base));
+  if (base.type == InterType25::traits.type) return f(static_cast<const InterType25&>(base));
   throw std::logic_error("visit_interface: not an element of Interfaces");
 }
 

@@ -44,6 +44,10 @@ std::vector<std::int64_t> nodes_where(const GeometryRun& run, const Contact& c, 
 }
 
 const char* treatment(const Contact& c) {
+  if (is_modern(c.type))
+    return c.inacti == 0   ? "the solver ignores them at the start"
+           : c.inacti == 5 ? "the solver takes them off what it finds later"
+                           : "they start with contact forces";
   switch (c.inacti) {
     case 1:
       return c.kind == ContactKind::edge_edge ? "the edges are switched off"

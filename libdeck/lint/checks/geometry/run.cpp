@@ -78,6 +78,9 @@ std::uint64_t members_of(Selections& selections, const InterBase& inter) {
     else if constexpr (requires { i.surf_IDs; })  // both ways round, and edges
       out = 4 *
             (segments_of(selections, i.surf_IDs.value) + segments_of(selections, i.surf_IDm.value));
+    else if constexpr (requires { i.surf_ID1; })  // front and back of shells
+      out = 2 *
+            (segments_of(selections, i.surf_ID1.value) + segments_of(selections, i.surf_ID2.value));
     else {
       const NodeSet* group = selections.node_group(i.grnd_IDs.value);
       out = segments_of(selections, i.surf_IDm.value) + (group ? group->nodes.size() : 0);

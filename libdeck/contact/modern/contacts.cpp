@@ -1,0 +1,211 @@
+// TYPE24 and TYPE25 as contacts of the scene: nodes against segments, and edges where the card
+// wants them.
+#include <algorithm>
+#include <cmath>
+
+#include "contact/modern/parts.hpp"
+#include "deck/text/rule.hpp"
+
+namespace deck {
+
+const char* to_string(SegmentKind kind) {
+  switch (kind) {
+    case SegmentKind::solid:
+      return "solid";
+    case SegmentKind::shell:
+      return "shell";
+    case SegmentKind::shell_opposite:
+      return "shell-opposite";
+    case SegmentKind::coat:
+      return "coat";
+    case SegmentKind::coat_opposite:
+      return "coat-opposite";
+  }
+  return "";
+}
+
+}  // namespace deck
+
+namespace deck::detail::modern {
+namespace {
+
+Contact head(const InterBase& inter, const Settings& set, ContactKind kind) {
+  Contact c;
+  c.inter = &inter;
+  c.type = inter.type;
+  c.kind = kind;
+  c.role = kind == ContactKind::node_segment ? ContactRole::primary : ContactRole::edges;
+  c.istf = set.istf;
+  c.igap = set.igap;
+  c.inacti = set.inacti;
+  c.factor = set.factor;
+  c.gap_scale = set.scale;
+  c.mesh_fraction = set.mesh_fraction;
+  c.gapmax = std::max(set.cap_s, set.cap_m);
+  c.gap_rule = PairGap::from_igap(set.local() ? 3 : 1, 0);
+  return c;
+}
+
+void list_sides(SceneContext& context, const Sides& s, Contact& out) {
+  const Coordinates& x = context.scene.coordinates;
+  for (const SideNode& n : s.nodes) {
+    SecondaryNode node;
+    node.node = n.node;
+    node.gap = n.gap;
+    node.length = n.length;
+    out.secondary.push_back(node);
+  }
+  double shortest = never;
+  for (const Face& f : s.faces) {
+    MainSegment m;
+    m.nodes = f.nodes;
+    m.carrier = f.carrier;
+    m.element = f.element;
+    m.stiffness = f.stiffness;
+    m.gap = f.gap;
+    m.thickness = 2 * f.own_gap;
+    m.length = f.length;
+    out.main.push_back(m);
+    out.segment_kinds.push_back(f.kind);
+    for (std::size_t k = 0; k < 4; ++k)
+      if (const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4]; a != b)
+        shortest = std::min(shortest, distance(x, a, b));
+  }
+  out.shortest_side = s.faces.empty() ? 0 : shortest;
+  out.max_gap = s.largest;
+  out.reoriented_segments = s.reoriented;
+  out.crowded = s.crowded;
+}
+
+PenetrationAction action_of(const Settings& set) {
+  return set.inacti == 0   ? PenetrationAction::ignored
+         : set.inacti == 5 ? PenetrationAction::offset_stored
+                           : PenetrationAction::initial_force;
+}
+
+/// What Inacti stores: a TYPE25 with -1 nothing, and neither without Inacti but for what is too
+/// small to count.
+double stored(const Settings& set, double penetration) {
+  constexpr double tiny = 1e-8;
+  if (set.inacti == 5 || (set.type == 24 && set.inacti == -1)) return penetration;
+  return set.inacti == 0 && penetration <= tiny ? penetration : 0;
+}
+
+void list_penetrations(SceneContext& context, Selections& selections, const Sides& s,
+                       const Found& found, Contact& out) {
+  std::vector<bool> held(found.penetrations.size(), false);
+  if (s.set.irem_i2 == 1 && !found.penetrations.empty())
+    held = held_by_ties(context, selections, s, found.penetrations);
+  for (std::size_t i = 0; i < found.penetrations.size(); ++i) {
+    const NodePenetration& p = found.penetrations[i];
+    PenetrationRow row;
+    row.secondary = p.node;
+    row.main = p.face;
+    row.depth = p.penetration;
+    row.gap = p.gap;
+    row.distance = p.distance;
+    row.normal = {p.normal.x, p.normal.y, p.normal.z};
+    const bool removed = held[i] && s.set.inacti == 5;
+    row.action = removed ? PenetrationAction::removed_tied : action_of(s.set);
+    row.p0 = removed ? 0 : stored(s.set, p.penetration);
+    out.penetrations.push_back(row);
+  }
+  out.candidates = found.candidates;
+  out.removed_pairs = found.removed;
+  out.largest_accepted = found.largest_accepted;
+}
+
+/// What is left open is said, and the contact is no clean one.
+void not_evaluated(SceneContext& context, Contact& contact, const std::string& why,
+                   const char* what = "the contact was not evaluated") {
+  contact.evaluated = false;
+  const std::string keyword = "/INTER/TYPE" + std::to_string(contact.type);
+  Diagnostic d = finding_of(RuleId::DK380, contact.inter->span,
+                            keyword + " " + std::to_string(contact.inter->id) + ": " + why + "; " +
+                                what);
+  d.keyword = keyword;
+  d.id = contact.inter->id;
+  context.diagnostics.report(std::move(d));
+}
+
+void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
+              const InterBase& inter, bool evaluated) {
+  const std::vector<SideEdge> edges = make_edges(context, s, topology);
+  if (edges.empty()) return;
+  Contact out = head(inter, s.set, ContactKind::edge_edge);
+  out.evaluated = evaluated;
+  out.max_gap = s.largest;
+  for (const SideEdge& e : edges) {
+    ContactEdge edge;
+    edge.nodes = e.nodes;
+    const Face& f = s.faces[e.face];
+    edge.carrier = f.carrier;
+    edge.element = f.element;
+    edge.stiffness = e.stiffness;
+    edge.gap = e.gap;
+    edge.length = e.length;
+    out.secondary_edges.push_back(edge);
+    out.edge_kinds.push_back(e.kind);
+  }
+  out.main_edges = out.secondary_edges;
+  std::vector<EdgePenetration> found;
+  if (evaluated && !find_edges25(context, s, topology, edges, found)) {
+    not_evaluated(context, out, "too many pairs of edges");
+  }
+  for (const EdgePenetration& p : found) {
+    PenetrationRow row;
+    row.secondary = p.secondary;
+    row.main = p.main;
+    row.depth = p.penetration;
+    row.gap = p.gap;
+    row.distance = p.distance;
+    row.normal = {p.normal.x, p.normal.y, p.normal.z};
+    row.weight_s = p.weight_s;
+    row.weight_m = p.weight_m;
+    row.action = action_of(s.set);
+    row.p0 = stored(s.set, p.penetration);
+    out.penetrations.push_back(row);
+  }
+  if (evaluated && s.set.solid_edges() != 0)
+    not_evaluated(context, out, "Iedge = " + std::to_string(s.set.iedge),
+                  "edges against faces of solids were not evaluated");
+  context.scene.contacts.push_back(std::move(out));
+}
+
+/// Points that a TYPE24 adds on edges: their places are not established.
+void points_on_edges(SceneContext& context, const Sides& s, const InterBase& inter) {
+  Contact out = head(inter, s.set, ContactKind::edge_edge);
+  not_evaluated(context, out, "Iedge = " + std::to_string(s.set.iedge),
+                "the points that the solver adds on edges were not evaluated");
+  context.scene.contacts.push_back(std::move(out));
+}
+
+}  // namespace
+
+void build_contacts(SceneContext& context, Selections& selections, const InterBase& inter,
+                    const std::function<bool(Contact&)>& evaluate) {
+  Sides s;
+  s.set = settings_of(inter, context.options.what_if);
+  make_sides(context, selections, inter, s);
+  set_gaps(context, s);
+  set_stiffness(context, s);
+  Contact out = head(inter, s.set, ContactKind::node_segment);
+  list_sides(context, s, out);
+  const bool ready = context.options.penetrations && evaluate(out);
+  const bool ready25 = ready && inter.type == 25;
+  Topology topology;
+  if (ready25) topology = make_topology(context.scene.coordinates, s.faces);
+  if (ready) {
+    const Found found =
+        inter.type == 25 ? find_nodes25(context, s, topology) : find_nodes24(context, s);
+    if (found.complete)
+      list_penetrations(context, selections, s, found, out);
+    else
+      not_evaluated(context, out, "too many pairs");
+  }
+  context.scene.contacts.push_back(std::move(out));
+  if (ready25 && s.set.iedge != 0) edges_of(context, s, topology, inter, ready);
+  if (ready && inter.type == 24 && s.set.iedge > 0) points_on_edges(context, s, inter);
+}
+
+}  // namespace deck::detail::modern

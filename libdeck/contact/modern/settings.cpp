@@ -1,0 +1,68 @@
+// What the card of a TYPE24 or TYPE25 asks for, with what is tried out in place of it.
+#include <cmath>
+#include <numbers>
+
+#include "contact/modern/parts.hpp"
+
+namespace deck::detail::modern {
+namespace {
+
+int flag(const EffectiveInt& f) { return f.value == 1000 ? 0 : static_cast<int>(f.value); }
+
+template <class Inter>
+void take(const Inter& i, Settings& s) {
+  s.level = level_of(i.surf_ID1.value, i.surf_ID2.value);
+  s.istf = flag(i.Istf);
+  s.inacti = flag(i.Inacti) == -2 ? -1 : flag(i.Inacti);
+  s.iedge = flag(i.Iedge);
+  s.igap0 = flag(i.Igap0);
+  s.irem_i2 = flag(i.Irem_i2);
+  s.factor = s.istf == 1 ? -i.Stfac.value : i.Stfac.value;
+  s.cos_edge = std::cos((180 - i.Edge_angle.value) * std::numbers::pi / 180);
+  s.cap_s = i.Gap_max_s.value;
+  s.cap_m = i.Gap_max_m.value;
+}
+
+}  // namespace
+
+Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if) {
+  Settings s;
+  s.type = inter.type;
+  visit_interface(inter, [&](const auto& i) {
+    if constexpr (requires { i.Gap_max_s; }) take(i, s);
+    if constexpr (requires { i.Ipen0; }) {
+      s.ipen0 = flag(i.Ipen0);
+      s.ipen_max = i.Ipen_max.value;
+    }
+    if constexpr (requires { i.Ishape; }) {
+      // An Igap of no meaning acts as 1.
+      s.igap = i.Igap.value == 2 || i.Igap.value == 3 || i.Igap.value == 5
+                   ? static_cast<int>(i.Igap.value)
+                   : 1;
+      s.ishape = static_cast<int>(i.Ishape.value);
+      s.ivis2 = static_cast<int>(i.IVIS2.value);
+      s.scale = i.Gap_scale.value;
+      s.mesh_fraction = i.mesh_size.value;
+      s.thick_s = i.THICK_S.value;
+      s.thick_s_scale = i.THICK_S_SCALE.value;
+      s.thick_m = i.THICK_M.value;
+      s.thick_m_scale = i.THICK_M_SCALE.value;
+    }
+  });
+  for (const WhatIf& w : what_if) {
+    if (w.interface_id != inter.id) continue;
+    if (w.Inacti) s.inacti = *w.Inacti == 1000 ? 0 : *w.Inacti;
+    if (w.Gapmax) s.cap_s = s.cap_m = *w.Gapmax;
+    if (inter.type == 24) continue;
+    if (w.Fscalegap) s.scale = *w.Fscalegap;
+    if (w.mesh_size) s.mesh_fraction = mesh_fraction_of(*w.mesh_size);
+    if (!w.Igap) continue;
+    s.igap = *w.Igap == 2 || *w.Igap == 3 || *w.Igap == 5 ? *w.Igap : 1;
+    if (s.igap != 3) continue;
+    if (s.ishape == 1) s.ishape = 2;
+    s.mesh_fraction = mesh_fraction_of(s.mesh_fraction);
+  }
+  return s;
+}
+
+}  // namespace deck::detail::modern
