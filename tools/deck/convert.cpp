@@ -14,7 +14,6 @@
 #include "convert_losses.hpp"
 #include "convert_steps.hpp"
 #include "deck/base/paths.hpp"
-#include "deck/contact/search_memory.hpp"
 #include "deck/edit/changed_values.hpp"
 #include "deck/edit/from_json.hpp"
 #include "deck/edit/rewrite.hpp"
@@ -24,7 +23,6 @@
 #include "deck/text/gzip.hpp"
 #include "writing/changes.hpp"
 #include "writing/library.hpp"
-#include "writing/meshes.hpp"
 
 namespace deck::cli::verb_convert {
 namespace {
@@ -96,7 +94,8 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
   const EditContext context(c.now);
   progress.step(c.now.path() + ": " + step.option);
   Rewrite rewrite = step.run(context);
-  if (step.engine && rewrite.refusals.empty()) step.engine(c.now.deck(), c.now.engine_files(), rewrite);
+  if (step.engine && rewrite.refusals.empty())
+    step.engine(c.now.deck(), c.now.engine_files(), rewrite);
   // With a batch the values that only changed are left out: its report holds all decks.
   if (!options.report.empty()) add_changed_values(context, step.option, rewrite);
   progress.clear();
@@ -376,10 +375,6 @@ int convert_one(Run& run, const std::string& path, const SchemaSet& schemas) {
   return wrong ? exit_usage : exit_input;
 }
 
-bool names_several(const std::vector<std::string>& given) {
-  return given.size() > 1 || names_directory(given);
-}
-
 int check(const Options& options) {
   const auto refuse = [&](std::string_view why) {
     print_error(options.common, why);
@@ -415,16 +410,12 @@ int check(const Options& options) {
 
 int run(Options& options) {
   if (const int bad = check(options); bad != exit_clean) return bad;
-  SearchMemory searches;
-  options.common.searches = &searches;
   const auto schemas = load_schemas(options.common);
   if (!schemas) {
     print_error(options.common, schemas.error().message);
     return exit_usage;
   }
-  const auto& given = options.common.decks;
-  // A report lists every cell that changed, so that rows are not changed as a whole.
-  auto steps = make_steps(options.steps, names_several(given) && options.report.empty());
+  auto steps = make_steps(options.steps);
   if (!steps) {
     print_error(options.common, steps.error().message);
     return exit_usage;
@@ -510,8 +501,6 @@ Action setup(CommandLine& line) {
     options->write.read_back = options->verifies();
     options->common.engine_files = options->to == "rad" && options->from == "rad";
     options->common.rewrites = options->write.in_place;
-    std::optional<SharedMeshes> meshes;
-    if (names_several(options->common.decks)) meshes.emplace();
     return run(*options);
   };
 }

@@ -78,7 +78,7 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
       .heading(group);
 }
 
-Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool several_decks) {
+Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
   std::vector<ConvertStep> all;
   if (!steps.extract.empty())
     all.push_back({"--extract-contacts",
@@ -107,15 +107,14 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool seve
   if (!steps.units.empty()) {
     const auto target = parse_unit_system(steps.units);
     if (!target) return Error{Error::Code::config, "--units: " + target.error().message};
-    const auto rows = several_decks ? make_shared_rows() : nullptr;
     all.push_back(
         {"--units",
-         [&steps, system = *target, rows](const EditContext& c) {
-           return to_units(c, system, {steps.partial, steps.keep_working, rows});
+         [&steps, system = *target](const EditContext& c) {
+           return to_units(c, system, {steps.partial, steps.keep_working});
          },
          "--partial converts what is known and lists the rest",
          [&steps, system = *target](const Deck& deck, const EngineFiles& engine, Rewrite& out) {
-           engine_to_units(deck, engine, system, {steps.partial, steps.keep_working, nullptr},
+           engine_to_units(deck, engine, system, {steps.partial, steps.keep_working},
                            steps.partial || steps.allow_loss, out);
          }});
   }

@@ -34,7 +34,7 @@ struct ConvertStep {
 };
 
 /// Those asked for, in the order they are done. Error: an option that makes no sense.
-Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool several_decks);
+Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps);
 
 /// A deck in JSON as the files it stands for.
 struct JsonFiles {
