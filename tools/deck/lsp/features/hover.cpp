@@ -28,7 +28,7 @@ EffectiveValue effective(const View& view, const Block& block, std::string_view 
   if (inter == nullptr) return out;
   const Semantics& s = *view.semantics();
   const LoadedDeck& of = *s.loaded;
-  const ParamsInput params{of.path(), &of.deck(), &of.model(), &of.interfaces(), nullptr};
+  const ParamsInput params{of};
   visit_interface(*inter, [&](const auto& typed) {
     typed.for_each([&](std::string_view name, const auto& e) {
       if (name != value_name(field)) return;
