@@ -100,9 +100,9 @@ void Server::start_analysis(OpenDeck& deck) {
       const auto it = workspace_.decks().find(path);
       if (it == workspace_.decks().end()) return;
       if (found == nullptr) {
-        // A file on disk has changed between the two readings.
-        if (!*stop) files_changed({});
-        return;
+        if (*stop) return;
+        workspace_.changed();  // a file on disk changed between the two readings
+        return schedule(path);
       }
       const bool first = it->second.semantics == nullptr;
       it->second.semantics = found;
