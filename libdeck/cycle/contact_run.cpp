@@ -386,8 +386,8 @@ void refresh(const RunContext& run, const Contact& contact, const ContactCard& c
   search.margin = run.options.margin;
   for (const PairMemory& p : m.pairs)
     if (p.tie[0] != 0.0) search.always.push_back(p.at);
-  m.candidates = make_pairs(run.scene, contact, card, run.options.model, run.options.threads,
-                            search, run.searches);
+  m.candidates =
+      make_pairs(run.scene, contact, card, run.options.model, run.options.threads, search);
   if (card.ithe > 0) add_conductivity(run.scene, contact, run.state.temperature, m.candidates);
   m.has_candidates = true;
   ++m.searches;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "contact/scene/node_elements.hpp"
-#include "deck/contact/search_memory.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 
 namespace deck::cycle::detail {
@@ -93,12 +92,7 @@ struct RunContext {
   bool remember = false;             ///< a further evaluation may follow
   std::vector<std::uint8_t>& fixed;  ///< fixed translations by node, 4 X + 2 Y + Z; empty: none
   Connectivity& connectivity;
-  SearchMemory* searches = nullptr;  ///< may be null
 };
-
-/// As cycle::run_cycle; pairs that `searches` knows are not searched again. It may be null.
-SceneOutcome run_cycle(const Scene& scene, const State& state, const CycleOptions& options,
-                       SearchMemory* searches);
 
 using NodeStiffness = std::vector<std::pair<NodeIndex, double>>;
 

@@ -67,7 +67,6 @@ struct RunMemory {
   std::vector<std::uint8_t> fixed;
   std::optional<StructureStep> structure;
   Connectivity connectivity;
-  SearchMemory* searches = nullptr;
 };
 
 namespace {
@@ -101,7 +100,7 @@ namespace {
 SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
                           const Coordinates& x, const State& state, const CycleOptions& options) {
   const detail::RunContext run{
-      scene, x, state, options, remember, memory.fixed, memory.connectivity, memory.searches};
+      scene, x, state, options, remember, memory.fixed, memory.connectivity};
   SceneOutcome out;
   // Nodes are many; sums of heat that no contact adds to are not kept.
   out.nodes.resize(scene.model->nodes.size(),
@@ -133,13 +132,7 @@ SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
 }  // namespace
 
 SceneOutcome run_cycle(const Scene& scene, const State& state, const CycleOptions& options) {
-  return detail::run_cycle(scene, state, options, nullptr);
-}
-
-SceneOutcome detail::run_cycle(const Scene& scene, const State& state, const CycleOptions& options,
-                               SearchMemory* searches) {
   RunMemory memory(scene);
-  memory.searches = searches;
   return evaluate_all(scene, memory, false, scene.coordinates, state, options);
 }
 

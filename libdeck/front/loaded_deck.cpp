@@ -7,7 +7,6 @@
 #include "contact/scene/scene_parts.hpp"
 #include "contact/tied/parts.hpp"
 #include "cycle/contact_run.hpp"
-#include "deck/model/mesh_memory.hpp"
 #include "deck/text/rule_id.hpp"
 #include "front/findings.hpp"
 
@@ -39,7 +38,7 @@ struct LoadedDeck::Parts {
   const FirstCycle& the_cycle();
   void find(Stage until);
   Scene build(const SceneOptions& wanted, Diagnostics& to) {
-    return detail::build_scene(the_model(), cards(), to, wanted, options.searches);
+    return build_scene(the_model(), cards(), to, wanted);
   }
   /// The first contacts of all interfaces are in it, with the values of the deck.
   bool holds_values() const {
@@ -66,8 +65,8 @@ struct LoadedDeck::Parts {
 const Model& LoadedDeck::Parts::the_model() {
   if (!model) {
     begin(Stage::model);
-    model = build_model(deck, schemas, found.of(Stage::model),
-                        {options.threads, options.read.limits}, options.meshes);
+    model =
+        build_model(deck, schemas, found.of(Stage::model), {options.threads, options.read.limits});
   }
   return *model;
 }
@@ -129,7 +128,7 @@ const FirstCycle& LoadedDeck::Parts::the_cycle() {
   how.threads = options.threads;
   how.keep_pairs = true;
   FirstCycle out{cycle::make_state(*of), {}};
-  out.outcome = cycle::detail::run_cycle(*of, out.state, how, options.searches);
+  out.outcome = cycle::run_cycle(*of, out.state, how);
   return cycle.emplace(std::move(out));
 }
 

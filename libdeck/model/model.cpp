@@ -182,26 +182,20 @@ Span Model::element_span(ElementKind kind, std::uint32_t e) const {
 
 Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagnostics,
                   const ModelOptions& options) {
-  return build_model(deck, schemas, diagnostics, options, nullptr);
-}
-
-Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagnostics,
-                  const ModelOptions& options, MeshMemory* meshes) {
   Model model;
   model.deck = &deck;
   detail::BuildContext context{deck, diagnostics, model, effective_threads(options.threads)};
   detail::check_units(context);
   detail::read_run_options(context);
   detail::read_nodes(deck, detail::node_blocks(deck), model.nodes, model.node_blocks, diagnostics,
-                     options.threads, meshes);
+                     options.threads);
   detail::apply_submodel_transforms(context);
   detail::merge_connection_nodes(context);
   detail::read_parts(context);
   detail::read_properties(context);
   detail::read_materials(context);
   detail::read_other_entities(context);
-  detail::read_elements(deck, detail::element_blocks(deck), model, diagnostics, options.threads,
-                        meshes);
+  detail::read_elements(deck, detail::element_blocks(deck), model, diagnostics, options.threads);
   detail::redirect_elements(context);
   detail::orient_solids(model);
   detail::link_parts(context);

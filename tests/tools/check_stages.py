@@ -15,7 +15,7 @@ MAY = {stage: set(ROW[:i + 1]) for i, stage in enumerate(ROW)}
 # Headers that lie above the folders: what brings all, and the verdict.
 TOP = {"libdeck/include/deck/deck.hpp": "all", "libdeck/include/deck/verdict.hpp": "verdict"}
 MAY["front"] = {*ROW[:ROW.index("cycle") + 1], "front"}
-MAY["inspect"] = {*ROW[:ROW.index("contact") + 1], "inspect", "verdict"}
+MAY["inspect"] = {*ROW[:ROW.index("contact") + 1], "front", "inspect", "verdict"}
 MAY["edit"] = {*ROW, "front", "inspect", "edit"}
 MAY["lint"] = {*ROW, "front", "edit", "lint"}
 MAY["verdict"] = {*ROW, "front", "verdict"}
@@ -32,8 +32,6 @@ FOR_THEMSELVES = {
     "libdeck/edit/fix/common.cpp": "contacts of a model whose nodes are being moved",
     "libdeck/edit/fix/movable.cpp": "a model whose nodes are moved",
     "libdeck/lint/checks/geometry/cycle.cpp": "the first cycle of the scene of a quick look",
-    "tools/deck/lsp/analysis.cpp": "the interfaces of a model that outlives edits of its text",
-    "tools/deck/lsp/analyst.cpp": "a model that outlives edits of its text",
     "tools/python/src/results.cpp": "a first cycle with velocities, times and a model of forces of its own",
 }
 

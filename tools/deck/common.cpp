@@ -26,7 +26,6 @@
 #include "deck/text/similar_file.hpp"
 #include "writing/frame.hpp"
 #include "writing/library.hpp"
-#include "writing/meshes.hpp"
 
 namespace deck::cli {
 
@@ -231,11 +230,6 @@ Result<Deck> read_settled(const std::string& path, const SchemaSet& schemas,
 
 }  // namespace
 
-MeshMemory*& shared_meshes() {
-  static MeshMemory* meshes = nullptr;
-  return meshes;
-}
-
 void observe_loading(std::function<void(const Deck&)> observer) {
   load_observer() = std::move(observer);
 }
@@ -254,8 +248,6 @@ LoadOptions load_options(const CommonOptions& options, const SchemaSet& schemas,
   out.geometry = false;
   out.engine_files = options.engine_files;
   out.schemas = &schemas;
-  out.meshes = shared_meshes();
-  out.searches = options.searches;
   return out;
 }
 

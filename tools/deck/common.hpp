@@ -39,8 +39,7 @@ struct CommonOptions {
   std::vector<std::string> include_paths, schema_dirs;
   /// The verb will change files of the decks in place. Set by the verb, not by an option.
   bool rewrites = false;
-  bool engine_files = false;         ///< the verb looks at the Engine files beside the decks, too
-  SearchMemory* searches = nullptr;  ///< of all decks of the call; set by the verb
+  bool engine_files = false;  ///< the verb looks at the Engine files beside the decks, too
   Limits limits;
 
   int thread_count() const;

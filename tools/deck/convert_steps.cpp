@@ -1,36 +1,18 @@
 // Adds the options of the conversions and turns them into steps.
 #include "convert_steps.hpp"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <map>
-
-#include "deck/base/escape.hpp"
 #include "deck/edit/extract.hpp"
 #include "deck/edit/flatten.hpp"
 #include "deck/edit/from_json.hpp"
-#include "deck/edit/lsdyna.hpp"
 #include "deck/edit/renumber.hpp"
 #include "deck/edit/resolve.hpp"
 #include "deck/edit/type19.hpp"
 #include "deck/edit/unit_system.hpp"
 #include "deck/edit/version.hpp"
-#include "deck/edit/write.hpp"
-#include "deck/text/gzip.hpp"
 
 namespace deck::cli {
 
 void add_step_options(CommandLine& line, ConvertSteps& steps) {
-  line.option("--target", steps.target,
-              "With --from lsdyna: interface type of every contact; 0: by its keyword")
-      .one_of({0, 7, 10, 11, 19})
-      .value("TYPE");
-  line.option("--first-id", steps.first_id,
-              "With --from lsdyna: contacts without an id and the sets made for contacts get ids "
-              "from here on (default: contacts from 1, sets from 90000001)")
-      .range(1, 2147000000)
-      .value("N");
   line.flag("--round", steps.round,
             "With --from json: a number that does not fit its columns keeps the digits that fit "
             "and is reported");
@@ -78,20 +60,20 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
       .heading(group);
 }
 
-Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool several_decks) {
+Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
   std::vector<ConvertStep> all;
   if (!steps.extract.empty())
     all.push_back({"--extract-contacts",
-                   [&steps](const EditContext& c) { return extract_contacts(c, steps.extract); },
+                   [&steps](const LoadedDeck& c) { return extract_contacts(c, steps.extract); },
                    ""});
   if (steps.flatten)
-    all.push_back({"--flatten", [](const EditContext& c) { return flatten(c); }, ""});
+    all.push_back({"--flatten", [](const LoadedDeck& c) { return flatten(c); }, ""});
   if (steps.expand_type19)
-    all.push_back({"--expand-type19", [](const EditContext& c) { return expand_type19(c); }, ""});
+    all.push_back({"--expand-type19", [](const LoadedDeck& c) { return expand_type19(c); }, ""});
   if (steps.resolve_defaults)
     all.push_back(
         {"--resolve-defaults",
-         [&steps](const EditContext& c) { return resolve_defaults(c, {steps.allow_loss}); },
+         [&steps](const LoadedDeck& c) { return resolve_defaults(c, {steps.allow_loss}); },
          "--allow-loss leaves these cells to the default card and writes the others"});
   if (steps.version != 0 && !is_target_version(steps.version))
     return Error{Error::Code::config,
@@ -99,23 +81,21 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool seve
                      ": not a version that can be written; 110 to 140 and 2017 to " +
                      std::to_string(newest_version) + " are"};
   if (steps.version != 0)
-    all.push_back({"--version",
-                   [&steps](const EditContext& c) {
-                     return to_version(c, steps.version, {steps.allow_loss});
-                   },
-                   "--allow-loss drops what the version has no cell for"});
+    all.push_back(
+        {"--version",
+         [&steps](const LoadedDeck& c) { return to_version(c, steps.version, {steps.allow_loss}); },
+         "--allow-loss drops what the version has no cell for"});
   if (!steps.units.empty()) {
     const auto target = parse_unit_system(steps.units);
     if (!target) return Error{Error::Code::config, "--units: " + target.error().message};
-    const auto rows = several_decks ? make_shared_rows() : nullptr;
     all.push_back(
         {"--units",
-         [&steps, system = *target, rows](const EditContext& c) {
-           return to_units(c, system, {steps.partial, steps.keep_working, rows});
+         [&steps, system = *target](const LoadedDeck& c) {
+           return to_units(c, system, {steps.partial, steps.keep_working});
          },
          "--partial converts what is known and lists the rest",
          [&steps, system = *target](const Deck& deck, const EngineFiles& engine, Rewrite& out) {
-           engine_to_units(deck, engine, system, {steps.partial, steps.keep_working, nullptr},
+           engine_to_units(deck, engine, system, {steps.partial, steps.keep_working},
                            steps.partial || steps.allow_loss, out);
          }});
   }
@@ -128,7 +108,7 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool seve
       renumbering.rules.push_back(std::move(*rule));
     }
     all.push_back({"--renumber",
-                   [renumbering](const EditContext& c) { return renumber(c, renumbering); },
+                   [renumbering](const LoadedDeck& c) { return renumber(c, renumbering); },
                    "--partial renumbers what is known and lists the rest"});
   }
   if (steps.allow_loss && steps.version == 0 && !steps.resolve_defaults && steps.units.empty())
@@ -154,88 +134,6 @@ Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schema
     result.contents[f.path] = std::move(f.text);
   }
   return result;
-}
-
-namespace {
-
-/// Beside the file that includes it, in the current directory, then in each --include-path.
-Result<std::unique_ptr<Source>> open_included(const std::string& name, const std::string& from,
-                                              const CommonOptions& common) {
-  namespace fs = std::filesystem;
-  std::vector<fs::path> places = {fs::path(from).parent_path() / name, name};
-  for (const std::string& dir : common.include_paths) places.push_back(fs::path(dir) / name);
-  for (const fs::path& place : places)
-    if (std::error_code ec; fs::exists(place, ec))
-      return Source::open_text(place.string(), common.limits);
-  return Error{Error::Code::io, "there is no such file"};
-}
-
-}  // namespace
-
-int convert_lsdyna(const ConvertSteps& steps, const std::string& directory,
-                   const CommonOptions& common, const SchemaSet& schemas,
-                   std::vector<LossEntry>& losses) {
-  namespace fs = std::filesystem;
-  int worst = exit_clean;
-  std::vector<std::unique_ptr<Source>> sources;
-  std::vector<LsDynaFile> files;
-  for (const std::string& path : common.decks) {
-    auto source = Source::open_text(path, Limits{});
-    if (!source) {
-      print_error(common, source.error().message);
-      worst = exit_input;
-      continue;
-    }
-    remember_read(**source);
-    files.push_back({path, (*source)->bytes()});
-    sources.push_back(std::move(*source));
-  }
-  LsDynaOptions options;
-  options.target = steps.target;
-  options.include = [&](std::string_view name, std::string_view from) -> Result<LsDynaFile> {
-    auto source = open_included(std::string(name), std::string(from), common);
-    if (!source) return source.error();
-    remember_read(**source);
-    sources.push_back(std::move(*source));
-    return LsDynaFile{sources.back()->path(), sources.back()->bytes()};
-  };
-  if (steps.version != 0) options.version = steps.version;
-  if (steps.first_id != 0) options.first_id = steps.first_id;
-  std::vector<OutputFile> outputs;
-  std::map<std::string, std::string_view> from;  // target, its file
-  const std::vector<Rewrite> all = contacts_from_lsdyna(files, schemas, options);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (const LossEntry& e : all[i].losses) losses.push_back(e);
-    for (const std::string& refusal : all[i].refusals) print_error(common, refusal);
-    if (!all[i].refusals.empty()) {
-      worst = std::max<int>(worst, exit_findings);
-      continue;
-    }
-    if (!common.quiet)
-      for (const std::string& note : all[i].notes) print_note(note);
-    const std::string& text = *all[i].new_text;  // which the outputs point to
-    if (directory.empty()) {
-      print_contents(text);
-      continue;
-    }
-    const std::string stem =
-        files[i].path == "-" ? "stdin" : fs::path(without_gz(files[i].path)).stem().string();
-    outputs.push_back({(fs::path(directory) / (stem + "_contacts.inc")).string(), text});
-    const auto [it, is_new] = from.emplace(outputs.back().path, files[i].path);
-    if (is_new) continue;
-    print_error(common, fmt::format("both {} and {} would be written to {}; nothing was written",
-                                    it->second, files[i].path, it->first));
-    return exit_usage;
-  }
-  OutputRules rules;
-  rules.overwrite = true;
-  if (auto done = write_outputs(outputs, rules, {"", true, true, true, directory}); !done) {
-    print_error(common, done.error().message);
-    return exit_usage;
-  }
-  if (!common.quiet)
-    for (const OutputFile& f : outputs) print_lines(terminal_text(f.path) + "\n");
-  return worst;
 }
 
 }  // namespace deck::cli

@@ -120,9 +120,9 @@ LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry 
   wanted.candidates = false;
   wanted.ties = geometry != Geometry::none;
   loaded.set_scene_options(wanted);
-  LintInput input(loaded);
+  std::vector<ExtraCheck> extra;
   if (geometry != Geometry::none)
-    input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
+    extra.push_back([&](const LintContext& context, Reporter& reporter) {
       return check_geometry(
           context, reporter,
           {geometry == Geometry::quick ? std::optional(QuickLook{}) : std::nullopt, &gate.gate,
@@ -130,7 +130,7 @@ LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry 
              contacts = contact_facts(scene, view);
            }});
     });
-  LintResult result = run_lint(input, options);
+  LintResult result = run_lint(loaded, options, extra);
   loaded.drop_scene();
   return result;
 }

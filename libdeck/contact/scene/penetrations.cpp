@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -15,7 +14,6 @@
 #include "contact/rules/removal.hpp"
 #include "contact/scene/scene_parts.hpp"
 #include "contact/scene/sides.hpp"
-#include "contact/search/memory_store.hpp"
 #include "deck/text/rule.hpp"
 
 namespace deck::detail {
@@ -82,6 +80,23 @@ bool find_removed(const SceneContext& c, const Contact& contact, const SearchSid
 
 Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
 
+/// Candidates of a contact: what the solver's search gives, and what only an exact distance finds.
+struct Candidates {
+  std::vector<CandidatePair> pairs;  // both, sorted
+  std::vector<CandidatePair> extra;  // the second kind: not counted as candidates
+  bool complete = true;
+
+  bool is_counted(const CandidatePair& pair) const {
+    return !std::binary_search(extra.begin(), extra.end(), pair);
+  }
+};
+
+/// The verdicts of some pairs in a row: those with a penetration or a difference.
+struct JudgedPairs {
+  std::vector<PairVerdict> verdicts;
+  DecisionReport report;
+};
+
 /// Runs `find` in the form that the accuracy needs. Exact decisions need both: the reference
 /// distance of a very obtuse segment can be far too large, and its round-off can hide a touch.
 template <class Find>
@@ -115,11 +130,9 @@ enum class Judging : bool {
 
 /// For all pairs that were not removed, in order: before(pair), which says whether to go on, and
 /// act(verdict) where judge(judge, pair) gave a penetration or a difference. False: it was ended.
-/// With `learned` the verdicts are kept there, too.
 template <class Before, class Judge, class Act>
 bool judge_in_order(SceneContext& c, const Candidates& found, const RemovalLists& removed,
-                    Judging judging, const Before& before, const Judge& judge, const Act& act,
-                    JudgedPairs* learned = nullptr) {
+                    Judging judging, const Before& before, const Judge& judge, const Act& act) {
   const bool ahead = judging == Judging::ahead;
   const std::size_t at_once = ahead ? 4096 : 1;
   std::atomic<bool> ended{false};
@@ -148,11 +161,6 @@ bool judge_in_order(SceneContext& c, const Candidates& found, const RemovalLists
     DecisionReport& all = c.scene.decisions;
     all.fallback += in.report.fallback;
     all.exact += in.report.exact;
-    if (learned != nullptr) {
-      learned->report.fallback += in.report.fallback;
-      learned->report.exact += in.report.exact;
-      learned->verdicts.insert(learned->verdicts.end(), in.verdicts.begin(), in.verdicts.end());
-    }
     auto next = in.verdicts.begin();
     each(piece, [&](const CandidatePair& pair) {
       if (ahead && !before(pair)) {
@@ -168,27 +176,6 @@ bool judge_in_order(SceneContext& c, const Candidates& found, const RemovalLists
   const std::size_t pieces = (found.pairs.size() + at_once - 1) / at_once;
   run_in_order<JudgedPairs>(pieces, ahead ? c.options.threads : 1, work, take);
   return !ended;
-}
-
-/// The same with verdicts that are known.
-template <class Before, class Act>
-bool follow_in_order(SceneContext& c, const JudgedContact& known, const RemovalLists& removed,
-                     const Before& before, const Act& act) {
-  DecisionReport& all = c.scene.decisions;
-  all.fallback += known.judged.report.fallback;
-  all.exact += known.judged.report.exact;
-  auto next = known.judged.verdicts.begin();
-  for (const CandidatePair& pair : known.found.pairs) {
-    if (is_removed(removed, pair)) continue;
-    if (!before(pair)) return false;
-    ++all.pairs;
-    if (next == known.judged.verdicts.end() || next->row.secondary != pair.secondary ||
-        next->row.main != pair.main)
-      continue;
-    PairVerdict verdict = *next++;
-    act(verdict);
-  }
-  return true;
 }
 
 std::uint64_t count_removed(const Candidates& found, const RemovalLists& removed) {
@@ -208,44 +195,6 @@ void note(SceneContext& c, PairJudge& judge, const PairVerdict& verdict,
   d.action = row.action;
   judge.note(d);
 }
-
-/// What was judged of a contact in scenes before, where places, sides and gaps were the same.
-class KnownContact {
- public:
-  /// `search` with the margin that is searched first. With `memory` null nothing is known.
-  template <class Input>
-  KnownContact(SearchMemory* memory, const Input& input, const SearchOptions& search,
-               const SceneContext& c, const Contact& contact, double margin)
-      : memory_(memory) {
-    if (memory_ == nullptr) return;
-    bytes_.emplace(
-        input, search,
-        std::array{static_cast<std::uint64_t>(c.options.accuracy), word(margin),
-                   static_cast<std::uint64_t>(search.max_pairs), c.scene.limits.pair_bytes,
-                   static_cast<std::uint64_t>(contact.irem_gap),
-                   static_cast<std::uint64_t>(contact.igap), word(contact.max_gap),
-                   word(contact.shortest_side)});
-    if (const auto* known = memory_->store().contacts.find(*bytes_)) known_ = *known;
-    ++(known_ ? memory_->store().hits : memory_->store().misses);
-  }
-  /// nullptr: not known.
-  const JudgedContact* get() const { return known_.get(); }
-  bool learns() const { return memory_ != nullptr && known_ == nullptr; }
-  void keep(Candidates found, JudgedPairs judged) {
-    auto all = std::make_shared<JudgedContact>();
-    all->found = std::move(found);
-    all->judged = std::move(judged);
-    const std::size_t bytes = all->bytes();
-    memory_->store().contacts.keep(*bytes_, std::move(all), bytes);
-  }
-
- private:
-  static std::uint64_t word(double v) { return bit_cast<std::uint64_t>(v); }
-
-  SearchMemory* memory_;
-  std::optional<SearchBytes<8>> bytes_;
-  std::shared_ptr<const JudgedContact> known_;
-};
 
 /// What the start looks for, nodes and edges alike; without margin.
 SearchOptions search_of(const SceneContext& c, const Contact& contact) {
@@ -268,23 +217,19 @@ void find_penetrations(SceneContext& c, Contact& contact) {
   const bool wide = c.options.candidates || contact.inacti == 3;
   const double margin = sides->margin(x);
   search.margin = wide ? margin : 0;
-  // Inacti 3 moves nodes, of later pairs as well.
-  KnownContact known(contact.inacti == 3 ? nullptr : c.searches, sides->nodes(x), search, c,
-                     contact, margin);
-  Candidates own;
-  if (known.get() == nullptr) {
+  Candidates found;
+  {
     KeptSearch kept;
     const auto find = [&](const SearchOptions& o) { return sides->find(x, o, kept); };
-    own = candidates(c.options.accuracy, margin, search, find);
-    if (!own.complete && wide) {
+    found = candidates(c.options.accuracy, margin, search, find);
+    if (!found.complete && wide) {
       search.margin = 0;
-      own = candidates(c.options.accuracy, margin, search, find);
+      found = candidates(c.options.accuracy, margin, search, find);
     }
   }
-  const Candidates& found = known.get() != nullptr ? known.get()->found : own;
   RemovalLists removed;
   if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
-  if (!known.learns()) sides.reset();
+  sides.reset();
   PairJudge judge(c.options.accuracy, c.scene.decisions);
   // The solver measures a whole group of candidates before it acts on any of them.
   CandidateGroup group;
@@ -323,16 +268,11 @@ void find_penetrations(SceneContext& c, Contact& contact) {
     return by.judge(point(x, s.node), corners, m.nodes[2] == m.nodes[3], gap);
   };
   const auto take = [&](const PairVerdict& verdict) { verdicts.push_back(verdict); };
-  JudgedPairs learned;
-  const bool whole =
-      known.get() != nullptr
-          ? follow_in_order(c, *known.get(), removed, before, take)
-          : judge_in_order(c, found, removed,
-                           contact.inacti == 3 ? Judging::in_turn : Judging::ahead, before,
-                           judge_pair, take, known.learns() ? &learned : nullptr);
-  if (!whole) return give_up(c, contact);
+  // Inacti 3 moves nodes, of later pairs as well.
+  const Judging judging = contact.inacti == 3 ? Judging::in_turn : Judging::ahead;
+  if (!judge_in_order(c, found, removed, judging, before, judge_pair, take))
+    return give_up(c, contact);
   act_on_group();
-  if (known.learns()) known.keep(std::move(own), std::move(learned));
 }
 
 void find_edge_penetrations(SceneContext& c, Contact& contact) {
@@ -341,16 +281,11 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
   const SearchOptions search = search_of(c, contact);
   std::optional<SearchSides> sides(std::in_place, contact, SearchSides::Off::included,
                                    c.options.threads);
-  const double margin = sides->margin(x);
-  KnownContact known(c.searches, sides->edges(x), search, c, contact, margin);
-  Candidates own;
-  if (known.get() == nullptr)
-    own = candidates(c.options.accuracy, margin, search,
-                     [&](const SearchOptions& o) { return sides->find(x, o); });
-  const Candidates& found = known.get() != nullptr ? known.get()->found : own;
+  const Candidates found = candidates(c.options.accuracy, sides->margin(x), search,
+                                      [&](const SearchOptions& o) { return sides->find(x, o); });
   RemovalLists removed;
   if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
-  if (!known.learns()) sides.reset();
+  sides.reset();
   PairJudge judge(c.options.accuracy, c.scene.decisions);
   contact.removed_pairs = count_removed(found, removed);
   const auto before = [&](const CandidatePair& pair) {
@@ -375,17 +310,13 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     if (verdict.differs) note(c, judge, verdict, verdict.row);
     if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
   };
-  JudgedPairs learned;
-  const bool whole = known.get() != nullptr
-                         ? follow_in_order(c, *known.get(), removed, before, act)
-                         : judge_in_order(c, found, removed, Judging::ahead, before, judge_pair,
-                                          act, known.learns() ? &learned : nullptr);
-  if (!whole || !rows_fit(c, contact)) return give_up(c, contact);
+  if (!judge_in_order(c, found, removed, Judging::ahead, before, judge_pair, act) ||
+      !rows_fit(c, contact))
+    return give_up(c, contact);
   // The store is per edge, so the gap left is known only now.
   for (PenetrationRow& row : contact.penetrations)
     finish_edge_row(row, contact.secondary_edges[row.secondary].stored_penetration,
                     contact.main_edges[row.main].stored_penetration);
-  if (known.learns()) known.keep(std::move(own), std::move(learned));
 }
 
 }  // namespace deck::detail

@@ -446,12 +446,6 @@ const char* to_string(ContactRole role) {
 
 Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics& diagnostics,
                   const SceneOptions& options) {
-  return detail::build_scene(model, interfaces, diagnostics, options, nullptr);
-}
-
-Scene detail::build_scene(const Model& model, const Interfaces& interfaces,
-                          Diagnostics& diagnostics, const SceneOptions& options,
-                          SearchMemory* searches) {
   Scene scene;
   scene.model = &model;
   scene.interfaces = &interfaces;
@@ -459,7 +453,7 @@ Scene detail::build_scene(const Model& model, const Interfaces& interfaces,
   copy_coordinates(model.nodes, scene.coordinates, effective_threads(options.threads));
   if (model.selections == nullptr) return scene;
   Connectivity connectivity(model);
-  SceneContext context{model, connectivity, scene, diagnostics, options, searches};
+  SceneContext context{model, connectivity, scene, diagnostics, options};
   Builder(context, *model.selections).build();
   if (options.ties) {
     scene.ties = find_ties(context);

@@ -8,7 +8,6 @@
 #include "contact/rules/settings.hpp"
 #include "contact/scene/node_elements.hpp"
 #include "deck/contact/scene.hpp"
-#include "deck/contact/search_memory.hpp"
 #include "deck/model/selection.hpp"
 
 namespace deck::detail {
@@ -27,7 +26,6 @@ struct SceneContext {
   Scene& scene;
   Diagnostics& diagnostics;
   const SceneOptions& options;
-  SearchMemory* searches = nullptr;  ///< may be null
   ShellsAtNodes shells = {};
 };
 
@@ -50,10 +48,6 @@ inline double distance(const Coordinates& c, NodeIndex a, NodeIndex b) {
 /// What a card says before the rules of its parts apply: fields that Igap puts out of force keep
 /// what is written, so that another Igap finds it.
 CardSettings card_settings(const InterBase& inter);
-/// As deck::build_scene; pairs that `searches` knows from scenes with the same mesh are not
-/// searched again. It may be null.
-Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics& diagnostics,
-                  const SceneOptions& options, SearchMemory* searches);
 
 // segments.cpp — clean-up, orientation, carriers (reference solver: surface clean-up)
 /// Turns surface segments into main segments: repairs repeated nodes, finds carriers of plain

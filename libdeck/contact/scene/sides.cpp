@@ -87,10 +87,7 @@ EdgeEdgeInput SearchSides::edges(const Coordinates& x) const {
           edges_[1],       sides_[1].gap, sides_[1].length, sides_[1].stiffness};
 }
 
-SearchResult SearchSides::find(const Coordinates& x, const SearchOptions& options,
-                               SearchMemory* memory) const {
-  if (memory != nullptr)
-    return edge_pairs() ? memory->find(edges(x), options) : memory->find(nodes(x), options);
+SearchResult SearchSides::find(const Coordinates& x, const SearchOptions& options) const {
   return edge_pairs() ? find_edge_edge_pairs(edges(x), options)
                       : find_node_segment_pairs(nodes(x), options);
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "deck/contact/scene.hpp"
-#include "deck/contact/search_memory.hpp"
+#include "deck/contact/search.hpp"
 
 namespace deck::detail {
 
@@ -35,9 +35,8 @@ class SearchSides {
   /// Views of the arrays: valid as long as this object and the coordinates.
   NodeSegmentInput nodes(const Coordinates& x) const;
   EdgeEdgeInput edges(const Coordinates& x) const;
-  /// The pairs of either kind; from `memory` if it is given and knows them.
-  SearchResult find(const Coordinates& x, const SearchOptions& options,
-                    SearchMemory* memory = nullptr) const;
+  /// The pairs of either kind.
+  SearchResult find(const Coordinates& x, const SearchOptions& options) const;
   /// The same; `kept` is for these sides at these coordinates alone.
   SearchResult find(const Coordinates& x, const SearchOptions& options, KeptSearch& kept) const;
   /// The solver's margin beyond the gap, from the mean edge length of the searched sides.

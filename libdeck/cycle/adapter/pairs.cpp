@@ -149,12 +149,6 @@ void renew_normals(const deck::Contact& contact, const ContactCard& card, const 
 
 ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const ContactCard& card,
                         Model model, int threads, const PairSearch& where) {
-  return detail::make_pairs(scene, contact, card, model, threads, where, nullptr);
-}
-
-ContactPairs detail::make_pairs(const Scene& scene, const deck::Contact& contact,
-                                const ContactCard& card, Model model, int threads,
-                                const PairSearch& where, SearchMemory* searches) {
   const Coordinates& x = where.at != nullptr ? *where.at : scene.coordinates;
   ContactPairs out;
   out.nodes.kind = card.kind;
@@ -167,7 +161,7 @@ ContactPairs detail::make_pairs(const Scene& scene, const deck::Contact& contact
   search.max_pairs = scene.limits.pair_bytes / bytes_of_a_pair;
   {
     const SearchSides sides(contact, SearchSides::Off::left_out, threads);
-    SearchResult found = sides.find(x, search, searches);
+    SearchResult found = sides.find(x, search);
     out.complete = found.complete;
     out.at = std::move(found.pairs);
     if (!remove_pairs(scene, contact, sides, out.at)) {

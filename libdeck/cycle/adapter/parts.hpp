@@ -3,14 +3,9 @@
 #pragma once
 #include "contact/scene/node_elements.hpp"
 #include "cycle/state/state_parts.hpp"
-#include "deck/contact/search_memory.hpp"
 #include "deck/cycle/adapter.hpp"
 
 namespace deck::cycle::detail {
-
-/// As cycle::make_pairs; pairs that `searches` knows are not searched again. It may be null.
-ContactPairs make_pairs(const Scene& scene, const Contact& contact, const ContactCard& card,
-                        Model model, int threads, const PairSearch& where, SearchMemory* searches);
 
 /// Area of each secondary node: its share of the shells around it, 0 where there are none.
 void node_areas(const Scene& scene, const Contact& contact, ContactPairs& out);

@@ -37,7 +37,7 @@ void put(Nodes& nodes, NodeIndex n, Vec p) {
 
 class Depenetrator : MovableDeck {
  public:
-  Depenetrator(const EditContext& context, const MoveNodesOptions& options)
+  Depenetrator(const LoadedDeck& context, const MoveNodesOptions& options)
       : MovableDeck(context, options) {}
 
   Result<PenetrationFix> run() {
@@ -80,7 +80,6 @@ class Depenetrator : MovableDeck {
     }
     for (NodeIndex n = 0; n < holds_.size(); ++n)
       if (!bounds_.contains(n)) hold(n, Hold::bystander);
-    count_earlier();
   }
 
   void begin_pair(const Scene& scene, const PairAt& at, const PenetrationRow& row, bool inside) {
@@ -99,34 +98,10 @@ class Depenetrator : MovableDeck {
                 row.depth + options_.clearance * row.gap);
   }
 
-  /// Nodes that earlier runs moved and that are where those put them.
-  void count_earlier() {
-    constexpr double same_place = 1e-6;  // of the move: what printing may cost
-    for (const MovedNode& m : options_.earlier) {
-      const NodeIndex n = model_.find_node(m.id);
-      if (n == no_index) continue;
-      const Vec from{m.from[0], m.from[1], m.from[2]}, to{m.to[0], m.to[1], m.to[2]};
-      if (norm(at(start_, n) - to) > same_place * norm(to - from)) continue;
-      if (!first_.emplace(n, from).second) continue;
-      if (const std::uint32_t part = mesh_->part_of(n); part != no_index) ++moved_in_part_[part];
-    }
-    // Where no other node may move any more, those that did stay: their run has done what it could.
-    for (const auto& [n, from] : first_)
-      if (const std::uint32_t part = mesh_->part_of(n);
-          part != no_index && moved_in_part_[part] >= may_move(part))
-        hold(n, Hold::share);
-  }
-
   /// How many nodes of a part may move.
   double may_move(std::uint32_t part) const {
     return std::max(1.0,
                     std::floor(options_.most_moved * mesh_->nodes_of_part(part) * (1 + 1e-12)));
-  }
-
-  /// Where a node was before the first run that moved it.
-  Vec first(NodeIndex n) const {
-    const auto it = first_.find(n);
-    return it == first_.end() ? at(start_, n) : it->second;
   }
 
   void hold(NodeIndex n, Hold why) {
@@ -291,8 +266,7 @@ class Depenetrator : MovableDeck {
   bool admit(const std::map<NodeIndex, Vec>& moves) {
     std::map<std::uint32_t, std::uint32_t> added;
     for (const auto& [n, move] : moves)
-      if (const std::uint32_t part = mesh_->part_of(n);
-          part != no_index && !moved_.contains(n) && !first_.contains(n))
+      if (const std::uint32_t part = mesh_->part_of(n); part != no_index && !moved_.contains(n))
         ++added[part];
     bool fits = true;
     for (const auto& [part, count] : added)
@@ -322,10 +296,10 @@ class Depenetrator : MovableDeck {
       move = at(start_, n) + may.by - at(now_, n);
       if (may.at_bound) hold(n, Hold::depth);
       if (!options_.most_displacement) continue;
-      const Vec total = at(now_, n) + move - first(n);
+      const Vec total = at(now_, n) + move - at(start_, n);
       const double l = norm(total), limit = *options_.most_displacement;
       if (l <= limit) continue;
-      move = first(n) + (limit / l) * total - at(now_, n);
+      move = at(start_, n) + (limit / l) * total - at(now_, n);
       hold(n, Hold::displacement);
     }
   }
@@ -420,7 +394,6 @@ class Depenetrator : MovableDeck {
   }
 
   void forget(NodeIndex n) {
-    if (first_.contains(n)) return;
     if (const std::uint32_t part = mesh_->part_of(n); part != no_index) --moved_in_part_[part];
   }
 
@@ -505,7 +478,7 @@ class Depenetrator : MovableDeck {
       fix_.rewrite.edits = cells_.edits(texts_);
       auto again = read_again(context_, fix_.rewrite);
       if (!again) return again.error();
-      const Scene after = fix_scene(again->model(), again->interfaces(), options_, false);
+      const Scene after = fix_scene(*again, options_, false);
       std::map<NodeIndex, Hold> bad;
       blame(after, bad);
       std::size_t taken = 0;
@@ -519,7 +492,7 @@ class Depenetrator : MovableDeck {
         return Error{Error::Code::internal, "the deck read again differs: " + *why};
       fix_.strategy = "move-nodes";
       fix_.crossings_after = find_crossings(after, options_.threads).size();
-      set_interfaces(fix_, context_.interfaces, options_, before, after);
+      set_interfaces(fix_, context_.interfaces(), options_, before, after);
       list_moved();
       list_refused(after);
       fix_.complete = fix_.refused.empty();
@@ -536,25 +509,10 @@ class Depenetrator : MovableDeck {
         m.part = model_.parts[part].id;
       m.by = {u.x, u.y, u.z};
       m.distance = norm(u);
-      set_ends(m, n);
       fix_.moved.push_back(m);
     }
-    for (const auto& [n, from] : first_) {
-      if (moved_.contains(n)) continue;
-      MovedNode m;
-      m.id = model_.node_id(n);
-      set_ends(m, n);
-      fix_.moved_before.push_back(m);
-    }
-    for (auto* list : {&fix_.moved, &fix_.moved_before})
-      std::sort(list->begin(), list->end(),
-                [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
-  }
-
-  void set_ends(MovedNode& m, NodeIndex n) const {
-    const Vec from = first(n), to = at(now_, n);
-    m.from = {from.x, from.y, from.z};
-    m.to = {to.x, to.y, to.z};
+    std::sort(fix_.moved.begin(), fix_.moved.end(),
+              [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
   }
 
   /// One line per secondary node or edge that still penetrates: the deepest pair and what held it.
@@ -626,8 +584,7 @@ class Depenetrator : MovableDeck {
   std::vector<std::uint8_t> holds_;
   std::vector<bool> looked_up_;  ///< by cells_
   std::set<NodeIndex> moved_;
-  std::vector<std::uint32_t> moved_in_part_;       ///< by earlier runs too
-  std::map<NodeIndex, Vec> first_;                 ///< of nodes that earlier runs moved
+  std::vector<std::uint32_t> moved_in_part_;
   std::map<NodeIndex, int> strikes_;               ///< how often a move was dropped
   std::map<NodeIndex, Hold> blocked_;              ///< and why, the last time
   std::set<PairAt> active_;                        ///< every pair that was ever too close
@@ -644,7 +601,7 @@ class Depenetrator : MovableDeck {
 
 }  // namespace
 
-Result<PenetrationFix> move_nodes(const EditContext& context, const MoveNodesOptions& options) {
+Result<PenetrationFix> move_nodes(const LoadedDeck& context, const MoveNodesOptions& options) {
   return Depenetrator(context, options).run();
 }
 

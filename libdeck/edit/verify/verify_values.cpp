@@ -70,7 +70,7 @@ std::vector<Dimension> dimensions_of(const Field* field) {
 }  // namespace
 
 DeckComparison::Difference DeckComparison::values() const {
-  const auto &was = before.context.interfaces.all, &now = after.context.interfaces.all;
+  const auto &was = before.context.interfaces().all, &now = after.context.interfaces().all;
   const bool by_place = !relation.extract && !relation.expanded;
   if (by_place && was.size() != now.size())
     return fmt::format("the deck has {} interfaces of TYPE2, 7, 10, 11 and 19, expected {}",

@@ -8,7 +8,7 @@
 #include "base/pages.hpp"
 #include "base/parallel.hpp"
 #include "deck/text/rule.hpp"
-#include "model/bulk/bulk_memory.hpp"
+#include "model/bulk/bulk_plan.hpp"
 #include "model/bulk/bulk_read.hpp"
 
 namespace deck::detail {
@@ -152,34 +152,34 @@ void extend_ranges(const Chunk& chunk, const std::vector<std::uint32_t>& counts,
 
 // ---- nodes --------------------------------------------------------------------------------------
 
-/// What one chunk brings. The arrays of NodeRows are longer than its size while it is read: one
-/// check per node instead of four.
-template <class Rows>
-struct ChunkRows : Rows {
+/// The nodes of a chunk. The arrays are longer than `size` while it is read: one check per node
+/// instead of four.
+struct NodeRows {
+  std::vector<std::int64_t> id;
+  std::vector<double> x, y, z;
+  std::size_t size = 0;
+  std::vector<std::uint32_t> counts;  ///< per segment
   std::vector<Problem> problems;
-  std::optional<ChunkBytes> bytes;    ///< where rows are remembered
-  std::shared_ptr<const Rows> known;  ///< instead of own rows
-
-  const Rows& rows() const { return known != nullptr ? *known : *this; }
-  /// True if the rows are known: nothing has to be read.
-  bool recall(KnownRows<Rows>* memory, const Deck& deck, const std::vector<BlockPlan>& plans,
-              const Chunk& chunk, std::uint64_t list, std::uint64_t first_block) {
-    problems.clear();
-    known = nullptr;
-    if (memory == nullptr) return false;
-    bytes.emplace(deck, plans, chunk, list, first_block);
-    known = memory->find(*bytes);
-    return known != nullptr;
-  }
-  /// What has findings or parameters is not the same in every deck.
-  void remember(KnownRows<Rows>* memory) const {
-    if (memory != nullptr && known == nullptr && problems.empty()) memory->keep(*bytes, *this);
-  }
 };
 
-struct NodeSink : ChunkRows<NodeRows> {
+/// The elements of a chunk; part and block are those of their segment. The arrays of ids and nodes
+/// may be longer than `size` says.
+struct ElementRows {
+  std::vector<std::int64_t> id;
+  std::vector<std::uint32_t> extra;
+  std::vector<NodeIndex> nodes, extra_nodes;
+  std::vector<double> thickness;  ///< up to the last element that has its own
+  std::vector<SolidShape> shape;
+  std::size_t size = 0, width = 0;
+  std::vector<std::uint32_t> counts;  ///< per segment
+  std::vector<bool> thick;            ///< per segment: an element has its own thickness
+  std::vector<Problem> problems;
+};
+
+struct NodeSink : NodeRows {
   void clear(const Chunk& chunk) {
     size = 0;
+    problems.clear();
     counts.assign(chunk.segments.size(), 0);
   }
   void item(const BlockPlan& plan, std::uint32_t segment, Item& item) {
@@ -240,11 +240,12 @@ class NodeFinder {
   std::int64_t first_ = 0;
 };
 
-struct ElementSink : ChunkRows<ElementRows> {
+struct ElementSink : ElementRows {
   NodeFinder node;
 
   void clear(const Chunk& next) {
     size = 0;
+    problems.clear();
     width = static_cast<std::size_t>(element_width(next.kind));
     nodes.resize(std::max(nodes.size(), id.size() * width));
     extra.clear();
@@ -430,8 +431,7 @@ int element_width(ElementKind kind) {
 }
 
 void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes& nodes,
-                std::vector<BulkBlock>& ranges, Diagnostics& diagnostics, int threads,
-                MeshMemory* meshes) {
+                std::vector<BulkBlock>& ranges, Diagnostics& diagnostics, int threads) {
   const std::vector<BlockPlan> plans = plan_blocks(deck, blocks);
   const std::vector<Chunk> chunks = cut_chunks(deck, plans, chunk_bytes);
   const std::size_t first_range = ranges.size();
@@ -441,19 +441,15 @@ void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes
   Room room;
   for (const Chunk& chunk : chunks) room.total += chunk.bytes;
   ProblemReporter reporter(deck, plans, nullptr, diagnostics);
-  KnownRows<NodeRows>* const memory = meshes != nullptr ? &meshes->store().nodes : nullptr;
   run_in_order<NodeSink>(
       chunks.size(), threads,
       [&](std::size_t k, NodeSink& out) {
-        if (out.recall(memory, deck, plans, chunks[k], 0, 0)) return;
         out.clear(chunks[k]);
         read_chunk(deck, plans, chunks[k], out);
       },
-      [&](std::size_t k, NodeSink& out) {
-        reporter.report(chunks[k], out.problems);
-        out.remember(memory);
+      [&](std::size_t k, NodeSink& rows) {
+        reporter.report(chunks[k], rows.problems);
         release(deck, chunks[k]);
-        const NodeRows& rows = out.rows();
         const Block& block = *plans[chunks[k].segments.front().plan].block;
         if (!indices_left(nodes.size(), rows.size, block, diagnostics)) return;
         extend_ranges(chunks[k], rows.counts, nodes.size(), first_range, ranges);
@@ -467,7 +463,7 @@ void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes
 }
 
 void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Model& model,
-                   Diagnostics& diagnostics, int threads, MeshMemory* meshes) {
+                   Diagnostics& diagnostics, int threads) {
   for (const ElementKind kind : all_kinds) {
     family_of(model, kind).kind = kind;
     family_of(model, kind).width = element_width(kind);
@@ -493,23 +489,17 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
   std::vector<bool> reported(plans.size(), false);
   ProblemReporter reporter(deck, plans, &model.nodes, diagnostics);
   const NodeFinder node(model.nodes);
-  // Which nodes there are decides what an element refers to.
-  const std::uint64_t list = meshes != nullptr ? meshes->store().number_of(model.nodes.id) : 0;
-  KnownRows<ElementRows>* const memory = list != 0 ? &meshes->store().elements : nullptr;
   run_in_order<ElementSink>(
       chunks.size(), threads,
       [&](std::size_t k, ElementSink& out) {
-        if (out.recall(memory, deck, plans, chunks[k], list, first_range)) return;
         out.node = node;
         out.clear(chunks[k]);
         read_chunk(deck, plans, chunks[k], out);
       },
-      [&](std::size_t k, ElementSink& out) {
+      [&](std::size_t k, ElementSink& rows) {
         const Chunk& chunk = chunks[k];
-        reporter.report(chunk, out.problems);
-        out.remember(memory);
+        reporter.report(chunk, rows.problems);
         release(deck, chunk);
-        const ElementRows& rows = out.rows();
         for (std::size_t s = 0; s < chunk.segments.size(); ++s) {
           const std::uint32_t p = chunk.segments[s].plan;
           if (!rows.thick[s] || reported[p] || plans[p].length == 1 ||

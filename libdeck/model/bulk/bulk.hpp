@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "deck/model/mesh_memory.hpp"
+#include "deck/model/model.hpp"
 
 namespace deck::detail {
 
@@ -29,11 +29,9 @@ int element_width(ElementKind kind);
 /// Appends the nodes of `blocks` to `nodes` in deck order: ids with submodel offset, coordinates in
 /// working units; then builds nodes.map. `ranges` gets one entry per block (empty ones too).
 /// Blank lines are no nodes (DK036). Same result and diagnostics for every number of threads.
-/// Duplicate ids are left to the caller (nodes.map.duplicates()). Lines that `meshes` knows are not
-/// read again; it may be null.
+/// Duplicate ids are left to the caller (nodes.map.duplicates()).
 void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes& nodes,
-                std::vector<BulkBlock>& ranges, Diagnostics& diagnostics, int threads,
-                MeshMemory* meshes = nullptr);
+                std::vector<BulkBlock>& ranges, Diagnostics& diagnostics, int threads);
 
 /// Appends the elements of `blocks` (all families, reading order) to the families of `model`, with
 /// the entries of model.element_blocks, and builds the id maps of the families. Needs model.nodes
@@ -42,7 +40,7 @@ void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes
 /// working units; Elements::thickness stays empty if no element of the family has one. Solids are
 /// stored as written; orient_solids() is the next step.
 void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Model& model,
-                   Diagnostics& diagnostics, int threads, MeshMemory* meshes = nullptr);
+                   Diagnostics& diagnostics, int threads);
 
 /// Turns solids of negative volume (sign of the Jacobian in the centre of the eight stored slots)
 /// as the reference solver does: bricks and 20-, 16-node solids exchange nodes 1-4 with 5-8, pentas

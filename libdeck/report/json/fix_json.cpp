@@ -93,16 +93,6 @@ std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::s
     m.part == 0 ? j.null() : j.value(m.part);
     write_vector(j, "by", m.by);
     j.field("distance", m.distance);
-    write_vector(j, "from", m.from);
-    write_vector(j, "to", m.to);
-    j.end_object();
-  }
-  j.end_array();
-  j.key("moved_before").begin_array();
-  for (const MovedNode& m : fix.moved_before) {
-    j.begin_object(true).field("node", m.id);
-    write_vector(j, "from", m.from);
-    write_vector(j, "to", m.to);
     j.end_object();
   }
   j.end_array();

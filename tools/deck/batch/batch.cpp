@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "batch/list.hpp"
-#include "batch/ranks.hpp"
 #include "batch/run.hpp"
 #include "batch/summary.hpp"
 #include "deck/base/paths.hpp"
@@ -39,9 +38,6 @@ Result<void> parse_writing(BatchTask& task, const CommandLine& line) {
   if (verb == "convert") {
     const std::string from = value_among(task.words, "--from"),
                       to = value_among(task.words, "--to");
-    if (from == "lsdyna")
-      return Error{Error::Code::config,
-                   "--from lsdyna cannot be used in a batch: it writes no decks"};
     if (from == "json") task.ending = document_ending;
     task.from_json = from == "json";
     task.to_json = to == "json";
@@ -209,8 +205,7 @@ int run(const BatchOptions& o) {
   std::vector<std::vector<std::size_t>> groups;
   if (auto planned = plan_groups(o, *task, *list, groups); !planned)
     return usage(planned.error().message);
-  Batch batch(o, std::move(*task), std::move(*list), std::move(groups), *shard,
-              o.no_mpi ? Ranks::alone() : Ranks::from_environment());
+  Batch batch(o, std::move(*task), std::move(*list), std::move(groups), *shard);
   return batch.run();
 }
 
@@ -249,7 +244,6 @@ Action setup(CommandLine& line) {
   add_require_examined(line, o.common);
   line.flag("--merge", o.merge, "Merge the summaries of all shards in DIR");
   line.flag("--force", o.force, "Do finished decks again");
-  line.flag("--no-mpi", o.no_mpi, "Under mpirun: do not divide the decks among the ranks");
   return [options] { return run(*options); };
 }
 
@@ -261,7 +255,6 @@ const VerbRegistration registration{
      "  deck batch -o results models/ --verb 'lint --fix'\n"
      "  deck batch -o results models/ --shard 2/8    part of the decks, for another machine\n"
      "  deck batch -o results --merge                one summary of all shards\n"
-     "  mpirun -n 16 deck batch -o results models/\n"
      "\n"
      "DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks.\n"
      "Decks of the same name get the name of their directory as prefix: left--car_0000.json.\n"

@@ -15,7 +15,6 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <thread>
 #include <unordered_map>
 
@@ -148,20 +147,16 @@ class Bar {
 }  // namespace
 
 Batch::Batch(const BatchOptions& o, BatchTask task, BatchList list,
-             std::vector<std::vector<std::size_t>> groups, Shard shard, Ranks ranks)
+             std::vector<std::vector<std::size_t>> groups, Shard shard)
     : o_(o),
       task_(std::move(task)),
       all_(std::move(list.decks)),
       includes_(std::move(list.includes)),
-      shard_(shard),
-      ranks_(std::move(ranks)) {
+      shard_(shard) {
   std::vector<bool> ours(all_.size());
-  std::size_t group_in_shard = 0;
   std::vector<const std::vector<std::size_t>*> mine;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (!shard_.has(g)) continue;
-    in_shard_ += groups[g].size();
-    if (!ranks_.shard().has(group_in_shard++)) continue;
     mine.push_back(&groups[g]);
     for (const std::size_t i : groups[g]) ours[i] = true;
   }
@@ -183,14 +178,11 @@ Batch::~Batch() {
     if (fd >= 0) close(fd);
 }
 
-/// What tells our files in .batch from those of other shards and ranks.
+/// What tells our files in .batch from those of other shards.
 std::string Batch::label() const {
-  std::string text = shard_.whole() ? "all"
-                                    : "shard-" + std::to_string(shard_.index) + "-of-" +
-                                          std::to_string(shard_.count);
-  if (!ranks_.single())
-    text += "-rank-" + std::to_string(ranks_.rank()) + "-of-" + std::to_string(ranks_.size());
-  return text;
+  return shard_.whole()
+             ? "all"
+             : "shard-" + std::to_string(shard_.index) + "-of-" + std::to_string(shard_.count);
 }
 
 Result<void> make_own_directory(const std::string& path) {
@@ -224,9 +216,7 @@ Journals read_journals_of(const std::string& directory, const std::string& own_n
     if (it->path().extension() != ".jsonl" || it->path().filename() == own_name) continue;
     const auto source = Source::open(it->path().string(), Limits{});
     if (!source) continue;
-    std::istringstream in{std::string((*source)->bytes())};
-    for (std::string line; std::getline(in, line);)
-      if (const auto record = parse_record(line)) take(*record);
+    for (const Record& record : parse_records((*source)->bytes())) take(record);
   }
   for (const Record* record : own) take(*record);
   return out;
@@ -300,7 +290,7 @@ Result<void> Batch::claim_directory() const {
   const std::string verb(task_.verb.name);
   if (const auto before = Source::open(path, Limits{}); before) {
     const std::string was((*before)->bytes());
-    if (was == verb) return {};  // another shard or rank may stand there
+    if (was == verb) return {};  // another shard may stand there
     if (!o_.force)
       return Error{Error::Code::config,
                    o_.directory + " holds the results of 'deck " + was +
@@ -323,23 +313,19 @@ Result<void> Batch::prepare() {
   if (fcntl(lock_, F_SETLK, &whole) != 0 && (errno == EAGAIN || errno == EACCES))
     return Error{Error::Code::config, "another deck batch is writing to " + o_.directory +
                                           "; use --shard, or another directory"};
-  if (!ranks_.single())
-    if (auto opened = ranks_.open(in_directory(".batch")); !opened) return opened;
   if (auto claimed = claim_directory(); !claimed) return claimed;
   key_ = key_of(task_);
   records_.resize(decks_.size());
   for (Record& r : records_) r.code = -1;
   std::set<std::string> ours = {label() + ".jsonl", summary_name(shard_)};
   for (const BatchDeck& d : decks_) ours.insert(d.result);
-  for (std::size_t g = 0; g < groups_.size() && task_.writes; ++g)
-    ours.insert(fs::path(intent_path(g)).filename().string());
-  // What all shards and ranks write is only ours where there are no others: they may be at it.
-  if (shard_.whole() && ranks_.single())
+  // What all shards write is only ours where there are no others: they may be at it.
+  if (shard_.whole())
     for (const char* name : {"index.html", "losses.json", "verb", "previous.json"})
       ours.insert(name);
   remove_strays(ours);
   read_journals();
-  settle_intents();
+  settle_announced();
   // Decks that are written together are finished together.
   for (const std::vector<std::size_t>& group : groups_)
     if (o_.force || std::any_of(group.begin(), group.end(),
@@ -357,10 +343,9 @@ Result<void> Batch::prepare() {
   std::set<std::string> lines;
   std::string text;
   for (const Record& r : known_)
-    if (std::string line = record_line(r) + "\n"; lines.insert(line).second) text += line;
+    if (std::string line = record_line(r); lines.insert(line).second) text += line;
   const std::string path = in_directory(".batch/" + label() + ".jsonl");
   if (auto written = write_result(path, text, task_.in_place); !written) return written;
-  for (const std::string& intent : settled_) unlink(intent.c_str());  // the journal has it now
   journal_ = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
   if (journal_ < 0)
     return Error{Error::Code::io, "cannot open " + path + ": " + std::strerror(errno)};
@@ -395,25 +380,26 @@ void Batch::read_journals() {
   for (const fs::path& journal : journals) {
     const auto source = Source::open(journal.string(), Limits{});
     if (!source) continue;
-    std::istringstream in{std::string((*source)->bytes())};
-    for (std::string line; std::getline(in, line);) {
-      auto record = parse_record(line);
-      if (!record) continue;
-      const auto found = wanted.find(record->deck);
+    std::vector<Record>& announced = announced_[journal.stem().string()];
+    for (Record& read : parse_records((*source)->bytes())) {
+      std::erase_if(announced, [&](const Record& a) { return a.deck == read.deck; });
+      if (read.announced) {
+        announced.push_back(std::move(read));
+        continue;
+      }
+      const auto found = wanted.find(read.deck);
       if (found != wanted.end())
         for (const std::size_t i : found->second) {
-          const std::string& result = task_.writes ? record->result : decks_[i].result;
+          const std::string& result = task_.writes ? read.result : decks_[i].result;
           if (records_[i].code >= 0 || o_.force) continue;
           // Refused, perhaps for a reason that is gone: a file that could not be read just then.
-          if (task_.verb.name == "convert" && record->code != exit_clean && !record->written)
-            continue;
-          if (freshness.holds(*record, o_.directory, key_, result,
-                              settings_of(task_, decks_[i].path)))
-            records_[i] = *record;
-          else if (task_.in_place && record->key == key_ && record->written)
+          if (task_.verb.name == "convert" && read.code != exit_clean && !read.written) continue;
+          if (freshness.holds(read, o_.directory, key_, result, settings_of(task_, decks_[i].path)))
+            records_[i] = read;
+          else if (task_.in_place && read.key == key_ && read.written)
             overtaken_.insert(i);
         }
-      known_.push_back(std::move(*record));
+      known_.push_back(std::move(read));
     }
   }
   for (std::size_t i = 0; i < records_.size(); ++i)
@@ -477,9 +463,7 @@ std::string Batch::work_on(std::size_t group, Captured& output) const {
   record.entry = summary_entry(deck.path, status_in(task_, record.code, facts), record.result,
                                record.code, error, facts ? facts->verdict : "",
                                facts ? facts->counts : "{}", facts ? facts->gate : std::nullopt);
-  std::string message;
-  pack(record, message);
-  return message;
+  return record_line(record);
 }
 
 /// Of the decks of a group, in their order.
@@ -487,8 +471,7 @@ std::vector<Record> Batch::records_of(const JobReport& report) const {
   const std::vector<std::size_t>& group = groups_[report.job];
   std::vector<Record> records;
   if (report.answered) {
-    std::string_view rest = report.message;
-    while (auto record = unpack(rest)) records.push_back(std::move(*record));
+    records = parse_records(report.message);
     if (records.size() == group.size()) return records;
     records.clear();
   }
@@ -511,14 +494,20 @@ std::vector<Record> Batch::records_of(const JobReport& report) const {
 /// Only what is finished goes into the journal: the rest is tried again next time.
 Result<void> Batch::keep(Record record, std::size_t index) {
   if (record.code <= exit_findings) {
-    const std::string line = record_line(record) + "\n";
-    const ssize_t n = write(journal_, line.data(), line.size());
-    if (n != static_cast<ssize_t>(line.size()))
-      return Error{Error::Code::io, "cannot write to " + in_directory(".batch") + ": " +
-                                        std::strerror(n < 0 ? errno : ENOSPC)};
+    if (auto noted = note(record_line(record), false); !noted) return noted;
   }
   records_[index] = std::move(record);
   return {};
+}
+
+Result<void> Batch::note(const std::string& lines, bool flush) const {
+  const ssize_t n = write(journal_, lines.data(), lines.size());
+  if (n == static_cast<ssize_t>(lines.size()) && (!flush || fdatasync(journal_) == 0)) return {};
+  const int why = n < 0 || n == static_cast<ssize_t>(lines.size()) ? errno : ENOSPC;
+  // What comes after a line that was cut off begins a line of its own.
+  if (n > 0 && write(journal_, "\n", 1) != 1) errno = why;
+  return Error{Error::Code::io,
+               "cannot write to " + in_directory(".batch") + ": " + std::strerror(why)};
 }
 
 /// Number of the signal that ended it, or 0.
@@ -532,13 +521,8 @@ Result<int> Batch::work() {
     }
   if (todo.empty()) return 0;
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  int jobs = o_.jobs;
-  // A launcher that binds its processes shows each of them its own processors only.
-  if (jobs == 0)
-    jobs = processors == static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN))
-               ? std::max(1, processors / static_cast<int>(ranks_.local_size()))
-               : processors;
-  jobs = static_cast<int>(std::min(static_cast<std::size_t>(jobs), todo.size()));
+  const int wanted = o_.jobs == 0 ? processors : o_.jobs;
+  const int jobs = static_cast<int>(std::min(static_cast<std::size_t>(wanted), todo.size()));
   const int threads =
       o_.common.threads > 0 ? o_.common.threads : std::max(1, processors / std::max(1, jobs));
   task_.options.insert(task_.options.end(),
@@ -557,7 +541,7 @@ Result<int> Batch::work() {
       [&](const JobReport& report) {
         const std::vector<std::size_t>& group = groups_[report.job];
         if (!report.answered) remove_strays({decks_[group.front()].result});
-        if (!report.answered && task_.writes) settle_intent(intent_path(report.job));
+        if (!report.answered && task_.writes) settle(announced_by(group));
         std::vector<Record> records = records_of(report);
         for (std::size_t k = 0; k < group.size() && !trouble; ++k) {
           bar.count(records[k].code);
@@ -570,13 +554,9 @@ Result<int> Batch::work() {
           }
           if (auto kept = keep(std::move(records[k]), group[k]); !kept) trouble = kept.error();
         }
-        if (task_.writes && !trouble) unlink(intent_path(report.job).c_str());
         return !trouble.has_value();
       },
-      [&] {
-        bar.draw();
-        ranks_.beat();
-      });
+      [&] { bar.draw(); });
   if (trouble) return *trouble;
   return signal;
 }
@@ -612,7 +592,7 @@ std::vector<const Record*> Batch::lasting() const {
 
 Result<void> Batch::shorten_journal() const {
   std::string text;
-  for (const Record* r : lasting()) text += record_line(*r) + "\n";
+  for (const Record* r : lasting()) text += record_line(*r);
   return write_result(in_directory(".batch/" + label() + ".jsonl"), text, task_.in_place);
 }
 
@@ -624,20 +604,7 @@ int Batch::finish() {
     syncfs(fd);  // the results, before the summary says that they are there
     close(fd);
   }
-  Summary s = summary();
-  if (!ranks_.single()) {
-    s.shard = ranks_.shard();
-    s.all = in_shard_;
-    if (!ranks_.first()) {
-      if (auto done = ranks_.deliver(s); !done) return fail(done.error().message);
-      return exit_clean;  // the first rank gives the exit code; another code would end the job
-    }
-    auto merged = ranks_.collect(std::move(s));
-    if (!merged) return fail(merged.error().message);
-    s = std::move(*merged);
-    s.shard = shard_;
-    s.all = all_.size();
-  }
+  const Summary s = summary();
   if (auto written = write_overview(o_.directory, s, label() + ".jsonl", lasting()); !written)
     return fail(written.error().message);
   return report_batch(o_, s, kept_);

@@ -112,16 +112,16 @@ std::string lint_text(PyDeck& d, std::optional<bool> geometry,
   const py::gil_scoped_release free;
   const std::lock_guard one(d.mutex);
   const LoadedDeck& l = d.loaded;
-  LintInput input(l);
+  std::vector<ExtraCheck> extra;
   if (geometry.value_or(true))
-    input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
+    extra.push_back([&](const LintContext& context, Reporter& reporter) {
       return check_geometry(context, reporter,
                             {geometry ? std::nullopt : std::optional(QuickLook{})});
     });
   LintOptions options;
   options.select = select;
   options.ignore = ignore;
-  const LintResult result = run_lint(input, options);
+  const LintResult result = run_lint(l, options, extra);
   return lint_json({{d.path, &l.deck(), &result, "", &l.interfaces()}});
 }
 
@@ -219,13 +219,8 @@ PYBIND11_MODULE(_native, m) {
       .def("params_json", [](PyDeck& d) {
         const py::gil_scoped_release free;
         const std::lock_guard one(d.mutex);
-        ParamsInput input;
-        input.path = d.path;
-        input.deck = &d.loaded.deck();
-        input.model = &d.loaded.model();
-        input.interfaces = &d.loaded.interfaces();
-        input.scene = &d.loaded.mesh_values();
-        return params_json(input);
+        const Scene& mesh = d.loaded.mesh_values();
+        return params_json({d.loaded, &mesh});
       });
   m.def("load", &load_deck);
   bind_results(m);

@@ -10,11 +10,9 @@
 #include <optional>
 #include <set>
 
-#include "base/bits.hpp"
 #include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
-#include "edit/convert/units/unit_system_rows.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
 #include "edit/convert/version_cards.hpp"
 #include "keyword/decode/implied_one.hpp"
@@ -251,10 +249,9 @@ class BlockConverter {
   void convert(const Block& b) {
     const UnitConversion::OpenShare share(c_, b);
     const auto before = c_.out.edits.size();
-    united_ = 0;
     convert_block(b);
     for (TextEdit& e : grown_.finish()) c_.out.edits.push_back(std::move(e));
-    if (const auto values = c_.out.edits.size() - before + united_; values > 0) {
+    if (const auto values = c_.out.edits.size() - before; values > 0) {
       LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
       entry.note = std::to_string(values) + (values == 1 ? " value" : " values") + " converted";
       c_.out.losses.push_back(std::move(entry));
@@ -327,33 +324,10 @@ class BlockConverter {
       columns.push_back({&f, factor});
     }
     if (columns.empty()) return;
-    detail::ConvertedRows* const shared =
-        b.body.size() == 1 ? c_.options.shared_rows.get() : nullptr;
-    std::string how;
-    std::string_view bytes;
-    const std::size_t first = c_.out.edits.size(), losses = c_.out.losses.size();
-    if (shared != nullptr) {
-      const Piece& piece = b.body.front();
-      bytes = deck_.sources[piece.file].bytes().substr(piece.begin, piece.end - piece.begin);
-      how = units_text(deck_.begin.input) + units_text(c_.target);
-      for (const Column& column : columns) {
-        const Dimension& d = column.field->dimension;
-        for (const int n :
-             {column.field->first, column.field->last, int{d.mass}, int{d.length}, int{d.time}})
-          how += std::to_string(n) + " ";
-      }
-      if (const auto cells = shared->replay(bytes, how, piece.file, piece.begin, c_.out.edits)) {
-        c_.changed_cells += *cells;
-        united_ = *cells - (c_.out.edits.size() - first);
-        return;
-      }
-    }
-    bool plain = true;
     LineCursor cursor(deck_.sources, b);
     for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
       const std::string_view text = line.text.substr(0, detail::line_columns);
       if (text.find(',') != std::string_view::npos || text.find('&') != std::string_view::npos) {
-        plain = false;
         DecodedBlock none;
         none.block = &b;
         convert_card(b, none, decode_line(deck_, b, card, line, nullptr));
@@ -363,20 +337,6 @@ class BlockConverter {
         c_.convert_fixed(b, line, column.field->first, column.field->last, column.field->name,
                          column.factor);
     }
-    // Only what says nothing but its edits.
-    if (shared != nullptr && plain && c_.out.refusals.empty() && c_.out.losses.size() == losses) {
-      const std::size_t cells = c_.out.edits.size();
-      shared->keep(bytes, how, b.body.front().begin, c_.out.edits, first);
-      united_ = cells - c_.out.edits.size();
-    }
-  }
-
-  /// The factors of a system, exactly.
-  static std::string units_text(const UnitSystem& units) {
-    std::string text;
-    for (const double factor : {units.mass, units.length, units.time})
-      text += std::to_string(bit_cast<std::uint64_t>(factor)) + " ";
-    return text;
   }
 
   void convert_cards(const Block& b) {
@@ -614,7 +574,7 @@ class BlockConverter {
   /// working units where the card itself has Istf 1, and takes it as it is elsewhere.
   std::optional<Dimension> stfac_dimension(const DecodedBlock& d, const Cell& cell) const {
     if (cell.field->name != "Stfac" || cell.real == 0) return std::nullopt;
-    for (const InterBase* inter : c_.context.interfaces.ordered)
+    for (const InterBase* inter : c_.context.interfaces().ordered)
       if (inter->block == d.block) {
         const Dimension stiffness = detail::stiffness_dimension;
         const Dimension physical = detail::constant_stiffness(*inter) ? stiffness : Dimension{};
@@ -776,7 +736,6 @@ class BlockConverter {
   const Deck& deck_;
   bool own_units_ = false;
   detail::UnitFactors from_working_{{}, {}};
-  std::size_t united_ = 0;           // cells of this block beyond one for each of its edits
   CellWriter grown_{deck_.sources};  // cells behind the end of their line
   std::set<const Cell*> brought_;    // of this block: blank is 1 and has to be said
   std::set<std::string> absent_;     // the same, where the block has no line for the cell
@@ -816,10 +775,6 @@ void add_notes(UnitConversion& c) {
 
 }  // namespace
 
-std::shared_ptr<detail::ConvertedRows> make_shared_rows() {
-  return std::make_shared<detail::ConvertedRows>();
-}
-
 Result<UnitSystem> parse_unit_system(std::string_view text) {
   UnitSystem units;
   double* const factors[3] = {&units.mass, &units.length, &units.time};
@@ -843,23 +798,22 @@ Result<UnitSystem> parse_unit_system(std::string_view text) {
   return units;
 }
 
-Rewrite to_units(const EditContext& context, const UnitSystem& target,
-                 const UnitsOptions& options) {
+Rewrite to_units(const LoadedDeck& context, const UnitSystem& target, const UnitsOptions& options) {
   UnitConversion c(context, target, options);
-  c.out.refusals = detail::unread_files(context.deck);
+  c.out.refusals = detail::unread_files(context.deck());
   if (!c.out.refusals.empty()) return std::move(c.out);
   if (!detail::convert_begin(c)) return std::move(c.out);
-  if (context.deck.begin.input == target && !c.working_changes) {
+  if (context.deck().begin.input == target && !c.working_changes) {
     c.out.edits.clear();
     c.out.notes.push_back("the deck is in these units already");
     return std::move(c.out);
   }
   BlockConverter blocks(c);
-  for (const Block& b : context.deck.blocks) blocks.convert(b);
+  for (const Block& b : context.deck().blocks) blocks.convert(b);
   detail::convert_functions(c);
   detail::convert_parameters(c);
   c.leave_blocks();
-  for (std::string& why : detail::contradicting_copies(context.deck.sources, c.out.edits))
+  for (std::string& why : detail::contradicting_copies(context.deck().sources, c.out.edits))
     c.out.refusals.push_back(std::move(why));
   add_notes(c);
   if (!c.out.refusals.empty()) c.out.edits.clear();

@@ -23,8 +23,6 @@ struct FixOptions {
   /// TYPE10, and TYPE7 with ITIED, tie what lies within their gap: that is no penetration, and
   /// untreated unless this is set. No other fix may loosen a tie, or make one.
   bool ties = false;
-  ReadOptions read;  ///< how the deck was read, overlay included
-  Limits limits;
   /// Called with what is being done and (done, total); total 0: unknown. May be empty.
   std::function<void(std::string_view step, std::size_t done, std::size_t total)> progress;
 };
@@ -58,8 +56,6 @@ struct MovedNode {
   std::int64_t part = 0;       ///< 0: no part
   std::array<double, 3> by{};  ///< working units
   double distance = 0;
-  /// Where it was before the first of all runs that moved it, and where it is now; working units.
-  std::array<double, 3> from{}, to{};
 };
 
 /// A penetration, or a whole interface (no nodes), that was not treated, and why.
@@ -85,7 +81,6 @@ struct PenetrationFix {
   Rewrite rewrite;
   std::vector<FixedInterface> interfaces;  ///< those with penetrations, before or after; by id
   std::vector<MovedNode> moved;            ///< by node id
-  std::vector<MovedNode> moved_before;     ///< by earlier runs and not by this one; by node id
   std::vector<FixRefusal> refused;         ///< by interface, deepest first
   std::vector<FixAction> actions;          ///< Inacti, Fpenmax: by interface, deepest first
   std::uint64_t crossings_before = 0, crossings_after = 0;  ///< move-nodes: crossed elements
@@ -104,14 +99,14 @@ struct ReduceGapOptions : FixOptions {
 /// is constant, the better of Fscalegap and Gapmax where it follows the thickness (Igap 1 becomes 2
 /// for that, which is the same with Fscalegap 1). A cell is only ever lowered. Error: the deck
 /// cannot be read again.
-Result<PenetrationFix> reduce_gaps(const EditContext& context, const ReduceGapOptions& options);
+Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOptions& options);
 
 struct InactiOptions : FixOptions {
   int inacti = 6;
 };
 /// Sets Inacti where there are penetrations. Refused: values that the solver does not take or that
 /// do nothing for the type, and interfaces where it would stop at a node at distance 0.
-Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOptions& options);
+Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions& options);
 
 struct FpenmaxOptions : FixOptions {
   /// Penetrations deeper than this share of the gap lose their node: its contact is off for the
@@ -120,29 +115,25 @@ struct FpenmaxOptions : FixOptions {
   std::optional<double> ratio;
 };
 /// Sets Fpenmax of TYPE7 interfaces; all other penetrations stay with Inacti.
-Result<PenetrationFix> set_fpenmax(const EditContext& context, const FpenmaxOptions& options);
+Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptions& options);
 
-/// One strategy of several. `read` says how the deck in `context` was read.
-using FixStep =
-    std::function<Result<PenetrationFix>(const EditContext& context, const ReadOptions& read)>;
+/// One strategy of several.
+using FixStep = std::function<Result<PenetrationFix>(const LoadedDeck& context)>;
 struct FixSequence {
   std::vector<PenetrationFix> fixes;  ///< one a step; rewrites are of the deck before that step
   ChangedFiles changed;               ///< by all steps together, against the deck as given
 };
-/// Each step acts on the deck with what the steps before have changed. Of `options` reading and
-/// threads count.
-Result<FixSequence> fix_in_order(const EditContext& context, const FixOptions& options,
-                                 const std::vector<FixStep>& steps);
+/// Each step acts on the deck with what the steps before have changed.
+Result<FixSequence> fix_in_order(const LoadedDeck& context, const std::vector<FixStep>& steps);
 /// What a fix comes to, in pairs: those that it solves, those that it leaves though it changes
 /// something for them, and those that it does not treat (PenetrationFix::refused says why). For
-/// inacti and fpenmax only pairs without treatment by the solver count; for untangle crossed
-/// elements.
+/// inacti and fpenmax only pairs without treatment by the solver count.
 struct FixScore {
   std::uint64_t solved = 0, left = 0, not_treated = 0;
   std::uint64_t all() const { return solved + left + not_treated; }
 };
 FixScore score_of(const PenetrationFix& fix);
-/// The one that leaves least, of equals the first; untangle only where no other solves anything.
+/// The one that leaves least, of equals the first.
 /// nullptr: none does.
 const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals);
 /// A report of a deck in which nothing is changed: what the proposals found before.

@@ -1,16 +1,12 @@
 // Unit conversion: a deck in another unit system — the same model, every value of known dimension
 // with another number in front of it.
 #pragma once
-#include <memory>
 #include <string_view>
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/engine_file.hpp"
 
 namespace deck {
-namespace detail {
-class ConvertedRows;
-}
 
 struct UnitsOptions {
   /// Convert what is known and report the rest as `undecided` instead of refusing.
@@ -18,13 +14,7 @@ struct UnitsOptions {
   /// Only the input system changes: /BEGIN keeps the working system it has, so that the solver
   /// computes with the same numbers as before and Engine files stay valid.
   bool keep_working = false;
-  /// For calls over decks that share files: what one has converted of nodes and elements the next
-  /// need not. The results are the same.
-  std::shared_ptr<detail::ConvertedRows> shared_rows = nullptr;
 };
-
-/// For UnitsOptions::shared_rows.
-std::shared_ptr<detail::ConvertedRows> make_shared_rows();
 
 /// "kg,mm,ms" (mass, length, time; numbers are factors to kg, m, s). Error: what is wrong with it.
 Result<UnitSystem> parse_unit_system(std::string_view text);
@@ -42,7 +32,7 @@ Result<UnitSystem> parse_unit_system(std::string_view text);
 /// - Refusals (with `partial`: `undecided`): unknown keywords, keywords described in part that hold
 ///   undescribed numbers, cells of unknown dimension that are not 0, unreadable numbers, parameters
 ///   that are used with several dimensions or made by expressions, functions in working units.
-Rewrite to_units(const EditContext& context, const UnitSystem& target,
+Rewrite to_units(const LoadedDeck& context, const UnitSystem& target,
                  const UnitsOptions& options = {});
 
 /// Adds to `out` what becomes of the Engine files beside the deck, whose times are in working

@@ -23,8 +23,6 @@
 
 namespace deck {
 
-class MeshMemory;
-class SearchMemory;
 
 /// What is made of a deck, in this order; each needs those before it.
 enum class Stage : std::uint8_t {
@@ -42,8 +40,6 @@ struct LoadOptions {
   bool geometry = true;
   bool engine_files = false;  ///< read with the deck; else when engine_files() is asked for them
   const SchemaSet* schemas = nullptr;  ///< nullptr: the built-in ones; must outlive what is loaded
-  MeshMemory* meshes = nullptr;        ///< of decks that share their meshes; must outlive it, too
-  SearchMemory* searches = nullptr;    ///< likewise
 };
 
 /// The first force evaluation of all contacts.

@@ -17,7 +17,7 @@ namespace {
 /// Findings of the text as it is now; nullptr while they are not known.
 const Semantics* present(const View& view) {
   const Semantics* s = view.semantics();
-  return s != nullptr && s->syntax->generation == view.syntax->generation ? s : nullptr;
+  return s != nullptr && s->generation == view.syntax->generation ? s : nullptr;
 }
 
 /// A finding in short, for the client to join an action to what it shows.
@@ -264,7 +264,7 @@ Answer rename(const View& view, const Json& params) {
   if (!loaded) throw Refusal{loaded.error().message};
   RenumberOptions wanted;
   wanted.rules = {rule};
-  const Rewrite rewrite = renumber(EditContext(*loaded), wanted);
+  const Rewrite rewrite = renumber(*loaded, wanted);
   if (!rewrite.refusals.empty()) throw Refusal{rewrite.refusals.front()};
   return view.workspace_edit(rewrite.edits);
 }
