@@ -41,15 +41,15 @@ class Joiner {
 
 }  // namespace
 
-Findings::Findings(const Diagnostics& of_reading, int per_rule)
+FindingLists::FindingLists(const Diagnostics& of_reading, int per_rule)
     : per_rule_(per_rule), mesh_(per_rule), added_(per_rule) {
   for (Diagnostics& list : lists_) list = Diagnostics(per_rule);
   of(Stage::deck) = of_reading;
 }
 
-void Findings::forget_scene() { of(Stage::scene) = Diagnostics(per_rule_); }
+void FindingLists::forget_scene() { of(Stage::scene) = Diagnostics(per_rule_); }
 
-void Findings::read_cells(const Deck& deck) {
+void FindingLists::read_cells(const Deck& deck) {
   constexpr std::string_view kinds[] = {
       "inter",  "default_inter", "friction", "grnod",  "surf",   "line",   "set",       "box",
       "skew",   "grshel",        "grsh3n",   "grbric", "grquad", "grtria", "grtrus",    "grbeam",
@@ -64,7 +64,7 @@ void Findings::read_cells(const Deck& deck) {
   cells_read_ = true;
 }
 
-Diagnostics Findings::joined(Stage until) const {
+Diagnostics FindingLists::joined(Stage until) const {
   Joiner out(per_rule_);
   for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces, Stage::cells}) {
     if (stage > until) break;
@@ -75,7 +75,7 @@ Diagnostics Findings::joined(Stage until) const {
   return out.finish();
 }
 
-Diagnostics Findings::joined(const Model& model, const Diagnostics& of_scene) const {
+Diagnostics FindingLists::joined(const Model& model, const Diagnostics& of_scene) const {
   Joiner out(per_rule_);
   for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces})
     out.take(lists_[static_cast<std::size_t>(stage)]);

@@ -8,9 +8,9 @@
 
 namespace deck::detail {
 
-class Findings {
+class FindingLists {
  public:
-  Findings(const Diagnostics& of_reading, int per_rule);
+  FindingLists(const Diagnostics& of_reading, int per_rule);
 
   /// Where a stage reports to.
   Diagnostics& of(Stage stage) { return lists_[static_cast<std::size_t>(stage)]; }

@@ -50,7 +50,7 @@ struct LoadedDeck::Parts {
   const SchemaSet& schemas;
   std::function<void(Stage)> observer;
   Deck deck;
-  detail::Findings found;
+  detail::FindingLists found;
   std::optional<EngineFiles> engine;
   std::optional<Model> model;
   std::optional<Interfaces> interfaces;

@@ -47,11 +47,6 @@ bool worth_reading(const Schema& s) {
   return false;
 }
 
-bool has_tables(const Deck& deck) {
-  return std::any_of(deck.blocks.begin(), deck.blocks.end(),
-                     [](const Block& b) { return b.header.starts_with("/TABLE"); });
-}
-
 }  // namespace
 
 /// One block with the names of its cells.
@@ -157,7 +152,7 @@ FunctionUses::FunctionUses(const DiffSide& a, const DiffSide& b, const Counterpa
     : a_(a),
       b_(b),
       equal_(tolerance),
-      tables_(has_tables(a.loaded.deck()) || has_tables(b.loaded.deck())) {
+      tables_(a.loaded.deck().has("/TABLE") || b.loaded.deck().has("/TABLE")) {
   for (std::size_t i = 0; i < pairs.items_a.size(); ++i) {
     if (pairs.block_to_b[i] == no_index) continue;
     const Block& x = *pairs.items_a[i].block;

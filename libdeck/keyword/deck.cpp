@@ -89,6 +89,11 @@ std::int64_t Deck::offset_of(const Block& block, std::string_view kind) const {
                             : submodels[static_cast<std::size_t>(block.submodel)].offset_for(kind);
 }
 
+bool Deck::has(std::string_view header) const {
+  return std::any_of(blocks.begin(), blocks.end(),
+                     [&](const Block& b) { return b.header.starts_with(header); });
+}
+
 std::uint32_t Deck::parent_of(std::uint32_t file) const {
   // Every file but the main one came with exactly one edge, in the same order.
   return file == 0 || file > includes.size() ? Span::no_file : includes[file - 1].parent;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/length3.hpp"
+#include "deck/base/length_text.hpp"
 #include "deck/base/count.hpp"
 #include "deck/report/json.hpp"
 
@@ -23,7 +24,6 @@ std::string diff_value(const DiffValue& v, const char* nothing = "-") {
 }
 
 /// Lengths that were subtracted: what round-off leaves behind six digits says nothing.
-std::string length_text(double x) { return fmt::format("{:.6g}", x); }
 
 std::string entity_text(const Change& c) {
   std::string out = c.keyword;

@@ -72,11 +72,6 @@ void convert_points(UnitConversion& c, const Block& b, const PointFactors& facto
     }
 }
 
-bool has_tables(const Deck& deck) {
-  return std::any_of(deck.blocks.begin(), deck.blocks.end(),
-                     [](const Block& b) { return b.header.starts_with("/TABLE"); });
-}
-
 /// The block's bytes with these edits made.
 std::string edited(const Deck& deck, const Block& b, std::vector<TextEdit> edits) {
   std::sort(edits.begin(), edits.end(),
@@ -175,7 +170,7 @@ void convert_function(UnitConversion& c, std::int64_t id, const std::vector<cons
   // Uses that want the same points, in the order of the deck.
   std::vector<std::vector<const Use*>> groups;
   const bool is_table = definitions(c.deck, id).empty();
-  bool as_they_are = has_tables(c.deck);  // a table may use the points
+  bool as_they_are = c.deck.has("/TABLE");  // a table may use the points
   for (const Use* use : uses) {
     const PointFactors factors = factors_of(c, *use);
     if (is_table && middle_changes(c, *use)) {

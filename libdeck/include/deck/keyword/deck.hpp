@@ -163,6 +163,8 @@ struct Deck {
   /// Unit system the fields of a block are written in. nullptr: unknown unit id.
   const UnitSystem* units_of(const Block& block) const;
   std::int64_t offset_of(const Block& block, std::string_view kind) const;
+  /// There are blocks whose header begins so: "/TABLE".
+  bool has(std::string_view header) const;
   /// Parent of a file in the include tree (no_file for the main file).
   std::uint32_t parent_of(std::uint32_t file) const;
 };

@@ -13,7 +13,7 @@
 namespace deck::detail {
 namespace {
 
-std::string name_of(const Tie& tie) { return fmt::format("/INTER/TYPE2 {}", tie.inter->id); }
+std::string tie_name(const Tie& tie) { return fmt::format("/INTER/TYPE2 {}", tie.inter->id); }
 
 /// Reports at a field of the card of a tie.
 Diagnostic* report(const GeometryRun& run, RuleId id, const Tie& tie, std::string_view field,
@@ -53,7 +53,7 @@ void check_message(const GeometryRun& run, const Tie& tie, RuleId rule, int mess
   if (nodes.all.empty()) return;
   Diagnostic* d =
       report(run, rule, tie, field,
-             fmt::format("{}: {} of {} {}: {}", name_of(tie), count_text(nodes.all.size(), "node"),
+             fmt::format("{}: {} of {} {}: {}", tie_name(tie), count_text(nodes.all.size(), "node"),
                          tie.nodes.size(), what, nodes.text(run.model())));
   if (d == nullptr) return;
   d->reference = rule_of(rule).message(message);
@@ -74,7 +74,7 @@ void check_messages(const GeometryRun& run, const Tie& tie) {
                   "tied from beyond the rim of their segment");
   for (const RepeatedTies& r : tie.repeated)
     report(run, RuleId::DK344, tie, "grnd_IDs",
-           fmt::format("{}: /INTER/TYPE2 {} already makes {} of its ties", name_of(tie),
+           fmt::format("{}: /INTER/TYPE2 {} already makes {} of its ties", tie_name(tie),
                        r.interface_id, r.count));
 }
 
@@ -85,20 +85,20 @@ void check_conditions(const GeometryRun& run, const Tie& tie) {
     if (!nodes.all.empty())
       report(run, RuleId::DK345, tie, "Spotflag",
              fmt::format("{}: {} tied by penalty, because something else holds or moves them: {}",
-                         name_of(tie), count_text(nodes.all.size(), "node"), nodes.text(model)));
+                         tie_name(tie), count_text(nodes.all.size(), "node"), nodes.text(model)));
   }
   const Nodes mid = nodes_where(tie, [](const TiedNode& n) { return n.removed_by == 1209; });
   if (!mid.all.empty())
     report(run, RuleId::DK346, tie, "grnd_IDs",
            fmt::format("{}: {} left out, condensed mid nodes of 10-node tetrahedra: {}",
-                       name_of(tie), count_text(mid.all.size(), "node"), mid.text(model)));
+                       tie_name(tie), count_text(mid.all.size(), "node"), mid.text(model)));
   if (tie.main_and_tied.empty()) return;
   std::vector<std::int64_t> ids;
   for (const NodeIndex n : tie.main_and_tied) ids.push_back(model.node_id(n));
   std::sort(ids.begin(), ids.end());
   Diagnostic* d = report(run, RuleId::DK347, tie, "surf_IDm",
                          fmt::format("{}: {} of segments in use tied as secondary nodes: {}",
-                                     name_of(tie), count_text(ids.size(), "node"), list_text(ids)));
+                                     tie_name(tie), count_text(ids.size(), "node"), list_text(ids)));
   if (d != nullptr)
     d->notes.emplace_back(model.node_span(tie.main_and_tied.front()), "one of the nodes");
 }
@@ -138,7 +138,7 @@ void check_in_line(const GeometryRun& run, const Tie& tie) {
       [](const TiedNode* a, const TiedNode* b) { return a->distance < b->distance; });
   report(run, RuleId::DK348, tie, "dsearch",
          fmt::format("{}: {} tied to a rim that they do not lie over, up to {:.6g} away: {}",
-                     name_of(tie), count_text(nodes.all.size(), "node"), (*farthest)->distance,
+                     tie_name(tie), count_text(nodes.all.size(), "node"), (*farthest)->distance,
                      nodes.text(run.model())));
 }
 
@@ -170,7 +170,7 @@ void check_collapsed(const GeometryRun& run, const Tie& tie) {
     first.push_back(run.model().node_id(corner));
   report(run, RuleId::DK349, tie, "surf_IDm",
          fmt::format("{}: {} tied at distance 0 to {} without area; the first one is {}",
-                     name_of(tie), count_text(nodes, "node"), count_text(caught.size(), "segment"),
+                     tie_name(tie), count_text(nodes, "node"), count_text(caught.size(), "segment"),
                      fmt::format("{}", fmt::join(first, " "))));
 }
 
@@ -186,7 +186,7 @@ void check_thickness(const GeometryRun& run, const Tie& tie) {
     report(run, RuleId::DK350, tie, "dsearch",
            fmt::format("{}: whether {} tied depends on the order of corners in the shells around: "
                        "{}",
-                       name_of(tie),
+                       tie_name(tie),
                        nodes.all.size() == 1 ? std::string("1 node is")
                                              : fmt::format("{} nodes are", nodes.all.size()),
                        nodes.text(run.model())));
@@ -195,7 +195,7 @@ void check_thickness(const GeometryRun& run, const Tie& tie) {
     report(
         run, RuleId::DK351, tie, "dsearch",
         fmt::format("{}: {} not tied, although a segment is within the search distance: {}",
-                    name_of(tie), count_text(missed.all.size(), "node"), missed.text(run.model())));
+                    tie_name(tie), count_text(missed.all.size(), "node"), missed.text(run.model())));
 }
 
 }  // namespace
