@@ -237,9 +237,9 @@ std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& o
         !text.empty())
       out.push_back({text, "only types 7, 10, 11, 19, 24 and 25 have rules"});
   if (input.interfaces != nullptr)
-    if (const auto n = std::count_if(
-            input.interfaces->ordered.begin(), input.interfaces->ordered.end(),
-            [](const InterBase* i) { return is_modern(i->type); });
+    if (const auto n =
+            std::count_if(input.interfaces->ordered.begin(), input.interfaces->ordered.end(),
+                          [](const InterBase* i) { return is_modern(i->type); });
         n > 0)
       out.push_back({"forces of " + count(static_cast<std::size_t>(n), "interface", "interfaces") +
                          " of TYPE24 and TYPE25",

@@ -120,9 +120,8 @@ class Pair {
     for (std::size_t k = 0; k < c_.facets; ++k) {
       const Facet& f = all[k];
       if (f.distance_squared > 1.03 * least) continue;
-      const double excess = f.a >= 0 && f.b >= 0
-                                ? 0
-                                : std::max(0.0, f.distance_squared - f.behind * f.behind);
+      const double excess =
+          f.a >= 0 && f.b >= 0 ? 0 : std::max(0.0, f.distance_squared - f.behind * f.behind);
       if (found && excess >= best) continue;
       best = excess;
       found = true;
