@@ -125,7 +125,7 @@ SmallDeck sheets(unsigned seed) {
       for (int j = 0; j < n; ++j) {
         const int a = 1000 * part + (n + 1) * i + j, b = a + n + 1;
         if ((i + 2 * j) % 5 == 0)
-          d.shell3(part, ++id, a, b, b + 1).shell3(part, ++id, a, b + 1, a + 1);
+          d.shell3(part, id + 1, a, b, b + 1).shell3(part, id + 2, a, b + 1, a + 1), id += 2;
         else
           d.shell(part, ++id, a, b, b + 1, a + 1);
       }
@@ -274,7 +274,7 @@ TEST(Type25, GapZeroOnBordersTakesTheLastSideOfTrianglesForOne) {
     for (int j = 0; j < 4; ++j) {
       const int a = 1 + 5 * i + j, b = a + 5;
       if (i == 2 && j == 2)
-        d.shell3(1, ++id, a, b, b + 1).shell3(1, ++id, a, b + 1, a + 1);
+        d.shell3(1, id + 1, a, b, b + 1).shell3(1, id + 2, a, b + 1, a + 1), id += 2;
       else
         d.shell(1, ++id, a, b, b + 1, a + 1);
     }
