@@ -365,6 +365,7 @@ std::string params_text(const ParamsInput& in, const ParamsTextOptions& options)
                      count(all.ordered.size(), "interface", "interfaces"));
   const char* separator = "";
   all.each_list([&]<class Inter>(const std::vector<Inter>& list) {
+    if (list.empty() && is_modern(Inter::traits.type)) return;
     out +=
         fmt::format("{}TYPE{} {}", std::exchange(separator, ", "), Inter::traits.type, list.size());
   });
