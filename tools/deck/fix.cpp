@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common.hpp"
+#include "deck/base/count.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/edit/depenetrate.hpp"
 #include "deck/model/coverage.hpp"
@@ -89,7 +90,7 @@ class FixRun {
                                 : o_.write.diff               ? "diff"
                                                               : "no";
     if (json_.wanted()) documents_.push_back(fix_json(loaded, whole, written, fixed->fixes));
-    texts_ += report(whole, fixed->fixes, changed, loaded.path(), coverage_tail(coverage));
+    texts_ += report(whole, fixed->fixes, changed, loaded.path(), left_alone(loaded, coverage));
     // A deck that the solver does not take is not repaired, whatever was done about its contacts.
     return whole.complete && !errors ? exit_clean : exit_findings;
   }
@@ -137,6 +138,18 @@ class FixRun {
     }
   }
 
+  /// Interfaces that are not examined, and those that no strategy can do anything for.
+  static std::string left_alone(const LoadedDeck& loaded, const Coverage& coverage) {
+    const auto& all = loaded.interfaces().ordered;
+    const auto n = static_cast<std::size_t>(std::count_if(
+        all.begin(), all.end(), [](const InterBase* i) { return is_modern(i->type); }));
+    std::string text = coverage_tail(coverage);
+    if (n > 0)
+      text +=
+          " Left as they are: " + count(n, "interface", "interfaces") + " of TYPE24 and TYPE25.";
+    return text;
+  }
+
   /// Nothing was looked at: no verdict, and nothing that could be fixed.
   void report_nothing(const LoadedDeck& loaded, const Coverage& coverage) {
     PenetrationFix nothing;
@@ -164,7 +177,7 @@ class FixRun {
       texts_ += heading(loaded.path());
       texts_ += fix_proposals_text(
           proposals, [&](std::string_view s) { return command(loaded.path(), s); }, text);
-      if (const std::string tail = coverage_tail(coverage); !tail.empty())
+      if (const std::string tail = left_alone(loaded, coverage); !tail.empty())
         texts_ += "\n" + tail.substr(1) + "\n";
     }
     return now.complete && !errors ? exit_clean : exit_findings;

@@ -120,9 +120,9 @@ void not_evaluated(SceneContext& context, Contact& contact, const std::string& w
                    const char* what = "the contact was not evaluated") {
   contact.evaluated = false;
   const std::string keyword = "/INTER/TYPE" + std::to_string(contact.type);
-  Diagnostic d = finding_of(RuleId::DK380, contact.inter->span,
-                            keyword + " " + std::to_string(contact.inter->id) + ": " + why + "; " +
-                                what);
+  Diagnostic d =
+      finding_of(RuleId::DK380, contact.inter->span,
+                 keyword + " " + std::to_string(contact.inter->id) + ": " + why + "; " + what);
   d.keyword = keyword;
   d.id = contact.inter->id;
   context.diagnostics.report(std::move(d));

@@ -55,16 +55,16 @@ class Lister {
       e.gap = std::max(f.gap, g.gap);
       const double sum = f.stiffness + g.stiffness;
       e.stiffness = f.stiffness == 0 || g.stiffness == 0 ? std::max(f.stiffness, g.stiffness)
-                    : sum > 0 ? 2 * f.stiffness * g.stiffness / sum
-                              : 0;
+                    : sum > 0                            ? 2 * f.stiffness * g.stiffness / sum
+                                                         : 0;
       if (solid && g.kind == SegmentKind::solid) e.kind = 1;
     }
     list_.push_back(e);
   }
 
   Vec normal(const Face& f) const {
-    return unit_of(cross(at(x_, f.nodes[2]) - at(x_, f.nodes[0]),
-                      at(x_, f.nodes[3]) - at(x_, f.nodes[1])));
+    return unit_of(
+        cross(at(x_, f.nodes[2]) - at(x_, f.nodes[0]), at(x_, f.nodes[3]) - at(x_, f.nodes[1])));
   }
 
   bool keep(SideEdge& e) const {

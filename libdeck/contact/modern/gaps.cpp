@@ -90,8 +90,8 @@ double longest_side(const Coordinates& x, const Face& f) {
 }
 
 double area_of(const Coordinates& x, const Face& f) {
-  return 0.5 * norm(cross(at(x, f.nodes[2]) - at(x, f.nodes[0]),
-                          at(x, f.nodes[3]) - at(x, f.nodes[1])));
+  return 0.5 *
+         norm(cross(at(x, f.nodes[2]) - at(x, f.nodes[0]), at(x, f.nodes[3]) - at(x, f.nodes[1])));
 }
 
 void set_secondary_gaps(const Surroundings& around, const std::vector<double>& half, Sides& s) {
@@ -171,9 +171,8 @@ double mean_solid_stiffness(SceneContext& c, double f, const Face& face, double 
   double sum = 0;
   int count = 0;
   const auto has_all = [&](const NodeIndex* slots) {
-    return std::all_of(face.nodes.begin(), face.nodes.end(), [&](NodeIndex n) {
-      return std::find(slots, slots + 8, n) != slots + 8;
-    });
+    return std::all_of(face.nodes.begin(), face.nodes.end(),
+                       [&](NodeIndex n) { return std::find(slots, slots + 8, n) != slots + 8; });
   };
   for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, face.nodes[0]))
     if (has_all(c.model.solid8.of(e))) {
@@ -246,7 +245,8 @@ void set_gaps(SceneContext& c, Sides& s) {
 }
 
 void set_stiffness(SceneContext& c, Sides& s) {
-  for (Face& f : s.faces) f.kind == SegmentKind::solid ? set_solid(c, s.set, f) : set_sheet(c, s.set, f);
+  for (Face& f : s.faces)
+    f.kind == SegmentKind::solid ? set_solid(c, s.set, f) : set_sheet(c, s.set, f);
 }
 
 }  // namespace deck::detail::modern

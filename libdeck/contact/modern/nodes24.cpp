@@ -38,7 +38,7 @@ std::vector<Vec> node_normals(const Coordinates& x, const Sides& s) {
     for (std::size_t k = 0; k < corners; ++k) {
       const Vec p = at(x, f.nodes[k]);
       normal[k] = unit_of(cross(at(x, f.nodes[(k + 1) % corners]) - p,
-                             at(x, f.nodes[(k + corners - 1) % corners]) - p));
+                                at(x, f.nodes[(k + corners - 1) % corners]) - p));
     }
     if (f.triangle()) normal[2] = normal[1];
     for (std::size_t k = 0; k < corners; ++k) {
@@ -270,7 +270,8 @@ SearchResult search24(SceneContext& c, const Sides& s, const Limits24& limits) {
   options.gap = PairGap::from_igap(1, 0);
   options.margin = s.margin * (1 + 1e-12);
   options.threads = c.options.threads;
-  return c.searches != nullptr ? c.searches->find(in, options) : find_node_segment_pairs(in, options);
+  return c.searches != nullptr ? c.searches->find(in, options)
+                               : find_node_segment_pairs(in, options);
 }
 
 bool in_box(const Coordinates& x, const Face& f, NodeIndex node, double by) {

@@ -31,10 +31,8 @@ class Grid {
     low_ = all.low;
     for (std::size_t k = 0; k < 3; ++k) size_[k] = all.high[k] - all.low[k];
     const double area = size_[0] * size_[1] + size_[1] * size_[2] + size_[2] * size_[0];
-    const double density =
-        area > 0 ? 0.75 * std::sqrt(static_cast<double>(count) / area) : 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      cells_[k] = std::max(1.0, std::round(size_[k] * density));
+    const double density = area > 0 ? 0.75 * std::sqrt(static_cast<double>(count) / area) : 0;
+    for (std::size_t k = 0; k < 3; ++k) cells_[k] = std::max(1.0, std::round(size_[k] * density));
   }
 
   struct Box {
@@ -170,8 +168,8 @@ SearchResult search(SceneContext& c, const Sides& s, const Reach& reach) {
   std::vector<std::uint32_t> nodes;
   std::vector<double> node_gaps, gaps, stiffness;
   std::vector<std::array<std::uint32_t, 4>> segments;
-  const bool solids = std::any_of(s.faces.begin(), s.faces.end(),
-                                  [](const Face& f) { return f.solid_like(); });
+  const bool solids =
+      std::any_of(s.faces.begin(), s.faces.end(), [](const Face& f) { return f.solid_like(); });
   for (std::size_t i = 0; i < s.nodes.size(); ++i) {
     nodes.push_back(s.nodes[i].node);
     const double more = solids ? std::max(0.0, reach.of_node[i] - s.margin) : 0;
@@ -195,7 +193,8 @@ SearchResult search(SceneContext& c, const Sides& s, const Reach& reach) {
   // A little more than the rule: which pairs count is decided below.
   options.margin = s.margin * (1 + 1e-12);
   options.threads = c.options.threads;
-  return c.searches != nullptr ? c.searches->find(in, options) : find_node_segment_pairs(in, options);
+  return c.searches != nullptr ? c.searches->find(in, options)
+                               : find_node_segment_pairs(in, options);
 }
 
 class Chooser {
@@ -219,8 +218,8 @@ class Chooser {
     const Face& f = s_.faces[pair.main];
     if (!s_.across(n.bits, f.bits)) return false;
     if (f.solid_like() && same_part(n.node, f)) return false;
-    const double far = f.solid_like() ? std::max(s_.margin, reach_.of_node[pair.secondary])
-                                      : s_.margin;
+    const double far =
+        f.solid_like() ? std::max(s_.margin, reach_.of_node[pair.secondary]) : s_.margin;
     double gap = n.gap + f.gap;
     const Vec q = at(x_, n.node);
     Grid::Box box = box_of(x_, f);
@@ -230,13 +229,13 @@ class Chooser {
     const double r = gap + far;
     if (!(facet_distance_squared(x_, f, n.node) < r * r)) return false;
     Grid::Box covered = box_of(x_, f);
-    covered.widen(gap_s_ + f.gap +
-                  (f.solid_like() ? std::max(s_.margin, reach_.grid) : s_.margin));
+    covered.widen(gap_s_ + f.gap + (f.solid_like() ? std::max(s_.margin, reach_.grid) : s_.margin));
     return grid_.covers(covered, q);
   }
   bool removed(const CandidatePair& pair) const { return is_removed(removed_, pair); }
 
-  /// The pair of a node that counts, from its candidates by ascending segments; penetration 0: none.
+  /// The pair of a node that counts, from its candidates by ascending segments; penetration 0:
+  /// none.
   NodePenetration choose(std::span<const CandidatePair> pairs) const {
     const bool adhesion = s_.set.ivis2 == -1;
     NodePenetration best;

@@ -46,25 +46,26 @@ Facet facet_of(const Corners& c, std::size_t k, const Vec& q, double& o, double&
   f.side = k;
   f.normal = unit(n);
   f.behind = dot(f.normal, r0);
-  const double s = 1 / std::max(1e-30, dot(n, n));
-  f.a = a = s * dot(n, cross(r2, r0));
-  f.b = b = s * dot(n, cross(r0, r1));
+  const double size = std::max(1e-15, norm(n));
+  const Vec direction = unit_of(n);
+  f.a = a = dot(direction, cross(r2, r0)) / size;
+  f.b = b = dot(direction, cross(r0, r1)) / size;
   o = 1 - a - b;
   const Vec e = p2 - p1;
   const double ee = std::max(1e-20, dot(e, e)), vv = std::max(1e-30, dot(v, v)),
                uu = std::max(1e-30, dot(u, u));
   const double ho = o * std::fabs(o) / ee, ha = a * std::fabs(a) / vv, hb = b * std::fabs(b) / uu;
   if (o < 0 && ho <= ha && ho <= hb) {
-    a = within01(dot(r2, e) / ee);
+    a = within01(dot(r2, e) * (1 / ee));
     b = 1 - a;
     o = 0;
   } else if (a < 0 && ha <= hb && ha <= ho) {
     a = 0;
-    b = within01(-dot(r0, v) / vv);
+    b = within01(-dot(r0, v) * (1 / vv));
     o = 1 - b;
   } else if (b < 0 && hb <= ho && hb <= ha) {
     b = 0;
-    a = within01(-dot(r0, u) / uu);
+    a = within01(-dot(r0, u) * (1 / uu));
     o = 1 - a;
   }
   f.closest = o * p0 + a * p1 + b * p2;
@@ -120,9 +121,8 @@ class Pair {
     for (std::size_t k = 0; k < c_.facets; ++k) {
       const Facet& f = all[k];
       if (f.distance_squared > 1.03 * least) continue;
-      const double excess = f.a >= 0 && f.b >= 0
-                                ? 0
-                                : std::max(0.0, f.distance_squared - f.behind * f.behind);
+      const double excess =
+          f.a >= 0 && f.b >= 0 ? 0 : std::max(0.0, f.distance_squared - f.behind * f.behind);
       if (found && excess >= best) continue;
       best = excess;
       found = true;

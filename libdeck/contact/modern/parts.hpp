@@ -33,11 +33,11 @@ constexpr std::uint8_t from_first = 1, from_second = 2, from_group = 4;
 struct Settings {
   int type = 25, level = 0, istf = 0, igap = 1, igap0 = 0, ishape = 1, inacti = 0, iedge = 0;
   int ivis2 = 0, irem_i2 = 0, ipen0 = 0;
-  double factor = 1;       ///< Stfac, < 0 with Istf 1
-  double cos_edge = -1;    ///< of 180 degrees less Edge_angle
+  double factor = 1;     ///< Stfac, < 0 with Istf 1
+  double cos_edge = -1;  ///< of 180 degrees less Edge_angle
   double scale = 1, cap_s = never, cap_m = never, mesh_fraction = 0;
   double thick_s = 0, thick_s_scale = 1, thick_m = 0, thick_m_scale = 1;  ///< Igap 5
-  double ipen_max = 0;     ///< TYPE24
+  double ipen_max = 0;                                                    ///< TYPE24
   bool local() const { return type == 25 && igap == 3; }
   int solid_edges() const { return iedge / 10 % 10; }
   int shell_edges() const { return iedge % 10; }
@@ -49,16 +49,16 @@ struct Face {
   std::array<NodeIndex, 4> nodes{};  ///< triangle: last two equal
   SegmentKind kind = SegmentKind::shell;
   std::uint8_t bits = 0;
-  bool interior = false;             ///< between two solids: never searched
-  Carrier carrier = Carrier::none;   ///< what decides gap and stiffness
+  bool interior = false;            ///< between two solids: never searched
+  Carrier carrier = Carrier::none;  ///< what decides gap and stiffness
   std::uint32_t element = no_index;
-  std::uint32_t solid = no_index;    ///< behind a solid segment or coat, no_index: shells
+  std::uint32_t solid = no_index;  ///< behind a solid segment or coat, no_index: shells
   std::uint32_t opposite = no_index;
   double stiffness = 0, gap = 0;
-  double own_gap = 0;                ///< half the thickness of its own shell, scaled
-  double length = never;             ///< Igap 3; TYPE24: characteristic length of solids
+  double own_gap = 0;     ///< half the thickness of its own shell, scaled
+  double length = never;  ///< Igap 3; TYPE24: characteristic length of solids
   std::array<double, 4> nodal_gap{};
-  std::uint32_t part = no_index;     ///< TYPE24: tag
+  std::uint32_t part = no_index;  ///< TYPE24: tag
   bool triangle() const { return nodes[2] == nodes[3]; }
   bool solid_like() const { return kind == SegmentKind::solid || kind == SegmentKind::coat; }
   bool coat_like() const { return kind == SegmentKind::coat || kind == SegmentKind::coat_opposite; }
@@ -154,10 +154,10 @@ Found find_nodes24(SceneContext& context, Sides& sides);
 
 /// An edge of a TYPE25.
 struct SideEdge {
-  std::array<NodeIndex, 2> nodes{};           ///< smaller id first
-  std::uint32_t face = 0, side = 0;           ///< where it was found
-  std::uint32_t across = Topology::free_side; ///< position among the undoubled, or free
-  std::int8_t kind = 2;                       ///< 1 between solids, -1 flat, 2 other
+  std::array<NodeIndex, 2> nodes{};            ///< smaller id first
+  std::uint32_t face = 0, side = 0;            ///< where it was found
+  std::uint32_t across = Topology::free_side;  ///< position among the undoubled, or free
+  std::int8_t kind = 2;                        ///< 1 between solids, -1 flat, 2 other
   std::uint8_t bits = 0;
   double stiffness = 0, gap = 0, length = never;
   bool free() const { return across == Topology::free_side; }

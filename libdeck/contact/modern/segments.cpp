@@ -123,9 +123,8 @@ class Maker {
     };
     std::vector<Keyed> all;
     for (const Face& f : out_.faces)
-      all.push_back({key(f), static_cast<int>(f.carrier == Carrier::none ? Carrier::solid
-                                                                         : f.carrier),
-                     f});
+      all.push_back(
+          {key(f), static_cast<int>(f.carrier == Carrier::none ? Carrier::solid : f.carrier), f});
     std::stable_sort(all.begin(), all.end(), [](const Keyed& a, const Keyed& b) {
       return std::tie(a.key, a.kind) < std::tie(b.key, b.kind);
     });

@@ -52,9 +52,7 @@ Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if)
   for (const WhatIf& w : what_if) {
     if (w.interface_id != inter.id) continue;
     if (w.Inacti) s.inacti = *w.Inacti == 1000 ? 0 : *w.Inacti;
-    if (w.Gapmax) s.cap_s = s.cap_m = *w.Gapmax;
     if (inter.type == 24) continue;
-    if (w.Fscalegap) s.scale = *w.Fscalegap;
     if (w.mesh_size) s.mesh_fraction = mesh_fraction_of(*w.mesh_size);
     if (!w.Igap) continue;
     s.igap = *w.Igap == 2 || *w.Igap == 3 || *w.Igap == 5 ? *w.Igap : 1;

@@ -45,7 +45,8 @@ class Joiner {
   NodeIndex from(std::uint32_t i, std::uint32_t k) const { return faces_[i].nodes[k]; }
   NodeIndex to(std::uint32_t i, std::uint32_t k) const { return faces_[i].nodes[(k + 1) % 4]; }
   Vec normal(const Face& f) const {
-    return unit_of(cross(at(x_, f.nodes[2]) - at(x_, f.nodes[0]), at(x_, f.nodes[3]) - at(x_, f.nodes[1])));
+    return unit_of(
+        cross(at(x_, f.nodes[2]) - at(x_, f.nodes[0]), at(x_, f.nodes[3]) - at(x_, f.nodes[1])));
   }
 
   bool fits(const Face& i, const Face& j, NodeIndex a, NodeIndex b) const {

@@ -69,8 +69,7 @@ struct ShellOfSegment {
 };
 ShellOfSegment shell_of(SceneContext& context, const std::array<NodeIndex, 4>& segment);
 /// Turns the segment away from the centroid of its solid. True if the order was reversed.
-bool orient_outward(SceneContext& context, std::uint32_t solid,
-                    std::array<NodeIndex, 4>& segment);
+bool orient_outward(SceneContext& context, std::uint32_t solid, std::array<NodeIndex, 4>& segment);
 
 // thickness.cpp — sections and materials of elements
 /// Contact thickness of a shell (kind shell4 or shell3).

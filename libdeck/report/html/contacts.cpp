@@ -43,6 +43,7 @@ PageContact wide_pairs(const Contact& contact, PlainSides plain, const Coordinat
                        std::size_t limit) {
   PageContact page;
   page.plain = std::move(plain);
+  if (is_modern(contact.type)) return page;  // the page has no rules for them
   const SearchSides sides(contact, SearchSides::Off::included);
   if (!sides.edge_pairs()) page.margin = sides.margin(x);
   if (!std::isfinite(page.margin)) page.margin = 0;
@@ -467,7 +468,7 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
                                                    order.begin()));
     j.field("kind", to_string(c.kind)).field("role", to_string(c.role)).field("type", c.type);
     j.field("ties", c.ties())
-        .field("dropped", c.dropped)
+        .field("dropped", c.dropped || is_modern(c.type))
         .field("igap", c.igap)
         .field("inacti", c.inacti);
     j.field("istf", c.istf).field("irem_gap", c.irem_gap).field("itied", c.itied);
