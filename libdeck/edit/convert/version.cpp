@@ -512,8 +512,9 @@ class VersionRewriter {
   }
 
   /// The value of the default block, if its layout of that version has the cell.
-  const EffectiveInt* given_default(const InterBase& inter, const std::string& field,
+  const EffectiveInt* given_default(const InterBase& inter, const std::string& on_card,
                                     int version) const {
+    const std::string field = on_card == "Idel2" ? "Idel" : on_card;  // as the block calls it
     const DefaultInter* defaults = c_.interfaces().defaults_of(inter.type);
     const auto* given = defaults != nullptr ? defaults->find(field) : nullptr;
     if (given == nullptr) return nullptr;

@@ -137,9 +137,10 @@ void check_in_line(const GeometryRun& run, const Tie& tie) {
       nodes.all.begin(), nodes.all.end(),
       [](const TiedNode* a, const TiedNode* b) { return a->distance < b->distance; });
   report(run, RuleId::DK348, tie, "dsearch",
-         fmt::format("{}: {} tied to a rim that they do not lie over, up to {:.6g} away: {}",
-                     tie_name(tie), count_text(nodes.all.size(), "node"), (*farthest)->distance,
-                     nodes.text(run.model())));
+         fmt::format(
+             "{}: {} tied to the rim of a segment without lying over it, up to {:.6g} away: {}",
+             tie_name(tie), count_text(nodes.all.size(), "node"), (*farthest)->distance,
+             nodes.text(run.model())));
 }
 
 /// The distance is 0 for the solver where a sub-triangle has no area, wherever the node is.
