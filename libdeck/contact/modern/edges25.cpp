@@ -284,7 +284,7 @@ SearchResult search_edges(SceneContext& c, const Sides& s, const std::vector<Sid
   options.gap = PairGap::from_igap(s.set.local() ? 3 : 1, 0);
   options.margin = s.margin;
   options.threads = c.options.threads;
-  return c.searches != nullptr ? c.searches->find(in, options) : find_edge_edge_pairs(in, options);
+  return find_edge_edge_pairs(in, options);
 }
 
 }  // namespace

@@ -270,8 +270,7 @@ SearchResult search24(SceneContext& c, const Sides& s, const Limits24& limits) {
   options.gap = PairGap::from_igap(1, 0);
   options.margin = s.margin * (1 + 1e-12);
   options.threads = c.options.threads;
-  return c.searches != nullptr ? c.searches->find(in, options)
-                               : find_node_segment_pairs(in, options);
+  return find_node_segment_pairs(in, options);
 }
 
 bool in_box(const Coordinates& x, const Face& f, NodeIndex node, double by) {

@@ -193,8 +193,7 @@ SearchResult search(SceneContext& c, const Sides& s, const Reach& reach) {
   // A little more than the rule: which pairs count is decided below.
   options.margin = s.margin * (1 + 1e-12);
   options.threads = c.options.threads;
-  return c.searches != nullptr ? c.searches->find(in, options)
-                               : find_node_segment_pairs(in, options);
+  return find_node_segment_pairs(in, options);
 }
 
 class Chooser {

@@ -107,9 +107,9 @@ class Joiner {
 };
 
 /// Classes of corners.
-class Corners {
+class CornerClasses {
  public:
-  explicit Corners(std::size_t faces) : parent_(4 * faces) {
+  explicit CornerClasses(std::size_t faces) : parent_(4 * faces) {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
   std::uint32_t find(std::uint32_t c) {
@@ -126,7 +126,7 @@ class Corners {
 };
 
 void set_vertices(const std::vector<Face>& faces, const Joiner& joiner, Topology& t) {
-  Corners corners(faces.size());
+  CornerClasses corners(faces.size());
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     if (faces[i].triangle()) corners.unite(4 * i + 2, 4 * i + 3);
     for (std::uint32_t k = 0; k < 4; ++k) {

@@ -24,17 +24,17 @@ EdgeFoot foot_on_edge(const Vec& p, const Vec& u, const Vec& v) {
 }
 
 /// One sub-triangle with apex a: distance and the weights of b and c.
-struct Part {
+struct SubTriangle {
   double distance = 0, beta = 0, gamma = 0;
 };
 
-Part project_on_part(const Vec& p, const Vec& a, const Vec& b, const Vec& c, bool quad) {
+SubTriangle project_on_part(const Vec& p, const Vec& a, const Vec& b, const Vec& c, bool quad) {
   Vec n = cross(b - a, c - a);
   const double size = std::max(smallest, norm(n));
   n = {n.x / size, n.y / size, n.z / size};
   const double height = dot(n, p - a);
   const Vec foot = p - height * n;
-  Part out;
+  SubTriangle out;
   out.beta = dot(n, cross(c - foot, a - foot)) / size;
   out.gamma = dot(n, cross(a - foot, b - foot)) / size;
   const double alpha = 1 - out.beta - out.gamma;
@@ -61,7 +61,7 @@ Part project_on_part(const Vec& p, const Vec& a, const Vec& b, const Vec& c, boo
 }
 
 Projection on_triangle(const Vec& p, const std::array<Vec, 4>& x, double reach, bool weights) {
-  const Part part = project_on_part(p, x[2], x[0], x[1], false);
+  const SubTriangle part = project_on_part(p, x[2], x[0], x[1], false);
   Projection out;
   out.depth = std::max(0.0, reach - part.distance);
   if (weights) {
@@ -85,7 +85,7 @@ Projection on_quad(const Vec& p, const std::array<Vec, 4>& x, double reach) {
   Projection out;
   bool first = true;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Part part = project_on_part(p, centre, x[k], x[(k + 1) % 4], true);
+    const SubTriangle part = project_on_part(p, centre, x[k], x[(k + 1) % 4], true);
     const double depth = std::max(0.0, reach - part.distance);
     if (!first && depth <= out.depth) continue;
     first = false;
