@@ -214,11 +214,11 @@ TEST(Renumber, MaterialsOfMaterialOptionsFollow) {
 }
 
 TEST(Renumber, TextThatMayHoldAnIdIsRefusedOrUndecided) {
-  const auto w =
-      Whole::text(plates().add("/RBE2/1\nr\n        50         0\n/NEWTHING/2\n        51").text());
+  const auto w = Whole::text(
+      plates().add("/GJOINT/1\nr\n        50         0\n/NEWTHING/2\n        51").text());
   const Rewrite r = numbered(*w, {"node+1000"});
   ASSERT_EQ(r.refusals.size(), 2u);
-  EXPECT_NE(r.refusals[0].find("/RBE2/1: "), std::string::npos) << r.refusals[0];
+  EXPECT_NE(r.refusals[0].find("/GJOINT/1: "), std::string::npos) << r.refusals[0];
   EXPECT_TRUE(r.edits.empty());
   const Rewrite partial = numbered(*w, {"node+1000"}, true);
   EXPECT_TRUE(partial.refusals.empty());
