@@ -91,7 +91,7 @@ std::string text_kind(const Deck& deck, std::string_view head) {
     return "an Engine file (*_0001.rad); name the Starter deck (*_0000.rad)";
   if (line.size() > 1 && line[0] == '*' && ((line[1] | 0x20) >= 'a' && (line[1] | 0x20) <= 'z'))
     return "a deck of LS-DYNA or Abaqus (it begins with " + shown +
-           "); deck convert --from lsdyna takes the contacts of LS-DYNA";
+           "); OpenRadioss itself reads decks of LS-DYNA";
   if (const std::string first = lower(line);
       first.starts_with("begin bulk") || first.starts_with("cend") || first.starts_with("sol "))
     return "a deck of Nastran (it begins with " + shown + ")";

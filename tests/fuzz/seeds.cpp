@@ -135,43 +135,6 @@ void examples(Seeds& seeds) {
     }
 }
 
-std::string card(const std::vector<std::string>& cells) {
-  std::string line;
-  for (const std::string& c : cells)
-    line += std::string(10 - std::min<std::size_t>(c.size(), 10), ' ') + c;
-  return line + "\n";
-}
-
-void lsdyna(Seeds& seeds) {
-  const std::string plain =
-      card({"11", "12", "2", "2"}) + card({"0.2", "0.1", "0", "0", "20"}) + card({"1.0", "1.0"});
-  int n = 0;
-  for (const char* keyword :
-       {"SINGLE_SURFACE", "SINGLE_SURFACE_ID", "SURFACE_TO_SURFACE", "ONE_WAY_SURFACE_TO_SURFACE",
-        "NODES_TO_SURFACE", "GENERAL", "GENERAL_INTERIOR", "SURFACE_TO_SURFACE_MORTAR"}) {
-    std::string text = "*KEYWORD\n*PARAMETER\nR fric      0.3\n*CONTACT_AUTOMATIC_" +
-                       std::string(keyword) + "\n$ c\n";
-    if (text.find("_ID") != std::string::npos) text += card({"77", "all of it"});
-    seeds.put("fuzz_lsdyna", std::to_string(n++),
-              text + plain + card({"2", "0.1", "", "1.025", "2", "2"}) + "*END\n");
-  }
-  const std::string sets = "*SET_PART_LIST_TITLE\nall\n" + card({"12"}) + card({"1", "2"}) +
-                           "*SET_NODE_ADD\n" + card({"11"}) + card({"13", "14"}) +
-                           "*SET_NODE_LIST_GENERATE_COLLECT\n" + card({"13"}) + card({"1", "9"}) +
-                           "*SET_SEGMENT\n" + card({"12"}) + card({"1", "2", "3", "3"}) +
-                           "*SET_SHELL\n" + card({"11"}) + card({"5"}) + "*SET_NODE_COLUMN\n" +
-                           card({"14"}) + card({"4"});
-  for (const char* types : {"4", "0", "1", "6", "2"})
-    seeds.put("fuzz_lsdyna", std::to_string(n++),
-              "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n" + card({"11", "12", types, "2"}) +
-                  card({"0.2"}) + card({"1.0"}) + sets);
-  for (const char* keyword :
-       {"NODES_TO_SURFACE", "SURFACE_TO_SURFACE_OFFSET", "SHELL_EDGE_TO_SURFACE_MPP"})
-    seeds.put(
-        "fuzz_lsdyna", std::to_string(n++),
-        "*CONTACT_TIED_" + std::string(keyword) + "\n" + plain + "11,12,2,2\n&fric,0\n*PART\n");
-}
-
 /// A states file: column names with stems given three axes, and rows of plain numbers.
 std::string states(const std::vector<std::string>& names, const std::vector<std::string>& stems) {
   std::string head, row;
@@ -238,7 +201,6 @@ int main(int argc, char** argv) {
   Seeds seeds{argv[1]};
   samples(seeds, fs::path(DECK_SOURCE_DIR) / "samples");
   examples(seeds);
-  lsdyna(seeds);
   replays(seeds);
   others(seeds);
   std::printf("%zu inputs\n", seeds.count);

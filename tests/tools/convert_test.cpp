@@ -268,53 +268,6 @@ TEST_F(ConvertWithEngine, AKeywordWhoseCellsAreNotKnownIsRefusedWithItsPlace) {
   EXPECT_EQ(read(dir_ / "new/m_0002.rad"), "/RUN/m/2\n5000.0\n/DAMP\n1 2 0.3\n/NOLINES\n");
 }
 
-TEST_F(Convert, LsDynaContactsBecomeAnIncludeFile) {
-  const std::string dyna =
-      "*KEYWORD\n*CONTACT_AUTOMATIC_NODES_TO_SURFACE_ID\n         3nodes on surface\n"
-      "         1         2         4         0\n"
-      "       0.2       0.1\n"
-      "       1.0       1.0\n*END\n";
-  write(dir_ / "car.k", dyna);
-  ASSERT_EQ(deck("convert car.k --from lsdyna -o contacts --report losses.json"), 0) << err();
-  const std::string text = read(dir_ / "contacts/car_contacts.inc");
-  EXPECT_NE(text.find("/INTER/TYPE7/3"), std::string::npos) << text;
-  EXPECT_NE(text.find("nodes on surface"), std::string::npos);
-  ASSERT_EQ(deck("convert car.k --from lsdyna --target 10"), 0) << err();
-  EXPECT_NE(out().find("/INTER/TYPE10/3"), std::string::npos) << out();
-  write(dir_ / "none.k", "*KEYWORD\n*NODE\n*END\n");
-  EXPECT_EQ(deck("convert none.k --from lsdyna -o contacts"), 1);
-}
-
-TEST_F(Convert, ADroppedContactOfLsDynaEndsWithOne) {
-  write(dir_ / "car.k",
-        "*KEYWORD\n*CONTACT_AUTOMATIC_SINGLE_SURFACE\n        13         0         3\n"
-        "       0.2\n       1.0\n*CONTACT_GUIDED_CABLE\n         1         2\n*END\n");
-  EXPECT_EQ(deck("convert car.k --from lsdyna -o contacts"), 1);
-  EXPECT_NE(err().find("dropped: *CONTACT_GUIDED_CABLE"), std::string::npos) << err();
-  EXPECT_TRUE(fs::exists(dir_ / "contacts/car_contacts.inc"));
-}
-
-TEST_F(Convert, IdsOfAllLsDynaFilesOfACallAreDifferent) {
-  for (const char* part : {"13", "14"})
-    write(dir_ / ("p" + std::string(part) + ".k"),
-          "*KEYWORD\n*CONTACT_AUTOMATIC_SINGLE_SURFACE\n        " + std::string(part) +
-              "         0         3\n       0.2\n       1.0\n*END\n");
-  ASSERT_EQ(deck("convert p13.k p14.k --from lsdyna -o c"), 0) << err();
-  EXPECT_NE(read(dir_ / "c/p13_contacts.inc").find("/SURF/PART/EXT/90000001\n"), std::string::npos);
-  const std::string second = read(dir_ / "c/p14_contacts.inc");
-  EXPECT_NE(second.find("/SURF/PART/EXT/90000002\npart 14\n        14\n/INTER/TYPE7/2\n"),
-            std::string::npos)
-      << second;
-  ASSERT_EQ(deck("convert p13.k p14.k --from lsdyna --first-id 500"), 0) << err();
-  for (const char* header : {"EXT/500\n", "TYPE7/500\n", "EXT/501\n", "TYPE7/501\n"})
-    EXPECT_NE(out().find(header), std::string::npos) << out();
-  EXPECT_EQ(deck("convert p13.k --from lsdyna --first-id -3"), 2);
-  EXPECT_EQ(deck("convert p13.k --first-id 5 -o c"), 2);
-  write(dir_ / "other/p13.k", read(dir_ / "p13.k"));
-  EXPECT_EQ(deck("convert p13.k other/p13.k --from lsdyna -o twice"), 2);
-  EXPECT_NE(err().find("both p13.k and other/p13.k"), std::string::npos) << err();
-}
-
 TEST_F(ConvertTwoFiles, ExtractionRefusesAnIdThatIsNoInterface) {
   EXPECT_EQ(deck("convert m_0000.rad --extract-contacts 77 -o x"), 2);
   EXPECT_NE(err().find("77"), std::string::npos);

@@ -97,7 +97,6 @@ TOUR = {
         "fix samples/too_close_0000.rad",
         "fix samples/crash_box_0000.rad",
         "fix samples/too_close_0000.rad --strategy move-nodes",
-        "fix samples/too_close_0000.rad --strategy untangle",
         "fix samples/too_close_0000.rad --strategy reduce-gap",
         "fix samples/crash_box_0000.rad --strategy inacti",
     ],

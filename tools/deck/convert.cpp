@@ -231,7 +231,7 @@ int write_all(Run& run) {
   const Options& options = run.options;
   Result<void> done;
   if (!run.documents.empty()) return write_documents(run);
-  if (options.to == "json" || options.from == "lsdyna") {
+  if (options.to == "json") {
     return exit_clean;
   } else if (options.write.in_place || !options.write.directory.empty()) {
     run.progress.step("writing");
@@ -387,19 +387,13 @@ int check(const Options& options) {
   if (options.write.in_place &&
       std::count(options.common.decks.begin(), options.common.decks.end(), std::string("-")) > 0)
     return refuse("standard input cannot be rewritten; without --in-place the deck is printed");
-  if (places == 0 && options.to == "rad" && options.from != "lsdyna" && !only_standard_input)
+  if (places == 0 && options.to == "rad" && !only_standard_input)
     return refuse("say where to write: -o DIR, --in-place, or --diff to see the changes first");
   if (options.to == "json" && (options.write.in_place || options.write.diff))
     return refuse("--to json writes a new file: use -o, or standard output");
   if (options.from != "rad" && (options.write.in_place || options.write.diff))
     return refuse("--from " + options.from + " needs -o DIR");
-  if (options.from == "lsdyna" && options.to == "json")
-    return refuse("--from lsdyna makes an include file of contacts, not a deck; it has no JSON");
   if (options.steps.round && options.from != "json") return refuse("--round goes with --from json");
-  if (options.steps.first_id != 0 && options.from != "lsdyna")
-    return refuse("--first-id goes with --from lsdyna");
-  if (options.steps.target != 0 && options.from != "lsdyna")
-    return refuse("--target goes with --from lsdyna");
   if (options.write.overwrite && options.write.directory.empty())
     return refuse("--overwrite goes with -o");
   if (!options.write.backup_suffix.empty() && !options.write.in_place)
@@ -425,20 +419,13 @@ int run(Options& options) {
   const std::string_view ending = options.from == "json" ? document_ending : deck_ending;
   Run work{options, std::move(*steps), Changes(options.common, options.write),
            Progress(!options.common.quiet)};
-  auto decks = Result<std::vector<std::string>>(options.common.decks);
-  if (options.from != "lsdyna") decks = work.changes.decks(options.common.decks, ending);
+  const auto decks = work.changes.decks(options.common.decks, ending);
   if (!decks) {
     print_error(options.common, decks.error().message);
     return decks.error().code == Error::Code::config ? exit_usage : exit_input;
   }
   int worst = exit_clean;
-  const bool lsdyna = options.from == "lsdyna";
-  if (lsdyna) {
-    worst = convert_lsdyna(options.steps, options.write.directory, options.common, *schemas,
-                           work.losses);
-    print_losses(work.losses, options.common);
-  }
-  for (const std::string& path : lsdyna ? std::vector<std::string>() : *decks) {
+  for (const std::string& path : *decks) {
     if (BatchFrame* frame = batch_frame()) frame->begin(path);
     const int code = convert_one(work, path, *schemas);
     if (BatchFrame* frame = batch_frame()) frame->end(code);
@@ -450,10 +437,9 @@ int run(Options& options) {
     worst = std::max(worst, write_all(work));
   else if (decks->size() > 1)
     print_error(options.common, "nothing was written: the decks of a call are converted together");
-  // What somebody has to decide, and a contact of LS-DYNA that is not there any more.
-  if (std::any_of(work.losses.begin(), work.losses.end(), [&](const LossEntry& e) {
-        return e.loss == Loss::undecided || (lsdyna && e.loss == Loss::dropped && e.field.empty());
-      }))
+  // What somebody has to decide.
+  if (std::any_of(work.losses.begin(), work.losses.end(),
+                  [](const LossEntry& e) { return e.loss == Loss::undecided; }))
     worst = std::max<int>(worst, exit_findings);
   if (!options.report.empty())
     if (auto done = write_output(options.report, losses_json(work.losses)); !done)
@@ -469,9 +455,8 @@ Action setup(CommandLine& line) {
       .one_of({"rad", "json"})
       .value("FORMAT");
   line.option("--from", options->from,
-              "Format to read: rad, json (as written by --to json), lsdyna (contacts, and the sets "
-              "that they name)")
-      .one_of({"rad", "json", "lsdyna"})
+              "Format to read: rad, json (as written by --to json)")
+      .one_of({"rad", "json"})
       .value("FORMAT");
   line.option("-o,--output", options->write.directory,
               "Directory to write to; made if missing. The include tree keeps its relative "
@@ -514,7 +499,6 @@ const VerbRegistration registration{
      "  deck convert car_0000.rad --extract-contacts 7 -o bug  one interface and what it needs\n"
      "  deck convert car_0000.rad --to json -o car.json\n"
      "  deck convert car.json --from json -o back\n"
-     "  deck convert car.k --from lsdyna -o contacts           car_contacts.inc\n"
      "\n"
      "Conversions are done in the order of their options above, whatever their order on the\n"
      "command line. A conversion that would lose a value is refused with the place of the value\n"

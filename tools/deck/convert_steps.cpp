@@ -1,36 +1,18 @@
 // Adds the options of the conversions and turns them into steps.
 #include "convert_steps.hpp"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <map>
-
-#include "deck/base/escape.hpp"
 #include "deck/edit/extract.hpp"
 #include "deck/edit/flatten.hpp"
 #include "deck/edit/from_json.hpp"
-#include "deck/edit/lsdyna.hpp"
 #include "deck/edit/renumber.hpp"
 #include "deck/edit/resolve.hpp"
 #include "deck/edit/type19.hpp"
 #include "deck/edit/unit_system.hpp"
 #include "deck/edit/version.hpp"
-#include "deck/edit/write.hpp"
-#include "deck/text/gzip.hpp"
 
 namespace deck::cli {
 
 void add_step_options(CommandLine& line, ConvertSteps& steps) {
-  line.option("--target", steps.target,
-              "With --from lsdyna: interface type of every contact; 0: by its keyword")
-      .one_of({0, 7, 10, 11, 19})
-      .value("TYPE");
-  line.option("--first-id", steps.first_id,
-              "With --from lsdyna: contacts without an id and the sets made for contacts get ids "
-              "from here on (default: contacts from 1, sets from 90000001)")
-      .range(1, 2147000000)
-      .value("N");
   line.flag("--round", steps.round,
             "With --from json: a number that does not fit its columns keeps the digits that fit "
             "and is reported");
@@ -153,88 +135,6 @@ Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schema
     result.contents[f.path] = std::move(f.text);
   }
   return result;
-}
-
-namespace {
-
-/// Beside the file that includes it, in the current directory, then in each --include-path.
-Result<std::unique_ptr<Source>> open_included(const std::string& name, const std::string& from,
-                                              const CommonOptions& common) {
-  namespace fs = std::filesystem;
-  std::vector<fs::path> places = {fs::path(from).parent_path() / name, name};
-  for (const std::string& dir : common.include_paths) places.push_back(fs::path(dir) / name);
-  for (const fs::path& place : places)
-    if (std::error_code ec; fs::exists(place, ec))
-      return Source::open_text(place.string(), common.limits);
-  return Error{Error::Code::io, "there is no such file"};
-}
-
-}  // namespace
-
-int convert_lsdyna(const ConvertSteps& steps, const std::string& directory,
-                   const CommonOptions& common, const SchemaSet& schemas,
-                   std::vector<LossEntry>& losses) {
-  namespace fs = std::filesystem;
-  int worst = exit_clean;
-  std::vector<std::unique_ptr<Source>> sources;
-  std::vector<LsDynaFile> files;
-  for (const std::string& path : common.decks) {
-    auto source = Source::open_text(path, Limits{});
-    if (!source) {
-      print_error(common, source.error().message);
-      worst = exit_input;
-      continue;
-    }
-    remember_read(**source);
-    files.push_back({path, (*source)->bytes()});
-    sources.push_back(std::move(*source));
-  }
-  LsDynaOptions options;
-  options.target = steps.target;
-  options.include = [&](std::string_view name, std::string_view from) -> Result<LsDynaFile> {
-    auto source = open_included(std::string(name), std::string(from), common);
-    if (!source) return source.error();
-    remember_read(**source);
-    sources.push_back(std::move(*source));
-    return LsDynaFile{sources.back()->path(), sources.back()->bytes()};
-  };
-  if (steps.version != 0) options.version = steps.version;
-  if (steps.first_id != 0) options.first_id = steps.first_id;
-  std::vector<OutputFile> outputs;
-  std::map<std::string, std::string_view> from;  // target, its file
-  const std::vector<Rewrite> all = contacts_from_lsdyna(files, schemas, options);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (const LossEntry& e : all[i].losses) losses.push_back(e);
-    for (const std::string& refusal : all[i].refusals) print_error(common, refusal);
-    if (!all[i].refusals.empty()) {
-      worst = std::max<int>(worst, exit_findings);
-      continue;
-    }
-    if (!common.quiet)
-      for (const std::string& note : all[i].notes) print_note(note);
-    const std::string& text = *all[i].new_text;  // which the outputs point to
-    if (directory.empty()) {
-      print_contents(text);
-      continue;
-    }
-    const std::string stem =
-        files[i].path == "-" ? "stdin" : fs::path(without_gz(files[i].path)).stem().string();
-    outputs.push_back({(fs::path(directory) / (stem + "_contacts.inc")).string(), text});
-    const auto [it, is_new] = from.emplace(outputs.back().path, files[i].path);
-    if (is_new) continue;
-    print_error(common, fmt::format("both {} and {} would be written to {}; nothing was written",
-                                    it->second, files[i].path, it->first));
-    return exit_usage;
-  }
-  OutputRules rules;
-  rules.overwrite = true;
-  if (auto done = write_outputs(outputs, rules, {"", true, true, true, directory}); !done) {
-    print_error(common, done.error().message);
-    return exit_usage;
-  }
-  if (!common.quiet)
-    for (const OutputFile& f : outputs) print_lines(terminal_text(f.path) + "\n");
-  return worst;
 }
 
 }  // namespace deck::cli

@@ -16,9 +16,7 @@ struct ConvertSteps {
   int version = 0;
   bool allow_loss = false;
   std::string units;
-  std::int64_t first_id = 0;  ///< LS-DYNA: where new ids begin; 0: not given
-  bool round = false;         ///< JSON: a number may lose digits that do not fit its columns
-  int target = 0;             ///< LS-DYNA: interface type to write; 0: by the keyword
+  bool round = false;  ///< JSON: a number may lose digits that do not fit its columns
   bool keep_working = false, partial = false;
   std::vector<std::string> renumber;
 };
@@ -44,11 +42,5 @@ struct JsonFiles {
 /// `path` "-" is standard input. A number that was rounded is an entry of `losses`.
 Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schemas,
                                 const ConvertSteps& steps, std::vector<LossEntry>& losses);
-
-/// Contact keywords of LS-DYNA files, each written as DIR/STEM_contacts.inc, or all to standard
-/// output if `directory` is empty. Returns the exit code.
-int convert_lsdyna(const ConvertSteps& steps, const std::string& directory,
-                   const CommonOptions& common, const SchemaSet& schemas,
-                   std::vector<LossEntry>& losses);
 
 }  // namespace deck::cli

@@ -45,12 +45,7 @@ std::optional<double> share(std::string text) {
 class FixRun {
  public:
   FixRun(const Options& options, const SchemaSet& schemas, JsonOutput& json)
-      : o_(options), schemas_(schemas), json_(json), changes_(options.common, options.write) {
-    // The report of the run before, which this one replaces.
-    if (!uses("move-nodes") || o_.common.json.empty() || o_.common.json == "-") return;
-    if (const auto report = Source::open(o_.common.json, Limits{}))
-      earlier_report_ = (*report)->bytes();
-  }
+      : o_(options), schemas_(schemas), json_(json), changes_(options.common, options.write) {}
 
   /// With directories expanded and, where asked for, the decks that include the same files.
   Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks, deck_ending); }
@@ -144,10 +139,6 @@ class FixRun {
     }
   }
 
-  bool uses(std::string_view strategy) const {
-    return std::find(o_.strategies.begin(), o_.strategies.end(), strategy) != o_.strategies.end();
-  }
-
   /// Nothing was looked at: no verdict, and nothing that could be fixed.
   void report_nothing(const LoadedDeck& loaded, const Coverage& coverage) {
     PenetrationFix nothing;
@@ -161,17 +152,10 @@ class FixRun {
   /// What each strategy would do, and the command for the best one.
   int propose(const LoadedDeck& loaded, const Coverage& coverage, bool errors) {
     std::vector<PenetrationFix> proposals;
-    for (const std::vector<std::string>& strategies : std::vector<std::vector<std::string>>{
-             {"move-nodes"}, {"reduce-gap"}, {"inacti"}, {"fpenmax"}, {"untangle", "move-nodes"}}) {
-      auto made = make(loaded, strategies);
+    for (const char* strategy : {"move-nodes", "reduce-gap", "inacti", "fpenmax"}) {
+      auto made = make(loaded, {strategy});
       if (!made) return fail(made.error());
-      PenetrationFix& first = made->fixes.front();
-      if (made->fixes.size() == 1) {
-        proposals.push_back(std::move(first));
-      } else if (first.crossings_before > 0) {  // by itself, and as the way to move the others
-        proposals.push_back(first);
-        if (score_of(first).solved > 0) proposals.push_back(combined(made->fixes));
-      }
+      proposals.push_back(std::move(made->fixes.front()));
     }
     const PenetrationFix now = unchanged(proposals);
     if (json_.wanted())
@@ -254,21 +238,17 @@ class FixRun {
       progress.update(done, total);
     };
     std::vector<FixStep> steps;
-    std::vector<MovedNode> moved;  // by the steps before: they count for --max-moved
     for (const std::string& strategy : names)
       steps.emplace_back([&](const EditContext& here, const ReadOptions& read) {
         FixOptions options = base;
         options.read = read;
-        auto fix = one_step(strategy, here, options, loaded.path(), moved);
-        if (fix) moved.insert(moved.end(), fix->moved.begin(), fix->moved.end());
-        return fix;
+        return one_step(strategy, here, options);
       });
     return fix_in_order(loaded, base, steps);
   }
 
   Result<PenetrationFix> one_step(const std::string& strategy, const EditContext& context,
-                                  const FixOptions& base, const std::string& path,
-                                  const std::vector<MovedNode>& moved) const {
+                                  const FixOptions& base) const {
     if (strategy == "reduce-gap") {
       ReduceGapOptions options;
       static_cast<FixOptions&>(options) = base;
@@ -289,16 +269,11 @@ class FixRun {
       return set_fpenmax(context, options);
     }
     MoveNodesOptions options = o_.move;
-    options.earlier = earlier_moves(earlier_report_, path);
-    if (!options.earlier.empty() && !o_.common.quiet)
-      print_note(fmt::format("{}: {} nodes that were moved before, by {}, count for --max-moved",
-                             path, options.earlier.size(), o_.common.json));
-    options.earlier.insert(options.earlier.end(), moved.begin(), moved.end());
     static_cast<FixOptions&>(options) = base;
     options.most_moved = *share(o_.max_moved);
     if (!o_.max_displacement.empty())
       options.most_displacement = read_real(o_.max_displacement).value;
-    return strategy == "untangle" ? untangle(context, options) : move_nodes(context, options);
+    return move_nodes(context, options);
   }
 
   std::string report(const PenetrationFix& fix, const std::vector<PenetrationFix>& steps,
@@ -336,7 +311,6 @@ class FixRun {
   const Options& o_;
   const SchemaSet& schemas_;
   JsonOutput& json_;
-  std::string earlier_report_;
   Changes changes_;
   std::vector<std::string> documents_;
   std::string texts_, page_;
@@ -426,12 +400,11 @@ Action setup(CommandLine& line) {
   line.option("--strategy", o.strategies,
               "Without: say what each would do. move-nodes: out of each other's gap; reduce-gap: "
               "the largest gap without a "
-              "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones; "
-              "untangle: crossed elements that one node's move takes apart. "
+              "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones. "
               "Several with commas: each acts on what the previous one left")
       .comma_list()
       .value("STRATEGY")
-      .one_of({"move-nodes", "reduce-gap", "inacti", "fpenmax", "untangle"});
+      .one_of({"move-nodes", "reduce-gap", "inacti", "fpenmax"});
   line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
   line.flag("--ties", o.ties,
             "Treat ties (TYPE10, TYPE7 with ITIED) like other contacts: what is moved out of their "
@@ -453,7 +426,7 @@ Action setup(CommandLine& line) {
       .value("FILE");
   line.option("--rows", o.rows, "Rows of the lists in the report").show_default();
 
-  CommandLine move = line.group("move-nodes, untangle");
+  CommandLine move = line.group("move-nodes");
   move.option("--lock", o.move.lock, "Nodes of these parts stay (also where shared)")
       .by_commas()
       .value("PART");
@@ -464,9 +437,7 @@ Action setup(CommandLine& line) {
   move.flag("--lock-boundary-conditions", o.move.lock_boundary_conditions, "Nodes of /BCS stay");
   move.flag("--secondary-only", o.move.secondary_only, "Nodes of main sides do not move");
   move.option("--max-moved", o.max_moved,
-              "Share of the nodes of a part that may move; a part that needs more is left alone. "
-              "With --json FILE, those that an earlier "
-              "run moved by the report in FILE count too")
+              "Share of the nodes of a part that may move; a part that needs more is left alone")
       .show_default()
       .value("SHARE");
   move.option("--max-displacement", o.max_displacement,
@@ -522,9 +493,8 @@ const VerbRegistration registration{
      "along the normal of its penetration and no farther than it is deep. Moves never make a new\n"
      "penetration, cross elements, turn one inside out or halve one of its sides; what cannot be\n"
      "solved that way stays and is listed with its reason.\n"
-     "Elements that cross already have no right side: untangle takes those apart for which one "
-     "node\n"
-     "is enough, the others have to be separated by hand (deck gaps --crossings shows them).\n"
+     "Elements that cross already have no right side: they have to be separated by hand\n"
+     "(deck gaps --crossings shows them).\n"
      "\n"
      "Several decks are fixed together: a file that they share is written once, and if they want\n"
      "different texts for it nothing is written (exit code 2).\n"

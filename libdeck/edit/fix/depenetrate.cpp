@@ -80,7 +80,6 @@ class Depenetrator : MovableDeck {
     }
     for (NodeIndex n = 0; n < holds_.size(); ++n)
       if (!bounds_.contains(n)) hold(n, Hold::bystander);
-    count_earlier();
   }
 
   void begin_pair(const Scene& scene, const PairAt& at, const PenetrationRow& row, bool inside) {
@@ -99,34 +98,10 @@ class Depenetrator : MovableDeck {
                 row.depth + options_.clearance * row.gap);
   }
 
-  /// Nodes that earlier runs moved and that are where those put them.
-  void count_earlier() {
-    constexpr double same_place = 1e-6;  // of the move: what printing may cost
-    for (const MovedNode& m : options_.earlier) {
-      const NodeIndex n = model_.find_node(m.id);
-      if (n == no_index) continue;
-      const Vec from{m.from[0], m.from[1], m.from[2]}, to{m.to[0], m.to[1], m.to[2]};
-      if (norm(at(start_, n) - to) > same_place * norm(to - from)) continue;
-      if (!first_.emplace(n, from).second) continue;
-      if (const std::uint32_t part = mesh_->part_of(n); part != no_index) ++moved_in_part_[part];
-    }
-    // Where no other node may move any more, those that did stay: their run has done what it could.
-    for (const auto& [n, from] : first_)
-      if (const std::uint32_t part = mesh_->part_of(n);
-          part != no_index && moved_in_part_[part] >= may_move(part))
-        hold(n, Hold::share);
-  }
-
   /// How many nodes of a part may move.
   double may_move(std::uint32_t part) const {
     return std::max(1.0,
                     std::floor(options_.most_moved * mesh_->nodes_of_part(part) * (1 + 1e-12)));
-  }
-
-  /// Where a node was before the first run that moved it.
-  Vec first(NodeIndex n) const {
-    const auto it = first_.find(n);
-    return it == first_.end() ? at(start_, n) : it->second;
   }
 
   void hold(NodeIndex n, Hold why) {
@@ -292,7 +267,7 @@ class Depenetrator : MovableDeck {
     std::map<std::uint32_t, std::uint32_t> added;
     for (const auto& [n, move] : moves)
       if (const std::uint32_t part = mesh_->part_of(n);
-          part != no_index && !moved_.contains(n) && !first_.contains(n))
+          part != no_index && !moved_.contains(n))
         ++added[part];
     bool fits = true;
     for (const auto& [part, count] : added)
@@ -322,10 +297,10 @@ class Depenetrator : MovableDeck {
       move = at(start_, n) + may.by - at(now_, n);
       if (may.at_bound) hold(n, Hold::depth);
       if (!options_.most_displacement) continue;
-      const Vec total = at(now_, n) + move - first(n);
+      const Vec total = at(now_, n) + move - at(start_, n);
       const double l = norm(total), limit = *options_.most_displacement;
       if (l <= limit) continue;
-      move = first(n) + (limit / l) * total - at(now_, n);
+      move = at(start_, n) + (limit / l) * total - at(now_, n);
       hold(n, Hold::displacement);
     }
   }
@@ -420,7 +395,6 @@ class Depenetrator : MovableDeck {
   }
 
   void forget(NodeIndex n) {
-    if (first_.contains(n)) return;
     if (const std::uint32_t part = mesh_->part_of(n); part != no_index) --moved_in_part_[part];
   }
 
@@ -536,25 +510,10 @@ class Depenetrator : MovableDeck {
         m.part = model_.parts[part].id;
       m.by = {u.x, u.y, u.z};
       m.distance = norm(u);
-      set_ends(m, n);
       fix_.moved.push_back(m);
     }
-    for (const auto& [n, from] : first_) {
-      if (moved_.contains(n)) continue;
-      MovedNode m;
-      m.id = model_.node_id(n);
-      set_ends(m, n);
-      fix_.moved_before.push_back(m);
-    }
-    for (auto* list : {&fix_.moved, &fix_.moved_before})
-      std::sort(list->begin(), list->end(),
-                [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
-  }
-
-  void set_ends(MovedNode& m, NodeIndex n) const {
-    const Vec from = first(n), to = at(now_, n);
-    m.from = {from.x, from.y, from.z};
-    m.to = {to.x, to.y, to.z};
+    std::sort(fix_.moved.begin(), fix_.moved.end(),
+              [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
   }
 
   /// One line per secondary node or edge that still penetrates: the deepest pair and what held it.
@@ -626,8 +585,7 @@ class Depenetrator : MovableDeck {
   std::vector<std::uint8_t> holds_;
   std::vector<bool> looked_up_;  ///< by cells_
   std::set<NodeIndex> moved_;
-  std::vector<std::uint32_t> moved_in_part_;       ///< by earlier runs too
-  std::map<NodeIndex, Vec> first_;                 ///< of nodes that earlier runs moved
+  std::vector<std::uint32_t> moved_in_part_;
   std::map<NodeIndex, int> strikes_;               ///< how often a move was dropped
   std::map<NodeIndex, Hold> blocked_;              ///< and why, the last time
   std::set<PairAt> active_;                        ///< every pair that was ever too close

@@ -1,9 +1,7 @@
 // Several strategies one after the other, each on the deck that the one before has left.
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
-#include "base/length3.hpp"
 #include "edit/fix/common.hpp"
 
 namespace deck {
@@ -32,11 +30,6 @@ Result<FixSequence> fix_in_order(const EditContext& context, const FixOptions& o
 
 FixScore score_of(const PenetrationFix& fix) {
   FixScore out;
-  if (fix.strategy == "untangle") {
-    out.solved = fix.crossings_before - std::min(fix.crossings_before, fix.crossings_after);
-    out.not_treated = fix.crossings_after;
-    return out;
-  }
   const bool flags = fix.strategy == "inacti" || fix.strategy == "fpenmax";
   for (const FixedInterface& i : fix.interfaces) {
     const std::uint64_t before = flags ? i.before.untreated : i.before.pairs;
@@ -55,8 +48,6 @@ const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals) {
   for (const PenetrationFix& fix : proposals) {
     const FixScore s = score_of(fix);
     if (s.solved == 0) continue;
-    // Crossed elements are another matter: what takes them apart comes where nothing else helps.
-    if (best != nullptr && fix.strategy == "untangle") continue;
     if (best != nullptr && s.all() - s.solved >= score.all() - score.solved) continue;
     best = &fix;
     score = s;
@@ -94,20 +85,8 @@ PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
     out.strategy += (out.strategy.empty() ? "" : ",") + fix.strategy;
     out.iterations += fix.iterations;
     out.crossings_before = std::max(out.crossings_before, fix.crossings_before);
-    if (fix.strategy == "move-nodes" || fix.strategy == "untangle")
-      out.crossings_after = fix.crossings_after;
-    for (const MovedNode& m : fix.moved) {
-      const auto again = std::find_if(out.moved.begin(), out.moved.end(),
-                                      [&](const MovedNode& o) { return o.id == m.id; });
-      if (again == out.moved.end()) {
-        out.moved.push_back(m);
-        continue;
-      }
-      again->to = m.to;
-      for (std::size_t k = 0; k < 3; ++k) again->by[k] += m.by[k];
-      again->distance = length3(again->by[0], again->by[1], again->by[2]);
-    }
-    append(out.moved_before, fix.moved_before);
+    if (fix.strategy == "move-nodes") out.crossings_after = fix.crossings_after;
+    append(out.moved, fix.moved);  // of one step: a strategy is made once
     // An interface that this step does not list any more has no penetrations.
     for (FixedInterface& entry : out.interfaces) entry.after = {};
     for (const FixedInterface& i : fix.interfaces) {
@@ -121,13 +100,6 @@ PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
       append(entry->changes, i.changes);
     }
   }
-  // What a step takes for moved before was moved by the step before it.
-  std::erase_if(out.moved_before, [&](const MovedNode& b) {
-    return std::any_of(out.moved.begin(), out.moved.end(),
-                       [&](const MovedNode& m) { return m.id == b.id; });
-  });
-  std::sort(out.moved.begin(), out.moved.end(),
-            [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
   if (!fixes.empty()) {
     out.tied_pairs = fixes.front().tied_pairs;
     out.tied_nodes = fixes.front().tied_nodes;

@@ -92,16 +92,6 @@ std::string fix_json(std::string_view path, const Deck& deck, const Coverage& co
     m.part == 0 ? j.null() : j.value(m.part);
     write_vector(j, "by", m.by);
     j.field("distance", m.distance);
-    write_vector(j, "from", m.from);
-    write_vector(j, "to", m.to);
-    j.end_object();
-  }
-  j.end_array();
-  j.key("moved_before").begin_array();
-  for (const MovedNode& m : fix.moved_before) {
-    j.begin_object(true).field("node", m.id);
-    write_vector(j, "from", m.from);
-    write_vector(j, "to", m.to);
     j.end_object();
   }
   j.end_array();

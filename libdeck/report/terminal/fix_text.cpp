@@ -200,15 +200,9 @@ std::string actions_text(const PenetrationFix& fix, const FixTextOptions& option
 std::string fix_verdict(const PenetrationFix& fix) {
   const FixCount before = total(fix, &FixedInterface::before),
                  after = total(fix, &FixedInterface::after);
-  const bool untangles = fix.strategy == "untangle";
-  if (untangles && fix.crossings_before == 0) return "no crossed elements: nothing to do";
-  if (fix.interfaces.empty() && !untangles) return "no initial penetrations: nothing to fix";
+  if (fix.interfaces.empty()) return "no initial penetrations: nothing to fix";
   std::string text;
-  if (untangles) {
-    text = fmt::format("untangle: {} before, {} after",
-                       count(fix.crossings_before, "crossed element", "crossed elements"),
-                       fix.crossings_after);
-  } else if (changes_flags(fix)) {
+  if (changes_flags(fix)) {
     text = fmt::format("{}: {}, {} without treatment before, {} after", fix.strategy,
                        count(before.pairs, "penetration", "penetrations"), before.untreated,
                        after.untreated);
@@ -228,6 +222,17 @@ std::string fix_verdict(const PenetrationFix& fix) {
   return text;
 }
 
+namespace {
+
+std::string crossings_text(std::uint64_t crossings) {
+  if (crossings == 0) return {};
+  return "\n" + count(crossings, "crossed element stays", "crossed elements stay") +
+         ": no fix separates crossed elements. deck gaps --crossings lists them; separate their "
+         "parts in the mesh\n";
+}
+
+}  // namespace
+
 std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
   const Tone tone = fix.complete ? Tone::green : Tone::yellow;
   std::string text = toned(fix_verdict(fix), tone, options.color) + "\n";
@@ -236,6 +241,7 @@ std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
   text += moved_text(fix, options);
   text += actions_text(fix, options);
   text += refused_text(fix, options);
+  text += crossings_text(fix.crossings_after);
   return text;
 }
 
@@ -294,6 +300,7 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
   }
   text += table.fitted(options.width, options.color, 2);
   if (!reasons.empty()) text += "\nnot treated:\n" + reasons;
+  text += crossings_text(now.crossings_before);
   const PenetrationFix* best = best_of(proposals);
   text += best == nullptr
               ? "\nno strategy solves any of them\n"

@@ -39,9 +39,6 @@ Result<void> parse_writing(BatchTask& task, const CommandLine& line) {
   if (verb == "convert") {
     const std::string from = value_among(task.words, "--from"),
                       to = value_among(task.words, "--to");
-    if (from == "lsdyna")
-      return Error{Error::Code::config,
-                   "--from lsdyna cannot be used in a batch: it writes no decks"};
     if (from == "json") task.ending = document_ending;
     task.from_json = from == "json";
     task.to_json = to == "json";

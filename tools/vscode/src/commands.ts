@@ -24,7 +24,6 @@ const strategies = [
   { label: "reduce-gap", description: "the largest gap without a penetration" },
   { label: "inacti", description: "let the solver treat them" },
   { label: "fpenmax", description: "switch off deep ones" },
-  { label: "untangle", description: "take crossed elements apart" },
 ];
 const conversions = [
   { label: "Input version …", option: "--version", prompt: "Input version to write: 110, 120, 130, 140, 2017 … 2026" },

@@ -58,8 +58,6 @@ struct MovedNode {
   std::int64_t part = 0;       ///< 0: no part
   std::array<double, 3> by{};  ///< working units
   double distance = 0;
-  /// Where it was before the first of all runs that moved it, and where it is now; working units.
-  std::array<double, 3> from{}, to{};
 };
 
 /// A penetration, or a whole interface (no nodes), that was not treated, and why.
@@ -85,7 +83,6 @@ struct PenetrationFix {
   Rewrite rewrite;
   std::vector<FixedInterface> interfaces;  ///< those with penetrations, before or after; by id
   std::vector<MovedNode> moved;            ///< by node id
-  std::vector<MovedNode> moved_before;     ///< by earlier runs and not by this one; by node id
   std::vector<FixRefusal> refused;         ///< by interface, deepest first
   std::vector<FixAction> actions;          ///< Inacti, Fpenmax: by interface, deepest first
   std::uint64_t crossings_before = 0, crossings_after = 0;  ///< move-nodes: crossed elements
@@ -135,14 +132,13 @@ Result<FixSequence> fix_in_order(const EditContext& context, const FixOptions& o
                                  const std::vector<FixStep>& steps);
 /// What a fix comes to, in pairs: those that it solves, those that it leaves though it changes
 /// something for them, and those that it does not treat (PenetrationFix::refused says why). For
-/// inacti and fpenmax only pairs without treatment by the solver count; for untangle crossed
-/// elements.
+/// inacti and fpenmax only pairs without treatment by the solver count.
 struct FixScore {
   std::uint64_t solved = 0, left = 0, not_treated = 0;
   std::uint64_t all() const { return solved + left + not_treated; }
 };
 FixScore score_of(const PenetrationFix& fix);
-/// The one that leaves least, of equals the first; untangle only where no other solves anything.
+/// The one that leaves least, of equals the first.
 /// nullptr: none does.
 const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals);
 /// A report of a deck in which nothing is changed: what the proposals found before.
