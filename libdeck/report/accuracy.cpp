@@ -1,4 +1,4 @@
-// `deck accuracy`: the measured tiers as text, JSON and CSV.
+// `deck accuracy`: the measured tiers as text and JSON.
 #include "deck/report/accuracy.hpp"
 #include "deck/base/escape.hpp"
 
@@ -186,24 +186,6 @@ std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& c
     j.field("ns_per_pair", s.ns_per_pair).end_object();
   }
   j.end_array().end_object();
-  return out;
-}
-
-std::string accuracy_csv(const AccuracyReport& report) {
-  std::string out =
-      "row,family,name,tier,what,samples,ns_per_pair,max_relative_error,max_ulp,max_scaled_error,"
-      "decision_errors,feature_errors,non_finite,rewritten,invariance_violations,jumps,"
-      "fallback_share,exact_share,dominated\r\n";
-  for (const TierResult& t : report.tiers)
-    out += fmt::format("tier,,,{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", t.name, t.what,
-                       t.samples, t.ns_per_pair, t.max_relative_error, t.max_ulp,
-                       t.max_scaled_error, t.decision_errors, t.feature_errors, t.non_finite,
-                       t.rewritten, t.invariance_violations, t.jumps, t.fallback_share,
-                       t.exact_share, t.dominated ? 1 : 0);
-  for (const FamilyResult& f : report.families)
-    out += fmt::format("family,{},\"{}\",{},distance,{},,{},{},,{},,{},,,,,,\r\n", f.id, f.name,
-                       f.tier, f.samples, f.max_relative_error, f.max_ulp, f.decision_errors,
-                       f.non_finite);
   return out;
 }
 

@@ -251,23 +251,4 @@ std::string accuracy_panel(const AccuracyReport& report, const std::string& what
          frontier(panel) + marks(panel) + "</svg>\n";
 }
 
-std::string accuracy_svg(const AccuracyReport& report, const AccuracyContext& context) {
-  std::string panels;
-  double top = kHead;
-  for (const char* what : {"gaps", "distance", "force"}) {
-    const Panel panel = panel_of(report, what);
-    if (panel.tiers.empty()) continue;
-    panels += fmt::format("<g transform='translate(0 {:.0f})'>\n", top) + frame(panel) +
-              frontier(panel) + marks(panel) + "</g>\n";
-    top += kPanel;
-  }
-  const double height = top + kFoot;
-  std::string out = open_svg(height, accuracy_title(report, context));
-  out += text(kLeft, 28, "start", accuracy_title(report, context), "class='dk-title'") + panels;
-  out += text(kLeft, height - 52, "start", context.processor);
-  out += text(kLeft, height - 36, "start", accuracy_compiler());
-  out += text(kLeft, height - 20, "start", context.command);
-  return out + "</svg>\n";
-}
-
 }  // namespace deck

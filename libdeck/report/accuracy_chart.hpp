@@ -7,7 +7,9 @@
 namespace deck {
 
 std::string accuracy_title(const AccuracyReport& report, const AccuracyContext& context);
-/// One chart alone; empty: there are no tiers of this kind.
+/// One chart as SVG: x = time per pair, y = worst error (relative; of hard cases over the size of
+/// the pair; of decisions alone: wrong ones), both logarithmic; the frontier of what nothing else
+/// beats on these axes; the rest hollow. Empty: there are no tiers of this kind.
 std::string accuracy_panel(const AccuracyReport& report, const std::string& what);
 
 }  // namespace deck

@@ -68,7 +68,7 @@ def complete_in_bash(script, words):
 
 def completion(c, tmp, verbs):
     scripts = {}
-    for shell in ("bash", "zsh", "fish"):
+    for shell in ("bash", "zsh"):
         r = c.run("completion", shell)
         c.check("completion for " + shell, r.code == 0 and len(r.out) > 1000, r.text[:200])
         scripts[shell] = os.path.join(tmp, "deck." + shell)
@@ -93,18 +93,6 @@ def completion(c, tmp, verbs):
                             (["deck", "gaps", "--worst", ""], [])):
         offered, err = complete_in_bash(scripts["bash"], words)
         c.check("bash: " + " ".join(words), sorted(offered) == sorted(expected) and not err, "%s %s" % (offered, err))
-    if shutil.which("fish"):
-        def fish(line):
-            r = run(["fish", "--no-config", "-c", "source $argv[1]; complete -C $argv[2]", scripts["fish"], line], cwd=os.path.join(ROOT, "samples"),
-                    env=dict(os.environ, HOME=tmp, XDG_DATA_HOME=tmp))
-            return [x.split("\t")[0] for x in r.stdout.split("\n") if x], r.stderr
-        offered, err = fish("deck ")
-        c.check("fish: all verbs", sorted(offered) == sorted(verbs) and not err, "%s %s" % (offered, err))
-        for v in verbs:
-            offered, err = fish("deck %s --" % v)
-            c.check("fish: options of " + v, sorted(offered) == [o for o in options[v] if o.startswith("--")] and not err, "%s %s" % (offered, err))
-        offered, err = fish("deck lint --format g")
-        c.check("fish: values", sorted(offered) == ["github", "gitlab"], "%s %s" % (offered, err))
     if shutil.which("zsh"):
         r = run(["zsh", "-f", "-c", "autoload -U compinit && compinit -u -d $2 && source $1 && print $_comps[deck]", "zsh", scripts["zsh"], os.path.join(tmp, "dump")],
                 env=dict(os.environ, HOME=tmp))
@@ -158,7 +146,7 @@ def package(c, tmp, verbs):
     c.check("dpkg-deb unpacks it", run(["dpkg-deb", "-x", debs[0], root]).returncode == 0)
     usr = os.path.join(root, "usr")
     for path in ["bin/deck", "share/man/man1/deck.1.gz", "share/bash-completion/completions/deck", "share/zsh/vendor-completions/_deck",
-                 "share/fish/vendor_completions.d/deck.fish", "share/doc/libdeck/copyright"] + ["share/man/man1/deck-%s.1.gz" % v for v in verbs]:
+                 "share/doc/libdeck/copyright"] + ["share/man/man1/deck-%s.1.gz" % v for v in verbs]:
         c.check("package has " + path, os.path.isfile(os.path.join(usr, path)))
     page = os.path.join(usr, "share/man/man1/deck.1.gz")
     if os.path.exists(page):

@@ -330,10 +330,10 @@ def outputs_of(c, path, tmp, title, cwd=None):
     scan(c, title + ": workflow commands", r.out, commands=False)
     c.check(title + ": each line is one of our commands", all(re.match(rb"::(error|warning|notice) (file|title)=", x) for x in r.out.splitlines()), r.text[:300])
     documents = [c.run("lint", path, "--format", "junit", cwd=cwd).out]
-    svg, page, html = (os.path.join(tmp, n) for n in ("a.svg", "a.html", "g.html"))
-    c.run("accuracy", path, "--samples", "1", "--repeats", "1", "--quiet", "--svg", svg, "--html", page, cwd=cwd)
+    page, html = (os.path.join(tmp, n) for n in ("a.html", "g.html"))
+    c.run("accuracy", path, "--samples", "1", "--repeats", "1", "--quiet", "--html", page, cwd=cwd)
     c.run("gaps", path, "--quiet", "--html", html, cwd=cwd)
-    for f in (svg, page, html):
+    for f in (page, html):
         if os.path.exists(f):
             data = read(f)
             if f == html:

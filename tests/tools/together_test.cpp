@@ -111,7 +111,7 @@ TEST_F(Together, ResultsAreNotWrittenOverDecks) {
        {"params --no-geometry --json a/a_0000.rad b/b_0000.rad",
         "gaps a/a_0000.rad --json a/a_0000.rad", "gaps --csv a/a_0000.rad b/b_0000.rad",
         "gaps --html a/a_0000.rad b/b_0000.rad", "cycle --json a/a_0000.rad b/b_0000.rad",
-        "accuracy --svg a/a_0000.rad b/b_0000.rad",
+        "accuracy --html a/a_0000.rad b/b_0000.rad",
         "lint --write-baseline a/a_0000.rad b/b_0000.rad",
         "lint -o sarif=a/a_0000.rad b/b_0000.rad",
         "convert --report a/a_0000.rad b/b_0000.rad --units kg,m,s -o out",

@@ -13,7 +13,7 @@ struct Options {
   std::size_t samples = 1000;
   int repeats = 5;
   std::uint64_t seed = 1;
-  std::string csv, svg, html;
+  std::string html;
 };
 
 std::string command_of(const Options& o) {
@@ -47,16 +47,12 @@ void time_gaps(const Options& o, const std::string& path, AccuracyReport& report
 int show(const Options& o, const AccuracyReport& report, const AccuracyContext& context,
          JsonOutput& json) {
   if (json.wanted()) json.add(accuracy_json(report, context));
-  const auto write = [&](const std::string& path, const std::string& bytes) {
-    if (path.empty()) return true;
-    const auto r = write_output(path, bytes);
-    if (!r) print_error(o.common, r.error().message);
-    return bool(r);
-  };
-  if (!write(o.csv, accuracy_csv(report)) || !write(o.svg, accuracy_svg(report, context)) ||
-      !write(o.html, accuracy_html(report, context)))
-    return exit_usage;
-  if (o.common.wants_text() && o.csv != "-" && o.svg != "-" && o.html != "-")
+  if (!o.html.empty())
+    if (const auto written = write_output(o.html, accuracy_html(report, context)); !written) {
+      print_error(o.common, written.error().message);
+      return exit_usage;
+    }
+  if (o.common.wants_text() && o.html != "-")
     print_lines(accuracy_text(report, context, o.common.color_on(1), text_width()));
   for (const TierResult& t : report.tiers)
     if (t.name == "robust" && t.decision_errors + t.non_finite > 0) return exit_findings;
@@ -64,8 +60,7 @@ int show(const Options& o, const AccuracyReport& report, const AccuracyContext& 
 }
 
 int run(const Options& o) {
-  if (const int bad = check_outputs(o.common, {o.common.json, o.csv, o.svg, o.html});
-      bad != exit_clean)
+  if (const int bad = check_outputs(o.common, {o.common.json, o.html}); bad != exit_clean)
     return bad;
   JsonOutput json(o.common, "deck/accuracy", 1);
   AccuracyOptions accuracy;
@@ -81,9 +76,8 @@ int run(const Options& o) {
     }
     return json.finish(show(o, measure_accuracy(samples, accuracy), context, json));
   }
-  const bool files = !o.csv.empty() || !o.svg.empty() || !o.html.empty();
-  if (files && o.common.decks.size() > 1) {
-    print_error(o.common, "--csv, --svg and --html take one deck at a time");
+  if (!o.html.empty() && o.common.decks.size() > 1) {
+    print_error(o.common, "--html takes one deck at a time");
     return exit_usage;
   }
   const int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
@@ -118,9 +112,6 @@ Action setup(CommandLine& line) {
   line.option("--repeats", options->repeats, "Timings per tier; the median counts")
       .range(1, 1000)
       .show_default();
-  line.option("--csv", options->csv, "Write the figures to FILE ('-': standard output)")
-      .value("FILE");
-  line.option("--svg", options->svg, "Write the chart of error against time to FILE").value("FILE");
   line.option("--html", options->html, "Write chart and table to FILE: one page, no network")
       .value("FILE");
   return [options] { return run(*options); };

@@ -1,4 +1,4 @@
-// deck completion: scripts with which bash, zsh and fish complete verbs, options and their values,
+// deck completion: scripts with which bash and zsh complete verbs, options and their values,
 // made from the options that the parser knows.
 #include <fmt/format.h>
 
@@ -193,52 +193,6 @@ std::string zsh_script(const std::vector<VerbInfo>& all) {
          "if [ \"$funcstack[1]\" = _deck ]; then _deck \"$@\"; else compdef _deck deck; fi\n";
 }
 
-// ---- fish -----------------------------------------------------------------------------------
-
-/// In single quotes of fish, where a backslash escapes.
-std::string fish_quoted(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + "'";
-}
-
-std::string fish_option(const OptionInfo& o, const std::string& condition) {
-  std::string text = "complete -c deck -n " + fish_quoted(condition);
-  for (const std::string& n : o.names)
-    text += n.starts_with("--") ? " -l " + n.substr(2) : " -s " + n.substr(1);
-  if (!o.value.empty()) {
-    text += !o.choices.empty()    ? " -x -a " + fish_quoted(joined(o.choices))
-            : o.takes_file()      ? " -r -F"
-            : o.takes_directory() ? " -x -a '(__fish_complete_directories)'"
-                                  : " -x";
-  }
-  return text + " -d " + fish_quoted(o.description) + "\n";
-}
-
-std::string fish_script(const std::vector<VerbInfo>& all) {
-  std::string text =
-      "# fish completion of deck; made by: deck completion fish\ncomplete -c deck -f\n";
-  for (const OptionInfo& o : program_options()) text += fish_option(o, "__fish_use_subcommand");
-  for (const VerbInfo& v : all)
-    text += "complete -c deck -n __fish_use_subcommand -a " + v.name + " -d " +
-            fish_quoted(v.summary) + "\n";
-  for (const VerbInfo& v : all) {
-    const std::string condition = "__fish_seen_subcommand_from " + v.name;
-    for (const OptionInfo& o : v.options) text += fish_option(o, condition);
-    if (has_decks(v))
-      text += "complete -c deck -n " + fish_quoted(condition) +
-              " -k -a '(__fish_complete_suffix .rad)'\n";
-    for (const OptionInfo& p : v.positionals)
-      if (!p.choices.empty())
-        text += "complete -c deck -n " + fish_quoted(condition) + " -a " +
-                fish_quoted(joined(p.choices)) + "\n";
-  }
-  return text;
-}
-
 /// Words for what the parser takes as free text: rules, and topics of explain.
 void offer_words(std::vector<VerbInfo>& all) {
   const std::vector<std::string> topics = common_topics(SchemaSet::built_in());
@@ -256,18 +210,16 @@ void offer_words(std::vector<VerbInfo>& all) {
 int run(const Options& o) {
   auto all = describe_verbs();
   offer_words(all);
-  print_text(o.shell == "bash"  ? bash_script(all)
-             : o.shell == "zsh" ? zsh_script(all)
-                                : fish_script(all));
+  print_text(o.shell == "bash" ? bash_script(all) : zsh_script(all));
   return exit_clean;
 }
 
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   line.hide();  // for the build and for setting up, not for the list of verbs
-  line.option("shell", options->shell, "bash, zsh or fish")
+  line.option("shell", options->shell, "bash or zsh")
       .required()
-      .one_of({"bash", "zsh", "fish"})
+      .one_of({"bash", "zsh"})
       .value("SHELL");
   return [options] { return run(*options); };
 }
@@ -275,7 +227,7 @@ Action setup(CommandLine& line) {
 const VerbRegistration registration{
     {"completion", 910, "Completion script for a shell",
      "  eval \"$(deck completion bash)\"\n"
-     "  deck completion fish > ~/.config/fish/completions/deck.fish\n",
+     "  deck completion zsh > ~/.zfunc/_deck\n",
      setup}};
 
 }  // namespace
