@@ -181,13 +181,14 @@ void collect_references(LintContext& context, const DecodedBlock& block) {
 
 }  // namespace
 
-LintContext build_context(const LintInput& input, Diagnostics& sink) {
-  LintContext context{input.deck,
-                      input.schemas,
-                      input.model,
-                      input.interfaces,
-                      input.model == nullptr ? nullptr : input.model->selections.get(),
-                      input.loaded,
+LintContext build_context(const LoadedDeck& loaded, Diagnostics& sink) {
+  const Deck& deck = loaded.deck();
+  LintContext context{deck,
+                      loaded.schemas(),
+                      &loaded.model(),
+                      &loaded.interfaces(),
+                      loaded.model().selections.get(),
+                      &loaded,
                       {},
                       {},
                       {},
@@ -196,20 +197,19 @@ LintContext build_context(const LintInput& input, Diagnostics& sink) {
                       {},
                       {},
                       {},
-                      input.engine};
+                      &loaded.engine_files()};
   std::map<const Block*, const InterBase*> typed;
-  if (input.interfaces != nullptr)
-    for (const InterBase* inter : input.interfaces->ordered) typed[inter->block] = inter;
-  for (const Block& block : input.deck.blocks) {
+  for (const InterBase* inter : loaded.interfaces().ordered) typed[inter->block] = inter;
+  for (const Block& block : deck.blocks) {
     if (block.schema != nullptr && !block.schema->kind.empty() && block.schema->has_id)
       context.defined[block.schema->kind].emplace(
           context.resolved(block, block.schema->kind, block.id.value), &block);
     if (block.opaque || (block.schema != nullptr && block.schema->bulk)) continue;
     if (block.schema == nullptr || block.schema->opaque_tail || block.schema->kind == "set")
-      collect_numbers(input.deck, block, context.loose_numbers);
+      collect_numbers(deck, block, context.loose_numbers);
     if (block.schema == nullptr) continue;
     const std::string_view keyword = block.schema->keyword;
-    DecodedBlock decoded = decode(input.deck, block, &sink);
+    DecodedBlock decoded = decode(deck, block, &sink);
     collect_references(context, decoded);
     if (keyword.starts_with("/INTER/")) {
       ContactCard card;
@@ -218,7 +218,7 @@ LintContext build_context(const LintInput& input, Diagnostics& sink) {
       context.contacts.push_back(std::move(card));
       ContactCard& kept = context.contacts.back();
       if (const auto it = typed.find(&block); it != typed.end())
-        bind(input.deck, *it->second, kept);
+        bind(deck, *it->second, kept);
       else
         add_plain_fields(kept);
     } else if (keyword.starts_with("/DEFAULT/INTER/")) {

@@ -7,7 +7,7 @@
 namespace deck::detail {
 
 /// Decodes every block that has a schema and is not read by the fast path; findings go to `sink`.
-LintContext build_context(const LintInput& input, Diagnostics& sink);
+LintContext build_context(const LoadedDeck& loaded, Diagnostics& sink);
 
 /// Formats a value the way people write it: whole numbers without a point, else up to six digits.
 std::string number_text(double value);

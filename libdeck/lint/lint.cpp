@@ -207,22 +207,22 @@ std::string joined(const std::map<std::string, std::uint64_t>& counts) {
   return out;
 }
 
-std::vector<NotChecked> engine_not_checked(const EngineFiles* engine) {
+std::vector<NotChecked> engine_not_checked(const EngineFiles& engine) {
   const std::string what = "the Engine file (*_0001.rad)";
-  if (engine == nullptr || engine->run.empty()) return {{what, "only the Starter deck is read"}};
-  if (engine->files.empty() && engine->unread.empty())
+  if (engine.run.empty()) return {{what, "only the Starter deck is read"}};
+  if (engine.files.empty() && engine.unread.empty())
     return {{what, "there is none beside the deck"}};
   std::vector<NotChecked> out;
-  for (const EngineFiles::Unread& u : engine->unread) out.push_back({u.path, u.why});
+  for (const EngineFiles::Unread& u : engine.unread) out.push_back({u.path, u.why});
   return out;
 }
 
 /// `out` holds what the extra checks left out.
-std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& options,
+std::vector<NotChecked> not_checked(const LoadedDeck& loaded, const LintOptions& options,
                                     const std::vector<Diagnostic>& found,
                                     std::vector<NotChecked> out) {
   std::map<std::string, std::uint64_t> unknown, opaque;
-  for (const Block& b : input.deck.blocks) {
+  for (const Block& b : loaded.deck().blocks) {
     if (b.opaque)
       ++opaque[std::string(b.keyword)];
     else if (b.schema == nullptr && !b.header.starts_with("//"))
@@ -231,23 +231,18 @@ std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& o
   if (!unknown.empty())
     out.push_back({"blocks of " + std::to_string(unknown.size()) + " keywords: " + joined(unknown),
                    "no schema describes their cards; --schemas DIR adds some"});
-  if (input.interfaces != nullptr)
-    if (const auto text = not_examined_text(coverage_of(input.deck, *input.interfaces));
-        !text.empty())
-      out.push_back({text, "only types 7, 10, 11 and 19 have rules"});
+  if (const auto text = not_examined_text(coverage_of(loaded.deck(), loaded.interfaces()));
+      !text.empty())
+    out.push_back({text, "only types 7, 10, 11 and 19 have rules"});
   if (!opaque.empty())
     out.push_back({"encrypted blocks: " + joined(opaque), "their cards cannot be read"});
   std::set<std::string> missing;
   for (const Diagnostic& d : found)
     if (d.rule == RuleId::DK004 || d.rule == RuleId::DK005 || d.rule == RuleId::DK006)
-      missing.insert(std::string(detail::trim(input.deck.sources.text(d.span))));
+      missing.insert(std::string(detail::trim(loaded.deck().sources.text(d.span))));
   for (const std::string& m : missing)
     out.push_back({"the files behind '" + m + "'", "they could not be read"});
-  if (input.model == nullptr)
-    out.push_back({"references between entities", "the model was not built"});
-  if (input.interfaces == nullptr)
-    out.push_back({"effective values of the interfaces", "they were not formed"});
-  for (NotChecked& n : engine_not_checked(input.engine)) out.push_back(std::move(n));
+  for (NotChecked& n : engine_not_checked(loaded.engine_files())) out.push_back(std::move(n));
   const auto off = std::count_if(all_rules().begin(), all_rules().end(),
                                  [&](const Rule& r) { return !enabled(options, r.id); });
   if (off > 0)
@@ -316,48 +311,38 @@ void run_block_checks(const LintOptions& options, const LintContext& context, Re
 }
 
 /// Skipped where no rule wants to know what they find.
-std::vector<NotChecked> run_extra_checks(const LintInput& input, const LintOptions& options,
-                                         const LintContext& context, Reporter& reporter) {
+std::vector<NotChecked> run_extra_checks(const std::vector<ExtraCheck>& extra,
+                                         const LintOptions& options, const LintContext& context,
+                                         Reporter& reporter) {
   const bool wanted = std::any_of(all_rules().begin(), all_rules().end(), [&](const Rule& r) {
     return (r.stage == RuleStage::extra || r.stage == RuleStage::gate) && enabled(options, r.id);
   });
   std::vector<NotChecked> out;
   if (!wanted) return out;
-  if (input.extra_checks.empty())
-    out.push_back({std::string(geometry_rules), "switched off (--no-geometry)"});
-  for (const ExtraCheck& check : input.extra_checks)
+  if (extra.empty()) out.push_back({std::string(geometry_rules), "switched off (--no-geometry)"});
+  for (const ExtraCheck& check : extra)
     for (NotChecked& n : check(context, reporter)) out.push_back(std::move(n));
   return out;
 }
 
 }  // namespace
 
-LintInput::LintInput(const LoadedDeck& of)
-    : LintInput(of.deck(), of.schemas(), &of.model(), &of.interfaces()) {
-  loaded = &of;
-  engine = &of.engine_files();
-}
-
-LintResult run_lint(const LintInput& input, const LintOptions& options) {
-  const Deck& deck = input.deck;
-  Pool pool{input.schemas};
-  pool.take(input.loaded != nullptr ? input.loaded->findings(Stage::interfaces) : deck.diagnostics,
-            options);
-  for (const Diagnostics* d : input.earlier)
-    if (d != nullptr) pool.take(*d, options);
+LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options,
+                    const std::vector<ExtraCheck>& extra) {
+  const Deck& deck = loaded.deck();
+  Pool pool{loaded.schemas()};
+  pool.take(loaded.findings(Stage::interfaces), options);
 
   Diagnostics own(options.diagnostics_per_rule);
   Reporter reporter(own);
-  const LintContext context = detail::build_context(input, own);
+  const LintContext context = detail::build_context(loaded, own);
   for (const auto& [rule, check] : detail::all_checks())
     if (enabled(options, rule)) check(context, rule_of(rule), reporter);
   run_block_checks(options, context, reporter);
-  std::vector<NotChecked> left_out = run_extra_checks(input, options, context, reporter);
+  std::vector<NotChecked> left_out = run_extra_checks(extra, options, context, reporter);
   // Groups that no contact uses have findings too.
-  if (context.selections != nullptr) {
-    context.selections->resolve_all();
-    pool.take(context.selections->diagnostics(), options);
-  }
+  context.selections->resolve_all();
+  pool.take(context.selections->diagnostics(), options);
 
   const BlockIndex index(deck);
   std::vector<detail::Suppression> suppressions = detail::find_suppressions(deck, index, reporter);
@@ -371,7 +356,7 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
     absences = pool.drop_absences();
 
   LintResult result;
-  result.not_checked = not_checked(input, options, pool.kept, std::move(left_out));
+  result.not_checked = not_checked(loaded, options, pool.kept, std::move(left_out));
   if (!absences.empty())
     result.not_checked.push_back({"what seems to be absent: " + joined(absences),
                                   "it may be in a file that could not be read"});

@@ -51,15 +51,12 @@ bool selection_is_empty(const LintContext& c, std::string_view kind, std::int64_
 
 std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id) {
   if (kind == "grnod" || kind == "surf" || kind == "line") {
-    if (c.selections == nullptr) return std::nullopt;
     return selection_exists(c, kind, id);
   }
   if (kind == "node") {
-    if (c.model == nullptr) return std::nullopt;
     return c.model->find_node(id) != no_index;
   }
   if (const auto family = family_of_kind(kind)) {
-    if (c.model == nullptr) return std::nullopt;
     return c.model->family(*family).map.find(id) != no_index;
   }
   if (kind_name(kind) == "/SET") return std::nullopt;

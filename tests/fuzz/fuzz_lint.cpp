@@ -16,11 +16,10 @@ using namespace deck;
 using fuzz::require;
 
 LintResult lint(fuzz::Whole& whole, bool geometry) {
-  LintInput input(whole.loaded);
+  std::vector<ExtraCheck> extra;
   if (geometry)
-    input.extra_checks.push_back(
-        [](const LintContext& c, Reporter& r) { return check_geometry(c, r); });
-  return run_lint(input, {});
+    extra.push_back([](const LintContext& c, Reporter& r) { return check_geometry(c, r); });
+  return run_lint(whole.loaded, {}, extra);
 }
 
 void check_documents(const fuzz::Whole& whole, const LintResult& result) {

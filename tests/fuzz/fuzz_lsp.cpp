@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "lsp/analyst.hpp"
+#include "lsp/analysis.hpp"
 #include "lsp/view.hpp"
 #include "lsp/workspace.hpp"
 #include "support.hpp"
@@ -78,7 +78,8 @@ class Session {
   bool look() {
     OpenDeck* open = workspace_.deck_of(path);
     if (open == nullptr) return false;
-    open->semantics = analyst_.look(open->syntax, workspace_.schemas(), workspace_.settings(), go_);
+    open->semantics = analyse(open->path, workspace_.texts(), open->syntax->generation,
+                              workspace_.schemas(), workspace_.settings(), go_);
     return true;
   }
 
@@ -127,7 +128,6 @@ class Session {
 
   Workspace workspace_;
   Client client_;
-  Analyst analyst_;
   std::atomic<bool> go_{false};  ///< never stopped
 };
 

@@ -25,7 +25,7 @@ class BoundsOfASchema : public testing::Test {
     auto deck = read_deck_text("deck_0000.rad", text, schemas);
     EXPECT_TRUE(deck);
     const LintResult result =
-        run_lint(LintInput(test::linted(std::move(*deck), test::with_schemas(schemas)).loaded));
+        run_lint(test::linted(std::move(*deck), test::with_schemas(schemas)).loaded);
     for (const Diagnostic& d : result.diagnostics)
       if (d.rule == RuleId::DK096) return d.message;
     return {};

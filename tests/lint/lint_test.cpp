@@ -255,13 +255,13 @@ TEST(ExtraChecks, ReportThroughTheEngine) {
   const ExampleDeck example = example_deck("@/INTER/TYPE7/1\n", SchemaSet::built_in());
   auto deck = read_deck_text("x", example.main, SchemaSet::built_in());
   ASSERT_TRUE(deck);
-  LintInput input(*deck, SchemaSet::built_in());
-  input.extra_checks.push_back([](const LintContext& c, Reporter& r) {
+  const Linted whole = linted(std::move(*deck));
+  const ExtraCheck many = [](const LintContext& c, Reporter& r) {
     r.report(rule_of(RuleId::DK390), *c.contacts.at(0).block, c.contacts[0].block->header_span,
              "many");
     return std::vector<NotChecked>{{"the rest", "it is large"}};
-  });
-  const LintResult result = run_lint(input);
+  };
+  const LintResult result = run_lint(whole.loaded, {}, {many});
   ASSERT_EQ(result.counts.count(RuleId::DK390), 1u);
   for (const NotChecked& n : result.not_checked)
     EXPECT_EQ(n.what.find("geometry"), std::string::npos);
@@ -272,18 +272,18 @@ TEST(ExtraChecks, AreNotRunWhereNoRuleOfTheirsIsWanted) {
   const ExampleDeck example = example_deck("@/INTER/TYPE7/1\n", SchemaSet::built_in());
   auto deck = read_deck_text("x", example.main, SchemaSet::built_in());
   ASSERT_TRUE(deck);
-  LintInput input(*deck, SchemaSet::built_in());
+  const Linted whole = linted(std::move(*deck));
   int runs = 0;
-  input.extra_checks.push_back([&](const LintContext&, Reporter&) {
+  const ExtraCheck counted = [&](const LintContext&, Reporter&) {
     ++runs;
     return std::vector<NotChecked>{};
-  });
+  };
   LintOptions options;
   options.select = {"DK1", "DK2"};
-  run_lint(input, options);
+  run_lint(whole.loaded, options, {counted});
   EXPECT_EQ(runs, 0);
   options.select = {"DK1", "DK401"};
-  run_lint(input, options);
+  run_lint(whole.loaded, options, {counted});
   EXPECT_EQ(runs, 1);
 }
 

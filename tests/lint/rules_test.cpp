@@ -136,8 +136,7 @@ TEST(UnknownCombination, FiresForAnAddedSurfaceKeyword) {
   const auto fires = [&](const std::string& block) {
     const std::string text = example_deck(block, schemas).main;
     auto deck = read_deck_text("deck_0000.rad", text, schemas);
-    const LintResult r =
-        run_lint(LintInput(linted(std::move(*deck), with_schemas(schemas)).loaded));
+    const LintResult r = run_lint(linted(std::move(*deck), with_schemas(schemas)).loaded);
     return r.counts.count(RuleId::DK165) > 0;
   };
   EXPECT_TRUE(fires("/SURF/CLOUD/9\nnothing\n"));

@@ -89,7 +89,7 @@ inline Linted lint_file(const std::string& path, const LintOptions& options = {}
   auto loaded = load(path, how);
   if (!loaded) throw std::runtime_error(loaded.error().message);
   Linted out(std::move(*loaded));
-  out.result = run_lint(LintInput(out.loaded), options);
+  out.result = run_lint(out.loaded, options);
   return out;
 }
 
@@ -98,7 +98,7 @@ inline Linted lint_text(const std::string& text, const LintOptions& options = {}
   auto deck = read_deck_text("deck_0000.rad", text, schemas);
   if (!deck) throw std::runtime_error(deck.error().message);
   Linted out = linted(std::move(*deck));
-  out.result = run_lint(LintInput(out.loaded), options);
+  out.result = run_lint(out.loaded, options);
   return out;
 }
 
@@ -132,10 +132,9 @@ inline LoadOptions with_threads(int threads) {
 inline Linted lint_geometry_of(Deck deck, const GeometryOptions& geometry = {},
                                const LoadOptions& how = {}) {
   Linted out = linted(std::move(deck), how);
-  LintInput input(out.loaded);
-  input.extra_checks.push_back(
-      [&](const LintContext& c, Reporter& r) { return check_geometry(c, r, geometry); });
-  out.result = run_lint(input);
+  out.result =
+      run_lint(out.loaded, {},
+               {[&](const LintContext& c, Reporter& r) { return check_geometry(c, r, geometry); }});
   return out;
 }
 

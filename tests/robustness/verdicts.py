@@ -339,8 +339,6 @@ def outputs_of(c, path, tmp, title, cwd=None):
             if f == html:
                 data = data[:data.index(b"<style>")] + data[data.index(b"<main"):data.index(b"</main>")]
             scan(c, title + ": " + os.path.basename(f), data, commands=f != html)
-            if f == svg:
-                documents.append(data)
             os.remove(f)
     for document in documents:
         scan(c, title + ": XML", document)

@@ -454,8 +454,7 @@ Action setup(CommandLine& line) {
               "Format to write: rad (Starter deck), json (typed fields with effective values)")
       .one_of({"rad", "json"})
       .value("FORMAT");
-  line.option("--from", options->from,
-              "Format to read: rad, json (as written by --to json)")
+  line.option("--from", options->from, "Format to read: rad, json (as written by --to json)")
       .one_of({"rad", "json"})
       .value("FORMAT");
   line.option("-o,--output", options->write.directory,

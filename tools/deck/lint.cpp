@@ -119,9 +119,9 @@ LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry 
   SceneOptions wanted = loaded.scene_options();
   wanted.candidates = false;
   loaded.set_scene_options(wanted);
-  LintInput input(loaded);
+  std::vector<ExtraCheck> extra;
   if (geometry != Geometry::none)
-    input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
+    extra.push_back([&](const LintContext& context, Reporter& reporter) {
       return check_geometry(
           context, reporter,
           {geometry == Geometry::quick ? std::optional(QuickLook{}) : std::nullopt, &gate.gate,
@@ -129,7 +129,7 @@ LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry 
              contacts = contact_facts(scene, view);
            }});
     });
-  LintResult result = run_lint(input, options);
+  LintResult result = run_lint(loaded, options, extra);
   loaded.drop_scene();
   return result;
 }

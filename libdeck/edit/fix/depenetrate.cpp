@@ -266,8 +266,7 @@ class Depenetrator : MovableDeck {
   bool admit(const std::map<NodeIndex, Vec>& moves) {
     std::map<std::uint32_t, std::uint32_t> added;
     for (const auto& [n, move] : moves)
-      if (const std::uint32_t part = mesh_->part_of(n);
-          part != no_index && !moved_.contains(n))
+      if (const std::uint32_t part = mesh_->part_of(n); part != no_index && !moved_.contains(n))
         ++added[part];
     bool fits = true;
     for (const auto& [part, count] : added)

@@ -34,7 +34,7 @@ void each_secondary_node(Selections& selections, const ContactCard& card, F&& f)
 }
 
 void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.selections == nullptr || c.model->spring.size() == 0) return;
+  if (c.model->spring.size() == 0) return;
   std::vector<bool> on_spring(c.model->nodes.size(), false);
   for (const NodeIndex n : c.model->spring.nodes)
     if (n != no_index) on_spring[n] = true;
@@ -54,7 +54,7 @@ void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_inacti5(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     // Airbag unfolding is what 5 is made for.
-    if (card.flag("Ibag") != 0 && c.model != nullptr && c.model->has_monitored_volume) return;
+    if (card.flag("Ibag") != 0 && c.model->has_monitored_volume) return;
     if (card.flag("Inacti") == 5)
       report_at(r, rule, card, "Inacti", name_of(card) + " has " + card.show("Inacti"));
   });
@@ -161,7 +161,6 @@ void check_same_sides(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.selections == nullptr) return;
   for (const ContactCard& card : c.contacts) {
     if (card.type == 0 || card.type == 11 || card.flag("Istf") == 1) continue;
     const auto s = c.selections->outline(static_cast<std::int64_t>(card.value("surf_IDm")));

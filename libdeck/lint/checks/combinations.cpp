@@ -66,7 +66,6 @@ void check_times(const LintContext& c, const Rule& rule, Reporter& r) {
 /// The two nodes of the axis are one node, or stand at the same place.
 bool axis_is_a_point(const LintContext& c, const ContactCard& card) {
   if (card.value("node_ID1") == card.value("node_ID2")) return true;
-  if (c.model == nullptr) return false;
   const auto place = [&](std::string_view field) {
     return c.model->find_node(static_cast<std::int64_t>(card.value(field)));
   };
@@ -129,7 +128,7 @@ void check_iadm_icurv(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_iadm(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.model->has_adaptive_mesh) return;
+  if (c.model->has_adaptive_mesh) return;
   each(c, rule, [&](const ContactCard& card) {
     if (card.given("Iadm"))
       report_at(r, rule, card, "Iadm",
@@ -138,9 +137,7 @@ void check_iadm(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.model->has_monitored_volume || c.model->has_ale ||
-      c.model->has_sol2sph)
-    return;
+  if (c.model->has_monitored_volume || c.model->has_ale || c.model->has_sol2sph) return;
   each(c, rule, [&](const ContactCard& card) {
     if (const double v = card.input("Ibag"); v == 0 || v == 1000) return;
     Diagnostic* d = report_at(r, rule, card, "Ibag",
@@ -151,7 +148,7 @@ void check_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_thermal_material(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.model->has_thermal_material) return;
+  if (c.model->has_thermal_material) return;
   each(c, rule, [&](const ContactCard& card) {
     if (card.given("Ithe"))
       report_at(r, rule, card, "Ithe",
@@ -268,7 +265,7 @@ void check_old_heat(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
-    if (c.interfaces == nullptr || !card.given("fric_ID")) return;
+    if (!card.given("fric_ID")) return;
     const Friction* f = c.interfaces->friction(static_cast<std::int64_t>(card.value("fric_ID")));
     if (f == nullptr || f->Ifric == 0) return;
     Diagnostic* d = report_at(

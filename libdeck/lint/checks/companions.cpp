@@ -164,7 +164,6 @@ std::size_t count_free_edges(const SegmentList& surface) {
 }
 
 void check_edge_companion(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.selections == nullptr) return;
   bool edges_seen = false;
   for (const ContactCard& card : c.contacts)
     edges_seen = edges_seen || card.type == 11 || card.type == 19;
@@ -318,7 +317,6 @@ NodeIndex pushed_tied_node(const LintContext& c, const ContactCard& card, const 
 
 /// One finding for the deck: spot welds in a contact of everything are common.
 void check_tied_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.selections == nullptr) return;
   const std::vector<Ties> ties = ties_of(c);
   if (ties.empty()) return;
   const ContactCard* first = nullptr;
@@ -349,7 +347,7 @@ void check_tied_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_rigid_gap(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.selections == nullptr || c.model->rbodies.empty()) return;
+  if (c.model->rbodies.empty()) return;
   constexpr double small = 0.02;  // of the shortest main side; usual gaps are a tenth and more
   std::vector<bool> rigid;
   each(c, rule, [&](const ContactCard& card) {

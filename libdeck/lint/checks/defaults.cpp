@@ -20,8 +20,7 @@ int type_of(std::string_view keyword) {
 
 /// True if the model stage took the default block into account.
 bool honoured(const LintContext& c, const DecodedBlock& block) {
-  return c.interfaces != nullptr &&
-         std::any_of(c.interfaces->defaults.begin(), c.interfaces->defaults.end(),
+  return std::any_of(c.interfaces->defaults.begin(), c.interfaces->defaults.end(),
                      [&](const DefaultInter& d) { return d.span == block.span(); });
 }
 

@@ -186,7 +186,6 @@ void check_half_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
 
 /// fric_ID names a /FRICTION without a law, which holds for edges as well.
 bool plain_friction(const LintContext& c, const ContactCard& card) {
-  if (c.interfaces == nullptr) return true;
   const Friction* f = c.interfaces->friction(static_cast<std::int64_t>(card.value("fric_ID")));
   return f == nullptr || f->Ifric == 0;
 }
@@ -234,9 +233,7 @@ void check_tie_trigger(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_default_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.model->has_monitored_volume || c.model->has_ale ||
-      c.model->has_sol2sph)
-    return;
+  if (c.model->has_monitored_volume || c.model->has_ale || c.model->has_sol2sph) return;
   for (const DecodedBlock& block : c.defaults) {
     const Cell* cell = block.find("Ibag");
     if (cell == nullptr || cell->integer == 0 || cell->integer == 1000) continue;

@@ -97,7 +97,6 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
 }
 
 void check_area(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr) return;
   const auto each_family = [&](const Elements& family, std::string_view what) {
     count_bad(c, rule, r, family, what, "without area",
               [](const Corners& p) { return without_area(p); });
@@ -107,13 +106,11 @@ void check_area(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_volume(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr) return;
   count_bad(c, rule, r, c.model->solid8, "solid", "without volume",
             [](const Corners& p) { return p.size() == 8 && without_volume(p); });
 }
 
 void check_length(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr) return;
   const auto short_one = [](const Corners& p) {
     return p[0].x == p[1].x && p[0].y == p[1].y && p[0].z == p[1].z;
   };
@@ -155,7 +152,6 @@ const char* made_for(int number) {
 }
 
 void check_property_kind(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr) return;
   const Model& m = *c.model;
   const std::pair<const Elements*, std::string_view> families[] = {
       {&m.shell4, "shells"}, {&m.shell3, "shells"}, {&m.solid8, "solids"},

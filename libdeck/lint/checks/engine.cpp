@@ -54,7 +54,6 @@ Span first_line(const LintContext& c, const EngineFile& file) {
 /// Calls f(file) for every Engine file.
 template <class F>
 void each_file(const LintContext& c, F&& f) {
-  if (c.engine == nullptr) return;
   for (const EngineFile& file : c.engine->files) f(file);
 }
 
@@ -119,7 +118,7 @@ std::optional<Listed> listed(const LintContext& c, const EngineBlock& b) {
   if (b.part(0) == "DEL" && b.part(1) == "INTER") return Listed{"interface"};
   if (b.part(0) == "H3D" && b.part(1) == "PART") return Listed{"part"};
   if (b.part(0) == "ANIM" && b.part(1) == "SENSOR") return Listed{"sensor", false, 1};
-  if (b.part(0) != "DEL" || c.model == nullptr) return std::nullopt;
+  if (b.part(0) != "DEL") return std::nullopt;
   const Model& m = *c.model;
   Listed out{"element", b.part(2) == "1"};
   const std::string_view type = b.part(1);
@@ -184,7 +183,6 @@ void check_ranges(const LintContext& c, const Rule& rule, Reporter& r, const Eng
 }
 
 void check_ids(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr) return;
   SortedIds ids;
   each_file(c, [&](const EngineFile& file) {
     for (const EngineBlock& b : file.blocks) {
@@ -242,7 +240,7 @@ void check_outputs(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_late_interfaces(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.engine == nullptr || c.engine->files.empty()) return;
+  if (c.engine->files.empty()) return;
   std::optional<double> last;
   Span place;
   for (const EngineFile& file : c.engine->files) {

@@ -29,7 +29,6 @@ std::string friction_name(const DecodedBlock& block) {
 }
 
 void check_parts(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.selections == nullptr) return;
   each_pair(c, [&](const DecodedBlock& block, const DecodedCard& card) {
     for (const Cell& cell : card.cells) {
       if (cell.field->type != FieldType::id || cell.integer <= 0) continue;

@@ -108,7 +108,7 @@ void check_lagrange(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_two_dimensional(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || !c.model->two_dimensional) return;
+  if (!c.model->two_dimensional) return;
   constexpr std::array<std::string_view, 4> allowed = {"/INTER/TYPE1", "/INTER/TYPE2",
                                                        "/INTER/TYPE3", "/INTER/TYPE5"};
   for (const Block& b : c.deck.blocks) {

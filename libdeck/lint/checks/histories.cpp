@@ -139,8 +139,7 @@ class MissingObjects {
   void check_cell(const DecodedBlock& d, const DecodedCard& card, const Cell& cell) {
     const std::string_view kind = cell.field->ref;
     const std::int64_t id = c_.resolved(*d.block, kind, cell.integer);
-    const bool known = (kind == "node" || family_of_kind(kind)) ? c_.model != nullptr : true;
-    if (!known || (id != 0 && history_target_exists(c_, kind, id))) return;
+    if (id != 0 && history_target_exists(c_, kind, id)) return;
     const bool placed = cell.span.valid() && cell.span.length > 0;
     const Span span = placed ? cell.span : card.line.whole();
     std::string text =

@@ -151,7 +151,7 @@ bool share_nodes(const LintContext& c, const ContactCard& card) {
   const NodeSet* group =
       c.selections->node_group(static_cast<std::int64_t>(card.value("grnd_IDs")));
   const auto main = c.selections->outline(static_cast<std::int64_t>(card.value("surf_IDm")));
-  if (c.model == nullptr || group == nullptr || !main) return true;
+  if (group == nullptr || !main) return true;
   std::vector<bool> on_main(c.model->nodes.size(), false);
   main->segments.each([&](const Segment& s) {
     for (const NodeIndex n : s.nodes)
@@ -167,7 +167,7 @@ void check_removal(const LintContext& c, const Rule& rule, Reporter& r) {
     const InterfaceTraits* const traits = traits_of(card.type);
     if (traits == nullptr) return;
     const std::string_view one = traits->secondary.field, two = traits->main.field;
-    if (c.selections == nullptr || !card.given(one) || !card.given(two)) return;
+    if (!card.given(one) || !card.given(two)) return;
     if (card.type == 7 ? share_nodes(c, card) : card.input(one) == card.input(two)) return;
     ignored(c, rule, r, card, {"Irem_gap"}, one, "the two sides are different: no self contact",
             false);

@@ -41,7 +41,6 @@ bool has_integration_points(const Property& p) { return p.number == 1 || p.numbe
 /// Calls f(property, material, decoded property) for every pair that shell elements have.
 template <class F>
 void each_shell_pair(const LintContext& c, F&& f) {
-  if (c.model == nullptr) return;
   const Model& m = *c.model;
   const std::vector<bool> has_shells = parts_with_shells(m);
   std::map<std::uint32_t, std::set<std::uint32_t>> pairs;
@@ -86,7 +85,6 @@ void check_elastic_shells(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_plain_triangles(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr) return;
   std::int64_t shell = 0, triangle = 0;
   Span defaults;
   each_block(c, "/DEF_SHELL", [&](const Block& b) {
@@ -140,12 +138,11 @@ void check_vents(const LintContext& c, const Rule& rule, Reporter& r) {
 /// True if the Starter finds no Engine file where it looks for one. A deck whose name does not end
 /// in _0000.rad is no deck that is run.
 bool engine_file_missing(const LintContext& c) {
-  return c.engine != nullptr && !c.engine->run.empty() && c.engine->files.empty() &&
-         c.engine->unread.empty();
+  return !c.engine->run.empty() && c.engine->files.empty() && c.engine->unread.empty();
 }
 
 void check_engine_file(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || !engine_file_missing(c)) return;
+  if (!engine_file_missing(c)) return;
   const auto report = [&](Span place, int message, const std::string& what) {
     Diagnostic* d =
         r.report(rule, place, fmt::format("there is no {}_0001.rad: {}", c.engine->run, what));

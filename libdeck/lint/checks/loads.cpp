@@ -68,7 +68,6 @@ void check_normal(const LintContext& c, const Rule& rule, Reporter& r) {
 constexpr int most_boundaries = 2;
 
 void check_corners(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.selections == nullptr) return;
   std::map<NodeIndex, int> boundaries;
   const Block* last = nullptr;
   for (const Block& block : c.deck.blocks) {

@@ -92,7 +92,7 @@ void check_filter_off(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_ibag_value(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || !c.model->has_monitored_volume) return;
+  if (!c.model->has_monitored_volume) return;
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Ibag") == 2)
       report_at(r, rule, card, "Ibag",

@@ -34,7 +34,6 @@ bool computes_with(int law, std::string_view field) {
 void check_not_positive(const LintContext& c, const Rule& rule, Reporter& r,
                         std::initializer_list<std::string_view> fields,
                         bool (*wanted)(int, std::string_view), bool stops = true) {
-  if (c.model == nullptr) return;
   for (const Material& m : c.model->materials) {
     if (m.block == nullptr || m.block->opaque) continue;
     const DecodedBlock d = decode(c.deck, *m.block);
@@ -76,7 +75,6 @@ std::pair<Span, double> yield_of(const LintContext& c, const DecodedBlock& d) {
 }
 
 void check_yield(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr) return;
   for (const Material& m : c.model->materials) {
     if (m.law != 2 || m.block == nullptr || m.block->opaque) continue;
     if (m.block->header.find("PLAS_ZERIL") != std::string_view::npos) continue;
@@ -88,7 +86,7 @@ void check_yield(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_no_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.model->nodes.size() > 0 || c.deck.blocks.empty()) return;
+  if (c.model->nodes.size() > 0 || c.deck.blocks.empty()) return;
   r.report(rule, c.deck.blocks.front().header_span, "the deck has no node");
 }
 
@@ -140,7 +138,7 @@ bool has_inertia(const DecodedBlock& d) {
 }
 
 void check_rigid_mass(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.selections == nullptr || c.model->rbodies.empty()) return;
+  if (c.model->rbodies.empty()) return;
   if (has_other_masses(c)) return;
   const MassiveNodes massive(*c.model);
   for (const DecodedBlock& d : c.loads) {
@@ -219,7 +217,6 @@ bool searched(const LintContext& c, const std::vector<bool>& thin) {
 }
 
 void check_thickness(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr || c.selections == nullptr) return;
   const Model& m = *c.model;
   std::vector<const Property*> below;
   for (const Property& p : m.properties)

@@ -54,7 +54,6 @@ std::string_view other_kind(const LintContext& c, std::string_view kind, std::in
 
 template <class F>
 void each_side(const LintContext& c, F&& f) {
-  if (c.selections == nullptr) return;
   for (const ContactCard& card : c.contacts)
     for (const Side& side : sides_of(card))
       if (const std::int64_t id = side_id(c, card, side); id != 0) f(card, side, id);
@@ -202,7 +201,6 @@ void check_friction_id(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model == nullptr) return;
   each(c, rule, [&](const ContactCard& card) {
     for (const std::string_view field : {"node_ID1", "node_ID2"}) {
       const auto id = static_cast<std::int64_t>(card.input(field));

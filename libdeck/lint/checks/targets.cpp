@@ -101,7 +101,6 @@ void check_acts_on_nothing(const LintContext& c, const Rule& rule, Reporter& r) 
 }
 
 void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.selections == nullptr) return;
   each_demand(c, &Field::empty,
               [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
                 const std::string_view kind = cell.field->ref;

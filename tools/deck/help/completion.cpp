@@ -224,11 +224,10 @@ Action setup(CommandLine& line) {
   return [options] { return run(*options); };
 }
 
-const VerbRegistration registration{
-    {"completion", 910, "Completion script for a shell",
-     "  eval \"$(deck completion bash)\"\n"
-     "  deck completion zsh > ~/.zfunc/_deck\n",
-     setup}};
+const VerbRegistration registration{{"completion", 910, "Completion script for a shell",
+                                     "  eval \"$(deck completion bash)\"\n"
+                                     "  deck completion zsh > ~/.zfunc/_deck\n",
+                                     setup}};
 
 }  // namespace
 }  // namespace deck::cli::verb_completion

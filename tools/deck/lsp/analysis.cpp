@@ -64,24 +64,31 @@ LoadOptions load_options(const Settings& settings, const std::map<std::string, s
   return out;
 }
 
-void find(Semantics& out, const EngineFiles& engine, const SchemaSet& schemas,
-          const Settings& settings) {
-  const Deck& deck = *out.deck;
-  Diagnostics findings(settings.limits.diagnostics_per_rule);
-  out.interfaces = read_interfaces(deck, *out.model, findings);
-  const std::string& path = deck.sources[0].path();
+std::shared_ptr<const Semantics> analyse(const std::string& path,
+                                         const std::map<std::string, std::string>& texts,
+                                         std::uint64_t generation, const SchemaSet& schemas,
+                                         const Settings& settings, const std::atomic<bool>& stop) {
+  auto out = std::make_shared<Semantics>();
+  out->generation = generation;
+  LoadOptions how = load_options(settings, texts, schemas);
+  how.engine_files = true;  // the same files as Syntax::deck has
+  auto loaded = load(path, how);
+  out->refusal = loaded ? no_starter_deck(loaded->deck()) : loaded.error().message;
+  if (!out->refusal.empty()) return out;
+  if (stop) return nullptr;
+  loaded->interfaces();
+  if (stop) return nullptr;
   const auto config = find_lint_config(path);
-  if (!config) out.config_error = config.error().message;
+  if (!config) out->config_error = config.error().message;
   auto options = lint_options(config ? *config : LintConfig{}, path, settings.limits);
   if (!options) {
-    out.config_error = options.error().message;
+    out->config_error = options.error().message;
     options = LintOptions{};
   }
-  LintInput input(deck, schemas, out.model.get(), &out.interfaces,
-                  {out.model_findings.get(), &findings});
-  input.engine = &engine;
-  out.lint = run_lint(input, *options);
-  for (Diagnostic& d : out.lint.diagnostics) out.slacks.make_real(deck.sources, d);
+  out->lint = run_lint(*loaded, *options);
+  if (stop) return nullptr;
+  out->loaded = std::move(*loaded);
+  return out;
 }
 
 namespace {
@@ -138,13 +145,13 @@ std::shared_ptr<const Geometry> examine(
   if (!options) options = LintOptions{};
   Gate gate = config ? config->gate : Gate{};
   gate.on_fresh = gate.on_worse = false;  // there is no earlier run here
-  LintInput input(*loaded);
+  std::vector<ExtraCheck> extra;
   const bool wanted = !config || config->geometry.value_or(true);
   if (wanted)
-    input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
+    extra.push_back([&](const LintContext& context, Reporter& reporter) {
       return check_geometry(context, reporter, {std::nullopt, &gate, nullptr});
     });
-  LintResult result = run_lint(input, *options);
+  LintResult result = run_lint(*loaded, *options, extra);
   for (Diagnostic& d : result.diagnostics) {
     const RuleStage stage = rule_of(d.rule).stage;
     if ((stage != RuleStage::extra && stage != RuleStage::gate) || !d.span.valid()) continue;

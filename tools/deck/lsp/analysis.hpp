@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,25 +15,17 @@
 #include "deck/keyword/references.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/lint/lint.hpp"
-#include "lsp/slack.hpp"
 #include "lsp/text.hpp"
 
 namespace deck::lsp {
 
 /// A deck cut into blocks. Immutable but for the tables of lines, which the server's thread fills.
 struct Syntax {
-  Syntax(Deck&& read, EngineFiles&& beside, std::set<std::string>&& open,
-         std::uint64_t text_generation)
-      : generation(text_generation),
-        deck(std::move(read)),
-        engine(std::move(beside)),
-        edited(std::move(open)),
-        index(deck) {}
+  Syntax(Deck&& read, std::uint64_t text_generation)
+      : generation(text_generation), deck(std::move(read)), index(deck) {}
 
   std::uint64_t generation;  ///< of the open documents when it was read
   Deck deck;
-  EngineFiles engine;            ///< beside the deck, as they are on disk
-  std::set<std::string> edited;  ///< paths of files whose text is that of an editor
   BlockIndex index;
 
   /// Index of the file at that path; Span::no_file.
@@ -47,23 +39,11 @@ struct Syntax {
   mutable std::map<std::uint32_t, std::shared_ptr<const LineTable>> tables_;
 };
 
-/// What the model and the rules say about a deck.
+/// What the model and the rules say about a deck; owns all it refers to.
 struct Semantics {
-  explicit Semantics(std::shared_ptr<const Syntax> of) : syntax(std::move(of)) {}
-  std::shared_ptr<const Syntax> syntax;  ///< the text that it is about
-  /// The deck that was looked at: `syntax` with slacks between its blocks. Places of model and
-  /// interfaces are of this one.
-  std::shared_ptr<const Deck> deck;
-  SlackTable slacks;
-  /// Perhaps of an earlier look; then `model->deck` is that of then, and true but for a block that
-  /// the model does not read. Its selections are for the thread that looks.
-  std::shared_ptr<const Model> model;
-  std::shared_ptr<const Diagnostics> model_findings;
-  std::shared_ptr<const Deck> kept;  ///< the deck that the selections' definitions are of
-  std::shared_ptr<const Deck> model_deck;
-  Interfaces interfaces;
-  LintResult lint;  ///< places are of `syntax`
-  Span real(Span of_deck) const { return slacks.real(deck->sources, of_deck); }
+  std::uint64_t generation = 0;      ///< of the open documents when it was read
+  std::optional<LoadedDeck> loaded;  ///< has its interfaces; places are as in the text read
+  LintResult lint;
   std::string config_error;  ///< of .decklint.toml; empty: none
   std::string refusal;       ///< not empty: the file is no Starter deck, and why
 };
@@ -100,10 +80,12 @@ struct Settings {
 LoadOptions load_options(const Settings& settings, const std::map<std::string, std::string>& texts,
                          const SchemaSet& schemas);
 
-/// Fills in interfaces and findings, by the rules as `deck lint` has them, with the configuration
-/// beside the deck. Needs deck, slacks and model.
-void find(Semantics& out, const EngineFiles& engine, const SchemaSet& schemas,
-          const Settings& settings);
+/// Reads the deck at `path` with the given texts over the files, and finds what `deck lint
+/// --no-geometry` finds, with the configuration beside the deck. nullptr: stopped.
+std::shared_ptr<const Semantics> analyse(const std::string& path,
+                                         const std::map<std::string, std::string>& texts,
+                                         std::uint64_t generation, const SchemaSet& schemas,
+                                         const Settings& settings, const std::atomic<bool>& stop);
 
 /// Builds the contacts of the deck at `path` with the given texts over the files. `progress` gets
 /// contacts done and in all. nullptr: stopped, or no deck.

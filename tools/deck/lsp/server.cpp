@@ -235,11 +235,6 @@ Json Server::answer(const std::string& method, const Json& params, const Json& i
   }
   const auto view = view_of(params);
   if (!view) return nullptr;
-  if (method == "textDocument/codeAction" || method == "textDocument/documentHighlight") {
-    const Json& place = method == "textDocument/codeAction" ? at(params, {"range", "start"})
-                                                            : at(params, {"position"});
-    cursor_at(view->path, place.at("line").get<std::uint64_t>());
-  }
   return of(*view, params);
 }
 
@@ -293,7 +288,6 @@ Json Server::initialize(const Json& params) {
     return v.is_number_integer() ? std::clamp(v.get<int>(), 0, 600'000) : fallback;
   };
   delay_ms_ = number("delay", delay_ms_);
-  hold_ms_ = number("holdBack", hold_ms_);
   if (const Json& v = at(options, {"geometryOnSave"}); v.is_boolean())
     geometry_on_save_ = v.get<bool>();
   if (const Json& v = at(options, {"showReportCommand"}); v.is_string())

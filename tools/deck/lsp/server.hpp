@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "lsp/analyst.hpp"
+#include "lsp/analysis.hpp"
 #include "lsp/queue.hpp"
 #include "lsp/rpc.hpp"
 #include "lsp/view.hpp"
@@ -61,14 +61,6 @@ class Server {
   void cursor_moved(const Json& params);
 
   // ---- findings (server_findings.cpp)
-  /// The line that is being typed: what is new in its block waits until the cursor leaves.
-  struct Typing {
-    bool active = false;
-    std::string path;
-    std::uint64_t line = 0;
-    std::set<std::string> before;  ///< findings that were there since the last save
-    Clock::time_point last;
-  };
   void schedule(const std::string& path, bool now = false);
   void start_due();
   std::optional<Clock::time_point> next_due() const;
@@ -78,10 +70,6 @@ class Server {
   void publish(OpenDeck& deck);
   bool says_of_now(const OpenDeck& deck) const;
   Json with_others(const OpenDeck& deck, const std::string& path, const Json& own);
-  void typed(const std::string& path, std::uint64_t line);
-  void cursor_at(const std::string& path, std::uint64_t line);
-  void release_typing(bool saved = false);
-  bool held_back(const OpenDeck& deck, const Diagnostic& d) const;
   Json finding(const OpenDeck& deck, const Diagnostic& d) const;
 
   // ---- progress
@@ -104,13 +92,11 @@ class Server {
   std::map<std::string, std::shared_ptr<Progress>> progresses_;
   std::map<std::string, std::shared_ptr<Progress>> reports_;  ///< by id of the request
 
-  int delay_ms_ = 120, hold_ms_ = 2500;
+  int delay_ms_ = 150;
   bool geometry_on_save_ = true;
   std::map<std::string, Clock::time_point> due_;  ///< decks that wait for an analysis
   std::map<std::string, std::shared_ptr<std::atomic<bool>>> analysing_;
   std::map<std::string, std::shared_ptr<Progress>> examining_;
-  std::map<std::string, std::shared_ptr<Analyst>> analysts_;  ///< by deck, for the worker
-  Typing typing_;
   std::string report_folder_;  ///< made for reports that the client shows; ends with the server
 
   // Last, so that they end first.

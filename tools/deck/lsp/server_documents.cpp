@@ -34,15 +34,12 @@ void Server::did_change(const Json& params) {
   Document* document = workspace_.find(path);
   if (document == nullptr) return;
   std::string& text = workspace_.text(path);
-  std::uint64_t line = 0;
-  bool one_place = false;
   for (const Json& change : params.at("contentChanges")) {
     const std::string by = change.at("text").get<std::string>();
     const auto range = change.find("range");
     if (range == change.end()) {
       text = by;
       document->lines = std::make_shared<const LineTable>(text);
-      one_place = false;
       continue;
     }
     const auto place = [&](const Json& p) {
@@ -52,23 +49,18 @@ void Server::did_change(const Json& params) {
     };
     const std::uint64_t begin = place(range->at("start")), end = place(range->at("end"));
     replace(text, *document, begin, std::max(begin, end), by);
-    line = document->lines->line_of(begin + by.size());
-    one_place = true;
   }
   document->version = d.value("version", document->version + 1);
   workspace_.changed(path);
-  if (one_place) typed(path, line);
   schedule(path);
 }
 
 void Server::did_close(const Json& params) {
   const std::string path = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
   if (workspace_.find(path) == nullptr) return;
-  if (typing_.path == path) typing_.active = false;
   workspace_.close(path);
   for (const OpenDeck& gone : workspace_.forget_closed()) {
     due_.erase(gone.path);
-    analysts_.erase(gone.path);
     if (const auto it = analysing_.find(gone.path); it != analysing_.end()) *it->second = true;
     if (const auto it = examining_.find(gone.path); it != examining_.end()) it->second->stop = true;
     for (const auto& [file, list] : gone.published)
@@ -80,7 +72,6 @@ void Server::did_close(const Json& params) {
 
 void Server::did_save(const Json& params) {
   const std::string path = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
-  release_typing(true);
   OpenDeck* deck = workspace_.deck_of(path);
   if (deck == nullptr) return;
   // Engine files count as they are on disk: what was read of one is old now.
@@ -232,7 +223,6 @@ void Server::cursor_moved(const Json& params) {
   const std::string path = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
   const Json& p = params.at("position");
   const Place place{p.at("line").get<std::uint64_t>(), p.at("character").get<std::uint64_t>()};
-  cursor_at(path, place.line);
   OpenDeck* deck = workspace_.deck_of(path);
   if (deck == nullptr) return;
   deck->cursor = Cursor{path, place};

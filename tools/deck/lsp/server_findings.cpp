@@ -1,5 +1,4 @@
-// Findings: when a deck is analysed, what of it goes to the client, and what waits until the line
-// that is being typed is done.
+// Findings: when a deck is analysed, and what of it goes to the client.
 #include <algorithm>
 #include <tuple>
 
@@ -8,12 +7,6 @@
 
 namespace deck::lsp {
 namespace {
-
-/// A finding however the text around it moves.
-std::string key_of(const Diagnostic& d) {
-  return std::string(id_text(d.rule)) + "|" + d.keyword + "|" + std::to_string(d.id) + "|" +
-         d.message;
-}
 
 int severity_of(Severity s) { return s == Severity::error ? 1 : s == Severity::warning ? 2 : 3; }
 
@@ -30,8 +23,11 @@ std::string full_message(const Diagnostic& d) {
 
 void Server::schedule(const std::string& path, bool now) {
   if (workspace_.deck_of(path) == nullptr) return;
-  for (const OpenDeck* deck : decks_with(path))
+  for (const OpenDeck* deck : decks_with(path)) {
     due_[deck->path] = Clock::now() + std::chrono::milliseconds(now ? 0 : delay_ms_);
+    // What is being found is about a text that is no more.
+    if (const auto it = analysing_.find(deck->path); it != analysing_.end()) *it->second = true;
+  }
 }
 
 /// A file may be included by several decks that are open.
@@ -49,13 +45,11 @@ std::optional<Server::Clock::time_point> Server::next_due() const {
   };
   for (const auto& [root, when] : due_)
     if (!analysing_.contains(root)) consider(when);
-  if (typing_.active) consider(typing_.last + std::chrono::milliseconds(hold_ms_));
   return first;
 }
 
 void Server::start_due() {
   const auto now = Clock::now();
-  if (typing_.active && now >= typing_.last + std::chrono::milliseconds(hold_ms_)) release_typing();
   for (auto it = due_.begin(); it != due_.end();) {
     const auto deck = workspace_.decks().find(it->first);
     if (deck == workspace_.decks().end()) {
@@ -72,6 +66,20 @@ void Server::start_due() {
   }
 }
 
+namespace {
+
+/// True where places in one deck are places in the other.
+bool same_files(const Deck& a, const Deck& b) {
+  if (a.sources.size() != b.sources.size()) return false;
+  for (std::uint32_t f = 0; f < a.sources.size(); ++f)
+    if (a.sources[f].path() != b.sources[f].path() ||
+        a.sources[f].bytes().size() != b.sources[f].bytes().size())
+      return false;
+  return true;
+}
+
+}  // namespace
+
 void Server::start_analysis(OpenDeck& deck) {
   const auto& syntax = workspace_.refresh(deck);
   if (syntax == nullptr || deck.fragment) {
@@ -81,15 +89,21 @@ void Server::start_analysis(OpenDeck& deck) {
   }
   auto stop = std::make_shared<std::atomic<bool>>(false);
   analysing_[deck.path] = stop;
-  auto& analyst = analysts_[deck.path];
-  if (analyst == nullptr) analyst = std::make_shared<Analyst>();
-  analyst_->push([this, stop, syntax, analyst, path = deck.path, &schemas = workspace_.schemas(),
-                  settings = workspace_.settings()] {
-    auto found = *stop ? nullptr : analyst->look(syntax, schemas, settings, *stop);
-    queue_.push([this, path, found = std::move(found)] {
+  analyst_->push([this, stop, syntax, path = deck.path, texts = workspace_.texts(),
+                  &schemas = workspace_.schemas(), settings = workspace_.settings()] {
+    auto found =
+        *stop ? nullptr : analyse(path, texts, syntax->generation, schemas, settings, *stop);
+    if (found != nullptr && found->loaded && !same_files(syntax->deck, found->loaded->deck()))
+      found = nullptr;
+    queue_.push([this, stop, path, found = std::move(found)] {
       analysing_.erase(path);
       const auto it = workspace_.decks().find(path);
-      if (it == workspace_.decks().end() || found == nullptr) return;
+      if (it == workspace_.decks().end()) return;
+      if (found == nullptr) {
+        if (*stop) return;
+        workspace_.changed();  // a file on disk changed between the two readings
+        return schedule(path);
+      }
       const bool first = it->second.semantics == nullptr;
       it->second.semantics = found;
       publish(it->second);
@@ -163,7 +177,7 @@ std::optional<std::uint64_t> line_now(const LineTable& lines, std::string_view t
 /// True where the findings of the deck are those of the text as it is.
 bool Server::says_of_now(const OpenDeck& deck) const {
   return deck.semantics != nullptr && workspace_.current(deck) &&
-         deck.semantics->syntax->generation == deck.syntax->generation;
+         deck.semantics->generation == deck.syntax->generation;
 }
 
 /// What a deck says of a file, and what the other open decks that include it say beyond that.
@@ -199,7 +213,6 @@ void Server::publish(OpenDeck& deck) {
   if (s != nullptr && !says_of_now(deck)) return;
   if (s != nullptr && s->refusal.empty()) {
     for (const Diagnostic& d : s->lint.diagnostics) {
-      if (held_back(deck, d)) continue;
       const std::uint32_t file = d.span.valid() ? d.span.file : 0;
       by_file.try_emplace(deck.syntax->deck.sources[file].path(), Json::array())
           .first->second.push_back(finding(deck, d));
@@ -235,56 +248,6 @@ void Server::publish(OpenDeck& deck) {
     if (const Document* d = workspace_.find(path)) params["version"] = d->version;
     notify("textDocument/publishDiagnostics", std::move(params));
   }
-}
-
-// ---- the line that is being typed ------------------------------------------------------------
-
-void Server::typed(const std::string& path, std::uint64_t line) {
-  if (hold_ms_ == 0) return;
-  const bool same = typing_.active && typing_.path == path && typing_.line == line;
-  if (!same) {
-    // What was there before any of this typing may come back when it is taken back.
-    std::set<std::string> before;
-    if (typing_.path == path) before = std::move(typing_.before);
-    if (const OpenDeck* deck = workspace_.deck_of(path);
-        deck != nullptr && deck->semantics != nullptr)
-      for (const Diagnostic& d : deck->semantics->lint.diagnostics)
-        // What was held back on the line before comes out now.
-        before.insert(key_of(d));
-    typing_ = {true, path, line, std::move(before), Clock::now()};
-  }
-  typing_.last = Clock::now();
-}
-
-void Server::cursor_at(const std::string& path, std::uint64_t line) {
-  if (typing_.active && (typing_.path != path || typing_.line != line)) release_typing();
-}
-
-void Server::release_typing(bool saved) {
-  if (saved) typing_.before.clear();
-  if (!typing_.active) return;
-  typing_.active = false;
-  if (workspace_.deck_of(typing_.path) == nullptr) return;
-  for (OpenDeck* deck : decks_with(typing_.path))
-    if (deck->semantics != nullptr) publish(*deck);
-}
-
-bool Server::held_back(const OpenDeck& deck, const Diagnostic& d) const {
-  if (!typing_.active || !d.span.valid()) return false;
-  const Syntax& syntax = *deck.syntax;
-  if (syntax.deck.sources[d.span.file].path() != typing_.path) return false;
-  if (typing_.before.contains(key_of(d))) return false;
-  // The block of the line, and those of the lines beside it: a half-typed header cuts a block.
-  const LineTable& lines = syntax.lines(d.span.file);
-  const std::int64_t of = syntax.index.find(d.span.file, d.span.offset);
-  const std::uint64_t line = lines.line_of(d.span.offset);
-  if (line == typing_.line) return true;
-  for (const std::int64_t away : {-1, 0, 1}) {
-    const std::uint64_t beside = typing_.line + static_cast<std::uint64_t>(away);
-    if (beside >= lines.size()) continue;
-    if (of >= 0 && syntax.index.find(d.span.file, lines.start(beside)) == of) return true;
-  }
-  return false;
 }
 
 // ---- progress --------------------------------------------------------------------------------

@@ -26,7 +26,7 @@ const InterBase* View::interface_of(const Block& block) const {
   const Semantics* s = semantics();
   if (s == nullptr || block.schema == nullptr || block.schema->kind != "inter") return nullptr;
   const std::int64_t id = id_of(deck, block);
-  for (const InterBase* inter : s->interfaces.ordered)
+  for (const InterBase* inter : s->loaded->interfaces().ordered)
     if (inter->id == id && inter->block != nullptr && inter->block->schema == block.schema)
       return inter;
   return nullptr;

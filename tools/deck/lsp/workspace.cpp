@@ -184,12 +184,8 @@ const std::shared_ptr<const Syntax>& Workspace::refresh(OpenDeck& deck) {
     deck.syntax = nullptr;
     return deck.syntax;
   }
-  EngineFiles engine = read_engine_files(*fresh, settings_.limits);
-  std::set<std::string> edited;
-  for (std::uint32_t f = 0; f < fresh->sources.size(); ++f)
-    if (texts_.contains(fresh->sources[f].path())) edited.insert(fresh->sources[f].path());
-  const auto syntax = std::make_shared<const Syntax>(std::move(*fresh), std::move(engine),
-                                                     std::move(edited), generation_);
+  read_engine_files(*fresh, settings_.limits);  // which are files of the deck, too
+  const auto syntax = std::make_shared<const Syntax>(std::move(*fresh), generation_);
   for (std::uint32_t f = 0; f < syntax->deck.sources.size(); ++f) {
     const Source& source = syntax->deck.sources[f];
     // Engine files are as they are on disk, whether they are open or not.

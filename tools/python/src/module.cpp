@@ -112,16 +112,16 @@ std::string lint_text(PyDeck& d, std::optional<bool> geometry,
   const py::gil_scoped_release free;
   const std::lock_guard one(d.mutex);
   const LoadedDeck& l = d.loaded;
-  LintInput input(l);
+  std::vector<ExtraCheck> extra;
   if (geometry.value_or(true))
-    input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
+    extra.push_back([&](const LintContext& context, Reporter& reporter) {
       return check_geometry(context, reporter,
                             {geometry ? std::nullopt : std::optional(QuickLook{})});
     });
   LintOptions options;
   options.select = select;
   options.ignore = ignore;
-  const LintResult result = run_lint(input, options);
+  const LintResult result = run_lint(l, options, extra);
   return lint_json({{d.path, &l.deck(), &result, "", &l.interfaces()}});
 }
 

@@ -28,12 +28,11 @@ struct GeometryOptions {
   std::function<void(const Scene&, const SceneView&)> seen = {};
 };
 
-/// A check for LintInput::extra_checks, of the scene that the LoadedDeck of the context has, but
-/// for a quick look; returns what that left out. Does nothing without a LoadedDeck. The number of
-/// candidates is not looked at.
+/// An extra check for run_lint, of the scene that the LoadedDeck of the context has, but for a
+/// quick look; returns what that left out. The number of candidates is not looked at.
 ///
-///   input.extra_checks.push_back(
-///       [](const LintContext& c, Reporter& r) { return check_geometry(c, r); });
+///   run_lint(loaded, options,
+///            {[](const LintContext& c, Reporter& r) { return check_geometry(c, r); }});
 ///
 std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& reporter,
                                        const GeometryOptions& options = {});

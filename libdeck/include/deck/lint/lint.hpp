@@ -63,10 +63,10 @@ class LintContext {
  public:
   const Deck& deck;
   const SchemaSet& schemas;
-  const Model* model;            ///< nullptr: model rules are skipped
-  const Interfaces* interfaces;  ///< nullptr: likewise
-  Selections* selections;        ///< nullptr: likewise
-  const LoadedDeck* loaded;      ///< nullptr: checks that need contacts are skipped
+  const Model* model;
+  const Interfaces* interfaces;
+  Selections* selections;
+  const LoadedDeck* loaded;
   std::vector<ContactCard> contacts;
   std::vector<DecodedBlock> defaults;   ///< /DEFAULT/INTER blocks
   std::vector<DecodedBlock> frictions;  ///< /FRICTION blocks
@@ -79,7 +79,7 @@ class LintContext {
   std::map<std::string_view, std::set<std::int64_t>> referenced;
   /// Every whole number in blocks whose cards are not described: any of them may be a reference.
   std::unordered_set<std::int64_t> loose_numbers;
-  const EngineFiles* engine = nullptr;  ///< nullptr: not looked for
+  const EngineFiles* engine = nullptr;  ///< those beside the deck
   bool any_acts = false;  ///< one of `loads` at least acts on something (Field::acts_on)
 
   /// Id of a reference as the model knows it (submodel offset added).
@@ -125,25 +125,6 @@ inline constexpr std::string_view geometry_rules =
 /// Reports rules of RuleStage::extra (geometry), and returns what it did not look at.
 using ExtraCheck = std::function<std::vector<NotChecked>(const LintContext&, Reporter&)>;
 
-/// Input of a run. `extra_checks` is where later stages (geometry) hook in.
-struct LintInput {
-  /// All that the rules look at without contacts, which check_geometry adds.
-  explicit LintInput(const LoadedDeck& loaded);
-  /// The parts one by one, where there is no LoadedDeck: a model that outlives edits of its text.
-  LintInput(const Deck& of, const SchemaSet& by, const Model* made = nullptr,
-            const Interfaces* cards = nullptr, std::vector<const Diagnostics*> found = {})
-      : deck(of), schemas(by), model(made), interfaces(cards), earlier(std::move(found)) {}
-
-  const LoadedDeck* loaded = nullptr;
-  const Deck& deck;
-  const SchemaSet& schemas;
-  const Model* model = nullptr;
-  const Interfaces* interfaces = nullptr;
-  std::vector<const Diagnostics*> earlier;  ///< what making them found; of a LoadedDeck: empty
-  std::vector<ExtraCheck> extra_checks = {};
-  const EngineFiles* engine = nullptr;  ///< those beside the deck; nullptr: not looked for
-};
-
 struct LintResult {
   std::vector<Diagnostic> diagnostics;      ///< sorted by file, line, column, rule
   std::vector<std::string> fingerprints;    ///< one per diagnostic
@@ -155,7 +136,9 @@ struct LintResult {
   std::vector<NotChecked> not_checked;
 };
 
-LintResult run_lint(const LintInput& input, const LintOptions& options = {});
+/// All that the rules look at without contacts, which `extra` adds (see check_geometry).
+LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options = {},
+                    const std::vector<ExtraCheck>& extra = {});
 
 /// Rule, entity and the text of the card with runs of blanks made one: stays the same when lines
 /// move. Sixteen hexadecimal digits.

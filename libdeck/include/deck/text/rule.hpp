@@ -18,7 +18,7 @@ enum class RuleStage : std::uint8_t {
   reading,  ///< bytes to blocks, cells to values
   model,    ///< nodes, elements, groups, interfaces
   check,    ///< a check of the lint stage
-  extra,    ///< LintInput::extra_checks (geometry)
+  extra,    ///< the extra checks of run_lint (geometry)
   gate,     ///< bounds that a team has set (deck/lint/gate.hpp)
   linter,   ///< the linter itself: suppressions, baseline
 };

@@ -119,7 +119,7 @@ struct DeletionStep {
   Span place;
 };
 DeletionStep deletion_step(const LintContext& c) {
-  if (c.engine == nullptr || c.engine->files.empty() || c.engine->files[0].number != 1) return {};
+  if (c.engine->files.empty() || c.engine->files[0].number != 1) return {};
   for (const EngineBlock& b : c.engine->files[0].blocks) {
     if (b.part(0) != "DT" || b.part(1) != "INTER" || b.part(2) != "DEL" || b.lines.empty())
       continue;

@@ -106,7 +106,7 @@ NotChecked too_many_pairs(const std::string& contact, std::string_view what) {
 std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& reporter,
                                        const GeometryOptions& chosen) {
   std::vector<NotChecked> left_out;
-  if (context.loaded == nullptr || context.interfaces->ordered.empty()) return left_out;
+  if (context.interfaces->ordered.empty()) return left_out;
   if (const std::uint64_t items = chosen.quick ? detail::items_of(context) : 0;
       chosen.quick && items > chosen.quick->items)
     return {{std::string(geometry_rules),

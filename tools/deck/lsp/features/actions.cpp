@@ -17,7 +17,7 @@ namespace {
 /// Findings of the text as it is now; nullptr while they are not known.
 const Semantics* present(const View& view) {
   const Semantics* s = view.semantics();
-  return s != nullptr && s->syntax->generation == view.syntax->generation ? s : nullptr;
+  return s != nullptr && s->generation == view.syntax->generation ? s : nullptr;
 }
 
 /// A finding in short, for the client to join an action to what it shows.

@@ -27,8 +27,8 @@ EffectiveValue effective(const View& view, const Block& block, std::string_view 
   const InterBase* inter = view.interface_of(block);
   if (inter == nullptr) return out;
   const Semantics& s = *view.semantics();
-  const ParamsInput params{s.deck->sources[0].path(), s.deck.get(), s.model.get(), &s.interfaces,
-                           nullptr};
+  const LoadedDeck& of = *s.loaded;
+  const ParamsInput params{of.path(), &of.deck(), &of.model(), &of.interfaces(), nullptr};
   visit_interface(*inter, [&](const auto& typed) {
     typed.for_each([&](std::string_view name, const auto& e) {
       if (name != value_name(field)) return;
@@ -37,7 +37,7 @@ EffectiveValue effective(const View& view, const Block& block, std::string_view 
       out.text = effective_text(params, *inter, name, e);
       out.origin = to_string(e.origin);
       if (e.origin == Origin::default_block && e.span.valid())
-        out.place = fmt::format("line {}", s.syntax->deck.sources.position(s.real(e.span)).line);
+        out.place = fmt::format("line {}", of.deck().sources.position(e.span).line);
       if (e.origin != Origin::geometry) return;
       out.origin = "derived from the mesh";
       if (view.open.geometry == nullptr) return;
