@@ -88,8 +88,8 @@ std::string shown(std::string_view text) {
 
 }  // namespace
 
-void add_changed_values(const EditContext& context, std::string_view option, Rewrite& rewrite) {
-  const Deck& deck = context.deck;
+void add_changed_values(const LoadedDeck& context, std::string_view option, Rewrite& rewrite) {
+  const Deck& deck = context.deck();
   const BlockFinder blocks(deck);
   CellFinder cells(deck);
   // What the conversion has told already, by line.

@@ -136,8 +136,7 @@ class Edit::State {
     if (n == no_index)
       return fail(config(original->path() + ": there is no node " + std::to_string(id)));
     if (!nodes) {
-      context.emplace(now());
-      nodes.emplace(*context);
+      nodes.emplace(now());
     }
     nodes->look_up({&n, 1});
     const auto where = [&] {
@@ -210,7 +209,6 @@ class Edit::State {
       return false;
     }
     nodes.reset();
-    context.reset();
     moved.clear();
     later.emplace(std::move(*again));
     cells = CellWriter(later->deck().sources);
@@ -234,7 +232,6 @@ class Edit::State {
   CellWriter cells;
   std::vector<TextEdit> edits;
   bool read_again = false;  ///< the next change depends on those before
-  std::optional<EditContext> context;
   std::optional<detail::NodeCells> nodes;
   std::set<std::pair<NodeIndex, int>> moved;
   std::vector<std::string> notes;

@@ -91,7 +91,7 @@ int verify(Conversion& c, LoadedDeck& again, const ConvertStep& step,
 int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, const Options& options,
           Progress& progress) {
   const CommonOptions& common = options.common;
-  const EditContext context(c.now);
+  const LoadedDeck& context = c.now;
   progress.step(c.now.path() + ": " + step.option);
   Rewrite rewrite = step.run(context);
   if (step.engine && rewrite.refusals.empty())

@@ -64,16 +64,16 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
   std::vector<ConvertStep> all;
   if (!steps.extract.empty())
     all.push_back({"--extract-contacts",
-                   [&steps](const EditContext& c) { return extract_contacts(c, steps.extract); },
+                   [&steps](const LoadedDeck& c) { return extract_contacts(c, steps.extract); },
                    ""});
   if (steps.flatten)
-    all.push_back({"--flatten", [](const EditContext& c) { return flatten(c); }, ""});
+    all.push_back({"--flatten", [](const LoadedDeck& c) { return flatten(c); }, ""});
   if (steps.expand_type19)
-    all.push_back({"--expand-type19", [](const EditContext& c) { return expand_type19(c); }, ""});
+    all.push_back({"--expand-type19", [](const LoadedDeck& c) { return expand_type19(c); }, ""});
   if (steps.resolve_defaults)
     all.push_back(
         {"--resolve-defaults",
-         [&steps](const EditContext& c) { return resolve_defaults(c, {steps.allow_loss}); },
+         [&steps](const LoadedDeck& c) { return resolve_defaults(c, {steps.allow_loss}); },
          "--allow-loss leaves these cells to the default card and writes the others"});
   if (steps.version != 0 && !is_target_version(steps.version))
     return Error{Error::Code::config,
@@ -81,17 +81,16 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
                      ": not a version that can be written; 110 to 140 and 2017 to " +
                      std::to_string(newest_version) + " are"};
   if (steps.version != 0)
-    all.push_back({"--version",
-                   [&steps](const EditContext& c) {
-                     return to_version(c, steps.version, {steps.allow_loss});
-                   },
-                   "--allow-loss drops what the version has no cell for"});
+    all.push_back(
+        {"--version",
+         [&steps](const LoadedDeck& c) { return to_version(c, steps.version, {steps.allow_loss}); },
+         "--allow-loss drops what the version has no cell for"});
   if (!steps.units.empty()) {
     const auto target = parse_unit_system(steps.units);
     if (!target) return Error{Error::Code::config, "--units: " + target.error().message};
     all.push_back(
         {"--units",
-         [&steps, system = *target](const EditContext& c) {
+         [&steps, system = *target](const LoadedDeck& c) {
            return to_units(c, system, {steps.partial, steps.keep_working});
          },
          "--partial converts what is known and lists the rest",
@@ -109,7 +108,7 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
       renumbering.rules.push_back(std::move(*rule));
     }
     all.push_back({"--renumber",
-                   [renumbering](const EditContext& c) { return renumber(c, renumbering); },
+                   [renumbering](const LoadedDeck& c) { return renumber(c, renumbering); },
                    "--partial renumbers what is known and lists the rest"});
   }
   if (steps.allow_loss && steps.version == 0 && !steps.resolve_defaults && steps.units.empty())

@@ -25,7 +25,7 @@ void add_step_options(CommandLine& line, ConvertSteps& steps);
 
 struct ConvertStep {
   std::string option;  ///< as on the command line, for messages
-  std::function<Rewrite(const EditContext&)> run;
+  std::function<Rewrite(const LoadedDeck&)> run;
   std::string way_out;  ///< what to do about a refusal; may be empty
   /// What the Engine files beside the deck need; may be empty.
   std::function<void(const Deck&, const EngineFiles&, Rewrite&)> engine = {};

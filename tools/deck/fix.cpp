@@ -231,23 +231,17 @@ class FixRun {
     base.threads = o_.common.thread_count();
     base.interfaces = o_.interfaces;
     base.ties = o_.ties;
-    base.read.include_paths = o_.common.include_paths;
-    base.limits = o_.common.limits;
     base.progress = [&](std::string_view what, std::size_t done, std::size_t total) {
       if (step != what) progress.step(step = what);
       progress.update(done, total);
     };
     std::vector<FixStep> steps;
     for (const std::string& strategy : names)
-      steps.emplace_back([&](const EditContext& here, const ReadOptions& read) {
-        FixOptions options = base;
-        options.read = read;
-        return one_step(strategy, here, options);
-      });
-    return fix_in_order(loaded, base, steps);
+      steps.emplace_back([&](const LoadedDeck& here) { return one_step(strategy, here, base); });
+    return fix_in_order(loaded, steps);
   }
 
-  Result<PenetrationFix> one_step(const std::string& strategy, const EditContext& context,
+  Result<PenetrationFix> one_step(const std::string& strategy, const LoadedDeck& context,
                                   const FixOptions& base) const {
     if (strategy == "reduce-gap") {
       ReduceGapOptions options;

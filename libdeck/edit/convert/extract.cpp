@@ -75,17 +75,17 @@ bool is_box_selection(const Block& b) { return b.header.find("/BOX") != std::str
 
 }  // namespace
 
-Extraction::Extraction(const EditContext& c, std::span<const std::int64_t> interfaces)
+Extraction::Extraction(const LoadedDeck& c, std::span<const std::int64_t> interfaces)
     : context(c),
-      block_kept(c.deck.blocks.size(), 0),
-      node_kept(c.model.nodes.size(), 0),
-      deck_(c.deck),
-      model_(c.model),
-      selections_(*c.model.selections),
-      visited_(c.deck.blocks.size(), 0),
-      touched_(c.model.nodes.size(), 0),
-      part_whole_(c.model.parts.size(), 0),
-      elements_of_part_(c.model.parts.size()) {
+      block_kept(c.deck().blocks.size(), 0),
+      node_kept(c.model().nodes.size(), 0),
+      deck_(c.deck()),
+      model_(c.model()),
+      selections_(*c.model().selections),
+      visited_(c.deck().blocks.size(), 0),
+      touched_(c.model().nodes.size(), 0),
+      part_whole_(c.model().parts.size(), 0),
+      elements_of_part_(c.model().parts.size()) {
   for (std::size_t k = 0; k < element_families; ++k) {
     const Elements& family = model_.family(static_cast<ElementKind>(k));
     element_kept[k].assign(family.size(), 0);
@@ -104,7 +104,7 @@ Extraction::Extraction(const EditContext& c, std::span<const std::int64_t> inter
     definitions_.emplace(std::pair{b.schema->kind, b.id.value + deck_.offset_of(b, b.schema->kind)},
                          i);
   }
-  for (const InterBase* inter : c.interfaces.ordered)
+  for (const InterBase* inter : c.interfaces().ordered)
     if (std::find(interfaces.begin(), interfaces.end(), inter->id) != interfaces.end())
       keep_block(static_cast<std::size_t>(inter->block - deck_.blocks.data()), touching);
 }

@@ -152,13 +152,13 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
-void compare(const EditContext& whole, const LoadedDeck& small,
-             const std::vector<std::int64_t>& ids, Rewrite& out) {
+void compare(const LoadedDeck& whole, const LoadedDeck& small, const std::vector<std::int64_t>& ids,
+             Rewrite& out) {
   const auto differs = [&](std::int64_t id, std::string field, std::string before,
                            std::string after) {
-    for (const InterBase* inter : whole.interfaces.ordered) {
+    for (const InterBase* inter : whole.interfaces().ordered) {
       if (inter->id != id) continue;
-      LossEntry entry = loss_entry(whole.deck, Loss::approximated, *inter->block, inter->span);
+      LossEntry entry = loss_entry(whole.deck(), Loss::approximated, *inter->block, inter->span);
       entry.field = std::move(field);
       entry.old_text = std::move(before);
       entry.new_text = std::move(after);
@@ -168,16 +168,16 @@ void compare(const EditContext& whole, const LoadedDeck& small,
     }
   };
   for (const std::int64_t id : ids) {
-    const auto a = values_of(whole.interfaces, id), b = values_of(small.interfaces(), id);
+    const auto a = values_of(whole.interfaces(), id), b = values_of(small.interfaces(), id);
     for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
       if (a[i].second != b[i].second) differs(id, a[i].first, a[i].second, b[i].second);
     if (a.size() != b.size()) differs(id, "", "", "the interface is not read");
   }
-  SceneOptions options = whole.loaded.scene_options();
+  SceneOptions options = whole.scene_options();
   options.only = ids;
   options.penetrations = options.candidates = false;
   Diagnostics ignored;
-  const Scene before = whole.loaded.scene_with(options, ignored);
+  const Scene before = whole.scene_with(options, ignored);
   const Scene after = small.scene_with(options, ignored);
   for (std::size_t i = 0; i < before.contacts.size(); ++i) {
     const Contact& x = before.contacts[i];
@@ -185,7 +185,7 @@ void compare(const EditContext& whole, const LoadedDeck& small,
       differs(x.inter->id, to_string(x.role), "", "no such contact");
       continue;
     }
-    const auto a = numbers_of(whole.model, x), b = numbers_of(small.model(), after.contacts[i]);
+    const auto a = numbers_of(whole.model(), x), b = numbers_of(small.model(), after.contacts[i]);
     for (const auto& [what, numbers] : a) {
       const auto it = b.find(what);
       if (it == b.end() || !same(numbers, it->second))
@@ -195,9 +195,9 @@ void compare(const EditContext& whole, const LoadedDeck& small,
 }
 
 /// What the small deck cannot show.
-void remarks(const EditContext& c, const std::vector<std::int64_t>& ids, Rewrite& out) {
+void remarks(const LoadedDeck& c, const std::vector<std::int64_t>& ids, Rewrite& out) {
   std::int64_t mover = 0;
-  for (const InterBase* inter : c.interfaces.ordered) {
+  for (const InterBase* inter : c.interfaces().ordered) {
     const bool wanted = std::find(ids.begin(), ids.end(), inter->id) != ids.end();
     const auto check = [&](const auto& list) {
       for (const auto& i : list) {
@@ -205,7 +205,7 @@ void remarks(const EditContext& c, const std::vector<std::int64_t>& ids, Rewrite
         if (!wanted && i.Inacti.value == 3 && mover == 0) mover = i.id;
         if (!wanted) continue;
         if (mover != 0) {
-          LossEntry entry = loss_entry(c.deck, Loss::undecided, *inter->block, inter->span);
+          LossEntry entry = loss_entry(c.deck(), Loss::undecided, *inter->block, inter->span);
           entry.field = "Inacti";
           entry.note =
               "interface " + std::to_string(mover) +
@@ -214,13 +214,13 @@ void remarks(const EditContext& c, const std::vector<std::int64_t>& ids, Rewrite
         }
       }
     };
-    check(c.interfaces.type7);
-    check(c.interfaces.type11);
-    check(c.interfaces.type19);
+    check(c.interfaces().type7);
+    check(c.interfaces().type11);
+    check(c.interfaces().type19);
     const auto tied = [&](const auto& list) {
       for (const auto& i : list)
         if (&i == inter && wanted && i.Irem_i2.value == 1) {
-          LossEntry entry = loss_entry(c.deck, Loss::dropped, *inter->block, inter->span);
+          LossEntry entry = loss_entry(c.deck(), Loss::dropped, *inter->block, inter->span);
           entry.field = "Irem_i2";
           entry.note =
               "nodes tied by /INTER/TYPE2 are removed from this interface in the whole "
@@ -228,8 +228,8 @@ void remarks(const EditContext& c, const std::vector<std::int64_t>& ids, Rewrite
           out.losses.push_back(std::move(entry));
         }
     };
-    tied(c.interfaces.type7);
-    tied(c.interfaces.type19);
+    tied(c.interfaces().type7);
+    tied(c.interfaces().type19);
   }
 }
 
@@ -260,22 +260,22 @@ void report_dropped(const Deck& deck, const Extraction& kept, const Model& model
   for (const std::string& question : kept.open_questions) out.notes.push_back(question);
 }
 
-Rewrite extract_flat(const EditContext& c, const std::vector<std::int64_t>& ids) {
+Rewrite extract_flat(const LoadedDeck& c, const std::vector<std::int64_t>& ids) {
   Rewrite out;
   Extraction kept(c, ids);
   kept.run();
   std::string about = "contact interfaces";
   for (const std::int64_t id : ids) about += " " + std::to_string(id);
-  about += " of " + c.deck.sources[0].path() + " and what they need";
+  about += " of " + c.deck().sources[0].path() + " and what they need";
   std::erase_if(about, [](char ch) { return static_cast<unsigned char>(ch) < ' '; });
-  std::string text = Writer(c.deck, c.model, kept).run(about);
-  const auto small = read_small(c.loaded, text);
+  std::string text = Writer(c.deck(), c.model(), kept).run(about);
+  const auto small = read_small(c, text);
   if (!small) {
     out.refusals.push_back(small.error().message);
     return out;
   }
   remarks(c, ids, out);
-  report_dropped(c.deck, kept, c.model, out);
+  report_dropped(c.deck(), kept, c.model(), out);
   compare(c, *small, ids, out);
   out.new_text = std::move(text);
   return out;
@@ -283,32 +283,32 @@ Rewrite extract_flat(const EditContext& c, const std::vector<std::int64_t>& ids)
 
 }  // namespace
 
-Rewrite extract_contacts(const EditContext& context, std::span<const std::int64_t> interfaces) {
+Rewrite extract_contacts(const LoadedDeck& context, std::span<const std::int64_t> interfaces) {
   Rewrite out;
   std::vector<std::int64_t> ids(interfaces.begin(), interfaces.end());
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  out.refusals = detail::unread_files(context.deck);
+  out.refusals = detail::unread_files(context.deck());
   for (const std::int64_t id : ids) {
-    const auto& all = context.interfaces.ordered;
+    const auto& all = context.interfaces().ordered;
     if (std::any_of(all.begin(), all.end(), [&](const InterBase* i) { return i->id == id; }))
       continue;
     std::string have;
     for (std::size_t i = 0; i < all.size() && i < 20; ++i)
       have += (i == 0 ? "" : ", ") + std::to_string(all[i]->id);
-    out.refusals.push_back(context.deck.sources[0].path() + ":1:1: no contact interface " +
+    out.refusals.push_back(context.deck().sources[0].path() + ":1:1: no contact interface " +
                            std::to_string(id) + " of type 7, 10, 11 or 19; the deck has " +
                            (have.empty() ? "none" : have + (all.size() > 20 ? ", ..." : "")));
     out.misasked = true;
   }
   if (ids.empty())
-    out.refusals.push_back(context.deck.sources[0].path() + ":1:1: no interface was named");
+    out.refusals.push_back(context.deck().sources[0].path() + ":1:1: no interface was named");
   if (!out.refusals.empty()) return out;
-  if (context.deck.includes.empty()) return extract_flat(context, ids);
+  if (context.deck().includes.empty()) return extract_flat(context, ids);
 
   Rewrite flat = flatten(context, {.mark = false});
   if (!flat.refusals.empty()) return flat;
-  const auto one = read_small(context.loaded, std::move(*flat.new_text));
+  const auto one = read_small(context, std::move(*flat.new_text));
   if (!one) {
     out.refusals.push_back(one.error().message);
     return out;
@@ -316,9 +316,9 @@ Rewrite extract_contacts(const EditContext& context, std::span<const std::int64_
   out = extract_flat(*one, ids);
   // Lines of the flat form mean nothing to anybody: name the block in its own file.
   for (LossEntry& entry : out.losses)
-    for (const Block& b : context.deck.blocks)
+    for (const Block& b : context.deck().blocks)
       if (b.keyword == entry.keyword && b.id.value == entry.id) {
-        const LossEntry place = loss_entry(context.deck, entry.loss, b, b.header_span);
+        const LossEntry place = loss_entry(context.deck(), entry.loss, b, b.header_span);
         entry.file = place.file;
         entry.line = place.line;
         break;

@@ -51,10 +51,10 @@ class ItemLines {
 /// Which blocks, nodes and elements the interfaces need.
 class Extraction {
  public:
-  Extraction(const EditContext& context, std::span<const std::int64_t> interfaces);
+  Extraction(const LoadedDeck& context, std::span<const std::int64_t> interfaces);
   void run();
 
-  const EditContext& context;
+  const LoadedDeck& context;
   std::vector<std::uint8_t> block_kept;                                  ///< by Deck::blocks
   std::vector<std::uint8_t> node_kept;                                   ///< by NodeIndex
   std::array<std::vector<std::uint8_t>, element_families> element_kept;  ///< by ElementKind, index

@@ -273,8 +273,8 @@ class Comparison {
 
 }  // namespace
 
-Rewrite flatten(const EditContext& context, const FlattenOptions& options) {
-  const Deck& deck = context.deck;
+Rewrite flatten(const LoadedDeck& context, const FlattenOptions& options) {
+  const Deck& deck = context.deck();
   Rewrite rewrite;
   rewrite.refusals = detail::unread_files(deck);
   if (!rewrite.refusals.empty()) return rewrite;
@@ -293,7 +293,7 @@ Rewrite flatten(const EditContext& context, const FlattenOptions& options) {
   }
   if (!rewrite.refusals.empty()) return rewrite;
   std::string text = Flattener(deck, options, std::move(edits)).run();
-  const auto flat = read_deck_text(deck.sources[0].path(), text, context.schemas);
+  const auto flat = read_deck_text(deck.sources[0].path(), text, context.schemas());
   const std::string difference =
       flat ? Comparison(deck, *flat).difference(rewrite.losses) : flat.error().message;
   if (!difference.empty()) {

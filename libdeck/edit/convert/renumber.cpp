@@ -38,8 +38,8 @@ std::optional<std::vector<std::string_view>> possible_spaces(const Block& b) {
 
 class Renumbering {
  public:
-  Renumbering(const EditContext& context, const RenumberOptions& options, IdSpaces spaces)
-      : deck_(context.deck), options_(options), spaces_(std::move(spaces)) {}
+  Renumbering(const LoadedDeck& context, const RenumberOptions& options, IdSpaces spaces)
+      : deck_(context.deck()), options_(options), spaces_(std::move(spaces)) {}
 
   Rewrite run() {
     for (const Block& b : deck_.blocks) {
@@ -469,9 +469,9 @@ class Renumbering {
 
 }  // namespace
 
-Rewrite renumber(const EditContext& context, const RenumberOptions& options) {
+Rewrite renumber(const LoadedDeck& context, const RenumberOptions& options) {
   Rewrite out;
-  out.refusals = detail::unread_files(context.deck);
+  out.refusals = detail::unread_files(context.deck());
   const std::size_t unread = out.refusals.size();
   IdSpaces spaces = detail::collect_spaces(context, options, out.refusals);
   out.misasked = out.refusals.size() > unread;

@@ -124,7 +124,7 @@ void check_single(const std::string& name, IdSpace& space, std::vector<std::stri
 
 }  // namespace
 
-IdSpaces collect_spaces(const EditContext& context, const RenumberOptions& options,
+IdSpaces collect_spaces(const LoadedDeck& context, const RenumberOptions& options,
                         std::vector<std::string>& refusals) {
   IdSpaces spaces;
   for (const RenumberRule& rule : options.rules) {
@@ -139,8 +139,8 @@ IdSpaces collect_spaces(const EditContext& context, const RenumberOptions& optio
       space.only = rule.only;
     }
   }
-  const Deck& deck = context.deck;
-  const Model& m = context.model;
+  const Deck& deck = context.deck();
+  const Model& m = context.model();
   for (const Block& b : deck.blocks) {
     if (b.schema == nullptr || b.schema->bulk) continue;
     const std::string_view space = space_of(b.schema->kind);

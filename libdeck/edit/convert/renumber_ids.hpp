@@ -34,7 +34,7 @@ struct IdSpace {
 using IdSpaces = std::map<std::string, IdSpace, std::less<>>;
 
 /// All definitions of the deck with the rules applied. `refusals` gets rules that make no sense.
-IdSpaces collect_spaces(const EditContext& context, const RenumberOptions& options,
+IdSpaces collect_spaces(const LoadedDeck& context, const RenumberOptions& options,
                         std::vector<std::string>& refusals);
 
 }  // namespace deck::detail

@@ -34,11 +34,11 @@ std::string_view source_of(Origin origin) {
 /// One interface: which cells get which text.
 class Resolver {
  public:
-  Resolver(const EditContext& context, const InterBase& inter, LineEdits& lines, Rewrite& out)
+  Resolver(const LoadedDeck& context, const InterBase& inter, LineEdits& lines, Rewrite& out)
       : c_(context),
         inter_(inter),
         block_(*inter.block),
-        decoded_(decode(context.deck, *inter.block)),
+        decoded_(decode(context.deck(), *inter.block)),
         lines_(lines),
         out_(out) {}
 
@@ -53,7 +53,7 @@ class Resolver {
  private:
   LossEntry& report(Loss loss, Span span, std::string_view field, std::string old_text,
                     std::string new_text, std::string note) {
-    LossEntry entry = loss_entry(c_.deck, loss, block_, span);
+    LossEntry entry = loss_entry(c_.deck(), loss, block_, span);
     entry.field = std::string(field);
     entry.old_text = std::move(old_text);
     entry.new_text = std::move(new_text);
@@ -147,7 +147,7 @@ class Resolver {
 
   /// Deck units to working units, with the flags as they are or as they will be.
   double factor(const Field& f, bool after) const {
-    const UnitSystem* units = c_.deck.units_of(block_);
+    const UnitSystem* units = c_.deck().units_of(block_);
     if (units == nullptr) return 1;
     const auto all = [&](const std::vector<Condition>& when) {
       return std::all_of(when.begin(), when.end(),
@@ -160,7 +160,7 @@ class Resolver {
         break;
       }
     if (f.solver_dimension && all(f.solver_when)) dimension = *f.solver_dimension;
-    return conversion_factor(*units, c_.deck.begin.working, dimension);
+    return conversion_factor(*units, c_.deck().begin.working, dimension);
   }
 
   /// Values on the card whose unit depends on a flag that is now written.
@@ -176,7 +176,7 @@ class Resolver {
         if (cell.parameter) {
           report(Loss::undecided, cell.span, f.name, std::string(cell.text), "",
                  "its unit changes with a flag that is now on the card, and it is a parameter");
-          out_.refusals.push_back(c_.deck.sources.where(cell.span) + ": " + f.name +
+          out_.refusals.push_back(c_.deck().sources.where(cell.span) + ": " + f.name +
                                   " is a parameter whose unit would change");
           continue;
         }
@@ -238,7 +238,7 @@ class Resolver {
       if (shorter && shorter->exact)
         CellWriter::put(text, f.first, f.last, shorter->text);
       else
-        out_.refusals.push_back(c_.deck.sources.where(cell.span) + ": " + f.name +
+        out_.refusals.push_back(c_.deck().sources.where(cell.span) + ": " + f.name +
                                 " does not fit its columns; shorten it");
     }
     for (const Field& f : card.schema->fields)
@@ -247,7 +247,7 @@ class Resolver {
     return text;
   }
 
-  const EditContext& c_;
+  const LoadedDeck& c_;
   const InterBase& inter_;
   const Block& block_;
   DecodedBlock decoded_;
@@ -259,10 +259,10 @@ class Resolver {
 
 }  // namespace
 
-Rewrite resolve_defaults(const EditContext& context, const ResolveOptions& options) {
+Rewrite resolve_defaults(const LoadedDeck& context, const ResolveOptions& options) {
   Rewrite out;
-  LineEdits lines(context.deck.sources);
-  for (const InterBase* inter : context.interfaces.ordered)
+  LineEdits lines(context.deck().sources);
+  for (const InterBase* inter : context.interfaces().ordered)
     Resolver(context, *inter, lines, out).run();
   lines.finish(out.edits);
   for (const LossEntry& e : out.losses)

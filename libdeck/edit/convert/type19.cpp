@@ -61,17 +61,17 @@ class FreeIds {
 /// Replaces one TYPE19.
 class Expander {
  public:
-  Expander(const EditContext& context, const InterType19& inter, FreeIds& ids, LineEdits& lines,
+  Expander(const LoadedDeck& context, const InterType19& inter, FreeIds& ids, LineEdits& lines,
            Rewrite& out, std::map<std::string, std::int64_t>& shared, Span end_anchor)
       : c_(context),
         i_(inter),
         block_(*inter.block),
-        decoded_(decode(context.deck, *inter.block)),
+        decoded_(decode(context.deck(), *inter.block)),
         ids_(ids),
         lines_(lines),
         out_(out),
         shared_(shared),
-        local_(block_.submodel >= 0 || block_.version != context.deck.version ||
+        local_(block_.submodel >= 0 || block_.version != context.deck().version ||
                !end_anchor.valid() || (block_.header_span.file != 0 && has_parameters())),
         anchor_(end_anchor) {}
 
@@ -87,7 +87,7 @@ class Expander {
     std::string made = "/INTER/TYPE7/" + std::to_string(i_.id);
     if (two_sides) made += ", " + reversed();
     made += edges();
-    LossEntry entry = loss_entry(c_.deck, Loss::kept, block_, {});
+    LossEntry entry = loss_entry(c_.deck(), Loss::kept, block_, {});
     entry.old_text = "/INTER/TYPE19/" + std::to_string(i_.id);
     entry.new_text = made;
     if (i_.Iedge.has_input && i_.Iedge.input != 0 && i_.Iedge.input != i_.Iedge.value)
@@ -107,12 +107,12 @@ class Expander {
   }
 
   void undecided(std::string_view field, std::string text, const std::string& why) {
-    LossEntry entry = loss_entry(c_.deck, Loss::undecided, block_, {});
+    LossEntry entry = loss_entry(c_.deck(), Loss::undecided, block_, {});
     entry.field = std::string(field);
     entry.old_text = std::move(text);
     entry.note = why;
     out_.losses.push_back(std::move(entry));
-    out_.refusals.push_back(c_.deck.sources.where(block_.header_span) + ": TYPE19 " +
+    out_.refusals.push_back(c_.deck().sources.where(block_.header_span) + ": TYPE19 " +
                             std::to_string(i_.id) + " " + std::string(field) + ": " + why);
   }
 
@@ -141,21 +141,21 @@ class Expander {
     return true;
   }
 
-  Selections& selections() const { return *c_.model.selections; }
+  Selections& selections() const { return *c_.model().selections; }
   bool is_set(std::int64_t id) const {
-    return c_.model.selections != nullptr && !selections().is_plain("surf", id) &&
+    return c_.model().selections != nullptr && !selections().is_plain("surf", id) &&
            selections().set(id) != nullptr;
   }
 
   // ---- ids ----------------------------------------------------------------------------------
 
   std::int64_t offset(std::string_view kind) const {
-    return local_ ? c_.deck.offset_of(block_, kind) : 0;
+    return local_ ? c_.deck().offset_of(block_, kind) : 0;
   }
   /// An id as it is written where the new blocks stand. The TYPE19's own lines stay where they are,
   /// in the same submodel if there is one.
   std::int64_t written(std::int64_t id, std::string_view kind) const {
-    return id > 0 ? id - c_.deck.offset_of(block_, kind) : id;
+    return id > 0 ? id - c_.deck().offset_of(block_, kind) : id;
   }
   std::int64_t take(const std::string& family, std::string_view kind) {
     return ids_.take(family, offset(kind)) - offset(kind);
@@ -190,7 +190,7 @@ class Expander {
         (free_only ? "free edges of surface " : "edges of surface ") + std::to_string(surface));
   }
   bool has_edges(std::int64_t surface) const {
-    if (c_.model.selections == nullptr) return true;
+    if (c_.model().selections == nullptr) return true;
     if (is_set(surface)) return !selections().set(surface)->edges.empty();
     const Surface* found = selections().surface(surface);
     return found != nullptr && !selections().edges_of(found->segments, i_.Iedge.value == 1).empty();
@@ -234,7 +234,7 @@ class Expander {
   /// Iform of the default card or the built-in one: the effective value may come from /FRICTION.
   std::int64_t default_iform() const {
     if (i_.Iform.origin != Origin::derived) return i_.Iform.value;
-    const DefaultInter* defaults = c_.interfaces.defaults_of(19);
+    const DefaultInter* defaults = c_.interfaces().defaults_of(19);
     const auto* given = defaults != nullptr ? defaults->find("Iform") : nullptr;
     return given != nullptr ? given->value : 1;
   }
@@ -243,9 +243,9 @@ class Expander {
   void keep_stiffness(Texts& t) const {
     const Cell* cell = decoded_.find("Stfac");
     if (i_.Istf.value != 1 || decoded_.integer("Istf") == 1) return;
-    const UnitSystem* units = c_.deck.units_of(block_);
+    const UnitSystem* units = c_.deck().units_of(block_);
     if (units == nullptr) return;
-    const double factor = conversion_factor(*units, c_.deck.begin.working, {1, 0, -2, 0});
+    const double factor = conversion_factor(*units, c_.deck().begin.working, {1, 0, -2, 0});
     if (factor == 1) return;
     const double value = cell == nullptr || cell->real == 0 ? 1 : cell->real;
     if (const auto text = detail::cell_text(value, factor, 20)) t["Stfac"] = text->text;
@@ -277,8 +277,8 @@ class Expander {
     t["Irem_gap"] = explicit_flag("Irem_gap", i_.Irem_gap.value);
     if (const double scale = i_.Edge_scale_gap.value; scale != 0 && scale != 1)
       if (const Cell* gap = decoded_.find("Gapmin"); gap != nullptr && gap->real > 0)
-        if (const UnitSystem* units = c_.deck.units_of(block_)) {
-          const double factor = conversion_factor(*units, c_.deck.begin.working, {0, 1, 0, 0});
+        if (const UnitSystem* units = c_.deck().units_of(block_)) {
+          const double factor = conversion_factor(*units, c_.deck().begin.working, {0, 1, 0, 0});
           if (const auto text = detail::cell_text(i_.Gapmin.value * scale, factor, 20))
             t["Gapmin"] = text->text;
         }
@@ -287,10 +287,10 @@ class Expander {
 
   /// What the solver would take for a flag without a cell.
   std::int64_t fallback(const Schema& schema, int type, const std::string& field) const {
-    const DefaultInter* defaults = c_.interfaces.defaults_of(type);
+    const DefaultInter* defaults = c_.interfaces().defaults_of(type);
     if (const auto* given = defaults != nullptr ? defaults->find(field) : nullptr)
       return given->value;
-    if (field == "Irem_i2" && c_.model.implicit) return 1;
+    if (field == "Irem_i2" && c_.model().implicit) return 1;
     const Field* f = schema.find_field(field);
     return f == nullptr ? 0 : static_cast<std::int64_t>(detail::default_number(*f));
   }
@@ -321,7 +321,7 @@ class Expander {
 
   // ---- blocks -------------------------------------------------------------------------------
 
-  const Schema& schema_of(const char* keyword) const { return *c_.schemas.find(keyword); }
+  const Schema& schema_of(const char* keyword) const { return *c_.schemas().find(keyword); }
 
   std::string header(const char* keyword, std::int64_t id) const {
     std::string text = keyword + ("/" + std::to_string(id));
@@ -338,7 +338,7 @@ class Expander {
 
   std::string edges() {
     if (!has_edges(s_) || !has_edges(m_)) {
-      LossEntry entry = loss_entry(c_.deck, Loss::kept, block_, {});
+      LossEntry entry = loss_entry(c_.deck(), Loss::kept, block_, {});
       entry.note = "no TYPE11: a side has no edges, and the solver drops this part too (1577)";
       out_.losses.push_back(std::move(entry));
       return "";
@@ -418,7 +418,7 @@ class Expander {
     for (const std::string& line : behind_) lines_.insert_after(anchor, line);
   }
 
-  const EditContext& c_;
+  const LoadedDeck& c_;
   const InterType19& i_;
   const Block& block_;
   DecodedBlock decoded_;
@@ -435,16 +435,16 @@ class Expander {
 
 }  // namespace
 
-Rewrite expand_type19(const EditContext& context) {
+Rewrite expand_type19(const LoadedDeck& context) {
   Rewrite out;
-  LineEdits lines(context.deck.sources);
-  FreeIds ids(context.deck);
+  LineEdits lines(context.deck().sources);
+  FreeIds ids(context.deck());
   std::map<std::string, std::int64_t> shared;
-  const Span end = end_of_main(context.deck);
-  for (const InterType19& inter : context.interfaces.type19)
+  const Span end = end_of_main(context.deck());
+  for (const InterType19& inter : context.interfaces().type19)
     Expander(context, inter, ids, lines, out, shared, end).run();
   lines.finish(out.edits);
-  if (!context.interfaces.type19.empty())
+  if (!context.interfaces().type19.empty())
     out.notes.push_back(
         "time histories (/TH/INTER) that name a TYPE19 now record its first TYPE7 only");
   return out;

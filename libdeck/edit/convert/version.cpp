@@ -37,14 +37,14 @@ bool is_begin(const Block& b) { return b.header == "/BEGIN" || b.header.starts_w
 
 class VersionRewriter {
  public:
-  VersionRewriter(const EditContext& context, int target, const VersionOptions& options)
-      : c_(context), target_(target), options_(options), lines_(context.deck.sources) {
-    for (const InterBase* inter : c_.interfaces.ordered) inter_of_.emplace(inter->block, inter);
+  VersionRewriter(const LoadedDeck& context, int target, const VersionOptions& options)
+      : c_(context), target_(target), options_(options), lines_(context.deck().sources) {
+    for (const InterBase* inter : c_.interfaces().ordered) inter_of_.emplace(inter->block, inter);
   }
 
   Rewrite run() {
     if (!accepted()) return std::move(out_);
-    for (const Block& block : c_.deck.blocks) {
+    for (const Block& block : c_.deck().blocks) {
       if (is_begin(block))
         convert_begin(block);
       else if (block.version != target_)
@@ -59,16 +59,16 @@ class VersionRewriter {
   // ---- what is refused as a whole -----------------------------------------------------------
 
   bool accepted() {
-    const Begin& begin = c_.deck.begin;
+    const Begin& begin = c_.deck().begin;
     out_.misasked = !is_target_version(target_);
     if (out_.misasked)
-      out_.refusals.push_back(c_.deck.sources[0].path() + ":1:1: " + number(target_) +
+      out_.refusals.push_back(c_.deck().sources[0].path() + ":1:1: " + number(target_) +
                               " is no version that can be written; 110 to 140 and 2017 to " +
                               number(newest_version) + " are");
     if (!begin.span.valid())
-      out_.refusals.push_back(c_.deck.sources[0].path() +
+      out_.refusals.push_back(c_.deck().sources[0].path() +
                               ":1:1: the deck has no /BEGIN, so its version is unknown");
-    for (const Block& b : c_.deck.blocks) {
+    for (const Block& b : c_.deck().blocks) {
       if (b.version >= oldest_source) continue;
       refuse(b.header_span, "version " + number(b.version) +
                                 " is too old: its units stand outside /BEGIN and its cards follow "
@@ -79,12 +79,12 @@ class VersionRewriter {
   }
 
   void refuse(Span span, const std::string& why) {
-    out_.refusals.push_back(c_.deck.sources.where(span) + ": " + why);
+    out_.refusals.push_back(c_.deck().sources.where(span) + ": " + why);
   }
 
   LossEntry& report(Loss loss, const Block& block, Span span, std::string_view field,
                     std::string_view old_text, std::string note) {
-    LossEntry entry = loss_entry(c_.deck, loss, block, span);
+    LossEntry entry = loss_entry(c_.deck(), loss, block, span);
     entry.field = std::string(field);
     entry.old_text = std::string(old_text);
     entry.note = std::move(note);
@@ -112,7 +112,7 @@ class VersionRewriter {
   // ---- /BEGIN -------------------------------------------------------------------------------
 
   void convert_begin(const Block& block) {
-    LineCursor cursor(c_.deck.sources, block);
+    LineCursor cursor(c_.deck().sources, block);
     cursor.next();
     const Line line = cursor.next();
     if (!line.valid()) {
@@ -165,7 +165,7 @@ class VersionRewriter {
                  "; the reference solver reads it with the columns of version " +
                  number(schema.from) + " and warns (100211)");
     if (!differs(schema, block.version)) return;
-    const DecodedBlock decoded = decode(c_.deck, block);
+    const DecodedBlock decoded = decode(c_.deck(), block);
     const TargetLayout layout(block, decoded, target_);
     if (layout.counts_lines()) {
       undecided(block, block.header_span, "", "",
@@ -296,7 +296,7 @@ class VersionRewriter {
   /// The comments that belong to a line: those right above it.
   std::vector<Line> comments_above(const Line& line) const {
     std::vector<Line> out;
-    const std::string_view bytes = c_.deck.sources[line.file].bytes();
+    const std::string_view bytes = c_.deck().sources[line.file].bytes();
     for (std::uint64_t at = line.offset; at > 0;) {
       const auto before = at < 2 ? bytes.npos : bytes.rfind('\n', at - 2);
       const std::uint64_t begin = before == bytes.npos ? 0 : before + 1;
@@ -500,7 +500,7 @@ class VersionRewriter {
   }
 
   double default_of(const Field& field) const {
-    if (field.name == "Irem_i2" && c_.model.implicit) return 1;
+    if (field.name == "Irem_i2" && c_.model().implicit) return 1;
     return detail::default_number(field);
   }
 
@@ -514,10 +514,10 @@ class VersionRewriter {
   /// The value of the default block, if its layout of that version has the cell.
   const EffectiveInt* given_default(const InterBase& inter, const std::string& field,
                                     int version) const {
-    const DefaultInter* defaults = c_.interfaces.defaults_of(inter.type);
+    const DefaultInter* defaults = c_.interfaces().defaults_of(inter.type);
     const auto* given = defaults != nullptr ? defaults->find(field) : nullptr;
     if (given == nullptr) return nullptr;
-    for (const Block& b : c_.deck.blocks)
+    for (const Block& b : c_.deck().blocks)
       if (b.header_span == defaults->span)
         for (const CardSchema& card : b.schema->cards)
           for (const Field& f : card.fields)
@@ -541,7 +541,7 @@ class VersionRewriter {
     }
   }
 
-  const EditContext& c_;
+  const LoadedDeck& c_;
   const int target_;
   const VersionOptions& options_;
   Rewrite out_;
@@ -561,7 +561,7 @@ bool is_target_version(int version) {
   return version >= oldest_target && is_known_version(version);
 }
 
-Rewrite to_version(const EditContext& context, int version, const VersionOptions& options) {
+Rewrite to_version(const LoadedDeck& context, int version, const VersionOptions& options) {
   return VersionRewriter(context, version, options).run();
 }
 

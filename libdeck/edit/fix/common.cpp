@@ -10,23 +10,30 @@
 
 namespace deck::detail {
 
-Result<LoadedDeck> read_again(const EditContext& context, const Rewrite& rewrite) {
-  const auto changed = apply_rewrite(context.deck.sources, rewrite);
+Result<LoadedDeck> read_again(const LoadedDeck& context, const Rewrite& rewrite) {
+  const auto changed = apply_rewrite(context.deck().sources, rewrite);
   if (!changed) return changed.error();
-  auto again = context.loaded.with(*changed);
-  if (again && again->deck().includes.size() < context.deck.includes.size())
-    return Error{Error::Code::io, context.deck.sources[0].path() +
+  auto again = context.with(*changed);
+  if (again && again->deck().includes.size() < context.deck().includes.size())
+    return Error{Error::Code::io, context.deck().sources[0].path() +
                                       ": a file that it includes could be read before, "
                                       "but not again; nothing was fixed"};
   return again;
 }
 
-Scene fix_scene(const Model& model, const Interfaces& interfaces, const FixOptions& options,
-                bool as_written, std::vector<WhatIf> what_if, std::vector<std::int64_t> only) {
+Scene fix_scene(const LoadedDeck& loaded, const FixOptions& options, bool as_written,
+                std::vector<WhatIf> what_if, std::vector<std::int64_t> only) {
+  return fix_scene(loaded.model(), loaded.interfaces(), loaded.options().read.limits, options,
+                   as_written, std::move(what_if), std::move(only));
+}
+
+Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& limits,
+                const FixOptions& options, bool as_written, std::vector<WhatIf> what_if,
+                std::vector<std::int64_t> only) {
   SceneOptions scene;
   scene.threads = options.threads;
   scene.candidates = false;
-  scene.limits = options.limits;
+  scene.limits = limits;
   scene.only = std::move(only);
   if (!as_written) {
     for (const InterBase* inter : interfaces.ordered) {

@@ -13,12 +13,14 @@
 namespace deck::detail {
 
 /// The deck as a rewrite makes it. Error: it cannot be read whole any more.
-Result<LoadedDeck> read_again(const EditContext& context, const Rewrite& rewrite);
+Result<LoadedDeck> read_again(const LoadedDeck& context, const Rewrite& rewrite);
 
 /// The scene as the solver's own treatment would see it, or (`as_written` false) with Inacti 0
 /// everywhere, so that every node stands where the deck puts it.
-Scene fix_scene(const Model& model, const Interfaces& interfaces, const FixOptions& options,
-                bool as_written, std::vector<WhatIf> what_if = {},
+Scene fix_scene(const LoadedDeck& loaded, const FixOptions& options, bool as_written,
+                std::vector<WhatIf> what_if = {}, std::vector<std::int64_t> only = {});
+Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& limits,
+                const FixOptions& options, bool as_written, std::vector<WhatIf> what_if = {},
                 std::vector<std::int64_t> only = {});
 
 /// Why nothing can be said about a wanted interface; nothing: all were evaluated.

@@ -37,7 +37,7 @@ void put(Nodes& nodes, NodeIndex n, Vec p) {
 
 class Depenetrator : MovableDeck {
  public:
-  Depenetrator(const EditContext& context, const MoveNodesOptions& options)
+  Depenetrator(const LoadedDeck& context, const MoveNodesOptions& options)
       : MovableDeck(context, options) {}
 
   Result<PenetrationFix> run() {
@@ -478,7 +478,7 @@ class Depenetrator : MovableDeck {
       fix_.rewrite.edits = cells_.edits(texts_);
       auto again = read_again(context_, fix_.rewrite);
       if (!again) return again.error();
-      const Scene after = fix_scene(again->model(), again->interfaces(), options_, false);
+      const Scene after = fix_scene(*again, options_, false);
       std::map<NodeIndex, Hold> bad;
       blame(after, bad);
       std::size_t taken = 0;
@@ -492,7 +492,7 @@ class Depenetrator : MovableDeck {
         return Error{Error::Code::internal, "the deck read again differs: " + *why};
       fix_.strategy = "move-nodes";
       fix_.crossings_after = find_crossings(after, options_.threads).size();
-      set_interfaces(fix_, context_.interfaces, options_, before, after);
+      set_interfaces(fix_, context_.interfaces(), options_, before, after);
       list_moved();
       list_refused(after);
       fix_.complete = fix_.refused.empty();
@@ -601,7 +601,7 @@ class Depenetrator : MovableDeck {
 
 }  // namespace
 
-Result<PenetrationFix> move_nodes(const EditContext& context, const MoveNodesOptions& options) {
+Result<PenetrationFix> move_nodes(const LoadedDeck& context, const MoveNodesOptions& options) {
   return Depenetrator(context, options).run();
 }
 

@@ -22,18 +22,18 @@ Line line_of(const SourceSet& sources, const Span& span) {
 
 }  // namespace
 
-NodeCells::NodeCells(const EditContext& context) : context_(context) {
+NodeCells::NodeCells(const LoadedDeck& context) : context_(context) {
   std::map<std::string, int> times;
-  const SourceSet& sources = context.deck.sources;
+  const SourceSet& sources = context.deck().sources;
   for (std::uint32_t f = 0; f < sources.size(); ++f)
     if (++times[sources[f].path()] > 1) twice_.insert(sources[f].path());
-  for (const auto& [a, b] : context.model.merged_nodes) {
+  for (const auto& [a, b] : context.model().merged_nodes) {
     merged_.insert(a);
     merged_.insert(b);
   }
   // The noise of /RANDOM is added to whatever the line says; transforms may do more than add.
-  noise_only_ = context.model.has_random &&
-                std::none_of(context.deck.blocks.begin(), context.deck.blocks.end(),
+  noise_only_ = context.model().has_random &&
+                std::none_of(context.deck().blocks.begin(), context.deck().blocks.end(),
                              [](const Block& b) { return b.keyword.starts_with("/TRANSFORM"); });
 }
 
@@ -44,8 +44,8 @@ void NodeCells::look_up(std::span<const NodeIndex> nodes) {
   std::sort(unknown.begin(), unknown.end());
   unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
   if (unknown.empty()) return;
-  const std::vector<Span> spans = node_spans(context_.model, unknown);
-  const auto& blocks = context_.model.node_blocks;
+  const std::vector<Span> spans = node_spans(context_.model(), unknown);
+  const auto& blocks = context_.model().node_blocks;
   for (std::size_t i = 0; i < unknown.size(); ++i) {
     auto block = std::upper_bound(blocks.begin(), blocks.end(), unknown[i],
                                   [](NodeIndex n, const BulkBlock& b) { return n < b.first; });
@@ -63,7 +63,7 @@ NodeCells::Cells NodeCells::read(NodeIndex n, const Block& block, const Span& li
     out.obstacle = std::move(why);
     return out;
   };
-  const Deck& deck = context_.deck;
+  const Deck& deck = context_.deck();
   if (block.keyword != "/NODE" || merged_.contains(n))
     return blocked("the node is merged with another one (/CNODE)");
   if (block.schema == nullptr || !line.valid() || line == block.header_span)
@@ -78,8 +78,8 @@ NodeCells::Cells NodeCells::read(NodeIndex n, const Block& block, const Span& li
   if (card == block.schema->cards.end()) return blocked("its line was not understood");
   const DecodedCard decoded = decode_line(deck, block, *card, out.line, nullptr);
   out.free_format = decoded.free_format;
-  const double coordinates[3] = {context_.model.nodes.x[n], context_.model.nodes.y[n],
-                                 context_.model.nodes.z[n]};
+  const double coordinates[3] = {context_.model().nodes.x[n], context_.model().nodes.y[n],
+                                 context_.model().nodes.z[n]};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto cell = std::find_if(decoded.cells.begin(), decoded.cells.end(), [&](const Cell& c) {
       return c.field != nullptr && c.field->name == axis_names[axis];
@@ -124,7 +124,7 @@ void NodeCells::write(CellWriter& out, NodeIndex n, int axis, std::string_view t
 
 std::vector<TextEdit> NodeCells::edits(
     const std::map<std::pair<NodeIndex, int>, std::string>& texts) const {
-  CellWriter out(context_.deck.sources);
+  CellWriter out(context_.deck().sources);
   for (const auto& [place, text] : texts) write(out, place.first, place.second, text);
   return out.finish();
 }

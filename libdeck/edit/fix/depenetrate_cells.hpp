@@ -16,7 +16,7 @@ namespace deck::detail {
 
 class NodeCells {
  public:
-  explicit NodeCells(const EditContext& context);
+  explicit NodeCells(const LoadedDeck& context);
   /// Finds the lines of these nodes; those known already cost nothing.
   void look_up(std::span<const NodeIndex> nodes);
   /// Why the coordinates of a node that was looked up cannot be changed on its line; empty: they
@@ -50,7 +50,7 @@ class NodeCells {
     std::string obstacle;
   };
   Cells read(NodeIndex n, const Block& block, const Span& line) const;
-  const EditContext& context_;
+  const LoadedDeck& context_;
   std::map<NodeIndex, Cells> known_;
   std::set<std::string> twice_;  ///< files included more than once
   std::set<NodeIndex> merged_;   ///< nodes that /CNODE merges with another

@@ -33,33 +33,33 @@ std::int64_t integer_at(std::string_view text, std::size_t first, std::size_t la
 }
 
 /// Holds the nodes that a card names: one node id and one node group, in columns of its first line.
-Result<void> hold_named(const EditContext& context, const Block& block, Hold hold,
+Result<void> hold_named(const LoadedDeck& context, const Block& block, Hold hold,
                         std::size_t node_column, std::size_t group_column,
                         std::vector<std::uint8_t>& holds) {
   if (block.version < 51)
     return Error{Error::Code::config,
-                 context.deck.sources.where(block.header_span) +
+                 context.deck().sources.where(block.header_span) +
                      ": nodes of this keyword cannot be locked in input version " +
                      std::to_string(block.version) + "; lock parts instead"};
-  LineCursor cursor(context.deck.sources, block);
+  LineCursor cursor(context.deck().sources, block);
   cursor.next();  // the title
   const Line line = cursor.next();
   if (!line.valid()) return {};
   if (line.text.find(',') != std::string_view::npos ||
       line.text.find('&') != std::string_view::npos)
     return Error{Error::Code::config,
-                 context.deck.sources.where(line.whole()) +
+                 context.deck().sources.where(line.whole()) +
                      ": commas and parameters are not understood here; lock parts instead"};
-  const Model& model = context.model;
+  const Model& model = context.model();
   const auto mark = [&](NodeIndex n) {
     if (n != no_index && holds[n] == 0) holds[n] = static_cast<std::uint8_t>(hold);
   };
   if (node_column > 0)
     if (const std::int64_t id = integer_at(line.text, node_column, node_column + 9); id != 0)
-      mark(model.find_node(id + context.deck.offset_of(block, "node")));
+      mark(model.find_node(id + context.deck().offset_of(block, "node")));
   if (const std::int64_t id = integer_at(line.text, group_column, group_column + 9); id != 0)
     if (const NodeSet* group =
-            model.selections->node_group(id + context.deck.offset_of(block, "grnod")))
+            model.selections->node_group(id + context.deck().offset_of(block, "grnod")))
       for (const NodeIndex n : group->nodes) mark(n);
   return {};
 }
@@ -111,9 +111,9 @@ std::string stopped_by_share(const MoveNodesOptions& options) {
   return to_string(Hold::share) + (" " + percent_text(options.most_moved));
 }
 
-Result<std::vector<std::uint8_t>> make_holds(const EditContext& context,
+Result<std::vector<std::uint8_t>> make_holds(const LoadedDeck& context,
                                              const MoveNodesOptions& options) {
-  const Model& model = context.model;
+  const Model& model = context.model();
   std::vector<std::uint8_t> holds(model.nodes.size(), 0);
   const auto locked = parts_of(model, options.lock);
   if (!locked) return locked.error();
@@ -143,7 +143,7 @@ Result<std::vector<std::uint8_t>> make_holds(const EditContext& context,
   if (!wanted->empty())
     for (NodeIndex n = 0; n < holds.size(); ++n)
       if (!in_wanted[n]) hold(n, Hold::not_selected);
-  for (const Block& block : context.deck.blocks) {
+  for (const Block& block : context.deck().blocks) {
     Result<void> done;
     // The columns of the first card line: /RBODY node_ID 1-10, grnd_ID 61-70; /BCS grnod_ID 21-30.
     if (options.lock_rigid_bodies && block.keyword == "/RBODY")

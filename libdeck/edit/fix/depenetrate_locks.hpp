@@ -34,7 +34,7 @@ std::string stopped_by_share(const MoveNodesOptions& options);
 std::string percent_text(double share);
 
 /// Holds from the options. Error: an unknown part, or cards that cannot be read for their nodes.
-Result<std::vector<std::uint8_t>> make_holds(const EditContext& context,
+Result<std::vector<std::uint8_t>> make_holds(const LoadedDeck& context,
                                              const MoveNodesOptions& options);
 
 }  // namespace deck::detail

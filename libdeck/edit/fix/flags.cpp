@@ -44,12 +44,12 @@ std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
 }
 
 /// Reads the deck again and fills in what became of every penetration.
-Result<void> evaluate(PenetrationFix& fix, const EditContext& context, const FixOptions& options,
+Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixOptions& options,
                       const Scene& before) {
   auto again = read_again(context, fix.rewrite);
   if (!again) return again.error();
-  const Scene after = fix_scene(again->model(), again->interfaces(), options, true);
-  set_interfaces(fix, context.interfaces, options, before, after);
+  const Scene after = fix_scene(*again, options, true);
+  set_interfaces(fix, context.interfaces(), options, before, after);
 
   using Key = std::tuple<std::int64_t, int, std::vector<std::int64_t>, std::vector<std::int64_t>>;
   const auto key = [](const Model& model, const Contact& c, const PenetrationRow& r) {
@@ -59,7 +59,7 @@ Result<void> evaluate(PenetrationFix& fix, const EditContext& context, const Fix
   std::map<Key, PenetrationAction> earlier;
   for (const Contact& c : before.contacts)
     for (const PenetrationRow& r : c.penetrations)
-      if (is_wanted(options, c)) earlier[key(context.model, c, r)] = r.action;
+      if (is_wanted(options, c)) earlier[key(context.model(), c, r)] = r.action;
   for (const Contact& c : after.contacts) {
     if (!is_wanted(options, c)) continue;
     for (const PenetrationRow& r : c.penetrations) {
@@ -92,16 +92,16 @@ Result<void> evaluate(PenetrationFix& fix, const EditContext& context, const Fix
   std::stable_sort(
       fix.refused.begin(), fix.refused.end(),
       [](const FixRefusal& a, const FixRefusal& b) { return a.interface_id < b.interface_id; });
-  verify_harmless(fix, context.interfaces, options, before, after);
+  verify_harmless(fix, context.interfaces(), options, before, after);
   return {};
 }
 
 /// Pairs at which the solver would stop, by interface, with these values.
-std::map<std::int64_t, std::uint64_t> stops_with(const EditContext& context,
+std::map<std::int64_t, std::uint64_t> stops_with(const LoadedDeck& context,
                                                  const FixOptions& options,
                                                  const std::vector<WhatIf>& planned) {
   std::map<std::int64_t, std::uint64_t> out;
-  const Scene scene = fix_scene(context.model, context.interfaces, options, true, planned);
+  const Scene scene = fix_scene(context, options, true, planned);
   for (const Contact& c : scene.contacts)
     for (const PenetrationRow& r : c.penetrations)
       if (r.on_surface && on_surface_error(c) != 0) ++out[c.inter->id];
@@ -141,7 +141,7 @@ std::string why_not_inacti(const InterBase& inter, int value) {
 
 }  // namespace
 
-Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOptions& options) {
+Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions& options) {
   const int value = options.inacti;
   if (value != 0 && value != 1 && value != 2 && value != 3 && value != 5 && value != 6 &&
       value != 1000)
@@ -150,14 +150,14 @@ Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOption
                                           (value == 4 ? " (executed, but not documented)" : "")};
   PenetrationFix fix;
   fix.strategy = "inacti";
-  const Scene before = fix_scene(context.model, context.interfaces, options, true);
+  const Scene before = fix_scene(context, options, true);
   if (auto why = unevaluated(before, options)) return *why;
   const auto counts = count_interfaces(before, options);
   const int effective = value == 1000 ? 0 : value;
 
   std::vector<WhatIf> planned;
   std::vector<const InterBase*> chosen;
-  for (const InterBase* inter : context.interfaces.ordered) {
+  for (const InterBase* inter : context.interfaces().ordered) {
     if (!counts.contains(inter->id)) continue;
     if (const std::string why = why_not_inacti(*inter, effective); !why.empty()) {
       refuse(fix, *inter, why);
@@ -171,7 +171,7 @@ Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOption
     planned.push_back(w);
   }
   const auto stops = stops_with(context, options, planned);
-  CellWriter edits(context.deck.sources);
+  CellWriter edits(context.deck().sources);
   for (const InterBase* inter : chosen) {
     if (const auto it = stops.find(inter->id); it != stops.end()) {
       refuse(fix, *inter,
@@ -182,13 +182,13 @@ Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOption
                  "(--strategy fpenmax)");
       continue;
     }
-    const auto place = find_field(context.deck, *inter->block, "Inacti");
+    const auto place = find_field(context.deck(), *inter->block, "Inacti");
     if (!place) {
       refuse(fix, *inter, place.error().message);
       continue;
     }
     // A 0 on the card asks for the /DEFAULT/INTER of that type; 1000 is the 0 that does not.
-    const DefaultInter* defaults = context.interfaces.defaults_of(inter->type);
+    const DefaultInter* defaults = context.interfaces().defaults_of(inter->type);
     const bool has_default = defaults != nullptr && defaults->find("Inacti") != nullptr;
     const int written = effective != 0 ? effective : has_default ? 1000 : 0;
     add_change(fix, *inter, edits, *place, std::to_string(written), inacti_in_effect(*inter),
@@ -201,15 +201,15 @@ Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOption
 
 // ---- Fpenmax ----------------------------------------------------------------------------------
 
-Result<PenetrationFix> set_fpenmax(const EditContext& context, const FpenmaxOptions& options) {
+Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptions& options) {
   if (options.ratio && !(*options.ratio > 0 && *options.ratio <= 1))
     return Error{Error::Code::config,
                  "Fpenmax is a share of the gap: more than 0 and at most 1 (1 drops no node)"};
   PenetrationFix fix;
   fix.strategy = "fpenmax";
-  const Scene before = fix_scene(context.model, context.interfaces, options, true);
+  const Scene before = fix_scene(context, options, true);
   if (auto why = unevaluated(before, options)) return *why;
-  CellWriter edits(context.deck.sources);
+  CellWriter edits(context.deck().sources);
   for (const Contact& contact : before.contacts) {
     if (contact.penetrations.empty() || !is_wanted(options, contact)) continue;
     const InterBase& inter = *contact.inter;
@@ -244,7 +244,7 @@ Result<PenetrationFix> set_fpenmax(const EditContext& context, const FpenmaxOpti
       wanted = deepest > 0 ? deepest : 0.9;
     }
     if (card.Fpenmax.value != 0 && card.Fpenmax.value == wanted) continue;
-    const auto place = find_field(context.deck, *inter.block, "Fpenmax");
+    const auto place = find_field(context.deck(), *inter.block, "Fpenmax");
     if (!place) {
       refuse(fix, inter, place.error().message);
       continue;

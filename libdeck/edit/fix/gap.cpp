@@ -43,7 +43,7 @@ enum class Lever { none, scale, cap };
 
 class GapReduction {
  public:
-  GapReduction(const EditContext& context, const ReduceGapOptions& options, const InterBase& inter)
+  GapReduction(const LoadedDeck& context, const ReduceGapOptions& options, const InterBase& inter)
       : context_(&context), options_(&options), inter_(&inter) {
     gapmin_ = knob(traits_of(inter).gap);
     scale_ = knob("Fscalegap");
@@ -107,7 +107,7 @@ class GapReduction {
           {k->name, std::string(k->place->cell.text), k->text->text, k->present, k->value});
     }
     if (!needs_igap_2()) return;
-    const auto place = find_field(context_->deck, *inter_->block, "Igap");
+    const auto place = find_field(context_->deck(), *inter_->block, "Igap");
     place->write(edits, "2");
     entry.changes.push_back({"Igap", std::string(place->cell.text), "2", 1, 2});
   }
@@ -118,7 +118,7 @@ class GapReduction {
   Knob knob(std::string_view name) const {
     Knob k;
     k.name = name;
-    auto place = find_field(context_->deck, *inter_->block, name);
+    auto place = find_field(context_->deck(), *inter_->block, name);
     if (place)
       k.place = *place;
     else
@@ -165,8 +165,7 @@ class GapReduction {
 
   bool search() {
     for (int round = 0; round < most_rounds; ++round) {
-      const Scene scene = fix_scene(context_->model, context_->interfaces, *options_, false,
-                                    what_if(), {inter_->id});
+      const Scene scene = fix_scene(*context_, *options_, false, what_if(), {inter_->id});
       double gapmin = -1, scale = -1, cap = -1;
       bool any = false;
       for (const Contact& c : scene.contacts) {
@@ -227,7 +226,7 @@ class GapReduction {
     return true;
   }
 
-  const EditContext* context_;
+  const LoadedDeck* context_;
   const ReduceGapOptions* options_;
   const InterBase* inter_;
   Knob gapmin_, scale_, cap_;
@@ -238,15 +237,15 @@ class GapReduction {
 
 }  // namespace
 
-Result<PenetrationFix> reduce_gaps(const EditContext& context, const ReduceGapOptions& options) {
+Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOptions& options) {
   PenetrationFix fix;
   fix.strategy = "reduce-gap";
-  const Scene before = fix_scene(context.model, context.interfaces, options, false);
+  const Scene before = fix_scene(context, options, false);
   if (auto why = unevaluated(before, options)) return *why;
   const auto counts = count_interfaces(before, options);
-  CellWriter edits(context.deck.sources);
+  CellWriter edits(context.deck().sources);
   std::size_t done = 0;
-  for (const InterBase* inter : context.interfaces.ordered) {
+  for (const InterBase* inter : context.interfaces().ordered) {
     const auto it = counts.find(inter->id);
     if (it == counts.end()) continue;
     if (options.progress) options.progress("gaps", done++, counts.size());
@@ -259,11 +258,11 @@ Result<PenetrationFix> reduce_gaps(const EditContext& context, const ReduceGapOp
   fix.rewrite.edits = edits.finish();
   auto again = read_again(context, fix.rewrite);
   if (!again) return again.error();
-  const Scene after = fix_scene(again->model(), again->interfaces(), options, false);
-  set_interfaces(fix, context.interfaces, options, before, after);
+  const Scene after = fix_scene(*again, options, false);
+  set_interfaces(fix, context.interfaces(), options, before, after);
   fix.complete = true;
   for (const FixedInterface& i : fix.interfaces) fix.complete &= i.after.pairs == 0;
-  verify_harmless(fix, context.interfaces, options, before, after);
+  verify_harmless(fix, context.interfaces(), options, before, after);
   return fix;
 }
 

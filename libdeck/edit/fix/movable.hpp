@@ -9,15 +9,17 @@ namespace deck::detail {
 /// A deck with a model of its own, whose nodes move; the deck itself stays as it is.
 class MovableDeck {
  protected:
-  MovableDeck(const EditContext& context, const MoveNodesOptions& options);
+  MovableDeck(const LoadedDeck& context, const MoveNodesOptions& options);
   MovableDeck(const MovableDeck&) = delete;
   MovableDeck& operator=(const MovableDeck&) = delete;
   ~MovableDeck() = default;
 
   /// The contacts with the nodes where they are now, as the deck puts them (see fix_scene).
-  Scene evaluate() const { return fix_scene(model_, interfaces_, options_, false); }
+  Scene evaluate() const {
+    return fix_scene(model_, interfaces_, context_.options().read.limits, options_, false);
+  }
 
-  const EditContext& context_;
+  const LoadedDeck& context_;
   const MoveNodesOptions& options_;
   Model model_;
   Interfaces interfaces_;

@@ -6,15 +6,14 @@
 
 namespace deck {
 
-Result<FixSequence> fix_in_order(const EditContext& context, const FixOptions& options,
-                                 const std::vector<FixStep>& steps) {
+Result<FixSequence> fix_in_order(const LoadedDeck& context, const std::vector<FixStep>& steps) {
   FixSequence out;
   std::optional<LoadedDeck> now;  // nullopt: the deck as given
   for (const FixStep& step : steps) {
-    const EditContext here = now ? EditContext(*now) : context;
-    auto fix = step(here, options.read);
+    const LoadedDeck& here = now ? *now : context;
+    auto fix = step(here);
     if (!fix) return fix.error();
-    auto changed = apply_rewrite(here.deck.sources, fix->rewrite);
+    auto changed = apply_rewrite(here.deck().sources, fix->rewrite);
     if (!changed) return changed.error();
     for (auto& [path, text] : *changed) out.changed[path] = std::move(text);
     const bool more = out.fixes.size() + 1 < steps.size();

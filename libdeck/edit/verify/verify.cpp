@@ -35,15 +35,15 @@ std::vector<double> part_masses(const Scene& scene) {
 Behaviour::Behaviour(const LoadedDeck& deck)
     : parts_(new Parts{deck, deck.scene(), deck.cycle().state, deck.cycle().outcome, {}, {}, 0}) {
   Parts& p = *parts_;
-  const EditContext& context = p.context;
+  const LoadedDeck& context = p.context;
   for (std::size_t k = 0; k < detail::verified_kinds.size(); ++k) {
     const ElementKind kind = detail::verified_kinds[k];
     const cycle::detail::ElementSteps step(p.scene, kind);
-    p.steps[k].resize(context.model.family(kind).size());
+    p.steps[k].resize(context.model().family(kind).size());
     for (std::uint32_t e = 0; e < p.steps[k].size(); ++e) p.steps[k][e] = step(e);
   }
   p.part_mass = part_masses(p.scene);
-  const Nodes& nodes = context.model.nodes;
+  const Nodes& nodes = context.model().nodes;
   for (const auto* axis : {&nodes.x, &nodes.y, &nodes.z})
     for (const double x : *axis)
       if (std::isfinite(x)) p.extent = std::max(p.extent, std::abs(x));
@@ -69,11 +69,11 @@ DeckComparison::DeckComparison(const Behaviour::Parts& a, const Behaviour::Parts
     : before(a),
       after(b),
       relation(r),
-      from(a.context.deck.begin.working),
-      to(b.context.deck.begin.working),
+      from(a.context.deck().begin.working),
+      to(b.context.deck().begin.working),
       // What a cell of ten columns holds, or one of twenty.
       tolerance(r.rounded ? 1e-4 : 1e-7) {
-  const Nodes &was = before.context.model.nodes, &now = after.context.model.nodes;
+  const Nodes &was = before.context.model().nodes, &now = after.context.model().nodes;
   if (!relation.extract || was.size() == now.size()) return;
   for (const std::int64_t id : now.id) old_nodes_.push_back(was.map.find(id));
 }
@@ -89,7 +89,7 @@ NodeIndex DeckComparison::old_node(NodeIndex node) const {
 }
 
 std::string DeckComparison::node_name(NodeIndex node) const {
-  return "node " + std::to_string(after.context.model.node_id(node));
+  return "node " + std::to_string(after.context.model().node_id(node));
 }
 
 bool DeckComparison::same(double was, double now, double unit, double slack) const {
@@ -110,7 +110,7 @@ DeckComparison::Difference DeckComparison::number(const std::string& what, doubl
 /// What springs count with in contacts: of some, no conversion of the working units can keep it.
 /// Only asked where a contact has become another one; a spring that is in none does no harm.
 DeckComparison::Difference DeckComparison::springs() const {
-  const auto &was = before.context.model.properties, &now = after.context.model.properties;
+  const auto &was = before.context.model().properties, &now = after.context.model().properties;
   if (relation.extract) return {};
   if (was.size() != now.size())
     return fmt::format("the deck has {} properties, expected {}", now.size(), was.size());
@@ -142,7 +142,7 @@ DeckComparison::Difference DeckComparison::masses() const {
     return fmt::format("the deck has {} parts, expected {}", parts_now.size(), parts.size());
   for (std::size_t p = 0; p < parts_now.size(); ++p)
     if (!same(parts[p], parts_now[p], unit, slack))
-      return number(fmt::format("the mass of part {}", after.context.model.parts[p].id), parts[p],
+      return number(fmt::format("the mass of part {}", after.context.model().parts[p].id), parts[p],
                     parts_now[p], unit, slack);
   return {};
 }
@@ -152,7 +152,7 @@ DeckComparison::Difference DeckComparison::time_steps() const {
   const double unit = factor(0, 0, 1);
   for (std::size_t k = 0; k < verified_kinds.size(); ++k) {
     const auto &was = before.steps[k], &now = after.steps[k];
-    const Elements& family = after.context.model.family(verified_kinds[k]);
+    const Elements& family = after.context.model().family(verified_kinds[k]);
     if (was.size() != now.size())
       return fmt::format("the deck has {} elements of one kind, expected {}", now.size(),
                          was.size());
@@ -169,8 +169,9 @@ DeckComparison::Difference DeckComparison::time_steps() const {
 /// Every cell, function and member of a group, as `deck diff` compares them.
 DeckComparison::Difference DeckComparison::cells() const {
   if (!relation.cells) return {};
-  const auto side = [](const EditContext& c) {
-    return DiffSide{c.deck.sources[0].path(), &c.deck, &c.model, &c.interfaces, nullptr, nullptr};
+  const auto side = [](const LoadedDeck& c) {
+    return DiffSide{
+        c.deck().sources[0].path(), &c.deck(), &c.model(), &c.interfaces(), nullptr, nullptr};
   };
   const DeckDiff diff = diff_decks(side(before.context), side(after.context), MatchBy::id,
                                    relation.rounded ? tolerance : diff_tolerance);

@@ -13,7 +13,7 @@
 namespace deck {
 
 struct Behaviour::Parts {
-  const EditContext context;
+  const LoadedDeck& context;
   const Scene& scene;
   const cycle::State& state;
   const cycle::SceneOutcome& cycle;

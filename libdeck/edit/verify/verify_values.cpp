@@ -70,7 +70,7 @@ std::vector<Dimension> dimensions_of(const Field* field) {
 }  // namespace
 
 DeckComparison::Difference DeckComparison::values() const {
-  const auto &was = before.context.interfaces.ordered, &now = after.context.interfaces.ordered;
+  const auto &was = before.context.interfaces().ordered, &now = after.context.interfaces().ordered;
   const bool by_place = !relation.extract && !relation.expanded;
   if (by_place && was.size() != now.size())
     return fmt::format("the deck has {} interfaces of TYPE7, 10, 11 and 19, expected {}",

@@ -71,20 +71,20 @@ EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& 
                          bool expand, bool resolve, int version, bool allow_loss,
                          const std::string& units, bool keep_working,
                          const std::vector<std::string>& ids, bool partial, bool verify) {
-  using Step = std::function<Rewrite(const EditContext&)>;
+  using Step = std::function<Rewrite(const LoadedDeck&)>;
   std::vector<Step> steps;
   if (!extract.empty())
-    steps.emplace_back([&](const EditContext& c) { return extract_contacts(c, extract); });
-  if (flat) steps.emplace_back([](const EditContext& c) { return flatten(c); });
-  if (expand) steps.emplace_back([](const EditContext& c) { return expand_type19(c); });
+    steps.emplace_back([&](const LoadedDeck& c) { return extract_contacts(c, extract); });
+  if (flat) steps.emplace_back([](const LoadedDeck& c) { return flatten(c); });
+  if (expand) steps.emplace_back([](const LoadedDeck& c) { return expand_type19(c); });
   if (resolve)
-    steps.emplace_back([&](const EditContext& c) { return resolve_defaults(c, {allow_loss}); });
+    steps.emplace_back([&](const LoadedDeck& c) { return resolve_defaults(c, {allow_loss}); });
   if (version != 0)
-    steps.emplace_back([&](const EditContext& c) { return to_version(c, version, {allow_loss}); });
+    steps.emplace_back([&](const LoadedDeck& c) { return to_version(c, version, {allow_loss}); });
   if (!units.empty()) {
     const auto target = parse_unit_system(units);
     if (!target) throw py::value_error("units: " + target.error().message);
-    steps.emplace_back([&, system = *target](const EditContext& c) {
+    steps.emplace_back([&, system = *target](const LoadedDeck& c) {
       return to_units(c, system, {partial, keep_working});
     });
   }
@@ -96,7 +96,7 @@ EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& 
       if (!rule) throw py::value_error("renumber: " + rule.error().message);
       options.rules.push_back(std::move(*rule));
     }
-    steps.emplace_back([options](const EditContext& c) { return renumber(c, options); });
+    steps.emplace_back([options](const LoadedDeck& c) { return renumber(c, options); });
   }
   must_be_whole(*d);
   auto edit = std::make_shared<PyEdit>();
@@ -141,9 +141,7 @@ EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
   base.threads = d->loaded.options().threads;
   base.interfaces = interfaces;
   base.ties = ties;
-  base.read = d->loaded.options().read;
-  base.limits = d->loaded.options().read.limits;
-  const EditContext context = d->loaded;
+  const LoadedDeck& context = d->loaded;
   const auto with = [&]<class Options>(Options options) {
     static_cast<FixOptions&>(options) = base;
     return options;

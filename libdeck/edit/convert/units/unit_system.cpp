@@ -574,7 +574,7 @@ class BlockConverter {
   /// working units where the card itself has Istf 1, and takes it as it is elsewhere.
   std::optional<Dimension> stfac_dimension(const DecodedBlock& d, const Cell& cell) const {
     if (cell.field->name != "Stfac" || cell.real == 0) return std::nullopt;
-    for (const InterBase* inter : c_.context.interfaces.ordered)
+    for (const InterBase* inter : c_.context.interfaces().ordered)
       if (inter->block == d.block) {
         const Dimension stiffness = detail::stiffness_dimension;
         const Dimension physical = detail::constant_stiffness(*inter) ? stiffness : Dimension{};
@@ -798,23 +798,22 @@ Result<UnitSystem> parse_unit_system(std::string_view text) {
   return units;
 }
 
-Rewrite to_units(const EditContext& context, const UnitSystem& target,
-                 const UnitsOptions& options) {
+Rewrite to_units(const LoadedDeck& context, const UnitSystem& target, const UnitsOptions& options) {
   UnitConversion c(context, target, options);
-  c.out.refusals = detail::unread_files(context.deck);
+  c.out.refusals = detail::unread_files(context.deck());
   if (!c.out.refusals.empty()) return std::move(c.out);
   if (!detail::convert_begin(c)) return std::move(c.out);
-  if (context.deck.begin.input == target && !c.working_changes) {
+  if (context.deck().begin.input == target && !c.working_changes) {
     c.out.edits.clear();
     c.out.notes.push_back("the deck is in these units already");
     return std::move(c.out);
   }
   BlockConverter blocks(c);
-  for (const Block& b : context.deck.blocks) blocks.convert(b);
+  for (const Block& b : context.deck().blocks) blocks.convert(b);
   detail::convert_functions(c);
   detail::convert_parameters(c);
   c.leave_blocks();
-  for (std::string& why : detail::contradicting_copies(context.deck.sources, c.out.edits))
+  for (std::string& why : detail::contradicting_copies(context.deck().sources, c.out.edits))
     c.out.refusals.push_back(std::move(why));
   add_notes(c);
   if (!c.out.refusals.empty()) c.out.edits.clear();

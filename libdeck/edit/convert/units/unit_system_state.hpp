@@ -22,15 +22,15 @@ inline bool working_units_change(const Deck& deck, const UnitSystem& target,
 }
 
 struct UnitConversion {
-  UnitConversion(const EditContext& c, const UnitSystem& t, const UnitsOptions& o)
+  UnitConversion(const LoadedDeck& c, const UnitSystem& t, const UnitsOptions& o)
       : context(c),
-        deck(c.deck),
+        deck(c.deck()),
         target(t),
         options(o),
-        factors(c.deck.begin.input, t),
-        working_changes(working_units_change(c.deck, t, o)) {}
+        factors(c.deck().begin.input, t),
+        working_changes(working_units_change(c.deck(), t, o)) {}
 
-  const EditContext& context;
+  const LoadedDeck& context;
   const Deck& deck;
   const UnitSystem& target;
   const UnitsOptions& options;

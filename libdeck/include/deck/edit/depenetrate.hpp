@@ -28,6 +28,6 @@ struct MoveNodesOptions : FixOptions {
 /// with them. Moves that would make a new penetration, deepen another one, cross elements, turn one
 /// inside out or halve one of its sides are taken back. Penetrations that cannot be solved this way
 /// are in `refused` with the reason. Error: unknown part ids, or the deck cannot be read again.
-Result<PenetrationFix> move_nodes(const EditContext& context, const MoveNodesOptions& options);
+Result<PenetrationFix> move_nodes(const LoadedDeck& context, const MoveNodesOptions& options);
 
 }  // namespace deck

@@ -18,6 +18,6 @@ namespace deck {
 /// there, one entry a keyword.
 ///
 /// Refusals: an id that is no interface of type 7, 10, 11 or 19; a deck that cannot be flattened.
-Rewrite extract_contacts(const EditContext& context, std::span<const std::int64_t> interfaces);
+Rewrite extract_contacts(const LoadedDeck& context, std::span<const std::int64_t> interfaces);
 
 }  // namespace deck

@@ -23,8 +23,6 @@ struct FixOptions {
   /// TYPE10, and TYPE7 with ITIED, tie what lies within their gap: that is no penetration, and
   /// untreated unless this is set. No other fix may loosen a tie, or make one.
   bool ties = false;
-  ReadOptions read;  ///< how the deck was read, overlay included
-  Limits limits;
   /// Called with what is being done and (done, total); total 0: unknown. May be empty.
   std::function<void(std::string_view step, std::size_t done, std::size_t total)> progress;
 };
@@ -101,14 +99,14 @@ struct ReduceGapOptions : FixOptions {
 /// is constant, the better of Fscalegap and Gapmax where it follows the thickness (Igap 1 becomes 2
 /// for that, which is the same with Fscalegap 1). A cell is only ever lowered. Error: the deck
 /// cannot be read again.
-Result<PenetrationFix> reduce_gaps(const EditContext& context, const ReduceGapOptions& options);
+Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOptions& options);
 
 struct InactiOptions : FixOptions {
   int inacti = 6;
 };
 /// Sets Inacti where there are penetrations. Refused: values that the solver does not take or that
 /// do nothing for the type, and interfaces where it would stop at a node at distance 0.
-Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOptions& options);
+Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions& options);
 
 struct FpenmaxOptions : FixOptions {
   /// Penetrations deeper than this share of the gap lose their node: its contact is off for the
@@ -117,19 +115,16 @@ struct FpenmaxOptions : FixOptions {
   std::optional<double> ratio;
 };
 /// Sets Fpenmax of TYPE7 interfaces; all other penetrations stay with Inacti.
-Result<PenetrationFix> set_fpenmax(const EditContext& context, const FpenmaxOptions& options);
+Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptions& options);
 
-/// One strategy of several. `read` says how the deck in `context` was read.
-using FixStep =
-    std::function<Result<PenetrationFix>(const EditContext& context, const ReadOptions& read)>;
+/// One strategy of several.
+using FixStep = std::function<Result<PenetrationFix>(const LoadedDeck& context)>;
 struct FixSequence {
   std::vector<PenetrationFix> fixes;  ///< one a step; rewrites are of the deck before that step
   ChangedFiles changed;               ///< by all steps together, against the deck as given
 };
-/// Each step acts on the deck with what the steps before have changed. Of `options` reading and
-/// threads count.
-Result<FixSequence> fix_in_order(const EditContext& context, const FixOptions& options,
-                                 const std::vector<FixStep>& steps);
+/// Each step acts on the deck with what the steps before have changed.
+Result<FixSequence> fix_in_order(const LoadedDeck& context, const std::vector<FixStep>& steps);
 /// What a fix comes to, in pairs: those that it solves, those that it leaves though it changes
 /// something for them, and those that it does not treat (PenetrationFix::refused says why). For
 /// inacti and fpenmax only pairs without treatment by the solver count.

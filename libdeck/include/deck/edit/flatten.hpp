@@ -20,6 +20,6 @@ struct FlattenOptions {
 ///
 /// Refusals: includes that cannot be read, cells that would mean something else in the version
 /// around them, local parameters for which there is no free name.
-Rewrite flatten(const EditContext& context, const FlattenOptions& options = {});
+Rewrite flatten(const LoadedDeck& context, const FlattenOptions& options = {});
 
 }  // namespace deck

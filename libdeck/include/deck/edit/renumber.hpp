@@ -38,6 +38,6 @@ struct RenumberOptions {
 /// equal to an id that changes; ids made by parameters; ids that do not fit their columns, or
 /// become less than 1 (in a submodel: less than its offset plus 1) or too large; a set that a group
 /// would hide under its new id; ranges that do not stay ranges.
-Rewrite renumber(const EditContext& context, const RenumberOptions& options);
+Rewrite renumber(const LoadedDeck& context, const RenumberOptions& options);
 
 }  // namespace deck

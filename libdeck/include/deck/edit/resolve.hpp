@@ -20,6 +20,6 @@ struct ResolveOptions {
 /// text of the cell's width gives the value back exactly; `undecided` where a default card is at
 /// work and the card has no cell for the value (Iedge of TYPE19, cells newer than the deck's
 /// version, a parameter that is 0).
-Rewrite resolve_defaults(const EditContext& context, const ResolveOptions& options = {});
+Rewrite resolve_defaults(const LoadedDeck& context, const ResolveOptions& options = {});
 
 }  // namespace deck

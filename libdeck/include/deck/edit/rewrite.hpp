@@ -12,22 +12,6 @@
 
 namespace deck {
 
-/// What a conversion reads. All of it must outlive the Rewrite.
-struct EditContext {
-  /// The model and the interfaces are made here, where they were not yet.
-  EditContext(const LoadedDeck& of)
-      : loaded(of),
-        deck(of.deck()),
-        model(of.model()),
-        interfaces(of.interfaces()),
-        schemas(of.schemas()) {}
-  const LoadedDeck& loaded;
-  const Deck& deck;
-  const Model& model;
-  const Interfaces& interfaces;
-  const SchemaSet& schemas;
-};
-
 /// What became of a value.
 enum class Loss : std::uint8_t {
   kept,          ///< the same meaning in the new text

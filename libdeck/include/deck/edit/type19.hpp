@@ -18,6 +18,6 @@ namespace deck {
 /// them, or behind the TYPE19 where that stands in a submodel or has another input version. Loss
 /// report: one `kept` per interface; `undecided`, always a refusal, where a flag has no cell in the
 /// deck's version and the other type's default is another one.
-Rewrite expand_type19(const EditContext& context);
+Rewrite expand_type19(const LoadedDeck& context);
 
 }  // namespace deck

@@ -32,7 +32,7 @@ Result<UnitSystem> parse_unit_system(std::string_view text);
 /// - Refusals (with `partial`: `undecided`): unknown keywords, keywords described in part that hold
 ///   undescribed numbers, cells of unknown dimension that are not 0, unreadable numbers, parameters
 ///   that are used with several dimensions or made by expressions, functions in working units.
-Rewrite to_units(const EditContext& context, const UnitSystem& target,
+Rewrite to_units(const LoadedDeck& context, const UnitSystem& target,
                  const UnitsOptions& options = {});
 
 /// Adds to `out` what becomes of the Engine files beside the deck, whose times are in working

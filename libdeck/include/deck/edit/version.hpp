@@ -23,6 +23,6 @@ bool is_target_version(int version);
 /// for values that do not fit. `dropped` and `undecided` are refusals without allow_loss; a
 /// smoothed surface (Ists) that would be read as a node group always is. Refused as a whole:
 /// unknown target, decks older than version 100 or without /BEGIN.
-Rewrite to_version(const EditContext& context, int version, const VersionOptions& options = {});
+Rewrite to_version(const LoadedDeck& context, int version, const VersionOptions& options = {});
 
 }  // namespace deck

@@ -264,7 +264,7 @@ Answer rename(const View& view, const Json& params) {
   if (!loaded) throw Refusal{loaded.error().message};
   RenumberOptions wanted;
   wanted.rules = {rule};
-  const Rewrite rewrite = renumber(EditContext(*loaded), wanted);
+  const Rewrite rewrite = renumber(*loaded, wanted);
   if (!rewrite.refusals.empty()) throw Refusal{rewrite.refusals.front()};
   return view.workspace_edit(rewrite.edits);
 }
