@@ -76,11 +76,12 @@ class Differ {
   Differ(const DiffSide& a, const DiffSide& b, MatchBy match, double tolerance)
       : a_(a),
         b_(b),
-        units_a_(a.deck->begin.working),
-        units_b_(b.deck->begin.working),
+        units_a_(a.loaded.deck().begin.working),
+        units_b_(b.loaded.deck().begin.working),
         other_units_(!(units_a_ == units_b_)),
         length_(conversion_factor(units_a_, units_b_, length_dimension)),
-        extent_(std::max(extent_of(a.model->nodes), extent_of(b.model->nodes) / length_)),
+        extent_(std::max(extent_of(a.loaded.model().nodes),
+                         extent_of(b.loaded.model().nodes) / length_)),
         equal_(tolerance),
         pairs_(detail::find_counterparts(a, b, match, length_)),
         functions_(a, b, pairs_, tolerance) {}
@@ -90,9 +91,9 @@ class Differ {
       out_.notes.push_back(
           "the working units differ: values of the second deck are shown in those of "
           "the first");
-    if (a_.deck->version != b_.deck->version)
+    if (a_.loaded.deck().version != b_.loaded.deck().version)
       out_.notes.push_back(fmt::format("input version {} here, {} there: no difference in itself",
-                                       a_.deck->version, b_.deck->version));
+                                       a_.loaded.deck().version, b_.loaded.deck().version));
     came_and_went();
     for (std::size_t i = 0; i < pairs_.items_a.size(); ++i)
       if (pairs_.block_to_b[i] != no_index)
@@ -104,7 +105,7 @@ class Differ {
     };
     out_.stops_a = stops(a_);
     out_.stops_b = stops(b_);
-    if (a_.scene != nullptr && b_.scene != nullptr) penetrations();
+    if (a_.view != nullptr && b_.view != nullptr) penetrations();
     hint();
     tell_of_numbers();
     return std::move(out_);
@@ -147,7 +148,7 @@ class Differ {
   }
 
   static std::int64_t function_id(const DiffSide& side, const Block& b) {
-    return b.id.value + side.deck->offset_of(b, "funct");
+    return b.id.value + side.loaded.deck().offset_of(b, "funct");
   }
 
   /// A function that only one deck has, for uses that the other gives the same curve by another.
@@ -188,7 +189,7 @@ class Differ {
   }
 
   static const InterBase* inter_of(const DiffSide& side, const Block& block) {
-    for (const InterBase* i : side.interfaces->ordered)
+    for (const InterBase* i : side.loaded.interfaces().ordered)
       if (i->block == &block) return i;
     return nullptr;
   }
@@ -222,7 +223,7 @@ class Differ {
 
   std::vector<FieldValue> fields_of(const DiffSide& side, const InterBase& inter) const {
     std::vector<FieldValue> out;
-    const DecodedBlock d = decode(*side.deck, *inter.block);
+    const DecodedBlock d = decode(side.loaded.deck(), *inter.block);
     const detail::ImpliedOnes ones = detail::implied_ones(d);
     visit_interface(inter, [&](const auto& t) {
       t.for_each([&](std::string_view name, const auto& e) {
@@ -363,7 +364,7 @@ class Differ {
         Cell one;
         one.field = &f;
         one.real = 1;
-        const double x = working_value(*side.deck, d, one);
+        const double x = working_value(side.loaded.deck(), d, one);
         CellKey key{f.name, 0, 0};
         CellValue v;
         v.span = d.block->header_span;
@@ -378,7 +379,7 @@ class Differ {
 
   Contents contents_of(const DiffSide& side, const Block& block) const {
     Contents out;
-    const Deck& deck = *side.deck;
+    const Deck& deck = side.loaded.deck();
     if (block.opaque || block.schema == nullptr) {
       LineCursor cursor(deck.sources, block);
       for (Line line = cursor.next(); line.valid(); line = cursor.next()) words_of(line, out);
@@ -579,7 +580,7 @@ class Differ {
       Tuple t(s.nodes.begin(), s.nodes.end());
       if (&side == &a_)
         std::transform(t.begin(), t.end(), t.begin(), [&](NodeIndex n) { return to_b(n); });
-      out.push_back({turned(std::move(t)), element_id(*side.model, s.carrier, s.element)});
+      out.push_back({turned(std::move(t)), element_id(side.loaded.model(), s.carrier, s.element)});
     }
     return out;
   }
@@ -590,14 +591,14 @@ class Differ {
       if (&side == &a_)
         std::transform(t.begin(), t.end(), t.begin(), [&](NodeIndex n) { return to_b(n); });
       std::sort(t.begin(), t.end());
-      out.push_back({std::move(t), element_id(*side.model, s.carrier, s.element)});
+      out.push_back({std::move(t), element_id(side.loaded.model(), s.carrier, s.element)});
     }
     return out;
   }
   std::vector<Member> nodes(const DiffSide& side, const std::vector<NodeIndex>& list) const {
     std::vector<Member> out;
     for (const NodeIndex n : list)
-      out.push_back({{&side == &a_ ? to_b(n) : n}, side.model->node_id(n)});
+      out.push_back({{&side == &a_ ? to_b(n) : n}, side.loaded.model().node_id(n)});
     return out;
   }
   std::vector<Member> items(const DiffSide& side, ElementKind kind,
@@ -605,16 +606,16 @@ class Differ {
     std::vector<Member> out;
     for (const std::uint32_t e : list)
       out.push_back({{&side == &a_ ? pairs_.element_to_b[static_cast<std::size_t>(kind)][e] : e},
-                     side.model->family(kind).id[e]});
+                     side.loaded.model().family(kind).id[e]});
     return out;
   }
   std::vector<Member> parts(const DiffSide& side, const std::vector<std::uint32_t>& list) const {
     std::vector<Member> out;
     for (const std::uint32_t p : list) {
-      const std::int64_t id = side.model->parts[p].id;
+      const std::int64_t id = side.loaded.model().parts[p].id;
       const std::int64_t to = &side == &a_ ? pairs_.mapped(a_, b_, "part", id) : id;
-      const auto it = b_.model->part_of_id.find(to);
-      out.push_back({{it == b_.model->part_of_id.end() ? no_index : it->second}, id});
+      const auto it = b_.loaded.model().part_of_id.find(to);
+      out.push_back({{it == b_.loaded.model().part_of_id.end() ? no_index : it->second}, id});
     }
     return out;
   }
@@ -623,7 +624,7 @@ class Differ {
   std::vector<std::pair<std::string, std::vector<Member>>> lists_of(const DiffSide& side,
                                                                     const Item& item,
                                                                     std::string_view kind) const {
-    Selections& s = *side.model->selections;
+    Selections& s = *side.loaded.model().selections;
     if (kind == "grnod") {
       const NodeSet* g = s.node_group(item.id);
       return {{"nodes", g == nullptr ? std::vector<Member>() : nodes(side, g->nodes)}};
@@ -698,8 +699,8 @@ class Differ {
   }
 
   void nodes() {
-    const Nodes& na = a_.model->nodes;
-    const Nodes& nb = b_.model->nodes;
+    const Nodes& na = a_.loaded.model().nodes;
+    const Nodes& nb = b_.loaded.model().nodes;
     std::vector<std::uint8_t> used(nb.size(), 0);
     std::vector<std::int64_t> lost, gained;
     for (NodeIndex n = 0; n < na.size(); ++n) {
@@ -718,8 +719,8 @@ class Differ {
       c.old_value = std::array{na.x[n], na.y[n], na.z[n]};
       c.new_value = std::array{nb.x[m] / length_, nb.y[m] / length_, nb.z[m] / length_};
       if (placed_++ < most_places) {
-        c.a = a_.model->node_span(n);
-        c.b = b_.model->node_span(m);
+        c.a = a_.loaded.model().node_span(n);
+        c.b = b_.loaded.model().node_span(m);
       }
     }
     for (NodeIndex m = 0; m < nb.size(); ++m)
@@ -747,11 +748,11 @@ class Differ {
   /// Within these distances /CNODE merges its nodes with others.
   std::vector<Tolerance> tolerances_of(const DiffSide& side) const {
     std::vector<Tolerance> out;
-    for (const Block& b : side.deck->blocks) {
+    for (const Block& b : side.loaded.deck().blocks) {
       constexpr std::string_view keyword = "/CNODE/";
       if (!b.header.starts_with(keyword)) continue;
       const double x = read_real(b.header.substr(keyword.size())).value;
-      const UnitSystem* units = side.deck->units_of(b);
+      const UnitSystem* units = side.loaded.deck().units_of(b);
       out.push_back(
           {x * conversion_factor(units == nullptr ? units_a_ : *units, units_a_, length_dimension),
            b.header_span});
@@ -781,24 +782,24 @@ class Differ {
   void elements() {
     std::map<std::pair<std::int64_t, const char*>, PartElements> parts;
     std::map<std::int64_t, std::int64_t> part_to_a;
-    for (const Part& p : a_.model->parts)
+    for (const Part& p : a_.loaded.model().parts)
       if (const std::int64_t to = pairs_.mapped(a_, b_, "part", p.id); to != 0)
         part_to_a.emplace(to, p.id);
     const auto part_a = [&](const Elements& f, std::uint32_t e) {
-      return f.part[e] == no_index ? 0 : a_.model->parts[f.part[e]].id;
+      return f.part[e] == no_index ? 0 : a_.loaded.model().parts[f.part[e]].id;
     };
     const auto part_b = [&](const Elements& f, std::uint32_t e) {
       if (f.part[e] == no_index) return std::int64_t{0};
-      const std::int64_t id = b_.model->parts[f.part[e]].id;
+      const std::int64_t id = b_.loaded.model().parts[f.part[e]].id;
       const auto it = part_to_a.find(id);
       return it == part_to_a.end() ? id : it->second;
     };
-    const detail::ElementCells cells_a = detail::element_cells(*a_.deck, *a_.model);
-    const detail::ElementCells cells_b = detail::element_cells(*b_.deck, *b_.model);
+    const detail::ElementCells cells_a = detail::element_cells(a_.loaded.deck(), a_.loaded.model());
+    const detail::ElementCells cells_b = detail::element_cells(b_.loaded.deck(), b_.loaded.model());
     for (const ElementKind kind : detail::all_families) {
       const char* keyword = detail::keyword_of_family(kind);
-      const Elements& fa = a_.model->family(kind);
-      const Elements& fb = b_.model->family(kind);
+      const Elements& fa = a_.loaded.model().family(kind);
+      const Elements& fb = b_.loaded.model().family(kind);
       const auto& to = pairs_.element_to_b[static_cast<std::size_t>(kind)];
       std::vector<std::uint8_t> used(fb.size(), 0);
       for (std::uint32_t e = 0; e < fa.size(); ++e) {
@@ -827,8 +828,8 @@ class Differ {
         const auto it = m.part_of_id.find(id);
         return it == m.part_of_id.end() ? std::string() : m.parts[it->second].title;
       };
-      c.title = title(*a_.model);
-      if (c.title.empty()) c.title = title(*b_.model);
+      c.title = title(a_.loaded.model());
+      if (c.title.empty()) c.title = title(b_.loaded.model());
       c.field = std::string(key.second) + " elements";
       c.old_value = p.before;
       c.new_value = p.after;
@@ -893,7 +894,7 @@ class Differ {
     std::map<PenetrationKey, Depth> out;
     for (const std::uint32_t i : side.view->deepest_per_node) {
       const NamedPenetration& p = side.view->penetrations[i];
-      const Contact& c = side.scene->contacts[p.contact];
+      const Contact& c = side.loaded.scene().contacts[p.contact];
       const PenetrationRow& row = c.penetrations[p.row];
       Depth d{c.inter->id, p.secondary, row.depth, row.gap};
       std::int64_t id = c.inter->id;

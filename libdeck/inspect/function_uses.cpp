@@ -154,7 +154,10 @@ FunctionUses::Quantity FunctionUses::axis_of(const Named& n, const DecodedCard& 
 
 FunctionUses::FunctionUses(const DiffSide& a, const DiffSide& b, const Counterparts& pairs,
                            double tolerance)
-    : a_(a), b_(b), equal_(tolerance), tables_(has_tables(*a.deck) || has_tables(*b.deck)) {
+    : a_(a),
+      b_(b),
+      equal_(tolerance),
+      tables_(has_tables(a.loaded.deck()) || has_tables(b.loaded.deck())) {
   for (std::size_t i = 0; i < pairs.items_a.size(); ++i) {
     if (pairs.block_to_b[i] == no_index) continue;
     const Block& x = *pairs.items_a[i].block;
@@ -179,11 +182,12 @@ bool FunctionUses::only_a_copy(std::int64_t id, bool of_second) const {
 }
 
 double FunctionUses::in_first(const Quantity& q) const {
-  return q.value * conversion_factor(b_.deck->begin.working, a_.deck->begin.working, q.dimension);
+  return q.value * conversion_factor(b_.loaded.deck().begin.working, a_.loaded.deck().begin.working,
+                                     q.dimension);
 }
 
 bool FunctionUses::same_curve(const Use& a, const Use& b) {
-  const auto &curves_a = a_.model->curves, &curves_b = b_.model->curves;
+  const auto &curves_a = a_.loaded.model().curves, &curves_b = b_.loaded.model().curves;
   const auto ca = curves_a.find(a.id), cb = curves_b.find(b.id);
   if (ca == curves_a.end() || cb == curves_b.end()) return false;
   const auto same_axis = [&](const std::vector<double>& x, const std::vector<double>& y,
@@ -258,7 +262,7 @@ void FunctionUses::compare_springs(const Named& na, const Named& nb,
 }
 
 void FunctionUses::compare(const Block& block_a, const Block& block_b) {
-  const Named na(*a_.deck, block_a), nb(*b_.deck, block_b);
+  const Named na(a_.loaded.deck(), block_a), nb(b_.loaded.deck(), block_b);
   const std::vector<Use> uses_a = uses_of(na), uses_b = uses_of(nb);
   const auto same_number = [&](double x, double y) { return equal_(x, y, 0, true); };
   std::map<CellKey, bool> scales;  // all curves that it scales are the same

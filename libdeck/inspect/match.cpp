@@ -50,9 +50,9 @@ constexpr std::array<ElementKind, 8> kinds = {
 class Matcher {
  public:
   Matcher(const DiffSide& a, const DiffSide& b, MatchBy match, double length)
-      : a_(*a.model), b_(*b.model), match_(match), length_(length) {
-    out_.items_a = items_of(*a.deck);
-    out_.items_b = items_of(*b.deck);
+      : a_(a.loaded.model()), b_(b.loaded.model()), match_(match), length_(length) {
+    out_.items_a = items_of(a.loaded.deck());
+    out_.items_b = items_of(b.loaded.deck());
   }
 
   Counterparts run() {
@@ -283,13 +283,13 @@ class Matcher {
 std::int64_t Counterparts::mapped(const DiffSide& a, const DiffSide& b, std::string_view kind,
                                   std::int64_t id) const {
   if (kind == "node") {
-    const NodeIndex n = a.model->nodes.map.find(id);
-    return n == no_index || node_to_b[n] == no_index ? 0 : b.model->nodes.id[node_to_b[n]];
+    const NodeIndex n = a.loaded.model().nodes.map.find(id);
+    return n == no_index || node_to_b[n] == no_index ? 0 : b.loaded.model().nodes.id[node_to_b[n]];
   }
   if (const auto family = family_of_kind(kind)) {
-    const std::uint32_t e = a.model->family(*family).map.find(id);
+    const std::uint32_t e = a.loaded.model().family(*family).map.find(id);
     const auto& map = element_to_b[static_cast<std::size_t>(*family)];
-    return e == no_index || map[e] == no_index ? 0 : b.model->family(*family).id[map[e]];
+    return e == no_index || map[e] == no_index ? 0 : b.loaded.model().family(*family).id[map[e]];
   }
   auto it = id_to_b.find({std::string(kind), id});
   if (it == id_to_b.end() &&

@@ -46,7 +46,7 @@ std::string members_text(const std::vector<std::int64_t>& ids, const char* sign,
 std::string place_text(const DiffSide& a, const DiffSide& b, const Change& c) {
   const bool second = c.b.valid();
   if (!second && !c.a.valid()) return "";
-  return second ? b.deck->sources.where(c.b) : a.deck->sources.where(c.a);
+  return second ? b.loaded.deck().sources.where(c.b) : a.loaded.deck().sources.where(c.a);
 }
 
 bool has_members(const Change& c) {

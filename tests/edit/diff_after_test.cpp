@@ -19,9 +19,7 @@ std::unique_ptr<Whole> deck_of(const std::string& blocks, int version = 2022) {
 }
 
 DeckDiff compared(const Whole& a, const Whole& b, double tolerance = diff_tolerance) {
-  const auto side = [](const Whole& w) {
-    return DiffSide{"memory_0000.rad", &w.deck, &w.model, &w.interfaces, nullptr, nullptr};
-  };
+  const auto side = [](const Whole& w) { return DiffSide{w.loaded}; };
   return diff_decks(side(a), side(b), MatchBy::id, tolerance);
 }
 

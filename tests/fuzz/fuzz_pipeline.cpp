@@ -47,12 +47,7 @@ std::string answers(const std::string& text, int threads) {
     if (read_back) require(nlohmann::json::accept(document), "a document is valid JSON", document);
     out += document;
   };
-  ParamsInput params;
-  params.path = "fuzz";
-  params.deck = &whole->deck;
-  params.model = &whole->model;
-  params.interfaces = &whole->interfaces;
-  add(params_json(params));
+  add(params_json({whole->loaded}));
   SceneOptions options;
   options.threads = threads;
   options.nodal_stiffness = true;

@@ -22,8 +22,8 @@ struct Inspected {
   Inspected(const Inspected&) = delete;
   Inspected& operator=(const Inspected&) = delete;
 
-  DiffSide side() const { return {"test_0000.rad", &deck, &model, &interfaces, &scene, &view}; }
-  ParamsInput params() const { return {"test_0000.rad", &deck, &model, &interfaces, &scene}; }
+  DiffSide side() const { return {loaded, &view}; }
+  ParamsInput params() const { return {loaded, &scene}; }
   EntityView look(const std::string& what) const {
     const auto entity = find_entity(deck, model, what);
     EXPECT_TRUE(entity.ok()) << (entity.ok() ? "" : entity.error().message);

@@ -169,11 +169,7 @@ DeckComparison::Difference DeckComparison::time_steps() const {
 /// Every cell, function and member of a group, as `deck diff` compares them.
 DeckComparison::Difference DeckComparison::cells() const {
   if (!relation.cells) return {};
-  const auto side = [](const LoadedDeck& c) {
-    return DiffSide{
-        c.deck().sources[0].path(), &c.deck(), &c.model(), &c.interfaces(), nullptr, nullptr};
-  };
-  const DeckDiff diff = diff_decks(side(before.context), side(after.context), MatchBy::id,
+  const DeckDiff diff = diff_decks({before.context}, {after.context}, MatchBy::id,
                                    relation.rounded ? tolerance : diff_tolerance);
   if (diff.changes.empty()) return {};
   const Change& c = diff.changes.front();

@@ -54,8 +54,8 @@ void write(JsonWriter& json, const DiffSide& a, const DiffSide& b, const Change&
     write_id_list(json, "lost", c.lost);
     write_id_list(json, "altered", c.altered);
   }
-  write_json_place(json.key("a"), *a.deck, c.a);
-  write_json_place(json.key("b"), *b.deck, c.b);
+  write_json_place(json.key("a"), a.loaded.deck(), c.a);
+  write_json_place(json.key("b"), b.loaded.deck(), c.b);
   json.end_object();
 }
 
@@ -81,10 +81,12 @@ std::string diff_json(const DiffSide& a, const DiffSide& b, const DeckDiff& diff
   json.begin_object();
   write_json_head(json, "deck/diff", 1);
   json.key("a").begin_object();
-  write_json_deck(json, a.path, *a.deck, a.model, a.interfaces);
+  write_json_deck(json, a.loaded.path(), a.loaded.deck(), &a.loaded.model(),
+                  &a.loaded.interfaces());
   if (a.verdict != nullptr) write_verdict(json, *a.verdict);
   json.end_object().key("b").begin_object();
-  write_json_deck(json, b.path, *b.deck, b.model, b.interfaces);
+  write_json_deck(json, b.loaded.path(), b.loaded.deck(), &b.loaded.model(),
+                  &b.loaded.interfaces());
   if (b.verdict != nullptr) write_verdict(json, *b.verdict);
   json.end_object();
   json.field("equal", diff.equal()).field("text", diff_verdict(diff));

@@ -14,13 +14,13 @@ using detail::CellKind;
 class ShowJson {
  public:
   ShowJson(const ParamsInput& in, const EntityView& view)
-      : deck_(*in.deck), in_(in), view_(view), json_(out_) {}
+      : deck_(in.loaded.deck()), in_(in), view_(view), json_(out_) {}
 
   std::string run() {
     const Entity& e = view_.entity;
     json_.begin_object();
     write_json_head(json_, "deck/show", 1);
-    write_json_deck(json_, in_.path, deck_, in_.model, in_.interfaces);
+    write_json_deck(json_, in_.loaded.path(), deck_, &in_.loaded.model(), &in_.loaded.interfaces());
     json_.key("entity").begin_object(true);
     json_.field("keyword", e.keyword).field("kind", e.kind).field("id", e.id);
     json_.field("title", e.title).end_object();

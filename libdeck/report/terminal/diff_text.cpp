@@ -24,7 +24,8 @@ std::string diff_text(const DiffSide& a, const DiffSide& b, const DeckDiff& diff
                       const DiffTextOptions& options) {
   const std::string verdict =
       toned(diff_verdict(diff), diff.equal() ? Tone::green : Tone::bold, options.color) + "\n";
-  std::string out = terminal_text(a.path) + " -> " + terminal_text(b.path) + "\n" + verdict;
+  std::string out =
+      terminal_text(a.loaded.path()) + " -> " + terminal_text(b.loaded.path()) + "\n" + verdict;
   for (const std::string& note : diff.notes) out += "note: " + terminal_text(note) + "\n";
   const auto tables = diff_tables(a, b, diff, options.rows);
   for (const DiffTable& t : tables) {
@@ -45,8 +46,8 @@ std::string diff_text(const DiffSide& a, const DiffSide& b, const DeckDiff& diff
 
 std::string diff_markdown(const DiffSide& a, const DiffSide& b, const DeckDiff& diff,
                           const DiffTextOptions& options) {
-  std::string out = fmt::format("### {} → {}\n\n**{}**\n", markdown_cell(a.path),
-                                markdown_cell(b.path), markdown_cell(diff_verdict(diff)));
+  std::string out = fmt::format("### {} → {}\n\n**{}**\n", markdown_cell(a.loaded.path()),
+                                markdown_cell(b.loaded.path()), markdown_cell(diff_verdict(diff)));
   for (const std::string& note : diff.notes) out += fmt::format("\n> {}\n", markdown_cell(note));
   for (const DiffTable& t : diff_tables(a, b, diff, options.rows)) {
     out += fmt::format("\n#### {}\n\n|", t.title);

@@ -50,10 +50,11 @@ Tone tone_of(Origin origin) {
 /// Interfaces that are in the deck but not evaluated here.
 std::vector<const Block*> not_evaluated(const ParamsInput& in) {
   std::vector<const Block*> out;
-  for (const Block& b : in.deck->blocks) {
+  for (const Block& b : in.loaded.deck().blocks) {
     if (!b.header.starts_with("/INTER/")) continue;
-    const bool known = std::any_of(in.interfaces->ordered.begin(), in.interfaces->ordered.end(),
-                                   [&](const InterBase* i) { return i->block == &b; });
+    const bool known =
+        std::any_of(in.loaded.interfaces().ordered.begin(), in.loaded.interfaces().ordered.end(),
+                    [&](const InterBase* i) { return i->block == &b; });
     if (!known) out.push_back(&b);
   }
   return out;
@@ -124,8 +125,8 @@ void json_field(JsonWriter& json, const ParamsInput& in, const InterBase& inter,
   }
   json.key("source");
   if (e.span.valid()) {
-    const Position p = in.deck->sources.position(e.span);
-    json.begin_object(true).field("file", in.deck->sources[e.span.file].path());
+    const Position p = in.loaded.deck().sources.position(e.span);
+    json.begin_object(true).field("file", in.loaded.deck().sources[e.span.file].path());
     json.field("line", p.line).field("column", p.column);
     json.field("end_column", p.column + e.span.length).end_object();
   } else {
@@ -140,13 +141,13 @@ template <class T>
 bool changed_on_card(const ParamsInput& in, const InterBase& inter, std::string_view name,
                      const Effective<T>& e) {
   if (!e.has_input || as_number(e.input) == 0) return false;
-  for (const DefaultInter& d : in.interfaces->defaults)
+  for (const DefaultInter& d : in.loaded.interfaces().defaults)
     if (const auto* given = d.type == inter.type ? d.find(name) : nullptr)
       return as_number(e.input) != static_cast<double>(given->value);
   const Schema* schema = inter.block != nullptr ? inter.block->schema : nullptr;
   const Field* field = schema != nullptr ? schema->find_field(name) : nullptr;
   if (field == nullptr || field->type == FieldType::id) return true;
-  const auto number = default_number(field->default_text, ordinary(in.model));
+  const auto number = default_number(field->default_text, ordinary(&in.loaded.model()));
   return !number || *number != as_number(e.input);
 }
 template bool changed_on_card(const ParamsInput&, const InterBase&, std::string_view,
@@ -183,12 +184,13 @@ TextTable params_table(const ParamsInput& in, const InterBase& inter,
   visit_interface(inter, [&](const auto& t) {
     t.for_each([&](std::string_view name, const auto& e) {
       if (!wanted(in, inter, name, e, options)) return;
-      table.row({std::string(name),
-                 e.has_input ? cell_text(e.input) : std::string("-"),
-                 {effective_text(in, inter, name, e),
-                  e.origin == Origin::card ? Tone::bold : Tone::plain},
-                 {to_string(e.origin), tone_of(e.origin)},
-                 {e.span.valid() ? in.deck->sources.where(e.span) : std::string(), Tone::dim}});
+      table.row(
+          {std::string(name),
+           e.has_input ? cell_text(e.input) : std::string("-"),
+           {effective_text(in, inter, name, e),
+            e.origin == Origin::card ? Tone::bold : Tone::plain},
+           {to_string(e.origin), tone_of(e.origin)},
+           {e.span.valid() ? in.loaded.deck().sources.where(e.span) : std::string(), Tone::dim}});
     });
   });
   return table;
@@ -238,7 +240,7 @@ struct Matrix {
 
 Matrix matrix_of(const ParamsInput& in, const ParamsTextOptions& options) {
   Matrix m;
-  for (const InterBase* inter : in.interfaces->ordered) {
+  for (const InterBase* inter : in.loaded.interfaces().ordered) {
     if (!wanted(options, *inter)) continue;
     m.interfaces.push_back(inter);
     m.rows.push_back(matrix_row(in, *inter));
@@ -293,27 +295,29 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
     table.row(std::move(cells));
   }
   std::string out = table.fitted(options.width, options.color, 0, 1);
-  out += fmt::format("\n{}: {}; (value): not on the card; -: no such field{}\n",
-                     terminal_text(in.path), count(m.rows.size(), "interface", "interfaces"),
-                     options.changed_only ? "; .: the default" : "");
+  out +=
+      fmt::format("\n{}: {}; (value): not on the card; -: no such field{}\n",
+                  terminal_text(in.loaded.path()), count(m.rows.size(), "interface", "interfaces"),
+                  options.changed_only ? "; .: the default" : "");
   return out;
 }
 
 std::string params_csv(const ParamsInput& in, const ParamsTextOptions& options) {
   std::string out = "deck,interface,type,title,field,card,value,origin,file,line,column\r\n";
-  for (const InterBase* inter : in.interfaces->ordered) {
+  for (const InterBase* inter : in.loaded.interfaces().ordered) {
     if (!wanted(options, *inter)) continue;
     visit_interface(*inter, [&](const auto& t) {
       t.for_each([&](std::string_view name, const auto& e) {
         if (!wanted(in, *inter, name, e, options)) return;
-        const Position p = e.span.valid() ? in.deck->sources.position(e.span) : Position{};
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(in.path), inter->id,
-                           inter->type, csv_cell(inter->title), name,
-                           e.has_input ? csv_cell(cell_text(e.input)) : "",
-                           csv_cell(effective_text(in, *inter, name, e)), to_string(e.origin),
-                           e.span.valid() ? csv_cell(in.deck->sources[e.span.file].path()) : "",
-                           e.span.valid() ? std::to_string(p.line) : "",
-                           e.span.valid() ? std::to_string(p.column) : "");
+        const Position p = e.span.valid() ? in.loaded.deck().sources.position(e.span) : Position{};
+        out += fmt::format(
+            "{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(in.loaded.path()), inter->id,
+            inter->type, csv_cell(inter->title), name,
+            e.has_input ? csv_cell(cell_text(e.input)) : "",
+            csv_cell(effective_text(in, *inter, name, e)), to_string(e.origin),
+            e.span.valid() ? csv_cell(in.loaded.deck().sources[e.span.file].path()) : "",
+            e.span.valid() ? std::to_string(p.line) : "",
+            e.span.valid() ? std::to_string(p.column) : "");
       });
     });
   }
@@ -327,8 +331,8 @@ std::string params_matrix_csv(const ParamsInput& in, const ParamsTextOptions& op
   out += "\r\n";
   for (std::size_t i = 0; i < m.rows.size(); ++i) {
     const InterBase& inter = *m.interfaces[i];
-    out +=
-        fmt::format("{},{},{},{}", csv_cell(in.path), inter.id, inter.type, csv_cell(inter.title));
+    out += fmt::format("{},{},{},{}", csv_cell(in.loaded.path()), inter.id, inter.type,
+                       csv_cell(inter.title));
     for (const std::string& name : m.names) out += "," + csv_cell(cell_of(m.rows[i], name).text);
     out += "\r\n";
   }
@@ -346,22 +350,23 @@ void write_json_parameters(JsonWriter& json, const ParamsInput& in, const InterB
 }
 
 std::string params_text(const ParamsInput& in, const ParamsTextOptions& options) {
-  const Coverage coverage = coverage_of(*in.deck, *in.interfaces);
+  const Coverage coverage = coverage_of(in.loaded.deck(), in.loaded.interfaces());
   std::string out;
   if (const std::string lead = coverage_lead(coverage); !lead.empty())
     out += toned(terminal_text(lead), Tone::bold, options.color) + "\n";
-  for (const InterBase* inter : in.interfaces->ordered) {
+  for (const InterBase* inter : in.loaded.interfaces().ordered) {
     if (!wanted(options, *inter)) continue;
     out +=
         toned(fmt::format("/INTER/TYPE{}/{}", inter->type, inter->id), Tone::bold, options.color);
     if (!inter->title.empty()) out += "  " + terminal_text(inter->title);
     out += "  " +
-           toned(terminal_text(in.deck->sources.where(inter->span)), Tone::dim, options.color) +
+           toned(terminal_text(in.loaded.deck().sources.where(inter->span)), Tone::dim,
+                 options.color) +
            "\n";
     out += params_table(in, *inter, options).fitted(options.width, options.color, 2) + "\n";
   }
-  const auto& all = *in.interfaces;
-  out += fmt::format("{}: {} (", terminal_text(in.path),
+  const auto& all = in.loaded.interfaces();
+  out += fmt::format("{}: {} (", terminal_text(in.loaded.path()),
                      count(all.ordered.size(), "interface", "interfaces"));
   const char* separator = "";
   all.each_list([&]<class Inter>(const std::vector<Inter>& list) {
@@ -379,17 +384,18 @@ std::string params_json(const ParamsInput& in, const std::vector<std::int64_t>& 
   JsonWriter json(out);
   json.begin_object();
   write_json_head(json, "deck/params", 1);
-  write_json_deck(json, in.path, *in.deck, in.model, in.interfaces);
-  write_json_coverage(json, coverage_of(*in.deck, *in.interfaces));
+  write_json_deck(json, in.loaded.path(), in.loaded.deck(), &in.loaded.model(),
+                  &in.loaded.interfaces());
+  write_json_coverage(json, coverage_of(in.loaded.deck(), in.loaded.interfaces()));
   json.key("interfaces").begin_array();
   ParamsTextOptions options;
   options.only = only;
-  for (const InterBase* inter : in.interfaces->ordered) {
+  for (const InterBase* inter : in.loaded.interfaces().ordered) {
     if (!wanted(options, *inter)) continue;
     json.begin_object();
     json.field("id", inter->id).field("type", inter->type).field("title", inter->title);
     json.key("source");
-    write_json_place(json, *in.deck, inter->span);
+    write_json_place(json, in.loaded.deck(), inter->span);
     write_json_parameters(json, in, *inter);
     json.end_object();
   }
@@ -398,7 +404,7 @@ std::string params_json(const ParamsInput& in, const std::vector<std::int64_t>& 
   for (const Block* b : not_evaluated(in)) {
     json.begin_object(true).field("keyword", keyword_of(*b));
     json.field("id", b->id.value).key("source");
-    write_json_place(json, *in.deck, b->header_span);
+    write_json_place(json, in.loaded.deck(), b->header_span);
     json.end_object();
   }
   json.end_array();

@@ -29,7 +29,7 @@ std::string fact_text(const FactValue& value) {
 class ShowText {
  public:
   ShowText(const ParamsInput& in, const EntityView& view, const ShowTextOptions& options)
-      : deck_(*in.deck), in_(in), view_(view), options_(options) {}
+      : deck_(in.loaded.deck()), in_(in), view_(view), options_(options) {}
 
   std::string run() {
     head();

@@ -24,15 +24,7 @@ struct Side {
   SceneView view;
   Verdict verdict = {};
 
-  DiffSide described(bool geometry) const {
-    DiffSide s{loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces(),
-               nullptr,       nullptr,        &verdict};
-    if (geometry) {
-      s.scene = &loaded.scene();
-      s.view = &view;
-    }
-    return s;
-  }
+  DiffSide described(bool geometry) const { return {loaded, geometry ? &view : nullptr, &verdict}; }
 };
 
 /// What is said of a side; its findings are joined.

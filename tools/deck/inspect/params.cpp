@@ -39,8 +39,7 @@ int run(const Options& options) {
       print_error(common, known.error().message);
       return static_cast<int>(exit_usage);
     }
-    ParamsInput input{loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces(),
-                      nullptr};
+    ParamsInput input{loaded};
     if (!options.no_geometry) input.scene = &resolve_geometry(loaded, common);
     loaded.findings(Stage::cells);
     const auto errors = print_findings(loaded, common);

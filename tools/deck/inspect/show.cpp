@@ -25,8 +25,7 @@ int run(Options& o) {
     }
     const EntityView view =
         view_entity(loaded.deck(), loaded.model(), loaded.interfaces(), *entity);
-    ParamsInput params{loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces(),
-                       nullptr};
+    ParamsInput params{loaded};
     if (!o.no_geometry && view.inter != nullptr) params.scene = &resolve_geometry(loaded, o.common);
     if (json.wanted()) json.add(show_json(params, view));
     if (o.common.wants_text()) {

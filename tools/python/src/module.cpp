@@ -219,13 +219,8 @@ PYBIND11_MODULE(_native, m) {
       .def("params_json", [](PyDeck& d) {
         const py::gil_scoped_release free;
         const std::lock_guard one(d.mutex);
-        ParamsInput input;
-        input.path = d.path;
-        input.deck = &d.loaded.deck();
-        input.model = &d.loaded.model();
-        input.interfaces = &d.loaded.interfaces();
-        input.scene = &d.loaded.mesh_values();
-        return params_json(input);
+        const Scene& mesh = d.loaded.mesh_values();
+        return params_json({d.loaded, &mesh});
       });
   m.def("load", &load_deck);
   bind_results(m);

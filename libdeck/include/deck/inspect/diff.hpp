@@ -9,8 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "deck/contact/view.hpp"
-#include "deck/model/interfaces.hpp"
+#include "deck/deck.hpp"
 
 namespace deck {
 
@@ -24,14 +23,10 @@ enum class MatchBy : std::uint8_t {
 
 struct Verdict;  // deck/verdict.hpp
 
-/// One side of a comparison; scene and view of the same deck.
+/// One side of a comparison.
 struct DiffSide {
-  std::string path;  ///< as given
-  const Deck* deck = nullptr;
-  const Model* model = nullptr;
-  const Interfaces* interfaces = nullptr;
-  const Scene* scene = nullptr;
-  const SceneView* view = nullptr;
+  const LoadedDeck& loaded;
+  const SceneView* view = nullptr;   ///< of its scene; nullptr: contacts are not compared
   const Verdict* verdict = nullptr;  ///< what is said of this deck; nullptr: not asked
 };
 

@@ -4,20 +4,15 @@
 #include <string>
 #include <string_view>
 
-#include "deck/contact/scene.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/model/model.hpp"
+#include "deck/deck.hpp"
 #include "deck/report/json.hpp"
 #include "deck/report/text_table.hpp"
 
 namespace deck {
 
 struct ParamsInput {
-  std::string_view path;  ///< of the deck, as given
-  const Deck* deck = nullptr;
-  const Model* model = nullptr;
   /// Values of Origin::geometry are unknown where the interface is not resolved.
-  const Interfaces* interfaces = nullptr;
+  const LoadedDeck& loaded;
   /// Says what the parts of a TYPE19 have where they differ from the interface; may be missing.
   const Scene* scene = nullptr;
 };

@@ -26,9 +26,8 @@ EffectiveValue effective(const View& view, const Block& block, std::string_view 
   EffectiveValue out;
   const InterBase* inter = view.interface_of(block);
   if (inter == nullptr) return out;
-  const Semantics& s = *view.semantics();
-  const LoadedDeck& of = *s.loaded;
-  const ParamsInput params{of.path(), &of.deck(), &of.model(), &of.interfaces(), nullptr};
+  const LoadedDeck& loaded = *view.semantics()->loaded;
+  const ParamsInput params{loaded};
   visit_interface(*inter, [&](const auto& typed) {
     typed.for_each([&](std::string_view name, const auto& e) {
       if (name != value_name(field)) return;
@@ -37,7 +36,7 @@ EffectiveValue effective(const View& view, const Block& block, std::string_view 
       out.text = effective_text(params, *inter, name, e);
       out.origin = to_string(e.origin);
       if (e.origin == Origin::default_block && e.span.valid())
-        out.place = fmt::format("line {}", of.deck().sources.position(e.span).line);
+        out.place = fmt::format("line {}", loaded.deck().sources.position(e.span).line);
       if (e.origin != Origin::geometry) return;
       out.origin = "derived from the mesh";
       if (view.open.geometry == nullptr) return;
