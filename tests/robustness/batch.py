@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """deck batch: the results are those of the verbs, the bytes do not depend on how the work was divided
-(jobs, shards, ranks of mpirun, Slurm arrays, GNU parallel), a batch that was stopped goes on where it
+(jobs, shards under mpirun, Slurm arrays, GNU parallel, Snakemake), a batch that was stopped goes on where it
 was, and one bad deck costs nothing but itself."""
 import fcntl
 import glob
@@ -130,9 +130,10 @@ def divided(c, tmp):
     c.check("a whole run after shards redoes nothing", ("%d were finished before" % len(decks)).encode() in r.out, r.text[-200:])
     same("a whole run after shards", out)
     at_work(c, fresh("at-work"), decks[:2])
-    mpi(c, fresh("mpi"), decks, same)
+    mpi(c, fresh("mpi"), manifest, same)
     slurm(c, tmp, fresh("slurm"), manifest, same)
     parallel(c, fresh("parallel"), manifest, same)
+    snakemake(c, tmp, fresh("snakemake-results"), decks, same)
 
 
 def launched(c, command, env=None, timeout=300):
@@ -151,28 +152,37 @@ def at_work(c, out, decks):
         c.check(name, os.path.exists(temporary) == stays)
 
 
-def mpi(c, out, decks, same):
+def mpi(c, out, manifest, same):
+    """The line of batch.md: each process that mpirun starts takes one shard."""
     if not shutil.which("mpirun"):
         c.skip("mpirun", "Open MPI is not installed (openmpi-bin)")
         return
     root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    for ranks in (2, 3):
+    # mpirun ends the others as soon as one ends with another code than 0: findings are no reason to.
+    script = ('deck batch -o "$0" --manifest "$1" --quiet --shard $((OMPI_COMM_WORLD_RANK+1))/$OMPI_COMM_WORLD_SIZE || test $? = 1')
+    for processes in (2, 3):
         shutil.rmtree(out, ignore_errors=True)
-        r = launched(c, ["mpirun", "--oversubscribe", "-n", str(ranks), c.program, "batch", "-o", out, "--quiet", *decks], root)
-        c.check("mpirun -n %d: exit code of the whole" % ranks, r.returncode == 1, "%d; %s" % (r.returncode, r.stderr[-300:]))
-        same("mpirun -n %d" % ranks, out)
-        journals = glob.glob(os.path.join(out, ".batch", "*rank-*.jsonl"))
-        shares = [read(j).count(b"\n") for j in journals]
-        c.check("mpirun -n %d: every rank had its share" % ranks,
-                len(shares) == ranks and sum(shares) == len(decks) and max(shares) - min(shares) <= 1, str(shares))
-        c.check("mpirun -n %d: nothing of the meeting is left" % ranks, not glob.glob(os.path.join(out, ".batch", "job-*")))
-    r = launched(c, ["mpirun", "--oversubscribe", "-n", "2", c.program, "batch", "-o", out, "--shard", "1/2", "--quiet", *decks], root)
-    c.check("ranks inside a shard: exit code", r.returncode in (0, 1), "%d; %s" % (r.returncode, r.stderr[-300:]))
-    c.run("batch", "-o", out, "--shard", "2/2", *decks)
-    os.remove(os.path.join(out, "summary.json"))
-    merged = c.run("batch", "-o", out, "--merge")
-    c.check("ranks inside a shard: merged", merged.code == 1, "%d; %s" % (merged.code, merged.text[-300:]))
-    same("ranks inside a shard", out)
+        r = launched(c, ["mpirun", "--oversubscribe", "-n", str(processes), "sh", "-c", script, out, manifest], root)
+        c.check("mpirun -n %d: exit code" % processes, r.returncode == 0, "%d; %s" % (r.returncode, r.stderr[-300:]))
+        merged = c.run("batch", "-o", out, "--merge")
+        c.check("mpirun -n %d: merged" % processes, merged.code == 1, "%d; %s" % (merged.code, merged.text[-300:]))
+        same("mpirun -n %d" % processes, out)
+
+
+def snakemake(c, tmp, out, decks, same):
+    """samples/Snakefile: one job a deck."""
+    if not shutil.which("snakemake"):
+        c.skip("snakemake", "it is not installed (snakemake)")
+        return
+    folder = os.path.join(tmp, "snakemake")
+    os.makedirs(folder, exist_ok=True)
+    manifest = os.path.join(folder, "decks.txt")
+    with open(manifest, "w") as f:
+        f.writelines(d + "\n" for d in decks)
+    r = launched(c, ["snakemake", "--snakefile", os.path.join(ROOT, "samples", "Snakefile"), "--directory", folder, "--cores", "2",
+                     "--config", "manifest=" + manifest, "results=" + out])
+    c.check("snakemake ends well", r.returncode == 0, "%d; %s" % (r.returncode, r.stderr[-600:]))
+    same("snakemake", out)
 
 
 def slurm(c, tmp, out, manifest, same):

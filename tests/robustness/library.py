@@ -124,7 +124,7 @@ def divided(c, tmp):
     r = c.run("batch", "-o", out, "--merge")
     merged = {k: v for k, v in results(out).items() if "-of-3" not in k}
     c.check("shards merge into the bytes of one process", r.code == 0 and merged == results(one), differing(merged, results(one)))
-    for args in (("--jobs", "3"), ("--no-mpi", "--jobs", "1", "--threads", "3")):
+    for args in (("--jobs", "3"), ("--jobs", "1", "--threads", "3")):
         other = os.path.join(tmp, "other")
         shutil.rmtree(other, ignore_errors=True)
         c.run("batch", "-o", other, lib, *verb, *args)
@@ -323,18 +323,6 @@ def launchers(c, tmp):
     verb = ("--verb", "convert --units kg,m,s", "--jobs", "1", "--quiet")
     c.run("batch", "-o", one, lib, *verb)
     expected = results(one)
-    # Two ranks as mpirun starts them: at the same time, each knowing its number.
-    ranks = [subprocess.Popen([c.program, "batch", "-o", out, lib, *verb], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, env=dict(
-        os.environ, OMPI_COMM_WORLD_RANK=str(i), OMPI_COMM_WORLD_SIZE="2", OMPI_COMM_WORLD_LOCAL_SIZE="2", PMIX_NAMESPACE="job-17")) for i in (0, 1)]
-    said = [p.communicate(timeout=120)[1].decode() for p in ranks]
-    c.check("two ranks of MPI write what one process writes", [p.returncode for p in ranks] == [0, 0] and results(out) == expected,
-            "%s; %s" % ("; ".join(said)[-300:], differing(results(out), expected)))
-    shares = [n for n in os.listdir(os.path.join(out, ".batch")) if "rank-" in n and n.endswith(".jsonl")]
-    c.check("each rank had its share", len(shares) == 2, str(shares))
-    shutil.rmtree(out)
-    c.run("batch", "-o", out, lib, *verb, "--no-mpi", env={"OMPI_COMM_WORLD_RANK": "1", "OMPI_COMM_WORLD_SIZE": "2"})
-    c.check("--no-mpi writes all", results(out) == expected, differing(results(out), expected))
-    shutil.rmtree(out)
     for task in (3, 1, 2):
         env = {"SLURM_ARRAY_TASK_ID": str(task), "SLURM_ARRAY_TASK_COUNT": "3", "SLURM_PROCID": "0", "SLURM_NTASKS": "8", "SLURM_JOB_ID": "4711",
                "SLURM_CPUS_PER_TASK": "1"}

@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "batch/list.hpp"
-#include "batch/ranks.hpp"
 #include "batch/run.hpp"
 #include "batch/summary.hpp"
 #include "deck/base/paths.hpp"
@@ -206,8 +205,7 @@ int run(const BatchOptions& o) {
   std::vector<std::vector<std::size_t>> groups;
   if (auto planned = plan_groups(o, *task, *list, groups); !planned)
     return usage(planned.error().message);
-  Batch batch(o, std::move(*task), std::move(*list), std::move(groups), *shard,
-              o.no_mpi ? Ranks::alone() : Ranks::from_environment());
+  Batch batch(o, std::move(*task), std::move(*list), std::move(groups), *shard);
   return batch.run();
 }
 
@@ -246,7 +244,6 @@ Action setup(CommandLine& line) {
   add_require_examined(line, o.common);
   line.flag("--merge", o.merge, "Merge the summaries of all shards in DIR");
   line.flag("--force", o.force, "Do finished decks again");
-  line.flag("--no-mpi", o.no_mpi, "Under mpirun: do not divide the decks among the ranks");
   return [options] { return run(*options); };
 }
 
@@ -258,7 +255,6 @@ const VerbRegistration registration{
      "  deck batch -o results models/ --verb 'lint --fix'\n"
      "  deck batch -o results models/ --shard 2/8    part of the decks, for another machine\n"
      "  deck batch -o results --merge                one summary of all shards\n"
-     "  mpirun -n 16 deck batch -o results models/\n"
      "\n"
      "DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks.\n"
      "Decks of the same name get the name of their directory as prefix: left--car_0000.json.\n"

@@ -148,20 +148,16 @@ class Bar {
 }  // namespace
 
 Batch::Batch(const BatchOptions& o, BatchTask task, BatchList list,
-             std::vector<std::vector<std::size_t>> groups, Shard shard, Ranks ranks)
+             std::vector<std::vector<std::size_t>> groups, Shard shard)
     : o_(o),
       task_(std::move(task)),
       all_(std::move(list.decks)),
       includes_(std::move(list.includes)),
-      shard_(shard),
-      ranks_(std::move(ranks)) {
+      shard_(shard) {
   std::vector<bool> ours(all_.size());
-  std::size_t group_in_shard = 0;
   std::vector<const std::vector<std::size_t>*> mine;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (!shard_.has(g)) continue;
-    in_shard_ += groups[g].size();
-    if (!ranks_.shard().has(group_in_shard++)) continue;
     mine.push_back(&groups[g]);
     for (const std::size_t i : groups[g]) ours[i] = true;
   }
@@ -183,14 +179,11 @@ Batch::~Batch() {
     if (fd >= 0) close(fd);
 }
 
-/// What tells our files in .batch from those of other shards and ranks.
+/// What tells our files in .batch from those of other shards.
 std::string Batch::label() const {
-  std::string text = shard_.whole() ? "all"
-                                    : "shard-" + std::to_string(shard_.index) + "-of-" +
-                                          std::to_string(shard_.count);
-  if (!ranks_.single())
-    text += "-rank-" + std::to_string(ranks_.rank()) + "-of-" + std::to_string(ranks_.size());
-  return text;
+  return shard_.whole()
+             ? "all"
+             : "shard-" + std::to_string(shard_.index) + "-of-" + std::to_string(shard_.count);
 }
 
 Result<void> make_own_directory(const std::string& path) {
@@ -300,7 +293,7 @@ Result<void> Batch::claim_directory() const {
   const std::string verb(task_.verb.name);
   if (const auto before = Source::open(path, Limits{}); before) {
     const std::string was((*before)->bytes());
-    if (was == verb) return {};  // another shard or rank may stand there
+    if (was == verb) return {};  // another shard may stand there
     if (!o_.force)
       return Error{Error::Code::config,
                    o_.directory + " holds the results of 'deck " + was +
@@ -323,8 +316,6 @@ Result<void> Batch::prepare() {
   if (fcntl(lock_, F_SETLK, &whole) != 0 && (errno == EAGAIN || errno == EACCES))
     return Error{Error::Code::config, "another deck batch is writing to " + o_.directory +
                                           "; use --shard, or another directory"};
-  if (!ranks_.single())
-    if (auto opened = ranks_.open(in_directory(".batch")); !opened) return opened;
   if (auto claimed = claim_directory(); !claimed) return claimed;
   key_ = key_of(task_);
   records_.resize(decks_.size());
@@ -333,8 +324,8 @@ Result<void> Batch::prepare() {
   for (const BatchDeck& d : decks_) ours.insert(d.result);
   for (std::size_t g = 0; g < groups_.size() && task_.writes; ++g)
     ours.insert(fs::path(intent_path(g)).filename().string());
-  // What all shards and ranks write is only ours where there are no others: they may be at it.
-  if (shard_.whole() && ranks_.single())
+  // What all shards write is only ours where there are no others: they may be at it.
+  if (shard_.whole())
     for (const char* name : {"index.html", "losses.json", "verb", "previous.json"})
       ours.insert(name);
   remove_strays(ours);
@@ -532,13 +523,8 @@ Result<int> Batch::work() {
     }
   if (todo.empty()) return 0;
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  int jobs = o_.jobs;
-  // A launcher that binds its processes shows each of them its own processors only.
-  if (jobs == 0)
-    jobs = processors == static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN))
-               ? std::max(1, processors / static_cast<int>(ranks_.local_size()))
-               : processors;
-  jobs = static_cast<int>(std::min(static_cast<std::size_t>(jobs), todo.size()));
+  const int wanted = o_.jobs == 0 ? processors : o_.jobs;
+  const int jobs = static_cast<int>(std::min(static_cast<std::size_t>(wanted), todo.size()));
   const int threads =
       o_.common.threads > 0 ? o_.common.threads : std::max(1, processors / std::max(1, jobs));
   task_.options.insert(task_.options.end(),
@@ -573,10 +559,7 @@ Result<int> Batch::work() {
         if (task_.writes && !trouble) unlink(intent_path(report.job).c_str());
         return !trouble.has_value();
       },
-      [&] {
-        bar.draw();
-        ranks_.beat();
-      });
+      [&] { bar.draw(); });
   if (trouble) return *trouble;
   return signal;
 }
@@ -624,20 +607,7 @@ int Batch::finish() {
     syncfs(fd);  // the results, before the summary says that they are there
     close(fd);
   }
-  Summary s = summary();
-  if (!ranks_.single()) {
-    s.shard = ranks_.shard();
-    s.all = in_shard_;
-    if (!ranks_.first()) {
-      if (auto done = ranks_.deliver(s); !done) return fail(done.error().message);
-      return exit_clean;  // the first rank gives the exit code; another code would end the job
-    }
-    auto merged = ranks_.collect(std::move(s));
-    if (!merged) return fail(merged.error().message);
-    s = std::move(*merged);
-    s.shard = shard_;
-    s.all = all_.size();
-  }
+  const Summary s = summary();
   if (auto written = write_overview(o_.directory, s, label() + ".jsonl", lasting()); !written)
     return fail(written.error().message);
   return report_batch(o_, s, kept_);

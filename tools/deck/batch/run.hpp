@@ -9,7 +9,6 @@
 
 #include "batch/list.hpp"
 #include "batch/pool.hpp"
-#include "batch/ranks.hpp"
 #include "batch/record.hpp"
 #include "batch/summary.hpp"
 #include "common.hpp"
@@ -23,7 +22,7 @@ struct BatchOptions {
   std::string directory, manifest, verb = "gaps", shard = "1/1";
   int jobs = 0;
   double timeout = 3600;
-  bool merge = false, force = false, no_mpi = false;
+  bool merge = false, force = false;
 };
 
 /// The verb to run, as given in --verb.
@@ -52,10 +51,10 @@ struct BatchTask {
 /// the journals say and what still holds.
 class Batch {
  public:
-  /// `list` has the decks of all shards and ranks, `groups` those that are done together; the
-  /// process takes the groups that are its own.
+  /// `list` has the decks of all shards, `groups` those that are done together; the process takes
+  /// the groups of its shard.
   Batch(const BatchOptions& o, BatchTask task, BatchList list,
-        std::vector<std::vector<std::size_t>> groups, Shard shard, Ranks ranks);
+        std::vector<std::vector<std::size_t>> groups, Shard shard);
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
   ~Batch();
@@ -102,9 +101,7 @@ class Batch {
   std::vector<BatchDeck> decks_;                  ///< ours
   std::vector<std::size_t> positions_;            ///< of ours among all
   std::vector<std::vector<std::size_t>> groups_;  ///< of ours
-  std::size_t in_shard_ = 0;                      ///< decks of our shard, all ranks together
   Shard shard_;
-  Ranks ranks_;
   std::uint64_t key_ = 0;
   std::vector<Record> records_;  ///< by deck; code -1: to do
   std::vector<Record> known_;    ///< all that the journals and intents hold

@@ -1,4 +1,4 @@
-// The summary of a batch: one line per deck and the totals. Parts made by shards or ranks merge
+// The summary of a batch: one line per deck and the totals. Parts made by shards merge
 // into the same bytes that one process writes.
 #pragma once
 #include <cstddef>
