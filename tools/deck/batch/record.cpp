@@ -152,10 +152,11 @@ std::string record_line(const Record& r) {
     write_states(json, r.outputs);
   }
   if (r.written) json.field("written", true);
+  if (r.announced) json.field("announced", true);
   if (!r.losses.empty()) json.key("losses").raw(r.losses);
   json.key("entry").raw(r.entry).end_object();
   text.erase(text.find_last_not_of('\n') + 1);
-  return text;
+  return text + "\n";
 }
 
 std::optional<Record> parse_record(std::string_view line) {
@@ -173,6 +174,7 @@ std::optional<Record> parse_record(std::string_view line) {
     r.settings = read_states(json.at("settings"));
     if (json.contains("outputs")) r.outputs = read_states(json.at("outputs"));
     r.written = json.value("written", false);
+    r.announced = json.value("announced", false);
     if (json.contains("losses")) r.losses = json_line(json.at("losses"));
     r.entry = json_line(json.at("entry"));
     return r;
@@ -181,85 +183,14 @@ std::optional<Record> parse_record(std::string_view line) {
   }
 }
 
-// ---- messages -------------------------------------------------------------------------------
-
-namespace {
-
-/// Both directions go over the members in one order: visit(Writer) and visit(Reader).
-template <class Visitor, class R>
-void visit_record(Visitor& v, R& r) {
-  v.name(r.deck), v.name(r.result);
-  v.value(r.key), v.value(r.bytes), v.value(r.hash), v.value(r.seconds);
-  for (auto* states : {&r.files, &r.settings, &r.outputs})
-    v.each(*states, [&](auto& f) {
-      v.name(f.path);
-      v.value(f.size), v.value(f.mtime), v.value(f.hash);
-    });
-  v.value(r.written), v.text(r.losses), v.text(r.entry), v.value(r.code);
-}
-
-struct Writer {
-  std::string& out;
-  template <class T>
-  void value(const T& v) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    out.append(reinterpret_cast<const char*>(&v), sizeof v);
+std::vector<Record> parse_records(std::string_view lines) {
+  std::vector<Record> out;
+  while (!lines.empty()) {
+    const std::string_view line = lines.substr(0, lines.find('\n'));
+    lines.remove_prefix(std::min(line.size() + 1, lines.size()));
+    if (auto record = parse_record(line)) out.push_back(std::move(*record));
   }
-  void text(const std::string& t) {
-    value(t.size());
-    out += t;
-  }
-  void name(const std::string& t) { text(as_utf8(t)); }
-  template <class List, class F>
-  void each(const List& list, const F& f) {
-    value(list.size());
-    for (const auto& item : list) f(item);
-  }
-};
-
-struct Reader {
-  std::string_view in;
-  bool whole = true;
-  std::string_view take(std::size_t size) {
-    whole = whole && size <= in.size();
-    if (!whole) return {};
-    const std::string_view bytes = in.substr(0, size);
-    in.remove_prefix(size);
-    return bytes;
-  }
-  template <class T>
-  void value(T& v) {
-    if (const std::string_view bytes = take(sizeof v); whole)
-      std::memcpy(&v, bytes.data(), sizeof v);
-  }
-  void text(std::string& t) {
-    std::size_t size = 0;
-    value(size);
-    t = take(size);
-  }
-  void name(std::string& t) { text(t); }
-  template <class List, class F>
-  void each(List& list, const F& f) {
-    std::size_t size = 0;
-    value(size);
-    for (; whole && list.size() < size; f(list.back())) list.emplace_back();
-  }
-};
-
-}  // namespace
-
-void pack(const Record& record, std::string& message) {
-  Writer writer{message};
-  visit_record(writer, record);
-}
-
-std::optional<Record> unpack(std::string_view& message) {
-  Record record;
-  Reader reader{message};
-  visit_record(reader, record);
-  if (!reader.whole) return std::nullopt;
-  message = reader.in;
-  return record;
+  return out;
 }
 
 // ---- identity -------------------------------------------------------------------------------

@@ -40,21 +40,19 @@ struct Record {
   std::vector<FileState> settings;  ///< other files the result depends on
   std::vector<FileState> outputs;   ///< decks and documents written below the output directory
   bool written = false;             ///< decks were written, below that directory or in place
+  bool announced = false;           ///< they are about to be written: `files`, `outputs` say what
   std::string losses;  ///< of the decks that were written together: the lists of a loss report
   std::string entry;   ///< its line of the summary, a JSON object
   int code = 0;
 };
 
-/// One line of JSON without line end.
+/// One line of JSON with its end.
 std::string record_line(const Record& record);
 /// nullopt: not a record, for example a line that was cut off.
 std::optional<Record> parse_record(std::string_view line);
 
-/// A record on its way from a worker to the process that started it: appends it to `message`.
-void pack(const Record& record, std::string& message);
-/// Takes the first record off a message; nullopt: there is none, or not all of it. Names read as
-/// those of parse_record.
-std::optional<Record> unpack(std::string_view& message);
+/// The records of a text of such lines; what is no record is passed over.
+std::vector<Record> parse_records(std::string_view lines);
 
 /// Tells whether finished decks are still finished. Files that many decks include are looked at
 /// once.

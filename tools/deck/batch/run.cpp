@@ -15,7 +15,6 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <thread>
 #include <unordered_map>
 
@@ -217,9 +216,7 @@ Journals read_journals_of(const std::string& directory, const std::string& own_n
     if (it->path().extension() != ".jsonl" || it->path().filename() == own_name) continue;
     const auto source = Source::open(it->path().string(), Limits{});
     if (!source) continue;
-    std::istringstream in{std::string((*source)->bytes())};
-    for (std::string line; std::getline(in, line);)
-      if (const auto record = parse_record(line)) take(*record);
+    for (const Record& record : parse_records((*source)->bytes())) take(record);
   }
   for (const Record* record : own) take(*record);
   return out;
@@ -322,15 +319,13 @@ Result<void> Batch::prepare() {
   for (Record& r : records_) r.code = -1;
   std::set<std::string> ours = {label() + ".jsonl", summary_name(shard_)};
   for (const BatchDeck& d : decks_) ours.insert(d.result);
-  for (std::size_t g = 0; g < groups_.size() && task_.writes; ++g)
-    ours.insert(fs::path(intent_path(g)).filename().string());
   // What all shards write is only ours where there are no others: they may be at it.
   if (shard_.whole())
     for (const char* name : {"index.html", "losses.json", "verb", "previous.json"})
       ours.insert(name);
   remove_strays(ours);
   read_journals();
-  settle_intents();
+  settle_announced();
   // Decks that are written together are finished together.
   for (const std::vector<std::size_t>& group : groups_)
     if (o_.force || std::any_of(group.begin(), group.end(),
@@ -348,10 +343,9 @@ Result<void> Batch::prepare() {
   std::set<std::string> lines;
   std::string text;
   for (const Record& r : known_)
-    if (std::string line = record_line(r) + "\n"; lines.insert(line).second) text += line;
+    if (std::string line = record_line(r); lines.insert(line).second) text += line;
   const std::string path = in_directory(".batch/" + label() + ".jsonl");
   if (auto written = write_result(path, text, task_.in_place); !written) return written;
-  for (const std::string& intent : settled_) unlink(intent.c_str());  // the journal has it now
   journal_ = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
   if (journal_ < 0)
     return Error{Error::Code::io, "cannot open " + path + ": " + std::strerror(errno)};
@@ -386,25 +380,26 @@ void Batch::read_journals() {
   for (const fs::path& journal : journals) {
     const auto source = Source::open(journal.string(), Limits{});
     if (!source) continue;
-    std::istringstream in{std::string((*source)->bytes())};
-    for (std::string line; std::getline(in, line);) {
-      auto record = parse_record(line);
-      if (!record) continue;
-      const auto found = wanted.find(record->deck);
+    std::vector<Record>& announced = announced_[journal.stem().string()];
+    for (Record& read : parse_records((*source)->bytes())) {
+      std::erase_if(announced, [&](const Record& a) { return a.deck == read.deck; });
+      if (read.announced) {
+        announced.push_back(std::move(read));
+        continue;
+      }
+      const auto found = wanted.find(read.deck);
       if (found != wanted.end())
         for (const std::size_t i : found->second) {
-          const std::string& result = task_.writes ? record->result : decks_[i].result;
+          const std::string& result = task_.writes ? read.result : decks_[i].result;
           if (records_[i].code >= 0 || o_.force) continue;
           // Refused, perhaps for a reason that is gone: a file that could not be read just then.
-          if (task_.verb.name == "convert" && record->code != exit_clean && !record->written)
-            continue;
-          if (freshness.holds(*record, o_.directory, key_, result,
-                              settings_of(task_, decks_[i].path)))
-            records_[i] = *record;
-          else if (task_.in_place && record->key == key_ && record->written)
+          if (task_.verb.name == "convert" && read.code != exit_clean && !read.written) continue;
+          if (freshness.holds(read, o_.directory, key_, result, settings_of(task_, decks_[i].path)))
+            records_[i] = read;
+          else if (task_.in_place && read.key == key_ && read.written)
             overtaken_.insert(i);
         }
-      known_.push_back(std::move(*record));
+      known_.push_back(std::move(read));
     }
   }
   for (std::size_t i = 0; i < records_.size(); ++i)
@@ -468,9 +463,7 @@ std::string Batch::work_on(std::size_t group, Captured& output) const {
   record.entry = summary_entry(deck.path, status_in(task_, record.code, facts), record.result,
                                record.code, error, facts ? facts->verdict : "",
                                facts ? facts->counts : "{}", facts ? facts->gate : std::nullopt);
-  std::string message;
-  pack(record, message);
-  return message;
+  return record_line(record);
 }
 
 /// Of the decks of a group, in their order.
@@ -478,8 +471,7 @@ std::vector<Record> Batch::records_of(const JobReport& report) const {
   const std::vector<std::size_t>& group = groups_[report.job];
   std::vector<Record> records;
   if (report.answered) {
-    std::string_view rest = report.message;
-    while (auto record = unpack(rest)) records.push_back(std::move(*record));
+    records = parse_records(report.message);
     if (records.size() == group.size()) return records;
     records.clear();
   }
@@ -502,14 +494,20 @@ std::vector<Record> Batch::records_of(const JobReport& report) const {
 /// Only what is finished goes into the journal: the rest is tried again next time.
 Result<void> Batch::keep(Record record, std::size_t index) {
   if (record.code <= exit_findings) {
-    const std::string line = record_line(record) + "\n";
-    const ssize_t n = write(journal_, line.data(), line.size());
-    if (n != static_cast<ssize_t>(line.size()))
-      return Error{Error::Code::io, "cannot write to " + in_directory(".batch") + ": " +
-                                        std::strerror(n < 0 ? errno : ENOSPC)};
+    if (auto noted = note(record_line(record), false); !noted) return noted;
   }
   records_[index] = std::move(record);
   return {};
+}
+
+Result<void> Batch::note(const std::string& lines, bool flush) const {
+  const ssize_t n = write(journal_, lines.data(), lines.size());
+  if (n == static_cast<ssize_t>(lines.size()) && (!flush || fdatasync(journal_) == 0)) return {};
+  const int why = n < 0 || n == static_cast<ssize_t>(lines.size()) ? errno : ENOSPC;
+  // What comes after a line that was cut off begins a line of its own.
+  if (n > 0 && write(journal_, "\n", 1) != 1) errno = why;
+  return Error{Error::Code::io,
+               "cannot write to " + in_directory(".batch") + ": " + std::strerror(why)};
 }
 
 /// Number of the signal that ended it, or 0.
@@ -543,7 +541,7 @@ Result<int> Batch::work() {
       [&](const JobReport& report) {
         const std::vector<std::size_t>& group = groups_[report.job];
         if (!report.answered) remove_strays({decks_[group.front()].result});
-        if (!report.answered && task_.writes) settle_intent(intent_path(report.job));
+        if (!report.answered && task_.writes) settle(announced_by(group));
         std::vector<Record> records = records_of(report);
         for (std::size_t k = 0; k < group.size() && !trouble; ++k) {
           bar.count(records[k].code);
@@ -556,7 +554,6 @@ Result<int> Batch::work() {
           }
           if (auto kept = keep(std::move(records[k]), group[k]); !kept) trouble = kept.error();
         }
-        if (task_.writes && !trouble) unlink(intent_path(report.job).c_str());
         return !trouble.has_value();
       },
       [&] { bar.draw(); });
@@ -595,7 +592,7 @@ std::vector<const Record*> Batch::lasting() const {
 
 Result<void> Batch::shorten_journal() const {
   std::string text;
-  for (const Record* r : lasting()) text += record_line(*r) + "\n";
+  for (const Record* r : lasting()) text += record_line(*r);
   return write_result(in_directory(".batch/" + label() + ".jsonl"), text, task_.in_place);
 }
 

@@ -47,8 +47,8 @@ struct BatchTask {
 };
 
 /// One process's part of a batch. Nothing is lost when it is killed: results are put in place
-/// whole, each is noted in the journal DIR/.batch/NAME.jsonl after that, and a run begins with what
-/// the journals say and what still holds.
+/// whole, each is noted in the journal DIR/.batch/NAME.jsonl after that (decks that are written
+/// before that, too), and a run begins with what the journals say and what still holds.
 class Batch {
  public:
   /// `list` has the decks of all shards, `groups` those that are done together; the process takes
@@ -78,6 +78,8 @@ class Batch {
   std::string work_on(std::size_t index, Captured& output) const;
   std::vector<Record> records_of(const JobReport& report) const;
   Result<void> keep(Record record, std::size_t index);
+  /// Adds lines to the journal; of the process and its workers, each at once.
+  Result<void> note(const std::string& lines, bool flush) const;
   Summary summary() const;
   std::vector<const Record*> lasting() const;
   Result<void> shorten_journal() const;
@@ -85,10 +87,12 @@ class Batch {
 
   // ---- writing.cpp: groups of decks that are written together
   std::string write_group(std::size_t group, Captured& output) const;
-  std::string intent_path(std::size_t group) const;
   /// Cleans up behind a writing that was killed: finishes it, and removes what is half written.
-  std::vector<Record> settle_intent(const std::string& path) const;
-  void settle_intents();
+  void settle(const std::vector<Record>& announced) const;
+  /// The same for all that the journals say was to be written.
+  void settle_announced();
+  /// What our journal says that these decks were to write.
+  std::vector<Record> announced_by(const std::vector<std::size_t>& group) const;
   /// True if the file is one that this batch wrote, as it wrote it.
   bool is_ours(const std::string& path) const;
   /// Removes what the journals know and the list does not.
@@ -104,11 +108,12 @@ class Batch {
   Shard shard_;
   std::uint64_t key_ = 0;
   std::vector<Record> records_;  ///< by deck; code -1: to do
-  std::vector<Record> known_;    ///< all that the journals and intents hold
+  std::vector<Record> known_;    ///< all that the journals hold
+  /// What was to be written when a process was killed, by the label of its journal.
+  std::map<std::string, std::vector<Record>> announced_;
   /// What was written below the output directory, normal path and hash.
   std::set<std::pair<std::string, std::uint64_t>> written_;
-  std::vector<std::string> settled_;  ///< intents that the journal has still to take over
-  std::set<std::size_t> overtaken_;   ///< decks that were changed after they were written in place
+  std::set<std::size_t> overtaken_;  ///< decks that were changed after they were written in place
   std::size_t kept_ = 0;
   int journal_ = -1, lock_ = -1;
 };

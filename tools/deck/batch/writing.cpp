@@ -1,5 +1,5 @@
 // Groups of decks that share files: written by one call of the verb, all or none. Before anything
-// is written, an intent says what will be; after a kill the next run finishes or cleans up by it.
+// is written, the journal says what will be; after a kill the next run finishes or cleans up by it.
 #include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
@@ -8,7 +8,6 @@
 #include <chrono>
 #include <filesystem>
 #include <new>
-#include <sstream>
 #include <thread>
 
 #include "batch/json.hpp"
@@ -64,11 +63,6 @@ std::vector<FileState> settled(const Notes& notes, const std::vector<FileState>&
 }
 
 }  // namespace
-
-std::string Batch::intent_path(std::size_t group) const {
-  return in_directory(".batch/" + label() + "." + decks_[groups_[group].front()].result +
-                      ".intent");
-}
 
 std::string Batch::write_group(std::size_t group, Captured& output) const {
   const auto start = std::chrono::steady_clock::now();
@@ -138,9 +132,11 @@ std::string Batch::write_group(std::size_t group, Captured& output) const {
       r.entry =
           summary_entry(paths[k], status_of(r.code), deck.target, r.code, "", "", counts_of(deck));
       if (k == 0 && task_.verb.name == "convert") r.losses = loss_lists(frame.losses);
-      text += record_line(r) + "\n";
+      r.announced = true;
+      text += record_line(r);
+      r.announced = false;
     }
-    return write_result(intent_path(group), text, task_.in_place);
+    return note(text, task_.in_place);
   };
   int code = exit_internal;
   std::string broken;
@@ -224,7 +220,7 @@ std::string Batch::write_group(std::size_t group, Captured& output) const {
       r.losses = loss_lists(frame.losses);  // else they were announced
   }
   std::string message;
-  for (const Record& r : records) pack(r, message);
+  for (const Record& r : records) message += record_line(r);
   return message;
 }
 
@@ -256,13 +252,7 @@ bool is_at_work(const std::string& lock) {
 
 }  // namespace
 
-std::vector<Record> Batch::settle_intent(const std::string& path) const {
-  std::vector<Record> records;
-  const auto source = Source::open(path, Limits{});
-  if (!source) return records;
-  std::istringstream in{std::string((*source)->bytes())};
-  for (std::string line; std::getline(in, line);)
-    if (auto record = parse_record(line)) records.push_back(std::move(*record));
+void Batch::settle(const std::vector<Record>& records) const {
   std::vector<std::string> files;
   std::map<std::string, std::set<std::string>> names;  // by directory
   for (const Record& r : records)
@@ -291,25 +281,45 @@ std::vector<Record> Batch::settle_intent(const std::string& path) const {
     for (const std::string& target : targets)
       unlink((fs::path(directory) / ("." + target + ".unfinished")).c_str());
   }
-  return records;
 }
 
-void Batch::settle_intents() {
+std::vector<Record> Batch::announced_by(const std::vector<std::size_t>& group) const {
+  const auto source = Source::open(in_directory(".batch/" + label() + ".jsonl"), Limits{});
+  if (!source) return {};
+  std::vector<Record> out = parse_records((*source)->bytes());
+  std::erase_if(out, [&](const Record& r) {
+    return !r.announced || std::none_of(group.begin(), group.end(), [&](std::size_t i) {
+      return as_utf8(decks_[i].path) == r.deck;
+    });
+  });
+  return out;
+}
+
+namespace {
+
+/// Our own journal is written anew; of that of a shard that was killed this is done.
+void forget_announced(const std::string& journal) {
+  const auto source = Source::open(journal, Limits{});
+  if (!source) return;
+  std::string text;
+  for (const Record& r : parse_records((*source)->bytes()))
+    if (!r.announced) text += record_line(r);
+  (void)write_result(journal, text, true);  // else it is settled once more next time
+}
+
+}  // namespace
+
+void Batch::settle_announced() {
   for (const Record& r : known_)
     for (const FileState& f : r.outputs) written_.emplace(absolute_path(f.path), f.hash);
-  std::set<fs::path> intents;
-  std::error_code ec;
-  for (auto it = fs::directory_iterator(in_directory(".batch"), ec);
-       !ec && it != fs::directory_iterator(); it.increment(ec))
-    if (it->path().extension() == ".intent" &&
-        it->symlink_status(ec).type() == fs::file_type::regular)
-      intents.insert(it->path());
   Freshness freshness;
-  for (const fs::path& intent : intents) {
-    const std::string name = intent.filename().string(), owner = name.substr(0, name.find('.'));
+  for (auto& [owner, records] : announced_) {
     // Closing a file that this process has locked would give the lock up: its own is not asked for.
-    if (owner != label() && is_at_work(in_directory(".batch/" + owner + ".lock"))) continue;
-    for (Record& r : settle_intent(intent.string())) {
+    if (records.empty() ||
+        (owner != label() && is_at_work(in_directory(".batch/" + owner + ".lock"))))
+      continue;
+    settle(records);
+    for (Record& r : records) {
       for (const FileState& f : r.outputs) written_.emplace(absolute_path(f.path), f.hash);
       // In place, a conversion that came to its end must not be done twice, and one that did not
       // was none. Fixes find nothing to do.
@@ -319,13 +329,14 @@ void Batch::settle_intents() {
           if (as_utf8(decks_[i].path) == r.deck && records_[i].code < 0 &&
               std::all_of(r.files.begin(), r.files.end(),
                           [&](const FileState& f) { return freshness.unchanged(f); })) {
+            r.announced = false;
             records_[i] = r;
             overtaken_.erase(i);
             done = true;
           }
       if (done) known_.push_back(std::move(r));
     }
-    settled_.push_back(intent.string());
+    if (owner != label()) forget_announced(in_directory(".batch/" + owner + ".jsonl"));
   }
 }
 
