@@ -145,7 +145,7 @@ TEST(Type25, SearchFindsWhatAllPairsGive) {
     scene.coordinates = b.scene.coordinates;
     Diagnostics diagnostics;
     const SceneOptions options;
-    detail::SceneContext context{b.model, connectivity, scene, diagnostics, options, nullptr};
+    detail::SceneContext context{b.model, connectivity, scene, diagnostics, options};
     const InterBase& inter = *b.interfaces.ordered.front();
     Sides s;
     s.set = settings_of(inter, {});
@@ -195,7 +195,7 @@ TEST(Type25, NeighboursAreMutualAndBordersFree) {
   scene.coordinates = b.scene.coordinates;
   Diagnostics diagnostics;
   const SceneOptions options;
-  detail::SceneContext context{b.model, connectivity, scene, diagnostics, options, nullptr};
+  detail::SceneContext context{b.model, connectivity, scene, diagnostics, options};
   Sides s;
   s.set = settings_of(*b.interfaces.ordered.front(), {});
   make_sides(context, *b.model.selections, *b.interfaces.ordered.front(), s);

@@ -21,15 +21,12 @@ using test::text_of;
 
 /// The document of `deck params --no-geometry`.
 std::string params_of(const fs::path& path, int threads = 1) {
-  auto deck = read_deck(path.string(), SchemaSet::built_in());
-  EXPECT_TRUE(deck.ok()) << path;
-  if (!deck) return {};
-  Diagnostics diagnostics;
-  ModelOptions options;
+  LoadOptions options;
   options.threads = threads;
-  const Model model = build_model(*deck, SchemaSet::built_in(), diagnostics, options);
-  const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
-  return params_json({path.string(), &*deck, &model, &interfaces, nullptr});
+  options.geometry = false;
+  const auto loaded = load(path.string(), options);
+  EXPECT_TRUE(loaded.ok()) << path;
+  return loaded ? params_json({*loaded}) : std::string();
 }
 
 class GoldenParams : public testing::TestWithParam<const char*> {};
