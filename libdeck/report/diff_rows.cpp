@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/length3.hpp"
-#include "deck/base/length_text.hpp"
 #include "deck/base/count.hpp"
+#include "deck/base/length_text.hpp"
 #include "deck/report/json.hpp"
 
 namespace deck {

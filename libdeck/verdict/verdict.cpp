@@ -362,7 +362,12 @@ Verdict verdict_of(const LoadedDeck& loaded) {
   const Scene& scene = loaded.scene();
   const int threads = loaded.scene_options().threads;
   const std::vector<Crossing> crossed = find_crossings(scene, threads);
-  return verdict_of(loaded.deck(), scene, make_view(scene, &crossed, threads));
+  VerdictInput in;
+  in.deck = &loaded.deck();
+  in.interfaces = scene.interfaces;
+  in.contacts = contact_facts(scene, make_view(scene, &crossed, threads));
+  in.contacts->ties = tie_facts(loaded.ties());
+  return make_verdict(in);
 }
 
 Verdict verdict_of(const Deck& deck, const Scene& scene, const SceneView& view) {

@@ -159,7 +159,7 @@ def extraction(deck):
     values = deck.view("params", deck.path)
     if isinstance(whole, str) or isinstance(values, str):
         return
-    ids = [i["id"] for i in values["interfaces"]]
+    ids = [i["id"] for i in values["interfaces"] if i["type"] in (7, 10, 11, 19)]  # of contacts with forces
     for one in ids[:3] + ids[3:][-1:]:
         small = deck.convert(deck.path, "--extract-contacts", str(one))
         if not small:

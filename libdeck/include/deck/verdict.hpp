@@ -75,7 +75,7 @@ struct ContactFacts {
   std::array<std::size_t, 7> obstacles{};  ///< evaluated contacts by Obstacle
   ContactTotals total;
   double deepest = 0, deepest_gap = 0;  ///< of the deepest pair: its depth, and its gap
-  std::uint64_t unbounded = 0;  ///< pairs that are left out of these: beyond largest_bounded_gap
+  std::uint64_t unbounded = 0;   ///< pairs that are left out of these: beyond largest_bounded_gap
   std::optional<TieFacts> ties;  ///< nullopt: not looked for
 };
 ContactFacts contact_facts(const Scene& scene, const SceneView& view);
@@ -101,7 +101,7 @@ struct VerdictInput {
 
 /// The one place where it is decided what is said of a deck.
 Verdict make_verdict(const VerdictInput& input);
-/// Of a deck with its contacts, crossed elements included, as `deck gaps` says it.
+/// Of a deck with its contacts and ties, crossed elements included, as `deck gaps` says it.
 Verdict verdict_of(const LoadedDeck& loaded);
 /// The same of another scene of the deck, whose diagnostics hold all that was found.
 Verdict verdict_of(const Deck& deck, const Scene& scene, const SceneView& view);

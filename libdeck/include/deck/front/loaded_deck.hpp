@@ -23,7 +23,6 @@
 
 namespace deck {
 
-
 /// What is made of a deck, in this order; each needs those before it.
 enum class Stage : std::uint8_t {
   deck,        ///< the text, cut into blocks

@@ -96,9 +96,10 @@ void check_conditions(const GeometryRun& run, const Tie& tie) {
   std::vector<std::int64_t> ids;
   for (const NodeIndex n : tie.main_and_tied) ids.push_back(model.node_id(n));
   std::sort(ids.begin(), ids.end());
-  Diagnostic* d = report(run, RuleId::DK347, tie, "surf_IDm",
-                         fmt::format("{}: {} of segments in use tied as secondary nodes: {}",
-                                     tie_name(tie), count_text(ids.size(), "node"), list_text(ids)));
+  Diagnostic* d =
+      report(run, RuleId::DK347, tie, "surf_IDm",
+             fmt::format("{}: {} of segments in use tied as secondary nodes: {}", tie_name(tie),
+                         count_text(ids.size(), "node"), list_text(ids)));
   if (d != nullptr)
     d->notes.emplace_back(model.node_span(tie.main_and_tied.front()), "one of the nodes");
 }
@@ -193,10 +194,10 @@ void check_thickness(const GeometryRun& run, const Tie& tie) {
                        nodes.text(run.model())));
   const Nodes missed = nodes_where(tie, [](const TiedNode& n) { return n.missed; });
   if (!missed.all.empty())
-    report(
-        run, RuleId::DK351, tie, "dsearch",
-        fmt::format("{}: {} not tied, although a segment is within the search distance: {}",
-                    tie_name(tie), count_text(missed.all.size(), "node"), missed.text(run.model())));
+    report(run, RuleId::DK351, tie, "dsearch",
+           fmt::format("{}: {} not tied, although a segment is within the search distance: {}",
+                       tie_name(tie), count_text(missed.all.size(), "node"),
+                       missed.text(run.model())));
 }
 
 }  // namespace
