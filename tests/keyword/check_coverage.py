@@ -72,7 +72,8 @@ def main():
                                                                len(described), dict(of_deck)))
     share = 1 - sum(open_lines.values()) / max(total, 1)
     print("lines: %.4f %% of %d described" % (100 * share, total))
-    c.check("%g %% of the lines are described" % (100 * LEAST_SHARE), share >= LEAST_SHARE, str(open_lines.most_common(10)))
+    if corpus:  # one of the few samples is made of mistakes
+        c.check("%g %% of the lines are described" % (100 * LEAST_SHARE), share >= LEAST_SHARE, str(open_lines.most_common(10)))
     return c.finish()
 
 

@@ -89,8 +89,8 @@ def compare_params(c, stem, computed):
             with open(computed, encoding="utf-8") as f:
                 document = json.load(f)
             for interface in document["interfaces"]:  # the echo of the solver knows one name for both
-                if interface["type"] == 2 and "Idel2" in interface["fields"]:
-                    interface["fields"]["Idel"] = interface["fields"].pop("Idel2")
+                if interface["type"] == 2 and "Idel2" in interface["parameters"]:
+                    interface["parameters"]["Idel"] = interface["parameters"].pop("Idel2")
             with open(computed, "w", encoding="utf-8") as f:
                 json.dump(document, f)
             r = subprocess.run([sys.executable, judge, golden, computed], capture_output=True, text=True)
