@@ -1,6 +1,7 @@
 """The Python module: the same answers as the command line, arrays without copying, errors with places."""
 import glob
 import json
+import math
 import os
 import pickle
 import subprocess
@@ -47,6 +48,11 @@ def test_forces_are_those_of_the_command_line(path):
     same(dict(libdeck.load(path).cycle(all=True)), command("cycle", path, "--all"))
 
 
+def in_json(value):
+    """A number whose square no computation can hold is absent in documents."""
+    return None if isinstance(value, float) and not math.isfinite(value * value) else value
+
+
 @pytest.mark.parametrize("path", DECKS, ids=os.path.basename)
 def test_effective_values_are_those_of_the_command_line(path):
     document = command("params", path)
@@ -57,7 +63,7 @@ def test_effective_values_are_those_of_the_command_line(path):
         for name, told in listed["parameters"].items():
             if name in interface.fields:
                 mine = interface[name]
-                assert (mine.value, mine.input, mine.origin) == (told["value"], told["input"], told["origin"]), name
+                assert (in_json(mine.value), in_json(mine.input), mine.origin) == (told["value"], told["input"], told["origin"]), name
 
 
 @pytest.mark.parametrize("path", DECKS, ids=os.path.basename)
