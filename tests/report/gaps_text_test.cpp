@@ -39,6 +39,21 @@ TEST(GapsText, HasOneRowPerInterfaceAndCleanOnesInOneLine) {
   EXPECT_EQ(text.find("reversed"), std::string::npos) << text;
 }
 
+TEST(GapsText, SaysWhatInactiMakesOfEveryTypeOfContact) {
+  Plates p;
+  p.height = 0.7;  // a TYPE24 forgets what is deeper than half of the gap
+  p.card = "Gapmin=0.1\n/SURF/PART/2\nupper\n         2";
+  int id = 1;
+  for (const char* type : {"24", "25"})
+    for (const char* inacti : {"0", "5", "-1"})
+      p.card += std::string("\n@/INTER/TYPE") + type + "/" + std::to_string(++id) +
+                " surf_ID1=1 surf_ID2=2 Inacti=" + inacti;
+  const std::string all = text_of(Inspected(plates(p)));
+  const std::string text = all.substr(0, all.find("Part pairs"));
+  for (const char* words : {"ignored", "stored as offsets", "initial forces"})
+    EXPECT_EQ(count_of(text, words), 2u) << words << "\n" << text;
+}
+
 /// The plates, and three interfaces with a side that nothing is on.
 std::string one_sided() {
   Plates p;

@@ -310,7 +310,7 @@ class State {
     if (!better) return;
     memory_ = set_.inacti == 0 ? p : t.distance;
     known_ = found_ = true;
-    best_ = {node, face, p, t.gap, t.distance, t.normal};
+    best_ = {node, face, p, t.gap, std::fabs(t.gap - p), t.normal};
   }
   bool found() const { return found_; }
   const NodePenetration& best() const { return best_; }

@@ -287,7 +287,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
           write_sides(rows, *scene.model, c);
         write_penetrations(rows, deck, scene, named[i], c);
         if (edges != nullptr) {
-          j.key("edge_totals").begin_object(true);
+          j.field("edges_evaluated", edges->evaluated).key("edge_totals").begin_object(true);
           write_totals(j, view.contacts[i + 1]);
           j.end_object();
           write_penetrations(rows, deck, scene, named[i + 1], *edges, "edge_penetrations");

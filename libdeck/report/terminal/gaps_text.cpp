@@ -48,7 +48,12 @@ std::string obstacle(const Contact& c) {
 
 /// What the solver does about the penetrations of contacts, in a few words.
 std::string action_words(const std::vector<const Contact*>& contacts) {
-  std::size_t by_action[6] = {}, all = 0, tied = 0;
+  static constexpr const char* words[] = {
+      "nothing",     "nodes switched off", "segments switched off",
+      "nodes moved", "gaps reduced",       "edges switched off",
+      "ignored",     "stored as offsets",  "initial forces",
+      "held by ties"};
+  std::size_t by_action[std::size(words)] = {}, all = 0, tied = 0;
   std::string why;
   for (const Contact* c : contacts) {
     if (!c->evaluated) return "not evaluated";
@@ -58,15 +63,13 @@ std::string action_words(const std::vector<const Contact*>& contacts) {
       continue;
     }
     all += c->penetrations.size();
-    for (const PenetrationRow& row : c->penetrations) ++by_action[static_cast<int>(row.action)];
+    for (const PenetrationRow& row : c->penetrations)
+      ++by_action[static_cast<std::size_t>(row.action)];
   }
   if (tied > 0 && all == 0) return count(tied, "pair tied", "pairs tied");
   if (all == 0) return why.empty() ? "-" : why;
-  static constexpr const char* words[6] = {
-      "nothing",     "nodes switched off", "segments switched off",
-      "nodes moved", "gaps reduced",       "edges switched off"};
   std::string text;
-  for (int a = 0; a < 6; ++a) {
+  for (std::size_t a = 0; a < std::size(words); ++a) {
     if (by_action[a] == 0) continue;
     if (!text.empty()) text += ", ";
     text += by_action[a] == all ? words[a] : fmt::format("{} {}", by_action[a], words[a]);
