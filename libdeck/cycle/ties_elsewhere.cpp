@@ -39,7 +39,7 @@ std::vector<CandidatePair> pairs_around_ties(const RunContext& run, const Contac
   options.threads = run.options.threads;
   options.limits = run.scene.limits;
   const std::vector<Tie> found =
-      known ? std::vector<Tie>() : deck::detail::find_ties(run.scene, options);
+      known ? std::vector<Tie>() : deck::detail::ties_of(run.scene, options);
   for (const Tie& tie : known ? run.scene.ties : found)
     for (const TiedNode& n : tie.nodes) {
       if (!n.tied) continue;

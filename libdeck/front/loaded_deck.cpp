@@ -111,7 +111,7 @@ const Scene& LoadedDeck::Parts::mesh_values(const Progress& progress) {
 const std::vector<Tie>& LoadedDeck::Parts::the_ties() {
   const Scene& of = the_scene();
   if (scene_options.ties) return of.ties;
-  if (!ties) ties = detail::find_ties(of, scene_options);
+  if (!ties) ties = detail::ties_of(of, scene_options);
   return *ties;
 }
 

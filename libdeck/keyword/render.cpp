@@ -30,6 +30,16 @@ void put_ending_at(std::string& line, int last, std::string_view text) {
   line += text;
 }
 
+/// The fields that a version has, from left to right.
+std::vector<const Field*> in_columns(const CardSchema& card, int version) {
+  std::vector<const Field*> out;
+  for (const Field& f : card.fields)
+    if (f.in_version(version)) out.push_back(&f);
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Field* a, const Field* b) { return a->first < b->first; });
+  return out;
+}
+
 }  // namespace
 
 std::string render_card(const Schema& schema, std::string_view header, int version,
@@ -46,16 +56,15 @@ std::string render_card(const Schema& schema, std::string_view header, int versi
     if (!std::all_of(card.when.begin(), card.when.end(), holds)) continue;
     std::string head = card.blank() ? "" : "#", line;
     bool any = false;
-    for (const Field& f : card.fields) {
-      if (!f.in_version(version)) continue;
-      const auto width = static_cast<std::size_t>(f.last - f.first + 1);
-      if (width > 3 && static_cast<std::size_t>(f.last) > head.size() + 1) {
-        const std::string name = f.name.substr(0, std::max<std::size_t>(width - 1, 3));
-        put_ending_at(head, f.last, name);
+    for (const Field* f : in_columns(card, version)) {
+      const auto width = static_cast<std::size_t>(f->last - f->first + 1);
+      if (width > 3 && static_cast<std::size_t>(f->last) > head.size() + 1) {
+        const std::string name = f->name.substr(0, std::max<std::size_t>(width - 1, 3));
+        put_ending_at(head, f->last, name);
       }
-      if (const std::string* value = given(values, f.name)) {
-        put_ending_at(line, f.last, *value);
-        used.push_back(f.name);
+      if (const std::string* value = given(values, f->name)) {
+        put_ending_at(line, f->last, *value);
+        used.push_back(f->name);
         any = true;
       }
     }

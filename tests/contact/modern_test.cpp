@@ -87,6 +87,30 @@ TEST(Modern, PlacesAroundACube) {
   }
 }
 
+TEST(Modern, WhatATieHoldsIsNoInitialPenetrationWithIremI2) {
+  SmallDeck d = places({{5, 5, 1.4}, {6, 5, 1.2}});
+  d.group("/GRNOD/NODE/9", {101, 102});
+  d.add("@/INTER/TYPE2/9 grnd_IDs=9 surf_IDm=2 Ignore=1 dsearch=1.3");  // reaches 102 alone
+  d.add("@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
+  d.add("@/INTER/TYPE25/2 surf_ID2=2 grnd_IDs=1 Inacti=5 Irem_i2=1000");
+  d.add("@/INTER/TYPE24/3 surf_ID2=2 grnd_IDs=1 Inacti=5");
+  for (const bool asked_for : {false, true}) {
+    SceneOptions options;
+    options.ties = asked_for;
+    const Built b(d, options);
+    using A = PenetrationAction;
+    const auto action = [&](std::int64_t inter, std::int64_t node) {
+      const PenetrationRow* row = b.row(b.contact(inter), node);
+      return row == nullptr ? A::none : row->action;
+    };
+    EXPECT_EQ(action(1, 101), A::offset_stored) << "the tie does not reach it";
+    EXPECT_EQ(action(1, 102), A::removed_tied);
+    EXPECT_EQ(action(2, 102), A::offset_stored);
+    EXPECT_EQ(action(3, 102), A::removed_tied);
+    EXPECT_EQ(b.scene.ties.size(), asked_for ? 1u : 0u);
+  }
+}
+
 TEST(Modern, InactiDecidesWhatIsStored) {
   SmallDeck d = places({{5, 5, 1.4}});
   int id = 0;

@@ -91,11 +91,10 @@ double stored(const Settings& set, double penetration) {
   return set.inacti == 0 && penetration <= tiny ? penetration : 0;
 }
 
-void list_penetrations(SceneContext& context, Selections& selections, const Sides& s,
-                       const Found& found, Contact& out) {
+void list_penetrations(SceneContext& context, const Sides& s, const Found& found, Contact& out) {
   std::vector<bool> held(found.penetrations.size(), false);
   if (s.set.irem_i2 == 1 && !found.penetrations.empty())
-    held = held_by_ties(context, selections, s, found.penetrations);
+    held = held_by_ties(context, s, found.penetrations);
   for (std::size_t i = 0; i < found.penetrations.size(); ++i) {
     const NodePenetration& p = found.penetrations[i];
     PenetrationRow row;
@@ -199,7 +198,7 @@ void build_contacts(SceneContext& context, Selections& selections, const InterBa
     const Found found =
         inter.type == 25 ? find_nodes25(context, s, topology) : find_nodes24(context, s);
     if (found.complete)
-      list_penetrations(context, selections, s, found, out);
+      list_penetrations(context, s, found, out);
     else
       not_evaluated(context, out, "too many pairs");
   }

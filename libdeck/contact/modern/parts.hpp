@@ -176,7 +176,7 @@ bool find_edges25(SceneContext& context, const Sides& sides, const Topology& top
 
 // ties.cpp
 /// Which of the penetrations a tie (/INTER/TYPE2) of the deck holds already.
-std::vector<bool> held_by_ties(SceneContext& context, Selections& selections, const Sides& sides,
+std::vector<bool> held_by_ties(SceneContext& context, const Sides& sides,
                                const std::vector<NodePenetration>& penetrations);
 
 // contacts.cpp

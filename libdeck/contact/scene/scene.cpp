@@ -89,6 +89,7 @@ class Builder {
   void build() {
     const Interfaces& all = *c_.scene.interfaces;
     std::vector<const InterType19*> later;
+    std::vector<const InterBase*> modern;
     std::size_t total = 0;
     for (const InterBase* base : all.ordered) {
       if (!wanted(*base)) continue;
@@ -120,11 +121,8 @@ class Builder {
           break;
         case 24:
         case 25:
-          detail::modern::build_contacts(c_, selections_, *base, [this](Contact& contact) {
-            report_empty_sides(contact);
-            return computable(contact);
-          });
-          break;
+          modern.push_back(base);
+          continue;
         default:
           break;
       }
@@ -137,6 +135,14 @@ class Builder {
         step();
       }
       type19_edges(*i);
+      step();
+    }
+    // The solver looks at these two types after all others, and after the ties.
+    for (const InterBase* base : modern) {
+      detail::modern::build_contacts(c_, selections_, *base, [this](Contact& contact) {
+        report_empty_sides(contact);
+        return computable(contact);
+      });
       step();
     }
     // Why contacts were not evaluated is known to the selections alone.
@@ -456,7 +462,7 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics&
   SceneContext context{model, connectivity, scene, diagnostics, options};
   Builder(context, *model.selections).build();
   if (options.ties) {
-    scene.ties = find_ties(context);
+    scene.ties = wanted_ties(context);
     scene.examined = Examined::contacts_and_ties;
   }
   return scene;

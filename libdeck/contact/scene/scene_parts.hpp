@@ -1,5 +1,6 @@
 // The steps that turn an interface into contacts, one concept per file. Private to the stage.
 #pragma once
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct SceneContext {
   Diagnostics& diagnostics;
   const SceneOptions& options;
   ShellsAtNodes shells = {};
+  std::optional<std::vector<Tie>> ties = {};  ///< of all /INTER/TYPE2: ties_of()
 };
 
 /// A model with its nodes at some place.

@@ -100,9 +100,11 @@ void search_ties_by_nearest_node(const Model& model, const Coordinates& x, Tie& 
 void settle_ties(SceneContext& context, std::vector<Tie>& ties);
 
 // ties.cpp
-/// All ties of the scene's interfaces, in deck order.
-std::vector<Tie> find_ties(SceneContext& context);
-/// The same for a scene that was made without.
-std::vector<Tie> find_ties(const Scene& scene, const SceneOptions& options);
+/// The ties of all /INTER/TYPE2, in deck order, with the nodes where they are; found once.
+const std::vector<Tie>& ties_of(SceneContext& context);
+/// Those of the interfaces that SceneOptions::only names. The others have their effect on them.
+std::vector<Tie> wanted_ties(SceneContext& context);
+/// The same for a scene that was made without ties.
+std::vector<Tie> ties_of(const Scene& scene, const SceneOptions& options);
 
 }  // namespace deck::detail

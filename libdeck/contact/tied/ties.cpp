@@ -100,24 +100,32 @@ Tie find_tie(SceneContext& c, TieThickness& thickness, const InterType2& inter) 
 
 }  // namespace
 
-std::vector<Tie> find_ties(SceneContext& c) {
+const std::vector<Tie>& ties_of(SceneContext& c) {
+  if (c.ties) return *c.ties;
+  // What is wrong with their sides is told by who asks for ties, not by contacts that they concern.
+  Diagnostics unasked;
+  SceneContext own{c.model, c.connectivity, c.scene, c.options.ties ? c.diagnostics : unasked,
+                   c.options};
   std::vector<Tie> out;
-  if (c.scene.interfaces->type2.empty()) return out;
-  TieThickness thickness(c);
-  for (const InterType2& inter : c.scene.interfaces->type2)
-    out.push_back(find_tie(c, thickness, inter));
-  settle_ties(c, out);
-  // Only now: ties that nobody asked for act on the others.
+  if (!c.scene.interfaces->type2.empty()) {
+    TieThickness thickness(own);
+    for (const InterType2& inter : c.scene.interfaces->type2)
+      out.push_back(find_tie(own, thickness, inter));
+    settle_ties(own, out);
+  }
+  return c.ties.emplace(std::move(out));
+}
+
+std::vector<Tie> wanted_ties(SceneContext& c) {
   const std::vector<std::int64_t>& only = c.options.only;
-  if (!only.empty())
-    std::erase_if(out, [&](const Tie& tie) {
-      return std::find(only.begin(), only.end(), tie.inter->id) == only.end();
-    });
+  std::vector<Tie> out;
+  for (const Tie& tie : ties_of(c))
+    if (only.empty() || std::find(only.begin(), only.end(), tie.inter->id) != only.end())
+      out.push_back(tie);
   return out;
 }
 
-std::vector<Tie> find_ties(const Scene& scene, const SceneOptions& options) {
-  if (scene.interfaces->type2.empty()) return {};
+std::vector<Tie> ties_of(const Scene& scene, const SceneOptions& options) {
   Scene room;
   room.model = scene.model;
   room.interfaces = scene.interfaces;
@@ -125,7 +133,7 @@ std::vector<Tie> find_ties(const Scene& scene, const SceneOptions& options) {
   Connectivity connectivity(*scene.model);
   Diagnostics known;  // of the sides: the references of the cards are checked elsewhere
   SceneContext context{*scene.model, connectivity, room, known, options};
-  return find_ties(context);
+  return wanted_ties(context);
 }
 
 }  // namespace deck::detail
