@@ -41,10 +41,13 @@ class Result:
 
 
 class Checks:
-    def __init__(self):
+    def __init__(self, folders=False):
+        """With `folders` the command line may name folders after the program: options.folders."""
         parser = argparse.ArgumentParser(description=sys.modules["__main__"].__doc__)
         parser.add_argument("deck", nargs="?", default=os.path.join(ROOT, "build", "dev", "tools", "deck"),
                             help="the program to test")
+        if folders:
+            parser.add_argument("folders", nargs="*", help="look at the decks in them")
         parser.add_argument("--corpus", default=os.environ.get("DECK_CORPUS") or os.path.join(ROOT, os.pardir, "shared"))
         parser.add_argument("--all", action="store_true", help="the slow cases too")
         self.options = parser.parse_args()

@@ -169,7 +169,7 @@ TEST_F(FixCommand, WithoutAStrategyItSaysWhatEachWouldDo) {
       << out();
   copy_sample("clean_plates");
   ASSERT_EQ(deck("fix clean_plates_0000.rad"), 0) << out();
-  EXPECT_EQ(out(), "no initial penetrations: nothing to fix\n");
+  EXPECT_EQ(out(), "no initial penetrations of TYPE7, TYPE10, TYPE11 and TYPE19: nothing to fix\n");
   for (const char* writes : {"--in-place", "-o out", "--diff", "--html x.html"}) {
     EXPECT_EQ(deck(std::string("fix too_close_0000.rad ") + writes), 2) << writes;
     EXPECT_NE(err().find("needs --strategy"), std::string::npos) << err();
@@ -199,6 +199,24 @@ TEST_F(FixCommand, ATieIsTreatedOnlyWhereThatIsAskedFor) {
   ASSERT_LE(deck("fix tied_layer_0000.rad --strategy reduce-gap --ties --min-gap 10% -o loose"), 1);
   penetrations("loose/tied_layer_0000.rad");
   EXPECT_LT(ties_.size(), tied.size());
+}
+
+TEST_F(FixCommand, PenetrationsOfTypesThatNoStrategyTreatsAreCountedAndNoSuccess) {
+  std::string text = too_close_;
+  const auto at = text.find("/INTER/TYPE7/1");
+  text.replace(at, text.find("/END") - at,
+               "/INTER/TYPE25/1\nleft alone\n                   1\n         2\n\n\n\n");
+  write(dir_ / "modern_0000.rad", text);
+  for (const char* strategy : {"", " --strategy reduce-gap"}) {
+    EXPECT_EQ(deck(std::string("fix modern_0000.rad") + strategy), 1) << out() << err();
+    EXPECT_NE(out().find("1 interface of TYPE24 and TYPE25 with 9 initial penetrations."),
+              std::string::npos)
+        << out();
+  }
+  // Its forces are not computed: that is said, and no reason to fail.
+  EXPECT_EQ(deck("gaps modern_0000.rad"), 0) << err();
+  EXPECT_EQ(deck("cycle modern_0000.rad"), 0) << err();
+  EXPECT_NE(out().find("forces of TYPE25 are not computed"), std::string::npos) << out();
 }
 
 TEST_F(FixCommand, NothingExaminedIsNoSuccess) {

@@ -251,7 +251,7 @@ int run(const Options& o) {
       const auto watch = [&](std::size_t step, const cycle::SceneOutcome& now,
                              const Coordinates& x) {
         for (const cycle::ContactOutcome& c : now.contacts)
-          pushed = pushed || c.pairs_with_force > 0, undecided = undecided || !c.complete;
+          pushed = pushed || c.pairs_with_force > 0, undecided = undecided || c.undecided();
         if (!series || !written) return;
         CycleInput one = input;
         one.outcome = &now;

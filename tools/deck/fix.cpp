@@ -90,9 +90,11 @@ class FixRun {
                                 : o_.write.diff               ? "diff"
                                                               : "no";
     if (json_.wanted()) documents_.push_back(fix_json(loaded, whole, written, fixed->fixes));
-    texts_ += report(whole, fixed->fixes, changed, loaded.path(), left_alone(loaded, coverage));
+    const std::size_t left = untreated_pairs(loaded);
+    texts_ +=
+        report(whole, fixed->fixes, changed, loaded.path(), left_alone(loaded, coverage, left));
     // A deck that the solver does not take is not repaired, whatever was done about its contacts.
-    return whole.complete && !errors ? exit_clean : exit_findings;
+    return whole.complete && left == 0 && !errors ? exit_clean : exit_findings;
   }
 
   /// Writes what the decks want together, and says what was done.
@@ -139,15 +141,27 @@ class FixRun {
   }
 
   /// Interfaces that are not examined, and those that no strategy can do anything for.
-  static std::string left_alone(const LoadedDeck& loaded, const Coverage& coverage) {
+  static std::string left_alone(const LoadedDeck& loaded, const Coverage& coverage,
+                                std::size_t pairs) {
     const auto& all = loaded.interfaces().ordered;
     const auto n = static_cast<std::size_t>(std::count_if(
         all.begin(), all.end(), [](const InterBase* i) { return is_modern(i->type); }));
     std::string text = coverage_tail(coverage);
-    if (n > 0)
-      text +=
-          " Left as they are: " + count(n, "interface", "interfaces") + " of TYPE24 and TYPE25.";
-    return text;
+    if (n == 0) return text;
+    text += " Left as they are: " + count(n, "interface", "interfaces") + " of TYPE24 and TYPE25";
+    if (pairs > 0) text += " with " + count(pairs, "initial penetration", "initial penetrations");
+    return text + ".";
+  }
+
+  /// Initial penetrations of interfaces that no strategy treats.
+  static std::size_t untreated_pairs(const LoadedDeck& loaded) {
+    const auto& all = loaded.interfaces().ordered;
+    if (std::none_of(all.begin(), all.end(), [](const InterBase* i) { return is_modern(i->type); }))
+      return 0;  // no contacts are made for this question
+    std::size_t pairs = 0;
+    for (const Contact& c : loaded.scene().contacts)
+      if (is_modern(c.type)) pairs += c.penetrations.size();
+    return pairs;
   }
 
   /// Nothing was looked at: no verdict, and nothing that could be fixed.
@@ -168,6 +182,7 @@ class FixRun {
       proposals.push_back(std::move(made->fixes.front()));
     }
     const PenetrationFix now = unchanged(proposals);
+    const std::size_t left = untreated_pairs(loaded);
     if (json_.wanted()) documents_.push_back(fix_json(loaded, now, "no", proposals));
     if (!o_.common.quiet) {
       FixTextOptions text;
@@ -177,10 +192,10 @@ class FixRun {
       texts_ += heading(loaded.path());
       texts_ += fix_proposals_text(
           proposals, [&](std::string_view s) { return command(loaded.path(), s); }, text);
-      if (const std::string tail = left_alone(loaded, coverage); !tail.empty())
+      if (const std::string tail = left_alone(loaded, coverage, left); !tail.empty())
         texts_ += "\n" + tail.substr(1) + "\n";
     }
-    return now.complete && !errors ? exit_clean : exit_findings;
+    return now.complete && left == 0 && !errors ? exit_clean : exit_findings;
   }
 
   /// A word of a command as a shell takes it.

@@ -195,12 +195,16 @@ std::string actions_text(const PenetrationFix& fix, const FixTextOptions& option
   return text;
 }
 
+/// Of the types that strategies treat.
+const std::string nothing_to_fix =
+    "no initial penetrations of TYPE7, TYPE10, TYPE11 and TYPE19: nothing to fix";
+
 }  // namespace
 
 std::string fix_verdict(const PenetrationFix& fix) {
   const FixCount before = total(fix, &FixedInterface::before),
                  after = total(fix, &FixedInterface::after);
-  if (fix.interfaces.empty()) return "no initial penetrations: nothing to fix";
+  if (fix.interfaces.empty()) return nothing_to_fix;
   std::string text;
   if (changes_flags(fix)) {
     text = fmt::format("{}: {}, {} without treatment before, {} after", fix.strategy,
@@ -276,8 +280,7 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
   const PenetrationFix now = unchanged(proposals);
   const FixCount found = total(now, &FixedInterface::before);
   if (now.complete)
-    return "no initial penetrations: nothing to fix" +
-           (now.tied_pairs > 0 ? "; " + tied_text(now) : std::string()) + "\n";
+    return nothing_to_fix + (now.tied_pairs > 0 ? "; " + tied_text(now) : std::string()) + "\n";
   std::string text = count(found.pairs, "penetration", "penetrations");
   if (found.pairs > 0) text += fmt::format(" (deepest {:.4g})", found.deepest);
   if (now.crossings_before > 0)

@@ -154,7 +154,7 @@ cycle::SceneOutcome check_cycle(const GeometryRun& run) {
   options.threads = run.threads;
   cycle::SceneOutcome outcome = cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
   for (const cycle::ContactOutcome& c : outcome.contacts)
-    if (!c.complete && c.contact->evaluated && !c.notes.empty() && !is_modern(c.contact->type)) {
+    if (c.undecided() && c.contact->evaluated && !c.notes.empty()) {
       if (run.left_out != nullptr)
         run.left_out->push_back(too_many_pairs(name_of(run, *c.contact), "forces"));
       else
