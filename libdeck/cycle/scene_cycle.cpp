@@ -65,7 +65,6 @@ struct RunMemory {
   std::vector<ContactCard> cards;
   std::vector<detail::ContactMemory> contacts;
   std::vector<std::uint8_t> fixed;
-  std::optional<StructureStep> structure;
   Connectivity connectivity;
 };
 
@@ -124,8 +123,7 @@ SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
     }
   }
   limit_all(state, stiffness, out);
-  if (!memory.structure) memory.structure = structure_step(scene);
-  out.structure = *memory.structure;
+  out.structure = state.structure;
   return out;
 }
 

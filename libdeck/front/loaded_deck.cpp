@@ -7,6 +7,8 @@
 #include "contact/scene/scene_parts.hpp"
 #include "contact/tied/parts.hpp"
 #include "cycle/contact_run.hpp"
+#include "deck/model/kinematics.hpp"
+#include "deck/model/mesh.hpp"
 #include "deck/text/rule_id.hpp"
 #include "front/findings.hpp"
 
@@ -36,6 +38,7 @@ struct LoadedDeck::Parts {
   const Scene& mesh_values(const Progress& progress);
   const std::vector<Tie>& the_ties();
   const FirstCycle& the_cycle();
+  const Mesh& the_mesh();
   void find(Stage until);
   Scene build(const SceneOptions& wanted, Diagnostics& to) {
     return build_scene(the_model(), cards(), to, wanted);
@@ -60,7 +63,18 @@ struct LoadedDeck::Parts {
   std::optional<Scene> mesh, scene, cycle_scene;  ///< the last only where `scene` will not do
   std::optional<std::vector<Tie>> ties;           ///< where `scene` was made without
   std::optional<FirstCycle> cycle;
+  std::optional<Mesh> elements;
+  std::optional<Kinematics> kinematics;
 };
+
+/// True if some contact may move nodes at the start.
+bool moves_nodes(const Interfaces& interfaces) {
+  bool found = false;
+  interfaces.each_list([&](const auto& list) {
+    for (const auto& inter : list) found = found || inter.Inacti.value == 3;
+  });
+  return found;
+}
 
 const Model& LoadedDeck::Parts::the_model() {
   if (!model) {
@@ -127,9 +141,21 @@ const FirstCycle& LoadedDeck::Parts::the_cycle() {
   cycle::CycleOptions how;
   how.threads = options.threads;
   how.keep_pairs = true;
-  FirstCycle out{cycle::make_state(*of), {}};
+  if (!engine) engine = read_engine_files(deck, options.read.limits);
+  FirstCycle out{cycle::make_state(*of, {}, &*engine), {}};
   out.outcome = cycle::run_cycle(*of, out.state, how);
   return cycle.emplace(std::move(out));
+}
+
+const Mesh& LoadedDeck::Parts::the_mesh() {
+  if (elements) return *elements;
+  MeshOptions how;
+  how.threads = options.threads;
+  if (!engine) engine = read_engine_files(deck, options.read.limits);
+  how.engine = &*engine;
+  const Model& of = the_model();
+  if (moves_nodes(cards())) how.coordinates = &the_scene().coordinates;
+  return elements.emplace(make_mesh(of, how));
 }
 
 const Interfaces& LoadedDeck::Parts::values() {
@@ -197,6 +223,14 @@ bool LoadedDeck::incomplete() const {
          counts.contains(RuleId::DK006);
 }
 
+const Mesh& LoadedDeck::mesh() const { return parts_->the_mesh(); }
+
+const Kinematics& LoadedDeck::kinematics() const {
+  Parts& p = *parts_;
+  if (!p.kinematics) p.kinematics = read_kinematics(p.the_model());
+  return *p.kinematics;
+}
+
 const Interfaces& LoadedDeck::interfaces() const { return parts_->values(); }
 
 const Scene& LoadedDeck::mesh_values(const Progress& progress) const {
@@ -207,6 +241,7 @@ const SceneOptions& LoadedDeck::scene_options() const { return parts_->scene_opt
 
 void LoadedDeck::drop_scene() {
   Parts& p = *parts_;
+  p.elements.reset();
   p.cycle.reset();
   p.cycle_scene.reset();
   p.ties.reset();

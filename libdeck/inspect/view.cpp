@@ -7,6 +7,7 @@
 
 #include "deck/inspect/show.hpp"
 #include "deck/model/connectivity.hpp"
+#include "deck/model/kinematics.hpp"
 #include "deck/model/selection.hpp"
 #include "inspect/families.hpp"
 
@@ -305,10 +306,29 @@ class Viewer {
     std::string names;
     for (const std::uint32_t p : parts) names += (names.empty() ? "" : ", ") + part_name(p);
     if (!names.empty()) fact("parts", names);
+    conditions(n);
     reached_by_members([&](NodeIndex x) { return x == n; },
                        [&](Carrier, std::uint32_t, const auto& nodes) {
                          return std::find(nodes.begin(), nodes.end(), n) != nodes.end();
                        });
+  }
+
+  /// What holds a node, in the order in which the solver books it.
+  void conditions(NodeIndex n) {
+    const Kinematics k = read_kinematics(model_);
+    for (const std::uint32_t s : k.of(n)) {
+      const ConditionSource& c = k.sources[s];
+      fact("kinematic condition", std::string(to_string(c.type)) + " " + c.block->schema->keyword +
+                                      " " + std::to_string(c.id));
+    }
+    for (const KinematicConflict& b : k.bookings) {
+      if (b.node != n) continue;
+      fact("kinematic conflict", k.sources[b.earlier].block->schema->keyword + " " +
+                                     std::to_string(k.sources[b.earlier].id) + " and " +
+                                     k.sources[b.later].block->schema->keyword + " " +
+                                     std::to_string(k.sources[b.later].id));
+      break;
+    }
   }
 
   std::string part_name(std::uint32_t p) const {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "contact/scene/scene_parts.hpp"
 #include "cycle/state/state_parts.hpp"
 #include "deck/keyword/decode.hpp"
+#include "deck/model/mesh.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
 
@@ -17,94 +17,6 @@ namespace deck::cycle {
 namespace {
 
 using deck::detail::at;
-
-bool complete(const NodeIndex* n, int count) {
-  return std::find(n, n + count, no_index) == n + count;
-}
-
-/// Shares of a triangle's corners: their angles (measured on the reference solver's masses).
-std::array<double, 4> corner_shares(const Coordinates& x, const NodeIndex* n) {
-  std::array<double, 4> share{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Vec a = at(x, n[(c + 1) % 3]) - at(x, n[c]), b = at(x, n[(c + 2) % 3]) - at(x, n[c]);
-    const Vec s = cross(a, b);
-    share[c] = std::atan2(std::sqrt(dot(s, s)), dot(a, b)) / std::numbers::pi;
-  }
-  return share;
-}
-
-void add_shells(const Scene& scene, ElementKind kind, std::vector<double>& mass) {
-  const Elements& family = scene.model->family(kind);
-  const int corners = kind == ElementKind::shell4 ? 4 : 3;
-  const detail::ElementMasses mass_of(scene, kind);
-  for (std::uint32_t e = 0; e < family.size(); ++e) {
-    const NodeIndex* n = family.of(e);
-    if (!complete(n, corners)) continue;
-    const double m = mass_of(e);
-    const std::array<double, 4> share = kind == ElementKind::shell4
-                                            ? std::array<double, 4>{0.25, 0.25, 0.25, 0.25}
-                                            : corner_shares(scene.coordinates, n);
-    for (std::size_t c = 0; c < static_cast<std::size_t>(corners); ++c) mass[n[c]] += share[c] * m;
-  }
-}
-
-/// Shares of a solid's mass: the eight slots, and the mid-side nodes where the shape has some.
-void add_solids(const Scene& scene, std::vector<double>& mass) {
-  const Elements& family = scene.model->solid8;
-  const detail::ElementMasses mass_of(scene, ElementKind::solid8);
-  for (std::uint32_t e = 0; e < family.size(); ++e) {
-    const NodeIndex* n = family.of(e);
-    if (!complete(n, 8)) continue;
-    const SolidShape shape = family.shape[e];
-    const double m = mass_of(e);
-    const bool has_extra = e < family.extra.size() && family.extra[e] != no_index;
-    double slot = 0.125, middle = 0.0;
-    int middles = 0;
-    if (has_extra && shape == SolidShape::tetra10) {
-      constexpr double q = 4 * 3.0 / 14 + 6;  // every corner fills two slots
-      slot = 0.5 * (3.0 / 14) / q;
-      middle = 1 / q;
-      middles = 6;
-    } else if (has_extra && shape == SolidShape::brick20) {
-      constexpr double q = 8 * 3.0 / 14 + 12;
-      slot = (3.0 / 14) / q;
-      middle = 1 / q;
-      middles = 12;
-    } else if (has_extra && shape == SolidShape::thick16) {
-      slot = 1.0 / 32;
-      middle = 3.0 / 32;
-      middles = 8;
-    }
-    for (int c = 0; c < 8; ++c) mass[n[c]] += slot * m;
-    for (int c = 0; c < middles; ++c) {
-      const NodeIndex extra = family.extra_nodes[family.extra[e] + static_cast<std::uint32_t>(c)];
-      if (extra != no_index) mass[extra] += middle * m;
-    }
-  }
-}
-
-void add_lines(const Scene& scene, std::vector<double>& mass) {
-  for (const ElementKind kind : {ElementKind::truss, ElementKind::beam}) {
-    const Elements& family = scene.model->family(kind);
-    const detail::ElementMasses mass_of(scene, kind);
-    for (std::uint32_t e = 0; e < family.size(); ++e) {
-      const NodeIndex* n = family.of(e);
-      if (!complete(n, 2)) continue;
-      const double half = 0.5 * mass_of(e);
-      mass[n[0]] += half;
-      mass[n[1]] += half;
-    }
-  }
-  const Elements& springs = scene.model->spring;
-  const detail::SpringMasses spring_masses(*scene.model);
-  for (std::uint32_t e = 0; e < springs.size(); ++e) {
-    const NodeIndex* n = springs.of(e);
-    if (!complete(n, 2)) continue;
-    const double half = 0.5 * spring_masses.of(scene, e);
-    mass[n[0]] += half;
-    mass[n[1]] += half;
-  }
-}
 
 /// A real or integer cell of a card that no schema describes.
 deck::Field cell_field(const char* name, int first, int last, FieldType type,
@@ -135,9 +47,7 @@ class InitialConditions {
     for (const Block& block : deck_.blocks) {
       if (block.schema == nullptr || block.opaque) continue;
       const std::string_view header = block.header;
-      if (header.starts_with("/ADMAS")) {
-        added_mass(block);
-      } else if (block.schema->keyword == "/INIVEL/TRA") {
+      if (block.schema->keyword == "/INIVEL/TRA") {
         velocity(block, decode(deck_, block));
       } else if (header.starts_with("/INIVEL/T+G")) {
         velocity(block, decode_as(block, velocity_card()));
@@ -254,42 +164,6 @@ class InitialConditions {
     }
   }
 
-  /// /ADMAS/type/id: 0 gives the mass to every node of the group, 1 spreads it evenly.
-  void added_mass(const Block& block) {
-    const std::string_view rest = block.header.substr(std::string_view("/ADMAS").size());
-    const char type = rest.size() > 1 && (rest.size() == 2 || rest[2] == '/') ? rest[1] : '?';
-    if (type != '0' && type != '1') {
-      left_out(block, "only types 0 and 1 of added mass are evaluated");
-      return;
-    }
-    CardSchema card;
-    card.fields = {cell_field("Mass", 1, 20, FieldType::real, Dimension{1, 0, 0, 0}),
-                   cell_field("grnod_ID", 21, 30, FieldType::integer)};
-    const DecodedBlock d = decode_as(block, std::move(card));
-    for (const DecodedCard& line : d.cards) {
-      const NodeSet* nodes = group(block, line.cells[1].integer);
-      if (nodes == nullptr || nodes->nodes.empty()) {
-        left_out(block, "its node group does not exist");
-        continue;
-      }
-      const double factor =
-          conversion_factor(units(block), deck_.begin.working, Dimension{1, 0, 0, 0});
-      double m = line.cells[0].real * factor;
-      if (type == '1') m /= static_cast<double>(nodes->nodes.size());
-      for (const NodeIndex n : nodes->nodes)
-        if (n != no_index) state_.mass[n] += m;
-    }
-  }
-
-  /// Units of a block whose header carries more than an id: those of its submodel or of the deck.
-  const UnitSystem& units(const Block& block) const {
-    if (block.submodel >= 0) {
-      const auto& own = deck_.submodels[static_cast<std::size_t>(block.submodel)].units;
-      if (own) return *own;
-    }
-    return deck_.begin.input;
-  }
-
   const Deck& deck_;
   const Scene& scene_;
   State& state_;
@@ -326,16 +200,33 @@ void try_velocity(const Scene& scene, const PartVelocity& wish, State& state) {
   }
 }
 
+/// What the solver's steps are multiplied with.
+constexpr double step_scale = 0.9;
+
+void from_mesh(const Scene& scene, const EngineFiles* engine, State& state) {
+  MeshOptions how;
+  how.threads = 1;
+  how.coordinates = &scene.coordinates;
+  how.engine = engine;
+  Mesh mesh = make_mesh(*scene.model, how);
+  state.mass = std::move(mesh.nodes.lumped_mass);
+  // A mass that is not known is none.
+  for (double& m : state.mass)
+    if (std::isnan(m)) m = 0.0;
+  if (mesh.total.slowest.element != no_index)
+    state.structure = {step_scale * mesh.total.dt, mesh.total.slowest.kind,
+                       mesh.total.slowest.element};
+  for (const LeftOut& left : mesh.left_out)
+    if (left.what.starts_with("/ADMAS")) state.not_evaluated.push_back(left.what + ": " + left.why);
+}
+
 }  // namespace
 
-State make_state(const Scene& scene, const std::vector<PartVelocity>& velocities) {
+State make_state(const Scene& scene, const std::vector<PartVelocity>& velocities,
+                 const EngineFiles* engine) {
   State state;
   const deck::Model& model = *scene.model;
-  state.mass.assign(model.nodes.size(), 0.0);
-  add_shells(scene, ElementKind::shell4, state.mass);
-  add_shells(scene, ElementKind::shell3, state.mass);
-  add_solids(scene, state.mass);
-  add_lines(scene, state.mass);
+  from_mesh(scene, engine, state);
   if (model.deck != nullptr) InitialConditions(scene, state).read();
   for (const PartVelocity& wish : velocities) try_velocity(scene, wish, state);
   for (const auto& v : state.velocity)

@@ -1,4 +1,4 @@
-// Densities, areas, volumes, masses of springs and conductivities, for masses, time steps and heat.
+// Areas, axes and conductivities, for heat and initial conditions.
 #include "cycle/state/state_parts.hpp"
 
 #include <cmath>
@@ -10,103 +10,11 @@ namespace deck::cycle::detail {
 
 using deck::detail::at;
 
-namespace {
-
-bool complete(const NodeIndex* n, int count) {
-  for (int c = 0; c < count; ++c)
-    if (n[c] == no_index) return false;
-  return true;
-}
-
-int corners_of(ElementKind kind) {
-  switch (kind) {
-    case ElementKind::shell4:
-      return 4;
-    case ElementKind::shell3:
-      return 3;
-    case ElementKind::solid8:
-      return 8;
-    case ElementKind::truss:
-    case ElementKind::beam:
-      return 2;
-    default:
-      return 0;
-  }
-}
-
-}  // namespace
-
-OfParts::OfParts(const deck::Model& model) : rows_(model.parts.size() + 1) {
-  for (std::size_t p = 0; p < model.parts.size(); ++p) {
-    const Part& part = model.parts[p];
-    Row& row = rows_[p];
-    if (part.mat != no_index) {
-      const Material& m = model.materials[part.mat];
-      row.density = m.density;
-      row.young = m.young;
-      row.bulk = m.bulk;
-      row.moving = m.law != 0 && m.law != 13;
-    }
-    if (part.prop != no_index) {
-      row.thickness = model.properties[part.prop].thickness;
-      row.section = model.properties[part.prop].area;
-    }
-  }
-}
-
 double shell_area(const Coordinates& x, ElementKind kind, const NodeIndex* n) {
   const Vec d = kind == ElementKind::shell4
                     ? cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1]))
                     : cross(at(x, n[1]) - at(x, n[0]), at(x, n[2]) - at(x, n[0]));
   return 0.5 * std::sqrt(dot(d, d));
-}
-
-double solid_volume(const Coordinates& x, SolidShape shape, const NodeIndex* slots) {
-  const double v = deck::detail::solid_volume(x, slots);
-  return shape == SolidShape::tetra4 || shape == SolidShape::tetra10 ? v / 1.5 : v;
-}
-
-ElementMasses::ElementMasses(const Scene& scene, ElementKind kind)
-    : scene_(scene),
-      kind_(kind),
-      family_(scene.model->family(kind)),
-      parts_(*scene.model),
-      own_thicknesses_(scene.model->intthick_v5 ? 0 : family_.thickness.size()) {}
-
-double ElementMasses::operator()(std::uint32_t e) const {
-  const NodeIndex* n = family_.of(e);
-  const int corners = corners_of(kind_);
-  if (corners == 0 || !complete(n, corners)) return 0;
-  const OfParts::Row& part = parts_[family_.part[e]];
-  const Coordinates& x = scene_.coordinates;
-  if (corners == 8) return part.density * solid_volume(x, family_.shape[e], n);
-  if (corners == 2) return part.density * part.section * deck::detail::distance(x, n[0], n[1]);
-  const double own = e < own_thicknesses_ ? family_.thickness[e] : 0;
-  return part.density * (own != 0 ? own : part.thickness) * shell_area(x, kind_, n);
-}
-
-SpringMasses::SpringMasses(const deck::Model& model) : by_property_(model.properties.size()) {
-  if (model.deck == nullptr || model.spring.size() == 0) return;
-  for (std::size_t p = 0; p < by_property_.size(); ++p) {
-    const Block* block = model.properties[p].block;
-    if (block == nullptr || block->opaque) continue;
-    const DecodedBlock d = decode(*model.deck, *block);
-    if (const Cell* cell = d.find("Mass"))
-      by_property_[p] = {working_value(*model.deck, d, *cell), d.integer("Ileng") == 1};
-  }
-}
-
-double SpringMasses::of(const Scene& scene, std::uint32_t spring) const {
-  const Elements& springs = scene.model->spring;
-  const NodeIndex* n = springs.of(spring);
-  const std::uint32_t part = springs.part[spring];
-  if (n[0] == no_index || n[1] == no_index || part == no_index) return 0.0;
-  const std::uint32_t property = scene.model->parts[part].prop;
-  if (property == no_index) return 0.0;
-  const Mass& mass = by_property_[property];
-  if (!mass.per_length) return mass.value;
-  const Vec d = at(scene.coordinates, n[1]) - at(scene.coordinates, n[0]);
-  return mass.value * std::sqrt(dot(d, d));
 }
 
 std::optional<AffineMap> fixed_axes(const deck::Model& model, std::int64_t skew) {

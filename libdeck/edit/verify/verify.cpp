@@ -6,29 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cycle/state/state_parts.hpp"
 #include "deck/inspect/diff.hpp"
+#include "deck/model/mesh.hpp"
 #include "edit/verify/verify_parts.hpp"
 
 namespace deck {
 namespace {
 
-/// Mass of the elements of each part, without masses that the deck adds to nodes.
-std::vector<double> part_masses(const Scene& scene) {
-  const Model& model = *scene.model;
-  std::vector<double> mass(model.parts.size());
-  for (const ElementKind kind : detail::verified_kinds) {
-    const Elements& family = model.family(kind);
-    const cycle::detail::ElementMasses mass_of(scene, kind);
-    for (std::uint32_t e = 0; e < family.size(); ++e)
-      if (const std::uint32_t part = family.part[e]; part != no_index) mass[part] += mass_of(e);
-  }
-  const cycle::detail::SpringMasses spring_masses(model);
-  for (std::uint32_t e = 0; e < model.spring.size(); ++e)
-    if (const std::uint32_t part = model.spring.part[e]; part != no_index)
-      mass[part] += spring_masses.of(scene, e);
-  return mass;
-}
+/// 0 where nothing is known, or nothing limits: the same in all units.
+double known(double v) { return std::isfinite(v) && v < 1e15 ? v : 0.0; }
 
 }  // namespace
 
@@ -36,13 +22,10 @@ Behaviour::Behaviour(const LoadedDeck& deck)
     : parts_(new Parts{deck, deck.scene(), deck.cycle().state, deck.cycle().outcome, {}, {}, 0}) {
   Parts& p = *parts_;
   const LoadedDeck& context = p.context;
-  for (std::size_t k = 0; k < detail::verified_kinds.size(); ++k) {
-    const ElementKind kind = detail::verified_kinds[k];
-    const cycle::detail::ElementSteps step(p.scene, kind);
-    p.steps[k].resize(context.model().family(kind).size());
-    for (std::uint32_t e = 0; e < p.steps[k].size(); ++e) p.steps[k][e] = step(e);
-  }
-  p.part_mass = part_masses(p.scene);
+  const Mesh& mesh = deck.mesh();
+  for (std::size_t k = 0; k < detail::verified_kinds.size(); ++k)
+    for (const double dt : mesh.of(detail::verified_kinds[k]).dt) p.steps[k].push_back(known(dt));
+  for (const PartFigures& part : mesh.parts) p.part_mass.push_back(known(part.mass));
   const Nodes& nodes = context.model().nodes;
   for (const auto* axis : {&nodes.x, &nodes.y, &nodes.z})
     for (const double x : *axis)

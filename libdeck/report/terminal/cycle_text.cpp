@@ -323,7 +323,7 @@ std::string step_lines(const CycleInput& input) {
   if (o.structure.element == no_index)
     out += "no element limits the step\n";
   else
-    out += fmt::format("{:.4g}, {} {} (estimate)\n", o.structure.dt, element_name(o.structure.kind),
+    out += fmt::format("{:.4g}, {} {}\n", o.structure.dt, element_name(o.structure.kind),
                        model.family(o.structure.kind).id[o.structure.element]);
   out += "  contact    ";
   if (o.contact_dt >= 1e30) return out + "no limit at this state\n";

@@ -23,6 +23,9 @@
 
 namespace deck {
 
+struct Kinematics;  // deck/model/kinematics.hpp
+struct Mesh;        // deck/model/mesh.hpp
+
 /// What is made of a deck, in this order; each needs those before it.
 enum class Stage : std::uint8_t {
   deck,        ///< the text, cut into blocks
@@ -76,6 +79,11 @@ class LoadedDeck {
   /// True if a file of the include tree could not be read.
   bool incomplete() const;
   const Model& model() const;
+  /// Time steps, masses and stiffness of elements and nodes, and what the parts add up to; with the
+  /// nodes where contacts that move nodes have put them. Good until another scene.
+  const Mesh& mesh() const;
+  /// The kinematic conditions of all nodes, and which of them do not go together.
+  const Kinematics& kinematics() const;
   /// Effective values; with LoadOptions::geometry also those that follow from the mesh.
   const Interfaces& interfaces() const;
   /// Contacts without penetrations, where an interface has values that follow from the mesh; else

@@ -1,0 +1,215 @@
+// Kinematic conditions that do not go together: what the solver counts when it books them, and what
+// it refuses or takes away.
+#include "deck/model/kinematics.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "deck/base/count.hpp"
+#include "lint/check.hpp"
+#include "lint/check_tables.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// The conditions of the deck; those of the loaded deck where there is one.
+class Conditions {
+ public:
+  explicit Conditions(const LintContext& c) : context_(c) {
+    if (c.loaded != nullptr)
+      shown_ = &c.loaded->kinematics();
+    else if (c.model != nullptr)
+      shown_ = &own_.emplace(read_kinematics(*c.model));
+  }
+  explicit operator bool() const { return shown_ != nullptr; }
+  const Kinematics* operator->() const { return shown_; }
+
+  const Block& block(std::uint32_t source) const { return *shown_->sources[source].block; }
+  std::string name(std::uint32_t source) const {
+    return fmt::format("{} {}", block(source).schema->keyword, shown_->sources[source].id);
+  }
+  std::int64_t node(NodeIndex n) const { return context_.model->node_id(n); }
+
+ private:
+  const LintContext& context_;
+  std::optional<Kinematics> own_;
+  const Kinematics* shown_ = nullptr;
+};
+
+const char* direction_name(int direction) {
+  constexpr const char* names[] = {"X", "Y", "Z", "XX", "YY", "ZZ", "all directions"};
+  return names[direction];
+}
+
+/// What two options do to one another.
+struct Pair {
+  std::uint64_t bookings = 0;
+  std::set<NodeIndex> nodes;
+  NodeIndex first = no_index;
+  std::uint8_t directions = 0;
+};
+
+std::string directions_text(std::uint8_t mask) {
+  std::string out;
+  for (int d = 0; d < 7; ++d)
+    if ((mask >> d & 1) != 0) out += (out.empty() ? "" : ", ") + std::string(direction_name(d));
+  return out;
+}
+
+/// The solver lists every conflict where its output is that detailed.
+bool lists_all(const LintContext& c) {
+  constexpr std::int64_t detailed = 5;
+  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(), [&](const Block& b) {
+    return b.schema != nullptr && b.schema->keyword == "/IOFLAG" &&
+           decode(c.deck, b).integer("Ipri") >= detailed;
+  });
+}
+
+void check_conflicts(const LintContext& c, const Rule& rule, Reporter& r) {
+  const Conditions k(c);
+  if (!k || k->stops || k->conflicts == 0) return;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Pair> pairs;
+  std::set<NodeIndex> nodes;
+  for (const KinematicConflict& b : k->bookings) {
+    if (!b.counted) continue;
+    Pair& p = pairs[{b.earlier, b.later}];
+    ++p.bookings;
+    if (p.nodes.empty()) p.first = b.node;
+    p.nodes.insert(b.node);
+    p.directions = static_cast<std::uint8_t>(p.directions | 1u << b.direction);
+    nodes.insert(b.node);
+  }
+  if (pairs.empty()) return;
+  const Block& head = k.block(pairs.begin()->first.second);
+  const bool each_pair = lists_all(c);
+  if (each_pair || pairs.size() > 1)
+    r.report(rule, head, head.header_span,
+             fmt::format("{} with kinematic conditions that conflict: the solver counts {}",
+                         count(nodes.size(), "node", "nodes"),
+                         count(k->conflicts, "booking", "bookings")));
+  for (const auto& [key, p] : pairs) {
+    const auto [earlier, later] = key;
+    const Block& block = k.block(later);
+    const std::string more =
+        p.nodes.size() > 1 ? fmt::format(" (and {} more)", p.nodes.size() - 1) : std::string();
+    Diagnostic* d = r.report(
+        rule, block, block.header_span,
+        earlier == later
+            ? fmt::format("node {}{}: {} holds it twice", k.node(p.first), more, k.name(later))
+            : fmt::format("node {}{}: {} and {} both hold it ({})", k.node(p.first), more,
+                          k.name(earlier), k.name(later), directions_text(p.directions)));
+    if (d == nullptr) continue;
+    if (earlier != later)
+      d->notes.emplace_back(k.block(earlier).header_span, "the other condition");
+    if (each_pair) d->reference = rule.message(147);
+  }
+}
+
+void check_walls(const LintContext& c, const Rule& rule, Reporter& r) {
+  const Conditions k(c);
+  if (!k || k->stops) return;
+  for (const WallCorrection& w : k->walls) {
+    const NodeIndex n = w.nodes.front();
+    // What holds the node beside the wall.
+    const auto sources = k->of(n);
+    const auto other = std::find_if(sources.begin(), sources.end(), [&](std::uint32_t s) {
+      const ConditionType t = k->sources[s].type;
+      return t == ConditionType::rbody || t == ConditionType::tied;
+    });
+    const Block& block = k.block(w.wall);
+    Diagnostic* d = r.report(
+        rule, block, block.header_span,
+        fmt::format("{} loses {}: node {} belongs to {}", k.name(w.wall),
+                    count(w.nodes.size(), "node", "nodes"), k.node(n),
+                    other == sources.end() ? std::string("another condition") : k.name(*other)));
+    if (d != nullptr && other != sources.end())
+      d->notes.emplace_back(k.block(*other).header_span, "holds the node");
+  }
+}
+
+/// An Engine file switches rigid bodies off: which of them share nodes in the run is not known.
+bool bodies_end(const LintContext& c) {
+  return c.engine != nullptr &&
+         std::any_of(c.engine->files.begin(), c.engine->files.end(), [](const EngineFile& f) {
+           return std::any_of(f.blocks.begin(), f.blocks.end(), [](const EngineBlock& b) {
+             return b.keyword.starts_with("/RBODY/OFF");
+           });
+         });
+}
+
+void check_shared_bodies(const LintContext& c, const Rule& rule, Reporter& r) {
+  const Conditions k(c);
+  if (!k || bodies_end(c)) return;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const SharedBody*>> pairs;
+  for (const SharedBody& s : k->shared) pairs[{s.first, s.second}].push_back(&s);
+  for (const auto& [key, shared] : pairs) {
+    const Block& block = k.block(key.second);
+    Diagnostic* d = r.report(
+        rule, block, block.header_span,
+        fmt::format("{} of both {} and {}, for example node {}",
+                    count(shared.size(), "node is a secondary node", "nodes are secondary nodes"),
+                    k.name(key.first), k.name(key.second), k.node(shared.front()->node)));
+    if (d == nullptr) continue;
+    d->notes.emplace_back(k.block(key.first).header_span, "the other body");
+    if (!shared.front()->sensor) continue;
+    d->severity = Severity::warning;
+    d->reference = rule.message(1026);
+  }
+}
+
+bool is_warning(int message) { return message >= 3000; }
+
+const char* what_happens(int message) {
+  switch (message) {
+    case 148:
+      return "are boundary conditions with different skews";
+    case 806:
+      return "do not go together: the main node of the body follows the rigid element";
+    case 807:
+      return "have the same main node";
+    case 1036:
+      return "do not go together: the main node of the rigid element is tied";
+    case 3115:
+      return "meet at the dependent node: the solver uses a penalty instead";
+    default:
+      return "meet at an independent node: the solver uses a penalty instead";
+  }
+}
+
+void check_refused(const LintContext& c, const Rule& rule, Reporter& r) {
+  const Conditions k(c);
+  if (!k) return;
+  std::map<std::array<std::uint32_t, 3>, std::vector<NodeIndex>> cases;
+  for (const ForbiddenCondition& f : k->forbidden)
+    cases[{static_cast<std::uint32_t>(f.message), f.first, f.second}].push_back(f.node);
+  for (const auto& [key, nodes] : cases) {
+    const auto message = static_cast<int>(key[0]);
+    const Block& block = k.block(key[1]);
+    const char* what = what_happens(message);
+    Diagnostic* d = r.report(
+        rule, block, block.header_span,
+        fmt::format("node {}{}: {} and {} {}", k.node(nodes.front()),
+                    nodes.size() > 1 ? fmt::format(" (and {} more)", nodes.size() - 1) : "",
+                    k.name(key[1]), k.name(key[2]), what));
+    if (d == nullptr) continue;
+    d->notes.emplace_back(k.block(key[2]).header_span, "the other condition");
+    d->reference = rule.message(message);
+    if (is_warning(message)) d->severity = Severity::warning;
+  }
+}
+
+}  // namespace
+
+std::span<const Checked> kinematic_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK610, check_conflicts},
+      {RuleId::DK611, check_walls},
+      {RuleId::DK612, check_shared_bodies},
+      {RuleId::DK613, check_refused},
+  };
+  return all;
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,452 @@
+// Reads the options that put kinematic conditions on nodes.
+#include "model/mesh/condition_cards.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "deck/keyword/decode.hpp"
+#include "deck/model/selection.hpp"
+#include "deck/text/number.hpp"
+#include "model/mesh/mesh_parts.hpp"
+#include "model/mesh/rigid_bodies.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr std::uint8_t all_six = 0b111111;
+// Numbers of systems: 0 none, 1 global; skews, frames and walls have numbers of their own.
+constexpr std::int64_t skew_base = 10, frame_base = std::int64_t{1} << 40,
+                       wall_base = std::int64_t{1} << 41;
+
+std::int64_t skew_system(std::int64_t id) { return id > 0 ? skew_base + id : 1; }
+
+class Reader {
+ public:
+  explicit Reader(const Model& model) : model_(model), deck_(*model.deck) {}
+
+  ConditionCards run() {
+    for (const Block& b : deck_.blocks)
+      if (b.schema != nullptr && !b.opaque) block(b);
+    bodies();
+    condensed_nodes();
+    leading_nodes();
+    return std::move(out_);
+  }
+
+ private:
+  void block(const Block& b) {
+    const std::string_view k = b.schema->keyword;
+    if (k == "/BCS" || k == "/BCS/LAGMUL")
+      boundary(b, k != "/BCS");
+    else if (k == "/IMPVEL" || k == "/IMPDISP" || k == "/IMPACC")
+      imposed(b, k == "/IMPVEL" ? 2 : k == "/IMPDISP" ? 3 : 4);
+    else if (k == "/RLINK")
+      link(b);
+    else if (k == "/RBE2")
+      rigid_element(b);
+    else if (k == "/RBE3")
+      weighted_element(b);
+    else if (k == "/MPC")
+      multi_point(b);
+    else if (k.starts_with("/RWALL/"))
+      wall(b, k);
+    else if (k == "/INTER/TYPE2")
+      tie(b);
+    else if (k == "/INTER/TYPE12")
+      fluid_tie(b);
+    else if (k == "/CYL_JOINT")
+      cylinder(b);
+    else if (k == "/GJOINT" || k == "/INTER/TYPE1" || k == "/INTER/TYPE9" || k == "/BCS/CYCLIC" ||
+             k == "/IMPDISP/FGEO" || k == "/IMPVEL/FGEO" || b.header.starts_with("/NBCS") ||
+             b.header.starts_with("/GJOINT"))
+      out_.left_out.push_back({"conditions of " + std::string(b.header) + " (" +
+                                   deck_.sources.where(b.header_span) + ")",
+                               "this option is not booked", 1});
+  }
+
+  std::int64_t shifted(const Block& b, std::string_view kind, std::int64_t id) const {
+    return id > 0 ? id + deck_.offset_of(b, kind) : id;
+  }
+
+  void group(const Block& b, std::int64_t id, std::vector<NodeIndex>& to) const {
+    if (id == 0 || model_.selections == nullptr) return;
+    const NodeSet* set = model_.selections->node_group(shifted(b, "grnod", id));
+    if (set != nullptr) to.insert(to.end(), set->nodes.begin(), set->nodes.end());
+  }
+
+  NodeIndex node(const Block& b, std::int64_t id) const {
+    return id > 0 ? model_.find_node(shifted(b, "node", id)) : no_index;
+  }
+
+  ConditionCard& add(const Block& b, ConditionType type, Turn turn, int rank, const char* kind) {
+    ConditionCard& c = out_.cards.emplace_back();
+    c.type = type;
+    c.turn = turn;
+    c.rank = rank;
+    c.block = &b;
+    c.id = shifted(b, kind, b.id.value);
+    return c;
+  }
+
+  static void unique(std::vector<NodeIndex>& nodes) {
+    std::erase(nodes, no_index);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+
+  static std::uint8_t flags(const DecodedBlock& d) {
+    constexpr const char* names[] = {"Tx", "Ty", "Tz", "OmegaX", "OmegaY", "OmegaZ"};
+    unsigned out = 0;
+    for (unsigned i = 0; i < 6; ++i)
+      if (d.integer(names[i]) == 1) out |= 1u << i;
+    return static_cast<std::uint8_t>(out);
+  }
+
+  void boundary(const Block& b, bool lagrange) {
+    if (lagrange) {
+      const Line line = data_line(b, 0);
+      ConditionCard& c = add(b, ConditionType::lagmul, Turn::before_ties, 7, "bcs");
+      c.lagrange = true;
+      c.directions = all_six;
+      group(b, integer_at(line, 30), c.nodes);
+      unique(c.nodes);
+      return;
+    }
+    const DecodedBlock d = decode(deck_, b);
+    ConditionCard& c = add(b, ConditionType::bcs, Turn::before_ties, 0, "bcs");
+    c.directions = flags(d);
+    c.system = skew_system(shifted(b, "skew", d.integer("skew_ID")));
+    group(b, d.integer("grnod_ID"), c.nodes);
+    unique(c.nodes);
+  }
+
+  void imposed(const Block& b, int rank) {
+    const DecodedBlock d = decode(deck_, b);
+    const auto first_of = [&](std::initializer_list<const char*> names) {
+      for (const char* n : names)
+        if (d.find(n) != nullptr) return d.integer(n);
+      return std::int64_t{0};
+    };
+    ConditionCard& c = add(b, ConditionType::imposed, Turn::before_ties, rank, "impvel");
+    const Cell* dir = d.find("Dir");
+    if (dir == nullptr) dir = d.find("DIR");
+    const std::string_view text = dir == nullptr ? std::string_view() : dir->text;
+    if (text.empty()) {
+      out_.cards.pop_back();
+      return;
+    }
+    const char axis = static_cast<char>(text[0] & ~0x20);
+    const int at = (axis == 'Y' ? 1 : axis == 'Z' ? 2 : 0) + (text.size() > 1 ? 3 : 0);
+    c.directions = static_cast<std::uint8_t>(1u << at);
+    const std::int64_t frame = first_of({"frame_ID", "Iframe", "Frame"});
+    c.system = frame > 0 ? frame_base + shifted(b, "frame", frame)
+                         : skew_system(shifted(b, "skew", first_of({"skew_ID", "Iskew"})));
+    group(b, first_of({"grnod_ID", "Gnod_id"}), c.nodes);
+    unique(c.nodes);
+  }
+
+  void link(const Block& b) {
+    const DecodedBlock d = decode(deck_, b);
+    ConditionCard& c = add(b, ConditionType::rlink, Turn::before_ties, 5, "rlink");
+    c.directions = all_six;
+    group(b, d.integer("grnd_ID"), c.nodes);
+    unique(c.nodes);
+  }
+
+  /// Data line `n` of a block, its title not counted.
+  Line data_line(const Block& b, int n) const {
+    LineCursor lines(deck_.sources, b);
+    if (b.schema->has_title) lines.next();
+    Line line = lines.next();
+    for (; n > 0 && line.valid(); --n) line = lines.next();
+    return line;
+  }
+  static std::int64_t integer_at(const Line& line, std::size_t first) {
+    if (!line.valid() || line.text.size() <= first) return 0;
+    return read_integer(line.text.substr(first, 10)).value;
+  }
+
+  /// Main node, flags like those of /BCS, skew and group in fields of ten columns.
+  void rigid_element(const Block& b) {
+    const Line line = data_line(b, 0);
+    if (!line.valid()) return;
+    ConditionCard& c = add(b, ConditionType::rbe2, Turn::before_ties, 6, "rbe2");
+    constexpr std::size_t columns[] = {13, 14, 15, 17, 18, 19};
+    for (unsigned i = 0; i < 6; ++i)
+      if (line.text.size() > columns[i] && line.text[columns[i]] == '1')
+        c.directions = static_cast<std::uint8_t>(c.directions | 1u << i);
+    const std::int64_t skew = shifted(b, "skew", integer_at(line, 20));
+    c.system = skew > 0 ? skew_system(skew) : 0;
+    c.main = node(b, integer_at(line, 0));
+    group(b, integer_at(line, 30), c.nodes);
+    unique(c.nodes);
+    std::erase(c.nodes, c.main);
+  }
+
+  void weighted_element(const Block& b) {
+    const DecodedBlock d = decode(deck_, b);
+    ConditionCard& c = add(b, ConditionType::rbe3, Turn::before_ties, 7, "rbe3");
+    c.directions = all_six;
+    c.main = node(b, d.integer("node_IDr"));
+    if (c.main != no_index) c.nodes.push_back(c.main);
+    for (const DecodedCard& card : d.cards)
+      for (const Cell& cell : card.cells)
+        if (cell.field->name == "grnd_ID") group(b, cell.integer, c.leaders);
+    unique(c.leaders);
+  }
+
+  void multi_point(const Block& b) {
+    ConditionCard& c = add(b, ConditionType::lagmul, Turn::before_ties, 8, "mpc");
+    c.lagrange = true;
+    c.directions = all_six;
+    LineCursor lines(deck_.sources, b);
+    if (b.schema->has_title) lines.next();
+    for (Line line = lines.next(); line.valid(); line = lines.next())
+      c.nodes.push_back(node(b, integer_at(line, 0)));
+    unique(c.nodes);
+  }
+
+  void wall(const Block& b, std::string_view keyword) {
+    const bool lagrange = keyword == "/RWALL/LAGMUL";
+    const DecodedBlock d = decode(deck_, b);
+    ConditionCard& c =
+        add(b, lagrange ? ConditionType::lagmul : ConditionType::rwall,
+            lagrange ? Turn::before_ties : Turn::walls_and_bodies, lagrange ? 9 : 10, "rwall");
+    c.lagrange = lagrange;
+    c.directions = lagrange ? all_six : 1;
+    c.system = wall_base + static_cast<std::int64_t>(out_.cards.size());
+    c.penalty = d.integer("Iform") > 1;
+    std::vector<NodeIndex> without;
+    if (lagrange) {
+      const Line line = data_line(b, 0);
+      group(b, integer_at(line, 20), c.nodes);
+      group(b, integer_at(line, 30), without);
+    } else {
+      group(b, d.integer("grnd_ID1"), c.nodes);
+      group(b, d.integer("grnd_ID2"), without);
+      near_wall(b, d, keyword, c.nodes);
+    }
+    unique(c.nodes);
+    unique(without);
+    std::vector<NodeIndex> kept;
+    std::set_difference(c.nodes.begin(), c.nodes.end(), without.begin(), without.end(),
+                        std::back_inserter(kept));
+    c.nodes = std::move(kept);
+  }
+
+  /// Nodes within the search distance of a wall.
+  void near_wall(const Block& b, const DecodedBlock& d, std::string_view keyword,
+                 std::vector<NodeIndex>& to) {
+    const auto real = [&](const char* name) {
+      const Cell* cell = d.find(name);
+      return cell == nullptr ? 0.0 : working_value(deck_, d, *cell);
+    };
+    const double reach = real("d");
+    if (!(reach > 0.0)) return;
+    const std::size_t size = model_.nodes.size();
+    const Places at{model_.nodes.x.data(), model_.nodes.y.data(), model_.nodes.z.data()};
+    Vec m{real("XM"), real("YM"), real("ZM")};
+    const NodeIndex moving = node(b, d.integer("node_ID"));
+    if (moving != no_index) m = at.at(moving);
+    const Vec m1{real("XM1"), real("YM1"), real("ZM1")};
+    const double radius = 0.5 * real("Diameter");
+    const Vec axis = unit(m1 - m);
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto n = static_cast<NodeIndex>(i);
+      if (n == moving) continue;
+      const Vec x = at.at(n) - m;
+      const double along = dot(x, axis);
+      double distance = along;
+      if (keyword == "/RWALL/SPHER") {
+        distance = norm(x) - radius;
+      } else if (keyword == "/RWALL/CYL") {
+        distance = norm(x - along * axis) - radius;
+      } else if (keyword != "/RWALL/PLANE") {
+        continue;
+      }
+      if (distance >= 0.0 && distance <= reach) to.push_back(n);
+    }
+    if (keyword != "/RWALL/PLANE" && keyword != "/RWALL/SPHER" && keyword != "/RWALL/CYL")
+      out_.left_out.push_back({"nodes near " + std::string(b.header),
+                               "the search distance of this wall is not evaluated", 1});
+  }
+
+  void tie(const Block& b) {
+    const DecodedBlock d = decode(deck_, b);
+    const std::int64_t flag = d.integer("Spotflag");
+    if (flag == 25 || flag == 26) return;
+    const bool penalty = flag == 27 || flag == 28;
+    ConditionCard& c =
+        add(b, ConditionType::tied, penalty ? Turn::penalty_ties : Turn::ties, 13, "inter");
+    c.directions = all_six;
+    c.twice = !penalty;
+    group(b, d.integer("grnd_IDs"), c.nodes);
+    unique(c.nodes);
+    if (d.integer("Ignore") != 0)
+      out_.left_out.push_back({"ties of " + std::string(b.header),
+                               "secondary nodes that find no segment are booked, too",
+                               c.nodes.size()});
+    if (penalty || flag == 0 || flag == 1) main_nodes(b, d, c.leaders);
+  }
+
+  /// TYPE12 holds the translations of the nodes of its secondary surface.
+  void fluid_tie(const Block& b) {
+    const DecodedBlock d = decode(deck_, b);
+    ConditionCard& c = add(b, ConditionType::tied, Turn::ties, 13, "inter");
+    c.directions = 0b000111;
+    surface_nodes(b, d.integer("surf_IDs"), c.nodes);
+  }
+
+  void surface_nodes(const Block& b, std::int64_t id, std::vector<NodeIndex>& to) const {
+    if (model_.selections == nullptr) return;
+    if (const auto outline = model_.selections->outline(shifted(b, "surf", id)))
+      outline->segments.each(
+          [&](const Segment& s) { to.insert(to.end(), s.nodes.begin(), s.nodes.end()); });
+    unique(to);
+  }
+
+  void main_nodes(const Block& b, const DecodedBlock& d, std::vector<NodeIndex>& to) const {
+    surface_nodes(b, d.integer("surf_IDm"), to);
+  }
+
+  void cylinder(const Block& b) {
+    const DecodedBlock d = decode(deck_, b);
+    ConditionCard& c = add(b, ConditionType::cyl_joint, Turn::joints, 14, "cyl_joint");
+    c.directions = all_six;
+    c.nodes = {node(b, d.integer("node_ID1")), node(b, d.integer("node_ID2"))};
+    group(b, d.integer("grnd_ID"), c.nodes);
+    unique(c.nodes);
+  }
+
+  void bodies() {
+    for (RigidBody& body : rigid_bodies(model_)) {
+      ConditionCard& c =
+          add(*body.block, body.lagrange ? ConditionType::lagmul : ConditionType::rbody,
+              Turn::walls_and_bodies, body.lagrange ? 12 : 11, "rbody");
+      c.lagrange = body.lagrange;
+      c.directions = all_six;
+      c.nodes = std::move(body.nodes);
+      c.main = body.main;
+      c.sensor = body.sensor != 0;
+      if (body.lagrange) {
+        c.nodes.push_back(body.main);
+        unique(c.nodes);
+      } else {
+        out_.ikrem = body.ikrem != 0;
+      }
+    }
+  }
+
+  /// Middle nodes of tetrahedra that the solver condenses.
+  void condensed_nodes() {
+    const Elements& f = model_.solid8;
+    if (f.extra_nodes.empty()) return;
+    const std::vector<PartRow> rows = part_rows(model_);
+    for (std::size_t e = 0; e < f.size(); ++e) {
+      if (f.shape[e] != SolidShape::tetra10 || f.extra[e] == no_index || f.part[e] == no_index)
+        continue;
+      if (rows[f.part[e]].property.itetra10 != 2) continue;
+      if (out_.condensed.empty()) out_.condensed.assign(model_.nodes.size(), 0);
+      for (std::uint32_t i = 0; i < 6; ++i)
+        if (const NodeIndex n = f.extra_nodes[f.extra[e] + i]; n != no_index) out_.condensed[n] = 1;
+    }
+  }
+
+  void leading_nodes() {
+    const bool wanted =
+        std::any_of(out_.cards.begin(), out_.cards.end(),
+                    [](const ConditionCard& c) { return c.turn == Turn::penalty_ties; });
+    if (!wanted) return;
+    out_.leading.assign(model_.nodes.size(), 0);
+    for (const ConditionCard& c : out_.cards) {
+      if (c.type == ConditionType::rbe2 && c.main != no_index) out_.leading[c.main] = 1;
+      for (const NodeIndex n : c.leaders) out_.leading[n] = 1;
+    }
+  }
+
+  const Model& model_;
+  const Deck& deck_;
+  ConditionCards out_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> ConditionCards::order(Turn turn) const {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < cards.size(); ++i)
+    if (cards[i].turn == turn) out.push_back(i);
+  std::stable_sort(out.begin(), out.end(),
+                   [&](std::size_t a, std::size_t b) { return cards[a].rank < cards[b].rank; });
+  return out;
+}
+
+bool ConditionCards::taken_out(ConditionType type, NodeIndex n) const {
+  if (condensed.empty() || condensed[n] == 0) return false;
+  return type == ConditionType::rbody || type == ConditionType::rbe2 ||
+         type == ConditionType::bcs || type == ConditionType::imposed ||
+         type == ConditionType::rwall;
+}
+
+std::vector<Refusal> ConditionCards::refusals(const Model& model) {
+  std::vector<Refusal> out;
+  // By node: the first card that has it as secondary node, or as main node.
+  constexpr std::uint32_t none = no_index;
+  const auto table = [&](auto&& takes) {
+    std::vector<std::uint32_t> t(model.nodes.size(), none);
+    for (std::size_t i = 0; i < cards.size(); ++i)
+      takes(cards[i], [&](NodeIndex n) {
+        if (n != no_index && t[n] == none) t[n] = static_cast<std::uint32_t>(i);
+      });
+    return t;
+  };
+  const bool elements = std::any_of(cards.begin(), cards.end(), [](const ConditionCard& c) {
+    return c.type == ConditionType::rbe2 || c.type == ConditionType::rbe3;
+  });
+  if (!elements) return out;
+  const auto secondary_of = [&](ConditionType type) {
+    return table([&](const ConditionCard& c, auto&& put) {
+      if (c.type == type && !c.lagrange)
+        for (const NodeIndex n : c.nodes) put(n);
+    });
+  };
+  const auto rbe2 = secondary_of(ConditionType::rbe2), tied = secondary_of(ConditionType::tied),
+             bcs = secondary_of(ConditionType::bcs);
+  const auto bodies = table([](const ConditionCard& c, auto&& put) {
+    if (c.type == ConditionType::rbody) put(c.main);
+  });
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    const ConditionCard& c = cards[i];
+    const auto self = static_cast<std::uint32_t>(i);
+    const auto check = [&](int message, NodeIndex n, std::uint32_t other, bool ends) {
+      if (other == none) return false;
+      out.push_back({message, n, self, other, ends});
+      return true;
+    };
+    if (c.type == ConditionType::rbe2 && c.main != no_index) {
+      check(1036, c.main, tied[c.main], true);
+      check(807, c.main, bodies[c.main], true);
+    } else if (c.type == ConditionType::rbody && c.main != no_index) {
+      check(806, c.main, rbe2[c.main], true);
+    } else if (c.type == ConditionType::rbe3 && c.main != no_index) {
+      check(3115, c.main, bcs[c.main], false);
+      bool penalty = false;
+      for (const NodeIndex n : c.leaders)
+        if (check(3100, n, rbe2[n], false)) {
+          penalty = true;
+          break;
+        }
+      for (const NodeIndex n : c.leaders)
+        if (check(3096, n, tied[n], false)) {
+          penalty = true;
+          break;
+        }
+      if (penalty) penalty_elements.push_back(i);
+    }
+  }
+  return out;
+}
+
+ConditionCards read_condition_cards(const Model& model) { return Reader(model).run(); }
+
+}  // namespace deck::detail

@@ -1,0 +1,54 @@
+// The options that put kinematic conditions on nodes, as their cards say. Private to the mesh.
+#pragma once
+#include <vector>
+
+#include "deck/model/kinematics.hpp"
+
+namespace deck::detail {
+
+/// When the solver books a condition; within a turn by kind, then in the order of the deck.
+enum class Turn : std::uint8_t { before_ties, walls_and_bodies, ties, joints, penalty_ties };
+
+struct ConditionCard {
+  ConditionType type = ConditionType::bcs;
+  Turn turn = Turn::before_ties;
+  int rank = 0;  ///< of the kind of option: ascending within a turn
+  const Block* block = nullptr;
+  std::int64_t id = 0;
+  std::vector<NodeIndex> nodes;  ///< that get the condition, each once
+  std::uint8_t directions = 0;   ///< TX TY TZ RX RY RZ, from the lowest bit
+  std::int64_t system = 0;
+  bool twice = false;              ///< ties whose conflicts the solver counts twice
+  bool lagrange = false;           ///< holds all freedoms by multipliers
+  bool sensor = false;             ///< rigid bodies
+  bool penalty = false;            ///< walls
+  bool forced = false;             ///< RBE3 that may not become a penalty
+  NodeIndex main = no_index;       ///< rigid bodies, RBE2
+  std::vector<NodeIndex> leaders;  ///< RBE3: independent nodes; ties: nodes of the main side
+};
+
+struct Refusal {
+  int message = 0;
+  NodeIndex node = no_index;
+  std::uint32_t first = 0, second = 0;
+  bool ends = false;  ///< an error that ends the check
+};
+
+struct ConditionCards {
+  std::vector<ConditionCard> cards;
+  std::vector<LeftOut> left_out;
+  std::vector<std::size_t> penalty_elements;  ///< RBE3 that became a penalty
+  bool ikrem = false;                         ///< of the last rigid body: holds for all
+  std::vector<char> condensed;                ///< middle nodes that do not count; empty: none
+  std::vector<char> leading;                  ///< nodes that others follow; empty: none
+
+  std::vector<std::size_t> order(Turn turn) const;
+  bool taken_out(ConditionType type, NodeIndex n) const;
+  bool leads(NodeIndex n) const { return n < leading.size() && leading[n] != 0; }
+  /// Rigid elements and bodies that hang on one another; fills penalty_elements.
+  std::vector<Refusal> refusals(const Model& model);
+};
+
+ConditionCards read_condition_cards(const Model& model);
+
+}  // namespace deck::detail

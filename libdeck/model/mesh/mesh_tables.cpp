@@ -1,0 +1,515 @@
+// Materials and properties as time steps need them: speeds of sound per law, formulations,
+// damping, and the stiffness of springs.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <system_error>
+
+#include "deck/keyword/decode.hpp"
+#include "model/mesh/mesh_parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// Cells of a block in working units.
+class Cells {
+ public:
+  Cells(const Deck& deck, const Block& block) : deck_(deck), d_(decode(deck, block)) {}
+  double real(std::string_view name) const {
+    const Cell* c = d_.find(name);
+    return c == nullptr ? 0.0 : working_value(deck_, d_, *c);
+  }
+  double real_or(std::string_view name, double otherwise) const {
+    const double v = real(name);
+    return v != 0.0 ? v : otherwise;
+  }
+  int integer(std::string_view name) const { return static_cast<int>(d_.integer(name)); }
+  std::int64_t id(std::string_view name, std::string_view kind) const {
+    const std::int64_t v = d_.integer(name);
+    return v > 0 ? v + deck_.offset_of(*d_.block, kind) : v;
+  }
+  bool blank(std::string_view name) const {
+    const Cell* c = d_.find(name);
+    return c == nullptr || c->blank();
+  }
+  bool has(std::string_view name) const { return d_.find(name) != nullptr; }
+  /// Calls f(value) for every cell of that name.
+  template <class F>
+  void each(std::string_view name, F f) const {
+    for (const DecodedCard& card : d_.cards)
+      for (const Cell& c : card.cells)
+        if (c.field->name == name) f(c, working_value(deck_, d_, c));
+  }
+  double largest(std::initializer_list<std::string_view> names) const {
+    double most = 0;
+    for (const std::string_view n : names) most = std::max(most, real(n));
+    return most;
+  }
+  const DecodedBlock& block() const { return d_; }
+  const Deck& deck() const { return deck_; }
+
+ private:
+  const Deck& deck_;
+  DecodedBlock d_;
+};
+
+/// Steepest positive slope of a curve; 0 where there is none.
+double steepest(const Model& model, std::int64_t id) {
+  const auto it = model.curves.find(id);
+  if (it == model.curves.end()) return 0;
+  const Curve& f = it->second;
+  double most = 0;
+  for (std::size_t i = 1; i < f.x.size(); ++i)
+    if (f.x[i] > f.x[i - 1]) most = std::max(most, (f.y[i] - f.y[i - 1]) / (f.x[i] - f.x[i - 1]));
+  return most;
+}
+
+/// Sum of mu_i alpha_i over two is the ground shear modulus.
+double ground_shear(const Cells& c) {
+  double sum = 0;
+  for (int i = 1; i <= 10; ++i)
+    sum += c.real("mu_" + std::to_string(i)) * c.real("alpha_" + std::to_string(i));
+  return 0.5 * sum;
+}
+
+/// Largest entry of the stiffness of an orthotropic solid.
+double orthotropic_largest(const Cells& c) {
+  const auto ratio = [&](const char* low, const char* high) {
+    return c.has(low) ? c.real(low) : c.real(high);
+  };
+  const double e1 = c.real("E11"), e2 = c.real("E22"), e3 = c.real("E33");
+  const double n12 = ratio("nu12", "NU12"), n23 = ratio("nu23", "NU23"),
+               n31 = ratio("nu31", "NU31");
+  const double n21 = n12 * e2 / e1, n32 = n23 * e3 / e2, n13 = n31 * e1 / e3;
+  const double det = 1 - n12 * n21 - n23 * n32 - n31 * n13 - n12 * n23 * n31 - n21 * n32 * n13;
+  return std::max({e1 * (1 - n23 * n32) / det, e2 * (1 - n31 * n13) / det,
+                   e3 * (1 - n12 * n21) / det, c.real("G12"), c.real("G23"), c.real("G31")});
+}
+
+/// The equation of state of a material; nullptr: none.
+const Block* state_equation(const Model& model, std::int64_t id) {
+  for (const Block& b : model.deck->blocks)
+    if (b.header.starts_with("/EOS/") && b.id.value + model.deck->offset_of(b, "mat") == id)
+      return &b;
+  return nullptr;
+}
+
+class MaterialFiller {
+ public:
+  MaterialFiller(const Model& model, const Material& from, MaterialFigures& to)
+      : model_(model), from_(from), m_(to), c_(*model.deck, *from.block) {}
+
+  void fill() {
+    m_.law = from_.law;
+    m_.density = from_.density;
+    m_.reference_density = c_.real_or("Rho_0", m_.density);
+    m_.young = c_.real("E");
+    m_.poisson = c_.real("Nu");
+    if ((m_.law == 1 || m_.law == 62) && m_.poisson >= 0.5) m_.poisson = 0.499;
+    special_moduli();
+    m_.shear = shear_ != 0 ? shear_ : m_.young / (2 * (1 + m_.poisson));
+    m_.stored_speed = std::sqrt(m_.young / m_.reference_density);
+    shells();
+    solids();
+  }
+
+ private:
+  void special_moduli() {
+    switch (m_.law) {
+      case 34: {
+        const double b = c_.real("K"), g = c_.real("G0");
+        m_.young = 9 * b * g / (3 * b + g);
+        m_.poisson = (3 * b - 2 * g) / (6 * b + 2 * g);
+        shear_ = g;
+        break;
+      }
+      case 42:
+      case 69:
+        shear_ = ground_shear(c_);
+        m_.young = 2 * shear_ * (1 + m_.poisson);
+        break;
+      case 62: {
+        double sum = 0;
+        c_.each("mu_i", [&](const Cell&, double v) { sum += v; });
+        m_.young = 2 * sum * (1 + m_.poisson);
+        break;
+      }
+      case 58:
+        m_.young = c_.largest({"E1", "E2"});
+        break;
+      case 70: {
+        double slope = 0;
+        const auto curves = [&](std::string_view id, std::string_view scale) {
+          std::vector<double> factors;
+          c_.each(scale, [&](const Cell&, double v) { factors.push_back(v != 0 ? v : 1); });
+          std::size_t i = 0;
+          c_.each(id, [&](const Cell& cell, double) {
+            const double f = i < factors.size() ? factors[i] : 1.0;
+            slope = std::max(
+                slope,
+                f * steepest(model_, cell.integer + model_.deck->offset_of(*from_.block, "funct")));
+            ++i;
+          });
+        };
+        curves("funcID_id", "Fscale_load");
+        curves("funcID_id_2", "Fscale_unload");
+        m_.young = std::max(m_.young, slope);
+        break;
+      }
+      default:
+        break;
+    }
+  }
+
+  /// max(E11, E22) / (1 - nu12 nu21)
+  double plane_modulus() const {
+    const double e1 = c_.real("E11"), e2 = c_.real("E22");
+    const double n12 = c_.has("Nu12") ? c_.real("Nu12") : c_.real("NU12");
+    return std::max(e1, e2) / (1 - n12 * n12 * e2 / e1);
+  }
+
+  void shells() {
+    const double rho = m_.reference_density, e = m_.young, nu = m_.poisson;
+    const double plate = e / (1 - nu * nu);
+    m_.shell_speed = std::sqrt(plate / rho);
+    m_.plate_modulus = plate;
+    switch (m_.law) {
+      case 15:
+        if (!c_.has("Nu12") && !c_.has("NU12")) {
+          m_.shell_speed = m_.plate_modulus = m_.stored_speed = not_known;
+          break;
+        }
+        [[fallthrough]];
+      case 19:
+      case 25:
+        m_.plate_modulus = plane_modulus();
+        m_.shell_speed = m_.stored_speed = std::sqrt(m_.plate_modulus / rho);
+        m_.shear = c_.real("G12");
+        break;
+      case 42:
+      case 69:
+        m_.shell_speed = std::sqrt(m_.shear * (1 + nu) / (1 - nu * nu) / rho);
+        break;
+      case 34:
+      case 38:
+      case 62:
+        m_.plate_modulus = e;
+        break;
+      case 58:
+        break;
+      default:
+        if (m_.law <= 28 || m_.law == 65) m_.shell_speed = m_.stored_speed;
+        break;
+    }
+    if (m_.law != 0 && m_.law != 13 && e == 0 && m_.law != 15 && m_.law != 19 && m_.law != 25)
+      m_.shell_speed = m_.plate_modulus = not_known;
+  }
+
+  double bulk_of_card() const {
+    double c1 = 0;
+    for (const char* name : {"C1", "C_1"})
+      if (c_.real(name) != 0) c1 = c_.real(name);
+    if (c1 != 0) return std::abs(c1);
+    return bulk_of_state();
+  }
+
+  /// Bulk modulus of the equation of state where it does not depend on energy; else not known.
+  double bulk_of_state() const {
+    const Block* block = state_equation(model_, from_.id);
+    if (block == nullptr || block->schema == nullptr) return not_known;
+    const Cells c(*model_.deck, *block);
+    if (block->schema->keyword == "/EOS/POLYNOMIAL" && c.real("C4") == 0 && c.real("C5") == 0 &&
+        c.real("C1") != 0)
+      return std::abs(c.real("C1"));
+    if (block->schema->keyword == "/EOS/LINEAR" && c.real("Bulk") != 0) return c.real("Bulk");
+    return not_known;
+  }
+
+  void solids() {
+    const double e = m_.young, nu = m_.poisson, rho = m_.reference_density;
+    double b = e / (3 * (1 - 2 * nu)), g = m_.shear, f = 4.0 / 3.0;
+    double c = not_known;
+    switch (m_.law) {
+      case 3:
+      case 4:
+        b = bulk_of_card();
+        f = 1.333;
+        break;
+      case 23:
+        f = 1.333;
+        break;
+      case 21:
+        b = c_.largest({"K", "B"});
+        f = 1.333;
+        break;
+      case 6:
+        b = bulk_of_card();
+        g = 0;
+        break;
+      case 28:
+      case 50:
+      case 68:
+        b = c_.largest({"E11", "E22", "E33", "G12", "G23", "G31", "G_12", "G_23", "G_31"});
+        g = 0;
+        break;
+      case 33:
+      case 35:
+        b = e;
+        if (m_.law == 33) g = 0;
+        break;
+      case 34:
+        b = e * g / (9 * g - 3 * e);
+        break;
+      // The stored shear modulus of these laws is twice the ground modulus.
+      case 42:
+      case 62:
+      case 69:
+        g = 2 * m_.shear;
+        b = g * (1 + nu) / (3 * (1 - 2 * nu));
+        break;
+      case 12:
+      case 14:
+        c = std::sqrt(orthotropic_largest(c_) / rho);
+        break;
+      case 15:
+      case 25:
+        c = m_.stored_speed;
+        break;
+      case 11:
+        m_.fixed_step = 1000;
+        break;
+      case 59:
+      case 83:
+      case 116:
+      case 117:
+        m_.fixed_step = 1e20;
+        break;
+      case 51:
+        if (c_.integer("Iform") == 6) m_.fixed_step = 1e20;
+        b = not_known;
+        break;
+      // These need cells that are not read, or rules that are not established.
+      case 5:
+      case 10:
+      case 16:
+      case 17:
+      case 18:
+      case 20:
+      case 24:
+      case 37:
+      case 46:
+      case 88:
+      case 97:
+      case 102:
+      case 105:
+      case 120:
+        b = not_known;
+        break;
+      default:
+        if (e == 0) b = not_known;
+        break;
+    }
+    if (m_.law != 3 && m_.law != 4 && m_.law != 6 && state_equation(model_, from_.id) != nullptr)
+      b = bulk_of_state();
+    m_.solid_speed = std::isnan(c) ? std::sqrt((b + f * g) / rho) : c;
+    m_.tetra_ratio = 2 * m_.shear / (b + 4.0 / 3.0 * m_.shear);
+  }
+
+  const Model& model_;
+  const Material& from_;
+  MaterialFigures& m_;
+  Cells c_;
+  double shear_ = 0;
+};
+
+/// /DEF_SHELL and /DEF_SOLID: what stands for blank formulations.
+struct Formulations {
+  int ishell = 0, ish3n = 2, isolid = 0, itetra10 = 0;
+};
+Formulations default_formulations(const Deck& deck) {
+  Formulations out;
+  for (const Block& b : deck.blocks) {
+    if (b.schema == nullptr) continue;
+    if (b.schema->keyword == "/DEF_SHELL") {
+      const Cells c(deck, b);
+      out.ishell = c.integer("Ishell");
+      if (const int i = c.integer("Ish3n"); i != 0) out.ish3n = i;
+    } else if (b.schema->keyword == "/DEF_SOLID") {
+      const Cells c(deck, b);
+      out.isolid = c.integer("Isolid");
+      out.itetra10 = c.integer("Itetra10");
+    }
+  }
+  return out;
+}
+
+class PropertyFiller {
+ public:
+  PropertyFiller(const Model& model, const Formulations& blank, const Property& from,
+                 PropertyFigures& to)
+      : model_(model), blank_(blank), from_(from), p_(to), c_(*model.deck, *from.block) {}
+
+  void fill() {
+    p_.type = from_.number;
+    p_.thickness = from_.thickness;
+    p_.area = from_.area;
+    if (p_.type == 3 || p_.type == 18) {
+      p_.iyy = c_.real("Iyy");
+      p_.izz = c_.real("Izz");
+      p_.ixx = c_.real("Ixx");
+      p_.beam_membrane = c_.real("dm");
+      p_.beam_bending = c_.real_or("df", 0.01);
+    } else if (p_.type == 6 || p_.type == 14 || (p_.type >= 20 && p_.type <= 22)) {
+      solid();
+    } else if (p_.type == 4 || p_.type == 8 || p_.type == 12 || p_.type == 13 || p_.type == 25) {
+      spring();
+    } else {
+      shell();
+    }
+  }
+
+ private:
+  void shell() {
+    p_.ishell = c_.integer("Ishell") != 0 ? c_.integer("Ishell") : blank_.ishell;
+    if (p_.ishell == 22 || p_.ishell == 23) p_.ishell = 24;
+    p_.ish3n = c_.integer("Ish3n") != 0 ? c_.integer("Ish3n") : blank_.ish3n;
+    p_.membrane = c_.has("dm") ? c_.real("dm") : c_.real("Dm");
+    p_.numeric = c_.has("dn") ? c_.real("dn") : c_.real("Dn");
+    for (const char* name : {"mat_ID", "mat_IDi"})
+      c_.each(name, [&](const Cell& cell, double) {
+        const auto it =
+            model_.material_of_id.find(cell.integer + model_.deck->offset_of(*from_.block, "mat"));
+        if (cell.integer > 0 && it != model_.material_of_id.end()) p_.layers.push_back(it->second);
+      });
+  }
+
+  void solid() {
+    p_.isolid = c_.integer("Isolid") != 0 ? c_.integer("Isolid") : blank_.isolid;
+    p_.itetra10 = c_.integer("Itetra10") != 0 ? c_.integer("Itetra10") : blank_.itetra10;
+    p_.inpts = c_.integer("Inpts");
+    p_.icstr = c_.integer("Icstr");
+    p_.qb = c_.real_or("qb", 0.05);
+    p_.viscosity_blank = c_.real("qa") == 0 && c_.real("qb") == 0;
+    p_.lambda = c_.real("Lambda_V");
+    p_.mu = c_.real("Mu_V");
+  }
+
+  /// Stiffness and damping of direction `n`; "" where the card has one.
+  SpringFreedom freedom(const std::string& n) const {
+    SpringFreedom f;
+    f.k = c_.real("K" + n);
+    f.c = p_.type == 12 ? c_.real("C1") : c_.real("C" + n);
+    const std::string one = n.empty() ? "1" : n;
+    const std::string scale = (p_.type == 4 || p_.type == 12 ? "AScale" : "Ascale") + one;
+    if (const std::int64_t id = c_.id("fct_ID1" + one, "funct"); id != 0) {
+      f.k = std::max(f.k, steepest(model_, id) * c_.real_or(scale, 1.0));
+      f.known = model_.curves.contains(id);
+    }
+    for (const char* speed : {"fct_ID2", "fct_ID4"})
+      if (c_.integer(speed + one) != 0) f.known = false;
+    f.k *= c_.real_or("A" + n, 1.0);
+    return f;
+  }
+
+  void spring() {
+    p_.spring_mass = c_.real("Mass");
+    p_.spring_inertia = c_.real("Inertia");
+    p_.per_length = c_.integer("Ileng") == 1;
+    if (p_.type == 4 || p_.type == 12) {
+      p_.freedom[0] = freedom("");
+      return;
+    }
+    const int count = p_.type == 25 ? 4 : 6;
+    for (int i = 0; i < count; ++i)
+      p_.freedom[static_cast<std::size_t>(i)] = freedom(std::to_string(i + 1));
+  }
+
+  const Model& model_;
+  const Formulations& blank_;
+  const Property& from_;
+  PropertyFigures& p_;
+  Cells c_;
+};
+
+/// True if the file that /REFSTA names is there: else the solver has no reference geometry.
+bool reads(const Deck& deck, const Block& block) {
+  LineCursor lines(deck.sources, block);
+  const Line line = lines.next();
+  if (!line.valid()) return false;
+  std::string_view name = line.text;
+  while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
+  std::error_code failed;
+  const std::filesystem::path beside =
+      std::filesystem::path(deck.sources[0].path()).parent_path() / std::string(name);
+  return !name.empty() && std::filesystem::exists(beside, failed);
+}
+
+/// Why no element of a part has an established step; nullptr: they have.
+const char* part_reason(const Model& model, const Part& part, const PartRow& row, bool reference,
+                        bool rigid_law) {
+  if (part.prop == no_index) return "the part has no property";
+  const int type = row.property.type;
+  const bool spring = type == 4 || type == 8 || type == 12 || type == 13 ||
+                      (type >= 25 && type <= 27) || (type >= 32 && type <= 36) ||
+                      (type >= 44 && type <= 46);
+  if (part.mat == no_index) return spring ? nullptr : "the part has no material";
+  if (rigid_law) return "a material of law 13 is in the deck";
+  if (model.materials[part.mat].block->opaque) return "the material is encrypted";
+  const int law = row.material.law;
+  if (reference && (law == 19 || law == 58 || law == 35 || law == 38 || law == 42 || law == 70))
+    return "a reference geometry enters";
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<MaterialFigures> material_figures(const Model& model) {
+  std::vector<MaterialFigures> out(model.materials.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (model.materials[i].block == nullptr || model.materials[i].block->opaque) continue;
+    MaterialFiller(model, model.materials[i], out[i]).fill();
+  }
+  return out;
+}
+
+std::vector<PropertyFigures> property_figures(const Model& model) {
+  const Formulations blank = default_formulations(*model.deck);
+  std::vector<PropertyFigures> out(model.properties.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (model.properties[i].block == nullptr || model.properties[i].block->opaque) continue;
+    PropertyFiller(model, blank, model.properties[i], out[i]).fill();
+  }
+  return out;
+}
+
+std::vector<PartRow> part_rows(const Model& model) {
+  const std::vector<MaterialFigures> materials = material_figures(model);
+  const std::vector<PropertyFigures> properties = property_figures(model);
+  bool whole_reference = false, rigid_law = false;
+  std::set<std::int64_t> reference;
+  for (const Block& b : model.deck->blocks) {
+    if (b.header.starts_with("/EREF")) whole_reference = true;
+    if (b.header.starts_with("/REFSTA")) whole_reference = whole_reference || reads(*model.deck, b);
+    if (b.header.starts_with("/XREF/"))
+      reference.insert(b.id.value + model.deck->offset_of(b, "part"));
+  }
+  for (const Part& part : model.parts)
+    rigid_law = rigid_law || (part.mat != no_index && materials[part.mat].law == 13);
+  std::vector<PartRow> out(model.parts.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Part& part = model.parts[i];
+    PartRow& row = out[i];
+    if (part.mat != no_index) row.material = materials[part.mat];
+    if (part.prop != no_index) row.property = properties[part.prop];
+    for (const std::uint32_t layer : row.property.layers)
+      row.material.shell_speed = std::max(row.material.shell_speed, materials[layer].shell_speed);
+    row.thickness = row.property.thickness;  // that of the part is for contacts
+    row.rigid = row.material.law == 0 || row.property.type == 0;
+    row.why =
+        part_reason(model, part, row, whole_reference || reference.contains(part.id), rigid_law);
+  }
+  return out;
+}
+
+}  // namespace deck::detail

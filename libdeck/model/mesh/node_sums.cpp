@@ -1,0 +1,275 @@
+// What added masses, rigid bodies, rigid elements, ties and damping make of the sums at nodes, and
+// the steps that follow.
+#include "model/mesh/node_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "deck/keyword/decode.hpp"
+#include "deck/model/selection.hpp"
+#include "deck/text/number.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr double no_stiffness = 1e-20;
+
+double value(const Deck& deck, const DecodedBlock& d, std::string_view name) {
+  const Cell* c = d.find(name);
+  return c == nullptr ? 0.0 : working_value(deck, d, *c);
+}
+
+std::int64_t shifted(const Deck& deck, const Block& block, std::string_view kind, std::int64_t id) {
+  return id > 0 ? id + deck.offset_of(block, kind) : id;
+}
+
+/// Smallest eigenvalue of a symmetric tensor xx yy zz xy yz zx.
+double smallest_principal(const std::array<double, 6>& t) {
+  const double mean = (t[0] + t[1] + t[2]) / 3.0;
+  const double off = t[3] * t[3] + t[4] * t[4] + t[5] * t[5];
+  const double a = t[0] - mean, b = t[1] - mean, c = t[2] - mean;
+  const double p = std::sqrt((a * a + b * b + c * c + 2.0 * off) / 6.0);
+  if (!(p > 0.0)) return mean;
+  const double det =
+      a * (b * c - t[4] * t[4]) - t[3] * (t[3] * c - t[4] * t[5]) + t[5] * (t[3] * t[4] - b * t[5]);
+  const double r = std::clamp(det / (2.0 * p * p * p), -1.0, 1.0);
+  return mean + 2.0 * p * std::cos(std::acos(r) / 3.0 + 2.0 * std::numbers::pi / 3.0);
+}
+
+/// Adds m (d^2 1 - d d) to a tensor.
+void add_point(std::array<double, 6>& t, double m, const Vec& d) {
+  t[0] += m * (d.y * d.y + d.z * d.z);
+  t[1] += m * (d.z * d.z + d.x * d.x);
+  t[2] += m * (d.x * d.x + d.y * d.y);
+  t[3] -= m * d.x * d.y;
+  t[4] -= m * d.y * d.z;
+  t[5] -= m * d.z * d.x;
+}
+
+}  // namespace
+
+NodeSums::NodeSums(const Model& model, NodeFigures& to)
+    : model_(model), to_(to), bodies_(rigid_bodies(model)), on_body_(model.nodes.size(), 0) {
+  const std::size_t n = model.nodes.size();
+  to_.mass.assign(n, 0.0);
+  to_.inertia.assign(n, 0.0);
+  to_.stiffness.assign(n, no_stiffness);
+  to_.rotational_stiffness.assign(n, no_stiffness);
+  for (const RigidBody& b : bodies_)
+    for (const NodeIndex s : b.nodes) on_body_[s] = 1;
+}
+
+void NodeSums::finish(const Places& places) {
+  added_masses();
+  walls();
+  to_.lumped_mass = to_.mass;
+  // A body whose main node is a secondary node of another one comes before that one.
+  std::map<NodeIndex, std::vector<std::size_t>> below;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) below[bodies_[i].main].push_back(i);
+  std::vector<char> done(bodies_.size(), 0);
+  const auto visit = [&](auto&& self, std::size_t i) -> void {
+    if (done[i] != 0) return;
+    done[i] = 1;
+    for (const NodeIndex s : bodies_[i].nodes)
+      if (const auto it = below.find(s); it != below.end())
+        for (const std::size_t k : it->second) self(self, k);
+    if (!bodies_[i].lagrange && bodies_[i].main != no_index) body(bodies_[i], places);
+  };
+  for (std::size_t i = 0; i < bodies_.size(); ++i) visit(visit, i);
+  rigid_elements();
+  ties();
+  damping();
+  steps();
+}
+
+/// /ADMAS 0 gives the mass to every node of the group, 1 spreads it evenly, 5 names nodes.
+void NodeSums::added_masses() {
+  const Deck& deck = *model_.deck;
+  for (const Block& block : deck.blocks) {
+    if (!block.header.starts_with("/ADMAS/") || block.schema == nullptr || block.opaque) continue;
+    const char type = block.header.size() > 7 ? block.header[7] : '?';
+    const auto left = [&](const char* why) {
+      left_out.push_back(
+          {std::string(block.header) + " (" + deck.sources.where(block.header_span) + ")", why, 1});
+    };
+    if (type != '0' && type != '1' && type != '5') {
+      left("only types 0, 1 and 5 of added mass are evaluated");
+      continue;
+    }
+    const DecodedBlock d = decode(deck, block);
+    for (const DecodedCard& card : d.cards) {
+      double m = 0;
+      std::int64_t id = 0;
+      for (const Cell& c : card.cells) {
+        if (c.field->name == "MASS") m = working_value(deck, d, c);
+        if (c.field->name == "grnd_ID" || c.field->name == "node_ID") id = c.integer;
+      }
+      if (id == 0) continue;
+      if (type == '5') {
+        const NodeIndex n = model_.find_node(shifted(deck, block, "node", id));
+        if (n != no_index) to_.mass[n] += m;
+        continue;
+      }
+      const NodeSet* set = model_.selections == nullptr
+                               ? nullptr
+                               : model_.selections->node_group(shifted(deck, block, "grnod", id));
+      if (set == nullptr || set->nodes.empty()) {
+        left("its node group does not exist");
+        continue;
+      }
+      if (type == '1') m /= static_cast<double>(set->nodes.size());
+      for (const NodeIndex n : set->nodes)
+        if (n != no_index) to_.mass[n] += m;
+    }
+  }
+}
+
+/// A moving wall's mass is that of its node.
+void NodeSums::walls() {
+  const Deck& deck = *model_.deck;
+  for (const Block& block : deck.blocks) {
+    if (!block.header.starts_with("/RWALL/") || block.schema == nullptr || block.opaque) continue;
+    const DecodedBlock d = decode(deck, block);
+    const std::int64_t node = d.integer("node_ID");
+    if (node <= 0) continue;
+    const NodeIndex n = model_.find_node(shifted(deck, block, "node", node));
+    if (n != no_index) to_.mass[n] += value(deck, d, "Mass");
+  }
+}
+
+/// Stiffness of the secondary nodes goes to the main node, which has the mass of the body.
+void NodeSums::body(const RigidBody& b, const Places& places) {
+  if (b.nodes.empty()) return;
+  const Vec main = places.at(b.main);
+  const double own = to_.mass[b.main];
+  const double added = b.centre == 4 ? 0.0 : own + b.mass;
+  double mass = 0;
+  Vec first{};
+  for (const NodeIndex n : b.nodes) {
+    mass += to_.mass[n];
+    first = first + to_.mass[n] * (places.at(n) - main);
+  }
+  Vec centre = main;
+  if (b.centre == 1 && mass + added > 0.0) centre = main + (1.0 / (mass + added)) * first;
+  if (b.centre == 2 && mass > 0.0) centre = main + (1.0 / mass) * first;
+  std::array<double, 6> inertia = b.inertia;
+  if (b.centre == 4) inertia.fill(0.0);
+  double k = 0, kr = 0, spin = to_.inertia[b.main];
+  for (const NodeIndex n : b.nodes) {
+    const Vec d = places.at(n) - centre;
+    add_point(inertia, to_.mass[n], d);
+    spin += to_.inertia[n];
+    k += to_.stiffness[n];
+    kr += to_.rotational_stiffness[n] + to_.stiffness[n] * dot(d, d);
+    to_.stiffness[n] = to_.rotational_stiffness[n] = no_stiffness;
+  }
+  if (b.centre == 1) add_point(inertia, added, main - centre);
+  for (std::size_t i = 0; i < 3; ++i) inertia[i] += spin;
+  // A body without mass is listed with this one.
+  to_.mass[b.main] = std::max(mass + added, 1e-20);
+  const bool sphere = inertia[0] == inertia[1] && inertia[1] == inertia[2] && inertia[3] == 0.0 &&
+                      inertia[4] == 0.0 && inertia[5] == 0.0;
+  // What Ispher makes of other tensors is not established.
+  to_.inertia[b.main] = b.spherical && !sphere ? not_known : smallest_principal(inertia);
+  to_.stiffness[b.main] += k;
+  to_.rotational_stiffness[b.main] += kr;
+}
+
+void NodeSums::forget(NodeIndex n, std::uint64_t& count) {
+  if (n == no_index) return;
+  if (!std::isnan(to_.stiffness[n])) ++count;
+  to_.mass[n] = to_.inertia[n] = to_.stiffness[n] = to_.rotational_stiffness[n] = not_known;
+}
+
+void NodeSums::rigid_elements() {
+  const Deck& deck = *model_.deck;
+  std::uint64_t count = 0;
+  for (const Block& block : deck.blocks) {
+    if (block.schema == nullptr || block.schema->keyword != "/RBE2") continue;
+    LineCursor lines(deck.sources, block);
+    if (block.schema->has_title) lines.next();
+    const Line line = lines.next();
+    if (!line.valid()) continue;
+    const auto cell = [&](std::size_t first) {
+      return line.text.size() > first ? read_integer(line.text.substr(first, 10)).value : 0;
+    };
+    forget(model_.find_node(shifted(deck, block, "node", cell(0))), count);
+    if (model_.selections == nullptr) continue;
+    if (const NodeSet* set = model_.selections->node_group(shifted(deck, block, "grnod", cell(30))))
+      for (const NodeIndex n : set->nodes) forget(n, count);
+  }
+  if (count > 0)
+    left_out.push_back({"steps of nodes", "a rigid element /RBE2 changes them", count});
+}
+
+/// Ties move masses and stiffness to main segments; where each node is tied is not known here.
+void NodeSums::ties() {
+  if (model_.selections == nullptr) return;
+  const Deck& deck = *model_.deck;
+  std::uint64_t count = 0;
+  for (const Block& block : deck.blocks) {
+    if (block.schema == nullptr || block.schema->keyword != "/INTER/TYPE2" || block.opaque)
+      continue;
+    const DecodedBlock d = decode(deck, block);
+    const std::int64_t flag = d.integer("Spotflag");
+    if ((flag >= 2 && flag <= 4) || (flag >= 20 && flag <= 22) || flag == 26 || flag == 30)
+      continue;
+    if (const NodeSet* set =
+            model_.selections->node_group(shifted(deck, block, "grnod", d.integer("grnd_IDs"))))
+      for (const NodeIndex n : set->nodes) forget(n, count);
+    if (const auto outline =
+            model_.selections->outline(shifted(deck, block, "surf", d.integer("surf_IDm"))))
+      outline->segments.each([&](const Segment& s) {
+        for (const NodeIndex n : s.nodes) forget(n, count);
+      });
+  }
+  if (count > 0)
+    left_out.push_back({"steps of nodes", "a tied interface /INTER/TYPE2 changes them", count});
+}
+
+/// /DAMP enlarges the stiffness by a factor that is not established.
+void NodeSums::damping() {
+  if (model_.selections == nullptr) return;
+  const Deck& deck = *model_.deck;
+  std::uint64_t count = 0;
+  for (const Block& block : deck.blocks) {
+    if (block.schema == nullptr || block.schema->keyword != "/DAMP" || block.opaque) continue;
+    const DecodedBlock d = decode(deck, block);
+    const NodeSet* set =
+        model_.selections->node_group(shifted(deck, block, "grnod", d.integer("grnod_id")));
+    const bool acts = std::any_of(d.cards.begin(), d.cards.end(), [](const DecodedCard& card) {
+      return std::any_of(card.cells.begin(), card.cells.end(), [](const Cell& c) {
+        return (c.field->name.starts_with("Alpha") || c.field->name.starts_with("Beta")) &&
+               c.real != 0.0;
+      });
+    });
+    if (set == nullptr || !acts) continue;
+    for (const NodeIndex n : set->nodes) {
+      if (n == no_index || on_body_[n] != 0) continue;
+      ++count;
+      to_.stiffness[n] = to_.rotational_stiffness[n] = not_known;
+    }
+  }
+  if (count > 0) left_out.push_back({"steps of nodes", "damping /DAMP changes them", count});
+}
+
+void NodeSums::steps() {
+  const std::size_t n = to_.mass.size();
+  to_.dt.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double m = to_.mass[i], k = to_.stiffness[i], j = to_.inertia[i],
+                 r = to_.rotational_stiffness[i];
+    if (std::isnan(m) || std::isnan(k) || std::isnan(j) || std::isnan(r)) {
+      to_.dt[i] = not_known;
+      continue;
+    }
+    double least = 1e60;
+    if (m != 0.0 && k > no_stiffness) least = std::min(least, m / k);
+    if (j != 0.0) least = std::min(least, j / r);
+    to_.dt[i] = least < 1e60 ? std::sqrt(2.0 * least) : no_step;
+  }
+}
+
+}  // namespace deck::detail

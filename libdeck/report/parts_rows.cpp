@@ -1,0 +1,219 @@
+// Counts the elements of each part, and finds out which interfaces and rigid bodies have them.
+#include "report/parts_rows.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "deck/keyword/decode.hpp"
+#include "deck/model/selection.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr std::size_t sets_at_once = 64;
+
+/// Nodes that carry an element; the third one of beams and springs may only orient them.
+int own_nodes(ElementKind kind, int width) {
+  return kind == ElementKind::beam || kind == ElementKind::spring ? std::min(2, width) : width;
+}
+
+/// Sets of nodes, 64 at once: which parts have an element in each, or all their elements.
+class PartFinder {
+ public:
+  explicit PartFinder(const Model& model) : model_(model) {}
+
+  /// any[part] and all[part]: bits of the sets that have an element whole, or all of them.
+  void find(const std::vector<std::uint64_t>& of_node, std::vector<std::uint64_t>& any,
+            std::vector<std::uint64_t>& all) const {
+    any.assign(model_.parts.size(), 0);
+    all.assign(model_.parts.size(), ~std::uint64_t{0});
+    for (std::size_t k = 0; k < 8; ++k) {
+      const auto kind = static_cast<ElementKind>(k);
+      const Elements& f = model_.family(kind);
+      const int width = own_nodes(kind, f.width);
+      for (std::size_t e = 0; e < f.size(); ++e) {
+        if (f.part[e] == no_index) continue;
+        std::uint64_t bits = ~std::uint64_t{0};
+        const NodeIndex* n = f.of(e);
+        for (int i = 0; i < width; ++i)
+          if (n[i] != no_index) bits &= of_node[n[i]];
+        any[f.part[e]] |= bits;
+        all[f.part[e]] &= bits;
+      }
+    }
+  }
+
+ private:
+  const Model& model_;
+};
+
+ElementKind kind_of(Carrier c) {
+  switch (c) {
+    case Carrier::solid:
+      return ElementKind::solid8;
+    case Carrier::quad:
+      return ElementKind::quad;
+    case Carrier::shell3:
+      return ElementKind::shell3;
+    case Carrier::truss:
+      return ElementKind::truss;
+    case Carrier::beam:
+      return ElementKind::beam;
+    case Carrier::spring:
+      return ElementKind::spring;
+    default:
+      return ElementKind::shell4;
+  }
+}
+
+class Interfaces2Parts {
+ public:
+  Interfaces2Parts(const LoadedDeck& loaded, PartsView& view)
+      : deck_(loaded.deck()), model_(loaded.model()), view_(view) {}
+
+  void run() {
+    for (const Block& b : deck_.blocks)
+      if (b.schema != nullptr && !b.opaque && b.header.starts_with("/INTER/")) interface(b);
+    groups();
+    for (PartView& p : view_.parts) {
+      std::sort(p.interfaces.begin(), p.interfaces.end());
+      p.interfaces.erase(std::unique(p.interfaces.begin(), p.interfaces.end()), p.interfaces.end());
+    }
+  }
+
+ private:
+  struct Group {
+    std::int64_t interface = 0;
+    const NodeSet* nodes = nullptr;
+  };
+
+  void interface(const Block& block) {
+    const DecodedBlock d = decode(deck_, block);
+    const std::int64_t id = block.id.value + deck_.offset_of(block, "inter");
+    const auto field = [&](const char* name, const char* kind) {
+      const std::int64_t v = d.integer(name);
+      return v > 0 ? v + deck_.offset_of(block, kind) : 0;
+    };
+    std::vector<char> seen(model_.parts.size(), 0);
+    const auto see = [&](Carrier carrier, std::uint32_t element) {
+      if (carrier == Carrier::none || element == no_index) return;
+      const std::uint32_t part = model_.family(kind_of(carrier)).part[element];
+      if (part != no_index) seen[part] = 1;
+    };
+    for (const char* name : {"surf_IDs", "surf_IDm", "surf_ID1", "surf_ID2"})
+      if (const std::int64_t s = field(name, "surf"); s != 0)
+        if (const auto outline = model_.selections->outline(s))
+          outline->segments.each([&](const Segment& g) { see(g.carrier, g.element); });
+    for (const char* name : {"line_IDs", "line_IDm"})
+      if (const std::int64_t s = field(name, "line"); s != 0)
+        if (const LineSet* line = model_.selections->line(s))
+          for (const Edge& e : line->edges) see(e.carrier, e.element);
+    for (std::size_t p = 0; p < seen.size(); ++p)
+      if (seen[p] != 0) view_.parts[p].interfaces.push_back(id);
+    if (const std::int64_t g = field("grnd_IDs", "grnod"); g != 0)
+      if (const NodeSet* set = model_.selections->node_group(g)) groups_.push_back({id, set});
+  }
+
+  /// Parts that have a whole element in a group of secondary nodes.
+  void groups() {
+    std::vector<std::uint64_t> of_node, any, all;
+    for (std::size_t begin = 0; begin < groups_.size(); begin += sets_at_once) {
+      const std::size_t end = std::min(groups_.size(), begin + sets_at_once);
+      of_node.assign(model_.nodes.size(), 0);
+      for (std::size_t g = begin; g < end; ++g)
+        for (const NodeIndex n : groups_[g].nodes->nodes)
+          if (n != no_index) of_node[n] |= std::uint64_t{1} << (g - begin);
+      PartFinder(model_).find(of_node, any, all);
+      for (std::size_t p = 0; p < any.size(); ++p)
+        for (std::size_t g = begin; g < end; ++g)
+          if ((any[p] >> (g - begin) & 1) != 0)
+            view_.parts[p].interfaces.push_back(groups_[g].interface);
+    }
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  PartsView& view_;
+  std::vector<Group> groups_;
+};
+
+/// Rigid bodies that have all nodes of a part.
+void find_bodies(const LoadedDeck& loaded, PartsView& view) {
+  const Model& model = loaded.model();
+  const Deck& deck = loaded.deck();
+  std::vector<std::uint64_t> of_node, any, all;
+  std::vector<std::int64_t> ids;
+  const auto flush = [&] {
+    if (ids.empty()) return;
+    PartFinder(model).find(of_node, any, all);
+    for (std::size_t p = 0; p < all.size(); ++p) {
+      if (view.parts[p].count() == 0) continue;
+      for (std::size_t b = 0; b < ids.size(); ++b)
+        if (view.parts[p].rigid_body == 0 && (all[p] >> b & 1) != 0)
+          view.parts[p].rigid_body = ids[b];
+    }
+    ids.clear();
+  };
+  for (const Block& block : deck.blocks) {
+    if (block.schema == nullptr || block.opaque || block.schema->keyword != "/RBODY") continue;
+    const DecodedBlock d = decode(deck, block);
+    const std::int64_t group = d.integer("grnd_ID");
+    const NodeSet* set =
+        group > 0 ? model.selections->node_group(group + deck.offset_of(block, "grnod")) : nullptr;
+    if (set == nullptr) continue;
+    if (ids.empty()) of_node.assign(model.nodes.size(), 0);
+    const std::uint64_t bit = std::uint64_t{1} << ids.size();
+    for (const NodeIndex n : set->nodes)
+      if (n != no_index) of_node[n] |= bit;
+    const std::int64_t main = d.integer("node_ID");
+    if (const NodeIndex n =
+            main > 0 ? model.find_node(main + deck.offset_of(block, "node")) : no_index;
+        n != no_index)
+      of_node[n] |= bit;
+    ids.push_back(block.id.value + deck.offset_of(block, "rbody"));
+    if (ids.size() == sets_at_once) flush();
+  }
+  flush();
+}
+
+}  // namespace
+
+std::string_view kind_name(ElementKind kind) {
+  constexpr std::string_view names[] = {"shell4", "shell3", "solid", "quad",
+                                        "tria",   "truss",  "beam",  "spring"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+PartsView view_parts(const LoadedDeck& loaded) {
+  const Model& model = loaded.model();
+  PartsView out;
+  out.parts.resize(model.parts.size());
+  std::vector<char> used(model.nodes.size(), 0);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const Elements& f = model.family(static_cast<ElementKind>(k));
+    for (const std::uint32_t part : f.part)
+      if (part != no_index) ++out.parts[part].elements[k];
+    for (const NodeIndex n : f.nodes)
+      if (n != no_index) used[n] = 1;
+    for (const NodeIndex n : f.extra_nodes)
+      if (n != no_index) used[n] = 1;
+  }
+  out.unconnected_nodes = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), 0));
+  for (std::size_t p = 0; p < out.parts.size(); ++p) {
+    const Part& part = model.parts[p];
+    PartView& v = out.parts[p];
+    v.thickness = part.thickness != 0     ? part.thickness
+                  : part.prop != no_index ? model.properties[part.prop].thickness
+                                          : 0.0;
+    if (v.count() == 0) out.empty_parts.push_back(part.id);
+  }
+  if (model.selections == nullptr) return out;
+  Interfaces2Parts(loaded, out).run();
+  find_bodies(loaded, out);
+  for (std::size_t p = 0; p < out.parts.size(); ++p)
+    if (out.parts[p].count() > 0 && out.parts[p].interfaces.empty())
+      out.unseen_parts.push_back(model.parts[p].id);
+  return out;
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,35 @@
+// What every output of deck parts shows: element counts, interfaces and rigid body of each part.
+#pragma once
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "deck/deck.hpp"
+
+namespace deck::detail {
+
+/// "shell4", "shell3", "solid", "quad", "tria", "truss", "beam", "spring"
+std::string_view kind_name(ElementKind kind);
+
+struct PartView {
+  std::array<std::uint64_t, 8> elements{};  ///< by kind
+  double thickness = 0;                     ///< of the part, else of its property
+  std::vector<std::int64_t> interfaces;     ///< that see an element of it
+  std::int64_t rigid_body = 0;              ///< that all its nodes belong to
+  std::uint64_t count() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t n : elements) sum += n;
+    return sum;
+  }
+};
+
+struct PartsView {
+  std::vector<PartView> parts;
+  std::uint64_t unconnected_nodes = 0;     ///< that no element has
+  std::vector<std::int64_t> empty_parts;   ///< ids of parts without elements
+  std::vector<std::int64_t> unseen_parts;  ///< with elements that no contact or tie sees
+};
+
+PartsView view_parts(const LoadedDeck& loaded);
+
+}  // namespace deck::detail

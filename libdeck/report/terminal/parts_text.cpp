@@ -1,0 +1,160 @@
+// deck parts for people: a table of the parts, what they add up to, and a CSV file of the same.
+#include <cmath>
+
+#include "deck/base/count.hpp"
+#include "deck/model/kinematics.hpp"
+#include "deck/model/mesh.hpp"
+#include "deck/report/parts.hpp"
+#include "deck/report/text_table.hpp"
+#include "deck/text/number.hpp"
+#include "report/parts_rows.hpp"
+
+namespace deck {
+namespace {
+
+std::string short_number(double v) {
+  char room[32];
+  std::snprintf(room, sizeof room, "%.6g", v);
+  return room;
+}
+
+std::string figure(double v) { return std::isnan(v) ? "?" : v == 0.0 ? "" : short_number(v); }
+std::string step_text(double dt) { return dt >= 1e29 ? "" : short_number(dt); }
+
+std::string elements_text(const detail::PartView& v) {
+  std::string out;
+  for (std::size_t k = 0; k < v.elements.size(); ++k)
+    if (v.elements[k] > 0) {
+      if (!out.empty()) out += ", ";
+      out += std::to_string(v.elements[k]) + " ";
+      out += detail::kind_name(static_cast<ElementKind>(k));
+    }
+  return out.empty() ? "none" : out;
+}
+
+std::string element_text(const Model& model, const PartFigures& f) {
+  if (f.slowest.element == no_index) return "";
+  return std::string(detail::kind_name(f.slowest.kind)) + " " +
+         std::to_string(model.family(f.slowest.kind).id[f.slowest.element]);
+}
+
+std::string list(const std::vector<std::int64_t>& ids, std::size_t most) {
+  std::string out;
+  for (std::size_t i = 0; i < ids.size() && i < most; ++i)
+    out += (i == 0 ? "" : ", ") + std::to_string(ids[i]);
+  if (ids.size() > most) out += " and " + std::to_string(ids.size() - most) + " more";
+  return out;
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + "\"";
+}
+
+void summary(const LoadedDeck& loaded, const detail::PartsView& view, std::string& out) {
+  const Model& model = loaded.model();
+  const Mesh& mesh = loaded.mesh();
+  const Kinematics& k = loaded.kinematics();
+  out += "\nMass of all elements: " + short_number(mesh.total.mass) + "\n";
+  if (mesh.total.slowest.element != no_index)
+    out += "Smallest time step of an element: " + step_text(mesh.total.dt) + " (" +
+           element_text(model, mesh.total) + ")\n";
+  std::size_t node = mesh.nodes.dt.size();
+  for (std::size_t n = 0; n < mesh.nodes.dt.size(); ++n)
+    if (mesh.nodes.dt[n] < 1e29 &&
+        (node == mesh.nodes.dt.size() || mesh.nodes.dt[n] < mesh.nodes.dt[node]))
+      node = n;
+  if (node < mesh.nodes.dt.size())
+    out += "Smallest time step of a node: " + step_text(mesh.nodes.dt[node]) + " (node " +
+           std::to_string(model.nodes.id[node]) + ")\n";
+  if (view.unconnected_nodes > 0)
+    out += count(view.unconnected_nodes, "node belongs", "nodes belong") + " to no element\n";
+  if (!view.unseen_parts.empty())
+    out += count(view.unseen_parts.size(), "part is", "parts are") +
+           " in no contact and no tie: " + list(view.unseen_parts, 12) + "\n";
+  if (k.conflicts > 0)
+    out += count(k.conflicts, "booking", "bookings") + " of kinematic conditions conflict, on " +
+           count(k.several.size(), "node", "nodes") + " with several conditions (message 312)\n";
+  for (const auto* left : {&mesh.left_out, &k.left_out})
+    for (const LeftOut& l : *left)
+      out += "Not computed: " + l.what + " (" + std::to_string(l.count) + "): " + l.why + "\n";
+}
+
+}  // namespace
+
+std::string parts_text(const LoadedDeck& loaded, const PartsTextOptions& options) {
+  const Model& model = loaded.model();
+  const Mesh& mesh = loaded.mesh();
+  const detail::PartsView view = detail::view_parts(loaded);
+  TextTable table({{"part", Align::right},
+                   {"title"},
+                   {"elements"},
+                   {"material", Align::right},
+                   {"property", Align::right},
+                   {"thickness", Align::right},
+                   {"mass", Align::right},
+                   {"step", Align::right},
+                   {"of element"},
+                   {"interfaces"},
+                   {"rigid body", Align::right}});
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const Part& part = model.parts[p];
+    const detail::PartView& v = view.parts[p];
+    const PartFigures& f = mesh.parts[p];
+    const bool slowest = f.slowest.element != no_index && f.dt == mesh.total.dt;
+    table.row({std::to_string(part.id),
+               part.title,
+               elements_text(v),
+               std::to_string(part.mat_id),
+               std::to_string(part.prop_id),
+               figure(v.thickness),
+               figure(f.mass),
+               {step_text(f.dt), slowest ? Tone::yellow : Tone::plain},
+               element_text(model, f),
+               list(v.interfaces, options.all ? v.interfaces.size() : 8),
+               v.rigid_body == 0 ? "" : std::to_string(v.rigid_body)});
+  }
+  std::string out = table.fitted(options.width, options.color);
+  summary(loaded, view, out);
+  return out;
+}
+
+std::string parts_csv(const LoadedDeck& loaded) {
+  const Model& model = loaded.model();
+  const Mesh& mesh = loaded.mesh();
+  const detail::PartsView view = detail::view_parts(loaded);
+  std::string out =
+      "part,title,elements,material,property,thickness,mass,centre_x,centre_y,centre_z,inertia_xx,"
+      "inertia_yy,inertia_zz,inertia_xy,inertia_yz,inertia_zx,dt,dt_kind,dt_element,interfaces,"
+      "rigid_body\r\n";
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const Part& part = model.parts[p];
+    const detail::PartView& v = view.parts[p];
+    const PartFigures& f = mesh.parts[p];
+    const auto add = [&](double x) { out += "," + (std::isnan(x) ? std::string() : shortest(x)); };
+    out += std::to_string(part.id) + "," + quoted(part.title) + "," + quoted(elements_text(v)) +
+           "," + std::to_string(part.mat_id) + "," + std::to_string(part.prop_id);
+    add(v.thickness);
+    add(f.mass);
+    for (const double x : f.centre) add(x);
+    for (const double x : f.inertia) add(x);
+    out += "," + (f.dt >= 1e29 ? std::string() : shortest(f.dt)) + ",";
+    if (f.slowest.element != no_index) {
+      out += detail::kind_name(f.slowest.kind);
+      out += "," + std::to_string(model.family(f.slowest.kind).id[f.slowest.element]);
+    } else {
+      out += ",";
+    }
+    out += ",";
+    for (std::size_t i = 0; i < v.interfaces.size(); ++i)
+      out += (i == 0 ? "" : " ") + std::to_string(v.interfaces[i]);
+    out += "," + (v.rigid_body == 0 ? std::string() : std::to_string(v.rigid_body)) + "\r\n";
+  }
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,89 @@
+// deck parts against the time steps, masses and kinematic conditions that the reference Starter
+// listed, and its document against its schema. Records and decks are skipped where absent.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "deck/model/kinematics.hpp"
+#include "deck/report/parts.hpp"
+#include "golden/reference.hpp"
+
+namespace deck {
+namespace {
+
+namespace fs = std::filesystem;
+using test::corpus;
+using test::quote;
+using test::Scratch;
+using test::shell;
+
+std::string parts_of(const fs::path& path, int threads = 1) {
+  LoadOptions options;
+  options.threads = threads;
+  const auto loaded = load(path.string(), options);
+  EXPECT_TRUE(loaded.ok()) << path;
+  return loaded ? parts_json(*loaded, true) : std::string();
+}
+
+/// Holds a deck against its record by the script of the corpus.
+void hold(const char* kind, const std::string& name, const fs::path& deck) {
+  const fs::path record = corpus() / "oracle" / kind / (name + ".json.gz");
+  const fs::path script = corpus() / "check" / ("compare_" + std::string(kind) + ".py");
+  if (!fs::exists(record) || !fs::exists(script) || !fs::exists(deck))
+    GTEST_SKIP() << "no record or deck of " << name;
+  const Scratch scratch;
+  const fs::path json = scratch / "parts.json";
+  std::ofstream(json) << parts_of(deck);
+  EXPECT_EQ(shell("python3 " + quote(script) + " " + quote(record) + " " + quote(json)), 0) << name;
+}
+
+fs::path deck_beside(const char* kind, const std::string& name) {
+  return corpus() / "oracle" / kind / "decks" / name / (name + "_0000.rad");
+}
+
+class TimeSteps : public testing::TestWithParam<const char*> {};
+TEST_P(TimeSteps, AreThoseOfTheListing) {
+  hold("timestep", GetParam(), deck_beside("timestep", GetParam()));
+}
+INSTANTIATE_TEST_SUITE_P(Oracle, TimeSteps, testing::Values("dt_shells", "dt_solids", "dt_lines"));
+
+class TimeStepsOfModels : public testing::TestWithParam<const char*> {};
+TEST_P(TimeStepsOfModels, AreThoseOfTheListing) {
+  const std::string name = GetParam();
+  hold("timestep", name, corpus() / "corpus" / "qa" / name / (name + "_0000.rad"));
+}
+INSTANTIATE_TEST_SUITE_P(Oracle, TimeStepsOfModels,
+                         testing::Values("BOULE1V4", "BOXBEAM", "CRA2AV4", "FOAM_V10"));
+
+class Conditions : public testing::TestWithParam<const char*> {};
+TEST_P(Conditions, AreCountedAsTheSolverCounts) {
+  hold("kinematics", GetParam(), deck_beside("kinematics", GetParam()));
+}
+INSTANTIATE_TEST_SUITE_P(Oracle, Conditions,
+                         testing::Values("kin_bcs_imposed", "kin_err_bcs_skew",
+                                         "kin_err_rbe2_main_rbody", "kin_err_rbody_in_rbe2",
+                                         "kin_lagmul", "kin_rbe", "kin_rbe3_switch", "kin_rbody",
+                                         "kin_rbody_chain", "kin_rbody_shared", "kin_rwall",
+                                         "kin_tied"));
+
+TEST(PartsDocument, FollowsItsSchema) {
+  if (shell("python3 -c 'import jsonschema' 2> /dev/null") != 0)
+    GTEST_SKIP() << "no python3 with jsonschema";
+  const Scratch scratch;
+  const fs::path json = scratch / "parts.json";
+  std::ofstream(json) << parts_of(test::source_dir() / "samples" / "crash_box_0000.rad");
+  const fs::path schema = test::source_dir() / "schemas/output/parts.schema.json";
+  EXPECT_EQ(shell("python3 -c 'import json,sys,jsonschema; s=json.load(open(sys.argv[1])); "
+                  "d=json.load(open(sys.argv[2])); jsonschema.validate(d,s)' " +
+                  quote(schema) + " " + quote(json)),
+            0);
+}
+
+TEST(PartsDocument, IsTheSameForAnyNumberOfThreads) {
+  const fs::path deck = test::source_dir() / "samples" / "crash_box_0000.rad";
+  EXPECT_EQ(parts_of(deck, 1), parts_of(deck, 2));
+}
+
+}  // namespace
+}  // namespace deck
