@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/deck.hpp"
+#include "deck/front/loaded_deck.hpp"
 
 namespace deck::detail {
 

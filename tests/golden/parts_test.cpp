@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "deck/deck.hpp"
 #include "deck/model/kinematics.hpp"
 #include "deck/report/parts.hpp"
 #include "golden/reference.hpp"

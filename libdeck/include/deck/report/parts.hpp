@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "deck/deck.hpp"
+#include "deck/front/loaded_deck.hpp"
 
 namespace deck {
 
