@@ -209,6 +209,16 @@ std::string html_text(std::string_view text) {
   });
 }
 
+std::string csv_text(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
 std::string workflow_text(std::string_view text) {
   return escaped(text, [](std::string& out, const TextUnit& unit, std::size_t) {
     return add_percent(out, unit);

@@ -13,13 +13,6 @@
 namespace deck {
 namespace {
 
-std::string quoted(const std::string& s) {
-  if (s.find_first_of(",\"\r\n") == std::string::npos) return s;
-  std::string q = "\"";
-  for (const char ch : s) q += ch == '"' ? std::string("\"\"") : std::string(1, ch);
-  return q + '"';
-}
-
 std::string optional(bool known, double v) { return known ? fmt::format("{}", v) : std::string(); }
 
 }  // namespace
@@ -49,9 +42,9 @@ std::string ties_csv(const Deck& deck, const Scene& scene, const TextDrain& drai
       fmt::format_to(
           std::back_inserter(out), ",{},{},{},{},{},{},{},{},{},{},{}\r\n", optional(found, n.s),
           optional(found, n.t), optional(found, n.distance), optional(n.search != 0, n.search),
-          optional(n.nearest != no_index, n.nearest_distance), quoted(short_reason(tie, n)),
+          optional(n.nearest != no_index, n.nearest_distance), csv_text(short_reason(tie, n)),
           model.nodes.x[n.node], model.nodes.y[n.node], model.nodes.z[n.node],
-          spans[i].valid() ? quoted(terminal_text(deck.sources[spans[i].file].path()))
+          spans[i].valid() ? csv_text(terminal_text(deck.sources[spans[i].file].path()))
                            : std::string(),
           spans[i].valid() ? fmt::format("{}", deck.sources.position(spans[i]).line)
                            : std::string());

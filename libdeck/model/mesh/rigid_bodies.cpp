@@ -11,7 +11,7 @@
 namespace deck::detail {
 namespace {
 
-double value(const Deck& deck, const DecodedBlock& d, std::string_view name) {
+double body_value(const Deck& deck, const DecodedBlock& d, std::string_view name) {
   const Cell* c = d.find(name);
   return c == nullptr ? 0.0 : working_value(deck, d, *c);
 }
@@ -59,9 +59,9 @@ std::vector<RigidBody> rigid_bodies(const Model& model) {
     body.ikrem = static_cast<int>(d.integer("Ikrem"));
     if (const auto c = static_cast<int>(d.integer("ICoG")); c != 0) body.centre = c;
     body.spherical = d.integer("Ispher") == 1;
-    body.mass = value(deck, d, "Mass");
+    body.mass = body_value(deck, d, "Mass");
     constexpr std::array<std::string_view, 6> names{"Jxx", "Jyy", "Jzz", "Jxy", "Jyz", "Jxz"};
-    for (std::size_t i = 0; i < 6; ++i) body.inertia[i] = value(deck, d, names[i]);
+    for (std::size_t i = 0; i < 6; ++i) body.inertia[i] = body_value(deck, d, names[i]);
     take_nodes(model, d.integer("grnd_ID"), body);
     out.push_back(std::move(body));
   }

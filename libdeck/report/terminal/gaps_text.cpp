@@ -288,12 +288,6 @@ std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view
       "interface,type,role,kind,secondary_1,secondary_2,main_1,main_2,main_3,main_4,depth,gap,"
       "distance,ratio,normal_x,normal_y,normal_z,on_surface,action,gap0,p0,x,y,z,"
       "secondary_element,secondary_part,main_element,main_part,file,line\r\n";
-  const auto quote = [](const std::string& s) {
-    if (s.find_first_of(",\"\r\n") == std::string::npos) return s;
-    std::string q = "\"";
-    for (const char ch : s) q += ch == '"' ? std::string("\"\"") : std::string(1, ch);
-    return q + '"';
-  };
   const std::vector<Span> spans =
       detail::node_spans(*scene.model, first_nodes(scene, view.penetrations));
   for (std::size_t row = 0; row < view.penetrations.size(); ++row) {
@@ -314,7 +308,7 @@ std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view
         r.has_gap0 ? length(r.gap0) : "", r.has_gap0 ? length(r.p0) : "", p.at[0], p.at[1], p.at[2],
         id(p.secondary_element.id), id(p.secondary_element.part), id(p.main_element.id),
         id(p.main_element.part),
-        span.valid() ? quote(terminal_text(deck.sources[span.file].path())) : std::string(),
+        span.valid() ? csv_text(terminal_text(deck.sources[span.file].path())) : std::string(),
         span.valid() ? fmt::format("{}", deck.sources.position(span).line) : "");
     drain_text(drain, out);
   }

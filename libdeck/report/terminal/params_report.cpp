@@ -250,14 +250,6 @@ Matrix matrix_of(const ParamsInput& in, const ParamsTextOptions& options) {
   return m;
 }
 
-/// Field of a CSV line.
-std::string csv_cell(std::string_view text) {
-  if (text.find_first_of("\",\n\r") == std::string_view::npos) return std::string(text);
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 }  // namespace
 
 std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& options) {
@@ -311,11 +303,11 @@ std::string params_csv(const ParamsInput& in, const ParamsTextOptions& options) 
         if (!wanted(in, *inter, name, e, options)) return;
         const Position p = e.span.valid() ? in.loaded.deck().sources.position(e.span) : Position{};
         out += fmt::format(
-            "{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(in.loaded.path()), inter->id,
-            inter->type, csv_cell(inter->title), name,
-            e.has_input ? csv_cell(cell_text(e.input)) : "",
-            csv_cell(effective_text(in, *inter, name, e)), to_string(e.origin),
-            e.span.valid() ? csv_cell(in.loaded.deck().sources[e.span.file].path()) : "",
+            "{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_text(in.loaded.path()), inter->id,
+            inter->type, csv_text(inter->title), name,
+            e.has_input ? csv_text(cell_text(e.input)) : "",
+            csv_text(effective_text(in, *inter, name, e)), to_string(e.origin),
+            e.span.valid() ? csv_text(in.loaded.deck().sources[e.span.file].path()) : "",
             e.span.valid() ? std::to_string(p.line) : "",
             e.span.valid() ? std::to_string(p.column) : "");
       });
@@ -327,13 +319,13 @@ std::string params_csv(const ParamsInput& in, const ParamsTextOptions& options) 
 std::string params_matrix_csv(const ParamsInput& in, const ParamsTextOptions& options) {
   const Matrix m = matrix_of(in, options);
   std::string out = "deck,interface,type,title";
-  for (const std::string& name : m.names) out += "," + csv_cell(name);
+  for (const std::string& name : m.names) out += "," + csv_text(name);
   out += "\r\n";
   for (std::size_t i = 0; i < m.rows.size(); ++i) {
     const InterBase& inter = *m.interfaces[i];
-    out += fmt::format("{},{},{},{}", csv_cell(in.loaded.path()), inter.id, inter.type,
-                       csv_cell(inter.title));
-    for (const std::string& name : m.names) out += "," + csv_cell(cell_of(m.rows[i], name).text);
+    out += fmt::format("{},{},{},{}", csv_text(in.loaded.path()), inter.id, inter.type,
+                       csv_text(inter.title));
+    for (const std::string& name : m.names) out += "," + csv_text(cell_of(m.rows[i], name).text);
     out += "\r\n";
   }
   return out;

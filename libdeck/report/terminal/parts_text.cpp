@@ -1,7 +1,10 @@
 // deck parts for people: a table of the parts, what they add up to, and a CSV file of the same.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "deck/base/count.hpp"
+#include "deck/base/escape.hpp"
 #include "deck/model/kinematics.hpp"
 #include "deck/model/mesh.hpp"
 #include "deck/report/parts.hpp"
@@ -12,14 +15,10 @@
 namespace deck {
 namespace {
 
-std::string short_number(double v) {
-  char room[32];
-  std::snprintf(room, sizeof room, "%.6g", v);
-  return room;
-}
+std::string six_digits(double v) { return fmt::format("{:.6g}", v); }
 
-std::string figure(double v) { return std::isnan(v) ? "?" : v == 0.0 ? "" : short_number(v); }
-std::string step_text(double dt) { return dt >= 1e29 ? "" : short_number(dt); }
+std::string known_number(double v) { return std::isnan(v) ? "?" : v == 0.0 ? "" : six_digits(v); }
+std::string part_step(double dt) { return dt >= 1e29 ? "" : six_digits(dt); }
 
 std::string elements_text(const detail::PartView& v) {
   std::string out;
@@ -46,22 +45,13 @@ std::string list(const std::vector<std::int64_t>& ids, std::size_t most) {
   return out;
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + "\"";
-}
-
 void summary(const LoadedDeck& loaded, const detail::PartsView& view, std::string& out) {
   const Model& model = loaded.model();
   const Mesh& mesh = loaded.mesh();
   const Kinematics& k = loaded.kinematics();
-  out += "\nMass of all elements: " + short_number(mesh.total.mass) + "\n";
+  out += "\nMass of all elements: " + six_digits(mesh.total.mass) + "\n";
   if (mesh.total.slowest.element != no_index)
-    out += "Smallest time step of an element: " + step_text(mesh.total.dt) + " (" +
+    out += "Smallest time step of an element: " + part_step(mesh.total.dt) + " (" +
            element_text(model, mesh.total) + ")\n";
   std::size_t node = mesh.nodes.dt.size();
   for (std::size_t n = 0; n < mesh.nodes.dt.size(); ++n)
@@ -69,7 +59,7 @@ void summary(const LoadedDeck& loaded, const detail::PartsView& view, std::strin
         (node == mesh.nodes.dt.size() || mesh.nodes.dt[n] < mesh.nodes.dt[node]))
       node = n;
   if (node < mesh.nodes.dt.size())
-    out += "Smallest time step of a node: " + step_text(mesh.nodes.dt[node]) + " (node " +
+    out += "Smallest time step of a node: " + part_step(mesh.nodes.dt[node]) + " (node " +
            std::to_string(model.nodes.id[node]) + ")\n";
   if (view.unconnected_nodes > 0)
     out += count(view.unconnected_nodes, "node belongs", "nodes belong") + " to no element\n";
@@ -111,9 +101,9 @@ std::string parts_text(const LoadedDeck& loaded, const PartsTextOptions& options
                elements_text(v),
                std::to_string(part.mat_id),
                std::to_string(part.prop_id),
-               figure(v.thickness),
-               figure(f.mass),
-               {step_text(f.dt), slowest ? Tone::yellow : Tone::plain},
+               known_number(v.thickness),
+               known_number(f.mass),
+               {part_step(f.dt), slowest ? Tone::yellow : Tone::plain},
                element_text(model, f),
                list(v.interfaces, options.all ? v.interfaces.size() : 8),
                v.rigid_body == 0 ? "" : std::to_string(v.rigid_body)});
@@ -136,7 +126,7 @@ std::string parts_csv(const LoadedDeck& loaded) {
     const detail::PartView& v = view.parts[p];
     const PartFigures& f = mesh.parts[p];
     const auto add = [&](double x) { out += "," + (std::isnan(x) ? std::string() : shortest(x)); };
-    out += std::to_string(part.id) + "," + quoted(part.title) + "," + quoted(elements_text(v)) +
+    out += std::to_string(part.id) + "," + csv_text(part.title) + "," + csv_text(elements_text(v)) +
            "," + std::to_string(part.mat_id) + "," + std::to_string(part.prop_id);
     add(v.thickness);
     add(f.mass);

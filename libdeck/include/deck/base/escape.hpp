@@ -36,6 +36,10 @@ std::string xml_text(std::string_view text);
 /// The same for HTML, where line feeds may stay.
 std::string html_text(std::string_view text);
 
+/// One field of a CSV line (RFC 4180): in quotation marks where it holds a comma, a quotation mark
+/// or a line end.
+std::string csv_text(std::string_view text);
+
 /// The message of a workflow command (::error ...::MESSAGE), and the value of one of its
 /// properties.
 std::string workflow_text(std::string_view text);
