@@ -293,8 +293,8 @@ class Differ {
       if (same_value(fa[i].effective, effective, fa[i].ref, size_of(fa[i].dimension), true))
         continue;
       if (functions_.same_cell(*a.block, {fa[i].name, 0, 0})) continue;
-      // A built-in bound such as 1e30 is that in every unit system, and what nothing is measured by
-      // is 1 in all of them.
+      // A built-in value has no unit: 1e30 for "no bound" and 1 for an unused scale are the same
+      // numbers in every unit system.
       const bool on_card = fa[i].why == "card" || fb[i].why == "card";
       const bool counts = fa[i].counts || fb[i].counts;
       if (!on_card && !counts && fa[i].effective == fb[i].effective) continue;
@@ -327,7 +327,7 @@ class Differ {
     std::map<CellKey, CellValue> cells;
     std::vector<CellKey> order;
     std::map<std::string, std::vector<std::pair<std::int64_t, std::string>>> lists;  // id, kind
-    std::vector<std::pair<std::string, Span>> words;  ///< of lines that nothing describes
+    std::vector<std::pair<std::string, Span>> words;  ///< of lines that no schema describes
   };
 
   void words_of(const Line& line, Contents& out) const {

@@ -1,5 +1,5 @@
-// The chart of `deck accuracy`: wrong decisions or error against time per pair, with the frontier
-// of what nothing else beats, drawn as SVG. Colours are classes, so that a page can give it another
+// The chart of `deck accuracy`: wrong decisions or error against time per pair, with a line
+// through the number types that no other type beats in both, drawn as SVG. Colours are classes, so that a page can give it another
 // ground.
 #include "report/accuracy_chart.hpp"
 

@@ -23,8 +23,8 @@ std::string count_of(std::uint64_t n, const char* what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
-/// What the new values leave untreated of an interface: pairs that nothing is done about, and pairs
-/// at which the solver stops.
+/// What is left of an interface with the new values: pairs for which the solver does nothing, and
+/// pairs at which it stops.
 std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
   std::uint64_t nothing = 0, stops = 0;
   for (const FixAction& a : fix.actions) {

@@ -1,5 +1,5 @@
-// Elements that nothing can be computed with: of no area, volume or length, or with the property
-// of another kind of element; and functions whose points are not in order.
+// Elements without area, volume or length, elements with the property of another kind of element,
+// and functions whose points are not in order.
 #include <array>
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-// Part pairs of /FRICTION, and groups, surfaces, lines and frictions that nothing uses.
+// Part pairs of /FRICTION, and unused groups, surfaces, lines and frictions.
 #include <algorithm>
 #include <map>
 #include <set>

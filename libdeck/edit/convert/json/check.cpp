@@ -449,7 +449,7 @@ class Checker {
         fail({&path, "title"},
              shown(*title) + ", but /BEGIN says '" + now + "'; change the run name there");
     }
-    // Without a sum nobody can tell what its path and counts were.
+    // Without the sum of the deck, its path and counts cannot be compared.
     if (optional_member(root_, "deck_sum", top_) == nullptr) return;
     fail(path,
          "was changed, and only tells what the deck was: change its cards, or take the member out");

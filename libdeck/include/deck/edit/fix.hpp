@@ -134,7 +134,7 @@ struct FixScore {
 };
 FixScore score_of(const PenetrationFix& fix);
 /// The one that leaves least, of equals the first.
-/// nullptr: none does.
+/// nullptr: no proposal leaves fewer than there are.
 const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals);
 /// A report of a deck in which nothing is changed: what the proposals found before.
 PenetrationFix unchanged(const std::vector<PenetrationFix>& proposals);

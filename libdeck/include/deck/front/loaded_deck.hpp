@@ -94,7 +94,8 @@ class LoadedDeck {
   /// How scene() is made: with threads and limits of loading, and with the nodal stiffness that
   /// forces need.
   const SceneOptions& scene_options() const;
-  /// Another way. A scene that was made before ends, and what was made of it.
+  /// Makes scene() with other options from now on. The scene, ties and cycle that were made before
+  /// are freed: references to them are invalid.
   void set_scene_options(const SceneOptions& options);
   /// The contacts of the deck: segments, gaps, stiffness, penetrations.
   const Scene& scene() const;

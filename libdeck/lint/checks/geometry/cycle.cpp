@@ -113,7 +113,7 @@ void report_singular(const GeometryRun& run, const Contact& contact, const Inter
   run.report(RuleId::DK403, contact, gap_field(contact), std::move(message));
 }
 
-/// Time step of /DT/INTER/DEL of the first run, in which nothing has moved yet.
+/// Time step of /DT/INTER/DEL at the start, with the nodes where the deck has them.
 struct DeletionStep {
   double dt = 0;  ///< 0: not asked for
   Span place;

@@ -108,7 +108,7 @@ void check_depths(const GeometryRun& run) {
   }
 }
 
-/// Nodes of a TYPE10 that nothing ties at the start.
+/// Nodes of a TYPE10 that are not tied at the start.
 void check_untied(const GeometryRun& run, std::uint32_t contact) {
   const Contact& c = run.scene.contacts[contact];
   if (run.view.contacts[contact].untied == 0) return;
