@@ -200,7 +200,7 @@ TEST(RuleTable, EveryRuleHasAFullPage) {
 TEST(RuleTable, NoSourceSpellsAnIdAsText) {
   const std::regex id("^[^\n/]*\"DK[0-9]{2}", std::regex::multiline);
   int files = 0;
-  for (const char* folder : {"libdeck", "tools/deck"})
+  for (const char* folder : {"libdeck", "tools/cli"})
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(test::source_dir() / folder)) {
       const auto name = entry.path().extension();

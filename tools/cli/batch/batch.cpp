@@ -1,0 +1,270 @@
+// deck batch: one verb over many decks, each in a worker process; a result file per deck and a
+// summary. What is finished is remembered, so that a batch that was killed goes on where it
+// stopped.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "batch/list.hpp"
+#include "batch/run.hpp"
+#include "batch/summary.hpp"
+#include "deck/base/paths.hpp"
+#include "writing/library.hpp"
+
+namespace deck::cli::verb_batch {
+namespace {
+
+const std::vector<std::string> verbs_of_a_batch = {"lint",  "params",  "gaps",
+                                                   "cycle", "convert", "fix"};
+/// Options that write files of one name, or are the batch's own.
+const std::vector<std::string> not_in_a_batch = {
+    "--json", "--csv",   "--vtk",   "--html",    "--compare",        "--output", "--format",
+    "--diff", "--quiet", "--color", "--threads", "--write-baseline", "--report"};
+
+/// The value of an option among the words of a verb; empty: it is not there.
+std::string value_among(const std::vector<std::string>& words, const std::string& option) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == option && i + 1 < words.size()) return words[i + 1];
+    if (words[i].starts_with(option + "=")) return words[i].substr(option.size() + 1);
+  }
+  return {};
+}
+
+/// What a verb that writes decks does with them.
+Result<void> parse_writing(BatchTask& task, const CommandLine& line) {
+  const std::string& verb = std::string(task.verb.name);
+  const auto has = [&](const char* option) { return line.given(option); };
+  if (verb == "convert") {
+    const std::string from = value_among(task.words, "--from"),
+                      to = value_among(task.words, "--to");
+    if (from == "json") task.ending = document_ending;
+    task.from_json = from == "json";
+    task.to_json = to == "json";
+  }
+  task.writes = verb == "convert" || verb == "fix" || has("--fix") || has("--unsafe-fixes");
+  if (!task.writes) return {};
+  task.in_place = verb == "lint" || has("--in-place");
+  task.with_documents = verb != "convert";
+  task.with_dependents = has("--with-dependents");
+  task.split_includes = has("--split-includes");
+  task.root = value_among(task.words, "--root");
+  return {};
+}
+
+/// Error: no such verb, or options that it does not take.
+Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all) {
+  const auto refuse = [&](const std::string& why) {
+    return Error{Error::Code::config, "--verb '" + o.verb + "': " + why};
+  };
+  BatchTask task;
+  const std::vector<std::string> words = split_words(o.verb);
+  if (words.empty()) return refuse("name a verb");
+  for (const Verb& v : all)
+    if (v.name == words.front() && std::find(verbs_of_a_batch.begin(), verbs_of_a_batch.end(),
+                                             words.front()) != verbs_of_a_batch.end())
+      task.verb = v;
+  if (task.verb.setup == nullptr)
+    return refuse("expected lint, params, gaps, cycle, convert or fix");
+  task.words.assign(words.begin() + 1, words.end());
+  CommandLine line("", "", *o.common.session);
+  const Action action = task.verb.setup(line);  // holds what the options are stored in
+  std::vector<std::string> arguments = task.words;
+  arguments.insert(arguments.end(), {"--", "deck"});
+  if (const auto parsed = line.parse(arguments); !parsed) return refuse(parsed.error().message);
+  for (const std::string& name : not_in_a_batch)
+    if (line.given(name)) return refuse(name + " is not for a batch");
+  if (line.existing("decks").count() != 1) return refuse("decks are named after the options");
+  if (const auto writing = parse_writing(task, line); !writing)
+    return refuse(writing.error().message);
+  for (const std::string& dir : o.common.include_paths)
+    task.options.insert(task.options.end(), {"--include-path", dir});
+  for (const std::string& dir : o.common.schema_dirs)
+    task.options.insert(task.options.end(), {"--schemas", dir});
+  if (o.common.require_examined && task.verb.name != "convert")
+    task.options.push_back("--require-examined");
+  task.options.insert(task.options.end(), task.words.begin(), task.words.end());
+  return task;
+}
+
+/// True for a document of several files, some of which others may hold as well.
+bool holds_includes(const std::string& document) {
+  std::ifstream in(document, std::ios::binary);
+  std::string head(std::size_t{1} << 14, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head.find("\"includes\": []") == head.npos;
+}
+
+/// The decks of the list that have to be done together, and where the batch writes them.
+Result<void> plan_groups(const BatchOptions& o, BatchTask& task, BatchList& list,
+                         std::vector<std::vector<std::size_t>>& groups) {
+  std::vector<BatchDeck>& decks = list.decks;
+  if (!task.writes) {
+    for (std::size_t i = 0; i < decks.size(); ++i) groups.push_back({i});
+    return {};
+  }
+  const auto& given = o.common.decks;
+  std::vector<std::string> paths;
+  for (const BatchDeck& d : decks) paths.push_back(d.path);
+  if (task.in_place) {
+    auto dependents = find_dependents(paths, task.root, o.common.include_paths);
+    if (!dependents) return dependents.error();
+    if (const std::string where = dependents->where(); !where.empty() && !o.common.quiet)
+      print_note(where);
+    if (task.with_dependents && !dependents->decks.empty()) {
+      paths.insert(paths.end(), dependents->decks.begin(), dependents->decks.end());
+      auto more = list_decks(paths, "", task.ending, o.directory, o.common.include_paths);
+      if (!more) return more.error();
+      decks = std::move(more->decks);
+    } else {
+      task.outsiders = std::move(dependents->shared);
+    }
+  }
+  std::vector<std::string> directories, files;
+  std::error_code ec;
+  for (const std::string& path : given)
+    if (std::filesystem::is_directory(path, ec)) directories.push_back(path);
+  std::vector<std::vector<IncludeScan::File>> files_of_decks;
+  IncludeScan scan(o.common.include_paths);
+  std::size_t together = SIZE_MAX;
+  for (std::size_t i = 0; i < decks.size(); ++i) {
+    if (task.from_json) {
+      files.push_back(decks[i].path);
+      const bool several = holds_includes(decks[i].path);
+      if (several && together != SIZE_MAX) {
+        groups[together].push_back(i);
+        continue;
+      }
+      if (several) together = groups.size();
+      groups.push_back({i});
+      continue;
+    }
+    const auto known = list.files.find(decks[i].path);
+    files_of_decks.push_back(known == list.files.end() ? scan.files(decks[i].path)
+                                                       : std::move(known->second));
+    files.push_back(decks[i].path);
+    std::set<std::string>& seen = task.seen[decks[i].path];
+    for (const IncludeScan::File& f : files_of_decks.back()) {
+      files.push_back(f.path);
+      seen.insert(absolute_path(f.path));
+    }
+  }
+  task.frame_root = common_root(directories, files);
+  if (task.from_json) return {};
+  if (task.to_json)  // a document holds all files of its deck
+    for (std::size_t i = 0; i < decks.size(); ++i) groups.push_back({i});
+  else
+    groups = sharing_groups(files_of_decks);
+  return {};
+}
+
+int run(const BatchOptions& o) {
+  const auto usage = [&](const std::string& message) {
+    print_error(o.common, message);
+    return exit_usage;
+  };
+  if (const int bad = check_outputs(o.common, {o.common.json}); bad != exit_clean) return bad;
+  if (o.merge) {
+    if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
+      return usage("--merge takes no decks: it merges the summaries in DIR");
+    const auto parts = read_shard_summaries(o.directory);
+    if (!parts) return usage(parts.error().message);
+    const auto merged = merge_summaries(*parts);
+    if (!merged) return usage(merged.error().message);
+    if (auto written = write_overview(*o.common.session, o.directory, *merged); !written)
+      return usage(written.error().message);
+    return report_batch(o, *merged, 0);
+  }
+  const auto shard = parse_shard(o.shard);
+  if (!shard) return usage(shard.error().message);
+  auto task = parse_task(o, verbs());
+  if (!task) return usage(task.error().message);
+  // Other verbs are the first word behind the program.
+  if (!o.common.decks.empty()) {
+    const std::string& first = o.common.decks.front();
+    std::error_code ec;
+    if (std::find(verbs_of_a_batch.begin(), verbs_of_a_batch.end(), first) !=
+            verbs_of_a_batch.end() &&
+        !std::filesystem::exists(first, ec))
+      return usage(
+          "'" + first +
+          "' is read as the name of a deck, which does not exist; name the verb with --verb " +
+          first);
+  }
+  auto list =
+      list_decks(o.common.decks, o.manifest, task->ending, o.directory, o.common.include_paths);
+  if (!list) return usage(list.error().message);
+  o.common.session->remember_read(o.manifest);
+  if (list->decks.empty())
+    return usage(list->includes.empty()
+                     ? "no decks: name some, or a directory, or a --manifest"
+                     : "no decks among the files found: " + list->includes.front().path + " " +
+                           list->includes.front().why);
+  if (const auto schemas = load_schemas(o.common); !schemas) return usage(schemas.error().message);
+  std::vector<std::vector<std::size_t>> groups;
+  if (auto planned = plan_groups(o, *task, *list, groups); !planned)
+    return usage(planned.error().message);
+  Batch batch(o, std::move(*task), std::move(*list), std::move(groups), *shard);
+  return batch.run();
+}
+
+Action setup(CommandLine& line) {
+  auto options = std::make_shared<BatchOptions>();
+  BatchOptions& o = *options;
+  add_common(line, o.common);
+  line.existing("decks").required(false).describe(
+      "Starter decks, directories (all *_0000.rad below them) or patterns ('models/*/a*.rad')");
+  line.existing("--json").describe("Write the summary to FILE too; '-' is standard output");
+  line.existing("--threads")
+      .describe("Threads of each worker; 0 divides the processors among them");
+  line.option("-o,--output", o.directory, "Directory of the results; made if missing")
+      .required()
+      .value("DIR");
+  line.option("--manifest", o.manifest,
+              "File with one deck per line, # begins a comment; '-' is standard input")
+      .value("FILE");
+  line.option(
+          "--verb", o.verb,
+          "What to do with each deck: lint, params, gaps (default), cycle, convert or fix, with "
+          "options: --verb 'lint --geometry', --verb 'convert --units kg,m,s'")
+      .value("VERB");
+  line.option("-j,--jobs", o.jobs, "Decks at the same time; 0 takes all processors")
+      .range(0, 4096)
+      .value("N");
+  line.option(
+          "--timeout", o.timeout,
+          "Stop a deck (or decks that are written together) after SECONDS (default 3600); 0: never")
+      .number(0, 1e9)
+      .value("SECONDS");
+  line.option("--shard", o.shard,
+              "Only part i of n: every n-th deck of the list; decks that are written together stay "
+              "together")
+      .value("i/n");
+  add_require_examined(line, o.common);
+  line.flag("--merge", o.merge, "Merge the summaries of all shards in DIR");
+  line.flag("--force", o.force, "Do finished decks again");
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{
+    {"batch", 60, "One verb over many decks: a result for each, a summary, resumable",
+     "  deck batch -o results models/ --jobs 8\n"
+     "  deck batch -o results --manifest decks.txt --verb 'lint --geometry'\n"
+     "  deck batch -o metric models/ --verb 'convert --units kg,m,s'\n"
+     "  deck batch -o results models/ --verb 'lint --fix'\n"
+     "  deck batch -o results models/ --shard 2/8    part of the decks, for another machine\n"
+     "  deck batch -o results --merge                one summary of all shards\n"
+     "\n"
+     "DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks.\n"
+     "Decks of the same name get the name of their directory as prefix: left--car_0000.json.\n"
+     "convert and fix write the decks below DIR, with their paths relative to the directory that\n"
+     "holds all of them (or in place, with --in-place among the options of the verb). Decks that\n"
+     "share files are written together or not at all; every result is verified (--no-verify).\n"
+     "After an interruption run the same command again: a deck is done again only if a file that "
+     "it\n"
+     "reads, the options or the program changed, or if it failed.\n",
+     setup}};
+
+}  // namespace
+}  // namespace deck::cli::verb_batch

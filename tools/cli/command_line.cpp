@@ -1,0 +1,465 @@
+// The only file that knows the parser of the command line (CLI11): options, the verbs of the
+// program, and what man pages and completion read from it.
+#include "command_line.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <sstream>
+
+#include "common.hpp"
+#include "deck/base/escape.hpp"
+#include "deck/base/spelling.hpp"
+#include "deck/text/number.hpp"
+#include "verbs/completion_table.hpp"
+
+namespace deck::cli {
+
+// ---- one option
+
+Option& Option::value(const std::string& name) {
+  option_->type_name(name);
+  return *this;
+}
+Option& Option::describe(const std::string& text) {
+  option_->description(text);
+  return *this;
+}
+Option& Option::heading(const std::string& title) {
+  option_->group(title);
+  return *this;
+}
+Option& Option::show_default() {
+  option_->capture_default_str();
+  return *this;
+}
+Option& Option::required(bool yes) {
+  option_->required(yes);
+  return *this;
+}
+
+namespace {
+
+using Check = std::function<std::string(std::string&)>;
+
+/// The parser's own validators describe the values in the help; what is refused, and with which
+/// words, is decided here.
+CLI::Validator described_by(CLI::Validator validator, Check check) {
+  return validator.operation(std::move(check));
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  const std::string close = closest_word(word, known);
+  return close.empty() ? close : "; did you mean '" + close + "'?";
+}
+
+Check check_whole(std::int64_t least, std::int64_t most) {
+  return [least, most](std::string& text) -> std::string {
+    const IntegerCell cell = read_integer(text);
+    if (cell.status == NumberStatus::ok && cell.value >= least && cell.value <= most) return {};
+    return fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
+  };
+}
+
+Check check_number(double least, double most) {
+  return [least, most](std::string& text) -> std::string {
+    const RealCell cell = read_real(text);
+    const bool number =
+        cell.status == NumberStatus::ok || cell.status == NumberStatus::implicit_exponent;
+    if (number && cell.value >= least && cell.value <= most) return {};
+    return fmt::format("'{}' is not a number from {} to {}", text, least, most);
+  };
+}
+
+}  // namespace
+
+Option& Option::one_of(std::initializer_list<const char*> values) {
+  const std::vector<std::string> all(values.begin(), values.end());
+  option_->check(described_by(CLI::IsMember(all), [all](std::string& text) -> std::string {
+    if (std::find(all.begin(), all.end(), text) != all.end()) return {};
+    return fmt::format("'{}' is not one of {}{}", text, fmt::join(all, ", "),
+                       did_you_mean(text, all));
+  }));
+  return *this;
+}
+Option& Option::one_of(std::initializer_list<int> values) {
+  const std::vector<int> all(values);
+  option_->check(described_by(CLI::IsMember(all), [all](std::string& text) -> std::string {
+    const IntegerCell cell = read_integer(text);
+    if (cell.status == NumberStatus::ok &&
+        std::find(all.begin(), all.end(), cell.value) != all.end())
+      return {};
+    return fmt::format("'{}' is not one of {}", text, fmt::join(all, ", "));
+  }));
+  return *this;
+}
+Option& Option::range(int least, int most) {
+  option_->check(described_by(CLI::Range(least, most), check_whole(least, most)));
+  return *this;
+}
+Option& Option::range(double least, double most) {
+  option_->check(described_by(CLI::Range(least, most), check_number(least, most)));
+  return *this;
+}
+Option& Option::range(std::size_t least, std::size_t most) {
+  option_->check(
+      described_by(CLI::Range(least, most),
+                   check_whole(static_cast<std::int64_t>(least), static_cast<std::int64_t>(most))));
+  return *this;
+}
+Option& Option::number(double least, double most) {
+  option_->check(CLI::Validator(check_number(least, most), ""));
+  return *this;
+}
+Option& Option::one_each() {
+  option_->allow_extra_args(false);
+  return *this;
+}
+Option& Option::by_commas() {
+  option_->delimiter(',')->allow_extra_args(false);
+  return *this;
+}
+Option& Option::comma_list() {
+  option_->delimiter(',')->expected(1)->take_all();
+  return *this;
+}
+Option& Option::takes(int count, const std::string& text) {
+  option_->expected(count)->option_text(text);
+  return *this;
+}
+Option& Option::any_number() {
+  option_->expected(0, -1);
+  return *this;
+}
+std::size_t Option::count() const { return option_->count(); }
+
+// ---- a command line
+
+CommandLine::CommandLine(const std::string& summary, const std::string& name, Session& session)
+    : owned_(std::make_unique<CLI::App>(summary, name)), app_(owned_.get()), session_(session) {}
+CommandLine::CommandLine(CLI::App* app, Session& session) : app_(app), session_(session) {}
+CommandLine::~CommandLine() = default;
+CommandLine::CommandLine(CommandLine&&) noexcept = default;
+
+template <class T>
+Option CommandLine::option(const std::string& names, T& target, const std::string& help) {
+  CLI::Option* const option = app_->add_option(names, target, help);
+  if constexpr (std::is_unsigned_v<T>)  // the parser takes "-1" for the largest number
+    option->check(CLI::Validator(
+        [](const std::string& text) {
+          return text.starts_with('-') ? "'" + text + "' is below 0" : std::string();
+        },
+        ""));
+  return Option(option);
+}
+template Option CommandLine::option(const std::string&, std::string&, const std::string&);
+template Option CommandLine::option(const std::string&, int&, const std::string&);
+template Option CommandLine::option(const std::string&, std::int64_t&, const std::string&);
+// std::size_t is one of these, std::uint64_t the same or the other.
+template Option CommandLine::option(const std::string&, unsigned long&, const std::string&);
+template Option CommandLine::option(const std::string&, unsigned long long&, const std::string&);
+template Option CommandLine::option(const std::string&, double&, const std::string&);
+template Option CommandLine::option(const std::string&, std::vector<std::string>&,
+                                    const std::string&);
+template Option CommandLine::option(const std::string&, std::vector<std::int64_t>&,
+                                    const std::string&);
+
+Option CommandLine::bytes(const std::string& names, std::function<void(std::uint64_t)> take,
+                          const std::string& help) {
+  CLI::Option* option = app_->add_option_function<std::uint64_t>(
+      names, [take](std::uint64_t n) { take(n); }, help);
+  const CLI::AsSizeValue size(false);
+  option->transform(described_by(size, [size](std::string& text) -> std::string {
+    const std::string given = text;
+    try {
+      if (size(text).empty()) return {};
+    } catch (const CLI::ValidationError&) {  // a unit that it does not know
+    }
+    return "'" + given + "' is not a number of bytes, such as 500MB or 2GB";
+  }));
+  return Option(option);
+}
+Option CommandLine::flag(const std::string& names, bool& target, const std::string& help) {
+  return Option(app_->add_flag(names, target, help));
+}
+Option CommandLine::flag(const std::string& names, std::string& target, const std::string& help) {
+  return Option(app_->add_flag(names, target, help));
+}
+CommandLine CommandLine::group(const std::string& title) {
+  return CommandLine(app_->add_option_group(title), session_);
+}
+Option CommandLine::existing(const std::string& name) { return Option(app_->get_option(name)); }
+void CommandLine::remove(const std::string& name) { app_->remove_option(app_->get_option(name)); }
+bool CommandLine::given(const std::string& name) const {
+  const CLI::Option* option = app_->get_option_no_throw(name);
+  return option != nullptr && option->count() > 0;
+}
+void CommandLine::hide() { app_->group(""); }
+bool CommandLine::hidden() const { return app_->get_group().empty(); }
+
+// ---- wrong usage
+
+namespace {
+
+/// Names of the options of a verb, those of its groups (verbs without a name) included.
+void collect_names(const CLI::App& app, std::vector<std::string>& names) {
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_group().empty())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (group->get_name().empty()) collect_names(*group, names);
+}
+
+/// What the parser could not place.
+std::string unexpected(const CLI::App& app) {
+  const std::vector<std::string> all = app.remaining();
+  const auto option = std::find_if(all.begin(), all.end(),
+                                   [](const std::string& word) { return word.starts_with('-'); });
+  if (option == all.end())
+    return "unexpected argument '" + (all.empty() ? std::string() : all.front()) + "'";
+  std::vector<std::string> names;
+  collect_names(app, names);
+  const std::string word = option->substr(0, option->find('='));
+  return "unknown option '" + word + "'" + did_you_mean(word, names);
+}
+
+/// How the help calls the value of an option, or an argument without a name.
+std::string value_name(const CLI::Option* option) {
+  if (option == nullptr) return {};
+  std::string text = option->get_option_text();  // "DECK STATES"
+  if (text.empty()) text = option->get_type_name();
+  return text.substr(0, text.find(':'));
+}
+
+/// Wrong usage in the words of all other errors. `app` is the verb.
+std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unexpected(app);
+  const std::string text = error.what();
+  // All messages begin with the name of the option, or have it behind a colon.
+  constexpr std::string_view no_number = "Could not convert: ";
+  if (text.starts_with(no_number)) {
+    const auto equal = text.find(" = ");
+    if (equal != text.npos)
+      return text.substr(no_number.size(), equal - no_number.size()) + ": '" +
+             text.substr(equal + 3) + "' is not a number";
+  }
+  const std::string name = text.substr(0, text.find_first_of(": "));
+  const CLI::Option* option = app.get_option_no_throw(name);
+  const std::string value = value_name(option);
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && option != nullptr)
+    return option->nonpositional() ? name + " " + value + " is missing"
+                                   : (value.empty() ? name : value) + " is missing";
+  if (text.find(": At Most 1 required") != text.npos && option != nullptr &&
+      option->nonpositional())
+    return name + " takes one value but is given more than once";
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && option != nullptr)
+    return option->nonpositional() ? name + " needs a value: " + value : "expected " + value;
+  return text;
+}
+
+/// The parser gives an option the next word, whatever it is: "--json --threads 1" would write into
+/// a file of that name. Says so; empty: no value is the name of an option of the same verb.
+std::string swallowed(const CLI::App& app, const CLI::App& verb) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (!option->nonpositional()) continue;
+    for (const std::string& word : option->results())
+      if (word.size() > 1 && word.starts_with('-') &&
+          verb.get_option_no_throw(word.substr(0, word.find('='))) != nullptr)
+        return fmt::format("{} needs a value: {}; '{}' is an option (./{} if it is a file's name)",
+                           option->get_name(), value_name(option), word, word);
+  }
+  for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (group->get_name().empty())
+      if (std::string text = swallowed(*group, verb); !text.empty()) return text;
+  return {};
+}
+
+}  // namespace
+
+int wrong_usage(const std::string& verb, std::string_view message) {
+  const std::string help = verb.empty() ? "Run 'deck --help' for the verbs."
+                                        : "Run 'deck " + verb + " --help' for its options.";
+  fmt::print(stderr, "deck: error: {}\n{}\n", terminal_text(message), help);
+  return exit_usage;
+}
+
+Result<void> CommandLine::parse(std::vector<std::string> words) {
+  std::reverse(words.begin(), words.end());  // the parser takes them from the back
+  try {
+    app_->parse(words);
+  } catch (const CLI::ParseError& e) {
+    return Error{Error::Code::config, what_is_wrong(*app_, e)};
+  }
+  if (std::string text = swallowed(*app_, *app_); !text.empty())
+    return Error{Error::Code::config, std::move(text)};
+  return {};
+}
+
+std::vector<std::string> split_words(const std::string& line) {
+  std::vector<std::string> words = CLI::detail::split_up(line);
+  for (std::string& w : words) CLI::detail::remove_quotes(w);
+  return words;
+}
+
+// ---- what there is, as data
+
+namespace {
+
+/// "FORMAT:{human,json}" and "N:INT in [0 - 1024]" as name, choices and range.
+void split_type(const std::string& type, OptionInfo& info) {
+  const auto colon = type.find(':');
+  info.value = type.substr(0, colon);
+  if (colon == std::string::npos) return;
+  const std::string rest = type.substr(colon + 1);
+  if (!rest.starts_with('{')) {
+    // "INT in [0 - 9]", NONNEGATIVE
+    if (const auto bracket = rest.find(" in ["); bracket != std::string::npos)
+      info.range = rest.substr(bracket + 4);
+    else if (rest == "NONNEGATIVE" || rest == "POSITIVE")
+      info.range = rest == "POSITIVE" ? "above 0" : "0 or more";
+    return;
+  }
+  const auto end = rest.find('}');
+  info.choices = CLI::detail::split(rest.substr(1, end - 1), ',');
+}
+
+OptionInfo describe(const CLI::Option& option, const std::string& group) {
+  OptionInfo info;
+  for (const std::string& s : option.get_snames()) info.names.push_back("-" + s);
+  for (const std::string& l : option.get_lnames()) info.names.push_back("--" + l);
+  if (option.get_positional() && info.names.empty()) info.names.push_back(option.get_name(true));
+  info.optional_value = option.get_expected_min() == 0 && !option.get_fnames().empty();
+  if (option.get_items_expected_max() > 0 && option.get_expected_min() > 0)
+    split_type(option.get_type_name(), info);
+  info.preset = option.get_default_str();
+  info.group = group.empty() && option.get_group() != "Options" ? option.get_group() : group;
+  info.description = option.get_description();
+  info.repeatable = option.get_expected_max() >= CLI::detail::expected_max_vector_size;
+  info.required = option.get_required();
+  return info;
+}
+
+void collect(const CLI::App& app, const std::string& group, VerbInfo& verb) {
+  for (const CLI::Option* option : app.get_options()) {
+    // Hidden ones, and the help that every option group has once more.
+    if (option->get_group().empty() || (!group.empty() && option->check_lname("help"))) continue;
+    OptionInfo info = describe(*option, group);
+    (option->nonpositional() ? verb.options : verb.positionals).push_back(std::move(info));
+  }
+  // Option groups are subcommands without a name.
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (sub->get_name().empty() && !sub->get_group().empty()) collect(*sub, sub->get_group(), verb);
+}
+
+/// Refuses an unknown verb with the closest known one; 0: the verb is known or there is none.
+int check_verb(const std::vector<std::string>& words, const std::vector<Verb>& all) {
+  if (words.empty() || words.front().starts_with('-')) return exit_clean;
+  const std::string& word = words.front();
+  std::vector<std::string> known = {"help"};
+  for (const Verb& v : all) known.emplace_back(v.name);
+  if (std::find(known.begin() + 1, known.end(), word) != known.end()) return exit_clean;
+  std::string text = "there is no verb '" + word + "'";
+  if (word.find('.') != std::string::npos)
+    text += "; name what to do first, for example: deck params " + word;
+  else
+    text += did_you_mean(word, known);
+  return wrong_usage("", text);
+}
+
+/// "deck help VERB" as "deck VERB --help".
+void settle_help(std::vector<std::string>& words) {
+  if (words.empty() || words.front() != "help") return;
+  words.erase(words.begin());
+  if (!words.empty() && !words.front().starts_with('-')) words.resize(1);
+  words.emplace_back("--help");
+}
+
+}  // namespace
+
+std::vector<VerbInfo> describe_verbs() {
+  Session session;  // of no call
+  std::vector<VerbInfo> all;
+  for (const Verb& v : verbs()) {
+    CommandLine line((std::string(v.summary)), std::string(v.name), session);
+    line.parser().set_help_flag("-h,--help", "This help");
+    const Action action = v.setup(line);  // holds what the options are stored in
+    if (line.hidden()) continue;
+    VerbInfo info;
+    info.name = v.name;
+    info.summary = v.summary;
+    info.description = line.parser().get_description();
+    info.examples = v.examples;
+    collect(line.parser(), "", info);
+    std::stable_sort(info.options.begin(), info.options.end(),
+                     [](const OptionInfo& a, const OptionInfo& b) {
+                       return a.group.empty() && !b.group.empty();
+                     });
+    all.push_back(std::move(info));
+  }
+  return all;
+}
+
+std::vector<OptionInfo> program_options() {
+  OptionInfo help, version;
+  help.names = {"-h", "--help"};
+  help.description = "Help; deck help VERB explains a verb";
+  version.names = {"--version"};
+  version.description = "Version and compiler";
+  return {help, version};
+}
+
+// ---- the program
+
+int run_program(int argc, char** argv, const std::string& version, Session& session) {
+  const std::vector<Verb> all = verbs();
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  settle_help(words);
+  if (const int code = check_verb(words, all); code != exit_clean) return code;
+  CLI::App app("Radioss contact decks (TYPE7, 10, 11, 19): read, check, measure, rewrite.", "deck");
+  app.set_version_flag("--version", version, "Version and compiler");
+  app.set_help_flag("-h,--help", "This help; 'deck help VERB' explains a verb");
+  std::map<CLI::App*, Action> actions;
+  for (const Verb& v : all) {
+    CLI::App* sub = app.add_subcommand(std::string(v.name), std::string(v.summary));
+    sub->set_help_flag("-h,--help", "This help");
+    if (!v.examples.empty()) sub->footer("Examples:\n" + std::string(v.examples));
+    CommandLine line(sub, session);
+    actions[sub] = v.setup(line);
+  }
+  app.require_subcommand(0, 1);
+  app.footer(
+      "Examples:\n"
+      "  deck params car_0000.rad              what every interface really uses\n"
+      "  deck params car_0000.rad --json -     the same for programs\n"
+      "\n"
+      "Exit codes: 0 clean, 1 findings, 2 wrong usage, 3 input could not be read, 4 internal "
+      "error.");
+  try {
+    std::reverse(words.begin(), words.end());  // the parser takes them from the back
+    app.parse(words);
+  } catch (const CLI::ParseError& e) {
+    const auto verb = app.get_subcommands();
+    if (e.get_exit_code() != 0) {
+      if (verb.empty()) return wrong_usage("", what_is_wrong(app, e));
+      return wrong_usage(verb.front()->get_name(), what_is_wrong(*verb.front(), e));
+    }
+    std::ostringstream out;
+    app.exit(e, out, out);
+    std::fputs(out.str().c_str(), stdout);
+    return exit_clean;
+  }
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty()) {
+    std::fputs(app.help().c_str(), stderr);
+    return exit_usage;
+  }
+  if (const std::string text = swallowed(*chosen.front(), *chosen.front()); !text.empty())
+    return wrong_usage(chosen.front()->get_name(), text);
+  return actions.at(chosen.front())();
+}
+
+}  // namespace deck::cli

@@ -1,0 +1,472 @@
+// The options and the loading of decks that verbs share.
+#include "common.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <thread>
+
+#include "deck/base/columns.hpp"
+#include "deck/base/escape.hpp"
+#include "deck/base/spelling.hpp"
+#include "deck/contact/resolve.hpp"
+#include "deck/keyword/recognise.hpp"
+#include "deck/model/coverage.hpp"
+#include "deck/report/json.hpp"
+#include "deck/text/number.hpp"
+#include "deck/text/rule_id.hpp"
+#include "deck/text/similar_file.hpp"
+#include "writing/frame.hpp"
+#include "writing/library.hpp"
+
+namespace deck::cli {
+
+// ---- verbs ----------------------------------------------------------------------------------
+
+namespace {
+std::vector<Verb>& registry() {
+  static std::vector<Verb> all;
+  return all;
+}
+}  // namespace
+
+VerbRegistration::VerbRegistration(const Verb& verb) { registry().push_back(verb); }
+
+std::vector<Verb> verbs() {
+  std::vector<Verb> all = registry();
+  // Registration follows link order, which means nothing.
+  std::sort(all.begin(), all.end(), [](const Verb& a, const Verb& b) {
+    return a.rank != b.rank ? a.rank < b.rank : a.name < b.name;
+  });
+  return all;
+}
+
+// ---- options --------------------------------------------------------------------------------
+
+int CommonOptions::thread_count() const {
+  if (threads > 0) return threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+bool CommonOptions::color_on(int fd) const {
+  if (color == "always") return true;
+  if (color == "never") return false;
+  const char* no_color = std::getenv("NO_COLOR");
+  if (no_color != nullptr && *no_color != '\0') return false;
+  const char* term = std::getenv("TERM");
+  return isatty(fd) == 1 && (term == nullptr || std::strcmp(term, "dumb") != 0);
+}
+
+std::size_t terminal_width(int fd) {
+  winsize size{};
+  return isatty(fd) == 1 && ioctl(fd, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
+std::size_t text_width() {
+  if (const std::size_t width = terminal_width(1); width > 0) return width;
+  const char* columns = std::getenv("COLUMNS");
+  const IntegerCell n = read_integer(columns == nullptr ? "" : columns);
+  return n.status == NumberStatus::ok && n.value > 0 ? static_cast<std::size_t>(n.value) : 0;
+}
+
+void add_common_without_decks(CommandLine& line, CommonOptions& options) {
+  options.session = &line.session();
+  line.option("--json", options.json, "Write JSON to FILE; '-' is standard output").value("FILE");
+  line.flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  line.option("--color", options.color, "Colours: auto, always or never (NO_COLOR is respected)")
+      .one_of({"auto", "always", "never"})
+      .value("WHEN");
+  line.option("--schemas", options.schema_dirs, "Add the keyword schemas (*.json) of DIR")
+      .value("DIR")
+      .one_each();
+}
+
+void add_common(CommandLine& line, CommonOptions& options, bool with_json) {
+  line.option("decks", options.decks, "Starter decks (*_0000.rad); '-' is standard input")
+      .required()
+      .value("DECK");
+  add_common_without_decks(line, options);
+  if (!with_json) line.remove("--json");
+  line.option("--threads", options.threads, "Threads; 0: all processors").range(0, 1024).value("N");
+  line.bytes(
+          "--max-memory",
+          [&options](std::uint64_t bytes) {
+            options.limits.pair_bytes = options.limits.selection_bytes = bytes;
+          },
+          "Memory for the pairs of one contact (default 2GB), and for the members of all groups "
+          "(default 4GB); a contact that needs more is not evaluated, with a finding")
+      .value("SIZE");
+  line.option("--include-path", options.include_paths,
+              "Also search included files in DIR (repeatable)")
+      .value("DIR")
+      .one_each();
+}
+
+void add_require_examined(CommandLine& line, CommonOptions& options) {
+  line.flag("--require-examined", options.require_examined,
+            "Exit 1 if the deck has no interface of an examined type (TYPE7, 10, 11, 19)");
+}
+
+void add_verbose(CommandLine& line, CommonOptions& options, const std::string& what) {
+  line.flag("-v,--verbose", options.verbose, what);
+}
+
+// ---- loading --------------------------------------------------------------------------------
+
+Result<LoadedSchemas> load_schemas(const CommonOptions& options) {
+  if (options.schema_dirs.empty()) return LoadedSchemas();
+  SchemaSet set = SchemaSet::built_in();
+  for (const std::string& dir : options.schema_dirs)
+    if (auto added = set.add_directory(dir); !added) return added.error();
+  return LoadedSchemas(std::move(set));
+}
+
+const Scene& resolve_geometry(const LoadedDeck& loaded, const CommonOptions& options) {
+  Progress progress(!options.quiet);
+  if (waits_for_geometry(loaded.interfaces())) progress.step("deriving gaps from the geometry");
+  return loaded.mesh_values([&](std::size_t done, std::size_t all) { progress.update(done, all); });
+}
+
+namespace {
+
+/// The files of all decks of the call: what may be written to finish an interrupted writing.
+std::vector<std::string> files_of_call(const SchemaSet& schemas, const CommonOptions& options) {
+  std::vector<std::string> paths;
+  ReadOptions read;
+  read.include_paths = options.include_paths;
+  for (const std::string& path : options.decks) {
+    if (path == "-") continue;
+    const auto deck = read_deck(path, schemas, read);
+    for (std::uint32_t f = 0; deck && f < deck->sources.size(); ++f)
+      paths.push_back(deck->sources[f].path());
+  }
+  return paths;
+}
+
+/// What a kill left of an earlier rewriting of these files: who rewrites them finishes it first,
+/// who only reads says that it is there. True if files changed.
+Result<bool> settle_interrupted(const Deck& deck, const SchemaSet& schemas,
+                                const CommonOptions& options) {
+  std::vector<std::string> files;
+  for (std::uint32_t f = 0; f < deck.sources.size(); ++f)
+    if (unfinished_note(deck.sources[f].path())) files.push_back(deck.sources[f].path());
+  if (files.empty()) return false;
+  if (!options.rewrites) {
+    if (!options.quiet)
+      print_messages(fmt::format(
+          "deck: note: writing {} was interrupted ({}): some of its files may be old and some new; "
+          "the next convert --in-place, fix --in-place or lint --fix of it finishes this\n",
+          terminal_text(files.front()), terminal_text(*unfinished_note(files.front()))));
+    return false;
+  }
+  const std::vector<std::string> tree = files_of_call(schemas, options);
+  std::size_t finished = 0;
+  for (const std::string& path : files) {
+    const auto done = finish_interrupted_write(path, tree);
+    if (!done) return done.error();
+    if (!done->refused.empty())
+      return Error{Error::Code::config,
+                   "a rewriting of " + path +
+                       " was interrupted and cannot be finished: " + done->refused +
+                       "; nothing was written. Give all decks of that call again, or remove the "
+                       "note if it is not wanted"};
+    finished += done->files;
+  }
+  if (finished > 0 && !options.quiet)
+    print_messages(
+        fmt::format("deck: note: the interrupted writing of {} was finished: {} file{}\n",
+                    terminal_text(files.front()), finished, finished == 1 ? "" : "s"));
+  return finished > 0;
+}
+
+/// A mapped file that is written to while it is read has no bytes of one moment. Smaller ones are
+/// read at once and compared before they are replaced.
+Result<void> check_mapped(const Deck& deck, const Limits& limits, const timespec& since) {
+  for (std::uint32_t f = 0; f < deck.sources.size(); ++f) {
+    const Source& source = deck.sources[f];
+    struct stat status {};
+    if (source.inode() == 0 || source.on_disk().size() <= limits.map_threshold) continue;
+    if (stat(source.path().c_str(), &status) != 0) continue;
+    const auto moment = [](const timespec& t) { return std::pair{t.tv_sec, t.tv_nsec}; };
+    if (moment(status.st_mtim) >= moment(since))
+      return Error{Error::Code::config, source.path() +
+                                            " was changed while it was read; nothing was written. "
+                                            "Run the command again"};
+  }
+  return {};
+}
+
+/// The deck, and what has to be seen to before it is rewritten.
+Result<Deck> read_settled(const std::string& path, const SchemaSet& schemas,
+                          const CommonOptions& options, const ReadOptions& read) {
+  timespec since{};
+  clock_gettime(CLOCK_REALTIME_COARSE, &since);
+  auto deck = read_deck(path, schemas, read);
+  if (!deck || read.overlay != nullptr) return deck;
+  const auto settled = settle_interrupted(*deck, schemas, options);
+  if (!settled) return settled.error();
+  if (*settled) {
+    clock_gettime(CLOCK_REALTIME_COARSE, &since);
+    deck = read_deck(path, schemas, read);
+  }
+  if (deck && options.rewrites)
+    if (auto same = check_mapped(*deck, read.limits, since); !same) return same.error();
+  return deck;
+}
+
+}  // namespace
+
+void note_found(const std::string& given, const std::string& path, const CommonOptions& options) {
+  if (path != given && !options.quiet) print_note(given + " is not there; reading " + path);
+}
+
+LoadOptions load_options(const CommonOptions& options, const SchemaSet& schemas,
+                         const Overlay* overlay) {
+  LoadOptions out;
+  out.read.include_paths = options.include_paths;
+  out.read.overlay = overlay;
+  out.read.limits = options.limits;
+  out.threads = options.thread_count();
+  out.geometry = false;
+  out.engine_files = options.engine_files;
+  out.schemas = &schemas;
+  return out;
+}
+
+Result<LoadedDeck> load(const std::string& given, const SchemaSet& schemas,
+                        const CommonOptions& options, Stage stage, const Overlay* overlay) {
+  const std::string path = overlay == nullptr ? find_deck(given) : given;
+  note_found(given, path, options);
+  Progress progress(!options.quiet);
+  progress.step("reading " + path);
+  const LoadOptions how = load_options(options, schemas, overlay);
+  auto deck = read_settled(path, schemas, options, how.read);
+  if (!deck) {
+    Error error = deck.error();
+    if (std::error_code ec; path != "-" && !std::filesystem::exists(path, ec))
+      if (const std::string close = similar_file(path); !close.empty())
+        error.message += "; did you mean '" + close + "'?";
+    return error;
+  }
+  LoadedDeck loaded = LoadedDeck::from(std::move(*deck), how);
+  options.session->remember_read(loaded.deck().sources);
+  if (const std::string other = no_starter_deck(loaded.deck()); !other.empty())
+    return Error{Error::Code::syntax, path + ": " + other};
+  if (options.session->on_load) options.session->on_load(loaded.deck());
+  if (stage < Stage::model) return loaded;
+  progress.step("building the model of " + path);
+  loaded.interfaces();
+  return loaded;
+}
+
+int for_each_deck(const CommonOptions& options, const std::function<int(LoadedDeck&)>& body) {
+  const auto schemas = load_schemas(options);
+  if (!schemas) {
+    print_error(options, schemas.error().message);
+    return exit_usage;
+  }
+  if (const int refused = check_outputs(options, {options.json}); refused != exit_clean)
+    return refused;
+  int worst = exit_clean;
+  for (const std::string& path : options.decks) {
+    if (BatchFrame* frame = options.session->frame) frame->begin(path);
+    int code = exit_clean;
+    if (auto loaded = load(path, *schemas, options); !loaded) {
+      print_error(options, loaded.error().message);
+      code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
+    } else {
+      code = std::max(body(*loaded), examined_code(*loaded, options));
+      if (loaded->incomplete()) code = std::max<int>(code, exit_input);
+    }
+    if (BatchFrame* frame = options.session->frame) frame->end(code);
+    worst = std::max(worst, code);
+  }
+  return worst;
+}
+
+int examined_code(const LoadedDeck& loaded, const CommonOptions& options) {
+  if (!options.require_examined) return exit_clean;
+  const bool nothing =
+      coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties).nothing();
+  return nothing ? exit_findings : exit_clean;
+}
+
+namespace {
+
+/// "1, 2, 3 and 4 more", and where `wanted` may be one of those that are not shown, the closest.
+std::string list_of(const std::vector<std::int64_t>& ids, std::int64_t wanted) {
+  constexpr std::size_t most = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, ids.size()); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", ids[i]);
+  if (ids.size() <= most) return text;
+  std::vector<std::string> words;
+  for (const std::int64_t id : ids) words.push_back(std::to_string(id));
+  const std::string close = closest_word(std::to_string(wanted), words);
+  return text + fmt::format(" and {} more", ids.size() - most) +
+         (close.empty() ? close : "; did you mean " + close + "?");
+}
+
+}  // namespace
+
+Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
+                              std::string_view option, Examined which) {
+  std::vector<std::int64_t> known;
+  const bool ties = which == Examined::contacts_and_ties;
+  for (const InterBase* i : ties ? loaded.interfaces().all : loaded.interfaces().ordered)
+    known.push_back(i->id);
+  std::sort(known.begin(), known.end());
+  for (const std::int64_t id : ids) {
+    if (std::binary_search(known.begin(), known.end(), id)) continue;
+    std::string text = fmt::format("{} {}: {} has no interface {} of TYPE{}7, 10, 11 or 19", option,
+                                   id, loaded.path(), id, ties ? "2, " : "");
+    for (const NotExamined& n : coverage_of(loaded.deck(), loaded.interfaces(), which).not_examined)
+      if (std::find(n.ids.begin(), n.ids.end(), id) != n.ids.end())
+        text += fmt::format("; {}/{} is of a type that is not examined", n.keyword, id);
+    text += known.empty() ? "; it has none at all" : "; it has " + list_of(known, id);
+    return Error{Error::Code::config, text};
+  }
+  return {};
+}
+
+Result<void> check_parts(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
+                         std::string_view option) {
+  for (const std::int64_t id : ids) {
+    if (loaded.model().part_of_id.contains(id)) continue;
+    std::vector<std::int64_t> known;
+    for (const Part& p : loaded.model().parts) known.push_back(p.id);
+    std::sort(known.begin(), known.end());
+    return Error{
+        Error::Code::config,
+        fmt::format("{} {}: {} has no part {}; {}", option, id, loaded.path(), id,
+                    known.empty() ? "it has none at all" : "it has " + list_of(known, id))};
+  }
+  return {};
+}
+
+// ---- printing -------------------------------------------------------------------------------
+
+namespace {
+
+const char* name_of(Severity severity) {
+  switch (severity) {
+    case Severity::error:
+      return "error";
+    case Severity::warning:
+      return "warning";
+    case Severity::info:
+      break;
+  }
+  return "info";
+}
+
+const char* color_of(Severity severity) {
+  switch (severity) {
+    case Severity::error:
+      return "\x1b[1;31m";
+    case Severity::warning:
+      return "\x1b[1;33m";
+    case Severity::info:
+      break;
+  }
+  return "\x1b[1;36m";
+}
+
+}  // namespace
+
+void print_error(const CommonOptions& options, std::string_view message) {
+  const bool color = options.color_on(2);
+  print_messages(fmt::format("deck: {}error:{} {}\n", color ? "\x1b[1;31m" : "",
+                             color ? "\x1b[0m" : "", terminal_text(message)));
+  if (BatchFrame* frame = options.session->frame) frame->note_error(message);
+}
+
+std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options,
+                             bool errors_only, std::size_t limit) {
+  const bool color = options.color_on(2);
+  std::uint64_t errors = 0, shown = 0, hidden = 0;
+  const Diagnostics found = loaded.findings(loaded.reached());
+  for (const Diagnostic& d : found.all()) {
+    if (d.severity == Severity::error) ++errors;
+    // What a verdict calls not evaluated, or what makes it wrong, is explained in any case.
+    const bool vital = d.severity == Severity::error || d.rule == RuleId::DK334 ||
+                       d.rule == RuleId::DK336 || d.rule == RuleId::DK380;
+    if (errors_only && !vital) continue;
+    if (shown == limit) {
+      ++hidden;
+      continue;
+    }
+    ++shown;
+    const std::string where = d.span.valid() ? loaded.deck().sources.where(d.span) : loaded.path();
+    print_messages(fmt::format("{}: {}{}:{} {} [{}]\n", terminal_text(where),
+                               color ? color_of(d.severity) : "", name_of(d.severity),
+                               color ? "\x1b[0m" : "", terminal_text(d.message), id_text(d.rule)));
+  }
+  if (hidden > 0)
+    print_messages(fmt::format("{}: {} more like these; 'deck lint {}' shows them all\n",
+                               terminal_text(loaded.path()), hidden, terminal_text(loaded.path())));
+  return errors;
+}
+
+// ---- output ---------------------------------------------------------------------------------
+
+void print_text(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+void print_lines(std::string_view text) { print_text(folded(text, text_width())); }
+
+void print_messages(std::string_view text) {
+  const std::string lines = folded(text, terminal_width(2));
+  std::fwrite(lines.data(), 1, lines.size(), stderr);
+}
+
+void print_contents(std::string_view text) {
+  if (isatty(1) == 1)
+    print_text(terminal_lines(text));
+  else
+    print_text(text);
+}
+
+void print_note(std::string_view note) {
+  print_messages(fmt::format("deck: note: {}\n", terminal_text(note)));
+}
+
+void JsonOutput::add(const MakeText& make) {
+  if (options_.decks.size() > 1) return add(make({}));
+  if (auto written = options_.session->write_output(options_.json, make); !written) {
+    print_error(options_, written.error().message);
+    failed_ = true;
+  }
+}
+
+int JsonOutput::finish(int code) const {
+  if (failed_) return std::max<int>(code, exit_usage);
+  if (!wanted() || documents_.empty()) return code;
+  std::string list;
+  if (options_.decks.size() > 1) {
+    JsonWriter json(list);
+    json.begin_object();
+    write_json_head(json, schema_id_, schema_version_);
+    json.key("decks").begin_array();
+    for (const std::string& d : documents_) {
+      const std::string_view document(d);
+      json.raw(document.substr(0, document.find_last_not_of('\n') + 1));
+    }
+    json.end_array().end_object();
+  }
+  const std::string& text = options_.decks.size() > 1 ? list : documents_.front();
+  if (auto written = options_.session->write_output(options_.json, text); !written) {
+    print_error(options_, written.error().message);
+    return std::max<int>(code, exit_usage);
+  }
+  return code;
+}
+
+}  // namespace deck::cli

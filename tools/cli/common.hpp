@@ -1,0 +1,169 @@
+// What all verbs share: options, loading of decks, exit codes, output to files and terminals.
+// Messages for people go to standard error, results to standard output or the files asked for.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "command_line.hpp"
+#include "deck/base/limits.hpp"
+#include "deck/edit/write.hpp"
+#include "deck/front/loaded_deck.hpp"
+#include "progress.hpp"
+#include "verb.hpp"
+
+namespace deck::cli {
+
+enum ExitCode : int {
+  exit_clean = 0,  ///< nothing at or above the threshold
+  exit_findings = 1,
+  exit_usage = 2,  ///< wrong usage or configuration, or an output that cannot be written
+  exit_input = 3,  ///< input could not be read
+  exit_internal = 4,
+};
+
+struct CommonOptions {
+  std::vector<std::string> decks;  ///< "-" is standard input
+  std::string json;                ///< file, "-" for standard output, empty: none
+  int threads = 0;                 ///< 0: all processors
+  bool quiet = false;
+  bool verbose = false;
+  bool require_examined = false;  ///< exit 1 where no interface was examined
+  std::string color = "auto";
+  std::vector<std::string> include_paths, schema_dirs;
+  /// The verb will change files of the decks in place. Set by the verb, not by an option.
+  bool rewrites = false;
+  bool engine_files = false;  ///< the verb looks at the Engine files beside the decks, too
+  Limits limits;
+  Session* session = nullptr;  ///< never nullptr once the options were added to a command line
+
+  int thread_count() const;
+  /// True if text to this descriptor (1, 2) is to be coloured.
+  bool color_on(int fd) const;
+  /// True if results for people are to be printed: not --quiet, and standard output not taken.
+  bool wants_text() const { return !quiet && json != "-"; }
+};
+
+/// Adds the shared options. With `with_json` false the verb has no --json.
+void add_common(CommandLine& line, CommonOptions& options, bool with_json = true);
+/// Only those that do not need a deck: --json, --quiet, --color, --schemas.
+void add_common_without_decks(CommandLine& line, CommonOptions& options);
+
+/// The built-in schemas themselves, or a set of their own with those of --schemas.
+class LoadedSchemas {
+ public:
+  LoadedSchemas() = default;
+  explicit LoadedSchemas(SchemaSet own) : own_(std::make_shared<SchemaSet>(std::move(own))) {}
+  operator const SchemaSet&() const { return own_ ? *own_ : SchemaSet::built_in(); }
+
+ private:
+  std::shared_ptr<const SchemaSet> own_;
+};
+
+/// Built-in schemas plus those of --schemas. A directory that cannot be used is a usage error.
+Result<LoadedSchemas> load_schemas(const CommonOptions& options);
+
+/// Adds --require-examined, for verbs whose result is a verdict about contacts.
+void add_require_examined(CommandLine& line, CommonOptions& options);
+
+/// Adds -v, for verbs whose text folds things.
+void add_verbose(CommandLine& line, CommonOptions& options, const std::string& what);
+
+/// LoadedDeck::mesh_values() with progress on the terminal.
+const Scene& resolve_geometry(const LoadedDeck& loaded, const CommonOptions& options);
+
+/// Contents that files are taken to have, by path; see ReadOptions::overlay.
+using Overlay = std::map<std::string, std::string>;
+
+/// How the options have a deck read, and what is made of it.
+LoadOptions load_options(const CommonOptions& options, const SchemaSet& schemas,
+                         const Overlay* overlay = nullptr);
+
+/// Reads one deck and makes of it what comes up to `stage`. Error: the main file cannot be read, or
+/// is no Starter deck; the message says what it is. `schemas` must outlive it. Values that follow
+/// from the mesh are open until resolve_geometry().
+/// Where the deck is to be rewritten in place (options.rewrites), an interrupted writing of its
+/// files is finished first; a verb that only reads says that there is one and changes nothing.
+/// A name without its ending is found (see find_deck), with a note.
+Result<LoadedDeck> load(const std::string& given, const SchemaSet& schemas,
+                        const CommonOptions& options, Stage stage = Stage::interfaces,
+                        const Overlay* overlay = nullptr);
+
+/// Says that another file is read than the one that was named, if that is so.
+void note_found(const std::string& given, const std::string& path, const CommonOptions& options);
+
+/// Loads the decks one after the other and calls `body`; returns the worst exit code. What cannot
+/// be read is reported and counts as exit_input; a missing include too, after `body` has run.
+int for_each_deck(const CommonOptions& options, const std::function<int(LoadedDeck&)>& body);
+
+/// exit_findings if --require-examined is given and nothing was examined, else exit_clean.
+int examined_code(const LoadedDeck& loaded, const CommonOptions& options);
+
+/// Refuses ids that are no interface of the deck of TYPE7, 10, 11 or 19. The error lists those that
+/// there are. `option` is what the ids were given to.
+Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
+                              std::string_view option, Examined which = Examined::contacts);
+/// The same for parts.
+Result<void> check_parts(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
+                         std::string_view option);
+
+/// Prints what the stages that were made have found on standard error, one line each: errors only,
+/// or all. At most `limit`, then how many more there are. Returns the number of errors.
+std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options,
+                             bool errors_only = true, std::size_t limit = 20);
+
+/// "deck: error: ..." on standard error. The message is one line, whatever it quotes.
+void print_error(const CommonOptions& options, std::string_view message);
+
+/// Prints results on standard output. A failure (full disk) is noticed at the end of the program.
+void print_text(std::string_view text);
+/// The same for lines that people read: those longer than text_width() are continued on further
+/// ones.
+void print_lines(std::string_view text);
+/// Lines on standard error, continued in the same way where that is a terminal.
+void print_messages(std::string_view text);
+
+/// The same for contents of files (a deck, a patch): as they are, but on a terminal with what it
+/// would obey spelled out.
+void print_contents(std::string_view text);
+
+/// Columns of the terminal behind a descriptor (1, 2); 0: it is none.
+std::size_t terminal_width(int fd);
+/// Columns of the terminal that standard output is, else of $COLUMNS; 0: lines of any length.
+std::size_t text_width();
+
+/// "deck: note: ..." on standard error.
+void print_note(std::string_view note);
+
+/// No output may replace a file that it must not (see Session::check_output): for the files named
+/// on a command line, before the work begins; "" and "-" are none. Nor may two outputs go to one
+/// place. Says what is wrong and returns exit_usage, or exit_clean.
+int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths);
+
+/// Collects the JSON documents of a run: one deck gives the document itself; several are the list
+/// "decks" of a document with the same schema id.
+class JsonOutput {
+ public:
+  JsonOutput(const CommonOptions& options, std::string_view schema_id, int schema_version)
+      : options_(options), schema_id_(schema_id), schema_version_(schema_version) {}
+  bool wanted() const { return !options_.json.empty(); }
+  void add(std::string document) { documents_.push_back(std::move(document)); }
+  /// The same for a large document: with one deck it is written at once, while it is made.
+  void add(const MakeText& make);
+  /// Writes what was added; returns `code`, or exit_usage if the file cannot be written.
+  int finish(int code) const;
+
+ private:
+  const CommonOptions& options_;
+  std::string schema_id_;
+  int schema_version_;
+  std::vector<std::string> documents_;
+  bool failed_ = false;  ///< a document could not be written
+};
+
+}  // namespace deck::cli

@@ -1,0 +1,88 @@
+// deck: the command line of libdeck. Runs the verb and turns
+// whatever goes wrong into one of the promised exit codes.
+#if __has_include(<gmp.h>)
+#include <gmp.h>
+#define DECK_LONG_NUMBERS_OF_GMP
+#endif
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+
+#include <unistd.h>
+
+#include "common.hpp"
+#include "deck/base/escape.hpp"
+
+namespace {
+
+using namespace deck::cli;
+
+/// A mapped file that shrinks while it is read raises SIGBUS; nothing but an orderly end is left.
+void on_bus_error(int) {
+  constexpr char text[] = "deck: error: a file changed (became shorter) while it was read\n";
+  [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
+  _exit(exit_input);
+}
+
+/// What no handler is left for, such as an exception where none may pass.
+[[noreturn]] void on_terminate() {
+  constexpr char text[] = "deck: internal error: cannot continue (out of memory?)\n";
+  [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
+  _exit(exit_internal);
+}
+
+#ifdef DECK_LONG_NUMBERS_OF_GMP
+// The library of long numbers knows no error but the end of the program: let it be an orderly one.
+[[noreturn]] void no_memory() {
+  constexpr char text[] = "deck: internal error: out of memory\n";
+  [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
+  _exit(exit_internal);
+}
+void* gmp_allocate(std::size_t size) {
+  void* const p = std::malloc(size);
+  if (p == nullptr) no_memory();
+  return p;
+}
+void* gmp_reallocate(void* old, std::size_t, std::size_t size) {
+  void* const p = std::realloc(old, size);
+  if (p == nullptr) no_memory();
+  return p;
+}
+void gmp_free(void* p, std::size_t) { std::free(p); }
+#endif
+
+std::string version_text() {
+  return std::string("deck ") + DECK_VERSION + " (compiled " +
+#if defined(__clang__)
+         "by clang " + __clang_version__ + ")";
+#else
+         "by g++ " + __VERSION__ + ")";
+#endif
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGBUS, on_bus_error);
+  std::set_terminate(on_terminate);
+#ifdef DECK_LONG_NUMBERS_OF_GMP
+  mp_set_memory_functions(gmp_allocate, gmp_reallocate, gmp_free);
+#endif
+  Session session;
+  int code = exit_internal;
+  try {
+    code = run_program(argc, argv, version_text(), session);
+  } catch (const std::bad_alloc&) {
+    std::fputs("deck: internal error: out of memory\n", stderr);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "deck: internal error: %s\nPlease report it with the deck.\n",
+                 deck::terminal_text(e.what()).c_str());
+  } catch (...) {
+    std::fputs("deck: internal error of unknown kind\n", stderr);
+  }
+  return session.finish_standard_output() || code == exit_internal ? code
+                                                                   : static_cast<int>(exit_usage);
+}

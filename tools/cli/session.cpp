@@ -1,0 +1,194 @@
+// The one place where results are written to files.
+#include "session.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "common.hpp"
+#include "deck/base/paths.hpp"
+#include "deck/text/gzip.hpp"
+
+namespace deck::cli {
+namespace {
+
+bool starts_like(std::string_view line, std::string_view word) {
+  return line.size() >= word.size() &&
+         std::equal(word.begin(), word.end(), line.begin(), [](char a, char b) {
+           return a == std::toupper(static_cast<unsigned char>(b));
+         });
+}
+
+/// True for the first line of a Starter deck, and where the first line that is no comment is a
+/// keyword: a deck without its head, an Engine file, an included file.
+bool looks_like_deck(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  if (starts_like(text, "#RADIOSS")) return true;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    const auto first = text.substr(0, end).find_first_not_of(" \t\r");
+    const std::string_view line =
+        first == text.npos ? std::string_view() : text.substr(first, end - first);
+    if (!line.empty() && line[0] != '#' && line[0] != '$')
+      return line.size() > 1 && line[0] == '/' &&
+             std::isalpha(static_cast<unsigned char>(line[1])) != 0;
+    if (starts_like(line, "#INCLUDE")) return true;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return false;
+}
+
+bool file_looks_like_deck(const std::string& path) {
+  constexpr std::size_t enough = std::size_t{1} << 16;
+  std::ifstream in(path, std::ios::binary);
+  std::string head(enough, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return looks_like_deck(is_gzip(head) ? gunzip_head(head, enough) : head);
+}
+
+bool holds(const std::string& path, std::uint64_t size, std::string_view bytes) {
+  if (size != bytes.size()) return false;
+  const auto source = Source::open(path, Limits{});
+  return source && (*source)->bytes() == bytes;
+}
+
+Error refused(const std::string& path, const std::string& why) {
+  return {Error::Code::config, path + " would be written over: " + why +
+                                   "; nothing was written. Name another file (does an option lack "
+                                   "its value?)"};
+}
+
+}  // namespace
+
+void Session::remember_read(const SourceSet& sources) {
+  for (std::uint32_t f = 0; f < sources.size(); ++f)
+    if (sources[f].inode() != 0)
+      files_read_.emplace(Identity{sources[f].device(), sources[f].inode()}, sources[f].path());
+}
+
+void Session::remember_read(const Source& source) {
+  if (source.inode() != 0)
+    files_read_.emplace(Identity{source.device(), source.inode()}, source.path());
+}
+
+void Session::remember_read(const std::string& path) {
+  struct stat status {};
+  if (path != "-" && stat(path.c_str(), &status) == 0)
+    files_read_.emplace(Identity{status.st_dev, status.st_ino}, path);
+}
+
+Result<void> Session::check_output(const std::string& path, const OutputRules& rules,
+                                   std::optional<std::string_view> bytes,
+                                   std::string_view origin) const {
+  struct stat status {};
+  if (path.empty() || path == "-") return {};
+  const auto look = rules.follow_links ? stat : lstat;
+  if (look(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
+  if (const auto read = files_read_.find({status.st_dev, status.st_ino});
+      read != files_read_.end()) {
+    if (rules.deck_tree)
+      return Error{Error::Code::config, path +
+                                            " is a file of the decks that are read; nothing was "
+                                            "written. Name another directory, or change them with "
+                                            "--in-place"};
+    return refused(path, read->second == path ? "this call reads it"
+                                              : "this call reads it, as " + read->second);
+  }
+  if (rules.overwrite || (rules.ours && rules.ours(path))) return {};
+  if (rules.deck_tree && is_unchanged_output(path, origin)) return {};
+  if (!rules.deck_tree && !file_looks_like_deck(path)) return {};
+  if (bytes && holds(path, static_cast<std::uint64_t>(status.st_size), *bytes)) return {};
+  if (rules.deck_tree)
+    return Error{Error::Code::config,
+                 path +
+                     " already exists with other contents; nothing was written. Name another "
+                     "directory, or add --overwrite to replace it"};
+  return refused(path, "it begins as a deck");
+}
+
+int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths) {
+  std::set<std::string> named;
+  for (const std::string& path : paths) {
+    if (auto allowed = options.session->check_output(path); !allowed) {
+      print_error(options, allowed.error().message);
+      return exit_usage;
+    }
+    struct stat status {};
+    const bool device = path != "-" && stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+    if (path.empty() || device) continue;
+    if (named.insert(absolute_path(path)).second) continue;
+    print_error(options, "two outputs go to " +
+                             (path == "-" ? std::string("standard output") : path) +
+                             "; name another file for one of them");
+    return exit_usage;
+  }
+  return exit_clean;
+}
+
+Result<void> Session::write_outputs(const std::vector<OutputFile>& files, const OutputRules& rules,
+                                    const WriteOptions& options) {
+  if (auto allowed = check_outputs(files, rules); !allowed) return allowed;
+  return write_files_atomic(files, options);
+}
+
+Result<void> Session::check_outputs(const std::vector<OutputFile>& files,
+                                    const OutputRules& rules) const {
+  for (const OutputFile& f : files)
+    if (auto allowed = check_output(f.path, rules, f.bytes, f.origin); !allowed) return allowed;
+  return {};
+}
+
+std::string Session::no_standard_output() const {
+  return std::string("cannot write standard output") +
+         (errno == 0 ? "" : std::string(": ") + std::strerror(errno)) +
+         (wrote_decks_ ? "; the decks were written" : "");
+}
+
+Result<void> Session::write_standard_output(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() &&
+      std::fflush(stdout) == 0)
+    return {};
+  told_of_standard_output_ = true;
+  return Error{Error::Code::io, no_standard_output()};
+}
+
+bool Session::finish_standard_output() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  if (!told_of_standard_output_)
+    std::fputs(("deck: error: " + no_standard_output() + "\n").c_str(), stderr);
+  return false;
+}
+
+Result<void> Session::write_output(const std::string& path, std::string_view bytes) {
+  if (path == "-") return write_standard_output(bytes);
+  if (auto allowed = check_output(path, {}, bytes); !allowed) return allowed;
+  return write_file_atomic(path, bytes);
+}
+
+Result<void> Session::write_output(const std::string& path, const MakeText& make) {
+  const WritePieces pieces = [&](const WritePiece& write) {
+    Result<void> written;
+    const std::string rest = make([&](std::string& text) {
+      if (written) written = write(text);
+      text.clear();
+    });
+    if (written) written = write(rest);
+    return written;
+  };
+  if (path == "-")
+    return pieces([this](std::string_view bytes) { return write_standard_output(bytes); });
+  if (auto allowed = check_output(path); !allowed) return allowed;
+  return write_file_atomic(path, pieces);
+}
+
+}  // namespace deck::cli

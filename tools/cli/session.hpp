@@ -1,0 +1,85 @@
+// The session of one call: what it has read and written, and who listens. Made in main() and passed
+// with the options (CommonOptions::session); the program has no other state of the process.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "deck/edit/write.hpp"
+#include "deck/report/drain.hpp"
+#include "deck/text/result.hpp"
+#include "deck/text/source.hpp"
+
+namespace deck {
+class Deck;
+}
+
+namespace deck::cli {
+
+struct BatchFrame;
+
+/// What an output may replace. Never a file that the call has read.
+struct OutputRules {
+  bool overwrite = false;  ///< whatever is there
+  /// Decks are written: no file that differs is replaced, and --overwrite is the way out. Else
+  /// none that looks like a deck or an include.
+  bool deck_tree = false;
+  bool follow_links = true;
+  std::function<bool(const std::string&)> ours = {};  ///< files that may be replaced all the same
+};
+
+/// Makes a document and returns what of it has not left through the drain.
+using MakeText = std::function<std::string(const TextDrain&)>;
+
+/// A result is never written over a file that the call has read, nor over a file that looks like a
+/// deck: "--json a b" with a flag in mind costs nobody a deck.
+class Session {
+ public:
+  /// Of `deck batch`, which runs the verb; nullptr: the verb was called by itself.
+  BatchFrame* frame = nullptr;
+  /// Called with every deck that was read.
+  std::function<void(const Deck&)> on_load;
+
+  /// From now on no output is written over these files.
+  void remember_read(const SourceSet& sources);
+  void remember_read(const Source& source);
+  void remember_read(const std::string& path);
+
+  /// Error: the path is an existing file that the rules protect. Without `bytes` what will be
+  /// written is not known yet; a file that holds it already is no obstacle, nor, in a tree of
+  /// decks, one that was made from the same `origin` and is unchanged since.
+  Result<void> check_output(const std::string& path, const OutputRules& rules = {},
+                            std::optional<std::string_view> bytes = std::nullopt,
+                            std::string_view origin = {}) const;
+  /// The same for files with their contents.
+  Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRules& rules) const;
+  /// Writes bytes to standard output ("-") or atomically to a file.
+  Result<void> write_output(const std::string& path, std::string_view bytes);
+  /// The same for a document that is written while it is made.
+  Result<void> write_output(const std::string& path, const MakeText& make);
+  /// Writes a set of files, all or none.
+  Result<void> write_outputs(const std::vector<OutputFile>& files, const OutputRules& rules = {},
+                             const WriteOptions& options = {"", true, true, true});
+
+  /// Decks were written: what goes wrong with standard output from now on says so.
+  void remember_written() { wrote_decks_ = true; }
+  /// To be called last. False, said once, if not everything could be written to standard output. (A
+  /// reader that went away ends the program by SIGPIPE, as it ends others, unless that is ignored.)
+  bool finish_standard_output();
+
+ private:
+  using Identity = std::pair<std::uint64_t, std::uint64_t>;
+
+  std::string no_standard_output() const;
+  Result<void> write_standard_output(std::string_view bytes);
+
+  std::map<Identity, std::string> files_read_;  ///< by device and inode, with a name of each
+  bool told_of_standard_output_ = false;        ///< it was said that it cannot be written
+  bool wrote_decks_ = false;
+};
+
+}  // namespace deck::cli

@@ -1,0 +1,392 @@
+// deck cycle: contact forces, energies, time steps and effects at the start, or over some steps of
+// prescribed motion.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "common.hpp"
+#include "deck/accuracy/effect_cost.hpp"
+#include "deck/contact/crossings.hpp"
+#include "deck/report/cycle.hpp"
+#include "deck/report/html.hpp"
+#include "deck/text/gzip.hpp"
+#include "deck/text/number.hpp"
+#include "processor.hpp"
+#include "verbs/accuracy_option.hpp"
+#include "verbs/gate.hpp"
+
+namespace deck::cli::verb_cycle {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  bool all = false, effects = false, costs = false, fail = false;
+  bool measures() const { return costs || !html.empty(); }
+  std::string model = "robust", accuracy = "robust";
+  double dt = 0, time = 0;
+  std::vector<std::int64_t> only;
+  std::vector<std::string> velocities, gone;
+  std::string vtk, html;
+  int steps = 1;
+  GateOptions gate;
+};
+
+/// The largest component of any node's velocity.
+double fastest(const cycle::State& state) {
+  double most = 0;
+  for (const std::vector<double>& component : state.velocity)
+    for (const double v : component) most = std::max(most, std::abs(v));
+  return most;
+}
+
+/// "KIND:ID" or "KIND:ID@TIME": an element that is gone from a time on.
+Result<cycle::DeadElement> parse_gone(const Model& model, const std::string& text) {
+  const auto bad = [&](const std::string& why) {
+    return Error{Error::Code::config,
+                 "--gone " + text + ": " + why +
+                     "; expected shell:ID, sh3n:ID, solid:ID, truss:ID, beam:ID "
+                     "or spring:ID, and @TIME if it is not gone from the start"};
+  };
+  const auto colon = text.find(':'), mark = text.find('@');
+  if (colon == std::string::npos) return bad("there is no ':'");
+  const std::string name = text.substr(0, colon);
+  cycle::DeadElement dead;
+  if (name == "shell")
+    dead.kind = ElementKind::shell4;
+  else if (name == "sh3n")
+    dead.kind = ElementKind::shell3;
+  else if (name == "solid")
+    dead.kind = ElementKind::solid8;
+  else if (name == "truss")
+    dead.kind = ElementKind::truss;
+  else if (name == "beam")
+    dead.kind = ElementKind::beam;
+  else if (name == "spring")
+    dead.kind = ElementKind::spring;
+  else
+    return bad("'" + name + "' is no kind of element");
+  const std::string id =
+      text.substr(colon + 1, mark == std::string::npos ? mark : mark - colon - 1);
+  const IntegerCell number = read_integer(id);
+  if (number.status != NumberStatus::ok) return bad("the element id is not a number");
+  if (mark != std::string::npos) {
+    const RealCell time = read_real(std::string_view(text).substr(mark + 1));
+    if (time.status != NumberStatus::ok) return bad("the time is not a number");
+    dead.from = time.value;
+  } else {
+    dead.from = -1e300;
+  }
+  const Elements& family = model.family(dead.kind);
+  for (std::uint32_t e = 0; e < family.size(); ++e)
+    if (family.id[e] == number.value) dead.element = e;
+  if (dead.element == no_index) return bad("the deck has no such element");
+  return dead;
+}
+
+/// "PART=vx,vy,vz".
+Result<cycle::PartVelocity> parse_velocity(const std::string& text) {
+  const auto bad = [&](const std::string& why) {
+    return Error{Error::Code::config,
+                 "--velocity " + text + ": " + why + "; expected PART=vx,vy,vz in working units"};
+  };
+  const auto equal = text.find('=');
+  if (equal == std::string::npos) return bad("there is no '='");
+  cycle::PartVelocity v;
+  const IntegerCell part = read_integer(std::string_view(text).substr(0, equal));
+  if (part.status != NumberStatus::ok) return bad("the part id is not a number");
+  v.part = part.value;
+  std::size_t at = equal + 1;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (at > text.size()) return bad("there are fewer than three components");
+    const auto comma = std::min(text.find(',', at), text.size());
+    const RealCell x = read_real(std::string_view(text).substr(at, comma - at));
+    if (x.status != NumberStatus::ok) return bad("a component is not a number");
+    v.velocity[c] = x.value;
+    at = comma + 1;
+  }
+  if (at <= text.size()) return bad("there are more than three components");
+  return v;
+}
+
+/// Writes VTK files: into the directory itself, or one below it per deck if there are several.
+/// Several steps bring their own script.
+Result<void> write_vtk(const Options& o, std::string_view path, const std::vector<VtkFile>& vtk,
+                       const std::optional<VtkFile>& script = {}) {
+  std::filesystem::path directory = o.vtk;
+  if (o.common.decks.size() > 1) directory /= std::filesystem::path(without_gz(path)).stem();
+  std::vector<OutputFile> files;
+  for (const VtkFile& f : vtk) files.push_back({(directory / f.name).string(), f.bytes});
+  if (script) files.push_back({(directory / script->name).string(), script->bytes});
+  return o.common.session->write_outputs(files, {}, {"", true, true, true, o.vtk});
+}
+
+/// Writes the page: the report of `deck gaps` with the effects and their costs first.
+Result<void> write_html(const Options& o, const CycleInput& cycle, const SceneView& view) {
+  HtmlInput input;
+  input.path = cycle.path;
+  input.deck = cycle.deck;
+  input.scene = cycle.scene;
+  input.view = &view;
+  input.only = o.only;
+  input.cycle = cycle.outcome;
+  input.acted = acted_in_page(*cycle.state, *cycle.outcome);
+  input.effects = &cycle;
+  input.threads = cycle.options.threads;
+  auto page = gaps_html(input);
+  if (!page) return page.error();
+  return o.common.session->write_output(o.html, *page);
+}
+
+/// Options that do not go together.
+Result<void> check_page(const Options& o) {
+  if (o.measures() && o.steps > 1)
+    return Error{Error::Code::config, std::string(o.html.empty() ? "--costs" : "--html") +
+                                          " shows one evaluation: leave out --steps"};
+  if (o.html.empty()) return {};
+  if (std::string why; !html_available(&why))
+    return Error{Error::Code::config, "--html: this build has no viewer: " + why};
+  if (o.common.decks.size() > 1)
+    return Error{Error::Code::config, "--html takes one deck at a time"};
+  return {};
+}
+
+std::string suffix_of(std::size_t step) { return fmt::format("_{:04}", step); }
+
+int run(const Options& o) {
+  cycle::CycleOptions options;
+  options.model = o.model == "reference" ? cycle::Model::reference : cycle::Model::robust;
+  options.dt1 = options.dt12 = o.dt;
+  options.time = o.time;
+  options.threads = o.common.thread_count();
+  std::vector<cycle::PartVelocity> velocities;
+  for (const std::string& text : o.velocities) {
+    auto v = parse_velocity(text);
+    if (!v) {
+      print_error(o.common, v.error().message);
+      return exit_usage;
+    }
+    velocities.push_back(*v);
+  }
+  if (o.steps > 1 && !(o.dt > 0)) {
+    print_error(o.common, "--steps needs --dt: how long is a step?");
+    return exit_usage;
+  }
+  if (auto legal = check_fail_on(o.gate); !legal) {
+    print_error(o.common, legal.error().message);
+    return exit_usage;
+  }
+  if (auto fits = check_page(o); !fits) {
+    print_error(o.common, fits.error().message);
+    return exit_usage;
+  }
+  if (o.fail && (o.gate.fails_on("never") || o.gate.fails_on("error"))) {
+    print_error(o.common,
+                "--fail-on-force and --fail-on " + o.gate.level() + " contradict one another");
+    return exit_usage;
+  }
+  if (const int bad = check_outputs(o.common, {o.common.json, o.html}); bad != exit_clean)
+    return bad;
+  JsonOutput json(o.common, "deck/cycle", 1);
+  bool first = true;
+  options.keep_pairs = (o.all && json.wanted()) || !o.vtk.empty() || !o.html.empty();
+  std::vector<std::int64_t> parts;
+  for (const cycle::PartVelocity& v : velocities) parts.push_back(v.part);
+  const int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
+    for (const auto& known : {check_interfaces(loaded, o.only, "--interface"),
+                              check_parts(loaded, parts, "--velocity")})
+      if (!known) {
+        print_error(o.common, known.error().message);
+        return static_cast<int>(exit_usage);
+      }
+    auto config = config_of(o.gate, loaded.path());
+    auto gate = config ? gate_of(o.gate, *config, loaded.path()) : Result<DeckGate>(config.error());
+    if (!gate) {
+      print_error(o.common, gate.error().message);
+      return static_cast<int>(exit_usage);
+    }
+    gate->note_baseline(o.common, loaded.path());
+    options.dead.clear();
+    for (const std::string& text : o.gone) {
+      auto dead = parse_gone(loaded.model(), text);
+      if (!dead) {
+        print_error(o.common, dead.error().message);
+        return static_cast<int>(exit_usage);
+      }
+      options.dead.push_back(*dead);
+    }
+    SceneOptions scene_options;
+    scene_options.threads = options.threads;
+    scene_options.candidates = !o.html.empty();  // the page counts them
+    scene_options.nodal_stiffness = true;
+    scene_options.ties = true;  // for the verdict, the same as of gaps
+    scene_options.only = o.only;
+    scene_options.accuracy = accuracy_of(o.accuracy);
+    scene_options.limits = o.common.limits;
+    cycle::StepsOutcome steps;
+    cycle::State state;
+    CycleInput input;
+    Result<void> written;
+    bool pushed = false, undecided = false;  // at any step
+    {
+      Progress progress(!o.common.quiet);
+      progress.step("contacts");
+      const auto update = [&](std::size_t done, std::size_t total) {
+        progress.update(done, total);
+      };
+      scene_options.progress = update;
+      loaded.set_scene_options(scene_options);
+      const Scene& scene = loaded.scene();
+      progress.step("forces");
+      state = cycle::make_state(scene, velocities);
+      options.progress = update;
+      input.path = loaded.path();
+      input.deck = &loaded.deck();
+      input.scene = &scene;
+      input.state = &state;
+      input.options = options;
+      const bool series = o.steps > 1 && !o.vtk.empty();
+      const auto watch = [&](std::size_t step, const cycle::SceneOutcome& now,
+                             const Coordinates& x) {
+        for (const cycle::ContactOutcome& c : now.contacts)
+          pushed = pushed || c.pairs_with_force > 0, undecided = undecided || c.undecided();
+        if (!series || !written) return;
+        CycleInput one = input;
+        one.outcome = &now;
+        one.coordinates = &x;
+        written = write_vtk(o, loaded.path(), cycle_vtk(one, suffix_of(step)));
+      };
+      // Beyond this the squares of distances are no numbers any more.
+      constexpr double farthest = 1e150;
+      if (const double way = fastest(state) * o.dt * (o.steps - 1); !(way < farthest)) {
+        print_error(
+            o.common,
+            fmt::format("--steps {} --dt {}: nodes would move by {:.3g}, too far to compute "
+                        "with; give a shorter step or lower velocities",
+                        o.steps, o.dt, way));
+        return static_cast<int>(exit_usage);
+      }
+      steps = cycle::run_steps(scene, state, options, static_cast<std::size_t>(o.steps), {}, watch);
+      input.outcome = &steps.last;
+      if (o.steps > 1) {
+        input.steps = &steps;
+        input.coordinates = &steps.coordinates;
+      }
+      if (series && written) {
+        std::vector<std::string> suffixes;
+        for (std::size_t k = 0; k < steps.lines.size(); ++k) suffixes.push_back(suffix_of(k));
+        const std::vector<VtkFile> collections = cycle_vtk_series(steps, suffixes);
+        written = write_vtk(o, loaded.path(), collections, paraview_script(collections));
+      } else if (!o.vtk.empty() && written) {
+        const std::vector<VtkFile> files = cycle_vtk(input);
+        written = write_vtk(o, loaded.path(), files, paraview_script(files));
+      }
+    }
+    loaded.findings();
+    const Scene& scene = loaded.scene();
+    const std::vector<Crossing> crossings = find_crossings(scene, options.threads);
+    const SceneView view = make_view(scene, &crossings, options.threads);
+    const GateReport report = gate->look(loaded, scene, view, &steps.last);
+    input.view = &view;
+    input.gate = &report;
+    std::vector<ContactCost> costs;
+    if (o.measures()) {
+      const EffectCostOptions how;
+      costs = measure_effects(scene, state, steps.last, options, how);
+      input.costs = &costs;
+      input.cost_repeats = how.repeats;
+      input.processor = processor_name();
+    }
+    if (!o.html.empty() && written) written = write_html(o, input, view);
+    const bool fails = (o.fail || o.gate.fails_on("warning")) && pushed;
+    const bool found = verdict_code(cycle_verdict(input), o.gate, o.common) != exit_clean ||
+                       (!o.gate.fails_on("never") && (fails || undecided)) || !report.passed();
+    print_findings(loaded, o.common);
+    if (json.wanted())
+      json.add([&](const TextDrain& drain) { return cycle_json(input, o.all, drain); });
+    if (!written) {
+      print_error(o.common, written.error().message);
+      return static_cast<int>(exit_usage);
+    }
+    if (o.common.wants_text()) {
+      CycleTextOptions text;
+      text.color = o.common.color_on(1);
+      text.effects = o.effects;
+      text.verbose = o.common.verbose;
+      text.several = o.common.decks.size() > 1;
+      text.width = text_width();
+      print_lines((first ? "" : "\n") + cycle_text(input, text));
+      first = false;
+    }
+    return static_cast<int>(found ? exit_findings : exit_clean);
+  });
+  return json.finish(code);
+}
+
+Action setup(CommandLine& line) {
+  auto options = std::make_shared<Options>();
+  add_common(line, options->common);
+  line.flag("--all", options->all, "JSON with every pair that has a penetration");
+  line.flag("--effects", options->effects, "Also list the effects that are off, and why");
+  line.flag("--costs", options->costs,
+            "Also measure on this deck what each effect costs in the loop over pairs, with it "
+            "against without it");
+  line.option("--html", options->html,
+              "Write a page to FILE: which effects run and why, what each costs, forces and time "
+              "steps in the picture; one file, no network")
+      .value("FILE");
+  line.option(
+          "--vtk", options->vtk,
+          "Write pairs and nodes with their forces as VTK files into DIR, with a script that opens "
+          "them in ParaView")
+      .value("DIR");
+  line.option("--model", options->model,
+              "reference: as the solver computes; robust: the same physics without its "
+              "numerical quirks")
+      .one_of({"reference", "robust"})
+      .show_default();
+  add_accuracy(line, options->accuracy);
+  line.option("--dt", options->dt, "Time step for rate effects; 0: the first evaluation")
+      .number(0, 1e30)
+      .value("DT");
+  line.option("--steps", options->steps,
+              "Evaluations, --dt apart, with prescribed motion: nodes keep their velocities, "
+              "forces do not move them")
+      .range(1, 1000)
+      .value("N")
+      .show_default();
+  line.option("--gone", options->gone,
+              "An element that is gone (Idel), e.g. shell:1003 or shell:1003@0.02 (repeatable)")
+      .one_each()
+      .value("KIND:ID[@T]");
+  line.option("--time", options->time, "Time that decides Tstart, Tstop and sensors")
+      .number(-1e30, 1e30)
+      .value("T");
+  line.option("--velocity", options->velocities,
+              "Velocity of a part instead of the deck's, e.g. 12=0,0,-5 (repeatable)")
+      .value("PART=VX,VY,VZ");
+  line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
+  add_require_examined(line, options->common);
+  add_verbose(line, options->common,
+              "Every interface, the parts of a TYPE19 in separate rows, and more columns");
+  line.flag("--fail-on-force", options->fail,
+            "Exit 1 when any contact pushes, at the start or at any step, as --fail-on warning");
+  add_gate_with_config(line, options->gate, "the solver stops, or a contact could not be evaluated",
+                       "any contact pushes, or as for gaps");
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{
+    {"cycle", 40, "Contact forces, energies and time step of the first cycle",
+     "  deck cycle car_0000.rad\n"
+     "  deck cycle car_0000.rad --interface 3 --effects\n"
+     "  deck cycle car_0000.rad --html cycle.html\n"
+     "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3\n"
+     "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview\n"
+     "  deck cycle car_0000.rad --model reference --all --json cycle.json\n",
+     setup}};
+
+}  // namespace
+}  // namespace deck::cli::verb_cycle

@@ -1,0 +1,153 @@
+// deck diff: what two decks mean differently.
+
+#include "deck/report/diff.hpp"
+#include "common.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/model/coverage.hpp"
+#include "deck/verdict.hpp"
+#include "verbs/gate.hpp"
+
+namespace deck::cli::verb_diff {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::string match = "id", format = "human";
+  bool markdown = false, no_geometry = false;
+  std::size_t rows = 20;
+  double tolerance = diff_tolerance;
+};
+
+/// A deck with its contacts.
+struct Side {
+  LoadedDeck loaded;
+  SceneView view;
+  Verdict verdict = {};
+
+  DiffSide described(bool geometry) const { return {loaded, geometry ? &view : nullptr, &verdict}; }
+};
+
+/// What is said of a side; its findings are joined.
+Verdict verdict_in(Side& side, bool geometry) {
+  if (geometry) side.loaded.findings();
+  VerdictInput in;
+  in.deck = &side.loaded.deck();
+  in.interfaces = &side.loaded.interfaces();
+  if (geometry) in.contacts = contact_facts(side.loaded.scene(), side.view);
+  return make_verdict(in);
+}
+
+Result<Side> read_side(const Options& o, const std::string& path, const SchemaSet& schemas) {
+  auto loaded = load(path, schemas, o.common);
+  if (!loaded) return loaded.error();
+  Side side{std::move(*loaded), {}, {}};
+  if (side.loaded.incomplete())
+    return Error{Error::Code::io,
+                 coverage_lead(coverage_of(side.loaded.deck(), side.loaded.interfaces()))};
+  if (o.no_geometry) {
+    side.verdict = verdict_in(side, false);
+    return side;
+  }
+  Progress progress(!o.common.quiet);
+  progress.step("contacts of " + path);
+  SceneOptions scene = side.loaded.scene_options();
+  scene.candidates = scene.nodal_stiffness = false;
+  scene.ties = true;
+  scene.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
+  side.loaded.set_scene_options(scene);
+  side.view = make_view(side.loaded.scene());
+  side.loaded.mesh_values();
+  side.verdict = verdict_in(side, true);
+  return side;
+}
+
+int run(const Options& o) {
+  if (const int bad = check_outputs(o.common, {}); bad != exit_clean) return bad;
+  const auto schemas = load_schemas(o.common);
+  if (!schemas) {
+    print_error(o.common, schemas.error().message);
+    return exit_usage;
+  }
+  auto a = read_side(o, o.common.decks[0], *schemas);
+  auto b = a ? read_side(o, o.common.decks[1], *schemas) : Result<Side>(a.error());
+  if (!a || !b) {
+    print_error(o.common, a ? b.error().message : a.error().message);
+    return exit_input;
+  }
+  for (const Side* side : {&*a, &*b}) {
+    print_findings(side->loaded, o.common);
+    if (o.no_geometry) continue;
+    for (const Contact& c : side->loaded.scene().contacts)
+      if (!c.evaluated)
+        print_note("penetrations of interface " + std::to_string(c.inter->id) + " of " +
+                   side->loaded.path() + " were not evaluated and are not compared");
+  }
+  const DiffSide sa = a->described(!o.no_geometry), sb = b->described(!o.no_geometry);
+  const DeckDiff diff = diff_decks(sa, sb,
+                                   o.match == "title"      ? MatchBy::title
+                                   : o.match == "position" ? MatchBy::position
+                                                           : MatchBy::id,
+                                   o.tolerance);
+  const int code = diff.equal() ? exit_clean : exit_findings;
+  if (!o.common.json.empty())
+    if (auto written = o.common.session->write_output(o.common.json, diff_json(sa, sb, diff));
+        !written) {
+      print_error(o.common, written.error().message);
+      return exit_usage;
+    }
+  if (o.common.wants_text()) {
+    DiffTextOptions text;
+    text.rows = o.rows;
+    if (o.markdown || o.format == "markdown") {
+      print_text(diff_markdown(sa, sb, diff, text));
+    } else if (o.format == "json") {
+      print_text(diff_json(sa, sb, diff));
+    } else {
+      text.color = o.common.color_on(1);
+      text.width = text_width();
+      print_lines(diff_text(sa, sb, diff, text));
+    }
+  }
+  return code;
+}
+
+Action setup(CommandLine& line) {
+  auto options = std::make_shared<Options>();
+  add_common(line, options->common);
+  line.existing("decks").takes(2, "DECK DECK").describe("The old and the new Starter deck");
+  line.option("--match", options->match,
+              "Counterparts: id; title (nodes and elements by id); position (for renumbered decks: "
+              "nodes by coordinates, elements by nodes, the rest by title, then by order)")
+      .one_of({"id", "title", "position"})
+      .value("HOW")
+      .show_default();
+  line.option("--format", options->format, "human, json or markdown")
+      .one_of({"human", "json", "markdown"})
+      .value("FORMAT")
+      .show_default();
+  line.flag("--markdown", options->markdown, "Short for --format markdown: for a review comment");
+  line.option("--rows", options->rows, "Rows of a table; 0: all").value("N").show_default();
+  line.option("--tolerance", options->tolerance,
+              "Numbers that differ by less than this share of their size are equal (coordinates "
+              "and lengths: of the size of the model)")
+      .range(0, 1)
+      .value("X")
+      .show_default();
+  line.flag("--no-geometry", options->no_geometry,
+            "Do not evaluate contacts: no penetrations, no default gaps");
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{
+    {"diff", 24,
+     "Differences in meaning between two decks; comments, order and format do not count",
+     "  deck diff old_0000.rad new_0000.rad\n"
+     "  deck diff old_0000.rad new_0000.rad --markdown > comment.md\n"
+     "  deck diff old_0000.rad renumbered_0000.rad --match position\n"
+     "  deck diff old_0000.rad new_0000.rad --tolerance 1e-9       without round-off\n"
+     "\n"
+     "Exit code 0: equal in meaning, 1: different.\n",
+     setup}};
+
+}  // namespace
+}  // namespace deck::cli::verb_diff

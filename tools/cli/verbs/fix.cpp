@@ -1,0 +1,525 @@
+// deck fix: repairs initial penetrations, by moving nodes or by changing the interface cards, as a
+// patch that has been verified by reading the deck again with it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common.hpp"
+#include "deck/base/count.hpp"
+#include "deck/base/escape.hpp"
+#include "deck/edit/depenetrate.hpp"
+#include "deck/model/coverage.hpp"
+#include "deck/report/fix.hpp"
+#include "deck/report/html.hpp"
+#include "deck/text/number.hpp"
+#include "writing/changes.hpp"
+#include "writing/fix_page.hpp"
+#include "writing/library.hpp"
+
+namespace deck::cli::verb_fix {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::vector<std::string> strategies;  ///< in this order
+  std::string html;
+  WriteChoice write;
+  bool backup = false, ties = false;
+  std::vector<std::int64_t> interfaces;
+  std::size_t rows = 10;
+  MoveNodesOptions move;
+  std::string max_moved = "10%", max_displacement, min_gap = "50%", fpenmax;
+  int digits = 6, inacti = 6;
+};
+
+/// "10%" or "0.1" as 0.1; nullopt if it is neither, or outside 0..1.
+std::optional<double> share(std::string text) {
+  const bool percent = text.ends_with('%');
+  if (percent) text.pop_back();
+  const RealCell cell = read_real(text);
+  if (cell.status != NumberStatus::ok) return std::nullopt;
+  const double value = percent ? cell.value / 100 : cell.value;
+  if (!(value >= 0 && value <= 1)) return std::nullopt;
+  return value;
+}
+
+class FixRun {
+ public:
+  FixRun(const Options& options, const SchemaSet& schemas, JsonOutput& json)
+      : o_(options), schemas_(schemas), json_(json), changes_(options.common, options.write) {}
+
+  /// With directories expanded and, where asked for, the decks that include the same files.
+  Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks, deck_ending); }
+
+  int one(LoadedDeck& loaded) {
+    const bool errors = print_findings(loaded, o_.common) > 0;
+    if (loaded.incomplete()) {
+      print_error(o_.common, loaded.path() + ": not fixed, the include tree is not complete");
+      return exit_input;
+    }
+    for (const auto& known :
+         {check_interfaces(loaded, o_.interfaces, "--interface"),
+          check_parts(loaded, o_.move.lock, "--lock"), check_parts(loaded, o_.move.move, "--only")})
+      if (!known) return fail(known.error());
+    if (loaded.path() == "-" && (o_.write.in_place || !o_.write.directory.empty()))
+      return fail({Error::Code::config,
+                   o_.write.in_place ? "standard input cannot be rewritten; use --diff"
+                                     : "a deck from standard input has no name to write it to"});
+    const auto member = changes_.add(loaded, loaded.path());
+    if (!member) return fail(member.error());
+    const Coverage coverage = coverage_of(loaded.deck(), loaded.interfaces());
+    if (coverage.nothing()) {
+      report_nothing(loaded, coverage);
+      if (!o_.strategies.empty()) changes_.propose(*member, loaded.deck(), {});
+      return exit_findings;
+    }
+    if (o_.strategies.empty()) return propose(loaded, coverage, errors);
+    auto fixed = make(loaded, o_.strategies);
+    if (!fixed) return fail(fixed.error());
+    const ChangedFiles& changed = fixed->changed;
+    const PenetrationFix whole =
+        fixed->fixes.size() == 1 ? fixed->fixes.front() : combined(fixed->fixes);
+    changes_.propose(*member, loaded.deck(), changed);
+    if (!o_.html.empty()) {
+      auto page = fix_page(loaded, changed, o_.common);
+      if (!page) return fail(page.error());
+      page_ = std::move(*page);
+    }
+    const std::string written = o_.write.in_place             ? "in-place"
+                                : !o_.write.directory.empty() ? o_.write.directory
+                                : o_.write.diff               ? "diff"
+                                                              : "no";
+    if (json_.wanted()) documents_.push_back(fix_json(loaded, whole, written, fixed->fixes));
+    const std::size_t left = untreated_pairs(loaded);
+    texts_ +=
+        report(whole, fixed->fixes, changed, loaded.path(), left_alone(loaded, coverage, left));
+    // A deck that the solver does not take is not repaired, whatever was done about its contacts.
+    return whole.complete && left == 0 && !errors ? exit_clean : exit_findings;
+  }
+
+  /// Writes what the decks want together, and says what was done.
+  int finish(int code) {
+    const bool writes = o_.write.diff || o_.write.in_place || !o_.write.directory.empty();
+    if (code > exit_findings && writes) {
+      if (o_.common.decks.size() > 1)
+        print_error(o_.common, "nothing was written: the decks of a call are fixed together");
+      return code;
+    }
+    if (o_.write.diff) {
+      const auto patch = changes_.diff();
+      if (!patch) return fail(patch.error());
+      print_contents(*patch);
+    }
+    if (o_.write.in_place || !o_.write.directory.empty())
+      if (auto done = changes_.write(false); !done) return std::max(code, usage(done.error()));
+    if (!page_.empty())
+      if (auto done = o_.common.session->write_output(o_.html, page_); !done)
+        return std::max(code, usage(done.error()));
+    for (std::string& document : documents_) json_.add(std::move(document));
+    if (o_.write.diff || o_.common.json == "-")
+      print_messages(texts_);
+    else
+      print_lines(texts_);
+    return code;
+  }
+
+ private:
+  int usage(const Error& error) const {
+    print_error(o_.common, error.message);
+    return exit_usage;
+  }
+  int fail(const Error& error) const {
+    print_error(o_.common, error.message);
+    switch (error.code) {
+      case Error::Code::config:
+        return exit_usage;
+      case Error::Code::internal:
+        return exit_internal;
+      default:
+        return exit_input;
+    }
+  }
+
+  /// Interfaces that are not examined, and those that no strategy can do anything for.
+  static std::string left_alone(const LoadedDeck& loaded, const Coverage& coverage,
+                                std::size_t pairs) {
+    const auto& all = loaded.interfaces().ordered;
+    const auto n = static_cast<std::size_t>(std::count_if(
+        all.begin(), all.end(), [](const InterBase* i) { return is_modern(i->type); }));
+    std::string text = coverage_tail(coverage);
+    if (n == 0) return text;
+    text += " Left as they are: " + count(n, "interface", "interfaces") + " of TYPE24 and TYPE25";
+    if (pairs > 0) text += " with " + count(pairs, "initial penetration", "initial penetrations");
+    return text + ".";
+  }
+
+  /// Initial penetrations of interfaces that no strategy treats.
+  static std::size_t untreated_pairs(const LoadedDeck& loaded) {
+    const auto& all = loaded.interfaces().ordered;
+    if (std::none_of(all.begin(), all.end(), [](const InterBase* i) { return is_modern(i->type); }))
+      return 0;  // no contacts are made for this question
+    std::size_t pairs = 0;
+    for (const Contact& c : loaded.scene().contacts)
+      if (is_modern(c.type)) pairs += c.penetrations.size();
+    return pairs;
+  }
+
+  /// Nothing was looked at: no verdict, and nothing that could be fixed.
+  void report_nothing(const LoadedDeck& loaded, const Coverage& coverage) {
+    PenetrationFix nothing;
+    for (const std::string& s : o_.strategies)
+      nothing.strategy += (nothing.strategy.empty() ? "" : ",") + s;
+    if (json_.wanted()) documents_.push_back(fix_json(loaded, nothing, "no"));
+    if (!o_.common.quiet) texts_ += heading(loaded.path()) + coverage_lead(coverage) + "\n";
+  }
+
+  /// What each strategy would do, and the command for the best one.
+  int propose(const LoadedDeck& loaded, const Coverage& coverage, bool errors) {
+    std::vector<PenetrationFix> proposals;
+    for (const char* strategy : {"move-nodes", "reduce-gap", "inacti", "fpenmax"}) {
+      auto made = make(loaded, {strategy});
+      if (!made) return fail(made.error());
+      proposals.push_back(std::move(made->fixes.front()));
+    }
+    const PenetrationFix now = unchanged(proposals);
+    const std::size_t left = untreated_pairs(loaded);
+    if (json_.wanted()) documents_.push_back(fix_json(loaded, now, "no", proposals));
+    if (!o_.common.quiet) {
+      FixTextOptions text;
+      text.rows = o_.rows;
+      text.width = text_width();
+      text.color = o_.common.color_on(o_.common.json == "-" ? 2 : 1);
+      texts_ += heading(loaded.path());
+      texts_ += fix_proposals_text(
+          proposals, [&](std::string_view s) { return command(loaded.path(), s); }, text);
+      if (const std::string tail = left_alone(loaded, coverage, left); !tail.empty())
+        texts_ += "\n" + tail.substr(1) + "\n";
+    }
+    return now.complete && left == 0 && !errors ? exit_clean : exit_findings;
+  }
+
+  /// A word of a command as a shell takes it.
+  static std::string shell_word(const std::string& word) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+,:=@%-";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string out = "'";
+    for (const char c : word) c == '\'' ? out += "'\\''" : out += c;
+    return out + "'";
+  }
+
+  std::string heading(const std::string& path) const {
+    return o_.common.decks.size() > 1 ? terminal_text(path) + "\n" : std::string();
+  }
+
+  /// The call that makes the fix of one strategy, with the options of this one.
+  std::string command(const std::string& path, std::string_view strategy) const {
+    const Options plain;
+    std::string text = fmt::format("deck fix {} --strategy {}", shell_word(path), strategy);
+    const auto add = [&](std::string_view option, const std::string& value,
+                         const std::string& usual) {
+      if (value != usual) text += fmt::format(" {} {}", option, shell_word(value));
+    };
+    const auto ids = [](const std::vector<std::int64_t>& list) {
+      return fmt::format("{}", fmt::join(list, ","));
+    };
+    add("--interface", ids(o_.interfaces), "");
+    if (o_.ties) text += " --ties";
+    if (strategy == "reduce-gap") {
+      add("--min-gap", o_.min_gap, plain.min_gap);
+      add("--digits", std::to_string(o_.digits), std::to_string(plain.digits));
+    } else if (strategy == "inacti") {
+      add("--inacti", std::to_string(o_.inacti), std::to_string(plain.inacti));
+    } else if (strategy == "fpenmax") {
+      add("--fpenmax", o_.fpenmax, plain.fpenmax);
+    } else {
+      add("--lock", ids(o_.move.lock), "");
+      add("--only", ids(o_.move.move), "");
+      add("--max-moved", o_.max_moved, plain.max_moved);
+      add("--max-displacement", o_.max_displacement, "");
+      if (o_.move.lock_rigid_bodies) text += " --lock-rigid-bodies";
+      if (o_.move.lock_boundary_conditions) text += " --lock-boundary-conditions";
+      if (o_.move.secondary_only) text += " --secondary-only";
+      add("--smooth", std::to_string(o_.move.smooth), std::to_string(plain.move.smooth));
+      add("--clearance", fmt::format("{}", o_.move.clearance),
+          fmt::format("{}", plain.move.clearance));
+    }
+    return text + " -o fixed";
+  }
+
+  /// These strategies in their order.
+  Result<FixSequence> make(const LoadedDeck& loaded, const std::vector<std::string>& names) const {
+    Progress progress(!o_.common.quiet);
+    std::string step;
+    FixOptions base;
+    base.threads = o_.common.thread_count();
+    base.interfaces = o_.interfaces;
+    base.ties = o_.ties;
+    base.progress = [&](std::string_view what, std::size_t done, std::size_t total) {
+      if (step != what) progress.step(step = what);
+      progress.update(done, total);
+    };
+    std::vector<FixStep> steps;
+    for (const std::string& strategy : names)
+      steps.emplace_back([&](const LoadedDeck& here) { return one_step(strategy, here, base); });
+    return fix_in_order(loaded, steps);
+  }
+
+  Result<PenetrationFix> one_step(const std::string& strategy, const LoadedDeck& context,
+                                  const FixOptions& base) const {
+    if (strategy == "reduce-gap") {
+      ReduceGapOptions options;
+      static_cast<FixOptions&>(options) = base;
+      options.least_share = *share(o_.min_gap);
+      options.digits = o_.digits;
+      return reduce_gaps(context, options);
+    }
+    if (strategy == "inacti") {
+      InactiOptions options;
+      static_cast<FixOptions&>(options) = base;
+      options.inacti = o_.inacti;
+      return set_inacti(context, options);
+    }
+    if (strategy == "fpenmax") {
+      FpenmaxOptions options;
+      static_cast<FixOptions&>(options) = base;
+      if (!o_.fpenmax.empty()) options.ratio = *share(o_.fpenmax);
+      return set_fpenmax(context, options);
+    }
+    MoveNodesOptions options = o_.move;
+    static_cast<FixOptions&>(options) = base;
+    options.most_moved = *share(o_.max_moved);
+    if (!o_.max_displacement.empty())
+      options.most_displacement = read_real(o_.max_displacement).value;
+    return move_nodes(context, options);
+  }
+
+  std::string report(const PenetrationFix& fix, const std::vector<PenetrationFix>& steps,
+                     const ChangedFiles& changed, const std::string& path,
+                     const std::string& not_examined) const {
+    if (o_.common.quiet) return {};
+    FixTextOptions text;
+    text.rows = o_.rows;
+    text.width = text_width();
+    const bool to_stderr = o_.write.diff || o_.common.json == "-";
+    text.color = o_.common.color_on(to_stderr ? 2 : 1);
+    std::string out = heading(path);
+    if (steps.size() > 1) {
+      // What each did on what the one before has left, then all of it together.
+      for (std::size_t i = 0; i < steps.size(); ++i)
+        out += fmt::format("step {} of {}\n{}\n", i + 1, steps.size(), fix_text(steps[i], text));
+      out += "all steps\n" + fix_verdict(fix) + "\n";
+    } else {
+      out += fix_text(fix, text);
+    }
+    if (!not_examined.empty()) out += "\n" + not_examined.substr(1) + "\n";
+    if (!changed.empty()) {
+      const bool written = o_.write.in_place || !o_.write.directory.empty();
+      out += "\n";
+      for (const auto& [file, bytes] : changed)
+        out += fmt::format("{} {}\n", written ? "changed:" : "would change:", terminal_text(file));
+      if (!written && !o_.write.diff)
+        out += "nothing was written: --diff shows the patch, --in-place or -o DIR writes it\n";
+    } else if (!fix.interfaces.empty()) {
+      out += "\nno file changes\n";
+    }
+    return out;
+  }
+
+  const Options& o_;
+  const SchemaSet& schemas_;
+  JsonOutput& json_;
+  Changes changes_;
+  std::vector<std::string> documents_;
+  std::string texts_, page_;
+};
+
+/// What is wrong with the combination of options; empty: nothing.
+std::string wrong_usage(const Options& o) {
+  for (const std::string& s : o.strategies)
+    if (std::count(o.strategies.begin(), o.strategies.end(), s) > 1)
+      return "--strategy names " + s + " twice";
+  if (o.strategies.empty())
+    for (const auto& [given, option] : {std::pair{o.write.in_place, "--in-place"},
+                                        {!o.write.directory.empty(), "-o"},
+                                        {o.write.diff, "--diff"},
+                                        {!o.html.empty(), "--html"}})
+      if (given)
+        return std::string(option) +
+               " needs --strategy; without these options 'deck fix DECK' says what each would do";
+  if (!o.html.empty() && o.common.decks.size() > 1) return "--html takes one deck at a time";
+  if (std::string why; !o.html.empty() && !html_available(&why))
+    return "--html: this build has no viewer: " + why;
+  if (o.write.in_place && !o.write.directory.empty()) return "--in-place and -o exclude each other";
+  if (o.write.in_place && o.write.diff)
+    return "--in-place and --diff exclude each other: --diff shows what would be written";
+  if (o.backup && !o.write.in_place) return "--backup needs --in-place";
+  if (o.write.overwrite && o.write.directory.empty()) return "--overwrite needs -o";
+  if (!share(o.max_moved)) return "--max-moved needs a share like 10% or 0.1";
+  if (!share(o.min_gap)) return "--min-gap needs a share like 50% or 0.5";
+  if (!o.fpenmax.empty() && !share(o.fpenmax)) return "--fpenmax needs a share like 80% or 0.8";
+  if (o.write.diff && o.common.json == "-") return "--diff and --json - both want standard output";
+  const RealCell limit = read_real(o.max_displacement);
+  if (!o.max_displacement.empty() && !(limit.status == NumberStatus::ok && limit.value > 0))
+    return "--max-displacement needs a length above 0";
+  return deck::cli::usage_error(o.write);
+}
+
+int run(const Options& o) {
+  if (const std::string wrong = wrong_usage(o); !wrong.empty()) {
+    print_error(o.common, wrong);
+    return exit_usage;
+  }
+  if (const int bad = check_outputs(o.common, {o.common.json, o.html}); bad != exit_clean)
+    return bad;
+  const auto schemas = load_schemas(o.common);
+  if (!schemas) {
+    print_error(o.common, schemas.error().message);
+    return exit_usage;
+  }
+  JsonOutput json(o.common, "deck/fix", 1);
+  FixRun fix(o, *schemas, json);
+  const auto decks = fix.decks();
+  if (!decks) {
+    print_error(o.common, decks.error().message);
+    return decks.error().code == Error::Code::config ? exit_usage : exit_input;
+  }
+  CommonOptions common = o.common;
+  common.decks = *decks;
+  const int code = for_each_deck(common, [&](LoadedDeck& loaded) { return fix.one(loaded); });
+  return json.finish(fix.finish(code));
+}
+
+/// Options of the strategies that change interface cards.
+void add_card_options(CommandLine& line, Options& o) {
+  CommandLine others = line.group("reduce-gap, inacti, fpenmax");
+  others.option("--min-gap", o.min_gap, "reduce-gap: least share of the present gap to keep")
+      .show_default()
+      .value("SHARE");
+  others.option("--digits", o.digits, "reduce-gap: significant digits, rounded down")
+      .range(1, 17)
+      .show_default()
+      .value("N");
+  others.option("--inacti", o.inacti, "inacti: 0 (or 1000), 1, 2, 3, 5 or 6")
+      .one_of({0, 1, 2, 3, 5, 6, 1000})
+      .show_default()
+      .value("N");
+  others
+      .option("--fpenmax", o.fpenmax,
+              "fpenmax: switch off nodes deeper than this share of the gap (default: only "
+              "nodes at distance 0, at which the solver stops)")
+      .value("SHARE");
+}
+
+Action setup(CommandLine& line) {
+  auto options = std::make_shared<Options>();
+  Options& o = *options;
+  add_common(line, o.common);
+  line.option("--strategy", o.strategies,
+              "Without: say what each would do. move-nodes: out of each other's gap; reduce-gap: "
+              "the largest gap without a "
+              "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones. "
+              "Several with commas: each acts on what the previous one left")
+      .comma_list()
+      .value("STRATEGY")
+      .one_of({"move-nodes", "reduce-gap", "inacti", "fpenmax"});
+  line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
+  line.flag("--ties", o.ties,
+            "Treat ties (TYPE10, TYPE7 with ITIED) like other contacts: what is moved out of their "
+            "gap comes loose. By default they are left alone, and nothing that is tied changes");
+  line.flag("--diff", o.write.diff,
+            "Print the patch (git apply takes it); the report goes to stderr");
+  line.option("-o,--output", o.write.directory, "Write the deck with all it includes below DIR")
+      .value("DIR");
+  line.flag("--in-place", o.write.in_place, "Rewrite the files that change");
+  line.flag("--backup", o.backup,
+            "With --in-place: keep each old file as FILE.orig (a backup is never replaced: then "
+            "FILE.orig.2)");
+  line.flag("--overwrite", o.write.overwrite,
+            "With -o: replace decks and includes in DIR that differ (earlier results of the same "
+            "files, if unchanged since, are replaced without it)");
+  add_dependent_options(line, o.write);
+  line.option("--html", o.html,
+              "Write a report with the deck as it is fixed, compared with before, to FILE")
+      .value("FILE");
+  line.option("--rows", o.rows, "Rows of the lists in the report").show_default();
+
+  CommandLine move = line.group("move-nodes");
+  move.option("--lock", o.move.lock, "Nodes of these parts stay (also where shared)")
+      .by_commas()
+      .value("PART");
+  move.option("--only", o.move.move, "Only nodes of these parts alone move")
+      .by_commas()
+      .value("PART");
+  move.flag("--lock-rigid-bodies", o.move.lock_rigid_bodies, "Nodes of /RBODY stay");
+  move.flag("--lock-boundary-conditions", o.move.lock_boundary_conditions, "Nodes of /BCS stay");
+  move.flag("--secondary-only", o.move.secondary_only, "Nodes of main sides do not move");
+  move.option("--max-moved", o.max_moved,
+              "Share of the nodes of a part that may move; a part that needs more is left alone")
+      .show_default()
+      .value("SHARE");
+  move.option("--max-displacement", o.max_displacement,
+              "Farthest a node may move, working units (default: as far as its penetration is "
+              "deep, which it never passes)")
+      .value("LENGTH");
+  move.option("--smooth", o.move.smooth, "Rings of neighbours that follow the moved nodes")
+      .range(0, 20)
+      .show_default()
+      .value("N");
+  move.option("--step", o.move.share, "Share of the depth that one iteration takes away")
+      .range(0.05, 1.0)
+      .show_default()
+      .value("SHARE");
+  move.option("--clearance", o.move.clearance, "Distance left beyond the gap, share of it")
+      .range(0.0, 1.0)
+      .show_default()
+      .value("SHARE");
+  move.option("--iterations", o.move.iterations, "At most this many, up to four times")
+      .range(1, 10000)
+      .show_default()
+      .value("N");
+
+  add_card_options(line, o);
+  return [options] {
+    options->common.rewrites = options->write.in_place;
+    if (options->backup) options->write.backup_suffix = ".orig";
+    return run(*options);
+  };
+}
+
+const VerbRegistration registration{
+    {"fix", 35, "Repair initial penetrations: move nodes, reduce gaps, set Inacti or Fpenmax",
+     "  deck fix car_0000.rad                                  what each strategy would do\n"
+     "  deck fix car_0000.rad --strategy move-nodes            what this one would do\n"
+     "  deck fix car_0000.rad --strategy move-nodes --diff     the same as a patch\n"
+     "  deck fix car_0000.rad --strategy move-nodes --max-moved 100% --lock 12,13 --in-place "
+     "--backup\n"
+     "  deck fix car_0000.rad --strategy reduce-gap --min-gap 80% -o fixed\n"
+     "  deck fix car_0000.rad --strategy reduce-gap,move-nodes --html fixed.html --diff\n"
+     "  deck fix car_0000.rad --strategy inacti --inacti 6 --interface 3 --in-place\n"
+     "  deck fix car_0000.rad --strategy fpenmax --fpenmax 0.9 --diff | git apply\n"
+     "\n"
+     "Which strategy? Moving nodes cures the cause and keeps the gap; it changes the mesh a "
+     "little.\n"
+     "Reducing the gap is right where gap and thickness disagree; the contact then acts later.\n"
+     "Inacti leaves deck and mesh alone and lets the solver start with a smaller gap for the\n"
+     "pairs that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones.\n"
+     "\n"
+     "Every change is verified before it is shown: the deck is read again with the new values as\n"
+     "printed. What would penetrate deeper than before, or come loose, is not written. A node "
+     "moves\n"
+     "along the normal of its penetration and no farther than it is deep. Moves never make a new\n"
+     "penetration, cross elements, turn one inside out or halve one of its sides; what cannot be\n"
+     "solved that way stays and is listed with its reason.\n"
+     "Elements that cross already have no right side: they have to be separated by hand\n"
+     "(deck gaps --crossings shows them).\n"
+     "\n"
+     "Several decks are fixed together: a file that they share is written once, and if they want\n"
+     "different texts for it nothing is written (exit code 2).\n"
+     "\n"
+     "Exit code: 0 all penetrations treated or none there, 1 some remain, or nothing was examined, "
+     "2 wrong usage, 3 unreadable input.\n",
+     setup}};
+
+}  // namespace
+}  // namespace deck::cli::verb_fix

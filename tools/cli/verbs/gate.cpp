@@ -1,0 +1,201 @@
+// Bounds for contacts from options and configuration, and the earlier run to compare with.
+#include "verbs/gate.hpp"
+
+#include <algorithm>
+#include <climits>
+#include <filesystem>
+#include <utility>
+
+#include "deck/base/paths.hpp"
+#include "deck/report/gaps.hpp"
+
+namespace deck::cli {
+namespace {
+
+void set(std::optional<double>& bound, double given) {
+  if (given >= 0) bound = given;
+}
+
+Result<EarlierGaps> read_earlier(Session& session, const std::string& path,
+                                 const std::string& deck_path, bool strict) {
+  const auto text = read_config_file(path, most_baseline_bytes);
+  if (!text) return text.error();
+  session.remember_read(path);
+  return read_earlier_gaps(path, *text, deck_path, strict);
+}
+
+}  // namespace
+
+std::string name_in_baseline(const std::string& deck_path, const std::string& path) {
+  namespace fs = std::filesystem;
+  if (deck_path == "-") return deck_path;
+  return fs::path(absolute_path(deck_path))
+      .lexically_relative(parent_path(absolute_path(path)))
+      .generic_string();
+}
+
+bool GateOptions::fails_on(std::string_view word) const {
+  return std::find(fail_on.begin(), fail_on.end(), word) != fail_on.end();
+}
+
+std::string GateOptions::level() const {
+  for (const char* word : {"error", "warning", "never"})
+    if (fails_on(word)) return word;
+  return "";
+}
+
+bool GateOptions::given() const {
+  return max_depth >= 0 || max_ratio >= 0 || max_dt_loss >= 0 || max_count >= 0 ||
+         max_untied >= 0 || !compare.empty() || !baseline.empty() || fails_on("new") ||
+         fails_on("worse");
+}
+
+void add_gate(CommandLine& line, GateOptions& o) {
+  o.session = &line.session();
+  CommandLine gate = line.group("Gate (exit 1 beyond it; also [gate] in .decklint.toml)");
+  gate.option("--max-depth", o.max_depth, "Deepest penetration, in the deck's units")
+      .number(0, 1e300)
+      .value("X");
+  gate.option("--max-ratio", o.max_ratio,
+              "Largest share of the gap that is penetrated: 0.3 is 30 %")
+      .number(0, 1)
+      .value("R");
+  gate.option("--max-count", o.max_count, "Penetrating nodes and edges of the deck, each once")
+      .range(0, INT_MAX)
+      .value("N");
+  gate.option("--max-untied", o.max_untied,
+              "Nodes of /INTER/TYPE2 in the deck that are not tied, each once")
+      .range(0, INT_MAX)
+      .value("N");
+  gate.option("--max-dt-loss", o.max_dt_loss,
+              "Share of the mesh's time step that a contact may take away")
+      .number(0, 1)
+      .value("R");
+  gate.option("--compare", o.compare,
+              "An earlier 'deck gaps --json' FILE: lists what is new, worse, better, solved; with "
+              "--fail-on new,worse these exit with 1")
+      .value("FILE");
+}
+
+void add_gate_with_config(CommandLine& line, GateOptions& o, const std::string& error,
+                          const std::string& warning) {
+  add_gate(line, o);
+  line.option("--fail-on", o.fail_on,
+              "When to exit with 1, by commas: error (" + error + "; default), warning (" +
+                  warning + "), never, and new, worse (with --compare)")
+      .comma_list()
+      .value("WORDS");
+  line.option("--config", o.config, "Use FILE instead of looking for .decklint.toml; its [gate]")
+      .value("FILE");
+  line.flag("--no-config", o.no_config, "Use no configuration file");
+}
+
+Result<void> check_fail_on(const GateOptions& o) {
+  std::size_t levels = 0;
+  for (const std::string& word : o.fail_on) {
+    const bool level = word == "error" || word == "warning" || word == "never";
+    levels += level;
+    if (!level && word != "new" && word != "worse")
+      return Error{Error::Code::config,
+                   "--fail-on: '" + word + "' is not one of new, worse, error, warning, never"};
+  }
+  if (levels > 1)
+    return Error{Error::Code::config, "--fail-on takes one of error, warning and never"};
+  return {};
+}
+
+Result<LintConfig> config_of(const GateOptions& o, const std::string& deck_path) {
+  if (o.no_config) return LintConfig{};
+  if (o.config.empty()) {
+    auto found = find_lint_config(deck_path);
+    if (found && !found->path.empty()) o.session->remember_read(found->path);
+    return found;
+  }
+  const auto text = read_config_file(o.config, most_config_bytes);
+  if (!text) return text.error();
+  o.session->remember_read(o.config);
+  return parse_lint_config(*text, o.config);
+}
+
+Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
+                         const std::string& deck_path) {
+  DeckGate out;
+  out.gate = config.gate;
+  set(out.gate.general.max_depth, o.max_depth);
+  set(out.gate.general.max_ratio, o.max_ratio);
+  set(out.gate.general.max_dt_loss, o.max_dt_loss);
+  if (o.max_count >= 0) out.gate.general.max_count = static_cast<std::uint64_t>(o.max_count);
+  if (o.max_untied >= 0) out.gate.general.max_untied = static_cast<std::uint64_t>(o.max_untied);
+  out.gate.on_fresh |= o.fails_on("new");
+  out.gate.on_worse |= o.fails_on("worse");
+  // What the command line names goes before both of the configuration.
+  const bool given = !o.compare.empty() || !o.baseline.empty();
+  const std::string& compare = given ? o.compare : config.compare;
+  const std::string& accepted = given ? o.baseline : config.accepted;
+  if (!compare.empty() && !accepted.empty())
+    return Error{Error::Code::config,
+                 "a baseline and an earlier run to compare with exclude each other: " + accepted +
+                     " and " + compare};
+  if (!accepted.empty()) {
+    auto read = read_earlier(*o.session, accepted, name_in_baseline(deck_path, accepted), true);
+    if (!read) return read.error();
+    out.earlier = std::move(*read);
+    out.baseline = out.gate.on_fresh = out.gate.on_worse = true;
+  } else if (!compare.empty()) {
+    auto read = read_earlier(*o.session, compare, deck_path, false);
+    if (!read) return read.error();
+    out.earlier = std::move(*read);
+  } else if (out.gate.on_fresh || out.gate.on_worse) {
+    return Error{Error::Code::config,
+                 "new and worse need an earlier run: --compare FILE, or 'compare' in [gate], with "
+                 "an earlier 'deck gaps --json'"};
+  }
+  return out;
+}
+
+void note_not_in_baseline(const CommonOptions& options, const std::string& deck_path,
+                          const std::string& baseline, const std::vector<std::string>& held) {
+  if (options.quiet) return;
+  constexpr std::size_t most = 5;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(held.size(), most); ++i)
+    names += (i == 0 ? "" : ", ") + held[i];
+  if (held.size() > most) names += " and " + std::to_string(held.size() - most) + " more";
+  print_messages(terminal_text(deck_path + ": note: " + baseline + " has no entry for this deck" +
+                               (held.empty() ? "" : ", but of " + names) +
+                               ": everything counts as new") +
+                 "\n");
+}
+
+void DeckGate::note_baseline(const CommonOptions& options, const std::string& deck_path) const {
+  if (baseline && earlier && earlier->deck_path.empty())
+    note_not_in_baseline(options, deck_path, earlier->path, earlier->decks);
+}
+
+GateReport DeckGate::look(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
+                          const cycle::SceneOutcome* forces) const {
+  GateReport report;
+  report.asked = gate.any();
+  if (earlier) {
+    report.earlier = &*earlier;
+    report.comparison = compare_gaps(*earlier, scene, view);
+  }
+  if (!report.asked) return report;
+  report.undecided = static_cast<std::size_t>(std::count_if(
+      scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) { return !c.evaluated; }));
+  report.findings = check_gate(gate, scene, view, forces, report.earlier);
+  for (const Diagnostic& d : report.findings) loaded.report(d);
+  return report;
+}
+
+int verdict_code(const Verdict& verdict, const GateOptions& options, const CommonOptions& common,
+                 bool on_warning, bool pairs_accepted) {
+  ExitRules rules;
+  rules.on_warning = on_warning || options.fails_on("warning");
+  rules.never = options.fails_on("never");
+  rules.require_examined = common.require_examined;
+  rules.pairs_accepted = pairs_accepted;
+  return exit_code_of(verdict, rules);
+}
+
+}  // namespace deck::cli

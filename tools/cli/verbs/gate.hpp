@@ -1,0 +1,73 @@
+// The gate on the command line: bounds for contacts, from options and from [gate] of the
+// configuration, and the earlier run to compare with.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+#include "deck/contact/scene.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/lint/config.hpp"
+#include "deck/lint/gate.hpp"
+#include "deck/report/gate.hpp"
+#include "deck/verdict.hpp"
+
+namespace deck::cli {
+
+struct GateOptions {
+  // Below zero: not given.
+  double max_depth = -1, max_ratio = -1, max_dt_loss = -1;
+  int max_count = -1, max_untied = -1;
+  std::vector<std::string> fail_on;  ///< words: new, worse, error, warning, never
+  std::string compare;               ///< an earlier `deck gaps --json`
+  std::string baseline;              ///< accepted penetrations; of `deck gaps` alone
+  std::string config;
+  bool no_config = false;
+  Session* session = nullptr;  ///< of the command line that they were added to
+
+  bool fails_on(std::string_view word) const;
+  /// error, warning or never; "" if none was given.
+  std::string level() const;
+  /// True if a bound or a comparison is on the command line.
+  bool given() const;
+};
+
+/// Adds --max-depth, --max-ratio, --max-count, --max-untied, --max-dt-loss and --compare under a
+/// heading.
+void add_gate(CommandLine& line, GateOptions& options);
+/// Adds --fail-on, --config and --no-config as well, for verbs that do not have them for
+/// themselves. `error` and `warning` say in the help what these words stop at.
+void add_gate_with_config(CommandLine& line, GateOptions& options, const std::string& error,
+                          const std::string& warning);
+/// Error: --fail-on has another word, or words that contradict one another.
+Result<void> check_fail_on(const GateOptions& options);
+
+/// The configuration that holds for a deck: --config, or the nearest .decklint.toml.
+Result<LintConfig> config_of(const GateOptions& options, const std::string& deck_path);
+
+/// 0 or 1: what the verdict and the options say. Gates come on top of it.
+int verdict_code(const Verdict& verdict, const GateOptions& options, const CommonOptions& common,
+                 bool on_warning = false, bool pairs_accepted = false);
+
+/// What holds for one deck: the bounds, and what the deck is compared with.
+struct DeckGate {
+  Gate gate;
+  bool baseline = false;  ///< `earlier` is what was accepted
+  std::optional<EarlierGaps> earlier;
+
+  /// Says so where the baseline is one of other decks.
+  void note_baseline(const CommonOptions& options, const std::string& deck_path) const;
+  /// Looks, and adds what it finds to the deck's findings. `forces` may be nullptr.
+  GateReport look(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
+                  const cycle::SceneOutcome* forces) const;
+};
+/// Says that a baseline holds nothing of a deck, but of `held`, so that everything counts as new.
+void note_not_in_baseline(const CommonOptions& options, const std::string& deck_path,
+                          const std::string& baseline, const std::vector<std::string>& held);
+/// How a deck is called in a baseline that lies at `path`: relative to it.
+std::string name_in_baseline(const std::string& deck_path, const std::string& path);
+Result<DeckGate> gate_of(const GateOptions& options, const LintConfig& config,
+                         const std::string& deck_path);
+
+}  // namespace deck::cli

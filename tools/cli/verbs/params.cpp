@@ -1,0 +1,104 @@
+// deck params: every interface with its effective values and where each came from.
+
+#include <cstdio>
+
+#include "common.hpp"
+#include "deck/report/params_report.hpp"
+#include "verbs/gate.hpp"
+
+namespace deck::cli::verb_params {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  bool changed = false, filled_in = false, matrix = false;
+  bool no_geometry = false;
+  std::vector<std::int64_t> only;
+  std::string csv;
+};
+
+int write(const Options& o, const std::string& text) {
+  if (auto written = o.common.session->write_output(o.csv, text); !written) {
+    print_error(o.common, written.error().message);
+    return exit_usage;
+  }
+  return exit_clean;
+}
+
+int run(const Options& options) {
+  const CommonOptions& common = options.common;
+  if (!options.csv.empty() && common.decks.size() > 1 && options.csv != "-") {
+    print_error(common, "--csv FILE takes one deck at a time");
+    return exit_usage;
+  }
+  if (const int bad = check_outputs(common, {common.json, options.csv}); bad != exit_clean)
+    return bad;
+  JsonOutput json(common, "deck/params", 1);
+  const int code = for_each_deck(common, [&](LoadedDeck& loaded) {
+    if (auto known =
+            check_interfaces(loaded, options.only, "--interface", Examined::contacts_and_ties);
+        !known) {
+      print_error(common, known.error().message);
+      return static_cast<int>(exit_usage);
+    }
+    ParamsInput input{loaded};
+    if (!options.no_geometry) input.scene = &resolve_geometry(loaded, common);
+    loaded.findings(Stage::cells);
+    const auto errors = print_findings(loaded, common);
+    if (json.wanted()) json.add(params_json(input, options.only));
+    ParamsTextOptions text;
+    text.changed_only = options.changed;
+    text.filled_in_only = options.filled_in;
+    text.only = options.only;
+    if (!options.csv.empty())
+      if (const int bad = write(
+              options, options.matrix ? params_matrix_csv(input, text) : params_csv(input, text));
+          bad != exit_clean)
+        return bad;
+    if (common.wants_text() && options.csv != "-") {
+      text.color = common.color_on(1);
+      text.width = text_width();
+      print_lines(options.matrix ? params_matrix(input, text) : params_text(input, text));
+    }
+    return static_cast<int>(errors > 0 ? exit_findings : exit_clean);
+  });
+  return json.finish(code);
+}
+
+Action setup(CommandLine& line) {
+  auto options = std::make_shared<Options>();
+  add_common(line, options->common);
+  line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
+  line.flag("--matrix", options->matrix, "One row per interface, one column per field");
+  line.flag("--changed", options->changed,
+            "Show only fields that are written on the card and are not the default");
+  line.flag("--filled-in", options->filled_in,
+            "Show only fields whose effective value is not the value on the card");
+  line.option("--csv", options->csv,
+              "Write one line per interface and field (with --matrix: per interface) to FILE ('-': "
+              "standard output)")
+      .value("FILE");
+  add_require_examined(line, options->common);
+  line.flag("--no-geometry", options->no_geometry,
+            "Do not derive default gaps from the mesh; such values are shown as 0");
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{
+    {"params", 20, "Effective values of every interface, and where each came from",
+     "  deck params car_0000.rad\n"
+     "  deck params car_0000.rad --matrix          one row per interface\n"
+     "  deck params car_0000.rad --changed         only values on the card that are not the "
+     "default\n"
+     "  deck params car_0000.rad --filled-in       only values that the solver fills in or "
+     "replaces\n"
+     "  deck params car_0000.rad --interface 3,4 --csv params.csv\n"
+     "  deck params car_0000.rad --json params.json\n"
+     "\n"
+     "Origins: card, default-block (/DEFAULT/INTER), built-in (the solver's default),\n"
+     "derived (follows from other values, from /FRICTION or from the mesh).\n"
+     "1000 means 'nothing' (no deletion, constant gap, main stiffness only ...).\n",
+     setup}};
+
+}  // namespace
+}  // namespace deck::cli::verb_params

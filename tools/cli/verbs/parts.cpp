@@ -1,0 +1,69 @@
+// deck parts: the parts of a deck with mass, smallest time step and the interfaces that see them.
+
+#include "deck/report/parts.hpp"
+#include "common.hpp"
+
+namespace deck::cli::verb_parts {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  bool all = false;
+  std::string csv;
+};
+
+int run(const Options& options) {
+  const CommonOptions& common = options.common;
+  if (!options.csv.empty() && common.decks.size() > 1 && options.csv != "-") {
+    print_error(common, "--csv FILE takes one deck at a time");
+    return exit_usage;
+  }
+  if (const int bad = check_outputs(common, {common.json, options.csv}); bad != exit_clean)
+    return bad;
+  JsonOutput json(common, "deck/parts", 1);
+  const int code = for_each_deck(common, [&](LoadedDeck& loaded) {
+    loaded.findings(Stage::interfaces);
+    const auto errors = print_findings(loaded, common);
+    if (json.wanted()) json.add(parts_json(loaded, options.all));
+    if (!options.csv.empty())
+      if (auto written = options.common.session->write_output(options.csv, parts_csv(loaded));
+          !written) {
+        print_error(common, written.error().message);
+        return static_cast<int>(exit_usage);
+      }
+    if (common.wants_text() && options.csv != "-") {
+      PartsTextOptions text;
+      text.color = common.color_on(1);
+      text.width = text_width();
+      text.all = options.all;
+      print_lines(parts_text(loaded, text));
+    }
+    return static_cast<int>(errors > 0 ? exit_findings : exit_clean);
+  });
+  return json.finish(code);
+}
+
+Action setup(CommandLine& line) {
+  auto options = std::make_shared<Options>();
+  add_common(line, options->common);
+  line.flag("--all", options->all,
+            "With --json: the time step of every element, and step, mass and stiffness of every "
+            "node");
+  line.option("--csv", options->csv, "Write one line per part to FILE ('-': standard output)")
+      .value("FILE");
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{
+    {"parts", 22, "Parts with mass, smallest time step and the interfaces that see them",
+     "  deck parts car_0000.rad\n"
+     "  deck parts car_0000.rad --csv parts.csv\n"
+     "  deck parts car_0000.rad --json parts.json        also kinematic conditions\n"
+     "  deck parts car_0000.rad --all --json parts.json  every element and node\n"
+     "\n"
+     "Time steps and masses are those that the solver lists at the start, without a factor.\n"
+     "What cannot be computed is left blank, and named below the table.\n",
+     setup}};
+
+}  // namespace
+}  // namespace deck::cli::verb_parts

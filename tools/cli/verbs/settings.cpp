@@ -1,0 +1,213 @@
+// Lists what holds: options go before the configuration, the configuration before defaults.
+#include "verbs/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "deck/base/escape.hpp"
+
+namespace deck::cli {
+namespace {
+
+struct Row {
+  std::string key, value, origin;
+};
+
+std::string in_quotes(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+std::string list_text(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& w : words) out += (out.empty() ? "[" : ", ") + in_quotes(w);
+  return out + (out.empty() ? "[]" : "]");
+}
+
+std::string number(double value) { return fmt::format("{}", value); }
+
+class Settings {
+ public:
+  Settings(const LintConfig& config, const GivenSettings& given) : config_(config), given_(given) {}
+
+  std::vector<Row> rows() {
+    select();
+    ignore();
+    const std::string level = given_.gate.level();
+    if (!level.empty())
+      add("fail-on", in_quotes(level), "--fail-on");
+    else
+      add_key("fail-on", config_.fail_on.empty() ? "" : in_quotes(config_.fail_on));
+    one("baseline", given_.baseline, config_.baseline, "--baseline");
+    if (given_.geometry)
+      add("geometry", *given_.geometry ? "true" : "false",
+          *given_.geometry ? "--geometry" : "--no-geometry");
+    else
+      add_key("geometry", !config_.geometry ? "" : *config_.geometry ? "true" : "false");
+    table("severity");
+    for (const auto& [selector, severity] : config_.severity)
+      add_key("severity." + selector, in_quotes(severity == Severity::error     ? "error"
+                                                : severity == Severity::warning ? "warning"
+                                                                                : "info"));
+    table("per-file-ignores");
+    for (const auto& [pattern, rules] : config_.per_file_ignores)
+      add("per-file-ignores." + in_quotes(pattern), list_text(rules),
+          origin("per-file-ignores." + pattern));
+    gate();
+    return std::move(rows_);
+  }
+
+ private:
+  std::string origin(const std::string& key) const {
+    const auto line = config_.lines.find(key);
+    return line == config_.lines.end() ? "default"
+                                       : config_.path + ":" + std::to_string(line->second);
+  }
+  void add(const std::string& key, std::string value, std::string from) {
+    rows_.push_back({key, std::move(value), std::move(from)});
+  }
+  /// A key of the configuration; without a value what holds by default.
+  void add_key(const std::string& key, std::string value) {
+    if (value.empty()) {
+      const auto dot = key.rfind('.');
+      const std::string table = dot == key.npos ? "" : key.substr(0, dot);
+      for (const ConfigKey& k : config_keys())
+        if (k.table == table && k.key == (dot == key.npos ? key : key.substr(dot + 1)))
+          value = k.fallback;
+    }
+    add(key, std::move(value), origin(key));
+  }
+  void one(const std::string& key, const std::string& option, const std::string& configured,
+           const std::string& name) {
+    if (!option.empty())
+      add(key, in_quotes(option), name);
+    else
+      add_key(key, configured.empty() ? "" : in_quotes(configured));
+  }
+  /// Says of a table that is not there that it is empty.
+  void table(const std::string& name) {
+    const bool any = std::any_of(config_.lines.begin(), config_.lines.end(), [&](const auto& line) {
+      return line.first.starts_with(name + ".");
+    });
+    if (!any) add(name, "none", "default");
+  }
+
+  void select() {
+    if (!given_.select.empty())
+      add("select", list_text(given_.select), "--select");
+    else
+      add_key("select", config_.select.empty() ? "" : list_text(config_.select));
+  }
+  void ignore() {
+    if (given_.ignore.empty()) {
+      add_key("ignore", config_.ignore.empty() ? "" : list_text(config_.ignore));
+      return;
+    }
+    std::vector<std::string> all = config_.ignore;
+    all.insert(all.end(), given_.ignore.begin(), given_.ignore.end());
+    add("ignore", list_text(all),
+        (config_.ignore.empty() ? "" : origin("ignore") + " and ") + std::string("--ignore"));
+  }
+
+  void bound(const std::string& key, double option, const std::optional<double>& configured) {
+    if (option >= 0)
+      add("gate." + key, number(option), "--" + key);
+    else
+      add_key("gate." + key, configured ? number(*configured) : "");
+  }
+  void whole(const std::string& key, int option, const std::optional<std::uint64_t>& configured) {
+    if (option >= 0)
+      add("gate." + key, std::to_string(option), "--" + key);
+    else
+      add_key("gate." + key, configured ? std::to_string(*configured) : "");
+  }
+  static std::string scope_text(const GateScope& scope) {
+    std::string out =
+        "match = " + (scope.match.size() == 1 ? in_quotes(scope.match[0]) : list_text(scope.match));
+    const auto limit = [&](const char* name, const auto& value) {
+      if (value) out += fmt::format(", {} = {}", name, *value);
+    };
+    limit("max-depth", scope.limits.max_depth);
+    limit("max-ratio", scope.limits.max_ratio);
+    limit("max-count", scope.limits.max_count);
+    limit("max-untied", scope.limits.max_untied);
+    limit("max-dt-loss", scope.limits.max_dt_loss);
+    return out;
+  }
+  void scopes(const std::string& name, const std::vector<GateScope>& all) {
+    if (all.empty()) add("gate." + name, "none", "default");
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::string key = "gate." + name + "[" + std::to_string(i) + "]";
+      add(key, scope_text(all[i]), origin(key));
+    }
+  }
+  void gate() {
+    const GateLimits& limits = config_.gate.general;
+    const GateOptions& o = given_.gate;
+    bound("max-depth", o.max_depth, limits.max_depth);
+    bound("max-ratio", o.max_ratio, limits.max_ratio);
+    whole("max-count", o.max_count, limits.max_count);
+    whole("max-untied", o.max_untied, limits.max_untied);
+    bound("max-dt-loss", o.max_dt_loss, limits.max_dt_loss);
+    one("gate.compare", o.compare, config_.compare, "--compare");
+    one("gate.baseline", o.baseline, config_.accepted, "--baseline");
+    std::vector<std::string> words, options;
+    for (const char* word : {"new", "worse"}) {
+      const bool configured =
+          std::string_view(word) == "new" ? config_.gate.on_fresh : config_.gate.on_worse;
+      if (configured || o.fails_on(word)) words.emplace_back(word);
+      if (o.fails_on(word)) options.emplace_back(word);
+    }
+    if (options.empty())
+      add_key("gate.fail-on", words.empty() ? "" : list_text(words));
+    else
+      add("gate.fail-on", list_text(words),
+          (words == options ? "" : origin("gate.fail-on") + " and ") + std::string("--fail-on"));
+    scopes("interface", config_.gate.interfaces);
+    scopes("part-pair", config_.gate.part_pairs);
+  }
+
+  const LintConfig& config_;
+  const GivenSettings& given_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace
+
+std::string settings_text(const LintConfig& config, const GivenSettings& given) {
+  const std::vector<Row> rows = Settings(config, given).rows();
+  std::size_t key = 0, value = 0;
+  constexpr std::size_t widest = 40;  // longer values do not push all origins away
+  for (const Row& r : rows) {
+    key = std::max(key, r.key.size());
+    value = std::max(value, std::min(widest, r.value.size()));
+  }
+  std::string out;
+  for (const Row& r : rows)
+    out += fmt::format("  {:<{}}  {:<{}}  {}\n", terminal_text(r.key), key, terminal_text(r.value),
+                       value, terminal_text(r.origin));
+  return out;
+}
+
+Result<std::string> write_settings_file(const std::string& directory) {
+  namespace fs = std::filesystem;
+  std::error_code ec;
+  const std::string path = (fs::path(directory) / ".decklint.toml").string();
+  if (!directory.empty() && !fs::is_directory(directory, ec))
+    return Error{Error::Code::config,
+                 directory + " is not a directory; --init takes the directory for .decklint.toml"};
+  if (fs::symlink_status(path, ec).type() != fs::file_type::not_found)
+    return Error{
+        Error::Code::config,
+        path + " already exists and was not changed; 'deck lint --show-config' shows its settings"};
+  if (auto written = write_file_atomic(path, config_template()); !written) return written.error();
+  return path;
+}
+
+}  // namespace deck::cli

@@ -1,0 +1,199 @@
+// Expands the decks of a call, looks for others that depend on their files, and writes.
+#include "writing/changes.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "deck/base/escape.hpp"
+#include "deck/base/paths.hpp"
+#include "writing/library.hpp"
+
+namespace deck::cli {
+namespace {
+namespace fs = std::filesystem;
+}
+
+void add_dependent_options(CommandLine& line, WriteChoice& choice) {
+  const std::string group = "Decks that share files, with --in-place";
+  line.option("--root", choice.root,
+              "Where to look for other decks that include the same files (default: the git work "
+              "tree, else the deepest folder that holds the deck and its includes)")
+      .heading(group)
+      .value("DIR");
+  line.flag("--with-dependents", choice.with_dependents,
+            "Also change all other decks that include a file of these decks")
+      .heading(group);
+  line.flag("--split-includes", choice.split_includes,
+            "Give the deck its own copy of a file that others need unchanged (also with -o: if "
+            "decks of the call need different texts)")
+      .heading(group);
+}
+
+std::string usage_error(const WriteChoice& choice) {
+  if (choice.with_dependents && !choice.in_place && !choice.diff)
+    return "--with-dependents goes with --in-place or --diff";
+  if (!choice.root.empty() && !choice.in_place && !choice.diff)
+    return "--root goes with --in-place or --diff";
+  if (choice.with_dependents && choice.split_includes)
+    return "--with-dependents and --split-includes exclude each other";
+  std::error_code ec;
+  if (!choice.root.empty() && !fs::is_directory(choice.root, ec))
+    return "--root " + choice.root + ": there is no such directory";
+  return {};
+}
+
+Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& given,
+                                                std::string_view ending) {
+  if (ending == deck_ending)
+    for (const std::string& path : given) note_found(path, find_deck(path), common_);
+  auto all = expand_decks(given, ending, choice_.directory);
+  if (!all) return all;
+  if (all->empty())
+    return Error{Error::Code::io, (given.empty() ? "the directory" : given.front()) +
+                                      std::string(": this is a directory without any file *") +
+                                      std::string(ending)};
+  if (const BatchFrame* frame = common_.session->frame) {
+    root_ = frame->root;
+    outsiders_ = frame->outsiders;
+  } else if (!choice_.directory.empty() && names_directory(given)) {
+    std::vector<std::string> directories, files;
+    std::error_code ec;
+    for (const std::string& path : given)
+      if (fs::is_directory(path, ec)) directories.push_back(path);
+    IncludeScan scan(common_.include_paths);
+    for (const std::string& deck : *all)
+      if (ending == deck_ending)
+        for (const IncludeScan::File& f : scan.files(deck)) files.push_back(f.path);
+      else
+        files.push_back(deck);
+    root_ = common_root(directories, files);
+  } else if ((choice_.in_place || choice_.diff) && ending == deck_ending) {
+    auto dependents = find_dependents(*all, choice_.root, common_.include_paths);
+    if (!dependents) return dependents.error();
+    if (const std::string where = dependents->where(); !where.empty() && !common_.quiet)
+      print_note(where);
+    if (choice_.with_dependents)
+      all->insert(all->end(), dependents->decks.begin(), dependents->decks.end());
+    else
+      outsiders_ = std::move(dependents->shared);
+  }
+  set_ = EditSet(root_);
+  return all;
+}
+
+Result<std::size_t> Changes::add(const LoadedDeck& loaded, const std::string& name) {
+  auto deck = set_.add(loaded.deck(), name);
+  if (deck) names_.push_back(name);
+  return deck;
+}
+
+void Changes::propose(std::size_t deck, const Deck& now, const ChangedFiles& changed) {
+  set_.propose(deck, now, changed);
+  if (BatchFrame* frame = common_.session->frame)
+    frame->decks[names_[deck]].changed = changed.size();
+}
+
+/// Outsiders and copies, before anything is planned.
+Result<void> Changes::settle() {
+  if (choice_.in_place || choice_.split_includes)
+    for (const auto& [file, deck] : outsiders_) set_.add_outsider(file, deck);
+  if (choice_.split_includes) return set_.split_includes();
+  return {};
+}
+
+Result<void> Changes::announce(const std::vector<OutputFile>& files) {
+  BatchFrame* frame = common_.session->frame;
+  return frame != nullptr && frame->before_writing ? frame->before_writing(files) : Result<void>{};
+}
+
+void Changes::list_files(const std::vector<OutputFile>& files) const {
+  if (common_.quiet) return;
+  for (const OutputFile& f : files) print_lines(terminal_text(f.path) + "\n");
+}
+
+/// Every deck read from the files as they will lie: it must consist of the texts that were decided
+/// about, in the same order.
+Result<void> Changes::read_back(const std::vector<OutputFile>& files) const {
+  if (!choice_.read_back) return {};
+  Overlay overlay;
+  for (const OutputFile& f : files) {
+    overlay.insert_or_assign(normal_path(f.path), std::string(f.bytes));
+    overlay.insert_or_assign(f.path, std::string(f.bytes));  // a main file is opened as it is named
+  }
+  ReadOptions read;
+  read.include_paths = common_.include_paths;
+  read.overlay = &overlay;
+  for (std::size_t d = 0; d < names_.size(); ++d) {
+    const std::string main =
+        choice_.in_place
+            ? set_.main_path(d)
+            : normal_path((fs::path(choice_.directory) / set_.main_target(d)).native());
+    const auto deck = read_deck(main, SchemaSet::built_in(), read);
+    if (!deck) return deck.error();
+    if (const std::string why = set_.read_back_difference(d, *deck); !why.empty())
+      return Error{Error::Code::internal, main + ": read back, it is not what was converted: " +
+                                              why + "; nothing was written"};
+  }
+  return {};
+}
+
+Result<std::string> Changes::diff() {
+  if (auto settled = settle(); !settled) return settled.error();
+  for (const FileIdentity& file : set_.changed_files())
+    if (const auto other = outsiders_.find(file); other != outsiders_.end()) {
+      if (!common_.quiet && !choice_.split_includes)
+        print_note(other->second +
+                   " also includes a file that would change: --in-place refuses this " +
+                   "without --with-dependents or --split-includes");
+      break;
+    }
+  return set_.diff();
+}
+
+Result<void> Changes::write(bool list) {
+  BatchFrame* frame = common_.session->frame;
+  if (auto settled = settle(); !settled) return settled.error();
+  auto plan = choice_.in_place ? set_.in_place() : set_.tree(choice_.directory);
+  if (!plan) return plan.error();
+  if (frame != nullptr)  // a batch keeps a record of its own
+    for (OutputFile& f : plan->files) f.origin.clear();
+  if (auto same = read_back(plan->files); !same) return same;
+  if (choice_.in_place) {
+    if (auto announced = announce(plan->files); !announced) return announced;
+    WriteOptions options;
+    options.backup_suffix = choice_.backup_suffix;
+    if (auto done = write_files_atomic(plan->files, options); !done) return done;
+    if (!plan->files.empty()) common_.session->remember_written();
+  } else {
+    OutputRules rules;
+    rules.deck_tree = true;
+    rules.overwrite = choice_.overwrite;
+    if (frame != nullptr) rules.ours = frame->ours;
+    if (auto allowed = common_.session->check_outputs(plan->files, rules); !allowed) return allowed;
+    for (std::size_t d = 0; frame != nullptr && d < names_.size(); ++d)
+      frame->decks[names_[d]].target = set_.main_target(d);
+    if (auto announced = announce(plan->files); !announced) return announced;
+    WriteOptions options{"", true, true, frame == nullptr, choice_.directory};
+    if (auto done = common_.session->write_outputs(plan->files, rules, options); !done) return done;
+    common_.session->remember_written();
+    for (const std::string& path : plan->outside)
+      print_note(path + " is included by its absolute path and was not copied");
+  }
+  if (frame != nullptr) frame->written = true;
+  if (list) list_files(plan->files);
+  return {};
+}
+
+Result<void> Changes::write_documents(const std::vector<OutputFile>& files, bool list) {
+  OutputRules rules;
+  if (BatchFrame* frame = common_.session->frame; frame != nullptr) rules.ours = frame->ours;
+  if (auto allowed = common_.session->check_outputs(files, rules); !allowed) return allowed;
+  if (auto announced = announce(files); !announced) return announced;
+  WriteOptions options{"", true, true, common_.session->frame == nullptr, choice_.directory};
+  if (auto done = common_.session->write_outputs(files, rules, options); !done) return done;
+  if (BatchFrame* frame = common_.session->frame; frame != nullptr) frame->written = true;
+  if (list) list_files(files);
+  return {};
+}
+
+}  // namespace deck::cli
