@@ -384,6 +384,26 @@ TEST(ContactFields, DefaultsAreThoseTheSolverApplies) {
   EXPECT_EQ(text("/DEFAULT/INTER/TYPE7", "Irem_gap"), "1");
 }
 
+TEST(ContactFields, HaveTheNumberOfEveryDefaultThatNamesOne) {
+  for (const auto& [keyword, name, number, varies] :
+       std::initializer_list<std::tuple<const char*, const char*, double, DefaultVaries>>{
+           {"/INTER/TYPE7", "VISs", 0.05, DefaultVaries::no},
+           {"/INTER/TYPE7", "Istf", 1000, DefaultVaries::deck},
+           {"/INTER/TYPE7", "Irem_i2", 3, DefaultVaries::model},
+           {"/INTER/TYPE7", "Iform", 1, DefaultVaries::deck},
+           {"/INTER/TYPE7", "VISF", 1, DefaultVaries::fields},
+           {"/INTER/TYPE7", "sens_ID", 0, DefaultVaries::no}}) {
+    const Field& f = *schema(keyword).find_field(name);
+    EXPECT_EQ(f.default_value, number) << name;
+    EXPECT_EQ(f.default_varies, varies) << name;
+  }
+  for (const Schema* s : SchemaSet::built_in().all())
+    for (const CardSchema& card : s->cards)
+      for (const Field& f : card.fields)
+        if (!f.default_text.empty() && f.default_text.find_first_of("0123456789") == 0)
+          EXPECT_TRUE(f.default_value) << s->keyword << " " << f.name << ": " << f.default_text;
+}
+
 TEST(ContactFields, NotesWhereManualAndSolverDiffer) {
   for (const auto& [keyword, field] :
        std::initializer_list<std::pair<const char*, const char*>>{{"/INTER/TYPE11", "Istf"},

@@ -323,6 +323,16 @@ TEST(SchemaLoader, RefusesWrongFields) {
   EXPECT_THAT(field(R"("cols":[81,90],"type":"int","versions":[41,50])"), HasSubstr("80 columns"));
 }
 
+TEST(SchemaLoader, TakesTheNumberOfADefaultOnce) {
+  const auto error = [](const std::string& body) {
+    return error_of(with_cards(R"({"name":"c","fields":[{"name":"f","cols":[1,9],"type":"int",)" +
+                               body + "}]}"));
+  };
+  EXPECT_EQ(error(R"("default":"0 (none)","default_value":0)"), "accepted");
+  EXPECT_THAT(error(R"("default":"3","default_value":3)"), HasSubstr("this number already"));
+  EXPECT_THAT(error(R"("default_varies":"sometimes")"), HasSubstr("not deck, model or fields"));
+}
+
 TEST(SchemaLoader, RefusesOverlapOnlyWithinTheSameVersion) {
   const auto two = [](const std::string& first, const std::string& second) {
     return error_of(with_cards(R"({"name":"c","fields":[{"name":"f","cols":[1,10],"type":"int")" +

@@ -91,22 +91,33 @@ double stored(const Settings& set, double penetration) {
   return set.inacti == 0 && penetration <= tiny ? penetration : 0;
 }
 
+/// The row of a penetration of a node or an edge.
+template <class Penetration>
+PenetrationRow row_of(const Settings& set, const Penetration& p, std::uint32_t secondary,
+                      std::uint32_t main) {
+  PenetrationRow row;
+  row.secondary = secondary;
+  row.main = main;
+  row.depth = p.penetration;
+  row.gap = p.gap;
+  row.distance = p.distance;
+  row.normal = {p.normal.x, p.normal.y, p.normal.z};
+  row.action = action_of(set);
+  row.p0 = stored(set, p.penetration);
+  return row;
+}
+
 void list_penetrations(SceneContext& context, const Sides& s, const Found& found, Contact& out) {
   std::vector<bool> held(found.penetrations.size(), false);
   if (s.set.irem_i2 == 1 && !found.penetrations.empty())
     held = held_by_ties(context, s, found.penetrations);
   for (std::size_t i = 0; i < found.penetrations.size(); ++i) {
     const NodePenetration& p = found.penetrations[i];
-    PenetrationRow row;
-    row.secondary = p.node;
-    row.main = p.face;
-    row.depth = p.penetration;
-    row.gap = p.gap;
-    row.distance = p.distance;
-    row.normal = {p.normal.x, p.normal.y, p.normal.z};
-    const bool removed = held[i] && s.set.inacti == 5;
-    row.action = removed ? PenetrationAction::removed_tied : action_of(s.set);
-    row.p0 = removed ? 0 : stored(s.set, p.penetration);
+    PenetrationRow row = row_of(s.set, p, p.node, p.face);
+    if (held[i] && s.set.inacti == 5) {
+      row.action = PenetrationAction::removed_tied;
+      row.p0 = 0;
+    }
     out.penetrations.push_back(row);
   }
   out.candidates = found.candidates;
@@ -152,17 +163,9 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
     not_evaluated(context, out, "too many pairs of edges");
   }
   for (const EdgePenetration& p : found) {
-    PenetrationRow row;
-    row.secondary = p.secondary;
-    row.main = p.main;
-    row.depth = p.penetration;
-    row.gap = p.gap;
-    row.distance = p.distance;
-    row.normal = {p.normal.x, p.normal.y, p.normal.z};
+    PenetrationRow row = row_of(s.set, p, p.secondary, p.main);
     row.weight_s = p.weight_s;
     row.weight_m = p.weight_m;
-    row.action = action_of(s.set);
-    row.p0 = stored(s.set, p.penetration);
     out.penetrations.push_back(row);
   }
   if (evaluated && s.set.solid_edges() != 0)

@@ -243,34 +243,15 @@ class Tester {
 };
 
 SearchResult search24(SceneContext& c, const Sides& s, const Limits24& limits) {
-  const Coordinates& x = c.scene.coordinates;
-  std::vector<std::uint32_t> nodes;
   std::vector<double> node_gaps, gaps, stiffness;
-  std::vector<std::array<std::uint32_t, 4>> segments;
-  for (const SideNode& n : s.nodes) {
-    nodes.push_back(n.node);
-    node_gaps.push_back(n.gap);
-  }
+  for (const SideNode& n : s.nodes) node_gaps.push_back(n.gap * std::sqrt(3.0));
   for (const Face& f : s.faces) {
-    segments.push_back(f.nodes);
     // The node is within a box around the segment: farther at its corners than from its faces.
     const double margin = f.solid_like() ? limits.solid_margin : s.margin;
     gaps.push_back(f.gap + (std::sqrt(3.0) - 1) * (f.gap + margin) + margin - s.margin);
     stiffness.push_back(f.stiffness);
   }
-  for (double& g : node_gaps) g *= std::sqrt(3.0);
-  NodeSegmentInput in;
-  in.nodes = {x.x, x.y, x.z};
-  in.secondary = nodes;
-  in.secondary_gap = node_gaps;
-  in.segments = segments;
-  in.segment_gap = gaps;
-  in.segment_stiffness = stiffness;
-  SearchOptions options;
-  options.gap = PairGap::from_igap(1, 0);
-  options.margin = s.margin * (1 + 1e-12);
-  options.threads = c.options.threads;
-  return find_node_segment_pairs(in, options);
+  return near_faces(c, s, node_gaps, gaps, stiffness);
 }
 
 bool in_box(const Coordinates& x, const Face& f, NodeIndex node, double by) {

@@ -164,36 +164,19 @@ bool remove_near(SceneContext& c, const Sides& s, RemovalLists& lists) {
 
 /// Every pair that the solver could look at, by node.
 SearchResult search(SceneContext& c, const Sides& s, const Reach& reach) {
-  const Coordinates& x = c.scene.coordinates;
-  std::vector<std::uint32_t> nodes;
   std::vector<double> node_gaps, gaps, stiffness;
-  std::vector<std::array<std::uint32_t, 4>> segments;
   const bool solids =
       std::any_of(s.faces.begin(), s.faces.end(), [](const Face& f) { return f.solid_like(); });
   for (std::size_t i = 0; i < s.nodes.size(); ++i) {
-    nodes.push_back(s.nodes[i].node);
     const double more = solids ? std::max(0.0, reach.of_node[i] - s.margin) : 0;
     node_gaps.push_back(s.nodes[i].gap + more);
   }
   for (const Face& f : s.faces) {
-    segments.push_back(f.nodes);
     gaps.push_back(f.gap);
     const bool off = f.interior || f.kind == SegmentKind::coat_opposite;
     stiffness.push_back(off ? 0 : f.stiffness);
   }
-  NodeSegmentInput in;
-  in.nodes = {x.x, x.y, x.z};
-  in.secondary = nodes;
-  in.secondary_gap = node_gaps;
-  in.segments = segments;
-  in.segment_gap = gaps;
-  in.segment_stiffness = stiffness;
-  SearchOptions options;
-  options.gap = PairGap::from_igap(1, 0);
-  // A little more than the rule: which pairs count is decided below.
-  options.margin = s.margin * (1 + 1e-12);
-  options.threads = c.options.threads;
-  return find_node_segment_pairs(in, options);
+  return near_faces(c, s, node_gaps, gaps, stiffness);
 }
 
 class Chooser {

@@ -174,6 +174,14 @@ std::vector<SideEdge> make_edges(SceneContext& context, const Sides& sides,
 bool find_edges25(SceneContext& context, const Sides& sides, const Topology& topology,
                   const std::vector<SideEdge>& edges, std::vector<EdgePenetration>& out);
 
+// near_faces.cpp
+/// The project's own search: the faces with a stiffness that a node may touch, by gaps of nodes and
+/// faces (summed) and the margin of the sides. It gives a little more than the rule of the type,
+/// which decides about each pair.
+SearchResult near_faces(const SceneContext& context, const Sides& sides,
+                        const std::vector<double>& node_gaps, const std::vector<double>& face_gaps,
+                        const std::vector<double>& stiffness);
+
 // ties.cpp
 /// Which of the penetrations a tie (/INTER/TYPE2) of the deck holds already.
 std::vector<bool> held_by_ties(SceneContext& context, const Sides& sides,

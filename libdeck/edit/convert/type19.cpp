@@ -292,7 +292,7 @@ class Expander {
       return given->value;
     if (field == "Irem_i2" && c_.model().implicit) return 1;
     const Field* f = schema.find_field(field);
-    return f == nullptr ? 0 : static_cast<std::int64_t>(detail::default_number(*f));
+    return f == nullptr ? 0 : static_cast<std::int64_t>(f->default_value.value_or(0));
   }
 
   /// Takes away texts that this version of the type has no cell for.

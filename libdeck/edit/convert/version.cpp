@@ -501,7 +501,7 @@ class VersionRewriter {
 
   double default_of(const Field& field) const {
     if (field.name == "Irem_i2" && c_.model().implicit) return 1;
-    return detail::default_number(field);
+    return field.default_value.value_or(0);
   }
 
   /// What the solver fills in for a cell of an interface that is 0 or missing: its default card, as

@@ -25,15 +25,6 @@ std::string_view canonical_name(std::string_view field) {
   return field == "Rthe" ? "Kthe" : field;
 }
 
-double default_number(const Field& field) {
-  std::string_view text = field.default_text;
-  if (const auto at = text.find("else "); at != std::string_view::npos) text.remove_prefix(at + 5);
-  double value = 0;
-  const auto end = std::min(text.find_first_of(" ,;("), text.size());
-  const auto result = read_real_text(text.data(), text.data() + end, value);
-  return result.ec == std::errc() && result.ptr == text.data() + end ? value : 0;
-}
-
 bool is_zero_text(std::string_view text) {
   return text.find_first_not_of("0.+- \t") == std::string_view::npos;
 }

@@ -19,8 +19,6 @@ namespace deck::detail {
 bool layout_differs(const Schema& schema, int a, int b);
 /// One name for a cell that was renamed between versions.
 std::string_view canonical_name(std::string_view field);
-/// The number a default text names ("0 (none)", "/DEFAULT/INTER/TYPE7, else 1"); 0 if it is words.
-double default_number(const Field& field);
 /// Only zeros, points and signs, or nothing.
 bool is_zero_text(std::string_view text);
 

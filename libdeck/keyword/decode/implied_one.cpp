@@ -67,10 +67,9 @@ ImpliedOnes implied_ones(const DecodedBlock& d) {
 }
 
 std::optional<double> ordinary_default(const Field& f) {
-  const RealCell value = read_real(f.default_text);
-  if (value.status != NumberStatus::ok) return std::nullopt;
-  const double size = std::fabs(value.value);
-  return size > 1e-20 && size < 1e20 ? std::optional(value.value) : std::nullopt;
+  if (!f.default_value || f.default_varies != DefaultVaries::no) return std::nullopt;
+  const double size = std::fabs(*f.default_value);
+  return size > 1e-20 && size < 1e20 ? f.default_value : std::nullopt;
 }
 
 }  // namespace deck::detail

@@ -342,13 +342,36 @@ void read_target(const Json& json, const Path& path, Field& field) {
     fail(at(path, "acts_on"), "only ids have a target");
 }
 
+/// A default that is a number in full needs no other; words have theirs beside them.
+void read_default(const Json& json, const Path& path, Field& field) {
+  read(json, path, "default", field.default_text);
+  if (const RealCell number = read_real(field.default_text);
+      !field.default_text.empty() && number.status == NumberStatus::ok)
+    field.default_value = number.value;
+  if (json.contains("default_value")) {
+    if (field.default_value)
+      fail(at(path, "default_value"), "\"default\" is this number already, or another one");
+    field.default_value = number_of(json["default_value"], at(path, "default_value"));
+  }
+  if (!json.contains("default_varies")) return;
+  std::string varies;
+  read(json, path, "default_varies", varies);
+  if (varies != "deck" && varies != "model" && varies != "fields")
+    fail(at(path, "default_varies"), fmt::format("\"{}\" is not deck, model or fields", varies));
+  field.default_varies = varies == "deck"    ? DefaultVaries::deck
+                         : varies == "model" ? DefaultVaries::model
+                                             : DefaultVaries::fields;
+}
+
 Field field_of(const Json& json, const Path& path) {
   expect_object(json, path,
-                {"name",   "cols",        "type",     "ref",        "versions", "when",
-                 "values", "min",         "max",      "min_open",   "max_open", "missing",
-                 "empty",  "required",    "words",    "wrong",      "acts_on",  "default",
-                 "dim",    "dim_unknown", "dim_when", "solver_dim", "axes",     "unit_for",
-                 "over",   "ignored",     "doc",      "manual",     "help",     "help_of"});
+                {"name",     "cols",        "type",     "ref",           "versions",
+                 "when",     "values",      "min",      "max",           "min_open",
+                 "max_open", "missing",     "empty",    "required",      "words",
+                 "wrong",    "acts_on",     "default",  "default_value", "default_varies",
+                 "dim",      "dim_unknown", "dim_when", "solver_dim",    "axes",
+                 "unit_for", "over",        "ignored",  "doc",           "manual",
+                 "help",     "help_of"});
   Field field;
   require(json, path, "name");
   read(json, path, "name", field.name);
@@ -366,7 +389,7 @@ Field field_of(const Json& json, const Path& path) {
   if (json.contains("when")) field.when = conditions_of(json["when"], at(path, "when"));
   read_range(json, path, field);
   read_legal(json, path, field);
-  read(json, path, "default", field.default_text);
+  read_default(json, path, field);
   read_dimension(json, path, field);
   read_axes(json, path, field);
   read_relations(json, path, field);

@@ -64,19 +64,6 @@ std::string keyword_of(const Block& block) {
   return block.schema != nullptr ? block.schema->keyword : std::string(block.keyword);
 }
 
-/// The number that a schema's default is, where it says one: "0", "/DEFAULT/INTER/TYPE7, else
-/// 1000", "0 (not tested)", for an `ordinary` model also "3 (1 in implicit analyses)".
-std::optional<double> default_number(std::string_view text, bool ordinary) {
-  if (const auto at = text.rfind("else "); at != std::string_view::npos) text.remove_prefix(at + 5);
-  const std::string_view word = text.substr(0, text.find(' '));
-  const std::string_view rest = text.substr(word.size());
-  const bool remark =
-      rest.starts_with(" (") && (ordinary || rest.find_first_of("0123456789") == rest.npos);
-  const RealCell n = read_real(word);
-  if ((!rest.empty() && !remark) || n.status != NumberStatus::ok) return std::nullopt;
-  return n.value;
-}
-
 /// True where defaults that depend on the model have their usual value: no implicit analysis, and
 /// not so many nodes that the sorting margin grows.
 bool ordinary(const Model* model) {
@@ -147,8 +134,10 @@ bool changed_on_card(const ParamsInput& in, const InterBase& inter, std::string_
   const Schema* schema = inter.block != nullptr ? inter.block->schema : nullptr;
   const Field* field = schema != nullptr ? schema->find_field(name) : nullptr;
   if (field == nullptr || field->type == FieldType::id) return true;
-  const auto number = default_number(field->default_text, ordinary(&in.loaded.model()));
-  return !number || *number != as_number(e.input);
+  const bool known =
+      field->default_varies != DefaultVaries::fields &&
+      (field->default_varies != DefaultVaries::model || ordinary(&in.loaded.model()));
+  return !known || field->default_value != as_number(e.input);
 }
 template bool changed_on_card(const ParamsInput&, const InterBase&, std::string_view,
                               const EffectiveInt&);

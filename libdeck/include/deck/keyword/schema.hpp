@@ -43,6 +43,14 @@ struct Condition {
   bool holds(std::int64_t value) const;
 };
 
+/// What else decides about the default of a field.
+enum class DefaultVaries : std::uint8_t {
+  no,
+  deck,    ///< a card such as /DEFAULT/INTER/TYPE7 comes before the built-in number
+  model,   ///< the kind of analysis or the size of the model, and perhaps such a card
+  fields,  ///< other fields of the same card
+};
+
 /// What scales one axis of a function or table.
 struct Axis {
   /// Real cells of the block whose product with the points counts. 0 or blank is 1 in the units of
@@ -67,6 +75,9 @@ struct Field {
   std::optional<double> min, max;    ///< legal range, inclusive
   bool min_open = false, max_open = false;  ///< the bound itself is not legal
   std::string default_text;  ///< the effective value of 0/blank, in words or a number
+  /// The number that 0/blank stands for, where there is one; with default_varies the usual one.
+  std::optional<double> default_value;
+  DefaultVaries default_varies = DefaultVaries::no;
   Dimension dimension;
   bool dimension_known = true;  ///< false: unit conversion must refuse this field
   /// Dimension that depends on an integer field, first match wins.
