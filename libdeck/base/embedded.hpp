@@ -10,8 +10,9 @@ struct EmbeddedFile {
   std::string_view text;
 };
 
-const std::vector<EmbeddedFile>& embedded_schemas();  // schemas/keywords/*.json
-const std::vector<EmbeddedFile>& embedded_rules();    // schemas/rules/*.md
-const std::vector<EmbeddedFile>& embedded_limits();   // schemas/limits/*.json
+const std::vector<EmbeddedFile>& embedded_schemas();   // schemas/keywords/*.json
+const std::vector<EmbeddedFile>& embedded_rules();     // schemas/rules/*.md
+const std::vector<EmbeddedFile>& embedded_limits();    // schemas/limits/*.json
+const std::vector<EmbeddedFile>& embedded_messages();  // schemas/messages/*.json
 
 }  // namespace deck::detail

@@ -8,28 +8,14 @@
 
 #include "deck/base/columns.hpp"
 #include "deck/base/spelling.hpp"
+#include "deck/lint/messages.hpp"
 #include "deck/lint/rule.hpp"
-#include "deck/text/number.hpp"
-#include "lint/limits.hpp"
 
 namespace deck {
 namespace {
 
 constexpr const char* contact_keywords[] = {"/INTER/TYPE7", "/INTER/TYPE10", "/INTER/TYPE11",
                                             "/INTER/TYPE19"};
-
-/// Keywords with the four contacts that are evaluated first.
-std::vector<const Schema*> contacts_first(const SchemaSet& schemas) {
-  std::vector<const Schema*> out;
-  for (const char* name : contact_keywords)
-    if (const Schema* s = schemas.find(name)) out.push_back(s);
-  const std::size_t first = out.size();
-  for (const Schema* s : schemas.all())
-    if (std::find(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(first), s) ==
-        out.begin() + static_cast<std::ptrdiff_t>(first))
-      out.push_back(s);
-  return out;
-}
 
 /// A schema by its keyword, with or without the leading slash, in any case.
 const Schema* keyword_named(const SchemaSet& schemas, std::string_view name) {
@@ -155,68 +141,19 @@ std::string keywords_below(const std::string& capitals, const SchemaSet& schemas
       above, list, below.front()->keyword);
 }
 
-bool names_message(std::string_view text, const std::string& number) {
-  for (std::size_t at = text.find(number); at != text.npos; at = text.find(number, at + 1)) {
-    const auto part_of_number = [&](std::size_t i) {
-      return i < text.size() &&
-             (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '.');
-    };
-    const std::size_t end = at + number.size();
-    const bool stands_alone =
-        (at == 0 || !part_of_number(at - 1)) &&
-        (!part_of_number(end) || (text[end] == '.' && !part_of_number(end + 1)));
-    if (stands_alone) return true;
-  }
-  return false;
-}
+}  // namespace
 
-/// A message of the reference solver by its number.
-std::string solver_message(const std::string& digits, const SchemaSet& schemas, std::size_t width) {
-  const int number = static_cast<int>(read_integer(digits).value);
-  if (number == 0) return {};
-  std::string rules, cells;
-  for (const Rule& r : all_rules()) {
-    const auto own = std::find_if(r.messages.begin(), r.messages.end(),
-                                  [&](const ReferenceMessage& m) { return m.number == number; });
-    const bool is_own = own != r.messages.end();
-    if (!is_own && !names_message(r.solver, digits) && !names_message(r.title, digits)) continue;
-    rules += fmt::format("\n{}: {}\n", id_text(r.id), r.title);
-    if (is_own)
-      rules += fmt::format("  as {} of the solver\n",
-                           own->severity == Severity::error ? "an error" : "a warning");
-    if (!r.problem.empty()) rules += wrapped(r.problem, 2, width);
-    if (!r.solver.empty()) rules += wrapped("Solver: " + r.solver, 2, width);
-    if (!r.fix.empty()) rules += wrapped("Fix: " + r.fix, 2, width);
-  }
-  for (const Schema* s : contacts_first(schemas)) {
-    for (const detail::Limit* limit : detail::limits_of(*s))
-      if (limit->message == number)
-        cells +=
-            wrapped(fmt::format("{}{}{}: {}", s->keyword, limit->of.field.empty() ? "" : ".",
-                                limit->of.field, limit->says.empty() ? "its value" : limit->says),
-                    2, width);
-    for (const CardSchema& card : s->cards)
-      for (const Field& f : card.fields) {
-        const auto says = [&](const std::optional<int>& n, const char* why) {
-          if (n && *n == number)
-            cells += wrapped(fmt::format("{}.{}: {}", s->keyword, f.name, why), 2, width);
-        };
-        says(f.missing, "the named entity does not exist");
-        says(f.empty, "the named entity has no members");
-        says(f.required, "the cell is 0 or blank");
-      }
-  }
-  if (rules.empty() && cells.empty()) return {};
-  std::string out = fmt::format("Message {} of the reference solver\n", digits) + rules;
-  if (!cells.empty())
-    out +=
-        "\n"
-        "Cells with this message\n" +
-        cells;
+std::vector<const Schema*> contacts_first(const SchemaSet& schemas) {
+  std::vector<const Schema*> out;
+  for (const char* name : contact_keywords)
+    if (const Schema* s = schemas.find(name)) out.push_back(s);
+  const std::size_t first = out.size();
+  for (const Schema* s : schemas.all())
+    if (std::find(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(first), s) ==
+        out.begin() + static_cast<std::ptrdiff_t>(first))
+      out.push_back(s);
   return out;
 }
-
-}  // namespace
 
 std::string field_help(const Field& field, const SchemaSet& schemas, std::size_t width) {
   if (width == 0) width = usual_page_width;
@@ -244,8 +181,16 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
   if (const Rule* rule = find_rule(capitals)) return explain_rule(*rule, schemas, width);
   if (width == 0) width = usual_page_width;
   if (std::string page = rule_family(capitals, width); !page.empty()) return page;
-  if (capitals.find_first_not_of("0123456789") == std::string::npos && capitals.size() < 7)
-    return solver_message(capitals, schemas, width);
+  if (const auto number = message_number(topic)) {
+    const std::string message = explain_message(*number, schemas, width);
+    // A bare number may be that of a rule, too.
+    const Rule* rule = capitals.find_first_not_of("0123456789") == std::string::npos
+                           ? find_rule(fmt::format("DK{:03}", *number))
+                           : nullptr;
+    if (rule == nullptr) return message;
+    const std::string page = explain_rule(*rule, schemas, width);
+    return message.empty() ? page : message + "\nThe rule of that number\n\n" + page;
+  }
   if (const auto dot = topic.rfind('.'); dot != topic.npos)
     if (const Schema* s = keyword_named(schemas, topic.substr(0, dot)))
       if (const std::string field = field_named(*s, topic.substr(dot + 1)); !field.empty())
@@ -267,7 +212,8 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
     return explain_keyword(*keyword, {}, width);
   if (std::string page = field_everywhere(topic, schemas, width); !page.empty()) return page;
   if (keyword == nullptr) keyword = header_named(schemas, topic);
-  return keyword != nullptr ? explain_keyword(*keyword, {}, width) : std::string();
+  if (keyword != nullptr) return explain_keyword(*keyword, {}, width);
+  return topic.starts_with('/') ? std::string() : messages_about(topic, width);
 }
 
 std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet& schemas) {

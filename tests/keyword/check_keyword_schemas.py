@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Validates schemas/keywords/*.json, and the examples of tools/docs/schemas.md, against
 schemas/keyword.schema.json, as 2020-12 and as draft-7; schemas/limits/*.json against
-schemas/limits.schema.json, and against the cells of the keywords they name.
+schemas/limits.schema.json, and against the cells of the keywords they name; schemas/messages/*.json
+against schemas/messages.schema.json.
 
 Prints every violation with file and JSON path, then "N passed, 0 failed"; exit code 1 on failure.
 Some deliberately wrong documents must be refused as well, so that a lax schema is noticed.
@@ -122,10 +123,30 @@ def check_limits():
     return passed, failed
 
 
+def check_messages():
+    """Returns (passed, failed) of the catalogues of solver messages."""
+    validator = jsonschema.Draft202012Validator(
+        json.loads((ROOT / "schemas/messages.schema.json").read_text(encoding="utf-8")))
+    passed = failed = 0
+    for file in sorted((ROOT / "schemas/messages").glob("*.json")):
+        catalogue = json.loads(file.read_text(encoding="utf-8"))
+        wrong = [f"/{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in validator.iter_errors(catalogue)]
+        numbers = [message["number"] for message in catalogue["messages"]]
+        wrong += [f"{n} is there twice" for n in sorted({n for n in numbers if numbers.count(n) > 1})]
+        for line in wrong:
+            print(f"{file.name}: {line}")
+        failed += bool(wrong)
+        passed += not wrong
+    if not passed + failed:
+        print("no messages found")
+        failed += 1
+    return passed, failed
+
+
 def main():
     schema = json.loads((ROOT / "schemas/keyword.schema.json").read_text(encoding="utf-8"))
     counts = [check(cls, schema) for cls in (jsonschema.Draft202012Validator,
-                                             jsonschema.Draft7Validator)] + [check_limits()]
+                                             jsonschema.Draft7Validator)] + [check_limits(), check_messages()]
     passed, failed = (sum(column) for column in zip(*counts))
     print(f"{passed} passed, {failed} failed")
     return 1 if failed else 0

@@ -70,8 +70,9 @@ std::string bash_script(const std::vector<VerbInfo>& all) {
     } else {
       for (const OptionInfo& p : v.positionals)
         if (!p.choices.empty())
-          positionals +=
-              fmt::format("      {}) words={} ;;\n", v.name, shell_quoted(joined(p.choices)));
+          positionals += fmt::format("      {}) words={}{} ;;\n", v.name,
+                                     shell_quoted(joined(p.choices)),
+                                     p.value == "TOPIC" ? " kind=topic" : "");
     }
   }
   std::vector<std::string> program;
@@ -117,6 +118,8 @@ std::string bash_script(const std::vector<VerbInfo>& all) {
          "    COMPREPLY=($(compgen -f -X '!*.rad' -- \"$current\") $(compgen -d -- \"$current\")) "
          ";;\n"
          "  none) ;;\n"
+         "  topic) IFS=$' \\t\\n' COMPREPLY=($(IFS=' '; compgen -W \"$words\" -- \"$current\"; "
+         "compgen -f -X '!*.out' -- \"$current\")) ;;\n"
          "  *) IFS=$' \\t\\n' COMPREPLY=($(IFS=' '; compgen -W \"$words\" -- \"$current\")) ;;\n"
          "  esac\n"
          "}\n"
@@ -136,6 +139,8 @@ std::string zsh_text(std::string_view text) {
 }
 
 std::string zsh_action(const OptionInfo& o) {
+  if (o.value == "TOPIC")  // words, and listings
+    return "{ compadd -- " + joined(o.choices) + "; _files -g \"*.out(-.)\" }";
   if (!o.choices.empty()) return "(" + joined(o.choices) + ")";
   if (o.takes_file()) return "_files";
   if (o.takes_directory()) return "_files -/";

@@ -1,35 +1,120 @@
-// deck explain: the page of a rule, a keyword, a field or a solver message.
+// deck explain: the page of a rule, a keyword, a field or a solver message; and a listing of the
+// Starter beside its deck, message by message.
+
+#include <filesystem>
 
 #include "common.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/lint/topics.hpp"
+#include "deck/report/listing.hpp"
+#include "deck/text/gzip.hpp"
 
 namespace deck::cli::verb_explain {
 namespace {
 
 struct Options {
-  CommonOptions common;
-  std::vector<std::string> topics;
+  CommonOptions common;  ///< `decks` are the topics
+  std::string deck;
+  std::size_t worst = 3;
 };
 
-int run(const Options& options) {
-  const auto schemas = load_schemas(options.common);
-  if (!schemas) {
-    print_error(options.common, schemas.error().message);
+/// A name that ends as listings do; the path of a file that is there.
+bool names_listing(const std::string& topic) {
+  const std::string name = without_gz(topic);
+  std::error_code ec;
+  return name.ends_with(".out") ||
+         (topic.find_first_of("/.") != topic.npos && !topic.starts_with('/') &&
+          std::filesystem::is_regular_file(topic, ec));
+}
+
+/// The deck of a listing: of the same name beside it, with the ending of decks. Empty: there is
+/// none.
+std::string deck_beside(const std::string& listing) {
+  std::string stem = without_gz(listing);
+  if (stem.ends_with(".out")) stem.resize(stem.size() - 4);
+  for (const char* ending : {".rad", ".rad.gz"})
+    if (std::error_code ec; std::filesystem::is_regular_file(stem + ending, ec))
+      return stem + ending;
+  return {};
+}
+
+int explain_one_listing(const Options& o, const std::string& path, const SchemaSet& schemas,
+                        JsonOutput& json, bool first) {
+  const auto listing = read_listing(path, o.common.limits);
+  if (!listing) {
+    print_error(o.common, listing.error().message);
+    return exit_input;
+  }
+  o.common.session->remember_read(path);
+  const std::string deck = o.deck.empty() ? deck_beside(path) : o.deck;
+  std::optional<LoadedDeck> loaded;
+  if (deck.empty()) {
+    if (!o.common.quiet)
+      print_note("there is no deck beside " + path +
+                 "; its messages are explained alone (--deck DECK)");
+  } else {
+    auto read = load(deck, schemas, o.common);
+    if (!read) {
+      print_error(o.common, read.error().message);
+      return exit_input;
+    }
+    loaded.emplace(std::move(*read));
+  }
+  ListingReport report;
+  {
+    Progress progress(!o.common.quiet);
+    progress.step("comparing with " + path);
+    report = loaded ? compare_listing(*listing, *loaded) : explain_listing(*listing);
+  }
+  const LoadedDeck* const beside = loaded ? &*loaded : nullptr;
+  if (json.wanted()) json.add(listing_json(*listing, report, beside));
+  if (o.common.wants_text()) {
+    ListingTextOptions text;
+    text.color = o.common.color_on(1);
+    text.width = text_width();
+    text.worst = o.worst;
+    text.verbose = o.common.verbose;
+    print_lines((first ? "" : "\n") + listing_text(*listing, report, beside, text));
+  }
+  const bool errors =
+      std::any_of(report.messages.begin(), report.messages.end(),
+                  [](const MessageGroup& group) { return group.severity == Severity::error; });
+  return errors || !report.agrees() ? exit_findings : exit_clean;
+}
+
+int explain_listings(const Options& o, const SchemaSet& schemas) {
+  if (!o.deck.empty() && o.common.decks.size() > 1) {
+    print_error(o.common, "--deck takes one listing at a time");
+    return exit_usage;
+  }
+  if (const int bad = check_outputs(o.common, {o.common.json}); bad != exit_clean) return bad;
+  JsonOutput json(o.common, "deck/explain", 1);
+  int worst = exit_clean;
+  bool first = true;
+  for (const std::string& path : o.common.decks) {
+    worst = std::max(worst, explain_one_listing(o, path, schemas, json, first));
+    first = false;
+  }
+  return json.finish(worst);
+}
+
+int explain_topics(const Options& options, const SchemaSet& schemas) {
+  if (!options.common.json.empty() || !options.deck.empty()) {
+    print_error(options.common, "--json and --deck go with a listing (car_0000.out)");
     return exit_usage;
   }
   bool first = true;
-  for (const std::string& topic : options.topics) {
-    const std::string page = explain_topic(topic, *schemas, text_width());
+  for (const std::string& topic : options.common.decks) {
+    const std::string page = explain_topic(topic, schemas, text_width());
     if (page.empty()) {
       std::string near;
-      for (const std::string& name : similar_topics(topic, *schemas))
+      for (const std::string& name : similar_topics(topic, schemas))
         near += (near.empty() ? "; did you mean " : ", ") + name;
       print_error(options.common,
                   "nothing is known about '" + topic + "'" + near +
                       "; expected a rule (DK203) or a family of them (DK2), a keyword "
-                      "(TYPE7), a field (Igap, TYPE7.Igap) or the number of a solver "
-                      "message (611)");
+                      "(TYPE7), a field (Igap, TYPE7.Igap), the number or words of a solver "
+                      "message (611, 'initial penetrations') or a listing (car_0000.out)");
       return exit_usage;
     }
     print_lines((first ? "" : "\n") + terminal_lines(page));
@@ -38,25 +123,54 @@ int run(const Options& options) {
   return exit_clean;
 }
 
+int run(const Options& options) {
+  const auto schemas = load_schemas(options.common);
+  if (!schemas) {
+    print_error(options.common, schemas.error().message);
+    return exit_usage;
+  }
+  const auto listings = static_cast<std::size_t>(
+      std::count_if(options.common.decks.begin(), options.common.decks.end(), names_listing));
+  if (listings == options.common.decks.size()) return explain_listings(options, *schemas);
+  if (listings == 0) return explain_topics(options, *schemas);
+  print_error(options.common, "listings and topics cannot be explained in one call");
+  return exit_usage;
+}
+
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  options->common.session = &line.session();
-  line.option("topics", options->topics, "Rule, keyword, field, KEYWORD.FIELD or solver message")
-      .required()
+  add_common(line, options->common);
+  line.existing("decks")
+      .describe(
+          "Rule, keyword, field, KEYWORD.FIELD, number or words of a solver message; or listings "
+          "of the Starter (*_0000.out, also .gz), each beside its deck")
       .value("TOPIC");
-  line.option("--schemas", options->common.schema_dirs, "Add the keyword schemas (*.json) of DIR")
-      .value("DIR")
-      .one_each();
-  return [options] { return run(*options); };
+  line.option("--deck", options->deck,
+              "The deck of the listing (default: *_0000.rad of the same name beside it)")
+      .value("DECK");
+  line.option("--worst", options->worst, "Of a listing: rows of the deepest pairs of each contact")
+      .value("N")
+      .show_default();
+  add_verbose(line, options->common, "Of a listing: every place and finding");
+  return [options] {
+    options->common.engine_files = true;
+    return run(*options);
+  };
 }
 
 const VerbRegistration registration{
-    {"explain", 81, "The page of a rule, a keyword, a field or a solver message",
+    {"explain", 81,
+     "The page of a rule, keyword, field or solver message; a listing beside its deck",
      "  deck explain DK254\n"
      "  deck explain DK1                  the rules of a family\n"
      "  deck explain TYPE7\n"
      "  deck explain Gapmin               also TYPE7.Gapmin, /INTER/TYPE19.Gapmin\n"
-     "  deck explain 611                  message of the solver\n",
+     "  deck explain 611                  message of the solver, also 'ERROR 611'\n"
+     "  deck explain 'initial penetrations'\n"
+     "  deck explain car_0000.out         the messages of a run, beside car_0000.rad\n"
+     "\n"
+     "Exit code of a listing: 1 if it has errors, or penetrations or time steps that differ from\n"
+     "those of deck gaps and deck parts.\n",
      setup}};
 
 }  // namespace

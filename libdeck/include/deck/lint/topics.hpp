@@ -1,5 +1,5 @@
 // What `deck explain` can be asked: rules and families of rules, keywords, fields with or without
-// their keyword, and messages of the reference solver by number.
+// their keyword, and messages of the reference solver by number or by words.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -15,8 +15,9 @@ namespace deck {
 constexpr std::size_t usual_page_width = 92;
 
 /// The page about what a person typed, in any case: "DK254", "DK1", "/INTER/TYPE7", "TYPE7",
-/// "TYPE7.Gapmin", "Gapmin", "611". Lines of tables are no longer than `width` (0: the usual).
-/// Empty: nothing is known.
+/// "TYPE7.Gapmin", "Gapmin", "611", "ERROR 611",
+/// "initial penetrations"; a number that is a message and a rule gives both. Lines of tables are no
+/// longer than `width` (0: the usual). Empty: nothing is known.
 std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std::size_t width = 0);
 
 /// The pages of deck/lint/rule.hpp, as wide as `width` (0: the usual). Cards of examples are
@@ -29,6 +30,9 @@ std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet&
 
 /// What completion offers: rules, and contact keywords with their fields.
 std::vector<std::string> common_topics(const SchemaSet& schemas);
+
+/// Keywords, the four contacts that are evaluated first.
+std::vector<const Schema*> contacts_first(const SchemaSet& schemas);
 
 /// What a field is for and what the solver does with it, with figures; empty where no schema has a
 /// text about it.

@@ -1,0 +1,376 @@
+// A listing beside its deck: places of the messages and findings about them, contacts pair by pair,
+// time steps row by row.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "deck/inspect/listing.hpp"
+#include "deck/keyword/references.hpp"
+#include "deck/lint/geometry.hpp"
+#include "deck/lint/lint.hpp"
+#include "deck/lint/messages.hpp"
+#include "deck/model/mesh.hpp"
+
+namespace deck {
+namespace listing_comparison {
+namespace {
+
+/// What the listing calls the entities of a keyword.
+constexpr std::pair<std::string_view, std::string_view> keywords[] = {
+    {"RIGID BODY", "/RBODY"}, {"RIGID WALL", "/RWALL"}, {"MONITORED VOLUME", "/MONVOL"},
+    {"INTERFACE", "/INTER"},  {"PROPERTY", "/PROP"},    {"MATERIAL", "/MAT"},
+    {"SURFACE", "/SURF"},     {"FUNCTION", "/FUNCT"},   {"PART", "/PART"},
+    {"SENSOR", "/SENSOR"},    {"SKEW", "/SKEW"},        {"NODE GROUP", "/GRNOD"},
+    {"SECTION", "/SECT"},     {"RBE2", "/RBE2"},        {"RBE3", "/RBE3"}};
+
+/// True for "/INTER/TYPE7" below "/INTER", for "/RBODY" itself, and for "/FUNCT_SMOOTH".
+bool is_below(std::string_view keyword, std::string_view above) {
+  if (!keyword.starts_with(above)) return false;
+  keyword.remove_prefix(above.size());
+  return keyword.empty() || keyword[0] == '/' || keyword[0] == '_';
+}
+
+std::string in_small_letters(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+/// What a message is about: the first entity that it names, else its node if it is one.
+std::string name_of(const ListedMessage& m) {
+  if (!m.ids.empty()) {
+    const ListedId& id = m.ids.front();
+    return fmt::format("{} {}{}", in_small_letters(id.kind), id.id,
+                       id.title.empty() ? "" : " '" + id.title + "'");
+  }
+  if (m.nodes.size() == 1) return fmt::format("node {}", m.nodes.front());
+  return {};
+}
+
+class Comparison {
+ public:
+  Comparison(const Listing& listing, LoadedDeck* loaded) : listing_(listing), loaded_(loaded) {}
+
+  ListingReport report() {
+    if (loaded_ != nullptr) lint();
+    for (const ListedMessage& m : listing_.messages) message(m);
+    std::sort(out_.messages.begin(), out_.messages.end(),
+              [](const MessageGroup& a, const MessageGroup& b) {
+                return std::pair(a.severity, a.number) < std::pair(b.severity, b.number);
+              });
+    findings();
+    if (loaded_ == nullptr) return std::move(out_);
+    contacts();
+    for (const auto& [kind, rows] : listing_.element_steps) steps(kind, rows);
+    steps(std::nullopt, listing_.node_steps);
+    return std::move(out_);
+  }
+
+ private:
+  void lint() {
+    SceneOptions options = loaded_->scene_options();
+    options.candidates = false;
+    options.ties = true;
+    loaded_->set_scene_options(options);
+    LintResult result = run_lint(
+        *loaded_, {}, {[](const LintContext& c, Reporter& r) { return check_geometry(c, r); }});
+    out_.findings = std::move(result.diagnostics);
+  }
+
+  // ---- messages
+
+  void message(const ListedMessage& m) {
+    auto group = std::find_if(
+        out_.messages.begin(), out_.messages.end(),
+        [&](const MessageGroup& g) { return g.number == m.number && g.severity == m.severity; });
+    if (group == out_.messages.end()) {
+      MessageSummary summary = summary_of_message(m.number);
+      group = out_.messages.insert(group, MessageGroup{m.number,
+                                                       m.severity,
+                                                       0,
+                                                       std::move(summary.title),
+                                                       std::move(summary.means),
+                                                       std::move(summary.action),
+                                                       {},
+                                                       {}});
+    }
+    ++group->times;
+    // A message of several entities, as of the properties of a material, is about each of them.
+    std::vector<ListedMessage> parts = split(m);
+    for (const ListedMessage& part : parts) place(*group, part);
+  }
+
+  /// One message an entity of the kind that it names first.
+  static std::vector<ListedMessage> split(const ListedMessage& m) {
+    std::vector<ListedMessage> out;
+    for (const ListedId& id : m.ids)
+      if (id.kind == m.ids.front().kind) {
+        out.push_back(m);
+        out.back().ids = {id};
+      }
+    if (out.empty()) out.push_back(m);
+    return out;
+  }
+
+  void place(MessageGroup& group, const ListedMessage& m) {
+    const std::string name = name_of(m);
+    const auto [known, is_new] =
+        place_of_.try_emplace(std::tuple(m.severity, m.number, name), group.places.size());
+    if (is_new) {
+      group.places.emplace_back();
+      group.places.back().name = name;
+      group.places.back().id = !m.ids.empty()        ? m.ids.front().id
+                               : m.nodes.size() == 1 ? m.nodes.front()
+                                                     : 0;
+      group.places.back().span = span_of(m);
+    }
+    MessagePlace& place = group.places[known->second];
+    ++place.times;
+    if (m.count &&
+        std::find(place.counted.begin(), place.counted.end(), *m.count) == place.counted.end())
+      place.counted.push_back(*m.count);
+    place.lines.push_back(m.line);
+    for (const std::int64_t node : m.nodes)
+      if (std::find(place.nodes.begin(), place.nodes.end(), node) == place.nodes.end())
+        place.nodes.push_back(node);
+  }
+
+  Span span_of(const ListedMessage& m) const {
+    if (loaded_ == nullptr) return {};
+    if (m.ids.empty()) {
+      if (m.nodes.size() != 1) return {};
+      const NodeIndex node = loaded_->model().nodes.map.find(m.nodes.front());
+      return node == no_index ? Span{} : loaded_->model().node_span(node);
+    }
+    const ListedId& id = m.ids.front();
+    for (const auto& [words, keyword] : keywords)
+      if (id.kind.ends_with(words))
+        for (const Block& b : loaded_->deck().blocks)
+          if (b.schema != nullptr && is_below(b.schema->keyword, keyword) &&
+              id_of(loaded_->deck(), b) == id.id)
+            return b.header_span;
+    return {};
+  }
+
+  /// True if a finding is about the block or in it. Nodes share one block.
+  bool about(const Diagnostic& d, const Block* of_finding, const Block* of_place) const {
+    if (of_place == nullptr || of_place->schema == nullptr) return false;
+    if (d.id == id_of(loaded_->deck(), *of_place) && d.keyword == of_place->schema->keyword)
+      return true;
+    return of_finding == of_place && of_place->schema->kind != "node";
+  }
+
+  const Block* block_at(const Span& span) const {
+    if (!span.valid()) return nullptr;
+    const Block* best = nullptr;
+    for (const Block& b : loaded_->deck().blocks)
+      if (b.header_span.valid() && b.header_span.file == span.file &&
+          b.header_span.offset <= span.offset &&
+          (best == nullptr || best->header_span.offset < b.header_span.offset))
+        best = &b;
+    return best;
+  }
+
+  /// What deck says with the number of a message, at its places where it is about them.
+  void say(MessageGroup& group, std::set<std::size_t>& used) {
+    std::vector<std::size_t> same;
+    for (std::size_t f = 0; f < out_.findings.size(); ++f)
+      if (out_.findings[f].reference && out_.findings[f].reference->number == group.number)
+        same.push_back(f);
+    if (same.empty()) return;
+    used.insert(same.begin(), same.end());
+    std::vector<const Block*> blocks;
+    for (const MessagePlace& place : group.places) blocks.push_back(block_at(place.span));
+    for (const std::size_t f : same) {
+      const Block* const of_finding = block_at(out_.findings[f].span);
+      bool placed = false;
+      for (std::size_t p = 0; p < blocks.size(); ++p)
+        if (about(out_.findings[f], of_finding, blocks[p])) {
+          group.places[p].findings.push_back(f);
+          placed = true;
+        }
+      if (!placed) group.findings.push_back(f);
+    }
+  }
+
+  void findings() {
+    std::set<std::size_t> used;
+    for (MessageGroup& group : out_.messages) say(group, used);
+    for (std::size_t f = 0; f < out_.findings.size(); ++f) {
+      const auto& reference = out_.findings[f].reference;
+      // The messages of the reader are printed by official programs only.
+      if (reference && reference->severity != Severity::info && reference->number < 100000 &&
+          !used.contains(f))
+        out_.not_listed.push_back(f);
+    }
+  }
+
+  // ---- contacts
+
+  void contacts() {
+    const Scene& scene = loaded_->scene();
+    view_ = make_view(scene);
+    std::vector<const ListedContact*> of(scene.contacts.size(), nullptr);
+    assign(scene, of);
+    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
+      if (!scene.contacts[c].dropped) contact(c, of[c]);
+  }
+
+  /// Contacts with a header belong to the first part of their interface, those without one to the
+  /// other parts, in the order of work.
+  void assign(const Scene& scene, std::vector<const ListedContact*>& of) {
+    for (const ListedContact& listed : listing_.contacts) {
+      if (listed.type == 2) continue;
+      std::size_t c = 0;
+      for (; c < scene.contacts.size(); ++c) {
+        const Contact& contact = scene.contacts[c];
+        if (contact.dropped || of[c] != nullptr) continue;
+        const bool later_part = contact.inter->type == 19 && contact.role != ContactRole::primary;
+        const bool fits_id = listed.interface == 0 || contact.inter->id == listed.interface;
+        if (fits_id && later_part == (listed.type == 0)) break;
+      }
+      if (c == scene.contacts.size())
+        ++out_.unnamed_contacts;
+      else
+        of[c] = &listed;
+    }
+  }
+
+  /// The pairs that a listing shows as penetrations: from level 6 on it shows other pairs, too.
+  std::vector<ListedPair> penetrations_of(const ListedContact& listed) const {
+    std::vector<ListedPair> out;
+    for (const ListedPair& pair : listed.pairs)
+      if (pair.main[0] != 0 && (listing_.printout < 6 || pair.depth || pair.on_segment))
+        out.push_back(pair);
+    return out;
+  }
+
+  /// A pair in any order of its nodes.
+  static std::pair<std::vector<std::int64_t>, std::vector<std::int64_t>> key(
+      std::array<std::int64_t, 2> secondary, std::array<std::int64_t, 4> main) {
+    std::vector<std::int64_t> s, m;
+    for (const std::int64_t n : secondary)
+      if (n != 0) s.push_back(n);
+    for (const std::int64_t n : main)
+      if (n != 0) m.push_back(n);
+    for (auto* nodes : {&s, &m}) {
+      std::sort(nodes->begin(), nodes->end());
+      nodes->erase(std::unique(nodes->begin(), nodes->end()), nodes->end());
+    }
+    return {s, m};
+  }
+
+  void contact(std::uint32_t c, const ListedContact* listed) {
+    const Contact& contact = loaded_->scene().contacts[c];
+    ComparedContact out;
+    out.contact = c;
+    out.listed = listed;
+    for (const auto* list : {&view_.penetrations, &view_.ties})
+      for (const NamedPenetration& p : *list)
+        if (p.contact == c) out.pairs.push_back({p, false, std::nullopt});
+    if (listed != nullptr) {
+      std::vector<ListedPair> pairs = penetrations_of(*listed);
+      out.listed_count = listed->total.value_or(pairs.size());
+      out.by_pair = listing_.printout >= 1 && (!pairs.empty() || out.listed_count == 0);
+      if (out.by_pair) match(contact, pairs, out);
+    }
+    out_.contacts.push_back(std::move(out));
+  }
+
+  static void match(const Contact& contact, const std::vector<ListedPair>& pairs,
+                    ComparedContact& out) {
+    using Key = decltype(key({}, {}));
+    std::map<Key, std::vector<std::size_t>> of_deck;
+    for (std::size_t i = out.pairs.size(); i-- > 0;)
+      of_deck[key(out.pairs[i].pair.secondary, out.pairs[i].pair.main)].push_back(i);
+    for (const ListedPair& pair : pairs) {
+      const auto it = of_deck.find(key(pair.secondary, pair.main));
+      if (it == of_deck.end() || it->second.empty()) {
+        out.only_listed.push_back(pair);
+        continue;
+      }
+      ComparedPair& found = out.pairs[it->second.back()];
+      it->second.pop_back();
+      found.listed = true;
+      found.listed_depth = pair.depth;
+      const PenetrationRow& row = contact.penetrations[found.pair.row];
+      if (pair.depth && row.gap > 0)
+        out.largest_difference =
+            std::max(out.largest_difference, std::abs(*pair.depth - row.depth) / row.gap);
+    }
+  }
+
+  // ---- time steps
+
+  void steps(std::optional<ElementKind> kind, const std::vector<ListedStep>& rows) {
+    if (rows.empty()) return;
+    const Model& model = loaded_->model();
+    const Mesh& mesh = loaded_->mesh();
+    const IdMap& map = kind ? model.family(*kind).map : model.nodes.map;
+    const std::vector<double>& computed = kind ? mesh.of(*kind).dt : mesh.nodes.dt;
+    ComparedSteps out;
+    out.kind = kind;
+    out.listed = rows.size();
+    out.smallest = rows.front().dt;
+    out.smallest_id = rows.front().id;
+    for (const ListedStep& row : rows) {
+      if (row.dt < out.smallest) {
+        out.smallest = row.dt;
+        out.smallest_id = row.id;
+      }
+      const std::uint32_t at = map.find(row.id);
+      const double dt = at == no_index ? std::nan("") : computed[at];
+      if (at != no_index && std::isnan(dt)) {
+        ++out.not_computed;
+        continue;
+      }
+      const double difference = std::abs(dt - row.dt) / std::max(std::abs(row.dt), 1e-300);
+      if (difference <= step_tolerance) {
+        ++out.equal;
+        out.largest_difference = std::max(out.largest_difference, difference);
+      } else {
+        out.different.push_back({row.id, row.dt, dt});
+      }
+    }
+    out_.steps.push_back(std::move(out));
+  }
+
+  const Listing& listing_;
+  LoadedDeck* loaded_;
+  ListingReport out_;
+  /// Positions in MessageGroup::places.
+  std::map<std::tuple<Severity, int, std::string>, std::size_t> place_of_;
+  SceneView view_;
+};
+
+}  // namespace
+}  // namespace listing_comparison
+
+bool ComparedContact::agrees() const {
+  if (listed == nullptr) return pairs.empty();
+  if (listed_count != pairs.size() || !only_listed.empty()) return false;
+  return !by_pair ||
+         std::all_of(pairs.begin(), pairs.end(), [](const ComparedPair& p) { return p.listed; });
+}
+
+bool ListingReport::agrees() const {
+  return unnamed_contacts == 0 &&
+         std::all_of(contacts.begin(), contacts.end(),
+                     [](const ComparedContact& c) { return c.agrees(); }) &&
+         std::all_of(steps.begin(), steps.end(),
+                     [](const ComparedSteps& s) { return s.different.empty(); });
+}
+
+ListingReport explain_listing(const Listing& listing) {
+  return listing_comparison::Comparison(listing, nullptr).report();
+}
+
+ListingReport compare_listing(const Listing& listing, LoadedDeck& loaded) {
+  return listing_comparison::Comparison(listing, &loaded).report();
+}
+
+}  // namespace deck

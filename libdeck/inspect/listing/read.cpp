@@ -1,0 +1,378 @@
+// Reads a listing of the reference Starter line by line: message blocks, the work on contacts,
+// tables of time steps.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "deck/inspect/listing.hpp"
+#include "deck/text/number.hpp"
+#include "deck/text/source.hpp"
+
+namespace deck {
+namespace listing_reading {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+}
+
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> out;
+  std::size_t at = 0;
+  while ((at = text.find_first_not_of(' ', at)) != text.npos) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    out.push_back(text.substr(at, end - at));
+    at = end;
+  }
+  return out;
+}
+
+std::optional<std::int64_t> whole(std::string_view text) {
+  if (text.empty() || text.find_first_not_of("0123456789-") != text.npos) return std::nullopt;
+  const IntegerCell cell = read_integer(text);
+  if (cell.status != NumberStatus::ok) return std::nullopt;
+  return cell.value;
+}
+
+std::optional<double> real(std::string_view text) {
+  const RealCell cell = read_real(text);
+  if (text.empty() || cell.status != NumberStatus::ok) return std::nullopt;
+  return cell.value;
+}
+
+/// The whole number at the beginning of a text.
+std::optional<std::int64_t> leading_number(std::string_view text) {
+  text = trimmed(text);
+  return whole(text.substr(0, text.find_first_not_of("0123456789")));
+}
+
+/// All words as whole numbers; empty if one of them is none.
+std::vector<std::int64_t> row_of_numbers(const std::vector<std::string_view>& words) {
+  std::vector<std::int64_t> out;
+  for (const std::string_view word : words) {
+    const auto number = whole(word);
+    if (!number) return {};
+    out.push_back(*number);
+  }
+  return out;
+}
+
+/// "WARNING ID :    343"
+std::optional<ListedMessage> message_head(std::string_view line) {
+  constexpr std::pair<std::string_view, Severity> kinds[] = {{"ERROR", Severity::error},
+                                                             {"WARNING", Severity::warning},
+                                                             {"MESSAGE", Severity::info},
+                                                             {"INFO", Severity::info}};
+  for (const auto& [word, severity] : kinds) {
+    if (!line.starts_with(word)) continue;
+    const std::vector<std::string_view> words = words_of(line.substr(word.size()));
+    if (words.size() != 3 || words[0] != "ID" || words[1] != ":") return std::nullopt;
+    const auto number = whole(words[2]);
+    if (!number || *number <= 0 || *number > 999999) return std::nullopt;
+    ListedMessage out;
+    out.number = static_cast<int>(*number);
+    out.severity = severity;
+    return out;
+  }
+  return std::nullopt;
+}
+
+/// Messages that are printed while the solver works on a contact: their interface is that of the
+/// contact, which the later parts of a TYPE19 do not name.
+constexpr int of_contact[] = {343, 499, 611, 612, 1164};
+
+class Reader {
+ public:
+  explicit Reader(Listing& out) : out_(out) {}
+
+  void line(std::string_view text) {
+    ++number_;
+    while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.remove_suffix(1);
+    if (text.starts_with('|')) return;  // the summary at the end
+    if (auto head = message_head(trimmed(text))) return begin_message(std::move(*head));
+    if (in_message_ && message_text(text)) return;
+    in_message_ = false;
+    if (contact_line(text) || step_line(text)) return;
+    setting(trimmed(text));
+  }
+
+  bool is_listing() const { return is_listing_; }
+  bool of_engine() const { return of_engine_; }
+
+ private:
+  void begin_message(ListedMessage&& message) {
+    is_listing_ = in_message_ = true;
+    message.line = number_;
+    out_.messages.push_back(std::move(message));
+    title_next_ = true;
+  }
+
+  /// A line of the block that is open; false: it does not belong to it.
+  bool message_text(std::string_view text) {
+    if (title_next_) {
+      title_next_ = false;
+      if (text.starts_with("**")) return true;
+    }
+    if (text.starts_with("DESCRIPTION")) return true;
+    if (!text.starts_with("   ")) return false;
+    const std::vector<std::string_view> words = words_of(text);
+    if (words.size() >= 4 && !row_of_numbers(words).empty()) return false;  // a pair
+    ListedMessage& m = out_.messages.back();
+    if (m.number == 1164 && words.size() == 6) penetration_row(words);
+    described(m, trimmed(text));
+    return true;
+  }
+
+  /// A row of the table of message 1164.
+  void penetration_row(const std::vector<std::string_view>& words) {
+    const std::vector<std::int64_t> ids = row_of_numbers({words.begin(), words.begin() + 5});
+    const auto depth = real(words[5]);
+    if (ids.empty() || !depth || out_.contacts.empty()) return;
+    ListedContact& contact = out_.contacts.back();
+    const std::array<std::int64_t, 4> main{ids[1], ids[2], ids[3], ids[4]};
+    for (ListedPair& pair : contact.pairs)
+      if (pair.secondary[0] == ids[0] && pair.main == main && !pair.depth) {
+        pair.depth = depth;
+        return;
+      }
+    // Not among the candidates: of a contact whose candidates are not listed.
+    contact.pairs.push_back({{ids[0], 0}, main, false, depth});
+  }
+
+  /// Ids, nodes and the number that a line of a message shows.
+  void described(ListedMessage& m, std::string_view text) {
+    if (text.starts_with("-- ")) text.remove_prefix(3);
+    if (const auto colon = text.find(" TITLE:"); colon != text.npos && !m.ids.empty()) {
+      if (m.ids.back().title.empty()) m.ids.back().title = trimmed(text.substr(colon + 7));
+    } else if (text.starts_with("INTERFACE TYPE:") && !m.ids.empty()) {  // of 343: the title
+      m.ids.back().title = trimmed(text.substr(15));
+    }
+    named_id(m, text);
+    named_nodes(m, text);
+    if (std::find(std::begin(of_contact), std::end(of_contact), m.number) != std::end(of_contact) &&
+        !m.ids.empty() && !out_.contacts.empty() && out_.contacts.back().interface == 0)
+      out_.contacts.back().interface = m.ids.front().id;
+    if (m.count) return;
+    for (const std::string_view lead : {"THERE ARE ", "CONCERNING ", ""})
+      if (text.starts_with(lead))
+        if (const auto n = leading_number(text.substr(lead.size())); n && *n >= 0) {
+          m.count = static_cast<std::uint64_t>(*n);
+          break;
+        }
+    if (m.count && (m.number == 343 || m.number == 499)) total(m);
+  }
+
+  void named_id(ListedMessage& m, std::string_view text) {
+    auto at = text.find(" ID");
+    if (at == text.npos) return;
+    std::string_view rest = text.substr(at + 3);
+    while (!rest.empty() && (rest[0] == ' ' || rest[0] == ':' || rest[0] == '='))
+      rest.remove_prefix(1);
+    const auto id = leading_number(rest);
+    const std::string_view kind = trimmed(text.substr(0, at));
+    if (!id || kind.empty()) return;
+    if (kind.ends_with("NODE")) {
+      m.nodes.push_back(*id);
+      return;
+    }
+    ListedId named{std::string(kind), *id, {}};
+    if (const auto title = text.find("TITLE:"); title != text.npos)
+      named.title = trimmed(text.substr(title + 6, text.find(',', title) - title - 6));
+    m.ids.push_back(std::move(named));
+  }
+
+  /// "SECONDARY NODE: 105", "NODES 1 3 2 4", "SEGMENT: 1 1 3 4"
+  static void named_nodes(ListedMessage& m, std::string_view text) {
+    for (const std::string_view word : {"NODES ", "NODE:", "NODE ", "SEGMENT:"}) {
+      const auto at = text.find(word);
+      if (at == text.npos) continue;
+      bool any = false;
+      for (const std::string_view w : words_of(text.substr(at + word.size()))) {
+        const auto id = whole(w);
+        if (!id) break;
+        if (std::find(m.nodes.begin(), m.nodes.end(), *id) == m.nodes.end()) m.nodes.push_back(*id);
+        any = true;
+      }
+      if (any) return;
+    }
+  }
+
+  /// Message 343 or 499 ends the work on a contact.
+  void total(const ListedMessage& m) {
+    if (out_.contacts.empty() || m.ids.empty()) return;
+    ListedContact& contact = out_.contacts.back();
+    if (contact.interface != m.ids.front().id) return;
+    contact.total = m.count;
+    contact.total_line = m.line;
+  }
+
+  /// Lines of the work on a contact.
+  bool contact_line(std::string_view text) {
+    const std::string_view line = trimmed(text);
+    if (line.starts_with("INTERFACE NUMBER.")) {
+      const auto id = whole(words_of(line).back());
+      if (id) begin_contact(*id);
+      return true;
+    }
+    if (line.starts_with("INTERFACE TYPE.") && !out_.contacts.empty()) {
+      if (const auto type = whole(words_of(line).back()))
+        out_.contacts.back().type = static_cast<int>(*type);
+      return true;
+    }
+    if (line.starts_with("POSSIBLE IMPACT NUMBER")) {
+      if (counted_) begin_contact(0);
+      counted_ = true;
+      return true;
+    }
+    if (line.starts_with("** INITIAL PENETRATION =")) {
+      penetration_line(line);
+      return true;
+    }
+    if (line.starts_with("IMPACT CANDIDATES")) {
+      in_pairs_ = true;
+      return true;
+    }
+    return in_pairs_ && pair_line(text);
+  }
+
+  /// A header names an interface once in a pass: the second time another pass begins, whose
+  /// contacts replace the others.
+  void begin_contact(std::int64_t interface) {
+    in_pairs_ = counted_ = false;
+    if (interface != 0 &&
+        std::any_of(out_.contacts.begin(), out_.contacts.end(), [&](const ListedContact& c) {
+          return c.interface == interface && c.type != 0;
+        }))
+      out_.contacts.clear();
+    ListedContact contact;
+    contact.interface = interface;
+    contact.line = number_;
+    out_.contacts.push_back(std::move(contact));
+  }
+
+  /// Four or five ids, ten columns each.
+  bool pair_line(std::string_view text) {
+    const std::vector<std::string_view> words = words_of(text);
+    if ((words.size() != 4 && words.size() != 5) || text.size() != 10 * words.size()) return false;
+    const std::vector<std::int64_t> ids = row_of_numbers(words);
+    if (ids.empty() || out_.contacts.empty()) return false;
+    ListedPair pair;
+    if (ids.size() == 5) {
+      pair.secondary = {ids[0], 0};
+      pair.main = {ids[1], ids[2], ids[3], ids[4]};
+    } else {
+      pair.secondary = {ids[0], ids[1]};
+      pair.main = {ids[2], ids[3], 0, 0};
+    }
+    out_.contacts.back().pairs.push_back(pair);
+    return true;
+  }
+
+  /// "** INITIAL PENETRATION = x IMPOSSIBLE ... NODE n", or of edges "... POSSIBLE NEW ...".
+  void penetration_line(std::string_view line) {
+    if (out_.contacts.empty()) return;
+    std::vector<ListedPair>& pairs = out_.contacts.back().pairs;
+    if (line.find("IMPOSSIBLE") == line.npos) {
+      const std::vector<std::string_view> words = words_of(line);
+      if (!pairs.empty() && words.size() > 4) pairs.back().depth = real(words[4]);
+      return;
+    }
+    const auto node = whole(words_of(line).back());
+    if (!node) return;
+    if (pairs.empty() || pairs.back().secondary[0] != *node || pairs.back().on_segment)
+      pairs.push_back({{*node, 0}, {}, true, std::nullopt});
+    pairs.back().on_segment = true;
+  }
+
+  /// Tables of time steps.
+  bool step_line(std::string_view text) {
+    const std::string_view line = trimmed(text);
+    if (line.ends_with("ELEMENTS TIME STEP")) {
+      constexpr std::pair<std::string_view, ElementKind> kinds[] = {
+          {"TRIANGULAR SHELL", ElementKind::shell3},
+          {"SHELL", ElementKind::shell4},
+          {"SOLID", ElementKind::solid8},
+          {"QUAD", ElementKind::quad},
+          {"TRUSS", ElementKind::truss},
+          {"BEAM", ElementKind::beam},
+          {"SPRING", ElementKind::spring}};
+      steps_ = nullptr;
+      for (const auto& [word, kind] : kinds)
+        if (line.starts_with(word)) {
+          steps_ = &out_.element_steps[kind];
+          break;
+        }
+      return true;
+    }
+    if (line.starts_with("NODAL TIME STEP")) {
+      steps_ = line.find("estimation") != line.npos ? &out_.node_steps : nullptr;
+      return true;
+    }
+    if (steps_ == nullptr) return false;
+    const std::vector<std::string_view> words = words_of(line);
+    const auto dt = words.size() == 2 ? real(words[0]) : std::nullopt;
+    const auto id = words.size() == 2 ? whole(words[1]) : std::nullopt;
+    if (dt && id) {
+      steps_->push_back({*id, *dt});
+      return true;
+    }
+    const bool heading = line.empty() || line.starts_with('-') || line.starts_with("TIME STEP");
+    if (!heading || (line.empty() && !steps_->empty())) steps_ = nullptr;
+    return heading;
+  }
+
+  /// What the listing says of itself.
+  void setting(std::string_view line) {
+    if (line.starts_with("IPRI ") || line.starts_with("IPRI:")) {
+      const auto words = words_of(line);
+      if (const auto level = whole(words.back())) out_.printout = static_cast<int>(*level);
+      is_listing_ = true;
+    } else if (line.starts_with("CONTROL  PARAMETERS") ||
+               line.starts_with("* INPUT READING PROCESS")) {
+      is_listing_ = true;
+    } else if (line.starts_with("CYCLE    TIME") || line.starts_with("NC=")) {
+      of_engine_ = true;
+    } else if (line.ends_with("ERROR(S)")) {
+      if (const auto n = leading_number(line)) out_.errors = static_cast<std::uint64_t>(*n);
+    } else if (line.ends_with("WARNING(S)")) {
+      if (const auto n = leading_number(line)) out_.warnings = static_cast<std::uint64_t>(*n);
+    }
+  }
+
+  Listing& out_;
+  std::size_t number_ = 0;
+  bool is_listing_ = false, of_engine_ = false;
+  bool in_message_ = false, title_next_ = false;
+  bool in_pairs_ = false;  ///< lines of numbers are pairs
+  bool counted_ = false;   ///< the contact has its number of candidates: another one is a new part
+  std::vector<ListedStep>* steps_ = nullptr;
+};
+
+}  // namespace
+}  // namespace listing_reading
+
+Result<Listing> read_listing_text(const std::string& path, std::string_view text) {
+  Listing out;
+  out.path = path;
+  listing_reading::Reader reader(out);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    reader.line(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  if (reader.is_listing()) return out;
+  return Error{
+      Error::Code::syntax,
+      path + (reader.of_engine() ? " is a listing of the Engine; the Starter's ends in _0000.out"
+                                 : " is no listing of the Starter")};
+}
+
+Result<Listing> read_listing(const std::string& path, const Limits& limits) {
+  const auto source = Source::open_text(path, limits);
+  if (!source) return source.error();
+  return read_listing_text(path, (*source)->bytes());
+}
+
+}  // namespace deck

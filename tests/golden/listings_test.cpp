@@ -1,0 +1,59 @@
+// Whole listings of the reference Starter held against their decks: every penetration and every
+// time step that it prints. Skipped where the listings are absent.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "deck/inspect/listing.hpp"
+#include "deck/lint/messages.hpp"
+#include "golden/reference.hpp"
+
+namespace deck {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The deck that a listing is of.
+fs::path deck_of(const std::string& name) {
+  const std::string file = name + "_0000.rad";
+  for (const fs::path& folder :
+       {test::source_dir() / "samples", test::corpus() / "corpus" / "qa" / name,
+        test::corpus() / "corpus" / name, test::corpus() / "corpus" / "synthetic",
+        test::corpus() / "findings" / "user"})
+    if (fs::exists(folder / file)) return folder / file;
+  return {};
+}
+
+class Listings : public testing::TestWithParam<const char*> {};
+
+TEST_P(Listings, HavePenetrationsAndStepsOfTheirDeck) {
+  const std::string name = GetParam();
+  const fs::path path = test::corpus() / "oracle" / "listings" / (name + "_0000.out.gz");
+  const fs::path deck = deck_of(name);
+  if (!fs::exists(path) || deck.empty()) GTEST_SKIP() << "no listing or deck of " << name;
+  const auto listing = read_listing(path.string(), {});
+  ASSERT_TRUE(listing.ok());
+  ASSERT_FALSE(listing->messages.empty());
+  for (const ListedMessage& m : listing->messages)
+    EXPECT_FALSE(summary_of_message(m.number).title.empty()) << m.number;
+  auto loaded = load(deck.string());
+  ASSERT_TRUE(loaded.ok());
+  const ListingReport report = compare_listing(*listing, *loaded);
+  EXPECT_EQ(report.unnamed_contacts, 0u);
+  for (const ComparedContact& c : report.contacts) {
+    EXPECT_TRUE(c.agrees()) << "interface " << loaded->scene().contacts[c.contact].inter->id << ": "
+                            << c.listed_count << " listed, " << c.pairs.size() << " computed";
+    EXPECT_LT(c.largest_difference, 1e-9);
+  }
+  for (const ComparedSteps& s : report.steps) EXPECT_TRUE(s.different.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Golden, Listings,
+                         testing::Values("crash_box", "inacti_variants", "two_surfaces",
+                                         "solid_and_skin", "synf", "BOXBEAM", "CRA2AV4",
+                                         "SEAT_ADYREL", "kinematics", "tied10"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+}  // namespace
+}  // namespace deck

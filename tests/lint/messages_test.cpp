@@ -1,0 +1,89 @@
+// Messages of the solver by number and by words.
+#include "deck/lint/messages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "deck/lint/topics.hpp"
+#include "deck/text/rule.hpp"
+
+namespace deck {
+namespace {
+
+const SchemaSet& schemas() { return SchemaSet::built_in(); }
+bool has(const std::string& page, const char* text) { return page.find(text) != std::string::npos; }
+
+TEST(SolverMessages, AreOrderedAndEachIsThereOnce) {
+  int last = 0;
+  for (const SolverMessage& m : solver_messages()) {
+    EXPECT_LT(last, m.number);
+    EXPECT_FALSE(m.title.empty() || m.means.empty() || m.action.empty()) << m.number;
+    EXPECT_EQ(find_solver_message(m.number), &m);
+    last = m.number;
+  }
+  EXPECT_GT(solver_messages().size(), 100u);
+  EXPECT_EQ(find_solver_message(0), nullptr);
+  EXPECT_EQ(find_solver_message(last + 1), nullptr);
+}
+
+TEST(SolverMessages, HaveTheSeverityOfTheRulesThatReportThem) {
+  for (const Rule& rule : all_rules())
+    for (const ReferenceMessage& m : rule.messages) {
+      const SolverMessage* own = find_solver_message(m.number);
+      if (own != nullptr) {
+        EXPECT_EQ(own->severity, m.severity) << m.number;
+      }
+    }
+}
+
+TEST(SolverMessages, OfAListingHaveTheirPage) {
+  for (const int number : {147, 312, 343, 446, 499, 680, 1078, 1084, 1164, 1220, 1741, 1912, 3121})
+    EXPECT_TRUE(explain_message(number, schemas(), 0).starts_with("Message ")) << number;
+}
+
+TEST(MessageNumber, IsFoundInTheWordsOfAListing) {
+  EXPECT_EQ(message_number("611"), 611);
+  EXPECT_EQ(message_number("error 611"), 611);
+  EXPECT_EQ(message_number("WARNING ID :    343"), 343);
+  EXPECT_EQ(message_number(" MESSAGE ID : 1741 "), 1741);
+  EXPECT_FALSE(message_number("error"));
+  EXPECT_FALSE(message_number("611 or 612"));
+  EXPECT_FALSE(message_number("Inacti 6"));
+  EXPECT_FALSE(message_number("1234567"));
+}
+
+TEST(ExplainTopic, ANumberOfAMessageAndOfARuleShowsBoth) {
+  const std::string both = explain_topic("312", schemas());
+  EXPECT_TRUE(both.starts_with("Message 312 of the reference solver (warning)")) << both;
+  EXPECT_TRUE(has(both, "\nThe rule of that number\n\nDK312: ")) << both;
+  EXPECT_FALSE(has(explain_topic("WARNING 312", schemas()), "DK312: "));
+  EXPECT_TRUE(explain_topic("203", schemas()).starts_with("DK203: "));
+}
+
+TEST(ExplainTopic, WordsOfAMessageLeadToIt) {
+  for (const char* words : {"initial penetrations", "THERE ARE 378 INITIAL PENETRATIONS"}) {
+    const std::string page = explain_topic(words, schemas());
+    EXPECT_TRUE(has(page, "\n  343 ")) << page;
+    EXPECT_TRUE(has(page, "\n  499 ")) << page;
+    EXPECT_TRUE(has(page, "\n  DK301 ")) << page;
+    EXPECT_TRUE(has(page, "deck explain 343")) << page;
+  }
+  EXPECT_TRUE(explain_topic("initial nonsense", schemas()).empty());
+  EXPECT_TRUE(explain_topic("there are", schemas()).empty());
+}
+
+TEST(ExplainMessage, NamesARuleThatMentionsItAndNoOther) {
+  // "Inacti 5" is no mention of message 5.
+  EXPECT_FALSE(has(explain_message(5, schemas(), 0), "DK254"));
+  EXPECT_TRUE(has(explain_message(21, schemas(), 0), "DK130"));  // "error 21"
+}
+
+TEST(SummaryOfMessage, ComesFromItsEntryElseFromARule) {
+  EXPECT_EQ(summary_of_message(343).title, "initial penetrations of an interface");
+  EXPECT_EQ(summary_of_message(178).title, "part without property");
+  EXPECT_TRUE(summary_of_message(99999).title.empty());
+}
+
+}  // namespace
+}  // namespace deck

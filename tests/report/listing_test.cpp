@@ -1,0 +1,272 @@
+// Listings of the Starter read back and held against their decks.
+#include "deck/report/listing.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "deck/base/columns.hpp"
+#include "deck/model/mesh.hpp"
+#include "deck/text/rule_id.hpp"
+#include "report/inspected.hpp"
+
+namespace deck {
+namespace {
+
+using nlohmann::json;
+using test::Inspected;
+using test::plates;
+
+std::string head(int printout) {
+  return "* INPUT READING PROCESS\n    IPRI  : PRINTOUT FLAG . . . . . . . .         " +
+         std::to_string(printout) + "\n";
+}
+
+std::string contact_head(int id, int type) {
+  return "\n INTERFACE NUMBER. . . . . . . . . . . . . ." + std::string(9, ' ') +
+         std::to_string(id) + "\n INTERFACE TYPE. . . . . . . . . . . . . . .     " +
+         std::to_string(type) + "\n\n  POSSIBLE IMPACT NUMBER:           4  (<=  1 *NSN)\n";
+}
+
+std::string row(std::initializer_list<int> ids) {
+  std::string out;
+  for (const int id : ids) out += fmt::sprintf("%10d", id);
+  return out + "\n";
+}
+
+constexpr const char* pairs_head =
+    "\n    IMPACT CANDIDATES\n   SECONDARY        MAIN SEGMENT NODES\n   NODE\n";
+
+std::string total(int id, int pairs, int nodes) {
+  return fmt::format(
+      "\nWARNING ID :    343\n** WARNING: INITIAL PENETRATIONS IN INTERFACE\nDESCRIPTION :  \n"
+      "   -- INTERFACE ID: {}\n   -- INTERFACE TYPE: example\n"
+      "   THERE ARE {} INITIAL PENETRATIONS\n   ( CONCERNING {} NODES )\n",
+      id, pairs, nodes);
+}
+
+constexpr const char* end = "\n\n              0 ERROR(S)\n              1 WARNING(S)\n";
+
+/// What the Starter prints for plates(): four nodes 0.4 above a segment, with a gap of 0.5.
+std::string listing_of_plates() {
+  std::string rows;
+  for (const int node : {5, 6, 7, 8}) rows += row({node, 1, 2, 3, 4});
+  return head(5) + contact_head(1, 7) + contact_head(1, 7) + pairs_head + rows +
+         "\nWARNING ID :   1164\n** WARNING: INITIAL PENETRATIONS IN INTERFACE\nDESCRIPTION :  \n"
+         "   -- INTERFACE ID: 1\n   -- INTERFACE TITLE: example\n   CONCERNING 4 NODE(S):\n"
+         "   SECONDARY_NODE  MAIN_NODE_1 MAIN_NODE_2\n"
+         "   5         1             2             3             4                0.1\n"
+         "   6         1             2             3             4                0.1\n"
+         "   7         1             2             3             4                0.1\n"
+         "   8         1             2             3             4                0.1\n" +
+         total(1, 4, 4) + end;
+}
+
+Listing read(const std::string& text) {
+  auto listing = read_listing_text("car_0000.out", text);
+  EXPECT_TRUE(listing.ok());
+  return listing ? std::move(*listing) : Listing{};
+}
+
+TEST(ReadListing, RefusesOtherFiles) {
+  EXPECT_FALSE(read_listing_text("x", "").ok());
+  EXPECT_FALSE(read_listing_text("x", "some text\nof nobody\n").ok());
+  const auto engine = read_listing_text("x", " NC=       0 T= 0.0000E+00 DT= 1.0E-03\n");
+  ASSERT_FALSE(engine.ok());
+  EXPECT_NE(engine.error().message.find("Engine"), std::string::npos);
+  EXPECT_FALSE(read_listing("/nowhere/x_0000.out", {}).ok());
+}
+
+TEST(ReadListing, TakesTheMessagesWithWhatTheyName) {
+  const Listing listing = read(
+      head(0) +
+      "\nERROR ID :    612\n** ERROR IN INITIAL PENETRATION IN INTERFACE\nDESCRIPTION :  \n"
+      "   -- INTERFACE ID: 9\n   -- INTERFACE TITLE: if9\n   INACTI = 0\n"
+      "   SECONDARY NODE 105 IS ON THE MAIN SURFACE\n       102         1         2         3\n"
+      "\nMESSAGE ID :   1741\n** INFO IN PROPERTY DEFINITION\nDESCRIPTION :  \n"
+      "   CONCERNING 2 PROPERTY(S)\n   PROPERTY ID=8   ,  PROPERTY TITLE: foam,  ICPRE=3\n"
+      "   PROPERTY ID=9   ,  PROPERTY TITLE: back,  ICPRE=3\n"
+      "\nERROR ID :    558\n** ERROR\nDESCRIPTION :\n   -- INTERFACE ID: 2\n"
+      "   MAIN SEGMENT DEFINED BY NODES 1 3 2 4\n");
+  ASSERT_EQ(listing.messages.size(), 3u);
+  const ListedMessage& first = listing.messages[0];
+  EXPECT_EQ(first.number, 612);
+  EXPECT_EQ(first.severity, Severity::error);
+  EXPECT_EQ(first.line, 4u);
+  ASSERT_EQ(first.ids.size(), 1u);
+  EXPECT_EQ(first.ids[0].kind, "INTERFACE");
+  EXPECT_EQ(first.ids[0].id, 9);
+  EXPECT_EQ(first.ids[0].title, "if9");
+  EXPECT_EQ(first.nodes, std::vector<std::int64_t>{105});
+  EXPECT_FALSE(first.count);
+  const ListedMessage& second = listing.messages[1];
+  EXPECT_EQ(second.severity, Severity::info);
+  ASSERT_EQ(second.ids.size(), 2u);
+  EXPECT_EQ(second.ids[1].title, "back");
+  EXPECT_EQ(second.count, 2u);
+  EXPECT_EQ(listing.messages[2].nodes, (std::vector<std::int64_t>{1, 3, 2, 4}));
+  EXPECT_FALSE(listing.errors) << "it has no end";
+}
+
+TEST(ReadListing, KeepsTheLastPassOfAContact) {
+  const Listing listing = read(listing_of_plates());
+  ASSERT_EQ(listing.contacts.size(), 1u);
+  const ListedContact& contact = listing.contacts[0];
+  EXPECT_EQ(contact.interface, 1);
+  EXPECT_EQ(contact.type, 7);
+  EXPECT_EQ(contact.total, 4u);
+  ASSERT_EQ(contact.pairs.size(), 4u);
+  EXPECT_EQ(contact.pairs[0].secondary[0], 5);
+  EXPECT_EQ(contact.pairs[0].depth, 0.1);
+  EXPECT_EQ(listing.printout, 5);
+  EXPECT_EQ(listing.errors, 0u);
+  EXPECT_EQ(listing.warnings, 1u);
+}
+
+TEST(ReadListing, GivesAPartWithoutHeaderTheInterfaceOfItsMessage) {
+  const Listing listing = read(head(0) + contact_head(3, 19) + total(3, 2, 2) +
+                               "  POSSIBLE IMPACT NUMBER:          21  (<= 2 *NSN)\n" +
+                               total(3, 9, 4) + "  POSSIBLE IMPACT NUMBER:   1  (<= 7 *NSN)\n");
+  ASSERT_EQ(listing.contacts.size(), 3u);
+  EXPECT_EQ(listing.contacts[0].type, 19);
+  EXPECT_EQ(listing.contacts[1].interface, 3);
+  EXPECT_EQ(listing.contacts[1].type, 0);
+  EXPECT_EQ(listing.contacts[1].total, 9u);
+  EXPECT_EQ(listing.contacts[2].interface, 0);
+}
+
+TEST(ReadListing, MarksTheNodesOnASegment) {
+  const std::string on =
+      "  ** INITIAL PENETRATION = 0.1E+01 IMPOSSIBLE TO MOVE SECONDARY NODE     ";
+  const Listing shown =
+      read(head(1) + contact_head(1, 7) + pairs_head + row({5, 1, 2, 3, 4}) + on + "5\n");
+  ASSERT_EQ(shown.contacts[0].pairs.size(), 1u);
+  EXPECT_TRUE(shown.contacts[0].pairs[0].on_segment);
+  const Listing hidden = read(head(0) + contact_head(1, 7) + on + "5\n" + on + "6\n");
+  ASSERT_EQ(hidden.contacts[0].pairs.size(), 2u);
+  EXPECT_EQ(hidden.contacts[0].pairs[1].secondary[0], 6);
+  EXPECT_EQ(hidden.contacts[0].pairs[1].main[0], 0);
+}
+
+TEST(ReadListing, TakesTheTablesOfTimeSteps) {
+  const Listing listing = read(head(0) +
+                               "         SHELL ELEMENTS TIME STEP\n         ----------\n\n"
+                               "      TIME STEP       ELEMENT NUMBER\n"
+                               "  1.5E-03              7\n  1.0000000000000E+30          9\n\n"
+                               "         TRIANGULAR SHELL ELEMENTS TIME STEP\n         ---\n\n"
+                               "      TIME STEP       ELEMENT NUMBER\n  2.5E-03    8\n\n"
+                               "         NODAL TIME STEP (estimation)\n         ---\n\n"
+                               "      TIME STEP       NODE NUMBER\n  1.0E-03   3\n\n"
+                               "         NODAL TIME STEP DISTRIBUTION\n  4.0E-03   5\n");
+  ASSERT_EQ(listing.element_steps.at(ElementKind::shell4).size(), 2u);
+  EXPECT_EQ(listing.element_steps.at(ElementKind::shell4)[0].id, 7);
+  ASSERT_EQ(listing.element_steps.at(ElementKind::shell3).size(), 1u);
+  ASSERT_EQ(listing.node_steps.size(), 1u);
+  EXPECT_EQ(listing.node_steps[0].dt, 1e-3);
+}
+
+TEST(CompareListing, MatchesPairByPairAndLeadsToTheCard) {
+  Inspected deck(plates());
+  const Listing listing = read(listing_of_plates());
+  const ListingReport report = compare_listing(listing, deck.loaded);
+  ASSERT_EQ(report.contacts.size(), 1u);
+  const ComparedContact& contact = report.contacts[0];
+  EXPECT_TRUE(contact.agrees());
+  EXPECT_TRUE(contact.by_pair);
+  ASSERT_EQ(contact.pairs.size(), 4u);
+  EXPECT_TRUE(contact.pairs[0].listed);
+  EXPECT_NEAR(contact.largest_difference, 0, 1e-12);
+  EXPECT_TRUE(report.agrees());
+  const auto group = std::find_if(report.messages.begin(), report.messages.end(),
+                                  [](const MessageGroup& g) { return g.number == 343; });
+  ASSERT_NE(group, report.messages.end());
+  ASSERT_EQ(group->places.size(), 1u);
+  EXPECT_EQ(group->places[0].name, "interface 1 'example'");
+  EXPECT_EQ(group->places[0].counted, std::vector<std::uint64_t>{4});
+  EXPECT_TRUE(group->places[0].span.valid());
+  ASSERT_FALSE(group->places[0].findings.empty());
+  EXPECT_EQ(report.findings[group->places[0].findings[0]].rule, RuleId::DK301);
+}
+
+TEST(CompareListing, TellsWhatOnlyOneSideHas) {
+  Inspected deck(plates());
+  std::string text = head(1) + contact_head(1, 7) + pairs_head + row({5, 1, 2, 3, 4}) +
+                     row({99, 1, 2, 3, 4}) + total(1, 2, 2) + contact_head(8, 7) + end;
+  const Listing listing = read(text);
+  const ListingReport report = compare_listing(listing, deck.loaded);
+  EXPECT_FALSE(report.agrees());
+  EXPECT_EQ(report.unnamed_contacts, 1u);
+  ASSERT_EQ(report.contacts.size(), 1u);
+  ASSERT_EQ(report.contacts[0].only_listed.size(), 1u);
+  EXPECT_EQ(report.contacts[0].only_listed[0].secondary[0], 99);
+  EXPECT_EQ(std::count_if(report.contacts[0].pairs.begin(), report.contacts[0].pairs.end(),
+                          [](const ComparedPair& p) { return p.listed; }),
+            1);
+}
+
+TEST(CompareListing, HoldsStepsAgainstTheMesh) {
+  Inspected deck(plates());
+  const double dt = deck.loaded.mesh().of(ElementKind::shell4).dt[0];
+  const Listing listing = read(head(0) + fmt::format("   SHELL ELEMENTS TIME STEP\n   ---\n\n"
+                                                     "  TIME STEP  ELEMENT NUMBER\n  {:.13E}   1\n"
+                                                     "  {:.13E}   2\n  1.0E-03   77\n\n",
+                                                     dt, dt * 1.1));
+  const ListingReport report = compare_listing(listing, deck.loaded);
+  ASSERT_EQ(report.steps.size(), 1u);
+  EXPECT_EQ(report.steps[0].equal, 1u);
+  ASSERT_EQ(report.steps[0].different.size(), 2u);
+  EXPECT_TRUE(std::isnan(report.steps[0].different[1].computed));
+  EXPECT_FALSE(report.agrees());
+}
+
+TEST(CompareListing, NamesWhatDeckExpectsAndTheListingDoesNotHave) {
+  Inspected deck(plates());
+  const Listing listing = read(head(0) + end);
+  const ListingReport report = compare_listing(listing, deck.loaded);
+  EXPECT_TRUE(std::any_of(report.not_listed.begin(), report.not_listed.end(),
+                          [&](std::size_t f) { return report.findings[f].rule == RuleId::DK301; }));
+}
+
+TEST(ExplainListing, NeedsNoDeck) {
+  const Listing listing = read(listing_of_plates());
+  const ListingReport report = explain_listing(listing);
+  ASSERT_EQ(report.messages.size(), 2u);
+  EXPECT_FALSE(report.messages[0].title.empty());
+  const std::string text = listing_text(listing, report, nullptr);
+  EXPECT_NE(text.find("warning 343: initial penetrations of an interface (1 time)"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("Time steps"), std::string::npos);
+}
+
+TEST(ListingText, LeadsFromTheNumberToTheRows) {
+  Inspected deck(plates());
+  const Listing listing = read(listing_of_plates());
+  const ListingReport report = compare_listing(listing, deck.loaded);
+  const std::string text = listing_text(listing, report, &deck.loaded, {.width = 80});
+  for (const char* expected : {"interface 1 'example', test_0000.rad:", "says 4", "DK301",
+                               "4 the same", "1 2 3 4", "2 on 1"})
+    EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t line_end = std::min(text.find('\n', at), text.size());
+    EXPECT_LE(display_width(text.substr(at, line_end - at)), 80u) << text.substr(at, line_end - at);
+    at = line_end + 1;
+  }
+}
+
+TEST(ListingJson, HasThePairsWithTheirDepths) {
+  Inspected deck(plates());
+  const Listing listing = read(listing_of_plates());
+  const ListingReport report = compare_listing(listing, deck.loaded);
+  const json document = json::parse(listing_json(listing, report, &deck.loaded));
+  EXPECT_EQ(document["schema"]["id"], "deck/explain");
+  EXPECT_EQ(document["agrees"], true);
+  const json& pair = document["contacts"][0]["pairs"][0];
+  EXPECT_EQ(pair["listed"], true);
+  EXPECT_EQ(pair["listed_penetration"], 0.1);
+  EXPECT_EQ(pair["parts"], json({2, 1}));
+  EXPECT_TRUE(
+      json::parse(listing_json(listing, explain_listing(listing), nullptr))["deck"].is_null());
+}
+
+}  // namespace
+}  // namespace deck
