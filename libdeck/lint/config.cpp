@@ -199,8 +199,12 @@ Result<void> read_gate(const toml::node& node, LintConfig& config) {
       if (!text)
         return config_error(config.path, line_of(value),
                             "'" + std::string(key.str()) + "' is not a path");
-      (key.str() == "compare" ? config.compare : config.accepted) =
-          (fs::path(config.path).parent_path() / *text).string();
+      const bool compare = key.str() == "compare";
+      // "git:REV" is the deck at a revision, no file.
+      (compare ? config.compare : config.accepted) =
+          compare && text->starts_with("git:")
+              ? *text
+              : (fs::path(config.path).parent_path() / *text).string();
       continue;
     }
     const auto known = read_bound(key.str(), value, config.path, config.gate.general);

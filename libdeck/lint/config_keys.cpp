@@ -30,7 +30,7 @@ const std::vector<ConfigKey>& config_keys() {
       {"gate", "max-dt-loss", "0.1", "no bound",
        "share of the mesh's time step that a contact may take away"},
       {"gate", "compare", R"("gaps.json")", "none",
-       "an earlier 'deck gaps --json' to compare with, relative to this file"},
+       "an earlier 'deck gaps --json' to compare with, relative to this file, or \"git:REV\""},
       {"gate", "fail-on", R"(["new", "worse"])", "none",
        "errors for penetrations that the earlier run did not have, or that are deeper now"},
       {"gate", "baseline", R"("gaps-baseline.json")", "none",

@@ -131,6 +131,10 @@ Option& Option::takes(int count, const std::string& text) {
   option_->expected(count)->option_text(text);
   return *this;
 }
+Option& Option::takes(int least, int most, const std::string& text) {
+  option_->expected(least, most)->option_text(text);
+  return *this;
+}
 Option& Option::any_number() {
   option_->expected(0, -1);
   return *this;
@@ -355,6 +359,38 @@ void collect(const CLI::App& app, const std::string& group, VerbInfo& verb) {
     if (sub->get_name().empty() && !sub->get_group().empty()) collect(*sub, sub->get_group(), verb);
 }
 
+/// Headings of the help for options that several verbs share; the others are those of the verb
+/// itself, and stand above.
+const char* heading_of(std::string_view name) {
+  struct Heading {
+    const char* title;
+    std::string_view names;  ///< between blanks
+  };
+  static constexpr Heading headings[] = {
+      {"Output",
+       " json quiet color verbose csv ties-csv svg vtk html all format output worst rows ruler "
+       "per-rule no-group statistics report matrix markdown "},
+      {"Exit code",
+       " fail-on fail-on-penetration fail-on-force require-examined baseline write-baseline "},
+      {"Changes", " fix unsafe-fixes diff in-place backup overwrite check verify no-verify "},
+      {"Reading", " include-path schemas threads max-memory config no-config git "}};
+  const std::string wanted = " " + std::string(name) + " ";
+  for (const Heading& heading : headings)
+    if (heading.names.find(wanted) != std::string_view::npos) return heading.title;
+  return nullptr;
+}
+
+/// Puts the options of a verb under headings.
+void group_options(CLI::App& verb) {
+  for (CLI::Option* option : verb.get_options())
+    if (option->nonpositional() && option->get_group() == "Options")
+      for (const std::string& name : option->get_lnames())
+        if (const char* const heading = heading_of(name)) {
+          option->group(heading);
+          break;
+        }
+}
+
 /// Refuses an unknown verb with the closest known one; 0: the verb is known or there is none.
 int check_verb(const std::vector<std::string>& words, const std::vector<Verb>& all) {
   if (words.empty() || words.front().starts_with('-')) return exit_clean;
@@ -387,6 +423,7 @@ std::vector<VerbInfo> describe_verbs() {
     CommandLine line((std::string(v.summary)), std::string(v.name), session);
     line.parser().set_help_flag("-h,--help", "This help");
     const Action action = v.setup(line);  // holds what the options are stored in
+    group_options(line.parser());
     if (line.hidden()) continue;
     VerbInfo info;
     info.name = v.name;
@@ -394,10 +431,15 @@ std::vector<VerbInfo> describe_verbs() {
     info.description = line.parser().get_description();
     info.examples = v.examples;
     collect(line.parser(), "", info);
+    std::vector<std::string> groups = {""};  // in the order in which they first occur
+    for (const OptionInfo& o : info.options)
+      if (std::find(groups.begin(), groups.end(), o.group) == groups.end())
+        groups.push_back(o.group);
+    const auto place = [&](const OptionInfo& o) {
+      return std::find(groups.begin(), groups.end(), o.group) - groups.begin();
+    };
     std::stable_sort(info.options.begin(), info.options.end(),
-                     [](const OptionInfo& a, const OptionInfo& b) {
-                       return a.group.empty() && !b.group.empty();
-                     });
+                     [&](const OptionInfo& a, const OptionInfo& b) { return place(a) < place(b); });
     all.push_back(std::move(info));
   }
   return all;
@@ -429,6 +471,7 @@ int run_program(int argc, char** argv, const std::string& version, Session& sess
     if (!v.examples.empty()) sub->footer("Examples:\n" + std::string(v.examples));
     CommandLine line(sub, session);
     actions[sub] = v.setup(line);
+    group_options(*sub);
   }
   app.require_subcommand(0, 1);
   app.footer(

@@ -53,6 +53,7 @@ class Option {
   Option& comma_list();
   /// So many arguments, named `text` in the help.
   Option& takes(int count, const std::string& text);
+  Option& takes(int least, int most, const std::string& text);
   /// As many arguments as there are, also none.
   Option& any_number();
 

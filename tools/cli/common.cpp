@@ -110,6 +110,21 @@ void add_common(CommandLine& line, CommonOptions& options, bool with_json) {
       .one_each();
 }
 
+void allow_directories(CommandLine& line) {
+  line.existing("decks").describe(
+      "Starter decks, or directories: all *_0000.rad below them; '-' is standard input");
+}
+
+int open_directories(CommonOptions& options) {
+  auto decks = decks_in_directories(options.decks);
+  if (!decks) {
+    print_error(options, decks.error().message);
+    return exit_input;
+  }
+  options.decks = std::move(*decks);
+  return exit_clean;
+}
+
 void add_require_examined(CommandLine& line, CommonOptions& options) {
   line.flag("--require-examined", options.require_examined,
             "Exit 1 if the deck has no interface of an examined type (TYPE7, 10, 11, 19)");

@@ -51,6 +51,11 @@ struct CommonOptions {
 
 /// Adds the shared options. With `with_json` false the verb has no --json.
 void add_common(CommandLine& line, CommonOptions& options, bool with_json = true);
+/// The decks may be directories, too: open_directories() has to be called.
+void allow_directories(CommandLine& line);
+/// Replaces directories by the decks below them. Says what is wrong and returns exit_input, or
+/// exit_clean.
+int open_directories(CommonOptions& options);
 /// Only those that do not need a deck: --json, --quiet, --color, --schemas.
 void add_common_without_decks(CommandLine& line, CommonOptions& options);
 

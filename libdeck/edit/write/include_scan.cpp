@@ -24,8 +24,9 @@ std::optional<FileIdentity> regular_file(const std::string& path) {
   return FileIdentity{status.st_dev, status.st_ino};
 }
 
-/// The paths that the directives of a text name.
-std::vector<std::string> directives_of(std::string_view text) {
+}  // namespace
+
+std::vector<std::string> included_names(std::string_view text) {
   std::vector<std::string> out;
   for (std::size_t at = text.find('#'); at != text.npos; at = text.find('#', at + 1)) {
     if (at > 0 && text[at - 1] != '\n') continue;
@@ -39,13 +40,11 @@ std::vector<std::string> directives_of(std::string_view text) {
   return out;
 }
 
-}  // namespace
-
 const std::vector<std::string>& IncludeScan::written(const File& file) {
   const auto [it, is_new] = written_.try_emplace(file.identity);
   if (is_new)
     if (const auto source = Source::open_text(file.path, Limits{}))
-      it->second = directives_of((*source)->bytes());
+      it->second = included_names((*source)->bytes());
   return it->second;
 }
 

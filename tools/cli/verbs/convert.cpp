@@ -19,6 +19,7 @@
 #include "deck/report/deck_json.hpp"
 #include "deck/report/losses.hpp"
 #include "deck/text/gzip.hpp"
+#include "verbs/convert_check.hpp"
 #include "verbs/convert_losses.hpp"
 #include "verbs/convert_steps.hpp"
 #include "writing/changes.hpp"
@@ -36,6 +37,7 @@ struct Options {
   std::string to = "rad", from = "rad";
   std::string report;
   bool verify = false, no_verify = false;
+  bool check = false;  ///< nothing is written: what would happen
   /// In a batch it is on unless it is switched off.
   bool verifies() const { return !no_verify && (verify || common.session->frame != nullptr); }
 };
@@ -46,6 +48,7 @@ struct Conversion {
   Overlay changed;  ///< contents that differ from the files on disk
   std::vector<LossEntry> losses;
   std::unique_ptr<Behaviour> behaviour;  ///< of `now`, if it is to be verified
+  std::vector<std::string> refusals = {};
 };
 
 void print_refusals(const CommonOptions& common, const std::vector<std::string>& refusals) {
@@ -102,13 +105,17 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
   const std::vector<LossEntry> losses = std::move(rewrite.losses);
   c.losses.insert(c.losses.end(), losses.begin(), losses.end());
   if (!rewrite.refusals.empty()) {
+    if (options.check && !rewrite.misasked) {
+      c.refusals = std::move(rewrite.refusals);
+      return exit_findings;
+    }
     print_refusals(common, rewrite.refusals);
     for (const std::string& r : rewrite.refusals) c.losses.push_back(refused_entry(r));
     print_error(common, c.now.path() + ": " + step.option + " was not done; nothing was written" +
                             (step.way_out.empty() || rewrite.misasked ? "" : ". " + step.way_out));
     return rewrite.misasked ? exit_usage : exit_findings;
   }
-  if (!common.quiet)
+  if (!common.quiet && !options.check)
     for (const std::string& note : rewrite.notes)
       print_note(std::string(step.option) + ": " + note);
   auto files = apply_rewrite(c.now.deck().sources, rewrite);
@@ -166,6 +173,7 @@ struct Run {
   std::vector<Document> documents = {};
   std::vector<LossEntry> losses = {};
   bool refused = false;  ///< nothing may be written
+  ConversionCheck check = {};
 };
 
 // ---- where it goes ---------------------------------------------------------------------------
@@ -230,6 +238,10 @@ int write_documents(Run& run) {
 int write_all(Run& run) {
   const Options& options = run.options;
   Result<void> done;
+  if (options.check) {
+    done = run.changes.check();
+    return done ? exit_clean : fail(run, done.error());
+  }
   if (!run.documents.empty()) return write_documents(run);
   if (options.to == "json") {
     return exit_clean;
@@ -285,7 +297,7 @@ int add_document(Run& run, const Conversion& c, const SchemaSet& schemas) {
 int add_result(Run& run, std::size_t member, Conversion& c, const SchemaSet& schemas) {
   const Options& options = run.options;
   if (options.to == "json") return add_document(run, c, schemas);
-  if (c.now.path() == "-" && options.from == "rad" && !options.write.diff) {
+  if (c.now.path() == "-" && options.from == "rad" && !options.write.diff && !options.check) {
     if (c.now.deck().sources.size() == 1 && options.write.directory.empty()) {
       print_contents(c.now.deck().sources[0].bytes());
       return exit_clean;
@@ -304,6 +316,11 @@ int convert(Run& run, const std::string& name, LoadedDeck loaded, Overlay overla
   const Options& options = run.options;
   if (loaded.incomplete()) {
     run.refused = true;
+    if (options.check) {
+      run.check.add(name, ConversionCheck::Outcome::unreadable, {}, {},
+                    "the include tree is not complete");
+      return exit_input;
+    }
     print_findings(loaded, options.common);
     print_error(options.common, loaded.path() + ": not written, the include tree is not complete");
     return exit_input;
@@ -320,11 +337,18 @@ int convert(Run& run, const std::string& name, LoadedDeck loaded, Overlay overla
     if (code != exit_clean) break;
   }
   if (code == exit_clean && !options.write.directory.empty()) tell_of_copies(c);
-  if (code == exit_clean) print_losses(c.losses, options.common);
+  if (code == exit_clean && !options.check) print_losses(c.losses, options.common);
   if (BatchFrame* frame = options.common.session->frame)
     for (const LossEntry& e : c.losses) ++frame->decks[name].losses[static_cast<int>(e.loss)];
   const bool open = std::any_of(c.losses.begin(), c.losses.end(),
                                 [](const LossEntry& e) { return e.loss == Loss::undecided; });
+  if (options.check)
+    run.check.add(name,
+                  code != exit_clean ? ConversionCheck::Outcome::refused
+                  : open             ? ConversionCheck::Outcome::undecided
+                                     : ConversionCheck::Outcome::written,
+                  c.losses, c.refusals,
+                  code != exit_clean && c.refusals.empty() ? "the result was refused" : "");
   for (LossEntry& e : c.losses) run.losses.push_back(std::move(e));
   if (code == exit_clean) code = add_result(run, *member, c, schemas);
   run.refused = run.refused || code != exit_clean;
@@ -371,7 +395,10 @@ int convert_one(Run& run, const std::string& path, const SchemaSet& schemas) {
   if (input)
     return convert(run, path, std::move(input->first), std::move(input->second), losses, schemas);
   run.refused = true;
-  print_error(options.common, input.error().message);
+  if (options.check)
+    run.check.add(path, ConversionCheck::Outcome::unreadable, {}, {}, input.error().message);
+  else
+    print_error(options.common, input.error().message);
   const bool wrong = input.error().code == Error::Code::config && options.from == "rad";
   return wrong ? exit_usage : exit_input;
 }
@@ -388,8 +415,13 @@ int check(const Options& options) {
   if (options.write.in_place &&
       std::count(options.common.decks.begin(), options.common.decks.end(), std::string("-")) > 0)
     return refuse("standard input cannot be rewritten; without --in-place the deck is printed");
-  if (places == 0 && options.to == "rad" && !only_standard_input)
-    return refuse("say where to write: -o DIR, --in-place, or --diff to see the changes first");
+  if (options.check && (options.to != "rad" || options.from != "rad"))
+    return refuse("--check is about Starter decks; leave out --to and --from");
+  if (options.check && options.write.diff) return refuse("--check and --diff exclude one another");
+  if (places == 0 && options.to == "rad" && !only_standard_input && !options.check)
+    return refuse(
+        "say where to write: -o DIR, --in-place, or --diff or --check to see first what would "
+        "happen");
   if (options.to == "json" && (options.write.in_place || options.write.diff))
     return refuse("--to json writes a new file: use -o, or standard output");
   if (options.from != "rad" && (options.write.in_place || options.write.diff))
@@ -436,12 +468,14 @@ int run(Options& options) {
   if (BatchFrame* frame = options.common.session->frame) frame->losses = work.losses;
   if (!work.refused)
     worst = std::max(worst, write_all(work));
-  else if (decks->size() > 1)
+  else if (decks->size() > 1 && !options.check)
     print_error(options.common, "nothing was written: the decks of a call are converted together");
   // What somebody has to decide.
   if (std::any_of(work.losses.begin(), work.losses.end(),
                   [](const LossEntry& e) { return e.loss == Loss::undecided; }))
     worst = std::max<int>(worst, exit_findings);
+  if (options.check && !options.common.quiet)
+    print_lines(work.check.text(options.common.color_on(1), text_width()));
   if (!options.report.empty())
     if (auto done = options.common.session->write_output(options.report, losses_json(work.losses));
         !done)
@@ -472,6 +506,10 @@ Action setup(CommandLine& line) {
             "backup is never replaced, the next one is .orig.2");
   line.flag("--diff", options->write.diff,
             "Write nothing; print the changes as a unified diff that git apply takes");
+  line.flag("--check", options->check,
+            "Write nothing; say for how many decks it would work, and what they would lose: one "
+            "line a cause with the number of decks. With -o or --in-place also whether that could "
+            "be written");
   line.option("--report", options->report,
               "Loss report (JSON): every changed value with its place, and what was kept, "
               "approximated, dropped or undecided")
@@ -486,7 +524,7 @@ Action setup(CommandLine& line) {
   return [options] {
     options->write.read_back = options->verifies();
     options->common.engine_files = options->to == "rad" && options->from == "rad";
-    options->common.rewrites = options->write.in_place;
+    options->common.rewrites = options->write.in_place && !options->check;
     return run(*options);
   };
 }
@@ -496,6 +534,7 @@ const VerbRegistration registration{
      "  deck convert car_0000.rad -o copy                      the deck and its includes\n"
      "  deck convert car_0000.rad --version 2022 --diff        what another version would change\n"
      "  deck convert car_0000.rad --units kg,mm,ms -o metric --report losses.json\n"
+     "  deck convert models/ --version 2026 --check            what a library would lose\n"
      "  deck convert car_0000.rad --resolve-defaults --in-place --backup\n"
      "  deck convert car_0000.rad --extract-contacts 7 -o bug  one interface and what it needs\n"
      "  deck convert car_0000.rad --to json -o car.json\n"

@@ -202,7 +202,8 @@ int run(const Options& o) {
         return static_cast<int>(exit_usage);
       }
     auto config = config_of(o.gate, loaded.path());
-    auto gate = config ? gate_of(o.gate, *config, loaded.path()) : Result<DeckGate>(config.error());
+    auto gate = config ? gate_of(o.gate, *config, loaded.path(), o.common)
+                       : Result<DeckGate>(config.error());
     if (!gate) {
       print_error(o.common, gate.error().message);
       return static_cast<int>(exit_usage);
@@ -328,6 +329,7 @@ int run(const Options& o) {
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
+  allow_directories(line);
   line.flag("--all", options->all, "JSON with every pair that has a penetration");
   line.flag("--effects", options->effects, "Also list the effects that are off, and why");
   line.flag("--costs", options->costs,
@@ -375,7 +377,10 @@ Action setup(CommandLine& line) {
             "Exit 1 when any contact pushes, at the start or at any step, as --fail-on warning");
   add_gate_with_config(line, options->gate, "the solver stops, or a contact could not be evaluated",
                        "any contact pushes, or as for gaps");
-  return [options] { return run(*options); };
+  return [options] {
+    const int wrong = open_directories(options->common);
+    return wrong != exit_clean ? wrong : run(*options);
+  };
 }
 
 const VerbRegistration registration{

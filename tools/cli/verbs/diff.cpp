@@ -6,13 +6,14 @@
 #include "deck/model/coverage.hpp"
 #include "deck/verdict.hpp"
 #include "verbs/gate.hpp"
+#include "verbs/git_deck.hpp"
 
 namespace deck::cli::verb_diff {
 namespace {
 
 struct Options {
   CommonOptions common;
-  std::string match = "id", format = "human";
+  std::string match = "id", format = "human", git;
   bool markdown = false, no_geometry = false;
   std::size_t rows = 20;
   double tolerance = diff_tolerance;
@@ -37,8 +38,9 @@ Verdict verdict_in(Side& side, bool geometry) {
   return make_verdict(in);
 }
 
-Result<Side> read_side(const Options& o, const std::string& path, const SchemaSet& schemas) {
-  auto loaded = load(path, schemas, o.common);
+Result<Side> read_side(const Options& o, const std::string& path, const SchemaSet& schemas,
+                       const Overlay* overlay = nullptr) {
+  auto loaded = load(path, schemas, o.common, Stage::interfaces, overlay);
   if (!loaded) return loaded.error();
   Side side{std::move(*loaded), {}, {}};
   if (side.loaded.incomplete())
@@ -61,18 +63,31 @@ Result<Side> read_side(const Options& o, const std::string& path, const SchemaSe
   return side;
 }
 
+/// The old deck: the first one, or the deck as git has it.
+Result<Side> read_old(const Options& o, const SchemaSet& schemas) {
+  if (o.git.empty()) return read_side(o, o.common.decks[0], schemas);
+  const auto old = git_deck(o.git, o.common.decks[0]);
+  if (!old) return old.error();
+  return read_side(o, old->path, schemas, &old->files);
+}
+
 int run(const Options& o) {
+  const std::size_t wanted = o.git.empty() ? 2 : 1;
+  if (o.common.decks.size() != wanted)
+    return wrong_usage("diff", wanted == 1 ? "--git takes one deck: REV is the other side"
+                                           : "expected DECK DECK, or --git REV DECK");
   if (const int bad = check_outputs(o.common, {}); bad != exit_clean) return bad;
   const auto schemas = load_schemas(o.common);
   if (!schemas) {
     print_error(o.common, schemas.error().message);
     return exit_usage;
   }
-  auto a = read_side(o, o.common.decks[0], *schemas);
-  auto b = a ? read_side(o, o.common.decks[1], *schemas) : Result<Side>(a.error());
+  auto a = read_old(o, *schemas);
+  auto b = a ? read_side(o, o.common.decks.back(), *schemas) : Result<Side>(a.error());
   if (!a || !b) {
-    print_error(o.common, a ? b.error().message : a.error().message);
-    return exit_input;
+    const Error& error = a ? b.error() : a.error();
+    print_error(o.common, error.message);
+    return error.code == Error::Code::config ? exit_usage : exit_input;
   }
   for (const Side* side : {&*a, &*b}) {
     print_findings(side->loaded, o.common);
@@ -114,7 +129,13 @@ int run(const Options& o) {
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
-  line.existing("decks").takes(2, "DECK DECK").describe("The old and the new Starter deck");
+  line.existing("decks")
+      .takes(1, 2, "DECK DECK")
+      .describe("The old and the new Starter deck; with --git the new one alone");
+  line.option("--git", options->git,
+              "The old deck is DECK with its includes as git has them at REV: a branch, a tag, a "
+              "commit")
+      .value("REV");
   line.option("--match", options->match,
               "Counterparts: id; title (nodes and elements by id); position (for renumbered decks: "
               "nodes by coordinates, elements by nodes, the rest by title, then by order)")
@@ -143,6 +164,7 @@ const VerbRegistration registration{
      "Differences in meaning between two decks; comments, order and format do not count",
      "  deck diff old_0000.rad new_0000.rad\n"
      "  deck diff old_0000.rad new_0000.rad --markdown > comment.md\n"
+     "  deck diff --git main car_0000.rad                          what this branch changes\n"
      "  deck diff old_0000.rad renumbered_0000.rad --match position\n"
      "  deck diff old_0000.rad new_0000.rad --tolerance 1e-9       without round-off\n"
      "\n"

@@ -139,8 +139,8 @@ int run(const Options& o) {
       return static_cast<int>(exit_usage);
     }
     auto config = config_of(gate_options, loaded.path());
-    auto gate =
-        config ? gate_of(gate_options, *config, loaded.path()) : Result<DeckGate>(config.error());
+    auto gate = config ? gate_of(gate_options, *config, loaded.path(), o.common)
+                       : Result<DeckGate>(config.error());
     if (!gate) {
       print_error(o.common, gate.error().message);
       return static_cast<int>(exit_usage);
@@ -227,6 +227,7 @@ int run(const Options& o) {
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
+  allow_directories(line);
   line.flag("--all", options->all,
             "JSON with every secondary node, main segment and edge, not only penetrations");
   line.option("--csv", options->csv,
@@ -268,7 +269,10 @@ Action setup(CommandLine& line) {
   line.option("--write-baseline", options->write_baseline,
               "Write all penetrations to FILE as a baseline")
       .value("FILE");
-  return [options] { return run(*options); };
+  return [options] {
+    const int wrong = open_directories(options->common);
+    return wrong != exit_clean ? wrong : run(*options);
+  };
 }
 
 const VerbRegistration registration{
@@ -279,6 +283,7 @@ const VerbRegistration registration{
      "  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6\n"
      "  deck gaps car_0000.rad --max-depth 0.5 --max-count 20\n"
      "  deck gaps car_0000.rad --compare main.json --fail-on new,worse\n"
+     "  deck gaps car_0000.rad --compare git:main --fail-on new,worse\n"
      "  deck gaps car_0000.rad --write-baseline gaps-baseline.json\n"
      "  deck gaps car_0000.rad --baseline gaps-baseline.json\n",
      setup}};

@@ -8,6 +8,7 @@
 
 #include "deck/base/paths.hpp"
 #include "deck/report/gaps.hpp"
+#include "verbs/git_deck.hpp"
 
 namespace deck::cli {
 namespace {
@@ -22,6 +23,14 @@ Result<EarlierGaps> read_earlier(Session& session, const std::string& path,
   if (!text) return text.error();
   session.remember_read(path);
   return read_earlier_gaps(path, *text, deck_path, strict);
+}
+
+/// The deck itself at a git revision.
+Result<EarlierGaps> earlier_revision(const std::string& compare, const std::string& deck_path,
+                                     const CommonOptions& common) {
+  const auto text = gaps_at_revision(compare.substr(git_prefix.size()), deck_path, common);
+  if (!text) return text.error();
+  return read_earlier_gaps(compare, *text, deck_path, false);
 }
 
 }  // namespace
@@ -71,9 +80,10 @@ void add_gate(CommandLine& line, GateOptions& o) {
               "Share of the mesh's time step that a contact may take away")
       .number(0, 1)
       .value("R");
-  gate.option("--compare", o.compare,
-              "An earlier 'deck gaps --json' FILE: lists what is new, worse, better, solved; with "
-              "--fail-on new,worse these exit with 1")
+  gate.option(
+          "--compare", o.compare,
+          "An earlier 'deck gaps --json' FILE, or git:REV, the deck at that git revision: lists "
+          "what is new, worse, better, solved; with --fail-on new,worse these exit with 1")
       .value("FILE");
 }
 
@@ -118,7 +128,7 @@ Result<LintConfig> config_of(const GateOptions& o, const std::string& deck_path)
 }
 
 Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
-                         const std::string& deck_path) {
+                         const std::string& deck_path, const CommonOptions& common) {
   DeckGate out;
   out.gate = config.gate;
   set(out.gate.general.max_depth, o.max_depth);
@@ -142,7 +152,9 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
     out.earlier = std::move(*read);
     out.baseline = out.gate.on_fresh = out.gate.on_worse = true;
   } else if (!compare.empty()) {
-    auto read = read_earlier(*o.session, compare, deck_path, false);
+    auto read = compare.starts_with(git_prefix)
+                    ? earlier_revision(compare, deck_path, common)
+                    : read_earlier(*o.session, compare, deck_path, false);
     if (!read) return read.error();
     out.earlier = std::move(*read);
   } else if (out.gate.on_fresh || out.gate.on_worse) {

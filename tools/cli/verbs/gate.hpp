@@ -20,7 +20,7 @@ struct GateOptions {
   double max_depth = -1, max_ratio = -1, max_dt_loss = -1;
   int max_count = -1, max_untied = -1;
   std::vector<std::string> fail_on;  ///< words: new, worse, error, warning, never
-  std::string compare;               ///< an earlier `deck gaps --json`
+  std::string compare;               ///< an earlier `deck gaps --json`, or "git:REV"
   std::string baseline;              ///< accepted penetrations; of `deck gaps` alone
   std::string config;
   bool no_config = false;
@@ -68,6 +68,6 @@ void note_not_in_baseline(const CommonOptions& options, const std::string& deck_
 /// How a deck is called in a baseline that lies at `path`: relative to it.
 std::string name_in_baseline(const std::string& deck_path, const std::string& path);
 Result<DeckGate> gate_of(const GateOptions& options, const LintConfig& config,
-                         const std::string& deck_path);
+                         const std::string& deck_path, const CommonOptions& common);
 
 }  // namespace deck::cli

@@ -31,7 +31,7 @@ struct Options {
   GateOptions gate;
   bool geometry = false, no_geometry = false, fix = false, unsafe_fixes = false, diff = false,
        ruler = false;
-  bool changed = false, init = false, show_config = false;
+  bool changed = false, init = false, show_config = false, statistics = false;
   WriteChoice write;
   int per_rule = -1;  ///< not given: 10, or all with -v
 };
@@ -48,8 +48,8 @@ Geometry geometry_of(const Options& options, const LintConfig& config) {
   return gate ? Geometry::all : Geometry::quick;
 }
 
-constexpr std::initializer_list<const char*> formats = {"human",  "json",  "sarif",
-                                                        "github", "junit", "gitlab"};
+constexpr std::initializer_list<const char*> formats = {"human",  "concise", "json",  "sarif",
+                                                        "github", "junit",   "gitlab"};
 
 /// One deck of the run, kept until everything is written.
 struct Job {
@@ -64,19 +64,23 @@ struct Job {
 std::string render(std::string_view format, const std::vector<LintedDeck>& decks,
                    const Options& options, const SchemaSet& schemas, bool to_terminal) {
   if (format == "json") return lint_json(decks);
+  if (format == "concise") return lint_concise(decks);
   // The git work tree that this runs in, else the current directory.
   const std::string root = library_root("here");
   if (format == "sarif") return lint_sarif(decks, schemas, root);
   if (format == "github") return lint_github(decks, root);
   if (format == "junit") return lint_junit(decks);
   if (format == "gitlab") return lint_gitlab(decks, root);
+  const std::size_t width = to_terminal ? text_width() : 0;
+  if (options.statistics)
+    return lint_statistics(decks, to_terminal && options.common.color_on(1), width);
   HumanOptions human;
   human.color = to_terminal && options.common.color_on(1);
   human.ruler = options.ruler;
   human.group = !options.common.verbose;
   human.remarks_of_every_deck = options.common.verbose;
   human.per_rule = options.per_rule >= 0 ? options.per_rule : options.common.verbose ? 0 : 10;
-  human.width = to_terminal ? text_width() : 0;
+  human.width = width;
   return lint_human(decks, human);
 }
 
@@ -153,7 +157,8 @@ class Run {
     if (options_.changed) {
       decks = decks_of_files(common_.decks, options_.write.root, common_.include_paths);
       if (decks && decks->empty()) return none_changed();
-    }
+    } else if (!rewrites)
+      decks = decks_in_directories(common_.decks);
     if (rewrites && decks) decks = changes_.decks(*decks, deck_ending);
     if (!decks) {
       print_error(common_, decks.error().message);
@@ -203,6 +208,8 @@ class Run {
     if (auto legal = check_fail_on(options_.gate); !legal) return usage(legal.error().message);
     if (options_.geometry && options_.no_geometry)
       return usage("--geometry and --no-geometry exclude each other");
+    if (options_.statistics && options_.format != "human")
+      return usage("--statistics is for people: it goes without --format");
     if (options_.gate.given() && options_.no_geometry)
       return usage("the bounds of the gate need geometry; leave out --no-geometry");
     auto schemas = load_schemas(common_);
@@ -218,7 +225,8 @@ class Run {
     if (!config) return usage(config.error().message);
     const Geometry geometry = geometry_of(options_, *config);
     // Without geometry nothing is held against the gate.
-    auto gate = geometry == Geometry::none ? DeckGate{} : gate_of(options_.gate, *config, path);
+    auto gate =
+        geometry == Geometry::none ? DeckGate{} : gate_of(options_.gate, *config, path, common_);
     if (!gate) return usage(gate.error().message);
     gate->note_baseline(common_, path);
     const auto lint = lint_options(options_, *config, *job);
@@ -460,9 +468,13 @@ Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   Options& o = *options;
   add_common(line, o.common);
-  line.option("--format", o.format, "What to print: human, json, sarif, github, junit, gitlab")
+  line.option("--format", o.format,
+              "What to print: human, concise (one line a finding), json, sarif, github, junit, "
+              "gitlab")
       .one_of(formats)
       .value("FORMAT");
+  line.flag("--statistics", o.statistics,
+            "Print one line a rule: how many findings, and how many of them can be fixed");
   line.option("-o,--output", o.outputs, "Also write FORMAT to FILE (repeatable)")
       .value("FORMAT=FILE")
       .one_each();
@@ -476,7 +488,8 @@ Action setup(CommandLine& line) {
   line.option("--write-baseline", o.write_baseline, "Write all findings to FILE as a baseline")
       .value("FILE");
   line.existing("decks").required(false).describe(
-      "Starter decks (*_0000.rad); '-' is standard input. With --changed any files");
+      "Starter decks, or directories: all *_0000.rad below them; '-' is standard input. With "
+      "--changed any files");
   line.flag("--changed", o.changed,
             "The files are the files of a change: lint the decks among them, and all decks of the "
             "git work tree (or --root) that include one of the others");
@@ -517,9 +530,9 @@ Action setup(CommandLine& line) {
       print_error(options->common, wrong);
       return static_cast<int>(exit_usage);
     }
-    // What is fixed has to be kept, not only counted.
+    // What is fixed, or counted as fixable, has to be kept.
     constexpr int most_fixes_of_a_rule = 1'000'000;
-    if (options->fix || options->unsafe_fixes || options->diff)
+    if (options->fix || options->unsafe_fixes || options->diff || options->statistics)
       options->common.limits.diagnostics_per_rule = most_fixes_of_a_rule;
     return run(*options);
   };
@@ -532,6 +545,8 @@ const VerbRegistration registration{
      "  deck lint car_0000.rad -o sarif=lint.sarif -o junit=lint.xml\n"
      "  deck lint car_0000.rad --write-baseline lint-baseline.json\n"
      "  deck lint car_0000.rad --diff | git apply\n"
+     "  deck lint models/ --format concise\n"
+     "  deck lint models/ --statistics\n"
      "\n"
      "Settings come from .decklint.toml beside or above the deck. A finding is switched off for "
      "one\n"

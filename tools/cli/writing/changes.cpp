@@ -150,6 +150,21 @@ Result<std::string> Changes::diff() {
   return set_.diff();
 }
 
+Result<void> Changes::check() {
+  if (auto settled = settle(); !settled) return settled.error();
+  if (!choice_.in_place && choice_.directory.empty()) {
+    const auto patch = set_.diff();
+    return patch ? Result<void>() : Result<void>(patch.error());
+  }
+  const auto plan = choice_.in_place ? set_.in_place() : set_.tree(choice_.directory);
+  if (!plan) return plan.error();
+  if (auto same = read_back(plan->files); !same || choice_.in_place) return same;
+  OutputRules rules;
+  rules.deck_tree = true;
+  rules.overwrite = choice_.overwrite;
+  return common_.session->check_outputs(plan->files, rules);
+}
+
 Result<void> Changes::write(bool list) {
   BatchFrame* frame = common_.session->frame;
   if (auto settled = settle(); !settled) return settled.error();

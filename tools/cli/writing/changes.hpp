@@ -41,6 +41,8 @@ class Changes {
   /// Writes all, or prints the patch, and lists the files if `list` says so. Error: nothing was
   /// written, and why.
   Result<void> write(bool list);
+  /// What write() would refuse, or diff() where there is no place to write to.
+  Result<void> check();
   /// The patch.
   Result<std::string> diff();
   /// Writes results that are no decks the same way.

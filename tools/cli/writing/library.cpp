@@ -106,6 +106,14 @@ Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& gi
   return out;
 }
 
+Result<std::vector<std::string>> decks_in_directories(const std::vector<std::string>& given) {
+  if (!names_directory(given)) return given;
+  auto decks = expand_decks(given, deck_ending);
+  if (decks && decks->empty())
+    return Error{Error::Code::io, given.front() + " is a directory without *_0000.rad"};
+  return decks;
+}
+
 std::string common_root(const std::vector<std::string>& directories,
                         const std::vector<std::string>& files) {
   std::optional<fs::path> root;

@@ -32,6 +32,9 @@ Result<std::vector<std::string>> files_below(
 Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& given,
                                               std::string_view ending,
                                               const std::string& output = {});
+/// The same where a directory is among them, for verbs that only read; else `given` unchanged.
+/// Error: a directory without a deck.
+Result<std::vector<std::string>> decks_in_directories(const std::vector<std::string>& given);
 bool names_directory(const std::vector<std::string>& given);
 
 /// The deepest directory that holds all of these files and directories, absolute.

@@ -4,10 +4,15 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace deck {
+
+/// The paths that the directives #include of a text name, as they are written with '/' for a
+/// backslash.
+std::vector<std::string> included_names(std::string_view text);
 
 /// A file by what it is: device and inode.
 using FileIdentity = std::pair<std::uint64_t, std::uint64_t>;

@@ -40,6 +40,11 @@ struct HumanOptions {
 
 /// rustc-like text.
 std::string lint_human(const std::vector<LintedDeck>& decks, const HumanOptions& options);
+/// One line a finding: "file:line:column: DK171 error: message".
+std::string lint_concise(const std::vector<LintedDeck>& decks);
+/// One line a rule over all decks: how many findings, how many of them have a fix.
+std::string lint_statistics(const std::vector<LintedDeck>& decks, bool color = false,
+                            std::size_t width = 0);
 /// The JSON of `deck lint --format json`; one document for one deck, a list under "decks" for more.
 std::string lint_json(const std::vector<LintedDeck>& decks);
 /// SARIF 2.1.0 with every rule in the driver. With `source_root` (the top of a work tree, absolute)

@@ -1,0 +1,42 @@
+// What a conversion would do to each deck, and what it would lose: one line a cause, with the number
+// of decks. For convert --check, before a library is converted.
+#pragma once
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "deck/edit/rewrite.hpp"
+
+namespace deck::cli {
+
+class ConversionCheck {
+ public:
+  enum class Outcome : std::uint8_t {
+    written,     ///< without a loss, or with losses that were accepted
+    undecided,   ///< written, and somebody has to decide something
+    refused,     ///< not written
+    unreadable,  ///< could not be read, or lacks an include
+  };
+
+  /// One deck; `refusals` as Rewrite has them, `other` why else it is not written.
+  void add(const std::string& deck, Outcome outcome, const std::vector<LossEntry>& losses,
+           const std::vector<std::string>& refusals = {}, const std::string& other = {});
+  /// Both tables and the verdict; lines of tables have at most `width` columns (0: any).
+  std::string text(bool color, std::size_t width) const;
+
+ private:
+  struct Cause {
+    std::set<std::string> decks;
+    std::size_t times = 0;
+    std::string text, place;  ///< of the first one
+  };
+  void add_cause(const std::string& deck, const char* kind, const LossEntry& entry);
+
+  std::map<std::string, Outcome> decks_;
+  /// By kind, field and reason; numbers in the reason do not make another cause.
+  std::map<std::tuple<std::string, std::string, std::string>, Cause> causes_;
+};
+
+}  // namespace deck::cli
