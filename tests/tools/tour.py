@@ -63,6 +63,8 @@ TOUR = {
         "lint samples/every_mistake_0000.rad --select DK171,DK242,DK201,DK240",
         "lint samples/every_mistake_0000.rad --select DK171 --ruler",
         "lint samples/clean_plates_0000.rad samples/too_close_0000.rad samples/absent_0000.rad",
+        "lint samples/every_mistake_0000.rad --select DK171,DK242,DK201 --format concise",
+        "lint samples/every_mistake_0000.rad --select DK20,DK21,DK24 --statistics",
         "lint alike_0000.rad --select DK201",
         "lint alike_0000.rad --select DK201 --no-group --per-rule 2",
         "lint wide_0000.rad",
@@ -91,7 +93,8 @@ TOUR = {
     ],
     "explain": [
         "explain DK203", "explain DK254", "explain Gapmin", "explain TYPE7.Igap",
-        "explain /INTER/TYPE19.Gapmin", "explain 611", "explain Gapmim",
+        "explain /INTER/TYPE19.Gapmin", "explain 611", "explain 312", "explain penetrations", "explain Gapmim",
+        "explain car_0000.out",
     ],
     "fix": [
         "fix samples/too_close_0000.rad",
@@ -101,6 +104,40 @@ TOUR = {
         "fix samples/crash_box_0000.rad --strategy inacti",
     ],
 }
+# What the Starter prints of the sample too_close, as far as it is read.
+LISTING = """* INPUT READING PROCESS
+    IPRI  : PRINTOUT FLAG . . . . . . . .         0
+
+WARNING ID :   1084
+** WARNING IN MATERIAL LAW1
+DESCRIPTION :
+   NUMBER OF INTEGRATION POINTS IS HIGHER THAN 1
+    -- PROPERTY ID: 1
+    -- PROPERTY TITLE: lower sheet
+
+ INTERFACE NUMBER. . . . . . . . . . . . . .         1
+ INTERFACE TYPE. . . . . . . . . . . . . . .     7
+
+  POSSIBLE IMPACT NUMBER:          16  (<=           2 *NSN)
+
+WARNING ID :    343
+** WARNING: INITIAL PENETRATIONS IN INTERFACE
+DESCRIPTION :
+   -- INTERFACE ID: 1
+   -- INTERFACE TYPE: upper on lower
+   THERE ARE 16 INITIAL PENETRATIONS
+   ( CONCERNING 9 NODES )
+
+         SHELL ELEMENTS TIME STEP
+         ------------------------
+
+      TIME STEP       ELEMENT NUMBER
+  1.5000000000000E-03              1
+
+
+              0 ERROR(S)
+              2 WARNING(S)
+"""
 # Not kept: times and processors are in them, or every new rule. A batch has a directory per width.
 UNKEPT = [
     "rules",
@@ -109,6 +146,7 @@ UNKEPT = [
     "accuracy samples/crash_box_0000.rad --samples 5 --repeats 1",
     "accuracy --samples 5 --repeats 1",
     "batch --verb gaps -o batch-{columns} samples/clean_plates_0000.rad samples/too_close_0000.rad",
+    "convert samples --version 110 --check",
     "convert samples/two_surfaces_0000.rad -o converted-{columns} --expand-type19",
 ]
 OUTSIDE = [("lint", "--geometry"), ("gaps", "--crossings"), ("gaps", "-v"), ("cycle",), ("cycle", "-v"), ("params", "--matrix")]
@@ -190,6 +228,8 @@ def make_decks(folder):
     write("wide_0000.rad", "\n".join(wide))
     write("long_0000.rad", "\n".join(titled("front rail left hand side against the inner barrier face, revision of the second loop",
                                             "a_part_whose_name_was_made_by_a_program_that_knows_no_blanks_at_all_and_goes_on")))
+    write("car_0000.rad", text)
+    write("car_0000.out", LISTING)
     block = [line for line in lines[header:]]
     end = next(i for i in range(1, len(block)) if block[i].startswith("/"))
     alike = list(lines)

@@ -135,8 +135,7 @@ class Comparison {
       place.counted.push_back(*m.count);
     place.lines.push_back(m.line);
     for (const std::int64_t node : m.nodes)
-      if (std::find(place.nodes.begin(), place.nodes.end(), node) == place.nodes.end())
-        place.nodes.push_back(node);
+      if (known_nodes_.emplace(&known->second, node).second) place.nodes.push_back(node);
   }
 
   Span span_of(const ListedMessage& m) const {
@@ -344,6 +343,7 @@ class Comparison {
   ListingReport out_;
   /// Positions in MessageGroup::places.
   std::map<std::tuple<Severity, int, std::string>, std::size_t> place_of_;
+  std::set<std::pair<const std::size_t*, std::int64_t>> known_nodes_;  ///< by entry of place_of_
   SceneView view_;
 };
 

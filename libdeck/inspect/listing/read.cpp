@@ -130,15 +130,17 @@ class Reader {
     const std::vector<std::int64_t> ids = row_of_numbers({words.begin(), words.begin() + 5});
     const auto depth = real(words[5]);
     if (ids.empty() || !depth || out_.contacts.empty()) return;
-    ListedContact& contact = out_.contacts.back();
+    std::vector<ListedPair>& pairs = out_.contacts.back().pairs;
+    if (pairs_of_.empty())
+      for (std::size_t i = 0; i < pairs.size(); ++i)
+        pairs_of_[{pairs[i].secondary[0], pairs[i].main}].push_back(i);
     const std::array<std::int64_t, 4> main{ids[1], ids[2], ids[3], ids[4]};
-    for (ListedPair& pair : contact.pairs)
-      if (pair.secondary[0] == ids[0] && pair.main == main && !pair.depth) {
-        pair.depth = depth;
-        return;
-      }
-    // Not among the candidates: of a contact whose candidates are not listed.
-    contact.pairs.push_back({{ids[0], 0}, main, false, depth});
+    std::vector<std::size_t>& same = pairs_of_[{ids[0], main}];
+    if (same.empty()) {  // of a contact whose candidates are not listed
+      same.push_back(pairs.size());
+      pairs.push_back({{ids[0], 0}, main, false, std::nullopt});
+    }
+    for (const std::size_t i : same) pairs[i].depth = depth;
   }
 
   /// Ids, nodes and the number that a line of a message shows.
@@ -241,6 +243,7 @@ class Reader {
   /// contacts replace the others.
   void begin_contact(std::int64_t interface) {
     in_pairs_ = counted_ = false;
+    pairs_of_.clear();
     if (interface != 0 &&
         std::any_of(out_.contacts.begin(), out_.contacts.end(), [&](const ListedContact& c) {
           return c.interface == interface && c.type != 0;
@@ -347,6 +350,9 @@ class Reader {
   bool in_message_ = false, title_next_ = false;
   bool in_pairs_ = false;  ///< lines of numbers are pairs
   bool counted_ = false;   ///< the contact has its number of candidates: another one is a new part
+  /// Positions of the pairs of the contact by node and segment, for the table of message 1164.
+  std::map<std::pair<std::int64_t, std::array<std::int64_t, 4>>, std::vector<std::size_t>>
+      pairs_of_;
   std::vector<ListedStep>* steps_ = nullptr;
 };
 
