@@ -183,6 +183,34 @@ class Deck:
                    cells((1, 10, "Ifric", Ifric), (11, 20, "Ifiltr", Ifiltr), (21, 40, "Xfreq", Xfreq),
                          (41, 50, "Iform", Iform), (51, 60, "sens_ID", sens), (91, 100, "fric_ID", fric)))
 
+    def type24(self, iid, title, surf1, surf2, Istf=None, Irem_i2=None, Idel=None, Iedge=None, Edge_angle=None,
+               Gap_max_s=None, Gap_max_m=None, Stmin=None, Stmax=None, Igap0=None, Ipen0=None, Ipen_max=None, Stfac=None,
+               Fric=None, ibc="000", Inacti=None, VISs=None):
+        self.block("/INTER/TYPE24/%d" % iid, title,
+                   cells((1, 10, "surf_ID1", surf1), (11, 20, "surf_ID2", surf2), (21, 30, "Istf", Istf),
+                         (51, 60, "Irem_i2", Irem_i2), (71, 80, "Idel", Idel)),
+                   cells((1, 10, "grnd_IDs", 0), (31, 40, "Iedge", Iedge), (41, 60, "Edge_angle", Edge_angle),
+                         (61, 80, "Gap_max_s", Gap_max_s), (81, 100, "Gap_max_m", Gap_max_m)),
+                   cells(*reals(1, ("Stmin", Stmin), ("Stmax", Stmax)), (41, 50, "Igap0", Igap0), (51, 60, "Ipen0", Ipen0),
+                         (61, 80, "Ipen_max", Ipen_max)),
+                   cells(*reals(1, ("Stfac", Stfac), ("Fric", Fric))),
+                   cells((8, 10, "IBC", ibc), (31, 40, "Inacti", Inacti), (41, 60, "VISs", VISs)),
+                   cells((1, 10, "Ifric", 0), (11, 20, "Ifiltr", 0), (21, 40, "Xfreq", 0.0)))
+
+    def type25(self, iid, title, surf1, surf2, Istf=None, Igap=None, Irem_i2=None, Idel=None, Iedge=None, Gap_scale=None,
+               mesh=None, Gap_max_s=None, Gap_max_m=None, Stmin=None, Stmax=None, Igap0=None, Ishape=None, Edge_angle=None,
+               Stfac=None, Fric=None, ibc="000", Inacti=None, VISs=None):
+        self.block("/INTER/TYPE25/%d" % iid, title,
+                   cells((1, 10, "surf_ID1", surf1), (11, 20, "surf_ID2", surf2), (21, 30, "Istf", Istf), (41, 50, "Igap", Igap),
+                         (51, 60, "Irem_i2", Irem_i2), (71, 80, "Idel", Idel), (81, 90, "Iedge", Iedge)),
+                   cells((1, 10, "grnd_IDs", 0), (21, 40, "Gap_scale", Gap_scale), (41, 60, "%mesh_size", mesh),
+                         (61, 80, "Gap_max_s", Gap_max_s), (81, 100, "Gap_max_m", Gap_max_m)),
+                   cells(*reals(1, ("Stmin", Stmin), ("Stmax", Stmax)), (41, 50, "Igap0", Igap0), (51, 60, "Ishape", Ishape),
+                         (61, 80, "Edge_angle", Edge_angle)),
+                   cells(*reals(1, ("Stfac", Stfac), ("Fric", Fric))),
+                   cells((8, 10, "IBC", ibc), (31, 40, "Inacti", Inacti), (41, 60, "VISs", VISs)),
+                   cells((1, 10, "Ifric", 0), (11, 20, "Ifiltr", 0), (21, 40, "Xfreq", 0.0)))
+
     def end(self):
         self.raw("/END\n")
         return {self.name + "_0000.rad": self.text}
@@ -526,6 +554,70 @@ def solid_and_skin():
     return d.end()
 
 
+def airbag_fold():
+    d = Deck("airbag_fold", "TYPE25: a folded sheet on itself, and a tether on its border")
+    d.note("""A sheet 0.5 mm thick is folded over: its two layers lie 0.35 mm apart, so both start 0.15 mm inside the gap. A tether
+              stands on the upper layer: the free edge of its shells crosses the free border of the sheet 0.4 mm above it, and the
+              gap of the two is 0.45. Interface 1 takes everything (edges as well) and stores offsets. Interface 2 has Igap 2: what
+              lies near along the mesh, at the bend, is left out. Interface 3 has Inacti -1: the layers push from the start.""")
+    d.elastic(1, "fabric", 8.5e-7, 0.3, 0.3)
+    d.shell_prop(1, "sheet", 0.5)
+    d.shell_prop(2, "tether", 0.4)
+    d.part(1, "sheet", 1, 1)
+    d.part(2, "tether", 2, 1)
+    path = [(6.0 * i, 0.0) for i in range(6)] + [(33.0, 0.175)] + [(30.0 - 6.0 * i, 0.35) for i in range(6)]
+    nodes, quads = plate(101, 101, 12, 4, 1.0, 6.0, lambda u, v: (path[round(u)][0], v, path[round(u)][1]))
+    strip, walls = plate(1, 1, 2, 1, 6.0, 6.0, lambda u, v: (15.0, 20.0 + u, 0.75 + v))
+    d.nodes(strip + nodes)
+    d.elements("SHELL", 1, quads)
+    d.elements("SHELL", 2, walls)
+    d.ids("/SURF/PART/1", "sheet and tether", [1, 2])
+    d.ids("/SURF/PART/2", "sheet", [1])
+    d.type25(1, "everything, stored as offset", 1, 0, Igap=1, Iedge=1, Inacti=5, Edge_angle=135.0, Stfac=1.0, Fric=0.2)
+    d.type25(2, "near along the mesh left out", 2, 0, Igap=2, Inacti=5, Stfac=1.0, Fric=0.2)
+    d.type25(3, "force from the start", 2, 0, Igap=2, Inacti=-1, Stfac=1.0, Fric=0.2)
+    return d.end()
+
+
+def coated_block():
+    d = Deck("coated_block", "TYPE25 and TYPE24: a coated block under a plate")
+    d.note("""A block of eight bricks with coating shells 0.5 mm thick on its top, and a plate 1 mm thick 0.6 mm above it. The coating
+              gives the block a gap: 0.25 and 0.5 make 0.75, so both start 0.15 mm inside. Interface 1 is a TYPE25 that stores
+              offsets, interface 2 the same with caps of the gaps (Gap_max_s, Gap_max_m 0.25): nothing is inside. Interface 3 is a
+              TYPE24 between the same surfaces.""")
+    d.elastic(1, "steel")
+    d.elastic(2, "rubber", 1.1e-6, 0.005, 0.45)
+    d.solid_prop(1, "solid")
+    d.shell_prop(2, "coating", 0.5)
+    d.shell_prop(3, "plate", 1.0)
+    d.part(1, "block", 1, 2)
+    d.part(2, "coating", 2, 2)
+    d.part(3, "plate", 3, 1)
+
+    def nid(i, j, k):
+        return 1 + i + 3 * j + 9 * k
+    nodes = [(nid(i, j, k), (5.0 * i, 5.0 * j, 5.0 * k)) for k in range(3) for j in range(3) for i in range(3)]
+    bricks, coats = [], []
+    for k in range(2):
+        for j in range(2):
+            for i in range(2):
+                bottom = [nid(i, j, k), nid(i + 1, j, k), nid(i + 1, j + 1, k), nid(i, j + 1, k)]
+                bricks.append((1 + i + 2 * j + 4 * k, *bottom, *[n + 9 for n in bottom]))
+                if k == 1:
+                    coats.append((101 + i + 2 * j, *[n + 9 for n in bottom]))
+    top, quads = plate(201, 201, 4, 4, 4.0, 4.0, lambda u, v: (u - 3.0, v - 3.0, 10.6))
+    d.nodes(nodes + top)
+    d.elements("BRICK", 1, bricks)
+    d.elements("SHELL", 2, coats)
+    d.elements("SHELL", 3, quads)
+    d.ids("/SURF/PART/EXT/1", "block with its coating", [1, 2])
+    d.ids("/SURF/PART/2", "plate", [3])
+    d.type25(1, "block and plate", 1, 2, Igap=1, Inacti=5, Stfac=1.0)
+    d.type25(2, "the same with capped gaps", 1, 2, Igap=1, Gap_max_s=0.25, Gap_max_m=0.25, Inacti=5, Stfac=1.0)
+    d.type24(3, "the same as TYPE24", 1, 2, Inacti=5, Stfac=1.0)
+    return d.end()
+
+
 def hot_contact():
     d = Deck("hot_contact", "heat across a contact", units=("Mg", "mm", "s"))
     d.note("""Interface 1: conduction and radiation between two plates, 20 and 300 degrees, thermal materials on both.
@@ -651,7 +743,7 @@ def crash_box():
 
 
 ALL = (clean_plates, too_close, inacti_variants, crossing_edges, two_surfaces, tied_layer, welds, variable_gap, include_tree,
-       units_and_parameters, solid_and_skin, hot_contact, sets_and_friction, crash_box)
+       units_and_parameters, solid_and_skin, airbag_fold, coated_block, hot_contact, sets_and_friction, crash_box)
 
 
 def sheets(n, out):

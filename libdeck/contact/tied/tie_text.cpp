@@ -56,6 +56,31 @@ TieCounts count_ties(const Tie& tie) {
   return out;
 }
 
+std::string holds_text(const Tie& tie) {
+  if (!tie.not_evaluated.empty()) return "not evaluated: " + tie.not_evaluated;
+  const TieCounts n = count_ties(tie);
+  const auto nodes = [](std::size_t k) { return fmt::format("{} node{}", k, k == 1 ? "" : "s"); };
+  if (n.lost() > 0)
+    return fmt::format("{} of {} {} not tied", n.lost(), nodes(n.nodes),
+                       n.lost() == 1 ? "is" : "are");
+  return fmt::format("{} {} tied", nodes(n.tied), n.tied == 1 ? "is" : "are");
+}
+
+std::string losses_text(const Tie& tie) {
+  if (!tie.not_evaluated.empty()) return "not evaluated: " + tie.not_evaluated;
+  const TieCounts n = count_ties(tie);
+  std::string out;
+  const auto add = [&](std::size_t of, const std::string& text) {
+    if (of > 0) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", of, text);
+  };
+  add(n.not_found, tie.ignore == 0 ? "not found: the solver stops" : "not found");
+  add(n.dropped, "dropped");
+  add(n.elsewhere, "held elsewhere");
+  add(n.outside, "tied beyond a rim");
+  add(tie.main_and_tied.size(), "main nodes tied: the solver stops");
+  return out.empty() ? "-" : out;
+}
+
 std::string short_reason(const Tie& tie, const TiedNode& n) {
   if (n.removed_by != 0) return fmt::format("held elsewhere ({})", n.removed_by);
   if (n.tied) return n.message == 0 ? "tied" : fmt::format("tied beyond the rim ({})", n.message);

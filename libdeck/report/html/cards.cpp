@@ -38,6 +38,7 @@ void write_card_text(JsonWriter& j, const Deck& deck, const InterBase& inter) {
   const DecodedBlock decoded = decode(deck, block);
   j.key("cells").begin_array();
   for (const std::string_view field : editable) {
+    if (inter.type == InterType2::traits.type) break;  // the page changes nothing of a tie
     const std::string_view name = name_on_card(inter, field);
     for (const DecodedCard& card : decoded.cards) {
       if (card.missing()) continue;
@@ -82,18 +83,23 @@ void write_value(JsonWriter& j, std::string_view name, const Effective<T>& e,
 
 }  // namespace
 
+std::vector<const InterBase*> page_interfaces(const Scene& scene) {
+  std::vector<const InterBase*> out = scene.interfaces->ordered;
+  for (const Tie& tie : scene.ties) out.push_back(tie.inter);
+  return out;
+}
+
 void write_interfaces(JsonWriter& j, const HtmlInput& input) {
   const Deck& deck = *input.deck;
   j.key("interfaces").begin_array();
-  for (const InterBase* inter : input.scene->interfaces->ordered) {
+  for (const InterBase* inter : page_interfaces(*input.scene)) {
     j.begin_object();
     j.field("id", inter->id).field("type", inter->type).field("title", inter->title);
     write_card_text(j, deck, *inter);
     const Contact* const contact = first_contact(*input.scene, *inter);
     j.key("values").begin_object();
-    visit_interface(*inter, [&](const auto& typed) {
-      typed.for_each(
-          [&](std::string_view name, const auto& field) { write_value(j, name, field, contact); });
+    for_each_field(*inter, [&](std::string_view name, const auto& field) {
+      write_value(j, name, field, contact);
     });
     j.end_object().end_object();
   }

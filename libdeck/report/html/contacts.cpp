@@ -39,11 +39,49 @@ double expected_gap(const Contact& contact, const PlainSides& plain) {
   return std::max({contact.max_gap, contact.gapmin, s + m});
 }
 
+std::vector<std::uint32_t> everything(std::size_t count) {
+  std::vector<std::uint32_t> out(count);
+  for (std::uint32_t i = 0; i < count; ++i) out[i] = i;
+  return out;
+}
+
+/// Rows of what penetrates; of too many the deepest, and `all` is set to false.
+std::vector<std::uint32_t> deepest_rows(const Contact& contact, bool& all) {
+  const auto& found = contact.penetrations;
+  std::vector<std::uint32_t> rows = everything(found.size());
+  if (rows.size() <= penetrations_kept) return rows;
+  all = false;
+  std::stable_sort(rows.begin(), rows.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return found[a].depth > found[b].depth;
+  });
+  rows.resize(penetrations_kept);
+  return rows;
+}
+
+/// Sides of a contact whose gaps are formed already.
+PlainSides formed_sides(const Contact& contact) {
+  PlainSides out;
+  for (const SecondaryNode& s : contact.secondary) {
+    out.half_thickness.push_back(s.gap);
+    out.secondary_length.push_back(s.length);
+  }
+  for (const MainSegment& m : contact.main) out.main_length.push_back(m.length);
+  for (const ContactEdge& e : contact.secondary_edges) out.secondary_length.push_back(e.length);
+  for (const ContactEdge& e : contact.main_edges) out.main_length.push_back(e.length);
+  out.shortest_side = contact.shortest_side;
+  return out;
+}
+
 PageContact wide_pairs(const Contact& contact, PlainSides plain, const Coordinates& x, int threads,
                        std::size_t limit) {
   PageContact page;
   page.plain = std::move(plain);
-  if (is_modern(contact.type)) return page;  // the page has no rules for them
+  if (is_modern(contact.type)) {  // the page has no rules for them: it shows what was found
+    page.given = deepest_rows(contact, page.complete);
+    for (const std::uint32_t r : page.given)
+      page.pairs.push_back({contact.penetrations[r].secondary, contact.penetrations[r].main});
+    return page;
+  }
   const SearchSides sides(contact, SearchSides::Off::included);
   if (!sides.edge_pairs()) page.margin = sides.margin(x);
   if (!std::isfinite(page.margin)) page.margin = 0;
@@ -65,15 +103,9 @@ PageContact wide_pairs(const Contact& contact, PlainSides plain, const Coordinat
   // Too many: what penetrates, deepest first if even that is too much.
   page.reach = 0;
   page.complete = false;
-  std::vector<std::uint32_t> rows(contact.penetrations.size());
-  for (std::uint32_t i = 0; i < rows.size(); ++i) rows[i] = i;
-  const auto& all = contact.penetrations;
-  if (rows.size() > penetrations_kept) {
-    std::stable_sort(rows.begin(), rows.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return all[a].depth > all[b].depth; });
-    rows.resize(penetrations_kept);
-  }
-  for (const std::uint32_t r : rows) page.pairs.push_back({all[r].secondary, all[r].main});
+  bool all = true;
+  for (const std::uint32_t r : deepest_rows(contact, all))
+    page.pairs.push_back({contact.penetrations[r].secondary, contact.penetrations[r].main});
   std::sort(page.pairs.begin(), page.pairs.end());
   return page;
 }
@@ -86,12 +118,6 @@ std::vector<std::uint32_t> distinct(const std::vector<CandidatePair>& pairs,
   std::vector<std::uint32_t> out;
   for (std::uint32_t i = 0; i < count; ++i)
     if (marks[i]) out.push_back(i);
-  return out;
-}
-
-std::vector<std::uint32_t> everything(std::size_t count) {
-  std::vector<std::uint32_t> out(count);
-  for (std::uint32_t i = 0; i < count; ++i) out[i] = i;
   return out;
 }
 
@@ -212,6 +238,7 @@ class Writer {
         node_segment(c, wide.plain);
       else
         edges(c, wide.plain);
+      if (is_modern(c.type)) given(c, wide.given);
     }
     return std::move(out_).text();
   }
@@ -255,6 +282,7 @@ class Writer {
       for (const ContactEdge& e : c.secondary_edges)
         for (const NodeIndex n : e.nodes) use(n);
     }
+    for (const NodeIndex n : page_.of_ties) use(n);
     std::vector<double> values;
     out_.u(static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), 1)));
     Delta d;
@@ -299,12 +327,14 @@ class Writer {
     Delta n;
     out_.u(c.secondary.size());
     for (const SecondaryNode& s : c.secondary) out_.s(n(nodes_[s.node]));
-    out_.palette(plain.half_thickness, [](double half) { return node_gap(half, 1); });
+    const bool formed = is_modern(c.type);  // the gaps stand in place of thicknesses
+    out_.palette(plain.half_thickness,
+                 [&](double half) { return formed ? half : node_gap(half, 1); });
     Delta corner;
     out_.u(c.main.size());
     for (const MainSegment& m : c.main)
       for (const NodeIndex i : m.nodes) out_.s(corner(nodes_[i]));
-    out_.palette(c.main, [](const MainSegment& m) { return thickness_of(m); });
+    out_.palette(c.main, [&](const MainSegment& m) { return formed ? m.gap : thickness_of(m); });
     owners(c.main, [&](const MainSegment& m) { return owner(model_, m.carrier, m.element); });
     std::vector<NodeIndex> paired;
     for (const std::uint32_t s : secondary_) paired.push_back(c.secondary[s].node);
@@ -320,7 +350,8 @@ class Writer {
       out_.u(edges.size());
       for (const ContactEdge& e : edges)
         for (const NodeIndex i : e.nodes) out_.s(n(nodes_[i]));
-      out_.palette(edges, [](const ContactEdge& e) { return thickness_of(e); });
+      out_.palette(
+          edges, [&](const ContactEdge& e) { return is_modern(c.type) ? e.gap : thickness_of(e); });
     };
     side(c.secondary_edges);
     side(c.main_edges);
@@ -345,6 +376,23 @@ class Writer {
       const double share = wide.reach > 0 ? 255 * (distance(c, p) / wide.reach) : 0;
       out_.byte(share >= 255 ? 255u : share > 0 ? static_cast<unsigned>(share) : 0u);
     }
+  }
+
+  /// What was found of a contact for which the page has no rules, one number after the other.
+  void given(const Contact& c, const std::vector<std::uint32_t>& rows) {
+    const auto column = [&](const auto& value) {
+      std::vector<double> values;
+      for (const std::uint32_t r : rows) values.push_back(value(c.penetrations[r]));
+      out_.f64(values);
+    };
+    using Row = PenetrationRow;
+    column([](const Row& r) { return r.depth; });
+    column([](const Row& r) { return r.gap; });
+    column([](const Row& r) { return r.distance; });
+    for (std::size_t k = 0; k < 3; ++k) column([k](const Row& r) { return r.normal[k]; });
+    column([](const Row& r) { return r.weight_s; });
+    column([](const Row& r) { return r.p0; });
+    for (const std::uint32_t r : rows) out_.byte(static_cast<unsigned>(c.penetrations[r].action));
   }
 
   double distance(const Contact& c, const CandidatePair& pair) const {
@@ -387,7 +435,9 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
     Connectivity connectivity(*scene.model);
     ShellsAtNodes shells;
     for (const Contact& c : scene.contacts)
-      plain.push_back(plain_sides({*scene.model, connectivity, shells, start}, c));
+      plain.push_back(is_modern(c.type)
+                          ? formed_sides(c)
+                          : plain_sides({*scene.model, connectivity, shells, start}, c));
   }
   std::size_t left = pairs_per_page;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
@@ -467,10 +517,9 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     j.field("interface", static_cast<std::int64_t>(std::find(order.begin(), order.end(), c.inter) -
                                                    order.begin()));
     j.field("kind", to_string(c.kind)).field("role", to_string(c.role)).field("type", c.type);
-    j.field("ties", c.ties())
-        .field("dropped", c.dropped || is_modern(c.type))
-        .field("igap", c.igap)
-        .field("inacti", c.inacti);
+    j.field("ties", c.ties()).field("dropped", c.dropped).field("igap", c.igap);
+    j.field("inacti", c.inacti).field("evaluated", c.evaluated);
+    j.field("given", is_modern(c.type));
     j.field("istf", c.istf).field("irem_gap", c.irem_gap).field("itied", c.itied);
     j.field("fpenmax", c.fpenmax).field("gap_scale", c.gap_scale);
     j.field("gapmin", c.gapmin).field("gapmin_from", to_string(c.gapmin_origin));

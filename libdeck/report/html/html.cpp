@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "deck/base/escape.hpp"
+#include "deck/contact/tie_text.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/verdict.hpp"
@@ -84,6 +85,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   detail::write_what_if(j, in.what_if);
   detail::write_interfaces(j, in);
   detail::write_contacts(j, in, page);
+  detail::write_page_ties(j, in);
   detail::write_touches(j, touches);
   j.end_object();
   return out;
@@ -128,8 +130,16 @@ std::string static_body(const HtmlInput& in) {
            "</td><td>" + to_string(c.role) + "</td><td>" + shortest(c.gapmin) + "</td><td>" +
            std::to_string(t.count.pairs) + "</td><td>" + shortest(t.max_depth) + "</td></tr>\n";
   }
+  out += "</tbody></table>\n";
+  if (!in.scene->ties.empty()) {
+    out += "<ul>\n";
+    for (const Tie& tie : in.scene->ties)
+      out += "<li>TYPE2 " + std::to_string(tie.inter->id) + " " + html_text(tie.inter->title) +
+             ": " + html_text(holds_text(tie)) + "</li>\n";
+    out += "</ul>\n";
+  }
   return out +
-         "</tbody></table>\n<noscript><p>This page needs JavaScript for its lists and the "
+         "<noscript><p>This page needs JavaScript for its lists and the "
          "picture.</p></noscript></main>\n";
 }
 
@@ -159,7 +169,9 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   const Model& model = *in.scene->model;
   detail::PageNodes nodes(model.nodes.size());
   const std::vector<detail::MeshPart> mesh = detail::collect_mesh(model, nodes);
+  std::vector<NodeIndex> of_ties = detail::use_nodes(*in.scene, nodes);
   detail::PageContacts page = detail::collect_contacts(in, nodes);
+  page.of_ties = std::move(of_ties);
   if (in.crossings != nullptr) detail::use_nodes(*in.crossings, nodes);
   detail::use_nodes(in.acted, nodes);
   nodes.number();
@@ -187,6 +199,8 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   add_block(out, "deck-contacts", "application/octet-stream",
             detail::contacts_block(in, page, nodes));
   page = {};  // meshes are large, too
+  if (!in.scene->ties.empty())
+    add_block(out, "deck-ties", "application/octet-stream", detail::ties_block(in, nodes));
   add_block(out, "deck-mesh", "application/octet-stream", detail::mesh_block(model, mesh, nodes));
   add_block(out, "deck-elements", "application/octet-stream", detail::elements_block(model, mesh));
   if (in.earlier != nullptr)

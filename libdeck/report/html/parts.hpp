@@ -25,6 +25,7 @@ class PageNodes {
   void use(NodeIndex n) {
     if (n < used_.size()) used_[n] = 1;
   }
+  bool used(NodeIndex n) const { return n < used_.size() && used_[n] != 0; }
   void number();  ///< after the last use()
   std::uint32_t operator[](NodeIndex n) const { return number_[n]; }
   const std::vector<NodeIndex>& list() const { return list_; }
@@ -59,7 +60,10 @@ std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh
 
 // contacts.cpp — what evaluating other settings needs
 struct PageContact {
-  std::vector<CandidatePair> pairs;  ///< all pairs nearer than `reach`, sorted
+  /// All pairs nearer than `reach`, sorted. TYPE24 and TYPE25: what penetrates, parallel to
+  /// `given`.
+  std::vector<CandidatePair> pairs;
+  std::vector<std::uint32_t> given;  ///< rows that the page shows as they are
   double reach = 0;                  ///< largest gap for which the pairs are complete
   double margin = 0;                 ///< of the solver's search beyond the gap
   bool complete = true;  ///< false: too many pairs; only the deepest penetrations, reach 0
@@ -68,6 +72,7 @@ struct PageContact {
 struct PageContacts {
   std::vector<PageContact> contacts;        ///< parallel to the scene's
   std::optional<Coordinates> before_moves;  ///< where Inacti 3 has moved nodes of the scene
+  std::vector<NodeIndex> of_ties;  ///< nodes of ties whose coordinates the page needs as well
   /// All nodes where the deck has them.
   const Coordinates& start(const Scene& scene) const {
     return before_moves ? *before_moves : scene.coordinates;
@@ -78,6 +83,14 @@ std::string contacts_block(const HtmlInput& input, const PageContacts& page,
                            const PageNodes& nodes);
 /// The member "contacts": options, totals, default gaps.
 void write_contacts(JsonWriter& json, const HtmlInput& input, const PageContacts& page);
+
+// ties.cpp — /INTER/TYPE2: lines from nodes to segments, and the nodes that are not tied
+/// Marks the nodes of all ties. Given back are those that the picture does not show by itself (no
+/// element has them) or that a line ends at which is looked at closely: of nodes that are not tied.
+std::vector<NodeIndex> use_nodes(const Scene& scene, PageNodes& nodes);
+std::string ties_block(const HtmlInput& input, const PageNodes& nodes);
+/// The member "ties": counts and what is said, one entry a tie, in the order of the block.
+void write_page_ties(JsonWriter& json, const HtmlInput& input);
 
 // touches.cpp — who touches whom
 struct Touch {
@@ -94,6 +107,8 @@ void write_touches(JsonWriter& json, const std::vector<Touch>& touches);
 std::string touches_drawing(const HtmlInput& input, const std::vector<Touch>& touches);
 
 // cards.cpp — the members "interfaces" and "what_if"
+/// What the page calls interfaces, by position: contacts in deck order, then the ties of the scene.
+std::vector<const InterBase*> page_interfaces(const Scene& scene);
 void write_interfaces(JsonWriter& json, const HtmlInput& input);
 void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);
 

@@ -60,7 +60,7 @@ std::vector<int> ranked(const std::vector<Touch>& all, Side side) {
 }
 
 /// The drawing, of the command line and of the page, which marks other cells for other settings
-/// (tools/viewer/src/touches.ts).
+/// (tools/viewer/src/sections/touches.ts).
 class Drawing {
  public:
   Drawing(const HtmlInput& in, const std::vector<Touch>& all) : in_(in), all_(all) {

@@ -21,20 +21,6 @@ std::string segment_text(const Model& model, const Tie& tie, std::uint32_t segme
   return out;
 }
 
-std::string what_happens(const Tie& tie, const TieCounts& n) {
-  if (!tie.not_evaluated.empty()) return "not evaluated: " + tie.not_evaluated;
-  std::string out;
-  const auto add = [&](std::size_t of, const std::string& text) {
-    if (of > 0) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", of, text);
-  };
-  add(n.not_found, tie.ignore == 0 ? "not found: the solver stops" : "not found");
-  add(n.dropped, "dropped");
-  add(n.elsewhere, "held elsewhere");
-  add(n.outside, "tied beyond a rim");
-  add(tie.main_and_tied.size(), "main nodes tied: the solver stops");
-  return out.empty() ? "-" : out;
-}
-
 struct Untied {
   const Tie* tie;
   const TiedNode* node;
@@ -56,7 +42,7 @@ std::string tie_table(const Scene& scene, const GapsTextOptions& options) {
   std::vector<std::int64_t> clean;
   for (const Tie& tie : scene.ties) {
     const TieCounts n = count_ties(tie);
-    const std::string happens = what_happens(tie, n);
+    const std::string happens = losses_text(tie);
     if (!options.verbose && happens == "-" && n.nodes > 0) {
       clean.push_back(tie.inter->id);
       continue;

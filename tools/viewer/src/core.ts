@@ -2,7 +2,7 @@
 // (../wasm). Numbers go in and out in the order of the structs of ../wasm/what_if.cpp.
 import { unzlibSync } from "fflate";
 import packed from "../wasm/rules.wasm";
-import { lengths as limitsOf, type ContactData, type Contacts } from "./data";
+import { lengths as limitsOf, rowSize, type ContactData, type Contacts } from "./data";
 import type { ContactMeta, Meta, Overrides, Samples } from "./meta";
 
 interface Exports {
@@ -45,11 +45,16 @@ export type Action =
   | "segment-stiffness-zero"
   | "node-moved"
   | "gap-reduced"
-  | "edge-stiffness-zero";
+  | "edge-stiffness-zero"
+  | "ignored"
+  | "offset-stored"
+  | "initial-force"
+  | "removed-tied";
 
 /** Effective options of one contact. */
 export interface Setting {
   igap: number;
+  rule: number; // the Igap by which gaps of the sides make the gap of a pair
   inacti: number;
   irem: number;
   fpenmax: number;
@@ -78,10 +83,9 @@ export interface Row extends Outcome {
   readonly distance: number;
   readonly normal: [number, number, number];
   readonly onSurface: boolean;
+  readonly stored: number; // TYPE24, TYPE25: what is taken off the penetration from then on
   readonly weight: number; // edges: weight of the first secondary node
 }
-
-const rowSize = 17;
 
 function text(address: number): string {
   const bytes = new Uint8Array(rules().memory.buffer);
@@ -90,7 +94,7 @@ function text(address: number): string {
   return out;
 }
 let names: Action[] | null = null;
-const actionOf = (i: number): Action => (names ??= [0, 1, 2, 3, 4, 5].map((k) => text(rules().action_text(k)) as Action))[i];
+const actionOf = (i: number): Action => (names ??= Array.from({ length: 10 }, (_, k) => k).map((k) => text(rules().action_text(k)) as Action))[i];
 
 /** A row as the rules wrote it: there can be half a million, so nothing is copied. */
 class WrittenRow implements Row {
@@ -128,6 +132,9 @@ class WrittenRow implements Row {
   get p0(): number | null {
     return this.v[this.at + 10] !== 0 ? this.v[this.at + 12] : null;
   }
+  get stored(): number {
+    return this.v[this.at + 12];
+  }
   get movedBy(): [number, number, number] | null {
     return this.action === "node-moved" ? [this.v[this.at + 13], this.v[this.at + 14], this.v[this.at + 15]] : null;
   }
@@ -149,7 +156,7 @@ export function onSurfaceError(meta: ContactMeta, fpenmax: number, inacti: numbe
 
 /** Pair gap from what the two sides bring. */
 export function pairGap(s: Setting, gs: number, gm: number, ls: number, lm: number): number {
-  return rules().pair_gap(s.igap, s.gapmin, s.gapmax, gs, gm, ls, lm);
+  return rules().pair_gap(s.rule, s.gapmin, s.gapmax, gs, gm, ls, lm);
 }
 
 /** One contact at its settings. */
@@ -169,10 +176,10 @@ export interface Raw {
 }
 
 export function evaluated(contact: number, { head, rows: out }: Raw): Evaluated {
-  const [igap, inacti, irem, fpenmax, scale, gapmin, from, gapmax, maxGap, drad, reached, uncertain, count] = head;
+  const [igap, inacti, irem, fpenmax, scale, gapmin, from, gapmax, maxGap, drad, reached, uncertain, count, , rule = igap] = head;
   const rows: Row[] = [];
   for (let i = 0; i < count; i++) rows.push(new WrittenRow(contact, out, i * rowSize));
-  return { setting: { igap, inacti, irem, fpenmax, scale, gapmin, gapminFrom: text(rules().origin_text(from)), gapmax, maxGap, drad }, rows, reached, uncertain: uncertain !== 0 };
+  return { setting: { igap, rule, inacti, irem, fpenmax, scale, gapmin, gapminFrom: text(rules().origin_text(from)), gapmax, maxGap, drad }, rows, reached, uncertain: uncertain !== 0 };
 }
 
 /** How far the rows of a contact move a node at most. */
@@ -187,7 +194,10 @@ export function largestMove({ rows }: Raw): number {
 export class Core {
   private readonly wasm = start();
 
-  constructor(private readonly meta: Meta, data: Contacts) {
+  /** Number of a contact among those that the rules are asked about. */
+  private readonly number: number[] = [];
+
+  constructor(private readonly meta: Meta, private readonly data: Contacts) {
     const n = data.exactNode.length;
     // One more for nodes without exact coordinates, which no pair has: the solver's rules only ask
     // whether they are there.
@@ -206,7 +216,11 @@ export class Core {
       }
       return address;
     };
-    meta.contacts.forEach((c, i) => this.add(c, meta.interfaces[c.interface].type, data.contacts[i], position));
+    let count = 0;
+    meta.contacts.forEach((c, i) => {
+      this.number.push(c.given ? -1 : count++);
+      if (!c.given) this.add(c, meta.interfaces[c.interface].type, data.contacts[i], position);
+    });
   }
 
   private add(c: ContactMeta, interfaceType: number, d: ContactData, position: (nodes: Uint32Array) => number): void {
@@ -267,16 +281,29 @@ export class Core {
 
   /** `moved`: how far the contacts before have moved a node; without pairs there are no rows. */
   evaluate(contact: number, change: Overrides, moved: number, withPairs: boolean): Raw {
+    if (this.meta.contacts[contact].given) return this.given(contact, withPairs);
     this.complete(contact, change);
     const { Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti } = change;
     this.send([Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti].map((v) => v ?? NaN));
-    this.wasm.evaluate(contact, moved, Number(withPairs));
+    this.wasm.evaluate(this.number[contact], moved, Number(withPairs));
     const head = new Float64Array(this.wasm.memory.buffer, this.wasm.exchange(), 14).slice();
     return { head, rows: new Float64Array(this.wasm.memory.buffer, head[13], head[12] * rowSize).slice() };
   }
 
+  /** What the page has no rules for: as the program found it. */
+  private given(contact: number, withPairs: boolean): Raw {
+    const c = this.meta.contacts[contact];
+    const rows = withPairs ? this.data.contacts[contact].given! : new Float64Array(0);
+    let reached = 0;
+    for (let at = 3; at < rows.length; at += rowSize) reached = Math.max(reached, rows[at]);
+    const limited = c.type === 25 && c.igap === 3; // by the mesh size
+    const head = [c.igap, c.inacti, c.irem_gap, c.fpenmax, c.gap_scale, c.gapmin, 0, Infinity, c.max_gap, c.drad, reached, 0, rows.length / rowSize, 0, limited ? 3 : 1];
+    return { head: Float64Array.from(head), rows };
+  }
+
   /** Gaps that the items of both sides bring at these settings. */
   sideGaps(contact: number, change: Overrides, data: ContactData): { gs: Float64Array; gm: Float64Array } {
+    if (this.meta.contacts[contact].given) return { gs: data.secondaryThickness, gm: data.mainThickness };
     this.evaluate(contact, change, 0, false);
     const list = (address: number, count: number) => new Float64Array(this.wasm.memory.buffer, address, count).slice();
     return { gs: list(this.wasm.secondary_gaps(), data.secondaryListed.length), gm: list(this.wasm.main_gaps(), data.mainListed.length) };

@@ -1,7 +1,7 @@
 // The blocks of the page (see libdeck/report/html/*.cpp for the writers) and what they hold.
 import { unzlibSync } from "fflate";
 import { fromBase64, fromPlanes, Reader } from "./decode/reader";
-import type { ContactMeta, Crossed, Cycle, Earlier, Meta } from "./meta";
+import type { ContactMeta, Crossed, Cycle, Earlier, Meta, TieData } from "./meta";
 
 export const kindNames = ["shell", "sh3n", "solid", "quad", "tria", "truss", "beam", "spring"];
 
@@ -61,7 +61,11 @@ export interface ContactData {
   pairSecondary: Uint32Array;
   pairMain: Uint32Array;
   pairClass: Uint8Array; // distance in 255ths of the reach, rounded down
+  /** ContactMeta.given: the rows, in the order of the pairs and with the numbers of ../wasm/what_if.cpp; thicknesses are gaps then. */
+  given: Float64Array | null;
 }
+
+export const rowSize = 17; // numbers of a row
 
 const limits = new WeakMap<Uint8Array, Float64Array>();
 /** Mesh-size limits of one side, made when first asked for. */
@@ -179,7 +183,21 @@ function readContact(r: Reader, meta: ContactMeta): ContactData {
   }
   d.secondaryLength = r.bytes(8 * sn);
   d.mainLength = r.bytes(8 * mn);
+  d.given = meta.given ? readGiven(r, d) : null;
   return d;
+}
+
+function readGiven(r: Reader, d: ContactData): Float64Array {
+  const n = d.pairMain.length;
+  const out = new Float64Array(rowSize * n);
+  const put = (at: number, values: ArrayLike<number>) => {
+    for (let i = 0; i < n; i++) out[rowSize * i + at] = values[i];
+  };
+  put(0, d.pairSecondary);
+  put(1, d.pairMain);
+  for (const at of [2, 3, 4, 5, 6, 7, 16, 12]) put(at, r.f64(n));
+  put(9, r.bytes(n));
+  return out;
 }
 
 export function readContacts(bytes: Uint8Array, meta: Meta, nodes: number): Contacts {
@@ -247,4 +265,5 @@ const json = (id: string): unknown => {
 export const loadTouches = () => text("deck-touches");
 export const loadEarlier = () => json("deck-earlier") as Earlier | null;
 export const loadCycle = () => json("deck-cycle") as Cycle | null;
+export const loadTies = () => (json("deck-ties") as TieData[] | null) ?? [];
 export const loadCrossed = () => json("deck-crossed") as Crossed | null;

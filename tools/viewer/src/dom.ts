@@ -40,6 +40,7 @@ const icons: Record<string, string> = {
   help: "M6 6a2 2 0 113 1.700c-.7.4-1 .8-1 1.800M8 12v.5",
   parts: "M2 4h12M2 8h12M2 12h12",
   cross: "M2 12l12-8M2 4l5 3.500M9.500 9L14 12",
+  tie: "M3 3h4v4H3zM9 9h4v4H9zM7 7l2 2",
   close: "M4 4l8 8M12 4l-8 8",
   parts3d: "M8 1.500l6 3v7l-6 3-6-3v-7zM2 4.500l6 3 6-3M8 7.500v7",
   ruler: "M1.500 11L11 1.500l3.500 3.500L5 14.500zM4 8.500l1.500 1.500M6.500 6l1.500 1.500M9 3.500L10.500 5",

@@ -84,7 +84,7 @@ export class Evaluator {
 
   private moves(overrides: Overrides[]): boolean {
     return this.meta.contacts.some(
-      (c, i) => c.kind === "node_segment" && this.setting(i, overrides[c.interface]).inacti === 3,
+      (c, i) => c.kind === "node_segment" && !c.given && this.setting(i, overrides[c.interface]).inacti === 3,
     );
   }
 
@@ -93,7 +93,8 @@ export class Evaluator {
     const meta = this.meta.contacts[i];
     const { setting, rows, reached, uncertain } = evaluated(i, raw);
     const result: Result = { setting, rows, totals: emptyTotals(), reached, complete: true };
-    if (searched(meta)) {
+    if (meta.given) result.complete = meta.complete;
+    else if (searched(meta)) {
       const exactMove = setting.inacti === 3 && meta.kind === "node_segment" ? setting.maxGap + meta.margin : 0;
       const needed = Math.max(reached, exactMove) + 2 * moved;
       result.complete = uncertain ? false : meta.complete

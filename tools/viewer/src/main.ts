@@ -1,24 +1,25 @@
 // The page: reads its data, builds the sections, wires keys and exports.
 import { begun } from "./decode/begun";
-import { crossedSection } from "./scene/crossed";
-import { cycleSection } from "./cycle";
-import { loadCrossed, loadCycle, loadEarlier, loadMeta, unpack } from "./data";
+import { crossedSection } from "./sections/crossed";
+import { cycleSection } from "./sections/cycle";
+import { loadCrossed, loadCycle, loadEarlier, loadMeta, loadTies, unpack } from "./data";
 import { loadModel } from "./decode/client";
 import type { Model } from "./decode/model";
-import { detail, notChecked } from "./detail";
+import { detail, notChecked } from "./sections/detail";
 import { button, fileName, group, h } from "./dom";
 import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save, tclMarks } from "./exports";
-import { distribution, exportMenu, listSection, pairsSection } from "./lists";
+import { distribution, exportMenu, listSection, pairsSection } from "./sections/lists";
 import type { ContourKind, Look } from "./look";
 import type { FieldName, Overrides } from "./meta";
-import { interfaces } from "./overview";
+import { interfaces } from "./sections/overview";
 import { printing } from "./paper";
-import { effectsSection, loadCycleDocument } from "./effects";
+import { effectsSection, loadCycleDocument } from "./sections/effects";
 import { findBox } from "./find";
 import { openMenu, rowItems } from "./menu";
 import { ViewState } from "./state";
-import { touchesSection } from "./touches";
-import { verdict } from "./verdict";
+import { touchesSection } from "./sections/touches";
+import { verdict } from "./sections/verdict";
+import { tiesSection } from "./sections/ties";
 import { Report, type Hit } from "./report";
 import type { WebGLRenderer } from "three";
 import { drawsInSoftware } from "./scene/machine";
@@ -40,7 +41,7 @@ async function start(): Promise<void> {
   });
   const machine = matchMedia(telephone).matches ? null : readyToDraw(software);
   try {
-    await unpack(["deck-earlier", "deck-cycle", "deck-crossed"]);
+    await unpack(["deck-earlier", "deck-cycle", "deck-crossed", "deck-ties"]);
   } catch {
     // A browser that cannot do that reads the blocks itself.
   }
@@ -62,7 +63,7 @@ function onceShown(then: () => void): void {
 function build(model: Model & { beside: boolean }, software: boolean, machine: WebGLRenderer | null): void {
   const times: Record<string, number> = { decoded: performance.now() - started };
   const meta = loadMeta();
-  const report = new Report(meta, model.mesh, model.contacts, loadEarlier(), loadCycle(), loadCrossed(), model.base);
+  const report = new Report(meta, model.mesh, model.contacts, loadEarlier(), loadCycle(), loadCrossed(), loadTies(), model.base);
   times.evaluated = performance.now() - started;
   const doc = loadCycleDocument();
   const look: Look = { map: "heat", dark: false, contour: doc && report.acted?.length ? "force" : "depth", bands: 0 };
@@ -125,9 +126,9 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
     ], "export");
     const list = listSection(report, fly, exports, () => state?.note());
     const nav = h("nav", { "aria-label": "Sections" },
-      ...([["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["effects", "Effects"], ["notes", "About"]] as const)
+      ...([["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["ties", "Ties"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["effects", "Effects"], ["notes", "About"]] as const)
         .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-    const sections = [nav, verdict(report), doc && cycleSection(report), doc && effectsSection(report, doc, `${stem}_effects.svg`), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, crossedSection(report, (points) => viewport.openPoints(points)), !doc && cycleSection(report), notChecked(report)];
+    const sections = [nav, verdict(report), doc && cycleSection(report), doc && effectsSection(report, doc, `${stem}_effects.svg`), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, tiesSection(report, (x) => viewport.openTie(x)), crossedSection(report, (points) => viewport.openPoints(points)), !doc && cycleSection(report), notChecked(report)];
     left.append(...sections.filter((s) => !!s));
     for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
     // Sections are scrolled to; the address belongs to the state of the page.
@@ -236,6 +237,7 @@ const keyList: [string, string][] = [
   ["x", "section planes"],
   ["p", "list of parts"],
   ["c", "edges of crossed elements"],
+  ["n", "lines of ties, from node to segment"],
   ["1 … 8", "colours: depth, depth ÷ gap, gap, gap ÷ side, parts, force, stiffness, time step"],
   ["t", "dark or light"],
   ["drag · shift-drag · wheel", "turn · move · zoom"],
@@ -266,6 +268,7 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
     x: () => viewport.toggleClip(),
     p: () => viewport.toggleParts(),
     c: () => viewport.toggleCrossed(),
+    n: () => viewport.toggleTies(),
     t: () => changeLook({ dark: !look.dark }),
     "?": () => help.showModal(),
     "/": () => document.getElementById("find")?.focus(),

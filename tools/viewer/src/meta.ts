@@ -67,6 +67,8 @@ export interface ContactMeta {
   role: "primary" | "reversed" | "edges";
   type: number;
   dropped: boolean;
+  evaluated: boolean; // false: whether anything penetrates is not known
+  given: boolean; // TYPE24, TYPE25: its rows stand in the page as they were found, for the deck's settings only
   igap: number;
   inacti: number;
   istf: number;
@@ -99,6 +101,21 @@ export interface ContactMeta {
   totals: Totals;
   card: CardValues;
   default: Samples[]; // what a default gap is formed of: of the main side; of edges also of the secondary
+}
+
+/** A tie: /INTER/TYPE2. */
+export interface TieMeta {
+  interface: number;
+  nodes: number;
+  tied: number;
+  lost: number; // not tied, and nothing else holds them
+  beyond_rim: number; // tied all the same
+  search_distance: number; // 0: each pair has its own
+  farthest: number; // distance of a node that is tied
+  text: string; // "3 of 412 nodes are not tied"
+  losses: string; // what becomes of the others
+  evaluated: boolean;
+  stops: boolean; // the solver stops
 }
 
 export interface Units {
@@ -136,6 +153,7 @@ export interface Meta {
   what_if: (Overrides & { interface: number; "%mesh_size"?: number; Irem_gap?: number })[];
   interfaces: InterfaceMeta[];
   contacts: ContactMeta[];
+  ties: TieMeta[];
   touches: [number, number, ...number[]][]; // parts that come near each other: secondary, main (-1: none), interfaces
 }
 
@@ -163,6 +181,22 @@ export interface Cycle {
     rows: [number, number, number, number][]; // secondary, main, force, stiffness
   }[];
   nodes: [number, number, number, number, number, number | null][]; // page node, force on it, stiffness, time step
+}
+
+/** What becomes of a node of a tie: tied, lost, tied from beyond the rim of its segment, held by something else. */
+export const Holds = { tied: 0, lost: 1, beyondRim: 2, elsewhere: 3 } as const;
+
+/** A node that is not tied, or tied from beyond the rim: its position in `nodes`, distance, search distance, part, why in
+ * short and as a sentence, file and line. */
+export type TieRow = [number, number | null, number | null, number, string, string, number, number];
+
+/** Nodes of a tie with the segment that each is tied to or nearest to; -1: none. */
+export interface TieData {
+  main: number[]; // page nodes, four a segment
+  nodes: number[]; // page nodes
+  segment: number[];
+  holds: (typeof Holds)[keyof typeof Holds][];
+  rows: TieRow[]; // untied nodes first
 }
 
 /** Crossed elements: contact, page nodes of the edge, kind and id of its element, position of the

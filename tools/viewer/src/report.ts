@@ -4,7 +4,7 @@ import { kindNames, type Contacts, type Mesh } from "./data";
 import { onSurfaceError, type Raw, type Row } from "./core";
 import { Evaluator, ratioOf, Tally, type Result } from "./evaluate";
 import { commonStart } from "./table/names";
-import type { Crossed, Cycle, Earlier, FieldName, Meta, Overrides, Totals } from "./meta";
+import type { Crossed, Cycle, Earlier, FieldName, Meta, Overrides, TieData, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
 
@@ -108,6 +108,7 @@ export class Report {
     readonly earlier: Earlier | null,
     readonly cycle: Cycle | null,
     readonly crossed: Crossed | null,
+    readonly ties: TieData[], // in the order of Meta.ties
     deckResults: Raw[] | null = null,
   ) {
     this.forces = cycle && cycle.contacts.map((c) => new Map(c.rows.map((r) => [`${r[0]}/${r[1]}`, { force: r[2], stiffness: r[3] }])));
@@ -135,6 +136,13 @@ export class Report {
   }
   emit(topic: Topic): void {
     for (const f of this.listeners.get(topic) ?? []) f();
+  }
+
+  /** "; 2 contacts were not evaluated" where that is so: what nothing was found in is not clean. */
+  get leftOut(): string {
+    const n = this.meta.contacts.filter((c) => !c.evaluated).length + this.meta.ties.filter((t) => !t.evaluated).length;
+    const others = this.meta.verdict.counts.interfaces_not_examined ?? 0;
+    return [n > 0 && `; ${n === 1 ? "1 contact or tie was" : `${n} contacts or ties were`} not evaluated`, others > 0 && `; ${others === 1 ? "1 interface was" : `${others} interfaces were`} not examined`].filter(Boolean).join("");
   }
 
   /** True if the page's own evaluation of the deck's settings is what the program found. */
@@ -281,9 +289,21 @@ export class Report {
       for (const p of c.mainOwner.part) if (p >= 0) found.main.add(p);
       for (const n of c.secondaryNode) marked[n] = 1;
     }
-    for (const p of this.mesh.parts) if (p.part >= 0 && p.node.some((n) => marked[n] === 1)) found.secondary.add(p.part);
+    const corner = new Uint8Array(marked.length);
+    const tie = this.tieOf(inter);
+    for (const n of tie?.nodes ?? []) marked[n] = 1;
+    for (const n of tie?.main ?? []) corner[n] = 1;
+    for (const p of this.mesh.parts) {
+      if (p.part < 0) continue;
+      if (p.node.some((n) => marked[n] === 1)) found.secondary.add(p.part);
+      if (tie && p.node.some((n) => corner[n] === 1)) found.main.add(p.part);
+    }
     this.sides.set(inter, found);
     return found;
+  }
+  /** The tie that an interface is; null: it is a contact. */
+  tieOf(inter: number): TieData | null {
+    return this.ties[this.meta.ties.findIndex((t) => t.interface === inter)] ?? null;
   }
   interfaceName(inter: number): string {
     const i = this.meta.interfaces[inter];

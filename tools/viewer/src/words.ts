@@ -16,6 +16,19 @@ export const inactiWords: Record<number, string> = {
   6: "reduce the gap, 5 % spared",
 };
 
+/** The same of a TYPE24 or TYPE25. */
+export const modernIgapWords: Record<number, string> = {
+  1: "thickness of both sides",
+  2: "as 1, near nodes left out",
+  3: "as 1, limited by the mesh size",
+  5: "thickness of the card",
+};
+export const modernInactiWords: Record<number, string> = {
+  [-1]: "force from the start",
+  0: "ignored",
+  5: "stored as offset",
+};
+
 export function flagText(field: "Igap" | "Inacti", value: number): string {
   const words = field === "Igap" ? igapWords : inactiWords;
   return `${value} – ${words[value] ?? "unknown"}`;
@@ -28,6 +41,10 @@ export const actionWords: Record<string, string> = {
   "node-moved": "node moved",
   "gap-reduced": "gap reduced",
   "edge-stiffness-zero": "edge off",
+  ignored: "ignored",
+  "offset-stored": "stored as offset",
+  "initial-force": "force from the start",
+  "removed-tied": "held by a tie",
 };
 export const actionLong: Record<string, string> = {
   none: "Nothing is done. The run starts with this overlap: the contact pushes the node out from the first cycle on, with a force that grows with depth.",
@@ -36,4 +53,8 @@ export const actionLong: Record<string, string> = {
   "node-moved": "The node is moved along the normal to the edge of the gap. The mesh changes.",
   "gap-reduced": "The gap of this pair is reduced so that the run starts (nearly) without force; it grows back as the node leaves.",
   "edge-stiffness-zero": "The stiffness of the edge is set to zero: it no longer takes part in this interface.",
+  ignored: "The solver ignores it: nothing is stored for the pair. Only what is no deeper than 1e-8 would count.",
+  "offset-stored": "The penetration is stored as an offset: the run starts without force, and from then on the contact acts on what goes beyond it.",
+  "initial-force": "Nothing is taken off: the contact pushes from the first cycle on.",
+  "removed-tied": "A tie holds the node, so the pair is left out of the contact (Irem_i2) and what was stored for it is taken back.",
 };

@@ -17,6 +17,11 @@ struct TieCounts {
 };
 TieCounts count_ties(const Tie& tie);
 
+/// "3 of 412 nodes are not tied", "412 nodes are tied", "not evaluated: why".
+std::string holds_text(const Tie& tie);
+/// What becomes of the nodes that are not simply tied, for a table; "-": there are none.
+std::string losses_text(const Tie& tie);
+
 /// Why a node is not tied, or how it is: one sentence; and in a few words for a table.
 std::string why_text(const Tie& tie, const TiedNode& node);
 std::string short_reason(const Tie& tie, const TiedNode& node);

@@ -2,7 +2,7 @@
 // Frames are drawn on demand only.
 import {
   BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, Frustum, HemisphereLight,
-  InstancedMesh, LineSegments, Matrix4, Mesh, MeshLambertMaterial, Points, Quaternion, Raycaster, Scene,
+  InstancedMesh, Matrix4, Mesh, MeshLambertMaterial, Points, Quaternion, Raycaster, Scene,
   Sphere, Vector2, Vector3, type WebGLRenderer,
 } from "three";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
@@ -11,7 +11,8 @@ import { Parts3D, type Look, type Part3D } from "./parts3d";
 import { Section, type Cut } from "./section";
 import { Marked } from "./marked";
 import { Slices } from "./slices";
-import { arrowGeometry, discTexture, dotMaterial, thinLines } from "./shapes";
+import { LineLayer } from "./layer";
+import { arrowGeometry, discTexture, dotMaterial } from "./shapes";
 import type { Shape } from "../decode/shape";
 import type { Hit, Report } from "../report";
 
@@ -32,7 +33,6 @@ export interface Arrow {
 
 const mostArrows = 10000;
 const mostDotsInSoftware = 20000; // no fewer than arrows
-const mostThickLines = 1000; // thick lines are triangles
 
 export class View3D {
   readonly parts: Parts3D;
@@ -57,7 +57,7 @@ export class View3D {
   private readonly marked: Marked;
   private readonly disc: CanvasTexture;
   readonly section: Section;
-  private dark = false;
+  dark = false;
   private readonly partOf = new Map<number, Part3D>();
 
   constructor(
@@ -74,6 +74,8 @@ export class View3D {
     container.prepend(this.canvas);
     this.disc = discTexture();
     this.marked = new Marked(report, this.scene, this.disc, container);
+    this.crossed = new LineLayer(this.scene, this.marked.lines, this.disc, () => this.request());
+    this.ties = new LineLayer(this.scene, this.marked.lines, this.disc, () => this.request());
     this.parts = new Parts3D(report.mesh, shapes);
     for (const p of this.parts.parts) this.partOf.set(p.data.part, p);
     this.section = new Section(this.parts);
@@ -126,7 +128,7 @@ export class View3D {
   private setDetail(coarse: boolean): void {
     this.coarse = coarse;
     if (this.arrows) this.arrows.visible = this.arrowsOn && !coarse;
-    for (const l of this.crossed) l.visible = !coarse;
+    for (const l of [this.crossed, this.ties]) l.visible = !coarse;
     this.dots?.geometry.setDrawRange(0, this.mostDots);
   }
 
@@ -307,7 +309,7 @@ export class View3D {
     this.slices.stop();
     this.size();
     this.control.camera.aspect = w / h;
-    for (const s of [...this.marked.selection, ...this.crossed]) if (s instanceof LineSegments2) s.material.resolution.set(w, h);
+    for (const s of [...this.marked.selection, ...this.crossed.lines, ...this.ties.lines]) if (s instanceof LineSegments2) s.material.resolution.set(w, h);
     if (this.frames === 0) return;
     this.control.update(performance.now());
     this.render();
@@ -407,21 +409,9 @@ export class View3D {
     this.request();
   }
 
-  private crossed: (LineSegments2 | LineSegments)[] = [];
-  /** Edges that pass through segments, and those segments' outlines. */
-  setCrossed(edges: Float32Array | null, outlines: Float32Array | null): void {
-    for (const l of this.crossed.splice(0)) {
-      this.scene.remove(l);
-      l.geometry.dispose();
-    }
-    if (edges && edges.length > 0) {
-      const many = edges.length > 6 * mostThickLines;
-      const draw = (x: Float32Array, color: string, width: number) => (many ? thinLines(x, color) : this.marked.lines(x, color, width));
-      this.crossed.push(draw(outlines!, this.dark ? "#ffb454" : "#b45309", 1.5), draw(edges, this.dark ? "#ff6b81" : "#c1123f", 4));
-      for (const l of this.crossed) this.scene.add(l);
-    }
-    this.request();
-  }
+  /** Lines over the picture: of crossed elements, and of ties. */
+  readonly crossed: LineLayer;
+  readonly ties: LineLayer;
 
   flyToPoints(points: Vector3[]): void {
     const s = new Sphere().setFromPoints(points);

@@ -3,7 +3,9 @@
 import { Color, Vector3, type WebGLRenderer } from "three";
 import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
 import { contourOf, type Contour } from "./contour";
-import { segmentOf } from "./crossed";
+import { segmentOf } from "../sections/crossed";
+import { cornersOf, nodeOf, type Untied } from "../sections/ties";
+import { tieLines } from "./tied";
 import { button, fileName, h, icon, lengthText, num, plural, replace, svg } from "../dom";
 import { saveDataUrl } from "../exports";
 import { framed } from "./framed";
@@ -80,6 +82,7 @@ export class Viewport {
       return;
     }
     const view = this.view;
+    this.tiesOn = this.report.meta.ties.some((t) => t.lost > 0);
     // So many arrows hide what they point at.
     this.arrows = this.report.filtered.length <= mostArrowsAtFirst || ofCycle(this.look.contour);
     view.setArrows(this.arrows);
@@ -145,6 +148,7 @@ export class Viewport {
         toggle("solid", "All parts solid (o)", "parts3d", false, () => this.toggleSolid()),
         toggle("follow", "Isolate the chosen pair (i)", "isolate", this.follow, () => this.toggleFollow()),
         this.report.crossed?.total ? toggle("crossed", "Edges of crossed elements (c)", "cross", false, () => this.toggleCrossed()) : null,
+        this.report.ties.length > 0 ? toggle("ties", "Ties: from node to segment, what is not tied marked (n)", "tie", this.tiesOn, () => this.toggleTies()) : null,
         toggle("clip", "Section planes (x)", "clip", false, () => this.toggleClip()),
         toggle("measure", "Measure between two nodes (m)", "ruler", false, () => this.toggleMeasure()),
         toggle("parts", "Parts (p)", "parts", false, () => this.toggleParts())),
@@ -238,7 +242,7 @@ export class Viewport {
     const own = (r: readonly number[]) =>
       (inter === null || this.report.meta.contacts[r[0]].interface === inter) && (!parts || parts.has(this.report.data.contacts[r[0]].mainOwner.part[r[5]]));
     const rows = (this.crossedShown = this.crossedOn ? (this.report.crossed?.rows ?? []).filter(own) : []);
-    if (rows.length === 0) return this.view?.setCrossed(null, null);
+    if (rows.length === 0) return this.view?.crossed.set([]);
     const x = this.report.nodePositions;
     const edges = new Float32Array(6 * rows.length);
     const outlines: number[] = [];
@@ -251,7 +255,40 @@ export class Viewport {
         outlines.push(...x.subarray(3 * a, 3 * a + 3), ...x.subarray(3 * b, 3 * b + 3));
       });
     });
-    this.view?.setCrossed(edges, Float32Array.from(outlines));
+    this.view?.crossed.set([
+      { ends: Float32Array.from(outlines), color: this.look.dark ? "#ffb454" : "#b45309", width: 1.5 },
+      { ends: edges, color: this.look.dark ? "#ff6b81" : "#c1123f", width: 4 }]);
+  }
+  private tiesOn = false;
+  private tiesShown = "";
+  toggleTies(): void {
+    this.tiesOn = !this.tiesOn;
+    this.press("ties", this.tiesOn);
+    this.drawTies();
+  }
+  /** Ties that are switched on; a tie that is chosen is shown in any case, and alone. */
+  private drawTies(): void {
+    const { interface: inter } = this.report.filter;
+    const chosen = inter !== null && this.report.tieOf(inter) !== null;
+    const on = chosen || (this.tiesOn && inter === null);
+    const key = `${on}/${inter}/${this.look.dark}`;
+    if (!this.view || key === this.tiesShown) return;
+    this.tiesShown = key;
+    if (!on) return this.view.ties.set([]);
+    const { tied, lost, lostNodes } = tieLines(this.report, inter);
+    const [own, bad] = this.look.dark ? ["#b79bff", "#ff5fc4"] : ["#6d3fd4", "#c2087f"];
+    this.view.ties.set([{ ends: tied, color: own, width: 1.5 }, { ends: lost, color: bad, width: 3 }], { at: lostNodes, color: bad });
+  }
+  /** Flies to a node of a tie and its segment, and says why it is not tied. */
+  openTie(x: Untied): void {
+    if (!this.tiesOn) this.toggleTies();
+    const p = this.report.nodePositions;
+    const at = (n: number) => new Vector3(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
+    const node = nodeOf(this.report, x);
+    this.report.select(null);
+    this.view?.setRule([at(node)]);
+    this.view?.flyToPoints([node, ...cornersOf(this.report, x.tie, x.row[0])].map(at));
+    this.showTip(`node ${this.report.nodeId(node)} · ${x.row[5]}`);
   }
   /** Flies to some points. */
   openPoints(points: number[][]): void {
@@ -368,6 +405,7 @@ export class Viewport {
     if (this.rest === "hidden") out.rest = "hidden";
     if (!this.follow) out.isolate = "no";
     if (this.crossedOn) out.crossed = "yes";
+    if (this.tiesOn) out.ties = "yes";
     if (this.hidden.size > 0) out.hidden = [...this.hidden].map((p) => this.report.partId(p.data.part)).join(",");
     const cuts = this.cuts.map((c) => (c ? [...c.normal.toArray(), c.at].map((v) => Number(v.toPrecision(5))).join(",") : ""));
     if (cuts.some((c) => c)) out.section = cuts.join("/");
@@ -380,11 +418,12 @@ export class Viewport {
     this.rest = s.rest === "hidden" ? "hidden" : "ghost";
     this.follow = s.isolate !== "no";
     this.crossedOn = s.crossed === "yes";
+    this.tiesOn = s.ties === "yes";
     if (!this.view) {
       this.later = s;
       return;
     }
-    for (const [key, on] of [["solid", this.allSolid], ["rest", this.rest === "hidden"], ["follow", this.follow], ["crossed", this.crossedOn]] as const) this.press(key, on);
+    for (const [key, on] of [["solid", this.allSolid], ["rest", this.rest === "hidden"], ["follow", this.follow], ["crossed", this.crossedOn], ["ties", this.tiesOn]] as const) this.press(key, on);
     const hidden = new Set((s.hidden ?? "").split(",").filter(Boolean).map(Number));
     this.hidden.clear();
     for (const p of this.view.parts.parts) if (hidden.has(this.report.partId(p.data.part))) this.hidden.add(p);
@@ -577,6 +616,7 @@ export class Viewport {
       (x) => this.color(this.contour!.of(x)), ofCycle(this.look.contour) ? this.forces() : null);
     this.hitsShownFor = this.isolationKey();
     this.drawCrossed();
+    this.drawTies();
   }
   /** Nodal forces, largest first: length by size, colour by what the colours show. */
   private forces(): Arrow[] {

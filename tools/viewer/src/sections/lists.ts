@@ -1,12 +1,12 @@
 // Part pairs as table and matrix, distributions, and the list of penetrations.
-import { colorAt, cssColor, inkOn } from "./scene/colormap";
-import { button, fileName, group, h, lengthText, num, percent, plural, replace, sectionHead, svg } from "./dom";
-import type { Look } from "./look";
-import type { Hit, Report } from "./report";
-import { openMenu, rowItems } from "./menu";
-import { named } from "./table/names";
-import { VirtualTable, type Column } from "./table/table";
-import { actionWords } from "./words";
+import { colorAt, cssColor, inkOn } from "../scene/colormap";
+import { button, fileName, group, h, lengthText, num, percent, plural, replace, sectionHead, svg } from "../dom";
+import type { Look } from "../look";
+import type { Hit, Report } from "../report";
+import { openMenu, rowItems } from "../menu";
+import { named } from "../table/names";
+import { VirtualTable, type Column } from "../table/table";
+import { actionWords } from "../words";
 
 interface PairRow {
   secondary: number;
@@ -78,7 +78,7 @@ export function pairsSection(report: Report, look: Look): HTMLElement {
   );
   const matrix = h("div", { class: "matrix-wrap" });
   const count = h("span", { class: "muted count" });
-  const empty = h("p", { class: "note" }, "No part penetrates another.");
+  const empty = h("p", { class: "note" }, `No part penetrates another${report.leftOut}.`);
   const section = h("section", { id: "pairs" }, sectionHead(h("h2", null, "Part pairs", count), table.chooser()), table.element, matrix, empty);
   const draw = () => {
     const rows = partPairs(report, report.passing("pair", false)); // all pairs count here, whatever the list shows
@@ -270,7 +270,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     table.setSelected(report.selected, false);
     table.element.hidden = report.filtered.length === 0;
     empty.hidden = report.filtered.length > 0;
-    empty.textContent = report.hits.length ? "No row passes the filters." : "Nothing penetrates with these settings.";
+    empty.textContent = report.hits.length ? "No row passes the filters." : `Nothing penetrates with these settings${report.leftOut}.`;
     table.element.style.setProperty("--rows", String(Math.max(3, Math.min(report.filtered.length, 15))));
     perNode.checked = f.perNode;
     count.textContent = report.hits.length ? `${group(report.filtered.length)} of ${plural(report.hits.length, "pair", "pairs")}` : "";

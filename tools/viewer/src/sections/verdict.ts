@@ -1,7 +1,7 @@
 // The verdict above everything: sentences and level as the program made them, tiles with numbers that follow the settings.
-import { group, h, lengthText, num, percent, plural, replace } from "./dom";
-import type { Verdict } from "./meta";
-import type { Report } from "./report";
+import { group, h, lengthText, num, percent, plural, replace } from "../dom";
+import type { Verdict } from "../meta";
+import type { Report } from "../report";
 
 /** Colour of a level: red where the solver would stop, green only where nothing was found. */
 export function colourOf(verdict: Verdict): "error" | "warning" | "good" {
@@ -37,6 +37,7 @@ export function verdict(report: Report): HTMLElement {
     h("p", { class: "verdict-text" }, h("strong", null, first ?? ""), ...rest.map((t) => ` ${t}`), test), tiles, compare);
   const errors = said.counts.errors ?? 0;
   const crossed = report.crossed?.total ?? said.counts.crossed_elements ?? null;
+  const ties = report.meta.ties.reduce((sum, t) => ({ nodes: sum.nodes + t.nodes, lost: sum.lost + t.lost }), { nodes: 0, lost: 0 });
   const draw = () => {
     const now = report.totals("now", null);
     const base = report.totals("base", null);
@@ -56,6 +57,7 @@ export function verdict(report: Report): HTMLElement {
       tile("Depth ÷ gap", ratio(now), "at worst", ratio(base)),
       tile("Solver stops", group(errors + now.solver_errors), [errors > 0 && plural(errors, "error in the deck", "errors in the deck"), now.solver_errors > 0 && `${plural(now.solver_errors, "node", "nodes")} on a segment`,
         errors + now.solver_errors === 0 && (now.on_segment.pairs > 0 ? `${itemsText(now.on_segment)} on a segment` : "no reason known")].filter((t) => t).join(", "), group(errors + base.solver_errors), errors + now.solver_errors > 0),
+      ties.nodes > 0 && tile("Not tied", group(ties.lost), `of ${plural(ties.nodes, "node", "nodes")} of ${plural(report.meta.ties.length, "tie", "ties")}`, null, report.meta.ties.some((t) => t.stops)),
       crossed !== null && crossed > 0 && tile("Crossed", group(crossed), "elements pass through segments", null));
     if (report.earlier) drawCompare(report, compare);
   };

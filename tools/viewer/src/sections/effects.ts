@@ -1,9 +1,9 @@
 // Which effects run in which interface and why, and what each costs on this deck: the document of `deck cycle --json` as a
 // matrix, one effect in words, and folded the chart of costs.
-import { blockText } from "./data";
-import { button, fileName, group, h, num, plural, replace, svg } from "./dom";
-import { save } from "./exports";
-import type { Report } from "./report";
+import { blockText } from "../data";
+import { button, fileName, group, h, num, plural, replace, svg } from "../dom";
+import { save } from "../exports";
+import type { Report } from "../report";
 
 interface Cost {
   name: string;

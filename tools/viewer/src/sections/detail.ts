@@ -1,8 +1,8 @@
 // What is known about the selected row, and what every Inacti would do to this node.
-import { button, fileName, group, h, lengthText, num, percent, replace } from "./dom";
-import { onSurfaceError, outcomeOf, type Row } from "./core";
-import type { Hit, Report } from "./report";
-import { actionLong, inactiWords } from "./words";
+import { button, fileName, group, h, lengthText, num, percent, replace } from "../dom";
+import { onSurfaceError, outcomeOf, type Row } from "../core";
+import type { Hit, Report } from "../report";
+import { actionLong, inactiWords } from "../words";
 
 export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
   const element = h("section", { class: "detail", id: "detail", "aria-live": "polite" });
@@ -11,7 +11,7 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
     if (!x) {
       replace(element, h("p", { class: "note" }, report.hits.length > 0
         ? "Choose a row of a list or a dot in the picture to see the pair, its distance and what the solver will do about it."
-        : "Nothing penetrates."));
+        : `Nothing penetrates${report.leftOut}.`));
       element.classList.add("empty");
       return;
     }
@@ -47,7 +47,7 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
           ...(force ? item("First cycle", `force ${num(force.force, 5)} · stiffness ${num(force.stiffness, 4)}`, "With the deck's settings") : []),
           ...(x.status ? item("Earlier", x.earlier === null ? "did not penetrate" : `${num(x.earlier, 6)} (${x.status})`) : []))),
       h("p", { class: "fate" }, h("b", null, error ? `The solver stops with error ${error}. ` : ""), error ? "The node lies exactly on the segment, so no direction exists. " : fate(report, r)),
-      edge || meta.type === 10 ? null : alternatives(report, x, setting.inacti, setting.fpenmax),
+      edge || meta.type === 10 || meta.given ? null : alternatives(report, x, setting.inacti, setting.fpenmax),
     );
   };
   report.on("selection", draw);
@@ -57,6 +57,12 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
 
 function gapWords(report: Report, x: Hit): string {
   const s = report.results[x.contact].setting;
+  const meta = report.meta.contacts[x.contact];
+  if (meta.given) {
+    const data = report.data.contacts[x.contact];
+    const [a, b] = [data.secondaryThickness[x.row.secondary], data.mainThickness[x.row.main]];
+    return `${num(a)} of the ${meta.kind === "edge_edge" ? "edge" : "node"} and ${num(b)} of the other side${s.rule === 3 ? ", limited by the mesh size" : ""}`;
+  }
   if (s.igap === 0) return `Gapmin (${s.gapminFrom})`;
   if (x.row.gap === s.gapmin) return `Gapmin ${num(s.gapmin)} (the thickness gives less)`;
   if (x.row.gap === s.gapmax) return `Gapmax ${num(s.gapmax)}`;
@@ -67,6 +73,7 @@ function fate(report: Report, r: Row): string {
   const s = report.results[r.contact].setting;
   let text = actionLong[r.action];
   if (r.action === "node-stiffness-zero" && s.inacti !== 1) text = `Deeper than Fpenmax ${num(s.fpenmax)} × gap. ${text}`;
+  if (r.action === "offset-stored") text += ` Stored: ${num(r.stored, 5)}.`;
   if (r.gap0 !== null) text += ` Gap left ${num(r.gap0, 5)}, taken off ${num(r.p0!, 5)}.`;
   if (r.movedBy) {
     const d = Math.hypot(...r.movedBy);
@@ -100,7 +107,7 @@ function alternatives(report: Report, x: Hit, current: number, fpenmax: number):
 
 export function notChecked(report: Report): HTMLElement {
   const meta = report.meta;
-  const beyond = meta.contacts.filter((c) => !c.complete).length;
+  const beyond = meta.contacts.filter((c) => !c.complete && !c.given).length;
   const items: (Node | string)[] = [
     "Gaps, distances and actions follow the Starter of the reference solver at cycle 0. Forces and time steps are those of deck cycle for the deck's settings; they are not evaluated again in the page.",
     report.crossed
@@ -109,6 +116,9 @@ export function notChecked(report: Report): HTMLElement {
     "Settings under test are evaluated in this page with the same double-precision operations as the command line. Inacti 3 moves nodes, and later interfaces see the moved nodes, and default gaps of the moved mesh; where mesh-size limits (Igap 3) would change with it the page says that it cannot tell.",
     `Pairs are carried up to about three times the largest gap of each interface${beyond ? `; for ${beyond} of them only what penetrates, because there are too many` : ""}. Beyond that the page says so.`,
   ];
+  if (meta.contacts.some((c) => c.given))
+    items.push("TYPE24 and TYPE25 are shown as the program found them, for the deck's settings: the page has no rules to try others, and in Who touches whom they count where they penetrate only. Their forces in the first cycle are not evaluated.");
+  if (meta.ties.length > 0) items.push("Ties (TYPE2) are formed as the Starter forms them. A line ends at the nearest point of the segment.");
   const odd = meta.contacts.filter((c) => c.repaired + c.degenerate + c.reoriented + c.no_carrier > 0);
   const counts = meta.deck.counts;
   return h("section", { id: "notes" },

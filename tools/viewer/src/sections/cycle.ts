@@ -1,8 +1,8 @@
 // Forces, energies and time steps of the first cycle, where the page carries them.
-import { group, h, num, plural, replace } from "./dom";
-import type { Cycle } from "./meta";
-import type { Report } from "./report";
-import { VirtualTable } from "./table/table";
+import { group, h, num, plural, replace } from "../dom";
+import type { Cycle } from "../meta";
+import type { Report } from "../report";
+import { VirtualTable } from "../table/table";
 
 type Whole = Omit<Cycle["contacts"][0], "rows" | "active" | "acceleration">;
 

@@ -1,9 +1,9 @@
 // Who touches whom: parts against parts, with the interfaces through which they come near each other; red where they
 // penetrate. The drawing is the program's (deck gaps --svg); the page follows the settings under test.
-import { button, h, num, plural, replace, sectionHead } from "./dom";
-import { loadTouches } from "./data";
-import { save } from "./exports";
-import type { Report } from "./report";
+import { button, h, num, plural, replace, sectionHead } from "../dom";
+import { loadTouches } from "../data";
+import { save } from "../exports";
+import type { Report } from "../report";
 
 /** `pictured`: the first picture is there. */
 export function touchesSection(report: Report, name: string, pictured: Promise<void>): HTMLElement {

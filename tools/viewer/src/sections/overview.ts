@@ -1,13 +1,13 @@
 // The table of interfaces and the settings under test.
-import { cardText, changedCard } from "./card";
-import { button, group, h, lengthText, num, percent, plural, replace, sectionHead } from "./dom";
-import { copyText, whatIfCommand } from "./exports";
-import type { FieldName, Totals } from "./meta";
-import type { Result } from "./evaluate";
-import type { Report } from "./report";
-import { commonStart, named } from "./table/names";
-import { VirtualTable } from "./table/table";
-import { actionWords, flagText } from "./words";
+import { cardText, changedCard } from "../card";
+import { button, group, h, lengthText, num, percent, plural, replace, sectionHead } from "../dom";
+import { copyText, deckCommand, whatIfCommand } from "../exports";
+import type { FieldName, Totals } from "../meta";
+import type { Result } from "../evaluate";
+import type { Report } from "../report";
+import { commonStart, named } from "../table/names";
+import { VirtualTable } from "../table/table";
+import { actionWords, flagText, modernIgapWords, modernInactiWords } from "../words";
 
 /** An interface with all its contacts, or one of several contacts of it. */
 interface ContactRow {
@@ -29,6 +29,9 @@ export function interfaces(report: Report): HTMLElement {
   let rows = rowsNow();
   const inter = (r: ContactRow) => report.meta.interfaces[r.inter];
   const setting = (r: ContactRow, of: Result[]) => of[r.contacts[0]].setting;
+  // A TYPE24 has no Igap, and neither it nor a TYPE25 has a smallest gap.
+  const igap = (r: ContactRow, of: Result[]) => (inter(r).type === 24 ? "–" : String(setting(r, of).igap));
+  const gapmin = (r: ContactRow) => !report.meta.contacts[r.contacts[0]].given;
   // Nodes and edges count once in an interface: totals of contacts do not add up.
   const whole = { now: new Map<number, Totals>(), base: new Map<number, Totals>() };
   const totals = (r: ContactRow, which: "now" | "base" = "now"): Totals => {
@@ -68,10 +71,11 @@ export function interfaces(report: Report): HTMLElement {
           return r.contacts.length > 1 ? h("span", { class: "named" }, fold(r), title) : title;
         } },
       { key: "kind", title: "Kind", kind: "text", rank: 6, value: (r) => kind(head(r)), text: kind },
-      { key: "igap", title: "Igap", kind: "number", rank: 7, value: (r) => setting(head(r), report.results).igap, text: (r) => String(setting(r, report.results).igap),
-        cell: (r) => changedCell(String(setting(r, report.results).igap), String(setting(r, report.base).igap)) },
-      { key: "gapmin", title: "Gapmin", hint: "Smallest pair gap, and where it comes from", kind: "number", rank: 5, value: (r) => setting(head(r), report.results).gapmin, text: (r) => `${lengthText(report, setting(r, report.results).gapmin)} *`,
+      { key: "igap", title: "Igap", kind: "number", rank: 7, value: (r) => setting(head(r), report.results).igap, text: (r) => igap(r, report.results),
+        cell: (r) => changedCell(igap(r, report.results), igap(r, report.base)) },
+      { key: "gapmin", title: "Gapmin", hint: "Smallest pair gap, and where it comes from", kind: "number", rank: 5, value: (r) => setting(head(r), report.results).gapmin, text: (r) => (gapmin(r) ? `${lengthText(report, setting(r, report.results).gapmin)} *` : "–"),
         cell: (r) => {
+          if (!gapmin(r)) return "–";
           const s = setting(r, report.results);
           const was = setting(r, report.base).gapmin;
           return h("span", { class: s.gapmin !== was ? "changed" : "", title: `${s.gapmin} (${s.gapminFrom})` },
@@ -111,7 +115,7 @@ export function interfaces(report: Report): HTMLElement {
   });
   return h(
     "section", { id: "interfaces" },
-    sectionHead(h("h2", null, "Interfaces", h("span", { class: "muted count" }, plural(report.meta.interfaces.length, "interface", "interfaces"))), table.chooser()),
+    sectionHead(h("h2", null, "Interfaces", h("span", { class: "muted count" }, plural(report.meta.interfaces.length - report.meta.ties.length, "interface", "interfaces"))), table.chooser()),
     table.element,
     h("p", { class: "note" }, h("i", { class: "derived" }, "*"), " Gapmin derived from the mesh. Choose a row to filter everything below and to try other settings."),
     whatIf(report),
@@ -121,6 +125,7 @@ export function interfaces(report: Report): HTMLElement {
 /** What is done about the penetrations of some contacts. */
 export function actionsText(report: Report, contacts: number[]): string {
   const errors = contacts.reduce((n, c) => n + report.results[c].totals.solver_errors, 0);
+  if (contacts.some((c) => !report.meta.contacts[c].evaluated)) return "not evaluated";
   const rows = contacts.flatMap((c) => report.results[c].rows);
   if (errors > 0) return `stops (${errors})`;
   if (rows.length === 0) return "–";
@@ -171,7 +176,12 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
   const controls: (() => void)[] = [];
   const grid = h("div", { class: "controls" });
   if (contacts.length === 0) {
-    replace(panel, h("p", { class: "note" }, "This interface has no contact that could be evaluated."));
+    const tie = report.meta.ties.find((t) => t.interface === inter);
+    replace(panel, h("p", { class: "note" }, tie ? `TYPE2 ${meta.id}: ${tie.text}. Its nodes are listed under Ties.` : "This interface has no contact that could be evaluated."));
+    return () => {};
+  }
+  if (report.meta.contacts[contacts[0]].given) {
+    replace(panel, ...asFound(report, inter));
     return () => {};
   }
   for (const field of fieldsOf(meta.type)) {
@@ -239,6 +249,20 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
     notes.textContent = [`${meta.card.file}:${meta.card.line}`, ...changed.notes].join(" · ");
     reset.disabled = !report.changed(inter);
   };
+}
+
+/** What stands in place of the controls where the page has no rules. */
+function asFound(report: Report, inter: number): Node[] {
+  const { id, type } = report.meta.interfaces[inter];
+  const c = report.meta.contacts[report.contactsOf(inter)[0]];
+  const words = [type === 25 && `Igap ${c.igap} – ${modernIgapWords[c.igap] ?? "unknown"}`, `Inacti ${c.inacti} – ${modernInactiWords[c.inacti] ?? "unknown"}`].filter(Boolean).join(", ");
+  const missing = report.contactsOf(inter).filter((k) => !report.meta.contacts[k].complete);
+  const tried = `${deckCommand(report, "gaps")} --what-if ${id}:${type === 25 ? "Igap=2,Inacti=-1" : "Inacti=-1"} --html page.html`;
+  return [
+    h("div", { class: "panel-head" }, h("h3", null, h("span", { class: "muted" }, `Interface ${report.interfaceName(inter)}`))),
+    h("p", { class: "note" }, `TYPE${type}: ${words}. The page shows it as the deck has it and cannot try other settings; the program does: `, h("code", null, tried)),
+    ...(missing.length > 0 ? [h("p", { class: "note warn" }, `Of ${missing.length === 1 ? "a contact" : "several contacts"} of it the page holds only the deepest pairs.`)] : []),
+  ];
 }
 
 function flash(b: HTMLButtonElement, ok: boolean): void {

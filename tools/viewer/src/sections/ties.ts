@@ -1,0 +1,118 @@
+// Ties: what `deck gaps` says of each /INTER/TYPE2, and the nodes that are not tied.
+import { fileName, group, h, num, plural, sectionHead } from "../dom";
+import { Holds, type TieMeta, type TieRow } from "../meta";
+import type { Report } from "../report";
+import { named } from "../table/names";
+import { VirtualTable } from "../table/table";
+
+/** A row with the tie that it belongs to. */
+export interface Untied {
+  tie: number;
+  row: TieRow;
+}
+
+/** Page node of a row. */
+export const nodeOf = (report: Report, { tie, row }: Untied): number => report.ties[tie].nodes[row[0]];
+
+/** Corners of the segment of a node of a tie as page nodes, a triangle's fourth left out; empty: there is none. */
+export function cornersOf(report: Report, tie: number, node: number): number[] {
+  const { main, segment } = report.ties[tie];
+  const s = segment[node];
+  if (s < 0) return [];
+  const n = main.slice(4 * s, 4 * s + 4);
+  return n[2] === n[3] ? n.slice(0, 3) : n;
+}
+
+function listOfTies(report: Report): VirtualTable<TieMeta> {
+  const inter = (t: TieMeta) => report.meta.interfaces[t.interface];
+  const table = new VirtualTable<TieMeta>(
+    [
+      { key: "id", title: "Id", kind: "id", value: (t) => inter(t).id, text: (t) => String(inter(t).id) },
+      { key: "title", title: "Tie", kind: "text", least: 150, value: (t) => inter(t).title.toLowerCase(), text: (t) => inter(t).title || "(no title)" },
+      { key: "nodes", title: "Nodes", kind: "number", rank: 2, value: (t) => t.nodes, text: (t) => group(t.nodes) },
+      { key: "lost", title: "Not tied", kind: "number", rank: 3, value: (t) => t.lost, text: (t) => group(t.lost) },
+      { key: "search", title: "Search distance", kind: "number", rank: 5, value: (t) => t.search_distance, text: (t) => (t.search_distance > 0 ? num(t.search_distance) : "by pair") },
+      { key: "farthest", title: "Farthest", hint: "Largest distance of a node that is tied", kind: "number", rank: 6, value: (t) => t.farthest, text: (t) => (t.tied > 0 ? num(t.farthest) : "–") },
+      { key: "text", title: "Result", kind: "text", least: 190, value: (t) => t.lost, text: (t) => `TYPE2 ${inter(t).id}: ${t.text}`,
+        cell: (t) => h("span", { class: t.stops ? "bad" : "" }, `TYPE2 ${inter(t).id}: ${t.text}`) },
+      { key: "losses", title: "What happens", kind: "text", rank: 4, value: (t) => t.losses, text: (t) => (t.losses === "-" ? "–" : t.losses) },
+    ],
+    {
+      label: "Ties", sort: "lost", descending: true,
+      select: (t) => report.setFilter({ interface: t && report.filter.interface !== t.interface ? t.interface : null, pair: null, depth: null, ratio: null }),
+      classOf: (t) => (t.lost === 0 && t.evaluated ? "quiet" : ""),
+      same: (a, b) => a.interface === b.interface,
+    },
+  );
+  table.element.classList.add("ties-table");
+  table.setRows(report.meta.ties);
+  table.element.style.setProperty("--rows", String(Math.min(report.meta.ties.length, 8)));
+  return table;
+}
+
+function listOfNodes(report: Report, open: (x: Untied) => void): VirtualTable<Untied> {
+  const inter = (x: Untied) => report.meta.interfaces[report.meta.ties[x.tie].interface];
+  const node = (x: Untied) => report.nodeId(nodeOf(report, x));
+  const segment = (x: Untied) => cornersOf(report, x.tie, x.row[0]).map((n) => report.nodeId(n)).join(" ") || "–";
+  const number = (v: number | null) => (v === null ? "–" : num(v, 6));
+  const part = (x: Untied) => (x.row[3] < 0 ? null : report.meta.parts[x.row[3]]);
+  const place = (x: Untied) => (x.row[6] < 0 ? "" : `${report.meta.files[x.row[6]]}:${x.row[7]}`);
+  const table = new VirtualTable<Untied>(
+    [
+      { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: (x) => inter(x).id, text: (x) => String(inter(x).id) },
+      { key: "node", title: "Node", kind: "id", value: node, text: (x) => String(node(x)) },
+      { key: "part", title: "Part", kind: "text", rank: 3, least: 110, value: (x) => report.partText(x.row[3]), text: (x) => report.partText(x.row[3]),
+        cell: (x) => (part(x) ? named(part(x)!.id, part(x)!.title, report.commonPrefix) : "(no part)") },
+      { key: "segment", title: "Nearest segment", kind: "id", rank: 5, value: segment, text: segment },
+      { key: "distance", title: "Distance", kind: "number", value: (x) => x.row[1] ?? Infinity, text: (x) => number(x.row[1]) },
+      { key: "search", title: "Search distance", hint: "How far the solver looks", kind: "number", rank: 2, value: (x) => x.row[2] ?? 0, text: (x) => number(x.row[2]) },
+      { key: "why", title: "Why", kind: "text", least: 150, rank: 1, value: (x) => x.row[4], text: (x) => x.row[4], cell: (x) => h("span", { title: x.row[5] }, x.row[4]) },
+      { key: "place", title: "Defined at", kind: "text", rank: 6, value: (x) => x.row[7], text: place, cell: (x) => fileName(place(x)) },
+    ],
+    { label: "Nodes that are not tied", sort: "inter", descending: false, select: (x) => x && open(x), open, same: (a, b) => a.tie === b.tie && a.row === b.row },
+  );
+  table.element.classList.add("untied-table");
+  return table;
+}
+
+/** `open` shows a node and its segment in the picture. */
+export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElement {
+  const section = h("section", { id: "ties" });
+  const { ties } = report.meta;
+  section.hidden = ties.length === 0;
+  if (section.hidden) return section;
+  const list = listOfTies(report);
+  const table = listOfNodes(report, open);
+  const said = h("p", { class: "note", "aria-live": "polite" });
+  const beyond = h("input", { type: "checkbox", onchange: () => draw() });
+  const rims = ties.reduce((n, t) => n + t.beyond_rim, 0);
+  const all = report.ties.flatMap((t, tie) => t.rows.map((row): Untied => ({ tie, row })));
+  const lost = (x: Untied) => report.ties[x.tie].holds[x.row[0]] === Holds.lost;
+  const title = h("h3", null, "Nodes that are not tied");
+  const count = h("span", { class: "muted count" });
+  title.append(count);
+  const draw = () => {
+    const { interface: inter } = report.filter;
+    const own = ties.map((t) => inter === null || t.interface === inter);
+    // A contact that is chosen narrows nothing down here.
+    const none = !own.includes(true);
+    const rows = all.filter((x) => (none || own[x.tie]) && (lost(x) || beyond.checked));
+    table.setRows(rows);
+    table.element.hidden = rows.length === 0;
+    table.element.style.setProperty("--rows", String(Math.max(2, Math.min(rows.length, 10))));
+    const wanted = ties.reduce((n, t, i) => n + (none || own[i] ? t.lost + (beyond.checked ? t.beyond_rim : 0) : 0), 0);
+    count.textContent = rows.length > 0 ? plural(rows.length, "node", "nodes") : "";
+    const unknown = ties.filter((t, i) => (none || own[i]) && !t.evaluated).length;
+    said.textContent = rows.length < wanted ? `The first ${group(rows.length)} of ${group(wanted)} are listed.`
+      : rows.length === 0 ? (unknown > 0 ? `${plural(unknown, "tie", "ties")} could not be evaluated.` : "Every node is tied or held by something else.") : "";
+    list.setSelected(ties.find((t) => t.interface === inter) ?? null, false);
+  };
+  report.on("filter", draw);
+  draw();
+  section.append(
+    sectionHead(h("h2", null, "Ties", h("span", { class: "muted count" }, plural(ties.length, "tie", "ties"))), list.chooser()),
+    list.element,
+    sectionHead(title, rims > 0 && h("label", { class: "check" }, beyond, `also ${group(rims)} tied beyond a rim`), table.chooser()),
+    table.element, said);
+  return section;
+}
