@@ -13,6 +13,7 @@ import { picture, section } from "./picture.mjs";
 import { largeModel } from "./large.mjs";
 import { tablesBehave, tablesFit, widths } from "./tables.mjs";
 import { banner, paperSays, pictureSays, scalesFit } from "./verdict.mjs";
+import { tiesAndModern } from "./ties.mjs";
 import { tryDeck } from "./what_if.mjs";
 
 mkdirSync(DECK_ARTEFACTS, { recursive: true });
@@ -533,7 +534,7 @@ async function manySettings() {
 }
 
 // ONLY=crashBox,layout runs some pieces; the later ones read pages that crashBox writes.
-const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), effects: () => effectsPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), largeModel: () => largeModel(browser, scratch, timings), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
+const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), effects: () => effectsPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), largeModel: () => largeModel(browser, scratch, timings), ties: () => tiesAndModern(browser, scratch, shot), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
 const only = process.env.ONLY?.split(",");
 timings.seconds = {};
 for (const [name, piece] of Object.entries(pieces)) {

@@ -90,6 +90,8 @@ VtkFile paraview_script(const std::vector<VtkFile>& files) {
       out += "points(" + name + ", \"penetration\", \"force\", \"force_size\", 0.05)\n";
     else if (ends(f.name, "_main.vtp"))
       out += "surface(" + name + ", \"depth\", 0.35)\n";
+    else if (ends(f.name, "_ties.vtp"))
+      out += "surface(" + name + ", \"lost\", 1.0)\n";
     else
       out += "surface(" + name + ", \"depth\", 1.0)\n";
   }

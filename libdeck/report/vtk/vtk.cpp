@@ -178,6 +178,10 @@ std::vector<VtkFile> gaps_vtk(const Scene& scene, const SceneView& view) {
     if (!c.secondary_edges.empty())
       files.push_back({file_name(c, "secondary"), edge_side(model, c, false)});
   }
+  for (const Tie& tie : scene.ties)
+    if (!tie.nodes.empty())
+      files.push_back({"interface_" + std::to_string(tie.inter->id) + "_ties.vtp",
+                       detail::tie_lines(model, tie)});
   files.push_back({"penetrations.vtp", penetrations(scene, view)});
   return files;
 }

@@ -6,6 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "deck/contact/ties.hpp"
+#include "deck/model/model.hpp"
+
 namespace deck::detail {
 
 /// Collects arrays and puts them into one document. Cells of one kind only.
@@ -37,5 +40,8 @@ class VtkPolyData {
   std::vector<std::int64_t> connectivity_, offsets_;
   std::string point_arrays_, cell_arrays_;
 };
+
+// ties_vtk.cpp
+std::string tie_lines(const Model& model, const Tie& tie);
 
 }  // namespace deck::detail

@@ -274,7 +274,7 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
     "/": () => document.getElementById("find")?.focus(),
     u: undo,
     Escape: () => {
-      if (report.selected) report.select(null);
+      if (report.selected || report.untied) report.select(null);
       else report.setFilter({ interface: null, pair: null, depth: null, ratio: null, status: null, text: "" });
     },
   };

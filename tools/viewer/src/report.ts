@@ -4,6 +4,7 @@ import { kindNames, type Contacts, type Mesh } from "./data";
 import { onSurfaceError, type Raw, type Row } from "./core";
 import { Evaluator, ratioOf, Tally, type Result } from "./evaluate";
 import { commonStart } from "./table/names";
+import type { Untied } from "./sections/untied";
 import type { Crossed, Cycle, Earlier, FieldName, Meta, Overrides, TieData, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
@@ -97,6 +98,7 @@ export class Report {
   filtered: Hit[] = [];
   filter: Filter = { interface: null, pair: null, depth: null, ratio: null, status: null, text: "", perNode: true };
   selected: Hit | null = null;
+  untied: Untied | null = null;
   private readonly listeners = new Map<Topic, (() => void)[]>();
   private readonly forces: Map<string, { force: number; stiffness: number }>[] | null;
   private readonly earlierRows: Map<string, { depth: number; gap: number; row: Earlier["rows"][0] }> | null;
@@ -178,6 +180,7 @@ export class Report {
     this.results = results;
     const key = this.selected?.key;
     this.collect();
+    this.untied = null;
     this.selected = key ? (this.hits.find((x) => x.key === key) ?? null) : null;
     this.emit("results");
     this.emit("filter");
@@ -497,8 +500,10 @@ export class Report {
     this.emit("filter");
   }
 
-  select(hit: Hit | null): void {
+  /** A row, or in its place a node of a tie. */
+  select(hit: Hit | null, untied: Untied | null = null): void {
     this.selected = hit;
+    this.untied = untied;
     this.emit("selection");
   }
 }

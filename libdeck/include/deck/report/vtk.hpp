@@ -21,6 +21,9 @@ struct VtkFile {
 ///   its segments).
 /// * interface_ID..._secondary.vtp: secondary nodes as vertices (edge pairs: lines). Cell data
 ///   stiffness, gap, depth, off; point data node.
+/// * interface_ID_ties.vtp: of a TYPE2 a line from each secondary node to the nearest point of the
+///   segment that it is tied to, or that is nearest. Cell data node, tied, lost (1: nothing holds
+///   it), message, distance, search (how far the solver looks).
 /// * penetrations.vtp, always: one vertex per pair, deepest first. Point data arrow (unit normal
 ///   times depth, from the point the way out), normal, depth, gap, ratio, action (number in the
 ///   order of PenetrationAction), on_surface, node, interface.

@@ -2,7 +2,7 @@
 import { Triangle, Vector3 } from "three";
 import { Holds } from "../meta";
 import type { Report } from "../report";
-import { cornersOf } from "../sections/ties";
+import { cornersOf } from "../sections/untied";
 
 export interface TieLines {
   tied: Float32Array; // six numbers a line

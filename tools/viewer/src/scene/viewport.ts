@@ -4,7 +4,7 @@ import { Color, Vector3, type WebGLRenderer } from "three";
 import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
 import { contourOf, type Contour } from "./contour";
 import { segmentOf } from "../sections/crossed";
-import { cornersOf, nodeOf, type Untied } from "../sections/ties";
+import { cornersOf, nodeOf, type Untied } from "../sections/untied";
 import { tieLines } from "./tied";
 import { button, fileName, h, icon, lengthText, num, plural, replace, svg } from "../dom";
 import { saveDataUrl } from "../exports";
@@ -285,10 +285,9 @@ export class Viewport {
     const p = this.report.nodePositions;
     const at = (n: number) => new Vector3(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
     const node = nodeOf(this.report, x);
-    this.report.select(null);
+    this.report.select(null, x);
     this.view?.setRule([at(node)]);
     this.view?.flyToPoints([node, ...cornersOf(this.report, x.tie, x.row[0])].map(at));
-    this.showTip(`node ${this.report.nodeId(node)} · ${x.row[5]}`);
   }
   /** Flies to some points. */
   openPoints(points: number[][]): void {

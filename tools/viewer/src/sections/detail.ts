@@ -2,12 +2,15 @@
 import { button, fileName, group, h, lengthText, num, percent, replace } from "../dom";
 import { onSurfaceError, outcomeOf, type Row } from "../core";
 import type { Hit, Report } from "../report";
+import { cornersOf, nodeOf, type Untied } from "./untied";
+import { sideView } from "./sideview";
 import { actionLong, inactiWords } from "../words";
 
 export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
   const element = h("section", { class: "detail", id: "detail", "aria-live": "polite" });
   const draw = () => {
     const x = report.selected;
+    if (report.untied) return drawUntied(report, report.untied, element);
     if (!x) {
       replace(element, h("p", { class: "note" }, report.hits.length > 0
         ? "Choose a row of a list or a dot in the picture to see the pair, its distance and what the solver will do about it."
@@ -46,13 +49,34 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
           ...item("Card at", `${fileName(report.meta.interfaces[meta.interface].card.file)}:${report.meta.interfaces[meta.interface].card.line}`),
           ...(force ? item("First cycle", `force ${num(force.force, 5)} · stiffness ${num(force.stiffness, 4)}`, "With the deck's settings") : []),
           ...(x.status ? item("Earlier", x.earlier === null ? "did not penetrate" : `${num(x.earlier, 6)} (${x.status})`) : []))),
-      h("p", { class: "fate" }, h("b", null, error ? `The solver stops with error ${error}. ` : ""), error ? "The node lies exactly on the segment, so no direction exists. " : fate(report, r)),
+      h("div", { class: "side-row" }, sideView(report, x),
+        h("p", { class: "fate" }, h("b", null, error ? `The solver stops with error ${error}. ` : ""), error ? "The node lies exactly on the segment, so no direction exists. " : fate(report, r))),
       edge || meta.type === 10 || meta.given ? null : alternatives(report, x, setting.inacti, setting.fpenmax),
     );
   };
   report.on("selection", draw);
   draw();
   return element;
+}
+
+/** A node that is not tied. */
+function drawUntied(report: Report, x: Untied, element: HTMLElement): void {
+  const [position, distance, search, part, , why, file, line] = x.row;
+  const tie = report.meta.ties[x.tie];
+  const node = report.nodeId(nodeOf(report, x));
+  const segment = cornersOf(report, x.tie, position).map((n) => report.nodeId(n)).join(" ");
+  const item = (name: string, value: string) => [h("dt", null, name), h("dd", { title: value }, value)];
+  const length = (v: number | null) => (v === null ? "–" : num(v, 6));
+  element.classList.remove("empty");
+  replace(element,
+    h("div", { class: "panel-head" },
+      h("h3", null, `Node ${node}`, h("span", { class: "muted" }, segment ? ` and segment ${segment}` : " finds no segment")),
+      h("span", { class: "buttons" }, button("", "close", () => report.select(null), { "aria-label": "Close", title: "Esc", class: "tool" }))),
+    h("p", { class: "fate" }, why),
+    h("div", { class: "detail-grid" },
+      h("dl", null, ...item("Distance", length(distance)), ...item("Search distance", length(search))),
+      h("dl", null, ...item("Tie", `${report.interfaceName(tie.interface)} (TYPE2)`), ...item("Part", report.partText(part)),
+        ...item("Node at", file < 0 ? "–" : `${fileName(report.meta.files[file])}:${line}`))));
 }
 
 function gapWords(report: Report, x: Hit): string {
@@ -123,7 +147,7 @@ export function notChecked(report: Report): HTMLElement {
   const counts = meta.deck.counts;
   return h("section", { id: "notes" },
     h("h2", null, "About this report"),
-    h("p", { class: "note" }, report.verified
+    meta.contacts.length > 0 && h("p", { class: "note" }, report.verified
       ? `Recomputed in this page: counts and depths of all ${group(meta.contacts.length)} contacts are those of deck ${meta.tool.version}.`
       : meta.what_if.length > 0 ? "The page was written with --what-if settings." : h("b", { class: "bad" }, "Recomputing in this page gave other counts than the program. Please report this.")),
     h("ul", null, ...items.map((t) => h("li", null, t))),

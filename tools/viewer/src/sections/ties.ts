@@ -1,44 +1,25 @@
 // Ties: what `deck gaps` says of each /INTER/TYPE2, and the nodes that are not tied.
 import { fileName, group, h, num, plural, sectionHead } from "../dom";
-import { Holds, type TieMeta, type TieRow } from "../meta";
+import { Holds, type TieMeta } from "../meta";
 import type { Report } from "../report";
 import { named } from "../table/names";
 import { VirtualTable } from "../table/table";
-
-/** A row with the tie that it belongs to. */
-export interface Untied {
-  tie: number;
-  row: TieRow;
-}
-
-/** Page node of a row. */
-export const nodeOf = (report: Report, { tie, row }: Untied): number => report.ties[tie].nodes[row[0]];
-
-/** Corners of the segment of a node of a tie as page nodes, a triangle's fourth left out; empty: there is none. */
-export function cornersOf(report: Report, tie: number, node: number): number[] {
-  const { main, segment } = report.ties[tie];
-  const s = segment[node];
-  if (s < 0) return [];
-  const n = main.slice(4 * s, 4 * s + 4);
-  return n[2] === n[3] ? n.slice(0, 3) : n;
-}
+import { cornersOf, nodeOf, type Untied } from "./untied";
 
 function listOfTies(report: Report): VirtualTable<TieMeta> {
   const inter = (t: TieMeta) => report.meta.interfaces[t.interface];
   const table = new VirtualTable<TieMeta>(
     [
       { key: "id", title: "Id", kind: "id", value: (t) => inter(t).id, text: (t) => String(inter(t).id) },
-      { key: "title", title: "Tie", kind: "text", least: 150, value: (t) => inter(t).title.toLowerCase(), text: (t) => inter(t).title || "(no title)" },
-      { key: "nodes", title: "Nodes", kind: "number", rank: 2, value: (t) => t.nodes, text: (t) => group(t.nodes) },
-      { key: "lost", title: "Not tied", kind: "number", rank: 3, value: (t) => t.lost, text: (t) => group(t.lost) },
-      { key: "search", title: "Search distance", kind: "number", rank: 5, value: (t) => t.search_distance, text: (t) => (t.search_distance > 0 ? num(t.search_distance) : "by pair") },
-      { key: "farthest", title: "Farthest", hint: "Largest distance of a node that is tied", kind: "number", rank: 6, value: (t) => t.farthest, text: (t) => (t.tied > 0 ? num(t.farthest) : "–") },
-      { key: "text", title: "Result", kind: "text", least: 190, value: (t) => t.lost, text: (t) => `TYPE2 ${inter(t).id}: ${t.text}`,
-        cell: (t) => h("span", { class: t.stops ? "bad" : "" }, `TYPE2 ${inter(t).id}: ${t.text}`) },
-      { key: "losses", title: "What happens", kind: "text", rank: 4, value: (t) => t.losses, text: (t) => (t.losses === "-" ? "–" : t.losses) },
+      { key: "text", title: "Result", kind: "text", least: 215, value: (t) => t.lost, text: (t) => `TYPE2 ${inter(t).id}: ${t.text}`,
+        cell: (t) => h("span", { class: t.stops ? "bad" : "" }, t.text) },
+      { key: "losses", title: "What happens", kind: "text", rank: 2, value: (t) => t.losses, text: (t) => (t.losses === "-" ? "–" : t.losses) },
+      { key: "title", title: "Tie", kind: "text", least: 120, rank: 1, value: (t) => inter(t).title.toLowerCase(), text: (t) => inter(t).title || "(no title)" },
+      { key: "search", title: "Search distance", kind: "number", rank: 4, value: (t) => t.search_distance, text: (t) => (t.search_distance > 0 ? num(t.search_distance) : "by pair") },
+      { key: "farthest", title: "Farthest", hint: "Largest distance of a node that is tied", kind: "number", rank: 3, value: (t) => t.farthest, text: (t) => (t.tied > 0 ? num(t.farthest) : "–") },
     ],
     {
-      label: "Ties", sort: "lost", descending: true,
+      label: "Ties", sort: "text", descending: true,
       select: (t) => report.setFilter({ interface: t && report.filter.interface !== t.interface ? t.interface : null, pair: null, depth: null, ratio: null }),
       classOf: (t) => (t.lost === 0 && t.evaluated ? "quiet" : ""),
       same: (a, b) => a.interface === b.interface,
@@ -61,12 +42,12 @@ function listOfNodes(report: Report, open: (x: Untied) => void): VirtualTable<Un
     [
       { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: (x) => inter(x).id, text: (x) => String(inter(x).id) },
       { key: "node", title: "Node", kind: "id", value: node, text: (x) => String(node(x)) },
-      { key: "part", title: "Part", kind: "text", rank: 3, least: 110, value: (x) => report.partText(x.row[3]), text: (x) => report.partText(x.row[3]),
+      { key: "part", title: "Part", kind: "text", rank: 2, least: 90, value: (x) => report.partText(x.row[3]), text: (x) => report.partText(x.row[3]),
         cell: (x) => (part(x) ? named(part(x)!.id, part(x)!.title, report.commonPrefix) : "(no part)") },
-      { key: "segment", title: "Nearest segment", kind: "id", rank: 5, value: segment, text: segment },
+      { key: "segment", title: "Nearest segment", kind: "id", rank: 3, value: segment, text: segment },
       { key: "distance", title: "Distance", kind: "number", value: (x) => x.row[1] ?? Infinity, text: (x) => number(x.row[1]) },
-      { key: "search", title: "Search distance", hint: "How far the solver looks", kind: "number", rank: 2, value: (x) => x.row[2] ?? 0, text: (x) => number(x.row[2]) },
-      { key: "why", title: "Why", kind: "text", least: 150, rank: 1, value: (x) => x.row[4], text: (x) => x.row[4], cell: (x) => h("span", { title: x.row[5] }, x.row[4]) },
+      { key: "search", title: "Search", hint: "How far the solver looks", kind: "number", rank: 1, value: (x) => x.row[2] ?? 0, text: (x) => number(x.row[2]) },
+      { key: "why", title: "Why", kind: "text", least: 145, value: (x) => x.row[4], text: (x) => x.row[4], cell: (x) => h("span", { title: x.row[5] }, x.row[4]) },
       { key: "place", title: "Defined at", kind: "text", rank: 6, value: (x) => x.row[7], text: place, cell: (x) => fileName(place(x)) },
     ],
     { label: "Nodes that are not tied", sort: "inter", descending: false, select: (x) => x && open(x), open, same: (a, b) => a.tie === b.tie && a.row === b.row },
@@ -88,9 +69,8 @@ export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElem
   const rims = ties.reduce((n, t) => n + t.beyond_rim, 0);
   const all = report.ties.flatMap((t, tie) => t.rows.map((row): Untied => ({ tie, row })));
   const lost = (x: Untied) => report.ties[x.tie].holds[x.row[0]] === Holds.lost;
-  const title = h("h3", null, "Nodes that are not tied");
   const count = h("span", { class: "muted count" });
-  title.append(count);
+  const title = h("h3", null, "Nodes that are not tied ", count);
   const draw = () => {
     const { interface: inter } = report.filter;
     const own = ties.map((t) => inter === null || t.interface === inter);
@@ -112,7 +92,8 @@ export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElem
   section.append(
     sectionHead(h("h2", null, "Ties", h("span", { class: "muted count" }, plural(ties.length, "tie", "ties"))), list.chooser()),
     list.element,
+    said,
     sectionHead(title, rims > 0 && h("label", { class: "check" }, beyond, `also ${group(rims)} tied beyond a rim`), table.chooser()),
-    table.element, said);
+    table.element);
   return section;
 }

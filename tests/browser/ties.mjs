@@ -1,0 +1,118 @@
+// Ties, TYPE24 and TYPE25 on the page against the JSON: tables, lines and marks in the picture, the panel; what was not
+// evaluated is said; and the side view of a pair, to scale.
+import { join } from "node:path";
+import { accessible } from "./axe.mjs";
+import { check, corpus, deck, gaps, open, same, sample, settled } from "./support.mjs";
+
+const cells = (p, selector) =>
+  p.$$eval(`${selector} .vt-row`, (rows) => rows.map((r) => Object.fromEntries([...r.children].map((c) => [c.dataset.key, c.textContent.replace(/\u202f/g, "")]))));
+const clean = (name, p) => check(`${name}: no console error and no request`, p.trouble.length === 0, p.trouble.join("; "));
+
+async function ties(browser, scratch, shot) {
+  const path = sample("welds");
+  const json = gaps(path, "--all");
+  const file = join(scratch, "welds.html");
+  deck("gaps", path, "--quiet", "--html", file);
+  const p = await open(browser, file);
+  const lost = (t) => t.nodes.filter((n) => !n.tied && ![1630, 1209].includes(n.message) && !/\((1630|1209)\)/.test(n.why));
+  const said = await p.evaluate(() => window.deckReport.report.meta.ties.map((t) => [t.nodes, t.tied, t.lost, t.beyond_rim]));
+  same("ties: counts are those of the JSON", said, json.ties.map((t) => [t.summary.nodes, t.summary.tied, lost(t).length, t.summary.outside]));
+  same("ties: one row each", (await cells(p, ".ties-table")).length, Math.min(json.ties.length, (await cells(p, ".ties-table")).length));
+  const list = await cells(p, ".ties-table");
+  check("ties: the row says how many nodes are not tied", list.some((r) => r.id === "2" && r.text === "4 of 10 nodes are not tied"), JSON.stringify(list));
+  const untied = await cells(p, ".untied-table");
+  same("ties: the untied nodes of the JSON, with distance and search distance", untied.map((r) => `${r.inter} ${r.node} ${r.distance} ${r.search}`),
+    json.ties.flatMap((t) => lost(t).map((n) => `${t.id} ${n.node} ${+(n.distance ?? n.nearest.distance).toPrecision(6)} ${+n.search.toPrecision(6)}`)));
+  // Lines: one a node that is tied, one a node that is not, none for what something else holds.
+  const lines = () => p.evaluate(() => window.deckReport.viewport.view.ties.lines.map((l) => l.geometry.attributes.instanceStart?.count ?? l.geometry.attributes.position.count / 2));
+  same("ties: lines in the picture", await lines(), [json.ties.reduce((n, t) => n + t.summary.tied, 0), json.ties.reduce((n, t) => n + lost(t).length, 0)]);
+  await p.click(".ties-table .vt-row:has-text('4 of 10')");
+  const two = json.ties.find((t) => t.id === 2);
+  same("ties: a tie that is chosen is shown alone", await lines(), [two.summary.tied, lost(two).length]);
+  same("ties: and its nodes are listed alone", (await cells(p, ".untied-table")).length, lost(two).length);
+  await p.click(".untied-table .vt-row");
+  await settled(p);
+  same("ties: the panel says why, in the words of the JSON", await p.$eval(".detail .fate", (e) => e.textContent), lost(two)[0].why);
+  await shot(p, "ties");
+  await p.keyboard.press("Escape");
+  await p.keyboard.press("Escape");
+  await p.keyboard.press("n");
+  same("ties: the key takes the lines away", await lines(), []);
+  await accessible(p, "ties");
+  clean("ties", p);
+  await p.close();
+}
+
+async function modern(browser, scratch, shot) {
+  for (const name of ["airbag_fold", "coated_block"]) {
+    const path = sample(name);
+    const file = join(scratch, `${name}.html`);
+    deck("gaps", path, "--quiet", "--html", file);
+    const p = await open(browser, file);
+    const json = gaps(path);
+    const rows = (list) => list.map((r) => JSON.stringify([r.interface, r.secondary, r.main, r.depth, r.gap, r.distance, r.normal, r.action])).sort();
+    const shown = await p.evaluate(() => {
+      const { report } = window.deckReport;
+      return report.hits.map(({ row: r }) => ({
+        interface: report.meta.interfaces[report.meta.contacts[r.contact].interface].id, secondary: report.secondaryNodes(r).map((n) => report.nodeId(n)),
+        main: report.data.contacts[r.contact].mainNode.length ? report.mainNodes(r).map((n) => report.nodeId(n)) : [], depth: r.depth, gap: r.gap, distance: r.distance, normal: r.normal, action: r.action,
+      }));
+    });
+    const want = json.interfaces.flatMap((i) => i.contacts.flatMap((c) => c.penetrations.map((r) => {
+      const main = r.segment ?? r.main_edge;
+      return { interface: i.id, secondary: r.edge ?? [r.node], main: main.length === 4 && main[2] === main[3] ? main.slice(0, 3) : main, depth: r.depth ?? r.penetration, gap: r.gap, distance: r.distance, normal: r.normal, action: r.action };
+    })));
+    same(`${name}: rows are those of the JSON, bit for bit`, rows(shown), rows(want));
+    check(`${name}: counts of the page are those of the program`, await p.evaluate(() => window.deckReport.report.verified));
+    await p.click(".interfaces-table .vt-row");
+    check(`${name}: in place of the sliders stands how to try other settings`, await p.$eval("#whatif", (e) => e.querySelectorAll("input, select").length === 0 && e.textContent.includes("--what-if")));
+    await p.click(".list-table .vt-row");
+    await settled(p);
+    await shot(p, name);
+    await accessible(p, name);
+    clean(name, p);
+    await p.close();
+  }
+}
+
+/** Lengths of the drawing are those of the row. */
+async function sideViews(browser, scratch) {
+  for (const name of ["inacti_variants", "crossing_edges", "airbag_fold", "solid_and_skin"]) {
+    const file = join(scratch, `side_${name}.html`);
+    deck("gaps", sample(name), "--quiet", "--html", file);
+    const p = await open(browser, file);
+    const found = await p.evaluate(() => {
+      const { report } = window.deckReport;
+      return report.hits.slice(0, 40).map((x) => {
+        report.select(x);
+        const s = document.querySelector(".side-view");
+        const length = (k) => Math.abs(s.querySelector(`.${k}`).y1.baseVal.value - s.querySelector(`.${k}`).y2.baseVal.value) / Number(s.dataset.scale);
+        return { want: [x.row.gap, x.row.distance, x.depth], have: [length("gap-length"), length("distance"), length("depth")], text: document.querySelector(".side figcaption").textContent };
+      });
+    });
+    check(`${name}: the side view is to scale`, found.length > 0 && found.every((f) => f.want.every((v, k) => Math.abs(f.have[k] - v) <= 0.01 * f.want[0])), JSON.stringify(found[0]));
+    check(`${name}: and has its equation`, found.every((f) => /^depth .* = gap .* − distance /.test(f.text)), found[0]?.text);
+    await p.close();
+  }
+}
+
+/** What was not evaluated is not clean. */
+async function leftOut(browser, scratch) {
+  const path = corpus("../oracle/modern/m24_edge/m24_edge_0000.rad");
+  if (!path) return;
+  const file = join(scratch, "left_out.html");
+  deck("gaps", path, "--quiet", "--html", file);
+  const p = await open(browser, file);
+  const json = gaps(path);
+  same("left out: the verdict is that of the JSON", await p.$eval("#verdict", (e) => e.dataset.verdict), json.verdict.level);
+  check("left out: the colour is not green", await p.$eval("#verdict", (e) => e.dataset.level !== "good"));
+  check("left out: the interface says so", (await cells(p, ".interfaces-table")).some((r) => r.action === "not evaluated"));
+  await p.close();
+}
+
+export async function tiesAndModern(browser, scratch, shot) {
+  await ties(browser, scratch, shot);
+  await modern(browser, scratch, shot);
+  await sideViews(browser, scratch);
+  await leftOut(browser, scratch);
+}
