@@ -58,7 +58,7 @@ async function modern(browser, scratch, shot) {
         main: report.data.contacts[r.contact].mainNode.length ? report.mainNodes(r).map((n) => report.nodeId(n)) : [], depth: r.depth, gap: r.gap, distance: r.distance, normal: r.normal, action: r.action,
       }));
     });
-    const want = json.interfaces.flatMap((i) => i.contacts.flatMap((c) => c.penetrations.map((r) => {
+    const want = json.interfaces.flatMap((i) => i.contacts.flatMap((c) => [...c.penetrations, ...(c.edge_penetrations ?? [])].map((r) => {
       const main = r.segment ?? r.main_edge;
       return { interface: i.id, secondary: r.edge ?? [r.node], main: main.length === 4 && main[2] === main[3] ? main.slice(0, 3) : main, depth: r.depth ?? r.penetration, gap: r.gap, distance: r.distance, normal: r.normal, action: r.action };
     })));
@@ -77,7 +77,7 @@ async function modern(browser, scratch, shot) {
 
 /** Lengths of the drawing are those of the row. */
 async function sideViews(browser, scratch) {
-  for (const name of ["inacti_variants", "crossing_edges", "airbag_fold", "solid_and_skin"]) {
+  for (const name of ["inacti_variants", "crossing_edges", "airbag_fold", "coated_block"]) {
     const file = join(scratch, `side_${name}.html`);
     deck("gaps", sample(name), "--quiet", "--html", file);
     const p = await open(browser, file);
