@@ -327,6 +327,17 @@ TEST(Ties, ALoadedDeckFindsThemWhenAsked) {
   EXPECT_EQ(count_ties(ties[0]).not_found, 1U);
 }
 
+TEST(Ties, WhatIsSaidOfThem) {
+  const Built holds(sheet({{5, 5, 1}}).add(tie_card({})), with_ties());
+  EXPECT_EQ(holds_text(tie_of(holds)), "1 node is tied");
+  EXPECT_EQ(losses_text(tie_of(holds)), "-");
+  const Built loses(sheet({{5, 5, 1}, {5, 5, 30}, {15, 5, 30}}).add(tie_card({})), with_ties());
+  EXPECT_EQ(holds_text(tie_of(loses)), "2 of 3 nodes are not tied");
+  EXPECT_EQ(losses_text(tie_of(loses)), "2 not found");
+  const Built unknown(sheet({{5, 5, 1}}).add(tie_card({.isearch = 3})), with_ties());
+  EXPECT_EQ(holds_text(tie_of(unknown)), "not evaluated: " + tie_of(unknown).not_evaluated);
+}
+
 TEST(Ties, ASearchThatTheSolverDoesNotHaveIsNotEvaluated) {
   const Built built(sheet({{5, 5, 1}}).add(tie_card({.isearch = 3})), with_ties());
   EXPECT_FALSE(tie_of(built).not_evaluated.empty());

@@ -82,6 +82,23 @@ TEST(GapsJson, AnEarlierDocumentHasTheDepthOfEdges) {
   EXPECT_FALSE(earlier->rows.empty());
 }
 
+TEST(GapsJson, AnEarlierDocumentHasTheEdgesOfType25) {
+  SmallDeck small;  // the borders of two sheets cross
+  small.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  small.node(5, 5, 5, 0.25).node(6, 15, 5, 0.25).node(7, 15, 15, 0.25).node(8, 5, 15, 0.25);
+  small.shell_part(1, 2).shell_part(2, 2).shell(1, 1, 1, 2, 3, 4).shell(2, 2, 5, 6, 7, 8);
+  small.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2});
+  small.add("@/INTER/TYPE25/3 surf_ID1=1 surf_ID2=2 Inacti=5 Iedge=2");
+  const Inspected d(small.text());
+  ASSERT_GT(d.view.total.count.edges, 0u);
+  const std::string json = gaps_json("test_0000.rad", d.deck, d.scene, d.view, false);
+  const auto earlier = read_earlier_gaps("old.json", json, "test_0000.rad");
+  ASSERT_TRUE(earlier.ok());
+  const GapsComparison compared = compare_gaps(*earlier, d.scene, d.view);
+  EXPECT_EQ(compared.count(Trend::same), compared.rows.size());
+  EXPECT_TRUE(compared.solved.empty());
+}
+
 TEST(GapsJson, HasTheVerdict) {
   const Inspected d(tied());
   const Verdict v = verdict_of(d.deck, d.scene, d.view);

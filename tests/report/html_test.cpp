@@ -93,6 +93,24 @@ TEST_F(Page, HoldsPlaneElementsOfEveryShape) {
     EXPECT_NE(mesh(more), none) << more;
 }
 
+TEST_F(Page, NamesTiesAmongItsInterfacesAndWithoutScripts) {
+  SceneOptions options;
+  options.ties = true;
+  const Built b(plate().add("@/INTER/TYPE2/7 grnd_IDs=2 surf_IDm=1 Ignore=1 dsearch=0.1"), options);
+  const std::string page = page_of(b);
+  const auto meta = nlohmann::json::parse(block(page, "deck-meta"), nullptr, false);
+  ASSERT_FALSE(meta.is_discarded());
+  EXPECT_EQ(meta["interfaces"][meta["ties"][0]["interface"].get<std::size_t>()]["id"], 7);
+  EXPECT_EQ(meta["verdict"]["level"], "untied");
+  EXPECT_NE(page.find("1 of 1 node is not tied</li>"), std::string::npos);
+  EXPECT_FALSE(block(page, "deck-ties").empty());
+}
+
+TEST_F(Page, OfADeckWithoutTiesHasNoBlockOfThem) {
+  const Built b(plate().add("@/INTER/TYPE7/1 Gapmin=1"));
+  EXPECT_TRUE(block(page_of(b), "deck-ties").empty());
+}
+
 std::string touches_of(const Built& b) {
   const SceneView view = make_view(b.scene);
   HtmlInput input;

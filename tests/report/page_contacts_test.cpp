@@ -100,7 +100,8 @@ SmallDeck plates(const std::string& interface) {
 }
 
 struct Page {
-  explicit Page(const SmallDeck& d) : b(d), view(make_view(b.scene)), nodes(b.model.nodes.size()) {
+  explicit Page(const SmallDeck& d, const SceneOptions& options = {})
+      : b(d, options), view(make_view(b.scene)), nodes(b.model.nodes.size()) {
     input.path = "x";
     input.deck = &b.deck;
     input.scene = &b.scene;
@@ -322,6 +323,91 @@ TEST(PageStream, FewValuesAreNumberedInTheirOrder) {
   for (std::size_t i = 0; i < list.size(); ++i)
     EXPECT_EQ(std::bit_cast<std::uint64_t>(back[i]), std::bit_cast<std::uint64_t>(list[i])) << i;
   EXPECT_TRUE(in.done());
+}
+
+/// Two sheets of one quad each, 0.5 apart, half thicknesses 0.5 and 0.25: 0.25 inside the gap.
+SmallDeck near_sheets(const std::string& interface) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(11, 3, 3, 0.5).node(12, 7, 3, 0.5).node(13, 7, 7, 0.5).node(14, 3, 7, 0.5);
+  d.shell_part(1, 1).shell_part(2, 0.5).shell(1, 1, 1, 2, 3, 4).shell(2, 2, 11, 12, 13, 14);
+  return d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).add(interface);
+}
+
+TEST(PageContacts, OfType25AreTheRowsAsTheyWereFound) {
+  Page p(near_sheets("@/INTER/TYPE25/1 surf_ID1=1 surf_ID2=2 Inacti=5"));
+  p.collect();
+  const Contact& c = p.b.scene.contacts[0];
+  ASSERT_EQ(c.penetrations.size(), 4u);
+  const detail::PageContact& own = p.page.contacts[0];
+  ASSERT_EQ(own.given.size(), c.penetrations.size());
+  ASSERT_EQ(own.pairs.size(), c.penetrations.size());
+  EXPECT_TRUE(own.complete);
+  for (std::size_t i = 0; i < own.pairs.size(); ++i)
+    EXPECT_EQ(own.pairs[i].main, c.penetrations[own.given[i]].main);
+  // Gaps stand in place of thicknesses.
+  EXPECT_EQ(own.plain.half_thickness[0], c.secondary[0].gap);
+  const Json said = p.contacts().at(0);
+  EXPECT_EQ(said["given"], true);
+  EXPECT_EQ(said["evaluated"], true);
+  // The last numbers of the block: eight columns and a byte a row.
+  const std::string bytes = PageBlock(detail::contacts_block(p.input, p.page, p.nodes)).bytes();
+  EXPECT_EQ(bytes.back(), static_cast<char>(PenetrationAction::offset_stored));
+  EXPECT_GT(bytes.size(), 65 * own.given.size());
+}
+
+TEST(PageContacts, OfOtherTypesHaveNoGivenRows) {
+  Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"));
+  p.collect();
+  EXPECT_TRUE(p.page.contacts[0].given.empty());
+  EXPECT_EQ(p.contacts().at(0)["given"], false);
+}
+
+/// One quad, a node 0.5 over it, one 40 over it and one far beyond its rim, tied with dsearch 2.
+SmallDeck tied_nodes() {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(101, 5, 5, 0.5).node(102, 5, 5, 40).node(103, 500, 5, 0);
+  d.shell_part(1, 2).shell(1, 1, 1, 2, 3, 4).group("/SURF/PART/1", {1});
+  d.group("/GRNOD/NODE/9", {101, 102, 103});
+  return d.add("@/INTER/TYPE2/7 grnd_IDs=9 surf_IDm=1 Ignore=1 dsearch=2");
+}
+
+TEST(PageTies, HaveTheirNodesSegmentsAndWhatIsSaidOfThem) {
+  SceneOptions options;
+  options.ties = true;
+  Page p(tied_nodes(), options);
+  p.page.of_ties = detail::use_nodes(p.b.scene, p.nodes);
+  p.collect();
+  const Json tie = Json::parse(PageBlock(detail::ties_block(p.input, p.nodes)).bytes()).at(0);
+  EXPECT_EQ(tie["holds"], Json({0, 1, 1}));
+  EXPECT_EQ(tie["nodes"].size(), 3u);
+  EXPECT_EQ(p.id(tie["nodes"][1]), 102);
+  EXPECT_EQ(tie["segment"][0], 0);
+  EXPECT_EQ(tie["main"].size(), 4u);
+  ASSERT_EQ(tie["rows"].size(), 2u) << "what is tied needs no row";
+  EXPECT_EQ(tie["rows"][0][0], 1);
+  EXPECT_EQ(tie["rows"][0][1], 40.0);
+  EXPECT_EQ(tie["rows"][0][2], 2.0);
+  EXPECT_EQ(tie["rows"][0][4], "too far (1157)");
+  std::string text;
+  JsonWriter j(text);
+  j.begin_object();
+  detail::write_page_ties(j, p.input);
+  j.end_object();
+  const Json said = Json::parse(text)["ties"].at(0);
+  EXPECT_EQ(said["text"], "2 of 3 nodes are not tied");
+  EXPECT_EQ(said["losses"], "2 not found");
+  EXPECT_EQ(said["stops"], false);
+  EXPECT_EQ(said["interface"], 0);
+}
+
+TEST(PageTies, NodesThatNoElementHasGetTheirCoordinates) {
+  SceneOptions options;
+  options.ties = true;
+  Page p(tied_nodes(), options);
+  const std::vector<NodeIndex> wanted = detail::use_nodes(p.b.scene, p.nodes);
+  EXPECT_NE(std::find(wanted.begin(), wanted.end(), p.b.model.nodes.map.find(101)), wanted.end());
 }
 
 TEST(PageForces, NodesHaveForceStiffnessAndStep) {

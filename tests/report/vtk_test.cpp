@@ -63,6 +63,28 @@ TEST(Vtk, SceneWithoutContactsStillHasAPenetrationFile) {
   EXPECT_TRUE(read["penetrations.vtp"]["points"].empty());
 }
 
+TEST(Vtk, TiesAreLinesFromNodesToTheirSegments) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(101, 4, 5, 0.5).node(102, 4, 5, 40).shell_part(1, 2).shell(1, 7, 1, 2, 3, 4);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/9", {101, 102});
+  d.add("@/INTER/TYPE2/7 grnd_IDs=9 surf_IDm=1 Ignore=1 dsearch=2");
+  SceneOptions options;
+  options.ties = true;
+  const Built b(d, options);
+  const auto files = gaps_vtk(b.scene, make_view(b.scene));
+  EXPECT_EQ(names(files), (std::vector<std::string>{"interface_7_ties.vtp", "penetrations.vtp"}));
+  EXPECT_NE(paraview_script(files).bytes.find("interface_7_ties.vtp\", \"lost\""),
+            std::string::npos);
+  const json read = read_with_vtk(files);
+  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+  const json& file = read["interface_7_ties.vtp"];
+  ASSERT_EQ(file["cells"].size(), 2u);
+  EXPECT_EQ(file["points"], json({{4, 5, 0.5}, {4, 5, 0}, {4, 5, 40}, {4, 5, 0}}));
+  EXPECT_EQ(file["cell"]["lost"], json({{0}, {1}}));
+  EXPECT_EQ(file["cell"]["distance"], json({{0.5}, {40.0}}));
+}
+
 TEST(Vtk, MainSurfaceReadByVtk) {
   const Built b(scene_deck());
   const json read = read_with_vtk(gaps_vtk(b.scene, make_view(b.scene)));

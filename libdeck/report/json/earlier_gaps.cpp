@@ -41,8 +41,9 @@ std::int64_t whole(const Json& v) { return v.is_number_integer() ? v.get<std::in
 /// A document of `gaps --all` is large, and little of it is compared: the rest is not kept.
 bool is_compared(int, Json::parse_event_t event, Json& parsed) {
   static const std::set<std::string, std::less<>> keys = {
-      "at",   "contacts",   "deck", "decks",       "edge",         "gap",  "id",
-      "node", "interfaces", "path", "penetration", "penetrations", "role", "tie"};
+      "at",           "contacts", "deck", "decks",      "edge", "edge_penetrations",
+      "gap",          "id",       "node", "interfaces", "path", "penetration",
+      "penetrations", "role",     "tie"};
   return event != Json::parse_event_t::key || keys.contains(parsed.get_ref<std::string&>());
 }
 
@@ -63,6 +64,25 @@ EarlierGaps::Row row_of(const Json& p) {
       (*row.at)[k] = (*at)[k].is_number() ? (*at)[k].get<double>() : 0;
   }
   return row;
+}
+
+/// Adds the deepest row of every node or edge; false: the list holds something else.
+bool add_rows(const Json& list, std::int64_t interface_id, const std::string& role,
+              std::vector<EarlierGaps::Row>& rows) {
+  std::map<std::array<std::int64_t, 2>, std::size_t> deepest;
+  for (const Json& p : list) {
+    if (!p.is_object()) return false;
+    if (const auto tie = p.find("tie"); tie != p.end() && *tie == true) continue;
+    EarlierGaps::Row row = row_of(p);
+    row.interface_id = interface_id;
+    row.role = role;
+    const auto [it, fresh] = deepest.emplace(row.secondary, rows.size());
+    if (fresh)
+      rows.push_back(std::move(row));
+    else if (row.depth > rows[it->second].depth)
+      rows[it->second] = std::move(row);
+  }
+  return true;
 }
 
 }  // namespace
@@ -94,19 +114,12 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
       if (!contact.is_object() || !contact.contains("penetrations") ||
           !contact["penetrations"].is_array())
         return wrong(out.path, "a contact has no list \"penetrations\"");
-      std::map<std::array<std::int64_t, 2>, std::size_t> deepest;
-      for (const Json& p : contact["penetrations"]) {
-        if (!p.is_object()) return wrong(out.path, "a penetration is not an object");
-        if (const auto tie = p.find("tie"); tie != p.end() && *tie == true) continue;
-        EarlierGaps::Row row = row_of(p);
-        row.interface_id = id;
-        row.role = text(contact, "role");
-        const auto [it, fresh] = deepest.emplace(row.secondary, out.rows.size());
-        if (fresh)
-          out.rows.push_back(std::move(row));
-        else if (row.depth > out.rows[it->second].depth)
-          out.rows[it->second] = std::move(row);
-      }
+      const bool read = add_rows(contact["penetrations"], id, text(contact, "role"), out.rows);
+      // A TYPE25 has its edges in a list beside.
+      const auto edges = contact.find("edge_penetrations");
+      const bool beside = edges != contact.end() && edges->is_array();
+      if (!read || (beside && !add_rows(*edges, id, to_string(ContactRole::edges), out.rows)))
+        return wrong(out.path, "a penetration is not an object");
     }
   }
   return out;

@@ -24,6 +24,14 @@ function wholeOf(report: Report, inter: number): Whole | null {
   return out;
 }
 
+/** What the program has no forces for. */
+function notComputed(report: Report): string {
+  const modern = new Set(report.meta.contacts.filter((c) => c.given).map((c) => c.interface)).size;
+  const ties = report.meta.ties.length;
+  const left = [modern > 0 && plural(modern, "interface of TYPE24 or TYPE25", "interfaces of TYPE24 and TYPE25"), ties > 0 && plural(ties, "tie", "ties")].filter(Boolean);
+  return left.length > 0 ? ` Forces of ${left.join(" and ")} are not computed.` : "";
+}
+
 export function cycleSection(report: Report): HTMLElement {
   const section = h("section", { id: "cycle" });
   const cycle = report.cycle;
@@ -63,6 +71,7 @@ export function cycleSection(report: Report): HTMLElement {
     replace(sentence,
       `${plural(forces, "pair carries", "pairs carry")} a force in the first cycle. `,
       cycle.contact_dt === null ? "No contact limits the time step." : h(limits ? "b" : "span", { class: limits ? "bad" : "" }, `Contact allows a time step of ${step(cycle.contact_dt)}, the elements ${step(cycle.structure_dt)}.`),
+      notComputed(report),
       " Evaluated by the program with the deck's settings (deck cycle).");
   };
   table.element.style.setProperty("--rows", String(Math.max(1, Math.min(rows.length, 8))));
