@@ -4,6 +4,7 @@ import { group, h, lengthText, num, percent, plural, replace } from "./dom";
 import type { Hit, Report } from "./report";
 import type { Viewport } from "./scene/viewport";
 
+const mostTies = 10;
 const most = 30; // interfaces that the second page has room for
 
 /** What narrows the list down, in words; "": nothing does. */
@@ -30,6 +31,18 @@ function worst(report: Report, hits: Hit[]): HTMLElement {
     hits.slice(0, 10).map((x) => [lengthText(report, x.depth, 5), lengthText(report, x.row.gap), id(x), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), x.row.action]));
 }
 
+/** Ties that lose nodes, and how many hold. */
+function ties(report: Report): HTMLElement[] {
+  const all = report.meta.ties;
+  if (all.length === 0) return [];
+  const bad = all.filter((t) => t.lost > 0 || !t.evaluated);
+  const name = (i: number) => report.meta.interfaces[i];
+  const rest = all.length - Math.min(bad.length, mostTies);
+  return [h("h2", null, "Ties"),
+    ...(bad.length > 0 ? [table(["Id", "Title", "Result", "What happens"], bad.slice(0, mostTies).map((t) => [name(t.interface).id, name(t.interface).title, t.text, t.losses]))] : []),
+    ...(rest > 0 ? [h("p", { class: "note" }, bad.length > mostTies ? `… and ${plural(rest, "tie", "ties")}` : `${plural(rest, "tie holds", "ties hold")} all nodes`)] : [])];
+}
+
 export function printing(report: Report, viewport: Viewport): void {
   const paper = h("div", { class: "paper" });
   document.querySelector(".left")!.append(paper);
@@ -52,6 +65,7 @@ export function printing(report: Report, viewport: Viewport): void {
       table(["Id", "Title", "Kind", "Gapmin", "Pairs", "Nodes", "Edges", "Deepest", "Of gap"],
         all.slice(0, most).map(({ inter, contacts, t }) => [inter.id, inter.title, `TYPE${inter.type}`, lengthText(report, report.results[contacts[0]].setting.gapmin), group(t.pairs), group(t.nodes), group(t.edges), t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth) : "–", t.pairs && !t.unbounded ? percent(t.max_ratio) : "–"])),
       all.length > most && h("p", { class: "note" }, `… and ${group(all.length - most)} with shallower penetrations or none`),
+      ...ties(report),
       h("p", { class: "paper-foot" },
         `deck ${meta.tool.version} · ${new Date().toISOString().slice(0, 10)} · ${deckCommand(report)} · ${plural(meta.files.length, "file", "files")}, ${plural(meta.bytes, "byte", "bytes")}`));
   });

@@ -304,6 +304,10 @@ export class Report {
     this.sides.set(inter, found);
     return found;
   }
+  /** There are ties and no contact: nothing is said of penetrations. */
+  get tiesOnly(): boolean {
+    return this.ties.length > 0 && this.meta.interfaces.length === this.meta.ties.length;
+  }
   /** The tie that an interface is; null: it is a contact. */
   tieOf(inter: number): TieData | null {
     return this.ties[this.meta.ties.findIndex((t) => t.interface === inter)] ?? null;

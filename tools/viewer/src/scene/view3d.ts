@@ -12,6 +12,7 @@ import { Section, type Cut } from "./section";
 import { Marked } from "./marked";
 import { Slices } from "./slices";
 import { LineLayer } from "./layer";
+import type { TieLines } from "./tied";
 import { arrowGeometry, discTexture, dotMaterial } from "./shapes";
 import type { Shape } from "../decode/shape";
 import type { Hit, Report } from "../report";
@@ -412,6 +413,15 @@ export class View3D {
   /** Lines over the picture: of crossed elements, and of ties. */
   readonly crossed: LineLayer;
   readonly ties: LineLayer;
+
+  /** All lines of ties in sight. */
+  fitPoints({ tied, lost, lostNodes }: TieLines): void {
+    const points = [tied, lost, lostNodes].flatMap((x) => Array.from({ length: x.length / 3 }, (_, i) => new Vector3().fromArray(x, 3 * i)));
+    if (points.length === 0) return this.fit();
+    const s = new Sphere().setFromPoints(points);
+    this.control.cut = null;
+    this.control.fly(s.center, Math.max(s.radius * 1.3, 1e-9));
+  }
 
   flyToPoints(points: Vector3[]): void {
     const s = new Sphere().setFromPoints(points);

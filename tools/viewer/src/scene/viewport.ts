@@ -108,7 +108,9 @@ export class Viewport {
       const key = `${inter}/${pair}`;
       if (key === zoomed || this.report.selected) return;
       const all = inter === null && pair === null;
-      if (!all || zoomed) view.fit(all ? null : this.report.filtered);
+      const tie = inter === null ? null : this.report.tieOf(inter);
+      if (tie) view.fitPoints(tieLines(this.report, inter));
+      else if (!all || zoomed) view.fit(all ? null : this.report.filtered);
       zoomed = all ? "" : key;
     });
     this.report.on("selection", () => this.selection());
@@ -502,7 +504,8 @@ export class Viewport {
     if (this.hidden.has(p)) return "hidden";
     if (this.isolated && !this.isolated.has(p)) return this.rest;
     const chosen = this.isolated !== null && (this.report.selected !== null || this.report.filter.pair !== null || this.report.filter.interface === null);
-    if (this.allSolid || chosen || (this.report.filtered.length === 0 && !this.isolated)) return "solid";
+    const tie = this.report.filter.interface !== null && this.report.tieOf(this.report.filter.interface) !== null;
+    if (this.allSolid || chosen || (this.isolated && tie) || (this.report.filtered.length === 0 && !this.isolated)) return "solid";
     return this.rest === "ghost" ? "hot" : "only";
   }
 

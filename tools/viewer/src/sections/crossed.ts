@@ -17,7 +17,7 @@ export function segmentOf(report: Report, row: Row): number[] {
 export function crossedSection(report: Report, open: (points: number[][]) => void): HTMLElement {
   const crossed = report.crossed;
   const section = h("section", { id: "crossed" });
-  if (!crossed) {
+  if (!crossed || report.tiesOnly) {
     section.hidden = true;
     return section;
   }

@@ -14,7 +14,8 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
     if (!x) {
       replace(element, h("p", { class: "note" }, report.hits.length > 0
         ? "Choose a row of a list or a dot in the picture to see the pair, its distance and what the solver will do about it."
-        : `Nothing penetrates${report.leftOut}.`));
+        : report.meta.ties.some((t) => t.lost > 0) ? "Choose a node under Ties to see why it is not tied."
+        : report.tiesOnly ? `Every node is tied${report.leftOut}.` : `Nothing penetrates${report.leftOut}.`));
       element.classList.add("empty");
       return;
     }

@@ -79,7 +79,7 @@ export function pairsSection(report: Report, look: Look): HTMLElement {
   const matrix = h("div", { class: "matrix-wrap" });
   const count = h("span", { class: "muted count" });
   const empty = h("p", { class: "note" }, `No part penetrates another${report.leftOut}.`);
-  const section = h("section", { id: "pairs" }, sectionHead(h("h2", null, "Part pairs", count), table.chooser()), table.element, matrix, empty);
+  const section = h("section", { id: "pairs", hidden: report.tiesOnly }, sectionHead(h("h2", null, "Part pairs", count), table.chooser()), table.element, matrix, empty);
   const draw = () => {
     const rows = partPairs(report, report.passing("pair", false)); // all pairs count here, whatever the list shows
     table.setRows(rows);
@@ -261,7 +261,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
   const perNode = h("input", { type: "checkbox", checked: true, onchange: () => report.setFilter({ perNode: perNode.checked }) });
   const solved = h("div", { class: "solved" });
   const empty = h("p", { class: "note" }, "Nothing to list.");
-  const element = h("section", { id: "worst" },
+  const element = h("section", { id: "worst", hidden: report.tiesOnly },
     sectionHead(h("h2", null, "Worst first", count), h("label", { class: "check" }, perNode, "deepest per node"), table.chooser(), exportsMenu),
     chips, table.element, empty, solved);
   const draw = () => {

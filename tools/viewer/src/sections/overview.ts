@@ -114,7 +114,7 @@ export function interfaces(report: Report): HTMLElement {
     table.setSelected(i === null ? null : (rows.find((r) => r.inter === i) ?? null), false);
   });
   return h(
-    "section", { id: "interfaces" },
+    "section", { id: "interfaces", hidden: report.tiesOnly },
     sectionHead(h("h2", null, "Interfaces", h("span", { class: "muted count" }, plural(report.meta.interfaces.length - report.meta.ties.length, "interface", "interfaces"))), table.chooser()),
     table.element,
     h("p", { class: "note" }, h("i", { class: "derived" }, "*"), " Gapmin derived from the mesh. Choose a row to filter everything below and to try other settings."),

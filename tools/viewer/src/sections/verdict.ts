@@ -36,6 +36,7 @@ export function verdict(report: Report): HTMLElement {
   const element = h("section", { class: "verdict", id: "verdict", "aria-label": "Verdict", "data-level": colourOf(said), "data-verdict": said.level },
     h("p", { class: "verdict-text" }, h("strong", null, first ?? ""), ...rest.map((t) => ` ${t}`), test), tiles, compare);
   const errors = said.counts.errors ?? 0;
+  const { tie_errors: lost = 0, main_and_tied: main = 0 } = said.counts;
   const crossed = report.crossed?.total ?? said.counts.crossed_elements ?? null;
   const ties = report.meta.ties.reduce((sum, t) => ({ nodes: sum.nodes + t.nodes, lost: sum.lost + t.lost }), { nodes: 0, lost: 0 });
   const draw = () => {
@@ -49,14 +50,17 @@ export function verdict(report: Report): HTMLElement {
         h("div", { class: "tile-note" }, old !== null && report.anyChanged && old !== value ? `deck: ${old}` : note));
     const counts = (t: { nodes: number; edges: number }) => `${group(t.nodes)}, ${group(t.edges)}`;
     const ratio = deepest || now.pairs === 0 ? (t: { pairs: number; max_ratio: number }) => (t.pairs ? percent(t.max_ratio) : "–") : () => "–";
-    replace(tiles,
+    const stops = errors + now.solver_errors + lost + main;
+    const contact = report.tiesOnly ? [] : [
       tile("Penetrations", group(now.pairs), `in ${plural(contacts.length, "contact", "contacts")}`, group(base.pairs)),
       tile("Nodes, edges", counts(now), now.acted > 0 ? `${group(now.acted)} pairs acted on` : "none acted on", counts(base)),
       tile("Deepest", deepest ? num(deepest.depth) : beyond > 0 ? "unbounded" : "–",
         beyond > 0 ? `${plural(beyond, "pair has", "pairs have")} an unbounded gap` : deepest ? `of a gap of ${lengthText(report, deepest.row.gap)}` : "", deepest ? num(base.max_depth) : null),
-      tile("Depth ÷ gap", ratio(now), "at worst", ratio(base)),
-      tile("Solver stops", group(errors + now.solver_errors), [errors > 0 && plural(errors, "error in the deck", "errors in the deck"), now.solver_errors > 0 && `${plural(now.solver_errors, "node", "nodes")} on a segment`,
-        errors + now.solver_errors === 0 && (now.on_segment.pairs > 0 ? `${itemsText(now.on_segment)} on a segment` : "no reason known")].filter((t) => t).join(", "), group(errors + base.solver_errors), errors + now.solver_errors > 0),
+      tile("Depth ÷ gap", ratio(now), "at worst", ratio(base))];
+    replace(tiles, ...contact,
+      tile("Solver stops", group(stops), [errors > 0 && plural(errors, "error in the deck", "errors in the deck"), now.solver_errors > 0 && `${plural(now.solver_errors, "node", "nodes")} on a segment`,
+        lost > 0 && `${plural(lost, "node", "nodes")} without a segment`, main > 0 && `${plural(main, "main node", "main nodes")} tied`,
+        stops === 0 && (now.on_segment.pairs > 0 ? `${itemsText(now.on_segment)} on a segment` : "no reason known")].filter((t) => t).join(", "), group(errors + base.solver_errors + lost + main), stops > 0),
       ties.nodes > 0 && tile("Not tied", group(ties.lost), `of ${plural(ties.nodes, "node", "nodes")} of ${plural(report.meta.ties.length, "tie", "ties")}`, null, report.meta.ties.some((t) => t.stops)),
       crossed !== null && crossed > 0 && tile("Crossed", group(crossed), "elements pass through segments", null));
     if (report.earlier) drawCompare(report, compare);
