@@ -234,20 +234,23 @@ def recount(document):
     nodes, edges, on, stops, pairs, on_pairs = set(), set(), set(), set(), 0, 0
     for inter in document["interfaces"]:
         for contact in inter["contacts"]:
-            mine, mine_edges = set(), set()
-            rows = [p for p in contact["penetrations"] if not p.get("tie")]
-            for p in rows:
-                pairs += 1
-                if "node" in p:
-                    mine.add(p["node"])
-                    if p["on_surface"]:
-                        on.add(p["node"])
-                        on_pairs += 1
-                else:
-                    mine_edges.add(tuple(sorted(p["edge"])))
-            yield (contact["totals"]["nodes"], contact["totals"]["edges"], contact["totals"]["pairs"]), (len(mine), len(mine_edges), len(rows))
-            nodes |= mine
-            edges |= mine_edges
+            # The edges of a TYPE25 have a list and totals beside.
+            for rows, totals in ((contact["penetrations"], contact["totals"]), (contact.get("edge_penetrations") or [], contact.get("edge_totals"))):
+                mine, mine_edges = set(), set()
+                rows = [p for p in rows if not p.get("tie")]
+                for p in rows:
+                    pairs += 1
+                    if "node" in p:
+                        mine.add(p["node"])
+                        if p["on_surface"]:
+                            on.add(p["node"])
+                            on_pairs += 1
+                    else:
+                        mine_edges.add(tuple(sorted(p["edge"])))
+                if totals:
+                    yield (totals["nodes"], totals["edges"], totals["pairs"]), (len(mine), len(mine_edges), len(rows))
+                nodes |= mine
+                edges |= mine_edges
     s = document["summary"]
     yield (s["nodes"], s["edges"], s["pairs"], s["on_segment"]["nodes"], s["on_segment"]["pairs"]), (len(nodes), len(edges), pairs, len(on), on_pairs)
 
