@@ -178,6 +178,9 @@ TEST_F(GitRevision, IsTheEarlierRunOfGaps) {
   write(dir_ / "models/car_0000.rad", main);
   EXPECT_EQ(deck("gaps models/car_0000.rad --compare git:v1 --fail-on never,new,worse"), 1)
       << err();
+  write(dir_ / "models/.decklint.toml", "[gate]\ncompare = \"git:v1\"\nfail-on = [\"worse\"]\n");
+  EXPECT_EQ(deck("gaps models/car_0000.rad"), 1) << err();
+  EXPECT_TRUE(has("against git:v1: ")) << out();
 }
 
 TEST_F(GitRevision, HasToBeKnown) {

@@ -223,7 +223,10 @@ class Comparison {
   /// other parts, in the order of work.
   void assign(const Scene& scene, std::vector<const ListedContact*>& of) {
     for (const ListedContact& listed : listing_.contacts) {
-      if (listed.type == 2) continue;
+      // Ties and other types are no contacts of the scene; 0 is a later part of a TYPE19.
+      constexpr int compared[] = {0, 7, 10, 11, 19, 24, 25};
+      if (std::find(std::begin(compared), std::end(compared), listed.type) == std::end(compared))
+        continue;
       std::size_t c = 0;
       for (; c < scene.contacts.size(); ++c) {
         const Contact& contact = scene.contacts[c];
