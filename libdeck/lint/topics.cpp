@@ -188,8 +188,11 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
                            ? find_rule(fmt::format("DK{:03}", *number))
                            : nullptr;
     if (rule == nullptr) return message;
-    const std::string page = explain_rule(*rule, schemas, width);
-    return message.empty() ? page : message + "\nThe rule of that number\n\n" + page;
+    if (message.empty()) return explain_rule(*rule, schemas, width);
+    return message +
+           fmt::format("\nThe rule of that number\n\n{}: {}\n{}  Its page: deck explain {}\n",
+                       id_text(rule->id), rule->title, wrapped(rule->problem, 2, width),
+                       id_text(rule->id));
   }
   if (const auto dot = topic.rfind('.'); dot != topic.npos)
     if (const Schema* s = keyword_named(schemas, topic.substr(0, dot)))

@@ -57,6 +57,7 @@ TEST(ExplainTopic, ANumberOfAMessageAndOfARuleShowsBoth) {
   const std::string both = explain_topic("312", schemas());
   EXPECT_TRUE(both.starts_with("Message 312 of the reference solver (warning)")) << both;
   EXPECT_TRUE(has(both, "\nThe rule of that number\n\nDK312: ")) << both;
+  EXPECT_TRUE(has(both, "Its page: deck explain DK312\n")) << both;
   EXPECT_FALSE(has(explain_topic("WARNING 312", schemas()), "DK312: "));
   EXPECT_TRUE(explain_topic("203", schemas()).starts_with("DK203: "));
 }

@@ -189,7 +189,8 @@ TEST(CompareListing, MatchesPairByPairAndLeadsToTheCard) {
 TEST(CompareListing, TellsWhatOnlyOneSideHas) {
   Inspected deck(plates());
   std::string text = head(1) + contact_head(1, 7) + pairs_head + row({5, 1, 2, 3, 4}) +
-                     row({99, 1, 2, 3, 4}) + total(1, 2, 2) + contact_head(8, 7) + end;
+                     row({99, 1, 2, 3, 4}) + total(1, 2, 2) + contact_head(8, 7) +
+                     contact_head(9, 5) + end;
   const Listing listing = read(text);
   const ListingReport report = compare_listing(listing, deck.loaded);
   EXPECT_FALSE(report.agrees());

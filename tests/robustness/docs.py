@@ -87,7 +87,7 @@ def completion(c, tmp, verbs):
         offered, err = complete_in_bash(scripts["bash"], ["deck", v, "-"])
         c.check("bash: options of " + v, sorted(offered) == options[v] and not err, "%s, --help has %s %s" % (offered, options[v], err))
     for words, expected in ((["deck", "li"], ["lint"]), (["deck", "lint", "--form"], ["--format"]), (["deck", "lint", "--format", "g"], ["github", "gitlab"]),
-                            (["deck", "lint", "--format", "=", "sa"], ["sarif"]), (["deck", "lint", "--format", "="], ["human", "json", "sarif", "github", "junit", "gitlab"]),
+                            (["deck", "lint", "--format", "=", "sa"], ["sarif"]), (["deck", "lint", "--format", "="], ["human", "concise", "json", "sarif", "github", "junit", "gitlab"]),
                             (["deck", "gaps", "cr"], ["crash_box_0000.rad", "crossing_edges_0000.rad"]), (["deck", "gaps", "incl"], ["include_tree_0000.rad", "include_tree"]),
                             (["deck", "gaps", "--csv", "gener"], ["generate.py"]), (["deck", "gaps", "--vtk", "inc"], ["include_tree"]),
                             (["deck", "gaps", "--worst", ""], [])):

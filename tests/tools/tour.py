@@ -63,7 +63,6 @@ TOUR = {
         "lint samples/every_mistake_0000.rad --select DK171,DK242,DK201,DK240",
         "lint samples/every_mistake_0000.rad --select DK171 --ruler",
         "lint samples/clean_plates_0000.rad samples/too_close_0000.rad samples/absent_0000.rad",
-        "lint samples/every_mistake_0000.rad --select DK171,DK242,DK201 --format concise",
         "lint samples/every_mistake_0000.rad --select DK20,DK21,DK24 --statistics",
         "lint alike_0000.rad --select DK201",
         "lint alike_0000.rad --select DK201 --no-group --per-rule 2",
