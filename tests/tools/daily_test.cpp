@@ -83,6 +83,13 @@ TEST_F(ExplainListing, RefusesWhatIsNone) {
   EXPECT_EQ(deck("explain a_0000.out a_0000.out --deck x_0000.rad"), 2);
 }
 
+TEST_F(ExplainListing, EndsWithThreeWhereTheDeckLacksAnInclude) {
+  write(dir_ / "a_0000.rad", std::string(begin) + "#include nowhere.inc\n/END\n");
+  write(dir_ / "a_0000.out", listing);
+  EXPECT_EQ(deck("explain a_0000.out"), 3);
+  EXPECT_TRUE(complains("nowhere.inc")) << err();
+}
+
 class LintLines : public Daily {};
 
 TEST_F(LintLines, AreOnePerFindingOrOnePerRule) {
@@ -206,10 +213,10 @@ TEST_F(ConvertCheck, WritesNothingAndGroupsTheCauses) {
   const int code = deck("convert decks --version 110 --check");
   EXPECT_EQ(count_files(dir_ / "decks"), files);
   EXPECT_TRUE(has("decks  times  what")) << out() << err();
-  EXPECT_TRUE(has("of 3 decks would be written")) << out();
+  EXPECT_TRUE(has("of 3 decks can be converted")) << out();
   EXPECT_EQ(code, 1) << out() << err();
   EXPECT_EQ(deck("convert decks --version 2022 --check"), 0) << out() << err();
-  EXPECT_TRUE(has("3 of 3 decks would be written.")) << out();
+  EXPECT_TRUE(has("3 of 3 decks can be converted.")) << out();
 }
 
 TEST_F(ConvertCheck, SeesWhatWritingWouldRefuse) {
@@ -223,7 +230,7 @@ TEST_F(ConvertCheck, SeesWhatWritingWouldRefuse) {
   EXPECT_EQ(read(dir_ / "m_0000.rad"), sample("clean_plates"));
   write(dir_ / "lost_0000.rad", std::string(begin) + "#include nowhere.inc\n/END\n");
   EXPECT_EQ(deck("convert m_0000.rad lost_0000.rad --version 2018 --check"), 3) << out();
-  EXPECT_TRUE(has("1 of 2 decks would be written; 1 cannot be read.")) << out();
+  EXPECT_TRUE(has("1 of 2 decks can be converted; 1 cannot be read.")) << out();
 }
 
 }  // namespace

@@ -101,16 +101,14 @@ std::string ConversionCheck::text(bool color, std::size_t width) const {
   std::size_t of[4] = {};
   for (const auto& [deck, outcome] : decks_) ++of[static_cast<std::size_t>(outcome)];
   const std::size_t not_written = of[2] + of[3];
-  out += fmt::format("{} of {} would be written", of[0] + of[1],
+  out += fmt::format("{} of {} can be converted", of[0] + of[1],
                      count(decks_.size(), "deck", "decks"));
   if (of[1] > 0) out += fmt::format(", {} with something to decide by hand", of[1]);
   if (of[2] > 0) out += fmt::format("; {} refused", of[2]);
   if (of[3] > 0) out += fmt::format("; {} cannot be read", of[3]);
   out += ".\n";
   if (not_written > 0 && decks_.size() > 1) {
-    out +=
-        "Decks of one call are written together or not at all; without these the others would "
-        "be:\n";
+    out += "Decks of one call are written together or not at all: leave these out:\n";
     for (const auto& [deck, outcome] : decks_)
       if (outcome == Outcome::refused || outcome == Outcome::unreadable)
         out += "  " + terminal_text(deck) + "\n";

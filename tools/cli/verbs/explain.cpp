@@ -79,6 +79,10 @@ int explain_one_listing(const Options& o, const std::string& path, const SchemaS
   const bool errors =
       std::any_of(report.messages.begin(), report.messages.end(),
                   [](const MessageGroup& group) { return group.severity == Severity::error; });
+  if (loaded && loaded->incomplete()) {
+    print_findings(*loaded, o.common);
+    return exit_input;
+  }
   return errors || !report.agrees() ? exit_findings : exit_clean;
 }
 
