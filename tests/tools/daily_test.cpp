@@ -179,7 +179,7 @@ TEST_F(GitRevision, IsTheEarlierRunOfGaps) {
       << err();
   EXPECT_TRUE(has("against git:v1: 0 new, 0 worse")) << out();
   // A larger gap.
-  const auto gap = main.find("1.25");
+  const auto gap = main.rfind("1.25");
   ASSERT_NE(gap, std::string::npos);
   main.replace(gap, 4, "1.35");
   write(dir_ / "models/car_0000.rad", main);
