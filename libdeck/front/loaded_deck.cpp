@@ -37,6 +37,7 @@ struct LoadedDeck::Parts {
   const Scene& the_scene();
   const Scene& mesh_values(const Progress& progress);
   const std::vector<Tie>& the_ties();
+  const std::vector<TiedNodes>& tied_nodes();
   const FirstCycle& the_cycle();
   const Mesh& the_mesh();
   void find(Stage until);
@@ -62,6 +63,7 @@ struct LoadedDeck::Parts {
   SceneOptions scene_options;
   std::optional<Scene> mesh, scene, cycle_scene;  ///< the last only where `scene` will not do
   std::optional<std::vector<Tie>> ties;           ///< where `scene` was made without
+  std::optional<std::vector<TiedNodes>> tied;     ///< of all interfaces
   std::optional<FirstCycle> cycle;
   std::optional<Mesh> elements;
   std::optional<Kinematics> kinematics;
@@ -129,6 +131,40 @@ const std::vector<Tie>& LoadedDeck::Parts::the_ties() {
   return *ties;
 }
 
+/// What a tie holds, as the mesh needs it.
+TiedNodes tied_nodes_of(const Tie& tie) {
+  TiedNodes out;
+  out.block = tie.inter->block;
+  out.spotflag = tie.spotflag;
+  const bool by_moments = tie.spotflag == 1 || tie.spotflag == 28 || tie.spotflag == 30;
+  out.rim = tie.inter->Iproj.value == 1 && !by_moments;
+  out.evaluated = tie.not_evaluated.empty();
+  for (const TiedNode& n : tie.nodes)
+    if (n.tied) out.rows.push_back({n.node, tie.main[n.segment], n.s, n.t, n.penalty});
+  return out;
+}
+
+/// Of all interfaces, whatever the scene was made of. Without contacts, where none moves nodes.
+const std::vector<TiedNodes>& LoadedDeck::Parts::tied_nodes() {
+  if (tied) return *tied;
+  tied.emplace();
+  if (cards().type2.empty()) return *tied;
+  SceneOptions all = scene_options;
+  all.only.clear();
+  all.progress = nullptr;
+  Scene places;
+  const Scene* of = &places;
+  if (scene || moves_nodes(cards())) {
+    of = &the_scene();
+  } else {
+    places.model = &the_model();
+    places.interfaces = &cards();
+    places.coordinates = {the_model().nodes.x, the_model().nodes.y, the_model().nodes.z};
+  }
+  for (const Tie& tie : detail::ties_of(*of, all)) tied->push_back(tied_nodes_of(tie));
+  return *tied;
+}
+
 const FirstCycle& LoadedDeck::Parts::the_cycle() {
   if (cycle) return *cycle;
   const Scene* of = &the_scene();
@@ -155,6 +191,7 @@ const Mesh& LoadedDeck::Parts::the_mesh() {
   how.engine = &*engine;
   const Model& of = the_model();
   if (moves_nodes(cards())) how.coordinates = &the_scene().coordinates;
+  how.ties = &tied_nodes();
   return elements.emplace(make_mesh(of, how));
 }
 
@@ -227,7 +264,7 @@ const Mesh& LoadedDeck::mesh() const { return parts_->the_mesh(); }
 
 const Kinematics& LoadedDeck::kinematics() const {
   Parts& p = *parts_;
-  if (!p.kinematics) p.kinematics = read_kinematics(p.the_model());
+  if (!p.kinematics) p.kinematics = read_kinematics(p.the_model(), &p.tied_nodes());
   return *p.kinematics;
 }
 
@@ -242,6 +279,7 @@ const SceneOptions& LoadedDeck::scene_options() const { return parts_->scene_opt
 void LoadedDeck::drop_scene() {
   Parts& p = *parts_;
   p.elements.reset();
+  p.tied.reset();
   p.cycle.reset();
   p.cycle_scene.reset();
   p.ties.reset();

@@ -23,14 +23,14 @@ std::int64_t skew_system(std::int64_t id) { return id > 0 ? skew_base + id : 1; 
 
 class Reader {
  public:
-  explicit Reader(const Model& model) : model_(model), deck_(*model.deck) {}
+  Reader(const Model& model, const std::vector<TiedNodes>* ties)
+      : model_(model), deck_(*model.deck), ties_(ties) {}
 
   ConditionCards run() {
     for (const Block& b : deck_.blocks)
       if (b.schema != nullptr && !b.opaque) block(b);
     bodies();
     condensed_nodes();
-    leading_nodes();
     return std::move(out_);
   }
 
@@ -44,7 +44,7 @@ class Reader {
     else if (k == "/RLINK")
       link(b);
     else if (k == "/RBE2")
-      rigid_element(b);
+      rigid_link(b);
     else if (k == "/RBE3")
       weighted_element(b);
     else if (k == "/MPC")
@@ -167,21 +167,14 @@ class Reader {
     return read_integer(line.text.substr(first, 10)).value;
   }
 
-  /// Main node, flags like those of /BCS, skew and group in fields of ten columns.
-  void rigid_element(const Block& b) {
-    const Line line = data_line(b, 0);
-    if (!line.valid()) return;
+  void rigid_link(const Block& b) {
+    std::optional<RigidElement> element = rigid_element(model_, b);
+    if (!element) return;
     ConditionCard& c = add(b, ConditionType::rbe2, Turn::before_ties, 6, "rbe2");
-    constexpr std::size_t columns[] = {13, 14, 15, 17, 18, 19};
-    for (unsigned i = 0; i < 6; ++i)
-      if (line.text.size() > columns[i] && line.text[columns[i]] == '1')
-        c.directions = static_cast<std::uint8_t>(c.directions | 1u << i);
-    const std::int64_t skew = shifted(b, "skew", integer_at(line, 20));
-    c.system = skew > 0 ? skew_system(skew) : 0;
-    c.main = node(b, integer_at(line, 0));
-    group(b, integer_at(line, 30), c.nodes);
-    unique(c.nodes);
-    std::erase(c.nodes, c.main);
+    c.directions = element->directions;
+    c.system = element->skew > 0 ? skew_system(element->skew) : 0;
+    c.main = element->main;
+    c.nodes = std::move(element->nodes);
   }
 
   void weighted_element(const Block& b) {
@@ -274,20 +267,28 @@ class Reader {
 
   void tie(const Block& b) {
     const DecodedBlock d = decode(deck_, b);
-    const std::int64_t flag = d.integer("Spotflag");
+    const TiedNodes* found = nullptr;
+    if (ties_ != nullptr)
+      for (const TiedNodes& t : *ties_)
+        if (t.block == &b && t.evaluated) found = &t;
+    const std::int64_t flag = found != nullptr ? found->spotflag : d.integer("Spotflag");
     if (flag == 25 || flag == 26) return;
-    const bool penalty = flag == 27 || flag == 28;
+    const bool late = flag == 27 || flag == 28;
     ConditionCard& c =
-        add(b, ConditionType::tied, penalty ? Turn::penalty_ties : Turn::ties, 13, "inter");
+        add(b, ConditionType::tied, late ? Turn::late_ties : Turn::ties, 13, "inter");
     c.directions = all_six;
-    c.twice = !penalty;
+    c.twice = !late;
+    if (found != nullptr) {
+      for (const TiedNodes::Row& row : found->rows)
+        if (!row.penalty) c.nodes.push_back(row.node);
+      unique(c.nodes);
+      return;
+    }
     group(b, d.integer("grnd_IDs"), c.nodes);
     unique(c.nodes);
-    if (d.integer("Ignore") != 0)
-      out_.left_out.push_back({"ties of " + std::string(b.header),
-                               "secondary nodes that find no segment are booked, too",
-                               c.nodes.size()});
-    if (penalty || flag == 0 || flag == 1) main_nodes(b, d, c.leaders);
+    out_.left_out.push_back({"ties of " + std::string(b.header),
+                             "which of its nodes it holds is not known: all are booked",
+                             c.nodes.size()});
   }
 
   /// TYPE12 holds the translations of the nodes of its secondary surface.
@@ -304,10 +305,6 @@ class Reader {
       outline->segments.each(
           [&](const Segment& s) { to.insert(to.end(), s.nodes.begin(), s.nodes.end()); });
     unique(to);
-  }
-
-  void main_nodes(const Block& b, const DecodedBlock& d, std::vector<NodeIndex>& to) const {
-    surface_nodes(b, d.integer("surf_IDm"), to);
   }
 
   void cylinder(const Block& b) {
@@ -353,20 +350,9 @@ class Reader {
     }
   }
 
-  void leading_nodes() {
-    const bool wanted =
-        std::any_of(out_.cards.begin(), out_.cards.end(),
-                    [](const ConditionCard& c) { return c.turn == Turn::penalty_ties; });
-    if (!wanted) return;
-    out_.leading.assign(model_.nodes.size(), 0);
-    for (const ConditionCard& c : out_.cards) {
-      if (c.type == ConditionType::rbe2 && c.main != no_index) out_.leading[c.main] = 1;
-      for (const NodeIndex n : c.leaders) out_.leading[n] = 1;
-    }
-  }
-
   const Model& model_;
   const Deck& deck_;
+  const std::vector<TiedNodes>* ties_;
   ConditionCards out_;
 };
 
@@ -447,6 +433,8 @@ std::vector<Refusal> ConditionCards::refusals(const Model& model) {
   return out;
 }
 
-ConditionCards read_condition_cards(const Model& model) { return Reader(model).run(); }
+ConditionCards read_condition_cards(const Model& model, const std::vector<TiedNodes>* ties) {
+  return Reader(model, ties).run();
+}
 
 }  // namespace deck::detail

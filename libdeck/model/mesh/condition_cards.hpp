@@ -7,7 +7,7 @@
 namespace deck::detail {
 
 /// When the solver books a condition; within a turn by kind, then in the order of the deck.
-enum class Turn : std::uint8_t { before_ties, walls_and_bodies, ties, joints, penalty_ties };
+enum class Turn : std::uint8_t { before_ties, walls_and_bodies, ties, joints, late_ties };
 
 struct ConditionCard {
   ConditionType type = ConditionType::bcs;
@@ -24,7 +24,7 @@ struct ConditionCard {
   bool penalty = false;            ///< walls
   bool forced = false;             ///< RBE3 that may not become a penalty
   NodeIndex main = no_index;       ///< rigid bodies, RBE2
-  std::vector<NodeIndex> leaders;  ///< RBE3: independent nodes; ties: nodes of the main side
+  std::vector<NodeIndex> leaders;  ///< independent nodes of RBE3
 };
 
 struct Refusal {
@@ -40,15 +40,13 @@ struct ConditionCards {
   std::vector<std::size_t> penalty_elements;  ///< RBE3 that became a penalty
   bool ikrem = false;                         ///< of the last rigid body: holds for all
   std::vector<char> condensed;                ///< middle nodes that do not count; empty: none
-  std::vector<char> leading;                  ///< nodes that others follow; empty: none
 
   std::vector<std::size_t> order(Turn turn) const;
   bool taken_out(ConditionType type, NodeIndex n) const;
-  bool leads(NodeIndex n) const { return n < leading.size() && leading[n] != 0; }
   /// Rigid elements and bodies that hang on one another; fills penalty_elements.
   std::vector<Refusal> refusals(const Model& model);
 };
 
-ConditionCards read_condition_cards(const Model& model);
+ConditionCards read_condition_cards(const Model& model, const std::vector<TiedNodes>* ties);
 
 }  // namespace deck::detail

@@ -60,7 +60,7 @@ class Booking {
     for (const std::size_t i : cards_.order(Turn::walls_and_bodies)) book(i, true);
     for (const std::size_t i : cards_.order(Turn::ties)) book(i, true);
     for (const std::size_t i : cards_.order(Turn::joints)) book(i, true);
-    penalty_ties();
+    for (const std::size_t i : cards_.order(Turn::late_ties)) book(i, true);
     shared_bodies();
     walls();
     finish();
@@ -173,24 +173,6 @@ class Booking {
     for (const auto& [at, h] : halves) halves_[at] = h;
   }
 
-  /// Ties that fall back to a penalty where the node has a condition already.
-  void penalty_ties() {
-    const std::vector<std::size_t> ties = cards_.order(Turn::penalty_ties);
-    if (ties.empty()) return;
-    std::vector<char> other(model_.nodes.size(), 0);
-    const std::uint16_t wall = bit(ConditionType::rwall);
-    for (std::size_t n = 0; n < other.size(); ++n)
-      other[n] = (out_.types[n] & ~wall) != 0 || cards_.leads(static_cast<NodeIndex>(n)) ? 1 : 0;
-    std::vector<std::uint8_t> uses(model_.nodes.size(), 0);
-    for (const std::size_t i : ties)
-      for (const NodeIndex n : cards_.cards[i].nodes)
-        uses[n] = static_cast<std::uint8_t>(std::min(2, uses[n] + 1));
-    for (const std::size_t i : ties)
-      for (const NodeIndex n : cards_.cards[i].nodes)
-        if (other[n] == 0 && uses[n] < 2)
-          book_node(cards_.cards[i], static_cast<std::uint32_t>(i), n, true);
-  }
-
   void shared_bodies() {
     std::vector<std::uint32_t> body(model_.nodes.size(), no_index);
     for (std::size_t i = 0; i < cards_.cards.size(); ++i) {
@@ -260,8 +242,8 @@ class Booking {
 
 }  // namespace
 
-Kinematics read_kinematics(const Model& model) {
-  ConditionCards cards = read_condition_cards(model);
+Kinematics read_kinematics(const Model& model, const std::vector<TiedNodes>* ties) {
+  ConditionCards cards = read_condition_cards(model, ties);
   if (!cards.cards.empty()) return Booking(model, std::move(cards)).run();
   Kinematics none;
   none.left_out = std::move(cards.left_out);

@@ -78,7 +78,7 @@ class Assembly {
         options_(options),
         threads_(effective_threads(options.threads)),
         rows_(part_rows(model)),
-        nodes_(model, mesh_.nodes) {
+        nodes_(model, options, mesh_.nodes) {
     const Coordinates* x = options.coordinates;
     places_ = x != nullptr
                   ? Places{x->x.data(), x->y.data(), x->z.data()}
@@ -88,6 +88,9 @@ class Assembly {
     brick_option_ = engine_asks(options.engine, "/DT1/BRICK");
     tetra_option_ = engine_asks(options.engine, "/DT1TET10");
     thick_option_ = engine_asks(options.engine, "/DTTSH");
+    for (const Block& b : model.deck->blocks)
+      if (b.schema != nullptr && b.schema->keyword == "/ANALY")
+        axisymmetric_ = decode(*model.deck, b).integer("N2D3D") == 1;
   }
 
   Mesh run() {
@@ -181,7 +184,7 @@ class Assembly {
         solid(f, e, row, out);
         break;
       case ElementKind::quad:
-        quad_outcome(row, {x(0), x(1), x(2), x(3)}, out);
+        quad_outcome(row, {x(0), x(1), x(2), x(3)}, axisymmetric_, out);
         break;
       case ElementKind::tria:
         out.dt = out.mass = out.stiffness = not_known;
@@ -249,10 +252,13 @@ class Assembly {
     if (std::find(n, n + count, no_index) != n + count) return;
     const bool rotates = o.inertia != 0.0 || o.rotational != 0.0;
     const bool pulley = kind == ElementKind::spring && rows_[part].property.type == 12;
+    // Of the eight slots of a solid with six nodes the solver gives stiffness to the first six.
+    const int stiff = kind == ElementKind::solid8 && f.shape[e] == SolidShape::penta6 ? 6 : count;
     for (int i = 0; i < count; ++i) {
       const double m = o.share[static_cast<std::size_t>(i)] * o.mass;
       if (m != 0.0) sums.add(places_.at(n[i]), m);
-      nodes_.add(n[i], m, pulley && i == 1 ? o.middle_stiffness : o.stiffness);
+      const double k = pulley && i == 1 ? o.middle_stiffness : o.stiffness;
+      nodes_.add(n[i], m, i < stiff ? k : 0.0);
       if (!rotates) continue;
       const double inertia = o.share[static_cast<std::size_t>(i)] * o.inertia;
       sums.spin += inertia;
@@ -322,6 +328,7 @@ class Assembly {
   Places places_{};
   std::vector<Sums> sums_;
   std::map<std::pair<std::string, std::string>, std::uint64_t> reasons_;
+  bool axisymmetric_ = false;
   bool brick_option_ = false, tetra_option_ = false, thick_option_ = false;
 };
 

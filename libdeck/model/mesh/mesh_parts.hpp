@@ -79,7 +79,9 @@ void shell3_outcome(const PartRow& row, double thickness, const std::array<Vec, 
 /// `x`: the eight slots; `middle`: the six points of a tetrahedron's sides, nullptr: none.
 void solid_outcome(const PartRow& row, SolidShape shape, const std::array<Vec, 8>& x,
                    const std::array<Vec, 6>* middle, ElementOutcome& out);
-void quad_outcome(const PartRow& row, const std::array<Vec, 4>& x, ElementOutcome& out);
+/// `axisymmetric`: about z, per radian; else masses of plane elements are not known.
+void quad_outcome(const PartRow& row, const std::array<Vec, 4>& x, bool axisymmetric,
+                  ElementOutcome& out);
 void truss_outcome(const PartRow& row, double length, ElementOutcome& out);
 void beam_outcome(const PartRow& row, double length, ElementOutcome& out);
 /// `on_body`: an end is a secondary node of a rigid body.

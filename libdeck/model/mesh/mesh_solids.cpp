@@ -205,7 +205,7 @@ void penta(const PartRow& row, const Corners& slots, ElementOutcome& out) {
     out.length = not_known;
   }
   out.dt = bulk_step(row, out.length, std::cbrt(std::abs(volume)));
-  out.stiffness = 0.25 * out.mass / (out.dt * out.dt);  // of a slot: two nodes have two of them
+  out.stiffness = 0.25 * out.mass / (out.dt * out.dt);
 }
 
 struct Tetra {
@@ -375,7 +375,8 @@ void solid_outcome(const PartRow& row, SolidShape shape, const std::array<Vec, 8
   }
 }
 
-void quad_outcome(const PartRow& row, const std::array<Vec, 4>& x, ElementOutcome& out) {
+void quad_outcome(const PartRow& row, const std::array<Vec, 4>& x, bool axisymmetric,
+                  ElementOutcome& out) {
   std::array<Vec, 4> p = x;
   for (Vec& v : p) v.x = 0.0;
   const double area = 0.5 * norm(cross(p[2] - p[0], p[3] - p[1]));
@@ -383,8 +384,20 @@ void quad_outcome(const PartRow& row, const std::array<Vec, 4>& x, ElementOutcom
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j) longest = std::max(longest, norm(p[j] - p[i]));
   out.length = area / longest;
-  out.mass = out.stiffness = out.inertia = not_known;
-  if (!row.rigid) out.dt = bulk_step(row, out.length, std::sqrt(area));
+  out.mass = out.stiffness = not_known;
+  if (axisymmetric) {
+    double moment = 0.0;  // of the area about the axis, by two triangles
+    for (std::size_t i = 1; i < 3; ++i)
+      moment += cross(p[i] - p[0], p[i + 1] - p[0]).x * (p[0].y + p[i].y + p[i + 1].y) / 6.0;
+    out.mass = row.material.density * std::abs(moment);
+    out.share = {0.25, 0.25, 0.25, 0.25};
+  }
+  if (row.rigid) {
+    out.stiffness = 0.0;
+    return;
+  }
+  out.dt = bulk_step(row, out.length, std::sqrt(area));
+  out.stiffness = 0.5 * out.mass / (out.dt * out.dt);
 }
 
 }  // namespace deck::detail

@@ -8,13 +8,12 @@
 #include <numbers>
 
 #include "deck/keyword/decode.hpp"
+#include "deck/keyword/engine_file.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
 
 namespace deck::detail {
 namespace {
-
-constexpr double no_stiffness = 1e-20;
 
 double value(const Deck& deck, const DecodedBlock& d, std::string_view name) {
   const Cell* c = d.find(name);
@@ -50,8 +49,12 @@ void add_point(std::array<double, 6>& t, double m, const Vec& d) {
 
 }  // namespace
 
-NodeSums::NodeSums(const Model& model, NodeFigures& to)
-    : model_(model), to_(to), bodies_(rigid_bodies(model)), on_body_(model.nodes.size(), 0) {
+NodeSums::NodeSums(const Model& model, const MeshOptions& options, NodeFigures& to)
+    : model_(model),
+      options_(options),
+      to_(to),
+      bodies_(rigid_bodies(model)),
+      on_body_(model.nodes.size(), 0) {
   const std::size_t n = model.nodes.size();
   to_.mass.assign(n, 0.0);
   to_.inertia.assign(n, 0.0);
@@ -78,8 +81,8 @@ void NodeSums::finish(const Places& places) {
     if (!bodies_[i].lagrange && bodies_[i].main != no_index) body(bodies_[i], places);
   };
   for (std::size_t i = 0; i < bodies_.size(); ++i) visit(visit, i);
-  rigid_elements();
-  ties();
+  rigid_elements(places);
+  ties(options_.ties, places);
   damping();
   steps();
 }
@@ -126,17 +129,18 @@ void NodeSums::added_masses() {
   }
 }
 
-/// A moving wall's mass is that of its node.
+/// What a moving wall's mass does to its node is not established.
 void NodeSums::walls() {
   const Deck& deck = *model_.deck;
+  std::uint64_t count = 0;
   for (const Block& block : deck.blocks) {
     if (!block.header.starts_with("/RWALL/") || block.schema == nullptr || block.opaque) continue;
     const DecodedBlock d = decode(deck, block);
     const std::int64_t node = d.integer("node_ID");
-    if (node <= 0) continue;
-    const NodeIndex n = model_.find_node(shifted(deck, block, "node", node));
-    if (n != no_index) to_.mass[n] += value(deck, d, "Mass");
+    if (node <= 0 || value(deck, d, "Mass") == 0.0) continue;
+    forget(model_.find_node(shifted(deck, block, "node", node)), count);
   }
+  if (count > 0) left_out.push_back({"masses of nodes", "a moving wall has a mass", count});
 }
 
 /// Stiffness of the secondary nodes goes to the main node, which has the mass of the body.
@@ -167,8 +171,7 @@ void NodeSums::body(const RigidBody& b, const Places& places) {
   }
   if (b.centre == 1) add_point(inertia, added, main - centre);
   for (std::size_t i = 0; i < 3; ++i) inertia[i] += spin;
-  // A body without mass is listed with this one.
-  to_.mass[b.main] = std::max(mass + added, 1e-20);
+  to_.mass[b.main] = mass + added;
   const bool sphere = inertia[0] == inertia[1] && inertia[1] == inertia[2] && inertia[3] == 0.0 &&
                       inertia[4] == 0.0 && inertia[5] == 0.0;
   // What Ispher makes of other tensors is not established.
@@ -183,93 +186,121 @@ void NodeSums::forget(NodeIndex n, std::uint64_t& count) {
   to_.mass[n] = to_.inertia[n] = to_.stiffness[n] = to_.rotational_stiffness[n] = not_known;
 }
 
-void NodeSums::rigid_elements() {
-  const Deck& deck = *model_.deck;
+/// The main node gets what the secondary nodes have, as on rigid arms.
+void NodeSums::rigid_element(const RigidElement& e, const Places& places, std::uint64_t& left) {
+  constexpr unsigned translations = 0b000111, rotations = 0b111000;
+  if (e.main == no_index) return;
+  const unsigned moves = e.directions & translations, turns = e.directions & rotations;
+  const bool whole = (moves == 0 || moves == translations) && (turns == 0 || turns == rotations);
+  if (!whole || (moves == 0 && turns != 0)) {
+    // Only some directions: what the solver makes of them is not established.
+    forget(e.main, left);
+    for (const NodeIndex n : e.nodes) forget(n, left);
+    return;
+  }
+  if (moves == 0) return;
+  const Vec main = places.at(e.main);
+  for (const NodeIndex n : e.nodes) {
+    const Vec arm = places.at(n) - main;
+    const double d = dot(arm, arm), m = to_.mass[n], k = to_.stiffness[n];
+    to_.mass[e.main] += m;
+    to_.stiffness[e.main] += k;
+    to_.inertia[e.main] += 2.0 * m * d + (turns != 0 ? to_.inertia[n] : 0.0);
+    to_.rotational_stiffness[e.main] += k * d + (turns != 0 ? to_.rotational_stiffness[n] : 0.0);
+    to_.stiffness[n] = no_stiffness;
+    if (turns != 0) to_.rotational_stiffness[n] = no_stiffness;
+  }
+}
+
+void NodeSums::rigid_elements(const Places& places) {
   std::uint64_t count = 0;
-  for (const Block& block : deck.blocks) {
-    if (block.schema == nullptr || block.schema->keyword != "/RBE2") continue;
-    LineCursor lines(deck.sources, block);
-    if (block.schema->has_title) lines.next();
-    const Line line = lines.next();
-    if (!line.valid()) continue;
-    const auto cell = [&](std::size_t first) {
-      return line.text.size() > first ? read_integer(line.text.substr(first, 10)).value : 0;
-    };
-    forget(model_.find_node(shifted(deck, block, "node", cell(0))), count);
-    if (model_.selections == nullptr) continue;
-    if (const NodeSet* set = model_.selections->node_group(shifted(deck, block, "grnod", cell(30))))
-      for (const NodeIndex n : set->nodes) forget(n, count);
+  for (const Block& block : model_.deck->blocks) {
+    if (block.schema == nullptr || block.opaque || block.schema->keyword != "/RBE2") continue;
+    if (const auto element = detail::rigid_element(model_, block))
+      rigid_element(*element, places, count);
   }
   if (count > 0)
     left_out.push_back({"steps of nodes", "a rigid element /RBE2 changes them", count});
 }
 
-/// Ties move masses and stiffness to main segments; where each node is tied is not known here.
-void NodeSums::ties() {
-  if (model_.selections == nullptr) return;
-  const Deck& deck = *model_.deck;
-  std::uint64_t count = 0;
-  for (const Block& block : deck.blocks) {
-    if (block.schema == nullptr || block.schema->keyword != "/INTER/TYPE2" || block.opaque)
-      continue;
-    const DecodedBlock d = decode(deck, block);
-    const std::int64_t flag = d.integer("Spotflag");
-    if ((flag >= 2 && flag <= 4) || (flag >= 20 && flag <= 22) || flag == 26 || flag == 30)
-      continue;
-    if (const NodeSet* set =
-            model_.selections->node_group(shifted(deck, block, "grnod", d.integer("grnd_IDs"))))
-      for (const NodeIndex n : set->nodes) forget(n, count);
-    if (const auto outline =
-            model_.selections->outline(shifted(deck, block, "surf", d.integer("surf_IDm"))))
-      outline->segments.each([&](const Segment& s) {
-        for (const NodeIndex n : s.nodes) forget(n, count);
-      });
-  }
-  if (count > 0)
-    left_out.push_back({"steps of nodes", "a tied interface /INTER/TYPE2 changes them", count});
+/// The smallest nodal step that an Engine file asks the solver to keep; 0: none.
+double NodeSums::least_step() const {
+  if (options_.engine == nullptr) return 0.0;
+  double most = 0.0;
+  for (const EngineFile& file : options_.engine->files)
+    for (const EngineBlock& b : file.blocks) {
+      if (b.part(0) != "DT" || b.part(1) != "NODA" || b.lines.empty()) continue;
+      const auto cells = engine_cells(model_.deck->sources, b.lines.front());
+      if (cells.size() < 2) continue;
+      const RealCell v = read_real(model_.deck->sources.text(cells[1]));
+      if (v.status == NumberStatus::ok) most = std::max(most, v.value);
+    }
+  return most;
 }
 
-/// /DAMP enlarges the stiffness by a factor that is not established.
+/// /DAMP: stiffness grows as the damping shortens the step.
 void NodeSums::damping() {
   if (model_.selections == nullptr) return;
   const Deck& deck = *model_.deck;
-  std::uint64_t count = 0;
   for (const Block& block : deck.blocks) {
     if (block.schema == nullptr || block.schema->keyword != "/DAMP" || block.opaque) continue;
     const DecodedBlock d = decode(deck, block);
     const NodeSet* set =
         model_.selections->node_group(shifted(deck, block, "grnod", d.integer("grnod_id")));
-    const bool acts = std::any_of(d.cards.begin(), d.cards.end(), [](const DecodedCard& card) {
-      return std::any_of(card.cells.begin(), card.cells.end(), [](const Cell& c) {
-        return (c.field->name.starts_with("Alpha") || c.field->name.starts_with("Beta")) &&
-               c.real != 0.0;
-      });
-    });
-    if (set == nullptr || !acts) continue;
-    for (const NodeIndex n : set->nodes) {
-      if (n == no_index || on_body_[n] != 0) continue;
-      ++count;
+    double alpha = 0, beta = 0;
+    for (const DecodedCard& card : d.cards)
+      for (const Cell& c : card.cells) {
+        const double v = working_value(deck, d, c);
+        if (c.field->name.starts_with("Alpha")) alpha = std::max(alpha, v);
+        if (c.field->name.starts_with("Beta")) beta = std::max(beta, v);
+      }
+    if (set == nullptr || (alpha <= 0.0 && beta <= 0.0)) continue;
+    damp(*set, alpha, beta);
+  }
+}
+
+void NodeSums::damp(const NodeSet& group, double alpha, double beta) {
+  double shortest = no_step;
+  bool known = true;
+  for (const NodeIndex n : group.nodes) {
+    if (n == no_index) continue;
+    const double dt = step(n);
+    known = known && !std::isnan(dt);
+    if (dt < shortest) shortest = dt;
+  }
+  beta = std::min(beta, shortest);
+  const double least = least_step();
+  std::uint64_t left = 0;
+  for (const NodeIndex n : group.nodes) {
+    if (n == no_index || on_body_[n] != 0) continue;
+    const double dt = std::max(step(n), least), x = beta / dt + 0.5 * alpha * dt;
+    if (!known) {
+      ++left;
       to_.stiffness[n] = to_.rotational_stiffness[n] = not_known;
+    } else if (dt < no_step) {
+      const double f = damping_factor(x) * damping_factor(x);
+      to_.stiffness[n] /= f;
+      to_.rotational_stiffness[n] /= f;
     }
   }
-  if (count > 0) left_out.push_back({"steps of nodes", "damping /DAMP changes them", count});
+  if (left > 0)
+    left_out.push_back(
+        {"stiffness of nodes", "damping /DAMP follows from steps that are not computed", left});
+}
+
+double NodeSums::step(std::size_t i) const {
+  const double m = to_.mass[i], k = to_.stiffness[i], j = to_.inertia[i],
+               r = to_.rotational_stiffness[i];
+  if (std::isnan(m) || std::isnan(k) || std::isnan(j) || std::isnan(r)) return not_known;
+  double least = 1e60;
+  if (m != 0.0 && k > no_stiffness) least = std::min(least, m / k);
+  if (j != 0.0) least = std::min(least, j / r);
+  return least < 1e60 ? std::sqrt(2.0 * least) : no_step;
 }
 
 void NodeSums::steps() {
-  const std::size_t n = to_.mass.size();
-  to_.dt.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double m = to_.mass[i], k = to_.stiffness[i], j = to_.inertia[i],
-                 r = to_.rotational_stiffness[i];
-    if (std::isnan(m) || std::isnan(k) || std::isnan(j) || std::isnan(r)) {
-      to_.dt[i] = not_known;
-      continue;
-    }
-    double least = 1e60;
-    if (m != 0.0 && k > no_stiffness) least = std::min(least, m / k);
-    if (j != 0.0) least = std::min(least, j / r);
-    to_.dt[i] = least < 1e60 ? std::sqrt(2.0 * least) : no_step;
-  }
+  to_.dt.resize(to_.mass.size());
+  for (std::size_t i = 0; i < to_.dt.size(); ++i) to_.dt[i] = step(i);
 }
 
 }  // namespace deck::detail

@@ -9,9 +9,12 @@
 
 namespace deck::detail {
 
+/// Where every node starts, and what is no stiffness.
+inline constexpr double no_stiffness = 1e-20;
+
 class NodeSums {
  public:
-  NodeSums(const Model& model, NodeFigures& to);
+  NodeSums(const Model& model, const MeshOptions& options, NodeFigures& to);
   /// True for secondary nodes of rigid bodies.
   bool on_body(NodeIndex n) const { return on_body_[n]; }
   void add(NodeIndex n, double mass, double stiffness) {
@@ -31,13 +34,28 @@ class NodeSums {
   void added_masses();
   void walls();
   void body(const RigidBody& body, const Places& places);
-  void rigid_elements();
-  void ties();
+  void rigid_elements(const Places& places);
+  void rigid_element(const RigidElement& element, const Places& places, std::uint64_t& left);
   void damping();
+  void damp(const NodeSet& group, double alpha, double beta);
+  double least_step() const;
+  double step(std::size_t n) const;
   void steps();
   void forget(NodeIndex n, std::uint64_t& count);
 
+  // node_ties.cpp
+  struct TieCounts {
+    std::uint64_t penalty = 0, other = 0;  ///< nodes that are not computed
+  };
+  void ties(const std::vector<TiedNodes>* ties, const Places& places);
+  void tie(const TiedNodes& tie, const Places& places, TieCounts& counts);
+  void carry(const TiedNodes& tie, const TiedNodes::Row& row);
+  void carry_moments(const TiedNodes& tie, const TiedNodes::Row& row, const Places& places);
+  void forget_tie(const Block& block, std::uint64_t& count);
+  void clear(NodeIndex n);
+
   const Model& model_;
+  const MeshOptions& options_;
   NodeFigures& to_;
   std::vector<RigidBody> bodies_;
   std::vector<char> on_body_;

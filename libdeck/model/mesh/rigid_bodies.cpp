@@ -1,4 +1,4 @@
-// Reads /RBODY: main node, secondary nodes, added mass and inertia.
+// Reads /RBODY and /RBE2: main node, secondary nodes, added mass and inertia.
 #include "model/mesh/rigid_bodies.hpp"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ double body_value(const Deck& deck, const DecodedBlock& d, std::string_view name
   return c == nullptr ? 0.0 : working_value(deck, d, *c);
 }
 
-void take_nodes(const Model& model, std::int64_t group, RigidBody& body) {
+template <class Body>
+void take_nodes(const Model& model, std::int64_t group, Body& body) {
   if (group == 0 || model.selections == nullptr) return;
   const NodeSet* set =
       model.selections->node_group(group + model.deck->offset_of(*body.block, "grnod"));
@@ -65,6 +66,29 @@ std::vector<RigidBody> rigid_bodies(const Model& model) {
     take_nodes(model, d.integer("grnd_ID"), body);
     out.push_back(std::move(body));
   }
+  return out;
+}
+
+/// Main node, flags like those of /BCS, skew and group in fields of ten columns.
+std::optional<RigidElement> rigid_element(const Model& model, const Block& block) {
+  const Deck& deck = *model.deck;
+  LineCursor lines(deck.sources, block);
+  if (block.schema->has_title) lines.next();
+  const Line line = lines.next();
+  if (!line.valid()) return std::nullopt;
+  const auto cell = [&](std::size_t first) -> std::int64_t {
+    return line.text.size() > first ? read_integer(line.text.substr(first, 10)).value : 0;
+  };
+  RigidElement out;
+  out.block = &block;
+  constexpr std::size_t columns[] = {13, 14, 15, 17, 18, 19};
+  for (unsigned i = 0; i < 6; ++i)
+    if (line.text.size() > columns[i] && line.text[columns[i]] == '1')
+      out.directions = static_cast<std::uint8_t>(out.directions | 1u << i);
+  if (const std::int64_t skew = cell(20); skew > 0) out.skew = skew + deck.offset_of(block, "skew");
+  if (const std::int64_t main = cell(0); main > 0)
+    out.main = model.find_node(main + deck.offset_of(block, "node"));
+  take_nodes(model, cell(30), out);
   return out;
 }
 

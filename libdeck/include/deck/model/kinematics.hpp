@@ -9,6 +9,7 @@
 
 #include "deck/model/mesh.hpp"
 #include "deck/model/model.hpp"
+#include "deck/model/tied_nodes.hpp"
 
 namespace deck {
 
@@ -85,6 +86,7 @@ struct Kinematics {
   std::vector<std::uint32_t> first, entries;  ///< rows by node
 };
 
-Kinematics read_kinematics(const Model& model);
+/// `ties`: what /INTER/TYPE2 hold; nullptr: not known, all their secondary nodes are booked.
+Kinematics read_kinematics(const Model& model, const std::vector<TiedNodes>* ties = nullptr);
 
 }  // namespace deck

@@ -9,6 +9,7 @@
 
 #include "deck/keyword/engine_file.hpp"
 #include "deck/model/model.hpp"
+#include "deck/model/tied_nodes.hpp"
 
 namespace deck {
 
@@ -21,11 +22,11 @@ struct ElementFigures {
   std::vector<double> mass;  ///< NaN: not computed
 };
 
-/// One entry per node. The share of the structure: of contacts, only ties have one.
+/// One entry per node, as the solver lists them: of contacts, only ties have a share.
 struct NodeFigures {
   std::vector<double> dt;  ///< no_step: no mass or no stiffness; NaN: not computed
   std::vector<double> mass, inertia, stiffness, rotational_stiffness;
-  std::vector<double> lumped_mass;  ///< of elements and added masses, before rigid bodies
+  std::vector<double> lumped_mass;  ///< of elements and added masses, before bodies and ties
 };
 
 /// An element by its family.
@@ -66,6 +67,8 @@ struct MeshOptions {
   int threads = 1;                           ///< changes no result
   const Coordinates* coordinates = nullptr;  ///< of moved nodes; nullptr: those of the model
   const EngineFiles* engine = nullptr;  ///< beside the deck: some of its options change lengths
+  /// What ties hold. nullptr: not known, nodes that /INTER/TYPE2 may change have no step.
+  const std::vector<TiedNodes>* ties = nullptr;
 };
 
 Mesh make_mesh(const Model& model, const MeshOptions& options = {});
