@@ -318,8 +318,11 @@ class Viewer {
     const Kinematics k = read_kinematics(model_);
     for (const std::uint32_t s : k.of(n)) {
       const ConditionSource& c = k.sources[s];
+      // Whether a tie holds the node is for the search of ties to say.
+      const bool tie = c.block->schema->keyword == "/INTER/TYPE2";
       fact("kinematic condition", std::string(to_string(c.type)) + " " + c.block->schema->keyword +
-                                      " " + std::to_string(c.id));
+                                      " " + std::to_string(c.id) +
+                                      (tie ? " (if it finds a segment)" : ""));
     }
     for (const KinematicConflict& b : k.bookings) {
       if (b.node != n) continue;

@@ -33,6 +33,7 @@ std::span<const Checked> default_checks();      // /DEFAULT/INTER
 std::span<const Checked> advice_checks();       // known traps
 std::span<const Checked> engine_checks();       // Engine files beside the deck
 std::span<const Checked> kinematic_checks();    // conditions that hold the same node
+std::span<const Checked> sense_checks();        // units, volumes, masses of the model
 std::span<const Checked> listing_checks();      // what the solver says in its listing only
 
 /// All of them, ordered by id.

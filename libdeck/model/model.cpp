@@ -8,7 +8,7 @@
 #include "base/parallel.hpp"
 #include "deck/model/selection.hpp"
 #include "model/bulk/bulk.hpp"
-#include "model/item_spans.hpp"
+#include "model/bulk/item_spans.hpp"
 #include "model/model_build.hpp"
 #include "text/columns.hpp"
 

@@ -10,7 +10,7 @@
 #include "base/length3.hpp"
 #include "base/parallel.hpp"
 #include "deck/text/number.hpp"
-#include "model/item_spans.hpp"
+#include "model/bulk/item_spans.hpp"
 #include "model/model_build.hpp"
 
 namespace deck {

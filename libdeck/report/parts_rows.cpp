@@ -2,7 +2,7 @@
 #include "report/parts_rows.hpp"
 
 #include <algorithm>
-#include <map>
+#include <bit>
 
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
@@ -66,6 +66,43 @@ ElementKind kind_of(Carrier c) {
   }
 }
 
+/// A set of parts.
+class PartBits {
+ public:
+  explicit PartBits(std::size_t parts) : words_((parts + 63) / 64, 0) {}
+  void set(std::size_t p) { words_[p / 64] |= std::uint64_t{1} << (p % 64); }
+  bool has(std::size_t p) const { return (words_[p / 64] >> (p % 64) & 1) != 0; }
+  std::uint64_t count() const {
+    std::uint64_t n = 0;
+    for (const std::uint64_t w : words_) n += static_cast<std::uint64_t>(std::popcount(w));
+    return n;
+  }
+  bool none() const { return count() == 0; }
+  /// Of a set that is not empty.
+  std::size_t first() const {
+    std::size_t w = 0;
+    while (words_[w] == 0) ++w;
+    return 64 * w + static_cast<std::size_t>(std::countr_zero(words_[w]));
+  }
+  friend PartBits operator&(PartBits a, const PartBits& b) {
+    for (std::size_t i = 0; i < a.words_.size(); ++i) a.words_[i] &= b.words_[i];
+    return a;
+  }
+  friend bool operator==(const PartBits&, const PartBits&) = default;
+
+ private:
+  std::vector<std::uint64_t> words_;
+};
+
+/// The parts of an interface.
+struct PartSides {
+  PartSides(std::int64_t interface, bool ties, std::size_t parts)
+      : id(interface), tie(ties), secondary(parts), main(parts) {}
+  std::int64_t id;
+  bool tie;
+  PartBits secondary, main;
+};
+
 class Interfaces2Parts {
  public:
   Interfaces2Parts(const LoadedDeck& loaded, PartsView& view)
@@ -75,6 +112,15 @@ class Interfaces2Parts {
     for (const Block& b : deck_.blocks)
       if (b.schema != nullptr && !b.opaque && b.header.starts_with("/INTER/")) interface(b);
     groups();
+    for (PartSides& s : sides_) {
+      for (std::size_t p = 0; p < view_.parts.size(); ++p)
+        if (s.secondary.has(p) || s.main.has(p)) view_.parts[p].interfaces.push_back(s.id);
+      // One side alone is in contact with itself.
+      if (s.main.none()) s.main = s.secondary;
+      if (s.secondary.none()) s.secondary = s.main;
+    }
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+      for (std::size_t k = i + 1; k < sides_.size(); ++k) compare(sides_[i], sides_[k]);
     for (PartView& p : view_.parts) {
       std::sort(p.interfaces.begin(), p.interfaces.end());
       p.interfaces.erase(std::unique(p.interfaces.begin(), p.interfaces.end()), p.interfaces.end());
@@ -83,9 +129,15 @@ class Interfaces2Parts {
 
  private:
   struct Group {
-    std::int64_t interface = 0;
+    std::size_t sides = 0;
     const NodeSet* nodes = nullptr;
   };
+
+  static bool is_tie(const Block& block) {
+    static constexpr std::string_view ties[] = {"/INTER/TYPE1", "/INTER/TYPE2", "/INTER/TYPE9",
+                                                "/INTER/TYPE12"};
+    return std::find(std::begin(ties), std::end(ties), block.schema->keyword) != std::end(ties);
+  }
 
   void interface(const Block& block) {
     const DecodedBlock d = decode(deck_, block);
@@ -94,24 +146,29 @@ class Interfaces2Parts {
       const std::int64_t v = d.integer(name);
       return v > 0 ? v + deck_.offset_of(block, kind) : 0;
     };
-    std::vector<char> seen(model_.parts.size(), 0);
-    const auto see = [&](Carrier carrier, std::uint32_t element) {
+    PartSides& sides = sides_.emplace_back(id, is_tie(block), model_.parts.size());
+    const auto see = [&](PartBits& side, Carrier carrier, std::uint32_t element) {
       if (carrier == Carrier::none || element == no_index) return;
       const std::uint32_t part = model_.family(kind_of(carrier)).part[element];
-      if (part != no_index) seen[part] = 1;
+      if (part != no_index) side.set(part);
     };
-    for (const char* name : {"surf_IDs", "surf_IDm", "surf_ID1", "surf_ID2"})
+    const auto surface = [&](PartBits& side, const char* name) {
       if (const std::int64_t s = field(name, "surf"); s != 0)
         if (const auto outline = model_.selections->outline(s))
-          outline->segments.each([&](const Segment& g) { see(g.carrier, g.element); });
-    for (const char* name : {"line_IDs", "line_IDm"})
+          outline->segments.each([&](const Segment& g) { see(side, g.carrier, g.element); });
+    };
+    const auto lines = [&](PartBits& side, const char* name) {
       if (const std::int64_t s = field(name, "line"); s != 0)
         if (const LineSet* line = model_.selections->line(s))
-          for (const Edge& e : line->edges) see(e.carrier, e.element);
-    for (std::size_t p = 0; p < seen.size(); ++p)
-      if (seen[p] != 0) view_.parts[p].interfaces.push_back(id);
+          for (const Edge& e : line->edges) see(side, e.carrier, e.element);
+    };
+    for (const char* name : {"surf_IDs", "surf_ID1"}) surface(sides.secondary, name);
+    for (const char* name : {"surf_IDm", "surf_ID2"}) surface(sides.main, name);
+    lines(sides.secondary, "line_IDs");
+    lines(sides.main, "line_IDm");
     if (const std::int64_t g = field("grnd_IDs", "grnod"); g != 0)
-      if (const NodeSet* set = model_.selections->node_group(g)) groups_.push_back({id, set});
+      if (const NodeSet* set = model_.selections->node_group(g))
+        groups_.push_back({sides_.size() - 1, set});
   }
 
   /// Parts that have a whole element in a group of secondary nodes.
@@ -126,14 +183,34 @@ class Interfaces2Parts {
       PartFinder(model_).find(of_node, any, all);
       for (std::size_t p = 0; p < any.size(); ++p)
         for (std::size_t g = begin; g < end; ++g)
-          if ((any[p] >> (g - begin) & 1) != 0)
-            view_.parts[p].interfaces.push_back(groups_[g].interface);
+          if ((any[p] >> (g - begin) & 1) != 0) sides_[groups_[g].sides].secondary.set(p);
     }
+  }
+
+  /// Pairs of parts that two contacts have, whichever of them is the main side.
+  void compare(const PartSides& a, const PartSides& b) {
+    if (a.tie || b.tie) return;
+    RepeatedContacts out{a.id, b.id};
+    const auto add = [&](const PartBits& one, const PartBits& other) {
+      const std::uint64_t found = one.count() * other.count();
+      if (found == 0) return;
+      if (out.pairs == 0) {
+        out.part = model_.parts[one.first()].id;
+        out.other = model_.parts[other.first()].id;
+      }
+      out.pairs += found;
+    };
+    const PartBits secondary = a.secondary & b.secondary, main = a.main & b.main;
+    add(secondary, main);
+    const PartBits crossed = a.secondary & b.main, back = a.main & b.secondary;
+    if (!(crossed == secondary && back == main)) add(crossed, back);
+    if (out.pairs > 0) view_.repeated.push_back(out);
   }
 
   const Deck& deck_;
   const Model& model_;
   PartsView& view_;
+  std::vector<PartSides> sides_;
   std::vector<Group> groups_;
 };
 

@@ -1,6 +1,7 @@
 // What every output of deck parts shows: element counts, interfaces and rigid body of each part.
 #pragma once
 #include <array>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -23,11 +24,19 @@ struct PartView {
   }
 };
 
+/// Two contacts that both let the same parts touch.
+struct RepeatedContacts {
+  std::int64_t first = 0, second = 0;  ///< interface ids
+  std::uint64_t pairs = 0;             ///< of parts
+  std::int64_t part = 0, other = 0;    ///< ids of the first pair
+};
+
 struct PartsView {
   std::vector<PartView> parts;
   std::uint64_t unconnected_nodes = 0;     ///< that no element has
   std::vector<std::int64_t> empty_parts;   ///< ids of parts without elements
   std::vector<std::int64_t> unseen_parts;  ///< with elements that no contact or tie sees
+  std::vector<RepeatedContacts> repeated;
 };
 
 PartsView view_parts(const LoadedDeck& loaded);

@@ -8,7 +8,7 @@
 #include "deck/contact/tie_text.hpp"
 #include "deck/model/connectivity.hpp"
 #include "deck/report/gaps.hpp"
-#include "model/item_spans.hpp"
+#include "model/bulk/item_spans.hpp"
 
 namespace deck {
 namespace {

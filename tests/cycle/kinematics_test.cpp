@@ -78,6 +78,19 @@ TEST(Conflicts, OfTiesWithWhatComesBeforeCountTwice) {
   EXPECT_EQ(conflicts(d), 6u);  // node 2: three translations, twice
 }
 
+TEST(Conflicts, OfTiesAreThoseOfNodesThatFindASegment) {
+  for (const double height : {1.0, 5.0}) {
+    SmallDeck d = square();
+    d.node(11, 2, 2, height).group("/GRNOD/NODE/5", {11}).group("/SURF/PART/5", {1});
+    d.add("@/BCS/1 Tx=1 grnod_ID=5");
+    d.add("@/INTER/TYPE2/1 grnd_IDs=5 surf_IDm=5 Ignore=1 dsearch=2");
+    const Built b(d);
+    EXPECT_EQ(b.loaded.kinematics().conflicts, height < 2.0 ? 6u : 0u);
+    EXPECT_EQ(b.loaded.kinematics().of(b.model.nodes.map.find(11)).size(), height < 2.0 ? 2u : 1u);
+    EXPECT_TRUE(b.loaded.kinematics().left_out.empty());
+  }
+}
+
 TEST(Walls, LoseNodesOfBodiesAndDoNotCountThem) {
   SmallDeck d = square();
   d.add("@/RBODY/1 node_ID=99 grnd_ID=1\n@/RWALL/PLANE/1 grnd_ID1=2 ZM=-5 ZM1=0");

@@ -122,6 +122,109 @@ TEST(RigidBody, TakesTheStiffnessOfItsNodesToTheMainNode) {
   EXPECT_LT(m.nodes.stiffness[corner], 1e-19);
 }
 
+/// Shell 1 of square() as the main segment, and a strip on top with node 11 above its middle.
+SmallDeck tied_square(int spotflag, double height = 1.0) {
+  SmallDeck d = square();
+  d.node(11, 5, 5, height).node(12, 25, 5, height).node(13, 25, 15, height).node(14, 5, 15, height);
+  d.shell_part(2, 1.0).shell(2, 2, 11, 12, 13, 14);
+  d.group("/GRNOD/NODE/5", {11}).group("/SURF/PART/5", {1});
+  return d.add("@/INTER/TYPE2/1 grnd_IDs=5 surf_IDm=5 Ignore=1 dsearch=2 Spotflag=" +
+               std::to_string(spotflag));
+}
+
+TEST(Ties, CarryMassAndStiffnessByTheWeightsOfTheCorners) {
+  const Built b(tied_square(5)), apart(tied_square(5, 5.0));
+  const NodeFigures &m = b.loaded.mesh().nodes, &o = apart.loaded.mesh().nodes;
+  const NodeIndex node = b.model.nodes.map.find(11), corner = b.model.nodes.map.find(1);
+  EXPECT_EQ(m.mass[node], 0.0);
+  EXPECT_GT(o.mass[node], 0.0);  // too far: it keeps what it has
+  EXPECT_NEAR(m.mass[corner] - o.mass[corner], 0.25 * o.mass[node], 1e-18);
+  EXPECT_NEAR(m.stiffness[corner] - o.stiffness[corner], 0.25 * o.stiffness[node], 1e-9);
+  EXPECT_EQ(m.lumped_mass, o.lumped_mass);
+  EXPECT_TRUE(b.loaded.mesh().left_out.empty());
+}
+
+TEST(Ties, WithSpotflagOneCarryTheMomentToo) {
+  const Built b(tied_square(1)), apart(tied_square(1, 5.0));
+  const NodeFigures &m = b.loaded.mesh().nodes, &o = apart.loaded.mesh().nodes;
+  const NodeIndex node = b.model.nodes.map.find(11), corner = b.model.nodes.map.find(1);
+  // Four corners at 5, 5 from their middle: a moment of 1 takes at most 1/100 about x and y, and
+  // the node stands 1 above them.
+  const double r = 1.0 / 100.0, turn = o.rotational_stiffness[node] + o.stiffness[node];
+  EXPECT_NEAR(m.stiffness[corner] - o.stiffness[corner], 0.25 * o.stiffness[node] + r * turn,
+              1e-9 * turn);
+  EXPECT_EQ(m.inertia[node], 0.0);
+  EXPECT_EQ(m.dt[node], no_step);
+}
+
+TEST(Ties, ByPenaltyLeaveMassesAndTheStepsOfMainNodesAreNotGiven) {
+  const Built b(tied_square(25));
+  const Mesh& m = b.loaded.mesh();
+  EXPECT_GT(m.nodes.mass[b.model.nodes.map.find(11)], 0.0);
+  EXPECT_TRUE(std::isnan(m.nodes.dt[b.model.nodes.map.find(1)]));
+  ASSERT_EQ(m.left_out.size(), 1u);
+  EXPECT_EQ(m.left_out[0].count, 4u);
+}
+
+TEST(RigidElement, GivesTheMainNodeMassAndStiffnessOnAnArm) {
+  SmallDeck d = square();
+  d.node(99, 5, 5, 0);
+  const Built before(d);
+  const Built b(d.add("/RBE2/1\nr\n        99   111 111         0         1"));
+  const NodeFigures was = make_mesh(before.model).nodes, now = make_mesh(b.model).nodes;
+  const NodeIndex main = b.model.nodes.map.find(99), n = b.model.nodes.map.find(1);
+  EXPECT_NEAR(now.mass[main], 4.0 * was.mass[n], 1e-18);
+  EXPECT_NEAR(now.stiffness[main], 4.0 * was.stiffness[n], 1e-9);
+  EXPECT_NEAR(now.inertia[main], 4.0 * (was.inertia[n] + 2.0 * was.mass[n] * 50.0), 1e-15);
+  EXPECT_EQ(now.stiffness[n], 1e-20);
+}
+
+TEST(RigidBody, WithIspherHasTheMeanOfItsInertia) {
+  SmallDeck d = square();
+  d.node(99, 5, 5, 0);
+  const Built plain(d.add("@/RBODY/1 node_ID=99 grnd_ID=1"));
+  SmallDeck s = square();
+  s.node(99, 5, 5, 0);
+  const Built round(s.add("@/RBODY/1 node_ID=99 grnd_ID=1 Ispher=1"));
+  const NodeIndex main = plain.model.nodes.map.find(99);
+  const double arms = density * 2.0 * 100.0 * 50.0;  // mass times distance squared
+  // Half of it about x and y, all about z; the nodes' own in every direction.
+  const double least = make_mesh(plain.model).nodes.inertia[main];
+  EXPECT_NEAR(make_mesh(round.model).nodes.inertia[main], least + arms / 6.0, 1e-12);
+}
+
+TEST(Damping, RaisesTheStiffnessBySquareOfItsFactor) {
+  const Built plain(square());
+  const Built b(square().add("@/DAMP/1 Beta=1000 grnod_id=1"));
+  const NodeFigures was = make_mesh(plain.model).nodes, now = make_mesh(b.model).nodes;
+  // No more than the shortest step of the group counts: 1 step, 1 / (sqrt(2) - 1)^2.
+  const double f = 1.0 / ((std::sqrt(2.0) - 1.0) * (std::sqrt(2.0) - 1.0));
+  EXPECT_NEAR(now.stiffness[0], f * was.stiffness[0], 1e-9 * was.stiffness[0]);
+  EXPECT_NEAR(now.dt[0], was.dt[0] / std::sqrt(f), 1e-12);
+}
+
+TEST(PlaneElement, AboutAnAxisHasMassByItsRadius) {
+  SmallDeck d;
+  d.add("/ANALY\n         1");
+  d.node(1, 0, 2, 0).node(2, 0, 4, 0).node(3, 0, 4, 2).node(4, 0, 2, 2);
+  d.solid_part(1).add("/QUAD/1\n         1         1         2         3         4");
+  const Built b(d);
+  const Mesh m = make_mesh(b.model);
+  EXPECT_NEAR(m.parts[0].mass, density * 4.0 * 3.0, 1e-18);  // area times mean radius
+  const double dt = m.of(ElementKind::quad).dt[0];
+  EXPECT_NEAR(m.nodes.mass[0], density * 3.0, 1e-18);
+  EXPECT_NEAR(m.nodes.dt[0], dt, 1e-12);
+}
+
+TEST(MovingWall, MakesTheMassOfItsNodeUnknown) {
+  SmallDeck d = square();
+  d.node(99, 5, 5, -9).add("@/RWALL/PLANE/1 node_ID=99 Mass=3 grnd_ID1=1");
+  const Built b(d);
+  const Mesh m = make_mesh(b.model);
+  EXPECT_TRUE(std::isnan(m.nodes.mass[b.model.nodes.map.find(99)]));
+  ASSERT_EQ(m.left_out.size(), 1u);
+}
+
 TEST(Mesh, IsTheSameForAnyNumberOfThreads) {
   SmallDeck d = square();
   d.node(31, 60, 0, 0).node(32, 64, 0, 0);

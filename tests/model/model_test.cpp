@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "deck/model/connectivity.hpp"
-#include "model/item_spans.hpp"
+#include "model/bulk/item_spans.hpp"
 #include "where.hpp"
 
 namespace deck::test {

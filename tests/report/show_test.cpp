@@ -60,6 +60,20 @@ TEST(ShowEntity, APartIsReachedFromTheContactOverItsGroup) {
   EXPECT_NE(link_to(v.used_by, "/GRNOD/PART", 2), nullptr);
 }
 
+TEST(ShowEntity, ANodeListsItsKinematicConditions) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0).node(9, 5, 5, 5);
+  d.shell_part(1, 2.0).shell(1, 1, 1, 2, 3, 4).group("/GRNOD/NODE/1", {1, 2});
+  d.add("@/BCS/3 Tx=1 grnod_ID=1\n@/RBODY/7 node_ID=9 grnd_ID=1");
+  const EntityView v = Inspected(d.text()).look("node:1");
+  std::vector<std::string> conditions;
+  for (const auto& [name, value] : v.facts)
+    if (name == "kinematic condition") conditions.push_back(std::get<std::string>(value));
+  EXPECT_EQ(conditions, (std::vector<std::string>{"BCS /BCS 3", "RBODY /RBODY 7"}));
+  for (const auto& fact : Inspected(d.text()).look("node:3").facts)
+    EXPECT_NE(fact.first, "kinematic condition");
+}
+
 TEST(ShowEntity, ANodeKnowsItsElementsAndTheSideOfTheContact) {
   const EntityView v = Inspected(plates()).look("node:5");
   EXPECT_NE(link_to(v.used_by, "/SHELL", 2), nullptr);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "deck/text/edits.hpp"
-#include "model/item_spans.hpp"
+#include "model/bulk/item_spans.hpp"
 
 namespace deck::detail {
 namespace {

@@ -252,8 +252,11 @@ class Assembly {
     if (std::find(n, n + count, no_index) != n + count) return;
     const bool rotates = o.inertia != 0.0 || o.rotational != 0.0;
     const bool pulley = kind == ElementKind::spring && rows_[part].property.type == 12;
+    const int type = rows_[part].property.type;
+    const bool thick = type >= 20 && type <= 22;
     // Of the eight slots of a solid with six nodes the solver gives stiffness to the first six.
-    const int stiff = kind == ElementKind::solid8 && f.shape[e] == SolidShape::penta6 ? 6 : count;
+    const bool six = kind == ElementKind::solid8 && f.shape[e] == SolidShape::penta6 && !thick;
+    const int stiff = six ? 6 : count;
     for (int i = 0; i < count; ++i) {
       const double m = o.share[static_cast<std::size_t>(i)] * o.mass;
       if (m != 0.0) sums.add(places_.at(n[i]), m);

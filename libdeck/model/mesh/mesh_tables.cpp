@@ -103,6 +103,8 @@ class MaterialFiller {
   void fill() {
     m_.law = from_.law;
     m_.density = from_.density;
+    // Mixtures: the density at the start follows from the shares of other materials.
+    if (m_.law == 37 || m_.law == 51 || m_.law == 151) m_.density = not_known;
     m_.reference_density = c_.real_or("Rho_0", m_.density);
     m_.young = c_.real("E");
     m_.poisson = c_.real("Nu");
@@ -214,13 +216,13 @@ class MaterialFiller {
     return bulk_of_state();
   }
 
-  /// Bulk modulus of the equation of state where it does not depend on energy; else not known.
+  /// Bulk modulus of the equation of state where no energy enters at the start; else not known.
   double bulk_of_state() const {
     const Block* block = state_equation(model_, from_.id);
     if (block == nullptr || block->schema == nullptr) return not_known;
     const Cells c(*model_.deck, *block);
-    if (block->schema->keyword == "/EOS/POLYNOMIAL" && c.real("C4") == 0 && c.real("C5") == 0 &&
-        c.real("C1") != 0)
+    if (block->schema->keyword == "/EOS/POLYNOMIAL" && c.real("C1") != 0 &&
+        (c.real("E0") == 0 || (c.real("C4") == 0 && c.real("C5") == 0)))
       return std::abs(c.real("C1"));
     if (block->schema->keyword == "/EOS/LINEAR" && c.real("Bulk") != 0) return c.real("Bulk");
     return not_known;

@@ -81,6 +81,7 @@ void NodeSums::finish(const Places& places) {
     if (!bodies_[i].lagrange && bodies_[i].main != no_index) body(bodies_[i], places);
   };
   for (std::size_t i = 0; i < bodies_.size(); ++i) visit(visit, i);
+  if (massless_ > 0) left_out.push_back({"steps of nodes", "a rigid body without mass", massless_});
   rigid_elements(places);
   ties(options_.ties, places);
   damping();
@@ -138,7 +139,10 @@ void NodeSums::walls() {
     const DecodedBlock d = decode(deck, block);
     const std::int64_t node = d.integer("node_ID");
     if (node <= 0 || value(deck, d, "Mass") == 0.0) continue;
-    forget(model_.find_node(shifted(deck, block, "node", node)), count);
+    const NodeIndex n = model_.find_node(shifted(deck, block, "node", node));
+    if (n == no_index) continue;
+    to_.mass[n] = not_known;
+    ++count;
   }
   if (count > 0) left_out.push_back({"masses of nodes", "a moving wall has a mass", count});
 }
@@ -172,12 +176,14 @@ void NodeSums::body(const RigidBody& b, const Places& places) {
   if (b.centre == 1) add_point(inertia, added, main - centre);
   for (std::size_t i = 0; i < 3; ++i) inertia[i] += spin;
   to_.mass[b.main] = mass + added;
-  const bool sphere = inertia[0] == inertia[1] && inertia[1] == inertia[2] && inertia[3] == 0.0 &&
-                      inertia[4] == 0.0 && inertia[5] == 0.0;
-  // What Ispher makes of other tensors is not established.
-  to_.inertia[b.main] = b.spherical && !sphere ? not_known : smallest_principal(inertia);
+  to_.inertia[b.main] =
+      b.spherical ? (inertia[0] + inertia[1] + inertia[2]) / 3.0 : smallest_principal(inertia);
   to_.stiffness[b.main] += k;
   to_.rotational_stiffness[b.main] += kr;
+  if (mass + added != 0.0) return;
+  // The solver refuses the body, or gives it a mass of its own.
+  to_.mass[b.main] = to_.inertia[b.main] = not_known;
+  ++massless_;
 }
 
 void NodeSums::forget(NodeIndex n, std::uint64_t& count) {

@@ -59,6 +59,7 @@ class NodeSums {
   NodeFigures& to_;
   std::vector<RigidBody> bodies_;
   std::vector<char> on_body_;
+  std::uint64_t massless_ = 0;  ///< main nodes of bodies without mass
 };
 
 }  // namespace deck::detail

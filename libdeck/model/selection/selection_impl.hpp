@@ -14,7 +14,7 @@
 
 #include "deck/model/connectivity.hpp"
 #include "deck/model/selection.hpp"
-#include "model/boxes.hpp"
+#include "model/selection/boxes.hpp"
 #include "model/faces.hpp"
 #include "model/model_build.hpp"
 

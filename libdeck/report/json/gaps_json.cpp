@@ -4,7 +4,7 @@
 #include "deck/report/gate.hpp"
 #include "deck/report/json.hpp"
 #include "deck/report/verdict.hpp"
-#include "model/item_spans.hpp"
+#include "model/bulk/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
 #include "report/json/ties_json.hpp"

@@ -156,6 +156,14 @@ std::string parts_json(const LoadedDeck& loaded, bool all) {
   json.end_array().key("unseen_parts").begin_array(true);
   for (const std::int64_t id : view.unseen_parts) json.value(id);
   json.end_array().end_object();
+  json.key("repeated_contacts").begin_array();
+  for (const detail::RepeatedContacts& c : view.repeated) {
+    json.begin_object(true).key("interfaces").begin_array(true);
+    json.value(c.first).value(c.second).end_array();
+    json.field("pairs", c.pairs).key("parts").begin_array(true);
+    json.value(c.part).value(c.other).end_array().end_object();
+  }
+  json.end_array();
   if (all) write_all(json, model, mesh);
   write_kinematics(json, model, kinematics);
   json.key("not_computed").begin_array();

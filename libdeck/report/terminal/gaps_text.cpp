@@ -11,7 +11,7 @@
 #include "deck/report/gate.hpp"
 #include "deck/report/text_table.hpp"
 #include "deck/report/verdict.hpp"
-#include "model/item_spans.hpp"
+#include "model/bulk/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
 #include "report/terminal/ties_text.hpp"

@@ -66,6 +66,10 @@ void summary(const LoadedDeck& loaded, const detail::PartsView& view, std::strin
   if (!view.unseen_parts.empty())
     out += count(view.unseen_parts.size(), "part is", "parts are") +
            " in no contact and no tie: " + list(view.unseen_parts, 12) + "\n";
+  for (const detail::RepeatedContacts& c : view.repeated)
+    out += "Contacts " + std::to_string(c.first) + " and " + std::to_string(c.second) +
+           " both have " + count(c.pairs, "pair", "pairs") + " of parts, for example " +
+           std::to_string(c.part) + " and " + std::to_string(c.other) + "\n";
   if (k.conflicts > 0)
     out += count(k.conflicts, "booking", "bookings") + " of kinematic conditions conflict, on " +
            count(k.several.size(), "node", "nodes") + " with several conditions (message 312)\n";

@@ -1,6 +1,6 @@
 // /BOX: reading and the inside test. Boxes see the coordinates before the /TRANSFORM of node
 // groups.
-#include "model/boxes.hpp"
+#include "model/selection/boxes.hpp"
 
 #include "base/length3.hpp"
 #include "model/selection/selection_impl.hpp"

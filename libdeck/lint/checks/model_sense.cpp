@@ -1,0 +1,368 @@
+// Does the model make sense: materials in other units than the deck's, folded solids,
+// elements on the same nodes, nodes that have stiffness or a contact but no mass.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "deck/base/count.hpp"
+#include "deck/base/point3.hpp"
+#include "deck/model/kinematics.hpp"
+#include "deck/model/mesh.hpp"
+#include "deck/text/number.hpp"
+#include "lint/check.hpp"
+#include "lint/check_tables.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// Mesh and conditions of the loaded deck; of the model alone where there is none.
+class MeshOfLint {
+ public:
+  explicit MeshOfLint(const LintContext& c) : c_(c) {}
+  const Mesh& mesh() {
+    if (c_.loaded != nullptr) return c_.loaded->mesh();
+    if (!mesh_) mesh_ = make_mesh(*c_.model);
+    return *mesh_;
+  }
+  const Kinematics& conditions() {
+    if (c_.loaded != nullptr) return c_.loaded->kinematics();
+    if (!conditions_) conditions_ = read_kinematics(*c_.model);
+    return *conditions_;
+  }
+  /// The node follows something else, whatever its own mass.
+  bool follows(NodeIndex n) {
+    constexpr unsigned carriers = 1u << static_cast<unsigned>(ConditionType::rbody) |
+                                  1u << static_cast<unsigned>(ConditionType::rbe2) |
+                                  1u << static_cast<unsigned>(ConditionType::rbe3) |
+                                  1u << static_cast<unsigned>(ConditionType::rlink) |
+                                  1u << static_cast<unsigned>(ConditionType::tied) |
+                                  1u << static_cast<unsigned>(ConditionType::lagmul) |
+                                  1u << static_cast<unsigned>(ConditionType::imposed) |
+                                  1u << static_cast<unsigned>(ConditionType::bcs);
+    return (conditions().types[n] & carriers) != 0;
+  }
+
+ private:
+  const LintContext& c_;
+  std::optional<Mesh> mesh_;
+  std::optional<Kinematics> conditions_;
+};
+
+struct KnownMaterial {
+  const char* name;
+  double least_density, most_density;  ///< kg/m3
+  double least_young, most_young;      ///< Pa
+};
+constexpr KnownMaterial known_materials[] = {
+    {"steel", 7700, 8050, 1.95e11, 2.15e11},
+    {"aluminium", 2600, 2850, 6.7e10, 7.6e10},
+    {"titanium", 4400, 4560, 1.05e11, 1.2e11},
+    {"magnesium", 1730, 1850, 4.3e10, 4.6e10},
+};
+
+/// n where value / 1000^n is between the bounds: other units change values by thousands.
+std::optional<int> thousands(double value, double least, double most) {
+  const int n = static_cast<int>(std::lround(std::log10(value / std::sqrt(least * most)) / 3.0));
+  const double v = value / std::pow(1000.0, n);
+  if (v < least || v > most) return std::nullopt;
+  return n;
+}
+
+std::string off_by(int n) {
+  return n == 0 ? "right"
+                : fmt::format("1e{} times {}", 3 * std::abs(n), n > 0 ? "too large" : "too small");
+}
+
+void check_units(const LintContext& c, const Rule& rule, Reporter& r) {
+  const UnitSystem& working = c.deck.begin.working;
+  if (!c.deck.begin.has_working) return;
+  // A number for a code says nothing about the unit.
+  for (const std::string* code : {&working.mass_code, &working.length_code, &working.time_code})
+    if (code->empty() || read_real(*code).status == NumberStatus::ok) return;
+  UnitSystem si;
+  si.mass = unit_factor("kg", 'g').value_or(1.0);
+  si.length = unit_factor("m", 'm').value_or(1.0);
+  si.time = unit_factor("s", 's').value_or(1.0);
+  const double to_density = conversion_factor(working, si, {1, -3, 0, 0});
+  const double to_modulus = conversion_factor(working, si, {1, -1, -2, 0});
+  std::string weight;
+  for (const Material& m : c.model->materials) {
+    if (m.block == nullptr || m.block->opaque || !(m.density > 0.0) || !(m.young > 0.0)) continue;
+    const double density = m.density * to_density, young = m.young * to_modulus;
+    for (const KnownMaterial& known : known_materials) {
+      const auto d = thousands(density, known.least_density, known.most_density);
+      const auto e = thousands(young, known.least_young, known.most_young);
+      if (!d || !e || (*d == 0 && *e == 0)) continue;
+      const DecodedBlock card = decode(c.deck, *m.block);
+      const Cell* cell = card.find(*d != 0 ? "Rho_I" : "E");
+      if (weight.empty()) {
+        const double mass = MeshOfLint(c).mesh().total.mass;
+        weight = std::isnan(mass)
+                     ? " "
+                     : fmt::format("; the whole model weighs {:.4g} kg",
+                                   mass * conversion_factor(working, si, {1, 0, 0, 0}));
+      }
+      r.report(rule, *m.block,
+               cell != nullptr && cell->span.valid() ? cell->span : m.block->header_span,
+               fmt::format("{} {} looks like {} in other units: its density is {} ({:.4g} kg/m3), "
+                           "its Young's modulus {} ({:.4g} Pa) with {}, {}, {}{}",
+                           m.type, m.id, known.name, off_by(*d), density, off_by(*e), young,
+                           working.mass_code, working.length_code, working.time_code,
+                           weight == " " ? "" : weight));
+      break;
+    }
+  }
+}
+
+/// True if the edges at a corner of a solid with eight nodes turn the wrong way round, beyond
+/// rounding. The solver turns a solid whose whole volume is below zero; a fold stays.
+bool is_folded(const deck::Nodes& nodes, const NodeIndex* n) {
+  std::array<Point3<double>, 8> p;
+  for (std::size_t i = 0; i < 8; ++i) {
+    if (n[i] >= nodes.size()) return false;
+    for (std::size_t k = 0; k < i; ++k)
+      if (n[i] == n[k]) return false;  // a degenerate one has no such corners
+    p[i] = {nodes.x[n[i]], nodes.y[n[i]], nodes.z[n[i]]};
+  }
+  // Next and previous corner of the face, corner of the other face.
+  static constexpr std::size_t edges[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                              {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto u = p[edges[i][0]] - p[i], v = p[edges[i][1]] - p[i], w = p[edges[i][2]] - p[i];
+    if (dot(cross(u, v), w) < -rounding * std::sqrt(dot(u, u) * dot(v, v) * dot(w, w))) return true;
+  }
+  return false;
+}
+
+struct PartTally {
+  std::uint64_t count = 0;
+  std::uint32_t first = no_index;
+};
+
+void check_folded(const LintContext& c, const Rule& rule, Reporter& r) {
+  const Model& m = *c.model;
+  const Elements& solids = m.solid8;
+  std::map<std::uint32_t, PartTally> found;
+  for (std::size_t e = 0; e < solids.size(); ++e) {
+    if (solids.shape[e] != SolidShape::brick8 || !is_folded(m.nodes, solids.of(e))) continue;
+    PartTally& t = found[solids.part[e]];
+    if (t.count++ == 0) t.first = static_cast<std::uint32_t>(e);
+  }
+  for (const auto& [part, t] : found)
+    r.report(rule, m.element_span(solids.kind, t.first),
+             fmt::format("{}{} folded at a corner; first is element {}",
+                         count(t.count, "solid", "solids"),
+                         part == no_index ? "" : fmt::format(" of part {}", m.parts[part].id),
+                         solids.id[t.first]));
+}
+
+/// Elements of one family on the same nodes, by pair of parts.
+class SameNodes {
+ public:
+  explicit SameNodes(const Model& m) : m_(m) {}
+
+  struct Pair {
+    std::uint64_t count = 0;
+    std::uint32_t first = no_index, other = no_index;  ///< elements
+  };
+  using Pairs = std::map<std::pair<std::uint32_t, std::uint32_t>, Pair>;
+
+  Pairs of(const Elements& family) {
+    std::vector<std::uint64_t> keys(family.size(), 0);  // 0: does not count
+    for (std::size_t e = 0; e < keys.size(); ++e)
+      if (counts(family, e)) keys[e] = key(family, e);
+    Pairs out;
+    const std::set<std::uint64_t> repeated = repeated_keys(keys);
+    if (repeated.empty()) return out;
+    std::map<std::uint64_t, std::vector<std::uint32_t>> alike;
+    for (std::size_t e = 0; e < keys.size(); ++e)
+      if (keys[e] != 0 && repeated.contains(keys[e]))
+        alike[keys[e]].push_back(static_cast<std::uint32_t>(e));
+    for (const auto& [_, elements] : alike)
+      for (std::size_t i = 1; i < elements.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+          if (corners(family, elements[k]) == corners(family, elements[i])) {
+            add(family, elements[k], elements[i], out);
+            break;  // a third one counts once
+          }
+    return out;
+  }
+
+ private:
+  /// Skins of void are there to be laid on elements.
+  bool counts(const Elements& family, std::size_t e) const {
+    const std::uint32_t part = family.part[e];
+    if (part == no_index || m_.parts[part].mat == no_index) return false;
+    const NodeIndex* n = family.of(e);
+    if (std::find(n, n + family.width, no_index) != n + family.width) return false;
+    return m_.materials[m_.parts[part].mat].law > 0;
+  }
+  static std::vector<NodeIndex> corners(const Elements& family, std::size_t e) {
+    std::vector<NodeIndex> out(family.of(e), family.of(e) + family.width);
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+  static void add(const Elements& family, std::uint32_t a, std::uint32_t b, Pairs& out) {
+    const auto [low, high] = std::minmax(family.part[a], family.part[b]);
+    Pair& p = out[{low, high}];
+    if (p.count++ == 0 || b < p.other) p.first = a, p.other = b;
+  }
+  /// Keys that occur twice, by a table with open places.
+  static std::set<std::uint64_t> repeated_keys(const std::vector<std::uint64_t>& keys) {
+    std::set<std::uint64_t> out;
+    const std::size_t size = std::bit_ceil(2 * keys.size() + 1);
+    std::vector<std::uint64_t> table(size, 0);
+    for (const std::uint64_t k : keys) {
+      if (k == 0) continue;
+      std::size_t at = k & (size - 1);
+      while (table[at] != 0 && table[at] != k) at = (at + 1) & (size - 1);
+      if (table[at] == k) out.insert(k);
+      table[at] = k;
+    }
+    return out;
+  }
+  /// The same for any order of the nodes.
+  static std::uint64_t key(const Elements& family, std::size_t e) {
+    std::uint64_t sum = 0;
+    for (int i = 0; i < family.width; ++i) {
+      std::uint64_t h = family.of(e)[i] + 0x9e3779b97f4a7c15ull;
+      h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ull;
+      h = (h ^ (h >> 27)) * 0x94d049bb133111ebull;
+      sum += h ^ (h >> 31);
+    }
+    return sum;
+  }
+  const Model& m_;
+};
+
+void check_same_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
+  const Model& m = *c.model;
+  SameNodes same(m);
+  const std::pair<const Elements*, const char*> families[] = {{&m.shell4, "shell"},
+                                                              {&m.shell3, "triangular shell"},
+                                                              {&m.solid8, "solid"},
+                                                              {&m.quad, "plane element"}};
+  for (const auto& [family, what] : families)
+    for (const auto& [parts, pair] : same.of(*family)) {
+      const bool one = parts.first == parts.second;
+      Diagnostic* d =
+          r.report(rule, m.element_span(family->kind, pair.other),
+                   fmt::format("{} on the same nodes as another{}; first are elements {} and {}",
+                               count(pair.count, what, std::string(what) + "s"),
+                               one ? fmt::format(" of part {}", m.parts[parts.first].id)
+                                   : fmt::format(", parts {} and {}", m.parts[parts.first].id,
+                                                 m.parts[parts.second].id),
+                               family->id[pair.first], family->id[pair.other]));
+      if (d == nullptr) continue;
+      d->notes.emplace_back(m.element_span(family->kind, pair.first), "the other element");
+      if (!one) d->severity = Severity::info;
+    }
+}
+
+/// Springs without a mass of their own: all else that has stiffness has a density.
+std::vector<char> ends_of_massless_springs(const LintContext& c) {
+  const Model& m = *c.model;
+  std::vector<char> light(m.properties.size(), 0), out;
+  bool any = false;
+  for (std::size_t p = 0; p < light.size(); ++p) {
+    const Property& property = m.properties[p];
+    const int type = property.number;
+    if (property.block == nullptr || property.block->opaque) continue;
+    if (type != 4 && type != 8 && type != 12 && type != 13 && type != 25) continue;
+    const Cell* mass = decode(c.deck, *property.block).find("Mass");
+    light[p] = mass == nullptr || (mass->real == 0.0 && !mass->parameter) ? 1 : 0;
+    any = any || light[p] != 0;
+  }
+  if (!any) return out;
+  out.assign(m.nodes.size(), 0);
+  for (std::size_t e = 0; e < m.spring.size(); ++e) {
+    const std::uint32_t part = m.spring.part[e];
+    if (part == no_index || m.parts[part].prop == no_index || light[m.parts[part].prop] == 0)
+      continue;
+    for (int i = 0; i < 2; ++i)
+      if (const NodeIndex n = m.spring.of(e)[i]; n < out.size()) out[n] = 1;
+  }
+  return out;
+}
+
+void check_massless(const LintContext& c, const Rule& rule, Reporter& r) {
+  const std::vector<char> ends = ends_of_massless_springs(c);
+  if (ends.empty()) return;
+  MeshOfLint of(c);
+  const NodeFigures& nodes = of.mesh().nodes;
+  std::uint64_t found = 0;
+  NodeIndex first = no_index;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const auto n = static_cast<NodeIndex>(i);
+    if (ends[i] == 0 || nodes.mass[i] != 0.0 || !(nodes.stiffness[i] > 1e-20) || of.follows(n))
+      continue;
+    if (found++ == 0) first = n;
+  }
+  if (found == 0) return;
+  r.report(rule, c.model->node_span(first),
+           fmt::format("{} stiffness, but no mass; first is node {}",
+                       count(found, "node has", "nodes have"), c.model->node_id(first)));
+}
+
+/// Nodes that an element has.
+std::vector<char> nodes_of_elements(const Model& m) {
+  std::vector<char> out(m.nodes.size(), 0);
+  for (const Elements* f :
+       {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring}) {
+    for (const NodeIndex n : f->nodes)
+      if (n < out.size()) out[n] = 1;
+    for (const NodeIndex n : f->extra_nodes)
+      if (n < out.size()) out[n] = 1;
+  }
+  return out;
+}
+
+bool has_particles(const LintContext& c) {
+  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(), [](const Block& b) {
+    return b.header.starts_with("/SPHCEL") || b.header.starts_with("/XELEM");
+  });
+}
+
+void check_free_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.contacts.empty() || has_particles(c)) return;
+  const std::vector<char> used = nodes_of_elements(*c.model);
+  if (std::find(used.begin(), used.end(), 0) == used.end()) return;
+  MeshOfLint of(c);
+  for (const ContactCard& card : c.contacts) {
+    const Cell* cell = card.decoded.find("grnd_IDs");
+    if (cell == nullptr || cell->integer <= 0) continue;
+    const NodeSet* set = c.selections->node_group(c.resolved(*card.block, "grnod", cell->integer));
+    if (set == nullptr) continue;
+    std::uint64_t found = 0;
+    NodeIndex first = no_index;
+    for (const NodeIndex n : set->nodes) {
+      if (n >= used.size() || used[n] != 0) continue;
+      const double mass = of.mesh().nodes.mass[n];
+      if (mass != 0.0 || of.follows(n)) continue;
+      if (found++ == 0) first = n;
+    }
+    if (found > 0)
+      report_at(r, rule, card, "grnd_IDs",
+                fmt::format("{} of its {} no element and no mass; first is node {}", found,
+                            found == 1 ? "secondary nodes has" : "secondary nodes have",
+                            c.model->node_id(first)));
+  }
+}
+
+}  // namespace
+
+std::span<const Checked> sense_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK614, check_units},      {RuleId::DK615, check_massless},
+      {RuleId::DK616, check_folded},     {RuleId::DK617, check_same_nodes},
+      {RuleId::DK618, check_free_nodes},
+  };
+  return all;
+}
+
+}  // namespace deck::detail
