@@ -14,9 +14,9 @@
 
 #include "deck/model/connectivity.hpp"
 #include "deck/model/selection.hpp"
-#include "model/selection/boxes.hpp"
 #include "model/faces.hpp"
 #include "model/model_build.hpp"
+#include "model/selection/boxes.hpp"
 
 namespace deck {
 
