@@ -10,8 +10,8 @@ namespace deck::detail {
 namespace {
 
 // Outward faces of the stored slots, in the order the reference solver creates them.
-constexpr int face_slots[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                  {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
+constexpr std::uint8_t face_slots[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                           {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
 // Mid-side nodes (0-based on the card) of faces 2..5 of a 10-node tetrahedron.
 constexpr int tetra_mids[6][3] = {{-1, -1, -1}, {-1, -1, -1}, {2, 5, 3},
                                   {4, 5, 1},    {0, 1, 2},    {3, 4, 0}};
@@ -53,6 +53,21 @@ Face solid_face(const NodeIndex* slots, int face) {
   if (n == 3) out.nodes[3] = out.nodes[2];
   out.corners = n >= 3 ? static_cast<int>(n) : 0;
   return out;
+}
+
+bool has_face_of(const NodeIndex* slots, const std::array<NodeIndex, 4>& segment) {
+  // Bit k: the slot has node k of the segment. Four slots have all bits only if they are four
+  // distinct nodes, and a segment that repeats a node has no fourth bit.
+  std::array<unsigned, 8> bits{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (std::find(segment.begin(), segment.begin() + k, segment[k]) != segment.begin() + k)
+      return false;
+    for (std::size_t i = 0; i < 8; ++i)
+      bits[i] |= static_cast<unsigned>(slots[i] == segment[k]) << k;
+  }
+  return std::any_of(std::begin(face_slots), std::end(face_slots), [&](const auto& face) {
+    return (bits[face[0]] | bits[face[1]] | bits[face[2]] | bits[face[3]]) == 15U;
+  });
 }
 
 NodeKey node_key(const NodeIndex* nodes, int count) {
@@ -134,6 +149,11 @@ void ShellCover::add(const Elements& shells, bool four) {
     if (key == first_.size()) first_.push_back(no_index);
     entries_.push_back({four, e, first_[key]});
     first_[key] = static_cast<std::uint32_t>(entries_.size()) - 1;
+    for (const NodeIndex* n = shells.of(e); n < shells.of(e) + shells.width; ++n) {
+      if (*n == no_index) continue;
+      if (*n >= has_shell_.size()) has_shell_.resize(*n + std::size_t{1});
+      has_shell_[*n] = true;
+    }
   }
 }
 
@@ -151,6 +171,10 @@ bool ShellCover::hides(const Face& face) const {
 }
 
 CoverShell ShellCover::on(const Face& face) const {
+  for (int i = 0; i < face.corners; ++i) {
+    const NodeIndex n = face.nodes[static_cast<std::size_t>(i)];
+    if (n >= has_shell_.size() || !has_shell_[n]) return {};
+  }
   const std::uint32_t key = table_.find(node_key(face.nodes.data(), face.corners));
   if (key == no_index) return {};
   const bool four = face.corners == 4;
@@ -199,11 +223,15 @@ SolidFaces::SolidFaces(const Elements& solids, const std::vector<std::uint32_t>&
   }
 }
 
-bool SolidFaces::interior(std::uint32_t solid, int f, const Face& face, bool against_all) const {
+bool SolidFaces::interior(std::uint32_t solid, int f, bool against_all) const {
+  const NodeIndex* const mine = solids_->of(solid);
   const auto has = [&](std::uint32_t other) {
-    const NodeIndex* slots = solids_->of(other);
-    return std::all_of(face.nodes.begin(), face.nodes.begin() + face.corners,
-                       [&](NodeIndex n) { return std::find(slots, slots + 8, n) != slots + 8; });
+    const NodeIndex* const slots = solids_->of(other);
+    return std::all_of(std::begin(face_slots[f]), std::end(face_slots[f]), [&](std::uint8_t s) {
+      bool found = false;  // without a branch a slot: several are compared at once
+      for (int i = 0; i < 8; ++i) found |= slots[i] == mine[s];
+      return found;
+    });
   };
   const std::size_t at = solid * std::size_t{6} + static_cast<std::size_t>(f);
   for (std::uint32_t i = first_[ends_[at]]; i != no_index; i = owners_[i].next) {
@@ -236,8 +264,8 @@ std::vector<Segment> SolidFaces::segments(const FaceQuery& query) {
                                                                  query.all_faces_of->end(), e));
     for (int f = 0; f < 6; ++f) {
       if (ends_[e * std::size_t{6} + static_cast<std::size_t>(f)] == no_index) continue;
+      if (!all && interior(e, f, query.against_all)) continue;
       const Face face = solid_face(solids_->of(e), f);
-      if (!all && interior(e, f, face, query.against_all)) continue;
       if (query.cover != nullptr && covered(query, e, face)) continue;
       append_face(*solids_, e, f, face, out);
     }

@@ -18,6 +18,9 @@ struct Face {
 /// Face 0..5 of the eight stored slots.
 Face solid_face(const NodeIndex* slots, int face);
 
+/// One of the faces has four distinct nodes, and they are those of the segment in any order.
+bool has_face_of(const NodeIndex* slots, const std::array<NodeIndex, 4>& segment);
+
 /// A node set as a key: sorted, padded with no_index.
 struct NodeKey {
   std::array<NodeIndex, 4> nodes{no_index, no_index, no_index, no_index};
@@ -83,6 +86,7 @@ class ShellCover {
   const Elements* shell4_;
   const Elements* shell3_;
   KeyTable table_;
+  std::vector<bool> has_shell_;       ///< per node: a face with a node of no shell has no key
   std::vector<std::uint32_t> first_;  ///< per key: entry
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> stamp4_, stamp3_;
@@ -131,7 +135,7 @@ class SolidFaces {
   bool counts(std::uint32_t solid, bool against_all) const {
     return against_all || stamp_[solid] == generation_;
   }
-  bool interior(std::uint32_t solid, int f, const Face& face, bool against_all) const;
+  bool interior(std::uint32_t solid, int f, bool against_all) const;
   bool covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const;
   const Elements* solids_;
   std::vector<std::uint32_t> ends_;   ///< per solid and face: key that ends it; no_index: no face

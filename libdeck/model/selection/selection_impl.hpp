@@ -106,6 +106,13 @@ struct SetState {
   Indices removed;  ///< nodes taken away by name, ascending
 };
 
+/// The segments of one group: those of the group asked for last, mostly the only one of its set,
+/// of which all projections are made. For the time of a call.
+struct SegmentsOfGroup {
+  const SetGroup* group = nullptr;
+  std::vector<Segment> segments;
+};
+
 }  // namespace detail
 
 struct Selections::Impl {
@@ -283,12 +290,17 @@ struct Selections::Impl {
   // ---------------------------------------------------
   const SetGeneral* set(std::int64_t id);
   const detail::SetState* set_state(std::int64_t id);
+  using LastGroup = detail::SegmentsOfGroup;
   std::vector<Segment> group_segments(const detail::SetGroup& group);
-  std::vector<Edge> group_edges(const detail::SetGroup& group);
-  detail::Indices group_nodes(const detail::SetGroup& group);
-  std::vector<NodeIndex> set_node_list(const detail::SetState& state, const Block& block);
-  std::vector<Segment> set_segment_list(const detail::SetState& state, const Block& block);
-  std::vector<Edge> set_edge_list(const detail::SetState& state, const Block& block);
+  const std::vector<Segment>& group_segments(const detail::SetGroup& group, LastGroup& last);
+  std::vector<Edge> group_edges(const detail::SetGroup& group, LastGroup& last);
+  detail::Indices group_nodes(const detail::SetGroup& group, LastGroup& last);
+  std::vector<NodeIndex> set_node_list(const detail::SetState& state, const Block& block,
+                                       LastGroup& last);
+  std::vector<Segment> set_segment_list(const detail::SetState& state, const Block& block,
+                                        LastGroup& last);
+  std::vector<Edge> set_edge_list(const detail::SetState& state, const Block& block,
+                                  LastGroup& last);
   /// Adds groups that the set does not hold yet.
   void share_groups(detail::SetState& set, const std::vector<const detail::SetGroup*>& groups,
                     const Block& block);

@@ -19,7 +19,8 @@ const LineSet* Selections::Impl::line(std::int64_t id) {
     if (state == nullptr) return nullptr;
     const auto [title, span] = set_heading(id);
     const Block& block = *definition("set", id)->block;
-    LineSet view{id, title, set_edge_list(*state, block), span};
+    detail::SegmentsOfGroup last;
+    LineSet view{id, title, set_edge_list(*state, block, last), span};
     keep(view.edges, block);
     return &set_lines.emplace(id, std::move(view)).first->second;
   }

@@ -37,7 +37,8 @@ const NodeSet* Selections::Impl::node_group(std::int64_t id) {
     if (state == nullptr) return nullptr;
     const auto [title, span] = set_heading(id);
     const Block& block = *definition("set", id)->block;
-    NodeSet view{id, title, set_node_list(*state, block), span};
+    detail::SegmentsOfGroup last;
+    NodeSet view{id, title, set_node_list(*state, block, last), span};
     keep(view.nodes, block);
     return &set_nodes.emplace(id, std::move(view)).first->second;
   }

@@ -61,18 +61,24 @@ std::vector<Segment> Selections::Impl::group_segments(const SetGroup& group) {
   return out;
 }
 
-std::vector<Edge> Selections::Impl::group_edges(const SetGroup& group) {
-  std::vector<Edge> out = edges_of(group_segments(group), group.external);
+const std::vector<Segment>& Selections::Impl::group_segments(const SetGroup& group,
+                                                             LastGroup& last) {
+  if (last.group != &group) last = {&group, group_segments(group)};
+  return last.segments;
+}
+
+std::vector<Edge> Selections::Impl::group_edges(const SetGroup& group, LastGroup& last) {
+  std::vector<Edge> out = edges_of(group_segments(group, last), group.external);
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring})
     add_line_elements(kind, group.elements[at(kind)], out);
   out.insert(out.end(), group.row_edges.begin(), group.row_edges.end());
   return out;
 }
 
-Indices Selections::Impl::group_nodes(const SetGroup& group) {
+Indices Selections::Impl::group_nodes(const SetGroup& group, LastGroup& last) {
   Indices nodes;
   if (group.external) {
-    const auto segments = group_segments(group);
+    const auto& segments = group_segments(group, last);
     start_marks();
     for (const Segment& s : segments)
       for (const NodeIndex n : s.nodes) mark(n, nodes);
@@ -118,7 +124,12 @@ void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
       ++end;
     const auto first = segments.begin() + static_cast<std::ptrdiff_t>(i);
     const auto last = segments.begin() + static_cast<std::ptrdiff_t>(end);
-    if (end - i > 1) std::stable_sort(first, last, before);
+    constexpr std::size_t few = 16;  // which are sorted in place
+    if (end - i > few)
+      std::stable_sort(first, last, before);
+    else
+      for (auto it = first; it != last; ++it)
+        std::rotate(std::upper_bound(first, it, *it, before), it, it + 1);
     i = end;
   }
   if (!std::is_sorted(segments.begin(), segments.end(), before))
@@ -153,11 +164,12 @@ constexpr std::size_t bytes_of_a_group = 256;
 
 }  // namespace
 
-std::vector<NodeIndex> Selections::Impl::set_node_list(const SetState& state, const Block& block) {
+std::vector<NodeIndex> Selections::Impl::set_node_list(const SetState& state, const Block& block,
+                                                       LastGroup& last) {
   Indices nodes;
   if (!hold(state.others.size(), bytes_of_a_group, block)) return nodes;
   state.each_group([&](const SetGroup& group) {
-    const Indices some = group_nodes(group);
+    const Indices some = group_nodes(group, last);
     if (fits(nodes.size() + some.size(), sizeof some[0], block))
       nodes.insert(nodes.end(), some.begin(), some.end());
   });
@@ -167,11 +179,12 @@ std::vector<NodeIndex> Selections::Impl::set_node_list(const SetState& state, co
   return nodes;
 }
 
-std::vector<Segment> Selections::Impl::set_segment_list(const SetState& state, const Block& block) {
+std::vector<Segment> Selections::Impl::set_segment_list(const SetState& state, const Block& block,
+                                                        LastGroup& last) {
   std::vector<Segment> out;
   if (!hold(state.others.size(), bytes_of_a_group, block)) return out;
   state.each_group([&](const SetGroup& group) {
-    const auto some = group_segments(group);
+    const auto& some = group_segments(group, last);
     if (fits(out.size() + some.size(), sizeof(Segment), block))
       out.insert(out.end(), some.begin(), some.end());
   });
@@ -179,11 +192,12 @@ std::vector<Segment> Selections::Impl::set_segment_list(const SetState& state, c
   return out;
 }
 
-std::vector<Edge> Selections::Impl::set_edge_list(const SetState& state, const Block& block) {
+std::vector<Edge> Selections::Impl::set_edge_list(const SetState& state, const Block& block,
+                                                  LastGroup& last) {
   std::vector<Edge> out;
   if (!hold(state.others.size(), bytes_of_a_group, block)) return out;
   state.each_group([&](const SetGroup& group) {
-    const auto some = group_edges(group);
+    const auto some = group_edges(group, last);
     if (fits(out.size() + some.size(), sizeof(Edge), block))
       out.insert(out.end(), some.begin(), some.end());
   });
@@ -205,9 +219,10 @@ const SetGeneral* Selections::Impl::set(std::int64_t id) {
   s.id = id;
   std::tie(s.title, s.span) = set_heading(id);
   const Block& block = *definition("set", id)->block;
-  s.nodes = set_node_list(*state, block);
-  s.segments = set_segment_list(*state, block);
-  s.edges = set_edge_list(*state, block);
+  LastGroup last;
+  s.nodes = set_node_list(*state, block, last);
+  s.segments = set_segment_list(*state, block, last);
+  s.edges = set_edge_list(*state, block, last);
   s.parts = state->parts;
   keep(s.nodes, block);
   keep(s.segments, block);

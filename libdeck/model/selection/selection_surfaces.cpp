@@ -45,7 +45,12 @@ const Surface* Selections::Impl::surface(std::int64_t id) {
     if (state == nullptr) return nullptr;
     const auto [title, span] = set_heading(id);
     const Block& block = *definition("set", id)->block;
-    Surface view{id, title, set_segment_list(*state, block), false, span};
+    detail::SegmentsOfGroup last;
+    const auto resolved = sets.find(id);
+    Surface view{
+        id, title,
+        resolved != sets.end() ? resolved->second.segments : set_segment_list(*state, block, last),
+        false, span};
     keep(view.segments, block);
     return &set_surfaces.emplace(id, std::move(view)).first->second;
   }

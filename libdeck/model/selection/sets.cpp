@@ -131,7 +131,8 @@ void join(Selections::Impl& all, SetState& set, SetState clause, bool of_parts,
   set.parts = combine(set.parts, clause.parts, Operator::add);
   if (!set.removed.empty())
     clause.each_group([&](const SetGroup& group) {
-      set.removed = combine(set.removed, all.group_nodes(group), Operator::subtract);
+      SegmentsOfGroup last;
+      set.removed = combine(set.removed, all.group_nodes(group, last), Operator::subtract);
     });
   if (of_parts) {
     clause.each_group([&](const SetGroup& group) { add(set.own, group); });
@@ -449,8 +450,9 @@ const SetState* Selections::Impl::set_state(std::int64_t id) {
       SetState selected = detail::ClauseReader(*this, *def.block, clause).read();
       if (op == detail::Operator::intersect) {
         // Nodes of elements count as well as nodes named.
-        detail::unite(selected).named = set_node_list(selected, *def.block);
-        detail::unite(state).named = set_node_list(state, *def.block);
+        detail::SegmentsOfGroup of_selected, of_state;
+        detail::unite(selected).named = set_node_list(selected, *def.block, of_selected);
+        detail::unite(state).named = set_node_list(state, *def.block, of_state);
         detail::normalise(selected.own.named);
         detail::normalise(state.own.named);
       }
