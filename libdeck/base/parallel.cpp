@@ -10,6 +10,37 @@ namespace deck {
 
 int processors() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
+namespace {
+
+/// Who of the threads of one call is at work. Threads hold it in common with the caller, and look
+/// at nothing else of his before they are let in.
+class Gate {
+ public:
+  bool enter() {
+    const std::lock_guard lock(mutex_);
+    inside_ += !closed_;
+    return !closed_;
+  }
+  void leave() {
+    const std::lock_guard lock(mutex_);
+    if (--inside_ == 0) empty_.notify_all();
+  }
+  /// Lets nobody in any more, and waits for those inside.
+  void close() {
+    std::unique_lock lock(mutex_);
+    closed_ = true;
+    empty_.wait(lock, [&] { return inside_ == 0; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable empty_;
+  int inside_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace
+
 void run_workers(int workers, CancelFlag& cancel, const std::function<void(std::size_t)>& body) {
   if (workers <= 1) {
     body(0);
@@ -25,16 +56,22 @@ void run_workers(int workers, CancelFlag& cancel, const std::function<void(std::
       cancel.set();
     }
   };
-  std::vector<std::thread> others;  // the loop in `guarded` throws nothing: all are joined
-  others.reserve(count - 1);
+  // A thread that gets no processor before the work is done, because other programs have them all,
+  // is not waited for: it finds the gate closed whenever it runs, and ends.
+  const auto gate = std::make_shared<Gate>();
   try {
-    for (std::size_t w = 1; w < count && !cancel.is_set(); ++w) others.emplace_back(guarded, w);
+    for (std::size_t w = 1; w < count && !cancel.is_set(); ++w)
+      std::thread([gate, w, &guarded] {
+        if (!gate->enter()) return;
+        guarded(w);
+        gate->leave();
+      }).detach();
   } catch (const std::system_error&) {
     // The system has no more threads: those that run do the work.
   } catch (const std::bad_alloc&) {
   }
   guarded(0);
-  for (std::thread& other : others) other.join();
+  gate->close();
   for (const std::exception_ptr& e : thrown)
     if (e) std::rethrow_exception(e);
 }
