@@ -3,7 +3,7 @@
 #include "contact/scene/node_elements.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -20,6 +20,7 @@ namespace deck {
 namespace {
 
 constexpr std::size_t width = BoxBlock::kWidth;
+constexpr std::size_t at_once = 512;  // edges, or elements with theirs
 
 Box segment_box(const NodeArrays& nodes, const std::array<std::uint32_t, 4>& segment) {
   Box box = sweep::edge_box(nodes, {segment[0], segment[1]}, 0);
@@ -27,65 +28,30 @@ Box segment_box(const NodeArrays& nodes, const std::array<std::uint32_t, 4>& seg
   return box;
 }
 
-/// Bit i: child i of the block overlaps the box. Without branches, so that one instruction tests
-/// several children.
-unsigned overlaps(const BoxBlock& block, const Box& box) {
-  std::array<std::uint64_t, width> meets;
-  meets.fill(1);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double low = box.low[k], high = box.high[k];
-    for (std::size_t i = 0; i < width; ++i)
-      meets[i] &= static_cast<std::uint64_t>(block.low[k][i] <= high) &
-                  static_cast<std::uint64_t>(low <= block.high[k][i]);
-  }
-  unsigned bits = 0;
-  for (std::size_t i = 0; i < width; ++i) bits |= static_cast<unsigned>(meets[i]) << i;
-  return bits;
+/// Exact numbers are made of finite ones only; without a place nothing passes through anything.
+template <std::size_t N>
+bool all_placed(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of) {
+  return std::all_of(of.begin(), of.end(), [&](std::uint32_t n) {
+    return std::isfinite(nodes.x[n]) && std::isfinite(nodes.y[n]) && std::isfinite(nodes.z[n]);
+  });
 }
 
-/// Calls visit(leaf) for every leaf whose box overlaps `box`.
-template <class Visit>
-void walk(const BoxTree& tree, std::size_t level, std::size_t block, const Box& box,
-          const Visit& visit) {
-  for (unsigned bits = overlaps(tree.level(level)[block], box); bits != 0; bits &= bits - 1) {
-    const std::size_t child = block * width + static_cast<std::size_t>(std::countr_zero(bits));
-    if (level == 0)
-      visit(child);
-    else
-      walk(tree, level - 1, child, box, visit);
-  }
-}
-
+/// Of an edge and a segment whose nodes all have a place.
 bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
                     const std::array<std::uint32_t, 4>& s) {
-  for (const std::uint32_t n : s)
-    if (n == edge[0] || n == edge[1]) return false;
+  bool common = false;  // without branches: all eight at once
+  for (const std::uint32_t n : s) common |= (n == edge[0]) | (n == edge[1]);
+  if (common) return false;
   const auto at = [&](std::uint32_t n) { return sweep::point(nodes, n); };
-  // Exact numbers are made of finite ones only; without a place nothing passes through anything.
-  const auto lost = [&](std::uint32_t n) {
-    return !std::isfinite(nodes.x[n]) || !std::isfinite(nodes.y[n]) || !std::isfinite(nodes.z[n]);
-  };
-  if (std::any_of(edge.begin(), edge.end(), lost) || std::any_of(s.begin(), s.end(), lost))
-    return false;
   const Point3<double> p = at(edge[0]), q = at(edge[1]), a = at(s[0]), c = at(s[2]);
   if (detail::passes_through(p, q, a, at(s[1]), c)) return true;
   return s[2] != s[3] && detail::passes_through(p, q, a, c, at(s[3]));
-}
-
-bool meet(const Box& a, const Box& b) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!(a.low[k] <= b.high[k] && b.low[k] <= a.high[k])) return false;
-  return true;
 }
 
 /// Segments in a tree of their boxes. `segment_of(i)`: the nodes of one.
 template <class SegmentOf>
 class SegmentTree {
  public:
-  struct Near {
-    std::uint32_t segment;
-    Box box;
-  };
   SegmentTree(const NodeArrays& nodes, std::size_t count, const SegmentOf& segment_of, int threads)
       : nodes_(nodes), segment_of_(segment_of), order_(count) {
     std::iota(order_.begin(), order_.end(), 0U);
@@ -94,24 +60,27 @@ class SegmentTree {
     std::vector<BoxBlock> blocks;
     make_room(blocks, (count + width - 1) / width, threads);
     blocks.resize((count + width - 1) / width);
+    make_room(corners_, count, threads);
+    corners_.resize(count);
     parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin * width; i < std::min(count, end * width); ++i)
-        blocks[i / width].set(i % width, box_of(order_[i]));
+      for (std::size_t i = begin * width; i < std::min(count, end * width); ++i) {
+        corners_[i] = segment_of(order_[i]);
+        // Else the place in the block stays as those that are not used: nothing meets it.
+        if (all_placed(nodes, corners_[i]))
+          blocks[i / width].set(i % width, segment_box(nodes, corners_[i]));
+      }
     });
     tree_ = BoxTree(std::move(blocks), threads);
   }
 
-  /// The segments whose boxes meet `box`.
-  void near(const Box& box, std::vector<Near>& out) const {
+  /// The leaves that edges with these boxes may pass through, box after box.
+  void near(std::span<const Box> boxes, std::vector<sweep::Meeting>& out) const {
     out.clear();
-    walk(tree_, tree_.levels() - 1, 0, box, [&](std::size_t leaf) {
-      const BoxBlock& block = tree_.level(0)[leaf / width];
-      const std::size_t i = leaf % width;
-      out.push_back({order_[leaf],
-                     {{block.low[0][i], block.low[1][i], block.low[2][i]},
-                      {block.high[0][i], block.high[1][i], block.high[2][i]}}});
-    });
+    sweep::kernels().meetings(tree_, boxes, out);
   }
+  std::uint32_t segment(std::uint32_t leaf) const { return order_[leaf]; }
+  const std::array<std::uint32_t, 4>& corners(std::uint32_t leaf) const { return corners_[leaf]; }
+  Box bounds() const { return tree_.level(tree_.levels() - 1)[0].bounds(); }
 
  private:
   Box box_of(std::uint32_t i) const { return segment_box(nodes_, segment_of_(i)); }
@@ -119,6 +88,7 @@ class SegmentTree {
   const NodeArrays& nodes_;
   const SegmentOf& segment_of_;
   std::vector<std::uint32_t> order_;
+  std::vector<std::array<std::uint32_t, 4>> corners_;  // in this order
   BoxTree tree_;
 };
 
@@ -131,18 +101,30 @@ std::vector<CandidatePair> find_crossing_pairs(
   threads = effective_threads(threads);
   const auto segment_of = [&](std::uint32_t i) { return segments[i]; };
   const SegmentTree tree(nodes, segments.size(), segment_of, threads);
-  std::vector<std::vector<CandidatePair>> found(static_cast<std::size_t>(threads));
-  parallel_parts(threads, edges.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    std::vector<typename decltype(tree)::Near> near;
-    for (std::size_t e = begin; e < end; ++e) {
-      tree.near(sweep::edge_box(nodes, edges[e], 0), near);
-      for (const auto& m : near)
-        if (passes_through(nodes, edges[e], segments[m.segment]))
-          found[part].push_back({static_cast<std::uint32_t>(e), m.segment});
-    }
-  });
+  struct Piece {
+    std::vector<Box> boxes;
+    std::vector<sweep::Meeting> near;
+    std::vector<CandidatePair> found;
+  };
   std::vector<CandidatePair> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  run_in_order<Piece>(
+      (edges.size() + at_once - 1) / at_once, threads,
+      [&](std::size_t piece, Piece& out) {
+        const std::size_t first = piece * at_once;
+        out.boxes.clear();
+        out.found.clear();
+        for (const auto& edge : edges.subspan(first, std::min(at_once, edges.size() - first)))
+          out.boxes.push_back(sweep::edge_box(nodes, edge, 0));
+        tree.near(out.boxes, out.near);
+        for (const sweep::Meeting& m : out.near) {
+          const auto& edge = edges[first + m.box];
+          if (all_placed(nodes, edge) && passes_through(nodes, edge, tree.corners(m.leaf)))
+            out.found.push_back({static_cast<std::uint32_t>(first + m.box), tree.segment(m.leaf)});
+        }
+      },
+      [&](std::size_t, const Piece& in) {
+        all.insert(all.end(), in.found.begin(), in.found.end());
+      });
   std::sort(all.begin(), all.end());
   return all;
 }
@@ -184,14 +166,30 @@ std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t e) 
   }
 }
 
-/// Calls visit(edge) for every edge of an element whose nodes are both marked.
+/// What is known of a node: 0: it is no secondary node. Else beside this bit one for each side of
+/// the box of the main segments beyond which it lies.
+constexpr std::uint8_t secondary_node = 0x40;
+constexpr std::uint8_t outside_box = 0x3f;
+
+std::uint8_t mark_of(const NodeArrays& nodes, NodeIndex n, const Box& box) {
+  unsigned mark = secondary_node;
+  const double at[] = {nodes.x[n], nodes.y[n], nodes.z[n]};
+  for (std::size_t k = 0; k < 3; ++k)
+    mark |= static_cast<unsigned>(at[k] < box.low[k]) << (2 * k) |
+            static_cast<unsigned>(at[k] > box.high[k]) << (2 * k + 1);
+  return static_cast<std::uint8_t>(mark);
+}
+
+/// Calls visit(edge) for every edge of an element whose nodes are both marked. An edge whose nodes
+/// lie beyond the same side of the box stays there from end to end and meets nothing in it.
 template <class Visit>
 void marked_edges(const Elements& family, std::uint32_t e, const std::vector<std::uint8_t>& marks,
                   const Visit& visit) {
   const NodeIndex* n = family.of(e);
   for (const LocalEdge& local : local_edges(family, e)) {
     const NodeIndex a = n[local[0]], b = n[local[1]];
-    if (a == b || a == no_index || b == no_index || !marks[a] || !marks[b]) continue;
+    if (a == b || a == no_index || b == no_index) continue;
+    if (!marks[a] || !marks[b] || (marks[a] & marks[b] & outside_box) != 0) continue;
     visit(std::array<NodeIndex, 2>{std::min(a, b), std::max(a, b)});
   }
 }
@@ -282,30 +280,35 @@ template <class Tree>
 void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const NodeArrays& nodes,
            const Contact& contact, const Tree& tree, int threads, std::vector<Crossing>& out) {
   const std::vector<std::uint32_t> elements = bearers_of(bearers, contact);
-  std::vector<std::vector<Crossing>> found(static_cast<std::size_t>(threads));
-  parallel_parts(
-      threads, elements.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-        std::vector<typename Tree::Near> near;
-        std::vector<std::pair<std::array<NodeIndex, 2>, Box>> edges;
-        RecentEdges recent;
-        for (std::size_t i = begin; i < end; ++i) {
-          const std::uint32_t e = elements[i];
-          Box around;
-          edges.clear();
-          marked_edges(*bearers.family, e, marks, [&](const auto& edge) {
-            if (!recent.add(edge)) return;
-            edges.emplace_back(edge, sweep::edge_box(nodes, edge, 0));
-            around.add(edges.back().second);
-          });
-          if (edges.empty()) continue;
-          tree.near(around, near);
-          for (const auto& [edge, box] : edges)
-            for (const auto& m : near)
-              if (meet(m.box, box) && passes_through(nodes, edge, contact.main[m.segment].nodes))
-                found[part].push_back({0, edge, bearers.family->kind, e, m.segment});
-        }
+  struct Piece {
+    RecentEdges recent;  // also of pieces before this one: their elements come first
+    std::vector<std::pair<std::array<NodeIndex, 2>, std::uint32_t>> edges;  // with their elements
+    std::vector<Box> boxes;
+    std::vector<sweep::Meeting> near;
+    std::vector<Crossing> found;
+  };
+  const auto work = [&](std::size_t piece, Piece& p) {
+    p.edges.clear();
+    p.boxes.clear();
+    p.found.clear();
+    const std::size_t end = std::min(elements.size(), (piece + 1) * at_once);
+    for (std::size_t i = piece * at_once; i < end; ++i)
+      marked_edges(*bearers.family, elements[i], marks, [&](const auto& edge) {
+        if (!p.recent.add(edge)) return;
+        p.edges.emplace_back(edge, elements[i]);
+        p.boxes.push_back(sweep::edge_box(nodes, edge, 0));
       });
-  for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
+    tree.near(p.boxes, p.near);
+    for (const sweep::Meeting& m : p.near) {
+      const auto& [edge, element] = p.edges[m.box];
+      if (passes_through(nodes, edge, tree.corners(m.leaf)))
+        p.found.push_back({0, edge, bearers.family->kind, element, tree.segment(m.leaf)});
+    }
+  };
+  run_in_order<Piece>((elements.size() + at_once - 1) / at_once, threads, work,
+                      [&](std::size_t, const Piece& in) {
+                        out.insert(out.end(), in.found.begin(), in.found.end());
+                      });
 }
 
 /// An edge and the nodes of a segment in any order: segments on the same nodes are one place.
@@ -316,42 +319,85 @@ SpotKey spot_of(const Crossing& crossing, const MainSegment& segment) {
   return spot;
 }
 
+/// Crossings of one contact by edge and segment, with the first element that has the edge. `marks`:
+/// of all nodes, none is marked before and after.
+std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bearers>& all,
+                                   const NodeArrays& nodes, std::vector<std::uint8_t>& marks,
+                                   int threads) {
+  std::vector<Crossing> found;
+  if (contact.main.empty() || contact.secondary.empty()) return found;
+  const auto segment_of = [&](std::uint32_t i) { return contact.main[i].nodes; };
+  const SegmentTree tree(nodes, contact.main.size(), segment_of, threads);
+  const Box box = tree.bounds();
+  unsigned beyond = outside_box;  // sides of the box that all nodes are beyond
+  for (const SecondaryNode& s : contact.secondary)
+    if (all_placed(nodes, std::array{s.node}))
+      beyond &= marks[s.node] = mark_of(nodes, s.node, box);
+  if (beyond == 0)
+    for (const Bearers& b : all) cross(b, marks, nodes, contact, tree, threads, found);
+  for (const SecondaryNode& s : contact.secondary) marks[s.node] = 0;
+  // Of the elements that have an edge the first one stays.
+  std::stable_sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
+    return std::tie(a.edge, a.main) < std::tie(b.edge, b.main);
+  });
+  return found;
+}
+
+/// The crossings of all contacts: side by side, the largest first, or one after the other where one
+/// of them has more to do than a fair share.
+std::vector<std::vector<Crossing>> crossings_by_contact(const Scene& scene,
+                                                        const std::vector<Bearers>& all,
+                                                        const NodeArrays& nodes, int threads) {
+  const std::vector<Contact>& contacts = scene.contacts;
+  const auto size = [&](std::size_t c) {
+    return contacts[c].main.empty() ? 0 : contacts[c].main.size() + contacts[c].secondary.size();
+  };
+  std::vector<std::size_t> order(contacts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
+  std::size_t sum = 0;
+  for (const std::size_t c : order) sum += size(c);
+  const auto cores = static_cast<std::size_t>(threads);
+  const bool side_by_side = !order.empty() && size(order[0]) * cores <= sum;
+  std::vector<std::vector<Crossing>> found(contacts.size());
+  std::atomic<std::size_t> next{0};
+  CancelFlag cancel;
+  run_workers(side_by_side ? threads : 1, cancel, [&](std::size_t) {
+    std::vector<std::uint8_t> marks(scene.model->nodes.size());
+    for (;;) {
+      const std::size_t i = next.fetch_add(1);
+      if (i >= order.size() || cancel.is_set()) return;
+      const std::size_t c = order[i];
+      found[c] = crossings_of(contacts[c], all, nodes, marks, side_by_side ? 1 : threads);
+    }
+  });
+  return found;
+}
+
 }  // namespace
 
 std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
   threads = effective_threads(threads);
   const NodeArrays nodes{scene.coordinates.x, scene.coordinates.y, scene.coordinates.z};
-  std::vector<std::uint8_t> marks(scene.model->nodes.size());
-  const auto mark = [&](const Contact& contact, std::uint8_t value) {
-    for (const SecondaryNode& s : contact.secondary) marks[s.node] = value;
-  };
-  for (const Contact& c : scene.contacts) mark(c, 1);
-  std::vector<Bearers> all = bearers(*scene.model, marks, threads);
+  std::vector<Bearers> all;
+  {
+    std::vector<std::uint8_t> marks(scene.model->nodes.size());
+    for (const Contact& c : scene.contacts)
+      for (const SecondaryNode& s : c.secondary) marks[s.node] = secondary_node;
+    all = bearers(*scene.model, marks, threads);
+  }
   if (scene.contacts.size() > 2)  // else most of them belong to every contact
     for (Bearers& b : all) find_rows(b, scene.model->nodes.size());
-  const bool alone = scene.contacts.size() == 1;  // its marks are there already
-  if (!alone) std::fill(marks.begin(), marks.end(), std::uint8_t{0});
   std::vector<Crossing> out;
   std::set<SpotKey> seen;
-  for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
-    const Contact& contact = scene.contacts[c];
-    if (contact.main.empty() || contact.secondary.empty()) continue;
-    const auto segment_of = [&](std::uint32_t i) { return contact.main[i].nodes; };
-    const SegmentTree tree(nodes, contact.main.size(), segment_of, threads);
-    if (!alone) mark(contact, 1);
-    std::vector<Crossing> found;
-    for (const Bearers& b : all) cross(b, marks, nodes, contact, tree, threads, found);
-    if (!alone) mark(contact, 0);
-    // Of the elements that have an edge the first one stays.
-    std::stable_sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
-      return std::tie(a.edge, a.main) < std::tie(b.edge, b.main);
-    });
-    for (Crossing& crossing : found) {
+  std::vector<std::vector<Crossing>> found = crossings_by_contact(scene, all, nodes, threads);
+  for (std::uint32_t c = 0; c < found.size(); ++c)
+    for (Crossing& crossing : found[c]) {
       crossing.contact = c;
-      if (seen.insert(spot_of(crossing, contact.main[crossing.main])).second)
+      if (seen.insert(spot_of(crossing, scene.contacts[c].main[crossing.main])).second)
         out.push_back(crossing);
     }
-  }
   return out;
 }
 

@@ -97,22 +97,19 @@ struct JudgedPairs {
   DecisionReport report;
 };
 
-/// Runs `find` in the form that the accuracy needs. Exact decisions need both: the reference
-/// distance of a very obtuse segment can be far too large, and its round-off can hide a touch.
-template <class Find>
-Candidates candidates(Accuracy accuracy, double size, SearchOptions search, const Find& find) {
-  Candidates out;
+/// Searches in the form that the accuracy needs. Exact decisions need both: the reference distance
+/// of a very obtuse segment can be far too large, and its round-off can hide a touch. `size`: a
+/// length of the mesh.
+Candidates candidates(const SearchSides& sides, const Coordinates& x, Accuracy accuracy,
+                      double size, SearchOptions search) {
+  const bool one = accuracy == Accuracy::fast || accuracy == Accuracy::reference;
   search.form = accuracy == Accuracy::fast ? Form::robust : Form::reference;
-  SearchResult found = find(search);
-  out.complete = found.complete;
-  out.pairs = std::move(found.pairs);
-  if (accuracy == Accuracy::fast || accuracy == Accuracy::reference || !out.complete) return out;
-  search.form = Form::robust;
-  search.margin = 1e-6 * size;  // far above the round-off of the robust formula
-  const SearchResult near = find(search);
-  out.complete = near.complete;
-  std::set_difference(near.pairs.begin(), near.pairs.end(), out.pairs.begin(), out.pairs.end(),
-                      std::back_inserter(out.extra));
+  // Far above the round-off of the robust formula.
+  sweep::BothForms found = sides.find_both_forms(x, search, one ? sweep::kOneForm : 1e-6 * size);
+  Candidates out;
+  out.complete = found.result.complete;
+  out.pairs = std::move(found.result.pairs);
+  out.extra = std::move(found.robust_only);
   if (out.extra.empty()) return out;
   std::vector<CandidatePair> all;
   all.reserve(out.pairs.size() + out.extra.size());
@@ -217,15 +214,10 @@ void find_penetrations(SceneContext& c, Contact& contact) {
   const bool wide = c.options.candidates || contact.inacti == 3;
   const double margin = sides->margin(x);
   search.margin = wide ? margin : 0;
-  Candidates found;
-  {
-    KeptSearch kept;
-    const auto find = [&](const SearchOptions& o) { return sides->find(x, o, kept); };
-    found = candidates(c.options.accuracy, margin, search, find);
-    if (!found.complete && wide) {
-      search.margin = 0;
-      found = candidates(c.options.accuracy, margin, search, find);
-    }
+  Candidates found = candidates(*sides, x, c.options.accuracy, margin, search);
+  if (!found.complete && wide) {
+    search.margin = 0;
+    found = candidates(*sides, x, c.options.accuracy, margin, search);
   }
   RemovalLists removed;
   if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
@@ -281,8 +273,7 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
   const SearchOptions search = search_of(c, contact);
   std::optional<SearchSides> sides(std::in_place, contact, SearchSides::Off::included,
                                    c.options.threads);
-  const Candidates found = candidates(c.options.accuracy, sides->margin(x), search,
-                                      [&](const SearchOptions& o) { return sides->find(x, o); });
+  const Candidates found = candidates(*sides, x, c.options.accuracy, sides->margin(x), search);
   RemovalLists removed;
   if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
   sides.reset();

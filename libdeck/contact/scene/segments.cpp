@@ -33,9 +33,13 @@ bool repair(std::array<NodeIndex, 4>& n) {
 
 namespace {
 
+/// The elements come from around the first node of the segment: the node across is the one that
+/// most of them do not have, the first one all do.
 bool contains_all(const NodeIndex* nodes, int width, const Quad& segment) {
-  return std::all_of(segment.begin(), segment.end(), [&](NodeIndex s) {
-    return std::find(nodes, nodes + width, s) != nodes + width;
+  return std::all_of(segment.rbegin(), segment.rend(), [&](NodeIndex s) {
+    bool found = false;  // without a branch a slot: several are compared at once
+    for (int i = 0; i < width; ++i) found |= nodes[i] == s;
+    return found;
   });
 }
 
@@ -73,16 +77,10 @@ namespace {
 /// A solid that has all nodes of a quadrangle, but not as one of its faces: solids overlap there.
 bool inside_a_solid(SceneContext& c, const Quad& segment) {
   if (segment[2] == segment[3]) return false;
-  const NodeKey wanted = node_key(segment.data(), 4);
   const Elements& solids = c.model.solid8;
   const auto& around = c.connectivity.elements(ElementKind::solid8, segment[0]);
   return std::any_of(around.begin(), around.end(), [&](std::uint32_t e) {
-    if (!contains_all(solids.of(e), 8, segment)) return false;
-    for (int f = 0; f < 6; ++f) {
-      const Face face = solid_face(solids.of(e), f);
-      if (face.corners == 4 && node_key(face.nodes.data(), 4) == wanted) return false;
-    }
-    return true;
+    return contains_all(solids.of(e), 8, segment) && !has_face_of(solids.of(e), segment);
   });
 }
 

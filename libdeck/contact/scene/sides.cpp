@@ -6,20 +6,8 @@
 #include "base/pages.hpp"
 #include "base/parallel.hpp"
 #include "contact/search/margin.hpp"
-#include "contact/search/sweep.hpp"
 
 namespace deck::detail {
-
-struct KeptSearch::Nodes {
-  Nodes(const NodeSegmentInput& in, const SearchOptions& o)
-      : input(in), options(o), sweep(input, options, effective_threads(o.threads)) {}
-  NodeSegmentInput input;
-  SearchOptions options;
-  sweep::NodeSweep sweep;  // looks at both
-};
-
-KeptSearch::KeptSearch() = default;
-KeptSearch::~KeptSearch() = default;
 
 SearchSides::SearchSides(const Contact& contact, Off off, int threads)
     : threads_(effective_threads(threads)),
@@ -92,13 +80,10 @@ SearchResult SearchSides::find(const Coordinates& x, const SearchOptions& option
                       : find_node_segment_pairs(nodes(x), options);
 }
 
-/// Of edges nothing is kept: their lists are short.
-SearchResult SearchSides::find(const Coordinates& x, const SearchOptions& options,
-                               KeptSearch& kept) const {
-  if (edge_pairs()) return find(x, options);
-  if (kept.nodes_ == nullptr) kept.nodes_ = std::make_unique<KeptSearch::Nodes>(nodes(x), options);
-  kept.nodes_->options = options;
-  return sweep::find(kept.nodes_->sweep, options);
+sweep::BothForms SearchSides::find_both_forms(const Coordinates& x, const SearchOptions& options,
+                                              double robust_margin) const {
+  return edge_pairs() ? sweep::find_both_forms(edges(x), options, robust_margin)
+                      : sweep::find_both_forms(nodes(x), options, robust_margin);
 }
 
 double SearchSides::margin(const Coordinates& x) const {

@@ -3,26 +3,13 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "contact/search/sweep.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/contact/search.hpp"
 
 namespace deck::detail {
-
-/// What a search has built, for the next one on the same sides that differs in margin and form
-/// only.
-class KeptSearch {
- public:
-  KeptSearch();
-  ~KeptSearch();
-
- private:
-  friend class SearchSides;
-  struct Nodes;
-  std::unique_ptr<Nodes> nodes_;
-};
 
 class SearchSides {
  public:
@@ -37,8 +24,9 @@ class SearchSides {
   EdgeEdgeInput edges(const Coordinates& x) const;
   /// The pairs of either kind.
   SearchResult find(const Coordinates& x, const SearchOptions& options) const;
-  /// The same; `kept` is for these sides at these coordinates alone.
-  SearchResult find(const Coordinates& x, const SearchOptions& options, KeptSearch& kept) const;
+  /// Besides, those that only the robust form finds, with a margin of its own.
+  sweep::BothForms find_both_forms(const Coordinates& x, const SearchOptions& options,
+                                   double robust_margin) const;
   /// The solver's margin beyond the gap, from the mean edge length of the searched sides.
   double margin(const Coordinates& x) const;
 

@@ -35,7 +35,9 @@ const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& c) {
 }
 
 bool holds(const NodeIndex* nodes, int width, NodeIndex n) {
-  return std::find(nodes, nodes + width, n) != nodes + width;
+  bool found = false;  // without a branch a slot: several are compared at once
+  for (int i = 0; i < width; ++i) found |= nodes[i] == n;
+  return found;
 }
 
 bool solid_holds(const Elements& solids, std::uint32_t e, NodeIndex n) {

@@ -14,8 +14,8 @@ using sweep::at;
 
 namespace sweep {
 
-EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads)
-    : input(&in), options(&o) {
+EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads, double robust)
+    : input(&in), options(&o), robust_margin(robust) {
   constexpr std::size_t kWidth = BoxBlock::kWidth;
   const auto secondary_box = [&](std::uint32_t i) {
     return edge_box(in.nodes, in.secondary[i], secondary_reach(o, at(in.secondary_gap, i, 0.0)));
@@ -32,7 +32,7 @@ EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int thread
 
   mains = active(in.main.size(), in.main_stiffness);
   const auto main_box = [&](std::uint32_t i) {
-    return edge_box(in.nodes, in.main[i], main_reach(o, at(in.main_gap, i, 0.0)));
+    return edge_box(in.nodes, in.main[i], main_reach(o, robust, at(in.main_gap, i, 0.0)));
   };
   put_in_order(mains, main_box, threads);
 }
@@ -41,16 +41,21 @@ std::size_t EdgeSweep::bytes() const {
   return tree.bytes() + (items.size() + mains.size()) * sizeof(std::uint32_t);
 }
 
+BothForms find_both_forms(const EdgeEdgeInput& in, const SearchOptions& options,
+                          double robust_margin) {
+  const EdgeSweep w(in, options, effective_threads(options.threads), robust_margin);
+  BothForms both;
+  both.result.structure_bytes = w.bytes();
+  run([&w](std::size_t begin, std::size_t end,
+           Found& found) { kernels().edges(w, begin, end, found); },
+      w.mains.size(), in.secondary.size(), options, both);
+  return both;
+}
+
 }  // namespace sweep
 
 SearchResult find_edge_edge_pairs(const EdgeEdgeInput& in, const SearchOptions& options) {
-  const sweep::EdgeSweep w(in, options, effective_threads(options.threads));
-  SearchResult result;
-  result.structure_bytes = w.bytes();
-  sweep::run([&w](std::size_t begin, std::size_t end,
-                  sweep::Sink& sink) { sweep::kernels().edges(w, begin, end, sink); },
-             w.mains.size(), in.secondary.size(), options, result);
-  return result;
+  return sweep::find_both_forms(in, options, sweep::kOneForm).result;
 }
 
 }  // namespace deck

@@ -19,6 +19,7 @@ namespace baseline {
 #define DECK_LANE_BITS(m) static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(m)))
 #define DECK_SUB_BITS(m) (((m)[0] | (m)[1] | (m)[2] | (m)[3]) != 0)
 #include "contact/search/lanes.hpp"
+#include "contact/search/lanes_edges.hpp"
 #undef DECK_LANES
 #undef DECK_LANE_BITS
 #undef DECK_SUB_BITS
@@ -35,6 +36,7 @@ namespace avx2 {
 #define DECK_LANE_BITS(m) static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(m)))
 #define DECK_SUB_BITS(m) _mm256_movemask_pd(reinterpret_cast<__m256d>(m))
 #include "contact/search/lanes.hpp"
+#include "contact/search/lanes_edges.hpp"
 #undef DECK_LANES
 #undef DECK_LANE_BITS
 #undef DECK_SUB_BITS
@@ -46,8 +48,9 @@ namespace avx2 {
 #endif
 
 namespace {
-const std::array<Kernels, 2> kAll{Kernels{baseline::sweep_nodes, baseline::sweep_edges, "sse2"},
-                                  Kernels{avx2::sweep_nodes, avx2::sweep_edges, "avx2"}};
+const std::array<Kernels, 2> kAll{
+    Kernels{baseline::sweep_nodes, baseline::sweep_edges, baseline::meet_boxes, "sse2"},
+    Kernels{avx2::sweep_nodes, avx2::sweep_edges, avx2::meet_boxes, "avx2"}};
 }  // namespace
 
 std::span<const Kernels> all_kernels() {
@@ -61,13 +64,15 @@ namespace generic {
 #define DECK_LANE_BITS(m) (static_cast<unsigned>(-(m)[0]) | static_cast<unsigned>(-(m)[1]) << 1)
 #define DECK_SUB_BITS(m) (((m)[0] | (m)[1] | (m)[2] | (m)[3]) != 0)
 #include "contact/search/lanes.hpp"
+#include "contact/search/lanes_edges.hpp"
 #undef DECK_LANES
 #undef DECK_LANE_BITS
 #undef DECK_SUB_BITS
 }  // namespace generic
 
 namespace {
-const std::array<Kernels, 1> kAll{Kernels{generic::sweep_nodes, generic::sweep_edges, "generic"}};
+const std::array<Kernels, 1> kAll{
+    Kernels{generic::sweep_nodes, generic::sweep_edges, generic::meet_boxes, "generic"}};
 }  // namespace
 
 std::span<const Kernels> all_kernels() { return kAll; }

@@ -129,6 +129,46 @@ struct SubPoint {
   Subs x, y, z;
 };
 
+// Results by reference: vectors are not returned, as how is another matter in every instruction
+// set.
+inline void dot(const SubPoint& a, const SubPoint& b, Subs& out) {
+  out = a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+// Vectors between points of two convex things, four pairs of things side by side, and
+// bounds of their distances: no more than |v|, as v joins a point of one to a point of the other,
+// and no less than lowest / |v|, where `lowest` is the smallest of v.w over the vectors w that join
+// a corner of one to a corner of the other. Both hold whatever v is.
+struct Offsets {
+  SubPoint v;
+  Subs squared;  // v.v
+  Subs lowest;
+};
+
+// Whether distances are below `limit` as the robust formula sees it, where bounds tell. What
+// round-off does to bounds and formula is far less than the widening by Reach; where squares
+// may have vanished nothing is told.
+struct RobustLimit {
+  Subs near, far;  // squares; not far: nothing is told for sure
+
+  static constexpr double kVanishing = 0x1p-900;
+
+  RobustLimit(const Subs& limit, const Subs& largest_coordinate) {
+    const Subs zero{};
+    const Subs wider =
+        limit * Reach::kRelative + largest_coordinate * Reach::kOfCoordinate + Reach::kUnderflow;
+    const Subs low = limit - wider, high = limit + wider;
+    near = low > zero ? low * low : zero;
+    far = high * high;
+  }
+  // Masks of those that are below for sure, and of those that are not for sure.
+  void judge(const Offsets& o, SubMask& below, SubMask& not_below) const {
+    const SubMask told = o.squared > Subs{} + kVanishing;
+    below = told & (o.squared < near);
+    not_below = told & (o.lowest > Subs{}) & (o.lowest * o.lowest > o.squared * far);
+  }
+};
+
 // The part of the reference formula that does not depend on the node, for all sub-triangles.
 struct SubTriangles {
   SubPoint o, a, b, n, e, corner_b;
@@ -160,8 +200,8 @@ struct SubTriangles {
     aa = floor30 < aa ? aa : floor30;
   }
 
-  // Squared distances of a node to the sub-triangles.
-  void squared_distance(const Point3<double>& node, Subs& squared) const {
+  // From the sub-triangles to a node, by the formula.
+  Offsets offsets(const Point3<double>& node) const {
     const Subs zero{}, one = zero + 1.0;
     const SubPoint p{zero + node.x, zero + node.y, zero + node.z};
     const Subs rx = p.x - o.x, ry = p.y - o.y, rz = p.z - o.z;
@@ -188,10 +228,18 @@ struct SubTriangles {
     ratio = zero < ratio ? ratio : zero;
     la = on_ab ? ratio : (on_ob ? zero : (on_oa ? ratio : la));
     lb = on_ab ? one - ratio : (on_ob ? ratio : (on_oa ? zero : lb));
-    const Subs vx = p.x - (o.x + la * a.x + lb * b.x);
-    const Subs vy = p.y - (o.y + la * a.y + lb * b.y);
-    const Subs vz = p.z - (o.z + la * a.z + lb * b.z);
-    squared = vx * vx + vy * vy + vz * vz;
+    Offsets out;
+    out.v = {p.x - (o.x + la * a.x + lb * b.x), p.y - (o.y + la * a.y + lb * b.y),
+             p.z - (o.z + la * a.z + lb * b.z)};
+    dot(out.v, out.v, out.squared);
+    // The smallest of v.r, v.(r - a), v.(r - b): r - a and r - b lead from A and B to the node.
+    Subs along_r, along_a, along_b;
+    dot(out.v, {rx, ry, rz}, along_r);
+    dot(out.v, a, along_a);
+    dot(out.v, b, along_b);
+    const Subs most = along_a < along_b ? along_b : along_a;
+    out.lowest = along_r - (zero < most ? most : zero);
+    return out;
   }
 };
 
@@ -229,6 +277,7 @@ struct SegmentTest {
   std::uint32_t segment;
   double gap_m, length_m;
   bool constant, lengths, reference;
+  double limit;  // without margin
   Threshold threshold;
   SubTriangles sub;
 
@@ -242,35 +291,45 @@ struct SegmentTest {
         constant(w.options->gap.rule == GapRule::constant),
         lengths(w.options->gap.rule == GapRule::sum_limited),
         reference(w.options->form == Form::reference),
-        threshold(pair_limit(*w.options, 0.0, 0.0, 0.0, 0.0)) {
-    if (reference)
-      sub.set(s);
-    else
-      sub = SubTriangles{};
+        limit(pair_limit(*w.options, 0.0, 0.0, 0.0, 0.0)),
+        threshold(limit + w.options->margin) {
+    sub.set(s);
   }
 
-  void point(const PointBlock& leaf, std::uint32_t rank, Sink& sink) {
+  // Whether the distance by the robust formula is below `most`.
+  bool robust_below(const Point3<double>& p, const Offsets& offsets, double most) const {
+    if (!(most > 0.0)) return false;
+    const Subs zero{};
+    const RobustLimit bound(zero + most, zero + shape.largest);
+    SubMask below, not_below;
+    bound.judge(offsets, below, not_below);
+    if (DECK_SUB_BITS(~not_below) == 0) [[likely]]
+      return false;
+    if (DECK_SUB_BITS(below) != 0) return true;
+    return closest_on_segment<Form::robust>(p, shape.corner, shape.triangle).distance() < most;
+  }
+
+  void point(const PointBlock& leaf, std::uint32_t rank, Found& found) {
     const std::size_t place = rank % 8;
     const Point3<double> p{leaf.x[place], leaf.y[place], leaf.z[place]};
     if (!constant) {
       const double length_s =
           lengths ? at(w.input->secondary_length, w.items[rank], kInfinity) : kInfinity;
-      threshold = Threshold(pair_limit(*w.options, leaf.gap[place], gap_m, length_s, length_m));
+      limit = pair_limit(*w.options, leaf.gap[place], gap_m, length_s, length_m);
+      threshold = Threshold(limit + w.options->margin);
     }
-    ++sink.tested;
-    bool near;
-    if (reference) {
-      Subs squared;
-      sub.squared_distance(p, squared);
-      near = any_below(squared, threshold);
-    } else {
-      near = closest_on_segment<Form::robust>(p, shape.corner, shape.triangle).distance() <
-             threshold.limit;
-    }
+    ++found.tested;
+    const Offsets offsets = sub.offsets(p);
+    const bool near = reference ? any_below(offsets.squared, threshold)
+                                : robust_below(p, offsets, threshold.limit);
     const std::uint32_t node = w.nodes[rank];
     bool own = false;
     for (const std::uint32_t corner : corners) own |= node == corner;
-    sink.push_if(near & !own, {w.items[rank], segment});
+    const CandidatePair pair{w.items[rank], segment};
+    found.pairs.push_if(near & !own, pair);
+    if (w.robust_margin < 0.0 || near || own) return;
+    if (robust_below(p, offsets, limit + w.robust_margin)) [[unlikely]]
+      found.robust_only.push(pair);
   }
 };
 
@@ -278,7 +337,7 @@ struct SegmentTest {
 // leaves, are put together into words of 64 bits: few long loops are predicted better than many
 // short ones.
 inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, const Shape& s,
-                          std::uint32_t segment, Sink& sink) {
+                          std::uint32_t segment, Found& found) {
   const std::vector<BoxBlock>& blocks = w.tree.level(0);
   const auto last_leaf = static_cast<std::uint32_t>(w.points.size() - 1);
   const unsigned last_bits = (2U << ((w.items.size() - 1) % 8)) - 1U;
@@ -290,7 +349,7 @@ inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, cons
     for (; points != 0; points &= points - 1) {
       const auto bit = static_cast<unsigned>(__builtin_ctzll(points));
       const std::uint32_t i = leaf[bit / 8];
-      test.point(w.points[i], i * 8 + bit % 8, sink);
+      test.point(w.points[i], i * 8 + bit % 8, found);
     }
     leaves = 0;
   };
@@ -314,7 +373,7 @@ inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, cons
   test_points();
 }
 
-inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, Sink& sink) {
+inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, Found& found) {
   if (w.tree.levels() == 0) return;
   const NodeSegmentInput& in = *w.input;
   Walk walk;
@@ -326,7 +385,7 @@ inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, 
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t segment = w.segments[first + i];
       shapes[i].set(in.nodes, in.segments[segment],
-                    main_reach(*w.options, at(in.segment_gap, segment, 0.0)));
+                    main_reach(*w.options, w.robust_margin, at(in.segment_gap, segment, 0.0)));
       group.add(shapes[i].wide);
       sizes += shapes[i].wide.size();
     }
@@ -344,149 +403,41 @@ inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, 
       }
     }
     for (std::size_t i = 0; i < count; ++i) {
-      if (sink.full()) return;
+      if (found.full()) return;
       if (!shared) walk.find(w.tree, shapes[i].wide);
-      sweep_segment(w, walk.hits, shapes[i], w.segments[first + i], sink);
+      sweep_segment(w, walk.hits, shapes[i], w.segments[first + i], found);
     }
   }
 }
 
-// Secondary edges waiting for the distance to one main edge, four at a time.
-struct EdgeTest {
-  const EdgeSweep& w;
-  std::uint32_t edge;
-  std::array<std::uint32_t, 2> m;
-  Point3<double> m1, m2;
-  double gap_m, length_m;
-  std::array<std::uint32_t, 4> item{};
-  unsigned waiting = 0;
-
-  EdgeTest(const EdgeSweep& sweep, std::uint32_t which)
-      : w(sweep),
-        edge(which),
-        m(w.input->main[which]),
-        m1(point(w.input->nodes, m[0])),
-        m2(point(w.input->nodes, m[1])),
-        gap_m(at(w.input->main_gap, which, 0.0)),
-        length_m(at(w.input->main_length, which, kInfinity)) {}
-
-  double limit(std::uint32_t i) const {
-    return pair_limit(*w.options, at(w.input->secondary_gap, i, 0.0), gap_m,
-                      at(w.input->secondary_length, i, kInfinity), length_m);
+// Boxes first ... last-1 of a list against a tree: as one if they lie together, else by halves.
+inline void meet_some(const BoxTree& tree, std::span<const Box> boxes, std::size_t first,
+                      std::size_t last, Walk& walk, std::vector<Meeting>& out) {
+  Box group;
+  double sizes = 0.0;
+  for (std::size_t i = first; i < last; ++i) {
+    group.add(boxes[i]);
+    sizes += boxes[i].size();
   }
-
-  void add(std::uint32_t i, Sink& sink) {
-    const auto s = w.input->secondary[i];
-    if (s[0] == m[0] || s[0] == m[1] || s[1] == m[0] || s[1] == m[1]) return;
-    item[waiting++] = i;
-    if (waiting == 4) flush(sink);
+  if (last - first > 1 && !worth_sharing(group.size(), sizes)) {
+    const std::size_t middle = first + (last - first) / 2;
+    meet_some(tree, boxes, first, middle, walk, out);
+    meet_some(tree, boxes, middle, last, walk, out);
+    return;
   }
-
-  void flush(Sink& sink) {
-    if (waiting == 0) return;
-    sink.tested += waiting;
-    if (w.options->form == Form::robust) {
-      for (unsigned k = 0; k < waiting; ++k) {
-        const auto s = w.input->secondary[item[k]];
-        const NodeArrays& nodes = w.input->nodes;
-        const auto c =
-            closest_between_edges<Form::robust>(point(nodes, s[0]), point(nodes, s[1]), m1, m2);
-        if (c.distance < limit(item[k])) sink.push({item[k], edge});
-      }
-      waiting = 0;
-      return;
-    }
-    Subs squared;
-    squared_distances(squared);
-    for (unsigned k = 0; k < waiting; ++k) {
-      const double l = limit(item[k]);
-      if (l > 0.0 && squared[k] < l * l) sink.push({item[k], edge});
-    }
-    waiting = 0;
-  }
-
-  static void clamp(Subs& v) {
-    const Subs zero{}, one = zero + 1.0;
-    v = v < one ? v : one;
-    v = zero < v ? v : zero;
-  }
-
-  // The reference formula for edges, operation by operation, for the waiting ones.
-  void squared_distances(Subs& squared) const {
-    std::array<Point3<double>, 4> first, second;
-    for (unsigned k = 0; k < 4; ++k) {
-      const auto s = w.input->secondary[item[k < waiting ? k : 0]];
-      first[k] = point(w.input->nodes, s[0]);
-      second[k] = point(w.input->nodes, s[1]);
-    }
-    const auto lanes = [](const std::array<Point3<double>, 4>& p) {
-      return SubPoint{Subs{p[0].x, p[1].x, p[2].x, p[3].x}, Subs{p[0].y, p[1].y, p[2].y, p[3].y},
-                      Subs{p[0].z, p[1].z, p[2].z, p[3].z}};
-    };
-    const SubPoint s1 = lanes(first), s2 = lanes(second);
-    const Subs zero{}, floor20 = zero + 1e-20;
-    const Subs sx = s2.x - s1.x, sy = s2.y - s1.y, sz = s2.z - s1.z;
-    const Point3<double> d = m2 - m1;
-    const Subs wx = m2.x - s2.x, wy = m2.y - s2.y, wz = m2.z - s2.z;
-    const Subs aa = sx * sx + sy * sy + sz * sz;
-    const double cc = dot(d, d);
-    const Subs q = -(sx * d.x + sy * d.y + sz * d.z);
-    const Subs xa = sx * wx + sy * wy + sz * wz;
-    const Subs xb = -(d.x * wx + d.y * wy + d.z * wz);
-    Subs det = cc * aa - q * q;
-    det = floor20 < det ? det : floor20;
-    const Subs aa_floor = aa < floor20 ? floor20 : aa;
-    const double cc_floor = std::max(cc, 1e-20);
-    Subs hm = (xa * q - xb * aa) / det;
-    clamp(hm);
-    Subs hs = -(xa + hm * q) / aa_floor;
-    clamp(hs);
-    hm = -(xb + hs * q) / cc_floor;
-    clamp(hm);
-    const Subs rs = 1.0 - hs, rm = 1.0 - hm;
-    const Subs vx = hs * s1.x + rs * s2.x - hm * m1.x - rm * m2.x;
-    const Subs vy = hs * s1.y + rs * s2.y - hm * m1.y - rm * m2.y;
-    const Subs vz = hs * s1.z + rs * s2.z - hm * m1.z - rm * m2.z;
-    squared = vx * vx + vy * vy + vz * vz;
-  }
-};
-
-// The part of a group's walk that belongs to one main edge.
-inline void sweep_edge(const EdgeSweep& w, const std::vector<Hit>& hits, const Box& box,
-                       std::uint32_t edge, Sink& sink) {
-  const std::vector<BoxBlock>& leaves = w.tree.level(0);
-  EdgeTest test(w, edge);
-  for (const Hit& hit : hits) {
-    unsigned mask = overlaps(leaves[hit.block], box) & hit.mask;
-    for (; mask != 0; mask &= mask - 1) {
-      test.add(w.items[hit.block * 8 + static_cast<std::size_t>(__builtin_ctz(mask))], sink);
-    }
-  }
-  test.flush(sink);
+  const std::vector<BoxBlock>& leaves = tree.level(0);
+  walk.find(tree, group);
+  for (std::size_t i = first; i < last; ++i)
+    for (const Hit& hit : walk.hits)
+      for (unsigned mask = overlaps(leaves[hit.block], boxes[i]) & hit.mask; mask != 0;
+           mask &= mask - 1)
+        out.push_back({static_cast<std::uint32_t>(i),
+                       hit.block * 8 + static_cast<std::uint32_t>(__builtin_ctz(mask))});
 }
 
-inline void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, Sink& sink) {
-  if (w.tree.levels() == 0) return;
-  const EdgeEdgeInput& in = *w.input;
+inline void meet_boxes(const BoxTree& tree, std::span<const Box> boxes, std::vector<Meeting>& out) {
+  if (tree.levels() == 0) return;
   Walk walk;
-  std::array<Box, kGroup> boxes;
-  for (std::size_t first = begin; first < end; first += kGroup) {
-    const std::size_t count = std::min(kGroup, end - first);
-    Box group;
-    double sizes = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t edge = w.mains[first + i];
-      boxes[i] =
-          edge_box(in.nodes, in.main[edge], main_reach(*w.options, at(in.main_gap, edge, 0.0)));
-      group.add(boxes[i]);
-      sizes += boxes[i].size();
-    }
-    const bool shared = worth_sharing(group.size(), sizes);
-    if (shared) walk.find(w.tree, group);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (sink.full()) return;
-      if (!shared) walk.find(w.tree, boxes[i]);
-      sweep_edge(w, walk.hits, boxes[i], w.mains[first + i], sink);
-    }
-  }
+  for (std::size_t first = 0; first < boxes.size(); first += kGroup)
+    meet_some(tree, boxes, first, std::min(boxes.size(), first + kGroup), walk, out);
 }

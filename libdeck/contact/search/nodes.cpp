@@ -13,8 +13,9 @@ namespace {
 using sweep::at;
 
 // Box of a segment, widened by its own reach; only for judging order and size.
-Box segment_box(const NodeSegmentInput& in, const SearchOptions& options, std::uint32_t i) {
-  const double reach = sweep::main_reach(options, at(in.segment_gap, i, 0.0));
+Box segment_box(const NodeSegmentInput& in, const SearchOptions& options, double robust_margin,
+                std::uint32_t i) {
+  const double reach = sweep::main_reach(options, robust_margin, at(in.segment_gap, i, 0.0));
   Box box;
   for (const std::uint32_t node : in.segments[i]) {
     const Point3<double> p = sweep::point(in.nodes, node);
@@ -27,11 +28,11 @@ Box segment_box(const NodeSegmentInput& in, const SearchOptions& options, std::u
 
 namespace sweep {
 
-NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads)
-    : input(&in), options(&o) {
+NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads, double robust)
+    : input(&in), options(&o), robust_margin(robust) {
   segments = active(in.segments.size(), in.segment_stiffness);
   put_in_order(
-      segments, [&](std::uint32_t i) { return segment_box(in, o, i); }, threads);
+      segments, [&](std::uint32_t i) { return segment_box(in, o, robust, i); }, threads);
 
   items = active(in.secondary.size(), in.secondary_stiffness);
   // Large meshes are mostly numbered along their rows, which serves as well as any order.
@@ -67,7 +68,7 @@ bool NodeSweep::looks_ordered() const {
     return box.size();
   });
   const double segment = median(segments.size(), [&](std::size_t i) {
-    return segment_box(*input, *options, segments[i]).size();
+    return segment_box(*input, *options, robust_margin, segments[i]).size();
   });
   return apart <= 16.0 * segment;
 }
@@ -118,7 +119,7 @@ bool NodeSweep::serves_well() const {
   std::size_t tested = 0, allowed = 0;
   std::vector<std::pair<std::size_t, std::size_t>> stack;  // level, block
   for (std::size_t i = stride / 2; i < segments.size(); i += stride) {
-    const Box b = segment_box(*input, *options, segments[i]);
+    const Box b = segment_box(*input, *options, robust_margin, segments[i]);
     const auto apart = [&b](std::size_t axis, double low, double high) {
       return !(low <= b.high[axis] && high >= b.low[axis]);  // unused places are apart
     };
@@ -158,19 +159,21 @@ std::size_t NodeSweep::bytes() const {
          (items.size() + nodes.size() + segments.size()) * sizeof(std::uint32_t);
 }
 
+BothForms find_both_forms(const NodeSegmentInput& in, const SearchOptions& options,
+                          double robust_margin) {
+  const NodeSweep w(in, options, effective_threads(options.threads), robust_margin);
+  BothForms both;
+  both.result.structure_bytes = w.bytes();
+  run([&w](std::size_t begin, std::size_t end,
+           Found& found) { kernels().nodes(w, begin, end, found); },
+      w.segments.size(), in.secondary.size(), options, both);
+  return both;
+}
+
 }  // namespace sweep
 
 SearchResult find_node_segment_pairs(const NodeSegmentInput& in, const SearchOptions& options) {
-  return sweep::find(sweep::NodeSweep(in, options, effective_threads(options.threads)), options);
-}
-
-SearchResult sweep::find(const NodeSweep& w, const SearchOptions& options) {
-  SearchResult result;
-  result.structure_bytes = w.bytes();
-  sweep::run([&w](std::size_t begin, std::size_t end,
-                  sweep::Sink& sink) { sweep::kernels().nodes(w, begin, end, sink); },
-             w.segments.size(), w.input->secondary.size(), options, result);
-  return result;
+  return sweep::find_both_forms(in, options, sweep::kOneForm).result;
 }
 
 }  // namespace deck

@@ -26,11 +26,12 @@ void sort_by_main(CandidatePair* first, CandidatePair* last) {
 // Counting sort by secondary, then each secondary's few mains by insertion. Every thread owns a
 // range of secondaries and reads all pairs. Count: wide enough for the number of pairs.
 template <class Count>
-void merge(std::vector<Sink>& sinks, std::size_t secondaries, int threads, SearchResult& result) {
+void merge(const std::vector<Found>& found, std::size_t secondaries, int threads,
+           SearchResult& result) {
   std::vector<Count> next(secondaries + 1, 0);
   parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (const Sink& sink : sinks) {
-      sink.for_each([&](const CandidatePair& pair) {
+    for (const Found& by_thread : found) {
+      by_thread.pairs.for_each([&](const CandidatePair& pair) {
         if (pair.secondary >= begin && pair.secondary < end) ++next[pair.secondary + 1];
       });
     }
@@ -40,8 +41,8 @@ void merge(std::vector<Sink>& sinks, std::size_t secondaries, int threads, Searc
   CandidatePair* const out = result.pairs.data();
   parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
     // next[i] runs from the first to one past the last pair of i.
-    for (const Sink& sink : sinks) {
-      sink.for_each([&](const CandidatePair& pair) {
+    for (const Found& by_thread : found) {
+      by_thread.pairs.for_each([&](const CandidatePair& pair) {
         if (pair.secondary >= begin && pair.secondary < end) out[next[pair.secondary]++] = pair;
       });
     }
@@ -56,40 +57,46 @@ void merge(std::vector<Sink>& sinks, std::size_t secondaries, int threads, Searc
 
 }  // namespace
 
-void run(const std::function<void(std::size_t, std::size_t, Sink&)>& body, std::size_t count,
-         std::size_t secondaries, const SearchOptions& options, SearchResult& result) {
+void run(const std::function<void(std::size_t, std::size_t, Found&)>& body, std::size_t count,
+         std::size_t secondaries, const SearchOptions& options, BothForms& both) {
   constexpr std::size_t kChunk = 64 * kGroup;
   const std::size_t chunks = (count + kChunk - 1) / kChunk;
   const int threads = effective_threads(options.threads);
   // Every sink may leave its last chunk nearly empty: full means that there are too many for sure.
   constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max() / 2);
-  const std::size_t slack = static_cast<std::size_t>(threads) * Sink::kChunk;
+  const std::size_t slack = 2 * static_cast<std::size_t>(threads) * Sink::kChunk;
   std::atomic<std::int64_t> allowance{
       static_cast<std::int64_t>(std::min(options.max_pairs, kMost) + slack)};
-  std::vector<Sink> sinks;
-  for (int t = 0; t < threads; ++t) sinks.emplace_back(&allowance);
-  std::atomic<std::size_t> next_chunk{0}, found{0};
+  std::vector<Found> found;
+  for (int t = 0; t < threads; ++t) found.emplace_back(&allowance);
+  std::atomic<std::size_t> next_chunk{0}, pairs{0};
   CancelFlag cancel;
   const auto work = [&](std::size_t worker) {
-    Sink& sink = sinks[worker];
+    Found& mine = found[worker];
     for (;;) {
       const std::size_t chunk = next_chunk.fetch_add(1);
-      if (chunk >= chunks || found.load() > options.max_pairs || cancel.is_set()) return;
-      const std::size_t before = sink.size();
-      body(chunk * kChunk, std::min(count, (chunk + 1) * kChunk), sink);
-      if (sink.full()) cancel.set();
-      found += sink.size() - before;
+      if (chunk >= chunks || pairs.load() > options.max_pairs || cancel.is_set()) return;
+      const std::size_t before = mine.size();
+      body(chunk * kChunk, std::min(count, (chunk + 1) * kChunk), mine);
+      if (mine.full()) cancel.set();
+      pairs += mine.size() - before;
     }
   };
-  run_workers(static_cast<int>(std::min(sinks.size(), chunks)), cancel, work);
-  for (const Sink& sink : sinks) result.tested += sink.tested;
-  if (found.load() > options.max_pairs || cancel.is_set()) {
+  run_workers(static_cast<int>(std::min(found.size(), chunks)), cancel, work);
+  SearchResult& result = both.result;
+  for (const Found& by_thread : found) result.tested += by_thread.tested;
+  if (pairs.load() > options.max_pairs || cancel.is_set()) {
     result.complete = false;
     return;
   }
-  const bool many = found.load() > std::numeric_limits<std::uint32_t>::max();
-  many ? merge<std::size_t>(sinks, secondaries, threads, result)
-       : merge<std::uint32_t>(sinks, secondaries, threads, result);
+  for (const Found& by_thread : found)
+    by_thread.robust_only.for_each(
+        [&](const CandidatePair& pair) { both.robust_only.push_back(pair); });
+  std::sort(both.robust_only.begin(), both.robust_only.end());
+  if (pairs.load() == both.robust_only.size()) return;
+  const bool many = pairs.load() > std::numeric_limits<std::uint32_t>::max();
+  many ? merge<std::size_t>(found, secondaries, threads, result)
+       : merge<std::uint32_t>(found, secondaries, threads, result);
 }
 
 }  // namespace deck::sweep

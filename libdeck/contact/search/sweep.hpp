@@ -74,7 +74,6 @@ class Sink {
       for (std::size_t i = 0; i < count; ++i) visit(chunks_[c][i]);
     }
   }
-  std::size_t tested = 0;  // distances computed
 
  private:
   void grow() {
@@ -94,10 +93,27 @@ class Sink {
   std::size_t fill_ = kChunk;
 };
 
+// What one thread found.
+struct Found {
+  explicit Found(std::atomic<std::int64_t>* allowance = nullptr)
+      : pairs(allowance), robust_only(allowance) {}
+  bool full() const { return pairs.full() || robust_only.full(); }
+  std::size_t size() const { return pairs.size() + robust_only.size(); }
+  Sink pairs;
+  Sink robust_only;        // within a sweep's robust margin, but not in `pairs`
+  std::size_t tested = 0;  // distances computed
+};
+
+// The margin of a sweep that decides in one form only.
+inline constexpr double kOneForm = -1.0;
+
 // Everything a sweep over the main side reads. Filled by nodes.cpp and edges.cpp.
 struct NodeSweep {
   const NodeSegmentInput* input = nullptr;
   const SearchOptions* options = nullptr;
+  // Not negative: pairs that the options' form does not find, but the robust form with this margin,
+  // are found apart.
+  double robust_margin = kOneForm;
   std::vector<std::uint32_t> segments;  // active ones in spatial order
   std::vector<PointBlock> points;
   std::vector<double> reach;         // per leaf: largest share of the gap among its nodes
@@ -106,7 +122,8 @@ struct NodeSweep {
   BoxTree tree;                      // leaves: boxes of the point blocks, widened by their reach
 
   // The search structure over the secondary nodes of an input, and its segments in order.
-  NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads);
+  NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads,
+            double robust_margin = kOneForm);
   std::size_t bytes() const;
 
  private:
@@ -114,17 +131,17 @@ struct NodeSweep {
   void pack(int threads);
   bool serves_well() const;
 };
-// The pairs of `w`, whose options are `options`.
-SearchResult find(const NodeSweep& w, const SearchOptions& options);
 
 struct EdgeSweep {
   const EdgeEdgeInput* input = nullptr;
   const SearchOptions* options = nullptr;
+  double robust_margin = kOneForm;   // as in NodeSweep
   std::vector<std::uint32_t> mains;  // active main edges in spatial order
   std::vector<std::uint32_t> items;  // active secondary edges in spatial order
   BoxTree tree;                      // leaves: boxes of single secondary edges, widened
 
-  EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads);
+  EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads,
+            double robust_margin = kOneForm);
   std::size_t bytes() const;
 };
 
@@ -133,19 +150,27 @@ struct EdgeSweep {
 inline double secondary_reach(const SearchOptions& o, double gap) {
   return std::max(o.gap.share(gap), 0.5 * o.drad);
 }
-inline double main_reach(const SearchOptions& o, double gap) {
-  return std::max(o.gap.share(gap), 0.5 * o.drad) + o.margin;
+inline double main_reach(const SearchOptions& o, double robust_margin, double gap) {
+  return std::max(o.gap.share(gap), 0.5 * o.drad) + std::max(o.margin, robust_margin);
 }
+// Of a pair, without any margin.
 inline double pair_limit(const SearchOptions& o, double gap_s, double gap_m, double length_s,
                          double length_m) {
-  return std::max(o.drad, o.gap(gap_s, gap_m, length_s, length_m)) + o.margin;
+  return std::max(o.drad, o.gap(gap_s, gap_m, length_s, length_m));
 }
+
+// A box that overlaps a leaf of a tree: position in the list of boxes, number of the leaf.
+struct Meeting {
+  std::uint32_t box = 0, leaf = 0;
+};
 
 // Sweeps over positions [begin, end) of the main side. One version per instruction set; all give
 // the same pairs, bit for bit the same distances.
 struct Kernels {
-  void (*nodes)(const NodeSweep&, std::size_t begin, std::size_t end, Sink&);
-  void (*edges)(const EdgeSweep&, std::size_t begin, std::size_t end, Sink&);
+  void (*nodes)(const NodeSweep&, std::size_t begin, std::size_t end, Found&);
+  void (*edges)(const EdgeSweep&, std::size_t begin, std::size_t end, Found&);
+  // Adds all meetings of the boxes, box after box.
+  void (*meetings)(const BoxTree&, std::span<const Box>, std::vector<Meeting>&);
   const char* name;
 };
 // The fastest versions this processor runs.
@@ -264,9 +289,22 @@ void put_in_order(std::vector<std::uint32_t>& ids, const BoxOf& box_of, int thre
   if (!is_coherent(ids, box_of)) sort_in_space(ids, box_of, threads);
 }
 
-// Runs `body(begin, end, sink)` over `count` main items on several threads and leaves the pairs,
-// sorted by secondary and main, in `result`. `secondaries` is the length of the secondary list.
-void run(const std::function<void(std::size_t, std::size_t, Sink&)>& body, std::size_t count,
-         std::size_t secondaries, const SearchOptions& options, SearchResult& result);
+// Both kinds of pairs, sorted by secondary and main. `complete` is about their sum.
+struct BothForms {
+  SearchResult result;
+  std::vector<CandidatePair> robust_only;
+};
+
+// Runs `body(begin, end, found)` over `count` main items on several threads and leaves the pairs in
+// `both`. `secondaries` is the length of the secondary list.
+void run(const std::function<void(std::size_t, std::size_t, Found&)>& body, std::size_t count,
+         std::size_t secondaries, const SearchOptions& options, BothForms& both);
+
+// The pairs of find_node_segment_pairs and find_edge_edge_pairs, and besides those that the same
+// search in robust form with margin `robust_margin` finds and they do not; in one sweep.
+BothForms find_both_forms(const NodeSegmentInput& input, const SearchOptions& options,
+                          double robust_margin);
+BothForms find_both_forms(const EdgeEdgeInput& input, const SearchOptions& options,
+                          double robust_margin);
 
 }  // namespace deck::sweep
