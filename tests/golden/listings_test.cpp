@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "deck/inspect/listing.hpp"
 #include "deck/lint/messages.hpp"
+#include "deck/text/source.hpp"
 #include "golden/reference.hpp"
 
 namespace deck {
@@ -54,6 +56,35 @@ INSTANTIATE_TEST_SUITE_P(Golden, Listings,
                                          "solid_and_skin", "synf", "BOXBEAM", "CRA2AV4",
                                          "SEAT_ADYREL", "kinematics", "tied10"),
                          [](const auto& tested) { return std::string(tested.param); });
+
+/// Text of a record; empty: it is not there.
+std::string record(const fs::path& below) {
+  const auto source = Source::open_text((test::corpus() / "oracle" / below).string(), {});
+  return source ? std::string((*source)->bytes()) : std::string();
+}
+
+TEST(Messages, OfAllRecordsHaveAPage) {
+  using nlohmann::json;
+  std::set<int> numbers;
+  if (const std::string text = record("published/messages.json"); !text.empty()) {
+    const json published = json::parse(text);
+    for (const auto& [name, deck] : published.items())
+      if (deck.contains("messages"))
+        for (const json& message : deck["messages"]) numbers.insert(message[1].get<int>());
+  }
+  for (const char* set : {"verdicts/verdicts.json.gz", "verdicts2/verdicts.json.gz"}) {
+    const std::string text = record(set);
+    if (text.empty()) continue;
+    const json verdicts = json::parse(text);
+    for (const json& mutant : verdicts["mutants"])
+      for (const char* kind : {"errors", "warnings"})
+        for (const auto& [number, times] : mutant[kind].items()) numbers.insert(std::stoi(number));
+  }
+  if (numbers.empty()) GTEST_SKIP() << "no records";
+  EXPECT_GT(numbers.size(), 100u);
+  for (const int number : numbers)
+    EXPECT_FALSE(explain_message(number, SchemaSet::built_in(), 0).empty()) << number;
+}
 
 }  // namespace
 }  // namespace deck
