@@ -70,9 +70,9 @@ std::string bash_script(const std::vector<VerbInfo>& all) {
     } else {
       for (const OptionInfo& p : v.positionals)
         if (!p.choices.empty())
-          positionals += fmt::format("      {}) words={}{} ;;\n", v.name,
-                                     shell_quoted(joined(p.choices)),
-                                     p.value == "TOPIC" ? " kind=topic" : "");
+          positionals +=
+              fmt::format("      {}) words={}{} ;;\n", v.name, shell_quoted(joined(p.choices)),
+                          p.value == "TOPIC" ? " kind=topic" : "");
     }
   }
   std::vector<std::string> program;

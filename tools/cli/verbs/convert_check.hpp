@@ -1,5 +1,5 @@
-// What a conversion would do to each deck, and what it would lose: one line a cause, with the number
-// of decks. For convert --check, before a library is converted.
+// What a conversion would do to each deck, and what it would lose: one line a cause, with the
+// number of decks. For convert --check, before a library is converted.
 #pragma once
 #include <map>
 #include <set>
