@@ -1,6 +1,6 @@
 // The chart of `deck accuracy`: wrong decisions or error against time per pair, with a line
-// through the number types that no other type beats in both, drawn as SVG. Colours are classes, so that a page can give it another
-// ground.
+// through the number types that no other type beats in both, drawn as SVG. Colours are classes, so
+// that a page can give it another ground.
 #include "report/accuracy_chart.hpp"
 
 #include <fmt/format.h>
