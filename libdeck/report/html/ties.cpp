@@ -5,7 +5,7 @@
 #include "contact/scene/element_names.hpp"
 #include "deck/contact/tie_text.hpp"
 #include "deck/model/connectivity.hpp"
-#include "model/item_spans.hpp"
+#include "model/bulk/item_spans.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck::detail {
