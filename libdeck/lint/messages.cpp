@@ -56,8 +56,9 @@ std::string rules_of(int number, std::size_t width) {
     if (!own && !names(r.solver, number) && !names(r.title, number)) continue;
     out += fmt::format("\n{}: {}\n", id_text(r.id), r.title);
     if (own)
-      out += fmt::format("  as {} of the solver\n",
-                         r.message(number).severity == Severity::error ? "an error" : "a warning");
+      out += fmt::format("  deck lint reports this {} of the solver as {}\n",
+                         r.message(number).severity == Severity::error ? "error" : "warning",
+                         id_text(r.id));
     if (!r.problem.empty()) out += wrapped(r.problem, 2, width);
     if (!r.solver.empty()) out += wrapped("Solver: " + r.solver, 2, width);
     if (!r.fix.empty()) out += wrapped("Fix: " + r.fix, 2, width);

@@ -20,7 +20,7 @@ std::string_view family_of(RuleId id) {
     case 5:
       return "defaults";
     case 6:
-      return "what the solver reports before the run";
+      return "model: what the solver warns of or takes as it is";
     case 8:
       return "Starter and Engine";
     case 9:

@@ -2,9 +2,11 @@
 #include "report/parts_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "deck/keyword/decode.hpp"
+#include "deck/model/connectivity.hpp"
 #include "deck/model/selection.hpp"
 
 namespace deck::detail {
@@ -17,12 +19,27 @@ int own_nodes(ElementKind kind, int width) {
   return kind == ElementKind::beam || kind == ElementKind::spring ? std::min(2, width) : width;
 }
 
+/// The faces of a solid by its eight slots; those of less than three different nodes are none.
+constexpr int solid_faces[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                   {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+
+bool is_face(const NodeIndex* n, const int (&slots)[4]) {
+  int different = 0;
+  for (int i = 0; i < 4; ++i) {
+    bool again = n[slots[i]] == no_index;
+    for (int k = 0; k < i; ++k) again = again || n[slots[i]] == n[slots[k]];
+    different += again ? 0 : 1;
+  }
+  return different >= 3;
+}
+
 /// Sets of nodes, 64 at once: which parts have an element in each, or all their elements.
 class PartFinder {
  public:
   explicit PartFinder(const Model& model) : model_(model) {}
 
-  /// any[part] and all[part]: bits of the sets that have an element whole, or all of them.
+  /// any[part] and all[part]: bits of the sets that have an element (of a solid: one of its faces),
+  /// or all of them.
   void find(const std::vector<std::uint64_t>& of_node, std::vector<std::uint64_t>& any,
             std::vector<std::uint64_t>& all) const {
     any.assign(model_.parts.size(), 0);
@@ -37,13 +54,26 @@ class PartFinder {
         const NodeIndex* n = f.of(e);
         for (int i = 0; i < width; ++i)
           if (n[i] != no_index) bits &= of_node[n[i]];
-        any[f.part[e]] |= bits;
         all[f.part[e]] &= bits;
+        if (kind == ElementKind::solid8) bits |= of_faces(n, of_node);
+        any[f.part[e]] |= bits;
       }
     }
   }
 
  private:
+  static std::uint64_t of_faces(const NodeIndex* n, const std::vector<std::uint64_t>& of_node) {
+    std::uint64_t any = 0;
+    for (const auto& slots : solid_faces) {
+      if (!is_face(n, slots)) continue;
+      std::uint64_t bits = ~std::uint64_t{0};
+      for (const int s : slots)
+        if (n[s] != no_index) bits &= of_node[n[s]];
+      any |= bits;
+    }
+    return any;
+  }
+
   const Model& model_;
 };
 
@@ -100,6 +130,7 @@ struct PartSides {
       : id(interface), tie(ties), secondary(parts), main(parts) {}
   std::int64_t id;
   bool tie;
+  bool names_secondary = false, names_main = false;  ///< on the card
   PartBits secondary, main;
 };
 
@@ -116,8 +147,8 @@ class Interfaces2Parts {
       for (std::size_t p = 0; p < view_.parts.size(); ++p)
         if (s.secondary.has(p) || s.main.has(p)) view_.parts[p].interfaces.push_back(s.id);
       // One side alone is in contact with itself.
-      if (s.main.none()) s.main = s.secondary;
-      if (s.secondary.none()) s.secondary = s.main;
+      if (!s.names_main) s.main = s.secondary;
+      if (!s.names_secondary) s.secondary = s.main;
     }
     for (std::size_t i = 0; i < sides_.size(); ++i)
       for (std::size_t k = i + 1; k < sides_.size(); ++k) compare(sides_[i], sides_[k]);
@@ -139,6 +170,22 @@ class Interfaces2Parts {
     return std::find(std::begin(ties), std::end(ties), block.schema->keyword) != std::end(ties);
   }
 
+  /// A segment that is only nodes: the parts with an element that has them all.
+  void loose(PartBits& side, const Segment& segment) {
+    if (segment.nodes[0] == no_index) return;
+    for (std::size_t k = 0; k < of_nodes_.size(); ++k) {
+      const Elements& f = model_.family(static_cast<ElementKind>(k));
+      if (of_nodes_[k].first.empty()) of_nodes_[k] = connect_nodes(f, model_.nodes.size());
+      for (const std::uint32_t e : of_nodes_[k].row(segment.nodes[0])) {
+        const NodeIndex* n = f.of(e);
+        const bool has = std::all_of(segment.nodes.begin(), segment.nodes.end(), [&](NodeIndex m) {
+          return std::find(n, n + f.width, m) != n + f.width;
+        });
+        if (has && f.part[e] != no_index) side.set(f.part[e]);
+      }
+    }
+  }
+
   void interface(const Block& block) {
     const DecodedBlock d = decode(deck_, block);
     const std::int64_t id = block.id.value + deck_.offset_of(block, "inter");
@@ -155,13 +202,20 @@ class Interfaces2Parts {
     const auto surface = [&](PartBits& side, const char* name) {
       if (const std::int64_t s = field(name, "surf"); s != 0)
         if (const auto outline = model_.selections->outline(s))
-          outline->segments.each([&](const Segment& g) { see(side, g.carrier, g.element); });
+          outline->segments.each([&](const Segment& g) {
+            see(side, g.carrier, g.element);
+            if (g.carrier == Carrier::none || g.element == no_index) loose(side, g);
+          });
     };
     const auto lines = [&](PartBits& side, const char* name) {
       if (const std::int64_t s = field(name, "line"); s != 0)
         if (const LineSet* line = model_.selections->line(s))
           for (const Edge& e : line->edges) see(side, e.carrier, e.element);
     };
+    for (const char* name : {"surf_IDs", "surf_ID1", "line_IDs", "grnd_IDs"})
+      sides.names_secondary = sides.names_secondary || d.integer(name) > 0;
+    for (const char* name : {"surf_IDm", "surf_ID2", "line_IDm"})
+      sides.names_main = sides.names_main || d.integer(name) > 0;
     for (const char* name : {"surf_IDs", "surf_ID1"}) surface(sides.secondary, name);
     for (const char* name : {"surf_IDm", "surf_ID2"}) surface(sides.main, name);
     lines(sides.secondary, "line_IDs");
@@ -212,6 +266,7 @@ class Interfaces2Parts {
   PartsView& view_;
   std::vector<PartSides> sides_;
   std::vector<Group> groups_;
+  std::array<NodeElements, 8> of_nodes_;  ///< by family; made for the first loose segment
 };
 
 /// Rigid bodies that have all nodes of a part.

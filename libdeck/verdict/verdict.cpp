@@ -62,7 +62,7 @@ void say_penetrations(const ContactFacts& f, Sentences& out) {
             counts);
   else
     out.add("penetrations",
-            fmt::format("{} on {}{}; worst share of a gap {:.1f} %.",
+            fmt::format("{} on {}{}; worst depth/gap {:.1f} %.",
                         count(t.count.pairs, "initial penetration", "initial penetrations"),
                         nodes_and_edges(t.count.nodes, t.count.edges), deepest_text(f),
                         100 * t.max_ratio),

@@ -124,7 +124,7 @@ Option& Option::by_commas() {
   return *this;
 }
 Option& Option::comma_list() {
-  option_->delimiter(',')->expected(1)->take_all();
+  option_->delimiter(',')->expected(1)->take_all()->allow_extra_args(false);
   return *this;
 }
 Option& Option::takes(int count, const std::string& text) {

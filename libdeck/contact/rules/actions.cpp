@@ -6,6 +6,15 @@
 
 namespace deck {
 
+const char* action_words(PenetrationAction action) {
+  static constexpr const char* words[penetration_actions] = {
+      "nothing",     "nodes switched off", "segments switched off",
+      "nodes moved", "gaps reduced",       "edges switched off",
+      "ignored",     "stored as offsets",  "initial forces",
+      "held by ties"};
+  return words[static_cast<std::size_t>(action)];
+}
+
 const char* to_string(PenetrationAction action) {
   switch (action) {
     case PenetrationAction::none:

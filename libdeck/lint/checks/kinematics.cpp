@@ -86,9 +86,9 @@ void check_conflicts(const LintContext& c, const Rule& rule, Reporter& r) {
   const bool each_pair = lists_all(c);
   if (each_pair || pairs.size() > 1)
     r.report(rule, head, head.header_span,
-             fmt::format("{} with kinematic conditions that conflict: the solver counts {}",
-                         count(nodes.size(), "node", "nodes"),
-                         count(k->conflicts, "booking", "bookings")));
+             fmt::format("{} on {} (the solver counts per node and direction)",
+                         count(k->conflicts, "conflicting condition", "conflicting conditions"),
+                         count(nodes.size(), "node", "nodes")));
   for (const auto& [key, p] : pairs) {
     const auto [earlier, later] = key;
     const Block& block = k.block(later);

@@ -348,8 +348,8 @@ void check_free_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
     }
     if (found > 0)
       report_at(r, rule, card, "grnd_IDs",
-                fmt::format("{} of its {} no element and no mass; first is node {}", found,
-                            found == 1 ? "secondary nodes has" : "secondary nodes have",
+                fmt::format("{} no element and no mass; first is node {}",
+                            count(found, "secondary node has", "secondary nodes have"),
                             c.model->node_id(first)));
   }
 }

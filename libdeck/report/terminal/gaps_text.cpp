@@ -48,12 +48,7 @@ std::string obstacle(const Contact& c) {
 
 /// What the solver does about the penetrations of contacts, in a few words.
 std::string action_words(const std::vector<const Contact*>& contacts) {
-  static constexpr const char* words[] = {
-      "nothing",     "nodes switched off", "segments switched off",
-      "nodes moved", "gaps reduced",       "edges switched off",
-      "ignored",     "stored as offsets",  "initial forces",
-      "held by ties"};
-  std::size_t by_action[std::size(words)] = {}, all = 0, tied = 0;
+  std::size_t by_action[penetration_actions] = {}, all = 0, tied = 0;
   std::string why;
   for (const Contact* c : contacts) {
     if (!c->evaluated) return "not evaluated";
@@ -69,10 +64,11 @@ std::string action_words(const std::vector<const Contact*>& contacts) {
   if (tied > 0 && all == 0) return count(tied, "pair tied", "pairs tied");
   if (all == 0) return why.empty() ? "-" : why;
   std::string text;
-  for (std::size_t a = 0; a < std::size(words); ++a) {
+  for (std::size_t a = 0; a < std::size(by_action); ++a) {
     if (by_action[a] == 0) continue;
+    const char* const words = action_words(static_cast<PenetrationAction>(a));
     if (!text.empty()) text += ", ";
-    text += by_action[a] == all ? words[a] : fmt::format("{} {}", by_action[a], words[a]);
+    text += by_action[a] == all ? words : fmt::format("{} {}", by_action[a], words);
   }
   return text;
 }

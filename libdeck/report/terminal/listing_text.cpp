@@ -71,7 +71,7 @@ class Writer {
     if (!listing_.errors)
       paragraph("The listing has no end: the Starter was stopped. Up to there: " + found + ".", 0);
     else
-      paragraph((*listing_.errors > 0 ? "The solver stops: " : "The solver goes on: ") + found +
+      paragraph((*listing_.errors > 0 ? "The Starter stops: " : "The Starter finished: ") + found +
                     ". The Starter works in two passes and prints most messages in both.",
                 0);
   }
@@ -92,7 +92,8 @@ class Writer {
     if (group.places.size() > most)
       paragraph(fmt::format("{} more places: -v", group.places.size() - most), 2);
     for (const std::size_t f : some(group.findings)) finding(f, 2);
-    if (loaded_ != nullptr && silent(group)) paragraph("deck: says nothing about it", 2);
+    if (loaded_ != nullptr && silent(group))
+      paragraph("deck lint has no finding for this message.", 2);
   }
 
   static bool silent(const MessageGroup& group) {
@@ -114,14 +115,16 @@ class Writer {
     std::string detail =
         fmt::format("{} {} of the listing", place.lines.size() == 1 ? "line" : "lines",
                     first_of(place.lines, 4));
-    if (!place.counted.empty()) detail += "; says " + first_of(place.counted, 8);
+    if (!place.counted.empty())
+      detail += "; " + std::string(place.counted.size() == 1 ? "number" : "numbers") +
+                " in the message: " + first_of(place.counted, 8);
     if (!place.nodes.empty() && group.number != 1164)
       detail += fmt::format("; {} {}", place.nodes.size() == 1 ? "node" : "nodes",
                             first_of(place.nodes, options_.verbose ? place.nodes.size() : 8));
     paragraph(detail, 4);
     for (const std::size_t f : some(place.findings)) finding(f, 4);
     if (is_tie(group, place))
-      paragraph("deck: these pairs are tied at the start, they are no penetrations", 4);
+      paragraph("These pairs are tied at the start. They are not penetrations.", 4);
   }
 
   /// True for a number of pairs that belong to a contact that ties.
@@ -205,7 +208,7 @@ class Writer {
         table.row({std::to_string(contact.inter->id), ids(p.pair.secondary), ids(p.pair.main),
                    fmt::format("{} on {}", p.pair.secondary_element.part, p.pair.main_element.part),
                    figure(row.depth), figure(row.gap), listed_text(c, p),
-                   contact.ties() ? "tied" : to_string(row.action)});
+                   contact.ties() ? "tied" : action_words(row.action)});
       }
       for (std::size_t i = 0;
            i < std::min<std::size_t>(c.only_listed.size(),

@@ -66,13 +66,23 @@ void summary(const LoadedDeck& loaded, const detail::PartsView& view, std::strin
   if (!view.unseen_parts.empty())
     out += count(view.unseen_parts.size(), "part is", "parts are") +
            " in no contact and no tie: " + list(view.unseen_parts, 12) + "\n";
-  for (const detail::RepeatedContacts& c : view.repeated)
+  constexpr std::size_t most_repeated = 5;
+  for (std::size_t i = 0; i < std::min(most_repeated, view.repeated.size()); ++i) {
+    const detail::RepeatedContacts& c = view.repeated[i];
     out += "Contacts " + std::to_string(c.first) + " and " + std::to_string(c.second) +
-           " both have " + count(c.pairs, "pair", "pairs") + " of parts, for example " +
-           std::to_string(c.part) + " and " + std::to_string(c.other) + "\n";
+           " cover the same " + count(c.pairs, "pair", "pairs") + " of parts" +
+           (c.pairs > 1 ? ", for example " : ": ") +
+           (c.part == c.other ? std::to_string(c.part) + " with itself"
+                              : std::to_string(c.part) + " and " + std::to_string(c.other)) +
+           "\n";
+  }
+  if (view.repeated.size() > most_repeated)
+    out += count(view.repeated.size() - most_repeated, "more pair", "more pairs") +
+           " of contacts that cover the same parts (--json lists them)\n";
   if (k.conflicts > 0)
-    out += count(k.conflicts, "booking", "bookings") + " of kinematic conditions conflict, on " +
-           count(k.several.size(), "node", "nodes") + " with several conditions (message 312)\n";
+    out += count(k.conflicts, "conflicting condition", "conflicting conditions") +
+           " (counted per node and direction) on " + count(k.several.size(), "node", "nodes") +
+           " (warning 312)\n";
   for (const auto* left : {&mesh.left_out, &k.left_out})
     for (const LeftOut& l : *left)
       out += "Not computed: " + l.what + " (" + std::to_string(l.count) + "): " + l.why + "\n";

@@ -209,7 +209,7 @@ class Run {
     if (options_.geometry && options_.no_geometry)
       return usage("--geometry and --no-geometry exclude each other");
     if (options_.statistics && options_.format != "human")
-      return usage("--statistics is for people: it goes without --format");
+      return usage("--statistics cannot be combined with --format");
     if (options_.gate.given() && options_.no_geometry)
       return usage("the bounds of the gate need geometry; leave out --no-geometry");
     auto schemas = load_schemas(common_);

@@ -264,7 +264,7 @@ class BlockConverter {
     own_units_ = units != &deck_.begin.input;
     if (b.schema == nullptr) {
       if (!own_units_ || units == nullptr)
-        c_.undecided(b, {}, "", "the keyword is unknown, so are the dimensions of its values");
+        c_.undecided(b, {}, "", "deck does not know this keyword, so it cannot convert its values");
       return;
     }
     if (outside_conversion(b)) return;

@@ -1,6 +1,7 @@
 // One initial penetration: its figures, and what the solver does about it.
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "deck/contact/closest.hpp"
@@ -20,6 +21,9 @@ enum class PenetrationAction : std::uint8_t {
   initial_force,           ///< TYPE24, 25: Inacti -1, a force from the start
   removed_tied,            ///< TYPE24, 25: a tie holds the node, Irem_i2
 };
+inline constexpr std::size_t penetration_actions = 10;  ///< how many there are
+/// For people, of several: "nothing", "gaps reduced", "edges switched off", ...
+const char* action_words(PenetrationAction action);
 const char* to_string(PenetrationAction action);  ///< "none", "node-stiffness-zero", ...
 
 struct PenetrationRow {

@@ -1,5 +1,6 @@
 // Findings about initial penetrations and what the options do with them.
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -43,27 +44,57 @@ std::vector<std::int64_t> nodes_where(const GeometryRun& run, const Contact& c, 
   return {ids.begin(), ids.end()};
 }
 
-const char* treatment(const Contact& c) {
-  if (is_modern(c.type))
-    return c.inacti == 0   ? "the solver ignores them at the start"
-           : c.inacti == 5 ? "the solver takes them off what it finds later"
-                           : "they start with contact forces";
-  switch (c.inacti) {
-    case 1:
-      return c.kind == ContactKind::edge_edge ? "the edges are switched off"
-                                              : "the nodes are switched off";
-    case 2:
-      return c.kind == ContactKind::edge_edge ? "the main edges are switched off"
-                                              : "the segments are switched off";
-    case 3:
-      return c.kind == ContactKind::edge_edge ? "the solver does nothing about them"
-                                              : "the nodes are moved";
-    case 5:
-    case 6:
+/// What the solver does about pairs that it treats alike.
+const char* treatment(PenetrationAction action) {
+  switch (action) {
+    case PenetrationAction::node_stiffness_zero:
+      return "the nodes are switched off";
+    case PenetrationAction::segment_stiffness_zero:
+      return "the segments are switched off";
+    case PenetrationAction::node_moved:
+      return "the nodes are moved";
+    case PenetrationAction::gap_reduced:
       return "their gaps are reduced";
-    default:
-      return "the solver does nothing about them: they start with contact forces";
+    case PenetrationAction::edge_stiffness_zero:
+      return "the edges are switched off";
+    case PenetrationAction::ignored:
+      return "the solver ignores them at the start";
+    case PenetrationAction::offset_stored:
+      return "the solver takes them off what it finds later";
+    case PenetrationAction::initial_force:
+      return "they start with contact forces";
+    case PenetrationAction::removed_tied:
+      return "ties hold them";
+    case PenetrationAction::none:
+      break;
   }
+  return "the solver does nothing about them: they start with contact forces";
+}
+
+/// What it does about rows of one contact: what is stored for each of them, not what Inacti
+/// promises.
+std::string treatment(const Contact& c, const std::vector<const PenetrationRow*>& rows) {
+  std::array<std::size_t, penetration_actions> by_action{};
+  std::size_t stops = 0;
+  const int error = on_surface_error(c);
+  for (const PenetrationRow* row : rows) {
+    if (row->on_surface && error != 0)
+      ++stops;
+    else
+      ++by_action[static_cast<std::size_t>(row->action)];
+  }
+  std::string out;
+  if (stops > 0)
+    out = fmt::format("{} the solver (error {})",
+                      stops == 1 ? "1 pair stops" : count_text(stops, "pair") + " stop", error);
+  for (std::size_t a = 0; a < by_action.size(); ++a) {
+    if (by_action[a] == 0) continue;
+    const auto action = static_cast<PenetrationAction>(a);
+    if (by_action[a] == rows.size()) return treatment(action);
+    out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", count_text(by_action[a], "pair"),
+                       action_words(action));
+  }
+  return out;
 }
 
 /// One finding per contact and pair of parts, with its deepest places.
@@ -86,6 +117,8 @@ void check_depths(const GeometryRun& run) {
     const NamedPenetration& worst = run.view.penetrations[group.rows.front()];
     const PenetrationRow& r = row_of(run, worst);
     const bool edges = c.kind == ContactKind::edge_edge;
+    std::vector<const PenetrationRow*> rows;
+    for (const std::uint32_t i : group.rows) rows.push_back(&row_of(run, run.view.penetrations[i]));
     Diagnostic* d = run.report(
         RuleId::DK301, c, "Inacti",
         fmt::format("{}: {} of {} within the gap of {} ({}), deepest {} of a gap of {} "
@@ -93,7 +126,7 @@ void check_depths(const GeometryRun& run) {
                     name_of(run, c), count_text(group.distinct.size(), edges ? "edge" : "node"),
                     part_text(from), part_text(to), count_text(group.rows.size(), "pair"),
                     length_text(r.depth), length_text(r.gap), secondary_text(worst),
-                    main_text(worst), treatment(c)));
+                    main_text(worst), treatment(c, rows)));
     if (d == nullptr) continue;
     if (edges) d->reference = rule_of(RuleId::DK301).message(499);
     std::set<std::uint32_t> named;
