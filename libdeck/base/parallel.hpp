@@ -30,9 +30,9 @@ class CancelFlag {
 };
 
 // Calls body(0) here and body(1) ... body(workers-1) on threads of their own, as many as the system
-// grants: what body does must not depend on how many of them run. Waits for all. The exception of
-// the lowest worker that threw one is thrown on; `cancel` is set as soon as there is one, and the
-// bodies look at it.
+// runs before body(0) ends: what body does must not depend on how many. Waits for those. The
+// exception of the lowest worker that threw one is thrown on; `cancel` is set as soon as there is
+// one, and the bodies look at it.
 void run_workers(int workers, CancelFlag& cancel, const std::function<void(std::size_t)>& body);
 
 // Calls body(item) for every item of 0 ... count-1 once, on up to `threads` threads; no further

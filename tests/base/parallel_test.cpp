@@ -46,9 +46,27 @@ TEST(RunWorkers, EveryNumberBelowTheCountRunsOnce) {
   for (const int count : {1, 2, 5}) {
     CancelFlag cancel;
     std::vector<std::atomic<int>> ran(8);
-    run_workers(count, cancel, [&](std::size_t worker) { ++ran.at(worker); });
+    std::atomic<int> ready{0};
+    run_workers(count, cancel, [&](std::size_t worker) {
+      ++ran.at(worker);
+      for (++ready; ready.load() < count;) std::this_thread::yield();
+    });
     for (std::size_t k = 0; k < ran.size(); ++k)
       EXPECT_EQ(ran[k].load(), k < static_cast<std::size_t>(count) ? 1 : 0) << count << " " << k;
+  }
+}
+
+TEST(RunWorkers, NobodyIsAtWorkAfterTheCall) {
+  for (int round = 0; round < 200; ++round) {
+    CancelFlag cancel;
+    std::atomic<int> begun{0}, ended{0};
+    run_workers(4, cancel, [&](std::size_t) {
+      ++begun;
+      std::this_thread::yield();
+      ++ended;
+    });
+    EXPECT_GE(begun.load(), 1);
+    EXPECT_EQ(begun.load(), ended.load());  // who comes later finds the gate closed
   }
 }
 
