@@ -6,6 +6,7 @@
 #include "base/pages.hpp"
 #include "base/parallel.hpp"
 #include "contact/search/margin.hpp"
+#include "contact/search/short_loops.hpp"
 
 namespace deck::detail {
 
@@ -41,7 +42,8 @@ void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<O
                        const Active& active, const As& as) const {
   const std::size_t count = items.size();
   const auto each = [&](const auto& f) {
-    parallel_parts(threads_, count, [&](std::size_t, std::size_t begin, std::size_t end) {
+    const int threads = threads_for(count, threads_);
+    parallel_parts(threads, count, [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) f(i);
     });
   };

@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "contact/scene/scene_parts.hpp"
+#include "contact/search/short_loops.hpp"
 
 namespace deck::detail {
 namespace {
@@ -73,8 +74,8 @@ void set_main_stiffness(SceneContext& c, Contact& contact) {
       m.stiffness = f < 0 ? std::fabs(f) : f * shell_stiffness(c.model, kind, m.element, t);
     }
   };
-  parallel_parts(effective_threads(c.options.threads), contact.main.size(),
-                 [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_parts(threads_for(contact.main.size(), effective_threads(c.options.threads)),
+                 contact.main.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
                    for (std::size_t i = begin; i < end; ++i) set(contact.main[i]);
                  });
 }

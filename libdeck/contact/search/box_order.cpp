@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "contact/search/short_loops.hpp"
+
 namespace deck::order_detail {
 namespace {
 
@@ -240,7 +242,7 @@ std::vector<std::uint32_t> order_in_space(std::size_t count, const PlacesOf& pla
   std::vector<std::uint32_t> ids(count);
   std::iota(ids.begin(), ids.end(), 0U);
   order_detail::Scratch scratch;
-  order_detail::order_range(ids, places, scratch, threads, 0);
+  order_detail::order_range(ids, places, scratch, threads_for(count, threads), 0);
   return ids;
 }
 

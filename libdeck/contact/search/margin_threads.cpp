@@ -5,11 +5,13 @@
 
 #include "base/parallel.hpp"
 #include "contact/search/margin.hpp"
+#include "contact/search/short_loops.hpp"
 
 namespace deck {
 
 double candidate_margin(const NodeArrays& nodes,
                         std::span<const std::array<std::uint32_t, 4>> segments, int threads) {
+  threads = threads_for(segments.size(), threads);
   if (threads <= 1 || segments.empty()) return candidate_margin(nodes, segments);
   constexpr std::size_t at_once = 1024;
   using Lengths = std::vector<double>;
