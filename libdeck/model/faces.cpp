@@ -227,11 +227,8 @@ bool SolidFaces::interior(std::uint32_t solid, int f, bool against_all) const {
   const NodeIndex* const mine = solids_->of(solid);
   const auto has = [&](std::uint32_t other) {
     const NodeIndex* const slots = solids_->of(other);
-    return std::all_of(std::begin(face_slots[f]), std::end(face_slots[f]), [&](std::uint8_t s) {
-      bool found = false;  // without a branch a slot: several are compared at once
-      for (int i = 0; i < 8; ++i) found |= slots[i] == mine[s];
-      return found;
-    });
+    return std::all_of(std::begin(face_slots[f]), std::end(face_slots[f]),
+                       [&](std::uint8_t s) { return any_is(slots, 8, mine[s]); });
   };
   const std::size_t at = solid * std::size_t{6} + static_cast<std::size_t>(f);
   for (std::uint32_t i = first_[ends_[at]]; i != no_index; i = owners_[i].next) {

@@ -10,6 +10,25 @@
 
 namespace deck::detail {
 
+/// True if one of the nodes is `n`. Four are compared at once: elements have many, and mostly not
+/// it.
+inline bool any_is(const NodeIndex* nodes, int count, NodeIndex n) {
+  typedef NodeIndex Four __attribute__((vector_size(16)));
+  typedef std::int32_t Mask __attribute__((vector_size(16)));
+  Mask found{};
+  int i = 0;
+  for (; i + 4 <= count; i += 4) {
+    Four some;
+    __builtin_memcpy(&some, nodes + i, sizeof some);
+    found |= some == n;
+  }
+  std::array<std::uint64_t, 2> halves{};
+  __builtin_memcpy(halves.data(), &found, sizeof found);
+  bool out = (halves[0] | halves[1]) != 0;
+  for (; i < count; ++i) out |= nodes[i] == n;
+  return out;
+}
+
 /// A face with repeated nodes removed: 3 or 4 distinct nodes in outward order.
 struct Face {
   std::array<NodeIndex, 4> nodes{};  ///< triangles repeat the third node

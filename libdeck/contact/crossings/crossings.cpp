@@ -15,6 +15,7 @@
 #include "contact/crossings/crossings_exact.hpp"
 #include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
+#include "model/faces.hpp"
 
 namespace deck {
 namespace {
@@ -39,9 +40,10 @@ bool all_placed(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of)
 /// Of an edge and a segment whose nodes all have a place.
 bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
                     const std::array<std::uint32_t, 4>& s) {
-  bool common = false;  // without branches: all eight at once
-  for (const std::uint32_t n : s) common |= (n == edge[0]) | (n == edge[1]);
-  if (common) return false;
+  // Mostly they have one in common.
+  if (static_cast<int>(detail::any_is(s.data(), 4, edge[0])) |
+      static_cast<int>(detail::any_is(s.data(), 4, edge[1])))
+    return false;
   const auto at = [&](std::uint32_t n) { return sweep::point(nodes, n); };
   const Point3<double> p = at(edge[0]), q = at(edge[1]), a = at(s[0]), c = at(s[2]);
   if (detail::passes_through(p, q, a, at(s[1]), c)) return true;

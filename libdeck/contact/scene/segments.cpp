@@ -36,11 +36,8 @@ namespace {
 /// The elements come from around the first node of the segment: the node across is the one that
 /// most of them do not have, the first one all do.
 bool contains_all(const NodeIndex* nodes, int width, const Quad& segment) {
-  return std::all_of(segment.rbegin(), segment.rend(), [&](NodeIndex s) {
-    bool found = false;  // without a branch a slot: several are compared at once
-    for (int i = 0; i < width; ++i) found |= nodes[i] == s;
-    return found;
-  });
+  return std::all_of(segment.rbegin(), segment.rend(),
+                     [&](NodeIndex s) { return any_is(nodes, width, s); });
 }
 
 bool solid_contains(const Model& model, std::uint32_t e, const Quad& segment) {

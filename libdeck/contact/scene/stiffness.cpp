@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "contact/scene/scene_parts.hpp"
 #include "contact/search/short_loops.hpp"
+#include "model/faces.hpp"
 
 namespace deck::detail {
 namespace {
@@ -35,18 +36,12 @@ const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& c) {
   return at;
 }
 
-bool holds(const NodeIndex* nodes, int width, NodeIndex n) {
-  bool found = false;  // without a branch a slot: several are compared at once
-  for (int i = 0; i < width; ++i) found |= nodes[i] == n;
-  return found;
-}
-
 bool solid_holds(const Elements& solids, std::uint32_t e, NodeIndex n) {
-  if (holds(solids.of(e), 8, n)) return true;
+  if (any_is(solids.of(e), 8, n)) return true;
   if (e >= solids.extra.size() || solids.extra[e] == no_index ||
       solids.shape[e] != SolidShape::tetra10)
     return false;
-  return holds(solids.extra_nodes.data() + solids.extra[e], 6, n);
+  return any_is(solids.extra_nodes.data() + solids.extra[e], 6, n);
 }
 
 }  // namespace
@@ -109,7 +104,7 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
       if (shell) break;
       const Elements& family = model.family(kind);
       for (const std::uint32_t e : c.connectivity.elements(kind, a)) {
-        if (!holds(family.of(e), family.width, b)) continue;
+        if (!any_is(family.of(e), family.width, b)) continue;
         const double t = gap_thickness(model, kind, e), y = young_of(model, kind, e);
         if (shell && !(t > thickness || (t == thickness && y > young))) continue;
         shell = true;
@@ -175,12 +170,12 @@ void set_nodal_stiffness(SceneContext& c, Contact& contact) {
       if (shape == SolidShape::tetra4) share = 0.25;
       if (shape == SolidShape::tetra10) {
         constexpr double q = 4 * 3.0 / 14 + 6;
-        share = holds(model.solid8.of(e), 8, s.node) ? (3.0 / 14) / q : 1 / q;
+        share = any_is(model.solid8.of(e), 8, s.node) ? (3.0 / 14) / q : 1 / q;
       } else if (shape == SolidShape::brick20) {
         constexpr double q = 8 * 3.0 / 14 + 12;
-        share = holds(model.solid8.of(e), 8, s.node) ? (3.0 / 14) / q : 1 / q;
+        share = any_is(model.solid8.of(e), 8, s.node) ? (3.0 / 14) / q : 1 / q;
       } else if (shape == SolidShape::thick16) {
-        share = holds(model.solid8.of(e), 8, s.node) ? 1.0 / 32 : 3.0 / 32;
+        share = any_is(model.solid8.of(e), 8, s.node) ? 1.0 / 32 : 3.0 / 32;
       }
       // The element's own volume, not the one-point rule, which makes tetrahedra 1.5 times larger.
       if (shape == SolidShape::tetra4 || shape == SolidShape::tetra10) v /= 1.5;
