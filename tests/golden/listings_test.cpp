@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "deck/inspect/listing.hpp"
 #include "deck/lint/messages.hpp"
+#include "deck/report/listing.hpp"
 #include "deck/text/source.hpp"
 #include "golden/reference.hpp"
 

@@ -328,7 +328,7 @@ TEST(SchemaLoader, TakesTheNumberOfADefaultOnce) {
     return error_of(with_cards(R"({"name":"c","fields":[{"name":"f","cols":[1,9],"type":"int",)" +
                                body + "}]}"));
   };
-  EXPECT_EQ(error(R"("default":"0 (none)","default_value":0)"), "accepted");
+  EXPECT_EQ(error(R"x("default":"0 (none)","default_value":0)x"), "accepted");
   EXPECT_THAT(error(R"("default":"3","default_value":3)"), HasSubstr("this number already"));
   EXPECT_THAT(error(R"("default_varies":"sometimes")"), HasSubstr("not deck, model or fields"));
 }

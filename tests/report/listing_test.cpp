@@ -243,8 +243,8 @@ TEST(ListingText, LeadsFromTheNumberToTheRows) {
   const Listing listing = read(listing_of_plates());
   const ListingReport report = compare_listing(listing, deck.loaded);
   const std::string text = listing_text(listing, report, &deck.loaded, {.width = 80});
-  for (const char* expected : {"interface 1 'example', test_0000.rad:", "says 4", "DK301",
-                               "4 the same", "1 2 3 4", "2 on 1"})
+  for (const char* expected : {"interface 1 'example', test_0000.rad:", "number in the message: 4",
+                               "DK301", "4 the same", "1 2 3 4", "2 on 1"})
     EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
   std::size_t at = 0;
   while (at < text.size()) {

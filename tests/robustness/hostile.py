@@ -217,8 +217,9 @@ def main():
                 if r.code in (0, 1):
                     with open(os.path.join(out, "d_0000.rad"), "rb") as f:
                         c.check("convert: %s keeps every byte" % name, f.read() == files["d_0000.rad"])
+        os.mkdir(os.path.join(folder, "no_deck"))
         for verb in verbs:
-            for name, path in (("missing file", os.path.join(folder, "none_0000.rad")), ("directory", folder),
+            for name, path in (("missing file", os.path.join(folder, "none_0000.rad")), ("directory", os.path.join(folder, "no_deck")),
                                ("/dev/null/x", "/dev/null/x")):
                 r = c.run(verb, path)
                 c.no_crash("%s: %s" % (verb, name), r, UNREADABLE)

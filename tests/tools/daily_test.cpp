@@ -39,8 +39,8 @@ TEST_F(ExplainListing, FindsItsDeckBesideIt) {
   put("too_close");
   write(dir_ / "too_close_0000.out", listing);
   ASSERT_EQ(deck("explain too_close_0000.out --json explain.json"), 0) << err() << out();
-  for (const char* text : {"too_close_0000.out beside too_close_0000.rad", "warning 343", "says 16",
-                           "DK301", "same number"})
+  for (const char* text : {"too_close_0000.out beside too_close_0000.rad", "warning 343",
+                           "number in the message: 16", "DK301", "same number"})
     EXPECT_TRUE(has(text)) << text << "\n" << out();
   const json document = json::parse(read(dir_ / "explain.json"));
   EXPECT_EQ(document["agrees"], true);

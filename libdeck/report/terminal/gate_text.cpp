@@ -12,7 +12,8 @@ std::string gate_text(const GateReport& gate) {
   if (gate.earlier != nullptr) {
     const GapsComparison& c = gate.comparison;
     out += fmt::format(
-        "Penetrating nodes and edges against {}: {} new, {} worse, {} better, {} the same, {} solved.\n",
+        "Penetrating nodes and edges against {}: {} new, {} worse, {} better, {} the same, {} "
+        "solved.\n",
         terminal_text(gate.earlier->path), c.count(Trend::fresh), c.count(Trend::worse),
         c.count(Trend::better), c.count(Trend::same), c.solved.size());
   }

@@ -7,12 +7,12 @@
 #include <set>
 #include <tuple>
 
-#include "deck/inspect/listing.hpp"
 #include "deck/keyword/references.hpp"
 #include "deck/lint/geometry.hpp"
 #include "deck/lint/lint.hpp"
 #include "deck/lint/messages.hpp"
 #include "deck/model/mesh.hpp"
+#include "deck/report/listing.hpp"
 
 namespace deck {
 namespace listing_comparison {
