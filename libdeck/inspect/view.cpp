@@ -320,17 +320,16 @@ class Viewer {
       const ConditionSource& c = k.sources[s];
       // Whether a tie holds the node is for the search of ties to say.
       const bool tie = c.block->schema->keyword == "/INTER/TYPE2";
-      fact("kinematic condition", std::string(to_string(c.type)) + " " + c.block->schema->keyword +
-                                      " " + std::to_string(c.id) +
+      fact("kinematic condition", c.block->schema->keyword + " " + std::to_string(c.id) +
                                       (tie ? " (if it finds a segment)" : ""));
     }
+    std::set<std::pair<std::uint32_t, std::uint32_t>> told;  // a pair conflicts in each direction
     for (const KinematicConflict& b : k.bookings) {
-      if (b.node != n) continue;
+      if (b.node != n || !told.emplace(b.earlier, b.later).second) continue;
       fact("kinematic conflict", k.sources[b.earlier].block->schema->keyword + " " +
                                      std::to_string(k.sources[b.earlier].id) + " and " +
                                      k.sources[b.later].block->schema->keyword + " " +
                                      std::to_string(k.sources[b.later].id));
-      break;
     }
   }
 

@@ -155,7 +155,8 @@ class Check {
   void trends(const EarlierGaps& earlier) {
     std::map<const InterBase*, Items> fresh;
     std::map<const InterBase*, std::pair<Items, double>> worse;
-    for (const GapsComparison::Row& r : compare_gaps(earlier, scene_, view_).rows) {
+    const GapsComparison comparison = compare_gaps(earlier, scene_, view_);
+    for (const GapsComparison::Row& r : comparison.rows) {
       const NamedPenetration& p = view_.penetrations[r.penetration];
       const InterBase* inter = scene_.contacts[p.contact].inter;
       if (r.trend == Trend::fresh) fresh[inter].add(p, r.penetration);
@@ -164,6 +165,14 @@ class Check {
       if (items.deepest == no_index) was = earlier.rows[r.earlier].depth;
       items.add(p, r.penetration);
     }
+    for (const InterBase* inter : scene_.interfaces->all)
+      if (const auto it = comparison.lost_ties.find(inter);
+          gate_.on_fresh && it != comparison.lost_ties.end())
+        report(
+            RuleId::DK374, inter,
+            fmt::format("{}: {} tied in {} and {} not any more; first is node {}", name_of(inter),
+                        count(it->second.size(), "node was", "nodes were"), earlier.path,
+                        it->second.size() == 1 ? "is" : "are", it->second.front()));
     for (const InterBase* inter : scene_.interfaces->ordered) {
       if (const auto it = fresh.find(inter); gate_.on_fresh && it != fresh.end())
         report(RuleId::DK374, inter,

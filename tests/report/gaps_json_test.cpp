@@ -68,6 +68,48 @@ TEST(GapsJson, AnEarlierDocumentHasNoTiesToCompareWith) {
   EXPECT_EQ(earlier->rows.size(), 0u);
 }
 
+/// Nodes of the first deck's ties that the second one has lost.
+std::size_t lost_ties(const std::string& before, const std::string& now) {
+  const auto loaded = [](const std::string& text) {
+    LoadedDeck deck =
+        LoadedDeck::from(std::move(*read_deck_text("d_0000.rad", text, SchemaSet::built_in())));
+    SceneOptions options = deck.scene_options();
+    options.ties = true;
+    deck.set_scene_options(options);
+    return deck;
+  };
+  const LoadedDeck old = loaded(before), deck = loaded(now);
+  const std::string json =
+      gaps_json("d_0000.rad", old.deck(), old.scene(), make_view(old.scene()), false);
+  const auto earlier = read_earlier_gaps("old.json", json, "d_0000.rad");
+  std::size_t lost = 0;
+  for (const auto& [inter, nodes] :
+       compare_gaps(*earlier, deck.scene(), make_view(deck.scene())).lost_ties)
+    lost += nodes.size();
+  return lost;
+}
+
+TEST(GapsJson, NodesThatATypeTenTiesNoMoreAreLost) {
+  std::string loose = tied();
+  loose.replace(loose.find(" 0.5"), 4, "0.01");
+  EXPECT_EQ(lost_ties(tied(), loose), 4u);
+  EXPECT_EQ(lost_ties(tied(), tied()), 0u);
+  EXPECT_EQ(lost_ties(loose, loose), 0u);
+}
+
+TEST(GapsJson, NodesThatATypeTwoTiesNoMoreAreLost) {
+  SmallDeck near;
+  near.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0).node(9, 5, 5, 1);
+  near.shell_part(1, 2).shell(1, 1, 1, 2, 3, 4);
+  near.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {9});
+  SmallDeck far = near;
+  near.add("@/INTER/TYPE2/7 grnd_IDs=2 surf_IDm=1 Ignore=1 dsearch=2");
+  far.add("@/INTER/TYPE2/7 grnd_IDs=2 surf_IDm=1 Ignore=1 dsearch=0.5");
+  EXPECT_EQ(lost_ties(near.text(), far.text()), 1u);
+  EXPECT_EQ(lost_ties(far.text(), near.text()), 0u);
+  EXPECT_EQ(lost_ties(far.text(), far.text()), 0u);
+}
+
 TEST(GapsJson, AnEarlierDocumentHasTheDepthOfEdges) {
   const Inspected d(edges());
   const std::string json = gaps_json("test_0000.rad", d.deck, d.scene, d.view, false);

@@ -119,6 +119,32 @@ std::uint64_t GapsComparison::count(Trend trend) const {
       std::count_if(rows.begin(), rows.end(), [&](const Row& r) { return r.trend == trend; }));
 }
 
+namespace {
+
+/// Nodes are the same if they have the same id.
+void find_lost_ties(const EarlierGaps& earlier, const Scene& scene, GapsComparison& out) {
+  for (const Contact& c : scene.contacts) {
+    const auto before = earlier.tied.find(c.inter->id);
+    if (!c.ties() || before == earlier.tied.end()) continue;
+    std::vector<bool> tied(c.secondary.size(), false);
+    for (const PenetrationRow& row : c.penetrations) tied[row.secondary] = true;
+    for (std::size_t i = 0; i < c.secondary.size(); ++i) {
+      const std::int64_t id = scene.model->node_id(c.secondary[i].node);
+      if (!tied[i] && before->second.contains(id)) out.lost_ties[c.inter].push_back(id);
+    }
+  }
+  for (const Tie& tie : scene.ties) {
+    const auto before = earlier.untied.find(tie.inter->id);
+    if (before == earlier.untied.end()) continue;
+    for (const TiedNode& n : tie.nodes) {
+      const std::int64_t id = scene.model->node_id(n.node);
+      if (n.lost() && !before->second.contains(id)) out.lost_ties[tie.inter].push_back(id);
+    }
+  }
+}
+
+}  // namespace
+
 GapsComparison compare_gaps(const EarlierGaps& earlier, const Scene& scene, const SceneView& view) {
   Matcher matcher(earlier, scene, view);
   const std::vector<std::uint32_t> found = matcher.match();
@@ -139,6 +165,7 @@ GapsComparison compare_gaps(const EarlierGaps& earlier, const Scene& scene, cons
   }
   for (std::uint32_t i = 0; i < earlier.rows.size(); ++i)
     if (!matcher.taken()[i]) out.solved.push_back(i);
+  find_lost_ties(earlier, scene, out);
   return out;
 }
 

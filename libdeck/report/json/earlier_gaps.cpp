@@ -43,7 +43,7 @@ bool is_compared(int, Json::parse_event_t event, Json& parsed) {
   static const std::set<std::string, std::less<>> keys = {
       "at",           "contacts", "deck", "decks",      "edge", "edge_penetrations",
       "gap",          "id",       "node", "interfaces", "path", "penetration",
-      "penetrations", "role",     "tie"};
+      "penetrations", "role",     "tie",  "tied",       "ties", "nodes"};
   return event != Json::parse_event_t::key || keys.contains(parsed.get_ref<std::string&>());
 }
 
@@ -66,14 +66,19 @@ EarlierGaps::Row row_of(const Json& p) {
   return row;
 }
 
-/// Adds the deepest row of every node or edge; false: the list holds something else.
+/// Adds the deepest row of every node or edge, and what is tied; false: the list holds something
+/// else.
 bool add_rows(const Json& list, std::int64_t interface_id, const std::string& role,
-              std::vector<EarlierGaps::Row>& rows) {
+              EarlierGaps& out) {
+  std::vector<EarlierGaps::Row>& rows = out.rows;
   std::map<std::array<std::int64_t, 2>, std::size_t> deepest;
   for (const Json& p : list) {
     if (!p.is_object()) return false;
-    if (const auto tie = p.find("tie"); tie != p.end() && *tie == true) continue;
     EarlierGaps::Row row = row_of(p);
+    if (const auto tie = p.find("tie"); tie != p.end() && *tie == true) {
+      out.tied[interface_id].insert(row.secondary[0]);
+      continue;
+    }
     row.interface_id = interface_id;
     row.role = role;
     const auto [it, fresh] = deepest.emplace(row.secondary, rows.size());
@@ -83,6 +88,19 @@ bool add_rows(const Json& list, std::int64_t interface_id, const std::string& ro
       rows[it->second] = std::move(row);
   }
   return true;
+}
+
+/// Nodes that a TYPE2 did not tie. Documents of older versions have no list.
+void add_untied(const Json& document, EarlierGaps& out) {
+  const auto ties = document.find("ties");
+  if (ties == document.end() || !ties->is_array()) return;
+  for (const Json& tie : *ties) {
+    if (!tie.is_object() || !tie.contains("id") || !tie.contains("nodes")) continue;
+    std::set<std::int64_t>& untied = out.untied[whole(tie["id"])];
+    for (const Json& n : tie["nodes"])
+      if (n.is_object() && n.contains("node") && n.contains("tied") && n["tied"] == false)
+        untied.insert(whole(n["node"]));
+  }
 }
 
 }  // namespace
@@ -114,14 +132,15 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
       if (!contact.is_object() || !contact.contains("penetrations") ||
           !contact["penetrations"].is_array())
         return wrong(out.path, "a contact has no list \"penetrations\"");
-      const bool read = add_rows(contact["penetrations"], id, text(contact, "role"), out.rows);
+      const bool read = add_rows(contact["penetrations"], id, text(contact, "role"), out);
       // A TYPE25 has its edges in a list beside.
       const auto edges = contact.find("edge_penetrations");
       const bool beside = edges != contact.end() && edges->is_array();
-      if (!read || (beside && !add_rows(*edges, id, to_string(ContactRole::edges), out.rows)))
+      if (!read || (beside && !add_rows(*edges, id, to_string(ContactRole::edges), out)))
         return wrong(out.path, "a penetration is not an object");
     }
   }
+  add_untied(*document, out);
   return out;
 }
 

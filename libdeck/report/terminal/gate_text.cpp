@@ -16,6 +16,11 @@ std::string gate_text(const GateReport& gate) {
         "solved.\n",
         terminal_text(gate.earlier->path), c.count(Trend::fresh), c.count(Trend::worse),
         c.count(Trend::better), c.count(Trend::same), c.solved.size());
+    std::size_t lost = 0;
+    for (const auto& [inter, nodes] : c.lost_ties) lost += nodes.size();
+    if (lost > 0)
+      out += count(lost, "node was tied there and is", "nodes were tied there and are") +
+             " not any more.\n";
   }
   if (!gate.asked) return out;
   if (gate.findings.empty()) return out + "Gate: passed.\n";

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "deck/base/columns.hpp"
 #include "deck/base/count.hpp"
@@ -62,6 +63,11 @@ class Writer {
     std::string line = listing_.path;
     if (loaded_ != nullptr) line += " beside " + loaded_->path();
     paragraph(line, 0);
+    const bool none_found =
+        std::all_of(report_.contacts.begin(), report_.contacts.end(),
+                    [](const ComparedContact& c) { return c.listed == nullptr; });
+    if (loaded_ != nullptr && report_.unnamed_contacts > 0 && none_found)
+      paragraph("No contact of this listing is in the deck: the two do not belong together.", 0);
     std::uint64_t errors = 0, warnings = 0;
     for (const MessageGroup& g : report_.messages)
       (g.severity == Severity::error ? errors : warnings) +=
@@ -164,7 +170,7 @@ class Writer {
     }
     out_ += "\nInitial penetrations: pairs in the listing and of deck gaps\n";
     if (table.size() == 0)
-      out_ += "  none in either\n";
+      out_ += report_.unnamed_contacts == 0 ? "  none in either\n" : "  none in the deck\n";
     else
       out_ += table.fitted(options_.width, options_.color, 2);
     if (report_.unnamed_contacts > 0)
@@ -263,10 +269,12 @@ class Writer {
            i < std::min<std::size_t>(s.different.size(),
                                      options_.verbose ? s.different.size() : options_.worst);
            ++i)
-        paragraph(fmt::format("{} {}: {} in the listing, {} in deck",
+        paragraph(fmt::format("{} {}: {} in the listing, {}",
                               s.kind ? std::string(detail::kind_name(*s.kind)) : "node",
                               s.different[i].id, figure(s.different[i].listed),
-                              figure(s.different[i].computed)),
+                              std::isnan(s.different[i].computed)
+                                  ? "absent in the deck"
+                                  : figure(s.different[i].computed) + " in deck"),
                   2);
   }
 

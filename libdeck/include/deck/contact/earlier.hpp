@@ -2,7 +2,9 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,8 @@ struct EarlierGaps {
   std::string deck_path;           ///< of the deck it describes; empty: the file holds others only
   std::vector<std::string> decks;  ///< of which the file holds anything, in its order
   std::vector<Row> rows;           ///< deepest row of every secondary node or edge
+  /// Ids of nodes by interface: those that a TYPE10 ties, and those that a TYPE2 does not tie.
+  std::map<std::int64_t, std::set<std::int64_t>> tied, untied;
 };
 
 /// Depths that differ by less than this share of them are the same: what another order of the same
@@ -41,6 +45,8 @@ struct GapsComparison {
   };
   std::vector<Row> rows;              ///< parallel to SceneView::deepest_per_node
   std::vector<std::uint32_t> solved;  ///< EarlierGaps::rows that penetrate no more, in their order
+  /// Nodes, by id, that an interface tied in the earlier run and does not tie now.
+  std::map<const InterBase*, std::vector<std::int64_t>> lost_ties;
 
   std::uint64_t count(Trend trend) const;
 };
