@@ -138,7 +138,7 @@ std::string frame(const Panel& panel) {
   return out;
 }
 
-// Steps through the tiers that nothing beats.
+// The line through the tiers that no other tier beats in both time and accuracy.
 std::string frontier(const Panel& panel) {
   std::vector<const TierResult*> best;
   for (const TierResult* t : panel.tiers)

@@ -140,7 +140,7 @@ export class Report {
     for (const f of this.listeners.get(topic) ?? []) f();
   }
 
-  /** "; 2 contacts were not evaluated" where that is so: what nothing was found in is not clean. */
+  /** "; 2 contacts were not evaluated", else empty: a contact that was not evaluated is not clean. */
   get leftOut(): string {
     const n = this.meta.contacts.filter((c) => !c.evaluated).length + this.meta.ties.filter((t) => !t.evaluated).length;
     const others = this.meta.verdict.counts.interfaces_not_examined ?? 0;

@@ -136,7 +136,7 @@ FixScore score_of(const PenetrationFix& fix);
 /// The one that leaves least, of equals the first.
 /// nullptr: no proposal leaves fewer than there are.
 const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals);
-/// A report of a deck in which nothing is changed: what the proposals found before.
+/// The report where no proposal is taken: the penetrations of the deck as it is, and no changes.
 PenetrationFix unchanged(const std::vector<PenetrationFix>& proposals);
 
 /// Several fixes as one report: strategies by commas, before of the first, after, actions and

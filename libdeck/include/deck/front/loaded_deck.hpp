@@ -102,8 +102,8 @@ class LoadedDeck {
   /// Where the nodes of every /INTER/TYPE2 end up: those of scene() if it was made with them
   /// (SceneOptions::ties), else found when first asked for.
   const std::vector<Tie>& ties() const;
-  /// Ends the scene and what was made of it, to be made anew where it is asked for again: for who
-  /// keeps many decks.
+  /// Frees the memory of scene(), ties() and cycle(); the next call makes them again. For programs
+  /// that keep many decks.
   void drop_scene();
   /// Forces of the first cycle, with every pair. At rest but for initial velocities of the deck.
   const FirstCycle& cycle() const;
