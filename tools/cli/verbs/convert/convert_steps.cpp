@@ -1,5 +1,5 @@
 // Adds the options of the conversions and turns them into steps.
-#include "verbs/convert_steps.hpp"
+#include "verbs/convert/convert_steps.hpp"
 
 #include "deck/edit/extract.hpp"
 #include "deck/edit/flatten.hpp"

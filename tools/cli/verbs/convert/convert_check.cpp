@@ -1,5 +1,5 @@
 // Groups losses and refusals of many decks by their causes.
-#include "verbs/convert_check.hpp"
+#include "verbs/convert/convert_check.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "deck/base/count.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/report/text_table.hpp"
-#include "verbs/convert_losses.hpp"
+#include "verbs/convert/convert_losses.hpp"
 
 namespace deck::cli {
 namespace conversion_check {

@@ -1,5 +1,5 @@
 // Writes the lines about lost values, and reads refusals back into entries.
-#include "verbs/convert_losses.hpp"
+#include "verbs/convert/convert_losses.hpp"
 
 #include <fmt/format.h>
 

@@ -19,9 +19,9 @@
 #include "deck/report/deck_json.hpp"
 #include "deck/report/losses.hpp"
 #include "deck/text/gzip.hpp"
-#include "verbs/convert_check.hpp"
-#include "verbs/convert_losses.hpp"
-#include "verbs/convert_steps.hpp"
+#include "verbs/convert/convert_check.hpp"
+#include "verbs/convert/convert_losses.hpp"
+#include "verbs/convert/convert_steps.hpp"
 #include "writing/changes.hpp"
 #include "writing/library.hpp"
 
