@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "contact/small_deck.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"
+#include "deck/model/mesh.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck::test {
@@ -423,6 +425,34 @@ TEST(PageForces, NodesHaveForceStiffnessAndStep) {
   const PageBlock block(detail::cycle_block(cycle::SceneOutcome{}, acted, p.nodes));
   const Json page = Json::parse(block.bytes());
   EXPECT_EQ(page["nodes"], Json::parse("[[0,1.5,-2.5,3.5,7.0,0.25]]"));
+}
+
+TEST(PageSteps, ColourANodeByTheSmallestStepOfItsElementsInEqualRatios) {
+  Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"));
+  for (NodeIndex n = 0; n < p.b.model.nodes.size(); ++n) p.nodes.use(n);
+  p.nodes.number();
+  Mesh mesh;
+  mesh.elements[static_cast<std::size_t>(ElementKind::shell4)].dt = {1.0, 16.0};
+  PageBlock block(detail::steps_block(p.b.model, mesh, p.nodes));
+  EXPECT_EQ(block.reals(3), (std::vector<double>{1, 16, 16}));
+  std::map<std::int64_t, unsigned> shade;
+  for (std::int64_t i = 0; i < static_cast<std::int64_t>(p.nodes.list().size()); ++i)
+    shade[p.id(i)] = block.byte();
+  EXPECT_TRUE(block.done());
+  // Nodes 1 to 4 have the first shell, 5 and 6 only the second, 8 and 9 none.
+  EXPECT_EQ(shade, (std::map<std::int64_t, unsigned>{
+                       {1, 255}, {2, 255}, {3, 255}, {4, 255}, {5, 1}, {6, 1}, {8, 0}, {9, 0}}));
+}
+
+TEST(PageSteps, LeaveOutElementsWithoutAStep) {
+  Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"));
+  for (NodeIndex n = 0; n < p.b.model.nodes.size(); ++n) p.nodes.use(n);
+  p.nodes.number();
+  Mesh mesh;
+  mesh.elements[static_cast<std::size_t>(ElementKind::shell4)].dt = {NAN, 1e30};
+  PageBlock block(detail::steps_block(p.b.model, mesh, p.nodes));
+  EXPECT_EQ(block.reals(3), (std::vector<double>{0, 0, 0}));
+  for (std::size_t i = 0; i < p.nodes.list().size(); ++i) EXPECT_EQ(block.byte(), 0u);
 }
 
 }  // namespace

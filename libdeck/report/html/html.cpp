@@ -7,8 +7,10 @@
 
 #include "deck/base/escape.hpp"
 #include "deck/contact/tie_text.hpp"
+#include "deck/front/loaded_deck.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/report/gaps.hpp"
+#include "deck/report/parts.hpp"
 #include "deck/report/verdict.hpp"
 #include "report/cycle_costs.hpp"
 #include "report/gaps_names.hpp"
@@ -57,7 +59,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   JsonWriter j(out);
   j.begin_object();
   write_json_head(j, "deck/gaps-html", 1);
-  j.field("page", in.effects != nullptr ? "cycle" : "gaps");
+  j.field("page", in.effects != nullptr ? "cycle" : in.parts != nullptr ? "parts" : "gaps");
   write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
   write_verdict(j, verdict_in(in));
   j.key("summary").begin_object(true);
@@ -185,8 +187,10 @@ Result<std::string> gaps_html(const HtmlInput& in) {
       "<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"generator\" "
       "content=\"deck " +
       std::string(library_version()) + "\">\n<title>" + html_text(file_name(in.path)) +
-      (in.effects != nullptr ? " \xe2\x80\x93 first contact cycle"
-                             : " \xe2\x80\x93 initial penetrations") +
+      " \xe2\x80\x93 " +
+      (in.effects != nullptr ? "first contact cycle"
+       : in.parts != nullptr ? "parts"
+                             : "initial penetrations") +
       "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>";
   out += bundle.style;
   out += "</style>\n</head>\n<body>\n";
@@ -215,6 +219,12 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   if (in.effects != nullptr)
     add_block(out, "cycle-json", "application/json",
               detail::script_safe(cycle_json(*in.effects, false)));
+  if (in.parts != nullptr) {
+    add_block(out, "parts-json", "application/json",
+              detail::script_safe(parts_json(*in.parts, false)));
+    add_block(out, "deck-steps", "application/octet-stream",
+              detail::steps_block(model, in.parts->mesh(), nodes));
+  }
   out += "<script>";
   out += bundle.script;
   out += "</script>\n</body>\n</html>\n";

@@ -13,6 +13,10 @@
 #include "report/html/stream.hpp"
 #include "report/html/viewer_bundle.hpp"
 
+namespace deck {
+struct Mesh;  // deck/model/mesh.hpp
+}
+
 namespace deck::detail {
 
 /// JSON as it may stand in a script element: '<' occurs in it only inside strings.
@@ -57,6 +61,12 @@ constexpr std::uint64_t given_back_at_once = std::uint64_t{8} << 20;
 
 // elements.cpp — what is said about an element that is picked
 std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh);
+
+// steps.cpp — colours of time steps
+/// Smallest step, end of the scale and largest step, then a byte for each node of the page: 0 where
+/// no element has a step, else 1 at the end of the scale and beyond to 255 at the smallest, in
+/// equal ratios.
+std::string steps_block(const Model& model, const Mesh& mesh, const PageNodes& nodes);
 
 // contacts.cpp — what evaluating other settings needs
 struct PageContact {

@@ -126,6 +126,7 @@ Report write_report(const std::string& path, const std::map<std::string, std::st
   if (stop) return {{}, "cancelled"};
   SceneOptions options = loaded->scene_options();
   options.only = only;
+  options.ties = true;
   loaded->set_scene_options(options);
   loaded->scene();
   if (stop) return {{}, "cancelled"};

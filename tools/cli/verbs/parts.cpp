@@ -2,6 +2,8 @@
 
 #include "deck/report/parts.hpp"
 #include "common.hpp"
+#include "deck/report/html.hpp"
+#include "writing/gap_page.hpp"
 
 namespace deck::cli::verb_parts {
 namespace {
@@ -9,16 +11,37 @@ namespace {
 struct Options {
   CommonOptions common;
   bool all = false;
-  std::string csv;
+  std::string csv, html;
 };
+
+Result<void> write_html(const Options& o, LoadedDeck& loaded) {
+  HtmlInput input;
+  input.parts = &loaded;
+  auto page = gap_page(loaded, input);
+  if (!page) return page.error();
+  return o.common.session->write_output(o.html, *page);
+}
+
+/// Options that do not go together.
+Result<void> check_options(const Options& o) {
+  if (!o.csv.empty() && o.common.decks.size() > 1 && o.csv != "-")
+    return Error{Error::Code::config, "--csv FILE takes one deck at a time"};
+  if (o.html.empty()) return {};
+  if (o.common.decks.size() > 1)
+    return Error{Error::Code::config, "--html takes one deck at a time"};
+  if (std::string why; !html_available(&why))
+    return Error{Error::Code::config, "--html: this build has no viewer: " + why};
+  return {};
+}
 
 int run(const Options& options) {
   const CommonOptions& common = options.common;
-  if (!options.csv.empty() && common.decks.size() > 1 && options.csv != "-") {
-    print_error(common, "--csv FILE takes one deck at a time");
+  if (const auto legal = check_options(options); !legal) {
+    print_error(common, legal.error().message);
     return exit_usage;
   }
-  if (const int bad = check_outputs(common, {common.json, options.csv}); bad != exit_clean)
+  if (const int bad = check_outputs(common, {common.json, options.csv, options.html});
+      bad != exit_clean)
     return bad;
   JsonOutput json(common, "deck/parts", 1);
   const int code = for_each_deck(common, [&](LoadedDeck& loaded) {
@@ -31,7 +54,12 @@ int run(const Options& options) {
         print_error(common, written.error().message);
         return static_cast<int>(exit_usage);
       }
-    if (common.wants_text() && options.csv != "-") {
+    if (!options.html.empty())
+      if (auto written = write_html(options, loaded); !written) {
+        print_error(common, written.error().message);
+        return static_cast<int>(exit_usage);
+      }
+    if (common.wants_text() && options.csv != "-" && options.html != "-") {
       PartsTextOptions text;
       text.color = common.color_on(1);
       text.width = text_width();
@@ -51,6 +79,10 @@ Action setup(CommandLine& line) {
             "node");
   line.option("--csv", options->csv, "Write one line per part to FILE ('-': standard output)")
       .value("FILE");
+  line.option(
+          "--html", options->html,
+          "Write a page with the table of the parts and a picture coloured by time step to FILE")
+      .value("FILE");
   return [options] { return run(*options); };
 }
 
@@ -58,6 +90,7 @@ const VerbRegistration registration{
     {"parts", 22, "Parts with mass, smallest time step and the interfaces that see them",
      "  deck parts car_0000.rad\n"
      "  deck parts car_0000.rad --csv parts.csv\n"
+     "  deck parts car_0000.rad --html parts.html\n"
      "  deck parts car_0000.rad --json parts.json        also kinematic conditions\n"
      "  deck parts car_0000.rad --all --json parts.json  every element and node\n"
      "\n"

@@ -23,7 +23,7 @@ Result<std::string> fix_page(const LoadedDeck& before, const ChangedFiles& chang
   Overlay overlay(changed.begin(), changed.end());
   const std::string& main = before.deck().sources[0].path();
   overlay.try_emplace(main, before.deck().sources[0].bytes());  // standard input is no file
-  const auto after = load(main, load_options(options, before.schemas(), &overlay));
+  auto after = load(main, load_options(options, before.schemas(), &overlay));
   if (!after) return after.error();
   HtmlInput input;
   input.path = before.path();

@@ -5,10 +5,14 @@
 
 namespace deck::cli {
 
-Result<std::string> gap_page(const LoadedDeck& loaded, HtmlInput input,
-                             const std::atomic<bool>* stop) {
+Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input, const std::atomic<bool>* stop) {
+  if (SceneOptions options = loaded.scene_options(); !options.ties) {
+    options.ties = true;
+    loaded.set_scene_options(options);
+  }
   loaded.findings();  // the page says where the solver stops before its contacts
   const Scene& scene = loaded.scene();
+  if (input.path.empty()) input.path = loaded.path();
   input.deck = &loaded.deck();
   input.scene = &scene;
   input.what_if = loaded.scene_options().what_if;

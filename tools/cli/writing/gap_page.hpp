@@ -8,10 +8,10 @@
 
 namespace deck::cli {
 
-/// The page of a deck with crossings and forces of the first cycle. `input` has the path and what
-/// else the page shall know beside the deck. Error: the viewer is not there, or `stop` was set
-/// meanwhile ("cancelled").
-Result<std::string> gap_page(const LoadedDeck& loaded, HtmlInput input,
+/// The page of a deck with ties, crossings and forces of the first cycle; its scene is made again
+/// if it has no ties. `input` has the path and what else the page shall know beside the deck.
+/// Error: the viewer is not there, or `stop` was set meanwhile ("cancelled").
+Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input,
                              const std::atomic<bool>* stop = nullptr);
 
 }  // namespace deck::cli

@@ -123,6 +123,24 @@ export function readMesh(bytes: Uint8Array): Mesh {
   return { nodeId, parts, low, high };
 }
 
+/** Time steps of elements by page node. */
+export interface Steps {
+  low: number;
+  high: number; // end of the scale
+  largest: number;
+  /** In [0, 1], 1 at the smallest step; NaN: no step. */
+  values: Float32Array;
+}
+
+export function loadSteps(nodes: number): Steps | null {
+  const bytes = inflate("deck-steps");
+  if (!bytes) return null;
+  const r = new Reader(bytes);
+  const [low, high, largest] = r.f64(3);
+  if (!(high > 0)) return null;
+  return { low, high, largest, values: Float32Array.from(r.bytes(nodes), (c) => (c === 0 ? NaN : (c - 1) / 254)) };
+}
+
 /** Where an element of a part is defined, and its own thickness (0: that of its property). */
 export interface ElementOrigin {
   file: number; // index into Meta.files

@@ -1,7 +1,7 @@
 // How things look: theme, colour map, what the colours mean.
 import type { MapName } from "./scene/colormap";
 
-export type ContourKind = "depth" | "ratio" | "gap" | "edge" | "none" | "force" | "stiffness" | "step";
+export type ContourKind = "depth" | "ratio" | "gap" | "edge" | "none" | "force" | "stiffness" | "step" | "element";
 /** Kinds that show what contact does in the first cycle. */
 export const ofCycle = (kind: ContourKind): boolean => kind === "force" || kind === "stiffness" || kind === "step";
 
@@ -22,4 +22,5 @@ export const contourNames: Record<ContourKind, string> = {
   force: "Nodal contact force",
   stiffness: "Nodal contact stiffness",
   step: "Nodal time step",
+  element: "Element time step",
 };

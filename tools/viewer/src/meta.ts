@@ -133,7 +133,7 @@ export interface Verdict {
 }
 
 export interface Meta {
-  page: "gaps" | "cycle"; // which verb wrote it
+  page: "gaps" | "cycle" | "parts"; // which verb wrote it
   tool: { name: string; version: string };
   deck: {
     path: string;

@@ -1,6 +1,6 @@
 // The state of the page: data, settings under test, results, filters, selection; and who is told
 // when one of them changes.
-import { kindNames, type Contacts, type Mesh } from "./data";
+import { kindNames, type Contacts, type Mesh, type Steps } from "./data";
 import { onSurfaceError, type Raw, type Row } from "./core";
 import { Evaluator, ratioOf, Tally, type Result } from "./evaluate";
 import { commonStart } from "./table/names";
@@ -99,6 +99,7 @@ export class Report {
   filter: Filter = { interface: null, pair: null, depth: null, ratio: null, status: null, text: "", perNode: true };
   selected: Hit | null = null;
   untied: Untied | null = null;
+  steps: Steps | null = null; // of the page of deck parts
   private readonly listeners = new Map<Topic, (() => void)[]>();
   private readonly forces: Map<string, { force: number; stiffness: number }>[] | null;
   private readonly earlierRows: Map<string, { depth: number; gap: number; row: Earlier["rows"][0] }> | null;
@@ -161,6 +162,15 @@ export class Report {
 
   // ---- settings -----------------------------------------------------------------------------
 
+  /** While a slider is held, rows keep their order. */
+  held = false;
+  hold(): void {
+    this.held = true;
+    window.addEventListener("pointerup", () => {
+      this.held = false;
+      this.emit("results");
+    }, { once: true });
+  }
   /** Sets or clears (undefined) a field of an interface and evaluates again. */
   setOverride(inter: number, field: FieldName, value: number | undefined): void {
     const next = this.overrides.map((o) => ({ ...o }));

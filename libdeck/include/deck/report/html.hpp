@@ -17,6 +17,7 @@
 namespace deck {
 
 struct CycleInput;  // deck/report/cycle.hpp
+class LoadedDeck;   // deck/front/loaded_deck.hpp
 
 struct HtmlInput {
   std::string_view path;  ///< of the deck, as given
@@ -33,6 +34,10 @@ struct HtmlInput {
   /// Makes the page that of `deck cycle --html`: the document of `deck cycle --json` stands in it,
   /// effects and what they cost come first. May be nullptr.
   const CycleInput* effects = nullptr;
+  /// Makes the page that of `deck parts --html`: the parts with their masses and steps come first
+  /// (the document of `deck parts --json`), and the colours can show the steps of the elements. May
+  /// be nullptr.
+  const LoadedDeck* parts = nullptr;
   const std::vector<Crossing>* crossings = nullptr;  ///< of the same scene; may be nullptr
   int threads = 1;
 };
@@ -45,7 +50,8 @@ bool html_available(std::string* reason = nullptr);
 std::vector<cycle::ActedNode> acted_in_page(const cycle::State& state,
                                             const cycle::SceneOutcome& outcome);
 
-/// The page: of `deck gaps`, or of `deck cycle` where `effects` is given. Error (config): the
+/// The page: of `deck gaps`, of `deck cycle` where `effects` is given, of `deck parts` where `parts`
+/// is given. Error (config): the
 /// viewer was not built in.
 Result<std::string> gaps_html(const HtmlInput& input);
 

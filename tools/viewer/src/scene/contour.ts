@@ -1,6 +1,6 @@
 // Values per page node for the coloured surface.
 import { pairGap } from "../core";
-import { lengths } from "../data";
+import { lengths, type Steps } from "../data";
 import { num } from "../dom";
 import { ofCycle, type ContourKind } from "../look";
 import type { Hit, Report } from "../report";
@@ -25,7 +25,14 @@ function cycleContour(report: Report, kind: ContourKind): Contour {
   return { values, top, of, tick: (t) => (kind !== "step" ? num(t * top, 3) : t === 0 ? "∞" : num(1 / (t * top), 3)) };
 }
 
+/** Steps of elements in equal ratios; the smallest is the hottest. */
+function stepContour({ low, high, largest, values }: Steps, report: Report): Contour {
+  const of = (x: Hit) => [...report.secondaryNodes(x.row), ...report.mainNodes(x.row)].reduce((m, n) => (values[n] > m ? values[n] : m), 0);
+  return { values, top: 1 / low, of, tick: (t) => (t === 0 && largest > high ? "≥ " : "") + num(high * (low / high) ** t, 3) };
+}
+
 export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Contour {
+  if (kind === "element" && report.steps) return stepContour(report.steps, report);
   if (ofCycle(kind)) return cycleContour(report, kind);
   const n = report.mesh.nodeId.length;
   const scale = (top: number) => (t: number) => num(t * top, 3);

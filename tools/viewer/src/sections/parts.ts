@@ -1,0 +1,99 @@
+// The parts with mass, smallest time step and the interfaces that see them: the document of `deck parts --json`.
+import { blockText, loadSteps } from "../data";
+import { group, h, num, plural, sectionHead } from "../dom";
+import type { Report } from "../report";
+import { named } from "../table/names";
+import { VirtualTable } from "../table/table";
+
+interface Step {
+  min: number | null;
+  element: { kind: string; id: number } | null;
+  not_computed: number;
+}
+interface PartRow {
+  id: number;
+  title: string;
+  elements: Record<string, number>;
+  material: number;
+  property: number;
+  thickness: number;
+  mass: number | null;
+  dt: Step;
+  interfaces: number[];
+  rigid_body: number | null;
+}
+/** What `deck parts --json` writes, as far as it is shown here. */
+export interface PartsDocument {
+  parts: PartRow[];
+  total: { mass: number | null; dt: Step };
+  unconnected: { nodes: number; parts: number[]; unseen_parts: number[] };
+  repeated_contacts: { interfaces: number[]; pairs: number; parts: number[] }[];
+  not_computed: { what: string; why: string; count: number }[];
+}
+
+export function loadPartsDocument(report: Report): PartsDocument | null {
+  const text = blockText("parts-json");
+  if (text === null) return null;
+  report.steps = loadSteps(report.mesh.nodeId.length);
+  return JSON.parse(text) as PartsDocument;
+}
+
+const mostIds = 12;
+const ids = (list: number[]) => list.slice(0, mostIds).join(", ") + (list.length > mostIds ? ` and ${list.length - mostIds} more` : "");
+const count = (p: PartRow) => Object.values(p.elements).reduce((a, b) => a + b, 0);
+const elementsText = (p: PartRow) => Object.entries(p.elements).map(([kind, n]) => `${group(n)} ${kind}`).join(", ") || "none";
+const amount = (v: number | null) => (v === null ? "–" : num(v));
+const element = (dt: Step) => (dt.element ? `${dt.element.kind} ${dt.element.id}` : "–");
+
+function notes(report: Report, doc: PartsDocument): HTMLElement[] {
+  const { unconnected: u, total } = doc;
+  const units = report.meta.deck.units.working;
+  const touching = doc.repeated_contacts.map((c) => `interfaces ${c.interfaces.join(" and ")} on ${plural(c.pairs, "pair", "pairs")} of parts (for example ${c.parts[0]} and ${c.parts[1]})`);
+  const lines = [
+    `Mass of all elements: ${amount(total.mass)}${units && total.mass !== null ? ` ${units.mass}` : ""}.`,
+    total.dt.min !== null && `Smallest time step of an element: ${num(total.dt.min)}${units ? ` ${units.time}` : ""} (${element(total.dt)}).`,
+    u.unseen_parts.length > 0 && `No contact or tie sees ${u.unseen_parts.length === 1 ? "part" : `${group(u.unseen_parts.length)} parts:`} ${ids(u.unseen_parts)}.`,
+    u.parts.length > 0 && `Without elements: ${u.parts.length === 1 ? "part" : "parts"} ${ids(u.parts)}.`,
+    u.nodes > 0 && `${plural(u.nodes, "node belongs", "nodes belong")} to no element.`,
+    touching.length > 0 && `Two contacts act between the same parts: ${touching.slice(0, 3).join("; ")}${touching.length > 3 ? `; and ${touching.length - 3} more` : ""}.`,
+    ...doc.not_computed.map((n) => `Not computed: ${n.what} (${group(n.count)}): ${n.why}.`),
+  ];
+  return lines.filter((l) => l !== false).map((l) => h("p", { class: "note" }, l));
+}
+
+/** `open` shows a part alone; null: all again. */
+export function partsSection(report: Report, doc: PartsDocument, open: (part: number | null) => void): HTMLElement {
+  let chosen: PartRow | null = null;
+  const table = new VirtualTable<PartRow>(
+    [
+      { key: "id", title: "Id", kind: "id", value: (p) => p.id, text: (p) => String(p.id) },
+      { key: "title", title: "Part", kind: "text", least: 120, value: (p) => p.title.toLowerCase(), text: (p) => p.title || "(no title)",
+        cell: (p) => (p.title ? named("", p.title, report.commonPrefix) : "(no title)") },
+      { key: "elements", title: "Elements", kind: "text", rank: 4, least: 90, value: count, text: elementsText },
+      { key: "material", title: "Mat.", hint: "Material id", kind: "id", rank: 6, value: (p) => p.material, text: (p) => String(p.material) },
+      { key: "property", title: "Prop.", hint: "Property id", kind: "id", rank: 7, value: (p) => p.property, text: (p) => String(p.property) },
+      { key: "thickness", title: "Thickness", kind: "number", rank: 5, value: (p) => p.thickness, text: (p) => (p.thickness > 0 ? num(p.thickness) : "–") },
+      { key: "mass", title: "Mass", kind: "number", value: (p) => p.mass ?? -1, text: (p) => amount(p.mass) },
+      { key: "step", title: "Step", hint: "Smallest time step of an element, as the solver lists it", kind: "number", value: (p) => p.dt.min ?? Infinity, text: (p) => amount(p.dt.min) },
+      { key: "element", title: "Of element", kind: "id", rank: 3, value: (p) => p.dt.element?.id ?? 0, text: (p) => element(p.dt) },
+      { key: "interfaces", title: "Interfaces", hint: "Contacts and ties that see the part", kind: "text", rank: 1, least: 80, value: (p) => p.interfaces.length, text: (p) => p.interfaces.join(", ") || "none",
+        cell: (p) => (p.interfaces.length > 0 ? p.interfaces.join(", ") : h("span", { class: "muted" }, "none")) },
+      { key: "body", title: "Rigid body", hint: "Holds all nodes of the part", kind: "id", rank: 2, value: (p) => p.rigid_body ?? 0, text: (p) => (p.rigid_body === null ? "–" : String(p.rigid_body)) },
+    ],
+    {
+      label: "Parts", sort: "step", descending: false,
+      select: (p) => {
+        chosen = p === chosen ? null : p;
+        open(chosen ? report.meta.parts.findIndex((m) => m.id === chosen!.id) : null);
+      },
+      classOf: (p) => (count(p) === 0 ? "quiet" : ""),
+      same: (a, b) => a === b,
+    },
+  );
+  table.element.classList.add("parts-table");
+  table.setRows(doc.parts);
+  table.element.style.setProperty("--rows", String(Math.max(2, Math.min(doc.parts.length, 14))));
+  return h("section", { id: "parts" },
+    sectionHead(h("h2", null, "Parts", h("span", { class: "muted count" }, plural(doc.parts.length, "part", "parts"))), table.chooser()),
+    table.element, ...notes(report, doc));
+}
