@@ -10,6 +10,7 @@
 #include "deck/model/kinematics.hpp"
 #include "deck/model/selection.hpp"
 #include "inspect/families.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck {
 namespace {
@@ -248,28 +249,6 @@ class Viewer {
     }
   }
 
-  static std::optional<ElementKind> family_of_carrier(Carrier c) {
-    switch (c) {
-      case Carrier::none:
-        return std::nullopt;
-      case Carrier::solid:
-        return ElementKind::solid8;
-      case Carrier::quad:
-        return ElementKind::quad;
-      case Carrier::shell4:
-        return ElementKind::shell4;
-      case Carrier::truss:
-        return ElementKind::truss;
-      case Carrier::beam:
-        return ElementKind::beam;
-      case Carrier::spring:
-        return ElementKind::spring;
-      case Carrier::shell3:
-        return ElementKind::shell3;
-    }
-    return std::nullopt;
-  }
-
   void node() {
     const NodeIndex n = entity().index;
     fact("X", model_.nodes.x[n]);
@@ -349,7 +328,7 @@ class Viewer {
       return std::find(family.of(e), family.of(e) + family.width, n) != family.of(e) + family.width;
     };
     reached_by_members(mine, [&](Carrier c, std::uint32_t i, const auto&) {
-      return i == e && family_of_carrier(c) == kind;
+      return i == e && detail::family_of_carrier(c) == kind;
     });
   }
 
@@ -382,7 +361,7 @@ class Viewer {
     }
     count("nodes", static_cast<std::size_t>(std::count(node.begin(), node.end(), 1)));
     const auto in_part = [&](Carrier c, std::uint32_t e, const auto&) {
-      const auto kind = family_of_carrier(c);
+      const auto kind = detail::family_of_carrier(c);
       return kind && e != no_index && model_.family(*kind).part[e] == p;
     };
     reached_by_members([&](NodeIndex n) { return n != no_index && node[n] != 0; }, in_part);

@@ -41,10 +41,6 @@ std::string indented(std::string_view text, std::size_t width) {
   return out;
 }
 
-const char* severity_name(Severity s) {
-  return s == Severity::error ? "error" : s == Severity::warning ? "warning" : "info";
-}
-
 std::string versions(int from, int until) {
   if (from == 0 && until == 9999) return "all versions";
   if (until == 9999) return "from version " + std::to_string(from);
@@ -212,7 +208,7 @@ std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t
   namespace heading = detail::heading;
   std::string severities;
   for (const Severity s : rule.severities)
-    severities += (severities.empty() ? "" : " or ") + std::string(severity_name(s));
+    severities += (severities.empty() ? "" : " or ") + std::string(to_string(s));
   std::string out =
       fmt::format("{}: {}\n{}, {}", id_text(rule.id), rule.title, severities, family_of(rule.id));
   if (rule.fixable != Fixable::no)

@@ -19,10 +19,6 @@ namespace deck {
 namespace solver_message {
 namespace {
 
-const char* name_of(Severity s) {
-  return s == Severity::error ? "error" : s == Severity::warning ? "warning" : "info";
-}
-
 Severity severity_named(std::string_view name) {
   return name == "error" ? Severity::error : name == "warning" ? Severity::warning : Severity::info;
 }
@@ -176,7 +172,7 @@ std::string explain_message(int number, const SchemaSet& schemas, std::size_t wi
   if (own == nullptr && rules.empty() && cells.empty()) return {};
   std::string out = fmt::format("Message {} of the reference solver", number);
   if (own != nullptr)
-    out += fmt::format(" ({}): {}\n", solver_message::name_of(own->severity), own->title) +
+    out += fmt::format(" ({}): {}\n", to_string(own->severity), own->title) +
            wrapped(own->means, 2, width) + wrapped("What to do: " + own->action, 2, width);
   else
     out += "\n";
@@ -221,14 +217,12 @@ std::string messages_about(std::string_view text, std::size_t width) {
     if (!fits(all)) continue;
     const std::string number = std::to_string(m.number);
     if (first.empty()) first = number;
-    messages +=
-        solver_message::list_line(number, solver_message::name_of(m.severity), m.title, width);
+    messages += solver_message::list_line(number, to_string(m.severity), m.title, width);
   }
   for (const Rule& r : all_rules()) {
     if (!fits(r.title)) continue;
     if (first.empty()) first = id_text(r.id);
-    rules += solver_message::list_line(id_text(r.id), solver_message::name_of(r.severity()),
-                                       r.title, width);
+    rules += solver_message::list_line(id_text(r.id), to_string(r.severity()), r.title, width);
   }
   std::string out;
   if (!messages.empty()) out += "Messages of the reference solver with these words\n\n" + messages;

@@ -59,18 +59,6 @@ Place place_of(const LintedDeck& linted, const Span& span) {
   return out;
 }
 
-const char* severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::error:
-      return "error";
-    case Severity::warning:
-      return "warning";
-    case Severity::info:
-      break;
-  }
-  return "info";
-}
-
 std::string details(const Diagnostic& d) {
   std::string out;
   if (!d.reference_behaviour.empty())

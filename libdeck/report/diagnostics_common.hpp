@@ -17,7 +17,6 @@ struct Place {
 };
 Place place_of(const LintedDeck& deck, const Span& span);
 
-const char* severity_name(Severity severity);
 /// "Fix: ..." and what the reference solver does, as sentences for formats without own fields.
 std::string details(const Diagnostic& d);
 /// The directory that a forge knows files by: the top of a work tree. Empty: files as given.

@@ -8,6 +8,7 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/model/connectivity.hpp"
 #include "deck/model/selection.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 namespace {
@@ -76,25 +77,6 @@ class PartFinder {
 
   const Model& model_;
 };
-
-ElementKind kind_of(Carrier c) {
-  switch (c) {
-    case Carrier::solid:
-      return ElementKind::solid8;
-    case Carrier::quad:
-      return ElementKind::quad;
-    case Carrier::shell3:
-      return ElementKind::shell3;
-    case Carrier::truss:
-      return ElementKind::truss;
-    case Carrier::beam:
-      return ElementKind::beam;
-    case Carrier::spring:
-      return ElementKind::spring;
-    default:
-      return ElementKind::shell4;
-  }
-}
 
 /// A set of parts.
 class PartBits {
@@ -195,8 +177,9 @@ class Interfaces2Parts {
     };
     PartSides& sides = sides_.emplace_back(id, is_tie(block), model_.parts.size());
     const auto see = [&](PartBits& side, Carrier carrier, std::uint32_t element) {
-      if (carrier == Carrier::none || element == no_index) return;
-      const std::uint32_t part = model_.family(kind_of(carrier)).part[element];
+      const auto family = family_of_carrier(carrier);
+      if (!family || element == no_index) return;
+      const std::uint32_t part = model_.family(*family).part[element];
       if (part != no_index) side.set(part);
     };
     const auto surface = [&](PartBits& side, const char* name) {

@@ -271,11 +271,8 @@ class PageReader {
 
 std::string with_message(std::string text, const std::optional<ReferenceMessage>& message) {
   if (!message) return text;
-  const char* const severity = message->severity == Severity::error     ? "error "
-                               : message->severity == Severity::warning ? "warning "
-                                                                        : "info ";
   if (text.ends_with('.')) text.pop_back();
-  return text + " (" + severity + std::to_string(message->number) + ").";
+  return text + " (" + to_string(message->severity) + " " + std::to_string(message->number) + ").";
 }
 
 Result<Rule> parse_rule_page(std::string_view name, std::string_view text) {

@@ -371,18 +371,6 @@ Result<void> check_parts(const LoadedDeck& loaded, const std::vector<std::int64_
 
 namespace {
 
-const char* name_of(Severity severity) {
-  switch (severity) {
-    case Severity::error:
-      return "error";
-    case Severity::warning:
-      return "warning";
-    case Severity::info:
-      break;
-  }
-  return "info";
-}
-
 const char* color_of(Severity severity) {
   switch (severity) {
     case Severity::error:
@@ -422,7 +410,7 @@ std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& opti
     ++shown;
     const std::string where = d.span.valid() ? loaded.deck().sources.where(d.span) : loaded.path();
     print_messages(fmt::format("{}: {}{}:{} {} [{}]\n", terminal_text(where),
-                               color ? color_of(d.severity) : "", name_of(d.severity),
+                               color ? color_of(d.severity) : "", to_string(d.severity),
                                color ? "\x1b[0m" : "", terminal_text(d.message), id_text(d.rule)));
   }
   if (hidden > 0)

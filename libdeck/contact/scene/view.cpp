@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/scene/element_names.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck {
 namespace {
@@ -24,34 +25,15 @@ ElementName name_of(const Model& model, ElementKind kind, std::uint32_t e) {
   return {kind, e, family.id[e], part == no_index ? 0 : model.parts[part].id};
 }
 
-std::optional<ElementKind> kind_of(Carrier carrier) {
-  switch (carrier) {
-    case Carrier::solid:
-      return ElementKind::solid8;
-    case Carrier::shell4:
-      return ElementKind::shell4;
-    case Carrier::shell3:
-      return ElementKind::shell3;
-    case Carrier::truss:
-      return ElementKind::truss;
-    case Carrier::beam:
-      return ElementKind::beam;
-    case Carrier::spring:
-      return ElementKind::spring;
-    default:
-      return std::nullopt;
-  }
-}
-
 }  // namespace
 
 const Elements* elements_of(const Model& model, Carrier carrier) {
-  const auto kind = kind_of(carrier);
+  const auto kind = detail::family_of_carrier(carrier);
   return kind ? &model.family(*kind) : nullptr;
 }
 
 ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t e) {
-  const auto kind = kind_of(carrier);
+  const auto kind = detail::family_of_carrier(carrier);
   return kind && e != no_index ? name_of(model, *kind, e) : ElementName{};
 }
 

@@ -9,6 +9,7 @@
 #include "cycle/kernel/vector.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::cycle {
 namespace {
@@ -49,23 +50,8 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, const FrictionPair*> part_pair
 namespace detail {
 
 std::uint32_t part_of(const deck::Model& model, Carrier carrier, std::uint32_t element) {
-  if (element == no_index) return no_index;
-  switch (carrier) {
-    case Carrier::solid:
-      return model.solid8.part[element];
-    case Carrier::shell4:
-      return model.shell4.part[element];
-    case Carrier::shell3:
-      return model.shell3.part[element];
-    case Carrier::truss:
-      return model.truss.part[element];
-    case Carrier::beam:
-      return model.beam.part[element];
-    case Carrier::spring:
-      return model.spring.part[element];
-    default:
-      return no_index;
-  }
+  const auto family = deck::detail::family_of_carrier(carrier);
+  return family && element != no_index ? model.family(*family).part[element] : no_index;
 }
 
 namespace {

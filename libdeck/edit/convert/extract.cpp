@@ -6,6 +6,7 @@
 #include "deck/keyword/references.hpp"
 #include "edit/convert/extract_state.hpp"
 #include "keyword/reader.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 
@@ -140,24 +141,7 @@ void Extraction::keep_element(ElementKind kind, std::uint32_t e, bool touch) {
 
 void Extraction::keep_carrier(Carrier carrier, std::uint32_t e, bool touch) {
   if (e == no_index) return;
-  switch (carrier) {
-    case Carrier::none:
-      return;
-    case Carrier::solid:
-      return keep_element(ElementKind::solid8, e, touch);
-    case Carrier::quad:
-      return keep_element(ElementKind::quad, e, touch);
-    case Carrier::shell4:
-      return keep_element(ElementKind::shell4, e, touch);
-    case Carrier::truss:
-      return keep_element(ElementKind::truss, e, touch);
-    case Carrier::beam:
-      return keep_element(ElementKind::beam, e, touch);
-    case Carrier::spring:
-      return keep_element(ElementKind::spring, e, touch);
-    case Carrier::shell3:
-      return keep_element(ElementKind::shell3, e, touch);
-  }
+  if (const auto family = family_of_carrier(carrier)) keep_element(*family, e, touch);
 }
 
 void Extraction::whole_part(std::uint32_t part, bool touch) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/selection/selection_impl.hpp"
+#include "model/shared/families.hpp"
 #include "text/columns.hpp"
 
 namespace deck {
@@ -141,26 +142,8 @@ std::vector<std::int8_t> Selections::Impl::part_tags(const Block& block, std::st
 }
 
 std::int64_t Selections::Impl::element_id(Carrier carrier, std::uint32_t e) const {
-  if (e == no_index) return 0;
-  switch (carrier) {
-    case Carrier::none:
-      return 0;
-    case Carrier::solid:
-      return model->solid8.id[e];
-    case Carrier::quad:
-      return model->quad.id[e];
-    case Carrier::shell4:
-      return model->shell4.id[e];
-    case Carrier::truss:
-      return model->truss.id[e];
-    case Carrier::beam:
-      return model->beam.id[e];
-    case Carrier::spring:
-      return model->spring.id[e];
-    case Carrier::shell3:
-      return model->shell3.id[e];
-  }
-  return 0;
+  const auto family = family_of_carrier(carrier);
+  return family && e != no_index ? model->family(*family).id[e] : 0;
 }
 
 const Indices* Selections::Impl::element_group(const FamilyName& name, std::int64_t id) {

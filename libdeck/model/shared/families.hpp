@@ -14,4 +14,27 @@ std::optional<ElementKind> family_of_kind(std::string_view kind);
 /// The same for a group of elements ("grshel").
 std::optional<ElementKind> family_of_group(std::string_view kind);
 
+/// Family of the element that has a segment, an edge or a face; nullopt: none has it.
+constexpr std::optional<ElementKind> family_of_carrier(Carrier carrier) {
+  switch (carrier) {
+    case Carrier::none:
+      return std::nullopt;
+    case Carrier::solid:
+      return ElementKind::solid8;
+    case Carrier::quad:
+      return ElementKind::quad;
+    case Carrier::shell4:
+      return ElementKind::shell4;
+    case Carrier::truss:
+      return ElementKind::truss;
+    case Carrier::beam:
+      return ElementKind::beam;
+    case Carrier::spring:
+      return ElementKind::spring;
+    case Carrier::shell3:
+      return ElementKind::shell3;
+  }
+  return std::nullopt;
+}
+
 }  // namespace deck::detail

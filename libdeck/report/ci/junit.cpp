@@ -65,11 +65,10 @@ std::string lint_junit(const std::vector<LintedDeck>& decks) {
       const std::string body = where + "\n" + detail::details(d);
       if (d.severity != Severity::error)
         out += "<system-out>" +
-               xml_text(std::string(detail::severity_name(d.severity)) + ": " + d.message + "\n" +
-                        body) +
+               xml_text(std::string(to_string(d.severity)) + ": " + d.message + "\n" + body) +
                "</system-out>";
       else
-        out += "<failure" + attribute("type", detail::severity_name(d.severity)) +
+        out += "<failure" + attribute("type", to_string(d.severity)) +
                attribute("message", d.message) + ">" + xml_text(body) + "</failure>";
       out += "</testcase>\n";
     }

@@ -10,6 +10,7 @@
 #include "contact/scene/scene_parts.hpp"
 #include "contact/scene/sides.hpp"
 #include "deck/contact/search.hpp"
+#include "model/shared/families.hpp"
 #include "report/gaps_names.hpp"
 #include "report/html/parts.hpp"
 
@@ -180,23 +181,8 @@ Owner owner(const Model& model, ElementKind kind, std::uint32_t e) {
 }
 
 Owner owner(const Model& model, Carrier carrier, std::uint32_t e) {
-  if (e == no_index) return {};
-  switch (carrier) {
-    case Carrier::solid:
-      return owner(model, ElementKind::solid8, e);
-    case Carrier::shell4:
-      return owner(model, ElementKind::shell4, e);
-    case Carrier::shell3:
-      return owner(model, ElementKind::shell3, e);
-    case Carrier::truss:
-      return owner(model, ElementKind::truss, e);
-    case Carrier::beam:
-      return owner(model, ElementKind::beam, e);
-    case Carrier::spring:
-      return owner(model, ElementKind::spring, e);
-    default:
-      return {};
-  }
+  const auto family = family_of_carrier(carrier);
+  return family && e != no_index ? owner(model, *family, e) : Owner{};
 }
 
 /// Same rule as the views of a scene: the first family that has an element at the node.

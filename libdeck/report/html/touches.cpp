@@ -94,9 +94,13 @@ class Drawing {
  private:
   static constexpr double size = 24;
 
+  /// Cut in its middle: id and begin of a name stay, and its end, where names mostly differ.
   std::string short_text(int part) const {
     const std::string text = part_text(*in_.scene->model, part);
-    return length_of(text) > 28 ? first_points(text, 27) + "\xe2\x80\xa6" : text;
+    const std::size_t points = length_of(text);
+    if (points <= 28) return text;
+    return first_points(text, 15) + "\xe2\x80\xa6" +
+           text.substr(first_points(text, points - 12).size());
   }
   std::size_t widest(const std::vector<int>& parts, std::size_t least) const {
     for (const int p : parts) least = std::max(least, length_of(short_text(p)));

@@ -30,7 +30,7 @@ void write_diagnostic(JsonWriter& json, const LintedDeck& deck, const Diagnostic
   const detail::Place at = detail::place_of(deck, d.span);
   json.begin_object();
   json.field("rule", id_text(d.rule))
-      .field("severity", detail::severity_name(d.severity))
+      .field("severity", to_string(d.severity))
       .field("file", at.file)
       .field("line", at.line)
       .field("column", at.column)
@@ -42,7 +42,7 @@ void write_diagnostic(JsonWriter& json, const LintedDeck& deck, const Diagnostic
   if (d.reference)
     json.begin_object(true)
         .field("message", d.reference->number)
-        .field("severity", detail::severity_name(d.reference->severity))
+        .field("severity", to_string(d.reference->severity))
         .end_object();
   else
     json.null();
@@ -161,7 +161,7 @@ std::string rules_json() {
     json.field("id", id_text(r.id))
         .field("title", r.title)
         .field("family", family_of(r.id))
-        .field("severity", detail::severity_name(r.severity()))
+        .field("severity", to_string(r.severity()))
         .field("found_by", stage_name(r.stage))
         .field("fixable", fix_name(r.fixable))
         .field("problem", r.problem)
@@ -172,7 +172,7 @@ std::string rules_json() {
     if (!r.messages.empty())
       json.begin_object(true)
           .field("message", r.messages.front().number)
-          .field("severity", detail::severity_name(r.messages.front().severity))
+          .field("severity", to_string(r.messages.front().severity))
           .end_object();
     else
       json.null();
@@ -196,7 +196,7 @@ std::string rules_table(bool color, std::size_t width) {
              std::string(id_text(r.id).substr(0, 3)) + "xx  " + std::string(family) + off + "\n";
     }
     std::string line = "  " + std::string(id_text(r.id)) + "  ";
-    std::string severity = detail::severity_name(r.severity());
+    std::string severity = to_string(r.severity());
     severity.resize(8, ' ');
     std::string fix = r.fixable == Fixable::no ? "" : fix_name(r.fixable);
     fix.resize(7, ' ');

@@ -6,9 +6,7 @@ namespace deck {
 namespace {
 
 void write_finding(JsonWriter& j, const Deck& deck, const Diagnostic& d) {
-  j.begin_object()
-      .field("rule", id_text(d.rule))
-      .field("severity", detail::severity_name(d.severity));
+  j.begin_object().field("rule", id_text(d.rule)).field("severity", to_string(d.severity));
   j.field("message", d.message).key("source");
   write_json_place(j, deck, d.span);
   j.key("entity");

@@ -9,10 +9,6 @@ namespace deck {
 namespace listing_document {
 namespace {
 
-const char* name_of(Severity s) {
-  return s == Severity::error ? "error" : s == Severity::warning ? "warning" : "info";
-}
-
 template <class List>
 void numbers(JsonWriter& json, const char* name, const List& list) {
   json.key(name).begin_array(true);
@@ -81,7 +77,9 @@ class Document {
 
  private:
   void message(const MessageGroup& group) {
-    json_.begin_object().field("message", group.number).field("severity", name_of(group.severity));
+    json_.begin_object()
+        .field("message", group.number)
+        .field("severity", to_string(group.severity));
     json_.field("times", group.times).field("title", group.title).field("means", group.means);
     json_.field("do", group.action).key("places").begin_array();
     for (const MessagePlace& place : group.places) {
@@ -115,10 +113,10 @@ class Document {
       const Diagnostic& d = report_.findings[f];
       json_.begin_object(true)
           .field("rule", id_text(d.rule))
-          .field("severity", name_of(d.severity));
+          .field("severity", to_string(d.severity));
       json_.field("message", d.message);
       json_.key("reference").begin_object(true).field("message", d.reference->number);
-      json_.field("severity", name_of(d.reference->severity)).end_object();
+      json_.field("severity", to_string(d.reference->severity)).end_object();
       place(d.span);
       json_.end_object();
     }

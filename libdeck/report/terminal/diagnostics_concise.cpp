@@ -33,9 +33,8 @@ std::string lint_concise(const std::vector<LintedDeck>& decks) {
     if (deck.result == nullptr) continue;
     for (const Diagnostic& d : deck.result->diagnostics) {
       const detail::Place at = detail::place_of(deck, d.span);
-      out +=
-          fmt::format("{}:{}:{}: {} {}: {}\n", terminal_text(at.file), at.line, at.column,
-                      id_text(d.rule), detail::severity_name(d.severity), terminal_text(d.message));
+      out += fmt::format("{}:{}:{}: {} {}: {}\n", terminal_text(at.file), at.line, at.column,
+                         id_text(d.rule), to_string(d.severity), terminal_text(d.message));
     }
     for (const auto& [rule, n] : deck.result->dropped)
       if (n > 0)
@@ -67,8 +66,7 @@ std::string lint_statistics(const std::vector<LintedDeck>& decks, bool color, st
     const Rule& rule = rule_of(id);
     all += n.findings;
     table.row({std::string(id_text(id)), std::to_string(n.findings),
-               concise_findings::fixable_text(n), detail::severity_name(rule.severity()),
-               rule.title});
+               concise_findings::fixable_text(n), to_string(rule.severity()), rule.title});
   }
   if (table.size() == 0) return "no findings\n";
   return table.fitted(width, color) + fmt::format("{} {} of {} {}\n", all,

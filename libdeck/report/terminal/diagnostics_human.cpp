@@ -157,10 +157,10 @@ class Human {
   /// All findings of a kind in a line with their number, and the place of the first.
   std::string folded(const Diagnostic& first, std::uint64_t count) const {
     std::string out = fmt::format("{}{}[{}]{}{}: {} places: {}{}", color(first.severity),
-                                  detail::severity_name(first.severity), id_text(first.rule),
-                                  c_.off, c_.bold, count, rule_of(first.rule).title, c_.off);
+                                  to_string(first.severity), id_text(first.rule), c_.off, c_.bold,
+                                  count, rule_of(first.rule).title, c_.off);
     if (first.reference)
-      out += fmt::format(" (solver: {} {})", detail::severity_name(first.reference->severity),
+      out += fmt::format(" (solver: {} {})", to_string(first.reference->severity),
                          first.reference->number);
     const detail::Place at = detail::place_of(deck_, first.span);
     return out +
@@ -194,7 +194,7 @@ class Human {
   /// A finding in full, and below it what else belongs to it.
   std::string one(const Diagnostic& d, const std::string& others) {
     std::string out =
-        fmt::format("{}{}[{}]{}{}: {}{}\n", color(d.severity), detail::severity_name(d.severity),
+        fmt::format("{}{}[{}]{}{}: {}{}\n", color(d.severity), to_string(d.severity),
                     id_text(d.rule), c_.off, c_.bold, terminal_text(d.message), c_.off);
     const detail::Place at = detail::place_of(deck_, d.span);
     const std::string number = std::to_string(at.line);

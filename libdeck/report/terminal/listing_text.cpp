@@ -16,9 +16,6 @@ namespace deck {
 namespace listing_for_people {
 namespace {
 
-const char* name_of(Severity s) {
-  return s == Severity::error ? "error" : s == Severity::warning ? "warning" : "info";
-}
 Tone tone_of(Severity s) {
   return s == Severity::error ? Tone::red : s == Severity::warning ? Tone::yellow : Tone::cyan;
 }
@@ -85,7 +82,7 @@ class Writer {
   // ---- messages
 
   void message(const MessageGroup& group) {
-    out_ += "\n" + toned(fmt::format("{} {}", name_of(group.severity), group.number),
+    out_ += "\n" + toned(fmt::format("{} {}", to_string(group.severity), group.number),
                          tone_of(group.severity), options_.color);
     out_ += fmt::format(": {} ({})\n",
                         group.title.empty() ? "no page tells what it means" : group.title,
@@ -146,7 +143,7 @@ class Writer {
     std::string where;
     if (d.span.valid()) where = loaded_->deck().sources.where(d.span) + ": ";
     paragraph(
-        fmt::format("deck: {}{} {}: {}", where, id_text(d.rule), name_of(d.severity), d.message),
+        fmt::format("deck: {}{} {}: {}", where, id_text(d.rule), to_string(d.severity), d.message),
         indent);
   }
 
@@ -286,7 +283,7 @@ class Writer {
       const Diagnostic& d = report_.findings[report_.not_listed[i]];
       std::string where;
       if (d.span.valid()) where = loaded_->deck().sources.where(d.span) + ": ";
-      paragraph(fmt::format("{} {}: {}{} {}", name_of(d.reference->severity), d.reference->number,
+      paragraph(fmt::format("{} {}: {}{} {}", to_string(d.reference->severity), d.reference->number,
                             where, id_text(d.rule), d.message),
                 2);
     }

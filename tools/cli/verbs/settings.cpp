@@ -52,9 +52,7 @@ class Settings {
       add_key("geometry", !config_.geometry ? "" : *config_.geometry ? "true" : "false");
     table("severity");
     for (const auto& [selector, severity] : config_.severity)
-      add_key("severity." + selector, in_quotes(severity == Severity::error     ? "error"
-                                                : severity == Severity::warning ? "warning"
-                                                                                : "info"));
+      add_key("severity." + selector, in_quotes(to_string(severity)));
     table("per-file-ignores");
     for (const auto& [pattern, rules] : config_.per_file_ignores)
       add("per-file-ignores." + in_quotes(pattern), list_text(rules),

@@ -31,9 +31,7 @@ py::object place_of(const Deck& deck, const Span& span) {
 py::dict finding_of(const Deck& deck, const Diagnostic& d) {
   py::dict out;
   out["rule"] = std::string(id_text(d.rule));
-  out["severity"] = d.severity == Severity::error     ? "error"
-                    : d.severity == Severity::warning ? "warning"
-                                                      : "info";
+  out["severity"] = to_string(d.severity);
   const py::object place = place_of(deck, d.span);
   for (const char* key : {"file", "line", "column", "end_column"})
     out[key] = place.is_none() ? py::object(py::none()) : py::object(place[key]);

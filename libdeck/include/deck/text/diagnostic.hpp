@@ -13,6 +13,10 @@
 namespace deck {
 
 enum class Severity : std::uint8_t { error, warning, info };
+/// "error", "warning", "info": the words of all outputs and of the configuration.
+constexpr const char* to_string(Severity severity) {
+  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "info";
+}
 
 /// Id of a rule: RuleId::DK203 is defined in deck/text/rule_id.hpp, which grows with every rule.
 enum class RuleId : std::uint16_t;
