@@ -73,6 +73,20 @@ TEST(ElementStep, OfVoidLimitsNothingAndGivesMassOnly) {
   EXPECT_DOUBLE_EQ(m.nodes.mass[n], density * 2.0 * 100.0 / 4.0);
 }
 
+TEST(ElementStep, OfARigidMaterialLimitsNothingAndThoseOfOtherPartsAreNotGiven) {
+  SmallDeck d = square();
+  d.add("/MAT/LAW13/7\nrigid\n              1.e-06\n               200.0                  0.3\n");
+  d.node(5, 20, 0, 0).node(6, 20, 10, 0);
+  d.shell_part(2, 2.0, 0, 7).shell(2, 2, 2, 5, 6, 3);
+  const Built b(d);
+  const Mesh m = make_mesh(b.model);
+  const ElementFigures& shells = m.of(ElementKind::shell4);
+  EXPECT_TRUE(std::isnan(shells.dt[0]));
+  EXPECT_GE(shells.dt[1], 1e29);
+  EXPECT_EQ(m.parts[1].not_computed, 0u);
+  EXPECT_GT(shells.mass[1], 0.0);
+}
+
 TEST(ElementStep, OfASpringIsTheRootOfMassOverStiffness) {
   SmallDeck d = square();
   d.node(31, 60, 0, 0).node(32, 64, 0, 0);

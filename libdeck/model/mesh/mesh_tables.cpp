@@ -456,9 +456,11 @@ const char* part_reason(const Model& model, const Part& part, const PartRow& row
                       (type >= 25 && type <= 27) || (type >= 32 && type <= 36) ||
                       (type >= 44 && type <= 46);
   if (part.mat == no_index) return spring ? nullptr : "the part has no material";
-  if (rigid_law) return "a material of law 13 is in the deck";
-  if (model.materials[part.mat].block->opaque) return "the material is encrypted";
   const int law = row.material.law;
+  // Its own elements have no step, as those of law 0. Those of other parts had none either in the
+  // one listing that is known, for no known reason.
+  if (rigid_law && law != 13) return "a material of law 13 is in the deck";
+  if (model.materials[part.mat].block->opaque) return "the material is encrypted";
   if (reference && (law == 19 || law == 58 || law == 35 || law == 38 || law == 42 || law == 70))
     return "a reference geometry enters";
   return nullptr;
@@ -507,7 +509,7 @@ std::vector<PartRow> part_rows(const Model& model) {
     for (const std::uint32_t layer : row.property.layers)
       row.material.shell_speed = std::max(row.material.shell_speed, materials[layer].shell_speed);
     row.thickness = row.property.thickness;  // that of the part is for contacts
-    row.rigid = row.material.law == 0 || row.property.type == 0;
+    row.rigid = row.material.law == 0 || row.material.law == 13 || row.property.type == 0;
     row.why =
         part_reason(model, part, row, whole_reference || reference.contains(part.id), rigid_law);
   }
