@@ -13,6 +13,7 @@ import type { ContourKind, Look } from "./look";
 import type { FieldName, Overrides } from "./meta";
 import { interfaces } from "./sections/overview";
 import { printing } from "./paper";
+import { loadPartsDocument, partsSection } from "./sections/parts";
 import { effectsSection, loadCycleDocument } from "./sections/effects";
 import { findBox } from "./find";
 import { openMenu, rowItems } from "./menu";
@@ -66,7 +67,8 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
   const report = new Report(meta, model.mesh, model.contacts, loadEarlier(), loadCycle(), loadCrossed(), loadTies(), model.base);
   times.evaluated = performance.now() - started;
   const doc = loadCycleDocument();
-  const look: Look = { map: "heat", dark: false, contour: doc && report.acted?.length ? "force" : "depth", bands: 0 };
+  const parts = loadPartsDocument(report);
+  const look: Look = { map: "heat", dark: false, contour: report.steps ? "element" : doc && report.acted?.length ? "force" : "depth", bands: 0 };
   const changeLook = (change: Partial<Look>) => {
     Object.assign(look, change);
     document.documentElement.dataset.theme = look.dark ? "dark" : "light";
@@ -83,6 +85,11 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
 
   const help = helpDialog();
   const undo = button("", "undo", () => state?.undo(), { "aria-label": "Undo (u)", title: "Undo (u)", class: "tool", disabled: true });
+  const redo = button("", "redo", () => state?.redo(), { "aria-label": "Redo (U)", title: "Redo (U)", class: "tool", disabled: true });
+  const link = button("", "link", async () => {
+    link.classList.toggle("done", await copyText(location.href));
+    setTimeout(() => link.classList.remove("done"), 1200);
+  }, { "aria-label": "Copy a link to this view", title: "Copy a link to this view", class: "tool" });
   const units = meta.deck.units.working;
   const header = h("header", { class: "top" },
     h("div", { class: "brand" }, h("span", { class: "mark", "aria-hidden": "true" }), h("b", null, `deck ${meta.page}`)),
@@ -92,7 +99,7 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
       units ? h("span", null, `${units.mass} · ${units.length} · ${units.time}`) : null,
       h("span", null, `${group(meta.deck.counts.nodes ?? 0)} nodes`)),
     findBox(report, viewport),
-    h("div", { class: "buttons" }, undo,
+    h("div", { class: "buttons" }, undo, redo, link,
       button("", "sun", () => changeLook({ dark: !look.dark }), { "aria-label": "Dark or light (t)", title: "Dark or light (t)", class: "tool" }),
       button("", "print", () => window.print(), { "aria-label": "Print", title: "Print", class: "tool" }),
       button("", "help", () => help.showModal(), { "aria-label": "Keys (?)", title: "Keys (?)", class: "tool" })));
@@ -100,7 +107,12 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
   const divider = h("div", { class: "divider", role: "separator", "aria-orientation": "vertical", "aria-label": "Width of the tables", "aria-valuemin": 25, "aria-valuemax": 80, "aria-valuenow": 53, tabindex: 0 });
   const right = h("aside", { class: "right" }, viewport.element, detail(report, fly));
   const split = h("div", { class: "split" }, left, divider, right);
-  const app = h("div", { class: "app" }, header, split, help);
+  const skip = (name: string, to: () => HTMLElement | null) => h("a", { href: "#", class: "skip", onclick: (e) => {
+    e.preventDefault();
+    to()?.focus();
+  } }, name);
+  const skips = h("div", { class: "skips" }, skip("To the tables", () => left.querySelector<HTMLElement>(".vt-body")), skip("To the picture", () => viewport.element.querySelector("canvas")));
+  const app = h("div", { class: "app" }, skips, header, split, help);
   document.getElementById("static")?.remove();
   document.body.append(app);
   dragDivider(divider, split);
@@ -126,9 +138,9 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
     ], "export");
     const list = listSection(report, fly, exports, () => state?.note());
     const nav = h("nav", { "aria-label": "Sections" },
-      ...([["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["ties", "Ties"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["effects", "Effects"], ["notes", "About"]] as const)
+      ...([["parts", "Parts"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["ties", "Ties"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["effects", "Effects"], ["notes", "About"]] as const)
         .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-    const sections = [nav, verdict(report), doc && cycleSection(report), doc && effectsSection(report, doc, `${stem}_effects.svg`), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, tiesSection(report, (x) => viewport.openTie(x)), crossedSection(report, (points) => viewport.openPoints(points)), !doc && cycleSection(report), notChecked(report)];
+    const sections = [nav, verdict(report), parts && partsSection(report, parts, (part) => viewport.showPart(part)), doc && cycleSection(report), doc && effectsSection(report, doc, `${stem}_effects.svg`), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, tiesSection(report, (x) => viewport.openTie(x)), crossedSection(report, (row) => viewport.openCrossed(row)), !doc && cycleSection(report), notChecked(report)];
     left.append(...sections.filter((s) => !!s));
     for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
     // Sections are scrolled to; the address belongs to the state of the page.
@@ -138,9 +150,12 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
       e.preventDefault();
       document.querySelector(link.hash)?.scrollIntoView();
     });
-    state = new ViewState(report, viewport, look, changeLook, { list: list.table }, (can) => (undo.disabled = !can));
+    state = new ViewState(report, viewport, look, changeLook, { list: list.table }, (back, forth) => {
+      undo.disabled = !back;
+      redo.disabled = !forth;
+    });
     const linked = state.open();
-    keys(report, viewport, list.table, help, look, changeLook, () => state!.undo());
+    keys(report, viewport, list.table, help, look, changeLook, () => state!.undo(), () => state!.redo());
     printing(report, viewport);
     times.tables = performance.now() - started;
     return linked;
@@ -223,9 +238,10 @@ const keyList: [string, string][] = [
   ["j  k", "next and previous row"],
   ["Enter", "fly to the chosen row"],
   ["Esc", "clear the selection, then the filters"],
+  ["Space", "show or fold the contacts of a TYPE19"],
   ["/", "find a node, element, part or interface"],
-  ["u", "undo"],
-  ["Menu", "copy ids and cards of the row"],
+  ["u  U", "undo and redo"],
+  ["Menu", "copy ids and cards of the row; in the picture: hide or isolate the part"],
   ["f", "fit the visible parts"],
   ["i", "isolate the chosen pair, or not"],
   ["h", "only what penetrates; or the rest see-through"],
@@ -238,7 +254,7 @@ const keyList: [string, string][] = [
   ["p", "list of parts"],
   ["c", "edges of crossed elements"],
   ["n", "lines of ties, from node to segment"],
-  ["1 … 8", "colours: depth, depth ÷ gap, gap, gap ÷ side, parts, force, stiffness, time step"],
+  ["1 … 9", "colours: depth, depth ÷ gap, gap, gap ÷ side, parts, force, stiffness, time step of node, of element"],
   ["t", "dark or light"],
   ["drag · shift-drag · wheel", "turn · move · zoom"],
   ["← ↑ → ↓", "turn the picture when it has the focus"],
@@ -251,8 +267,8 @@ function helpDialog(): HTMLDialogElement {
   return dialog;
 }
 
-function keys(report: Report, viewport: Viewport, list: { move(by: number): void }, help: HTMLDialogElement, look: Look, changeLook: (l: Partial<Look>) => void, undo: () => void): void {
-  const contours: ContourKind[] = ["depth", "ratio", "gap", "edge", "none", ...(report.cycle?.nodes.length ? (["force", "stiffness", "step"] as const) : [])];
+function keys(report: Report, viewport: Viewport, list: { move(by: number): void }, help: HTMLDialogElement, look: Look, changeLook: (l: Partial<Look>) => void, undo: () => void, redo: () => void): void {
+  const contours: ContourKind[] = ["depth", "ratio", "gap", "edge", "none", ...(report.cycle?.nodes.length ? (["force", "stiffness", "step"] as const) : []), ...(report.steps ? (["element"] as const) : [])];
   const run: Record<string, () => void> = {
     j: () => list.move(1),
     k: () => list.move(-1),
@@ -273,6 +289,7 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
     "?": () => help.showModal(),
     "/": () => document.getElementById("find")?.focus(),
     u: undo,
+    U: redo,
     Escape: () => {
       if (report.selected || report.untied) report.select(null);
       else report.setFilter({ interface: null, pair: null, depth: null, ratio: null, status: null, text: "" });

@@ -1,14 +1,15 @@
-// The menu of the right mouse button (and of the menu key): ids and cards to be pasted elsewhere.
+// The menu of the right mouse button (and of the menu key): what to do with a part, ids and cards to be pasted elsewhere.
 import { button, h, replace } from "./dom";
 import { copyText, grnodBlock, nodeIds, setBlock } from "./exports";
 import type { Hit, Report } from "./report";
 
 export interface MenuItem {
   label: string;
-  text: string; // what goes to the clipboard
+  text?: string; // goes to the clipboard
+  run?: () => void; // what else it does
 }
 
-const menu = h("div", { class: "menu-list context", role: "menu", "aria-label": "Copy", hidden: true });
+const menu = h("div", { class: "menu-list context", role: "menu", "aria-label": "Part, node and row", hidden: true });
 let before: Element | null = null;
 
 function close(): void {
@@ -36,7 +37,8 @@ export function openMenu(items: MenuItem[], x: number, y: number): void {
   before = document.activeElement;
   replace(menu, ...items.map((i) => button(i.label, null, () => {
     close();
-    void copyText(i.text);
+    if (i.text !== undefined) void copyText(i.text);
+    i.run?.();
   }, { role: "menuitem" })));
   menu.hidden = false;
   menu.style.left = `${Math.min(x, window.innerWidth - menu.offsetWidth - 6)}px`;

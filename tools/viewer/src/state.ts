@@ -12,6 +12,7 @@ interface Table {
 
 export class ViewState {
   private past: string[] = [];
+  private undone: string[] = [];
   private now = "";
   private timer = 0;
 
@@ -21,7 +22,7 @@ export class ViewState {
     private readonly look: Look,
     private readonly changeLook: (change: Partial<Look>) => void,
     private readonly tables: Record<string, Table>,
-    private readonly changed: (canUndo: boolean) => void,
+    private readonly changed: (canUndo: boolean, canRedo: boolean) => void,
   ) {
     for (const topic of ["filter", "selection", "results", "look"] as const) report.on(topic, () => this.note());
     window.addEventListener("hashchange", () => {
@@ -45,25 +46,35 @@ export class ViewState {
   }
 
   undo(): void {
+    this.step(this.past, this.undone);
+  }
+  redo(): void {
+    this.step(this.undone, this.past);
+  }
+  private step(from: string[], to: string[]): void {
     clearTimeout(this.timer);
     this.write();
-    const before = this.past.pop();
-    if (before === undefined) return;
-    this.apply(before);
+    const text = from.pop();
+    if (text === undefined) return;
+    to.push(this.now);
+    this.apply(text);
     this.now = this.text();
     this.address();
-    this.changed(this.past.length > 0);
+    this.changed(this.past.length > 0, this.undone.length > 0);
   }
 
   private write(): void {
     const text = this.text();
     if (text === this.now) return;
     // Turning the picture alone is nothing to undo.
-    if (withoutCamera(text) !== withoutCamera(this.now)) this.past.push(this.now);
+    if (withoutCamera(text) !== withoutCamera(this.now)) {
+      this.past.push(this.now);
+      this.undone = [];
+    }
     if (this.past.length > 200) this.past.shift();
     this.now = text;
     this.address();
-    this.changed(this.past.length > 0);
+    this.changed(this.past.length > 0, this.undone.length > 0);
   }
   private address(): void {
     try {

@@ -266,13 +266,14 @@ export class Parts3D {
     this.texture.needsUpdate = true;
   }
 
-  setGround(dark: boolean, neutral: boolean): void {
+  /** `context`: how dense see-through parts are, 1: as usual. */
+  setGround(dark: boolean, neutral: boolean, context: number): void {
     this.line.color.set(dark ? "#0b0f14" : "#1c2733");
     this.line.opacity = dark ? 0.5 : 0.25;
     // Many layers add up.
     for (const side of ["none", "secondary", "main"] as const) {
       this.ghosts[side].color.set(sideColor(side, dark));
-      this.ghosts[side].opacity = (this.parts.length > 60 ? 0.045 : 0.1) * (side === "none" ? 1 : 1.8);
+      this.ghosts[side].opacity = (this.parts.length > 60 ? 0.045 : 0.1) * (side === "none" ? context : 1.8);
     }
     this.wire.color.set(dark ? "#7f90a3" : "#5b6b7d");
     for (const p of this.parts)

@@ -3,7 +3,7 @@
 // Over 600 lines: one class owns the objects of the graphics processor and frees them.
 import {
   BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, Frustum, HemisphereLight,
-  InstancedMesh, Matrix4, Mesh, MeshLambertMaterial, Points, Quaternion, Raycaster, Scene,
+  InstancedMesh, Matrix4, Mesh, MeshLambertMaterial, Points, type PointsMaterial, Quaternion, Raycaster, Scene,
   Sphere, Vector2, Vector3, type WebGLRenderer,
 } from "three";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
@@ -324,11 +324,11 @@ export class View3D {
     this.renderer.setSize(this.container.clientWidth, this.container.clientHeight, false);
   }
 
-  setGround(dark: boolean, neutral: boolean): void {
+  setGround(dark: boolean, neutral: boolean, context: number): void {
     this.dark = dark;
     this.scene.background = new Color(dark ? "#151b23" : "#eef1f5");
     this.sky.intensity = dark ? 1.3 : 1.7;
-    this.parts.setGround(dark, neutral);
+    this.parts.setGround(dark, neutral, context);
     this.request();
   }
 
@@ -384,7 +384,14 @@ export class View3D {
       this.scene.add(this.arrows);
       this.arrowScale = 0;
     }
+    this.clipMarkers();
     this.request();
+  }
+
+  /** Dots and arrows end where the model does. */
+  private clipMarkers(): void {
+    if (this.dots) (this.dots.material as PointsMaterial).clippingPlanes = this.section.planes;
+    if (this.arrows) (this.arrows.material as MeshLambertMaterial).clippingPlanes = this.section.planes;
   }
 
   private arrowScale = 0;
@@ -511,6 +518,7 @@ export class View3D {
   /** Cuts away what lies beyond each plane. */
   setSection(cuts: Cut[]): void {
     this.section.set(cuts, this.control.center, this.control.radius);
+    this.clipMarkers();
     this.request();
   }
 

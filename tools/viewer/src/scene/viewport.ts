@@ -3,10 +3,11 @@
 import { Color, Vector3, type WebGLRenderer } from "three";
 import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
 import { contourOf, type Contour } from "./contour";
-import { segmentOf } from "../sections/crossed";
+import type { Crossed } from "../meta";
+import { crossingText, segmentOf } from "../sections/crossed";
 import { cornersOf, nodeOf, type Untied } from "../sections/untied";
 import { tieLines } from "./tied";
-import { button, fileName, h, icon, lengthText, num, plural, replace, svg } from "../dom";
+import { button, fileName, h, icon, num, plural, replace, svg } from "../dom";
 import { saveDataUrl } from "../exports";
 import { framed } from "./framed";
 import { frameOf } from "../find";
@@ -17,6 +18,10 @@ import { elementKey, type Look as PartLook, type Part3D } from "./parts3d";
 import type { Cut } from "./section";
 import type { Hit, Report } from "../report";
 import { machineFor } from "./ready";
+import { ClipPanel } from "./clippanel";
+import { Labels } from "./labels";
+import { PartList } from "./partlist";
+import type { MenuItem } from "../menu";
 import { View3D, type Arrow, type Picked } from "./view3d";
 
 const mostArrowsAtFirst = 400;
@@ -28,23 +33,23 @@ export class Viewport {
   onMenu: (p: Picked, x: number, y: number) => void = () => {};
   private readonly legend = h("div", { class: "legend" });
   private readonly tip = h("div", { class: "tip", hidden: true });
-  private readonly label = h("div", { class: "label", hidden: true });
+  private readonly labels = new Labels();
   private readonly axes = svg("svg", { viewBox: "-30 -30 60 60", class: "axes", "aria-hidden": "true" });
-  private readonly partList = h("div", { class: "part-list", hidden: true });
-  private readonly clipPanel = h("div", { class: "clip-panel", hidden: true });
+  private readonly partList = new PartList();
+  private readonly clip = new ClipPanel(() => this.view?.setSection(this.clip.cuts.filter((c) => c !== null)), () => this.cutThroughRow());
   private readonly hidden = new Set<Part3D>();
   private isolated: Set<Part3D> | null = null;
   private rest: "ghost" | "hidden" = "ghost";
+  /** How much of the parts that are not chosen is seen, 0 to 1. */
+  private context = 0;
   private allSolid = false;
   private readonly ruler = h("div", { class: "tip ruler", hidden: true, "aria-live": "polite" });
-  private readonly segmentTag = h("div", { class: "label small", hidden: true });
   private measuring = false;
   private measured: number[] = []; // page nodes
   private origins: ((part: number, item: number) => ElementOrigin) | null = null;
   private follow = true;
   private arrows = true;
   private edges = true;
-  private cuts: (Cut | null)[] = [null, null];
   private contour: Contour | null = null;
   private readonly toggles = new Map<string, HTMLButtonElement>();
 
@@ -56,7 +61,7 @@ export class Viewport {
     private readonly software: boolean,
     private readonly machine: WebGLRenderer | null,
   ) {
-    this.element.append(this.legend, this.tip, this.label, this.segmentTag, this.ruler, this.partList, this.clipPanel, this.axes);
+    this.element.append(...this.labels.elements, this.legend, h("div", { class: "said" }, this.ruler, this.tip), this.partList.element, this.clip.element, this.axes);
   }
 
   /** A button in place of the picture: small screens show the list first. */
@@ -88,8 +93,9 @@ export class Viewport {
     view.setArrows(this.arrows);
     this.axes.toggleAttribute("hidden", false);
     this.element.append(this.toolbar());
+    this.press("solid", (this.allSolid = this.report.meta.page === "parts"));
     this.buildParts();
-    this.buildClip();
+    this.clip.build();
     view.onPick = (p) => {
       if (this.measuring) return this.measure(p);
       if (p.hit) this.report.select(p.hit);
@@ -98,10 +104,11 @@ export class Viewport {
     };
     view.onFrame = () => {
       this.drawAxes();
-      this.placeLabel();
+      this.placeLabels();
     };
     let zoomed = "";
     this.report.on("filter", () => {
+      this.crossing = null;
       this.refresh();
       // An interface or part pair that is chosen is zoomed to, once.
       const { interface: inter, pair } = this.report.filter;
@@ -131,7 +138,7 @@ export class Viewport {
 
   private toolbar(): HTMLElement {
     const contour = h("select", { "aria-label": "Colours show", title: "What the colours show (keys 1 to 5)", onchange: () => this.changeLook({ contour: contour.value as ContourKind }) },
-      ...Object.entries(contourNames).filter(([k]) => !ofCycle(k as ContourKind) || this.report.cycle?.nodes.length).map(([k, name]) => h("option", { value: k }, name)));
+      ...Object.entries(contourNames).filter(([k]) => (k === "element" ? this.report.steps : !ofCycle(k as ContourKind) || this.report.cycle?.nodes.length)).map(([k, name]) => h("option", { value: k }, name)));
     this.report.on("look", () => (contour.value = this.look.contour));
     contour.value = this.look.contour;
     const toggle = (key: string, name: string, iconName: string, on: boolean, run: () => void) => {
@@ -139,8 +146,13 @@ export class Viewport {
       this.toggles.set(key, b);
       return b;
     };
-    const axis = (name: string, d: [number, number, number], up: [number, number, number]) =>
-      button(name, null, () => this.view!.look(new Vector3(...d), new Vector3(...up)), { class: "tool text", title: `Look along ${name}` });
+    let last = "";
+    const axis = (name: string, d: [number, number, number], up: [number, number, number], title = `Look along ${name}; again: from the other side`) =>
+      button(name, null, () => {
+        const back = last === name && name !== "ISO";
+        last = back ? "" : name;
+        this.view!.look(new Vector3(...d).multiplyScalar(back ? -1 : 1), new Vector3(...up));
+      }, { class: "tool text", title });
     return h("div", { class: "toolbar", role: "toolbar", "aria-label": "3D view" },
       contour,
       h("span", { class: "bar" },
@@ -155,11 +167,19 @@ export class Viewport {
         toggle("measure", "Measure between two nodes (m)", "ruler", false, () => this.toggleMeasure()),
         toggle("parts", "Parts (p)", "parts", false, () => this.toggleParts())),
       h("span", { class: "bar" },
-        axis("X", [1, 0, 0], [0, 0, 1]), axis("Y", [0, -1, 0], [0, 0, 1]), axis("Z", [0, 0, 1], [0, 1, 0]),
+        axis("ISO", [1, -1, 1], [0, 0, 1], "Look from a corner"), axis("X", [1, 0, 0], [0, 0, 1]), axis("Y", [0, -1, 0], [0, 0, 1]), axis("Z", [0, 0, 1], [0, 1, 0]),
         button("", "fit", () => this.fit(), { "aria-label": "Fit (f)", title: "Fit (f)", class: "tool" }),
         button("", "camera", () => this.savePicture(false), { "aria-label": "Save a PNG", title: "Save a PNG", class: "tool" })));
   }
 
+  private contextSlider(): HTMLElement {
+    const slider = h("input", { type: "range", class: "context", min: 0, max: 1, step: 0.05, value: this.context, oninput: () => {
+      this.context = Number(slider.value);
+      this.applyLooks();
+      this.onRest();
+    } });
+    return slider;
+  }
   private press(key: string, on: boolean): void {
     this.toggles.get(key)?.setAttribute("aria-pressed", on ? "true" : "false");
   }
@@ -243,7 +263,7 @@ export class Viewport {
     const inter = this.report.filter.interface;
     const own = (r: readonly number[]) =>
       (inter === null || this.report.meta.contacts[r[0]].interface === inter) && (!parts || parts.has(this.report.data.contacts[r[0]].mainOwner.part[r[5]]));
-    const rows = (this.crossedShown = this.crossedOn ? (this.report.crossed?.rows ?? []).filter(own) : []);
+    const rows = (this.crossedShown = this.crossing ? [this.crossing] : this.crossedOn ? (this.report.crossed?.rows ?? []).filter(own) : []);
     if (rows.length === 0) return this.view?.crossed.set([]);
     const x = this.report.nodePositions;
     const edges = new Float32Array(6 * rows.length);
@@ -291,24 +311,32 @@ export class Viewport {
     this.view?.setRule([at(node)]);
     this.view?.flyToPoints([node, ...cornersOf(this.report, x.tie, x.row[0])].map(at));
   }
-  /** Flies to some points. */
-  openPoints(points: number[][]): void {
+  private crossing: Crossed["rows"][0] | null = null;
+  /** Shows the two elements of a crossing, the rest of their parts see-through, and says which they are. */
+  openCrossed(row: Crossed["rows"][0]): void {
     this.report.select(null);
+    if (!this.view) return;
+    this.crossing = row;
     if (!this.crossedOn) this.toggleCrossed();
-    this.view?.flyToPoints(points.map((p) => new Vector3(...p)));
+    this.refresh();
+    const x = this.report.nodePositions;
+    this.view.flyToPoints([row[1], row[2], ...segmentOf(this.report, row)].map((n) => new Vector3(x[3 * n], x[3 * n + 1], x[3 * n + 2])));
+    this.showTip(crossingText(this.report, row));
+  }
+  private crossedElements(row: Crossed["rows"][0]): Set<number> {
+    const main = this.report.data.contacts[row[0]].mainOwner;
+    return new Set([elementKey(row[3], row[4]), ...(main.kind[row[5]] > 0 ? [elementKey(main.kind[row[5]] - 1, main.id[row[5]])] : [])]);
   }
   toggleParts(): void {
-    this.partList.hidden = !this.partList.hidden;
-    this.press("parts", !this.partList.hidden);
+    const list = this.partList.element;
+    list.hidden = !list.hidden;
+    this.press("parts", !list.hidden);
   }
   toggleClip(): void {
     if (!this.view) return;
-    const on = this.clipPanel.hasAttribute("hidden");
-    this.clipPanel.hidden = !on;
+    const on = !!this.clip.element.hidden;
     this.press("clip", on);
-    this.cuts = [on ? { normal: new Vector3(1, 0, 0), at: 0.5 } : null, null];
-    this.buildClip();
-    this.setClip();
+    this.clip.show(on);
   }
   /** Shows everything again. */
   showAll(): void {
@@ -374,16 +402,26 @@ export class Viewport {
     if (p) this.showTip(this.elementText(p, item, -1));
   }
   /** What can be copied of what is under the cursor. */
-  itemsOf(p: Picked): { label: string; text: string }[] {
+  itemsOf(p: Picked): MenuItem[] {
     if (!p.part) return [];
+    const part = p.part;
     const element = p.part.element[p.item];
     const id = this.report.partId(p.part.data.part);
-    const items = [{ label: `Copy ${kindNames[p.part.elementKind[p.item]]} ${element}`, text: String(element) }, { label: `Copy part ${id}`, text: String(id) }];
+    const hide = () => {
+      this.hidden.add(part);
+      this.applyLooks();
+      this.buildParts();
+    };
+    const items: MenuItem[] = [
+      { label: "Hide part", run: hide }, { label: "Isolate part", run: () => this.showPart(part.data.part) },
+      { label: "Fit to part", run: () => this.view!.control.fly(part.sphere.center, part.sphere.radius) }, { label: "Show everything", run: () => this.showAll() },
+      { label: `Copy ${kindNames[p.part.elementKind[p.item]]} ${element}`, text: String(element) }, { label: `Copy part ${id}`, text: String(id) }];
     return p.node < 0 ? items : [...items, { label: `Copy node ${this.report.nodeId(p.node)}`, text: String(this.report.nodeId(p.node)) }];
   }
-  /** Shows a part alone. */
-  showPart(part: number): void {
+  /** Shows a part alone, by its position in Meta.parts; null: all. */
+  showPart(part: number | null): void {
     this.report.select(null);
+    if (part === null) return this.showAll();
     const p = this.view?.partByIndex(part);
     if (p) {
       this.isolated = new Set([p]);
@@ -405,11 +443,11 @@ export class Viewport {
     if (this.allSolid) out.all = "solid";
     if (this.rest === "hidden") out.rest = "hidden";
     if (!this.follow) out.isolate = "no";
+    if (this.context > 0) out.context = String(this.context);
     if (this.crossedOn) out.crossed = "yes";
     if (this.tiesOn) out.ties = "yes";
     if (this.hidden.size > 0) out.hidden = [...this.hidden].map((p) => this.report.partId(p.data.part)).join(",");
-    const cuts = this.cuts.map((c) => (c ? [...c.normal.toArray(), c.at].map((v) => Number(v.toPrecision(5))).join(",") : ""));
-    if (cuts.some((c) => c)) out.section = cuts.join("/");
+    if (this.clip.any) out.section = this.clip.state;
     if (this.measured.length === 2) out.ruler = this.measured.map((n) => this.report.nodeId(n)).join(",");
     if (this.view) out.camera = this.view.control.pose;
     return out;
@@ -418,6 +456,7 @@ export class Viewport {
     this.allSolid = s.all === "solid";
     this.rest = s.rest === "hidden" ? "hidden" : "ghost";
     this.follow = s.isolate !== "no";
+    this.context = Math.min(Math.max(Number(s.context ?? 0) || 0, 0), 1);
     this.crossedOn = s.crossed === "yes";
     this.tiesOn = s.ties === "yes";
     if (!this.view) {
@@ -428,15 +467,8 @@ export class Viewport {
     const hidden = new Set((s.hidden ?? "").split(",").filter(Boolean).map(Number));
     this.hidden.clear();
     for (const p of this.view.parts.parts) if (hidden.has(this.report.partId(p.data.part))) this.hidden.add(p);
-    this.cuts = [0, 1].map((i) => {
-      const v = (s.section ?? "").split("/")[i]?.split(",").map(Number) ?? [];
-      return v.length === 4 && v.every(Number.isFinite) ? { normal: new Vector3(v[0], v[1], v[2]), at: v[3] } : null;
-    });
-    const cut = this.cuts.some((c) => c !== null);
-    this.clipPanel.hidden = !cut;
-    this.press("clip", cut);
-    this.buildClip();
-    this.setClip();
+    this.clip.state = s.section ?? "";
+    this.press("clip", this.clip.any);
     this.measured = (s.ruler ?? "").split(",").filter(Boolean).map((id) => this.report.mesh.nodeId.indexOf(Number(id))).filter((n) => n >= 0);
     this.measuring = this.measured.length === 2;
     this.press("measure", this.measuring);
@@ -451,39 +483,9 @@ export class Viewport {
   // ---- parts --------------------------------------------------------------------------------
 
   private buildParts(): void {
-    const view = this.view!;
-    const filter = h("input", { type: "search", placeholder: "Find a part", "aria-label": "Find a part", oninput: () => fill() });
-    const list = h("div", { class: "part-rows" });
-    const fill = () => {
-      const t = filter.value.toLowerCase();
-      replace(list, ...view.parts.parts
-        .filter((p) => this.report.partText(p.data.part).toLowerCase().includes(t))
-        .map((p) => {
-          const box = h("input", { type: "checkbox", checked: !this.hidden.has(p), onchange: () => {
-            if (box.checked) this.hidden.delete(p);
-            else this.hidden.add(p);
-            this.applyLooks();
-          } });
-          return h("div", { class: "part-row" },
-            h("label", null, box, h("span", { class: "swatch", style: `background:#${p.color.getHexString()}` }), h("span", { class: "ellipsis", title: this.report.partText(p.data.part) }, this.report.partText(p.data.part))),
-            button("only", null, () => {
-              this.isolated = new Set([p]);
-              this.hidden.delete(p);
-              this.applyLooks();
-              view.fit();
-            }, { class: "link" }));
-        }));
-    };
-    replace(this.partList,
-      h("div", { class: "panel-head" }, h("b", null, "Parts"), h("span", { class: "buttons" },
-        button("all", null, () => this.showAll(), { class: "link" }),
-        button("none", null, () => {
-          for (const p of view.parts.parts) this.hidden.add(p);
-          this.applyLooks();
-          fill();
-        }, { class: "link" }))),
-      filter, list);
-    fill();
+    this.partList.fill(this.report, this.view!.parts.parts, {
+      hidden: this.hidden, apply: () => this.applyLooks(), only: (p) => this.showPart(p.data.part), all: () => this.showAll(),
+    });
   }
 
   /** Isolates the parts of the selected row, else of the chosen part pair, else those of the chosen interface. */
@@ -497,65 +499,40 @@ export class Viewport {
     }
     const parts = (this.view?.parts.parts ?? []).filter((p) => sides?.secondary.has(p.data.part) || sides?.main.has(p.data.part));
     this.isolated = this.follow && parts.length > 0 ? new Set(parts) : null;
+    if (!this.crossing) return;
+    const own = this.crossedElements(this.crossing);
+    this.isolated = new Set((this.view?.parts.parts ?? []).filter((p) => p.element.some((id, i) => own.has(elementKey(p.elementKind[i], id)))));
   }
 
   /** Chosen pairs are solid; of everything else only what penetrates is. */
   private lookOf(p: Part3D): PartLook {
     if (this.hidden.has(p)) return "hidden";
-    if (this.isolated && !this.isolated.has(p)) return this.rest;
+    if (this.isolated && !this.isolated.has(p)) return this.context > 0 ? this.rest : "hidden";
+    if (this.crossing) return "hot";
     const chosen = this.isolated !== null && (this.report.selected !== null || this.report.filter.pair !== null || this.report.filter.interface === null);
     const tie = this.report.filter.interface !== null && this.report.tieOf(this.report.filter.interface) !== null;
-    if (this.allSolid || chosen || (this.isolated && tie) || (this.report.filtered.length === 0 && !this.isolated)) return "solid";
+    if (this.allSolid || chosen || (this.isolated && tie) || this.report.filtered.length === 0) return "solid";
     return this.rest === "ghost" ? "hot" : "only";
   }
 
   private applyLooks(): void {
     this.view?.setLooks((p) => this.lookOf(p));
     this.ground();
+    if (this.legendIsolated !== (this.isolated !== null)) this.drawLegend();
     if (this.contour && this.hitsShownFor !== null && this.hitsShownFor !== this.isolationKey()) this.showHits();
   }
 
   private ground(): void {
-    this.view?.setGround(this.look.dark, this.look.contour !== "none");
+    this.view?.setGround(this.look.dark, this.look.contour !== "none", this.isolated ? 2 * this.context : 1);
   }
 
-  // ---- section planes -----------------------------------------------------------------------
-
-  private buildClip(): void {
-    replace(this.clipPanel, ...this.cuts.map((cut, i) => {
-      const name = i === 0 ? "First" : "Second";
-      const box = h("input", { type: "checkbox", checked: cut !== null, "aria-label": `${name} section plane`, onchange: () => {
-        this.cuts[i] = box.checked ? { normal: new Vector3(i === 0 ? 1 : 0, i, 0), at: 0.5 } : null;
-        this.buildClip();
-        this.setClip();
-      } });
-      if (!cut) return h("div", { class: "clip-row" }, h("label", { class: "check" }, box, `${name} plane`));
-      const slider = h("input", { type: "range", min: 0, max: 1, step: 0.001, value: cut.at, "aria-label": `Position of the ${name.toLowerCase()} section plane`, oninput: () => {
-        cut.at = Number(slider.value);
-        this.setClip();
-      } });
-      const set = (normal: Vector3, at: number) => {
-        this.cuts[i] = { normal, at };
-        this.buildClip();
-        this.setClip();
-      };
-      const along = (label: string, n: Vector3) => button(label, null, () => set(n, cut.at), { class: "tool text" });
-      return h("div", { class: "clip-row" }, box,
-        along("X", new Vector3(1, 0, 0)), along("Y", new Vector3(0, 1, 0)), along("Z", new Vector3(0, 0, 1)),
-        button("row", null, () => {
-          const x = this.report.selected;
-          if (!x || !this.view) return;
-          const n = new Vector3(...x.row.normal);
-          const side = new Vector3().crossVectors(n, Math.abs(n.z) < 0.8 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0));
-          if (side.lengthSq() > 0) set(side, this.view.clipThrough(new Vector3(...this.report.point(x.row)), side));
-        }, { class: "tool text", title: "Cut through the chosen node, across the surface" }),
-        slider,
-        button("flip", null, () => set(cut.normal.clone().negate(), 1 - cut.at), { class: "tool text" }));
-    }));
-  }
-
-  private setClip(): void {
-    this.view?.setSection(this.cuts.filter((c) => c !== null));
+  /** A section plane through the chosen row, across its surface. */
+  private cutThroughRow(): Cut | null {
+    const x = this.report.selected;
+    if (!x || !this.view) return null;
+    const n = new Vector3(...x.row.normal);
+    const side = new Vector3().crossVectors(n, Math.abs(n.z) < 0.8 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0));
+    return side.lengthSq() > 0 ? { normal: side, at: this.view.clipThrough(new Vector3(...this.report.point(x.row)), side) } : null;
   }
 
   // ---- what is shown ------------------------------------------------------------------------
@@ -584,6 +561,10 @@ export class Viewport {
   private markHot(): void {
     const node = new Uint8Array(this.report.mesh.nodeId.length);
     const touched = new Uint8Array(node.length);
+    if (this.crossing) {
+      for (const n of [this.crossing[1], this.crossing[2], ...segmentOf(this.report, this.crossing)]) touched[n] = 1;
+      return this.view?.parts.setHot(node, touched, () => this.crossedElements(this.crossing!));
+    }
     const { filtered } = this.report;
     for (const x of filtered) {
       const data = this.report.data.contacts[x.contact];
@@ -641,10 +622,14 @@ export class Viewport {
 
   private selection(): void {
     const x = this.report.selected;
+    if (this.crossing) {
+      this.crossing = null;
+      this.refresh();
+    }
     this.isolate();
     this.applyLooks();
     this.view?.setSelected(x);
-    this.placeLabel();
+    this.placeLabels();
   }
 
   /** Flies to a row. */
@@ -659,12 +644,14 @@ export class Viewport {
   private legendText(): { title: string; tick: (t: number) => string } | null {
     const c = this.contour;
     const kind = this.look.contour;
-    if (!c || (ofCycle(kind) ? !this.report.acted?.length : !["gap", "edge"].includes(kind) && this.report.filtered.length === 0)) return null;
+    if (!c || (kind === "element" ? !this.report.steps : ofCycle(kind) ? !this.report.acted?.length : !["gap", "edge"].includes(kind) && this.report.filtered.length === 0)) return null;
     const unit = this.report.meta.deck.units.working?.length;
     return { title: contourNames[kind === "none" ? "depth" : kind] + (unit && ["none", "depth", "gap"].includes(kind) ? ` (${unit})` : ""), tick: c.tick };
   }
+  private legendIsolated = false;
   private drawLegend(): void {
     const legend = this.legendText();
+    this.legendIsolated = this.isolated !== null;
     this.legend.hidden = !legend;
     if (!legend) return;
     const stops = Array.from({ length: 33 }, (_, i) => {
@@ -678,7 +665,8 @@ export class Viewport {
       h("div", { class: "legend-title" }, legend.title),
       h("div", { class: "legend-scale" }, h("div", { class: "legend-bar", style: `background:linear-gradient(to top, ${stops.join(",")})` }),
         h("div", { class: "legend-ticks" }, ...[1, 0.75, 0.5, 0.25, 0].map((t) => h("span", null, legend.tick(t))))),
-      h("div", { class: "legend-options" }, maps, h("label", { class: "check" }, bands, "steps")));
+      h("div", { class: "legend-options" }, maps, h("label", { class: "check" }, bands, "steps")),
+      this.isolated && h("label", { class: "legend-options", title: "How much of the other parts is seen beside what is chosen" }, "context", this.contextSlider()));
     this.legend.style.setProperty("--low", cssColor(this.look.map, 0));
   }
 
@@ -694,38 +682,26 @@ export class Viewport {
     replace(this.axes, ...items.flatMap((i) => i.e));
   }
 
-  private placeLabel(): void {
+  private placeLabels(): void {
     const x = this.report.selected;
-    const at = x && this.view?.screen(x);
-    this.label.hidden = this.segmentTag.hidden = !at;
-    if (!x || !at) return;
+    if (!x || !this.view) return this.labels.hide();
     const r = this.element.getBoundingClientRect();
-    if (this.label.dataset.key !== x.key + x.depth) {
-      this.label.dataset.key = x.key + x.depth;
-      replace(this.label,
-        h("b", null, `${this.report.isEdge(x.row) ? "edge" : "node"} ${this.report.secondaryText(x.row)}`),
-        h("span", null, `depth ${lengthText(this.report, x.depth, 5)} · gap ${lengthText(this.report, x.row.gap)} · distance ${num(x.row.distance)}`));
-    }
-    const left = Math.min(Math.max(at.x - r.left + 28, 8), r.width - this.label.offsetWidth - 8);
-    const top = Math.min(Math.max(at.y - r.top - 74, 52), r.height - this.label.offsetHeight - 8);
-    this.label.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
-    // The main side is named at its middle.
-    const d = this.report.data;
-    const corners = this.report.mainNodes(x.row).map((n) => new Vector3(d.x[d.exactOf[n]], d.y[d.exactOf[n]], d.z[d.exactOf[n]]));
-    const middle = corners.reduce((a, b) => a.add(b), new Vector3()).divideScalar(corners.length);
-    const tag = this.view!.place(middle);
-    this.segmentTag.hidden = !tag;
-    if (!tag) return;
-    this.segmentTag.textContent = `${this.report.isEdge(x.row) ? "edge" : "segment"} ${this.report.mainText(x.row)}`;
-    const across = Math.min(Math.max(tag.x - r.left - this.segmentTag.offsetWidth / 2, 8), r.width - this.segmentTag.offsetWidth - 8);
-    const down = Math.min(Math.max(tag.y - r.top + 26, 52), r.height - this.segmentTag.offsetHeight - 8);
-    this.segmentTag.style.transform = `translate(${Math.round(across)}px, ${Math.round(down)}px)`;
+    const taken = [...this.element.querySelectorAll<HTMLElement>(".legend, .toolbar > *, .part-list, .clip-panel, .tip")].filter((e) => !e.hidden).map((e) => {
+      const b = e.getBoundingClientRect();
+      return { left: b.left - r.left, right: b.right - r.left, top: b.top - r.top, bottom: b.bottom - r.top };
+    });
+    const place = (at: Vector3) => {
+      const p = this.view!.place(at);
+      return p && { x: p.x - r.left, y: p.y - r.top };
+    };
+    this.view.control.update(performance.now());
+    this.labels.show(this.report, x, place, { left: 8, top: 8, right: r.width - 8, bottom: r.height - 8 }, taken);
   }
 
   private tipTimer = 0;
   private showTip(text: string): void {
     this.tip.hidden = !text;
-    replace(this.tip, icon("node"), text);
+    replace(this.tip, icon("node"), text, button("", "close", () => this.showTip(""), { "aria-label": "Close", class: "tool" }));
     clearTimeout(this.tipTimer);
     this.tipTimer = window.setTimeout(() => (this.tip.hidden = true), 20000);
   }

@@ -14,7 +14,14 @@ export function segmentOf(report: Report, row: Row): number[] {
   return n[2] === n[3] ? n.slice(0, 3) : n;
 }
 
-export function crossedSection(report: Report, open: (points: number[][]) => void): HTMLElement {
+/** Edge and segment of a row with their elements and part. */
+export function crossingText(report: Report, r: Row): string {
+  const main = report.data.contacts[r[0]].mainOwner;
+  const element = main.kind[r[5]] > 0 ? ` (${kindNames[main.kind[r[5]] - 1]} ${main.id[r[5]]}, part ${report.partText(main.part[r[5]])})` : "";
+  return `Edge ${report.nodeId(r[1])}–${report.nodeId(r[2])} of ${kindNames[r[3]]} ${r[4]} passes through segment ${segmentOf(report, r).map((n) => report.nodeId(n)).join(" ")}${element}`;
+}
+
+export function crossedSection(report: Report, open: (row: Row) => void): HTMLElement {
   const crossed = report.crossed;
   const section = h("section", { id: "crossed" });
   if (!crossed || report.tiesOnly) {
@@ -29,7 +36,6 @@ export function crossedSection(report: Report, open: (points: number[][]) => voi
   const part = (r: Row) => report.data.contacts[r[0]].mainOwner.part[r[5]];
   const inter = (r: Row) => report.meta.interfaces[report.meta.contacts[r[0]].interface];
   const edge = (r: Row) => `${report.nodeId(r[1])}–${report.nodeId(r[2])}`;
-  const at = (n: number) => Array.from(report.nodePositions.subarray(3 * n, 3 * n + 3));
   const table = new VirtualTable<Row>(
     [
       { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: (r) => inter(r).id, text: (r) => String(inter(r).id) },
@@ -40,7 +46,7 @@ export function crossedSection(report: Report, open: (points: number[][]) => voi
       { key: "part", title: "Main part", kind: "text", rank: 3, value: (r) => report.partText(part(r)), text: (r) => report.partText(part(r)),
         cell: (r) => (part(r) < 0 ? "(no part)" : named(report.meta.parts[part(r)].id, report.meta.parts[part(r)].title, report.commonPrefix)) },
     ],
-    { label: "Crossed elements", sort: "inter", descending: false, select: (r) => r && open([at(r[1]), at(r[2]), ...segmentOf(report, r).map(at)]) },
+    { label: "Crossed elements", sort: "inter", descending: false, select: (r) => r && open(r) },
   );
   table.setRows(crossed.rows);
   table.element.style.setProperty("--rows", String(Math.min(crossed.rows.length, 8)));

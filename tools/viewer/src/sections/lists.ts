@@ -112,7 +112,7 @@ function drawMatrix(report: Report, rows: PairRow[], look: Look): HTMLElement {
   const pair = report.filter.pair;
   const short = (p: number) => {
     const t = report.partShort(p);
-    return t.length > 26 ? `${t.slice(0, 25)}…` : t;
+    return t.length > 26 ? `${t.slice(0, 14)}…${t.slice(-11)}` : t;
   };
   const grid = h("div", { class: "matrix", role: "group", "aria-label": "Deepest penetration by part pair" });
   grid.style.gridTemplateColumns = `max-content repeat(${across.length}, minmax(26px, 46px))`;
@@ -130,14 +130,31 @@ function drawMatrix(report: Report, rows: PairRow[], look: Look): HTMLElement {
       const [red, green, blue] = colorAt(look.map, t);
       const on = pair?.[0] === s && pair[1] === m;
       grid.append(h("button", {
-        type: "button", class: `matrix-cell${on ? " on" : ""}`, style: `background:rgb(${red} ${green} ${blue});color:${inkOn(red, green, blue)}`,
+        type: "button", tabindex: on || (!pair && grid.querySelector("button") === null) ? 0 : -1, class: `matrix-cell${on ? " on" : ""}`, style: `background:rgb(${red} ${green} ${blue});color:${inkOn(red, green, blue)}`,
         title: `${report.partText(s)} into ${report.partText(m)}: ${plural(r.pairs, "pair", "pairs")}, deepest ${num(r.max)}`,
         onclick: () => report.setFilter({ pair: on ? null : [s, m] }),
       }, r.pairs > 999 ? `${Math.round(r.pairs / 1000)}k` : String(r.pairs)));
     }
   }
+  grid.addEventListener("keydown", (e) => stepThrough(grid, across.length + 1, e));
   const left = new Set(rows.map((r) => r.secondary)).size - down.length + new Set(rows.map((r) => r.main)).size - across.length;
   return h("div", null, grid, left > 0 ? h("p", { class: "note" }, `${left} shallower parts are only in the table above.`) : null);
+}
+
+/** Arrow keys go from a cell to the next one with pairs; the matrix is one stop of the Tab key. */
+function stepThrough(grid: HTMLElement, width: number, e: KeyboardEvent): void {
+  const by = { ArrowLeft: -1, ArrowRight: 1, ArrowUp: -width, ArrowDown: width }[e.key];
+  const from = document.activeElement;
+  if (!by || !(from instanceof HTMLButtonElement)) return;
+  e.preventDefault();
+  const cells = [...grid.children];
+  for (let i = cells.indexOf(from) + by; i >= 0 && i < cells.length; i += by) {
+    const to = cells[i];
+    if (!(to instanceof HTMLButtonElement)) continue;
+    from.tabIndex = -1;
+    to.tabIndex = 0;
+    return to.focus();
+  }
 }
 
 // ---- distributions ----------------------------------------------------------------------------

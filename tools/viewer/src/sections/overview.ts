@@ -46,16 +46,21 @@ export function interfaces(report: Report): HTMLElement {
     text === was ? text : h("span", { class: "changed", title: `deck: ${was}` }, text);
   const deepest = (t: Totals) => (t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth) : "–");
   const prefix = commonStart(report.meta.interfaces.map((i) => i.title));
+  const unfold = (r: ContactRow) => {
+    if (report.contactsOf(r.inter).length < 2) return;
+    if (!open.delete(r.inter)) open.add(r.inter);
+    draw();
+  };
   const fold = (r: ContactRow) => {
     const on = open.has(r.inter);
-    const b = button("", on ? "down" : "right", () => {
-      if (!open.delete(r.inter)) open.add(r.inter);
-      draw();
-      table.element.querySelector<HTMLElement>(`button.fold-parts[data-interface="${r.inter}"]`)?.focus();
-    }, { class: "fold-parts", "data-interface": r.inter, "aria-expanded": on ? "true" : "false", "aria-label": `Contacts of interface ${inter(r).id}`, title: "Its contacts" });
+    const b = button("", on ? "down" : "right", () => unfold(r), { tabindex: -1, class: "fold-parts", "data-interface": r.inter, "aria-expanded": on ? "true" : "false", "aria-label": `Contacts of interface ${inter(r).id}`, title: "Its contacts (space bar)" });
     b.addEventListener("click", (e) => e.stopPropagation());
     return b;
   };
+  const step = (r: ContactRow): number | null => r.contacts.reduce<number | null>((least, c) => {
+    const dt = report.cycle!.contacts[c]?.dt ?? null;
+    return dt === null || (least !== null && least < dt) ? least : dt;
+  }, null);
   const kind = (r: ContactRow) => (r.part ? report.roleText(r.contacts[0]) : `TYPE${inter(r).type}`);
   const count = (key: "pairs" | "nodes" | "edges", title: string, hint: string, rank?: number) => ({
     key, title, hint, kind: "number" as const, rank, value: (r: ContactRow) => totals(head(r))[key], text: (r: ContactRow) => group(totals(r)[key]),
@@ -87,6 +92,7 @@ export function interfaces(report: Report): HTMLElement {
       { key: "depth", title: "Deepest", kind: "number", value: (r) => (totals(head(r)).unbounded ? Infinity : totals(head(r)).max_depth), text: (r) => deepest(totals(r)),
         cell: (r) => changedCell(deepest(totals(r)), deepest(totals(r, "base"))) },
       { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => totals(head(r)).max_ratio, text: (r) => (totals(r).pairs && !totals(r).unbounded ? percent(totals(r).max_ratio) : "–") },
+      ...(report.cycle ? [{ key: "step", title: "Step", hint: "Largest stable time step that the contact allows in the first cycle", kind: "number" as const, rank: 8, value: (r: ContactRow) => step(r) ?? Infinity, text: (r: ContactRow) => (step(r) === null ? "–" : num(step(r)!)) }] : []),
       { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 1, value: (r) => actionsText(report, head(r).contacts), text: (r) => actionsText(report, r.contacts),
         cell: (r) => {
           const text = actionsText(report, r.contacts);
@@ -94,7 +100,7 @@ export function interfaces(report: Report): HTMLElement {
         } },
     ],
     {
-      label: "Interfaces", sort: "depth", descending: true,
+      label: "Interfaces", sort: "depth", descending: true, toggle: unfold,
       select: (r) => report.setFilter({ interface: r && report.filter.interface !== r.inter ? r.inter : null, pair: null, depth: null, ratio: null }),
       classOf: (r) => `${totals(r).pairs === 0 ? "quiet" : ""} ${report.filter.interface === r.inter ? "group" : ""}`,
       same: (a, b) => a.inter === b.inter && a.part === b.part && a.contacts[0] === b.contacts[0],
@@ -105,7 +111,7 @@ export function interfaces(report: Report): HTMLElement {
     whole.now.clear();
     rows = rowsNow();
     table.element.style.setProperty("--rows", String(Math.min(rows.length, 11)));
-    table.setRows(rows);
+    table.setRows(rows, report.held);
   };
   draw();
   report.on("results", draw);
@@ -143,6 +149,24 @@ function fieldsOf(type: number): FieldName[] {
   return ["Igap", "Gapmin", "Fscalegap", "Gapmax", "Inacti", "Fpenmax"];
 }
 
+/** All settings under test in a line, with what to do with them. */
+export function settingsBar(report: Report): HTMLElement {
+  const bar = h("div", { class: "tests", hidden: true });
+  const command = button("Copy command", "copy", async () => flash(command, await copyText(whatIfCommand(report))), { class: "small", title: "deck gaps … --what-if …: the same settings evaluated on the command line" });
+  const reset = button("Reset all", "reset", () => report.clearOverrides(null), { class: "small" });
+  const draw = () => {
+    bar.hidden = !report.anyChanged;
+    if (bar.hidden) return;
+    const items = report.overrides.flatMap((o, inter) => Object.entries(o).map(([field, v]) => ({ inter, field: field as FieldName, v })));
+    replace(bar, h("b", null, plural(items.length, "setting under test", "settings under test"), ":"),
+      ...items.map(({ inter, field, v }) => button(`${report.meta.interfaces[inter].id} ${field} ${num(deckValue(report, inter, field))} → ${num(v!)}`, null, () => report.setFilter({ interface: inter }), { class: "chip filter", title: "Show this interface" })),
+      command, reset);
+  };
+  report.on("results", draw);
+  draw();
+  return bar;
+}
+
 /** Value of a field as the deck has it; Gapmin 0 means: from the mesh. */
 function deckValue(report: Report, inter: number, field: FieldName): number {
   const card = report.meta.contacts[report.contactsOf(inter)[0]].card;
@@ -169,6 +193,8 @@ function whatIf(report: Report): HTMLElement {
   report.on("results", draw);
   return panel;
 }
+
+let cardOpen = false;
 
 function build(report: Report, inter: number, panel: HTMLElement): () => void {
   const meta = report.meta.interfaces[inter];
@@ -202,8 +228,8 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
     panel,
     h("div", { class: "panel-head" }, h("h3", null, "What if? ", h("span", { class: "muted" }, `Interface ${report.interfaceName(inter)}`)), reset),
     grid, outcome, reach,
-    h("div", { class: "panel-head" }, h("h4", null, "Card"), h("span", { class: "buttons" }, command, copy)),
-    card, notes,
+    h("details", { class: "card-fold", open: cardOpen, ontoggle: (e) => (cardOpen = (e.target as HTMLDetailsElement).open) },
+      h("summary", null, "Card with these values"), h("div", { class: "buttons" }, command, copy), card, notes),
   );
   return () => {
     for (const c of controls) c();
@@ -296,7 +322,7 @@ function control(report: Report, inter: number, field: FieldName): { element: HT
   }[field];
   const meaning = { Gapmin: "from the mesh", Gapmax: "no limit", Fscalegap: "", Fpenmax: "off" }[field];
   const step = top / 400;
-  const slider = h("input", { type: "range", id, min: field === "Fscalegap" ? step : 0, max: top, step, oninput: () => set(tidy(Number(slider.value), step)) });
+  const slider = h("input", { type: "range", id, min: field === "Fscalegap" ? step : 0, max: top, step, oninput: () => set(tidy(Number(slider.value), step)), onpointerdown: () => report.hold() });
   const number = h("input", { type: "number", min: 0, step: "any", "aria-label": field, onchange: () => {
     const v = Number(number.value);
     if (number.value !== "" && Number.isFinite(v) && v >= 0) set(v);

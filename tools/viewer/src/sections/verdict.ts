@@ -1,7 +1,8 @@
-// The verdict above everything: sentences and level as the program made them, tiles with numbers that follow the settings.
+// The verdict above everything: sentences and level as the program made them, and while settings are under test their numbers.
 import { group, h, lengthText, num, percent, plural, replace } from "../dom";
 import type { Verdict } from "../meta";
 import type { Report } from "../report";
+import { settingsBar } from "./overview";
 
 /** Colour of a level: red where the solver would stop, green only where nothing was found. */
 export function colourOf(verdict: Verdict): "error" | "warning" | "good" {
@@ -34,7 +35,7 @@ export function verdict(report: Report): HTMLElement {
   const tiles = h("div", { class: "tiles" });
   const compare = h("div", { class: "compare" });
   const element = h("section", { class: "verdict", id: "verdict", "aria-label": "Verdict", "data-level": colourOf(said), "data-verdict": said.level },
-    h("p", { class: "verdict-text" }, h("strong", null, first ?? ""), ...rest.map((t) => ` ${t}`), test), tiles, compare);
+    h("p", { class: "verdict-text" }, h("strong", null, first ?? ""), ...rest.map((t) => ` ${t}`), test), settingsBar(report), tiles, compare);
   const errors = said.counts.errors ?? 0;
   const { tie_errors: lost = 0, main_and_tied: main = 0 } = said.counts;
   const crossed = report.crossed?.total ?? said.counts.crossed_elements ?? null;
@@ -42,27 +43,30 @@ export function verdict(report: Report): HTMLElement {
   const draw = () => {
     const now = report.totals("now", null);
     const base = report.totals("base", null);
-    test.hidden = !report.anyChanged;
+    test.hidden = tiles.hidden = !report.anyChanged; // the banner has the numbers of the deck
     const deepest = report.deepest;
     const beyond = report.unboundedRows;
-    const tile = (name: string, value: string, note: string, old: string | null, bad = false) =>
-      h("div", { class: "tile", "data-tile": name, "data-bad": bad }, h("div", { class: "tile-name" }, name), h("div", { class: "tile-value" }, value),
-        h("div", { class: "tile-note" }, old !== null && report.anyChanged && old !== value ? `deck: ${old}` : note));
-    const counts = (t: { nodes: number; edges: number }) => `${group(t.nodes)}, ${group(t.edges)}`;
+    const tile = (name: string, value: string, note: string, old: string | null, to: string, bad = false) => {
+      const changed = old !== null && report.anyChanged && old !== value;
+      return h("button", { type: "button", class: "tile", "data-tile": name, "data-bad": bad, title: note, onclick: () => document.getElementById(to)?.scrollIntoView() },
+        h("span", { class: "tile-name" }, name), h("b", { class: "tile-value" }, value), changed && h("span", { class: "tile-note" }, `deck: ${old}`));
+    };
     const ratio = deepest || now.pairs === 0 ? (t: { pairs: number; max_ratio: number }) => (t.pairs ? percent(t.max_ratio) : "–") : () => "–";
     const stops = errors + now.solver_errors + lost + main;
+    const acted = now.acted > 0 ? `${plural(now.acted, "pair is", "pairs are")} acted on` : "no pair is acted on";
     const contact = report.tiesOnly ? [] : [
-      tile("Penetrations", group(now.pairs), `in ${plural(contacts.length, "contact", "contacts")}`, group(base.pairs)),
-      tile("Nodes, edges", counts(now), now.acted > 0 ? `${group(now.acted)} pairs acted on` : "none acted on", counts(base)),
+      tile("Penetrations", group(now.pairs), `pairs in ${plural(contacts.length, "contact", "contacts")}`, group(base.pairs), "worst"),
+      tile("Nodes", group(now.nodes), acted, group(base.nodes), "worst"),
+      (now.edges > 0 || base.edges > 0) && tile("Edges", group(now.edges), acted, group(base.edges), "worst"),
       tile("Deepest", deepest ? num(deepest.depth) : beyond > 0 ? "unbounded" : "–",
-        beyond > 0 ? `${plural(beyond, "pair has", "pairs have")} an unbounded gap` : deepest ? `of a gap of ${lengthText(report, deepest.row.gap)}` : "", deepest ? num(base.max_depth) : null),
-      tile("Depth ÷ gap", ratio(now), "at worst", ratio(base))];
+        beyond > 0 ? `${plural(beyond, "pair has", "pairs have")} an unbounded gap` : deepest ? `of a gap of ${lengthText(report, deepest.row.gap)}` : "", deepest ? num(base.max_depth) : null, "worst"),
+      tile("Depth ÷ gap", ratio(now), "at worst", ratio(base), "worst")];
     replace(tiles, ...contact,
       tile("Solver stops", group(stops), [errors > 0 && plural(errors, "error in the deck", "errors in the deck"), now.solver_errors > 0 && `${plural(now.solver_errors, "node", "nodes")} on a segment`,
         lost > 0 && `${plural(lost, "node", "nodes")} without a segment`, main > 0 && `${plural(main, "main node", "main nodes")} tied`,
-        stops === 0 && (now.on_segment.pairs > 0 ? `${itemsText(now.on_segment)} on a segment` : "no reason known")].filter((t) => t).join(", "), group(errors + base.solver_errors + lost + main), stops > 0),
-      ties.nodes > 0 && tile("Not tied", group(ties.lost), `of ${plural(ties.nodes, "node", "nodes")} of ${plural(report.meta.ties.length, "tie", "ties")}`, null, report.meta.ties.some((t) => t.stops)),
-      crossed !== null && crossed > 0 && tile("Crossed", group(crossed), "elements pass through segments", null));
+        stops === 0 && (now.on_segment.pairs > 0 ? `${itemsText(now.on_segment)} on a segment` : "no reason known")].filter((t) => t).join(", "), group(errors + base.solver_errors + lost + main), "notes", stops > 0),
+      ties.nodes > 0 && tile("Not tied", group(ties.lost), `of ${plural(ties.nodes, "node", "nodes")} of ${plural(report.meta.ties.length, "tie", "ties")}`, null, "ties", report.meta.ties.some((t) => t.stops)),
+      crossed !== null && crossed > 0 && tile("Crossed", group(crossed), "elements pass through segments", null, "crossed"));
     if (report.earlier) drawCompare(report, compare);
   };
   report.on("results", draw);

@@ -1,4 +1,4 @@
-// Names of parts and interfaces: ids are never cut, and what many titles start with is folded.
+// Names of parts and interfaces: ids are never cut, what many titles start with is folded, and a title is cut in its middle.
 import { h } from "../dom";
 
 /** Id and title of a part or interface: the id is never cut, and what the titles have in common is folded. */
@@ -6,7 +6,14 @@ export function named(id: number | string, title: string, prefix: string): HTMLE
   const folded = prefix !== "" && title.startsWith(prefix) && title.length > prefix.length;
   return h("span", { class: "named" },
     id === "" ? null : h("span", { class: "id" }, String(id)),
-    title ? h("span", { class: `rest${folded ? " fold" : ""}` }, folded && h("i", null, "…"), folded ? title.slice(prefix.length) : title) : null);
+    title ? h("span", { class: `rest${folded ? " fold" : ""}` }, folded && h("i", null, "…"), ...cutInMiddle(folded ? title.slice(prefix.length) : title)) : null);
+}
+
+const tailLength = 9;
+/** A text whose end stays in sight where there is no room: what differs in names mostly stands there. */
+function cutInMiddle(text: string): HTMLElement[] {
+  const at = text.length > 2 * tailLength ? text.length - tailLength : text.length;
+  return [h("span", { class: "name-head" }, text.slice(0, at)), h("span", { class: "name-tail" }, text.slice(at))];
 }
 
 /** The longest beginning, up to a separator, that most titles share; empty: none worth folding. */

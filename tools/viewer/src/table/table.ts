@@ -47,6 +47,8 @@ export class VirtualTable<T> {
   private natural = new Map<string, number>();
   /** Widths set by hand. */
   private readonly dragged = new Map<string, number>();
+  /** Columns that say the same in every row: shown only when chosen. */
+  private constant = new Set<Column<T>>();
   /** Columns chosen by hand; null: as many as fit. */
   private chosen: string[] | null = null;
   private active = 0; // column of the keyboard
@@ -60,6 +62,8 @@ export class VirtualTable<T> {
       descending: boolean;
       select(row: T | null): void;
       open?(row: T): void;
+      /** What the space bar does to the chosen row. */
+      toggle?(row: T): void;
       context?(row: T, x: number, y: number): void;
       changed?(): void;
       classOf?(row: T): string;
@@ -105,11 +109,22 @@ export class VirtualTable<T> {
     this.columns = all;
   }
 
-  setRows(rows: T[]): void {
+  /** `hold`: rows stay where they are, new ones last: a row that is changed does not leave the pointer. */
+  setRows(rows: T[], hold = false): void {
+    const before = this.shown;
     this.rows = rows;
     this.measure();
     this.layOut();
     this.sort();
+    const same = this.options.same;
+    if (!hold || !same) return;
+    const place = (row: T) => {
+      const at = before.findIndex((r) => same(r, row));
+      return at < 0 ? before.length : at;
+    };
+    const places = new Map(this.shown.map((r) => [r, place(r)]));
+    this.shown.sort((a, b) => places.get(a)! - places.get(b)!);
+    this.draw(true);
   }
 
   /** Rows in the order shown. */
@@ -203,6 +218,9 @@ export class VirtualTable<T> {
   }
 
   private measure(): void {
+    const told = this.all.filter((c) => c.kind === "number" || c.rank !== undefined);
+    const first = (c: Column<T>) => c.value(this.rows[0]);
+    this.constant = new Set(this.rows.length < 3 ? [] : told.filter((c) => this.rows.every((r) => c.value(r) === first(c))));
     const step = Math.max(1, Math.ceil(this.rows.length / mostMeasured));
     for (const c of this.all) {
       // The widest text is among the longest ones.
@@ -225,7 +243,7 @@ export class VirtualTable<T> {
     const natural = (c: Column<T>) => this.natural.get(c.key)!;
     const title = (c: Column<T>) => widthOf(`${c.title} ↓`, true) + 6 + padding;
     const least = (c: Column<T>) => this.dragged.get(c.key) ?? (c.kind === "text" ? Math.max(title(c), Math.min(natural(c), c.least ?? leastText)) : natural(c));
-    let columns = this.chosen ? this.all.filter((c) => this.chosen!.includes(c.key)) : this.all;
+    let columns = this.all.filter((c) => (this.chosen ? this.chosen.includes(c.key) : !this.constant.has(c)));
     const sum = () => columns.reduce((n, c) => n + least(c), 0);
     while (!this.chosen && sum() > room) {
       const ranked = columns.filter((c) => c.rank !== undefined);
@@ -371,6 +389,7 @@ export class VirtualTable<T> {
     };
     const side = { ArrowLeft: -1, ArrowRight: 1 }[e.key];
     if (e.key === "Enter" && this.selected) this.options.open?.(this.selected);
+    else if (e.key === " " && this.selected && this.options.toggle) this.options.toggle(this.selected);
     else if (e.key in step && this.shown.length > 0) this.move(step[e.key]);
     else if (side) this.active = Math.min(Math.max(this.active + side, 0), this.columns.length - 1);
     else return;

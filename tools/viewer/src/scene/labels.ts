@@ -1,0 +1,96 @@
+// Names of the chosen node and segment in the picture: beside what they name, never on it, with a line that leads there.
+import { Vector3 } from "three";
+import { h, lengthText, num, replace, svg } from "../dom";
+import type { Hit, Report } from "../report";
+
+export interface Point {
+  x: number;
+  y: number;
+}
+export interface Box {
+  left: number;
+  top: number;
+  right: number;
+  bottom: number;
+}
+
+const clear = 24; // pixels between a label and what it names
+const rings = [64, 96, 136, 190];
+const turns = 16;
+
+const distance = (b: Box, p: Point) => Math.hypot(Math.max(b.left - p.x, 0, p.x - b.right), Math.max(b.top - p.y, 0, p.y - b.bottom));
+const overlap = (a: Box, b: Box) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+
+/** A place for a box near `at`: inside `room`, off the points and the boxes; `angle` is tried first, 0: to the right, clockwise. */
+export function placeFor(at: Point, size: { width: number; height: number }, room: Box, points: Point[], boxes: Box[], angle: number): Box {
+  let best: Box | null = null;
+  let fewest = Infinity;
+  for (const r of rings)
+    for (let k = 0; k < turns; k++) {
+      const a = angle + ((k % 2 === 0 ? 1 : -1) * Math.ceil(k / 2) * 2 * Math.PI) / turns;
+      const [dx, dy] = [Math.cos(a), Math.sin(a)];
+      const x = at.x + r * dx + (dx * size.width) / 2;
+      const y = at.y + r * dy + (dy * size.height) / 2;
+      const box = { left: x - size.width / 2, right: x + size.width / 2, top: y - size.height / 2, bottom: y + size.height / 2 };
+      const wrong = points.filter((p) => distance(box, p) < clear).length + boxes.filter((b) => overlap(box, b)).length +
+        (box.left < room.left || box.right > room.right || box.top < room.top || box.bottom > room.bottom ? 4 : 0);
+      if (wrong === 0) return box;
+      if (wrong < fewest) [best, fewest] = [box, wrong];
+    }
+  return best!;
+}
+
+export class Labels {
+  private readonly node = h("div", { class: "label", hidden: true });
+  private readonly segment = h("div", { class: "label small", hidden: true });
+  private readonly lines = svg("svg", { class: "leaders", "aria-hidden": "true" });
+  readonly elements = [this.lines, this.node, this.segment];
+
+  hide(): void {
+    this.node.hidden = this.segment.hidden = true;
+    this.lines.replaceChildren();
+  }
+
+  /** `place` gives the position of a point in the picture, null behind the camera; `taken`: boxes of other things there. */
+  show(report: Report, x: Hit, place: (at: Vector3) => Point | null, room: Box, taken: Box[]): void {
+    const d = report.data;
+    const corner = (n: number) => new Vector3(d.x[d.exactOf[n]], d.y[d.exactOf[n]], d.z[d.exactOf[n]]);
+    const corners = report.mainNodes(x.row).map(corner);
+    const middle = corners.reduce((a, b) => a.clone().add(b), new Vector3()).divideScalar(corners.length);
+    const point = new Vector3(...report.point(x.row));
+    const foot = point.clone().addScaledVector(new Vector3(...x.row.normal), -x.row.distance);
+    const [at, below, centre] = [place(point), place(foot), place(middle)];
+    if (!at) return this.hide();
+    if (this.node.dataset.key !== x.key + x.depth) {
+      this.node.dataset.key = x.key + x.depth;
+      replace(this.node,
+        h("b", null, `${report.isEdge(x.row) ? "edge" : "node"} ${report.secondaryText(x.row)}`),
+        h("span", null, `depth ${lengthText(report, x.depth, 5)} · gap ${lengthText(report, x.row.gap)} · distance ${num(x.row.distance)}`));
+      this.segment.textContent = `${report.isEdge(x.row) ? "edge" : "segment"} ${report.mainText(x.row)}`;
+    }
+    const points = [at, below, centre].filter((p) => p !== null);
+    this.node.hidden = false;
+    const own = placeFor(at, this.sizeOf(this.node), room, points, taken, -Math.PI / 4);
+    this.put(this.node, own);
+    const leaders = [this.leader(own, at)];
+    this.segment.hidden = !centre;
+    if (centre) {
+      const box = placeFor(centre, this.sizeOf(this.segment), room, points, [...taken, own], (3 * Math.PI) / 4);
+      this.put(this.segment, box);
+      leaders.push(this.leader(box, centre));
+    }
+    this.lines.replaceChildren(...leaders);
+  }
+
+  private sizeOf(e: HTMLElement): { width: number; height: number } {
+    return { width: e.offsetWidth, height: e.offsetHeight };
+  }
+  private put(e: HTMLElement, box: Box): void {
+    e.style.transform = `translate(${Math.round(box.left)}px, ${Math.round(box.top)}px)`;
+  }
+  private leader(box: Box, to: Point): SVGElement {
+    const x = Math.min(Math.max(to.x, box.left), box.right);
+    const y = Math.min(Math.max(to.y, box.top), box.bottom);
+    return svg("line", { x1: x, y1: y, x2: to.x, y2: to.y });
+  }
+}
