@@ -18,7 +18,8 @@ export async function accessible(p, name) {
 export async function reachable(p, name) {
   const lost = await p.evaluate(() =>
     [...document.querySelectorAll("button, a[href], input, select, summary, [role=grid], canvas")]
-      .filter((e) => e.getClientRects().length > 0 && !e.disabled && e.tabIndex < 0)
+      // Arrow keys go through the matrix from its one stop; the space bar folds the chosen row of a table.
+      .filter((e) => e.getClientRects().length > 0 && !e.disabled && e.tabIndex < 0 && !e.closest(".matrix:has([tabindex='0'])") && !e.matches("[role=grid] .fold-parts"))
       .map((e) => e.outerHTML.slice(0, 80)));
   check(`${name}: the keyboard reaches everything`, lost.length === 0, lost.slice(0, 3).join(" ;; "));
 }

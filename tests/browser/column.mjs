@@ -27,18 +27,26 @@ export async function column(p) {
   same("a bar lists the setting under test", await p.$$eval(".tests .chip", (c) => c.length), 1);
   check("it names interface, field, old and new value", /^1 Gapmin \S+ → \S+$/.test(await p.$eval(".tests .chip", (c) => c.textContent)), await p.$eval(".tests .chip", (c) => c.textContent));
   same("the numbers follow in a line", await p.$eval(".tiles", (e) => e.hidden), false);
+  const address = (has) => p.waitForFunction((wanted) => location.hash.includes("card.1=") === wanted, has); // a state that is kept for undo
+  await address(true);
   await p.click(".tests button:has-text('Reset all')");
+  await address(false);
   same("and are gone when it is reset", await p.$eval(".tests", (e) => e.hidden), true);
+  await settled(p);
   await p.keyboard.press("u");
-  await p.waitForTimeout(300);
   check("undo brings the setting back", await p.evaluate(() => window.deckReport.report.anyChanged));
+  await settled(p);
   await p.keyboard.press("Shift+U");
-  await p.waitForTimeout(300);
   check("redo takes it away again", await p.evaluate(() => !window.deckReport.report.anyChanged));
   await p.evaluate(() => window.deckReport.report.setFilter({ interface: null }));
 
   // Keyboard.
-  await p.evaluate(() => document.activeElement?.blur?.());
+  // From the top of the page.
+  await p.evaluate(() => {
+    document.body.tabIndex = -1;
+    document.body.focus();
+    document.body.removeAttribute("tabindex");
+  });
   let stops = 0;
   for (; stops < 40; stops++) {
     await p.keyboard.press("Tab");
@@ -51,6 +59,15 @@ export async function column(p) {
   await p.$eval(".matrix button[tabindex='0']", (e) => e.focus());
   await p.keyboard.press("ArrowDown");
   check("arrow keys go on in it", await p.evaluate(() => document.activeElement?.matches(".matrix button[tabindex='0']")));
+
+  await p.$eval(".interfaces-table .vt-body", (e) => e.focus());
+  await p.click(".interfaces-table .vt-row:has(.fold-parts) [data-key=id]");
+  const rows = (await order()).length;
+  await p.keyboard.press("Space");
+  check("the space bar unfolds the chosen interface", (await order()).length > rows);
+  await p.keyboard.press("Space");
+  same("and folds it", (await order()).length, rows);
+  await p.keyboard.press("Escape");
 
   // Two parts with different names do not look alike.
   const names = await p.$$eval("#pairs .vt-row [data-key=s], #pairs .vt-row [data-key=m]", (cells) => cells.map((c) => [c.textContent, c.innerText]));

@@ -150,7 +150,8 @@ const field = await soon(() => page.textContent("[id='libdeck.libdeck.deck.field
 check("the status bar names the field", field?.includes("surf_IDm  11–20"), field);
 check("the fields of the card are marked", (await page.$$eval(".view-overlays [class*=ced-], .view-lines [class*=ced-]", (e) => e.length)) > 0);
 await picture(page, "findings");
-await page.keyboard.press("Alt+ArrowRight");
+await page.keyboard.press("Control+k");
+await page.keyboard.press(".");
 const here = async () => (await page.textContent("[id='libdeck.libdeck.deck.field']")) ?? "";
 check("one key goes to the next field", await soon(async () => (await here()).includes("Istf  21–30"), 10), await here());
 await page.keyboard.press("Control+k");
@@ -159,7 +160,8 @@ const hover = await soon(async () => (await page.textContent(".monaco-hover:not(
 check("hover tells the field", hover);
 await picture(page, "hover");
 await page.keyboard.press("Escape");
-await page.keyboard.press("Alt+Enter");
+await page.keyboard.press("Control+k");
+await page.keyboard.press("=");
 await page.waitForSelector(".quick-input-widget input");
 await page.waitForTimeout(300);
 await page.keyboard.type("5");
@@ -167,9 +169,11 @@ await page.keyboard.press("Enter");
 const text = /^ {7}131 {7}131 {9}5 {16}1000 {29}2/;
 const lines = () => page.$$eval(".view-line", (l) => l.map((e) => e.textContent.replaceAll("\u00a0", " ")));
 check("a value is written where its columns end", await soon(async () => (await lines()).some((l) => text.test(l)), 10));
-await page.keyboard.press("Control+/");
+await page.keyboard.press("Control+k");
+await page.keyboard.press("3");
 check("a card becomes a comment in its first column", await soon(async () => (await lines()).some((l) => l.startsWith("#       131       131         5")), 10));
-await page.keyboard.press("Control+/");
+await page.keyboard.press("Control+k");
+await page.keyboard.press("3");
 check("and a card again", await soon(async () => (await lines()).some((l) => l.startsWith("       131       131         5")), 10));
 
 await soon(() => page.click(".codelens-decoration a:has-text('Inacti')", { timeout: 3000 }).then(() => true));

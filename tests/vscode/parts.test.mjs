@@ -167,15 +167,26 @@ test("the version is the project's", () => {
   assert.equal(manifest.version, spawnSync(DECK, ["--version"], { encoding: "utf8" }).stdout.match(/\d+\.\d+\.\d+/)[0]);
   assert.equal(manifest.devDependencies, undefined);
 });
-test("the package holds scripts and texts, and no program", () => {
+test("the package holds scripts, texts and two pictures, and no program", () => {
   const unpacked = join(out, "vsix");
   assert.equal(spawnSync("python3", ["-m", "zipfile", "-e", join(WORK, "stage/libdeck.vsix"), unpacked]).status, 0);
   const files = readdirSync(unpacked, { recursive: true, withFileTypes: true }).filter((f) => f.isFile()).map((f) => join(f.parentPath ?? f.path, f.name));
   assert.deepEqual(files.map((f) => f.slice(unpacked.length + 1)).sort(), [
     "[Content_Types].xml", "extension.vsixmanifest", "extension/LICENSE.txt", "extension/NOTICES.txt", "extension/README.md", "extension/dist/bridge.js",
-    "extension/dist/extension.js", "extension/language-configuration.json", "extension/package.json", "extension/syntaxes/radioss.tmLanguage.json",
+    "extension/dist/extension.js", "extension/icon.png", "extension/language-configuration.json", "extension/package.json", "extension/screenshot.png", "extension/syntaxes/radioss.tmLanguage.json",
   ].sort());
-  for (const f of files) assert.doesNotMatch(readFileSync(f, "latin1"), /\0/, f);
+  for (const f of files.filter((f) => !f.endsWith(".png"))) assert.doesNotMatch(readFileSync(f, "latin1"), /\0/, f);
   const notices = readFileSync(join(unpacked, "extension/NOTICES.txt"), "utf8");
   for (const name of ["vscode-languageclient", "vscode-jsonrpc", "minimatch", "semver"]) assert.ok(notices.includes(`${name}\n`), name);
+});
+
+test("no key of the editor is taken, and no file but decks", () => {
+  const { languages, keybindings } = manifest.contributes;
+  // Keys that follow Ctrl+K alone and are nobody's in VS Code.
+  for (const k of keybindings) assert.match(k.key, /^ctrl\+k [.,=3]$/, k.key);
+  for (const k of keybindings) assert.match(k.mac, /^cmd\+k [.,=3]$/, k.mac);
+  assert.equal(languages[0].extensions, undefined, "*.inc belongs to PHP, too");
+  const first = new RegExp(languages[0].firstLine);
+  for (const line of ["#RADIOSS STARTER", "/BEGIN", "/NODE", "/MAT/LAW1/1"]) assert.match(line, first);
+  for (const line of ["<?php", "; assembler", "# makefile", "/* C */", "// C++", "/usr/bin/env node"]) assert.doesNotMatch(line, first);
 });

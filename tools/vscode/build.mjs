@@ -49,5 +49,5 @@ const { scripts, devDependencies, private: _, ...manifest } = JSON.parse(readFil
 manifest.version = readFileSync(join(root, "CMakeLists.txt"), "utf8").match(/project\(\w+ VERSION ([\d.]+)/)[1];
 writeFileSync(join(out, "package.json"), JSON.stringify(manifest, null, 2));
 writeFileSync(join(out, ".vscodeignore"), "*.vsix\n");
-for (const name of ["README.md", "language-configuration.json"]) copyFileSync(join(here, name), join(out, name));
+for (const name of ["README.md", "language-configuration.json", "icon.png", "screenshot.png"]) copyFileSync(join(here, name), join(out, name));
 copyFileSync(join(root, "LICENSE"), join(out, "LICENSE"));

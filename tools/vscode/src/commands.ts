@@ -1,7 +1,7 @@
 // Commands that run the program on a deck: findings, and changes that are shown as a patch before anything is written.
 import * as vscode from "vscode";
 import { deckOf } from "./deck_of";
-import { convert, fix, lintCall, type Change, type Settings } from "./program";
+import { convert, fix, lintCall, sinceHead, type Change, type Settings } from "./program";
 import { run } from "./run";
 import { settings } from "./settings";
 import { showText } from "./texts";
@@ -65,6 +65,12 @@ export function registerCommands(program: string, channel: vscode.LogOutputChann
       if (!deck) return;
       const said = await busy("Checking the deck", (cancel) => run(program, lintCall(settings(deck), deck.fsPath), deck.fsPath, cancel));
       await showText(`findings of ${deck.path.split("/").at(-1)}.txt`, `${said.out}${said.error}`);
+    }),
+    command("deck.compareWithHead", async () => {
+      const deck = await savedDeck();
+      if (!deck) return;
+      const said = await busy("Comparing with HEAD", (cancel) => run(program, sinceHead(settings(deck), deck.fsPath), deck.fsPath, cancel));
+      if (said.code >= 0) await showText(`${deck.path.split("/").at(-1)} since HEAD.txt`, `${said.out}${said.error}` || "Nothing has changed in meaning since HEAD.");
     }),
     command("deck.fixPenetrations", async () => {
       const chosen = await vscode.window.showQuickPick(strategies, { title: "Repair initial penetrations by", canPickMany: true });

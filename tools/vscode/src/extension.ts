@@ -86,6 +86,16 @@ async function start(context: vscode.ExtensionContext, channel: vscode.LogOutput
     void vscode.window.showInformationMessage("Open a Radioss deck first.");
     return undefined;
   };
+  /** The keyword above the cursor is offered; a field, a rule or a message of the solver can be asked for as well. */
+  const explainHere = async () => {
+    const editor = deckEditor();
+    if (!editor) return;
+    let line = editor.selection.active.line;
+    while (line > 0 && !editor.document.lineAt(line).text.startsWith("/")) line--;
+    const value = editor.document.lineAt(line).text.trim().replace(/\/\d+$/, "");
+    const topic = await vscode.window.showInputBox({ prompt: "Keyword, field, rule (DK301) or message of the solver (611)", value });
+    if (topic) await explain(topic);
+  };
   const fixAll = async (unsafe: boolean) => {
     const editor = deckEditor();
     if (editor) await vscode.commands.executeCommand("deck.fixAll", { textDocument: server.code2ProtocolConverter.asTextDocumentIdentifier(editor.document), unsafe });
@@ -99,6 +109,7 @@ async function start(context: vscode.ExtensionContext, channel: vscode.LogOutput
       const editor = deckEditor();
       if (editor) await report.showLine(editor);
     }),
+    vscode.commands.registerCommand("deck.explainHere", explainHere),
     vscode.commands.registerCommand("deck.fixSafely", () => fixAll(false)),
     vscode.commands.registerCommand("deck.fixUnsafely", () => fixAll(true)),
     vscode.commands.registerCommand("deck.editField", () => ruler.edit()),

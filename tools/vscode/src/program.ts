@@ -46,6 +46,9 @@ export const serverCall = (s: Settings): string[] => ["lsp", ...s.arguments];
 export const serverOptions = (s: Settings) => ({ includePaths: s.includePaths, geometryOnSave: s.geometryOnSave, showReportCommand: "deck.showGapReport" });
 export const lintCall = (s: Settings, file: string): string[] => ["lint", file, "--geometry", "--color", "never", ...includes(s)];
 
+/** What has changed in meaning since the last commit. */
+export const sinceHead = (s: Settings, file: string): string[] => ["diff", "--git", "HEAD", file, "--color", "never", ...includes(s)];
+
 /** A change of files: how to see it as a patch, and how to carry it out. */
 export interface Change {
   preview: string[];

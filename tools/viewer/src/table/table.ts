@@ -47,7 +47,7 @@ export class VirtualTable<T> {
   private natural = new Map<string, number>();
   /** Widths set by hand. */
   private readonly dragged = new Map<string, number>();
-  /** Columns that say the same in every row: shown only when chosen. */
+  /** Columns with the same number, or nothing, in every row: shown only when chosen. */
   private constant = new Set<Column<T>>();
   /** Columns chosen by hand; null: as many as fit. */
   private chosen: string[] | null = null;
@@ -218,9 +218,9 @@ export class VirtualTable<T> {
   }
 
   private measure(): void {
-    const told = this.all.filter((c) => c.kind === "number" || c.rank !== undefined);
-    const first = (c: Column<T>) => c.value(this.rows[0]);
-    this.constant = new Set(this.rows.length < 3 ? [] : told.filter((c) => this.rows.every((r) => c.value(r) === first(c))));
+    // Words that are the same in every row may be what matters; a number or a dash is not.
+    const told = this.rows.length < 3 ? [] : this.all.filter((c) => c.kind === "number" || (c.rank !== undefined && c.text(this.rows[0]) === "–"));
+    this.constant = new Set(told.filter((c) => this.rows.every((r) => c.value(r) === c.value(this.rows[0]))));
     const step = Math.max(1, Math.ceil(this.rows.length / mostMeasured));
     for (const c of this.all) {
       // The widest text is among the longest ones.
