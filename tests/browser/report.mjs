@@ -130,8 +130,15 @@ async function crashBox() {
   await shot(p, "crash_box_selected");
   // The picture of the README: copied to tools/viewer/screenshot.png when the page looks different.
   await p.setViewportSize({ width: 1440, height: 860 });
+  await p.evaluate(() => {
+    const { report } = window.deckReport;
+    report.setFilter({ interface: 0 });
+    report.select(report.filtered[0]);
+    document.querySelector(".left").scrollTo(0, 0);
+  });
   await settled(p);
   await shot(p, "readme");
+  await p.evaluate(() => window.deckReport.report.setFilter({ interface: null }));
   await p.setViewportSize({ width: 1600, height: 1000 });
 
   // Picture to row: a dot that is not the selected one, on the barrier.
