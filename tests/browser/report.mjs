@@ -10,6 +10,7 @@ import { effectsPage } from "./effects.mjs";
 import { find } from "./find.mjs";
 import { beforeThePicture, withoutScripts } from "./first_picture.mjs";
 import { chosenAlone, column } from "./column.mjs";
+import { repairPages } from "./moved.mjs";
 import { partsPage } from "./parts.mjs";
 import { picture, section } from "./picture.mjs";
 import { largeModel } from "./large.mjs";
@@ -550,7 +551,7 @@ async function manySettings() {
 }
 
 // ONLY=crashBox,layout runs some pieces; the later ones read pages that crashBox writes.
-const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), effects: () => effectsPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), largeModel: () => largeModel(browser, scratch, timings), ties: () => tiesAndModern(browser, scratch, shot), parts: () => partsPage(browser, scratch, shot), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
+const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), effects: () => effectsPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), largeModel: () => largeModel(browser, scratch, timings), ties: () => tiesAndModern(browser, scratch, shot), parts: () => partsPage(browser, scratch, shot), repair: () => repairPages(browser, scratch, shot), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
 const only = process.env.ONLY?.split(",");
 timings.seconds = {};
 for (const [name, piece] of Object.entries(pieces)) {

@@ -46,6 +46,14 @@ std::int64_t free_group_id(const Deck& deck) {
   return highest + 1;
 }
 
+/// The verb that writes the page.
+const char* page_name(const HtmlInput& in) {
+  return in.verb != nullptr      ? in.verb
+         : in.effects != nullptr ? "cycle"
+         : in.parts != nullptr   ? "parts"
+                                 : "gaps";
+}
+
 /// What is said of the deck: with its forces where the page is about them.
 Verdict verdict_in(const HtmlInput& in) {
   return in.effects != nullptr ? cycle_verdict(*in.effects)
@@ -59,7 +67,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   JsonWriter j(out);
   j.begin_object();
   write_json_head(j, "deck/gaps-html", 1);
-  j.field("page", in.effects != nullptr ? "cycle" : in.parts != nullptr ? "parts" : "gaps");
+  j.field("page", page_name(in));
   write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
   write_verdict(j, verdict_in(in));
   j.key("summary").begin_object(true);
@@ -175,6 +183,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   detail::PageContacts page = detail::collect_contacts(in, nodes);
   page.of_ties = std::move(of_ties);
   if (in.crossings != nullptr) detail::use_nodes(*in.crossings, nodes);
+  if (in.before != nullptr) detail::use_moved(model, *in.before, nodes);
   detail::use_nodes(in.acted, nodes);
   nodes.number();
 
@@ -188,9 +197,10 @@ Result<std::string> gaps_html(const HtmlInput& in) {
       "content=\"deck " +
       std::string(library_version()) + "\">\n<title>" + html_text(file_name(in.path)) +
       " \xe2\x80\x93 " +
-      (in.effects != nullptr ? "first contact cycle"
-       : in.parts != nullptr ? "parts"
-                             : "initial penetrations") +
+      (in.effects != nullptr  ? "first contact cycle"
+       : in.parts != nullptr  ? "parts"
+       : in.before != nullptr ? "before and after"
+                              : "initial penetrations") +
       "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>";
   out += bundle.style;
   out += "</style>\n</head>\n<body>\n";
@@ -210,6 +220,9 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   if (in.earlier != nullptr)
     add_block(out, "deck-earlier", "application/octet-stream",
               detail::packed_text(earlier_json(in)));
+  if (in.before != nullptr)
+    add_block(out, "deck-moved", "application/octet-stream",
+              detail::moved_block(model, *in.before, nodes));
   if (in.crossings != nullptr)
     add_block(out, "deck-crossed", "application/octet-stream",
               detail::crossings_block(model, *in.crossings, nodes));

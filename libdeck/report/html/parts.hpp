@@ -122,6 +122,10 @@ std::vector<const InterBase*> page_interfaces(const Scene& scene);
 void write_interfaces(JsonWriter& json, const HtmlInput& input);
 void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);
 
+// moved.cpp — nodes that a repair has moved
+void use_moved(const Model& model, const Model& before, PageNodes& nodes);
+std::string moved_block(const Model& model, const Model& before, const PageNodes& nodes);
+
 // cycle.cpp — forces, energies and time steps of the first cycle
 void use_nodes(std::span<const cycle::ActedNode> acted, PageNodes& nodes);
 std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycle::ActedNode> acted,

@@ -4,16 +4,18 @@
 #include "common.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/model/coverage.hpp"
+#include "deck/report/html.hpp"
 #include "deck/verdict.hpp"
 #include "verbs/gate.hpp"
 #include "verbs/git_deck.hpp"
+#include "writing/fix_page.hpp"
 
 namespace deck::cli::verb_diff {
 namespace {
 
 struct Options {
   CommonOptions common;
-  std::string match = "id", format = "human", git;
+  std::string match = "id", format = "human", git, html;
   bool markdown = false, no_geometry = false;
   std::size_t rows = 20;
   double tolerance = diff_tolerance;
@@ -76,7 +78,11 @@ int run(const Options& o) {
   if (o.common.decks.size() != wanted)
     return wrong_usage("diff", wanted == 1 ? "--git takes one deck: REV is the other side"
                                            : "expected DECK DECK, or --git REV DECK");
-  if (const int bad = check_outputs(o.common, {}); bad != exit_clean) return bad;
+  if (const int bad = check_outputs(o.common, {o.html}); bad != exit_clean) return bad;
+  if (std::string why; !o.html.empty() && !html_available(&why))
+    return wrong_usage("diff", "--html: this build has no viewer: " + why);
+  if (!o.html.empty() && o.no_geometry)
+    return wrong_usage("diff", "--html shows contacts: leave out --no-geometry");
   const auto schemas = load_schemas(o.common);
   if (!schemas) {
     print_error(o.common, schemas.error().message);
@@ -110,7 +116,7 @@ int run(const Options& o) {
       print_error(o.common, written.error().message);
       return exit_usage;
     }
-  if (o.common.wants_text()) {
+  if (o.common.wants_text() && o.html != "-") {
     DiffTextOptions text;
     text.rows = o.rows;
     if (o.markdown || o.format == "markdown") {
@@ -121,6 +127,16 @@ int run(const Options& o) {
       text.color = o.common.color_on(1);
       text.width = text_width();
       print_lines(diff_text(sa, sb, diff, text));
+    }
+  }
+  if (!o.html.empty()) {
+    const std::string path = b->loaded.path();
+    const auto page = difference_page(a->loaded, b->loaded, "diff", path);
+    const auto written =
+        page ? o.common.session->write_output(o.html, *page) : Result<void>(page.error());
+    if (!written) {
+      print_error(o.common, written.error().message);
+      return exit_usage;
     }
   }
   return code;
@@ -147,6 +163,10 @@ Action setup(CommandLine& line) {
       .value("FORMAT")
       .show_default();
   line.flag("--markdown", options->markdown, "Short for --format markdown: for a review comment");
+  line.option("--html", options->html,
+              "Write a page to FILE: the new deck's contacts with what is new, solved or deeper, "
+              "and the nodes that moved, before and after")
+      .value("FILE");
   line.option("--rows", options->rows, "Rows of a table; 0: all").value("N").show_default();
   line.option("--tolerance", options->tolerance,
               "Numbers that differ by less than this share of their size are equal (coordinates "

@@ -1,4 +1,4 @@
-// Evaluates the deck before and after, and hands both to the report.
+// Evaluates a deck before and after, and hands both to the report.
 #include "writing/fix_page.hpp"
 
 #include <utility>
@@ -10,25 +10,35 @@
 
 namespace deck::cli {
 
-Result<std::string> fix_page(const LoadedDeck& before, const ChangedFiles& changed,
-                             const CommonOptions& options) {
+Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after, const char* verb,
+                                    std::string_view path) {
+  const int threads = after.options().threads;
   const std::string was = [&] {
+    SceneOptions options = before.scene_options();
+    options.ties = true;
     Diagnostics ignored;
-    const Scene scene = before.scene_with(before.scene_options(), ignored);
-    const std::vector<Crossing> crossings = find_crossings(scene, options.thread_count());
+    const Scene scene = before.scene_with(options, ignored);
+    const std::vector<Crossing> crossings = find_crossings(scene, threads);
     return gaps_json(before.path(), before.deck(), scene, make_view(scene, &crossings), false);
   }();
   const auto earlier = read_earlier_gaps("as it was", was, before.path());
   if (!earlier) return earlier.error();
+  HtmlInput input;
+  input.path = path;
+  input.verb = verb;
+  input.earlier = &*earlier;
+  input.before = &before.model();
+  return gap_page(after, input);
+}
+
+Result<std::string> fix_page(const LoadedDeck& before, const ChangedFiles& changed,
+                             const CommonOptions& options) {
   Overlay overlay(changed.begin(), changed.end());
   const std::string& main = before.deck().sources[0].path();
   overlay.try_emplace(main, before.deck().sources[0].bytes());  // standard input is no file
   auto after = load(main, load_options(options, before.schemas(), &overlay));
   if (!after) return after.error();
-  HtmlInput input;
-  input.path = before.path();
-  input.earlier = &*earlier;
-  return gap_page(*after, input);
+  return difference_page(before, *after, "fix", before.path());
 }
 
 }  // namespace deck::cli

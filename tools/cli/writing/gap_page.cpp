@@ -6,9 +6,11 @@
 namespace deck::cli {
 
 Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input, const std::atomic<bool>* stop) {
-  if (SceneOptions options = loaded.scene_options(); !options.ties) {
-    options.ties = true;
-    loaded.set_scene_options(options);
+  const SceneOptions made = loaded.scene_options();
+  if (!made.ties || !made.candidates || !made.nodal_stiffness) {
+    SceneOptions all = made;
+    all.ties = all.candidates = all.nodal_stiffness = true;
+    loaded.set_scene_options(all);
   }
   loaded.findings();  // the page says where the solver stops before its contacts
   const Scene& scene = loaded.scene();

@@ -9,8 +9,8 @@
 namespace deck::cli {
 
 /// The page of a deck with ties, crossings and forces of the first cycle; its scene is made again
-/// if it has no ties. `input` has the path and what else the page shall know beside the deck.
-/// Error: the viewer is not there, or `stop` was set meanwhile ("cancelled").
+/// if it lacks what the page needs. `input` has the path and what else the page shall know beside
+/// the deck. Error: the viewer is not there, or `stop` was set meanwhile ("cancelled").
 Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input,
                              const std::atomic<bool>* stop = nullptr);
 

@@ -133,7 +133,7 @@ export interface Verdict {
 }
 
 export interface Meta {
-  page: "gaps" | "cycle" | "parts"; // which verb wrote it
+  page: "gaps" | "cycle" | "parts" | "fix" | "diff"; // which verb wrote it
   tool: { name: string; version: string };
   deck: {
     path: string;
@@ -197,6 +197,13 @@ export interface TieData {
   segment: number[];
   holds: (typeof Holds)[keyof typeof Holds][];
   rows: TieRow[]; // untied nodes first
+}
+
+/** A node that a repair has moved: page node, and by how much. */
+export type MovedRow = [number, number, number, number];
+export interface Moved {
+  total: number;
+  rows: MovedRow[]; // farthest first
 }
 
 /** Crossed elements: contact, page nodes of the edge, kind and id of its element, position of the

@@ -5,7 +5,7 @@ import { onSurfaceError, type Raw, type Row } from "./core";
 import { Evaluator, ratioOf, Tally, type Result } from "./evaluate";
 import { commonStart } from "./table/names";
 import type { Untied } from "./sections/untied";
-import type { Crossed, Cycle, Earlier, FieldName, Meta, Overrides, TieData, Totals } from "./meta";
+import type { Crossed, Cycle, Earlier, FieldName, Meta, Moved, Overrides, TieData, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
 
@@ -100,6 +100,7 @@ export class Report {
   selected: Hit | null = null;
   untied: Untied | null = null;
   steps: Steps | null = null; // of the page of deck parts
+  moved: Moved | null = null; // of the page of deck fix
   private readonly listeners = new Map<Topic, (() => void)[]>();
   private readonly forces: Map<string, { force: number; stiffness: number }>[] | null;
   private readonly earlierRows: Map<string, { depth: number; gap: number; row: Earlier["rows"][0] }> | null;

@@ -38,6 +38,11 @@ struct HtmlInput {
   /// (the document of `deck parts --json`), and the colours can show the steps of the elements. May
   /// be nullptr.
   const LoadedDeck* parts = nullptr;
+  /// An earlier model: nodes that stand elsewhere now are listed, and the picture shows both. May
+  /// be nullptr.
+  const Model* before = nullptr;
+  const char* verb =
+      nullptr;  ///< that the page names: "fix", "diff"; nullptr: gaps, cycle or parts
   const std::vector<Crossing>* crossings = nullptr;  ///< of the same scene; may be nullptr
   int threads = 1;
 };
@@ -50,9 +55,8 @@ bool html_available(std::string* reason = nullptr);
 std::vector<cycle::ActedNode> acted_in_page(const cycle::State& state,
                                             const cycle::SceneOutcome& outcome);
 
-/// The page: of `deck gaps`, of `deck cycle` where `effects` is given, of `deck parts` where `parts`
-/// is given. Error (config): the
-/// viewer was not built in.
+/// The page: of `deck gaps`, of `deck cycle` where `effects` is given, of `deck parts` where
+/// `parts` is given. Error (config): the viewer was not built in.
 Result<std::string> gaps_html(const HtmlInput& input);
 
 /// Who touches whom, as the page draws it for the deck's settings: parts against parts, the number

@@ -6,6 +6,7 @@ import {
   Mesh as Mesh3, MeshLambertMaterial, Object3D, type Plane, RGBAFormat, Sphere, SRGBColorSpace, Vector3,
 } from "three";
 import { acceleratedRaycast, MeshBVH } from "three-mesh-bvh";
+import type { MovedRow } from "../meta";
 import type { Mesh, MeshPart } from "../data";
 import type { Shape } from "../decode/shape";
 import { Coarser, contourAttribute, fillContour, ranges, type Marks } from "./coarser";
@@ -357,6 +358,25 @@ export class Parts3D {
     this.edgesOn = on;
   }
 
+  private shifted = false;
+  /** Puts moved nodes where they stood before, or back. */
+  showBefore(rows: MovedRow[], on: boolean): void {
+    if (on === this.shifted) return;
+    this.shifted = on;
+    const by = new Map(rows.map((r) => [r[0], r]));
+    for (const part of this.parts) {
+      const { node, position } = part.data;
+      let any = false;
+      for (let v = 0; v < node.length; v++) {
+        const r = by.get(node[v]);
+        if (!r) continue;
+        any = true;
+        for (let k = 0; k < 3; k++) position[3 * v + k] += on ? -r[k + 1] : r[k + 1];
+      }
+      if (!any) continue;
+      for (const o of [part.faces, part.wires]) if (o) o.geometry.getAttribute("position").needsUpdate = true;
+    }
+  }
   setClip(planes: Plane[]): void {
     for (const p of this.parts) if (p.faces) this.materialOf(p).clippingPlanes = planes;
     for (const m of [...Object.values(this.ghosts), this.line, this.ghostLine, this.wire]) m.clippingPlanes = planes;

@@ -78,6 +78,7 @@ export class View3D {
     this.marked = new Marked(report, this.scene, this.disc, container);
     this.crossed = new LineLayer(this.scene, this.marked.lines, this.disc, () => this.request());
     this.ties = new LineLayer(this.scene, this.marked.lines, this.disc, () => this.request());
+    this.moved = new LineLayer(this.scene, this.marked.lines, this.disc, () => this.request());
     this.parts = new Parts3D(report.mesh, shapes);
     for (const p of this.parts.parts) this.partOf.set(p.data.part, p);
     this.section = new Section(this.parts);
@@ -130,7 +131,7 @@ export class View3D {
   private setDetail(coarse: boolean): void {
     this.coarse = coarse;
     if (this.arrows) this.arrows.visible = this.arrowsOn && !coarse;
-    for (const l of [this.crossed, this.ties]) l.visible = !coarse;
+    for (const l of [this.crossed, this.ties, this.moved]) l.visible = !coarse;
     this.dots?.geometry.setDrawRange(0, this.mostDots);
   }
 
@@ -311,7 +312,7 @@ export class View3D {
     this.slices.stop();
     this.size();
     this.control.camera.aspect = w / h;
-    for (const s of [...this.marked.selection, ...this.crossed.lines, ...this.ties.lines]) if (s instanceof LineSegments2) s.material.resolution.set(w, h);
+    for (const s of [...this.marked.selection, ...this.crossed.lines, ...this.ties.lines, ...this.moved.lines]) if (s instanceof LineSegments2) s.material.resolution.set(w, h);
     if (this.frames === 0) return;
     this.control.update(performance.now());
     this.render();
@@ -418,9 +419,10 @@ export class View3D {
     this.request();
   }
 
-  /** Lines over the picture: of crossed elements, and of ties. */
+  /** Lines over the picture: of crossed elements, of ties, of nodes that a repair has moved. */
   readonly crossed: LineLayer;
   readonly ties: LineLayer;
+  readonly moved: LineLayer;
 
   /** All lines of ties in sight. */
   fitPoints({ tied, lost, lostNodes }: TieLines): void {

@@ -124,6 +124,7 @@ export class Viewport {
     this.report.on("look", () => this.refresh());
     view.onRest = () => this.onRest();
     view.onMenu = (p, x, y) => this.onMenu(p, x, y);
+    this.drawMoved();
     this.refresh();
     if (this.later) this.state = this.later;
     view.drawFirst();
@@ -326,6 +327,27 @@ export class Viewport {
   private crossedElements(row: Crossed["rows"][0]): Set<number> {
     const main = this.report.data.contacts[row[0]].mainOwner;
     return new Set([elementKey(row[3], row[4]), ...(main.kind[row[5]] > 0 ? [elementKey(main.kind[row[5]] - 1, main.id[row[5]])] : [])]);
+  }
+  /** Flies to a node by its number in the page. */
+  openNode(node: number): void {
+    const x = this.report.nodePositions;
+    const at = new Vector3(x[3 * node], x[3 * node + 1], x[3 * node + 2]);
+    const row = this.report.moved?.rows.find((r) => r[0] === node);
+    this.mark(at, row ? Math.max(12 * Math.hypot(row[1], row[2], row[3]), this.view?.control.pixel(at) ?? 0) : 1);
+  }
+  /** The mesh before the repair, or after it; lines run from where nodes stood to where they stand. */
+  showBefore(on: boolean): void {
+    const moved = this.report.moved;
+    if (!this.view || !moved) return;
+    this.view.parts.showBefore(moved.rows, on);
+    this.drawMoved();
+    this.view.request();
+  }
+  private drawMoved(): void {
+    const rows = this.report.moved?.rows ?? [];
+    const x = this.report.nodePositions;
+    const ends = Float32Array.from(rows.flatMap((r) => [0, 1, 2].map((k) => x[3 * r[0] + k] - r[k + 1]).concat([0, 1, 2].map((k) => x[3 * r[0] + k]))));
+    this.view?.moved.set([{ ends, color: this.look.dark ? "#7cc7ff" : "#1d4ed8", width: 2.5 }]);
   }
   toggleParts(): void {
     const list = this.partList.element;

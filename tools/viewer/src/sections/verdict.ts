@@ -86,7 +86,7 @@ function drawCompare(report: Report, element: HTMLElement): void {
     }, h("b", null, group(n)), ` ${status}`);
   replace(
     element,
-    h("span", { class: "muted" }, `Compared with ${report.earlier!.path}:`),
+    h("span", { class: "muted" }, report.meta.page === "fix" ? "Against the deck before the repair:" : report.meta.page === "diff" ? `Against ${report.earlier!.deck}:` : `Compared with ${report.earlier!.path}:`),
     chip("new", count.new), chip("worse", count.worse), chip("better", count.better), chip("same", count.same),
     chip("solved", report.solved.length),
   );

@@ -1,0 +1,59 @@
+// The pages of `deck fix --html` and `deck diff --html`: moved nodes against the JSON, the mesh before and after, what was solved.
+import { execFileSync } from "node:child_process";
+import { join } from "node:path";
+import { accessible } from "./axe.mjs";
+import { check, DECK, deck, open, same, sample, settled } from "./support.mjs";
+
+const cells = (p, selector) =>
+  p.$$eval(`${selector} .vt-row`, (rows) => rows.map((r) => Object.fromEntries([...r.children].map((c) => [c.dataset.key, c.textContent.replace(/\u202f/g, "")]))));
+/** Largest height of a part's vertices as they are drawn. */
+const height = (p, part) =>
+  p.evaluate((id) => {
+    const { report, viewport } = window.deckReport;
+    const x = viewport.view.parts.parts.find((q) => report.partId(q.data.part) === id).data.position;
+    return Math.max(...x.filter((_, i) => i % 3 === 2));
+  }, part);
+
+export async function repairPages(browser, scratch, shot) {
+  const call = [sample("too_close"), "--strategy", "move-nodes", "--max-moved", "100%", "--quiet"];
+  const file = join(scratch, "fix.html");
+  deck("fix", ...call, "--html", file);
+  const json = JSON.parse(deck("fix", ...call, "--json", "-"));
+  let p = await open(browser, file);
+  const shown = await p.evaluate(() => window.deckReport.report.moved.rows.map((r) => [window.deckReport.report.nodeId(r[0]), Math.hypot(r[1], r[2], r[3])]));
+  const sorted = (list) => list.map(([id, d]) => `${id} ${d.toPrecision(6)}`).sort();
+  same("repair: nodes and lengths are those of the JSON", sorted(shown), sorted(json.moved.map((m) => [m.node, m.distance])));
+  const byPart = await cells(p, "#moved");
+  same("repair: one row a part", byPart.filter((r) => r.nodes).map((r) => [parseInt(r.part), Number(r.nodes)]).sort(), [[1, 9], [2, 9]]);
+  const after = await height(p, 2);
+  await p.click("#moved button:has-text('Before')");
+  const before = await height(p, 2);
+  const most = Math.max(...json.moved.filter((m) => m.part === 2).map((m) => m.by[2]));
+  check("repair: 'Before' puts the nodes back in the picture", Math.abs(after - before - most) < 1e-4 && most > 0.1, `${before} ${after}`);
+  await shot(p, "repair");
+  await p.click("#moved button:has-text('After')");
+  same("repair: and 'After' where they stand now", await height(p, 2), after);
+  same("repair: what was solved is counted", await p.$eval(".compare .solved b", (e) => Number(e.textContent)), json.interfaces[0].before.nodes);
+  await p.click(".moved-table .vt-row");
+  await settled(p);
+  await accessible(p, "repair");
+  check("repair: no console error and no request", p.trouble.length === 0, p.trouble.join("; "));
+  await p.close();
+
+  // Two decks: the patch applied, against the old one.
+  const folder = join(scratch, "mended");
+  deck("fix", ...call, "-o", folder);
+  const page = join(scratch, "diff.html");
+  execFileSync("sh", ["-c", `"${DECK}" diff "${call[0]}" "${folder}/too_close_0000.rad" --quiet --html "${page}" || [ $? = 1 ]`]);
+  p = await open(browser, page);
+  same("difference: the same nodes have moved", (await p.evaluate(() => window.deckReport.report.moved.rows.map((r) => window.deckReport.report.nodeId(r[0])))).sort(), json.moved.map((m) => m.node).sort());
+  check("difference: the page says what it is", (await p.$eval(".brand", (e) => e.textContent)) === "deck diff");
+  check("difference: no console error and no request", p.trouble.length === 0, p.trouble.join("; "));
+  await p.close();
+  // A repair of cards moves nothing, and says so.
+  const cards = join(scratch, "cards.html");
+  deck("fix", sample("too_close"), "--strategy", "reduce-gap", "--quiet", "--html", cards);
+  p = await open(browser, cards);
+  check("a repair of cards says that no node was moved", /No node was moved/.test(await p.$eval("#moved", (e) => e.textContent)));
+  await p.close();
+}
