@@ -742,8 +742,34 @@ def crash_box():
     return d.end()
 
 
+def too_close_listing():
+    """What a Starter says of too_close: its message, and the pairs as it lists them where /IOFLAG asks for them."""
+    pairs = []  # a node above the middle is over the segments on both sides of it
+    over = ((0,), (0, 1), (1,))
+    for row in range(3):
+        for column in range(3):
+            for j in over[row]:
+                for i in over[column]:
+                    a = 1 + 3 * j + i
+                    pairs.append((101 + 3 * row + column, a, a + 1, a + 4, a + 3))
+    lines = ["* INPUT READING PROCESS", "    IPRI  : PRINTOUT FLAG . . . . . . . .         1", ""]
+    for prop in (1, 2):
+        lines += ["WARNING ID :   1084", "** WARNING: SHELLS OF AN ELASTIC MATERIAL ARE INTEGRATED GLOBALLY", "DESCRIPTION :  ",
+                  "   -- PROPERTY ID: %d" % prop, ""]
+    lines += [" INTERFACE NUMBER. . . . . . . . . . . . . .         1", " INTERFACE TYPE. . . . . . . . . . . . . . .     7", ""]
+    lines += ["  POSSIBLE IMPACT NUMBER:%12d  (<=           2 *NSN)" % len(pairs), "", "    IMPACT CANDIDATES",
+              "   SECONDARY        MAIN SEGMENT NODES", "   NODE"]
+    lines += ["".join("%10d" % n for n in pair) for pair in pairs]
+    lines += ["", "WARNING ID :    343", "** WARNING: INITIAL PENETRATIONS IN INTERFACE", "DESCRIPTION :  ",
+              "   -- INTERFACE ID: 1", "   -- INTERFACE TYPE: upper on lower",
+              "   THERE ARE %d INITIAL PENETRATIONS" % len(pairs), "   ( CONCERNING 9 NODES )", "", "",
+              "              0 ERROR(S)", "              3 WARNING(S)", ""]
+    return {"too_close_0000.out": "\n".join(lines)}
+
+
 ALL = (clean_plates, too_close, inacti_variants, crossing_edges, two_surfaces, tied_layer, welds, variable_gap, include_tree,
-       units_and_parameters, solid_and_skin, airbag_fold, coated_block, hot_contact, sets_and_friction, crash_box)
+       units_and_parameters, solid_and_skin, airbag_fold, coated_block, hot_contact, sets_and_friction, crash_box,
+       too_close_listing)
 
 
 def sheets(n, out):

@@ -359,7 +359,30 @@ class Reader {
 }  // namespace
 }  // namespace listing_reading
 
+namespace {
+
+/// What to do with a file that is no listing of the Starter.
+std::string no_listing(const std::string& path, std::string_view text, bool of_engine) {
+  if (of_engine)
+    return path +
+           " is a listing of the Engine; give the one of the Starter, which ends in _0000.out";
+  if (text.find("\n/BEGIN") != text.npos || text.starts_with("/BEGIN") ||
+      text.starts_with("#RADIOSS"))
+    return path + " is a deck, no listing; 'deck lint " + path +
+           "' looks at it, and 'deck explain' takes the listing that the Starter writes beside it "
+           "(_0000.out)";
+  return path +
+         (text.empty() ? " is empty"
+                       : " is no listing of the Starter: no message or interface of "
+                         "one is in it") +
+         "; the Starter writes it beside the deck, NAME_0000.out for NAME_0000.rad. Without one, "
+         "'deck lint DECK' says what the Starter would";
+}
+
+}  // namespace
+
 Result<Listing> read_listing_text(const std::string& path, std::string_view text) {
+  const std::string_view whole = text;
   Listing out;
   out.path = path;
   listing_reading::Reader reader(out);
@@ -369,10 +392,7 @@ Result<Listing> read_listing_text(const std::string& path, std::string_view text
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   if (reader.is_listing()) return out;
-  return Error{
-      Error::Code::syntax,
-      path + (reader.of_engine() ? " is a listing of the Engine; the Starter's ends in _0000.out"
-                                 : " is no listing of the Starter")};
+  return Error{Error::Code::syntax, no_listing(path, whole, reader.of_engine())};
 }
 
 Result<Listing> read_listing(const std::string& path, const Limits& limits) {

@@ -11,6 +11,7 @@
 #include "deck/base/count.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/text/number.hpp"
+#include "lint/gate_places.hpp"
 
 namespace deck {
 namespace {
@@ -39,11 +40,16 @@ void override_by(GateLimits& limits, const GateLimits& other) {
 /// Nodes and edges, each once.
 struct Items {
   std::set<std::array<std::int64_t, 2>> all = {};
-  std::uint32_t deepest = no_index;  ///< SceneView::penetrations, which is sorted by depth
+  std::vector<std::uint32_t> rows = {};  ///< SceneView::penetrations, which is sorted by depth
 
   void add(const NamedPenetration& p, std::uint32_t at) {
     all.insert(p.secondary);
-    if (deepest == no_index) deepest = at;
+    rows.push_back(at);
+  }
+  std::uint32_t deepest() const { return rows.front(); }
+  /// "9 nodes penetrate", "1 edge penetrates"
+  std::string penetrating() const {
+    return text() + (all.size() == 1 ? " penetrates" : " penetrate");
   }
   std::string text() const {
     const auto edges = static_cast<std::size_t>(
@@ -55,8 +61,8 @@ struct Items {
 
 class Check {
  public:
-  Check(const Gate& gate, const Scene& scene, const SceneView& view)
-      : gate_(gate), scene_(scene), view_(view) {
+  Check(const Gate& gate, const Scene& scene, const SceneView& view, const ChangedLines* changed)
+      : gate_(gate), scene_(scene), view_(view), places_(scene, view, changed) {
     for (const InterBase* inter : scene.interfaces->all) {
       GateLimits limits = gate.general;
       // Those of the deck are other bounds than those of an interface.
@@ -99,43 +105,48 @@ class Check {
       for (const auto& [bound, items] : deep[inter])
         report(RuleId::DK370, inter,
                fmt::format("{}: {} deeper than the {} that the gate allows; deepest {}",
-                           name_of(inter), items.text(), bound, pair_text(items.deepest)));
+                           name_of(inter), items.text(), bound, pair_text(items.deepest())),
+               places_.of_penetrations(inter, items.rows));
       for (const auto& [bound, items] : large[inter])
         report(RuleId::DK371, inter,
                fmt::format("{}: {} deeper than the {} of the gap that the gate allows; deepest {}",
-                           name_of(inter), items.text(), bound, pair_text(items.deepest)));
+                           name_of(inter), items.text(), bound, pair_text(items.deepest())),
+               places_.of_penetrations(inter, items.rows));
       if (const auto most = limits_.at(inter).max_count;
           most && of_interface[inter].all.size() > *most)
         report(RuleId::DK372, inter,
-               fmt::format("{}: {} penetrate, the gate allows {}", name_of(inter),
-                           of_interface[inter].text(), *most));
+               fmt::format("{}: {}, the gate allows {}", name_of(inter),
+                           of_interface[inter].penetrating(), *most),
+               places_.of_penetrations(inter, of_interface[inter].rows));
     }
     for (std::size_t k = 0; k < of_pair.size(); ++k)
       if (const auto most = gate_.part_pairs[k].limits.max_count;
           most && of_pair[k].all.size() > *most)
-        report(RuleId::DK372, nullptr,
-               fmt::format("parts '{}' and '{}': {} penetrate, the gate allows {}",
-                           gate_.part_pairs[k].match[0], gate_.part_pairs[k].match[1],
-                           of_pair[k].text(), *most));
+        report(
+            RuleId::DK372, nullptr,
+            fmt::format("parts '{}' and '{}': {}, the gate allows {}", gate_.part_pairs[k].match[0],
+                        gate_.part_pairs[k].match[1], of_pair[k].penetrating(), *most),
+            places_.of_penetrations(nullptr, of_pair[k].rows));
     if (const auto most = gate_.general.max_count; most && of_deck.all.size() > *most)
       report(RuleId::DK372, nullptr,
-             fmt::format("the deck: {} penetrate, the gate allows {}", of_deck.text(), *most));
+             fmt::format("the deck: {}, the gate allows {}", of_deck.penetrating(), *most),
+             places_.of_penetrations(nullptr, of_deck.rows));
   }
 
   void ties() {
-    std::set<NodeIndex> of_deck;
+    std::set<std::int64_t> of_deck;
     for (const Tie& tie : scene_.ties) {
-      std::size_t lost = 0;
+      std::vector<std::int64_t> lost;
       for (const TiedNode& n : tie.nodes)
-        if (n.lost()) {
-          ++lost;
-          of_deck.insert(n.node);
-        }
-      if (const auto most = limits_.at(tie.inter).max_untied; most && lost > *most)
-        report(RuleId::DK376, tie.inter, untied_text(name_of(tie.inter), lost, *most));
+        if (n.lost()) lost.push_back(scene_.model->node_id(n.node));
+      of_deck.insert(lost.begin(), lost.end());
+      if (const auto most = limits_.at(tie.inter).max_untied; most && lost.size() > *most)
+        report(RuleId::DK376, tie.inter, untied_text(name_of(tie.inter), lost.size(), *most),
+               places_.of_nodes(tie.inter, lost));
     }
     if (const auto most = gate_.general.max_untied; most && of_deck.size() > *most)
-      report(RuleId::DK376, nullptr, untied_text("the deck", of_deck.size(), *most));
+      report(RuleId::DK376, nullptr, untied_text("the deck", of_deck.size(), *most),
+             places_.of_nodes(nullptr, {of_deck.begin(), of_deck.end()}));
   }
 
   void time_steps(const cycle::SceneOutcome& forces) {
@@ -148,7 +159,8 @@ class Check {
             RuleId::DK373, s.inter,
             fmt::format("{}: time step {:.4g}, the mesh allows {:.4g}: a loss of {:.4g}, the gate "
                         "allows {}",
-                        name_of(s.inter), s.contact_dt, s.structure_dt, loss, *most));
+                        name_of(s.inter), s.contact_dt, s.structure_dt, loss, *most),
+            places_.of_interface(s.inter));
     }
   }
 
@@ -162,27 +174,29 @@ class Check {
       if (r.trend == Trend::fresh) fresh[inter].add(p, r.penetration);
       if (r.trend != Trend::worse) continue;
       auto& [items, was] = worse[inter];
-      if (items.deepest == no_index) was = earlier.rows[r.earlier].depth;
+      if (items.rows.empty()) was = earlier.rows[r.earlier].depth;
       items.add(p, r.penetration);
     }
     for (const InterBase* inter : scene_.interfaces->all)
       if (const auto it = comparison.lost_ties.find(inter);
           gate_.on_fresh && it != comparison.lost_ties.end())
-        report(
-            RuleId::DK374, inter,
-            fmt::format("{}: {} tied in {} and {} not any more; first is node {}", name_of(inter),
-                        count(it->second.size(), "node was", "nodes were"), earlier.path,
-                        it->second.size() == 1 ? "is" : "are", it->second.front()));
+        report(RuleId::DK374, inter,
+               fmt::format("{}: {} tied in {} and {} not any more; first is node {}",
+                           name_of(inter), count(it->second.size(), "node was", "nodes were"),
+                           earlier.path, it->second.size() == 1 ? "is" : "are", it->second.front()),
+               places_.of_nodes(inter, it->second));
     for (const InterBase* inter : scene_.interfaces->ordered) {
       if (const auto it = fresh.find(inter); gate_.on_fresh && it != fresh.end())
         report(RuleId::DK374, inter,
-               fmt::format("{}: {} penetrate now that did not in {}; deepest {}", name_of(inter),
-                           it->second.text(), earlier.path, pair_text(it->second.deepest)));
+               fmt::format("{}: {} now that did not in {}; deepest {}", name_of(inter),
+                           it->second.penetrating(), earlier.path, pair_text(it->second.deepest())),
+               places_.of_penetrations(inter, it->second.rows));
       if (const auto it = worse.find(inter); gate_.on_worse && it != worse.end())
         report(RuleId::DK375, inter,
-               fmt::format("{}: {} penetrate deeper than in {}; deepest {}, which was {:.6g}",
-                           name_of(inter), it->second.first.text(), earlier.path,
-                           pair_text(it->second.first.deepest), it->second.second));
+               fmt::format("{}: {} deeper than in {}; deepest {}, which was {:.6g}", name_of(inter),
+                           it->second.first.penetrating(), earlier.path,
+                           pair_text(it->second.first.deepest()), it->second.second),
+               places_.of_penetrations(inter, it->second.first.rows));
     }
   }
 
@@ -230,19 +244,22 @@ class Check {
     return it->second;
   }
 
-  void report(RuleId rule, const InterBase* inter, std::string message) {
+  void report(RuleId rule, const InterBase* inter, std::string message,
+              detail::GatePlaces::Notes notes) {
     Diagnostic d =
         finding_of(rule, inter != nullptr ? inter->span : Span{0, 0, 0}, std::move(message));
     if (inter != nullptr) {
       d.keyword = "/INTER/TYPE" + std::to_string(inter->type);
       d.id = inter->id;
     }
+    d.notes = std::move(notes);
     found.push_back(std::move(d));
   }
 
   const Gate& gate_;
   const Scene& scene_;
   const SceneView& view_;
+  detail::GatePlaces places_;
   std::map<const InterBase*, GateLimits> limits_;
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> pair_scopes_;
 };
@@ -268,8 +285,9 @@ bool Gate::needs_forces() const {
 }
 
 std::vector<Diagnostic> check_gate(const Gate& gate, const Scene& scene, const SceneView& view,
-                                   const cycle::SceneOutcome* forces, const EarlierGaps* earlier) {
-  Check check(gate, scene, view);
+                                   const cycle::SceneOutcome* forces, const EarlierGaps* earlier,
+                                   const ChangedLines* changed) {
+  Check check(gate, scene, view, changed);
   check.penetrations();
   check.ties();
   if (forces != nullptr && gate.needs_forces()) check.time_steps(*forces);

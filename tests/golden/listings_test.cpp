@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "deck/lint/messages.hpp"
 #include "deck/report/listing.hpp"
@@ -63,6 +64,47 @@ std::string record(const fs::path& below) {
   return source ? std::string((*source)->bytes()) : std::string();
 }
 
+/// The numbers of the column "id" in the tables of a specification, and of headings that are one.
+void add_numbers(const std::string& text, std::set<int>& out) {
+  int column = -1;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string line = text.substr(at, end - at);
+    at = end + 1;
+    if (line.starts_with("## ")) {
+      if (const int number = std::atoi(line.c_str() + 3); number > 99) out.insert(number);
+      continue;
+    }
+    if (!line.starts_with('|')) {
+      column = -1;
+      continue;
+    }
+    std::vector<std::string> cells;
+    std::stringstream parts(line.substr(1));
+    for (std::string cell; std::getline(parts, cell, '|');) cells.push_back(cell);
+    if (column < 0) {
+      const auto id = std::find(cells.begin(), cells.end(), " id ");
+      column =
+          id == cells.end() ? static_cast<int>(cells.size()) : static_cast<int>(id - cells.begin());
+      continue;
+    }
+    if (column >= static_cast<int>(cells.size())) continue;
+    const std::string& cell = cells[static_cast<std::size_t>(column)];
+    for (std::size_t i = 0; i < cell.size();) {
+      if (std::isdigit(static_cast<unsigned char>(cell[i])) == 0) {
+        ++i;
+        continue;
+      }
+      std::size_t stop = i;
+      while (stop < cell.size() && std::isdigit(static_cast<unsigned char>(cell[stop])) != 0)
+        ++stop;
+      out.insert(std::stoi(cell.substr(i, stop - i)));
+      i = stop;
+    }
+  }
+}
+
 TEST(Messages, OfAllRecordsHaveAPage) {
   using nlohmann::json;
   std::set<int> numbers;
@@ -80,6 +122,9 @@ TEST(Messages, OfAllRecordsHaveAPage) {
       for (const char* kind : {"errors", "warnings"})
         for (const auto& [number, times] : mutant[kind].items()) numbers.insert(std::stoi(number));
   }
+  for (const char* name : {"format", "kinematics", "messages", "modern_contacts",
+                           "starter_geometry", "tied", "time_step"})
+    add_numbers(record(fs::path("..") / "spec" / (std::string(name) + ".md")), numbers);
   if (numbers.empty()) GTEST_SKIP() << "no records";
   EXPECT_GT(numbers.size(), 100u);
   for (const int number : numbers)

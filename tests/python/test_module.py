@@ -360,3 +360,77 @@ def test_the_stubs_name_what_is_there():
             have = {n for n in dir(getattr(_native, item.name)) if not n.startswith("_")} | {"__len__"}
             told = {getattr(b, "name", None) or b.target.id for b in item.body}
             assert told <= have and have - {"__len__"} <= told, item.name
+
+
+@pytest.mark.parametrize("path", DECKS, ids=os.path.basename)
+def test_parts_and_ties_are_those_of_the_command_line(path):
+    deck = libdeck.load(path)
+    assert deck.parts(all=True) == command("parts", path, "--all")
+    told = {t["id"]: t for t in command("gaps", path, "--all")["ties"]}
+    assert sorted(t.id for t in deck.ties()) == sorted(told)
+    for tie in deck.ties():
+        nodes, listed = tie.nodes, told[tie.id]["nodes"]
+        assert tie.summary["tied"] == told[tie.id]["summary"]["tied"] and len(nodes["node"]) == len(listed)
+        for k, row in enumerate(listed):
+            assert (nodes["node"][k], bool(nodes["tied"][k])) == (row["node"], row["tied"])
+            assert list(nodes["segment"][k]) == (row["segment"] or [0, 0, 0, 0]) and nodes["why"][k] == row["why"]
+            if row["segment"]:
+                assert (nodes["s"][k], nodes["distance"][k]) == (row["s"], row["distance"])
+
+
+def test_parts_are_a_list_and_a_call(box):
+    assert [p.id for p in box.parts] == [p["id"] for p in box.parts()["parts"]]
+    assert box.parts()["total"]["mass"] > 0
+
+
+def test_show_compare_and_explain_are_those_of_the_command_line(box, tmp_path):
+    for what in ("1", "part:1", "node:2001"):
+        run = subprocess.run([PROGRAM, "show", BOX, what, "--json", "-"], capture_output=True, cwd=SAMPLES)
+        assert box.show(what) == json.loads(run.stdout)
+    with pytest.raises(KeyError, match="node"):
+        box.show("node:424242")
+    other = os.path.join(SAMPLES, "clean_plates_0000.rad")
+    close = os.path.join(SAMPLES, "too_close_0000.rad")
+    assert libdeck.load(other).compare(libdeck.load(close)) == command("diff", other, close)
+    assert box.compare(box)["equal"]
+    with pytest.raises(ValueError):
+        box.compare(box, match="colour")
+    listing = os.path.join(SAMPLES, "too_close_0000.out")
+    assert libdeck.load(close).explain(listing) == command("explain", listing)
+    assert [m["message"] for m in libdeck.explain_listing(listing)["messages"]] == [343, 1084]
+    with pytest.raises(libdeck.DeckError, match="no listing"):
+        libdeck.load(close).explain(BOX)
+    run = subprocess.run([PROGRAM, "explain", "DK254"], capture_output=True, text=True, env=dict(os.environ, COLUMNS="92"))
+    assert libdeck.explain("DK254").split() == run.stdout.split()
+    assert "611" in libdeck.explain(611) and "343" in libdeck.explain("initial penetrations")
+    with pytest.raises(KeyError, match="nonsense"):
+        libdeck.explain("nonsense of all kinds")
+
+
+def test_a_gate_holds_a_deck_against_an_earlier_one():
+    close = libdeck.load(os.path.join(SAMPLES, "too_close_0000.rad"))
+    free = close.gate()
+    assert free["gate"] is None and free["compared"] is None
+    assert not close.gate(max_depth=0.3)["gate"]["passed"] and close.gate(max_depth=0.4)["gate"]["passed"]
+    assert [f["rule"] for f in close.gate(max_count=8)["gate"]["findings"]] == ["DK372"]
+    assert close.gate(max_dt_loss=1.0)["gate"]["passed"]
+    better = close.fix("reduce-gap").deck
+    assert better.gate(compare=close)["compared"]["solved"] == 9
+    worse = close.gate(compare=better)
+    assert not worse["gate"]["passed"] and worse["compared"]["new"] == 9
+    assert close.gate(compare=close.gaps())["compared"]["same"] == 9
+    with pytest.raises(ValueError):
+        close.gate(compare={"no": "document"})
+
+
+def test_a_part_moves_as_a_whole():
+    edit = libdeck.load(os.path.join(SAMPLES, "too_close_0000.rad")).fix("move-part")
+    assert edit.deck.gaps()["summary"]["pairs"] == 0
+    assert len({tuple(np.round(m["by"], 9)) for m in edit.report["moved"]}) == 1
+
+
+@pytest.mark.parametrize("path", sorted(glob.glob(os.path.join(SAMPLES, "python", "*.ipynb"))), ids=os.path.basename)
+def test_notebooks_print_what_they_show(path, tmp_path):
+    import notebook
+
+    assert notebook.run(path, tmp_path) == notebook.stored(path)

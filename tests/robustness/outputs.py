@@ -182,7 +182,7 @@ def lint_formats(c, tmp):
 
 def edit_documents(c, tmp):
     """The deck as JSON, the loss report and the report of a fix."""
-    decks, losses, fixes = (validator_of(c, name) for name in ("deck", "losses", "fix"))
+    decks, losses, fixes, gates = (validator_of(c, name) for name in ("deck", "losses", "fix", "gate"))
     report = os.path.join(tmp, "report.json")
     for path in SAMPLES:
         stem = os.path.basename(path)[:-9]
@@ -195,6 +195,10 @@ def edit_documents(c, tmp):
         r = c.run("fix", path, "--strategy", "reduce-gap", "--json", "-")
         if c.no_crash("fix --json of " + stem, r, (0, 1)):
             check_document(c, "fix of " + stem, r.out.decode(), fixes)
+        r = c.run("gate", path, "--max-depth", "0.3", "--json", "-")
+        if c.no_crash("gate --json of " + stem, r, (0, 1)):
+            check_document(c, "gate of " + stem, r.out.decode(), gates)
+            c.check("exit code of gate of " + stem, r.code == (0 if strict(r.out.decode())["passed"] else 1), r.code)
         r = c.run("fix", path, "--json", "-")
         if c.no_crash("fix --json of %s without a strategy" % stem, r, (0, 1)):
             check_document(c, "proposals for " + stem, r.out.decode(), fixes)

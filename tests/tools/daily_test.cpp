@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/command_line.hpp"
+#include "tools/git_repository.hpp"
 
 namespace {
 
@@ -128,30 +129,10 @@ TEST_F(LintLines, AndTheirOptionsStandUnderHeadings) {
     EXPECT_TRUE(has(heading)) << heading << out();
 }
 
-class GitRevision : public Daily {
+class GitRevision : public GitRepository {
  protected:
-  void SetUp() override {
-    CommandLine::SetUp();
-    if (std::system("git --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no git";
-    std::string text = sample("too_close");
-    const auto nodes = text.find("/NODE");
-    const auto next = text.find("\n/", nodes);
-    write(dir_ / "models/inc/nodes.inc", text.substr(nodes, next + 1 - nodes));
-    write(dir_ / "models/car_0000.rad",
-          text.substr(0, nodes) + "#include inc/nodes.inc\n" + text.substr(next + 1));
-    git("init -q");
-    commit("first");
-    git("tag v1");
-  }
-  void git(const std::string& words) const {
-    const std::string command = "cd '" + dir_.string() +
-                                "' && git -c user.name=a -c user.email=a@b " + words +
-                                " > /dev/null 2>&1";
-    EXPECT_EQ(std::system(command.c_str()), 0) << words;
-  }
-  void commit(const std::string& message) const {
-    git("add models");
-    git("commit -q -m " + message);
+  static std::string sample(const char* name) {
+    return read(deck::test::source_dir() / "samples" / (std::string(name) + "_0000.rad"));
   }
 };
 

@@ -449,23 +449,25 @@ void JsonOutput::add(const MakeText& make) {
   }
 }
 
+std::string JsonOutput::text() const {
+  if (options_.decks.size() <= 1) return documents_.empty() ? std::string() : documents_.front();
+  std::string list;
+  JsonWriter json(list);
+  json.begin_object();
+  write_json_head(json, schema_id_, schema_version_);
+  json.key("decks").begin_array();
+  for (const std::string& d : documents_) {
+    const std::string_view document(d);
+    json.raw(document.substr(0, document.find_last_not_of('\n') + 1));
+  }
+  json.end_array().end_object();
+  return list;
+}
+
 int JsonOutput::finish(int code) const {
   if (failed_) return std::max<int>(code, exit_usage);
   if (!wanted() || documents_.empty()) return code;
-  std::string list;
-  if (options_.decks.size() > 1) {
-    JsonWriter json(list);
-    json.begin_object();
-    write_json_head(json, schema_id_, schema_version_);
-    json.key("decks").begin_array();
-    for (const std::string& d : documents_) {
-      const std::string_view document(d);
-      json.raw(document.substr(0, document.find_last_not_of('\n') + 1));
-    }
-    json.end_array().end_object();
-  }
-  const std::string& text = options_.decks.size() > 1 ? list : documents_.front();
-  if (auto written = options_.session->write_output(options_.json, text); !written) {
+  if (auto written = options_.session->write_output(options_.json, text()); !written) {
     print_error(options_, written.error().message);
     return std::max<int>(code, exit_usage);
   }

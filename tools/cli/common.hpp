@@ -160,7 +160,9 @@ class JsonOutput {
   void add(std::string document) { documents_.push_back(std::move(document)); }
   /// The same for a large document: with one deck it is written at once, while it is made.
   void add(const MakeText& make);
-  /// Writes what was added; returns `code`, or exit_usage if the file cannot be written.
+  /// What was added, as one document.
+  std::string text() const;
+  /// Writes it; returns `code`, or exit_usage if the file cannot be written.
   int finish(int code) const;
 
  private:

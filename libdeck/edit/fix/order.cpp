@@ -84,7 +84,8 @@ PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
     out.strategy += (out.strategy.empty() ? "" : ",") + fix.strategy;
     out.iterations += fix.iterations;
     out.crossings_before = std::max(out.crossings_before, fix.crossings_before);
-    if (fix.strategy == "move-nodes") out.crossings_after = fix.crossings_after;
+    if (fix.strategy == "move-nodes" || fix.strategy == "move-part")
+      out.crossings_after = fix.crossings_after;
     append(out.moved, fix.moved);  // of one step: a strategy is made once
     // An interface that this step does not list any more has no penetrations.
     for (FixedInterface& entry : out.interfaces) entry.after = {};

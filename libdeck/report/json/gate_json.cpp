@@ -1,5 +1,8 @@
 // The gate and the comparison with an earlier run as members of a JSON document.
+#include <algorithm>
+
 #include "deck/report/gate.hpp"
+#include "deck/report/verdict.hpp"
 #include "report/diagnostics_common.hpp"
 
 namespace deck {
@@ -25,14 +28,20 @@ void write_ids(JsonWriter& j, const std::array<std::int64_t, 2>& secondary) {
   j.key("edge").begin_array(true).value(secondary[0]).value(secondary[1]).end_array();
 }
 
+void write_counts(JsonWriter& j, const GateReport& gate) {
+  j.field("with", gate.earlier->path).field("deck", gate.earlier->deck_path);
+  for (const Trend t : {Trend::fresh, Trend::worse, Trend::better, Trend::same})
+    j.field(to_string(t), gate.comparison.count(t));
+  j.field("solved", std::uint64_t{gate.comparison.solved.size()});
+}
+
 void write_comparison(JsonWriter& j, const Scene& scene, const SceneView& view,
                       const GateReport& gate) {
   const EarlierGaps& earlier = *gate.earlier;
   const GapsComparison& c = gate.comparison;
-  j.begin_object().field("with", earlier.path).field("deck", earlier.deck_path);
-  for (const Trend t : {Trend::fresh, Trend::worse, Trend::better, Trend::same})
-    j.field(to_string(t), c.count(t));
-  j.field("solved", std::uint64_t{c.solved.size()}).key("rows").begin_array();
+  j.begin_object();
+  write_counts(j, gate);
+  j.key("rows").begin_array();
   for (const GapsComparison::Row& r : c.rows) {
     if (r.trend == Trend::same) continue;
     const NamedPenetration& p = view.penetrations[r.penetration];
@@ -56,6 +65,26 @@ void write_comparison(JsonWriter& j, const Scene& scene, const SceneView& view,
 
 }  // namespace
 
+std::size_t undecided_contacts(const Scene& scene) {
+  return static_cast<std::size_t>(std::count_if(scene.contacts.begin(), scene.contacts.end(),
+                                                [](const Contact& c) { return !c.evaluated; }));
+}
+
+GateReport gate_report(const Gate& gate, const Scene& scene, const SceneView& view,
+                       const cycle::SceneOutcome* forces, const EarlierGaps* earlier,
+                       const ChangedLines* changed) {
+  GateReport report;
+  report.asked = gate.any();
+  if (earlier != nullptr) {
+    report.earlier = earlier;
+    report.comparison = compare_gaps(*earlier, scene, view);
+  }
+  if (!report.asked) return report;
+  report.undecided = undecided_contacts(scene);
+  report.findings = check_gate(gate, scene, view, forces, earlier, changed);
+  return report;
+}
+
 void write_gate(JsonWriter& j, const Deck& deck, const Scene& scene, const SceneView& view,
                 const GateReport& gate) {
   j.key("gate");
@@ -69,6 +98,32 @@ void write_gate(JsonWriter& j, const Deck& deck, const Scene& scene, const Scene
   }
   j.key("compared");
   gate.earlier != nullptr ? write_comparison(j, scene, view, gate) : void(j.null());
+}
+
+std::string gate_json(const LintedDeck& deck, const GateReport& gate,
+                      const std::vector<const Diagnostic*>& stops, bool passed) {
+  std::string out;
+  JsonWriter j(out);
+  j.begin_object();
+  write_json_head(j, "deck/gate", 1);
+  write_json_deck(j, deck.path, *deck.deck, nullptr, nullptr);
+  write_verdict(j, deck.verdict ? *deck.verdict : lint_verdict(deck));
+  j.field("passed", passed).field("undecided", std::uint64_t{gate.undecided});
+  j.key("findings").begin_array();
+  for (const Diagnostic* d : stops) write_finding(j, *deck.deck, *d);
+  j.end_array().key("compared");
+  if (gate.earlier == nullptr) {
+    j.null();
+  } else {
+    j.begin_object(true);
+    write_counts(j, gate);
+    j.end_object();
+  }
+  const LintResult& r = *deck.result;
+  j.key("summary").begin_object(true).field("errors", r.errors).field("warnings", r.warnings);
+  j.field("infos", r.infos).field("baselined", r.baselined).end_object();
+  j.end_object();
+  return out + "\n";
 }
 
 }  // namespace deck

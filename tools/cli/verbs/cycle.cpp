@@ -16,7 +16,7 @@
 #include "deck/text/number.hpp"
 #include "processor.hpp"
 #include "verbs/accuracy_option.hpp"
-#include "verbs/gate.hpp"
+#include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_cycle {
 namespace {
@@ -201,14 +201,11 @@ int run(const Options& o) {
         print_error(o.common, known.error().message);
         return static_cast<int>(exit_usage);
       }
-    auto config = config_of(o.gate, loaded.path());
-    auto gate = config ? gate_of(o.gate, *config, loaded.path(), o.common)
-                       : Result<DeckGate>(config.error());
+    auto gate = gate_of(o.gate, loaded, o.common);
     if (!gate) {
       print_error(o.common, gate.error().message);
       return static_cast<int>(exit_usage);
     }
-    gate->note_baseline(o.common, loaded.path());
     options.dead.clear();
     for (const std::string& text : o.gone) {
       auto dead = parse_gone(loaded.model(), text);

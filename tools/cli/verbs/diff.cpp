@@ -6,7 +6,7 @@
 #include "deck/model/coverage.hpp"
 #include "deck/report/html.hpp"
 #include "deck/verdict.hpp"
-#include "verbs/gate.hpp"
+#include "verbs/gate/options.hpp"
 #include "verbs/git_deck.hpp"
 #include "writing/fix_page.hpp"
 

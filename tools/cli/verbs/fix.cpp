@@ -7,7 +7,7 @@
 #include "common.hpp"
 #include "deck/base/count.hpp"
 #include "deck/base/escape.hpp"
-#include "deck/edit/depenetrate.hpp"
+#include "deck/edit/move_part.hpp"
 #include "deck/model/coverage.hpp"
 #include "deck/report/fix.hpp"
 #include "deck/report/html.hpp"
@@ -176,7 +176,7 @@ class FixRun {
   /// What each strategy would do, and the command for the best one.
   int propose(const LoadedDeck& loaded, const Coverage& coverage, bool errors) {
     std::vector<PenetrationFix> proposals;
-    for (const char* strategy : {"move-nodes", "reduce-gap", "inacti", "fpenmax"}) {
+    for (const char* strategy : {"move-nodes", "reduce-gap", "inacti", "fpenmax", "move-part"}) {
       auto made = make(loaded, {strategy});
       if (!made) return fail(made.error());
       proposals.push_back(std::move(made->fixes.front()));
@@ -235,12 +235,14 @@ class FixRun {
     } else {
       add("--lock", ids(o_.move.lock), "");
       add("--only", ids(o_.move.move), "");
-      add("--max-moved", o_.max_moved, plain.max_moved);
       add("--max-displacement", o_.max_displacement, "");
       if (o_.move.lock_rigid_bodies) text += " --lock-rigid-bodies";
       if (o_.move.lock_boundary_conditions) text += " --lock-boundary-conditions";
-      if (o_.move.secondary_only) text += " --secondary-only";
-      add("--smooth", std::to_string(o_.move.smooth), std::to_string(plain.move.smooth));
+      if (strategy == "move-nodes") {
+        add("--max-moved", o_.max_moved, plain.max_moved);
+        if (o_.move.secondary_only) text += " --secondary-only";
+        add("--smooth", std::to_string(o_.move.smooth), std::to_string(plain.move.smooth));
+      }
       add("--clearance", fmt::format("{}", o_.move.clearance),
           fmt::format("{}", plain.move.clearance));
     }
@@ -291,7 +293,7 @@ class FixRun {
     options.most_moved = *share(o_.max_moved);
     if (!o_.max_displacement.empty())
       options.most_displacement = read_real(o_.max_displacement).value;
-    return move_nodes(context, options);
+    return strategy == "move-part" ? move_part(context, options) : move_nodes(context, options);
   }
 
   std::string report(const PenetrationFix& fix, const std::vector<PenetrationFix>& steps,
@@ -415,14 +417,16 @@ Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   Options& o = *options;
   add_common(line, o.common);
-  line.option("--strategy", o.strategies,
-              "Without: say what each would do. move-nodes: out of each other's gap; reduce-gap: "
-              "the largest gap without a "
-              "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones. "
-              "Several with commas: each acts on what the previous one left")
+  line.option(
+          "--strategy", o.strategies,
+          "Without: say what each would do. move-nodes: out of each other's gap; move-part: one "
+          "whole part, with what hangs on it, the way that frees the most; reduce-gap: "
+          "the largest gap without a "
+          "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones. "
+          "Several with commas: each acts on what the previous one left")
       .comma_list()
       .value("STRATEGY")
-      .one_of({"move-nodes", "reduce-gap", "inacti", "fpenmax"});
+      .one_of({"move-nodes", "move-part", "reduce-gap", "inacti", "fpenmax"});
   line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
   line.flag("--ties", o.ties,
             "Treat ties (TYPE10, TYPE7 with ITIED) like other contacts: what is moved out of their "
@@ -444,7 +448,7 @@ Action setup(CommandLine& line) {
       .value("FILE");
   line.option("--rows", o.rows, "Rows of the lists in the report").show_default();
 
-  CommandLine move = line.group("move-nodes");
+  CommandLine move = line.group("move-nodes, move-part");
   move.option("--lock", o.move.lock, "Nodes of these parts stay (also where shared)")
       .by_commas()
       .value("PART");
@@ -453,20 +457,24 @@ Action setup(CommandLine& line) {
       .value("PART");
   move.flag("--lock-rigid-bodies", o.move.lock_rigid_bodies, "Nodes of /RBODY stay");
   move.flag("--lock-boundary-conditions", o.move.lock_boundary_conditions, "Nodes of /BCS stay");
-  move.flag("--secondary-only", o.move.secondary_only, "Nodes of main sides do not move");
+  move.flag("--secondary-only", o.move.secondary_only,
+            "move-nodes: nodes of main sides do not move");
   move.option("--max-moved", o.max_moved,
-              "Share of the nodes of a part that may move; a part that needs more is left alone")
+              "move-nodes: share of the nodes of a part that may move; a part that needs more is "
+              "left alone")
       .show_default()
       .value("SHARE");
   move.option("--max-displacement", o.max_displacement,
-              "Farthest a node may move, working units (default: as far as its penetration is "
-              "deep, which it never passes)")
+              "Farthest a node may move, working units (default of move-nodes: as far as its "
+              "penetration is deep, which it never passes; of move-part: twice the deepest one)")
       .value("LENGTH");
-  move.option("--smooth", o.move.smooth, "Rings of neighbours that follow the moved nodes")
+  move.option("--smooth", o.move.smooth,
+              "move-nodes: rings of neighbours that follow the moved nodes")
       .range(0, 20)
       .show_default()
       .value("N");
-  move.option("--step", o.move.share, "Share of the depth that one iteration takes away")
+  move.option("--step", o.move.share,
+              "move-nodes: share of the depth that one iteration takes away")
       .range(0.05, 1.0)
       .show_default()
       .value("SHARE");
@@ -474,7 +482,7 @@ Action setup(CommandLine& line) {
       .range(0.0, 1.0)
       .show_default()
       .value("SHARE");
-  move.option("--iterations", o.move.iterations, "At most this many, up to four times")
+  move.option("--iterations", o.move.iterations, "move-nodes: at most this many, up to four times")
       .range(1, 10000)
       .show_default()
       .value("N");
@@ -494,13 +502,14 @@ const VerbRegistration registration{
      "  deck fix car_0000.rad --strategy move-nodes --diff     the same as a patch\n"
      "  deck fix car_0000.rad --strategy move-nodes --max-moved 100% --lock 12,13 --in-place "
      "--backup\n"
+     "  deck fix car_0000.rad --strategy move-part --lock 12 --max-displacement 2 --diff\n"
      "  deck fix car_0000.rad --strategy reduce-gap --min-gap 80% -o fixed\n"
      "  deck fix car_0000.rad --strategy reduce-gap,move-nodes --html fixed.html --diff\n"
      "  deck fix car_0000.rad --strategy inacti --inacti 6 --interface 3 --in-place\n"
      "  deck fix car_0000.rad --strategy fpenmax --fpenmax 0.9 --diff | git apply\n"
      "\n"
      "Which strategy? Moving nodes cures the cause and keeps the gap; it changes the mesh a "
-     "little.\n"
+     "little. Moving a part keeps the shape of both sides.\n"
      "Reducing the gap is right where gap and thickness disagree; the contact then acts later.\n"
      "Inacti leaves deck and mesh alone and lets the solver start with a smaller gap for the\n"
      "pairs that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones.\n"

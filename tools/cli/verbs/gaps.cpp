@@ -15,7 +15,7 @@
 #include "deck/report/vtk.hpp"
 #include "deck/text/gzip.hpp"
 #include "verbs/accuracy_option.hpp"
-#include "verbs/gate.hpp"
+#include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_gaps {
 namespace {
@@ -138,14 +138,11 @@ int run(const Options& o) {
       print_error(o.common, fits.error().message);
       return static_cast<int>(exit_usage);
     }
-    auto config = config_of(gate_options, loaded.path());
-    auto gate = config ? gate_of(gate_options, *config, loaded.path(), o.common)
-                       : Result<DeckGate>(config.error());
+    auto gate = gate_of(gate_options, loaded, o.common);
     if (!gate) {
       print_error(o.common, gate.error().message);
       return static_cast<int>(exit_usage);
     }
-    gate->note_baseline(o.common, loaded.path());
     {
       Progress progress(!o.common.quiet);
       progress.step("contacts");

@@ -1,4 +1,4 @@
-// Asks git for the files of a deck at a revision.
+// Asks git for the files of a deck at a revision, for changed lines and for commits.
 #include "verbs/git_deck.hpp"
 
 #include <fcntl.h>
@@ -8,10 +8,12 @@
 #include <sys/wait.h>
 #endif
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <set>
 
 #include "deck/base/paths.hpp"
 #include "deck/edit/include_scan.hpp"
@@ -131,15 +133,111 @@ Result<void> add_includes(const Revision& revision, const std::string& of, const
   return {};
 }
 
+/// The words of an answer that ends each with a zero byte.
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> out;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\0'), text.size());
+    out.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return out;
+}
+
+/// Where the present commit left the line of a revision; the revision itself where they have
+/// nothing in common.
+Result<std::string> fork_point(const std::string& root, const std::string& revision) {
+  const auto answer = run_git({"-C", root, "merge-base", revision, "HEAD"});
+  if (!answer) return answer.error();
+  const std::string name = answer->out.substr(0, answer->out.find('\n'));
+  return answer->code == 0 && !name.empty() ? name : revision;
+}
+
+Error no_work_tree(const std::string& deck) {
+  return {Error::Code::config, deck + " is in no git work tree"};
+}
+
+bool in_work_tree(const std::string& root) {
+  namespace fs = std::filesystem;
+  std::error_code ec;
+  return fs::exists(fs::path(root) / ".git", ec);
+}
+
 }  // namespace
 }  // namespace asking_git
+
+std::vector<std::string> files_in_tree(const LoadedDeck& loaded, const std::string& root) {
+  namespace fs = std::filesystem;
+  std::set<std::string> files;
+  const SourceSet& sources = loaded.deck().sources;
+  for (std::uint32_t i = 0; i < sources.size(); ++i) {
+    const fs::path inside = fs::path(absolute_path(sources[i].path())).lexically_relative(root);
+    if (!inside.empty() && *inside.begin() != "..") files.insert(inside.generic_string());
+  }
+  return {files.begin(), files.end()};
+}
+
+Result<ChangedLines> changed_lines(const std::string& name, const LoadedDeck& loaded) {
+  using namespace asking_git;
+  const std::string root = library_root(loaded.path());
+  if (loaded.path() == "-" || !in_work_tree(root)) return no_work_tree(loaded.path());
+  if (auto known = Revision(root, name).check(); !known) return known.error();
+  const auto base = fork_point(root, name);
+  if (!base) return base.error();
+  // No setting of git changes what these print.
+  const std::vector<std::string> diff = {
+      "-C", root, "diff", "--no-color", "--no-ext-diff", "--no-textconv", "--no-renames"};
+  std::vector<std::string> words = diff;
+  words.insert(words.end(), {"--name-only", "-z", "--no-relative", *base});
+  const auto names = run_git(words);
+  if (!names) return names.error();
+  const std::vector<std::string> touched = words_of(names->out);
+  ChangedLines out;
+  for (const std::string& file : files_in_tree(loaded, root)) {
+    if (std::find(touched.begin(), touched.end(), file) == touched.end()) continue;
+    words = diff;
+    words.insert(words.end(), {"--unified=0", *base, "--", ":(top,literal)" + file});
+    const auto patch = run_git(words);
+    if (!patch) return patch.error();
+    out.add_hunks(root + "/" + file, patch->out);
+  }
+  return out;
+}
+
+Result<std::vector<Commit>> commits_of(const std::string& root,
+                                       const std::vector<std::string>& files, std::size_t most) {
+  using namespace asking_git;
+  if (!in_work_tree(root)) return no_work_tree(root);
+  std::vector<std::string> words = {"-C",
+                                    root,
+                                    "log",
+                                    "-z",
+                                    "--first-parent",
+                                    "--no-color",
+                                    "--no-show-signature",
+                                    "--max-count=" + std::to_string(most),
+                                    "--date=format:%Y-%m-%d",
+                                    "--format=%h%n%ad%n%s",
+                                    "--"};
+  for (const std::string& file : files) words.push_back(":(top,literal)" + file);
+  const auto answer = run_git(words);
+  if (!answer) return answer.error();
+  std::vector<Commit> out;
+  if (answer->code != 0) return out;  // no commit yet
+  for (const std::string& entry : words_of(answer->out)) {
+    const std::size_t first = entry.find('\n'), second = entry.find('\n', first + 1);
+    if (second == entry.npos) continue;
+    out.push_back({entry.substr(0, first), entry.substr(first + 1, second - first - 1),
+                   entry.substr(second + 1)});
+  }
+  return out;
+}
 
 Result<GitDeck> git_deck(const std::string& name, const std::string& given) {
   namespace fs = std::filesystem;
   const std::string deck = find_deck(given);
   const std::string root = library_root(deck);
-  if (std::error_code ec; given == "-" || !fs::exists(fs::path(root) / ".git", ec))
-    return Error{Error::Code::config, given + " is in no git work tree"};
+  if (given == "-" || !asking_git::in_work_tree(root)) return asking_git::no_work_tree(given);
   const asking_git::Revision revision(root, name);
   if (auto known = revision.check(); !known) return known.error();
   const std::string main = fs::path(absolute_path(deck)).lexically_relative(root).generic_string();

@@ -4,7 +4,7 @@
 
 #include "common.hpp"
 #include "deck/report/params_report.hpp"
-#include "verbs/gate.hpp"
+#include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_params {
 namespace {

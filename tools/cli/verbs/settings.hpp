@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "verbs/gate.hpp"
+#include "verbs/gate/options.hpp"
 
 namespace deck::cli {
 

@@ -22,8 +22,8 @@ import numpy as _np
 from . import _native
 from ._errors import DeckError
 
-__all__ = ["load", "Deck", "DeckError", "Edit", "Finding", "Forces", "Gaps", "Contact", "Interface", "Interfaces",
-           "Nodes", "Elements", "Part", "Place", "Value"]
+__all__ = ["load", "explain", "explain_listing", "Deck", "DeckError", "Edit", "Finding", "Forces", "Gaps", "Contact",
+           "Interface", "Interfaces", "Nodes", "Elements", "Part", "Parts", "Place", "Tie", "Value"]
 __version__: str = _native.version
 
 
@@ -122,6 +122,53 @@ class Part:
     thickness: float
     """Contact thickness, 0 if there is none; working units."""
     span: Optional[Place]
+
+
+class Parts(List[Part]):
+    """The parts in deck order. Called, what their elements add up to: ``d.parts()["total"]["mass"]``."""
+
+    def __init__(self, deck: "Deck", rows: Iterable[Part]) -> None:
+        super().__init__(rows)
+        self._deck = deck
+
+    def __call__(self, all: bool = False) -> Dict[str, Any]:
+        """The document of ``deck parts --json``: elements, mass, centre, inertia and smallest element time step of every
+        part, the interfaces that see it and its rigid body, kinematic conditions, and what was not computed.
+
+        Masses, lengths and times are in the deck's working units; a step is None where there is none. ``all``: also the
+        step of every element, and step, mass and stiffness of every node. DeckError where the include tree is not
+        complete.
+        """
+        self._deck._complete()
+        return _json.loads(_native.parts(self._deck._native, all))
+
+
+class Tie:
+    """An /INTER/TYPE2 as the solver ties it at start-up.
+
+    ``nodes`` has one row per secondary node: ``node`` (id), ``tied``, ``segment`` (ids, n x 4; zeros: none was found),
+    ``s`` and ``t`` (place on the segment, -1 to 1), ``distance`` and ``search`` (lengths, working units), ``message``
+    (of the solver; 0: none), ``penalty``, ``why`` (a sentence). ``node_index`` are positions in the arrays of the nodes.
+    """
+
+    def __init__(self, native: Any) -> None:
+        facts = native.facts()
+        self._native = native
+        self.id: int = facts["id"]
+        self.title: str = _text(facts["title"])
+        self.search_distance: Optional[float] = facts["search_distance"]
+        """Within it nodes look for a segment, working units; None: every pair has its own."""
+        self.not_evaluated: str = facts["not_evaluated"]
+        """Why nothing was looked for; empty: it was."""
+        self.summary: Dict[str, int] = facts["summary"]
+        """How many ``nodes`` there are, are ``tied``, ``not_found``, ``dropped``, held ``elsewhere``, ``outside``."""
+
+    @property
+    def nodes(self) -> "Arrays":
+        return Arrays(self._native.arrays(), {})
+
+    def __repr__(self) -> str:
+        return f"<Tie /INTER/TYPE2/{self.id} {self.title!r}: {self.summary['tied']} of {self.summary['nodes']} nodes tied>"
 
 
 class Interface:
@@ -487,10 +534,10 @@ class Deck:
         return Elements(**self._native.family(family))
 
     @property
-    def parts(self) -> List[Part]:
-        """In deck order."""
-        return [Part(p["id"], _text(p["title"]), p["prop_id"], p["mat_id"], p["thickness"], _place(p["span"]))
-                for p in self._native.parts()]
+    def parts(self) -> Parts:
+        """In deck order; called, with masses and time steps: ``d.parts()``."""
+        return Parts(self, (Part(p["id"], _text(p["title"]), p["prop_id"], p["mat_id"], p["thickness"], _place(p["span"]))
+                            for p in self._native.parts()))
 
     @property
     def interfaces(self) -> Interfaces:
@@ -530,6 +577,57 @@ class Deck:
         self._complete()
         return Gaps(self, _native.gaps(self._native, [int(i) for i in interfaces], accuracy, []), all)
 
+    def ties(self) -> List[Tie]:
+        """Which node of every /INTER/TYPE2 the solver ties to which segment, which it does not tie, and why.
+
+        DeckError where the include tree is not complete."""
+        self._complete()
+        return [Tie(native) for native in _native.ties(self._native)]
+
+    def show(self, what: str) -> Dict[str, Any]:
+        """The document of ``deck show --json`` for ``"3"`` (an interface), ``"/PROP/SHELL/2"``, ``"part:4"`` or
+        ``"node:57"``: its card by field, effective values in working units, what it refers to and what uses it. KeyError
+        where the deck has no such thing."""
+        return _json.loads(_native.show(self._native, str(what)))
+
+    def compare(self, other: "Deck", match: str = "id", tolerance: float = 1e-12) -> Dict[str, Any]:
+        """What ``other``, the newer deck, means differently: the document of ``deck diff --json``, with ``equal`` and
+        ``changes``.
+
+        ``match``: counterparts by ``"id"``, ``"title"`` or ``"position"``. ``tolerance``: share of a number (of lengths:
+        of the model's size) within which two are equal. DeckError where an include tree is not complete.
+        """
+        self._complete()
+        other._complete()
+        return _json.loads(_native.diff(self._native, other._native, match, float(tolerance)))
+
+    def gate(self, *, compare: Union["Deck", Gaps, Dict[str, Any], None] = None, max_depth: Optional[float] = None,
+             max_ratio: Optional[float] = None, max_count: Optional[int] = None, max_untied: Optional[int] = None,
+             max_dt_loss: Optional[float] = None) -> Dict[str, Any]:
+        """Holds the contacts against bounds, and against an earlier deck or its ``gaps()``: the members ``gate``
+        (``passed``, ``findings``) and ``compared`` (``new``, ``worse``, ``better``, ``same``, ``solved``, ``rows``) of
+        ``deck gaps --json``; None where neither was asked for.
+
+        ``max_depth``: a length, working units; ``max_ratio`` of the gap and ``max_dt_loss`` of the time step: shares, 0
+        to 1; ``max_count``: penetrating nodes and edges; ``max_untied``: nodes of /INTER/TYPE2. With ``compare`` new and
+        worse penetrations do not pass. No configuration file is read. DeckError where the include tree is not complete.
+        """
+        self._complete()
+        if isinstance(compare, Deck):
+            compare = compare.gaps()
+        earlier = None if compare is None else _json.dumps(compare.json if isinstance(compare, Gaps) else compare)
+        return _json.loads(_native.gate(self._native, max_depth, max_ratio, max_dt_loss, max_count, max_untied, earlier))
+
+    def explain(self, listing: Any) -> Dict[str, Any]:
+        """A listing of the Starter (``car_0000.out``, also ``.gz``) beside this deck: the document of
+        ``deck explain --json``, with ``messages`` (number, count, meaning, place, findings of lint), ``contacts``
+        (penetrations pair by pair, lengths in working units), ``steps`` and ``agrees``. DeckError where it is no listing
+        or the include tree is not complete."""
+        self._complete()
+        import os
+
+        return _json.loads(_native.explain_beside(self._native, os.fspath(listing)))
+
     def what_if(self, interface: int, all: bool = False, **values: Union[int, float]) -> Gaps:
         """``gaps`` with other values for one interface, without changing the deck: ``d.what_if(3, Gapmin=1.5)``.
 
@@ -568,7 +666,11 @@ class Deck:
     def fix(self, strategy: str, interfaces: Iterable[int] = (), min_gap: float = 0.5, inacti: int = 6,
             fpenmax: Optional[float] = None, max_moved: float = 0.1, max_displacement: Optional[float] = None,
             lock: Iterable[int] = (), ties: bool = False) -> Edit:
-        """Repairs initial penetrations: ``"reduce-gap"``, ``"inacti"``, ``"fpenmax"`` or ``"move-nodes"``.
+        """Repairs initial penetrations: ``"reduce-gap"``, ``"inacti"``, ``"fpenmax"``, ``"move-nodes"`` or ``"move-part"``
+        (one whole part, the way that frees the most).
+
+        ``min_gap`` and ``max_moved``: shares, 0 to 1, of the gap and of the nodes of a part; ``max_displacement``: a
+        length, working units; ``lock``: ids of parts that stay. ValueError for what a strategy does not take.
 
         Ties (TYPE10, TYPE7 with ITIED) are left alone unless ``ties`` is set.
         """
@@ -590,6 +692,23 @@ def load(path: Any, *, threads: int = 0, include_paths: Iterable[str] = (), max_
 
     count = threads or len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else threads or os.cpu_count() or 1
     return Deck(_native.load(os.fspath(path), count, [os.fspath(p) for p in include_paths], max_memory))
+
+
+def explain(topic: Union[str, int]) -> str:
+    """The page of ``deck explain``: of a rule (``"DK254"``) or a family of them (``"DK2"``), a keyword (``"TYPE7"``), a
+    field (``"TYPE7.Gapmin"``) or a message of the solver (``611``, ``"ERROR 611"``, ``"initial penetrations"``).
+
+    KeyError, with what was perhaps meant, where nothing is known.
+    """
+    return _native.explain(str(topic))
+
+
+def explain_listing(path: Any) -> Dict[str, Any]:
+    """The messages of a listing of the Starter, without its deck: ``messages`` of the document of ``deck explain --json``.
+    ``Deck.explain`` reads it beside its deck. DeckError where it is no listing."""
+    import os
+
+    return _json.loads(_native.explain_listing(os.fspath(path)))
 
 
 def _cell(name: str, value: Any) -> Union[int, float, str]:

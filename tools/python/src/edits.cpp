@@ -3,11 +3,11 @@
 #include <functional>
 #include <map>
 
-#include "deck/edit/depenetrate.hpp"
 #include "deck/edit/edit_set.hpp"
 #include "deck/edit/extract.hpp"
 #include "deck/edit/fix.hpp"
 #include "deck/edit/flatten.hpp"
+#include "deck/edit/move_part.hpp"
 #include "deck/edit/renumber.hpp"
 #include "deck/edit/resolve.hpp"
 #include "deck/edit/type19.hpp"
@@ -164,16 +164,16 @@ EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
       options.ratio = fpenmax;
       return set_fpenmax(context, options);
     }
-    if (strategy == "move-nodes") {
+    if (strategy == "move-nodes" || strategy == "move-part") {
       auto options = with(MoveNodesOptions{});
       options.most_moved = max_moved;
       options.most_displacement = max_displacement;
       options.lock = lock;
-      return move_nodes(context, options);
+      return strategy == "move-part" ? move_part(context, options) : move_nodes(context, options);
     }
     return Error{Error::Code::config,
-                 "strategy is 'reduce-gap', 'inacti', 'fpenmax' or "
-                 "'move-nodes', not '" +
+                 "strategy is 'reduce-gap', 'inacti', 'fpenmax', 'move-nodes' or "
+                 "'move-part', not '" +
                      strategy + "'"};
   }();
   if (!fix && fix.error().code == Error::Code::config) throw py::value_error(fix.error().message);

@@ -224,10 +224,11 @@ PYBIND11_MODULE(_native, m) {
   bind_results(m);
   bind_edits(m);
   bind_changes(m);
+  bind_answers(m);
   // An object that Python makes by itself would lead nowhere.
   const py::cpp_function none([](const py::args&, const py::kwargs&) {
     throw py::type_error("only libdeck makes these objects");
   });
-  for (const char* name : {"Deck", "Scene", "Cycle", "Edit", "Changes"})
+  for (const char* name : {"Deck", "Scene", "Cycle", "Edit", "Changes", "Tie"})
     m.attr(name).attr("__new__") = none;
 }

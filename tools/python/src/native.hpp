@@ -29,6 +29,7 @@ struct PyDeck {
     loaded.engine_files();
     SceneOptions contacts = loaded.scene_options();
     contacts.candidates = false;  // scenes that count them are made by the way
+    contacts.ties = true;
     loaded.set_scene_options(contacts);
   }
   std::string path;
@@ -84,6 +85,7 @@ std::vector<std::string> write_tree(const EditSet& set, const Deck& before,
 void bind_results(py::module_& m);
 void bind_changes(py::module_& m);
 void bind_edits(py::module_& m);
+void bind_answers(py::module_& m);
 
 /// ValueError where it is not so.
 inline void must_be(bool so, const char* what) {

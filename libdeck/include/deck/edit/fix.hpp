@@ -83,7 +83,7 @@ struct PenetrationFix {
   std::vector<MovedNode> moved;            ///< by node id
   std::vector<FixRefusal> refused;         ///< by interface, deepest first
   std::vector<FixAction> actions;          ///< Inacti, Fpenmax: by interface, deepest first
-  std::uint64_t crossings_before = 0, crossings_after = 0;  ///< move-nodes: crossed elements
+  std::uint64_t crossings_before = 0, crossings_after = 0;  ///< where nodes move: crossed elements
   std::uint64_t tied_pairs = 0, tied_nodes = 0;  ///< of untreated ties: the same before and after
   int iterations = 0;
   bool complete = false;  ///< nothing is left of what the strategy treats

@@ -9,6 +9,7 @@
 #include "deck/contact/earlier.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"
+#include "deck/lint/changed_lines.hpp"
 #include "deck/text/rule.hpp"
 
 namespace deck {
@@ -41,9 +42,11 @@ struct Gate {
 };
 
 /// What passes over the gate, as findings at the interfaces' headers (the deck's first line where
-/// all of them are meant), in deck order. `forces` and `earlier` may be nullptr; then what they
-/// are needed for is not looked at.
+/// all of them are meant), in deck order; with a note on the deepest node and, with `changed`, on
+/// the changed line that they follow from (see stand_at_changes). `forces` and `earlier` may be
+/// nullptr; then what they are needed for is not looked at.
 std::vector<Diagnostic> check_gate(const Gate& gate, const Scene& scene, const SceneView& view,
-                                   const cycle::SceneOutcome* forces, const EarlierGaps* earlier);
+                                   const cycle::SceneOutcome* forces, const EarlierGaps* earlier,
+                                   const ChangedLines* changed = nullptr);
 
 }  // namespace deck

@@ -24,6 +24,7 @@ struct GeometryOptions {
   std::optional<QuickLook> quick = {};  ///< nullopt: all is looked at
   const Gate* gate = nullptr;           ///< what passes over it is reported, too
   const EarlierGaps* earlier = nullptr;
+  const ChangedLines* changed = nullptr;  ///< what the gate says is noted there
   /// Called with what was looked at; may be empty.
   std::function<void(const Scene&, const SceneView&)> seen = {};
 };

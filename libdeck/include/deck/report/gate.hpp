@@ -7,6 +7,7 @@
 #include "deck/contact/earlier.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/lint/gate.hpp"
+#include "deck/report/diagnostics.hpp"
 #include "deck/report/json.hpp"
 
 namespace deck {
@@ -22,10 +23,22 @@ struct GateReport {
   bool passed() const { return findings.empty() && undecided == 0; }
 };
 
+/// Holds the contacts against the gate. `forces`, `earlier` and `changed` may be nullptr, as in
+/// check_gate; the report refers to `earlier`.
+GateReport gate_report(const Gate& gate, const Scene& scene, const SceneView& view,
+                       const cycle::SceneOutcome* forces, const EarlierGaps* earlier,
+                       const ChangedLines* changed = nullptr);
+/// Contacts that could not be evaluated.
+std::size_t undecided_contacts(const Scene& scene);
+
 /// Members "gate" {passed, undecided, findings} and "compared" {with, new, worse, better, same,
 /// solved, rows}, null where they were not asked for.
 void write_gate(JsonWriter& json, const Deck& deck, const Scene& scene, const SceneView& view,
                 const GateReport& gate);
+/// What `deck gate --json` writes of a deck that could be read: the findings that it stops at, and
+/// the comparison in numbers.
+std::string gate_json(const LintedDeck& deck, const GateReport& gate,
+                      const std::vector<const Diagnostic*>& stops, bool passed);
 /// Both in a line each; "" if neither was asked for.
 std::string gate_text(const GateReport& gate);
 

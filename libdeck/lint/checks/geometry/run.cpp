@@ -166,10 +166,12 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   detail::check_ties(run);
   const cycle::SceneOutcome forces = detail::check_cycle(run);
   if (chosen.gate == nullptr) return left_out;
-  for (const Diagnostic& d : check_gate(*chosen.gate, scene, view, &forces, chosen.earlier))
+  for (const Diagnostic& d :
+       check_gate(*chosen.gate, scene, view, &forces, chosen.earlier, chosen.changed))
     if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message)) {
       out->keyword = d.keyword;
       out->id = d.id;
+      out->notes = d.notes;
     }
   return left_out;
 }

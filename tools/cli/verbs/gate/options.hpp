@@ -8,6 +8,7 @@
 #include "common.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/contact/view.hpp"
+#include "deck/lint/changed_lines.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/lint/gate.hpp"
 #include "deck/report/gate.hpp"
@@ -21,6 +22,7 @@ struct GateOptions {
   int max_count = -1, max_untied = -1;
   std::vector<std::string> fail_on;  ///< words: new, worse, error, warning, never
   std::string compare;               ///< an earlier `deck gaps --json`, or "git:REV"
+  std::string since;                 ///< git revision: findings stand on lines changed since
   std::string baseline;              ///< accepted penetrations; of `deck gaps` alone
   std::string config;
   bool no_config = false;
@@ -55,13 +57,18 @@ struct DeckGate {
   Gate gate;
   bool baseline = false;  ///< `earlier` is what was accepted
   std::optional<EarlierGaps> earlier;
+  std::string since;     ///< git revision whose changes findings are shown at; empty: none
+  ChangedLines changed;  ///< of find_changes()
 
+  /// Asks git for the lines of the deck that changed. Error: it knows no such revision.
+  Result<void> find_changes(const LoadedDeck& loaded);
   /// Says so where the baseline is one of other decks.
   void note_baseline(const CommonOptions& options, const std::string& deck_path) const;
   /// Looks, and adds what it finds to the deck's findings. `forces` may be nullptr.
   GateReport look(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
                   const cycle::SceneOutcome* forces) const;
 };
+bool is_of_gate(RuleId rule);
 /// Says that a baseline holds nothing of a deck, but of `held`, so that everything counts as new.
 void note_not_in_baseline(const CommonOptions& options, const std::string& deck_path,
                           const std::string& baseline, const std::vector<std::string>& held);
@@ -69,5 +76,8 @@ void note_not_in_baseline(const CommonOptions& options, const std::string& deck_
 std::string name_in_baseline(const std::string& deck_path, const std::string& path);
 Result<DeckGate> gate_of(const GateOptions& options, const LintConfig& config,
                          const std::string& deck_path, const CommonOptions& common);
+/// The same by the configuration of the deck, with the lines that changed; what is to be noted is.
+Result<DeckGate> gate_of(const GateOptions& options, const LoadedDeck& loaded,
+                         const CommonOptions& common);
 
 }  // namespace deck::cli

@@ -1,5 +1,5 @@
 // Bounds for contacts from options and configuration, and the earlier run to compare with.
-#include "verbs/gate.hpp"
+#include "verbs/gate/options.hpp"
 
 #include <algorithm>
 #include <climits>
@@ -9,6 +9,7 @@
 #include "deck/base/paths.hpp"
 #include "deck/report/gaps.hpp"
 #include "verbs/git_deck.hpp"
+#include "writing/library.hpp"
 
 namespace deck::cli {
 namespace {
@@ -17,12 +18,20 @@ void set(std::optional<double>& bound, double given) {
   if (given >= 0) bound = given;
 }
 
+/// A path from a configuration, which is absolute, as it is called in the git work tree.
+std::string name_in_tree(const std::string& path) {
+  namespace fs = std::filesystem;
+  if (!path.starts_with('/')) return path;
+  const fs::path inside = fs::path(normal_path(path)).lexically_relative(library_root(path));
+  return inside.empty() || *inside.begin() == ".." ? path : inside.generic_string();
+}
+
 Result<EarlierGaps> read_earlier(Session& session, const std::string& path,
                                  const std::string& deck_path, bool strict) {
   const auto text = read_config_file(path, most_baseline_bytes);
   if (!text) return text.error();
   session.remember_read(path);
-  return read_earlier_gaps(path, *text, deck_path, strict);
+  return read_earlier_gaps(name_in_tree(path), *text, deck_path, strict);
 }
 
 /// The deck itself at a git revision.
@@ -85,6 +94,11 @@ void add_gate(CommandLine& line, GateOptions& o) {
           "An earlier 'deck gaps --json' FILE, or git:REV, the deck at that git revision: lists "
           "what is new, worse, better, solved; with --fail-on new,worse these exit with 1")
       .value("FILE");
+  gate.option(
+          "--since", o.since,
+          "A git revision: findings stand on the lines that changed since (the node, the card), "
+          "where a forge shows them; default: that of --compare git:REV")
+      .value("REV");
 }
 
 void add_gate_with_config(CommandLine& line, GateOptions& o, const std::string& error,
@@ -142,6 +156,9 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
   const bool given = !o.compare.empty() || !o.baseline.empty();
   const std::string& compare = given ? o.compare : config.compare;
   const std::string& accepted = given ? o.baseline : config.accepted;
+  out.since = o.since;
+  if (out.since.empty() && compare.starts_with(git_prefix))
+    out.since = compare.substr(git_prefix.size());
   if (!compare.empty() && !accepted.empty())
     return Error{Error::Code::config,
                  "a baseline and an earlier run to compare with exclude each other: " + accepted +
@@ -165,6 +182,17 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
   return out;
 }
 
+Result<DeckGate> gate_of(const GateOptions& o, const LoadedDeck& loaded,
+                         const CommonOptions& common) {
+  const auto config = config_of(o, loaded.path());
+  if (!config) return config.error();
+  auto gate = gate_of(o, *config, loaded.path(), common);
+  if (!gate) return gate;
+  gate->note_baseline(common, loaded.path());
+  if (auto known = gate->find_changes(loaded); !known) return known.error();
+  return gate;
+}
+
 void note_not_in_baseline(const CommonOptions& options, const std::string& deck_path,
                           const std::string& baseline, const std::vector<std::string>& held) {
   if (options.quiet) return;
@@ -184,18 +212,23 @@ void DeckGate::note_baseline(const CommonOptions& options, const std::string& de
     note_not_in_baseline(options, deck_path, earlier->path, earlier->decks);
 }
 
+Result<void> DeckGate::find_changes(const LoadedDeck& loaded) {
+  if (since.empty()) return {};
+  auto lines = changed_lines(since, loaded);
+  if (!lines) return lines.error();
+  changed = std::move(*lines);
+  return {};
+}
+
+bool is_of_gate(RuleId rule) {
+  return std::find(std::begin(gate_rules), std::end(gate_rules), rule) != std::end(gate_rules);
+}
+
 GateReport DeckGate::look(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
                           const cycle::SceneOutcome* forces) const {
-  GateReport report;
-  report.asked = gate.any();
-  if (earlier) {
-    report.earlier = &*earlier;
-    report.comparison = compare_gaps(*earlier, scene, view);
-  }
-  if (!report.asked) return report;
-  report.undecided = static_cast<std::size_t>(std::count_if(
-      scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) { return !c.evaluated; }));
-  report.findings = check_gate(gate, scene, view, forces, report.earlier);
+  GateReport report =
+      gate_report(gate, scene, view, forces, earlier ? &*earlier : nullptr, &changed);
+  stand_at_changes(report.findings, loaded.deck().sources, changed);
   for (const Diagnostic& d : report.findings) loaded.report(d);
   return report;
 }

@@ -1,0 +1,295 @@
+// Tries translations of whole parts and keeps the one that frees the most.
+#include "deck/edit/move_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "deck/contact/crossings.hpp"
+#include "edit/fix/common.hpp"
+#include "edit/fix/depenetrate_locks.hpp"
+#include "edit/fix/depenetrate_mesh.hpp"
+#include "edit/fix/depenetrate_rows.hpp"
+#include "edit/fix/harm.hpp"
+#include "edit/fix/movable.hpp"
+#include "edit/fix/part_groups.hpp"
+#include "edit/fix/translations.hpp"
+
+namespace deck {
+namespace {
+
+using namespace detail;
+
+constexpr std::size_t most_tried = 12;  // translations that are evaluated
+constexpr double usual_bound = 2;       // times the deepest penetration
+
+class PartMover : MovableDeck {
+ public:
+  PartMover(const LoadedDeck& context, const MoveNodesOptions& options)
+      : MovableDeck(context, options) {}
+
+  Result<PenetrationFix> run() {
+    auto holds = make_holds(context_, options_);
+    if (!holds) return holds.error();
+    holds_ = std::move(*holds);
+    const Scene before = evaluate();
+    if (auto why = unevaluated(before, options_)) return *why;
+    mesh_.emplace(before);
+    groups_.emplace(context_, before, options_);
+    baseline_ = Baseline(before, options_);
+    crossings_ = mesh_->all_crossings(now_, options_.threads);
+    fix_.strategy = "move-part";
+    fix_.crossings_before = find_crossings(before, options_.threads).size();
+    fix_.tied_pairs = baseline_.tied_pairs();
+    fix_.tied_nodes = baseline_.tied_nodes();
+    collect(before);
+    try_all(before);
+    return finish(before);
+  }
+
+ private:
+  /// A translation of a group that is worth a look.
+  struct Candidate {
+    std::uint32_t group = 0;
+    Translation translation;
+  };
+  using Texts = std::map<std::pair<NodeIndex, int>, std::string>;
+
+  /// The penetrations as ways out for the parts on both sides.
+  void collect(const Scene& scene) {
+    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
+      const Contact& contact = scene.contacts[c];
+      const bool wanted = is_wanted(options_, contact);
+      if (contact.ties() && !wanted) continue;
+      const std::vector<bool> inside = inside_solids(scene, c);
+      for (const PenetrationRow& row : contact.penetrations) {
+        deepest_ = std::max(deepest_, wanted ? row.depth : 0);
+        add(scene, {c, row.secondary, row.main}, row, wanted, inside[row.secondary]);
+      }
+    }
+  }
+
+  void add(const Scene& scene, const PairAt& at, const PenetrationRow& row, bool wanted,
+           bool inside) {
+    const PairState state = state_of(scene, now_, at);
+    const PairKey key = key_of(scene, at);
+    std::string why = why_not_movable(*mesh_, now_, state);
+    if (why.empty() && inside)
+      why = "the node is inside a solid: the way out is not the way to its surface";
+    const std::uint32_t a = groups_->of(state.nodes[0]);
+    const std::uint32_t b =
+        groups_->of(state.nodes[static_cast<std::size_t>(state.secondary_count)]);
+    if (why.empty() && a == b)
+      why = "both sides belong to " + groups_->name_of(a) + ": no translation parts them";
+    if (!why.empty()) {
+      skipped_[key] = std::move(why);
+      return;
+    }
+    const Vec out = way_out(scene, *mesh_, now_, at, state);
+    const double needs = row.depth + options_.clearance * row.gap;
+    ways_[a].push_back({out, needs, wanted});
+    ways_[b].push_back({-1.0 * out, needs, wanted});
+    sides_[key] = {a, b};
+  }
+
+  double bound() const { return options_.most_displacement.value_or(usual_bound * deepest_); }
+
+  /// Why a group may not move; empty: it may.
+  std::string obstacle_of(std::uint32_t group) {
+    const std::vector<NodeIndex> nodes = groups_->nodes_of(group);
+    for (const NodeIndex n : nodes)
+      if (holds_[n] != 0)
+        return groups_->name_of(group) + ": node " + std::to_string(model_.node_id(n)) + ": " +
+               to_string(static_cast<Hold>(holds_[n]));
+    cells_.look_up(nodes);
+    for (const NodeIndex n : nodes)
+      if (!cells_.obstacle(n).empty())
+        return groups_->name_of(group) + ": node " + std::to_string(model_.node_id(n)) + ": " +
+               cells_.obstacle(n);
+    return {};
+  }
+
+  std::vector<Candidate> candidates() {
+    std::vector<Candidate> out;
+    for (const auto& [group, ways] : ways_) {
+      if (std::none_of(ways.begin(), ways.end(), [](const WayOut& w) { return w.wanted; }))
+        continue;
+      if (std::string why = obstacle_of(group); !why.empty()) {
+        obstacles_[group] = std::move(why);
+        continue;
+      }
+      for (const Translation& t : translations_for(ways, bound(), most_tried))
+        out.push_back({group, t});
+    }
+    std::map<std::uint32_t, std::size_t> sizes;
+    for (const Candidate& c : out) sizes[c.group] = groups_->nodes_of(c.group).size();
+    std::stable_sort(out.begin(), out.end(), [&](const Candidate& a, const Candidate& b) {
+      if (a.translation.frees != b.translation.frees)
+        return a.translation.frees > b.translation.frees;
+      const double la = norm(a.translation.by), lb = norm(b.translation.by);
+      if (std::abs(la - lb) > 1e-9 * la) return la < lb;
+      return sizes[a.group] < sizes[b.group];
+    });
+    if (out.size() > most_tried) out.resize(most_tried);
+    return out;
+  }
+
+  void place(NodeIndex n, const std::array<double, 3>& p) {
+    now_.x[n] = model_.nodes.x[n] = p[0];
+    now_.y[n] = model_.nodes.y[n] = p[1];
+    now_.z[n] = model_.nodes.z[n] = p[2];
+  }
+
+  /// Puts the nodes where their printed coordinates are. False: a coordinate does not fit.
+  bool move(const std::vector<NodeIndex>& nodes, const Vec& by, Texts& texts) {
+    const double step[3] = {by.x, by.y, by.z};
+    for (const NodeIndex n : nodes) {
+      std::array<double, 3> to = {start_.x[n], start_.y[n], start_.z[n]};
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        if (step[axis] == 0) continue;
+        const auto text = cells_.print(n, axis, to[k] + step[axis]);
+        if (!text) {
+          why_not_ = "a new coordinate does not fit into its cell";
+          return false;
+        }
+        to[k] = text->value;
+        texts[{n, axis}] = text->text;
+      }
+      place(n, to);
+    }
+    return true;
+  }
+
+  void take_back(const std::vector<NodeIndex>& nodes) {
+    for (const NodeIndex n : nodes) place(n, {start_.x[n], start_.y[n], start_.z[n]});
+  }
+
+  static std::size_t wanted_pairs(const Scene& scene, const FixOptions& options) {
+    std::size_t pairs = 0;
+    for (const auto& [id, count] : count_interfaces(scene, options)) pairs += count.pairs;
+    return pairs;
+  }
+
+  /// Pairs that are left with the nodes where they are; nullopt: it does harm, and why_not_ says
+  /// which.
+  std::optional<std::size_t> left_now(const std::vector<NodeIndex>& nodes) {
+    for (const auto& crossing : mesh_->crossings(now_, nodes, options_.threads))
+      if (!std::binary_search(crossings_.begin(), crossings_.end(), crossing)) {
+        why_not_ = "it would cross elements";
+        return std::nullopt;
+      }
+    const Scene scene = evaluate();
+    if (const auto harm = harm_text(model_, scene, baseline_.harm(scene))) {
+      why_not_ = *harm;
+      return std::nullopt;
+    }
+    return wanted_pairs(scene, options_);
+  }
+
+  void try_all(const Scene& before) {
+    std::size_t best = wanted_pairs(before, options_), done = 0;
+    if (best == 0) return;
+    const std::vector<Candidate> all = candidates();
+    for (const Candidate& candidate : all) {
+      if (options_.progress) options_.progress("moving parts", done++, all.size());
+      const std::vector<NodeIndex> nodes = groups_->nodes_of(candidate.group);
+      Texts texts;
+      if (move(nodes, candidate.translation.by, texts))
+        if (const auto left = left_now(nodes); left && *left < best) {
+          best = *left;
+          texts_ = std::move(texts);
+          chosen_ = candidate;
+        }
+      take_back(nodes);
+      if (best == 0) break;
+    }
+    if (!chosen_) return;
+    moved_ = groups_->nodes_of(chosen_->group);
+    Texts again;
+    move(moved_, chosen_->translation.by, again);
+  }
+
+  Result<PenetrationFix> finish(const Scene& before) {
+    fix_.rewrite.edits = cells_.edits(texts_);
+    auto again = read_again(context_, fix_.rewrite);
+    if (!again) return again.error();
+    const Scene after = fix_scene(*again, options_, false);
+    if (const auto why = harm_text(model_, after, baseline_.harm(after)))
+      return Error{Error::Code::internal, "the deck read again differs: " + *why};
+    fix_.crossings_after = find_crossings(after, options_.threads).size();
+    set_interfaces(fix_, context_.interfaces(), options_, before, after);
+    for (const NodeIndex n : moved_) {
+      const Vec u = at(now_, n) - at(start_, n);
+      MovedNode m;
+      m.id = model_.node_id(n);
+      if (const std::uint32_t part = mesh_->part_of(n); part != no_index)
+        m.part = model_.parts[part].id;
+      m.by = {u.x, u.y, u.z};
+      m.distance = norm(u);
+      fix_.moved.push_back(m);
+    }
+    std::sort(fix_.moved.begin(), fix_.moved.end(),
+              [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
+    list_refused(after);
+    fix_.complete = fix_.refused.empty();
+    return std::move(fix_);
+  }
+
+  void list_refused(const Scene& scene) {
+    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
+      const Contact& contact = scene.contacts[c];
+      if (!is_wanted(options_, contact)) continue;
+      std::map<std::uint32_t, const PenetrationRow*> deepest;
+      for (const PenetrationRow& row : contact.penetrations) {
+        const PenetrationRow*& best = deepest[row.secondary];
+        if (best == nullptr || row.depth > best->depth) best = &row;
+      }
+      for (const auto& [secondary, row] : deepest)
+        fix_.refused.push_back({contact.inter->id, secondary_ids(*scene.model, contact, *row),
+                                row->depth,
+                                reason_of(key_of(scene, {c, row->secondary, row->main}))});
+    }
+    std::stable_sort(
+        fix_.refused.begin(), fix_.refused.end(), [](const FixRefusal& a, const FixRefusal& b) {
+          return std::tuple(a.interface_id, -a.depth) < std::tuple(b.interface_id, -b.depth);
+        });
+  }
+
+  std::string reason_of(const PairKey& key) const {
+    if (const auto it = skipped_.find(key); it != skipped_.end()) return it->second;
+    const auto sides = sides_.find(key);
+    if (sides == sides_.end()) return "it appeared when another one was freed";
+    const auto a = obstacles_.find(sides->second.first), b = obstacles_.find(sides->second.second);
+    if (a != obstacles_.end() && b != obstacles_.end()) return a->second + "; " + b->second;
+    if (chosen_)
+      return "the translation of " + groups_->name_of(chosen_->group) +
+             " that frees the most leaves it";
+    if (!why_not_.empty()) return "nothing done: with a translation " + why_not_;
+    return "no translation within the bound frees it (--max-displacement)";
+  }
+
+  std::optional<FixMesh> mesh_;
+  std::optional<PartGroups> groups_;
+  std::vector<std::uint8_t> holds_;
+  std::map<std::uint32_t, std::vector<WayOut>> ways_;                 ///< by group
+  std::map<PairKey, std::pair<std::uint32_t, std::uint32_t>> sides_;  ///< groups of both sides
+  std::map<PairKey, std::string> skipped_;
+  std::map<std::uint32_t, std::string> obstacles_;  ///< by group: why it may not move
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_;
+  Baseline baseline_;
+  double deepest_ = 0;
+  std::optional<Candidate> chosen_;
+  std::vector<NodeIndex> moved_;
+  Texts texts_;
+  std::string why_not_;  ///< of the last translation that would harm
+  PenetrationFix fix_;
+};
+
+}  // namespace
+
+Result<PenetrationFix> move_part(const LoadedDeck& context, const MoveNodesOptions& options) {
+  return PartMover(context, options).run();
+}
+
+}  // namespace deck

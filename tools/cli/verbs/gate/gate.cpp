@@ -1,0 +1,218 @@
+// deck gate: lint and gaps against the settings of the repository, in one command; and what sets a
+// repository up for it.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "deck/base/count.hpp"
+#include "deck/report/text_table.hpp"
+#include "verbs/gate/init.hpp"
+#include "verbs/lint_run.hpp"
+
+namespace deck::cli::verb_gate {
+namespace {
+
+struct Options {
+  LintChoice lint;
+  GateInit init;
+  bool writes = false;
+  int commits = -1;  ///< not given
+};
+
+/// What the gate stops at: findings beyond a bound, and those at the level of --fail-on.
+std::vector<const Diagnostic*> stops_of(const LintJob& job) {
+  std::vector<const Diagnostic*> out;
+  for (const Diagnostic& d : job.result.diagnostics)
+    if (is_of_gate(d.rule) || d.severity == Severity::error ||
+        (d.severity == Severity::warning && job.fail_on == "warning"))
+      out.push_back(&d);
+  return out;
+}
+
+/// Only what stops, with the counts of all.
+LintResult narrowed(const LintJob& job) {
+  LintResult out = job.result;
+  out.diagnostics.clear();
+  out.fingerprints.clear();
+  for (const Diagnostic* d : stops_of(job)) {
+    out.diagnostics.push_back(*d);
+    out.fingerprints.push_back(
+        job.result.fingerprints[static_cast<std::size_t>(d - job.result.diagnostics.data())]);
+  }
+  return out;
+}
+
+std::string findings_text(const LintJobs& jobs, const CommonOptions& common) {
+  std::vector<LintResult> results;
+  results.reserve(jobs.size());
+  std::vector<LintedDeck> decks;
+  for (const auto& job : jobs) {
+    if (!job->loaded) continue;
+    results.push_back(narrowed(*job));
+    if (results.back().diagnostics.empty()) continue;
+    decks.push_back(job->linted());
+    decks.back().result = &results.back();
+  }
+  HumanOptions human;
+  human.color = common.color_on(1);
+  human.quiet = true;
+  human.group = !common.verbose;
+  human.per_rule = common.verbose ? 0 : 10;
+  human.width = text_width();
+  return decks.empty() ? std::string() : lint_human(decks, human);
+}
+
+std::string table(const LintJobs& jobs, const CommonOptions& common) {
+  TextTable table({{"deck"},
+                   {"gate"},
+                   {"errors", Align::right},
+                   {"beyond a bound", Align::right},
+                   {"new", Align::right},
+                   {"worse", Align::right},
+                   {"better", Align::right},
+                   {"same", Align::right},
+                   {"solved", Align::right}});
+  for (const auto& job : jobs) {
+    const TextTable::Cell verdict = !job->loaded ? TextTable::Cell("not read", Tone::red)
+                                    : job->code != exit_clean
+                                        ? TextTable::Cell("stopped", Tone::red)
+                                        : TextTable::Cell("passed", Tone::green);
+    std::vector<TextTable::Cell> row = {job->path, verdict};
+    if (job->loaded) {
+      const auto beyond = job->report.findings.size();
+      row.emplace_back(
+          std::to_string(job->result.errors - std::min<std::uint64_t>(job->result.errors, beyond)));
+      row.emplace_back(std::to_string(beyond));
+      const GapsComparison& c = job->report.comparison;
+      const bool compared = job->report.earlier != nullptr;
+      for (const Trend t : {Trend::fresh, Trend::worse, Trend::better, Trend::same})
+        row.emplace_back(compared ? std::to_string(c.count(t)) : "-");
+      row.emplace_back(compared ? std::to_string(c.solved.size()) : "-");
+    }
+    table.row(std::move(row));
+  }
+  return table.fitted(text_width(), common.color_on(1));
+}
+
+std::string last_line(const LintJobs& jobs) {
+  const auto stopped = static_cast<std::size_t>(std::count_if(
+      jobs.begin(), jobs.end(), [](const auto& job) { return job->code != exit_clean; }));
+  if (stopped == 0) return fmt::format("Gate: passed, {}.\n", count(jobs.size(), "deck", "decks"));
+  return fmt::format("Gate: not passed, {} of {}.\n", stopped, count(jobs.size(), "deck", "decks"));
+}
+
+int print(const Options& o, const LintJobs& jobs, const SchemaSet& schemas) {
+  CommonOptions common = o.lint.common;
+  common.decks.clear();
+  for (const auto& job : jobs) common.decks.push_back(job->path);
+  int code = exit_clean;
+  JsonOutput json(common, "deck/gate", 1);
+  if (json.wanted()) {
+    for (const auto& job : jobs)
+      if (job->loaded)
+        json.add(gate_json(job->linted(), job->report, stops_of(*job), job->code == exit_clean));
+    code = json.finish(code);
+  }
+  const bool taken =
+      common.json == "-" || std::any_of(o.lint.outputs.begin(), o.lint.outputs.end(),
+                                        [](const std::string& out) { return out.ends_with("=-"); });
+  if (taken || (common.quiet && o.lint.format == "human")) return code;
+  if (o.lint.format != "human") {
+    print_text(lint_text(o.lint.format, jobs, o.lint, schemas));
+    return code;
+  }
+  const std::string findings = findings_text(jobs, common);
+  print_lines(findings + table(jobs, common) + last_line(jobs));
+  return code;
+}
+
+/// A gate that asks for nothing lets everything pass.
+Result<void> check_gates(const LintChoice& lint) {
+  for (const std::string& deck : lint.common.decks) {
+    const auto config = config_of(lint.gate, deck);
+    if (!config) return config.error();
+    if (!lint.gate.given() && !config->gate.any() && config->compare.empty() &&
+        config->accepted.empty())
+      return Error{Error::Code::config,
+                   deck + ": no gate is set: 'deck gate --init' writes one, [gate] in " +
+                       (config->path.empty() ? ".decklint.toml" : config->path) +
+                       " or the options of the gate set bounds"};
+  }
+  return {};
+}
+
+int run(Options& o) {
+  CommonOptions& common = o.lint.common;
+  if (common.decks.empty()) common.decks = {"."};
+  if (o.writes) {
+    if (o.commits >= 0) o.init.commits = static_cast<std::size_t>(o.commits);
+    return init_gate(common, o.init);
+  }
+  if (o.commits >= 0 || !o.init.forge.empty() || o.init.overwrite)
+    return wrong_usage("gate", "--commits, --forge and --overwrite go with --init");
+  if (const int wrong = open_directories(common); wrong != exit_clean) return wrong;
+  for (std::string& deck : common.decks)  // of the current directory, which nobody typed
+    if (deck.starts_with("./")) deck.erase(0, 2);
+  if (auto set = check_gates(o.lint); !set) {
+    print_error(common, set.error().message);
+    return exit_usage;
+  }
+  LintRun lint(o.lint, [&](const LintJobs& jobs, const SchemaSet& schemas) {
+    return print(o, jobs, schemas);
+  });
+  return lint.run();
+}
+
+Action setup(CommandLine& line) {
+  auto options = std::make_shared<Options>();
+  LintChoice& o = options->lint;
+  add_common(line, o.common);
+  allow_directories(line);
+  line.existing("decks").required(false).describe(
+      "Starter decks, or directories: all *_0000.rad below them (default: the current one)");
+  line.option("--format", o.format,
+              "What to print: human, concise (one line a finding), json, sarif, github, junit, "
+              "gitlab")
+      .one_of(lint_formats)
+      .value("FORMAT");
+  line.option("-o,--output", o.outputs, "Also write FORMAT to FILE (repeatable)")
+      .value("FORMAT=FILE")
+      .one_each();
+  add_require_examined(line, o.common);
+  add_gate_with_config(line, o.gate, "an error", "an error or a warning");
+  add_verbose(line, o.common, "Show every finding in full, without grouping");
+  CommandLine init = line.group("Setting a repository up");
+  init.flag("--init", options->writes,
+            "Write .decklint.toml, the documents of what is accepted today and the workflow of the "
+            "forge into the git work tree, and say what the gate would have done with the last "
+            "commits of the decks");
+  init.option("--forge", options->init.forge,
+              "github or gitlab (default: what the work tree looks like)")
+      .one_of({"github", "gitlab"})
+      .value("NAME");
+  init.option("--commits", options->commits, "Commits that --init looks back (default: 10)")
+      .range(0, 1000)
+      .value("N");
+  init.flag("--overwrite", options->init.overwrite, "Replace what --init has written before");
+  return [options] {
+    options->lint.geometry = true;
+    options->lint.common.engine_files = true;
+    return run(*options);
+  };
+}
+
+const VerbRegistration registration{
+    {"gate", 35, "Lint and gaps against the gate of the repository, in one command",
+     "  deck gate                          all decks below the current directory\n"
+     "  deck gate models/ --since origin/main --format github -o sarif=deck.sarif\n"
+     "  deck gate car_0000.rad --compare git:main --fail-on new,worse\n"
+     "  deck gate models/ --init           sets the repository up\n"
+     "\n"
+     "Exit code 1: an error of lint, a contact beyond a bound, or one that is new or worse than "
+     "in\n"
+     "the document of [gate] in .decklint.toml.\n",
+     setup}};
+
+}  // namespace
+}  // namespace deck::cli::verb_gate

@@ -1,0 +1,419 @@
+// A run of lint over decks: loads and lints each, then fixes, writes and prints.
+#include "verbs/lint_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "deck/base/count.hpp"
+#include "deck/base/escape.hpp"
+#include "deck/lint/config.hpp"
+#include "deck/lint/fix.hpp"
+#include "deck/lint/geometry.hpp"
+#include "writing/library.hpp"
+
+namespace deck::cli {
+namespace linting {
+namespace {
+
+/// A gate is held against the whole deck.
+Geometry geometry_of(const LintChoice& options, const LintConfig& config) {
+  if (options.no_geometry) return Geometry::none;
+  if (options.geometry || options.gate.given()) return Geometry::all;
+  if (config.geometry) return *config.geometry ? Geometry::all : Geometry::none;
+  const bool gate = config.gate.any() || !config.compare.empty() || !config.accepted.empty();
+  return gate ? Geometry::all : Geometry::quick;
+}
+
+std::string render(std::string_view format, const std::vector<LintedDeck>& decks,
+                   const LintChoice& options, const SchemaSet& schemas, bool to_terminal) {
+  if (format == "json") return lint_json(decks);
+  if (format == "concise") return lint_concise(decks);
+  // The git work tree that this runs in, else the current directory.
+  const std::string root = library_root("here");
+  if (format == "sarif") return lint_sarif(decks, schemas, root);
+  if (format == "github") return lint_github(decks, root);
+  if (format == "junit") return lint_junit(decks);
+  if (format == "gitlab") return lint_gitlab(decks, root);
+  const std::size_t width = to_terminal ? text_width() : 0;
+  if (options.statistics)
+    return lint_statistics(decks, to_terminal && options.common.color_on(1), width);
+  HumanOptions human;
+  human.color = to_terminal && options.common.color_on(1);
+  human.ruler = options.ruler;
+  human.group = !options.common.verbose;
+  human.remarks_of_every_deck = options.common.verbose;
+  human.per_rule = options.per_rule >= 0 ? options.per_rule : options.common.verbose ? 0 : 10;
+  human.width = width;
+  return lint_human(decks, human);
+}
+
+/// What the command line says, over what the configuration says.
+Result<LintOptions> lint_options(const LintChoice& options, const LintConfig& config,
+                                 LintJob& job) {
+  LintOptions out;
+  out.select = options.select.empty() ? config.select : options.select;
+  out.ignore = config.ignore;
+  out.ignore.insert(out.ignore.end(), options.ignore.begin(), options.ignore.end());
+  out.severity = config.severity;
+  out.per_file_ignores = config.per_file_ignores;
+  out.diagnostics_per_rule = options.common.limits.diagnostics_per_rule;
+  for (const auto* list : {&options.select, &options.ignore})
+    for (const std::string& s : *list)
+      if (!known_selector(s)) return Error{Error::Code::config, unknown_selector(s)};
+  const std::string baseline = options.baseline.empty() ? config.baseline : options.baseline;
+  // A baseline that is about to be written replaces the old one.
+  if (baseline.empty() || !options.write_baseline.empty()) return out;
+  const auto text = read_config_file(baseline, most_baseline_bytes);
+  if (!text) return text.error();
+  options.common.session->remember_read(baseline);
+  const auto parsed = parse_baseline(*text, baseline);
+  if (!parsed) return parsed.error();
+  const auto* entries = parsed->find(job.path);
+  if (entries == nullptr) {
+    std::vector<std::string> held;
+    for (const auto& [deck, unused] : parsed->decks) held.push_back(deck);
+    note_not_in_baseline(options.common, job.path, baseline, held);
+    return out;
+  }
+  for (const auto& [key, entry] : *entries) {
+    out.baseline.emplace(key, entry.count);
+    job.baseline_names.emplace(key, std::pair(entry.rule, entry.entity));
+  }
+  return out;
+}
+
+/// The same, and everything is in the order of places again.
+void stand_at_changes(LintResult& result, const SourceSet& sources, const ChangedLines& lines) {
+  if (lines.empty()) return;
+  deck::stand_at_changes(result.diagnostics, sources, lines);
+  std::vector<std::size_t> order(result.diagnostics.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto place = [&](std::size_t i) {
+    const Diagnostic& d = result.diagnostics[i];
+    return std::tuple(d.span.file, d.span.offset, d.rule);
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  LintResult sorted;
+  for (const std::size_t i : order) {
+    sorted.diagnostics.push_back(std::move(result.diagnostics[i]));
+    sorted.fingerprints.push_back(std::move(result.fingerprints[i]));
+  }
+  result.diagnostics = std::move(sorted.diagnostics);
+  result.fingerprints = std::move(sorted.fingerprints);
+}
+
+bool passes_a_gate(const LintResult& r) {
+  return std::any_of(std::begin(gate_rules), std::end(gate_rules),
+                     [&](RuleId rule) { return r.counts.contains(rule); });
+}
+
+}  // namespace
+}  // namespace linting
+
+LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry geometry,
+                       const DeckGate& gate, const SeenContacts& seen) {
+  SceneOptions wanted = loaded.scene_options();
+  wanted.candidates = false;
+  wanted.ties = geometry != Geometry::none;
+  loaded.set_scene_options(wanted);
+  std::vector<ExtraCheck> extra;
+  if (geometry != Geometry::none)
+    extra.push_back([&](const LintContext& context, Reporter& reporter) {
+      GeometryOptions look;
+      if (geometry == Geometry::quick) look.quick.emplace();
+      look.gate = &gate.gate;
+      look.earlier = gate.earlier ? &*gate.earlier : nullptr;
+      look.changed = &gate.changed;
+      look.seen = seen;
+      return check_geometry(context, reporter, look);
+    });
+  LintResult result = run_lint(loaded, options, extra);
+  loaded.drop_scene();
+  linting::stand_at_changes(result, loaded.deck().sources, gate.changed);
+  return result;
+}
+
+int LintRun::run() {
+  if (const int code = prepare(); code != exit_clean) return code;
+  int worst = exit_clean;
+  const bool rewrites = options_.diff || options_.fix || options_.unsafe_fixes;
+  auto decks = Result<std::vector<std::string>>(common_.decks);
+  if (options_.changed) {
+    decks = decks_of_files(common_.decks, options_.write.root, common_.include_paths);
+    if (decks && decks->empty()) return none_changed();
+  } else if (!rewrites)
+    decks = decks_in_directories(common_.decks);
+  if (rewrites && decks) decks = changes_.decks(*decks, deck_ending);
+  if (!decks) {
+    print_error(common_, decks.error().message);
+    return decks.error().code == Error::Code::config ? exit_usage : exit_input;
+  }
+  for (const std::string& path : *decks) {
+    if (BatchFrame* frame = common_.session->frame) frame->begin(path);
+    const int code = lint_one(path);
+    if (BatchFrame* frame = common_.session->frame) frame->end(code);
+    worst = std::max(worst, code);
+  }
+  if (rewrites) {
+    const int code = std::any_of(common_.decks.begin(), common_.decks.end(),
+                                 [](const std::string& d) { return d == "-"; }) &&
+                             !options_.diff
+                         ? usage("--fix cannot rewrite standard input; use --diff")
+                         : fixes();
+    if (code != exit_clean) worst = std::max(worst, code);
+  }
+  if (worst >= exit_internal) return worst;
+  return std::max(worst, write());
+}
+
+int LintRun::usage(const std::string& message) {
+  print_error(common_, message);
+  return exit_usage;
+}
+
+int LintRun::none_changed() const {
+  if (!common_.quiet) print_note("no deck includes any of these files; nothing to lint");
+  return exit_clean;
+}
+
+/// Configuration, schemas, output list.
+int LintRun::prepare() {
+  for (const std::string& o : options_.outputs) {
+    const auto equal = o.find('=');
+    const std::string format = o.substr(0, equal);
+    if (equal == std::string::npos || equal + 1 == o.size() ||
+        std::find(lint_formats.begin(), lint_formats.end(), format) == lint_formats.end())
+      return usage("-o needs FORMAT=FILE, for example -o sarif=lint.sarif; got '" + o + "'");
+  }
+  std::vector<std::string> files = {common_.json, options_.write_baseline};
+  for (const std::string& o : options_.outputs) files.push_back(o.substr(o.find('=') + 1));
+  if (const int bad = check_outputs(common_, files); bad != exit_clean) return bad;
+  if (auto legal = check_fail_on(options_.gate); !legal) return usage(legal.error().message);
+  if (options_.geometry && options_.no_geometry)
+    return usage("--geometry and --no-geometry exclude each other");
+  if (options_.statistics && options_.format != "human")
+    return usage("--statistics cannot be combined with --format");
+  if (options_.gate.given() && options_.no_geometry)
+    return usage("the bounds of the gate need geometry; leave out --no-geometry");
+  auto schemas = load_schemas(common_);
+  if (!schemas) return usage(schemas.error().message);
+  schemas_ = std::move(*schemas);
+  return exit_clean;
+}
+
+int LintRun::lint_one(const std::string& path) {
+  auto job = std::make_unique<LintJob>();
+  job->path = path;
+  const auto config = config_of(options_.gate, path);
+  if (!config) return usage(config.error().message);
+  const Geometry geometry = linting::geometry_of(options_, *config);
+  // Without geometry nothing is held against the gate.
+  auto gate =
+      geometry == Geometry::none ? DeckGate{} : gate_of(options_.gate, *config, path, common_);
+  if (!gate) return usage(gate.error().message);
+  gate->note_baseline(common_, path);
+  const auto lint = linting::lint_options(options_, *config, *job);
+  if (!lint) return usage(lint.error().message);
+  auto loaded = load(path, schemas_, common_);
+  if (!loaded) {
+    job->error = loaded.error().message;
+    print_error(common_, job->error);
+    job->code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
+  } else {
+    job->loaded.emplace(std::move(*loaded));
+    if (auto known = gate->find_changes(*job->loaded); !known) return usage(known.error().message);
+    job->gate = std::move(*gate);
+    look(*job, *lint, geometry);
+    const std::string given = options_.gate.level();
+    job->fail_on = !given.empty() ? given : !config->fail_on.empty() ? config->fail_on : "error";
+    job->code = code_of(*job);
+  }
+  const int code = job->code;
+  jobs_.push_back(std::move(job));
+  return code;
+}
+
+/// Findings, verdict and what the gate says.
+void LintRun::look(LintJob& job, const LintOptions& lint, Geometry geometry) {
+  std::optional<ContactFacts> contacts;
+  job.report.asked = job.gate.gate.any();
+  job.result = lint_loaded(*job.loaded, lint, geometry, job.gate,
+                           [&](const Scene& scene, const SceneView& view) {
+                             contacts = contact_facts(scene, view);
+                             job.report.undecided = undecided_contacts(scene);
+                             if (!job.gate.earlier) return;
+                             job.report.earlier = &*job.gate.earlier;
+                             job.report.comparison = compare_gaps(*job.gate.earlier, scene, view);
+                           });
+  for (const Diagnostic& d : job.result.diagnostics)
+    if (is_of_gate(d.rule)) job.report.findings.push_back(d);
+  const auto& skipped = job.result.not_checked;
+  const bool left_out = geometry != Geometry::none &&
+                        std::any_of(skipped.begin(), skipped.end(),
+                                    [](const NotChecked& n) { return n.what == geometry_rules; });
+  job.verdict = lint_verdict(job.linted(), std::move(contacts), left_out);
+}
+
+int LintRun::code_of(const LintJob& job) const {
+  const ExitRules rules{job.fail_on == "warning", job.fail_on == "never", common_.require_examined};
+  int code = exit_clean;
+  if (exit_code_of(*job.verdict, rules) != 0 || linting::passes_a_gate(job.result))
+    code = exit_findings;
+  code = std::max(code, examined_code(*job.loaded, common_));
+  return job.loaded->incomplete() ? static_cast<int>(exit_input) : code;
+}
+
+/// What all decks together want fixed. A fix of a file that they share is made only if all of
+/// them want it.
+Result<std::size_t> LintRun::collect_fixes(Changes& set, std::vector<FixResult>& results) {
+  std::vector<FixedDeck> decks;
+  std::vector<const LintJob*> jobs;
+  for (const auto& job : jobs_)
+    if (job->loaded) {
+      decks.push_back({&job->loaded->deck().sources, &job->result.diagnostics});
+      jobs.push_back(job.get());
+    }
+  const AgreedFixes agreed = agree_on_fixes(decks, options_.unsafe_fixes);
+  std::size_t changed = 0;
+  for (std::size_t d = 0; d < decks.size(); ++d) {
+    const Deck& deck = jobs[d]->loaded->deck();
+    const auto member = set.add(*jobs[d]->loaded, jobs[d]->path);
+    if (!member) return member.error();
+    results.push_back(apply_fixes(deck.sources, agreed.wanted[d]));
+    ChangedFiles files;
+    for (FixedFile& f : results.back().files) {
+      const std::string& path = deck.sources[f.file].path();
+      if (const auto [it, is_new] = files.try_emplace(path, f.text);
+          !is_new && it->second != f.text)
+        return Error{Error::Code::config,
+                     path +
+                         " is included more than once and would become two different files; "
+                         "nothing was written"};
+    }
+    changed += files.size();
+    set.propose(*member, deck, files);
+  }
+  constexpr std::size_t most = 10;
+  for (std::size_t i = 0; i < std::min(most, agreed.withheld.size()) && !common_.quiet; ++i) {
+    const WithheldFix& w = agreed.withheld[i];
+    print_messages(
+        fmt::format("{}: note: not fixed ({}): {} includes this file too and needs it unchanged\n",
+                    terminal_text(jobs[w.deck]->loaded->deck().sources.where(w.diagnostic->span)),
+                    id_text(w.diagnostic->rule), terminal_text(jobs[w.other]->path)));
+  }
+  if (agreed.withheld.size() > most && !common_.quiet)
+    print_note(
+        fmt::format("{} more were not fixed for this reason", agreed.withheld.size() - most));
+  return changed;
+}
+
+/// --diff prints what --fix would write; --fix writes, every file once, and lints again.
+int LintRun::fixes() {
+  int code = exit_clean;
+  std::vector<FixResult> results;
+  const auto changed = collect_fixes(changes_, results);
+  if (!changed) return usage(changed.error().message);
+  if (options_.diff) {
+    const auto patch = changes_.diff();
+    if (!patch) return usage(patch.error().message);
+    print_contents(*patch);
+  } else if (*changed > 0) {
+    if (auto written = changes_.write(false); !written) return usage(written.error().message);
+    for (std::size_t d = 0, r = 0; d < jobs_.size(); ++d) {
+      if (!jobs_[d]->loaded) continue;
+      const FixResult& fixed = results[r++];
+      if (!common_.quiet && !fixed.files.empty())
+        print_messages(fmt::format("{}: {} fixed in {}\n", terminal_text(jobs_[d]->path),
+                                   fixed.applied, count(fixed.files.size(), "file", "files")));
+    }
+    relint_ = true;
+  }
+  if (relint_) {
+    auto old = std::move(jobs_);
+    jobs_.clear();
+    for (const auto& job : old) code = std::max(code, lint_one(job->path));
+    after_fix_ = code;
+  }
+  return exit_clean;
+}
+
+/// Entries of the baseline that hide nothing: they would hide the next finding of that kind.
+void LintRun::report_stale() const {
+  for (const auto& job : jobs_) {
+    if (!job->loaded || job->result.stale.empty() || common_.quiet) continue;
+    constexpr std::size_t most = 10;
+    print_messages(
+        fmt::format("{}: note: {} entries of the baseline no longer occur; write it again with "
+                    "--write-baseline\n",
+                    terminal_text(job->path), job->result.stale.size()));
+    std::size_t shown = 0;
+    for (const auto& [key, n] : job->result.stale) {
+      if (shown++ == most) break;
+      const auto& [rule, entity] = job->baseline_names.at(key);
+      print_messages(fmt::format("  {} {}{}{}: {}\n", terminal_text(key.first), terminal_text(rule),
+                                 entity.empty() ? "" : " ", terminal_text(entity),
+                                 deck::count(n, "time", "times")));
+    }
+  }
+}
+
+std::vector<LintedDeck> LintRun::linted() const {
+  std::vector<LintedDeck> out;
+  for (const auto& job : jobs_) out.push_back(job->linted());
+  return out;
+}
+std::string lint_text(const std::string& format, const LintJobs& jobs, const LintChoice& options,
+                      const SchemaSet& schemas) {
+  std::vector<LintedDeck> decks;
+  for (const auto& job : jobs) decks.push_back(job->linted());
+  return linting::render(format, decks, options, schemas, true);
+}
+
+LintedDeck LintJob::linted() const {
+  return {path,   loaded ? &loaded->deck() : nullptr,       loaded ? &result : nullptr,
+          error,  loaded ? &loaded->interfaces() : nullptr, nullptr,
+          verdict};
+}
+
+int LintRun::write() {
+  const auto decks = linted();
+  int code = exit_clean;
+  const auto put = [&](const std::string& file, const std::string& text) {
+    if (auto written = common_.session->write_output(file, text); !written)
+      code = std::max(code, usage(written.error().message));
+  };
+  for (const std::string& o : options_.outputs) {
+    const auto equal = o.find('=');
+    put(o.substr(equal + 1),
+        linting::render(o.substr(0, equal), decks, options_, schemas_, o.substr(equal + 1) == "-"));
+  }
+  if (!common_.json.empty() && !print_) put(common_.json, lint_json(decks));
+  if (!options_.write_baseline.empty()) {
+    std::vector<BaselinedDeck> baselined;
+    for (const auto& job : jobs_)
+      if (job->loaded) baselined.push_back({job->path, &job->loaded->deck(), &job->result});
+    put(options_.write_baseline, deck::write_baseline(baselined, options_.write_baseline));
+  }
+  report_stale();
+  if (print_) return std::max(code, print_(jobs_, schemas_));
+  print(decks);
+  return code;
+}
+
+void LintRun::print(const std::vector<LintedDeck>& decks) const {
+  // --json - and -o FORMAT=- take standard output for themselves.
+  const bool taken = common_.json == "-" || options_.diff ||
+                     std::any_of(options_.outputs.begin(), options_.outputs.end(),
+                                 [](const std::string& o) { return o.ends_with("=-"); });
+  if (!taken && !(common_.quiet && options_.format == "human")) {
+    const std::string text = linting::render(options_.format, decks, options_, schemas_, true);
+    options_.format == "human" ? print_lines(text) : print_text(text);
+  } else if (options_.diff && !common_.quiet)
+    print_messages(linting::render("human", decks, options_, schemas_, false));
+}
+
+}  // namespace deck::cli
