@@ -102,8 +102,10 @@ std::string render_at_line(std::string_view line, int version, const SchemaSet& 
   return render_card(*schema, header, version, values);
 }
 
+constexpr int usual_version = 2022;  // where an example does not say
+
 struct Parsed {
-  int version = 2022;
+  int version = usual_version;
   bool bare = false, whole = false;
   std::vector<std::pair<std::string, std::string>> texts;  // file name ("" = main), content
   std::vector<std::pair<std::string, int>> limits;
@@ -174,6 +176,10 @@ ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas) {
 std::string example_text(std::string_view example, const SchemaSet& schemas) {
   const Parsed p = parse(example, schemas);
   std::string out;
+  // What the text does not show, and two examples may differ in.
+  if (p.version != usual_version) out += "--- input version " + std::to_string(p.version) + "\n";
+  for (const auto& [name, limit] : p.limits)
+    out += "--- " + name + " at most " + std::to_string(limit) + "\n";
   for (const auto& [name, text] : p.texts) {
     if (!name.empty()) out += "--- " + name + "\n";
     out += text;

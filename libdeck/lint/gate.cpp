@@ -9,6 +9,7 @@
 #include <set>
 
 #include "deck/base/count.hpp"
+#include "deck/base/length_text.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/text/number.hpp"
 #include "lint/gate_places.hpp"
@@ -216,11 +217,11 @@ class Check {
   std::string pair_text(std::uint32_t at) const {
     const NamedPenetration& p = view_.penetrations[at];
     const PenetrationRow& row = scene_.contacts[p.contact].penetrations[p.row];
-    return fmt::format("{} by {:.6g} (gap {:.6g})",
+    return fmt::format("{} by {} (gap {})",
                        p.secondary[1] == 0
                            ? fmt::format("node {}", p.secondary[0])
                            : fmt::format("edge {}-{}", p.secondary[0], p.secondary[1]),
-                       row.depth, row.gap);
+                       length_text(row.depth), length_text(row.gap));
   }
 
   /// The last scope of Gate::part_pairs that the parts of the pair match; one past the end: none.

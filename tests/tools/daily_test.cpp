@@ -200,6 +200,23 @@ TEST_F(ConvertCheck, WritesNothingAndGroupsTheCauses) {
   EXPECT_TRUE(has("3 of 3 decks can be converted.")) << out();
 }
 
+TEST_F(ConvertCheck, ARealConversionSaysItTheSameWay) {
+  write(dir_ / "decks/a_0000.rad", sample("variable_gap"));
+  write(dir_ / "decks/b_0000.rad", sample("variable_gap"));
+  write(dir_ / "decks/c_0000.rad", sample("clean_plates"));
+  EXPECT_EQ(deck("convert decks --version 110 -o out"), 1) << err();
+  EXPECT_TRUE(complains("decks  times  what")) << err();
+  EXPECT_TRUE(complains("left to a person, at")) << err();
+  EXPECT_TRUE(complains("decks/a_0000.rad:")) << err();
+  EXPECT_TRUE(complains("decks/b_0000.rad:")) << err();
+  EXPECT_FALSE(fs::exists(dir_ / "out"));
+  EXPECT_EQ(deck("convert decks --version 2018 -o out"), 0) << err();
+  EXPECT_TRUE(complains("3 of 3 decks were converted.")) << err();
+  EXPECT_FALSE(complains("left to a person")) << err();
+  EXPECT_EQ(deck("convert decks --version 2018 -o out --quiet"), 0) << err();
+  EXPECT_EQ(err(), "");
+}
+
 TEST_F(ConvertCheck, SeesWhatWritingWouldRefuse) {
   write(dir_ / "m_0000.rad", sample("clean_plates"));
   write(dir_ / "out/m_0000.rad", sample("too_close"));

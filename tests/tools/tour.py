@@ -51,6 +51,7 @@ TOUR = {
         "gaps better_0000.rad --compare old.json --fail-on new,worse --worst 1",
         "cycle samples/too_close_0000.rad --max-dt-loss 0.1",
         "lint samples/too_close_0000.rad --max-depth 0.3 --select DK37",
+        "gate samples/too_close_0000.rad samples/clean_plates_0000.rad --max-depth 0.3",
     ],
     "cycle": [
         "cycle samples/crash_box_0000.rad",

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "deck/base/length_text.hpp"
+
 namespace deck {
 namespace {
 
@@ -157,7 +159,9 @@ GapsComparison compare_gaps(const EarlierGaps& earlier, const Scene& scene, cons
       const NamedPenetration& p = view.penetrations[at];
       const double depth = scene.contacts[p.contact].penetrations[p.row].depth;
       const double was = earlier.rows[found[i]].depth;
-      row.trend = depth > was * (1 + same_depth)   ? Trend::worse
+      const bool unbounded = is_unbounded(depth) && is_unbounded(was);
+      row.trend = unbounded                        ? Trend::same
+                  : depth > was * (1 + same_depth) ? Trend::worse
                   : depth < was * (1 - same_depth) ? Trend::better
                                                    : Trend::same;
     }

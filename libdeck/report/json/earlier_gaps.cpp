@@ -1,5 +1,6 @@
 // Reads an earlier `deck gaps --json` for comparison.
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -31,9 +32,13 @@ std::string deck_path_of(const Json& d) {
   return d.contains("deck") && d["deck"].is_object() ? text(d["deck"], "path") : std::string();
 }
 
+/// null stands for a number that no computation can hold: of a gap without bound.
 double number(const Json& object, const char* key) {
   const auto it = object.find(key);
-  return it != object.end() && it->is_number() ? it->get<double>() : 0;
+  if (it == object.end()) return 0;
+  return it->is_number() ? it->get<double>()
+         : it->is_null() ? std::numeric_limits<double>::max()
+                         : 0;
 }
 
 std::int64_t whole(const Json& v) { return v.is_number_integer() ? v.get<std::int64_t>() : 0; }

@@ -112,8 +112,8 @@ class InterfaceTable {
                    ? make_table({">id", "type", "title", ">Igap", ">Gapmin", "Gapmin from",
                                  ">nodes", ">segments", ">in reach", ">pairs", ">nodes in",
                                  ">edges in", ">deepest", ">of gap", "action"})
-                   : make_table({">id", "type", "title", ">Gapmin", ">nodes", ">edges", ">deepest",
-                                 ">of gap", "action"})) {}
+                   : make_table({">id", "type", "title", ">Gapmin", ">listed", ">nodes", ">edges",
+                                 ">deepest", ">of gap", "action"})) {}
 
   std::string run() {
     std::vector<std::int64_t> clean;
@@ -161,6 +161,8 @@ class InterfaceTable {
       add(one ? number(edges ? c.main_edges.size() : c.main.size()) : "");
       add(number(reach));
       add(number(t.count.pairs));
+    } else {
+      add(number(t.count.pairs + t.tied.pairs));  // as the solver counts in its listing
     }
     const auto has = [&](ContactKind kind) {
       return std::any_of(contacts.begin(), contacts.end(),

@@ -35,8 +35,9 @@ class EntryReading {
   double found() const { return penetrations() + count("errors") + count("warnings"); }
   /// Why it did not get through, else the verdict.
   std::string what() const {
-    const std::string error = text("error"), deck = text("deck") + ": ";
-    if (error.starts_with(deck)) return error.substr(deck.size());
+    // The deck stands beside it: "178:81: /INTER/TYPE7/3 ..." is a place in it.
+    const std::string error = text("error"), deck = text("deck") + ":";
+    if (error.starts_with(deck)) return error.substr(deck.size() + (error[deck.size()] == ' '));
     return error.empty() ? verdict("text") : error;
   }
   /// A member of the verdict: "level" or "text"; "" where there is none.

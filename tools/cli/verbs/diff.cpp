@@ -1,6 +1,10 @@
 // deck diff: what two decks mean differently.
 
 #include "deck/report/diff.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
 #include "common.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/model/coverage.hpp"
@@ -92,7 +96,14 @@ int run(const Options& o) {
   auto b = a ? read_side(o, o.common.decks.back(), *schemas) : Result<Side>(a.error());
   if (!a || !b) {
     const Error& error = a ? b.error() : a.error();
-    print_error(o.common, error.message);
+    std::error_code ec;
+    const bool pipe =
+        std::any_of(o.common.decks.begin(), o.common.decks.end(),
+                    [&](const std::string& deck) { return std::filesystem::is_fifo(deck, ec); });
+    print_error(o.common,
+                error.message + (pipe ? "; 'deck diff --git REV DECK' reads the old side from git, "
+                                        "with its includes"
+                                      : ""));
     return error.code == Error::Code::config ? exit_usage : exit_input;
   }
   for (const Side* side : {&*a, &*b}) {

@@ -49,6 +49,7 @@ struct Conversion {
   std::vector<LossEntry> losses;
   std::unique_ptr<Behaviour> behaviour;  ///< of `now`, if it is to be verified
   std::vector<std::string> refusals = {};
+  bool together = false;  ///< with other decks: what it loses is said with what they lose
 };
 
 void print_refusals(const CommonOptions& common, const std::vector<std::string>& refusals) {
@@ -109,8 +110,9 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
       c.refusals = std::move(rewrite.refusals);
       return exit_findings;
     }
-    print_refusals(common, rewrite.refusals);
+    if (!c.together || rewrite.misasked) print_refusals(common, rewrite.refusals);
     for (const std::string& r : rewrite.refusals) c.losses.push_back(refused_entry(r));
+    c.refusals = rewrite.refusals;
     print_error(common, c.now.path() + ": " + step.option + " was not done; nothing was written" +
                             (step.way_out.empty() || rewrite.misasked ? "" : ". " + step.way_out));
     return rewrite.misasked ? exit_usage : exit_findings;
@@ -172,7 +174,8 @@ struct Run {
   Progress progress;
   std::vector<Document> documents = {};
   std::vector<LossEntry> losses = {};
-  bool refused = false;  ///< nothing may be written
+  bool refused = false;   ///< nothing may be written
+  bool together = false;  ///< several decks: what they lose is said once, by its causes
   ConversionCheck check = {};
 };
 
@@ -331,18 +334,19 @@ int convert(Run& run, const std::string& name, LoadedDeck loaded, Overlay overla
     return fail(run, member.error());
   }
   Conversion c{std::move(loaded), std::move(overlay), losses, nullptr};
+  c.together = run.together;
   int code = exit_clean;
   for (const ConvertStep& step : run.steps) {
     code = apply(c, step, schemas, options, run.progress);
     if (code != exit_clean) break;
   }
   if (code == exit_clean && !options.write.directory.empty()) tell_of_copies(c);
-  if (code == exit_clean && !options.check) print_losses(c.losses, options.common);
+  if (code == exit_clean && !options.check && !run.together) print_losses(c.losses, options.common);
   if (BatchFrame* frame = options.common.session->frame)
     for (const LossEntry& e : c.losses) ++frame->decks[name].losses[static_cast<int>(e.loss)];
   const bool open = std::any_of(c.losses.begin(), c.losses.end(),
                                 [](const LossEntry& e) { return e.loss == Loss::undecided; });
-  if (options.check)
+  if (options.check || run.together)
     run.check.add(name,
                   code != exit_clean ? ConversionCheck::Outcome::refused
                   : open             ? ConversionCheck::Outcome::undecided
@@ -395,10 +399,9 @@ int convert_one(Run& run, const std::string& path, const SchemaSet& schemas) {
   if (input)
     return convert(run, path, std::move(input->first), std::move(input->second), losses, schemas);
   run.refused = true;
-  if (options.check)
+  if (options.check || run.together)
     run.check.add(path, ConversionCheck::Outcome::unreadable, {}, {}, input.error().message);
-  else
-    print_error(options.common, input.error().message);
+  if (!options.check) print_error(options.common, input.error().message);
   const bool wrong = input.error().code == Error::Code::config && options.from == "rad";
   return wrong ? exit_usage : exit_input;
 }
@@ -435,6 +438,14 @@ int check(const Options& options) {
   return exit_clean;
 }
 
+/// What became of several decks: beside the files or the patch, which stand on standard output.
+void tell_of_all(const Run& run) {
+  print_messages(
+      run.check.text(run.options.common.color_on(2), terminal_width(2),
+                     run.refused ? ConversionCheck::Tense::can : ConversionCheck::Tense::was));
+  print_loss_counts(run.losses);
+}
+
 int run(Options& options) {
   if (const int bad = check(options); bad != exit_clean) return bad;
   const auto schemas = load_schemas(options.common);
@@ -457,6 +468,8 @@ int run(Options& options) {
     print_error(options.common, decks.error().message);
     return decks.error().code == Error::Code::config ? exit_usage : exit_input;
   }
+  work.together =
+      decks->size() > 1 && options.common.session->frame == nullptr && options.to == "rad";
   int worst = exit_clean;
   for (const std::string& path : *decks) {
     if (BatchFrame* frame = options.common.session->frame) frame->begin(path);
@@ -476,6 +489,8 @@ int run(Options& options) {
     worst = std::max<int>(worst, exit_findings);
   if (options.check && !options.common.quiet)
     print_lines(work.check.text(options.common.color_on(1), text_width()));
+  else if (work.together && !options.common.quiet)
+    tell_of_all(work);
   if (!options.report.empty())
     if (auto done = options.common.session->write_output(options.report, losses_json(work.losses));
         !done)

@@ -60,9 +60,16 @@ void ConversionCheck::add_cause(const std::string& deck, const char* kind, const
     field += (field.empty() ? "" : " ") + conversion_check::without_value(e.field);
   Cause& cause = causes_[{kind, field, conversion_check::without_numbers(e.note)}];
   cause.decks.insert(deck);
+  const std::string place = e.file.empty() ? deck : fmt::format("{}:{}", e.file, e.line);
+  if (std::string_view(kind) == "undecided" || std::string_view(kind) == "refused") {
+    std::string what = e.keyword + (e.id == 0 ? "" : "/" + std::to_string(e.id));
+    if (!e.field.empty()) what += (what.empty() ? "" : " ") + e.field;
+    if (!e.note.empty()) what += (what.empty() ? "" : ": ") + e.note;
+    open_repeats_ |= open_.emplace(place, what).second && cause.times > 0;
+  }
   if (cause.times++ > 0) return;
   cause.text = field + (field.empty() || e.note.empty() ? "" : ": ") + e.note;
-  cause.place = e.file.empty() ? deck : fmt::format("{}:{}", e.file, e.line);
+  cause.place = place;
 }
 
 void ConversionCheck::add(const std::string& deck, Outcome outcome,
@@ -79,7 +86,22 @@ void ConversionCheck::add(const std::string& deck, Outcome outcome,
   add_cause(deck, outcome == Outcome::unreadable ? "unreadable" : "refused", entry);
 }
 
-std::string ConversionCheck::text(bool color, std::size_t width) const {
+/// Every place by itself where the table of causes names the first of several only.
+std::string ConversionCheck::open_text(bool color, std::size_t width) const {
+  if (!open_repeats_) return {};
+  constexpr std::size_t most = 40;
+  TextTable table({{"left to a person, at"}, {"what"}});
+  for (const auto& [place, what] : open_) {
+    if (table.size() == most) break;
+    table.row({place, what});
+  }
+  std::string out = table.fitted(width, color);
+  if (open_.size() > most)
+    out += fmt::format("… and {} more (--report FILE lists all)\n", open_.size() - most);
+  return out + "\n";
+}
+
+std::string ConversionCheck::text(bool color, std::size_t width, Tense tense) const {
   std::vector<std::pair<std::string, const Cause*>> sorted;
   for (const auto& [key, cause] : causes_) sorted.emplace_back(std::get<0>(key), &cause);
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
@@ -98,11 +120,12 @@ std::string ConversionCheck::text(bool color, std::size_t width) const {
                cause->place});
   }
   std::string out = table.size() == 0 ? "" : table.fitted(width, color, 0, 3) + "\n";
+  out += open_text(color, width);
   std::size_t of[4] = {};
   for (const auto& [deck, outcome] : decks_) ++of[static_cast<std::size_t>(outcome)];
   const std::size_t not_written = of[2] + of[3];
-  out += fmt::format("{} of {} can be converted", of[0] + of[1],
-                     count(decks_.size(), "deck", "decks"));
+  out += fmt::format("{} of {} {} converted", of[0] + of[1], count(decks_.size(), "deck", "decks"),
+                     tense == Tense::can ? "can be" : "were");
   if (of[1] > 0) out += fmt::format(", {} with something to decide by hand", of[1]);
   if (of[2] > 0) out += fmt::format("; {} refused", of[2]);
   if (of[3] > 0) out += fmt::format("; {} cannot be read", of[3]);

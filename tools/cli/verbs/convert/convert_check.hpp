@@ -23,8 +23,10 @@ class ConversionCheck {
   /// One deck; `refusals` as Rewrite has them, `other` why else it is not written.
   void add(const std::string& deck, Outcome outcome, const std::vector<LossEntry>& losses,
            const std::vector<std::string>& refusals = {}, const std::string& other = {});
-  /// Both tables and the verdict; lines of tables have at most `width` columns (0: any).
-  std::string text(bool color, std::size_t width) const;
+  enum class Tense : std::uint8_t { can, was };
+  /// What would be lost by its causes, what is left to a person by its places, and the verdict;
+  /// lines of tables have at most `width` columns (0: any).
+  std::string text(bool color, std::size_t width, Tense tense = Tense::can) const;
 
  private:
   struct Cause {
@@ -32,11 +34,14 @@ class ConversionCheck {
     std::size_t times = 0;
     std::string text, place;  ///< of the first one
   };
+  std::string open_text(bool color, std::size_t width) const;
   void add_cause(const std::string& deck, const char* kind, const LossEntry& entry);
 
   std::map<std::string, Outcome> decks_;
   /// By kind, field and reason; numbers in the reason do not make another cause.
   std::map<std::tuple<std::string, std::string, std::string>, Cause> causes_;
+  std::set<std::pair<std::string, std::string>> open_;  ///< what nobody but a person can decide
+  bool open_repeats_ = false;                           ///< one cause in several places
 };
 
 }  // namespace deck::cli

@@ -60,13 +60,10 @@ LossEntry refused_entry(const std::string& refusal) {
 
 void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& common) {
   if (common.quiet || losses.empty()) return;
-  std::size_t count[4] = {};
   std::map<std::string, std::size_t> alike;  // without effect, by keyword, field and reason
   const auto kind = [](const LossEntry& e) { return e.keyword + " " + e.field + ": " + e.note; };
-  for (const LossEntry& e : losses) {
-    ++count[static_cast<std::size_t>(e.loss)];
+  for (const LossEntry& e : losses)
     if (e.without_effect) ++alike[kind(e)];
-  }
   constexpr std::size_t most = 40;
   std::size_t shown = 0, hidden = 0;
   for (const LossEntry& e : losses) {
@@ -81,6 +78,13 @@ void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& com
                    (others == 0 ? "\n" : fmt::format(" (and {} more of these)\n", others)));
   }
   if (hidden > 0) print_messages(fmt::format("... and {} more; --report FILE lists all\n", hidden));
+  print_loss_counts(losses);
+}
+
+void print_loss_counts(const std::vector<LossEntry>& losses) {
+  if (losses.empty()) return;
+  std::size_t count[4] = {};
+  for (const LossEntry& e : losses) ++count[static_cast<std::size_t>(e.loss)];
   print_messages(fmt::format("deck: kept {}, approximated {}, dropped {}, undecided {}\n", count[0],
                              count[1], count[2], count[3]));
 }

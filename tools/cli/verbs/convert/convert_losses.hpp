@@ -14,5 +14,7 @@ LossEntry refused_entry(const std::string& refusal);
 /// Counts for people; what was lost or waits for a decision line by line. Values without effect of
 /// one field are one line.
 void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& common);
+/// The counts alone.
+void print_loss_counts(const std::vector<LossEntry>& losses);
 
 }  // namespace deck::cli
