@@ -219,9 +219,10 @@ std::string fix_verdict(const PenetrationFix& fix) {
   if (!fix.moved.empty()) {
     double far = 0;
     for (const MovedNode& m : fix.moved) far = std::max(far, m.distance);
-    text += fmt::format(
-        "; {} moved by up to {:.4g} in {}", count(fix.moved.size(), "node", "nodes"), far,
-        count(static_cast<std::uint64_t>(fix.iterations), "iteration", "iterations"));
+    text +=
+        fmt::format("; {} moved by up to {:.4g}", count(fix.moved.size(), "node", "nodes"), far);
+    if (fix.iterations > 0)
+      text += " in " + count(static_cast<std::uint64_t>(fix.iterations), "iteration", "iterations");
   }
   return text;
 }
