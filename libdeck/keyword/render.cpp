@@ -54,9 +54,14 @@ std::string render_card(const Schema& schema, std::string_view header, int versi
   for (const CardSchema& card : schema.cards) {
     if (!card.in_version(version)) continue;
     if (!std::all_of(card.when.begin(), card.when.end(), holds)) continue;
+    const std::vector<const Field*> fields = in_columns(card, version);
+    const auto is_read = [&](const Field* f) {
+      return std::all_of(f->when.begin(), f->when.end(), holds);
+    };
+    if (!fields.empty() && std::none_of(fields.begin(), fields.end(), is_read)) continue;
     std::string head = card.blank() ? "" : "#", line;
     bool any = false;
-    for (const Field* f : in_columns(card, version)) {
+    for (const Field* f : fields) {
       const auto width = static_cast<std::size_t>(f->last - f->first + 1);
       if (width > 3 && static_cast<std::size_t>(f->last) > head.size() + 1) {
         const std::string name = f->name.substr(0, std::max<std::size_t>(width - 1, 3));

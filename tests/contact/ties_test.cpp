@@ -7,6 +7,7 @@
 
 #include "contact/small_deck.hpp"
 #include "contact/tied/parts.hpp"
+#include "contact/tied_sheet.hpp"
 #include "deck/contact/tie_text.hpp"
 
 namespace deck::test {
@@ -22,21 +23,6 @@ SceneOptions with_ties(int threads = 1) {
   return options;
 }
 
-struct Card {
-  int id = 1, grnd = 9, surf = 1, ignore = 1, spotflag = 5;
-  double dsearch = 0;
-  int isearch = 0;
-};
-
-/// The card; Spotflag 25 to 28 have a line more.
-std::string tie_card(const Card& c) {
-  std::string out =
-      fmt::sprintf("/INTER/TYPE2/%d\ntie\n%10d%10d%10d%10d%10d%10d%10d%10s%20.13g", c.id, c.grnd,
-                   c.surf, c.ignore, c.spotflag, 0, c.isearch, 0, "", c.dsearch);
-  if (c.spotflag >= 25 && c.spotflag <= 28) out += "\n                 1.0                0.05";
-  return out;
-}
-
 const Tie& tie_of(const Built& built, std::int64_t id = 1) {
   for (const Tie& t : built.scene.ties)
     if (t.inter->id == id) return t;
@@ -47,28 +33,6 @@ const TiedNode& node_of(const Built& built, std::int64_t node, std::int64_t id =
   for (const TiedNode& n : tie_of(built, id).nodes)
     if (built.model.node_id(n.node) == node) return n;
   throw std::runtime_error("no such node");
-}
-
-/// A sheet of 3 x 3 quads of 10 x 10 at z = 0 (nodes 1 to 16, surface 1), and single nodes from 101
-/// on in group 9.
-SmallDeck sheet(const std::vector<std::array<double, 3>>& nodes) {
-  SmallDeck d;
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i) d.node(1 + i + 4 * j, 10.0 * i, 10.0 * j, 0);
-  std::vector<int> group;
-  for (const auto& p : nodes) {
-    group.push_back(101 + static_cast<int>(group.size()));
-    d.node(group.back(), p[0], p[1], p[2]);
-  }
-  d.shell_part(1, 2);
-  for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) {
-      const int n = 1 + i + 4 * j;
-      d.shell(1, 1 + i + 3 * j, n, n + 1, n + 5, n + 4);
-    }
-  d.group("/SURF/PART/1", {1});
-  d.group("/GRNOD/NODE/9", group);
-  return d;
 }
 
 // ---- the search ---------------------------------------------------------------------------------

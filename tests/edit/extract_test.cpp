@@ -328,12 +328,46 @@ TEST(Extract, EarlierInterfaceThatMovesNodesIsNamed) {
   const auto w = Whole::text(plates()
                                  .add("@/INTER/TYPE7/1 Igap=1 Inacti=3")
                                  .add("@/INTER/TYPE7/2 Igap=1 Inacti=5 Irem_i2=1")
+                                 .add("@/INTER/TYPE2/3 Ignore=1 dsearch=3")
                                  .text());
   const Rewrite r = extract(*w, {2});
   std::size_t questions = 0;
   for (const LossEntry& e : r.losses)
     questions += e.field == "Inacti" || e.field == "Irem_i2" ? 1 : 0;
   EXPECT_EQ(questions, 2u);
+}
+
+TEST(Extract, ATieComesWithWhatItTiesAndAContactWithItsTies) {
+  for (const char* type : {"24", "25"}) {
+    SCOPED_TRACE(type);
+    const auto w = Whole::text(
+        plates()
+            .add(std::string("@/INTER/TYPE") + type + "/2 surf_ID2=1 grnd_IDs=2 Inacti=5")
+            .add("@/INTER/TYPE2/3 Ignore=2 dsearch=0 grnd_IDs=2 surf_IDm=1")
+            .add("@/INTER/TYPE2/4 Ignore=1 dsearch=30 grnd_IDs=2 surf_IDm=1")
+            .text());
+    const auto irem = [](const Rewrite& r) {
+      return std::count_if(r.losses.begin(), r.losses.end(),
+                           [](const LossEntry& e) { return e.field == "Irem_i2"; });
+    };
+    EXPECT_EQ(irem(extract(*w, {2, 3})), 1);
+    const Rewrite all = extract(*w, {2, 3, 4});
+    EXPECT_EQ(irem(all), 0) << "its ties are all there";
+    EXPECT_TRUE(all.refusals.empty());
+    const Rewrite r = extract(*w, {3});
+    ASSERT_TRUE(r.new_text.has_value());
+    for (const LossEntry& e : r.losses) EXPECT_NE(e.loss, Loss::approximated) << e.field;
+    const auto small = Whole::text(*r.new_text);
+    const std::vector<Tie>&a = w->loaded.ties(), &b = small->loaded.ties();
+    ASSERT_EQ(b.size(), 1u);
+    ASSERT_EQ(a[0].nodes.size(), b[0].nodes.size());
+    EXPECT_FALSE(a[0].nodes.empty());
+    for (std::size_t i = 0; i < a[0].nodes.size(); ++i) {
+      EXPECT_EQ(a[0].nodes[i].tied, b[0].nodes[i].tied);
+      EXPECT_EQ(a[0].nodes[i].search, b[0].nodes[i].search);
+      EXPECT_EQ(a[0].nodes[i].distance, b[0].nodes[i].distance);
+    }
+  }
 }
 
 TEST(Extract, UnknownIdsAreRefusedWithWhatThereIs) {

@@ -77,16 +77,15 @@ inline std::string as_text(const std::string& v) { return v; }
 /// "/INTER/TYPE7/3 Istf" -> effective value, with the origin where it is asked for.
 inline std::map<std::string, std::string> effective_values(const Opened& o, bool origins = false) {
   std::map<std::string, std::string> out;
-  for (const InterBase* i : o.interfaces.ordered)
-    visit_interface(*i, [&](const auto& t) {
-      const std::string head =
-          "/INTER/TYPE" + std::to_string(i->type) + "/" + std::to_string(i->id) + " ";
-      out[head] = i->title;
-      t.for_each([&](std::string_view name, const auto& e) {
-        out[head + std::string(name)] =
-            as_text(e.value) + (origins ? std::string(" ") + to_string(e.origin) : "");
-      });
+  for (const InterBase* i : o.interfaces.all) {
+    const std::string head =
+        "/INTER/TYPE" + std::to_string(i->type) + "/" + std::to_string(i->id) + " ";
+    out[head] = i->title;
+    for_each_field(*i, [&](std::string_view name, const auto& e) {
+      out[head + std::string(name)] =
+          as_text(e.value) + (origins ? std::string(" ") + to_string(e.origin) : "");
     });
+  }
   return out;
 }
 

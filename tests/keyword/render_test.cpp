@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace deck::test {
 namespace {
 
@@ -19,6 +21,17 @@ TEST(RenderCard, FieldsStandInTheirColumnsInWhateverOrderTheSchemaNamesThem) {
             "/OWN/1\nexample\n"
             "#    first       mid      last\n"
             "         1         2         3\n");
+}
+
+TEST(RenderCard, ALineWhoseCellsAreNotReadIsNoLine) {
+  const Schema* schema = SchemaSet::built_in().find("/INTER/TYPE2");
+  ASSERT_NE(schema, nullptr);
+  const auto lines = [&](const char* spotflag) {
+    const std::string text =
+        render_card(*schema, "/INTER/TYPE2/1", 2022, {{"Spotflag", spotflag}, {"Ithe", "1"}});
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_EQ(lines("27"), lines("5") + 2) << "Stfac and its comment";
 }
 
 }  // namespace

@@ -201,22 +201,49 @@ TEST_F(FixCommand, ATieIsTreatedOnlyWhereThatIsAskedFor) {
   EXPECT_LT(ties_.size(), tied.size());
 }
 
-TEST_F(FixCommand, PenetrationsOfTypesThatNoStrategyTreatsAreCountedAndNoSuccess) {
+TEST_F(FixCommand, TYPE25IsTreatedAndItsForcesAreNoReasonToFail) {
   std::string text = too_close_;
   const auto at = text.find("/INTER/TYPE7/1");
   text.replace(at, text.find("/END") - at,
-               "/INTER/TYPE25/1\nleft alone\n                   1\n         2\n\n\n\n");
+               "/INTER/TYPE25/1\nmodern\n                   1\n         2\n\n\n\n");
   write(dir_ / "modern_0000.rad", text);
-  for (const char* strategy : {"", " --strategy reduce-gap"}) {
-    EXPECT_EQ(deck(std::string("fix modern_0000.rad") + strategy), 1) << out() << err();
-    EXPECT_NE(out().find("1 interface of TYPE24 and TYPE25 with 9 initial penetrations."),
-              std::string::npos)
-        << out();
-  }
+  EXPECT_EQ(deck("fix modern_0000.rad"), 1) << out() << err();
+  EXPECT_NE(out().find("9 penetrations"), std::string::npos) << out();
+  EXPECT_EQ(deck("fix modern_0000.rad --strategy reduce-gap -o fixed"), 0) << out() << err();
+  EXPECT_NE(out().find("Gap_scale"), std::string::npos) << out();
+  EXPECT_TRUE(is_clean("fixed/modern_0000.rad"));
   // Its forces are not computed: that is said, and no reason to fail.
   EXPECT_EQ(deck("gaps modern_0000.rad"), 0) << err();
   EXPECT_EQ(deck("cycle modern_0000.rad"), 0) << err();
   EXPECT_NE(out().find("forces of TYPE25 are not computed"), std::string::npos) << out();
+}
+
+TEST_F(FixCommand, TieWritesDsearchAndNamesWhatItLeaves) {
+  copy_sample("welds");
+  EXPECT_EQ(deck("fix welds_0000.rad --strategy tie --json fix.json -o fixed"), 1) << err();
+  const auto report = nlohmann::json::parse(read(dir_ / "fix.json"));
+  std::map<int, std::string> changed;
+  std::set<int> now_tied;
+  for (const auto& tie : report["ties"]) {
+    for (const auto& c : tie["changes"])
+      changed[tie["id"].get<int>()] = c["new_text"].get<std::string>();
+    for (const auto& n : tie["nodes"]) now_tied.insert(n["node"].get<int>());
+  }
+  EXPECT_EQ(changed, (std::map<int, std::string>{{2, "3.3"}, {3, "2.6"}, {9, "6.1"}}));
+  EXPECT_EQ(now_tied, (std::set<int>{203, 208, 302, 304, 504}));
+  std::set<int> left;
+  for (const auto& r : report["not_treated"])
+    for (const auto& n : r["nodes"]) left.insert(n.get<int>());
+  EXPECT_EQ(left, (std::set<int>{205, 210, 501}));
+  EXPECT_EQ(deck("gaps fixed/welds_0000.rad --json gaps.json"), 0) << out();
+  for (const auto& tie : nlohmann::json::parse(read(dir_ / "gaps.json"))["ties"])
+    for (const auto& n : tie["nodes"])
+      if (!n["tied"].get<bool>()) {
+        EXPECT_FALSE(now_tied.contains(n["node"].get<int>()));
+      }
+  EXPECT_EQ(deck("fix welds_0000.rad --strategy tie --reach 0"), 2);
+  EXPECT_EQ(deck("fix welds_0000.rad"), 1);
+  EXPECT_NE(out().find("--strategy tie -o fixed"), std::string::npos) << out();
 }
 
 TEST_F(FixCommand, NothingExaminedIsNoSuccess) {

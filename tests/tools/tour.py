@@ -102,6 +102,7 @@ TOUR = {
         "fix samples/too_close_0000.rad --strategy move-nodes",
         "fix samples/too_close_0000.rad --strategy reduce-gap",
         "fix samples/crash_box_0000.rad --strategy inacti",
+        "fix samples/welds_0000.rad --strategy tie",
     ],
 }
 # What the Starter prints of the sample too_close, as far as it is read.

@@ -1,4 +1,5 @@
 // What the card of a TYPE24 or TYPE25 asks for, with what is tried out in place of it.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -52,7 +53,13 @@ Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if)
   for (const WhatIf& w : what_if) {
     if (w.interface_id != inter.id) continue;
     if (w.Inacti) s.inacti = *w.Inacti == 1000 ? 0 : *w.Inacti;
+    // The caps of both sides, where they are larger, and Gap_scale.
+    if (w.Gapmax) {
+      s.cap_s = std::min(s.cap_s, *w.Gapmax);
+      s.cap_m = std::min(s.cap_m, *w.Gapmax);
+    }
     if (inter.type == 24) continue;
+    if (w.Fscalegap) s.scale = *w.Fscalegap;
     if (w.mesh_size) s.mesh_fraction = mesh_fraction_of(*w.mesh_size);
     if (!w.Igap) continue;
     s.igap = *w.Igap == 2 || *w.Igap == 3 || *w.Igap == 5 ? *w.Igap : 1;

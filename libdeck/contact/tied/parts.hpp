@@ -100,6 +100,9 @@ void search_ties_by_nearest_node(const Model& model, const Coordinates& x, Tie& 
 void settle_ties(SceneContext& context, std::vector<Tie>& ties);
 
 // ties.cpp
+/// Root of the mean square of all sides, as far as the solver looks by itself; a triangle has a
+/// fourth side of length 0.
+double mean_side(const Coordinates& x, const std::vector<Corners>& segments);
 /// The ties of all /INTER/TYPE2, in deck order, with the nodes where they are; found once.
 const std::vector<Tie>& ties_of(SceneContext& context);
 /// Those of the interfaces that SceneOptions::only names. The others have their effect on them.

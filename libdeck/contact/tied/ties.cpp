@@ -24,18 +24,6 @@ std::vector<Corners> segments_of(SceneContext& c, std::int64_t surface) {
   return out;
 }
 
-/// Root of the mean square of all edges; a triangle has a fourth one of length 0.
-double mean_edge(const Coordinates& x, const std::vector<Corners>& segments) {
-  double sum = 0;
-  const auto square = [&](NodeIndex a, NodeIndex b) {
-    const Vec d = at(x, b) - at(x, a);
-    return dot(d, d);
-  };
-  for (const Corners& c : segments)
-    sum += square(c[0], c[1]) + square(c[0], c[3]) + square(c[1], c[2]) + square(c[2], c[3]);
-  return segments.empty() ? 0 : std::sqrt(sum / (4.0 * static_cast<double>(segments.size())));
-}
-
 void set_sides(SceneContext& c, Tie& tie) {
   const InterType2& i = *tie.inter;
   // A surface that is not there leaves the group of nodes in force (1725).
@@ -91,7 +79,7 @@ Tie find_tie(SceneContext& c, TieThickness& thickness, const InterType2& inter) 
   } else {
     const double d = inter.dsearch.value;
     const bool of_pairs = tie.ignore >= 4 || (tie.ignore >= 2 && d == 0);
-    if (!of_pairs) tie.search_distance = d != 0 ? d : mean_edge(c.scene.coordinates, tie.main);
+    if (!of_pairs) tie.search_distance = d != 0 ? d : mean_side(c.scene.coordinates, tie.main);
     search_ties(c, thickness, tie);
   }
   for (TiedNode& n : tie.nodes) n.penalty = n.tied && (tie.spotflag == 25 || tie.spotflag == 26);
@@ -99,6 +87,17 @@ Tie find_tie(SceneContext& c, TieThickness& thickness, const InterType2& inter) 
 }
 
 }  // namespace
+
+double mean_side(const Coordinates& x, const std::vector<Corners>& segments) {
+  double sum = 0;
+  const auto square = [&](NodeIndex a, NodeIndex b) {
+    const Vec d = at(x, b) - at(x, a);
+    return dot(d, d);
+  };
+  for (const Corners& c : segments)
+    sum += square(c[0], c[1]) + square(c[0], c[3]) + square(c[1], c[2]) + square(c[2], c[3]);
+  return segments.empty() ? 0 : std::sqrt(sum / (4.0 * static_cast<double>(segments.size())));
+}
 
 const std::vector<Tie>& ties_of(SceneContext& c) {
   if (c.ties) return *c.ties;

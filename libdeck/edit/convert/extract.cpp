@@ -105,7 +105,7 @@ Extraction::Extraction(const LoadedDeck& c, std::span<const std::int64_t> interf
     definitions_.emplace(std::pair{b.schema->kind, b.id.value + deck_.offset_of(b, b.schema->kind)},
                          i);
   }
-  for (const InterBase* inter : c.interfaces().ordered)
+  for (const InterBase* inter : c.interfaces().all)
     if (std::find(interfaces.begin(), interfaces.end(), inter->id) != interfaces.end())
       keep_block(static_cast<std::size_t>(inter->block - deck_.blocks.data()), touching);
 }

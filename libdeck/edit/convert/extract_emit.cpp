@@ -107,13 +107,11 @@ std::string text_of(const std::string& v) { return v; }
 /// Names and effective values of an interface.
 std::vector<std::pair<std::string, std::string>> values_of(const Interfaces& all, std::int64_t id) {
   std::vector<std::pair<std::string, std::string>> out;
-  all.each_list([&](const auto& list) {
-    for (const auto& inter : list)
-      if (inter.id == id)
-        inter.for_each([&](std::string_view name, const auto& field) {
-          out.emplace_back(name, text_of(field.value));
-        });
-  });
+  for (const InterBase* inter : all.all)
+    if (inter->id == id)
+      for_each_field(*inter, [&](std::string_view name, const auto& field) {
+        out.emplace_back(name, text_of(field.value));
+      });
   return out;
 }
 
@@ -147,6 +145,24 @@ std::map<std::string, std::vector<double>> numbers_of(const Model& model, const 
   return out;
 }
 
+/// What becomes of the nodes of a tie.
+std::map<std::string, std::vector<double>> numbers_of(const Model& model, const Tie& tie) {
+  std::map<std::string, std::vector<double>> out;
+  for (const auto& segment : tie.main)
+    for (const NodeIndex n : segment)
+      out["main segments"].push_back(static_cast<double>(model.node_id(n)));
+  for (const TiedNode& n : tie.nodes) {
+    const double segment = n.segment == no_index ? -1 : static_cast<double>(n.segment);
+    for (const double v :
+         {static_cast<double>(model.node_id(n.node)), segment, n.s, n.t, n.distance, n.search,
+          static_cast<double>(n.message), static_cast<double>(n.tied)})
+      out["tied nodes"].push_back(v);
+    out["ties by penalty (other conditions on the nodes are not carried)"].push_back(
+        static_cast<double>(n.penalty));
+  }
+  return out;
+}
+
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
@@ -156,7 +172,7 @@ void compare(const LoadedDeck& whole, const LoadedDeck& small, const std::vector
              Rewrite& out) {
   const auto differs = [&](std::int64_t id, std::string field, std::string before,
                            std::string after) {
-    for (const InterBase* inter : whole.interfaces().ordered) {
+    for (const InterBase* inter : whole.interfaces().all) {
       if (inter->id != id) continue;
       LossEntry entry = loss_entry(whole.deck(), Loss::approximated, *inter->block, inter->span);
       entry.field = std::move(field);
@@ -176,9 +192,17 @@ void compare(const LoadedDeck& whole, const LoadedDeck& small, const std::vector
   SceneOptions options = whole.scene_options();
   options.only = ids;
   options.penetrations = options.candidates = false;
+  options.ties = true;
   Diagnostics ignored;
   const Scene before = whole.scene_with(options, ignored);
   const Scene after = small.scene_with(options, ignored);
+  for (std::size_t i = 0; i < before.ties.size() && i < after.ties.size(); ++i) {
+    const auto a = numbers_of(whole.model(), before.ties[i]),
+               b = numbers_of(small.model(), after.ties[i]);
+    for (const auto& [what, numbers] : a)
+      if (const auto it = b.find(what); it == b.end() || !same(numbers, it->second))
+        differs(before.ties[i].inter->id, what, "", "");
+  }
   for (std::size_t i = 0; i < before.contacts.size(); ++i) {
     const Contact& x = before.contacts[i];
     if (i >= after.contacts.size() || after.contacts[i].inter->id != x.inter->id) {
@@ -192,6 +216,14 @@ void compare(const LoadedDeck& whole, const LoadedDeck& small, const std::vector
         differs(x.inter->id, what + " (" + to_string(x.role) + ")", "", "");
     }
   }
+}
+
+/// True if a tie of the deck is not among the interfaces.
+bool loses_ties(const LoadedDeck& c, const std::vector<std::int64_t>& ids) {
+  const auto& ties = c.interfaces().type2;
+  return std::any_of(ties.begin(), ties.end(), [&](const InterType2& tie) {
+    return std::find(ids.begin(), ids.end(), tie.id) == ids.end();
+  });
 }
 
 /// What the small deck cannot show.
@@ -219,17 +251,19 @@ void remarks(const LoadedDeck& c, const std::vector<std::int64_t>& ids, Rewrite&
     check(c.interfaces().type19);
     const auto tied = [&](const auto& list) {
       for (const auto& i : list)
-        if (&i == inter && wanted && i.Irem_i2.value == 1) {
+        if (&i == inter && wanted && i.Irem_i2.value == 1 && loses_ties(c, ids)) {
           LossEntry entry = loss_entry(c.deck(), Loss::dropped, *inter->block, inter->span);
           entry.field = "Irem_i2";
           entry.note =
               "nodes tied by /INTER/TYPE2 are removed from this interface in the whole "
-              "deck; tied interfaces are not carried";
+              "deck; extract these ties too where that matters";
           out.losses.push_back(std::move(entry));
         }
     };
     tied(c.interfaces().type7);
     tied(c.interfaces().type19);
+    tied(c.interfaces().type24);
+    tied(c.interfaces().type25);
   }
 }
 
@@ -290,14 +324,15 @@ Rewrite extract_contacts(const LoadedDeck& context, std::span<const std::int64_t
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   out.refusals = detail::unread_files(context.deck());
   for (const std::int64_t id : ids) {
-    const auto& all = context.interfaces().ordered;
+    const auto& all = context.interfaces().all;
     if (std::any_of(all.begin(), all.end(), [&](const InterBase* i) { return i->id == id; }))
       continue;
     std::string have;
     for (std::size_t i = 0; i < all.size() && i < 20; ++i)
       have += (i == 0 ? "" : ", ") + std::to_string(all[i]->id);
-    out.refusals.push_back(context.deck().sources[0].path() + ":1:1: no contact interface " +
-                           std::to_string(id) + " of type 7, 10, 11 or 19; the deck has " +
+    out.refusals.push_back(context.deck().sources[0].path() + ":1:1: no interface " +
+                           std::to_string(id) +
+                           " of type 2, 7, 10, 11, 19, 24 or 25; the deck has " +
                            (have.empty() ? "none" : have + (all.size() > 20 ? ", ..." : "")));
     out.misasked = true;
   }

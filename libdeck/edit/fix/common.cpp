@@ -7,6 +7,7 @@
 
 #include "base/real_text.hpp"
 #include "deck/contact/view.hpp"
+#include "edit/fix/type_rules.hpp"
 
 namespace deck::detail {
 
@@ -32,11 +33,13 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& 
                 std::vector<std::int64_t> only) {
   SceneOptions scene;
   scene.threads = options.threads;
+  scene.ties = only.empty();  // what a fix must leave as it is
   scene.candidates = false;
   scene.limits = limits;
   scene.only = std::move(only);
   if (!as_written) {
     for (const InterBase* inter : interfaces.ordered) {
+      if (is_modern(inter->type)) continue;  // they move no node, and Inacti is part of the search
       WhatIf still;
       still.interface_id = inter->id;
       still.Inacti = 0;
@@ -50,7 +53,7 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& 
 
 std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options) {
   for (const Contact& contact : scene.contacts)
-    if (!contact.evaluated && is_wanted(options, contact))
+    if (!contact.evaluated && is_wanted(options, contact) && !is_modern(contact.type))
       return Error{
           Error::Code::limit,
           "the penetrations of interface " + std::to_string(contact.inter->id) +
@@ -59,25 +62,47 @@ std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options) 
   return std::nullopt;
 }
 
-bool is_wanted(const FixOptions& options, const Contact& contact) {
+void note_unevaluated(PenetrationFix& fix, const Scene& scene, const FixOptions& options) {
+  for (const Contact& contact : scene.contacts) {
+    const std::int64_t id = contact.inter->id;
+    if (contact.evaluated || !is_modern(contact.type) || !asks_for(options, id)) continue;
+    fix.refused.push_back(
+        {id,
+         {},
+         0,
+         contact.kind == ContactKind::edge_edge
+             ? "a part of what its edges touch is not evaluated ('deck gaps' says which)"
+             : "its penetrations are not evaluated ('deck gaps' says why)",
+         0});
+    fix.complete = false;
+  }
+}
+
+bool asks_for(const FixOptions& options, std::int64_t interface_id) {
   const auto& list = options.interfaces;
+  return list.empty() || std::find(list.begin(), list.end(), interface_id) != list.end();
+}
+
+bool is_wanted(const FixOptions& options, const Contact& contact) {
   if (contact.ties() && !options.ties) return false;
-  if (is_modern(contact.type)) return false;  // no strategy knows their gaps and sides
-  return list.empty() || std::find(list.begin(), list.end(), contact.inter->id) != list.end();
+  return asks_for(options, contact.inter->id);
 }
 
 bool is_untreated(const Contact& contact, const PenetrationRow& row) {
-  return row.action == PenetrationAction::none ||
+  return row.action == PenetrationAction::none || row.action == PenetrationAction::ignored ||
          (row.on_surface && on_surface_error(contact) != 0);
 }
 
 std::map<std::int64_t, FixCount> count_interfaces(const Scene& scene, const FixOptions& options) {
   std::map<std::int64_t, FixCount> out;
   for (const Contact& contact : scene.contacts) {
-    if (contact.penetrations.empty() || !is_wanted(options, contact)) continue;
+    if (!is_wanted(options, contact) ||
+        std::none_of(contact.penetrations.begin(), contact.penetrations.end(), is_penetration))
+      continue;
     FixCount& count = out[contact.inter->id];
     std::set<std::uint32_t> nodes;
     for (const PenetrationRow& row : contact.penetrations) {
+      if (!is_penetration(row)) continue;
       ++count.pairs;
       nodes.insert(row.secondary);
       count.untreated += is_untreated(contact, row);

@@ -23,8 +23,14 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& 
                 const FixOptions& options, bool as_written, std::vector<WhatIf> what_if = {},
                 std::vector<std::int64_t> only = {});
 
-/// Why nothing can be said about a wanted interface; nothing: all were evaluated.
+/// Why nothing can be said about a wanted interface; nothing: all were evaluated. TYPE24 and TYPE25
+/// are told by note_unevaluated: what is known of them is treated.
 std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options);
+/// Adds the wanted TYPE24 and TYPE25 that were not evaluated in full to what is not treated.
+void note_unevaluated(PenetrationFix& fix, const Scene& scene, const FixOptions& options);
+
+/// True if the options ask for an interface.
+bool asks_for(const FixOptions& options, std::int64_t interface_id);
 
 /// True if the options ask for the interface of a contact; for a tie only with FixOptions::ties.
 bool is_wanted(const FixOptions& options, const Contact& contact);

@@ -15,6 +15,7 @@
 #include "edit/fix/depenetrate_rows.hpp"
 #include "edit/fix/harm.hpp"
 #include "edit/fix/movable.hpp"
+#include "edit/fix/type_rules.hpp"
 
 namespace deck {
 namespace {
@@ -76,7 +77,8 @@ class Depenetrator : MovableDeck {
       if (!is_wanted(options_, scene.contacts[c])) continue;
       const std::vector<bool> inside = inside_solids(scene, c);  // all false for edges
       for (const PenetrationRow& row : scene.contacts[c].penetrations)
-        begin_pair(scene, {c, row.secondary, row.main}, row, inside[row.secondary]);
+        if (is_penetration(row))
+          begin_pair(scene, {c, row.secondary, row.main}, row, inside[row.secondary]);
     }
     for (NodeIndex n = 0; n < holds_.size(); ++n)
       if (!bounds_.contains(n)) hold(n, Hold::bystander);
@@ -123,7 +125,7 @@ class Depenetrator : MovableDeck {
       std::size_t left = 0;
       for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
         for (const PenetrationRow& row : scene.contacts[c].penetrations)
-          if (is_task(scene, {c, row.secondary, row.main})) {
+          if (is_task(scene, {c, row.secondary, row.main}) && is_penetration(row)) {
             active_.insert({c, row.secondary, row.main});
             total += row.depth / row.gap;
             ++left;
@@ -149,7 +151,7 @@ class Depenetrator : MovableDeck {
     std::size_t left = 0;
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
       for (const PenetrationRow& row : scene.contacts[c].penetrations)
-        left += is_task(scene, {c, row.secondary, row.main});
+        left += is_task(scene, {c, row.secondary, row.main}) && is_penetration(row);
     return left;
   }
 
@@ -495,6 +497,7 @@ class Depenetrator : MovableDeck {
       set_interfaces(fix_, context_.interfaces(), options_, before, after);
       list_moved();
       list_refused(after);
+      note_unevaluated(fix_, after, options_);
       fix_.complete = fix_.refused.empty();
       return std::move(fix_);
     }
@@ -522,6 +525,7 @@ class Depenetrator : MovableDeck {
       if (!is_wanted(options_, contact)) continue;
       std::map<std::uint32_t, const PenetrationRow*> deepest;
       for (const PenetrationRow& row : contact.penetrations) {
+        if (!is_penetration(row)) continue;
         const PenetrationRow*& best = deepest[row.secondary];
         if (best == nullptr || row.depth > best->depth) best = &row;
       }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "deck/contact/closest.hpp"
+#include "edit/fix/type_rules.hpp"
 
 namespace deck::detail {
 namespace {
@@ -170,6 +171,11 @@ std::vector<bool> inside_solids(const Scene& scene, std::uint32_t contact) {
   std::vector<bool> inside(c.secondary.size(), false);
   std::vector<double> closest(c.secondary.size(), std::numeric_limits<double>::infinity());
   for (const PenetrationRow& row : c.penetrations) {
+    if (is_modern(c.type)) {
+      // One row a node, with the normal of the face: behind it no gap leaves the node free.
+      inside[row.secondary] = !(free_gap(c, row) > 0);
+      continue;
+    }
     if (row.on_surface || !(row.distance < closest[row.secondary])) continue;
     closest[row.secondary] = row.distance;
     const MainSegment& m = c.main[row.main];

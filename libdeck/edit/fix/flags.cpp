@@ -7,6 +7,7 @@
 #include "deck/contact/view.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
+#include "edit/fix/type_rules.hpp"
 
 namespace deck {
 namespace {
@@ -16,7 +17,7 @@ using namespace detail;
 constexpr double inflation = 1 + 1e-8;  // the solver compares the depth times this with Fpenmax
 
 void refuse(PenetrationFix& fix, const InterBase& inter, std::string reason) {
-  fix.refused.push_back({inter.id, {}, 0, std::move(reason)});
+  fix.refused.push_back({inter.id, {}, 0, std::move(reason), 0});
 }
 
 std::string count_of(std::uint64_t n, const char* what) {
@@ -30,7 +31,8 @@ std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
   for (const FixAction& a : fix.actions) {
     if (a.interface_id != interface_id) continue;
     stops += a.stops;
-    nothing += !a.stops && a.after == PenetrationAction::none;
+    nothing +=
+        !a.stops && (a.after == PenetrationAction::none || a.after == PenetrationAction::ignored);
   }
   std::string text;
   if (nothing > 0)
@@ -59,10 +61,12 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
   std::map<Key, PenetrationAction> earlier;
   for (const Contact& c : before.contacts)
     for (const PenetrationRow& r : c.penetrations)
-      if (is_wanted(options, c)) earlier[key(context.model(), c, r)] = r.action;
+      if (is_wanted(options, c) && is_penetration(r))
+        earlier[key(context.model(), c, r)] = r.action;
   for (const Contact& c : after.contacts) {
     if (!is_wanted(options, c)) continue;
     for (const PenetrationRow& r : c.penetrations) {
+      if (!is_penetration(r)) continue;
       FixAction action;
       action.interface_id = c.inter->id;
       action.secondary = secondary_ids(again->model(), c, r);
@@ -87,8 +91,9 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
     fix.complete = false;
     const bool said = std::any_of(fix.refused.begin(), fix.refused.end(),
                                   [&](const FixRefusal& r) { return r.interface_id == i.id; });
-    if (!said) fix.refused.push_back({i.id, {}, i.after.deepest, left_over(fix, i.id)});
+    if (!said) fix.refused.push_back({i.id, {}, i.after.deepest, left_over(fix, i.id), 0});
   }
+  note_unevaluated(fix, after, options);
   std::stable_sort(
       fix.refused.begin(), fix.refused.end(),
       [](const FixRefusal& a, const FixRefusal& b) { return a.interface_id < b.interface_id; });
@@ -128,38 +133,32 @@ int inacti_in_effect(const InterBase& inter) {
   });
 }
 
-/// Why the solver cannot use this value here; empty if it can.
-std::string why_not_inacti(const InterBase& inter, int value) {
-  if (inter.type == 10)
-    return value == 5 ? "TYPE10 with Inacti 5 stops the solver (error 1162)"
-                      : "TYPE10 runs with Inacti 0 whatever the card says; move the nodes or "
-                        "reduce the gap";
-  if (inter.type == 11 && value == 3)
-    return "TYPE11 does nothing for Inacti 3; use 5 or 6, or move the nodes";
-  return {};
-}
-
 }  // namespace
 
 Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions& options) {
-  const int value = options.inacti;
-  if (value != 0 && value != 1 && value != 2 && value != 3 && value != 5 && value != 6 &&
-      value != 1000)
-    return Error{Error::Code::config, "Inacti can be 0, 1, 2, 3, 5, 6 or 1000; not " +
-                                          std::to_string(value) +
-                                          (value == 4 ? " (executed, but not documented)" : "")};
+  constexpr int known[] = {-1, 0, 1, 2, 3, 5, 6, 1000};
+  if (options.inacti &&
+      std::find(std::begin(known), std::end(known), *options.inacti) == std::end(known))
+    return Error{Error::Code::config,
+                 "Inacti can be -1, 0, 1, 2, 3, 5, 6 or 1000; not " +
+                     std::to_string(*options.inacti) +
+                     (*options.inacti == 4 ? " (executed, but not documented)" : "")};
   PenetrationFix fix;
   fix.strategy = "inacti";
   const Scene before = fix_scene(context, options, true);
   if (auto why = unevaluated(before, options)) return *why;
   const auto counts = count_interfaces(before, options);
-  const int effective = value == 1000 ? 0 : value;
+  const auto effective_for = [&](const InterBase& inter) {
+    const int value = options.inacti.value_or(rules_of(inter.type).usual_inacti);
+    return value == 1000 ? 0 : value;
+  };
 
   std::vector<WhatIf> planned;
   std::vector<const InterBase*> chosen;
   for (const InterBase* inter : context.interfaces().ordered) {
     if (!counts.contains(inter->id)) continue;
-    if (const std::string why = why_not_inacti(*inter, effective); !why.empty()) {
+    const int effective = effective_for(*inter);
+    if (const std::string why = why_not_inacti(inter->type, effective); !why.empty()) {
       refuse(fix, *inter, why);
       continue;
     }
@@ -167,12 +166,13 @@ Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions
     chosen.push_back(inter);
     WhatIf w;
     w.interface_id = inter->id;
-    w.Inacti = value;
+    w.Inacti = effective;
     planned.push_back(w);
   }
   const auto stops = stops_with(context, options, planned);
   CellWriter edits(context.deck().sources);
   for (const InterBase* inter : chosen) {
+    const int effective = effective_for(*inter);
     if (const auto it = stops.find(inter->id); it != stops.end()) {
       refuse(fix, *inter,
              count_of(it->second, "pair") +
@@ -213,7 +213,7 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
   for (const Contact& contact : before.contacts) {
     if (contact.penetrations.empty() || !is_wanted(options, contact)) continue;
     const InterBase& inter = *contact.inter;
-    if (inter.type != 7) {
+    if (!rules_of(inter.type).fpenmax) {
       if (contact.role == ContactRole::primary || contact.kind == ContactKind::edge_edge)
         if (fix.refused.empty() || fix.refused.back().interface_id != inter.id)
           refuse(fix, inter,

@@ -4,6 +4,7 @@
 
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
+#include "edit/fix/type_rules.hpp"
 
 namespace deck {
 namespace {
@@ -19,7 +20,13 @@ struct Knob {
   std::string name;
   std::optional<FieldPlace> place;
   std::string missing;  ///< why there is no place
-  double present = 0;   ///< working units
+  /// TYPE24 and TYPE25: the cells that hold the value where what is in effect there is larger.
+  struct Side {
+    FieldPlace place;
+    double present = 0;
+  };
+  std::vector<Side> sides;
+  double present = 0;  ///< working units
   std::optional<RoundedText> text;
   double value = 0;  ///< working units, as the text reads
 
@@ -46,10 +53,11 @@ class GapReduction {
   GapReduction(const LoadedDeck& context, const ReduceGapOptions& options, const InterBase& inter)
       : context_(&context), options_(&options), inter_(&inter) {
     gapmin_ = knob(traits_of(inter).gap);
-    scale_ = knob("Fscalegap");
-    cap_ = knob("Gapmax");
+    scale_ = knob(rules_.scale);
+    cap_ = knob(rules_.caps[0]);
     igap_ = visit_interface(inter, [](const auto& i) {
-      if constexpr (requires { i.Igap; })
+      if constexpr (
+          requires { i.Fscalegap; } || requires { i.line_IDs; })
         return i.Igap.value == 1000 ? 0 : static_cast<int>(i.Igap.value);
       else
         return 0;
@@ -61,6 +69,14 @@ class GapReduction {
       }
       if constexpr (requires { i.Edge_scale_gap; })
         if (i.Edge_scale_gap.value != 0) edge_scale_ = i.Edge_scale_gap.value;
+      if constexpr (requires { i.Gap_max_s; }) add_sides({i.Gap_max_s.value, i.Gap_max_m.value});
+      if constexpr (requires { i.Gap_scale; }) {
+        scale_.present = i.Gap_scale.value;
+        if (i.Igap.value != 5 && i.Gap_scale.value > 0) return;
+        scale_.place.reset();
+        scale_.missing = i.Igap.value == 5 ? "the thicknesses of Igap 5 have scales of their own"
+                                           : "Gap_scale is negative";
+      }
     });
   }
 
@@ -70,7 +86,9 @@ class GapReduction {
       if (c.inter->id != inter_->id || c.dropped) continue;
       const double own = c.gapmin / (c.role == ContactRole::edges ? edge_scale_ : 1);
       smallest_gapmin_ = smallest_gapmin_ > 0 ? std::min(smallest_gapmin_, own) : own;
-      if (c.kind == ContactKind::node_segment && c.gap_rule.rule != GapRule::constant)
+      if (is_modern(c.type))
+        find_largest(c);
+      else if (c.kind == ContactKind::node_segment && c.gap_rule.rule != GapRule::constant)
         largest_gap_ = std::max(largest_gap_, c.max_gap);
     }
     gapmin_.present = smallest_gapmin_;
@@ -102,9 +120,9 @@ class GapReduction {
     FixedInterface& entry = interface_entry(fix, *inter_);
     for (const Knob* k : {&gapmin_, &scale_, &cap_}) {
       if (!k->text) continue;
-      k->place->write(edits, k->text->text);
-      entry.changes.push_back(
-          {k->name, std::string(k->place->cell.text), k->text->text, k->present, k->value});
+      if (k->sides.empty()) write(*k->place, *k, edits, entry);
+      for (const Knob::Side& side : k->sides)
+        if (side.present > k->value) write(side.place, *k, edits, entry);
     }
     if (!needs_igap_2()) return;
     const auto place = find_field(context_->deck(), *inter_->block, "Igap");
@@ -115,9 +133,39 @@ class GapReduction {
   std::string why;
 
  private:
+  static void write(const FieldPlace& place, const Knob& knob, CellWriter& edits,
+                    FixedInterface& entry) {
+    place.write(edits, knob.text->text);
+    entry.changes.push_back({std::string(place.field->name), std::string(place.cell.text),
+                             knob.text->text, knob.present, knob.value});
+  }
+
+  /// The caps of both sides as one knob.
+  void add_sides(const std::array<double, 2>& present) {
+    for (std::size_t i = 0; i < present.size(); ++i) {
+      const Knob one = knob(rules_.caps[i]);
+      if (!one.place) {
+        cap_ = one;
+        return;
+      }
+      cap_.sides.push_back({*one.place, present[i]});
+    }
+    cap_.name = std::string(rules_.caps[0]) + " and " + std::string(rules_.caps[1]);
+  }
+
+  /// Of both sides of a TYPE24 or TYPE25: what its caps would cut.
+  void find_largest(const Contact& c) {
+    for (const SecondaryNode& n : c.secondary) largest_gap_ = std::max(largest_gap_, n.gap);
+    for (const MainSegment& m : c.main) largest_gap_ = std::max(largest_gap_, m.gap);
+  }
+
   Knob knob(std::string_view name) const {
     Knob k;
     k.name = name;
+    if (name.empty()) {
+      k.missing = "TYPE" + std::to_string(inter_->type) + " has no such field";
+      return k;
+    }
     auto place = find_field(context_->deck(), *inter_->block, name);
     if (place)
       k.place = *place;
@@ -130,7 +178,9 @@ class GapReduction {
     return format_real(std::floor(share * 1000) / 10, 6)->text + " %";
   }
 
-  bool needs_igap_2() const { return igap_ == 1 && (scale_.text || cap_.text); }
+  bool needs_igap_2() const {
+    return rules_.with_igap_2 && igap_ == 1 && (scale_.text || cap_.text);
+  }
 
   /// The smallest of new over present value of all fields that changed.
   double least_share() const {
@@ -170,9 +220,12 @@ class GapReduction {
       bool any = false;
       for (const Contact& c : scene.contacts) {
         for (const PenetrationRow& row : c.penetrations) {
+          if (!is_penetration(row)) continue;
           any = true;
-          if (!(row.distance > 0)) {
-            why = "a pair is at distance 0, which no gap leaves free: move the nodes";
+          if (!(free_gap(c, row) > 0)) {
+            why = row.distance > 0
+                      ? "a node is behind the face of a solid, which no gap leaves free: move it"
+                      : "a pair is at distance 0, which no gap leaves free: move the nodes";
             return false;
           }
           if (!bounds(c, row, gapmin, scale, cap)) return false;
@@ -194,12 +247,33 @@ class GapReduction {
     return false;
   }
 
+  static void tighten(double& bound, double value) {
+    bound = bound > 0 ? std::min(bound, value) : value;
+  }
+
+  /// The same for TYPE24 and TYPE25: both sides are scaled, or each is cut.
+  void bounds_of_sides(const Contact& c, const PenetrationRow& row, double& scale,
+                       double& cap) const {
+    const double wanted = free_gap(c, row);
+    if (lever_ == Lever::scale) {
+      tighten(scale, c.gap_scale * (wanted / row.gap));
+      return;
+    }
+    const bool nodes = c.kind == ContactKind::node_segment;
+    const double s = nodes ? c.secondary[row.secondary].gap : c.secondary_edges[row.secondary].gap;
+    const double m = row.gap - s;  // where the node is: the gaps of the corners differ
+    // The thinner side keeps its gap where the other one has enough to give.
+    const double smaller = std::min(s, m);
+    tighten(cap, 2 * smaller < wanted ? wanted - smaller : wanted / 2);
+  }
+
   /// Tightens the bounds so that this pair is free.
   bool bounds(const Contact& c, const PenetrationRow& row, double& gapmin, double& scale,
               double& cap) {
-    const auto tighten = [](double& bound, double value) {
-      bound = bound > 0 ? std::min(bound, value) : value;
-    };
+    if (is_modern(c.type)) {
+      bounds_of_sides(c, row, scale, cap);
+      return true;
+    }
     const double edge = c.role == ContactRole::edges ? edge_scale_ : 1;
     const bool constant = c.gap_rule.rule == GapRule::constant;
     if (constant || c.gapmin > row.distance) tighten(gapmin, row.distance / edge);
@@ -229,6 +303,7 @@ class GapReduction {
   const LoadedDeck* context_;
   const ReduceGapOptions* options_;
   const InterBase* inter_;
+  TypeRules rules_ = rules_of(inter_->type);
   Knob gapmin_, scale_, cap_;
   int igap_ = 0;
   double edge_scale_ = 1, smallest_gapmin_ = 0, largest_gap_ = 0;
@@ -253,7 +328,7 @@ Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOpt
     if (reduction.solve(before))
       reduction.write(fix, edits);
     else
-      fix.refused.push_back({inter->id, {}, it->second.deepest, reduction.why});
+      fix.refused.push_back({inter->id, {}, it->second.deepest, reduction.why, 0});
   }
   fix.rewrite.edits = edits.finish();
   auto again = read_again(context, fix.rewrite);
@@ -262,6 +337,7 @@ Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOpt
   set_interfaces(fix, context.interfaces(), options, before, after);
   fix.complete = true;
   for (const FixedInterface& i : fix.interfaces) fix.complete &= i.after.pairs == 0;
+  note_unevaluated(fix, after, options);
   verify_harmless(fix, context.interfaces(), options, before, after);
   return fix;
 }

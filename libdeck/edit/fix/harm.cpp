@@ -7,14 +7,24 @@
 #include <set>
 
 #include "edit/fix/common.hpp"
+#include "edit/fix/type_rules.hpp"
 
 namespace deck::detail {
 namespace {
 
 constexpr double deeper = 1 + 1e-9;  // a penetration that grew by less is the same one
 
+bool is_tie(const Scene& scene, const PairKey& key) { return key.contact >= scene.contacts.size(); }
+const InterBase& interface_of(const Scene& scene, const PairKey& key) {
+  if (is_tie(scene, key)) return *scene.ties[key.contact - scene.contacts.size()].inter;
+  return *scene.contacts[key.contact].inter;
+}
+bool of_node(const Scene& scene, const PairKey& key) {
+  return is_tie(scene, key) || scene.contacts[key.contact].kind == ContactKind::node_segment;
+}
+
 std::vector<NodeIndex> nodes_of(const Scene& scene, const PairKey& key) {
-  const bool node = scene.contacts[key.contact].kind == ContactKind::node_segment;
+  const bool node = of_node(scene, key);
   std::vector<NodeIndex> out(key.secondary.begin(), key.secondary.begin() + (node ? 1 : 2));
   out.insert(out.end(), key.main.begin(), key.main.begin() + (node ? 4 : 2));
   return out;
@@ -23,15 +33,34 @@ std::vector<NodeIndex> nodes_of(const Scene& scene, const PairKey& key) {
 }  // namespace
 
 Baseline::Baseline(const Scene& scene, const FixOptions& options) : options_(&options) {
+  for (const Contact& contact : scene.contacts)
+    by_node_.push_back(is_modern(contact.type) && contact.kind == ContactKind::node_segment);
   for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
     const Contact& contact = scene.contacts[c];
     const bool tie = contact.ties() && !is_wanted(options, contact);
     for (const PenetrationRow& row : contact.penetrations) {
-      Row& kept = rows_[key_of(scene, {c, row.secondary, row.main})];
+      if (!is_penetration(row)) continue;
+      const PairKey pair = key_of(scene, {c, row.secondary, row.main});
+      Row& kept = rows_[judged(pair)];
+      kept.pair = pair;
       kept.depth = std::max(kept.depth, row.depth);
       kept.tie = tie;
     }
   }
+  add_ties(scene);
+}
+
+void Baseline::add_ties(const Scene& scene) {
+  for (std::size_t t = 0; t < scene.ties.size(); ++t)
+    for (const TiedNode& n : scene.ties[t].nodes) {
+      if (!n.tied) continue;
+      PairKey pair;
+      pair.contact = static_cast<std::uint32_t>(scene.contacts.size() + t);
+      pair.secondary = {n.node, 0};
+      pair.main = scene.ties[t].main[n.segment];
+      std::sort(pair.main.begin(), pair.main.end());
+      rows_[pair] = {pair, 1, true};
+    }
 }
 
 std::size_t Baseline::tied_pairs() const {
@@ -50,17 +79,16 @@ std::vector<Harm> Baseline::harm(const Scene& now) const {
   if (options_ == nullptr) return {};
   const Baseline after(now, *options_);
   std::vector<Harm> out;
-  const auto add = [&](const PairKey& key, bool tie, double before, double depth) {
-    out.push_back({key, nodes_of(now, key), tie, before, depth});
+  const auto add = [&](const Row& row, double before, double depth) {
+    out.push_back({row.pair, nodes_of(now, row.pair), row.tie, before, depth});
   };
   for (const auto& [key, row] : after.rows_) {
     const auto it = rows_.find(key);
     const double before = it == rows_.end() ? 0 : it->second.depth;
-    if (row.tie ? it == rows_.end() : row.depth > before * deeper)
-      add(key, row.tie, before, row.depth);
+    if (row.tie ? it == rows_.end() : row.depth > before * deeper) add(row, before, row.depth);
   }
   for (const auto& [key, row] : rows_)
-    if (row.tie && !after.rows_.contains(key)) add(key, true, row.depth, 0);
+    if (row.tie && !after.rows_.contains(key)) add(row, row.depth, 0);
   std::stable_sort(out.begin(), out.end(),
                    [](const Harm& a, const Harm& b) { return a.tie > b.tie; });
   return out;
@@ -71,17 +99,23 @@ void verify_harmless(PenetrationFix& fix, const Interfaces& interfaces, const Fi
   const Baseline baseline(before, options);
   fix.tied_pairs = baseline.tied_pairs();
   fix.tied_nodes = baseline.tied_nodes();
-  const std::vector<Harm> harm = baseline.harm(after);
+  std::vector<Harm> harm = baseline.harm(after);
+  // Inacti is part of how TYPE24 and TYPE25 look for penetrations: what they find with another one
+  // was there before.
+  if (fix.strategy == "inacti")
+    std::erase_if(
+        harm, [&](const Harm& h) { return !h.tie && is_modern(interface_of(after, h.pair).type); });
   const auto why = harm_text(*before.model, after, harm);
   if (!why) return;
   fix.rewrite = {};
   fix.interfaces.clear();
   fix.actions.clear();
   set_interfaces(fix, interfaces, options, before, before);
-  fix.refused.push_back({after.contacts[harm.front().pair.contact].inter->id,
+  fix.refused.push_back({interface_of(after, harm.front().pair).id,
                          {},
                          0,
-                         "nothing done: with the change " + *why});
+                         "nothing done: with the change " + *why,
+                         0});
   fix.complete = false;
 }
 
@@ -89,9 +123,8 @@ std::optional<std::string> harm_text(const Model& model, const Scene& scene,
                                      const std::vector<Harm>& harm) {
   if (harm.empty()) return std::nullopt;
   const Harm& worst = harm.front();
-  const Contact& contact = scene.contacts[worst.pair.contact];
-  std::string text = fmt::format("interface {}, ", contact.inter->id);
-  if (contact.kind == ContactKind::node_segment)
+  std::string text = fmt::format("interface {}, ", interface_of(scene, worst.pair).id);
+  if (of_node(scene, worst.pair))
     text += fmt::format("node {}", model.node_id(worst.pair.secondary[0]));
   else
     text += fmt::format("edge {}-{}", model.node_id(worst.pair.secondary[0]),

@@ -20,13 +20,15 @@ struct Harm {
   double before = 0, after = 0;  ///< depths; 0: it does not penetrate
 };
 
-/// Depths of the pairs that penetrate in a scene, and the pairs that are tied.
+/// Depths of the pairs that penetrate in a scene, and the pairs that are tied; what a TYPE2 holds
+/// is tied whatever the options are. Of the nodes of a TYPE24 or TYPE25, each of which penetrates
+/// one segment at most, the segment does not matter.
 class Baseline {
  public:
   Baseline() = default;
   /// With FixOptions::ties ties of the interfaces asked for count as penetrations.
   Baseline(const Scene& scene, const FixOptions& options);
-  bool contains(const PairKey& pair) const { return rows_.contains(pair); }
+  bool contains(const PairKey& pair) const { return rows_.contains(judged(pair)); }
   std::size_t tied_pairs() const;
   std::size_t tied_nodes() const;  ///< secondary ones
   /// Everything that is worse in `now`, a scene of the same deck. Ties first.
@@ -34,10 +36,19 @@ class Baseline {
 
  private:
   struct Row {
+    PairKey pair;
     double depth = 0;
     bool tie = false;
   };
+  /// What stands for a pair in `rows_`.
+  PairKey judged(PairKey pair) const {
+    if (pair.contact < by_node_.size() && by_node_[pair.contact]) pair.main = {};
+    return pair;
+  }
+  void add_ties(const Scene& scene);
   const FixOptions* options_ = nullptr;
+  std::vector<bool> by_node_;  ///< by contact
+  /// Keys with contacts beyond those of the scene: its ties.
   std::map<PairKey, Row> rows_;
 };
 

@@ -29,6 +29,10 @@ Result<FixSequence> fix_in_order(const LoadedDeck& context, const std::vector<Fi
 
 FixScore score_of(const PenetrationFix& fix) {
   FixScore out;
+  for (const FixedTie& tie : fix.ties) {
+    out.solved += tie.before.lost() - std::min(tie.before.lost(), tie.after.lost());
+    out.not_treated += tie.after.lost();
+  }
   const bool flags = fix.strategy == "inacti" || fix.strategy == "fpenmax";
   for (const FixedInterface& i : fix.interfaces) {
     const std::uint64_t before = flags ? i.before.untreated : i.before.pairs;
@@ -46,7 +50,7 @@ const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals) {
   FixScore score;
   for (const PenetrationFix& fix : proposals) {
     const FixScore s = score_of(fix);
-    if (s.solved == 0) continue;
+    if (s.solved == 0 || fix.strategy == "tie") continue;
     if (best != nullptr && s.all() - s.solved >= score.all() - score.solved) continue;
     best = &fix;
     score = s;
@@ -56,8 +60,13 @@ const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals) {
 
 PenetrationFix unchanged(const std::vector<PenetrationFix>& proposals) {
   PenetrationFix out;
+  bool in_full = true;  // all that was asked for was evaluated
   for (const PenetrationFix& fix : proposals) {
+    in_full &= fix.refused.empty();
     out.crossings_before = std::max(out.crossings_before, fix.crossings_before);
+    for (const FixedTie& tie : fix.ties)
+      out.ties.push_back({tie.id, tie.title, tie.reach, tie.before, tie.before, 0, {}, {}});
+    if (fix.strategy == "tie") continue;
     out.tied_pairs = fix.tied_pairs;
     out.tied_nodes = fix.tied_nodes;
     for (const FixedInterface& i : fix.interfaces)
@@ -71,12 +80,14 @@ PenetrationFix unchanged(const std::vector<PenetrationFix>& proposals) {
   out.crossings_after = out.crossings_before;
   std::sort(out.interfaces.begin(), out.interfaces.end(),
             [](const FixedInterface& a, const FixedInterface& b) { return a.id < b.id; });
-  out.complete = out.interfaces.empty() && out.crossings_before == 0;
+  out.complete = in_full && out.interfaces.empty() && out.crossings_before == 0 && out.ties.empty();
   return out;
 }
 
 PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
   PenetrationFix out;
+  out.complete = true;
+  std::vector<FixRefusal> of_ties;
   const auto append = [](auto& to, const auto& from) {
     to.insert(to.end(), from.begin(), from.end());
   };
@@ -87,6 +98,12 @@ PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
     if (fix.strategy == "move-nodes" || fix.strategy == "move-part")
       out.crossings_after = fix.crossings_after;
     append(out.moved, fix.moved);  // of one step: a strategy is made once
+    if (fix.strategy == "tie") {
+      out.ties = fix.ties;
+      of_ties = fix.refused;
+      out.complete &= fix.complete;
+      continue;
+    }
     // An interface that this step does not list any more has no penetrations.
     for (FixedInterface& entry : out.interfaces) entry.after = {};
     for (const FixedInterface& i : fix.interfaces) {
@@ -100,13 +117,17 @@ PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
       append(entry->changes, i.changes);
     }
   }
-  if (!fixes.empty()) {
-    out.tied_pairs = fixes.front().tied_pairs;
-    out.tied_nodes = fixes.front().tied_nodes;
-    out.refused = fixes.back().refused;
-    out.actions = fixes.back().actions;
-    out.complete = fixes.back().complete;
+  const auto of_contacts = [](const PenetrationFix& fix) { return fix.strategy != "tie"; };
+  if (const auto first = std::find_if(fixes.begin(), fixes.end(), of_contacts);
+      first != fixes.end()) {
+    const PenetrationFix& last = *std::find_if(fixes.rbegin(), fixes.rend(), of_contacts);
+    out.tied_pairs = first->tied_pairs;
+    out.tied_nodes = first->tied_nodes;
+    out.refused = last.refused;
+    out.actions = last.actions;
+    out.complete &= last.complete;
   }
+  append(out.refused, of_ties);
   std::sort(out.interfaces.begin(), out.interfaces.end(),
             [](const FixedInterface& a, const FixedInterface& b) { return a.id < b.id; });
   return out;

@@ -24,18 +24,50 @@ void write_count(JsonWriter& j, std::string_view name, const FixCount& c) {
   j.field("on_surface", c.on_surface).field("deepest", c.deepest).end_object();
 }
 
+void write_changes(JsonWriter& j, const std::vector<FieldChange>& changes) {
+  j.key("changes").begin_array();
+  for (const FieldChange& c : changes) {
+    j.begin_object(true);
+    j.field("field", c.field).field("old_text", c.old_text).field("new_text", c.new_text);
+    j.field("old_value", c.old_value).field("new_value", c.new_value).end_object();
+  }
+  j.end_array();
+}
+
+void write_tie_counts(JsonWriter& j, std::string_view name, const TieCounts& n) {
+  j.key(name).begin_object(true).field("nodes", n.nodes).field("tied", n.tied);
+  j.field("not_found", n.not_found).field("dropped", n.dropped).field("elsewhere", n.elsewhere);
+  j.field("outside", n.outside).end_object();
+}
+
+void write_ties(JsonWriter& j, const PenetrationFix& fix) {
+  j.key("ties").begin_array();
+  for (const FixedTie& tie : fix.ties) {
+    j.begin_object().field("id", tie.id).field("title", tie.title).field("reach", tie.reach);
+    write_tie_counts(j, "before", tie.before);
+    write_tie_counts(j, "after", tie.after);
+    j.key("needed");
+    tie.nodes.empty() ? j.null() : j.value(tie.needed);
+    j.key("nodes").begin_array();
+    for (const NewlyTied& n : tie.nodes) {
+      j.begin_object(true).field("node", n.node);
+      write_ids(j, "segment", n.segment);
+      j.field("distance", n.distance).end_object();
+    }
+    j.end_array();
+    write_changes(j, tie.changes);
+    j.end_object();
+  }
+  j.end_array();
+}
+
 void write_interface(JsonWriter& j, const FixedInterface& i) {
   j.begin_object();
   j.field("id", i.id).field("type", i.type).field("title", i.title);
   write_count(j, "before", i.before);
   write_count(j, "after", i.after);
-  j.key("changes").begin_array();
-  for (const FieldChange& c : i.changes) {
-    j.begin_object(true);
-    j.field("field", c.field).field("old_text", c.old_text).field("new_text", c.new_text);
-    j.field("old_value", c.old_value).field("new_value", c.new_value).end_object();
-  }
-  j.end_array().end_object();
+  write_changes(j, i.changes);
+  j.end_object();
 }
 
 void write_interfaces(JsonWriter& j, const PenetrationFix& fix) {
@@ -54,6 +86,7 @@ void write_step(JsonWriter& j, const PenetrationFix& step) {
   j.begin_object().field("strategy", step.strategy).field("complete", step.complete);
   write_crossings(j, step);
   write_interfaces(j, step);
+  write_ties(j, step);
   std::vector<std::int64_t> nodes;
   for (const MovedNode& m : step.moved) nodes.push_back(m.id);
   write_ids(j, "moved", nodes);
@@ -72,7 +105,8 @@ std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::s
   j.begin_object();
   write_json_head(j, "deck/fix", 1);
   write_json_deck(j, loaded.path(), loaded.deck(), nullptr, nullptr);
-  write_json_coverage(j, coverage_of(loaded.deck(), loaded.interfaces()));
+  write_json_coverage(j,
+                      coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties));
   write_verdict(j, verdict_of(loaded));
   j.key("strategy");
   fix.strategy.empty() ? j.null() : j.value(fix.strategy);
@@ -82,6 +116,7 @@ std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::s
   j.field("nodes", fix.tied_nodes).end_object();
   write_crossings(j, fix);
   write_interfaces(j, fix);
+  write_ties(j, fix);
   if (steps.size() > 1 || fix.strategy.empty()) {
     j.key(fix.strategy.empty() ? "proposals" : "steps").begin_array();
     for (const PenetrationFix& step : steps) write_step(j, step);
@@ -110,7 +145,9 @@ std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::s
   for (const FixRefusal& r : fix.refused) {
     j.begin_object(true).field("interface", r.interface_id);
     write_ids(j, "nodes", r.nodes);
-    j.field("depth", r.depth).field("reason", r.reason).end_object();
+    j.field("depth", r.depth).key("distance");
+    r.distance > 0 ? j.value(r.distance) : j.null();
+    j.field("reason", r.reason).end_object();
   }
   j.end_array().end_object();
   out += '\n';

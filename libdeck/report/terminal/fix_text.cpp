@@ -35,6 +35,19 @@ std::string names(const std::vector<std::int64_t>& ids) {
   return text;
 }
 
+/// "Gapmin 1.25 -> 0.9"; a blank cell with what is in effect in brackets.
+std::string change_text(const std::vector<FieldChange>& changes) {
+  std::string text;
+  for (const FieldChange& c : changes) {
+    const bool by_pair = c.field == "dsearch" && c.old_value == 0;
+    const std::string old = !c.old_text.empty() ? c.old_text
+                            : by_pair           ? "(by pair)"
+                                                : fmt::format("({:.6g})", c.old_value);
+    text += fmt::format("{}{} {} -> {}", text.empty() ? "" : ", ", c.field, old, c.new_text);
+  }
+  return text;
+}
+
 std::string interface_table(const PenetrationFix& fix, const FixTextOptions& options) {
   const bool flags = changes_flags(fix);
   TextTable table({{"interface", Align::right},
@@ -46,11 +59,7 @@ std::string interface_table(const PenetrationFix& fix, const FixTextOptions& opt
                    {"changed"},
                    {"title"}});
   for (const FixedInterface& i : fix.interfaces) {
-    std::string changed;
-    for (const FieldChange& c : i.changes)
-      changed += fmt::format("{}{} {} -> {}", changed.empty() ? "" : ", ", c.field,
-                             c.old_text.empty() ? fmt::format("({:.6g})", c.old_value) : c.old_text,
-                             c.new_text);
+    const std::string changed = change_text(i.changes);
     const std::uint64_t left = flags ? i.after.untreated : i.after.pairs;
     const Tone tone = left == 0 ? Tone::green : Tone::yellow;
     if (flags)
@@ -122,7 +131,7 @@ std::string refused_lines(const PenetrationFix& fix, const FixTextOptions& optio
     std::int64_t interface_id;
     std::string reason;
     std::size_t count = 0;
-    double deepest = 0;
+    double deepest = 0, farthest = 0;
     std::vector<std::string> examples;
   };
   std::vector<Group> groups;
@@ -131,10 +140,11 @@ std::string refused_lines(const PenetrationFix& fix, const FixTextOptions& optio
       return x.interface_id == r.interface_id && x.reason == r.reason;
     });
     if (g == groups.end()) {
-      groups.push_back({r.interface_id, r.reason, 0, 0, {}});
+      groups.push_back({r.interface_id, r.reason, 0, 0, 0, {}});
       g = groups.end() - 1;
     }
     g->deepest = std::max(g->deepest, r.depth);
+    g->farthest = std::max(g->farthest, r.distance);
     if (r.nodes.empty()) continue;
     ++g->count;
     if (g->examples.size() < 5) g->examples.push_back(names(r.nodes));
@@ -147,7 +157,10 @@ std::string refused_lines(const PenetrationFix& fix, const FixTextOptions& optio
     }
     const Group& g = groups[i];
     text += fmt::format("  {}interface {}", lead, g.interface_id);
-    if (g.count > 0) text += fmt::format(", {}", count(g.count, "node or edge", "nodes or edges"));
+    if (g.count > 0)
+      text += ", " + (g.farthest > 0 ? count(g.count, "node", "nodes")
+                                     : count(g.count, "node or edge", "nodes or edges"));
+    if (g.farthest > 0) text += fmt::format(", up to {:.6g} away", g.farthest);
     if (g.deepest > 0) text += fmt::format(", up to {:.4g} deep", g.deepest);
     text += ": " + terminal_text(g.reason);
     if (g.count > 0) {
@@ -188,23 +201,79 @@ std::string actions_text(const PenetrationFix& fix, const FixTextOptions& option
                                             "switch the segment off",
                                             "move the node",
                                             "reduce the gap",
-                                            "switch the edge off"};
+                                            "switch the edge off",
+                                            "ignore the penetration",
+                                            "take the penetration off from then on",
+                                            "start with a force",
+                                            "leave the pair to its tie"};
+    static_assert(std::size(words) == penetration_actions);
     text += fmt::format("  interface {}: {} for {}\n", key.first,
                         words[static_cast<std::size_t>(key.second)], count(n, "pair", "pairs"));
   }
   return text;
 }
 
-/// Of the types that strategies treat.
-const std::string nothing_to_fix =
-    "no initial penetrations of TYPE7, TYPE10, TYPE11 and TYPE19: nothing to fix";
+const std::string nothing_to_fix = "no initial penetrations: nothing to fix";
+const std::string nothing_evaluated = "no initial penetrations where they were evaluated";
+const std::string nothing_untied = "no node of a TYPE2 is untied: nothing to fix";
+
+/// False if contacts were left out because not all of them is evaluated.
+bool in_full(const PenetrationFix& fix) {
+  return std::all_of(fix.refused.begin(), fix.refused.end(), [&](const FixRefusal& r) {
+    return std::any_of(fix.ties.begin(), fix.ties.end(),
+                       [&](const FixedTie& tie) { return tie.id == r.interface_id; });
+  });
+}
+
+/// "5 of 16 nodes"
+std::string untied_text(const PenetrationFix& fix, TieCounts FixedTie::*which) {
+  std::size_t lost = 0, nodes = 0;
+  for (const FixedTie& tie : fix.ties) {
+    lost += (tie.*which).lost();
+    nodes += (tie.*which).nodes;
+  }
+  return fmt::format("{} of {}", lost, count(nodes, "node", "nodes"));
+}
+
+std::string tie_verdict(const PenetrationFix& fix) {
+  if (fix.ties.empty()) return fix.refused.empty() ? nothing_untied : "tie: nothing done";
+  std::size_t outside = 0, left = 0;
+  for (const FixedTie& tie : fix.ties) {
+    outside += tie.after.outside - std::min(tie.after.outside, tie.before.outside);
+    left += tie.after.lost();
+  }
+  std::string text =
+      fmt::format("tie: {} not tied before, {} after", untied_text(fix, &FixedTie::before), left);
+  if (outside > 0) text += fmt::format("; {} of them tied beyond a rim", outside);
+  return text;
+}
+
+std::string tie_table(const PenetrationFix& fix, const FixTextOptions& options) {
+  if (fix.ties.empty()) return {};
+  TextTable table(make_table({">interface", ">nodes", ">not tied before", ">after", ">reach",
+                              ">farthest tied", "changed", "title"}));
+  for (const FixedTie& tie : fix.ties) {
+    const Tone tone = tie.after.lost() == 0 ? Tone::green : Tone::yellow;
+    table.row({fmt::format("{}", tie.id),
+               fmt::format("{}", tie.before.nodes),
+               fmt::format("{}", tie.before.lost()),
+               {fmt::format("{}", tie.after.lost()), tone},
+               fmt::format("{:.6g}", tie.reach),
+               tie.nodes.empty() ? "-" : fmt::format("{:.6g}", tie.needed),
+               tie.changes.empty() ? "-" : change_text(tie.changes),
+               tie.title});
+  }
+  return table.fitted(options.width, options.color, 2);
+}
 
 }  // namespace
 
 std::string fix_verdict(const PenetrationFix& fix) {
   const FixCount before = total(fix, &FixedInterface::before),
                  after = total(fix, &FixedInterface::after);
-  if (fix.interfaces.empty()) return nothing_to_fix;
+  if (fix.strategy == "tie") return tie_verdict(fix);
+  const std::string ties = fix.ties.empty() ? std::string() : "; " + tie_verdict(fix);
+  if (fix.interfaces.empty()) return (in_full(fix) ? nothing_to_fix : nothing_evaluated) + ties;
   std::string text;
   if (changes_flags(fix)) {
     text = fmt::format("{}: {}, {} without treatment before, {} after", fix.strategy,
@@ -224,7 +293,7 @@ std::string fix_verdict(const PenetrationFix& fix) {
     if (fix.iterations > 0)
       text += " in " + count(static_cast<std::uint64_t>(fix.iterations), "iteration", "iterations");
   }
-  return text;
+  return text + ties;
 }
 
 namespace {
@@ -242,6 +311,7 @@ std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
   const Tone tone = fix.complete ? Tone::green : Tone::yellow;
   std::string text = toned(fix_verdict(fix), tone, options.color) + "\n";
   if (!fix.interfaces.empty()) text += "\n" + interface_table(fix, options);
+  if (!fix.ties.empty()) text += "\n" + tie_table(fix, options);
   if (fix.tied_pairs > 0) text += "\n" + tied_text(fix) + ", as before\n";
   text += moved_text(fix, options);
   text += actions_text(fix, options);
@@ -259,10 +329,7 @@ std::string changes_of(const PenetrationFix& fix) {
   for (const FixedInterface& i : fix.interfaces) {
     interfaces += !i.changes.empty();
     if (!first.empty()) continue;
-    for (const FieldChange& c : i.changes)
-      first += fmt::format("{}{} {} -> {}", first.empty() ? "" : ", ", c.field,
-                           c.old_text.empty() ? fmt::format("({:.6g})", c.old_value) : c.old_text,
-                           c.new_text);
+    first = change_text(i.changes);
   }
   if (interfaces > 1) first += fmt::format(", ... of {} interfaces", interfaces);
   if (!fix.moved.empty()) {
@@ -271,6 +338,23 @@ std::string changes_of(const PenetrationFix& fix) {
     first += fmt::format("{} moved by up to {:.4g}", count(fix.moved.size(), "node", "nodes"), far);
   }
   return first.empty() ? "-" : first;
+}
+
+/// What the strategy tie would do, behind what is said of penetrations.
+std::string tie_proposal(const std::vector<PenetrationFix>& proposals,
+                         const std::function<std::string(std::string_view)>& command,
+                         const FixTextOptions& options, std::string text) {
+  for (const PenetrationFix& fix : proposals) {
+    if (fix.strategy != "tie" || (fix.ties.empty() && fix.refused.empty())) continue;
+    if (!text.ends_with('\n')) text += "\n";
+    text += "\n" +
+            toned(untied_text(fix, &FixedTie::before) + " of TYPE2 are not tied", Tone::yellow,
+                  options.color) +
+            "\n" + tie_table(fix, options) + refused_text(fix, options);
+    if (score_of(fix).solved > 0)
+      text += fmt::format("\nto tie them:\n  {}\n", terminal_text(command("tie")));
+  }
+  return text;
 }
 
 }  // namespace
@@ -282,6 +366,17 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
   const FixCount found = total(now, &FixedInterface::before);
   if (now.complete)
     return nothing_to_fix + (now.tied_pairs > 0 ? "; " + tied_text(now) : std::string()) + "\n";
+  if (now.interfaces.empty() && now.crossings_before == 0) {
+    const auto it = std::find_if(proposals.begin(), proposals.end(), [](const PenetrationFix& fix) {
+      return fix.strategy != "tie" && !fix.refused.empty();
+    });
+    if (it == proposals.end())
+      return tie_proposal(proposals, command, options,
+                          toned(nothing_to_fix, Tone::green, options.color));
+    return tie_proposal(
+        proposals, command, options,
+        toned(nothing_evaluated, Tone::yellow, options.color) + "\n" + refused_text(*it, options));
+  }
   std::string text = count(found.pairs, "penetration", "penetrations");
   if (found.pairs > 0) text += fmt::format(" (deepest {:.4g})", found.deepest);
   if (now.crossings_before > 0)
@@ -293,6 +388,7 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
   FixTextOptions few = options;
   few.rows = std::min<std::size_t>(options.rows, 3);
   for (const PenetrationFix& fix : proposals) {
+    if (fix.strategy == "tie") continue;
     const FixScore s = score_of(fix);
     const Tone tone = s.all() > s.solved ? Tone::yellow : Tone::green;
     table.row({fix.strategy,
@@ -309,7 +405,7 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
   text += best == nullptr
               ? "\nno strategy solves any of them\n"
               : fmt::format("\nto do it:\n  {}\n", terminal_text(command(best->strategy)));
-  return text;
+  return tie_proposal(proposals, command, options, text);
 }
 
 }  // namespace deck

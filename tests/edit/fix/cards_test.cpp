@@ -318,7 +318,7 @@ TEST(SetInacti, RefusesWhatStopsTheSolver) {
 
 TEST(SetInacti, OtherValuesAreAnError) {
   const Built before(touching("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
-  for (const int value : {-1, 4, 7, 42}) {
+  for (const int value : {-2, 4, 7, 42}) {
     InactiOptions o;
     o.inacti = value;
     EXPECT_FALSE(set_inacti(context_of(before), o).ok());

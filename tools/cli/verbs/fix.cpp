@@ -1,5 +1,5 @@
-// deck fix: repairs initial penetrations, by moving nodes or by changing the interface cards, as a
-// patch that has been verified by reading the deck again with it.
+// deck fix: repairs initial penetrations, by moving nodes or by changing the interface cards, and
+// ties that lose nodes, as a patch that has been verified by reading the deck again with it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,8 +28,8 @@ struct Options {
   std::vector<std::int64_t> interfaces;
   std::size_t rows = 10;
   MoveNodesOptions move;
-  std::string max_moved = "10%", max_displacement, min_gap = "50%", fpenmax;
-  int digits = 6, inacti = 6;
+  std::string max_moved = "10%", max_displacement, min_gap = "50%", fpenmax, inacti, reach;
+  int digits = 6;
 };
 
 /// "10%" or "0.1" as 0.1; nullopt if it is neither, or outside 0..1.
@@ -67,7 +67,11 @@ class FixRun {
                                      : "a deck from standard input has no name to write it to"});
     const auto member = changes_.add(loaded, loaded.path());
     if (!member) return fail(member.error());
-    const Coverage coverage = coverage_of(loaded.deck(), loaded.interfaces());
+    SceneOptions scene = loaded.scene_options();
+    scene.ties = true;
+    loaded.set_scene_options(scene);
+    const Coverage coverage =
+        coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties);
     if (coverage.nothing()) {
       report_nothing(loaded, coverage);
       if (!o_.strategies.empty()) changes_.propose(*member, loaded.deck(), {});
@@ -90,11 +94,9 @@ class FixRun {
                                 : o_.write.diff               ? "diff"
                                                               : "no";
     if (json_.wanted()) documents_.push_back(fix_json(loaded, whole, written, fixed->fixes));
-    const std::size_t left = untreated_pairs(loaded);
-    texts_ +=
-        report(whole, fixed->fixes, changed, loaded.path(), left_alone(loaded, coverage, left));
+    texts_ += report(whole, fixed->fixes, changed, loaded.path(), coverage_tail(coverage));
     // A deck that the solver does not take is not repaired, whatever was done about its contacts.
-    return whole.complete && left == 0 && !errors ? exit_clean : exit_findings;
+    return whole.complete && !errors ? exit_clean : exit_findings;
   }
 
   /// Writes what the decks want together, and says what was done.
@@ -140,30 +142,6 @@ class FixRun {
     }
   }
 
-  /// Interfaces that are not examined, and those that no strategy can do anything for.
-  static std::string left_alone(const LoadedDeck& loaded, const Coverage& coverage,
-                                std::size_t pairs) {
-    const auto& all = loaded.interfaces().ordered;
-    const auto n = static_cast<std::size_t>(std::count_if(
-        all.begin(), all.end(), [](const InterBase* i) { return is_modern(i->type); }));
-    std::string text = coverage_tail(coverage);
-    if (n == 0) return text;
-    text += " Left as they are: " + count(n, "interface", "interfaces") + " of TYPE24 and TYPE25";
-    if (pairs > 0) text += " with " + count(pairs, "initial penetration", "initial penetrations");
-    return text + ".";
-  }
-
-  /// Initial penetrations of interfaces that no strategy treats.
-  static std::size_t untreated_pairs(const LoadedDeck& loaded) {
-    const auto& all = loaded.interfaces().ordered;
-    if (std::none_of(all.begin(), all.end(), [](const InterBase* i) { return is_modern(i->type); }))
-      return 0;  // no contacts are made for this question
-    std::size_t pairs = 0;
-    for (const Contact& c : loaded.scene().contacts)
-      if (is_modern(c.type)) pairs += c.penetrations.size();
-    return pairs;
-  }
-
   /// Nothing was looked at: no verdict, and nothing that could be fixed.
   void report_nothing(const LoadedDeck& loaded, const Coverage& coverage) {
     PenetrationFix nothing;
@@ -176,13 +154,12 @@ class FixRun {
   /// What each strategy would do, and the command for the best one.
   int propose(const LoadedDeck& loaded, const Coverage& coverage, bool errors) {
     std::vector<PenetrationFix> proposals;
-    for (const char* strategy : {"move-nodes", "reduce-gap", "inacti", "fpenmax", "move-part"}) {
+    for (const char* strategy : {"move-nodes", "reduce-gap", "inacti", "fpenmax", "tie", "move-part"}) {
       auto made = make(loaded, {strategy});
       if (!made) return fail(made.error());
       proposals.push_back(std::move(made->fixes.front()));
     }
     const PenetrationFix now = unchanged(proposals);
-    const std::size_t left = untreated_pairs(loaded);
     if (json_.wanted()) documents_.push_back(fix_json(loaded, now, "no", proposals));
     if (!o_.common.quiet) {
       FixTextOptions text;
@@ -192,10 +169,10 @@ class FixRun {
       texts_ += heading(loaded.path());
       texts_ += fix_proposals_text(
           proposals, [&](std::string_view s) { return command(loaded.path(), s); }, text);
-      if (const std::string tail = left_alone(loaded, coverage, left); !tail.empty())
+      if (const std::string tail = coverage_tail(coverage); !tail.empty())
         texts_ += "\n" + tail.substr(1) + "\n";
     }
-    return now.complete && left == 0 && !errors ? exit_clean : exit_findings;
+    return now.complete && !errors ? exit_clean : exit_findings;
   }
 
   /// A word of a command as a shell takes it.
@@ -229,7 +206,9 @@ class FixRun {
       add("--min-gap", o_.min_gap, plain.min_gap);
       add("--digits", std::to_string(o_.digits), std::to_string(plain.digits));
     } else if (strategy == "inacti") {
-      add("--inacti", std::to_string(o_.inacti), std::to_string(plain.inacti));
+      add("--inacti", o_.inacti, "");
+    } else if (strategy == "tie") {
+      add("--reach", o_.reach, "");
     } else if (strategy == "fpenmax") {
       add("--fpenmax", o_.fpenmax, plain.fpenmax);
     } else {
@@ -279,7 +258,7 @@ class FixRun {
     if (strategy == "inacti") {
       InactiOptions options;
       static_cast<FixOptions&>(options) = base;
-      options.inacti = o_.inacti;
+      if (!o_.inacti.empty()) options.inacti = static_cast<int>(read_integer(o_.inacti).value);
       return set_inacti(context, options);
     }
     if (strategy == "fpenmax") {
@@ -287,6 +266,12 @@ class FixRun {
       static_cast<FixOptions&>(options) = base;
       if (!o_.fpenmax.empty()) options.ratio = *share(o_.fpenmax);
       return set_fpenmax(context, options);
+    }
+    if (strategy == "tie") {
+      TieOptions options;
+      static_cast<FixOptions&>(options) = base;
+      if (!o_.reach.empty()) options.reach = read_real(o_.reach).value;
+      return tie_nodes(context, options);
     }
     MoveNodesOptions options = o_.move;
     static_cast<FixOptions&>(options) = base;
@@ -322,7 +307,7 @@ class FixRun {
         out += fmt::format("{} {}\n", written ? "changed:" : "would change:", terminal_text(file));
       if (!written && !o_.write.diff)
         out += "nothing was written: --diff shows the patch, --in-place or -o DIR writes it\n";
-    } else if (!fix.interfaces.empty()) {
+    } else if (!fix.interfaces.empty() || !fix.ties.empty()) {
       out += "\nno file changes\n";
     }
     return out;
@@ -364,6 +349,9 @@ std::string wrong_usage(const Options& o) {
   const RealCell limit = read_real(o.max_displacement);
   if (!o.max_displacement.empty() && !(limit.status == NumberStatus::ok && limit.value > 0))
     return "--max-displacement needs a length above 0";
+  const RealCell reach = read_real(o.reach);
+  if (!o.reach.empty() && !(reach.status == NumberStatus::ok && reach.value > 0))
+    return "--reach needs a length above 0";
   return deck::cli::usage_error(o.write);
 }
 
@@ -394,7 +382,7 @@ int run(const Options& o) {
 
 /// Options of the strategies that change interface cards.
 void add_card_options(CommandLine& line, Options& o) {
-  CommandLine others = line.group("reduce-gap, inacti, fpenmax");
+  CommandLine others = line.group("reduce-gap, inacti, fpenmax, tie");
   others.option("--min-gap", o.min_gap, "reduce-gap: least share of the present gap to keep")
       .show_default()
       .value("SHARE");
@@ -402,35 +390,43 @@ void add_card_options(CommandLine& line, Options& o) {
       .range(1, 17)
       .show_default()
       .value("N");
-  others.option("--inacti", o.inacti, "inacti: 0 (or 1000), 1, 2, 3, 5 or 6")
-      .one_of({0, 1, 2, 3, 5, 6, 1000})
-      .show_default()
+  others
+      .option("--inacti", o.inacti,
+              "inacti: 0 (or 1000), 1, 2, 3, 5 or 6; TYPE24 and TYPE25: -1, 0 or 5 (default: 6 and "
+              "5)")
+      .one_of({-1, 0, 1, 2, 3, 5, 6, 1000})
       .value("N");
   others
       .option("--fpenmax", o.fpenmax,
               "fpenmax: switch off nodes deeper than this share of the gap (default: only "
               "nodes at distance 0, at which the solver stops)")
       .value("SHARE");
+  others
+      .option("--reach", o.reach,
+              "tie: how far from its segment a node may be, working units (default: for each TYPE2 "
+              "the mean side of its segments, as far as the solver looks by itself)")
+      .value("LENGTH");
 }
 
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   Options& o = *options;
   add_common(line, o.common);
-  line.option(
-          "--strategy", o.strategies,
-          "Without: say what each would do. move-nodes: out of each other's gap; move-part: one "
-          "whole part, with what hangs on it, the way that frees the most; reduce-gap: "
-          "the largest gap without a "
-          "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones. "
-          "Several with commas: each acts on what the previous one left")
+  line.option("--strategy", o.strategies,
+              "Without: say what each would do. move-nodes: out of each other's gap; move-part: one "
+              "whole part, with what hangs on it, the way that frees the most; reduce-gap: the "
+              "largest gap without a penetration; inacti: let the solver treat them; fpenmax: switch "
+              "off deep ones; tie: raise dsearch of TYPE2 to what its untied nodes need. "
+              "Several with commas: each acts on what the previous one left")
       .comma_list()
       .value("STRATEGY")
-      .one_of({"move-nodes", "move-part", "reduce-gap", "inacti", "fpenmax"});
+      .one_of({"move-nodes", "move-part", "reduce-gap", "inacti", "fpenmax", "tie"});
   line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
-  line.flag("--ties", o.ties,
-            "Treat ties (TYPE10, TYPE7 with ITIED) like other contacts: what is moved out of their "
-            "gap comes loose. By default they are left alone, and nothing that is tied changes");
+  line.flag(
+      "--ties", o.ties,
+      "Treat ties (TYPE10, TYPE7 with ITIED) like other contacts: what is moved out of their "
+      "gap comes loose. By default they are left alone, and nothing that is tied changes; what "
+      "a TYPE2 ties never does");
   line.flag("--diff", o.write.diff,
             "Print the patch (git apply takes it); the report goes to stderr");
   line.option("-o,--output", o.write.directory, "Write the deck with all it includes below DIR")
@@ -496,7 +492,9 @@ Action setup(CommandLine& line) {
 }
 
 const VerbRegistration registration{
-    {"fix", 35, "Repair initial penetrations: move nodes, reduce gaps, set Inacti or Fpenmax",
+    {"fix", 35,
+     "Repair initial penetrations and ties: move nodes, reduce gaps, set Inacti, Fpenmax or "
+     "dsearch",
      "  deck fix car_0000.rad                                  what each strategy would do\n"
      "  deck fix car_0000.rad --strategy move-nodes            what this one would do\n"
      "  deck fix car_0000.rad --strategy move-nodes --diff     the same as a patch\n"
@@ -507,12 +505,15 @@ const VerbRegistration registration{
      "  deck fix car_0000.rad --strategy reduce-gap,move-nodes --html fixed.html --diff\n"
      "  deck fix car_0000.rad --strategy inacti --inacti 6 --interface 3 --in-place\n"
      "  deck fix car_0000.rad --strategy fpenmax --fpenmax 0.9 --diff | git apply\n"
+     "  deck fix car_0000.rad --strategy tie --reach 5 -o fixed\n"
      "\n"
      "Which strategy? Moving nodes cures the cause and keeps the gap; it changes the mesh a "
      "little. Moving a part keeps the shape of both sides.\n"
      "Reducing the gap is right where gap and thickness disagree; the contact then acts later.\n"
      "Inacti leaves deck and mesh alone and lets the solver start with a smaller gap for the\n"
      "pairs that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones.\n"
+     "Nodes of a TYPE2 that find no segment fall off: tie raises its dsearch to what those within\n"
+     "--reach need. A node that something else holds stays untied: another tie, a rigid body ...\n"
      "\n"
      "Every change is verified before it is shown: the deck is read again with the new values as\n"
      "printed. What would penetrate deeper than before, or come loose, is not written. A node "
@@ -526,7 +527,7 @@ const VerbRegistration registration{
      "Several decks are fixed together: a file that they share is written once, and if they want\n"
      "different texts for it nothing is written (exit code 2).\n"
      "\n"
-     "Exit code: 0 all penetrations treated or none there, 1 some remain, or nothing was examined, "
+     "Exit code: 0 all treated or nothing to treat, 1 something remains, or nothing was examined, "
      "2 wrong usage, 3 unreadable input.\n",
      setup}};
 

@@ -1,4 +1,4 @@
-// Extraction: a small deck with some contact interfaces and what they need — for bug reports.
+// Extraction: a small deck with some interfaces and what they need — for bug reports.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -14,10 +14,10 @@ namespace deck {
 /// and lines are copied byte for byte, in the order of the deck; ids stay.
 ///
 /// The result is read again: effective values, segments, gaps and stiffness must be those of the
-/// whole deck; what differs is `approximated` in the loss report. Everything left out is `dropped`
+/// whole deck, and of a TYPE2 what it ties; what differs is `approximated` in the loss report. Everything left out is `dropped`
 /// there, one entry a keyword.
 ///
-/// Refusals: an id that is no interface of type 7, 10, 11 or 19; a deck that cannot be flattened.
+/// Refusals: an id that is no interface whose card is read; a deck that cannot be flattened.
 Rewrite extract_contacts(const LoadedDeck& context, std::span<const std::int64_t> interfaces);
 
 }  // namespace deck

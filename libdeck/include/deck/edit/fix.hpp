@@ -1,5 +1,6 @@
-// Repairs of initial penetrations: what all strategies take and report, and those that change an
-// interface card — a smaller gap, Inacti, Fpenmax. Moving nodes is in depenetrate.hpp.
+// Repairs of initial penetrations and of ties that lose nodes: what all strategies take and report,
+// and those that change an interface card — a smaller gap, Inacti, Fpenmax, a larger dsearch.
+// Moving nodes is in depenetrate.hpp.
 //
 // A strategy only describes: the rewrite it proposes, what was found before and what is left after.
 // "After" is never an expectation: the deck is read again with the proposed text and evaluated.
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "deck/contact/scene.hpp"
+#include "deck/contact/tie_text.hpp"
 #include "deck/edit/rewrite.hpp"
 
 namespace deck {
@@ -58,12 +60,32 @@ struct MovedNode {
   double distance = 0;
 };
 
-/// A penetration, or a whole interface (no nodes), that was not treated, and why.
+/// A penetration, a node that is not tied, or a whole interface (no nodes), that was not treated,
+/// and why.
 struct FixRefusal {
   std::int64_t interface_id = 0;
   std::vector<std::int64_t> nodes;  ///< the secondary node, or the two of an edge
   double depth = 0;                 ///< as it is now
   std::string reason;
+  double distance = 0;  ///< of a node that is not tied, from its nearest segment; 0: there is none
+};
+
+/// A node that a fix ties.
+struct NewlyTied {
+  std::int64_t node = 0;
+  std::vector<std::int64_t> segment;  ///< triangle: last repeated
+  double distance = 0;
+};
+
+/// A TYPE2 that lost nodes.
+struct FixedTie {
+  std::int64_t id = 0;
+  std::string title;
+  double reach = 0;  ///< how far its nodes may be; working units
+  TieCounts before, after;
+  double needed = 0;             ///< farthest of the nodes that are tied now; 0: none are
+  std::vector<NewlyTied> nodes;  ///< ascending ids
+  std::vector<FieldChange> changes;
 };
 
 /// What the solver will do about one penetration, before and after the change.
@@ -83,8 +105,10 @@ struct PenetrationFix {
   std::vector<MovedNode> moved;            ///< by node id
   std::vector<FixRefusal> refused;         ///< by interface, deepest first
   std::vector<FixAction> actions;          ///< Inacti, Fpenmax: by interface, deepest first
+  std::vector<FixedTie> ties;              ///< tie: those that lose nodes; by position in the deck
   std::uint64_t crossings_before = 0, crossings_after = 0;  ///< where nodes move: crossed elements
-  std::uint64_t tied_pairs = 0, tied_nodes = 0;  ///< of untreated ties: the same before and after
+  /// Of ties that stay as they are, TYPE2 among them: the same before and after.
+  std::uint64_t tied_pairs = 0, tied_nodes = 0;
   int iterations = 0;
   bool complete = false;  ///< nothing is left of what the strategy treats
 };
@@ -97,12 +121,13 @@ struct ReduceGapOptions : FixOptions {
 };
 /// Gives every interface with penetrations the largest gap that leaves none: Gapmin where the gap
 /// is constant, the better of Fscalegap and Gapmax where it follows the thickness (Igap 1 becomes 2
-/// for that, which is the same with Fscalegap 1). A cell is only ever lowered. Error: the deck
-/// cannot be read again.
+/// for that, which is the same with Fscalegap 1). TYPE25: the better of Gap_scale and Gap_max_s
+/// with Gap_max_m; TYPE24: the latter. A cell is only ever lowered. Error: the deck cannot be read
+/// again.
 Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOptions& options);
 
 struct InactiOptions : FixOptions {
-  int inacti = 6;
+  std::optional<int> inacti;  ///< absent: 6; TYPE24 and TYPE25: 5
 };
 /// Sets Inacti where there are penetrations. Refused: values that the solver does not take or that
 /// do nothing for the type, and interfaces where it would stop at a node at distance 0.
@@ -117,6 +142,17 @@ struct FpenmaxOptions : FixOptions {
 /// Sets Fpenmax of TYPE7 interfaces; all other penetrations stay with Inacti.
 Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptions& options);
 
+struct TieOptions : FixOptions {
+  /// Nodes farther from their segment stay as they are, working units. Absent: for each interface
+  /// as far as the solver looks where dsearch and Ignore are blank, the mean side of its segments.
+  std::optional<double> reach;
+};
+/// Raises dsearch of every TYPE2 that loses nodes to what those within reach need. A node stays as
+/// it is where something else holds it (another tie, a rigid body ...) or where tying it would stop
+/// the solver; dsearch then stays below what would tie it. Whatever was tied stays tied to the same
+/// segment. Not treated, with the reason: Isearch 1, Ignore above 3, surfaces as secondary side.
+Result<PenetrationFix> tie_nodes(const LoadedDeck& context, const TieOptions& options);
+
 /// One strategy of several.
 using FixStep = std::function<Result<PenetrationFix>(const LoadedDeck& context)>;
 struct FixSequence {
@@ -127,7 +163,7 @@ struct FixSequence {
 Result<FixSequence> fix_in_order(const LoadedDeck& context, const std::vector<FixStep>& steps);
 /// What a fix comes to, in pairs: those that it solves, those that it leaves though it changes
 /// something for them, and those that it does not treat (PenetrationFix::refused says why). For
-/// inacti and fpenmax only pairs without treatment by the solver count.
+/// inacti and fpenmax only pairs without treatment by the solver count; for tie nodes.
 struct FixScore {
   std::uint64_t solved = 0, left = 0, not_treated = 0;
   std::uint64_t all() const { return solved + left + not_treated; }
