@@ -493,6 +493,15 @@ TEST(ToUnits, ThereAndBackIsTheIdentityOnValues) {
     small_deck.add("@/INTER/TYPE7/1 Istf=1 Stfac=" + std::to_string(small(random)) + " Gapmin=" +
                    std::to_string(small(random)) + " Ifric=2 C1=" + std::to_string(small(random)) +
                    " C6=" + std::to_string(small(random)));
+    const auto number = [&] { return std::to_string(small(random)); };
+    small_deck.add("@/INTER/TYPE2/2 Ignore=1 Spotflag=25 dsearch=" + number() +
+                   " Stfac=" + number() + " Istf=" + std::to_string(round % 5 + 1));
+    small_deck.add("@/INTER/TYPE2/3 Spotflag=20 dsearch=" + number() + " Max_N_Dist=" + number() +
+                   " Fscaledist=" + number() + " Area=" + number());
+    small_deck.add("@/INTER/TYPE24/4 Gap_max_s=" + number() + " Ipen_max=" + number() +
+                   " Stfac=" + number());
+    small_deck.add("@/INTER/TYPE25/5 Igap=5 Gap_max_m=" + number() + " Gap_scale=" + number() +
+                   " Stmin=" + number() + " THICK_S=" + number() + " Tstop=" + number());
     const auto w = Whole::text(small_deck.text());
     const auto there = w->after(convert(*w, targets[round % 5]));
     const auto back = there->after(convert(*there, "kg,mm,ms"));

@@ -303,6 +303,8 @@ class RandomCards {
             chance(filled) && holds(f.when))
           values.emplace_back(f.name, text_of(f));
     }
+    // The lines of a pair begin with the one that names it.
+    if (keyword == "/FRICTION" && !values.empty()) values.emplace_back("grpart_ID1", "7");
     return test::card(keyword, id, version, values);
   }
   bool chance(double p) { return std::uniform_real_distribution<>()(random_) < p; }

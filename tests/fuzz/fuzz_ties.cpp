@@ -1,11 +1,13 @@
 // Ties: the input is a list of blocks behind a sheet of shells and a few nodes. Whatever cards,
 // segments and nodes it brings: a tied node has a segment that is not its own and lies within its
-// search distance, a lost one has a reason, and threads change nothing.
+// search distance, a lost one has a reason, threads change nothing, and a larger dsearch ties what
+// it was said to tie and nothing else.
 #include <algorithm>
 #include <cmath>
 
 #include "deck/contact/tie_text.hpp"
 #include "deck/deck.hpp"
+#include "deck/edit/fix.hpp"
 #include "support.hpp"
 
 namespace {
@@ -103,5 +105,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Scene three = whole->loaded.scene_with(options, found);
   require(describe(one.ties, whole->model) == describe(three.ties, whole->model),
           "threads change nothing");
+  const auto fix = tie_nodes(whole->loaded, {});
+  require(fix.ok() || fix.error().code != Error::Code::internal, "the fix is what was planned",
+          fix.ok() ? "" : fix.error().message);
   return 0;
 }

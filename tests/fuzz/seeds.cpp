@@ -128,6 +128,9 @@ void examples(Seeds& seeds) {
       if (example.main.size() > 12000) continue;
       if (text.find("/INTER/TYPE2/") != std::string_view::npos)
         seeds.put("fuzz_ties", name, std::string(text));
+      if (text.find("/INTER/TYPE24/") != std::string_view::npos ||
+          text.find("/INTER/TYPE25/") != std::string_view::npos)
+        seeds.put("fuzz_modern", name, std::string(text));
       std::string tree = example.main;
       for (const auto& [file, content] : example.files) tree += "=== " + file + "\n" + content;
       if (!example.files.empty()) seeds.put("fuzz_includes", name, tree);

@@ -158,8 +158,10 @@ TEST_F(FixCommand, WithoutAStrategyItSaysWhatEachWouldDo) {
   EXPECT_TRUE(report["strategy"].is_null());
   std::map<std::string, int> solved;
   for (const auto& p : report["proposals"]) solved[p["strategy"]] = p["score"]["solved"];
-  EXPECT_EQ(solved, (std::map<std::string, int>{
-                        {"move-nodes", 0}, {"reduce-gap", 16}, {"inacti", 16}, {"fpenmax", 0}}));
+  EXPECT_EQ(
+      solved,
+      (std::map<std::string, int>{
+          {"move-nodes", 0}, {"reduce-gap", 16}, {"inacti", 16}, {"fpenmax", 0}, {"tie", 0}}));
   EXPECT_EQ(read(dir_ / "too_close_0000.rad"), too_close_);
   ASSERT_EQ(deck(command), 0) << err();
   EXPECT_TRUE(is_clean("fixed/too_close_0000.rad"));
@@ -169,7 +171,7 @@ TEST_F(FixCommand, WithoutAStrategyItSaysWhatEachWouldDo) {
       << out();
   copy_sample("clean_plates");
   ASSERT_EQ(deck("fix clean_plates_0000.rad"), 0) << out();
-  EXPECT_EQ(out(), "no initial penetrations of TYPE7, TYPE10, TYPE11 and TYPE19: nothing to fix\n");
+  EXPECT_EQ(out(), "no initial penetrations: nothing to fix\n");
   for (const char* writes : {"--in-place", "-o out", "--diff", "--html x.html"}) {
     EXPECT_EQ(deck(std::string("fix too_close_0000.rad ") + writes), 2) << writes;
     EXPECT_NE(err().find("needs --strategy"), std::string::npos) << err();

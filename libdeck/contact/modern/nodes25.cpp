@@ -194,8 +194,8 @@ class Chooser {
     for (const SideNode& n : s.nodes) gap_s_ = std::max(gap_s_, n.gap);
   }
 
-  /// Whether the solver pairs them.
-  bool candidate(const CandidatePair& pair) const {
+  /// Whether the solver pairs them. `open`: whether it may be a penetration.
+  bool candidate(const CandidatePair& pair, bool& open) const {
     const SideNode& n = s_.nodes[pair.secondary];
     const Face& f = s_.faces[pair.main];
     if (!s_.across(n.bits, f.bits)) return false;
@@ -208,8 +208,11 @@ class Chooser {
     box.widen(gap + far);
     if (!box.holds(q)) return false;
     if (s_.set.local()) gap = std::min(gap, n.length + f.length);
-    const double r = gap + far;
-    if (!(facet_distance_squared(x_, f, n.node) < r * r)) return false;
+    const double r = gap + far, d = facet_distance_squared(x_, f, n.node);
+    if (!(d < r * r)) return false;
+    // The gap of a place on the segment is the largest of its corners' at most, but for rounding.
+    constexpr double rounding = 1 + 1e-12;
+    open = f.solid_like() || !(d >= gap * gap * rounding);
     Grid::Box covered = box_of(x_, f);
     covered.widen(gap_s_ + f.gap + (f.solid_like() ? std::max(s_.margin, reach_.grid) : s_.margin));
     return grid_.covers(covered, q);
@@ -291,15 +294,18 @@ Found find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
     std::uint64_t kept = 0, dropped = 0;
     for (std::size_t n = begin; n < end; ++n) {
       pairs.clear();
+      bool any_open = false;  // else none of them is a penetration, whichever is the nearest
       for (std::size_t i = first[n]; i < first[n + 1]; ++i) {
-        if (!chooser.candidate(near.pairs[i])) continue;
+        bool open = false;
+        if (!chooser.candidate(near.pairs[i], open)) continue;
+        any_open = any_open || open;
         if (chooser.removed(near.pairs[i]))
           ++dropped;
         else
           pairs.push_back(near.pairs[i]);
       }
       kept += pairs.size();
-      best[n] = chooser.choose(pairs);
+      if (any_open) best[n] = chooser.choose(pairs);
     }
     candidates[part] = kept;
     removed[part] = dropped;

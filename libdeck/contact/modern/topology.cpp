@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "contact/modern/parts.hpp"
 
@@ -11,9 +12,9 @@ namespace {
 
 using Single = Point3<float>;
 
-/// A side from its first node to its second.
+/// A side that leads from a node to another.
 struct DirectedSide {
-  NodeIndex from = no_index, to = no_index;
+  NodeIndex to = no_index;
   std::uint32_t face = 0, side = 0;
 };
 
@@ -23,25 +24,32 @@ class Joiner {
       : x_(x), faces_(faces), out_(out) {
     out.neighbour.assign(faces.size(), {no_index, no_index, no_index, no_index});
     partner_side_.assign(faces.size(), {});
-    for (std::uint32_t i = 0; i < faces.size(); ++i)
-      if (!faces[i].interior)
-        for (std::uint32_t k = 0; k < 4; ++k)
-          if (from(i, k) != to(i, k)) sides_.push_back({from(i, k), to(i, k), i, k});
-    std::sort(sides_.begin(), sides_.end(), [](const DirectedSide& a, const DirectedSide& b) {
-      return std::tie(a.from, a.to, a.face, a.side) < std::tie(b.from, b.to, b.face, b.side);
+    first_.assign(x.x.size() + 1, 0);
+    each_side([&](std::uint32_t i, std::uint32_t k) { ++first_[from(i, k) + 1]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    sides_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    each_side([&](std::uint32_t i, std::uint32_t k) {
+      sides_[next[from(i, k)]++] = {to(i, k), i, k};
     });
   }
 
   void join() {
-    for (std::uint32_t i = 0; i < faces_.size(); ++i)
-      for (std::uint32_t k = 0; k < 4; ++k)
-        if (!faces_[i].interior && from(i, k) != to(i, k) && out_.neighbour[i][k] == no_index)
-          join(i, k);
+    each_side([&](std::uint32_t i, std::uint32_t k) {
+      if (out_.neighbour[i][k] == no_index) join(i, k);
+    });
   }
   /// Side of the neighbour that lies on side k of i.
   std::uint32_t partner_side(std::uint32_t i, std::uint32_t k) const { return partner_side_[i][k]; }
 
  private:
+  /// Calls f(face, side) for all sides that have a length, in order.
+  template <class F>
+  void each_side(F&& f) const {
+    for (std::uint32_t i = 0; i < faces_.size(); ++i)
+      for (std::uint32_t k = 0; k < 4; ++k)
+        if (!faces_[i].interior && from(i, k) != to(i, k)) f(i, k);
+  }
   NodeIndex from(std::uint32_t i, std::uint32_t k) const { return faces_[i].nodes[k]; }
   NodeIndex to(std::uint32_t i, std::uint32_t k) const { return faces_[i].nodes[(k + 1) % 4]; }
   Vec normal(const Face& f) const {
@@ -66,17 +74,15 @@ class Joiner {
 
   void join(std::uint32_t i, std::uint32_t k) {
     const NodeIndex a = from(i, k), b = to(i, k);
-    const auto less = [](const DirectedSide& s, std::pair<NodeIndex, NodeIndex> key) {
-      return std::pair(s.from, s.to) < key;
-    };
-    const auto begin = std::lower_bound(sides_.begin(), sides_.end(), std::pair(b, a), less);
     const Vec d = at(x_, b) - at(x_, a);
     Vec ni, yi;
     const DirectedSide* best = nullptr;
     double best_c = 0;
     bool best_front = false;
-    for (auto s = begin; s != sides_.end() && s->from == b && s->to == a; ++s) {
-      if (s->face == i || out_.neighbour[s->face][s->side] != no_index) continue;
+    const std::span<const DirectedSide> there(sides_.data() + first_[b],
+                                              sides_.data() + first_[b + 1]);
+    for (auto s = there.begin(); s != there.end(); ++s) {
+      if (s->to != a || s->face == i || out_.neighbour[s->face][s->side] != no_index) continue;
       if (!fits(faces_[i], faces_[s->face], a, b)) continue;
       if (best == nullptr) {
         ni = normal(faces_[i]);
@@ -102,7 +108,8 @@ class Joiner {
   const Coordinates& x_;
   const std::vector<Face>& faces_;
   Topology& out_;
-  std::vector<DirectedSide> sides_;
+  std::vector<std::uint32_t> first_;  ///< by node: where its sides are
+  std::vector<DirectedSide> sides_;  ///< by the node they lead from, then faces and sides ascending
   std::vector<std::array<std::uint32_t, 4>> partner_side_;
 };
 

@@ -22,6 +22,7 @@ constexpr FlagRule flag_rules[] = {
     {RuleId::DK213, "Ithe"},      {RuleId::DK214, "ITIED"},    {RuleId::DK215, "Iedge"},
     {RuleId::DK216, "Ithe_form"}, {RuleId::DK218, "Idir"},     {RuleId::DK352, "Spotflag"},
     {RuleId::DK353, "Ignore"},    {RuleId::DK354, "Isearch"},  {RuleId::DK355, "Idel2"},
+    {RuleId::DK356, "Rupt"},
 };
 
 /// Values with a rule of their own.
@@ -83,7 +84,7 @@ std::span<const Checked> flag_checks() {
       {RuleId::DK213, check_flag}, {RuleId::DK214, check_flag}, {RuleId::DK215, check_flag},
       {RuleId::DK216, check_flag}, {RuleId::DK217, check_ibc},  {RuleId::DK218, check_flag},
       {RuleId::DK352, check_flag}, {RuleId::DK353, check_flag}, {RuleId::DK354, check_flag},
-      {RuleId::DK355, check_flag},
+      {RuleId::DK355, check_flag}, {RuleId::DK356, check_flag},
   };
   return all;
 }
