@@ -147,33 +147,73 @@ void compare(const std::map<PairIndices, double>& got, const std::map<PairIndice
 
 }  // namespace
 
-void measure_gaps(const std::function<Scene(Accuracy)>& run, int repeats, AccuracyReport& report) {
-  std::erase_if(report.tiers, [](const TierResult& t) { return t.what == "gaps"; });
-  std::map<PairIndices, double> truth;
-  double pairs = 1.0;  // the exact ones, so that times can be compared
-  for (const Accuracy accuracy :
-       {Accuracy::exact, Accuracy::robust, Accuracy::reference, Accuracy::fast}) {
-    TierResult row;
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return Seconds(std::chrono::steady_clock::now() - start).count();
+}
+
+// The runs of one accuracy.
+struct GapsRuns {
+  Accuracy accuracy{};
+  std::vector<double> seconds;
+  TierResult row;
+
+  void add(const std::function<Scene(Accuracy)>& run, std::map<PairIndices, double>& truth) {
+    const auto start = std::chrono::steady_clock::now();
+    const Scene scene = run(accuracy);
+    seconds.push_back(seconds_since(start));
+    if (seconds.size() > 1) return;
+    row.samples = scene.decisions.pairs;
+    row.fallback_share = static_cast<double>(scene.decisions.fallback);
+    row.exact_share = static_cast<double>(scene.decisions.exact);
+    const auto got = pairs_in_contact(scene);
+    if (accuracy == Accuracy::exact) truth = got;
+    compare(got, truth, row);
+  }
+  // `pairs`: the exact ones, so that times can be compared.
+  void finish(double pairs) {
+    std::sort(seconds.begin(), seconds.end());
     row.name = to_string(accuracy);
     row.what = "gaps";
-    std::vector<double> times;
-    for (int r = 0; r < (accuracy == Accuracy::exact ? 1 : std::max(1, repeats)); ++r) {
-      const auto start = std::chrono::steady_clock::now();
-      const Scene scene = run(accuracy);
-      const std::chrono::duration<double, std::nano> spent =
-          std::chrono::steady_clock::now() - start;
-      row.samples = scene.decisions.pairs;
-      if (accuracy == Accuracy::exact)
-        pairs = static_cast<double>(std::max<std::uint64_t>(row.samples, 1));
-      times.push_back(spent.count() / pairs);
-      row.fallback_share = static_cast<double>(scene.decisions.fallback) / pairs;
-      row.exact_share = static_cast<double>(scene.decisions.exact) / pairs;
-      if (r > 0) continue;
-      if (accuracy == Accuracy::exact) truth = pairs_in_contact(scene);
-      compare(pairs_in_contact(scene), truth, row);
-    }
-    row.ns_per_pair = *std::min_element(times.begin(), times.end());
-    report.tiers.push_back(row);
+    row.seconds = seconds.front();
+    const std::size_t quarter = std::min(seconds.size() - 1, (seconds.size() + 3) / 4);
+    row.spread = (seconds[quarter] - seconds.front()) / std::max(seconds.front(), 1e-9);
+    row.ns_per_pair = 1e9 * row.seconds / pairs;
+    row.fallback_share /= pairs;
+    row.exact_share /= pairs;
+  }
+};
+
+}  // namespace
+
+void measure_gaps(const std::function<Scene(Accuracy)>& run, const GapsTiming& timing,
+                  AccuracyReport& report) {
+  std::erase_if(report.tiers, [](const TierResult& t) { return t.what == "gaps"; });
+  std::map<PairIndices, double> truth;
+  std::vector<GapsRuns> all;
+  for (const Accuracy a : {Accuracy::exact, Accuracy::robust, Accuracy::reference, Accuracy::fast})
+    all.push_back({a, {}, {}});
+  const int repeats = std::max(1, timing.repeats);
+  const auto runs = static_cast<std::uint64_t>(3 * repeats + 1);
+  std::uint64_t done = 0;
+  const auto one = [&](GapsRuns& r) {
+    if (timing.progress) timing.progress(std::min(done, runs), runs);
+    r.add(run, truth);
+    ++done;
+  };
+  one(all[0]);
+  const auto start = std::chrono::steady_clock::now();
+  for (int round = 0; round < repeats || seconds_since(start) < timing.least; ++round) {
+    if (round >= 3 && seconds_since(start) > timing.most) break;
+    for (std::size_t k = 1; k < all.size(); ++k) one(all[k]);
+  }
+  const auto pairs = static_cast<double>(std::max<std::uint64_t>(all[0].row.samples, 1));
+  for (GapsRuns& r : all) {
+    r.finish(pairs);
+    report.tiers.push_back(r.row);
   }
   mark_dominated(report.tiers);
 }

@@ -375,6 +375,10 @@ class Measure {
   void run(const cycle::ContactCard& card, ContactCost& out) {
     std::optional<Loop> base = proven(card, options_, view_, out.problem);
     if (!base) return;
+    if (how_.loops_only) {
+      loops(card, *base, out);
+      return;
+    }
     const PacketResult first = base->result();
     Loop flags(card, options_, true, view_);
     const Race own = race(*base, flags, how_);
@@ -397,6 +401,17 @@ class Measure {
   }
 
  private:
+  /// The loop as it is and the one with everything, in turn.
+  void loops(const cycle::ContactCard& card, Loop& base, ContactCost& out) {
+    Other all = everything(card);
+    std::string why_not;
+    std::optional<Loop> loop = proven(all.card, options_, view_, why_not);
+    const Race both = race(base, loop ? *loop : base, how_);
+    out.loop_ns = quantile(both.a, 0.5) * per_pair_;
+    if (!loop) return;
+    out.all_ns = quantile(both.b, 0.5) * per_pair_;
+    out.all = std::move(all.says);
+  }
   void effect(const cycle::ContactCard& card, const cycle::EffectState& e, bool friction,
               Loop& base, EffectCost& out) {
     const std::optional<Other> other = other_card(card, e, friction, out.why_not);
@@ -421,6 +436,46 @@ class Measure {
 };
 
 }  // namespace
+
+namespace {
+
+/// Effects that are taken together.
+const std::pair<const char*, std::vector<const char*>> groups[] = {
+    {"friction", {"friction-viscous", "friction-incremental"}},
+    {"heat", {"heat-conduction", "radiation", "friction-heat"}},
+};
+
+bool asks_for(const cycle::ContactCard& card, std::string_view name) {
+  const std::vector<cycle::EffectState> account = cycle::effect_plan(card);
+  return std::any_of(account.begin(), account.end(),
+                     [&](const cycle::EffectState& e) { return e.on && e.name == name; });
+}
+
+}  // namespace
+
+bool take_effect(const std::string& name, cycle::ContactCard& card) {
+  bool taken = false;
+  for (const auto& [group, members] : groups)
+    if (name == group)
+      for (const char* member : members) taken = take_effect(member, card) || taken;
+  for (const Switch& s : switches) {
+    if (name != s.name || !asks_for(card, s.name)) continue;
+    // A loop that is timed gets a friction of its own instead; an evaluation keeps that of the
+    // card.
+    const double fric = card.fric;
+    s.take(card);
+    card.fric = std::min(card.fric, fric);
+    taken = true;
+  }
+  return taken;
+}
+
+std::vector<std::string> effects_to_take() {
+  std::vector<std::string> names;
+  for (const auto& [group, members] : groups) names.emplace_back(group);
+  for (const Switch& s : switches) names.emplace_back(s.name);
+  return names;
+}
 
 std::vector<ContactCost> measure_effects(const Scene& scene, const cycle::State& state,
                                          const cycle::SceneOutcome& outcome,
@@ -450,7 +505,7 @@ std::vector<ContactCost> measure_effects(const Scene& scene, const cycle::State&
                      : cost.pairs == 0  ? "no pair is within five times the gap"
                                         : "";
       if (cost.problem.empty()) Measure(options, how, packet.view()).run(card, cost);
-      if (cost.pairs > 0 || !packet.complete()) break;
+      if (cost.pairs > 0 || !packet.complete() || how.loops_only) break;
     }
   }
   return out;

@@ -68,13 +68,21 @@ double scaled_error(const PairSample& s, double got, double want, bool force, do
   return std::abs(got / slope - want / slope) / size;
 }
 
+// How far off a wrong decision was: the error of its distance over the gap or the distance.
+double error_of_wrong(const PairSample& s, double got, double want) {
+  if (!std::isfinite(got)) return kNever;
+  const double scale = std::max({s.gap, got, want});
+  return scale > 0.0 ? std::abs(got - want) / scale : 0.0;
+}
+
 struct Errors {
   double relative = 0.0, ulp = 0.0, scaled = 0.0;
   std::uint64_t decisions = 0, features = 0, non_finite = 0, samples = 0;
-  // The first wrong decision, else the worst distance.
+  // The wrong decision with the largest error, else the worst distance.
   const PairSample* example = nullptr;
   double got = 0.0, want = 0.0;
-  bool example_is_decision = false;
+  bool example_is_decision = false, want_closer = false;
+  double example_error = 0.0;
 
   void add(const PairSample& s, const Outcome& o, const Outcome& truth, std::string_view what,
            double distance) {
@@ -86,11 +94,15 @@ struct Errors {
     const bool small = s.gap < 0x1p-900 || (truth.value != 0.0 && !std::isnormal(truth.value));
     const bool digits = what == "distance" || !small;
     const double error = values && digits ? relative_error(o.value, truth.value) : 0.0;
-    if ((wrong && !example_is_decision) || (!example_is_decision && error > relative)) {
+    const double far = wrong ? error_of_wrong(s, o.value, truth.value) : error;
+    const bool worse = example == nullptr || far > example_error;
+    if (wrong ? !example_is_decision || worse : !example_is_decision && error > relative) {
       example = &s;
       example_is_decision = wrong;
+      example_error = far;
       got = o.value;
       want = truth.value;
+      want_closer = truth.closer;
     }
     if (!values) return;
     non_finite += !std::isfinite(o.value) && std::isfinite(truth.value);
@@ -102,14 +114,19 @@ struct Errors {
   }
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+// Time per pair: the median of the timings, and how far below it their lower quartile lies.
+struct PairTime {
+  double ns = 0.0, spread = 0.0;
+};
+
+PairTime median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const double middle = values[values.size() / 2];
+  return {middle, middle > 0.0 ? (middle - values[values.size() / 4]) / middle : 0.0};
 }
 
-// Median over the repeats of the time per pair. The sum keeps the work from being left out.
-double time_of(const Tier& tier, std::span<const PairSample> samples, int repeats) {
+// The sum keeps the work from being left out.
+PairTime time_of(const Tier& tier, std::span<const PairSample> samples, int repeats) {
   std::vector<double> times;
   volatile double sink = 0.0;
   for (int r = 0; r < std::max(1, repeats); ++r) {
@@ -135,18 +152,16 @@ std::vector<PairSample> thinned(std::span<const PairSample> samples, std::size_t
   return out;
 }
 
-bool has_family_rows(const Tier& tier) { return std::string_view(tier.what) == "distance"; }
-
-void add_family_rows(AccuracyReport& report, const Tier& tier,
+void add_family_rows(std::vector<FamilyResult>& rows, const Tier& tier,
                      const std::vector<Errors>& families) {
   for (const HardFamily& f : hard_families()) {
     const Errors& e = families[static_cast<std::size_t>(f.id)];
     if (e.samples == 0) continue;
     FamilyResult row{f.id,       f.name, f.expected,  tier.name,    e.samples,
                      e.relative, e.ulp,  e.decisions, e.non_finite, e.example != nullptr,
-                     {},         e.got,  e.want};
+                     {},         e.got,  e.want,      e.want_closer};
     if (e.example != nullptr) row.example = *e.example;
-    report.families.push_back(row);
+    rows.push_back(row);
   }
 }
 
@@ -183,11 +198,10 @@ struct Measurement {
         rewritten(thinned(all, o.rewritten_limit)) {
     FilterCounters unused;
     distances.reserve(all.size());
+    for (const PairSample& s : all) distances.push_back(accuracy::exact(s, unused));
+    if (o.decisions_only) return;
     forces.reserve(all.size());
-    for (const PairSample& s : all) {
-      distances.push_back(accuracy::exact(s, unused));
-      forces.push_back(accuracy::exact_force(s, unused));
-    }
+    for (const PairSample& s : all) forces.push_back(accuracy::exact_force(s, unused));
   }
   void run(const Tier& tier, AccuracyReport& report) const {
     Errors errors;
@@ -203,10 +217,15 @@ struct Measurement {
                                                             distances[k].value);
     }
     TierResult row = row_of(tier, errors, counters);
-    row.ns_per_pair = tier.slow ? time_of(tier, few, 1) : time_of(tier, samples, options.repeats);
-    if (!tier.slow && what != "force") check_invariance(tier, row);
+    const PairTime time =
+        tier.slow ? time_of(tier, few, 1) : time_of(tier, samples, options.repeats);
+    row.ns_per_pair = time.ns;
+    row.spread = time.spread;
+    // Asked of the exact decision too, which is one of the choices of --accuracy.
+    if (what != "force" && (!tier.slow || what == "gaps")) check_invariance(tier, row);
     report.tiers.push_back(row);
-    if (has_family_rows(tier)) add_family_rows(report, tier, families);
+    if (what == "distance") add_family_rows(report.families, tier, families);
+    if (what == "gaps") add_family_rows(report.kinds, tier, families);
   }
   void check_invariance(const Tier& tier, TierResult& row) const {
     const bool values = row.what == "distance";
@@ -229,7 +248,7 @@ struct Measurement {
     }
     constexpr const char* names[] = {"filter", "double-double", "exact"};
     for (std::size_t k = 0; k < ends.size(); ++k) {
-      const double ns = ends[k].empty() ? 0.0 : time_of(tier, ends[k], options.repeats);
+      const double ns = ends[k].empty() ? 0.0 : time_of(tier, ends[k], options.repeats).ns;
       report.stages.push_back({names[k], ends[k].size(), ns});
     }
   }
@@ -267,11 +286,27 @@ AccuracyReport measure_accuracy(std::span<const PairSample> samples,
   AccuracyReport report;
   report.scene = !samples.empty() && samples[0].family > 0 ? "hard-cases" : "deck";
   if (samples.empty()) return report;
+  std::vector<Tier> tiers;
+  for (const Tier& tier : accuracy::distance_tiers())
+    if (!options.decisions_only || std::string_view(tier.what) == "gaps") tiers.push_back(tier);
+  if (!options.decisions_only)
+    for (const Tier& tier : accuracy::force_tiers()) tiers.push_back(tier);
+  // The exact answers come first, and take longer than most tiers.
+  std::uint64_t done = 0;
+  const auto step = [&] {
+    if (options.progress) options.progress(done++, tiers.size() + 2);
+  };
+  step();
   const Measurement measurement(samples, options);
-  for (const Tier& tier : accuracy::distance_tiers()) measurement.run(tier, report);
-  for (const Tier& tier : accuracy::force_tiers()) measurement.run(tier, report);
-  measurement.run_kernel(report);
-  measurement.run_stages(report);
+  for (const Tier& tier : tiers) {
+    step();
+    measurement.run(tier, report);
+  }
+  step();
+  if (!options.decisions_only) {
+    measurement.run_kernel(report);
+    measurement.run_stages(report);
+  }
   mark_dominated(report.tiers);
   return report;
 }

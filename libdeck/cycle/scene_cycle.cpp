@@ -111,6 +111,7 @@ SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
     ContactOutcome& c = out.contacts[i];
     c.contact = &scene.contacts[i];
     c.card = memory.cards[i];
+    if (options.change_card) options.change_card(c.card);
     stiffness[i] = detail::run_contact(run, memory.contacts[i], c, out.nodes);
     if (options.progress) options.progress(i + 1, scene.contacts.size());
   }

@@ -1,11 +1,12 @@
 // `deck accuracy`: the measured tiers as text and JSON.
 #include "deck/report/accuracy.hpp"
-#include "deck/base/escape.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "deck/base/count.hpp"
+#include "deck/base/escape.hpp"
 #include "deck/report/json.hpp"
 #include "deck/report/text_table.hpp"
 
@@ -59,6 +60,141 @@ void write_example(JsonWriter& j, const FamilyResult& f) {
   j.end_object();
 }
 
+TextTable::Cell wrong_cell(std::uint64_t wrong, std::uint64_t all) {
+  if (wrong == 0) return {"0", Tone::green};
+  return {fmt::format("{} = {}", wrong, share_text(wrong, all)), Tone::red};
+}
+
+// One row an accuracy, as on the page.
+std::string choice_text(const std::vector<AccuracyChoice>& choices, bool color, std::size_t width) {
+  std::string out;
+  for (const std::string& sentence : accuracy_advice(choices))
+    out += (out.empty() ? "" : " ") + sentence;
+  out += "\n\n";
+  const bool deck = choices.front().deck.has_value();
+  std::vector<TextTable::Column> columns{{"--accuracy"}};
+  if (deck) {
+    columns.push_back({"on this deck", Align::right});
+    columns.push_back({"wrong", Align::right});
+  }
+  for (const char* title : {"hard cases", "wrong there", "two answers", "kinds"})
+    columns.push_back({title, Align::right});
+  TextTable table(columns);
+  for (const AccuracyChoice& c : choices) {
+    const Tone own = c.accuracy == Accuracy::robust ? Tone::bold : Tone::plain;
+    std::vector<TextTable::Cell> cells{{to_string(c.accuracy), own}};
+    if (deck) {
+      cells.emplace_back(seconds_text(c.deck->seconds), own);
+      cells.push_back(wrong_cell(c.deck->wrong, c.deck->pairs));
+    }
+    cells.emplace_back(ratio_text(c.hard.ratio.value) + " x", own);
+    cells.push_back(wrong_cell(c.hard.wrong, c.hard.pairs));
+    cells.push_back(wrong_cell(c.hard.other_answers, c.hard.rewritten));
+    cells.emplace_back(fmt::format("{} of {}", c.hard.kinds_right, c.hard.kinds),
+                       c.hard.kinds_right == c.hard.kinds ? Tone::green : Tone::red);
+    table.row(std::move(cells));
+  }
+  out += table.fitted(width, color);
+  const AccuracyChoice::OnHardCases& hard = choices.front().hard;
+  if (deck)
+    out += fmt::format("\nOn this deck: the whole of deck gaps, {}.",
+                       count(choices.front().deck->pairs, "pair", "pairs"));
+  return out + fmt::format(
+                   "\nHard cases: {} made to break arithmetic, time against fast."
+                   "\nTwo answers: of {} written in other ways (order of nodes, axes, units)."
+                   "\nKinds: kinds of hard cases without a wrong decision.\n",
+                   count(hard.pairs, "pair", "pairs"), count(hard.rewritten, "pair", "pairs"));
+}
+
+void write_choices(JsonWriter& j, const std::vector<AccuracyChoice>& choices) {
+  j.key("choices").begin_array();
+  for (const AccuracyChoice& c : choices) {
+    j.begin_object().field("accuracy", to_string(c.accuracy)).key("deck");
+    const auto ratio = [&](const TimeRatio& r) {
+      j.field("ratio", r.value).field("ratio_spread", r.spread);
+      j.field("measurable", !r.unmeasurable());
+    };
+    if (c.deck) {
+      j.begin_object(true).field("seconds", c.deck->seconds);
+      ratio(c.deck->ratio);
+      j.field("wrong", c.deck->wrong).field("pairs", c.deck->pairs).end_object();
+    } else {
+      j.null();
+    }
+    j.key("hard_cases").begin_object(true).field("ns_per_pair", c.hard.ns_per_pair);
+    ratio(c.hard.ratio);
+    j.field("wrong", c.hard.wrong).field("pairs", c.hard.pairs);
+    j.field("rewritten", c.hard.rewritten).field("other_answers", c.hard.other_answers);
+    j.field("kinds_right", c.hard.kinds_right).field("kinds", c.hard.kinds).end_object();
+    j.key("kinds").begin_array();
+    for (const FamilyResult* f : c.kinds) {
+      j.begin_object(true).field("id", f->id).field("name", f->name);
+      j.field("pairs", f->samples).field("wrong", f->decision_errors);
+      j.field("in_contact", f->exact_closer).field("expected", f->expected);
+      write_example(j, *f);
+      j.end_object();
+    }
+    j.end_array().end_object();
+  }
+  j.end_array();
+}
+
+// Number types and formulas, and what kinds of hard cases the reference formula gets wrong.
+std::string expert_tables(const AccuracyReport& report, bool color, std::size_t width) {
+  std::string out;
+  TextTable table({{"tier"},
+                   {"what"},
+                   {"ns/pair", Align::right},
+                   {"x plain", Align::right},
+                   {"worst rel.", Align::right},
+                   {"worst ulp", Align::right},
+                   {"of size", Align::right},
+                   {"wrong decisions", Align::right},
+                   {"wrong features", Align::right},
+                   {"not finite", Align::right},
+                   {"not invariant", Align::right},
+                   {"jumps", Align::right},
+                   {"fallback", Align::right},
+                   {"to exact", Align::right},
+                   {""}});
+  const auto counted = [](std::uint64_t n) {
+    return TextTable::Cell(std::to_string(n), n > 0 ? Tone::red : Tone::green);
+  };
+  for (const TierResult& t : report.tiers) {
+    const bool value = t.what != "gaps" || t.max_relative_error > 0.0;
+    const double plain = plain_time(report, t.what);
+    table.row({t.name, t.what, fmt::format("{:.0f}", t.ns_per_pair),
+               plain > 0 ? fmt::format("{:.2f}", t.ns_per_pair / plain) : std::string(),
+               value ? number(t.max_relative_error) : "-", value ? number(t.max_ulp) : "-",
+               value ? number(t.max_scaled_error) : "-", counted(t.decision_errors),
+               t.what == "distance" ? counted(t.feature_errors) : TextTable::Cell("-"),
+               counted(t.non_finite),
+               t.rewritten > 0 ? counted(t.invariance_violations) : TextTable::Cell("-"),
+               t.rewritten > 0 && t.what == "distance" ? counted(t.jumps) : TextTable::Cell("-"),
+               percent(t.fallback_share), percent(t.exact_share),
+               t.dominated ? TextTable::Cell("dominated", Tone::dim) : TextTable::Cell("")});
+  }
+  out += table.fitted(width, color, 0, 2);
+  if (!report.families.empty()) {
+    TextTable families({{"kind", Align::right},
+                        {""},
+                        {"tier"},
+                        {"worst rel.", Align::right},
+                        {"wrong decisions", Align::right},
+                        {"not finite", Align::right},
+                        {"expected"}});
+    for (const FamilyResult& f : report.families) {
+      const bool failing = f.decision_errors > 0 || f.max_ulp > 1.0;
+      if (f.tier != "reference" && !(f.tier == "robust" && failing)) continue;
+      families.row({std::to_string(f.id), f.name, f.tier, number(f.max_relative_error),
+                    counted(f.decision_errors), counted(f.non_finite), f.expected});
+    }
+    out += "\nKinds of hard cases (reference; robust only where it fails):\n" +
+           families.fitted(width, color, 0, 3);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string accuracy_compiler() {
@@ -77,64 +213,28 @@ std::string accuracy_compiler() {
   return name + __VERSION__ + level + ", no contraction";
 }
 
+std::vector<AccuracyChoice> accuracy_choices_of(const AccuracyReport& report,
+                                                const AccuracyContext& context) {
+  if (report.scene == "hard-cases") return accuracy_choices(report, nullptr);
+  if (context.hard == nullptr) return {};
+  return accuracy_choices(*context.hard, report.tiers.empty() ? nullptr : &report);
+}
+
 std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& context, bool color,
-                          std::size_t width) {
-  if (report.tiers.empty()) return "No pairs to measure.\n";
-  std::string out =
-      fmt::format("{} pairs of {}\n\n", report.tiers[0].samples,
-                  context.path.empty() ? "the hard cases" : terminal_text(context.path));
-  TextTable table({{"tier"},
-                   {"what"},
-                   {"ns/pair", Align::right},
-                   {"x plain", Align::right},
-                   {"worst rel.", Align::right},
-                   {"worst ulp", Align::right},
-                   {"of size", Align::right},
-                   {"wrong decisions", Align::right},
-                   {"wrong features", Align::right},
-                   {"not finite", Align::right},
-                   {"not invariant", Align::right},
-                   {"jumps", Align::right},
-                   {"fallback", Align::right},
-                   {"to exact", Align::right},
-                   {""}});
-  const auto count = [](std::uint64_t n) {
-    return TextTable::Cell(std::to_string(n), n > 0 ? Tone::red : Tone::green);
-  };
-  for (const TierResult& t : report.tiers) {
-    const bool value = t.what != "gaps" || t.max_relative_error > 0.0;
-    const double plain = plain_time(report, t.what);
-    table.row({t.name, t.what, fmt::format("{:.0f}", t.ns_per_pair),
-               plain > 0 ? fmt::format("{:.2f}", t.ns_per_pair / plain) : std::string(),
-               value ? number(t.max_relative_error) : "-", value ? number(t.max_ulp) : "-",
-               value ? number(t.max_scaled_error) : "-", count(t.decision_errors),
-               t.what == "distance" ? count(t.feature_errors) : TextTable::Cell("-"),
-               count(t.non_finite),
-               t.rewritten > 0 ? count(t.invariance_violations) : TextTable::Cell("-"),
-               t.rewritten > 0 && t.what == "distance" ? count(t.jumps) : TextTable::Cell("-"),
-               percent(t.fallback_share), percent(t.exact_share),
-               t.dominated ? TextTable::Cell("dominated", Tone::dim) : TextTable::Cell("")});
-  }
-  out += table.fitted(width, color, 0, 2);
-  if (!report.families.empty()) {
-    TextTable families({{"family", Align::right},
-                        {""},
-                        {"tier"},
-                        {"worst rel.", Align::right},
-                        {"wrong decisions", Align::right},
-                        {"not finite", Align::right},
-                        {"expected"}});
-    for (const FamilyResult& f : report.families) {
-      const bool failing = f.decision_errors > 0 || f.max_ulp > 1.0;
-      if (f.tier != "reference" && !(f.tier == "robust" && failing)) continue;
-      families.row({std::to_string(f.id), f.name, f.tier, number(f.max_relative_error),
-                    count(f.decision_errors), count(f.non_finite), f.expected});
-    }
-    out += "\nFamilies (reference; robust only where it fails):\n" +
-           families.fitted(width, color, 0, 3);
-  }
+                          std::size_t width, bool verbose) {
+  const std::vector<AccuracyChoice> choices = accuracy_choices_of(report, context);
+  std::string out;
+  if (context.deck != nullptr || !context.path.empty())
+    out += terminal_text(context.path) + (report.tiers.empty() ? ": no pair to decide\n" : "\n");
+  if (!choices.empty()) out += choice_text(choices, color, width);
+  if (choices.empty() && report.tiers.empty()) return out + "No pairs to measure.\n";
+  if (verbose && !report.tiers.empty())
+    out += fmt::format("\nNumber types and formulas, {} of {}\n",
+                       count(report.tiers[0].samples, "pair", "pairs"),
+                       context.path.empty() ? "the hard cases" : "the deck") +
+           expert_tables(report, color, width);
   out += fmt::format("\n{}; {}\n", terminal_text(context.processor), accuracy_compiler());
-  return out;
+  return verbose ? out : out + "(--verbose: number types, formulas and kinds of hard cases)\n";
 }
 
 std::string accuracy_examples(const AccuracyReport& report) {
@@ -156,10 +256,16 @@ std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& c
   j.field("scene", report.scene);
   j.key("machine").begin_object(true).field("processor", context.processor);
   j.field("compiler", accuracy_compiler()).field("command", context.command).end_object();
+  const std::vector<AccuracyChoice> choices = accuracy_choices_of(report, context);
+  j.key("advice").begin_array();
+  for (const std::string& sentence : accuracy_advice(choices)) j.value(sentence);
+  j.end_array();
+  write_choices(j, choices);
   j.key("tiers").begin_array();
   for (const TierResult& t : report.tiers) {
     j.begin_object(true).field("name", t.name).field("what", t.what).field("samples", t.samples);
-    j.field("ns_per_pair", t.ns_per_pair).field("max_relative_error", t.max_relative_error);
+    j.field("ns_per_pair", t.ns_per_pair).field("spread", t.spread).field("seconds", t.seconds);
+    j.field("max_relative_error", t.max_relative_error);
     j.field("max_ulp", t.max_ulp).field("max_scaled_error", t.max_scaled_error);
     j.field("decision_errors", t.decision_errors)
         .field("feature_errors", t.feature_errors)

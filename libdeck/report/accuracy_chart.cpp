@@ -37,13 +37,20 @@ struct Panel {
         error > 0.0 ? std::clamp(std::log10(std::min(error, 1e300)), floor, ceiling) : floor;
     return kBottom - (at - floor) / (ceiling - floor) * (kBottom - kTop);
   }
-  // Another one is as fast and has no larger error on this axis, and is better in one of both.
-  bool beaten(const TierResult& t) const {
-    return std::any_of(tiers.begin(), tiers.end(), [&](const TierResult* o) {
-      const double a = error(*o), b = error(t);
-      return o->ns_per_pair <= t.ns_per_pair && a <= b && (o->ns_per_pair < t.ns_per_pair || a < b);
-    });
+  // Another one is not slower and has no larger error on this axis, and is better in one of both.
+  // Times that differ by no more than they do from run to run are equal.
+  const TierResult* better_than(const TierResult& t) const {
+    const TierResult* best = nullptr;
+    for (const TierResult* o : tiers) {
+      const double noise = 1.0 + o->spread + t.spread, a = error(*o), b = error(t);
+      const bool faster = o->ns_per_pair * noise < t.ns_per_pair;
+      const bool slower = o->ns_per_pair > t.ns_per_pair * noise;
+      if (o == &t || slower || a > b || !(faster || a < b)) continue;
+      if (best == nullptr || o->ns_per_pair < best->ns_per_pair) best = o;
+    }
+    return best;
   }
+  bool beaten(const TierResult& t) const { return better_than(t) != nullptr; }
 };
 
 // Hard cases have exact distances of 0 and 1e-300: there the error is taken over the pair's size.
@@ -126,7 +133,8 @@ std::string frame(const Panel& panel) {
       level(panel.y(std::pow(10.0, p)), fmt::format("{:.0f}", std::pow(10.0, p)));
   } else {
     for (double p = panel.floor + 2; p <= panel.ceiling; p += 4)
-      level(panel.y(std::pow(10.0, p)), power_of_ten(p));
+      if (panel.y(std::pow(10.0, p)) > kTop + 16)
+        level(panel.y(std::pow(10.0, p)), power_of_ten(p));
     level(kTop, "more");
     const double ulp = panel.y(0x1p-52);
     out += line(kLeft, ulp, kRight, ulp, "dk-ulp");
@@ -184,6 +192,15 @@ LabelBox place_label(double x, double y, double width, const std::vector<LabelBo
   return fallback;
 }
 
+/// Why the default is the default though another one is better on these axes; "" if none is.
+std::string reason(const Panel& panel, const TierResult& standard) {
+  const TierResult* other = panel.better_than(standard);
+  if (other == nullptr) return {};
+  const bool proves = other->name == "exact" || other->name == "epeck" || other->name == "interval";
+  return fmt::format("{} is better than robust on these pairs{}", other->name,
+                     proves ? "." : ", but proves none of its answers; robust proves each.");
+}
+
 std::string marks(const Panel& panel) {
   std::string out;
   std::vector<LabelBox> taken;
@@ -205,11 +222,13 @@ std::string marks(const Panel& panel) {
     out += fmt::format(
         "<circle cx='{:.1f}' cy='{:.1f}' r='5' class='{}'><title>{}: {:.4g} ns, "
         "{}</title></circle>\n",
-        x, y, panel.beaten(t) ? "dk-mark dk-hollow" : "dk-mark", xml_text(t.name), t.ns_per_pair,
+        x, y, !standard && panel.beaten(t) ? "dk-mark dk-hollow" : "dk-mark", xml_text(t.name),
+        t.ns_per_pair,
         panel.counts() ? fmt::format("{} wrong", t.decision_errors)
                        : fmt::format("error {:.3g}", panel.error(t)));
     out += text(box.x, box.y + 11, "start", name,
                 standard ? "class='dk-label dk-strong'" : "class='dk-label'");
+    if (standard) out += text(kRight, kBottom + 58, "end", reason(panel, t), "class='dk-reason'");
   }
   return out + text(kRight, kBottom + 38, "end",
                     "hollow: another tier is as fast and not worse on this axis");

@@ -17,9 +17,15 @@
 namespace deck {
 namespace {
 
-const ContactCost* cost_of(const CycleInput& input, const cycle::ContactOutcome& contact) {
+/// What was measured of a contact; nullptr: nothing.
+const ContactCost* cost_in(const std::vector<ContactCost>* costs, const CycleInput& input,
+                           const cycle::ContactOutcome& contact) {
   const std::size_t i = static_cast<std::size_t>(&contact - input.outcome->contacts.data());
-  return input.costs == nullptr || i >= input.costs->size() ? nullptr : &(*input.costs)[i];
+  return costs == nullptr || i >= costs->size() ? nullptr : &(*costs)[i];
+}
+
+const ContactCost* cost_of(const CycleInput& input, const cycle::ContactOutcome& contact) {
+  return cost_in(input.costs, input, contact);
 }
 
 std::string nanoseconds(double v) { return fmt::format("{:.{}f}", v, std::abs(v) < 10 ? 1 : 0); }
@@ -44,15 +50,21 @@ std::string name_of(const Contact& c) {
 }
 
 template <class F>
-void each_timed(const CycleInput& input, F&& f) {
+void each_timed(const std::vector<ContactCost>* costs, const CycleInput& input, F&& f) {
   for (const cycle::ContactOutcome& c : input.outcome->contacts)
-    if (const ContactCost* cost = cost_of(input, c); cost != nullptr && cost->problem.empty())
+    if (const ContactCost* cost = cost_in(costs, input, c);
+        cost != nullptr && cost->problem.empty() && cost->loop_ns > 0.0)
       f(c, *cost);
 }
+template <class F>
+void each_timed(const CycleInput& input, F&& f) {
+  each_timed(input.costs, input, f);
+}
 
-}  // namespace
+/// Fewer pairs give times that say nothing about the loop.
+constexpr std::size_t least_pairs = 1000;
 
-CostSummary summarize_costs(const CycleInput& input) {
+CostSummary summary_of(const std::vector<ContactCost>* costs, const CycleInput& input) {
   CostSummary s;
   std::set<std::string> on, known;
   for (const cycle::ContactOutcome& c : input.outcome->contacts)
@@ -64,7 +76,7 @@ CostSummary summarize_costs(const CycleInput& input) {
   s.known = known.size();
   double loop = 0, flags = 0, all = 0;
   bool every = true;
-  each_timed(input, [&](const cycle::ContactOutcome&, const ContactCost& cost) {
+  each_timed(costs, input, [&](const cycle::ContactOutcome&, const ContactCost& cost) {
     const auto n = static_cast<double>(cost.pairs);
     ++s.contacts;
     s.pairs += cost.pairs;
@@ -80,6 +92,27 @@ CostSummary summarize_costs(const CycleInput& input) {
   s.flags_ns = flags / n;
   s.all_ns = every ? all / n : 0.0;
   return s;
+}
+
+}  // namespace
+
+CostSummary summarize_costs(const CycleInput& input) { return summary_of(input.costs, input); }
+
+bool enough_pairs_to_time(const cycle::SceneOutcome& outcome) {
+  std::size_t pairs = 0;
+  for (const cycle::ContactOutcome& c : outcome.contacts) pairs += c.pairs_in_reach;
+  return pairs >= least_pairs;
+}
+
+std::string short_cost_sentence(const CycleInput& input) {
+  const CostSummary s = summary_of(input.costs != nullptr ? input.costs : input.loops, input);
+  std::string out = fmt::format("{} of {} effects run", s.on, s.known);
+  if (input.steps != nullptr) return out + ".";
+  if (!enough_pairs_to_time(*input.outcome)) return out + "; too few pairs to time.";
+  if (s.pairs == 0) return out + ".";
+  out += fmt::format("; they take {} ns a pair", nanoseconds(s.loop_ns));
+  if (s.all_ns > 0.0) out += fmt::format(", all would take {}", nanoseconds(s.all_ns));
+  return out + ".";
 }
 
 std::string cost_sentence(const CycleInput& input) {

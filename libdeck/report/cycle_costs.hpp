@@ -18,6 +18,9 @@ struct CostSummary {
 };
 CostSummary summarize_costs(const CycleInput& input);
 
+/// "9 of 29 effects run; they take 42 ns a pair, all would take 174." Always; without times where
+/// nothing or too little was measured.
+std::string short_cost_sentence(const CycleInput& input);
 /// What the measurement says, in one sentence.
 std::string cost_sentence(const CycleInput& input);
 /// The member "cost" of one contact; null where nothing was measured.

@@ -53,7 +53,7 @@ std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome
           wanted_by_card(inter, e))
         known->because += fmt::format("; not between edges: {}", e.reason);
       if (known != lines.end() && (known->on || !e.on)) continue;
-      EffectLine line{e.name, e.on, {}, {}};
+      EffectLine line{e.name, e.on, {}, e.field, e.reason, {}};
       line.because = because_of(deck, inter, e, line.span);
       if (known == lines.end())
         lines.push_back(std::move(line));

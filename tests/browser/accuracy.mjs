@@ -1,4 +1,4 @@
-// The page of `deck accuracy`: its figures against the JSON, labels that do not meet, the heat map and its examples.
+// The page of `deck accuracy`: its first screen against the JSON, kinds with their worst pair, texts that do not meet.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible, reachable } from "./axe.mjs";
@@ -16,63 +16,119 @@ async function openPage(browser, file) {
   return p;
 }
 
+/** The first screen says per accuracy what the JSON says, within the window. */
+async function firstScreen(p, name, data) {
+  for (const [width, height] of [[1440, 900], [390, 844]]) {
+    await p.setViewportSize({ width, height });
+    const rows = await p.$$eval(".choices tbody tr", (all) => all.map((r) => ({ accuracy: r.dataset.accuracy, text: r.innerText, bottom: r.getBoundingClientRect().bottom + scrollY })));
+    same(`${name}, ${width} wide: the four words of --accuracy`, rows.map((r) => r.accuracy), ["reference", "fast", "robust", "exact"]);
+    check(`${name}, ${width} wide: all four are seen without scrolling`, rows.every((r) => r.bottom <= height), rows.map((r) => Math.round(r.bottom)).join(" "));
+    const texts = await p.evaluate(() => {
+      const small = [], table = [];
+      const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+      for (let n = walk.nextNode(); n; n = walk.nextNode()) {
+        const e = n.parentElement, box = e.getBoundingClientRect();
+        if (!n.textContent.trim() || box.width === 0 || e.closest("script,style")) continue;
+        const svg = e.closest("svg"), zoom = svg ? svg.getBoundingClientRect().width / svg.viewBox.baseVal.width : 1;
+        if (parseFloat(getComputedStyle(e).fontSize) * zoom < 10.95) small.push(`${n.textContent.slice(0, 30)} ${parseFloat(getComputedStyle(e).fontSize) * zoom}`);
+      }
+      for (const t of document.querySelectorAll("table")) if (t.offsetWidth > t.parentElement.clientWidth) table.push(`${t.className} ${t.offsetWidth} in ${t.parentElement.clientWidth}`);
+      return { small, table, wide: document.documentElement.scrollWidth > innerWidth };
+    });
+    same(`${name}, ${width} wide: no text is smaller than 11 pixels`, texts.small, []);
+    same(`${name}, ${width} wide: no table is wider than its box`, texts.table, []);
+    check(`${name}, ${width} wide: the page is not wider than the window`, !texts.wide);
+  }
+  await p.setViewportSize({ width: 1440, height: 900 });
+  for (const c of data.choices) {
+    const text = await p.$eval(`.choices [data-accuracy=${c.accuracy}]`, (r) => r.innerText);
+    const wrong = (part) => text.includes(`${part.wrong} of ${part.pairs}`);
+    check(`${name}, ${c.accuracy}: wrong decisions, other answers`, wrong(c.hard_cases) && text.includes(`${c.hard_cases.other_answers} of ${c.hard_cases.rewritten}`) && (!c.deck || wrong(c.deck)), text);
+    check(`${name}, ${c.accuracy}: times and how they compare`, /\d (ns|µs)\b/.test(text) && (!c.deck || / (ms|s|min)\b/.test(text)) && (c.accuracy === "fast" || text.includes("no measurable difference") === (!c.hard_cases.measurable || (c.deck !== null && !c.deck.measurable))), text);
+    const kinds = await p.$eval(`.strip[data-accuracy=${c.accuracy}]`, (e) => ({ text: e.querySelector(".who").textContent, marks: [...e.querySelectorAll("button")].map((b) => Number(b.className[1])) }));
+    same(`${name}, ${c.accuracy}: kinds never wrong`, kinds.text.trim(), `${c.accuracy} ${c.kinds.filter((k) => k.wrong === 0).length} of ${c.kinds.length} kinds`);
+    same(`${name}, ${c.accuracy}: a mark for every kind`, kinds.marks, c.kinds.map((k) => (k.wrong === 0 ? 0 : 10 * k.wrong < k.pairs ? 1 : 2)));
+  }
+  const said = await p.$eval(".said", (e) => ({ text: e.textContent.trim().replace(/\s+/g, " "), names: [...e.querySelectorAll("code")].map((c) => c.textContent) }));
+  same(`${name}: the sentences are those of the JSON`, said.text, data.advice.join(" "));
+  const names = data.choices.map((c) => c.accuracy);
+  check(`${name}: names in the sentences are names in the table`, said.names.length > 0 && said.names.every((n) => names.includes(n)), said.names.join(" "));
+}
+
+/** A mark shows its worst pair, with the gap between both answers. */
+async function kinds(p, name, data) {
+  const reference = data.choices.find((c) => c.accuracy === "reference"), wrong = reference.kinds.filter((k) => k.wrong > 0);
+  for (const kind of wrong) {
+    await p.click(`.strip[data-accuracy=reference] [data-kind="${kind.id}"]`);
+    const shown = await p.$eval("#example", (e) => ({
+      text: e.textContent, drawn: e.querySelectorAll("svg polygon, svg polyline, svg circle").length,
+      exact: e.querySelector(".exact")?.cy.baseVal.value, got: e.querySelector(".got")?.getBBox().y + 5, gap: e.querySelector(".gap")?.y1.baseVal.value,
+      texts: [...e.querySelectorAll("svg:last-of-type text")].map((t) => ({ text: t.textContent, r: t.getBoundingClientRect() })), box: e.querySelector("svg:last-of-type").getBoundingClientRect(),
+    }));
+    check(`${name}, ${kind.name}: the worst pair with both answers`, shown.drawn >= 3 && shown.text.includes(`${kind.wrong} of ${kind.pairs}`) && shown.text.includes(`gap ${kind.example.gap}`), shown.text);
+    check(`${name}, ${kind.name}: the answers stand on both sides of the gap`, kind.in_contact ? shown.exact > shown.gap && shown.got < shown.gap : shown.exact < shown.gap && shown.got > shown.gap, JSON.stringify(shown));
+    const meet = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 3 && b.top < a.bottom - 3;
+    const collide = shown.texts.flatMap((a, i) => shown.texts.slice(i + 1).filter((b) => meet(a.r, b.r)).map((b) => `${a.text}/${b.text}`));
+    same(`${name}, ${kind.name}: texts do not meet`, collide, []);
+    check(`${name}, ${kind.name}: texts stay in the drawing`, shown.texts.every((t) => t.r.right <= shown.box.right + 1), shown.texts.map((t) => t.text).join(" / "));
+  }
+  await p.focus(".strip[data-accuracy=robust] button");
+  await p.keyboard.press("ArrowRight");
+  await p.keyboard.press("Enter");
+  const robust = data.choices.find((c) => c.accuracy === "robust");
+  check(`${name}: arrows lead along the kinds`, (await p.textContent("#example")).includes(`${robust.kinds[1].name}, robust`));
+}
+
+/** What is folded: charts whose texts do not meet, and where the time goes. */
+async function folded(p, name, data) {
+  await p.$$eval("details", (all) => all.forEach((d) => (d.open = true)));
+  const charts = await p.$$eval("figure svg", (all) => all.map((s) => {
+    const labels = [...s.querySelectorAll("text")].map((e) => ({ text: e.textContent, r: e.getBoundingClientRect() }));
+    const meet = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 3 && b.top < a.bottom - 3;
+    const out = s.getBoundingClientRect();
+    return {
+      collide: labels.flatMap((a, i) => labels.slice(i + 1).filter((b) => meet(a.r, b.r)).map((b) => `${a.text}/${b.text}`)),
+      outside: labels.filter((l) => l.r.right > out.right || l.r.left < out.left).map((l) => l.text),
+      marks: [...s.querySelectorAll(".dk-mark")].map((m) => ({ name: m.textContent.split(":")[0], hollow: m.matches(".dk-hollow") })),
+      reason: s.querySelector(".dk-reason")?.textContent ?? "", standard: s.querySelectorAll(".dk-default").length, frontier: s.querySelectorAll(".dk-frontier").length,
+      ticks: [...s.querySelectorAll("text")].map((t) => t.textContent).filter((t) => /^[\d.]+ (ns|µs|ms|s)$/.test(t)).length,
+    };
+  }));
+  check(`${name}: a chart for decisions, distances and forces`, charts.length === 3);
+  check(`${name}: no text of a chart meets another or leaves it`, charts.every((c) => c.collide.length + c.outside.length === 0), JSON.stringify(charts.map((c) => [c.collide, c.outside])));
+  check(`${name}: the default and the frontier are marked, the axis of time has words`, charts.every((c) => c.standard === 1 && c.frontier === 1 && c.ticks >= 2));
+  check(`${name}: the default is never drawn as beaten`, charts.every((c) => c.marks.some((m) => m.name === "robust" && !m.hollow)));
+  const shares = await p.$$eval(".share", (bars) => bars.map((b) => [...b.children].reduce((n, e) => n + e.getBoundingClientRect().width, 0) / b.getBoundingClientRect().width));
+  check(`${name}: the shares fill their bars`, shares.length === 2 && shares.every((s) => Math.abs(s - 1) < 0.02), shares.join(" "));
+  const cells = await p.$$eval(".heat td", (all) => all.map((e) => [Number(e.dataset.kind), e.dataset.label, Number(e.textContent)]));
+  const family = (id, t) => data.families.find((f) => f.id === id && f.tier === t);
+  check(`${name}: every kind and number type of the JSON`, cells.length === data.families.length && cells.every(([id, t, n]) => family(id, t).decision_errors + family(id, t).non_finite === n));
+  for (const width of widths) {
+    await p.setViewportSize({ width, height: 900 });
+    const over = await p.evaluate(() => [document.documentElement.scrollWidth > innerWidth, ...[...document.querySelectorAll("table")].map((t) => t.offsetWidth > t.parentElement.clientWidth)]);
+    check(`${name}, unfolded, ${width} wide: neither page nor table is too wide`, over.every((o) => !o), over.join(" "));
+  }
+  await p.setViewportSize({ width: 1280, height: 900 });
+}
+
 export async function accuracyPage(browser, scratch, shot) {
   for (const [name, decks] of [["hard cases", []], ["a deck", [sample("crash_box")]]]) {
     const [html, json] = ["html", "json"].map((e) => join(scratch, `accuracy_${decks.length}.${e}`));
-    deck("accuracy", ...decks, "--samples", "20", "--repeats", "1", "--quiet", "--html", html, "--json", json);
+    deck("accuracy", ...decks, "--samples", "40", "--repeats", "3", "--quiet", "--html", html, "--json", json);
     const data = JSON.parse(readFileSync(json));
     const p = await openPage(browser, html);
     same(`${name}: the page holds the JSON document`, await p.$eval("#accuracy-json", (e) => JSON.parse(e.textContent)), data);
-    const tier = (n) => data.tiers.find((t) => t.name === n && t.what === "gaps");
-    const said = await p.$eval(".said", (e) => e.textContent);
-    const [robust, plain, solver] = ["robust", "fast", "reference"].map(tier);
-    const numbers = said.match(/[\d.]+/g).map(Number);
-    same(`${name}: the sentence says the figures of the JSON`, numbers.slice(-5), [Number((robust.ns_per_pair / plain.ns_per_pair).toFixed(2)), robust.decision_errors, robust.samples, plain.decision_errors, solver.decision_errors]);
-    // Charts.
-    const charts = await p.$$eval("figure svg", (all) => all.map((s) => {
-      const labels = [...s.querySelectorAll(".dk-label")].map((e) => ({ text: e.textContent, r: e.getBoundingClientRect() }));
-      const meet = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
-      const out = s.getBoundingClientRect();
-      return {
-        collide: labels.flatMap((a, i) => labels.slice(i + 1).filter((b) => meet(a.r, b.r)).map((b) => `${a.text}/${b.text}`)),
-        outside: labels.filter((l) => l.r.right > out.right || l.r.left < out.left).map((l) => l.text),
-        marks: [...s.querySelectorAll(".dk-mark")].map((m) => ({ x: m.cx.baseVal.value, y: m.cy.baseVal.value, hollow: m.matches(".dk-hollow") })),
-        standard: s.querySelectorAll(".dk-default").length, frontier: s.querySelectorAll(".dk-frontier").length,
-        ticks: [...s.querySelectorAll("text")].map((t) => t.textContent).filter((t) => /^[\d.]+ (ns|µs|ms|s)$/.test(t)).length,
-      };
-    }));
-    check(`${name}: a chart for decisions, distances and forces`, charts.length === 3);
-    check(`${name}: no label meets another or leaves the chart`, charts.every((c) => c.collide.length + c.outside.length === 0), JSON.stringify(charts.map((c) => [c.collide, c.outside])));
-    check(`${name}: the default and the frontier are marked, the axis of time has words`, charts.every((c) => c.standard === 1 && c.frontier === 1 && c.ticks >= 2));
-    // Down is better, left is faster: hollow is what another mark beats on these two axes.
-    const wrong = charts.flatMap((c) => c.marks.filter((m) => m.hollow !== c.marks.some((o) => o.x <= m.x && o.y >= m.y && (o.x < m.x || o.y > m.y))));
-    check(`${name}: hollow marks are those that another one beats on these axes`, wrong.length === 0, JSON.stringify(wrong));
-    // Stages.
-    const shares = await p.$$eval(".share", (bars) => bars.map((b) => [...b.children].reduce((n, e) => n + e.getBoundingClientRect().width, 0) / b.getBoundingClientRect().width));
-    check(`${name}: the shares fill their bars`, shares.length === 2 && shares.every((s) => Math.abs(s - 1) < 0.02), shares.join(" "));
-    for (const width of widths) {
-      await p.setViewportSize({ width, height: 900 });
-      check(`${name}, ${width} wide: the page is not wider than the window`, await p.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
-    }
-    await p.setViewportSize({ width: 1280, height: 900 });
-    if (decks.length === 0) {
-      const cells = await p.$$eval(".heat button", (b) => b.map((e) => [Number(e.dataset.family), e.dataset.tier, Number(e.textContent)]));
-      const family = (id, t) => data.families.find((f) => f.id === id && f.tier === t);
-      check("the heat map has every family and tier of the JSON", cells.length === data.families.length && cells.every(([id, t, n]) => family(id, t).decision_errors + family(id, t).non_finite === n));
-      const wrongOne = cells.find(([id, t, n]) => n > 0 && t === "reference" && family(id, t).example);
-      await p.click(`.heat button[data-family="${wrongOne[0]}"][data-tier="reference"]`);
-      const example = family(wrongOne[0], "reference").example;
-      const shown = await p.$eval("#example", (e) => ({ text: e.textContent, drawn: e.querySelectorAll("svg polygon, svg polyline, svg circle").length }));
-      check("a cell shows its pair with both answers", shown.drawn >= 2 && shown.text.includes(String(example.exact_distance)) && shown.text.includes(`Gap ${example.gap}`), shown.text.slice(0, 200));
-    }
+    await firstScreen(p, name, data);
+    await kinds(p, name, data);
+    await shot(p, `accuracy_${decks.length}`);
+    await p.setViewportSize({ width: 390, height: 844 });
+    await shot(p, `accuracy_${decks.length}_phone`);
+    await folded(p, name, data);
     await accessible(p, `accuracy of ${name}`);
     await p.click("#theme");
     await accessible(p, `accuracy of ${name}, dark`);
     await reachable(p, `accuracy of ${name}`);
     await shot(p, `accuracy_${decks.length}_dark`);
-    await p.click("#theme");
-    await p.evaluate(() => scrollTo(0, 0));
-    await shot(p, `accuracy_${decks.length}`);
     check(`${name}: no trouble`, p.trouble.length === 0, p.trouble.join("; "));
     await p.close();
   }

@@ -14,12 +14,13 @@ export async function accessible(p, name) {
   check(`${name}: axe finds nothing critical or serious`, found.length === 0, found.join(" ;; "));
 }
 
-/** Everything that can be pressed can be reached with the tabulator key. */
+/** Everything that can be pressed can be reached with the tabulator key, in a toolbar with one stop by its arrows. */
 export async function reachable(p, name) {
   const lost = await p.evaluate(() =>
     [...document.querySelectorAll("button, a[href], input, select, summary, [role=grid], canvas")]
-      // Arrow keys go through the matrix from its one stop; the space bar folds the chosen row of a table.
-      .filter((e) => e.getClientRects().length > 0 && !e.disabled && e.tabIndex < 0 && !e.closest(".matrix:has([tabindex='0'])") && !e.matches("[role=grid] .fold-parts"))
+      // Arrow keys go through a matrix or tool bar from its one stop; the space bar folds the chosen row of a table.
+      .filter((e) => e.getClientRects().length > 0 && !e.disabled && e.tabIndex < 0 && !e.closest(".matrix:has([tabindex='0'])") && !e.matches("[role=grid] .fold-parts") &&
+        !e.closest("[role=toolbar]")?.querySelector("[tabindex='0'], button:not([tabindex])"))
       .map((e) => e.outerHTML.slice(0, 80)));
   check(`${name}: the keyboard reaches everything`, lost.length === 0, lost.slice(0, 3).join(" ;; "));
 }

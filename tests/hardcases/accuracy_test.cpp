@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "deck/accuracy/store.hpp"
 #include "deck/contact/filtered.hpp"
 #include "deck/report/accuracy.hpp"
 
@@ -116,6 +117,7 @@ TEST(Accuracy, FamiliesGiveAnExampleOfTheirWrongDecisions) {
     const bool closer = s.edges ? is_closer_than(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
                                 : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap);
     EXPECT_NE(f.got < s.gap, closer);
+    EXPECT_EQ(f.exact_closer, closer);
     EXPECT_EQ(f.example.family, f.id);
     ++shown;
   }
@@ -142,7 +144,7 @@ TEST(Accuracy, WholeDecksAreHeldAgainstTheExactOnes) {
     }
     return s;
   };
-  measure_gaps(scene, 3, report);
+  measure_gaps(scene, {3}, report);
   ASSERT_EQ(report.tiers.size(), 4u);
   EXPECT_EQ(tier(report, "exact", "gaps").decision_errors, 0u);
   EXPECT_EQ(tier(report, "robust", "gaps").decision_errors, 1u);
@@ -189,6 +191,128 @@ TEST(AccuracyReports, JsonHoldsEveryTierAndFamily) {
   EXPECT_EQ(j["families"].size(), r.families.size());
   EXPECT_EQ(j["machine"]["command"], context.command);
   EXPECT_FALSE(j.contains("deck"));
+}
+
+AccuracyReport deck_report(double fast, double robust, double spread) {
+  AccuracyReport r;
+  r.scene = "deck";
+  for (const auto& [name, seconds] : {std::pair("exact", 9.0), std::pair("robust", robust),
+                                      std::pair("reference", fast), std::pair("fast", fast)}) {
+    TierResult t{name, "gaps"};
+    t.samples = 100;
+    t.seconds = seconds;
+    t.spread = spread;
+    r.tiers.push_back(t);
+  }
+  return r;
+}
+
+TEST(AccuracyChoices, AreNamedAndOrderedAsTheOptionIs) {
+  const AccuracyReport hard = small_report();
+  const auto choices = accuracy_choices(hard, nullptr);
+  ASSERT_EQ(choices.size(), 4u);
+  const Accuracy order[] = {Accuracy::reference, Accuracy::fast, Accuracy::robust, Accuracy::exact};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const AccuracyChoice& c = choices[k];
+    EXPECT_EQ(c.accuracy, order[k]);
+    const TierResult& t = tier(hard, to_string(c.accuracy), "gaps");
+    EXPECT_EQ(c.hard.wrong, t.decision_errors);
+    EXPECT_EQ(c.hard.other_answers, t.invariance_violations);
+    EXPECT_EQ(c.hard.rewritten, 200u);
+    EXPECT_EQ(c.hard.kinds, 4u);
+    std::uint64_t wrong = 0;
+    for (const FamilyResult* f : c.kinds) wrong += f->decision_errors;
+    EXPECT_EQ(wrong, c.hard.wrong);
+    EXPECT_FALSE(c.deck.has_value());
+  }
+  EXPECT_EQ(choices[2].hard.kinds_right, 4u);
+  EXPECT_EQ(choices[3].hard.other_answers, 0u);
+  EXPECT_LT(choices[0].hard.kinds_right, 4u);
+  EXPECT_TRUE(accuracy_choices({}, nullptr).empty());
+  EXPECT_TRUE(accuracy_advice({}).empty());
+}
+
+TEST(AccuracyChoices, ARatioWithinItsSpreadIsNoMeasurableDifference) {
+  const AccuracyReport hard = small_report();
+  const AccuracyReport alike = deck_report(0.70, 0.66, 0.03), apart = deck_report(0.70, 1.4, 0.03);
+  const auto said = [&](const AccuracyReport& deck) {
+    return accuracy_advice(accuracy_choices(hard, &deck)).front();
+  };
+  EXPECT_NE(said(alike).find("no measurable difference (±6 %)"), std::string::npos);
+  EXPECT_NE(said(alike).find("it takes 0.66 s, fast 0.70 s"), std::string::npos);
+  EXPECT_EQ(said(apart).find("no measurable"), std::string::npos);
+}
+
+TEST(AccuracyChoices, AWrongAnswerOfRobustIsAnErrorOfTheProgram) {
+  AccuracyReport hard = small_report();
+  for (TierResult& t : hard.tiers)
+    if (t.name == "robust" && t.what == "gaps") t.decision_errors = 3;
+  const auto said = accuracy_advice(accuracy_choices(hard, nullptr));
+  EXPECT_EQ(said.front().find("This is an error of the program"), 0u);
+  EXPECT_NE(said.front().find("3 pairs"), std::string::npos);
+}
+
+TEST(AccuracyChoices, TheTextHasFourRowsAndTheRestWhenVerbose) {
+  const AccuracyReport r = small_report();
+  const std::string text = accuracy_text(r, {}, false, 80);
+  EXPECT_NE(text.find("Keep robust, the default"), std::string::npos);
+  EXPECT_EQ(text.find("double-residual"), std::string::npos);
+  EXPECT_NE(accuracy_text(r, {}, false, 80, true).find("double-residual"), std::string::npos);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("Keep") == std::string::npos && line.find("optimised") == std::string::npos)
+      EXPECT_LE(line.size(), 80u) << line;
+}
+
+TEST(AccuracyStore, IsReadBackBitForBitOrNotAtAll) {
+  const AccuracyReport r = small_report();
+  const std::string text = stored_accuracy(r, "key");
+  const auto back = read_stored_accuracy(text, "key");
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(stored_accuracy(*back, "key"), text);
+  AccuracyContext context;
+  EXPECT_EQ(accuracy_json(*back, context), accuracy_json(r, context));
+  EXPECT_FALSE(read_stored_accuracy(text, "another").has_value());
+  EXPECT_FALSE(read_stored_accuracy("", "").has_value());
+  for (std::size_t cut = 1; cut < text.size(); cut += text.size() / 50 + 1)
+    EXPECT_FALSE(read_stored_accuracy(std::string_view(text).substr(0, text.size() - cut), "key"));
+  std::string other = text;
+  other[text.size() / 2] ^= 1;
+  EXPECT_FALSE(read_stored_accuracy(other, "key").has_value());
+}
+
+TEST(AccuracyReports, DecisionsAloneGiveTheSameChoices) {
+  std::vector<PairSample> samples = hard_cases(1, 30);
+  AccuracyOptions options;
+  options.repeats = 1;
+  options.decisions_only = true;
+  std::uint64_t last = 0;
+  options.progress = [&](std::uint64_t done, std::uint64_t all) {
+    EXPECT_LE(done, all);
+    last = done;
+  };
+  const AccuracyReport few = measure_accuracy(samples, options);
+  EXPECT_GT(last, 3u);
+  EXPECT_EQ(few.tiers.size(), 4u);
+  EXPECT_TRUE(few.families.empty());
+  const AccuracyReport all = measure_accuracy(samples, {1});
+  for (const TierResult& t : few.tiers)
+    EXPECT_EQ(t.decision_errors, tier(all, t.name, "gaps").decision_errors) << t.name;
+}
+
+TEST(AccuracyReports, TheDefaultIsNotDrawnAsBeatenWithoutAReason) {
+  const AccuracyReport hard = small_report();
+  AccuracyContext context;
+  context.path = "a.rad";
+  context.hard = &hard;
+  AccuracyReport slower = deck_report(0.7, 1.4, 0.0);
+  for (TierResult& t : slower.tiers) t.ns_per_pair = 1e6 * t.seconds;
+  const std::string page = accuracy_html(slower, context);
+  EXPECT_EQ(page.find("dk-hollow'><title>robust"), std::string::npos);
+  EXPECT_NE(page.find("is better than robust on these pairs, but proves none"), std::string::npos);
+  AccuracyReport alike = deck_report(0.70, 0.71, 0.03);
+  for (TierResult& t : alike.tiers) t.ns_per_pair = 1e6 * t.seconds;
+  EXPECT_EQ(accuracy_html(alike, context).find("better than robust"), std::string::npos);
 }
 
 TEST(AccuracyReports, ChartMarksEveryTierAndFetchesNothing) {

@@ -161,5 +161,21 @@ TEST(Costs, OfATerminalAreATableOfContactsAndOneOfEffects) {
   EXPECT_EQ(cost_text(t.input, {}), "");
 }
 
+TEST(Costs, TheShortSentenceIsAlwaysSaid) {
+  Timed t;
+  EXPECT_EQ(short_cost_sentence(t.input), "1 of 2 effects run; too few pairs to time.");
+  t.outcome.contacts[0].pairs_in_reach = 1000;
+  EXPECT_EQ(short_cost_sentence(t.input),
+            "1 of 2 effects run; they take 20 ns a pair, all would take 40.");
+  t.input.loops = t.input.costs;
+  t.input.costs = nullptr;
+  EXPECT_EQ(short_cost_sentence(t.input),
+            "1 of 2 effects run; they take 20 ns a pair, all would take 40.");
+  t.costs[0].all_ns = 0;
+  EXPECT_EQ(short_cost_sentence(t.input), "1 of 2 effects run; they take 20 ns a pair.");
+  t.input.loops = nullptr;
+  EXPECT_EQ(short_cost_sentence(t.input), "1 of 2 effects run.");
+}
+
 }  // namespace
 }  // namespace deck::test

@@ -1,6 +1,6 @@
-// The page of `deck accuracy`: one sentence, one chart, the families as a heat map with an example
-// drawn on click, where the time goes, then the tables. All figures stand in the page without
-// scripts; the JSON document stands in it, too.
+// The page of `deck accuracy`: the first screen answers what each word of --accuracy costs; folded
+// below are where the time goes, charts and tables of number types. All figures stand in the page
+// without scripts; the JSON document stands in it, too.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,34 +8,53 @@
 
 #include "deck/base/escape.hpp"
 #include "report/accuracy_chart.hpp"
+#include "report/html/accuracy_choices.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck {
 namespace {
 
 constexpr std::string_view kPageStyle = R"~(
-:root { --ground:#f5f6f8; --panel:#fff; --ink:#17202b; --muted:#5c6979; --line:#e2e6ec; --accent:#1f5fd0; --soft:#e8f0fe; color-scheme: light; }
-[data-theme=dark] { --ground:#10151b; --panel:#171e27; --ink:#e7edf4; --muted:#93a2b4; --line:#303c4c; --accent:#7fb2ff; --soft:#1b2c47; color-scheme: dark; }
+:root { --ground:#f5f6f8; --panel:#fff; --ink:#17202b; --muted:#5c6979; --line:#e2e6ec; --accent:#1f5fd0; --soft:#e8f0fe; --good:#0b6b3a; --some:#b45309; --bad:#b3261e; color-scheme: light; }
+[data-theme=dark] { --ground:#10151b; --panel:#171e27; --ink:#e7edf4; --muted:#93a2b4; --line:#303c4c; --accent:#7fb2ff; --soft:#1b2c47; --good:#5fd38d; --some:#f0a860; --bad:#ff8a80; color-scheme: dark; }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--ground); color: var(--ink); font: 14px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif; font-variant-numeric: tabular-nums; }
-header { display: flex; flex-wrap: wrap; gap: 6px 16px; align-items: center; padding: 10px 20px; background: var(--panel); border-bottom: 1px solid var(--line); }
-header h1 { font-size: 16px; margin: 0; flex: 1; overflow-wrap: anywhere; } main { max-width: 1100px; margin: 0 auto; padding: 0 20px 40px; }
-.said { font-size: 18px; padding: 14px 18px; margin: 18px 0; border-radius: 10px; border-left: 5px solid var(--accent); background: var(--soft); }
-h2 { font-size: 17px; margin: 28px 0 8px; } .note { color: var(--muted); font-size: 13px; margin: 6px 0; overflow-wrap: anywhere; }
+code { font-family: ui-monospace, "SFMono-Regular", Menlo, Consolas, "DejaVu Sans Mono", monospace; font-size: .95em; } small { font-size: 12px; color: var(--muted); }
+header { display: flex; flex-wrap: wrap; gap: 6px 12px; align-items: center; padding: 8px 20px; background: var(--panel); border-bottom: 1px solid var(--line); }
+header h1 { font-size: 16px; margin: 0; flex: 1; overflow-wrap: anywhere; } header h1 small { font-weight: 400; margin-left: 8px; } main { max-width: 1420px; margin: 0 auto; padding: 0 20px 40px; }
+.said { font-size: 17px; padding: 10px 16px; margin: 14px 0; border-radius: 10px; border-left: 5px solid var(--accent); background: var(--soft); }
+h2 { font-size: 16px; margin: 14px 0 2px; } .note { color: var(--muted); font-size: 13px; margin: 4px 0; overflow-wrap: anywhere; }
 button { font: inherit; font-size: 13px; color: inherit; background: var(--panel); border: 1px solid var(--line); border-radius: 7px; padding: 4px 11px; cursor: pointer; }
 :focus-visible { outline: 2px solid var(--accent); outline-offset: 1px; }
-figure { margin: 0 0 14px; background: var(--panel); border: 1px solid var(--line); border-radius: 10px; padding: 8px; } figure svg { width: 100%; height: auto; display: block; }
-.scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: 13px; background: var(--panel); }
-th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; white-space: nowrap; } th { color: var(--muted); font-weight: 600; } .l { text-align: left; }
-.heat td { padding: 0; } .heat button { width: 100%; min-width: 48px; border: 0; border-radius: 0; padding: 4px 8px; background: none; text-align: right; }
-.heat td.plain { padding: 4px 8px; }
-.h1 button { background: #fee19d; color: #222; } .h2 button { background: #fa8f48; color: #222; } .h3 button { background: #bd0026; color: #fff; }
-.share { display: flex; height: 26px; border-radius: 6px; overflow: hidden; margin: 3px 0 8px; } .share span { min-width: 2px; }
-.s0 { background: #7fa8d8; } .s1 { background: #f0a860; } .s2 { background: #bd0026; } .key { display: inline-block; width: 11px; height: 11px; border-radius: 3px; margin-right: 6px; }
+summary { font-size: 16px; font-weight: 600; cursor: pointer; padding: 8px 0; } details { border-top: 1px solid var(--line); margin-top: 12px; }
+figure { margin: 0 0 14px; background: var(--panel); border: 1px solid var(--line); border-radius: 10px; padding: 8px; overflow-x: auto; } figure svg { width: 100%; min-width: 880px; max-width: 1100px; height: auto; display: block; }
+table { border-collapse: collapse; font-size: 13px; background: var(--panel); max-width: 100%; }
+th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; white-space: nowrap; } th { color: var(--muted); font-weight: 600; } thead th { white-space: normal; } .l { text-align: left; }
+.choices { width: 100%; font-size: 15px; border-radius: 10px; } .choices th, .choices td { border-width: 1px 0; padding: 7px 12px; } .choices th { text-align: left; color: var(--ink); } .choices thead th { color: var(--muted); font-size: 13px; }
+.choices td { text-align: left; } .choices .default { background: var(--soft); } .choices .default th { box-shadow: inset 4px 0 var(--accent); } .ok { color: var(--good); } .bad b { color: var(--bad); }
+.bar { display: block; height: 6px; border-radius: 3px; background: var(--accent); margin-bottom: 2px; min-width: 2px; } .bar.cut { background: repeating-linear-gradient(115deg, var(--accent) 0 14px, transparent 14px 18px); }
+.choose { display: grid; grid-template-columns: auto 1fr auto 1fr; gap: 2px 14px; margin: 10px 0; } .choose dd { margin: 0; color: var(--muted); }
+.stable { display: grid; gap: 8px 16px; align-items: start; } .strip { display: flex; gap: 10px; align-items: center; margin: 5px 0; } .who { flex: none; width: 104px; line-height: 1.25; } .who code { display: block; } .kinds { display: flex; flex-wrap: wrap; }
+.kinds button, .key { width: 24px; height: 24px; padding: 0; border: 0; border-radius: 5px; background: none; position: relative; } .key { display: inline-block; vertical-align: -7px; }
+.kinds button::after, .key::after { content: ""; position: absolute; inset: 4px; border-radius: 50%; } .l0::after { background: var(--good); } .l1::after { border: 3px solid var(--some); } .l2::after { border: 2px solid var(--bad); border-radius: 2px; transform: scale(.6) rotate(45deg); }
+.kinds [aria-pressed=true] { background: var(--line); outline: 1px solid var(--muted); } .kinds button:hover { background: var(--line); }
+#example { background: var(--panel); border: 1px solid var(--line); border-radius: 10px; padding: 8px 12px; max-width: 380px; } #example:empty { display: none; } #example h3 { margin: 0; font-size: 14px; } #example svg { width: 340px; max-width: 100%; height: auto; display: block; font-size: 12px; } #example p { margin: 2px 0; font-size: 13px; overflow-wrap: anywhere; }
+#example .seg { fill: var(--soft); stroke: var(--accent); stroke-width: 2; } #example .other { stroke: var(--bad); stroke-width: 3; fill: var(--bad); } #example text { fill: var(--ink); } #example text.dim { fill: var(--muted); } #example .inside { fill: var(--soft); } #example .gap { stroke: var(--ink); stroke-dasharray: 5 4; } #example .got { stroke: var(--bad); stroke-width: 2.5; } #example .exact { fill: var(--good); }
+.heat td { padding: 0; } .heat button { width: 100%; min-width: 44px; border: 0; border-radius: 0; padding: 4px 8px; background: none; text-align: right; } .heat thead th { writing-mode: vertical-rl; transform: rotate(180deg); text-align: left; padding: 6px 4px; } .heat thead th.l { writing-mode: initial; transform: none; }
+.heat td.plain { padding: 4px 8px; } .h1 { background: #fee19d; color: #222; } .h2 { background: #fa8f48; color: #222; } .h3 { background: #bd0026; color: #fff; }
+.share { display: flex; height: 22px; border-radius: 6px; overflow: hidden; margin: 3px 0 8px; max-width: 900px; } .share span { min-width: 2px; }
+.s0 { background: #7fa8d8; } .s1 { background: #f0a860; } .s2 { background: #bd0026; } .swatch { display: inline-block; width: 11px; height: 11px; border-radius: 3px; margin-right: 6px; }
 [data-theme=dark] .dk-ground, [data-theme=dark] .dk-mark.dk-hollow { fill: #171e27; } [data-theme=dark] .dk-grid { stroke: #303c4c; }
 [data-theme=dark] .dk-svg text { fill: #93a2b4; } [data-theme=dark] .dk-svg .dk-label, [data-theme=dark] .dk-svg .dk-title { fill: #e7edf4; }
 [data-theme=dark] .dk-svg .dk-label { stroke: #171e27; } [data-theme=dark] .dk-mark { fill: #7fb2ff; stroke: #7fb2ff; } [data-theme=dark] .dk-frontier { stroke: #7fb2ff; } [data-theme=dark] .dk-default { stroke: #ffc069; }
-#example svg { max-width: 520px; } #example .seg { fill: var(--soft); stroke: var(--accent); stroke-width: 2; } #example .other { stroke: #bd0026; stroke-width: 3; fill: #bd0026; }
+@media (min-width: 1400px) { .stable { grid-template-columns: minmax(0, 1fr) 366px; } }
+@media (max-width: 1120px) { .choose { grid-template-columns: auto 1fr; } .who { width: auto; min-width: 104px; } }
+@media (max-width: 820px) {
+  header { padding: 6px 12px; flex-wrap: nowrap; } header h1 small { display: block; margin: 0; line-height: 1.3; } .strip { display: block; } .who code { display: inline; } main { padding: 0 12px 30px; } .said { font-size: 14px; line-height: 1.4; padding: 8px 10px; margin: 8px 0; }
+  .cards, .cards tbody, .cards td, .cards th { display: block; } .cards thead { display: none; } .cards { background: none; width: 100%; } .cards tr { display: flex; flex-wrap: wrap; background: var(--panel); border: 1px solid var(--line); border-radius: 8px; margin: 0 0 5px; padding: 3px 8px; }
+  .cards th, .choices th { flex: 1 0 100%; text-align: left; border: 0; padding: 0; white-space: normal; } .cards td, .choices td { flex: 1 0 33%; max-width: 100%; text-align: left; white-space: normal; border: 0; padding: 0 6px 2px 0; font-size: 13px; line-height: 1.3; } .choices td { flex: 0 0 33.3%; } .choices small { display: block; }
+  .cards td::before { content: attr(data-label); display: block; font-size: 11px; color: var(--muted); } .choices .default th { box-shadow: none; } .choices .bar { display: none; } .heat td { flex: 1 0 20%; } .heat button { text-align: left; padding: 4px; }
+}
 @media print { header button, .save { display: none; } }
 )~";
 
@@ -43,58 +62,78 @@ constexpr std::string_view kPageScript = R"~(
 const root = document.documentElement, data = JSON.parse(document.getElementById("accuracy-json").textContent);
 root.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 document.getElementById("theme").onclick = () => root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
-for (const b of document.querySelectorAll(".save")) b.onclick = () => {
+function save(name, type, text) {
   const a = document.createElement("a");
-  a.download = b.dataset.name;
-  a.setAttribute("hr" + "ef", URL.createObjectURL(new Blob([b.closest("figure").querySelector("svg").outerHTML], { type: "image/svg+xml" })));
+  a.download = name;
+  a.setAttribute("hr" + "ef", URL.createObjectURL(new Blob([text], { type })));
   a.click();
-};
+}
+document.getElementById("json").onclick = () => save("accuracy.json", "application/json", JSON.stringify(data, null, 1));
+for (const b of document.querySelectorAll(".save")) b.onclick = () => save(b.dataset.name, "image/svg+xml", b.closest("figure").querySelector("svg").outerHTML);
 const svg = (tag, attributes, text) => {
   const e = document.createElementNS("http://www.w3.org/2000/svg", tag);
   for (const [k, v] of Object.entries(attributes)) e.setAttribute(k, v);
   if (text) e.textContent = text;
   return e;
 };
+const extent = (p) => Math.max(...[0, 1, 2].map((k) => Math.max(...p.map((x) => x[k])) - Math.min(...p.map((x) => x[k]))));
 /** The pair as seen obliquely, all of it in the frame whatever its size. */
-function draw(p, example) {
-  const low = [0, 1, 2].map((k) => Math.min(...p.map((x) => x[k]))), size = Math.max(...[0, 1, 2].map((k) => Math.max(...p.map((x) => x[k])) - low[k])) || 1;
+function draw(e) {
+  const p = e.points, low = [0, 1, 2].map((k) => Math.min(...p.map((x) => x[k]))), size = extent(p) || 1;
   const flat = p.map((x) => { const [a, b, c] = x.map((v, k) => (v - low[k]) / size); return [0.87 * (a - b), 0.5 * (a + b) - c]; });
   const box = [0, 1].map((k) => [Math.min(...flat.map((f) => f[k])), Math.max(...flat.map((f) => f[k]))]);
-  const span = Math.max(box[0][1] - box[0][0], box[1][1] - box[1][0]) || 1;
-  const at = flat.map((f) => [40 + 420 * (f[0] - box[0][0]) / span, 30 + 240 * (f[1] - box[1][0]) / span]);
-  const s = svg("svg", { viewBox: "0 0 520 300", role: "img", "aria-label": "The pair" });
+  const span = Math.max(box[0][1] - box[0][0], 2.6 * (box[1][1] - box[1][0])) || 1;
+  const at = flat.map((f) => [20 + 300 * (f[0] - box[0][0]) / span, 12 + 300 * (f[1] - box[1][0]) / span]);
+  const s = svg("svg", { viewBox: "0 0 340 140", role: "img", "aria-label": "The pair" });
   const path = (i) => i.map((k) => at[k].join(",")).join(" ");
-  if (example.kind === "edge_edge") s.append(svg("polyline", { points: path([0, 1]), class: "other" }), svg("polyline", { points: path([2, 3]), class: "seg" }));
-  else s.append(svg("polygon", { points: path(example.triangle ? [0, 1, 2] : [0, 1, 2, 3]), class: "seg" }), svg("circle", { cx: at[4][0], cy: at[4][1], r: 5, class: "other" }));
+  if (e.kind === "edge_edge") s.append(svg("polyline", { points: path([0, 1]), class: "other" }), svg("polyline", { points: path([2, 3]), class: "seg" }));
+  else s.append(svg("polygon", { points: path(e.triangle ? [0, 1, 2] : [0, 1, 2, 3]), class: "seg" }), svg("circle", { cx: at[4][0], cy: at[4][1], r: 5, class: "other" }));
   return s;
 }
-const panel = document.getElementById("example");
-for (const b of document.querySelectorAll(".heat button")) b.onclick = () => {
-  const f = data.families.find((x) => x.id === Number(b.dataset.family) && x.tier === b.dataset.tier);
-  panel.hidden = false;
+/** Both distances beside the gap, so far enlarged that their difference is seen. Each mark stands on the side it was decided for. */
+function drawGap(e, accuracy, exactInside, gotInside) {
+  const s = svg("svg", { viewBox: "0 0 340 132", role: "img", "aria-label": "Gap and distances" }), middle = 66;
+  const off = (d) => Number.isFinite(d) ? Math.abs(d - e.gap) : 0, span = Math.max(off(e.exact_distance), off(e.distance));
+  const y = (d, inside) => middle + (inside ? 1 : -1) * (Number.isFinite(d) && span > 0 ? 26 + 24 * Math.min(1, off(d) / span) : 38);
+  s.append(svg("rect", { x: 0, y: middle, width: 340, height: 66, class: "inside" }), svg("line", { x1: 0, x2: 340, y1: middle, y2: middle, class: "gap" }));
+  s.append(svg("text", { x: 6, y: middle - 5 }, `gap ${e.gap}`), svg("text", { x: 6, y: 12, class: "dim" }, "not in contact"), svg("text", { x: 6, y: 126, class: "dim" }, "in contact"));
+  const words = (d) => d === null ? "not finite" : String(d), ye = y(e.exact_distance, exactInside), yg = y(e.distance, gotInside);
+  s.append(svg("circle", { cx: 106, cy: ye, r: 5, class: "exact" }), svg("text", { x: 118, y: ye + 4 }, `exactly ${words(e.exact_distance)}`));
+  s.append(svg("path", { d: `M101 ${yg - 5}l10 10m0 -10l-10 10`, class: "got" }), svg("text", { x: 118, y: yg + 4 }, `${accuracy} ${words(e.distance)}`));
+  return { s, span };
+}
+const panel = document.getElementById("example"), marks = [...document.querySelectorAll(".kinds button")];
+function show(accuracy, id) {
+  const kind = data.choices.find((c) => c.accuracy === accuracy).kinds.find((k) => k.id === id);
+  for (const b of marks) b.setAttribute("aria-pressed", String(b.closest(".strip").dataset.accuracy === accuracy && Number(b.dataset.kind) === id));
   panel.replaceChildren();
   const add = (tag, text) => { const e = document.createElement(tag); e.textContent = text; panel.append(e); return e; };
-  add("h3", `${f.id} ${f.name}, ${f.tier}`);
-  add("p", `Expected: ${f.expected}.`).className = "note";
-  const e = f.example;
-  if (!e) { add("p", "This tier has no error here, so there is no example."); return; }
-  const decided = (d) => d === null ? "not finite" : `${d} (${d < e.gap ? "in contact" : "not in contact"})`;
-  add("p", `Gap ${e.gap}. ${f.tier}: distance ${decided(e.distance)}. Exactly: ${decided(e.exact_distance)}.`);
-  panel.append(draw(e.points, e));
-  const names = e.kind === "edge_edge" ? ["edge", "edge", "main edge", "main edge"] : ["corner", "corner", "corner", "corner", "node"];
-  const table = document.createElement("table");
-  e.points.forEach((p, i) => { const r = table.insertRow(); for (const t of [names[i], ...p]) r.insertCell().textContent = String(t); });
-  panel.append(table);
-  panel.scrollIntoView({ block: "nearest" });
-};
-)~";
-
-const TierResult* tier(const AccuracyReport& r, std::string_view name, std::string_view what) {
-  const auto found = std::find_if(r.tiers.begin(), r.tiers.end(), [&](const TierResult& t) {
-    return t.name == name && t.what == what;
-  });
-  return found == r.tiers.end() ? nullptr : &*found;
+  add("h3", `${kind.name}, ${accuracy}`);
+  const e = kind.example;
+  add("p", kind.wrong === 0 ? `All ${kind.pairs} pairs are decided rightly.` : `${kind.wrong} of ${kind.pairs} pairs are decided wrongly. The worst one:`);
+  if (!e || kind.wrong === 0) { add("p", `Expected: ${kind.expected}.`).className = "note"; return; }
+  panel.append(draw(e));
+  const gap = drawGap(e, accuracy, kind.in_contact, !kind.in_contact), size = extent(e.points);
+  panel.append(gap.s);
+  if (gap.span > 0 && size > 0) add("p", `Pair of size ${size.toPrecision(3)}; below, differences are enlarged ${((24 / gap.span) / (300 / size)).toPrecision(1)} times against it.`).className = "note";
 }
+for (const strip of document.querySelectorAll(".kinds")) {
+  const buttons = [...strip.children];
+  buttons.forEach((b, i) => {
+    b.onclick = () => show(strip.closest(".strip").dataset.accuracy, Number(b.dataset.kind));
+    b.onkeydown = (e) => {
+      const to = { ArrowRight: i + 1, ArrowLeft: i - 1, Home: 0, End: buttons.length - 1 }[e.key];
+      if (to === undefined || !buttons[to]) return;
+      e.preventDefault();
+      for (const o of buttons) o.tabIndex = o === buttons[to] ? 0 : -1;
+      buttons[to].focus();
+    };
+  });
+}
+// First the kind that plain double decides worst.
+const share = (k) => k.wrong / k.pairs, worst = (data.choices.find((c) => c.accuracy === "fast")?.kinds ?? []).reduce((a, b) => !a || share(b) > share(a) ? b : a, null);
+if (worst && worst.wrong > 0) show("fast", worst.id);
+)~";
 
 std::string figure(double v) {
   if (!std::isfinite(v)) return "unbounded";
@@ -106,73 +145,42 @@ std::string percent(double part, double all) {
   return all > 0 ? fmt::format("{:.3g} %", 100.0 * part / all) : "0 %";
 }
 
-std::string times(std::uint64_t n, const char* what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
-
-/// What the measurement says, in one sentence.
-std::string sentence(const AccuracyReport& r) {
-  const TierResult* robust = tier(r, "robust", "gaps");
-  const TierResult* plain = tier(r, "fast", "gaps");
-  const TierResult* solver = tier(r, "reference", "gaps");
-  if (robust == nullptr || plain == nullptr || solver == nullptr)
-    return "There are no pairs to decide, so there is nothing to compare.";
-  return fmt::format(
-      "On {} <b>robust</b> costs <b>{:.2f} &times; plain double</b> and makes <b>{}</b> of {}; "
-      "plain "
-      "double makes {}, the solver's arithmetic {}.",
-      r.scene == "deck" ? "this deck" : "the built-in hard cases",
-      robust->ns_per_pair / plain->ns_per_pair, times(robust->decision_errors, "wrong decision"),
-      robust->samples, plain->decision_errors, solver->decision_errors);
-}
-
 std::string chart(const AccuracyReport& r, const std::string& what) {
   const std::string panel = accuracy_panel(r, what);
   if (panel.empty()) return {};
-  return "<figure>" + panel + "<button type=\"button\" class=\"save\" data-name=\"accuracy_" +
-         what + ".svg\">Save as SVG</button></figure>\n";
+  return "<figure tabindex=\"0\">" + panel +
+         "<button type=\"button\" class=\"save\" data-name=\"accuracy_" + what +
+         ".svg\">Save as SVG</button></figure>\n";
 }
 
+/// Wrong decisions of every number type in every kind of hard cases; nothing for decks.
 std::string heat_map(const AccuracyReport& r) {
-  if (r.scene != "hard-cases")
-    return "<p class=\"note\">The families belong to the built-in hard cases: run deck accuracy "
-           "without a deck.</p>\n";
+  if (r.scene != "hard-cases" || r.families.empty()) return {};
   std::vector<std::string> tiers;
   for (const FamilyResult& f : r.families)
     if (std::find(tiers.begin(), tiers.end(), f.tier) == tiers.end()) tiers.push_back(f.tier);
   std::string out =
-      "<p class=\"note\">Wrong decisions and results that are not finite, of the pairs of a "
-      "family. Choose a cell to see its "
-      "worst pair.</p>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-      "aria-label=\"Families\"><table class=\"heat\"><thead><tr><th class=\"l\" "
-      "colspan=\"2\">Family</th>";
+      "<h3>Kinds of hard cases</h3>\n<p class=\"note\">Wrong decisions and results that are not "
+      "finite, by the distance that a number type computes.</p>\n<table class=\"heat "
+      "cards\"><thead>"
+      "<tr><th class=\"l\">Kind</th>";
   for (const std::string& t : tiers) out += "<th>" + html_text(t) + "</th>";
   out += "</tr></thead><tbody>\n";
   for (const HardFamily& family : hard_families()) {
-    out += fmt::format("<tr><td>{}</td><th class=\"l\" scope=\"row\">{}</th>", family.id,
+    if (!family.sampled) continue;
+    out += fmt::format("<tr><th class=\"l\" scope=\"row\">{} {}</th>", family.id,
                        html_text(family.name));
-    for (const std::string& t : tiers) {
-      const auto f = std::find_if(
-          r.families.begin(), r.families.end(),
-          [&](const FamilyResult& row) { return row.id == family.id && row.tier == t; });
-      if (f == r.families.end()) {
-        out +=
-            "<td class=\"plain\" title=\"a property of the search or of builds, held by their own "
-            "tests\">&ndash;</td>";
-        continue;
-      }
-      const std::uint64_t wrong = f->decision_errors + f->non_finite;
-      const double share = static_cast<double>(wrong) / static_cast<double>(f->samples);
+    for (const FamilyResult& f : r.families) {
+      if (f.id != family.id) continue;
+      const std::uint64_t wrong = f.decision_errors + f.non_finite;
+      const double share = static_cast<double>(wrong) / static_cast<double>(f.samples);
       const int heat = wrong == 0 ? 0 : share < 0.05 ? 1 : share < 0.25 ? 2 : 3;
-      out += fmt::format(
-          "<td class=\"h{}\"><button type=\"button\" data-family=\"{}\" data-tier=\"{}\" "
-          "aria-label=\"{}, {}: {} wrong of {}\">{}</button></td>",
-          heat, family.id, html_text(t), html_text(family.name), html_text(t), wrong, f->samples,
-          wrong);
+      out += fmt::format("<td class=\"plain h{}\" data-label=\"{}\" data-kind=\"{}\">{}</td>", heat,
+                         html_text(f.tier), f.id, wrong);
     }
     out += "</tr>\n";
   }
-  return out + "</tbody></table></div>\n<div id=\"example\" aria-live=\"polite\" hidden></div>\n";
+  return out + "</tbody></table>\n";
 }
 
 std::string time_shares(const AccuracyReport& r) {
@@ -193,8 +201,10 @@ std::string time_shares(const AccuracyReport& r) {
       if (s.pairs > 0)
         bars[b] += fmt::format("<span class=\"s{}\" style=\"flex:{:.6f}\"></span>", k, shares[b]);
     rows += fmt::format(
-        "<tr><td class=\"l\"><span class=\"key s{}\"></span>{}</td><td "
-        "class=\"l\">{}</td><td>{}</td><td>{}</td><td>{:.0f}</td><td>{}</td></tr>\n",
+        "<tr><th class=\"l\" scope=\"row\"><span class=\"swatch s{}\"></span>{}</th><td "
+        "class=\"l\" data-label=\"because\">{}</td><td data-label=\"pairs\">{}</td>"
+        "<td data-label=\"of the pairs\">{}</td><td data-label=\"ns per pair\">{:.0f}</td>"
+        "<td data-label=\"of the time\">{}</td></tr>\n",
         k, html_text(s.name), words[std::min<std::size_t>(k, 2)], s.pairs,
         percent(static_cast<double>(s.pairs), pairs), s.ns_per_pair, percent(spent, time));
   }
@@ -202,11 +212,29 @@ std::string time_shares(const AccuracyReport& r) {
          "it, with its whole time.</p>\n"
          "Share of the pairs<div class=\"share\">" +
          bars[0] + "</div>Share of the time<div class=\"share\">" + bars[1] +
-         "</div>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-         "aria-label=\"Figures\"><table><thead><tr><th class=\"l\">Ends in</th><th "
+         "</div>\n<table class=\"cards\"><thead><tr><th class=\"l\">Ends in</th><th "
          "class=\"l\">because</th><th>pairs</th>"
          "<th>of the pairs</th><th>ns per pair</th><th>of the time</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n";
+         rows + "</tbody></table>\n";
+}
+
+std::string tier_row(const TierResult& t) {
+  std::string out = fmt::format("<tr><th class=\"l\" scope=\"row\">{}</th>", html_text(t.name));
+  const auto cell = [&](std::string_view label, const std::string& text) {
+    out += fmt::format("<td data-label=\"{}\">{}</td>", label, text);
+  };
+  cell("pairs", std::to_string(t.samples));
+  cell("ns per pair", fmt::format("{:.1f}", t.ns_per_pair));
+  cell("wrong decisions", std::to_string(t.decision_errors));
+  cell("not finite", std::to_string(t.non_finite));
+  cell("worst relative error",
+       t.what == "gaps" ? "does not compute one" : figure(t.max_relative_error));
+  cell("answer depends on how the pair is written",
+       t.rewritten > 0 ? fmt::format("{} of {}", t.invariance_violations, t.rewritten)
+                       : "not asked");
+  cell("needed more than double", percent(t.fallback_share, 1.0));
+  cell("needed exact arithmetic", percent(t.exact_share, 1.0));
+  return out + "</tr>\n";
 }
 
 std::string tier_table(const AccuracyReport& r) {
@@ -216,26 +244,15 @@ std::string tier_table(const AccuracyReport& r) {
         std::pair("force", "Elastic force")}) {
     std::string rows;
     for (const TierResult& t : r.tiers)
-      if (t.what == what)
-        rows += fmt::format(
-            "<tr><th class=\"l\" "
-            "scope=\"row\">{}</th><td>{}</td><td>{:.1f}</td><td>{}</td><td>{}</td><td>{}</"
-            "td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-            html_text(t.name), t.samples, t.ns_per_pair, t.decision_errors, t.non_finite,
-            t.what == "gaps" ? "does not compute one" : figure(t.max_relative_error),
-            t.rewritten > 0
-                ? std::to_string(t.invariance_violations) + " of " + std::to_string(t.rewritten)
-                : "not asked",
-            percent(t.fallback_share, 1.0), percent(t.exact_share, 1.0));
+      if (t.what == what) rows += tier_row(t);
     if (rows.empty()) continue;
-    out += std::string("<h3>") + title +
-           "</h3>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-           "aria-label=\"Figures\"><table><thead><tr><th "
-           "class=\"l\">tier</th><th>pairs</th><th>ns per pair</th><th>wrong decisions</th>"
-           "<th>not finite</th><th>worst relative error</th><th>answer depends on how the pair is "
-           "written</th><th>needed more than double</th>"
-           "<th>needed exact arithmetic</th></tr></thead><tbody>\n" +
-           rows + "</tbody></table></div>\n";
+    out +=
+        std::string("<h3>") + title +
+        "</h3>\n<table class=\"cards\"><thead><tr><th class=\"l\">number type</th>"
+        "<th>pairs</th><th>ns per pair</th><th>wrong decisions</th><th>not finite</th>"
+        "<th>worst relative error</th><th>answer depends on how the pair is written</th>"
+        "<th>needed more than double</th><th>needed exact arithmetic</th></tr></thead><tbody>\n" +
+        rows + "</tbody></table>\n";
   }
   return out;
 }
@@ -251,13 +268,18 @@ std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& c
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
       html_text(accuracy_title(report, context)) + "</title>\n<style>";
   out += kPageStyle;
-  out += "</style>\n</head>\n<body>\n<header><h1>" + html_text(accuracy_title(report, context)) +
-         "</h1><button type=\"button\" id=\"theme\">Dark or light</button></header>\n<main>\n";
-  out += "<p class=\"said\">" + sentence(report) + "</p>\n" + chart(report, "gaps");
-  out += "<h2>Hard cases by family</h2>\n" + heat_map(report);
-  out += "<h2>Where the time goes</h2>\n" + time_shares(report);
-  out += "<h2>Distances and forces</h2>\n" + chart(report, "distance") + chart(report, "force");
-  out += "<h2>All figures</h2>\n" + tier_table(report);
+  out += "</style>\n</head>\n<body>\n<header><h1>What accuracy costs <small>" +
+         html_text(context.path.empty() ? "the hard cases" : terminal_text(context.path)) +
+         "</small></h1><button type=\"button\" id=\"json\">JSON</button><button type=\"button\" "
+         "id=\"theme\">Dark or light</button></header>\n<main>\n";
+  out += detail::accuracy_first_screen(accuracy_choices_of(report, context));
+  if (!report.stages.empty())
+    out += "<details><summary>Where robust spends its time</summary>\n" + time_shares(report) +
+           "</details>\n";
+  if (!report.tiers.empty())
+    out += "<details><summary>For experts: number types, decisions, distances, forces</summary>\n" +
+           chart(report, "gaps") + chart(report, "distance") + chart(report, "force") +
+           tier_table(report) + heat_map(report) + "</details>\n";
   for (const std::string& line : {context.processor, accuracy_compiler(), context.command})
     out += "<p class=\"note\">" + html_text(terminal_text(line)) + "</p>\n";
   out += "</main>\n<script type=\"application/json\" id=\"accuracy-json\">" +

@@ -12,6 +12,7 @@
 #include "deck/report/verdict.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/cycle_costs.hpp"
+#include "report/terminal/cycle_effects_text.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {
@@ -287,16 +288,6 @@ std::string singular_table(const CycleInput& input, const CycleTextOptions& opti
   return table.fitted(options.width, options.color, 2);
 }
 
-std::string joined(const std::vector<EffectLine>& lines, bool on) {
-  std::string text;
-  for (const EffectLine& e : lines) {
-    if (e.on != on) continue;
-    if (!text.empty()) text += "; ";
-    text += e.because == "always" ? e.name : fmt::format("{}: {}", e.name, e.because);
-  }
-  return text;
-}
-
 const char* element_name(ElementKind kind) {
   switch (kind) {
     case ElementKind::shell4:
@@ -379,15 +370,9 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
           o.contact->inter->id, kind_name(*o.contact), o.heat_secondary, o.heat_main);
   if (const std::string table = singular_table(input, options); !table.empty())
     out += fmt::format("\n{}Nearest to the mid-surface{}\n{}", bold, plain, table);
-  out += fmt::format("\n{}Effects{}\n", bold, plain);
-  for (const InterBase* inter : input.scene->interfaces->ordered) {
-    const auto lines = effect_lines(*input.deck, *input.outcome, *inter);
-    if (lines.empty()) continue;
-    out += fmt::format("  {} TYPE{} on: {}\n", inter->id, inter->type,
-                       terminal_text(joined(lines, true)));
-    if (options.effects) out += fmt::format("    off: {}\n", terminal_text(joined(lines, false)));
-  }
-  if (!options.effects) out += "  (--effects lists what is off, and why)\n";
+  out += fmt::format("\n{}Effects{}\n{}", bold, plain, effects_text(input, options));
+  if (const std::string text = without_text(input, options); !text.empty())
+    out += fmt::format("\n{}With and without {}{}\n{}", bold, input.without_effect, plain, text);
   if (const std::string text = cost_text(input, options); !text.empty())
     out += fmt::format("\n{}What effects cost{}\n{}", bold, plain, text);
   std::string left_out;

@@ -1,6 +1,7 @@
 // deck cycle: contact forces, energies, time steps and effects at the start, or over some steps of
 // prescribed motion.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,7 @@ struct Options {
   double dt = 0, time = 0;
   std::vector<std::int64_t> only;
   std::vector<std::string> velocities, gone;
-  std::string vtk, html;
+  std::string vtk, html, without;
   int steps = 1;
   GateOptions gate;
 };
@@ -145,12 +146,42 @@ Result<void> check_page(const Options& o) {
   if (o.measures() && o.steps > 1)
     return Error{Error::Code::config, std::string(o.html.empty() ? "--costs" : "--html") +
                                           " shows one evaluation: leave out --steps"};
+  const std::vector<std::string> effects = effects_to_take();
+  if (!o.without.empty() && std::find(effects.begin(), effects.end(), o.without) == effects.end())
+    return Error{Error::Code::config,
+                 fmt::format("--without {}: no effect that can be left out; these can: {}",
+                             o.without, fmt::join(effects, ", "))};
+  if (!o.without.empty() && o.steps > 1)
+    return Error{Error::Code::config, "--without compares one evaluation: leave out --steps"};
   if (o.html.empty()) return {};
   if (std::string why; !html_available(&why))
     return Error{Error::Code::config, "--html: this build has no viewer: " + why};
   if (o.common.decks.size() > 1)
     return Error{Error::Code::config, "--html takes one deck at a time"};
   return {};
+}
+
+/// The evaluation again with cards that do not ask for an effect.
+Result<cycle::SceneOutcome> evaluate_without(const Options& o, const CycleInput& input) {
+  bool taken = false;
+  cycle::CycleOptions options = input.options;
+  options.keep_pairs = false;
+  options.change_card = [&](cycle::ContactCard& card) {
+    taken = take_effect(o.without, card) || taken;
+  };
+  cycle::SceneOutcome out = cycle::run_cycle(*input.scene, *input.state, options);
+  if (!taken)
+    return Error{Error::Code::config, fmt::format("--without {}: no contact of {} has this effect",
+                                                  o.without, input.path)};
+  return out;
+}
+
+/// What the loops take, for the sentence that is always said; one contact after the other.
+std::vector<ContactCost> time_loops(const CycleInput& input) {
+  EffectCostOptions how;
+  how.loops_only = true;
+  how.repeats = 3;
+  return measure_effects(*input.scene, *input.state, *input.outcome, input.options, how);
 }
 
 std::string suffix_of(std::size_t step) { return fmt::format("_{:04}", step); }
@@ -297,6 +328,23 @@ int run(const Options& o) {
       input.cost_repeats = how.repeats;
       input.processor = processor_name();
     }
+    std::vector<ContactCost> loops;
+    if (o.common.wants_text() && !o.measures() && o.steps == 1 &&
+        enough_pairs_to_time(steps.last)) {
+      loops = time_loops(input);
+      input.loops = &loops;
+    }
+    cycle::SceneOutcome without;
+    if (!o.without.empty()) {
+      auto other = evaluate_without(o, input);
+      if (!other) {
+        print_error(o.common, other.error().message);
+        return static_cast<int>(exit_usage);
+      }
+      without = std::move(*other);
+      input.without = &without;
+      input.without_effect = o.without;
+    }
     if (!o.html.empty() && written) written = write_html(o, input, view);
     const bool fails = (o.fail || o.gate.fails_on("warning")) && pushed;
     const bool found = verdict_code(cycle_verdict(input), o.gate, o.common) != exit_clean ||
@@ -328,7 +376,13 @@ Action setup(CommandLine& line) {
   add_common(line, options->common);
   allow_directories(line);
   line.flag("--all", options->all, "JSON with every pair that has a penetration");
-  line.flag("--effects", options->effects, "Also list the effects that are off, and why");
+  line.flag("--effects", options->effects,
+            "Effects against interfaces: which run, by which field, and why the others do not");
+  line.option(
+          "--without", options->without,
+          "Also evaluate without an effect (friction, normal-damping, heat, gap-reduction ...), "
+          "and show force, energy and time step of both")
+      .value("EFFECT");
   line.flag("--costs", options->costs,
             "Also measure on this deck what each effect costs in the loop over pairs, with it "
             "against without it");
@@ -384,6 +438,7 @@ const VerbRegistration registration{
     {"cycle", 40, "Contact forces, energies and time step of the first cycle",
      "  deck cycle car_0000.rad\n"
      "  deck cycle car_0000.rad --interface 3 --effects\n"
+     "  deck cycle car_0000.rad --without friction\n"
      "  deck cycle car_0000.rad --html cycle.html\n"
      "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3\n"
      "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview\n"

@@ -1,8 +1,10 @@
-// deck show: one entity of a deck, with its card, what the solver uses, and who uses it.
+// deck show: one entity of a deck, with its card, what the solver uses, and who uses it; of a pair
+// that penetrates, its side view.
 
 #include "deck/inspect/show.hpp"
 #include "common.hpp"
 #include "deck/report/show.hpp"
+#include "deck/report/side_view.hpp"
 
 namespace deck::cli::verb_show {
 namespace {
@@ -10,12 +12,53 @@ namespace {
 struct Options {
   CommonOptions common;
   std::string what;
-  bool all = false, no_geometry = false;
+  bool all = false, no_geometry = false, svg = false;
+  std::int64_t interface = 0;
 };
+
+constexpr std::string_view pair_prefix = "pair:";
+
+/// "pair:57/30-38-44-31": its equation, or with --svg its side view.
+int show_pair(const Options& o) {
+  const auto name = parse_pair(std::string_view(o.what).substr(pair_prefix.size()));
+  if (!name) {
+    print_error(o.common, name.error().message);
+    return exit_usage;
+  }
+  if (!o.common.json.empty()) {
+    print_error(o.common,
+                "a pair is in the JSON of deck gaps --all; show has its side view (--svg)");
+    return exit_usage;
+  }
+  return for_each_deck(o.common, [&](LoadedDeck& loaded) {
+    SceneOptions options = loaded.scene_options();
+    if (o.interface != 0) options.only = {o.interface};
+    options.limits = o.common.limits;
+    loaded.set_scene_options(options);
+    const Scene& scene = loaded.scene();
+    const auto pair = find_pair(scene, *name, o.interface);
+    if (!pair) {
+      print_error(o.common, loaded.path() + ": " + o.what + ": " + pair.error().message);
+      return static_cast<int>(exit_usage);
+    }
+    if (!o.common.wants_text()) return static_cast<int>(exit_clean);
+    if (o.svg)
+      print_text(side_view_svg(scene, *pair));
+    else
+      print_lines(side_view_text(scene, *pair));
+    return static_cast<int>(exit_clean);
+  });
+}
 
 int run(Options& o) {
   o.what = o.common.decks.back();
   o.common.decks.pop_back();
+  if (o.what.starts_with(pair_prefix)) return show_pair(o);
+  if (o.svg || o.interface != 0) {
+    print_error(o.common, std::string(o.svg ? "--svg" : "--interface") +
+                              " belongs to a pair, such as pair:57/30-38-44-31");
+    return exit_usage;
+  }
   JsonOutput json(o.common, "deck/show", 1);
   const int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
     const auto entity = find_entity(loaded.deck(), loaded.model(), o.what);
@@ -47,7 +90,13 @@ Action setup(CommandLine& line) {
       .takes(2, "DECK WHAT")
       .describe(
           "Starter deck (*_0000.rad), and what to show of it: the id of an interface, "
-          "KEYWORD/ID or KIND:ID");
+          "KEYWORD/ID, KIND:ID, or a pair that penetrates by its nodes: pair:57/30-38-44-31");
+  line.flag("--svg", options->svg,
+            "Of a pair: its side view to scale on standard output, gap, depth and what the solver "
+            "does about it");
+  line.option("--interface", options->interface,
+              "Of a pair that penetrates in several interfaces: the one to show")
+      .value("ID");
   line.flag("--all", options->all, "Every line and every user");
   line.flag("--no-geometry", options->no_geometry,
             "Do not derive default gaps from the mesh; such values are left open");
@@ -59,6 +108,7 @@ const VerbRegistration registration{
      "  deck show car_0000.rad 3                   interface 3\n"
      "  deck show car_0000.rad /GRNOD/PART/12\n"
      "  deck show car_0000.rad node:5712           also part:4 shell:12 mat:1 set:9 ...\n"
+     "  deck show car_0000.rad pair:57/30-38-44-31 --svg > pair.svg\n"
      "  deck show car_0000.rad 3 --json show.json\n",
      setup}};
 

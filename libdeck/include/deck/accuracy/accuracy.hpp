@@ -48,6 +48,9 @@ struct AccuracyOptions {
   int repeats = 5;                     // timings per tier; the median counts
   std::size_t slow_limit = 2000;       // pairs timed in exact arithmetic
   std::size_t rewritten_limit = 5000;  // pairs checked for invariance and continuity
+  bool decisions_only = false;         // leave out distances and forces in all number types
+  // Called with how many of all steps are done.
+  std::function<void(std::uint64_t, std::uint64_t)> progress = {};
 };
 
 // One arithmetic. A decision is "distance < gap".
@@ -58,6 +61,10 @@ struct TierResult {
   std::string what;
   std::uint64_t samples = 0;
   double ns_per_pair = 0.0;
+  // How far the lower quartile of the timings lies from the time that counts, as a share of it; 0
+  // where there was one timing.
+  double spread = 0.0;
+  double seconds = 0.0;  // of one run of the whole `deck gaps`; 0 elsewhere
   double max_relative_error = 0.0;
   double max_ulp = 0.0;
   // Error of the distance over the largest coordinate difference of the pair; of a force: the error
@@ -78,10 +85,11 @@ struct FamilyResult {
   std::uint64_t samples = 0;
   double max_relative_error = 0.0, max_ulp = 0.0;
   std::uint64_t decision_errors = 0, non_finite = 0;
-  // The first wrong decision, else the worst error; nothing if there is none.
+  // The wrong decision with the largest error, else the worst error; nothing if there is none.
   bool has_example = false;
   PairSample example;
-  double got = 0.0, exact = 0.0;  // its distance
+  double got = 0.0, exact = 0.0;  // its distance; decisions compute none, or not always
+  bool exact_closer = false;      // whether it is in contact
 };
 
 // Pairs whose robust decision ends in one stage, and what such a pair takes from its beginning.
@@ -95,6 +103,7 @@ struct AccuracyReport {
   std::string scene;  // "hard-cases" or "deck"
   std::vector<TierResult> tiers;
   std::vector<FamilyResult> families;  // of every tier that computes distances
+  std::vector<FamilyResult> kinds;     // the same of the decisions, by accuracy
   std::vector<StageResult> stages;     // of the robust decision
 };
 
@@ -103,11 +112,22 @@ struct AccuracyReport {
 AccuracyReport measure_accuracy(std::span<const PairSample> samples,
                                 const AccuracyOptions& options = {});
 
+// How long measure_gaps() repeats.
+struct GapsTiming {
+  int repeats = 5;
+  double least = 0.0;   // seconds: short runs are repeated more often, until this much was spent
+  double most = 1e300;  // seconds: after three rounds none begins once this much was spent
+  std::function<void(std::uint64_t, std::uint64_t)> progress = {};  // done, of all runs
+};                                                                  // done, of all runs
+};
+
 // Times the whole of `deck gaps` in each accuracy and adds the rows "gaps" to the report, instead
 // of those that were there. `run` reads the deck and builds its scene with penetrations; only the
 // contacts of its result are looked at. Times are those of the clock, the best of the repeats, per
-// decided pair.
-void measure_gaps(const std::function<Scene(Accuracy)>& run, int repeats, AccuracyReport& report);
+// decided pair. The accuracies take turns, so that other work on the machine meets all of them;
+// the exact one runs once.
+void measure_gaps(const std::function<Scene(Accuracy)>& run, const GapsTiming& timing,
+                  AccuracyReport& report);
 
 // Marks tiers that another one of the same kind beats.
 void mark_dominated(std::vector<TierResult>& tiers);

@@ -31,6 +31,7 @@ struct CycleOptions {
   double margin = 0.0;  ///< search pairs this much further, so that the list lasts for some motion
   std::vector<DeadElement> dead;
   PlanOptions plan;
+  std::function<void(ContactCard&)> change_card;  ///< what is evaluated instead of the deck's card
   /// Called with (contacts done, contacts in all); may be empty.
   std::function<void(std::size_t, std::size_t)> progress;
 };

@@ -32,6 +32,11 @@ struct CycleInput {
   const GateReport* gate = nullptr;
   /// Of measure_effects over the same outcome, contact by contact; null: not measured.
   const std::vector<ContactCost>* costs = nullptr;
+  /// The same without costs of single effects, for the sentence that is always said.
+  const std::vector<ContactCost>* loops = nullptr;
+  /// The same evaluation without an effect, and its name; null: not asked for.
+  const cycle::SceneOutcome* without = nullptr;
+  std::string without_effect;
   int cost_repeats = 0;   ///< timings of each loop
   std::string processor;  ///< that measured
 };
@@ -42,20 +47,24 @@ struct EffectLine {
   std::string name;
   bool on = false;
   std::string because;
-  Span span;  ///< the deciding cell; may be invalid
+  std::string field, reason;  ///< as in cycle::EffectState
+  Span span;                  ///< the deciding cell; may be invalid
 };
 std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome& outcome,
                                      const InterBase& inter);
 
 struct CycleTextOptions {
   bool color = false;
-  bool effects = false;  ///< also list the effects that are off
+  bool effects = false;  ///< effects against interfaces, and why some do not run
   /// Interfaces without a pair in reach, too, each contact of an interface in a row of its own, and
   /// more columns.
   bool verbose = false;
   bool several = false;   ///< decks in the call: the text names this one
   std::size_t width = 0;  ///< columns of a line of a table; 0: any
 };
+
+/// True if an evaluation has enough pairs in reach for times per pair.
+bool enough_pairs_to_time(const cycle::SceneOutcome& outcome);
 
 /// The document of `deck cycle --json` (schemas/output/cycle.schema.json). With `all`, every pair
 /// that has a penetration, and every node that contact acts on.

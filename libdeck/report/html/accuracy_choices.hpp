@@ -1,0 +1,13 @@
+// The first screen of the page of `deck accuracy`. Private to the report stage.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "deck/accuracy/choice.hpp"
+
+namespace deck::detail {
+
+/// Advice, the choices, when to take which, the kinds of hard cases.
+std::string accuracy_first_screen(const std::vector<AccuracyChoice>& choices);
+
+}  // namespace deck::detail
