@@ -179,7 +179,8 @@ struct GapsRuns {
     row.name = to_string(accuracy);
     row.what = "gaps";
     row.seconds = seconds.front();
-    const std::size_t quarter = std::min(seconds.size() - 1, (seconds.size() + 3) / 4);
+    const std::size_t quarter =
+        std::min(seconds.size() - 1, std::max<std::size_t>(1, seconds.size() / 4));
     row.spread = (seconds[quarter] - seconds.front()) / std::max(seconds.front(), 1e-9);
     row.ns_per_pair = 1e9 * row.seconds / pairs;
     row.fallback_share /= pairs;

@@ -56,7 +56,9 @@ std::string verdict_json(const Verdict& v) {
 }
 
 std::string verdict_text(const Verdict& v, bool color) {
-  return toned(terminal_text(v.text), Tone::bold, color) + "\n";
+  const bool good = v.level == VerdictLevel::clean || v.level == VerdictLevel::remarks;
+  const Tone tone = v.level == VerdictLevel::stops ? Tone::red : good ? Tone::green : Tone::yellow;
+  return toned(terminal_text(v.text), tone, color) + "\n";
 }
 
 }  // namespace deck

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "common.hpp"
+#include "deck/base/columns.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/base/spelling.hpp"
 #include "deck/text/number.hpp"
@@ -406,6 +407,29 @@ int check_verb(const std::vector<std::string>& words, const std::vector<Verb>& a
   return wrong_usage("", text);
 }
 
+/// Lines of a help that are longer than `width` (0: none is), continued below their description.
+std::string folded_help(std::string_view text, std::size_t width) {
+  std::string out;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const auto start = line.find_first_not_of(' ');
+    if (width == 0 || start == line.npos || display_width(line) <= width) {
+      out += std::string(line) + '\n';
+      continue;
+    }
+    const auto gap = line.find("  ", start);
+    auto column =
+        gap == line.npos ? start : std::min(line.find_first_not_of(' ', gap), line.size());
+    if (2 * column > width) column = start;
+    std::string words = wrapped(line.substr(column), column, width);
+    if (column > start) words.replace(0, column, line.substr(0, column));
+    out += words;
+  }
+  return out;
+}
+
 /// "deck help VERB" as "deck VERB --help".
 void settle_help(std::vector<std::string>& words) {
   if (words.empty() || words.front() != "help") return;
@@ -492,12 +516,12 @@ int run_program(int argc, char** argv, const std::string& version, Session& sess
     }
     std::ostringstream out;
     app.exit(e, out, out);
-    std::fputs(out.str().c_str(), stdout);
+    std::fputs(folded_help(out.str(), text_width()).c_str(), stdout);
     return exit_clean;
   }
   const auto chosen = app.get_subcommands();
   if (chosen.empty()) {
-    std::fputs(app.help().c_str(), stderr);
+    std::fputs(folded_help(app.help(), terminal_width(2)).c_str(), stderr);
     return exit_usage;
   }
   if (const std::string text = swallowed(*chosen.front(), *chosen.front()); !text.empty())

@@ -172,7 +172,14 @@ class InterfaceTable {
     add(has(ContactKind::edge_edge) ? number(t.count.edges) : "-");
     add(t.count.pairs ? length_text(t.max_depth, 6, largest_) : "-");
     add(t.count.pairs ? fmt::format("{:.0f} %", 100 * t.max_ratio) : "-");
-    add(action_words(contacts));
+    const bool stops = std::any_of(contacts.begin(), contacts.end(), [](const Contact* x) {
+      return on_surface_error(*x) != 0 &&
+             std::any_of(x->penetrations.begin(), x->penetrations.end(),
+                         [](const PenetrationRow& r) { return r.on_surface; });
+    });
+    cells.emplace_back(action_words(contacts), stops               ? Tone::red
+                                               : t.count.pairs > 0 ? Tone::yellow
+                                                                   : Tone::plain);
     table_.row(std::move(cells));
   }
 
@@ -215,7 +222,7 @@ std::string part_pairs_text(const Scene& scene, const SceneView& view,
 std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& view,
                        const GapsTextOptions& options) {
   TextTable worst = make_table({">interface", "node/edge", ">depth", ">gap", ">distance",
-                                "segment/edge", "elements", "action", "position", "defined at"});
+                                "segment/edge", "elements", "action", "position", "=defined at"});
   const std::size_t rows = std::min(options.worst, view.deepest_per_node.size());
   const double largest = largest_bounded_gap(*scene.model);
   std::vector<NodeIndex> nodes;
@@ -231,10 +238,16 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
         stops ? fmt::format("error {}", on_surface_error(c)) : to_string(row.action);
     if (!stops && row.has_gap0 && !is_unbounded(row.gap0))
       action += fmt::format(" to {:.4g}", row.gap0);
-    worst.row({fmt::format("{}", c.inter->id), secondary_text(p),
-               length_text(row.depth, 6, largest), length_text(row.gap, 6, largest),
-               fmt::format("{:.6g}", row.distance), segment_text(p),
-               fmt::format("{} / {}", p.secondary_element.id, p.main_element.id), action,
+    worst.row({fmt::format("{}", c.inter->id),
+               secondary_text(p),
+               length_text(row.depth, 6, largest),
+               length_text(row.gap, 6, largest),
+               fmt::format("{:.6g}", row.distance),
+               segment_text(p),
+               fmt::format("{} / {}", p.secondary_element.id, p.main_element.id),
+               {action, stops                                   ? Tone::red
+                        : row.action == PenetrationAction::none ? Tone::plain
+                                                                : Tone::yellow},
                fmt::format("({:.5g}, {:.5g}, {:.5g})", p.at[0], p.at[1], p.at[2]),
                deck.sources.where(spans[i])});
   }

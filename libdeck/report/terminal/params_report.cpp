@@ -169,7 +169,7 @@ TextTable params_table(const ParamsInput& in, const InterBase& inter,
                    {"card", Align::right},
                    {"value", Align::right},
                    {"origin", Align::left},
-                   {"place", Align::left}});
+                   {"place", Align::left, true}});
   visit_any_interface(inter, [&](const auto& t) {
     t.for_each([&](std::string_view name, const auto& e) {
       if (!wanted(in, inter, name, e, options)) return;

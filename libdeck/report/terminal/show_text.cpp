@@ -201,7 +201,7 @@ class ShowText {
     TextTable table({{field, Align::left},
                      {"what", Align::left},
                      {"title", Align::left},
-                     {target ? "defined at" : "place", Align::left}});
+                     {target ? "defined at" : "place", Align::left, true}});
     const std::size_t shown = options_.all ? list.size() : std::min(list.size(), most_links);
     for (std::size_t i = 0; i < shown; ++i) {
       const Link& l = list[i];

@@ -121,13 +121,20 @@ std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent,
       empty[i] = empty[i] && cells[i].text.empty();
     }
   for (std::size_t i = 0; i < n; ++i)
-    if (columns_[i].align == Align::right || least[i] > need[i]) least[i] = need[i];
+    if (columns_[i].align == Align::right || columns_[i].whole || least[i] > need[i])
+      least[i] = need[i];
   const auto length = [&](const std::vector<std::size_t>& columns,
                           const std::vector<std::size_t>& widths) {
     std::size_t sum = indent;
     for (const std::size_t i : columns) sum += widths[i] + (i == columns.front() ? 0 : 2);
     return sum;
   };
+  // A text that has no room even in a table of its own, behind the keys, is broken all the same.
+  std::size_t before = indent;
+  for (std::size_t i = 0; i < std::min(keys, n); ++i) before += least[i] + 2;
+  for (std::size_t i = keys; i < n; ++i)
+    if (columns_[i].whole && width > 0 && before + need[i] > width)
+      least[i] = std::min(need[i], std::max(narrow, width - std::min(width, before)));
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < n; ++i) all.push_back(i);
   // Where there is not enough room, a column without a text is none.

@@ -65,7 +65,7 @@ std::string untied_text(const Deck& deck, const Scene& scene, const GapsTextOpti
   const std::vector<Untied> all = untied_of(scene);
   const std::size_t rows = std::min(options.worst, all.size());
   TextTable table = make_table({">interface", ">node", ">part", "nearest segment", ">distance",
-                                ">search distance", "why", "defined at"});
+                                ">search distance", "why", "=defined at"});
   std::vector<NodeIndex> nodes;
   for (std::size_t i = 0; i < rows; ++i) nodes.push_back(all[i].node->node);
   const std::vector<Span> spans = node_spans(model, nodes);

@@ -23,12 +23,14 @@ inline std::string kind_name(const Contact& c) {
   return name;
 }
 
-/// A table with these titles; '>' before one sets its column to the right.
+/// A table with these titles; '>' before one sets its column to the right, '=' keeps its texts
+/// whole.
 inline TextTable make_table(std::initializer_list<const char*> titles) {
   std::vector<TextTable::Column> columns;
   for (const char* t : titles)
-    columns.push_back(*t == '>' ? TextTable::Column{t + 1, Align::right}
-                                : TextTable::Column{t, Align::left});
+    columns.push_back(*t == '>'   ? TextTable::Column{t + 1, Align::right}
+                      : *t == '=' ? TextTable::Column{t + 1, Align::left, true}
+                                  : TextTable::Column{t, Align::left});
   return TextTable(std::move(columns));
 }
 

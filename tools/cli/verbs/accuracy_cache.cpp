@@ -11,11 +11,11 @@
 #include <string>
 #include <utility>
 
+#include "batch/record.hpp"
 #include "deck/accuracy/store.hpp"
 #include "deck/base/hash.hpp"
 #include "deck/edit/write.hpp"
 #include "deck/report/accuracy.hpp"
-#include "deck/report/json.hpp"
 #include "processor.hpp"
 
 namespace deck::cli {
@@ -39,14 +39,11 @@ std::filesystem::path cache_directory() {
   return {};
 }
 
-/// What the measurement depends on: the program to the byte, the processor, and what was asked.
-/// Empty where the program's own file is not known.
+/// What the measurement depends on: the program, the processor, and what was asked.
 std::string measurement_key(const HardCases& which) {
-  const auto program = file_contents("/proc/self/exe");
-  if (!program) return {};
-  return fmt::format("deck hard cases, form 1; {} {:016x}; {}; {}; {} {} {} {}", library_version(),
-                     content_hash(*program), accuracy_compiler(), processor_name(), which.samples,
-                     which.seed, which.repeats, which.decisions_only ? "decisions" : "all");
+  return fmt::format("deck hard cases, form 1; {}; {}; {}; {} {} {} {}", program_identity(),
+                     accuracy_compiler(), processor_name(), which.samples, which.seed,
+                     which.repeats, which.decisions_only ? "decisions" : "all");
 }
 
 struct KeptPlace {
@@ -55,8 +52,8 @@ struct KeptPlace {
 
 KeptPlace kept_place(const HardCases& which) {
   const std::filesystem::path directory = cache_directory();
-  const std::string key = directory.empty() ? std::string() : measurement_key(which);
-  if (key.empty()) return {};
+  if (directory.empty()) return {};
+  const std::string key = measurement_key(which);
   return {key, (directory / fmt::format("hard-cases-{:016x}", content_hash(key))).string()};
 }
 

@@ -17,6 +17,7 @@ class TextTable {
   struct Column {
     std::string title;
     Align align = Align::left;
+    bool whole = false;  ///< its texts are never broken where a line has room for them: places
   };
   explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
