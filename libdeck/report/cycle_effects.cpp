@@ -50,10 +50,12 @@ std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome
                                       [&](const EffectLine& l) { return l.name == e.name; });
       // On in one part of a TYPE19 and off in another: both are said.
       if (known != lines.end() && known->on && !e.on && c.contact->role == ContactRole::edges &&
-          wanted_by_card(inter, e))
+          wanted_by_card(inter, e)) {
         known->because += fmt::format("; not between edges: {}", e.reason);
+        known->not_edges = e.reason;
+      }
       if (known != lines.end() && (known->on || !e.on)) continue;
-      EffectLine line{e.name, e.on, {}, e.field, e.reason, {}};
+      EffectLine line{e.name, e.on, {}, e.field, e.reason, {}, {}};
       line.because = because_of(deck, inter, e, line.span);
       if (known == lines.end())
         lines.push_back(std::move(line));

@@ -87,10 +87,22 @@ async function sideViews(browser, scratch) {
         report.select(x);
         const s = document.querySelector(".side-view");
         const length = (k) => Math.abs(s.querySelector(`.${k}`).y1.baseVal.value - s.querySelector(`.${k}`).y2.baseVal.value) / Number(s.dataset.scale);
-        return { want: [x.row.gap, x.row.distance, x.depth], have: [length("gap-length"), length("distance"), length("depth")], text: document.querySelector(".side figcaption").textContent };
+        const ids = (text) => text.match(/\d+/g).join("-");
+        const halves = [s.querySelector(".main").height.baseVal.value, s.querySelector(".half").r.baseVal.value].map((v) => v / Number(s.dataset.scale));
+        return {
+          want: [x.row.gap, x.row.distance, x.depth], have: [length("gap-length"), length("distance"), length("depth")], text: document.querySelector(".side figcaption").textContent, halves,
+          pair: `pair:${ids(report.secondaryText(x.row))}/${ids(report.mainText(x.row))}`, interface: report.meta.interfaces[report.meta.contacts[x.contact].interface].id,
+        };
       });
     });
     check(`${name}: the side view is to scale`, found.length > 0 && found.every((f) => f.want.every((v, k) => Math.abs(f.have[k] - v) <= 0.01 * f.want[0])), JSON.stringify(found[0]));
+    // The program draws the same pair: the same lengths and half thicknesses.
+    for (const f of found.filter((_, i) => i % 8 === 0)) {
+      const drawn = deck("show", sample(name), f.pair, "--svg", "--interface", String(f.interface));
+      const number = (pattern) => Number(drawn.match(pattern)?.[1]), scale = number(/data-scale='([^']*)'/);
+      const have = [...["gap", "distance", "depth"].map((k) => number(new RegExp(`data-${k}='([^']*)'`))), number(/class='main'[^>]* height='([^']*)'/) / scale, number(/class='half'[^>]* r='([^']*)'/) / scale];
+      check(`${name} ${f.pair}: the drawing of deck show is that of the page`, [...f.want, ...f.halves].every((v, k) => Math.abs(have[k] - v) <= 0.01 * f.want[0]), JSON.stringify([f, have]));
+    }
     check(`${name}: and has its equation`, found.every((f) => /^depth .* = gap .* − distance /.test(f.text)), found[0]?.text);
     await p.close();
   }

@@ -78,12 +78,13 @@ std::string off_lines(const std::vector<InterfaceEffects>& all) {
     std::vector<std::pair<std::string, std::string>> reasons;  // with ids
     for (const InterfaceEffects& one : all) {
       const EffectLine* line = line_of(one, name);
-      if (line == nullptr || line->on) continue;
+      if (line == nullptr || (line->on && line->not_edges.empty())) continue;
+      const std::string why = line->on ? "not between edges: " + line->not_edges : line->reason;
       const auto known = std::find_if(reasons.begin(), reasons.end(),
-                                      [&](const auto& r) { return r.first == line->reason; });
+                                      [&](const auto& r) { return r.first == why; });
       const std::string id = std::to_string(one.inter->id);
       if (known == reasons.end())
-        reasons.emplace_back(line->reason, id);
+        reasons.emplace_back(why, id);
       else
         known->second += ", " + id;
     }

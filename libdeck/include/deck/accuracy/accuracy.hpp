@@ -118,7 +118,6 @@ struct GapsTiming {
   double least = 0.0;   // seconds: short runs are repeated more often, until this much was spent
   double most = 1e300;  // seconds: after three rounds none begins once this much was spent
   std::function<void(std::uint64_t, std::uint64_t)> progress = {};  // done, of all runs
-};                                                                  // done, of all runs
 };
 
 // Times the whole of `deck gaps` in each accuracy and adds the rows "gaps" to the report, instead
