@@ -245,8 +245,9 @@ TEST(AccuracyChoices, ARatioWithinItsSpreadIsNoMeasurableDifference) {
 
 TEST(AccuracyChoices, AWrongAnswerOfRobustIsAnErrorOfTheProgram) {
   AccuracyReport hard = small_report();
-  for (TierResult& t : hard.tiers)
+  for (TierResult& t : hard.tiers) {
     if (t.name == "robust" && t.what == "gaps") t.decision_errors = 3;
+  }
   const auto said = accuracy_advice(accuracy_choices(hard, nullptr));
   EXPECT_EQ(said.front().find("This is an error of the program"), 0u);
   EXPECT_NE(said.front().find("3 pairs"), std::string::npos);
@@ -259,9 +260,10 @@ TEST(AccuracyChoices, TheTextHasFourRowsAndTheRestWhenVerbose) {
   EXPECT_EQ(text.find("double-residual"), std::string::npos);
   EXPECT_NE(accuracy_text(r, {}, false, 80, true).find("double-residual"), std::string::npos);
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);)
-    if (line.find("Keep") == std::string::npos && line.find("optimised") == std::string::npos)
-      EXPECT_LE(line.size(), 80u) << line;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("Keep") || line.find("optimised") != std::string::npos) continue;
+    EXPECT_LE(line.size(), 80u) << line;
+  }
 }
 
 TEST(AccuracyStore, IsReadBackBitForBitOrNotAtAll) {

@@ -408,6 +408,11 @@ def overview(c, tmp):
             and b"prefers-color-scheme:dark" in read(page), str(shown.addresses))
     c.check("the page has the numbers", [shown.cell("too_close_0000.rad", t)[0] for t in ("status", "penetrating", "deepest", "of gap")] ==
             ["findings", "9", "0.35", "28.0 %"] and shown.cell("too_close_0000.rad", "deck")[2] == "./too_close_0000.json", str(shown.rows))
+    order = [r[0][0].rsplit("/", 1)[-1] for r in shown.rows[1:]]
+    c.check("the page begins with the worst deck", order == ["empty_0000.rad", "crash_box_0000.rad", "front_crash_64_kmh_0000.rad", "too_close_0000.rad",
+                                                              "hot_contact_0000.rad", "clean_plates_0000.rad"], str(order))
+    levels = [shown.cell(n, "level") for n in ("empty_0000.rad", "crash_box_0000.rad", "too_close_0000.rad", "clean_plates_0000.rad")]
+    c.check("levels have words and colours", [(t, k.split()[-1]) for t, k, _ in levels] == [("unreadable", "bad"), ("solver stops", "bad"), ("penetrates", "warn"), ("clean", "good")], str(levels))
     c.check("without results of before there is no trend", "trend" not in [t[0] for t in shown.rows[0]])
     # A gap that gets worse, one that gets better, a deck that is new, and one as it was.
     def edit(name, old, new):

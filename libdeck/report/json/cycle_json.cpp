@@ -259,6 +259,23 @@ void write_acted_nodes(JsonWriter& j, const CycleInput& input) {
   j.end_array();
 }
 
+/// What the interfaces do without the effect of --without; with it they stand in "interfaces".
+void write_without(JsonWriter& j, const CycleInput& input) {
+  const cycle::SceneOutcome& o = *input.without;
+  j.key("without").begin_object().field("effect", input.without_effect);
+  j.key("interfaces").begin_array();
+  for (const cycle::InterfaceSummary& s : cycle::summarize(*input.scene, o)) {
+    j.begin_object(true).field("id", s.id).field("pairs_with_force", s.pairs_with_force);
+    j.field("force_sum", s.force_sum).field("elastic_energy", s.elastic_energy);
+    j.field("friction_energy", s.friction_energy).field("damping_energy", s.damping_energy);
+    write_step(j, "contact_dt", s.contact_dt);
+    j.end_object();
+  }
+  j.end_array().field("largest_nodal_force", o.largest_nodal_force);
+  write_step(j, "contact_dt", o.contact_dt);
+  j.end_object();
+}
+
 }  // namespace
 
 std::string cycle_json(const CycleInput& input, bool all, const TextDrain& drain) {
@@ -286,6 +303,7 @@ std::string cycle_json(const CycleInput& input, bool all, const TextDrain& drain
       }
   j.end_array();
   write_costs(j, input);
+  if (input.without != nullptr) write_without(j, input);
   if (all) write_acted_nodes(j, input);
   j.key("nodal_force").begin_object(true).field("max", o.largest_nodal_force);
   write_node(j, model, "node", o.force_node);
