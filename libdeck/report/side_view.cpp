@@ -278,13 +278,16 @@ std::string side_view_svg(const Scene& scene, const FoundPair& pair) {
   d.low = std::min({below, v.at - v.secondary, 0.0});
   d.high = std::max({v.gap, v.at + v.secondary, v.at + ghost.moved + v.secondary});
   if (!(d.high > d.low)) d.high = d.low + 1.0;
+  const std::string title = title_of(scene, c, r);
+  // Long ids make a long title; a character is at most 7.5 wide.
+  const double wide = std::max(kViewWidth, 2 * kViewLeft + 7.5 * static_cast<double>(title.size()));
   std::string out = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
       "role='img' aria-label='{2}' data-scale='{3}' data-gap='{4}' data-depth='{5}' "
       "data-distance='{6}'>\n{7}<rect class='ground' width='{0}' height='{1}'/>\n",
-      kViewWidth, kViewHeight, xml_text(pair_equation(v)), d.scale(), v.gap, v.depth, v.distance,
+      wide, kViewHeight, xml_text(pair_equation(v)), d.scale(), v.gap, v.depth, v.distance,
       kSideStyle);
-  out += fmt::format("<text x='{}' y='18'>{}</text>\n", kViewLeft, xml_text(title_of(scene, c, r)));
+  out += fmt::format("<text x='{}' y='18'>{}</text>\n", kViewLeft, xml_text(title));
   out += drawn(v, ghost, c.kind == ContactKind::edge_edge, d);
   return out + fmt::format("<text x='{}' y='{}'>{}</text>\n</svg>\n", kViewLeft, kViewHeight - 12,
                            xml_text(pair_equation(v)));

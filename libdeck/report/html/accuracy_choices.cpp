@@ -64,14 +64,14 @@ std::string choice_row(const AccuracyChoice& c, double deck_scale, double hard_s
                 fmt::format("{}<b class=\"seconds\">{}</b> <small>{}</small>",
                             bar(c.deck->seconds, deck_scale), seconds_text(c.deck->seconds),
                             ratio_words(c.deck->ratio, is_fast)));
-    out += wrong_cell("Wrong on this deck", c.deck->wrong, c.deck->pairs);
+    out += wrong_cell("Wrong, deck", c.deck->wrong, c.deck->pairs);
   }
   out += cell(
       "Hard cases",
       fmt::format("{}<b>{}</b> <small>{}</small>", bar(c.hard.ns_per_pair, hard_scale),
                   seconds_text(1e-9 * c.hard.ns_per_pair), ratio_words(c.hard.ratio, is_fast)));
-  out += wrong_cell("Wrong on hard cases", c.hard.wrong, c.hard.pairs);
-  out += wrong_cell("Same pair, other answer", c.hard.other_answers, c.hard.rewritten);
+  out += wrong_cell("Wrong, hard cases", c.hard.wrong, c.hard.pairs);
+  out += wrong_cell("Other answer", c.hard.other_answers, c.hard.rewritten);
   return out + "</tr>\n";
 }
 

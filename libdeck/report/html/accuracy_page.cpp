@@ -34,7 +34,7 @@ th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; wh
 .choices td { text-align: left; } .choices .default { background: var(--soft); } .choices .default th { box-shadow: inset 4px 0 var(--accent); } .ok { color: var(--good); } .bad b { color: var(--bad); }
 .bar { display: block; height: 6px; border-radius: 3px; background: var(--accent); margin-bottom: 2px; min-width: 2px; } .bar.cut { background: repeating-linear-gradient(115deg, var(--accent) 0 14px, transparent 14px 18px); }
 .choose { display: grid; grid-template-columns: auto 1fr auto 1fr; gap: 2px 14px; margin: 10px 0; } .choose dd { margin: 0; color: var(--muted); }
-.stable { display: grid; gap: 8px 16px; align-items: start; } .strip { display: flex; gap: 10px; align-items: center; margin: 5px 0; } .who { flex: none; width: 104px; line-height: 1.25; } .who code { display: block; } .kinds { display: flex; flex-wrap: wrap; }
+.stable { display: grid; gap: 8px 16px; align-items: start; } .strip { display: flex; gap: 10px; align-items: center; margin: 5px 0; } .who { flex: none; width: 104px; line-height: 1.25; font-size: 13px; white-space: nowrap; } .who code { display: block; } .kinds { display: flex; flex-wrap: wrap; }
 .kinds button, .key { width: 24px; height: 24px; padding: 0; border: 0; border-radius: 5px; background: none; position: relative; } .key { display: inline-block; vertical-align: -7px; }
 .kinds button::after, .key::after { content: ""; position: absolute; inset: 4px; border-radius: 50%; } .l0::after { background: var(--good); } .l1::after { border: 3px solid var(--some); } .l2::after { border: 2px solid var(--bad); border-radius: 2px; transform: scale(.6) rotate(45deg); }
 .kinds [aria-pressed=true] { background: var(--line); outline: 1px solid var(--muted); } .kinds button:hover { background: var(--line); }
@@ -47,12 +47,12 @@ th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; wh
 [data-theme=dark] .dk-ground, [data-theme=dark] .dk-mark.dk-hollow { fill: #171e27; } [data-theme=dark] .dk-grid { stroke: #303c4c; }
 [data-theme=dark] .dk-svg text { fill: #93a2b4; } [data-theme=dark] .dk-svg .dk-label, [data-theme=dark] .dk-svg .dk-title { fill: #e7edf4; }
 [data-theme=dark] .dk-svg .dk-label { stroke: #171e27; } [data-theme=dark] .dk-mark { fill: #7fb2ff; stroke: #7fb2ff; } [data-theme=dark] .dk-frontier { stroke: #7fb2ff; } [data-theme=dark] .dk-default { stroke: #ffc069; }
-@media (min-width: 1400px) { .stable { grid-template-columns: minmax(0, 1fr) 366px; } }
+@media (min-width: 1400px) { .stable { grid-template-columns: minmax(0, 1fr) 350px; } }
 @media (max-width: 1120px) { .choose { grid-template-columns: auto 1fr; } .who { width: auto; min-width: 104px; } }
 @media (max-width: 820px) {
   header { padding: 6px 12px; flex-wrap: nowrap; } header h1 small { display: block; margin: 0; line-height: 1.3; } .strip { display: block; } .who code { display: inline; } main { padding: 0 12px 30px; } .said { font-size: 14px; line-height: 1.4; padding: 8px 10px; margin: 8px 0; }
   .cards, .cards tbody, .cards td, .cards th { display: block; } .cards thead { display: none; } .cards { background: none; width: 100%; } .cards tr { display: flex; flex-wrap: wrap; background: var(--panel); border: 1px solid var(--line); border-radius: 8px; margin: 0 0 5px; padding: 3px 8px; }
-  .cards th, .choices th { flex: 1 0 100%; text-align: left; border: 0; padding: 0; white-space: normal; } .cards td, .choices td { flex: 1 0 33%; max-width: 100%; text-align: left; white-space: normal; border: 0; padding: 0 6px 2px 0; font-size: 13px; line-height: 1.3; } .choices td { flex: 0 0 33.3%; } .choices small { display: block; }
+  .cards th, .choices th { flex: 1 0 100%; text-align: left; border: 0; padding: 0; white-space: normal; } .cards td, .choices td { flex: 1 0 33%; max-width: 100%; text-align: left; white-space: normal; border: 0; padding: 0 6px 2px 0; font-size: 13px; line-height: 1.3; } .choices td { flex: 0 0 33.3%; } .choices td small { display: block; }
   .cards td::before { content: attr(data-label); display: block; font-size: 11px; color: var(--muted); } .choices .default th { box-shadow: none; } .choices .bar { display: none; } .heat td { flex: 1 0 20%; } .heat button { text-align: left; padding: 4px; }
 }
 @media print { header button, .save { display: none; } }

@@ -158,6 +158,8 @@ std::string without_text(const CycleInput& input, const CycleTextOptions& option
   std::string out = table.size() > 0 ? table.fitted(options.width, options.color, 2) : "";
   out += folded_ids(same, "interface has the same force, energy and step",
                     "interfaces have the same force, energy and step");
+  if (table.size() == 0 && input.options.dt12 == 0.0)
+    out += "  (what slides or rubs shows with --dt and --velocity)\n";
   const cycle::SceneOutcome &a = *input.outcome, &b = *input.without;
   out +=
       fmt::format("  largest nodal force {:.4g}, without {:.4g} ({})\n", a.largest_nodal_force,

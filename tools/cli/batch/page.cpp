@@ -26,7 +26,7 @@ th,td{border-bottom:1px solid var(--line);padding:.35em .8em;text-align:left;ver
 th{position:sticky;top:0;background:var(--panel);white-space:nowrap;z-index:1}
 th button{font:inherit;color:inherit;background:none;border:0;padding:0;cursor:pointer}th button:hover{text-decoration:underline}
 th[aria-sort=ascending] button::after{content:" \2191"}th[aria-sort=descending] button::after{content:" \2193"}
-.n{text-align:right;white-space:nowrap}td:first-child{overflow-wrap:anywhere;min-width:14em}
+.n{text-align:right;white-space:nowrap}td:first-child{overflow-wrap:anywhere;min-width:18em}
 .clean,.passed,.better{color:var(--good)}.findings,.not-examined,.changed{color:var(--warn)}
 .failed,.unreadable,.skipped,.worse{color:var(--bad);font-weight:600}.same,.first{color:var(--muted)}
 .level{white-space:nowrap;font-weight:600}.level::before{content:"";display:inline-block;width:10px;height:10px;border-radius:50%;margin-right:7px;background:currentColor}
@@ -38,7 +38,7 @@ th[aria-sort=ascending] button::after{content:" \2191"}th[aria-sort=descending] 
 .sorts thead tr{display:flex;flex-wrap:wrap;gap:2px 12px}.sorts th{border:0;padding:2px 0;position:static;background:none;color:var(--accent)}
 .sorts tbody tr{display:flex;flex-wrap:wrap;border-bottom:1px solid var(--line);padding:8px 10px}.sorts tbody tr[hidden]{display:none}
 .sorts td{border:0;padding:1px 14px 1px 0;text-align:left;white-space:normal;min-width:0}.sorts td:first-child{flex:1 0 100%;min-width:0;box-shadow:none!important}.sorts td:last-child{flex:1 0 100%}
-.sorts td.n::before,.sorts td[data-label]::before{content:attr(data-label) " ";color:var(--muted)}.bar{display:inline-block;width:70px;vertical-align:middle;margin-right:6px}.sorts td.level::before{content:""}}
+.sorts td.n::before,.sorts td[data-label]::before{content:attr(data-label) " ";color:var(--muted)}.bar{display:inline-block;width:70px;vertical-align:middle;margin:0 6px}.sorts td.level::before{content:"";color:inherit}}
 )";
 
 /// Titles become buttons; a click sorts by what the cells say they are worth, else by their text.
