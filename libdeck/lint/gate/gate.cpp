@@ -12,7 +12,7 @@
 #include "deck/base/length_text.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/text/number.hpp"
-#include "lint/gate_places.hpp"
+#include "lint/gate/gate_places.hpp"
 
 namespace deck {
 namespace {

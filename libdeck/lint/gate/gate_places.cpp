@@ -1,5 +1,5 @@
 // Where in the deck a finding of the gate comes from.
-#include "lint/gate_places.hpp"
+#include "lint/gate/gate_places.hpp"
 
 #include <fmt/format.h>
 
