@@ -304,6 +304,15 @@ Result<void> CommandLine::parse(std::vector<std::string> words) {
   return {};
 }
 
+std::string shell_word(const std::string& word) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+,:=@%-";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 std::vector<std::string> split_words(const std::string& line) {
   std::vector<std::string> words = CLI::detail::split_up(line);
   for (std::string& w : words) CLI::detail::remove_quotes(w);

@@ -112,6 +112,9 @@ class CommandLine {
 /// Splits a line at blanks as a shell would, quotes included; the quotes are gone.
 std::vector<std::string> split_words(const std::string& line);
 
+/// A word of a command as a shell takes it: in quotes where it needs them.
+std::string shell_word(const std::string& word);
+
 /// Says what is wrong on the command line of a verb ("": of the program), and where its help is.
 /// Returns exit_usage.
 int wrong_usage(const std::string& verb, std::string_view message);

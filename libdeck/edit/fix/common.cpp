@@ -138,6 +138,16 @@ void set_interfaces(PenetrationFix& fix, const Interfaces& interfaces, const Fix
             [](const FixedInterface& a, const FixedInterface& b) { return a.id < b.id; });
 }
 
+std::map<std::uint32_t, const PenetrationRow*> deepest_rows(const Contact& contact) {
+  std::map<std::uint32_t, const PenetrationRow*> out;
+  for (const PenetrationRow& row : contact.penetrations) {
+    if (!is_penetration(row)) continue;
+    const PenetrationRow*& best = out[row.secondary];
+    if (best == nullptr || row.depth > best->depth) best = &row;
+  }
+  return out;
+}
+
 std::vector<std::int64_t> secondary_ids(const Model& model, const Contact& contact,
                                         const PenetrationRow& row) {
   if (contact.kind == ContactKind::node_segment)

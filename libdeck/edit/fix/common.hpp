@@ -47,6 +47,9 @@ void set_interfaces(PenetrationFix& fix, const Interfaces& interfaces, const Fix
 /// The entry of an interface, made if absent.
 FixedInterface& interface_entry(PenetrationFix& fix, const InterBase& inter);
 
+/// The deepest penetration of every secondary node or edge of a contact, by its position.
+std::map<std::uint32_t, const PenetrationRow*> deepest_rows(const Contact& contact);
+
 /// Ids of the secondary node or edge, and of the main segment or edge, of a row.
 std::vector<std::int64_t> secondary_ids(const Model& model, const Contact& contact,
                                         const PenetrationRow& row);

@@ -495,7 +495,7 @@ class Depenetrator : MovableDeck {
       fix_.strategy = "move-nodes";
       fix_.crossings_after = find_crossings(after, options_.threads).size();
       set_interfaces(fix_, context_.interfaces(), options_, before, after);
-      list_moved();
+      fix_.moved = moved_list(model_, *mesh_, {moved_.begin(), moved_.end()}, start_, now_);
       list_refused(after);
       note_unevaluated(fix_, after, options_);
       fix_.complete = fix_.refused.empty();
@@ -503,33 +503,12 @@ class Depenetrator : MovableDeck {
     }
   }
 
-  void list_moved() {
-    for (const NodeIndex n : moved_) {
-      const Vec u = at(now_, n) - at(start_, n);
-      MovedNode m;
-      m.id = model_.node_id(n);
-      if (const std::uint32_t part = mesh_->part_of(n); part != no_index)
-        m.part = model_.parts[part].id;
-      m.by = {u.x, u.y, u.z};
-      m.distance = norm(u);
-      fix_.moved.push_back(m);
-    }
-    std::sort(fix_.moved.begin(), fix_.moved.end(),
-              [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
-  }
-
   /// One line per secondary node or edge that still penetrates: the deepest pair and what held it.
   void list_refused(const Scene& scene) {
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
       const Contact& contact = scene.contacts[c];
       if (!is_wanted(options_, contact)) continue;
-      std::map<std::uint32_t, const PenetrationRow*> deepest;
-      for (const PenetrationRow& row : contact.penetrations) {
-        if (!is_penetration(row)) continue;
-        const PenetrationRow*& best = deepest[row.secondary];
-        if (best == nullptr || row.depth > best->depth) best = &row;
-      }
-      for (const auto& [secondary, row] : deepest) {
+      for (const auto& [secondary, row] : deepest_rows(contact)) {
         const PairAt at{c, row->secondary, row->main};
         FixRefusal r;
         r.interface_id = contact.inter->id;

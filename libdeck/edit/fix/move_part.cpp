@@ -219,18 +219,7 @@ class PartMover : MovableDeck {
       return Error{Error::Code::internal, "the deck read again differs: " + *why};
     fix_.crossings_after = find_crossings(after, options_.threads).size();
     set_interfaces(fix_, context_.interfaces(), options_, before, after);
-    for (const NodeIndex n : moved_) {
-      const Vec u = at(now_, n) - at(start_, n);
-      MovedNode m;
-      m.id = model_.node_id(n);
-      if (const std::uint32_t part = mesh_->part_of(n); part != no_index)
-        m.part = model_.parts[part].id;
-      m.by = {u.x, u.y, u.z};
-      m.distance = norm(u);
-      fix_.moved.push_back(m);
-    }
-    std::sort(fix_.moved.begin(), fix_.moved.end(),
-              [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
+    fix_.moved = moved_list(model_, *mesh_, moved_, start_, now_);
     list_refused(after);
     fix_.complete = fix_.refused.empty();
     return std::move(fix_);
@@ -240,12 +229,7 @@ class PartMover : MovableDeck {
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
       const Contact& contact = scene.contacts[c];
       if (!is_wanted(options_, contact)) continue;
-      std::map<std::uint32_t, const PenetrationRow*> deepest;
-      for (const PenetrationRow& row : contact.penetrations) {
-        const PenetrationRow*& best = deepest[row.secondary];
-        if (best == nullptr || row.depth > best->depth) best = &row;
-      }
-      for (const auto& [secondary, row] : deepest)
+      for (const auto& [secondary, row] : deepest_rows(contact))
         fix_.refused.push_back({contact.inter->id, secondary_ids(*scene.model, contact, *row),
                                 row->depth,
                                 reason_of(key_of(scene, {c, row->secondary, row->main}))});

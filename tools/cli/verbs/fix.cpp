@@ -154,7 +154,8 @@ class FixRun {
   /// What each strategy would do, and the command for the best one.
   int propose(const LoadedDeck& loaded, const Coverage& coverage, bool errors) {
     std::vector<PenetrationFix> proposals;
-    for (const char* strategy : {"move-nodes", "reduce-gap", "inacti", "fpenmax", "tie", "move-part"}) {
+    for (const char* strategy :
+         {"move-nodes", "reduce-gap", "inacti", "fpenmax", "tie", "move-part"}) {
       auto made = make(loaded, {strategy});
       if (!made) return fail(made.error());
       proposals.push_back(std::move(made->fixes.front()));
@@ -173,16 +174,6 @@ class FixRun {
         texts_ += "\n" + tail.substr(1) + "\n";
     }
     return now.complete && !errors ? exit_clean : exit_findings;
-  }
-
-  /// A word of a command as a shell takes it.
-  static std::string shell_word(const std::string& word) {
-    constexpr std::string_view plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+,:=@%-";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string out = "'";
-    for (const char c : word) c == '\'' ? out += "'\\''" : out += c;
-    return out + "'";
   }
 
   std::string heading(const std::string& path) const {
@@ -412,12 +403,13 @@ Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   Options& o = *options;
   add_common(line, o.common);
-  line.option("--strategy", o.strategies,
-              "Without: say what each would do. move-nodes: out of each other's gap; move-part: one "
-              "whole part, with what hangs on it, the way that frees the most; reduce-gap: the "
-              "largest gap without a penetration; inacti: let the solver treat them; fpenmax: switch "
-              "off deep ones; tie: raise dsearch of TYPE2 to what its untied nodes need. "
-              "Several with commas: each acts on what the previous one left")
+  line.option(
+          "--strategy", o.strategies,
+          "Without: say what each would do. move-nodes: out of each other's gap; move-part: one "
+          "whole part, with what hangs on it, the way that frees the most; reduce-gap: the "
+          "largest gap without a penetration; inacti: let the solver treat them; fpenmax: switch "
+          "off deep ones; tie: raise dsearch of TYPE2 to what its untied nodes need. "
+          "Several with commas: each acts on what the previous one left")
       .comma_list()
       .value("STRATEGY")
       .one_of({"move-nodes", "move-part", "reduce-gap", "inacti", "fpenmax", "tie"});

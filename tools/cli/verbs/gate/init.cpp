@@ -45,16 +45,6 @@ std::string config_text() {
   return out;
 }
 
-/// A word of a shell: in quotes where it needs them.
-std::string shell_word(const std::string& word) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+=:,@";
-  if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 std::string package() { return "./tools/libdeck_" + std::string(library_version()) + "_amd64.deb"; }
 
 /// `decks`: as words of a shell, each after a blank.
