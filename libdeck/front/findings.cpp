@@ -7,7 +7,10 @@
 #include <set>
 #include <string_view>
 #include <tuple>
+#include <utility>
+#include <vector>
 
+#include "base/parallel.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/keyword/schema.hpp"
 #include "deck/model/selection.hpp"
@@ -49,16 +52,27 @@ FindingLists::FindingLists(const Diagnostics& of_reading, int per_rule)
 
 void FindingLists::forget_scene() { of(Stage::scene) = Diagnostics(per_rule_); }
 
-void FindingLists::read_cells(const Deck& deck) {
+void FindingLists::read_cells(const Deck& deck, int threads) {
   constexpr std::string_view kinds[] = {
       "inter",  "default_inter", "friction", "grnod",  "surf",   "line",   "set",       "box",
       "skew",   "grshel",        "grsh3n",   "grbric", "grquad", "grtria", "grtrus",    "grbeam",
       "grspri", "grpart",        "part",     "prop",   "mat",    "subset", "transform", "unit"};
-  Diagnostics found;
+  std::vector<const Block*> blocks;
   for (const Block& b : deck.blocks)
     if (b.schema != nullptr && !b.schema->bulk && !b.opaque &&
         std::find(std::begin(kinds), std::end(kinds), b.schema->kind) != std::end(kinds))
-      decode(deck, b, &found);
+      blocks.push_back(&b);
+  Diagnostics found;
+  constexpr std::size_t at_once = 16;
+  run_in_order<Diagnostics>((blocks.size() + at_once - 1) / at_once, effective_threads(threads),
+                            [&](std::size_t piece, Diagnostics& out) {
+                              out = Diagnostics();
+                              const std::size_t end =
+                                  std::min(blocks.size(), (piece + 1) * at_once);
+                              for (std::size_t i = piece * at_once; i < end; ++i)
+                                decode(deck, *blocks[i], &out);
+                            },
+                            [&](std::size_t, Diagnostics& in) { found.merge(std::move(in)); });
   for (const Diagnostic& d : found.all())
     if (d.severity == Severity::error) of(Stage::cells).report(d);
   cells_read_ = true;

@@ -23,7 +23,7 @@ class FindingLists {
   /// Finds what cannot be read in the cells that contacts depend on (interfaces, groups, parts,
   /// properties, materials ...): there 0 stands, and every value looks like one that was meant.
   /// Errors only; lint has the rest.
-  void read_cells(const Deck& deck);
+  void read_cells(const Deck& deck, int threads);
 
   /// All up to a stage in their order, each once; with those of contacts without penetrations from
   /// Stage::cells on.

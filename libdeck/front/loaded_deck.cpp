@@ -212,7 +212,7 @@ void LoadedDeck::Parts::find(Stage until) {
     values();
     if (found.wants_cells()) {
       begin(Stage::cells);
-      found.read_cells(deck);
+      found.read_cells(deck, options.threads);
     }
   }
 }

@@ -9,6 +9,8 @@
 #include <string>
 #include <thread>
 
+#include "base/side_by_side.hpp"
+
 namespace deck {
 namespace {
 
@@ -40,6 +42,32 @@ TEST(ParallelItems, NoFurtherItemBeginsAfterAnException) {
                               }),
                std::runtime_error);
   EXPECT_LE(begun.load(), 2);
+}
+
+TEST(SideBySide, EveryItemRunsOnceAndLargeOnesHaveAllThreads) {
+  std::vector<std::size_t> sizes(100, 10);
+  sizes[7] = 100'000;
+  sizes[30] = 2000;
+  for (const int threads : {1, 2, 3, 16}) {
+    std::vector<std::atomic<int>> ran(sizes.size()), with(sizes.size());
+    side_by_side(threads, sizes, [&](std::size_t i, const Share& share) {
+      ++ran[i];
+      with[i] = share.threads;
+      EXPECT_LT(share.worker, static_cast<std::size_t>(threads));
+    });
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      EXPECT_EQ(ran[i].load(), 1) << threads << " " << i;
+      // The second is more than a fair share of what the first leaves.
+      const bool all = i == 7 || i == 30;
+      EXPECT_EQ(with[i].load(), all ? threads : 1) << threads << " " << i;
+    }
+  }
+  side_by_side(4, {}, [](std::size_t, const Share&) { ADD_FAILURE(); });
+  EXPECT_THROW(side_by_side(2, sizes,
+                            [](std::size_t i, const Share&) {
+                              if (i == 55) throw std::bad_alloc();
+                            }),
+               std::bad_alloc);
 }
 
 TEST(RunWorkers, EveryNumberBelowTheCountRunsOnce) {

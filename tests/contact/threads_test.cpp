@@ -1,7 +1,10 @@
 // Contacts and their view are the same for any number of threads.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "contact/small_deck.hpp"
 #include "deck/contact/crossings.hpp"
@@ -112,6 +115,52 @@ TEST(Threads, ASceneAndItsViewAreTheSameForAnyNumber) {
     EXPECT_EQ(view.deepest_per_node, other.deepest_per_node);
     expect_same(view.part_pairs, other.part_pairs, "part pairs");
     EXPECT_EQ(values(view.total.count), values(other.total.count));
+  }
+}
+
+/// What a scene says of its contacts, in order, beside their lists.
+std::vector<std::string> said(const Built& built) {
+  std::vector<std::string> out;
+  for (const Diagnostic& d : built.diagnostics.all()) out.push_back(d.message);
+  const DecisionReport& r = built.scene.decisions;
+  out.push_back(std::to_string(r.pairs) + " " + std::to_string(r.contact_differs));
+  for (const DecisionDifference& d : r.differences)
+    out.push_back(std::to_string(d.contact) + " " + std::to_string(d.secondary));
+  return out;
+}
+
+TEST(Threads, ManyContactsAreFinishedInTheirOrderForAnyNumber) {
+  SmallDeck d = crossing_sheets(20);
+  for (int k = 1; k <= 9; ++k)
+    d.add(fmt::format("@/INTER/TYPE7/{} surf_IDm={} Igap={} Inacti={} Gapmin={}", k, k % 2 * 2 + 1,
+                      k % 3, k == 6 ? 3 : k % 3, 0.05 * k));
+  d.add("@/INTER/TYPE7/10 surf_IDm=77 Gapmin=0.1");  // an empty side is told
+  d.add("@/INTER/TYPE19/11 surf_IDs=3 surf_IDm=1 Iedge=2 Gapmin=0.1");
+  SceneOptions options;
+  std::vector<std::size_t> steps;
+  options.progress = [&](std::size_t done, std::size_t total) {
+    EXPECT_LE(done, total);
+    steps.push_back(done);
+  };
+  const Built one(d, options);
+  ASSERT_EQ(one.scene.contacts.size(), 13u);
+  EXPECT_EQ(steps.size(), 13u);
+  for (const int threads : {2, 3, 8}) {
+    options.threads = threads;
+    steps.clear();
+    const Built many(d, options);
+    ASSERT_EQ(many.scene.contacts.size(), one.scene.contacts.size());
+    for (std::size_t k = 0; k < one.scene.contacts.size(); ++k) {
+      const Contact &a = one.scene.contacts[k], &b = many.scene.contacts[k];
+      expect_same(a.main, b.main, "main");
+      expect_same(a.secondary, b.secondary, "secondary");
+      expect_same(a.penetrations, b.penetrations, "penetrations");
+      EXPECT_EQ(std::tie(a.type, a.gapmin, a.max_gap, a.candidates, a.evaluated),
+                std::tie(b.type, b.gapmin, b.max_gap, b.candidates, b.evaluated));
+    }
+    EXPECT_EQ(said(one), said(many));
+    EXPECT_TRUE(std::is_sorted(steps.begin(), steps.end()));
+    EXPECT_EQ(steps.back(), 13u);
   }
 }
 

@@ -55,6 +55,14 @@ BAD = {
 }
 
 
+def without_twins(pairs):
+    """An object of JSON; a key that occurs twice is an error."""
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise ValueError("a key occurs twice in the object with " + ", ".join(sorted(found)))
+    return found
+
+
 def check(validator_class, schema):
     """Returns (passed, failed) of all documents with one validator."""
     validator_class.check_schema(schema)
@@ -75,7 +83,13 @@ def check(validator_class, schema):
         print("no schema files found")
         failed += 1
     for file in files:
-        errors = list(validator.iter_errors(json.loads(file.read_text(encoding="utf-8"))))
+        try:  # the program does not look for them in its own files
+            document = json.loads(file.read_text(encoding="utf-8"), object_pairs_hook=without_twins)
+        except ValueError as error:
+            print(f"{file.name}: {error}")
+            failed += 1
+            continue
+        errors = list(validator.iter_errors(document))
         for error in errors:
             where = "/".join(str(part) for part in error.absolute_path)
             print(f"{dialect}: {file.name}: /{where}: {error.message}")

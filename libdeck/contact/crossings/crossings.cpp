@@ -3,7 +3,6 @@
 #include "contact/scene/node_elements.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -12,6 +11,7 @@
 
 #include "base/pages.hpp"
 #include "base/parallel.hpp"
+#include "base/side_by_side.hpp"
 #include "contact/crossings/crossings_exact.hpp"
 #include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
@@ -24,8 +24,21 @@ constexpr std::size_t width = BoxBlock::kWidth;
 constexpr std::size_t at_once = 512;  // edges, or elements with theirs
 
 Box segment_box(const NodeArrays& nodes, const std::array<std::uint32_t, 4>& segment) {
-  Box box = sweep::edge_box(nodes, {segment[0], segment[1]}, 0);
-  box.add(sweep::edge_box(nodes, {segment[2], segment[3]}, 0));
+  Box box;
+  double largest = 0;
+  const std::span<const double> axes[] = {nodes.x, nodes.y, nodes.z};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double a = axes[k][segment[0]], b = axes[k][segment[1]];
+    const double c = axes[k][segment[2]], d = axes[k][segment[3]];
+    box.low[k] = std::min(std::min(a, b), std::min(c, d));
+    box.high[k] = std::max(std::max(a, b), std::max(c, d));
+    largest = std::max(largest, std::max(-box.low[k], box.high[k]));
+  }
+  const double r = sweep::Reach::widened(0, largest);
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] -= r;
+    box.high[k] += r;
+  }
   return box;
 }
 
@@ -55,10 +68,10 @@ template <class SegmentOf>
 class SegmentTree {
  public:
   SegmentTree(const NodeArrays& nodes, std::size_t count, const SegmentOf& segment_of, int threads)
-      : nodes_(nodes), segment_of_(segment_of), order_(count) {
+      : order_(count) {
     std::iota(order_.begin(), order_.end(), 0U);
     sweep::put_in_order(
-        order_, [&](std::uint32_t i) { return box_of(i); }, threads);
+        order_, [&](std::uint32_t i) { return segment_box(nodes, segment_of(i)); }, threads);
     std::vector<BoxBlock> blocks;
     make_room(blocks, (count + width - 1) / width, threads);
     blocks.resize((count + width - 1) / width);
@@ -85,10 +98,6 @@ class SegmentTree {
   Box bounds() const { return tree_.level(tree_.levels() - 1)[0].bounds(); }
 
  private:
-  Box box_of(std::uint32_t i) const { return segment_box(nodes_, segment_of_(i)); }
-
-  const NodeArrays& nodes_;
-  const SegmentOf& segment_of_;
   std::vector<std::uint32_t> order_;
   std::vector<std::array<std::uint32_t, 4>> corners_;  // in this order
   BoxTree tree_;
@@ -345,34 +354,19 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bea
   return found;
 }
 
-/// The crossings of all contacts: side by side, the largest first, or one after the other where one
-/// of them has more to do than a fair share.
+/// The crossings of all contacts.
 std::vector<std::vector<Crossing>> crossings_by_contact(const Scene& scene,
                                                         const std::vector<Bearers>& all,
                                                         const NodeArrays& nodes, int threads) {
-  const std::vector<Contact>& contacts = scene.contacts;
-  const auto size = [&](std::size_t c) {
-    return contacts[c].main.empty() ? 0 : contacts[c].main.size() + contacts[c].secondary.size();
-  };
-  std::vector<std::size_t> order(contacts.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
-  std::size_t sum = 0;
-  for (const std::size_t c : order) sum += size(c);
-  const auto cores = static_cast<std::size_t>(threads);
-  const bool side_by_side = !order.empty() && size(order[0]) * cores <= sum;
-  std::vector<std::vector<Crossing>> found(contacts.size());
-  std::atomic<std::size_t> next{0};
-  CancelFlag cancel;
-  run_workers(side_by_side ? threads : 1, cancel, [&](std::size_t) {
-    std::vector<std::uint8_t> marks(scene.model->nodes.size());
-    for (;;) {
-      const std::size_t i = next.fetch_add(1);
-      if (i >= order.size() || cancel.is_set()) return;
-      const std::size_t c = order[i];
-      found[c] = crossings_of(contacts[c], all, nodes, marks, side_by_side ? 1 : threads);
-    }
+  std::vector<std::size_t> sizes;
+  for (const Contact& c : scene.contacts)
+    sizes.push_back(c.main.empty() ? 0 : c.main.size() + c.secondary.size());
+  std::vector<std::vector<std::uint8_t>> marks(static_cast<std::size_t>(threads));
+  std::vector<std::vector<Crossing>> found(sizes.size());
+  side_by_side(threads, sizes, [&](std::size_t c, const Share& share) {
+    std::vector<std::uint8_t>& own = marks[share.worker];
+    own.resize(scene.model->nodes.size());
+    found[c] = crossings_of(scene.contacts[c], all, nodes, own, share.threads);
   });
   return found;
 }

@@ -106,6 +106,20 @@ void PairJudge::note(const DecisionDifference& difference) {
   if (report_.differences.size() < most_listed) report_.differences.push_back(difference);
 }
 
+void add_decisions(const DecisionReport& in, std::size_t place, DecisionReport& all) {
+  if (in.mode != DecisionReport{}.mode) all.mode = in.mode;
+  all.pairs += in.pairs;
+  all.fallback += in.fallback;
+  all.exact += in.exact;
+  all.contact_differs += in.contact_differs;
+  all.surface_differs += in.surface_differs;
+  for (DecisionDifference d : in.differences) {
+    if (all.differences.size() >= most_listed) break;
+    d.contact = static_cast<std::uint32_t>(place);
+    all.differences.push_back(d);
+  }
+}
+
 template <class Exact>
 PairVerdict PairJudge::combine(const PenetrationRow& solver, bool touching, double gap, bool closer,
                                const Exact& exact_row) {

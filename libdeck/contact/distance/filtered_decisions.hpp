@@ -48,4 +48,7 @@ class PairJudge {
   FilterCounters counters_;
 };
 
+/// Adds the decisions about one contact to those of all; `place`: its own among them.
+void add_decisions(const DecisionReport& in, std::size_t place, DecisionReport& all);
+
 }  // namespace deck::detail

@@ -213,7 +213,7 @@ void set_sheet(SceneContext& c, const Settings& set, Face& face) {
 
 void set_gaps(SceneContext& c, Sides& s) {
   const Coordinates& x = c.scene.coordinates;
-  const Surroundings around{c.model, c.connectivity, c.shells, x,
+  const Surroundings around{c.model, c.connectivity, *c.shells, x,
                             effective_threads(c.options.threads)};
   const std::vector<double>& half = shell_half_thickness(around);
   set_secondary_gaps(around, half, s);

@@ -85,7 +85,7 @@ std::string Doubts::partial_group(const Block& inter) {
   return {};
 }
 
-std::string Doubts::unplaced_node(const Contact& contact) const {
+std::string Doubts::about_nodes(const Contact& contact) const {
   if (unplaced_.empty()) return {};
   NodeIndex found = no_index;
   const auto look = [&](NodeIndex n) {
@@ -102,15 +102,13 @@ std::string Doubts::unplaced_node(const Contact& contact) const {
          " is moved by a /TRANSFORM that deck does not evaluate";
 }
 
-std::string Doubts::about(const Contact& contact) {
+std::string Doubts::about_card(const Contact& contact) {
   const Block* block = contact.inter->block;
-  if (block != nullptr) {
-    if (contact.inter->type == 7 && block->version >= 2026 &&
-        decode(*model_.deck, *block).integer("Ists") != 0)
-      return "with Ists its secondary side is a smoothed surface, which deck does not evaluate";
-    if (std::string why = partial_group(*block); !why.empty()) return why;
-  }
-  return unplaced_node(contact);
+  if (block == nullptr) return {};
+  if (contact.inter->type == 7 && block->version >= 2026 &&
+      decode(*model_.deck, *block).integer("Ists") != 0)
+    return "with Ists its secondary side is a smoothed surface, which deck does not evaluate";
+  return partial_group(*block);
 }
 
 }  // namespace deck::detail

@@ -15,16 +15,17 @@ class Doubts {
   /// Looks for transforms that are not evaluated here (DK110). Both must outlive this.
   Doubts(const Model& model, Selections& selections);
 
-  /// Why the contact is not to be judged; empty: everything is known. Its sides must have been
-  /// resolved, so that the findings about their groups are there.
-  std::string about(const Contact& contact);
+  /// Why the contact is not to be judged; empty: everything is known. Of its card and groups: its
+  /// sides must have been resolved, so that the findings about their groups are there.
+  std::string about_card(const Contact& contact);
+  /// Of the places of its nodes. May be asked by several threads.
+  std::string about_nodes(const Contact& contact) const;
 
  private:
   void find_unplaced();
   /// Groups with members that are left out (DK164) and what their finding says.
   void find_partial();
   std::string partial_group(const Block& inter);
-  std::string unplaced_node(const Contact& contact) const;
 
   const Model& model_;
   Selections& selections_;

@@ -153,7 +153,7 @@ EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges) 
 void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   const Coordinates& x = c.scene.coordinates;
   const int threads = effective_threads(c.options.threads);
-  const Surroundings around{c.model, c.connectivity, c.shells, x, threads};
+  const Surroundings around{c.model, c.connectivity, *c.shells, x, threads};
   const NodeArrays arrays{x.x, x.y, x.z};
   const bool variable = contact.igap != 0;
   const double scale = contact.gap_scale;
@@ -205,7 +205,7 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
 
 void set_edge_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   const Coordinates& x = c.scene.coordinates;
-  const Surroundings around{c.model, c.connectivity, c.shells, x};
+  const Surroundings around{c.model, c.connectivity, *c.shells, x};
   const bool variable = contact.igap != 0;
   const auto set_side = [&](std::vector<ContactEdge>& edges, double& thickest) {
     for (ContactEdge& e : edges) {

@@ -128,8 +128,9 @@ enum class Judging : bool {
 /// For all pairs that were not removed, in order: before(pair), which says whether to go on, and
 /// act(verdict) where judge(judge, pair) gave a penetration or a difference. False: it was ended.
 template <class Before, class Judge, class Act>
-bool judge_in_order(SceneContext& c, const Candidates& found, const RemovalLists& removed,
-                    Judging judging, const Before& before, const Judge& judge, const Act& act) {
+bool judge_in_order(const SceneContext& c, DecisionReport& all, const Candidates& found,
+                    const RemovalLists& removed, Judging judging, const Before& before,
+                    const Judge& judge, const Act& act) {
   const bool ahead = judging == Judging::ahead;
   const std::size_t at_once = ahead ? 4096 : 1;
   std::atomic<bool> ended{false};
@@ -155,7 +156,6 @@ bool judge_in_order(SceneContext& c, const Candidates& found, const RemovalLists
     });
   };
   const auto take = [&](std::size_t piece, JudgedPairs& in) {
-    DecisionReport& all = c.scene.decisions;
     all.fallback += in.report.fallback;
     all.exact += in.report.exact;
     auto next = in.verdicts.begin();
@@ -183,10 +183,8 @@ std::uint64_t count_removed(const Candidates& found, const RemovalLists& removed
 }
 
 /// The report's entry about a pair on which solver and exact arithmetic differ.
-void note(SceneContext& c, PairJudge& judge, const PairVerdict& verdict,
-          const PenetrationRow& row) {
+void note(PairJudge& judge, const PairVerdict& verdict, const PenetrationRow& row) {
   DecisionDifference d = verdict.difference;
-  d.contact = static_cast<std::uint32_t>(c.scene.contacts.size());
   d.secondary = row.secondary;
   d.main = row.main;
   d.action = row.action;
@@ -205,7 +203,7 @@ SearchOptions search_of(const SceneContext& c, const Contact& contact) {
 
 }  // namespace
 
-void find_penetrations(SceneContext& c, Contact& contact) {
+void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisions) {
   if (contact.main.empty() || contact.secondary.empty()) return;
   const Coordinates& x = c.scene.coordinates;
   SearchOptions search = search_of(c, contact);
@@ -222,7 +220,7 @@ void find_penetrations(SceneContext& c, Contact& contact) {
   RemovalLists removed;
   if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
   sides.reset();
-  PairJudge judge(c.options.accuracy, c.scene.decisions);
+  PairJudge judge(c.options.accuracy, decisions);
   // The solver measures a whole group of candidates before it acts on any of them.
   CandidateGroup group;
   std::vector<PairVerdict> verdicts;
@@ -238,7 +236,7 @@ void find_penetrations(SceneContext& c, Contact& contact) {
         contact.main[verdict.row.main].off |=
             verdict.row.action == PenetrationAction::segment_stiffness_zero;
       }
-      if (verdict.differs) note(c, judge, verdict, verdict.row);
+      if (verdict.differs) note(judge, verdict, verdict.row);
       if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
     }
     verdicts.clear();
@@ -262,12 +260,12 @@ void find_penetrations(SceneContext& c, Contact& contact) {
   const auto take = [&](const PairVerdict& verdict) { verdicts.push_back(verdict); };
   // Inacti 3 moves nodes, of later pairs as well.
   const Judging judging = contact.inacti == 3 ? Judging::in_turn : Judging::ahead;
-  if (!judge_in_order(c, found, removed, judging, before, judge_pair, take))
+  if (!judge_in_order(c, decisions, found, removed, judging, before, judge_pair, take))
     return give_up(c, contact);
   act_on_group();
 }
 
-void find_edge_penetrations(SceneContext& c, Contact& contact) {
+void find_edge_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisions) {
   if (contact.main_edges.empty() || contact.secondary_edges.empty()) return;
   const Coordinates& x = c.scene.coordinates;
   const SearchOptions search = search_of(c, contact);
@@ -277,7 +275,7 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
   RemovalLists removed;
   if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
   sides.reset();
-  PairJudge judge(c.options.accuracy, c.scene.decisions);
+  PairJudge judge(c.options.accuracy, decisions);
   contact.removed_pairs = count_removed(found, removed);
   const auto before = [&](const CandidatePair& pair) {
     contact.candidates += found.is_counted(pair);
@@ -298,10 +296,10 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
       if (verdict.row.action == PenetrationAction::edge_stiffness_zero)
         (contact.inacti == 2 ? m : s).off = true;
     }
-    if (verdict.differs) note(c, judge, verdict, verdict.row);
+    if (verdict.differs) note(judge, verdict, verdict.row);
     if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
   };
-  if (!judge_in_order(c, found, removed, Judging::ahead, before, judge_pair, act) ||
+  if (!judge_in_order(c, decisions, found, removed, Judging::ahead, before, judge_pair, act) ||
       !rows_fit(c, contact))
     return give_up(c, contact);
   // The store is per edge, so the gap left is known only now.

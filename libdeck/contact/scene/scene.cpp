@@ -7,9 +7,10 @@
 
 #include "base/pages.hpp"
 #include "base/parallel.hpp"
+#include "contact/distance/filtered_decisions.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/rules/gaps.hpp"
-#include "contact/scene/doubts.hpp"
+#include "contact/scene/finish.hpp"
 #include "contact/scene/scene_parts.hpp"
 #include "contact/tied/parts.hpp"
 #include "deck/text/rule.hpp"
@@ -84,26 +85,45 @@ class Builder {
       : c_(context),
         selections_(selections),
         threads_(effective_threads(context.options.threads)),
-        doubts_(context.model, selections) {}
+        doubts_(context.model, selections),
+        finisher_(
+            context, doubts_, [this](detail::OpenContact& open) { conclude(open); },
+            [this](std::size_t finished) { show_progress(finished); }) {}
 
   void build() {
-    const Interfaces& all = *c_.scene.interfaces;
-    std::vector<const InterType19*> later;
-    std::vector<const InterBase*> modern;
-    std::size_t total = 0;
-    for (const InterBase* base : all.ordered) {
+    std::size_t most_contacts = 0;
+    for (const InterBase* base : c_.scene.interfaces->ordered) {
       if (!wanted(*base)) continue;
-      ++total;
+      most_contacts += 3;
+      ++total_;
       if (base->type != 19) continue;
       const auto& i = static_cast<const InterType19&>(*base);
-      total += sides(i).first == sides(i).second ? 1 : 2;
+      total_ += sides(i).first == sides(i).second ? 1 : 2;
     }
-    std::size_t done = 0;
-    const auto step = [&] {
-      ++done;
-      if (c_.options.progress) c_.options.progress(done, total);
-    };
-    for (const InterBase* base : all.ordered) {
+    c_.scene.contacts.reserve(most_contacts);  // others are finished while some are added
+    finisher_.run([this] { select(); });
+    // The solver looks at these two types after all others, and after the ties.
+    for (const InterBase* base : c_.scene.interfaces->ordered) {
+      if (!wanted(*base) || (base->type != 24 && base->type != 25)) continue;
+      detail::modern::build_contacts(c_, selections_, *base, [this](Contact& contact) {
+        report_empty_sides(contact, selections_.complete());
+        report(contact, detail::obstacle_to(c_, doubts_, doubts_.about_card(contact),
+                                            selections_.complete(), contact));
+        return contact.evaluated;
+      });
+      step();
+    }
+    // Why contacts were not evaluated is known to the selections alone.
+    if (!selections_.complete())
+      for (const Diagnostic& d : selections_.diagnostics().all())
+        if (d.rule == RuleId::DK332) c_.diagnostics.report(d);
+  }
+
+ private:
+  /// The contacts of all types but the two modern ones, up to their members.
+  void select() {
+    std::vector<const InterType19*> later;
+    for (const InterBase* base : c_.scene.interfaces->ordered) {
       if (!wanted(*base)) continue;
       switch (base->type) {
         case 7:
@@ -121,37 +141,19 @@ class Builder {
           break;
         case 24:
         case 25:
-          modern.push_back(base);
-          continue;
+          break;
         default:
+          step();
           break;
       }
-      step();
     }
     // What a TYPE19 generates beyond its first part comes after all interfaces of the user.
     for (const InterType19* i : later) {
-      if (const auto [s, m] = sides(*i); s != m) {
-        type19_nodes(*i, ContactRole::reversed);
-        step();
-      }
+      if (const auto [s, m] = sides(*i); s != m) type19_nodes(*i, ContactRole::reversed);
       type19_edges(*i);
-      step();
     }
-    // The solver looks at these two types after all others, and after the ties.
-    for (const InterBase* base : modern) {
-      detail::modern::build_contacts(c_, selections_, *base, [this](Contact& contact) {
-        report_empty_sides(contact);
-        return computable(contact);
-      });
-      step();
-    }
-    // Why contacts were not evaluated is known to the selections alone.
-    if (!selections_.complete())
-      for (const Diagnostic& d : selections_.diagnostics().all())
-        if (d.rule == RuleId::DK332) c_.diagnostics.report(d);
   }
 
- private:
   bool wanted(const InterBase& i) const {
     const auto& only = c_.options.only;
     return only.empty() || std::find(only.begin(), only.end(), i.id) != only.end();
@@ -175,7 +177,7 @@ class Builder {
     } else if (surface) {
       set_secondary(contact, selections_.nodes_of(surface->segments));
     }
-    finish_nodes(std::move(contact), card, surface);
+    finish(std::move(contact), card, surface);
   }
 
   void type10(const InterType10& i) {
@@ -183,7 +185,7 @@ class Builder {
     Contact contact = make_contact(card, 10, ContactRole::primary);
     if (const NodeSet* group = selections_.node_group(i.grnd_IDs.value))
       set_secondary(contact, group->nodes);
-    finish_nodes(std::move(contact), card, selections_.outline(i.surf_IDm.value));
+    finish(std::move(contact), card, selections_.outline(i.surf_IDm.value));
   }
 
   void type11(const InterType11& i) {
@@ -193,7 +195,7 @@ class Builder {
     if (const LineSet* line = selections_.line(i.line_IDs.value))
       set_edges(contact.secondary_edges, line->edges);
     if (const LineSet* line = selections_.line(main)) set_edges(contact.main_edges, line->edges);
-    finish_edges(std::move(contact), card);
+    finish(std::move(contact), card, {});
   }
 
   void type19_nodes(const InterType19& i, ContactRole role) {
@@ -204,7 +206,7 @@ class Builder {
     const std::int64_t from = role == ContactRole::primary ? s : m;
     const std::int64_t to = role == ContactRole::primary ? m : s;
     set_secondary(contact, nodes_of_surface(from));
-    finish_nodes(std::move(contact), card, selections_.outline(to));
+    finish(std::move(contact), card, selections_.outline(to));
   }
 
   void type19_edges(const InterType19& i) {
@@ -216,10 +218,11 @@ class Builder {
     set_edges(contact.secondary_edges, edges_of_surface(s, free_only));
     set_edges(contact.main_edges, edges_of_surface(m, free_only));
     contact.dropped = selections_.complete() && (contact.secondary_empty() || contact.main_empty());
-    if (!contact.dropped) return finish_edges(std::move(contact), card);
+    if (!contact.dropped) return finish(std::move(contact), card, {});
     contact.secondary_edges.clear();
     contact.main_edges.clear();
     c_.scene.contacts.push_back(std::move(contact));
+    step();
   }
 
   static std::pair<std::int64_t, std::int64_t> sides(const InterType19& i) {
@@ -264,24 +267,54 @@ class Builder {
     }
   }
 
-  void finish_nodes(Contact contact, const Card& card,
-                    const std::optional<SurfaceOutline>& surface) {
-    if (surface) detail::make_main_segments(c_, surface->segments, contact);
-    detail::set_main_stiffness(c_, contact);
-    detail::set_gaps(c_, contact, card.gapmin);
-    contact.drad =
-        detail::radiation_distance(card.thermal, card.drad, contact.max_gap, contact.shortest_side);
-    if (c_.options.penetrations) report_empty_sides(contact);
-    if (c_.options.penetrations && computable(contact)) detail::find_penetrations(c_, contact);
-    detail::report_one_place(c_, contact);
-    if (c_.options.nodal_stiffness && contact.istf >= 2) detail::set_nodal_stiffness(c_, contact);
+  /// Adds a contact whose members are known. It is finished with those that follow, next to each
+  /// other, where there are threads for it. Inacti 3 moves nodes: contacts before do not see it.
+  void finish(Contact contact, const Card& card, std::optional<SurfaceOutline> surface) {
+    const bool moves_nodes = contact.inacti == 3;
+    if (moves_nodes) {
+      finisher_.finish_all();
+      c_.all_placed = false;
+    }
+    detail::OpenContact open;
+    open.place = c_.scene.contacts.size();
+    open.surface = std::move(surface);
+    open.gapmin = card.gapmin;
+    open.drad = card.drad;
+    open.thermal = card.thermal;
+    open.complete = selections_.complete();
+    if (c_.options.penetrations) open.doubt = doubts_.about_card(contact);
     c_.scene.contacts.push_back(std::move(contact));
+    finisher_.add(std::move(open));
+    if (moves_nodes) finisher_.finish_all();
+  }
+
+  /// Of a finished contact.
+  void conclude(detail::OpenContact& open) {
+    const Contact& contact = c_.scene.contacts[open.place];
+    if (c_.options.penetrations) {
+      report_empty_sides(contact, open.complete);
+      report(contact, open.obstacle);
+    }
+    c_.diagnostics.merge(std::move(open.found));
+    detail::add_decisions(open.decisions, open.place, c_.scene.decisions);
+    step();
+  }
+
+  void step() {
+    ++done_;
+    show_progress(0);
+  }
+  /// `ahead`: finished, but not concluded. What was shown once is not taken back.
+  void show_progress(std::size_t ahead) {
+    if (done_ + ahead <= shown_) return;
+    shown_ = done_ + ahead;
+    if (c_.options.progress) c_.options.progress(shown_, total_);
   }
 
   /// A contact without pairs is no clean one: the solver stops, but for a node group that is there.
   /// If members were left out (DK332), it is not known whether a side is empty.
-  void report_empty_sides(const Contact& contact) {
-    if (!selections_.complete()) return;
+  void report_empty_sides(const Contact& contact, bool complete) {
+    if (!complete) return;
     if (contact.main_empty()) report_empty_side(contact, RuleId::DK173, "main", Severity::error);
     if (!contact.secondary_empty()) return;
     const InterBase* inter = contact.inter;
@@ -308,61 +341,9 @@ class Builder {
     c_.diagnostics.report(std::move(d));
   }
 
-  /// The last node of the items that has no place; no_index: all have one.
-  template <class Items, class EachNodeOf>
-  NodeIndex last_lost(const Coordinates& x, const Items& items,
-                      const EachNodeOf& each_node_of) const {
-    std::vector<NodeIndex> parts(static_cast<std::size_t>(threads_), no_index);
-    parallel_parts(
-        threads_, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-          NodeIndex lost = no_index;
-          for (std::size_t i = begin; i < end; ++i)
-            each_node_of(items[i], [&](NodeIndex n) {
-              if (!std::isfinite(x.x[n]) || !std::isfinite(x.y[n]) || !std::isfinite(x.z[n]))
-                lost = n;
-            });
-          parts[part] = lost;
-        });
-    NodeIndex last = no_index;
-    for (const NodeIndex n : parts)
-      if (n != no_index) last = n;
-    return last;
-  }
-
-  /// False, with a finding, where members or their places are not known, or the gap is no number.
-  bool computable(Contact& contact) {
-    if (const std::string why = doubts_.about(contact); !why.empty()) {
-      contact.evaluated = false;
-      if (reported_.insert(contact.inter).second)
-        report_unevaluated(contact, why, Severity::warning);
-      return false;
-    }
-    const Coordinates& x = c_.scene.coordinates;
-    NodeIndex lost = no_index;
-    const auto look = [&](const auto& items, const auto& each_node_of) {
-      const NodeIndex last = last_lost(x, items, each_node_of);
-      if (last != no_index) lost = last;
-    };
-    look(contact.secondary, [](const SecondaryNode& s, const auto& f) { f(s.node); });
-    look(contact.main, [](const MainSegment& m, const auto& f) {
-      for (const NodeIndex n : m.nodes) f(n);
-    });
-    for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
-      look(*edges, [](const ContactEdge& e, const auto& f) {
-        for (const NodeIndex n : e.nodes) f(n);
-      });
-    const bool endless = !std::isfinite(contact.max_gap) || !std::isfinite(contact.gapmin);
-    contact.evaluated = lost == no_index && !endless && selections_.complete();
-    if (contact.evaluated || (lost == no_index && !endless)) return contact.evaluated;
-    report_unevaluated(contact,
-                       lost == no_index ? std::string("the gap is not a finite number")
-                                        : "node " + std::to_string(c_.model.nodes.id[lost]) +
-                                              " has a coordinate that is not a finite number",
-                       Severity::error);
-    return false;
-  }
-
-  void report_unevaluated(const Contact& contact, const std::string& why, Severity severity) {
+  void report(const Contact& contact, const detail::Obstacle& obstacle) {
+    const auto& [why, severity, of_interface] = obstacle;
+    if (why.empty() || (of_interface && !reported_.insert(contact.inter).second)) return;
     const std::string keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
     Diagnostic d = finding_of(RuleId::DK380, contact.inter->span,
                               keyword + " " + std::to_string(contact.inter->id) + ": " + why +
@@ -373,23 +354,13 @@ class Builder {
     c_.diagnostics.report(std::move(d));
   }
 
-  void finish_edges(Contact contact, const Card& card) {
-    detail::set_edge_stiffness(c_, contact.main_edges, contact);
-    detail::set_edge_stiffness(c_, contact.secondary_edges, contact);
-    detail::set_edge_gaps(c_, contact, card.gapmin);
-    contact.drad =
-        detail::radiation_distance(card.thermal, card.drad, contact.max_gap, contact.shortest_side);
-    if (c_.options.penetrations) report_empty_sides(contact);
-    if (c_.options.penetrations && computable(contact)) detail::find_edge_penetrations(c_, contact);
-    detail::report_one_place(c_, contact);
-    c_.scene.contacts.push_back(std::move(contact));
-  }
-
   SceneContext& c_;
   Selections& selections_;
   int threads_;
   detail::Doubts doubts_;
-  std::set<const InterBase*> reported_;  ///< interfaces whose doubt was reported
+  std::set<const InterBase*> reported_;           ///< interfaces whose doubt was reported
+  std::size_t done_ = 0, shown_ = 0, total_ = 0;  ///< contacts
+  detail::Finisher finisher_;
 };
 
 void copy_coordinates(const Nodes& nodes, Coordinates& out, int threads) {
@@ -399,6 +370,12 @@ void copy_coordinates(const Nodes& nodes, Coordinates& out, int threads) {
     make_room(*to[k], nodes.size(), threads);
     to[k]->assign(from[k]->begin(), from[k]->end());
   }
+}
+
+bool all_placed(const Coordinates& x) {
+  const auto finite = [](double v) { return std::isfinite(v); };
+  return std::all_of(x.x.begin(), x.x.end(), finite) &&
+         std::all_of(x.y.begin(), x.y.end(), finite) && std::all_of(x.z.begin(), x.z.end(), finite);
 }
 
 }  // namespace
@@ -460,6 +437,7 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics&
   if (model.selections == nullptr) return scene;
   Connectivity connectivity(model);
   SceneContext context{model, connectivity, scene, diagnostics, options};
+  context.all_placed = all_placed(scene.coordinates);
   Builder(context, *model.selections).build();
   if (options.ties) {
     scene.ties = wanted_ties(context);

@@ -1,5 +1,6 @@
 // The steps that turn an interface into contacts, one concept per file. Private to the stage.
 #pragma once
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -27,7 +28,8 @@ struct SceneContext {
   Scene& scene;
   Diagnostics& diagnostics;
   const SceneOptions& options;
-  ShellsAtNodes shells = {};
+  std::shared_ptr<ShellsAtNodes> shells = std::make_shared<ShellsAtNodes>();
+  bool all_placed = false;  ///< all nodes have a place, and will keep one
   std::optional<std::vector<Tie>> ties = {};  ///< of all /INTER/TYPE2: ties_of()
 };
 
@@ -98,6 +100,8 @@ void set_edge_stiffness(SceneContext& context, std::vector<ContactEdge>& edges,
                         const Contact& contact);
 /// K_s of every secondary node (Istf 2..5).
 void set_nodal_stiffness(SceneContext& context, Contact& contact);
+/// What it reads of shells.
+const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& context);
 
 // gaps.cpp
 void set_gaps(SceneContext& context, Contact& contact, double gapmin_input);
@@ -120,7 +124,8 @@ ThicknessSamples shell_thickness(const Contact& contact);
 EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges);
 
 // penetrations.cpp
-void find_penetrations(SceneContext& context, Contact& contact);
-void find_edge_penetrations(SceneContext& context, Contact& contact);
+/// `decisions`: of this contact; its own position is left to the caller.
+void find_penetrations(SceneContext& context, Contact& contact, DecisionReport& decisions);
+void find_edge_penetrations(SceneContext& context, Contact& contact, DecisionReport& decisions);
 
 }  // namespace deck::detail

@@ -40,9 +40,22 @@ bool contains_all(const NodeIndex* nodes, int width, const Quad& segment) {
                      [&](NodeIndex s) { return any_is(nodes, width, s); });
 }
 
+/// The same for the eight slots of a solid.
+bool slots_contain_all(const NodeIndex* slots, const Quad& segment) {
+  typedef NodeIndex Four __attribute__((vector_size(16)));
+  std::array<Four, 2> mine;
+  __builtin_memcpy(&mine, slots, sizeof mine);
+  return std::all_of(segment.rbegin(), segment.rend(), [&](NodeIndex s) {
+    const auto found = (mine[0] == s) | (mine[1] == s);
+    std::array<std::uint64_t, 2> halves{};
+    __builtin_memcpy(halves.data(), &found, sizeof found);
+    return (halves[0] | halves[1]) != 0;
+  });
+}
+
 bool solid_contains(const Model& model, std::uint32_t e, const Quad& segment) {
   const Elements& solids = model.solid8;
-  if (contains_all(solids.of(e), 8, segment)) return true;
+  if (slots_contain_all(solids.of(e), segment)) return true;
   // Mid-side nodes of quadratic solids carry segments too.
   if (e >= solids.extra.size() || solids.extra[e] == no_index) return false;
   NodeIndex all[20];
@@ -77,7 +90,7 @@ bool inside_a_solid(SceneContext& c, const Quad& segment) {
   const Elements& solids = c.model.solid8;
   const auto& around = c.connectivity.elements(ElementKind::solid8, segment[0]);
   return std::any_of(around.begin(), around.end(), [&](std::uint32_t e) {
-    return contains_all(solids.of(e), 8, segment) && !has_face_of(solids.of(e), segment);
+    return slots_contain_all(solids.of(e), segment) && !has_face_of(solids.of(e), segment);
   });
 }
 

@@ -14,9 +14,19 @@ double shell_stiffness(const Model& model, ElementKind kind, std::uint32_t e, do
   return young_of(model, kind, e) * t;
 }
 
+bool solid_holds(const Elements& solids, std::uint32_t e, NodeIndex n) {
+  if (any_is(solids.of(e), 8, n)) return true;
+  if (e >= solids.extra.size() || solids.extra[e] == no_index ||
+      solids.shape[e] != SolidShape::tetra10)
+    return false;
+  return any_is(solids.extra_nodes.data() + solids.extra[e], 6, n);
+}
+
+}  // namespace
+
 /// Sum of the stiffnesses of the shells at each node, quadrangles first, each in their order.
 const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& c) {
-  ShellsAtNodes& at = c.shells;
+  ShellsAtNodes& at = *c.shells;
   if (!at.stiffness.empty()) return at;
   at.stiffness.assign(c.model.nodes.size(), 0);
   at.count.assign(c.model.nodes.size(), 0);
@@ -35,16 +45,6 @@ const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& c) {
   }
   return at;
 }
-
-bool solid_holds(const Elements& solids, std::uint32_t e, NodeIndex n) {
-  if (any_is(solids.of(e), 8, n)) return true;
-  if (e >= solids.extra.size() || solids.extra[e] == no_index ||
-      solids.shape[e] != SolidShape::tetra10)
-    return false;
-  return any_is(solids.extra_nodes.data() + solids.extra[e], 6, n);
-}
-
-}  // namespace
 
 void set_main_stiffness(SceneContext& c, Contact& contact) {
   const double f = contact.factor;

@@ -149,7 +149,10 @@ namespace {
 struct Scratch {
   std::vector<std::uint64_t> keys, spare;
   std::vector<std::uint32_t> ids;
+  std::vector<Place> places;
 };
+// Up to this many places are kept while their keys are formed.
+constexpr std::size_t kKept = 32768;
 
 struct Bounds {
   static constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -162,8 +165,12 @@ struct Bounds {
 
 // Visits positions begin ... end-1 of `ids` with their places.
 template <class Visit>
-void each_place(std::span<const std::uint32_t> ids, const PlacesOf& places, std::size_t begin,
-                std::size_t end, const Visit& visit) {
+void each_place(std::span<const std::uint32_t> ids, const PlacesOf& places, const Scratch& scratch,
+                std::size_t begin, std::size_t end, const Visit& visit) {
+  if (ids.size() <= kKept) {
+    for (std::size_t i = begin; i < end; ++i) visit(i, scratch.places[i]);
+    return;
+  }
   std::array<Place, 64> some;
   for (std::size_t first = begin; first < end; first += some.size()) {
     const std::size_t count = std::min(some.size(), end - first);
@@ -172,11 +179,12 @@ void each_place(std::span<const std::uint32_t> ids, const PlacesOf& places, std:
   }
 }
 
-Bounds bounds_of(std::span<const std::uint32_t> ids, const PlacesOf& places, int threads) {
+Bounds bounds_of(std::span<const std::uint32_t> ids, const PlacesOf& places, const Scratch& scratch,
+                 int threads) {
   std::vector<Bounds> parts(static_cast<std::size_t>(threads));
   parallel_parts(threads, ids.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     Bounds bounds;
-    each_place(ids, places, begin, end,
+    each_place(ids, places, scratch, begin, end,
                [&](std::size_t, const Place& place) { bounds.add(place.centre); });
     parts[part] = bounds;
   });
@@ -196,7 +204,11 @@ void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& 
   constexpr unsigned kClassBits = 3;
   const std::size_t n = ids.size();
   if (n < 2 || depth > kDeepest) return;
-  const Bounds all = bounds_of(ids, places, threads);
+  if (n <= kKept) {
+    scratch.places.resize(n);
+    places(ids, scratch.places.data());
+  }
+  const Bounds all = bounds_of(ids, places, scratch, threads);
   // Key: class, curve position, place in the list; all in 64 bits.
   const auto id_bits = static_cast<unsigned>(std::bit_width(n - 1));
   const unsigned wanted = std::max(4U, id_bits / 2 + 2);
@@ -205,7 +217,7 @@ void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& 
   if (!grid.usable() && depth > 0) return;
   scratch.keys.resize(n);
   parallel_parts(threads, n, [&](std::size_t, std::size_t begin, std::size_t end) {
-    each_place(ids, places, begin, end, [&](std::size_t i, const Place& place) {
+    each_place(ids, places, scratch, begin, end, [&](std::size_t i, const Place& place) {
       const std::uint64_t curve = grid.usable() ? grid.index(place.centre) : 0;
       const std::uint64_t key = (std::uint64_t{place.size_class} << (3 * bits)) | curve;
       scratch.keys[i] = (key << id_bits) | i;

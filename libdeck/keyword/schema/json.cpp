@@ -592,12 +592,14 @@ std::vector<SchemaText> split_schemas(std::string_view text) {
   return found;
 }
 
-Result<std::vector<Schema>> parse_schemas(std::string_view name, std::string_view text) {
+Result<std::vector<Schema>> parse_schemas(std::string_view name, std::string_view text,
+                                          bool look_for_twins) {
   try {
     DuplicateKeys duplicates;
-    const auto json = Json::parse(text, [&](int, Json::parse_event_t event, Json& parsed) {
-      return duplicates(event, parsed);
-    });
+    const auto json =
+        look_for_twins ? Json::parse(text, [&](int, Json::parse_event_t event,
+                                               Json& parsed) { return duplicates(event, parsed); })
+                       : Json::parse(text);
     std::vector<Schema> schemas;
     if (json.is_object() && json.contains("schemas")) {
       const Path root;

@@ -13,8 +13,10 @@ namespace deck::detail {
 const std::vector<int>& known_versions();
 
 /// Parses one schema file: an object with "keyword", or one with "schemas" (a list of such
-/// objects). `name` goes into messages and into Schema::source.
-Result<std::vector<Schema>> parse_schemas(std::string_view name, std::string_view text);
+/// objects). `name` goes into messages and into Schema::source. `look_for_twins`: keys that occur
+/// twice in one object are refused, which takes half of the time.
+Result<std::vector<Schema>> parse_schemas(std::string_view name, std::string_view text,
+                                          bool look_for_twins = true);
 
 /// Where one schema stands in the text of a file, and the headers it answers to.
 struct SchemaText {

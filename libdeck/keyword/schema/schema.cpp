@@ -87,7 +87,8 @@ struct SchemaSet::Entry {
       const std::lock_guard lock(parsing_);
       if (!ready_.load(std::memory_order_relaxed)) {
         // The built-in files are checked by the tests of the build, so parsing cannot fail here.
-        if (auto parsed = detail::parse_schemas(source, text)) schema_ = std::move(parsed->front());
+        if (auto parsed = detail::parse_schemas(source, text, false))
+          schema_ = std::move(parsed->front());
         ready_.store(true, std::memory_order_release);
       }
     }

@@ -116,24 +116,29 @@ void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
       return element_id(a.carrier, a.element) < element_id(b.carrier, b.element);
     return key(a) < key(b);
   };
+  const auto sort_each_element = [&] {
+    for (std::size_t i = 0; i < segments.size();) {
+      std::size_t end = i + 1;
+      while (end < segments.size() && segments[end].carrier == segments[i].carrier &&
+             segments[end].element == segments[i].element)
+        ++end;
+      const auto first = segments.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto last = segments.begin() + static_cast<std::ptrdiff_t>(end);
+      constexpr std::size_t few = 16;  // which are sorted in place
+      if (end - i > few)
+        std::stable_sort(first, last, before);
+      else
+        for (auto it = first; it != last; ++it)
+          std::rotate(std::upper_bound(first, it, *it, before), it, it + 1);
+      i = end;
+    }
+  };
   // Faces of one solid first: often everything else is in order already.
-  for (std::size_t i = 0; i < segments.size();) {
-    std::size_t end = i + 1;
-    while (end < segments.size() && segments[end].carrier == segments[i].carrier &&
-           segments[end].element == segments[i].element)
-      ++end;
-    const auto first = segments.begin() + static_cast<std::ptrdiff_t>(i);
-    const auto last = segments.begin() + static_cast<std::ptrdiff_t>(end);
-    constexpr std::size_t few = 16;  // which are sorted in place
-    if (end - i > few)
-      std::stable_sort(first, last, before);
-    else
-      for (auto it = first; it != last; ++it)
-        std::rotate(std::upper_bound(first, it, *it, before), it, it + 1);
-    i = end;
+  sort_each_element();
+  if (!std::is_sorted(segments.begin(), segments.end(), before)) {
+    sort_segments(segments);
+    sort_each_element();
   }
-  if (!std::is_sorted(segments.begin(), segments.end(), before))
-    std::stable_sort(segments.begin(), segments.end(), before);
   segments.erase(std::unique(segments.begin(), segments.end(),
                              [&](const Segment& a, const Segment& b) {
                                return a.carrier == b.carrier && a.element == b.element &&

@@ -1,8 +1,11 @@
 // Surfaces: /SURF of every type, in the creation order of the reference solver and with its final
 // sort by carrier and element id.
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "model/selection/selection_impl.hpp"
+#include "model/selection/selection_sort.hpp"
 
 namespace deck {
 
@@ -89,8 +92,31 @@ void Selections::Impl::sort_segments(std::vector<Segment>& segments) const {
     if (a.element == b.element) return false;
     return element_id(a.carrier, a.element) < element_id(b.carrier, b.element);
   };
-  if (!std::is_sorted(segments.begin(), segments.end(), before))
-    std::stable_sort(segments.begin(), segments.end(), before);
+  if (std::is_sorted(segments.begin(), segments.end(), before)) return;
+  struct Key {
+    std::uint64_t id;
+    std::uint32_t place;
+    std::uint32_t low() const { return static_cast<std::uint32_t>(id); }
+    std::uint32_t high() const { return static_cast<std::uint32_t>(id >> 32); }
+  };
+  const auto in_order = [](const Key&, const Key&) { return false; };
+  std::array<std::vector<Key>, static_cast<std::size_t>(Carrier::shell3) + 1> by_carrier;
+  for (std::uint32_t i = 0; i < segments.size(); ++i) {
+    const Segment& s = segments[i];
+    const auto id = static_cast<std::uint64_t>(element_id(s.carrier, s.element));
+    by_carrier[static_cast<std::size_t>(s.carrier)].push_back({id, i});
+  }
+  std::vector<Segment> sorted;
+  sorted.reserve(segments.size());
+  for (std::vector<Key>& keys : by_carrier) {
+    detail::sort_by_bucket(
+        keys, [](const Key& k) { return k.low(); }, in_order);
+    if (std::any_of(keys.begin(), keys.end(), [](const Key& k) { return k.high() != 0; }))
+      detail::sort_by_bucket(
+          keys, [](const Key& k) { return k.high(); }, in_order);
+    for (const Key& key : keys) sorted.push_back(segments[key.place]);
+  }
+  segments = std::move(sorted);
 }
 
 std::vector<Segment> Selections::Impl::segments_by_nodes(const Block& block,
