@@ -29,7 +29,7 @@ struct SceneContext {
   Diagnostics& diagnostics;
   const SceneOptions& options;
   std::shared_ptr<ShellsAtNodes> shells = std::make_shared<ShellsAtNodes>();
-  bool all_placed = false;  ///< all nodes have a place, and will keep one
+  bool all_placed = false;                    ///< all nodes have a place, and will keep one
   std::optional<std::vector<Tie>> ties = {};  ///< of all /INTER/TYPE2: ties_of()
 };
 
