@@ -58,6 +58,7 @@ TOUR = {
         "cycle samples/two_surfaces_0000.rad -v",
         "cycle samples/too_close_0000.rad --effects",
         "cycle samples/too_close_0000.rad --velocity 2=0,0,-5 --dt 1e-3 --steps 3",
+        "cycle samples/too_close_0000.rad --velocity 2=5,0,-5 --dt 1e-3 --without friction",
         "cycle samples/clean_plates_0000.rad samples/too_close_0000.rad",
     ],
     "lint": [
@@ -85,6 +86,7 @@ TOUR = {
         "show samples/crash_box_0000.rad node:804",
         "show samples/include_tree_0000.rad part:1",
         "show samples/crash_box_0000.rad 99",
+        "show samples/crash_box_0000.rad pair:2018/20047-20048-20059-20058",
     ],
     "diff": [
         "diff samples/clean_plates_0000.rad samples/too_close_0000.rad",
@@ -141,6 +143,7 @@ DESCRIPTION :
 """
 # Not kept: times and processors are in them, or every new rule. A batch has a directory per width.
 UNKEPT = [
+    "--help", "gaps --help", "lint --help", "convert --help",
     "rules",
     "explain DK1",
     "explain TYPE7",

@@ -31,7 +31,7 @@ figure { margin: 0 0 14px; background: var(--panel); border: 1px solid var(--lin
 table { border-collapse: collapse; font-size: 13px; background: var(--panel); max-width: 100%; }
 th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; white-space: nowrap; } th { color: var(--muted); font-weight: 600; } thead th { white-space: normal; } .l { text-align: left; }
 .choices { width: 100%; font-size: 15px; border-radius: 10px; } .choices th, .choices td { border-width: 1px 0; padding: 7px 12px; } .choices th { text-align: left; color: var(--ink); } .choices thead th { color: var(--muted); font-size: 13px; }
-.choices td { text-align: left; } .choices .default { background: var(--soft); } .choices .default th { box-shadow: inset 4px 0 var(--accent); } .ok { color: var(--good); } .bad b { color: var(--bad); }
+.choices td { text-align: left; white-space: normal; } .choices td b { white-space: nowrap; } .choices .default { background: var(--soft); } .choices .default th { box-shadow: inset 4px 0 var(--accent); } .ok { color: var(--good); } .bad b { color: var(--bad); }
 .bar { display: block; height: 6px; border-radius: 3px; background: var(--accent); margin-bottom: 2px; min-width: 2px; } .bar.cut { background: repeating-linear-gradient(115deg, var(--accent) 0 14px, transparent 14px 18px); }
 .choose { display: grid; grid-template-columns: auto 1fr auto 1fr; gap: 2px 14px; margin: 10px 0; } .choose dd { margin: 0; color: var(--muted); }
 .stable { display: grid; gap: 8px 16px; align-items: start; } .strip { display: flex; gap: 10px; align-items: center; margin: 5px 0; } .who { flex: none; width: 104px; line-height: 1.25; font-size: 13px; white-space: nowrap; } .who code { display: block; } .kinds { display: flex; flex-wrap: wrap; }
@@ -52,7 +52,7 @@ th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; wh
 @media (max-width: 820px) {
   header { padding: 6px 12px; flex-wrap: nowrap; } header h1 small { display: block; margin: 0; line-height: 1.3; } .strip { display: block; } .who code { display: inline; } main { padding: 0 12px 30px; } .said { font-size: 14px; line-height: 1.4; padding: 8px 10px; margin: 8px 0; }
   .cards, .cards tbody, .cards td, .cards th { display: block; } .cards thead { display: none; } .cards { background: none; width: 100%; } .cards tr { display: flex; flex-wrap: wrap; background: var(--panel); border: 1px solid var(--line); border-radius: 8px; margin: 0 0 5px; padding: 3px 8px; }
-  .cards th, .choices th { flex: 1 0 100%; text-align: left; border: 0; padding: 0; white-space: normal; } .cards td, .choices td { flex: 1 0 33%; max-width: 100%; text-align: left; white-space: normal; border: 0; padding: 0 6px 2px 0; font-size: 13px; line-height: 1.3; } .choices td { flex: 0 0 33.3%; } .choices td small { display: block; }
+  .cards th, .choices th { flex: 1 0 100%; text-align: left; border: 0; padding: 0; white-space: normal; } .cards td, .choices td { flex: 1 0 33%; max-width: 100%; text-align: left; white-space: normal; border: 0; padding: 0 6px 2px 0; font-size: 13px; line-height: 1.3; } .choices td { flex: 0 0 38%; } .choices td:nth-of-type(2) { flex-basis: 24%; } .choices td small { display: block; }
   .cards td::before { content: attr(data-label); display: block; font-size: 11px; color: var(--muted); } .choices .default th { box-shadow: none; } .choices .bar { display: none; } .heat td { flex: 1 0 20%; } .heat button { text-align: left; padding: 4px; }
 }
 @media print { header button, .save { display: none; } }
@@ -90,16 +90,18 @@ function draw(e) {
   else s.append(svg("polygon", { points: path(e.triangle ? [0, 1, 2] : [0, 1, 2, 3]), class: "seg" }), svg("circle", { cx: at[4][0], cy: at[4][1], r: 5, class: "other" }));
   return s;
 }
+/** All digits, in the shorter way of writing. */
+const shortest = (d) => String(d).length > 18 ? d.toExponential() : String(d);
 /** Both distances beside the gap, so far enlarged that their difference is seen. Each mark stands on the side it was decided for. */
 function drawGap(e, accuracy, exactInside, gotInside) {
-  const s = svg("svg", { viewBox: "0 0 340 132", role: "img", "aria-label": "Gap and distances" }), middle = 66;
+  const s = svg("svg", { viewBox: "0 0 340 148", role: "img", "aria-label": "Gap and distances" }), middle = 74;
   const off = (d) => Number.isFinite(d) ? Math.abs(d - e.gap) : 0, span = Math.max(off(e.exact_distance), off(e.distance));
-  const y = (d, inside) => middle + (inside ? 1 : -1) * (Number.isFinite(d) && span > 0 ? 26 + 24 * Math.min(1, off(d) / span) : 38);
-  s.append(svg("rect", { x: 0, y: middle, width: 340, height: 66, class: "inside" }), svg("line", { x1: 0, x2: 340, y1: middle, y2: middle, class: "gap" }));
-  s.append(svg("text", { x: 6, y: middle - 5 }, `gap ${e.gap}`), svg("text", { x: 6, y: 12, class: "dim" }, "not in contact"), svg("text", { x: 6, y: 126, class: "dim" }, "in contact"));
-  const words = (d) => d === null ? "not finite" : String(d), ye = y(e.exact_distance, exactInside), yg = y(e.distance, gotInside);
-  s.append(svg("circle", { cx: 106, cy: ye, r: 5, class: "exact" }), svg("text", { x: 118, y: ye + 4 }, `exactly ${words(e.exact_distance)}`));
-  s.append(svg("path", { d: `M101 ${yg - 5}l10 10m0 -10l-10 10`, class: "got" }), svg("text", { x: 118, y: yg + 4 }, `${accuracy} ${words(e.distance)}`));
+  const y = (d, inside) => middle + (inside ? 1 : -1) * (Number.isFinite(d) && span > 0 ? 26 + 20 * Math.min(1, off(d) / span) : 36);
+  s.append(svg("rect", { x: 0, y: middle, width: 340, height: 74, class: "inside" }), svg("line", { x1: 0, x2: 340, y1: middle, y2: middle, class: "gap" }));
+  s.append(svg("text", { x: 6, y: middle - 5 }, `gap ${shortest(e.gap)}`), svg("text", { x: 6, y: 12, class: "dim" }, "not in contact"), svg("text", { x: 6, y: 142, class: "dim" }, "in contact"));
+  const words = (d) => d === null ? "not finite" : shortest(d), ye = y(e.exact_distance, exactInside), yg = y(e.distance, gotInside);
+  s.append(svg("circle", { cx: 60, cy: ye, r: 5, class: "exact" }), svg("text", { x: 72, y: ye + 4 }, `exactly ${words(e.exact_distance)}`));
+  s.append(svg("path", { d: `M55 ${yg - 5}l10 10m0 -10l-10 10`, class: "got" }), svg("text", { x: 72, y: yg + 4 }, `${accuracy} ${words(e.distance)}`));
   return { s, span };
 }
 const panel = document.getElementById("example"), marks = [...document.querySelectorAll(".kinds button")];
@@ -115,7 +117,7 @@ function show(accuracy, id) {
   panel.append(draw(e));
   const gap = drawGap(e, accuracy, kind.in_contact, !kind.in_contact), size = extent(e.points);
   panel.append(gap.s);
-  if (gap.span > 0 && size > 0) add("p", `Pair of size ${size.toPrecision(3)}; below, differences are enlarged ${((24 / gap.span) / (300 / size)).toPrecision(1)} times against it.`).className = "note";
+  if (gap.span > 0 && size > 0) add("p", `Pair of size ${size.toPrecision(3)}; below, differences are enlarged ${((20 / gap.span) / (300 / size)).toPrecision(1)} times against it.`).className = "note";
 }
 for (const strip of document.querySelectorAll(".kinds")) {
   const buttons = [...strip.children];

@@ -48,7 +48,7 @@ const EffectLine* line_of(const InterfaceEffects& one, const std::string& name) 
   return nullptr;
 }
 
-/// Effects down, interfaces across: what runs, with the field that asks for it.
+/// Effects that run somewhere down, interfaces across, with the field that asks for each.
 std::string effect_matrix(const std::vector<InterfaceEffects>& all,
                           const CycleTextOptions& options) {
   std::vector<TextTable::Column> columns{{"effect"}};
@@ -66,7 +66,11 @@ std::string effect_matrix(const std::vector<InterfaceEffects>& all,
       else
         cells.emplace_back("-", Tone::dim);
     }
-    table.row(std::move(cells));
+    if (std::any_of(all.begin(), all.end(), [&](const InterfaceEffects& one) {
+          const EffectLine* line = line_of(one, name);
+          return line != nullptr && line->on;
+        }))
+      table.row(std::move(cells));
   }
   return table.fitted(options.width, options.color, 2);
 }

@@ -221,8 +221,14 @@ std::string part_pairs_text(const Scene& scene, const SceneView& view,
 
 std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& view,
                        const GapsTextOptions& options) {
-  TextTable worst = make_table({">interface", "node/edge", ">depth", ">gap", ">distance",
-                                "segment/edge", "elements", "action", "position", "=defined at"});
+  // Where a line has no room for all of it, elements and position give way to the rest.
+  constexpr std::size_t room = 150;
+  const bool all = options.verbose || options.width == 0 || options.width >= room;
+  TextTable worst =
+      all ? make_table({">interface", "node/edge", ">depth", ">gap", ">distance", "segment/edge",
+                        "elements", "action", "position", "=defined at"})
+          : make_table({">interface", "node/edge", ">depth", ">gap", ">distance", "segment/edge",
+                        "action", "=defined at"});
   const std::size_t rows = std::min(options.worst, view.deepest_per_node.size());
   const double largest = largest_bounded_gap(*scene.model);
   std::vector<NodeIndex> nodes;
@@ -238,18 +244,18 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
         stops ? fmt::format("error {}", on_surface_error(c)) : to_string(row.action);
     if (!stops && row.has_gap0 && !is_unbounded(row.gap0))
       action += fmt::format(" to {:.4g}", row.gap0);
-    worst.row({fmt::format("{}", c.inter->id),
-               secondary_text(p),
-               length_text(row.depth, 6, largest),
-               length_text(row.gap, 6, largest),
-               fmt::format("{:.6g}", row.distance),
-               segment_text(p),
-               fmt::format("{} / {}", p.secondary_element.id, p.main_element.id),
-               {action, stops                                   ? Tone::red
-                        : row.action == PenetrationAction::none ? Tone::plain
-                                                                : Tone::yellow},
-               fmt::format("({:.5g}, {:.5g}, {:.5g})", p.at[0], p.at[1], p.at[2]),
-               deck.sources.where(spans[i])});
+    const Tone tone = stops                                   ? Tone::red
+                      : row.action == PenetrationAction::none ? Tone::plain
+                                                              : Tone::yellow;
+    std::vector<TextTable::Cell> cells{
+        fmt::format("{}", c.inter->id),      secondary_text(p),
+        length_text(row.depth, 6, largest),  length_text(row.gap, 6, largest),
+        fmt::format("{:.6g}", row.distance), segment_text(p)};
+    if (all) cells.emplace_back(fmt::format("{} / {}", p.secondary_element.id, p.main_element.id));
+    cells.emplace_back(action, tone);
+    if (all) cells.emplace_back(fmt::format("({:.5g}, {:.5g}, {:.5g})", p.at[0], p.at[1], p.at[2]));
+    cells.emplace_back(deck.sources.where(spans[i]));
+    worst.row(std::move(cells));
   }
   std::string out = rows == 0 ? std::string() : worst.fitted(options.width, options.color, 2, 2);
   if (rows < view.deepest_per_node.size())

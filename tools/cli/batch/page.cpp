@@ -26,7 +26,7 @@ th,td{border-bottom:1px solid var(--line);padding:.35em .8em;text-align:left;ver
 th{position:sticky;top:0;background:var(--panel);white-space:nowrap;z-index:1}
 th button{font:inherit;color:inherit;background:none;border:0;padding:0;cursor:pointer}th button:hover{text-decoration:underline}
 th[aria-sort=ascending] button::after{content:" \2191"}th[aria-sort=descending] button::after{content:" \2193"}
-.n{text-align:right;white-space:nowrap}td:first-child{overflow-wrap:anywhere;min-width:18em}
+.n{text-align:right;white-space:nowrap}td:first-child{overflow-wrap:anywhere;min-width:20em}
 .clean,.passed,.better{color:var(--good)}.findings,.not-examined,.changed{color:var(--warn)}
 .failed,.unreadable,.skipped,.worse{color:var(--bad);font-weight:600}.same,.first{color:var(--muted)}
 .level{white-space:nowrap;font-weight:600}.level::before{content:"";display:inline-block;width:10px;height:10px;border-radius:50%;margin-right:7px;background:currentColor}

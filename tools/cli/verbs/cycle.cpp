@@ -169,11 +169,12 @@ Result<cycle::SceneOutcome> evaluate_without(const Options& o, const CycleInput&
   options.change_card = [&](cycle::ContactCard& card) {
     taken = take_effect(o.without, card) || taken;
   };
-  cycle::SceneOutcome out = cycle::run_cycle(*input.scene, *input.state, options);
+  // In the way of the evaluation that it stands beside.
+  cycle::StepsOutcome steps = cycle::run_steps(*input.scene, *input.state, options, 1);
   if (!taken)
     return Error{Error::Code::config, fmt::format("--without {}: no contact of {} has this effect",
                                                   o.without, input.path)};
-  return out;
+  return std::move(steps.last);
 }
 
 /// What the loops take, for the sentence that is always said; one contact after the other.
