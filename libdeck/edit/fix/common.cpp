@@ -184,6 +184,8 @@ Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_
     }
     for (const Cell& cell : card.cells) {
       if (cell.field == nullptr || cell.field->name != name) continue;
+      if (card.free_format && cell.span.offset >= card.line.offset + card.line.text.size())
+        return fail("its line with commas ends before " + std::string(name));
       FieldPlace place;
       place.field = cell.field;
       place.cell = cell;

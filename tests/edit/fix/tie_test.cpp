@@ -210,6 +210,16 @@ TEST(TieFix, SaysWhatItDoesNotHandle) {
   EXPECT_THAT(reason({.dsearch = 2, .isearch = 3}), HasSubstr("not evaluated"));
 }
 
+TEST(TieFix, ALineWithCommasThatEndsBeforeDsearchIsRefused) {
+  const std::string head = "/INTER/TYPE2/1\ntie\n";
+  const Built ends(sheet({{5, 5, 30}}).add(head + "9,1,1,5,0,2"));
+  EXPECT_THAT(tied(ends, 40.0).refused.at(0).reason, HasSubstr("ends before dsearch"));
+  const Built has(sheet({{5, 5, 30}}).add(head + "9,1,1,5,0,2,0,,2.0"));
+  const PenetrationFix fix = tied(has, 40.0);
+  EXPECT_EQ(new_dsearch(fix), 31);
+  EXPECT_THAT(tied_after(has, fix), ElementsAre(101));
+}
+
 /// Random nodes over the sheet: the deck after the fix ties what a plain look at all segments says.
 TEST(TieFix, TiesExactlyWhatWasSaid) {
   std::mt19937 random(7);
