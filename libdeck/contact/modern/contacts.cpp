@@ -48,6 +48,9 @@ Contact head(const InterBase& inter, const Settings& set, ContactKind kind) {
 
 void list_sides(SceneContext& context, const Sides& s, Contact& out) {
   const Coordinates& x = context.scene.coordinates;
+  out.secondary.reserve(s.nodes.size());
+  out.main.reserve(s.faces.size());
+  out.segment_kinds.reserve(s.faces.size());
   for (const SideNode& n : s.nodes) {
     SecondaryNode node;
     node.node = n.node;

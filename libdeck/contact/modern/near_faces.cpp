@@ -9,6 +9,8 @@ SearchResult near_faces(const SceneContext& context, const Sides& sides,
   const Coordinates& x = context.scene.coordinates;
   std::vector<std::uint32_t> nodes;
   std::vector<std::array<std::uint32_t, 4>> segments;
+  nodes.reserve(sides.nodes.size());
+  segments.reserve(sides.faces.size());
   for (const SideNode& n : sides.nodes) nodes.push_back(n.node);
   for (const Face& f : sides.faces) segments.push_back(f.nodes);
   NodeSegmentInput in;

@@ -119,22 +119,28 @@ class Maker {
     struct Keyed {
       std::array<std::int64_t, 4> key;
       int kind;
-      Face face;
+      std::uint32_t face;
+      bool operator<(const Keyed& other) const {
+        return std::tie(key, kind, face) < std::tie(other.key, other.kind, other.face);
+      }
     };
+    const std::vector<Face> faces = std::move(out_.faces);
     std::vector<Keyed> all;
-    for (const Face& f : out_.faces)
-      all.push_back(
-          {key(f), static_cast<int>(f.carrier == Carrier::none ? Carrier::solid : f.carrier), f});
-    std::stable_sort(all.begin(), all.end(), [](const Keyed& a, const Keyed& b) {
-      return std::tie(a.key, a.kind) < std::tie(b.key, b.kind);
-    });
+    all.reserve(faces.size());
+    for (std::uint32_t i = 0; i < faces.size(); ++i) {
+      const Carrier carrier = faces[i].carrier;
+      all.push_back({key(faces[i]),
+                     static_cast<int>(carrier == Carrier::none ? Carrier::solid : carrier), i});
+    }
+    if (!std::is_sorted(all.begin(), all.end())) std::sort(all.begin(), all.end());
     out_.faces.clear();
+    out_.faces.reserve(2 * faces.size());  // sheets are doubled
     const Keyed* last = nullptr;
     for (const Keyed& k : all) {
       if (last != nullptr && last->key == k.key && last->kind == k.kind)
-        out_.faces.back().bits |= k.face.bits;
+        out_.faces.back().bits |= faces[k.face].bits;
       else
-        out_.faces.push_back(k.face);
+        out_.faces.push_back(faces[k.face]);
       last = &k;
     }
   }

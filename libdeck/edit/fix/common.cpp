@@ -8,6 +8,7 @@
 #include "base/real_text.hpp"
 #include "deck/contact/view.hpp"
 #include "edit/fix/type_rules.hpp"
+#include "keyword/line_check.hpp"
 
 namespace deck::detail {
 
@@ -184,7 +185,9 @@ Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_
     }
     for (const Cell& cell : card.cells) {
       if (cell.field == nullptr || cell.field->name != name) continue;
-      if (card.free_format && cell.span.offset >= card.line.offset + card.line.text.size())
+      // Cells that the line does not have lie at its end.
+      const auto end = std::min<std::size_t>(card.line.text.size(), line_columns);
+      if (card.free_format && cell.blank() && cell.span.offset >= card.line.offset + end)
         return fail("its line with commas ends before " + std::string(name));
       FieldPlace place;
       place.field = cell.field;
