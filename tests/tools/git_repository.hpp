@@ -33,10 +33,10 @@ class GitRepository : public CommandLine {
     git("add models");
     git("commit -q -m '" + message + "'");
   }
-  /// Replaces a text of a file that is there once at least.
+  /// Replaces a text of a file where it stands last.
   void replace(const char* file, const std::string& old, const std::string& now) const {
     std::string text = read(dir_ / file);
-    const auto at = text.find(old);
+    const auto at = text.rfind(old);
     ASSERT_NE(at, std::string::npos) << old;
     write(dir_ / file, text.replace(at, old.size(), now));
   }
