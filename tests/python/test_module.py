@@ -400,7 +400,7 @@ def test_show_compare_and_explain_are_those_of_the_command_line(box, tmp_path):
     assert [m["message"] for m in libdeck.explain_listing(listing)["messages"]] == [343, 1084]
     with pytest.raises(libdeck.DeckError, match="no listing"):
         libdeck.load(close).explain(BOX)
-    run = subprocess.run([PROGRAM, "explain", "DK254"], capture_output=True, text=True, env=dict(os.environ, COLUMNS="92"))
+    run = subprocess.run([PROGRAM, "explain", "DK254"], capture_output=True, text=True, env={k: v for k, v in os.environ.items() if k != "COLUMNS"})
     assert libdeck.explain("DK254").split() == run.stdout.split()
     assert "611" in libdeck.explain(611) and "343" in libdeck.explain("initial penetrations")
     with pytest.raises(KeyError, match="nonsense"):

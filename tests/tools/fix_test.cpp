@@ -158,10 +158,12 @@ TEST_F(FixCommand, WithoutAStrategyItSaysWhatEachWouldDo) {
   EXPECT_TRUE(report["strategy"].is_null());
   std::map<std::string, int> solved;
   for (const auto& p : report["proposals"]) solved[p["strategy"]] = p["score"]["solved"];
-  EXPECT_EQ(
-      solved,
-      (std::map<std::string, int>{
-          {"move-nodes", 0}, {"reduce-gap", 16}, {"inacti", 16}, {"fpenmax", 0}, {"tie", 0}}));
+  EXPECT_EQ(solved, (std::map<std::string, int>{{"move-nodes", 0},
+                                                {"reduce-gap", 16},
+                                                {"inacti", 16},
+                                                {"fpenmax", 0},
+                                                {"tie", 0},
+                                                {"move-part", 16}}));
   EXPECT_EQ(read(dir_ / "too_close_0000.rad"), too_close_);
   ASSERT_EQ(deck(command), 0) << err();
   EXPECT_TRUE(is_clean("fixed/too_close_0000.rad"));
