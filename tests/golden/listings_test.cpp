@@ -85,8 +85,10 @@ void add_numbers(const std::string& text, std::set<int>& out) {
     for (std::string cell; std::getline(parts, cell, '|');) cells.push_back(cell);
     if (column < 0) {
       const auto id = std::find(cells.begin(), cells.end(), " id ");
-      column =
-          id == cells.end() ? static_cast<int>(cells.size()) : static_cast<int>(id - cells.begin());
+      const bool messages = std::any_of(cells.begin(), cells.end(), [](const std::string& cell) {
+        return cell.starts_with(" sev");  // a table of messages has a severity
+      });
+      column = id == cells.end() || !messages ? 1000 : static_cast<int>(id - cells.begin());
       continue;
     }
     if (column >= static_cast<int>(cells.size())) continue;
