@@ -204,6 +204,7 @@ std::string reason(const Panel& panel, const TierResult& standard) {
 std::string marks(const Panel& panel) {
   std::string out;
   std::vector<LabelBox> taken;
+  if (!panel.counts()) taken.push_back({kRight - 44, panel.y(0x1p-52) - 18, 44, 18});  // "1 ulp"
   for (const TierResult* t : panel.tiers)
     taken.push_back({panel.x(t->ns_per_pair) - 8, panel.y(panel.error(*t)) - 8, 16, 16});
   for (const TierResult* tier : panel.tiers) {

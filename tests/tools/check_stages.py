@@ -32,7 +32,6 @@ FOR_THEMSELVES = {
     "libdeck/edit/fix/common.cpp": "contacts of a model whose nodes are being moved",
     "libdeck/edit/fix/movable.cpp": "a model whose nodes are moved",
     "libdeck/lint/checks/geometry/cycle.cpp": "the first cycle of the scene of a quick look",
-    "tools/cli/verbs/cycle.cpp": "the first cycle again without an effect, to be compared",
     "tools/python/src/results.cpp": "a first cycle with velocities, times and a model of forces of its own",
 }
 

@@ -151,8 +151,8 @@ TEST(ModernGap, BehindASolidNoGapHelpsAndNoNodeMoves) {
 
 TEST(ModernInacti, TakesWhatTheTypeKnows) {
   const auto set = [](const char* type, std::optional<int> value) {
-    const Built b(
-        two_plates(1, 0.55, std::string("@/INTER/TYPE") + type + "/1 surf_ID1=1 surf_ID2=2 VISs=0.05"));
+    const Built b(two_plates(
+        1, 0.55, std::string("@/INTER/TYPE") + type + "/1 surf_ID1=1 surf_ID2=2 VISs=0.05"));
     InactiOptions options;
     options.inacti = value;
     auto fix = set_inacti(context_of(b), options);

@@ -14,8 +14,8 @@ namespace deck {
 /// and lines are copied byte for byte, in the order of the deck; ids stay.
 ///
 /// The result is read again: effective values, segments, gaps and stiffness must be those of the
-/// whole deck, and of a TYPE2 what it ties; what differs is `approximated` in the loss report. Everything left out is `dropped`
-/// there, one entry a keyword.
+/// whole deck, and of a TYPE2 what it ties; what differs is `approximated` in the loss report.
+/// Everything left out is `dropped` there, one entry a keyword.
 ///
 /// Refusals: an id that is no interface whose card is read; a deck that cannot be flattened.
 Rewrite extract_contacts(const LoadedDeck& context, std::span<const std::int64_t> interfaces);
