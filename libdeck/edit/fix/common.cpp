@@ -207,6 +207,13 @@ Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_
               std::to_string(block.version));
 }
 
+int FieldPlace::width() const {
+  const int columns = field->last - field->first + 1;
+  if (!free_format) return columns;
+  const int room = line_columns - static_cast<int>(line.text.size());
+  return std::min(columns, static_cast<int>(cell.span.length) + std::max(0, room));
+}
+
 void FieldPlace::write(CellWriter& edits, std::string_view text) const {
   if (free_format)
     edits.replace(cell.span, text);

@@ -63,7 +63,8 @@ struct FieldPlace {
   Line line;
   bool free_format = false;
   double factor = 1;  ///< deck units to working units
-  int width() const { return field->last - field->first + 1; }
+  /// Columns that a text may have: on a line with commas what comes behind must stay on it.
+  int width() const;
   void write(CellWriter& edits, std::string_view text) const;
 };
 /// Error: the card of this input version has no such cell, or its line is missing.

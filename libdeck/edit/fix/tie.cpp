@@ -337,9 +337,15 @@ class TieFix {
     if (!again) return again.error();
     Scene after = fix_scene(*again, options_, true);
     std::size_t where = 0;
-    if (const std::string why = harm(after.ties, where); !why.empty())
-      return Error{Error::Code::internal, "the deck read again differs: interface " +
-                                              std::to_string(ties_[where].inter->id) + ", " + why};
+    if (const std::string why = harm(after.ties, where); !why.empty()) {
+      // The text does not say what it was meant to: nothing is changed.
+      for (const Plan& plan : plans_)
+        refuse(ties_[plan.at], fmt::format("nothing done: read again, interface {}, {}",
+                                           ties_[where].inter->id, why));
+      plans_.clear();
+      fix_.rewrite = {};
+      after = fix_scene(context_, options_, true);
+    }
     fix_.complete = true;
     for (std::size_t t = 0; t < ties_.size(); ++t) list(t, after.ties[t]);
     std::stable_sort(

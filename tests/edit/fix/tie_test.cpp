@@ -216,6 +216,8 @@ TEST(TieFix, ALineWithCommasThatEndsBeforeDsearchIsRefused) {
   EXPECT_THAT(tied(ends, 40.0).refused.at(0).reason, HasSubstr("ends before dsearch"));
   const Built wide(sheet({{5, 5, 30}}).add(head + "9,1,1,5,0,2,0" + std::string(100, ' ')));
   EXPECT_THAT(tied(wide, 40.0).refused.at(0).reason, HasSubstr("ends before dsearch"));
+  const Built full(sheet({{5, 5, 30}}).add(head + "9,1,1,5,0,2,0,," + std::string(84, ' ') + "2"));
+  EXPECT_TRUE(tied(full, 40.0).rewrite.edits.empty()) << "31 would end past column 100";
   const Built has(sheet({{5, 5, 30}}).add(head + "9,1,1,5,0,2,0,,2.0"));
   const PenetrationFix fix = tied(has, 40.0);
   EXPECT_EQ(new_dsearch(fix), 31);
