@@ -111,8 +111,8 @@ std::vector<std::string> accuracy_advice(const std::vector<AccuracyChoice>& choi
   if (robust->deck) {
     first += ": " + deck_clause(*robust, *fast, named(*fast));
   } else if (wrong == 0) {
-    first += fmt::format(": it decides all {} made to break arithmetic correctly",
-                         count(robust->hard.pairs, "pair", "pairs"));
+    first += fmt::format(": it decides all {} correctly",
+                         count(robust->hard.pairs, "hard test pair", "hard test pairs"));
   }
   const auto& h = robust->hard;
   std::string second =

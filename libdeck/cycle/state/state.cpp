@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "contact/scene/scene_parts.hpp"
+#include "cycle/shared/step_scale.hpp"
 #include "cycle/state/state_parts.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/model/mesh.hpp"
@@ -199,9 +200,6 @@ void try_velocity(const Scene& scene, const PartVelocity& wish, State& state) {
     }
   }
 }
-
-/// What the solver's steps are multiplied with.
-constexpr double step_scale = 0.9;
 
 void from_mesh(const Scene& scene, const EngineFiles* engine, State& state) {
   MeshOptions how;

@@ -40,8 +40,8 @@ std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
   if (stops > 0)
     text += (text.empty() ? "the solver" : "; it") + std::string(" stops at ") +
             count_of(stops, "pair") +
-            " whose nodes lie exactly on a segment (error 611/612), whatever Inacti is: move the "
-            "nodes, or switch them off with fpenmax";
+            " whose nodes lie exactly on a segment (error 611/612): move the nodes, or switch them "
+            "off with --inacti 1";
   return text;
 }
 

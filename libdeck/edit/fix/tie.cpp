@@ -87,12 +87,21 @@ class Holders {
   std::map<NodeIndex, std::int64_t> tied_, dependent_, in_use_;  ///< by which interface
 };
 
+/// A node that a larger dsearch would tie.
+struct Candidate {
+  const TiedNode* node = nullptr;
+  double distance = 0;
+  std::uint32_t segment = 0;
+};
+
 /// One tie that loses nodes.
 struct Plan {
   std::size_t at = 0;  ///< in Scene::ties
   double reach = 0;
   FieldPlace place;
-  std::set<NodeIndex> nodes;  ///< that become tied
+  std::vector<Candidate> taken;
+  double keep = 0, limit = 0;  ///< dsearch is above the one, and not above the other
+  std::set<NodeIndex> nodes;   ///< that become tied
   double needed = 0;
   RoundedText text;
   double value = 0;  ///< working units
@@ -183,13 +192,6 @@ class TieFix {
     return detail::ties_of(scene, scene_options);
   }
 
-  /// A node that a larger dsearch would tie.
-  struct Candidate {
-    const TiedNode* node = nullptr;
-    double distance = 0;
-    std::uint32_t segment = 0;
-  };
-
   void decide(Plan& plan, const Tie& wide, Holders& holders) {
     const Tie& tie = ties_[plan.at];
     std::vector<Candidate> wanted;
@@ -236,24 +238,43 @@ class TieFix {
   void settle(Plan& plan, std::vector<Candidate>& wanted, double limit, const std::string& who,
               Holders& holders) {
     const Tie& tie = ties_[plan.at];
-    const double keep = farthest_tied(tie);
-    std::vector<Candidate> taken;
+    plan.keep = farthest_tied(tie);
+    plan.limit = limit;
     for (const Candidate& c : wanted)
-      if (c.distance < limit && keep < limit)
-        taken.push_back(c);
+      if (c.distance < limit && plan.keep < limit)
+        plan.taken.push_back(c);
       else
         refuse(tie, *c.node, c.distance, "a dsearch for it would also tie " + who);
-    if (taken.empty()) return;
-    for (const Candidate& c : taken) plan.needed = std::max(plan.needed, c.distance);
-    if (!choose_text(plan, std::max(plan.needed, keep), limit)) {
-      for (const Candidate& c : taken)
-        refuse(tie, *c.node, c.distance, "no number that fits the cell of dsearch ties it alone");
-      return;
+    if (!choose(plan)) return;
+    for (const Candidate& c : plan.taken) holders.add(tie, c.node->node, c.segment);
+  }
+
+  /// The dsearch for the nodes that are taken; false: there is none for any.
+  bool choose(Plan& plan) {
+    plan.nodes.clear();
+    plan.needed = 0;
+    if (plan.taken.empty()) return false;
+    for (const Candidate& c : plan.taken) plan.needed = std::max(plan.needed, c.distance);
+    if (!choose_text(plan, std::max(plan.needed, plan.keep), plan.limit)) {
+      for (const Candidate& c : plan.taken)
+        refuse(ties_[plan.at], *c.node, c.distance,
+               "no number that fits the cell of dsearch ties it alone");
+      plan.taken.clear();
+      return false;
     }
-    for (const Candidate& c : taken) {
-      plan.nodes.insert(c.node->node);
-      holders.add(tie, c.node->node, c.segment);
-    }
+    for (const Candidate& c : plan.taken) plan.nodes.insert(c.node->node);
+    return true;
+  }
+
+  /// Does without the nodes that need the largest dsearch; false: none is left.
+  bool do_with_less(Plan& plan, const std::string& why) {
+    const double most = plan.needed;
+    std::erase_if(plan.taken, [&](const Candidate& c) {
+      if (c.distance < most) return false;
+      refuse(ties_[plan.at], *c.node, c.distance, "with a dsearch for it " + why);
+      return true;
+    });
+    return choose(plan);
   }
 
   /// The roundest number above `needed` and not above `limit`.
@@ -319,12 +340,9 @@ class TieFix {
       if (why.empty()) return;
       const bool own =
           std::any_of(plans_.begin(), plans_.end(), [&](const Plan& p) { return p.at == where; });
-      const std::string reason = fmt::format("nothing done: with a larger dsearch interface {}, {}",
-                                             ties_[where].inter->id, why);
-      std::erase_if(plans_, [&](const Plan& p) {
-        if (own && p.at != where) return false;
-        refuse(ties_[p.at], reason);
-        return true;
+      std::erase_if(plans_, [&](Plan& p) {
+        return (!own || p.at == where) &&
+               !do_with_less(p, own ? why : name_of(*ties_[where].inter) + ": " + why);
       });
     }
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "cycle/shared/step_scale.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/report/gate.hpp"
@@ -314,8 +315,10 @@ std::string step_lines(const CycleInput& input) {
   if (o.structure.element == no_index)
     out += "no element limits the step\n";
   else
-    out += fmt::format("{:.4g}, {} {}\n", o.structure.dt, element_name(o.structure.kind),
-                       model.family(o.structure.kind).id[o.structure.element]);
+    out += fmt::format("{:.4g}, {} {}; times {:g}: {:.4g}\n", o.structure.dt / cycle::step_scale,
+                       element_name(o.structure.kind),
+                       model.family(o.structure.kind).id[o.structure.element], cycle::step_scale,
+                       o.structure.dt);
   out += "  contact    ";
   if (o.contact_dt >= 1e30) return out + "no limit at this state\n";
   const char* why = o.contact_dt_source == cycle::StepLimit::Source::nodal

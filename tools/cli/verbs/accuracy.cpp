@@ -158,8 +158,8 @@ Action setup(CommandLine& line) {
       .range(1, 1000)
       .show_default();
   line.flag("--again", options->again,
-            "Measure the hard cases also where an earlier run of this program has left its "
-            "measurement in the user's cache directory");
+            "Measure the hard cases again instead of taking the result of an earlier run from the "
+            "user's cache directory");
   line.option("--html", options->html,
               "Write the choices, kinds and charts to FILE: one page, no network")
       .value("FILE");

@@ -58,7 +58,7 @@ class FixRun {
       return exit_input;
     }
     for (const auto& known :
-         {check_interfaces(loaded, o_.interfaces, "--interface"),
+         {check_interfaces(loaded, o_.interfaces, "--interface", Examined::contacts_and_ties),
           check_parts(loaded, o_.move.lock, "--lock"), check_parts(loaded, o_.move.move, "--only")})
       if (!known) return fail(known.error());
     if (loaded.path() == "-" && (o_.write.in_place || !o_.write.directory.empty()))
@@ -406,7 +406,8 @@ Action setup(CommandLine& line) {
   line.option(
           "--strategy", o.strategies,
           "Without: say what each would do. move-nodes: out of each other's gap; move-part: one "
-          "whole part, with what hangs on it, the way that frees the most; reduce-gap: the "
+          "whole part, with everything connected to it, the way that frees the most; reduce-gap: "
+          "the "
           "largest gap without a penetration; inacti: let the solver treat them; fpenmax: switch "
           "off deep ones; tie: raise dsearch of TYPE2 to what its untied nodes need. "
           "Several with commas: each acts on what the previous one left")
@@ -416,9 +417,8 @@ Action setup(CommandLine& line) {
   line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
   line.flag(
       "--ties", o.ties,
-      "Treat ties (TYPE10, TYPE7 with ITIED) like other contacts: what is moved out of their "
-      "gap comes loose. By default they are left alone, and nothing that is tied changes; what "
-      "a TYPE2 ties never does");
+      "Treat ties (TYPE10, TYPE7 with ITIED) like other contacts: nodes that are moved out of "
+      "their gap are no longer tied. By default ties are not changed; those of a TYPE2 never are");
   line.flag("--diff", o.write.diff,
             "Print the patch (git apply takes it); the report goes to stderr");
   line.option("-o,--output", o.write.directory, "Write the deck with all it includes below DIR")

@@ -132,6 +132,11 @@ int run(const Options& o) {
     gate_options.baseline.clear();
     gate_options.no_config = true;
   }
+  if (baseline.wanted())
+    if (auto kept = keeps_other_decks(o.write_baseline, o.common.decks); !kept) {
+      print_error(o.common, kept.error().message);
+      return exit_usage;
+    }
   bool first = true;
   int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
     if (auto fits = check_options(o, loaded, scene_options.what_if); !fits) {

@@ -346,10 +346,10 @@ void LintRun::report_stale() const {
   for (const auto& job : jobs_) {
     if (!job->loaded || job->result.stale.empty() || common_.quiet) continue;
     constexpr std::size_t most = 10;
-    print_messages(
-        fmt::format("{}: note: {} entries of the baseline no longer occur; write it again with "
-                    "--write-baseline\n",
-                    terminal_text(job->path), job->result.stale.size()));
+    print_messages(fmt::format(
+        "{}: note: {}; write it again with --write-baseline\n", terminal_text(job->path),
+        count(job->result.stale.size(), "entry of the baseline no longer occurs",
+              "entries of the baseline no longer occur")));
     std::size_t shown = 0;
     for (const auto& [key, n] : job->result.stale) {
       if (shown++ == most) break;
@@ -396,7 +396,12 @@ int LintRun::write() {
     std::vector<BaselinedDeck> baselined;
     for (const auto& job : jobs_)
       if (job->loaded) baselined.push_back({job->path, &job->loaded->deck(), &job->result});
-    put(options_.write_baseline, deck::write_baseline(baselined, options_.write_baseline));
+    std::vector<std::string> paths;
+    for (const BaselinedDeck& d : baselined) paths.push_back(d.path);
+    if (auto kept = keeps_other_decks(options_.write_baseline, paths); !kept)
+      code = std::max(code, usage(kept.error().message));
+    else
+      put(options_.write_baseline, deck::write_baseline(baselined, options_.write_baseline));
   }
   report_stale();
   if (print_) return std::max(code, print_(jobs_, schemas_));

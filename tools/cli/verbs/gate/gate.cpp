@@ -103,6 +103,7 @@ std::string last_line(const LintJobs& jobs) {
 }
 
 int print(const Options& o, const LintJobs& jobs, const SchemaSet& schemas) {
+  if (jobs.empty()) return exit_clean;  // what went wrong was said
   CommonOptions common = o.lint.common;
   common.decks.clear();
   for (const auto& job : jobs) common.decks.push_back(job->path);
@@ -135,9 +136,9 @@ Result<void> check_gates(const LintChoice& lint) {
     if (!lint.gate.given() && !config->gate.any() && config->compare.empty() &&
         config->accepted.empty())
       return Error{Error::Code::config,
-                   deck + ": no gate is set: 'deck gate --init' writes one, [gate] in " +
+                   deck + ": no gate is set: run 'deck gate --init', put bounds into [gate] of " +
                        (config->path.empty() ? ".decklint.toml" : config->path) +
-                       " or the options of the gate set bounds"};
+                       ", or give one, such as --max-depth 0.5"};
   }
   return {};
 }

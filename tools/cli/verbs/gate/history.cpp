@@ -132,7 +132,7 @@ std::string table(const std::string& deck, const std::vector<Row>& rows,
   const std::string verdict =
       known == 0 ? fmt::format("The gate cannot look back at {}:\n", deck)
                  : fmt::format(
-                       "{} of the last {} of {} would have been stopped, each held against the "
+                       "The gate would have stopped {} of the last {} of {}, compared with the "
                        "one before:\n",
                        stopped, count(known, "commit", "commits"), deck);
   return verdict + table.fitted(text_width(), common.color_on(1), 2);
@@ -148,7 +148,7 @@ Result<std::string> gate_history(const LoadedDeck& loaded, std::size_t commits,
   // One more than is asked for: what the oldest is held against.
   const auto past = commits_of(root, files_in_tree(loaded, root), commits + 1);
   if (!past) return past.error();
-  if (past->empty()) return "No commit has touched " + loaded.path() + " yet.\n";
+  if (past->size() < 2) return std::string();
   Past states(loaded.path(), common, loaded.schemas());
   std::vector<Row> rows;
   Progress progress(!common.quiet);

@@ -6,8 +6,8 @@
 
 namespace deck::cli {
 
-/// A table for people. Error: the deck is in no git work tree. A deck that no commit has yet gives
-/// a sentence.
+/// A table for people; empty: fewer than two commits have the deck. Error: it is in no git work
+/// tree.
 Result<std::string> gate_history(const LoadedDeck& loaded, std::size_t commits,
                                  const CommonOptions& common);
 

@@ -195,10 +195,13 @@ void tell(const Today& today, const std::vector<NewFile>& files, const fs::path&
   for (const auto& one : today.decks) errors += one->result.errors;
   out += fmt::format(
       "Accepted as it is today: {} of lint, {} in {}. Commit these files; 'deck gate{}' runs the "
-      "gate.\n",
+      "gate. The workflow needs {}.\n",
       count(errors, "error", "errors"),
       count(today.penetrating, "penetrating node or edge", "penetrating nodes and edges"),
-      count(today.decks.size(), "deck", "decks"), terminal_text(decks));
+      count(today.decks.size(), "deck", "decks"), terminal_text(decks),
+      package() + (files.back().path.ends_with("workflows/deck-gate.yml")
+                       ? ""
+                       : ", and .gitlab-ci.yml has to include .gitlab/deck-gate.yml"));
   print_lines(out);
 }
 
@@ -230,6 +233,9 @@ int init_gate(const CommonOptions& given, const GateInit& init) {
         return fail(f.path +
                     " is there already; nothing was written (--overwrite replaces it, with all "
                     "that --init writes)");
+  for (const std::string_view name : {lint_name, gaps_name})
+    if (auto kept = keeps_other_decks((fs::path(root) / name).string(), common.decks); !kept)
+      return fail(kept.error().message);
   const auto schemas = load_schemas(common);
   if (!schemas) return fail(schemas.error().message);
   Today today;
@@ -244,12 +250,19 @@ int init_gate(const CommonOptions& given, const GateInit& init) {
     return fail(written.error().message);
   if (common.quiet) return exit_clean;
   tell(today, files, root, words);
+  std::size_t young = 0;
   for (const auto& one : today.decks) {
     if (init.commits == 0) break;
     const auto past = gate_history(one->loaded, init.commits, common);
     if (!past) return fail(past.error().message);
-    print_lines("\n" + *past);
+    if (past->empty())
+      ++young;
+    else
+      print_lines("\n" + *past);
   }
+  if (young > 0)
+    print_lines(fmt::format("\n{} fewer than two commits: nothing to look back at yet.\n",
+                            count(young, "deck has", "decks have")));
   return exit_clean;
 }
 

@@ -6,7 +6,10 @@
 #include <filesystem>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "deck/base/paths.hpp"
+#include "deck/lint/config.hpp"
 #include "deck/report/gaps.hpp"
 #include "verbs/git_deck.hpp"
 #include "writing/library.hpp"
@@ -96,8 +99,8 @@ void add_gate(CommandLine& line, GateOptions& o) {
       .value("FILE");
   gate.option(
           "--since", o.since,
-          "A git revision: findings stand on the lines that changed since (the node, the card), "
-          "where a forge shows them; default: that of --compare git:REV")
+          "A git revision: report each finding at the line that changed since (node or card), so "
+          "that GitHub or GitLab shows it in the review; default: that of --compare git:REV")
       .value("REV");
 }
 
@@ -191,6 +194,34 @@ Result<DeckGate> gate_of(const GateOptions& o, const LoadedDeck& loaded,
   gate->note_baseline(common, loaded.path());
   if (auto known = gate->find_changes(loaded); !known) return known.error();
   return gate;
+}
+
+Result<void> keeps_other_decks(const std::string& path, const std::vector<std::string>& decks) {
+  namespace fs = std::filesystem;
+  std::error_code ec;
+  if (!fs::exists(path, ec)) return {};
+  const auto text = read_config_file(path, most_baseline_bytes);
+  if (!text) return {};  // what is no baseline is somebody else's to complain about
+  const fs::path base = parent_path(absolute_path(path));
+  std::vector<std::string> held;  // absolute
+  if (const auto lint = parse_baseline(*text, path)) {
+    for (const auto& [deck, findings] : lint->decks) held.push_back(deck);
+  } else if (const auto gaps = read_earlier_gaps(path, *text, "", true)) {
+    for (const std::string& deck : gaps->decks)
+      held.push_back((base / deck).lexically_normal().generic_string());
+  }
+  std::vector<std::string> lost;
+  for (const std::string& deck : held)
+    if (fs::exists(deck, ec) && std::none_of(decks.begin(), decks.end(), [&](const std::string& d) {
+          return fs::path(absolute_path(d)).lexically_normal().generic_string() == deck;
+        }))
+      lost.push_back(fs::path(deck).lexically_relative(base).generic_string());
+  if (lost.empty()) return {};
+  const std::string also = lost.size() > 1 ? fmt::format(" and {} more", lost.size() - 1) : "";
+  return Error{Error::Code::config,
+               fmt::format("{} also holds {}{}: what is accepted of {} would be lost. Give all "
+                           "decks, or delete the file first",
+                           path, lost.front(), also, lost.size() > 1 ? "them" : "it")};
 }
 
 void note_not_in_baseline(const CommonOptions& options, const std::string& deck_path,

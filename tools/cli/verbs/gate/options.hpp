@@ -72,6 +72,9 @@ bool is_of_gate(RuleId rule);
 /// Says that a baseline holds nothing of a deck, but of `held`, so that everything counts as new.
 void note_not_in_baseline(const CommonOptions& options, const std::string& deck_path,
                           const std::string& baseline, const std::vector<std::string>& held);
+/// What is accepted of a deck stays when the baseline is written for others: an error if `path` is
+/// a baseline of gaps, or of lint, that holds decks beside `decks` which are still there.
+Result<void> keeps_other_decks(const std::string& path, const std::vector<std::string>& decks);
 /// How a deck is called in a baseline that lies at `path`: relative to it.
 std::string name_in_baseline(const std::string& deck_path, const std::string& path);
 Result<DeckGate> gate_of(const GateOptions& options, const LintConfig& config,
