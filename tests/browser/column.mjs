@@ -85,12 +85,12 @@ export async function chosenAlone(p) {
     return viewport.view.parts.parts.filter((x) => x.faces).map((x) => [secondary.has(x.data.part) || main.has(x.data.part), x.look]);
   });
   check("only the parts of the chosen interface are drawn", (await parts()).every(([own, look]) => own === (look !== "hidden")), JSON.stringify(await parts()));
-  await p.$eval(".legend .context", (e) => {
+  await p.$eval(".legend .context-share", (e) => {
     e.value = "0.5";
     e.dispatchEvent(new Event("input"));
   });
   check("the context slider brings the others back, see-through", (await parts()).every(([own, look]) => own || look === "ghost"));
-  await p.$eval(".legend .context", (e) => {
+  await p.$eval(".legend .context-share", (e) => {
     e.value = "0";
     e.dispatchEvent(new Event("input"));
   });

@@ -174,7 +174,7 @@ export class Viewport {
   }
 
   private contextSlider(): HTMLElement {
-    const slider = h("input", { type: "range", class: "context", min: 0, max: 1, step: 0.05, value: this.context, oninput: () => {
+    const slider = h("input", { type: "range", class: "context-share", min: 0, max: 1, step: 0.05, value: this.context, oninput: () => {
       this.context = Number(slider.value);
       this.applyLooks();
       this.onRest();
