@@ -34,6 +34,9 @@ void on_bus_error(int) {
   _exit(exit_internal);
 }
 
+/// Before the tables of the program are made, for which memory may be short as well.
+[[gnu::constructor(101)]] void end_orderly() { std::set_terminate(on_terminate); }
+
 #ifdef DECK_LONG_NUMBERS_OF_GMP
 // The library of long numbers knows no error but the end of the program: let it be an orderly one.
 [[noreturn]] void no_memory() {
@@ -67,7 +70,6 @@ std::string version_text() {
 
 int main(int argc, char** argv) {
   std::signal(SIGBUS, on_bus_error);
-  std::set_terminate(on_terminate);
 #ifdef DECK_LONG_NUMBERS_OF_GMP
   mp_set_memory_functions(gmp_allocate, gmp_reallocate, gmp_free);
 #endif
