@@ -267,6 +267,22 @@ TEST_F(FixCommand, NothingExaminedIsNoSuccess) {
   }
 }
 
+TEST_F(FixCommand, ALargerReachNeverTiesFewerNodes) {
+  copy_sample("welds");
+  std::size_t last = 0;
+  for (const char* reach : {"7", "10", "12", "15", "20"}) {
+    deck(std::string("fix welds_0000.rad --strategy tie --json tie.json -q --reach ") + reach);
+    const auto report = nlohmann::json::parse(read(dir_ / "tie.json"));
+    std::size_t tied = 0;
+    for (const auto& tie : report["ties"]) tied += tie["nodes"].size();
+    EXPECT_GE(tied, last) << reach;
+    last = tied;
+  }
+  EXPECT_GT(last, 0u);
+  // Ties are chosen by their ids as well.
+  EXPECT_EQ(deck("fix welds_0000.rad --strategy tie --interface 2 -q"), 1) << err();
+}
+
 TEST_F(FixCommand, TheReportShowsTheFixedDeckBesideTheOneBefore) {
   const int code =
       deck("fix too_close_0000.rad --html page.html --strategy move-nodes --max-moved 100%");
@@ -278,7 +294,11 @@ TEST_F(FixCommand, TheReportShowsTheFixedDeckBesideTheOneBefore) {
   ASSERT_EQ(deck("gaps out/too_close_0000.rad --html plain.html -q"), 0);
   // The same page but for the paths of the deck and of what is compared; its data are packed.
   const auto size = [&](const char* name) { return static_cast<long>(read(dir_ / name).size()); };
-  EXPECT_LT(std::abs(size("page.html") - size("gaps.html")), 100);
+  const std::string page = read(dir_ / "page.html");
+  const auto moved = page.find("<script type=\"application/octet-stream\" id=\"deck-moved\">");
+  ASSERT_NE(moved, std::string::npos);
+  const auto block = static_cast<long>(page.find("</script>\n", moved) + 10 - moved);
+  EXPECT_LT(std::abs(size("page.html") - block - size("gaps.html")), 100);
   EXPECT_GT(size("page.html"), size("plain.html") + 200);
   EXPECT_EQ(deck("fix too_close_0000.rad include_tree_0000.rad --html x.html --strategy inacti"),
             2);

@@ -45,7 +45,7 @@ TEST_F(GateVerb, IsSetUpInOneCommandAndPassesWhatIsThere) {
   }
   EXPECT_NE(read(dir_ / ".github/workflows/deck-gate.yml").find("deck gate models --since"),
             std::string::npos);
-  EXPECT_TRUE(has("nothing before it")) << out();
+  EXPECT_TRUE(has("1 deck has fewer than two commits")) << out();
   ASSERT_EQ(deck("gate models --json gate.json"), 0) << err() << out();
   EXPECT_TRUE(has("Gate: passed, 1 deck.")) << out();
   const json document = json::parse(read(dir_ / "gate.json"));
@@ -66,8 +66,34 @@ TEST_F(GateVerb, NeverReplacesWhatIsThereUnlessToldTo) {
   EXPECT_NE(read(dir_ / "lint-baseline.json"), "mine\n");
   EXPECT_TRUE(fs::exists(dir_ / ".gitlab/deck-gate.yml"));
   EXPECT_FALSE(fs::exists(dir_ / ".github"));
-  EXPECT_FALSE(has("would have been stopped")) << out();
+  EXPECT_FALSE(has("would have stopped")) << out();
   EXPECT_EQ(deck("gate models --commits 3"), 2);
+}
+
+TEST_F(GateVerb, WhatIsAcceptedOfOtherDecksIsNotLost) {
+  write(dir_ / "models/bus_0000.rad", read(dir_ / "models/car_0000.rad"));
+  ASSERT_EQ(deck("gate models --init --commits 0"), 0) << err();
+  const std::string lint = read(dir_ / "lint-baseline.json"),
+                    gaps = read(dir_ / "gaps-baseline.json");
+  for (const char* call : {"gate models/car_0000.rad --init --overwrite",
+                           "gaps models/car_0000.rad -q --write-baseline gaps-baseline.json",
+                           "lint models/car_0000.rad -q --write-baseline lint-baseline.json"}) {
+    EXPECT_EQ(deck(call), 2) << call;
+    EXPECT_TRUE(complains("also holds models/bus_0000.rad")) << call << err();
+    EXPECT_EQ(read(dir_ / "lint-baseline.json"), lint) << call;
+    EXPECT_EQ(read(dir_ / "gaps-baseline.json"), gaps) << call;
+  }
+  // All of them, or what is left when a deck is gone.
+  EXPECT_EQ(deck("gate models --init --overwrite --commits 0"), 0) << err();
+  fs::remove(dir_ / "models/bus_0000.rad");
+  EXPECT_EQ(deck("gate models/car_0000.rad --init --overwrite --commits 0"), 0) << err();
+}
+
+TEST_F(GateVerb, AnErrorIsNotFollowedByAVerdict) {
+  ASSERT_EQ(deck("gate models --init --commits 0"), 0) << err();
+  EXPECT_EQ(deck("gate models --since nosuch"), 2);
+  EXPECT_TRUE(complains("nosuch")) << err();
+  EXPECT_FALSE(has("passed")) << out();
 }
 
 TEST_F(GateVerb, SaysWhatItWouldHaveDoneWithTheLastCommits) {
@@ -79,13 +105,12 @@ TEST_F(GateVerb, SaysWhatItWouldHaveDoneWithTheLastCommits) {
   commit("comment");
   write(dir_ / "other.txt", "x");
   ASSERT_EQ(deck("gate models --init"), 0) << err();
-  EXPECT_TRUE(has("1 of the last 3 commits of models/car_0000.rad would have been stopped"))
-      << out();
+  EXPECT_TRUE(has("would have stopped 1 of the last 3 commits of models/car_0000.rad")) << out();
   EXPECT_TRUE(has("stopped  1 worse")) << out();
   for (const char* subject : {"node pushed in", "node pulled out", "comment", "first"})
     EXPECT_TRUE(has(subject)) << subject << out();
   ASSERT_EQ(deck("gate models --init --overwrite --commits 1"), 0) << err();
-  EXPECT_TRUE(has("0 of the last 1 commit of")) << out();
+  EXPECT_TRUE(has("would have stopped 0 of the last 1 commit of")) << out();
   EXPECT_FALSE(has("node pushed in")) << out();
 }
 

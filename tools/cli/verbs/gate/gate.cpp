@@ -184,10 +184,11 @@ Action setup(CommandLine& line) {
   add_gate_with_config(line, o.gate, "an error", "an error or a warning");
   add_verbose(line, o.common, "Show every finding in full, without grouping");
   CommandLine init = line.group("Setting a repository up");
-  init.flag("--init", options->writes,
-            "Write .decklint.toml, the documents of what is accepted today and the workflow of the "
-            "forge into the git work tree, and say what the gate would have done with the last "
-            "commits of the decks");
+  init.flag(
+      "--init", options->writes,
+      "Write .decklint.toml, the two baselines of what is accepted today and the workflow for "
+      "GitHub or GitLab into the git work tree, and say what the gate would have done with "
+      "the last commits of the decks");
   init.option("--forge", options->init.forge,
               "github or gitlab (default: what the work tree looks like)")
       .one_of({"github", "gitlab"})
