@@ -100,8 +100,8 @@ std::string choice_text(const std::vector<AccuracyChoice>& choices, bool color, 
     out += fmt::format("\nOn this deck: the whole of deck gaps, {}.",
                        count(choices.front().deck->pairs, "pair", "pairs"));
   return out + fmt::format(
-                   "\nHard cases: {} made to break arithmetic; time against fast, measured once "
-                   "per program (--again)."
+                   "\nHard cases: {} made to break arithmetic, time against fast."
+                   "\nThey are measured once per program; --again measures them anew."
                    "\nTwo answers: of {} written in other ways (order of nodes, axes, units)."
                    "\nKinds: kinds of hard cases without a wrong decision.\n",
                    count(hard.pairs, "pair", "pairs"), count(hard.rewritten, "pair", "pairs"));

@@ -97,7 +97,8 @@ struct Candidate {
 /// One tie that loses nodes.
 struct Plan {
   std::size_t at = 0;  ///< in Scene::ties
-  double reach = 0;
+  double asked = 0;    ///< how far nodes may be away
+  double reach = 0;    ///< how far is looked for them: no more than that
   FieldPlace place;
   std::vector<Candidate> taken;
   double keep = 0, limit = 0;  ///< dsearch is above the one, and not above the other
@@ -158,7 +159,8 @@ class TieFix {
       Plan plan;
       plan.at = t;
       plan.place = *place;
-      plan.reach = options_.reach.value_or(mean_side(before_.coordinates, tie.main));
+      plan.asked = options_.reach.value_or(mean_side(before_.coordinates, tie.main));
+      plan.reach = plan.asked;
       plans_.push_back(std::move(plan));
     }
   }
@@ -231,7 +233,8 @@ class TieFix {
     if (node.segment != no_index) return beyond_rim;
     if (node.nearest == no_index) return "the main side has no segment for it";
     if (node.nearest_distance < plan.reach) return beyond_rim;
-    return fmt::format("farther away than {:.6g} (--reach)", plan.reach);
+    if (node.nearest_distance < plan.asked) return "a dsearch for it would lose nearer nodes";
+    return fmt::format("farther away than {:.6g} (--reach)", plan.asked);
   }
 
   /// Takes the nodes before the limit, and the dsearch for them.
@@ -326,9 +329,35 @@ class TieFix {
     return was.penalty == is.penalty ? "" : "would be tied by penalty";
   }
 
+  /// Looks for nodes less far away: among segments that a large dsearch finds, those of near nodes
+  /// may be others. `taken` stays empty if there is nothing nearer.
+  void look_nearer(Plan& plan) {
+    const Tie& tie = ties_[plan.at];
+    const double keep = std::max(tie.search_distance, farthest_tied(tie));
+    constexpr int most = 40;  // down to a ten-thousandth of what was asked for
+    for (int step = 0; step < most && plan.reach * nearer > keep; ++step) {
+      plan.reach *= nearer;
+      std::erase_if(fix_.refused,
+                    [&](const FixRefusal& r) { return r.interface_id == tie.inter->id; });
+      plan.taken.clear();
+      put_planned();
+      set_dsearch(plan.at, widest(plan));
+      const std::vector<Tie> wide = ties_with();
+      Holders holders(context_, before_);
+      for (const Plan& other : plans_)
+        if (other.at != plan.at)
+          for (const Candidate& c : other.taken)
+            holders.add(ties_[other.at], c.node->node, c.segment);
+      decide(plan, wide[plan.at], holders);
+      if (!plan.taken.empty()) return;
+    }
+  }
+  static constexpr double nearer = 0.8;  ///< few steps from any reach to a node's own distance
+
   void put_planned() {
     dsearch_.type2 = context_.interfaces().type2;
-    for (const Plan& plan : plans_) set_dsearch(plan.at, plan.value);
+    for (const Plan& plan : plans_)
+      if (!plan.taken.empty()) set_dsearch(plan.at, plan.value);
   }
 
   /// Leaves out what changes more than it is meant to.
@@ -340,10 +369,11 @@ class TieFix {
       if (why.empty()) return;
       const bool own =
           std::any_of(plans_.begin(), plans_.end(), [&](const Plan& p) { return p.at == where; });
-      std::erase_if(plans_, [&](Plan& p) {
-        return (!own || p.at == where) &&
-               !do_with_less(p, own ? why : name_of(*ties_[where].inter) + ": " + why);
-      });
+      for (Plan& p : plans_)
+        if ((!own || p.at == where) &&
+            !do_with_less(p, own ? why : name_of(*ties_[where].inter) + ": " + why))
+          look_nearer(p);
+      std::erase_if(plans_, [](const Plan& p) { return p.taken.empty(); });
     }
   }
 

@@ -30,11 +30,11 @@ std::string name_in_tree(const std::string& path) {
 }
 
 Result<EarlierGaps> read_earlier(Session& session, const std::string& path,
-                                 const std::string& deck_path, bool strict) {
+                                 const std::string& deck_path, bool strict, bool given) {
   const auto text = read_config_file(path, most_baseline_bytes);
   if (!text) return text.error();
   session.remember_read(path);
-  return read_earlier_gaps(name_in_tree(path), *text, deck_path, strict);
+  return read_earlier_gaps(given ? path : name_in_tree(path), *text, deck_path, strict);
 }
 
 /// The deck itself at a git revision.
@@ -167,14 +167,15 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
                  "a baseline and an earlier run to compare with exclude each other: " + accepted +
                      " and " + compare};
   if (!accepted.empty()) {
-    auto read = read_earlier(*o.session, accepted, name_in_baseline(deck_path, accepted), true);
+    auto read =
+        read_earlier(*o.session, accepted, name_in_baseline(deck_path, accepted), true, given);
     if (!read) return read.error();
     out.earlier = std::move(*read);
     out.baseline = out.gate.on_fresh = out.gate.on_worse = true;
   } else if (!compare.empty()) {
     auto read = compare.starts_with(git_prefix)
                     ? earlier_revision(compare, deck_path, common)
-                    : read_earlier(*o.session, compare, deck_path, false);
+                    : read_earlier(*o.session, compare, deck_path, false, given);
     if (!read) return read.error();
     out.earlier = std::move(*read);
   } else if (out.gate.on_fresh || out.gate.on_worse) {
