@@ -21,7 +21,7 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
 #include "edit/block_edit.hpp"
-#include "edit/fix/depenetrate_cells.hpp"
+#include "edit/fix/nodes/depenetrate_cells.hpp"
 #include "text/columns.hpp"
 
 namespace deck {

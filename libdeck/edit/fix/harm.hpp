@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "deck/edit/fix.hpp"
-#include "edit/fix/depenetrate_rows.hpp"
+#include "edit/fix/nodes/depenetrate_rows.hpp"
 
 namespace deck::detail {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include "deck/edit/depenetrate.hpp"
 #include "edit/fix/common.hpp"
-#include "edit/fix/depenetrate_cells.hpp"
+#include "edit/fix/nodes/depenetrate_cells.hpp"
 
 namespace deck::detail {
 

@@ -7,11 +7,11 @@
 
 #include "deck/contact/crossings.hpp"
 #include "edit/fix/common.hpp"
-#include "edit/fix/depenetrate_locks.hpp"
-#include "edit/fix/depenetrate_mesh.hpp"
-#include "edit/fix/depenetrate_rows.hpp"
 #include "edit/fix/harm.hpp"
 #include "edit/fix/movable.hpp"
+#include "edit/fix/nodes/depenetrate_locks.hpp"
+#include "edit/fix/nodes/depenetrate_mesh.hpp"
+#include "edit/fix/nodes/depenetrate_rows.hpp"
 #include "edit/fix/part_groups.hpp"
 #include "edit/fix/translations.hpp"
 

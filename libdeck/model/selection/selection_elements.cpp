@@ -142,7 +142,7 @@ std::vector<std::int8_t> Selections::Impl::part_tags(const Block& block, std::st
 }
 
 std::int64_t Selections::Impl::element_id(Carrier carrier, std::uint32_t e) const {
-  const auto family = family_of_carrier(carrier);
+  const auto family = detail::family_of_carrier(carrier);
   return family && e != no_index ? model->family(*family).id[e] : 0;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "deck/base/count.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/report/fix.hpp"
 #include "deck/report/text_table.hpp"
@@ -152,7 +153,8 @@ std::string refused_lines(const PenetrationFix& fix, const FixTextOptions& optio
   std::string text;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (i == options.rows) {
-      text += fmt::format("  ... and {} more groups (--json lists all)\n", groups.size() - i);
+      text += fmt::format("  ... and {} (--json lists all)\n",
+                          count(groups.size() - i, "more group", "more groups"));
       break;
     }
     const Group& g = groups[i];

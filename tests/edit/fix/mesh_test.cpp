@@ -1,5 +1,5 @@
 // Which elements count as turned inside out when nodes have moved: also those pressed flat.
-#include "edit/fix/depenetrate_mesh.hpp"
+#include "edit/fix/nodes/depenetrate_mesh.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // Moving nodes: the sweeps over the wishes against the exact solution of the same quadratic
 // program, by an active set with Eigen's dense factorisation.
-#include "edit/fix/depenetrate_rows.hpp"
+#include "edit/fix/nodes/depenetrate_rows.hpp"
 
 #include <gtest/gtest.h>
 

@@ -168,7 +168,8 @@ class Tie:
         return Arrays(self._native.arrays(), {})
 
     def __repr__(self) -> str:
-        return f"<Tie /INTER/TYPE2/{self.id} {self.title!r}: {self.summary['tied']} of {self.summary['nodes']} nodes tied>"
+        nodes = self.summary["nodes"]
+        return f"<Tie /INTER/TYPE2/{self.id} {self.title!r}: {self.summary['tied']} of {nodes} {'node' if nodes == 1 else 'nodes'} tied>"
 
 
 class Interface:

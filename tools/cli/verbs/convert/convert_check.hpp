@@ -40,7 +40,7 @@ class ConversionCheck {
   std::map<std::string, Outcome> decks_;
   /// By kind, field and reason; numbers in the reason do not make another cause.
   std::map<std::tuple<std::string, std::string, std::string>, Cause> causes_;
-  std::set<std::pair<std::string, std::string>> open_;  ///< what nobody but a person can decide
+  std::set<std::pair<std::string, std::string>> open_;  ///< place, and what a person has to decide
   bool open_repeats_ = false;                           ///< one cause in several places
 };
 

@@ -8,7 +8,7 @@
 #include "deck/base/count.hpp"
 #include "deck/report/text_table.hpp"
 #include "verbs/gate/init.hpp"
-#include "verbs/lint_run.hpp"
+#include "verbs/lint/lint_run.hpp"
 
 namespace deck::cli::verb_gate {
 namespace {
@@ -153,7 +153,7 @@ int run(Options& o) {
   if (o.commits >= 0 || !o.init.forge.empty() || o.init.overwrite)
     return wrong_usage("gate", "--commits, --forge and --overwrite go with --init");
   if (const int wrong = open_directories(common); wrong != exit_clean) return wrong;
-  for (std::string& deck : common.decks)  // of the current directory, which nobody typed
+  for (std::string& deck : common.decks)  // without the default directory "." in front
     if (deck.starts_with("./")) deck.erase(0, 2);
   if (auto set = check_gates(o.lint); !set) {
     print_error(common, set.error().message);

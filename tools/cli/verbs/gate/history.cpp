@@ -12,7 +12,7 @@
 #include "deck/report/gaps.hpp"
 #include "deck/report/text_table.hpp"
 #include "verbs/git_deck.hpp"
-#include "verbs/lint_run.hpp"
+#include "verbs/lint/lint_run.hpp"
 #include "writing/library.hpp"
 
 namespace deck::cli {

@@ -15,7 +15,7 @@
 #include "deck/report/gaps.hpp"
 #include "deck/report/json.hpp"
 #include "verbs/gate/history.hpp"
-#include "verbs/lint_run.hpp"
+#include "verbs/lint/lint_run.hpp"
 #include "writing/library.hpp"
 
 namespace deck::cli {

@@ -1,5 +1,4 @@
-// The 3D view: parts, penetrating nodes as dots, arrows, the selected pair, clip plane and picking.
-// Frames are drawn on demand only.
+// The 3D view: parts, penetrating nodes as dots, arrows, the selected pair and picking; frames are drawn on demand only.
 // Over 600 lines: one class owns the objects of the graphics processor and frees them.
 import {
   BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, Frustum, HemisphereLight,

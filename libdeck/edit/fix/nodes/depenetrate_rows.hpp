@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contact/scene/scene_parts.hpp"
-#include "edit/fix/depenetrate_mesh.hpp"
+#include "edit/fix/nodes/depenetrate_mesh.hpp"
 
 namespace deck::detail {
 

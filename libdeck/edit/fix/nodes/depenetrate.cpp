@@ -8,13 +8,13 @@
 
 #include "deck/contact/crossings.hpp"
 #include "edit/fix/common.hpp"
-#include "edit/fix/depenetrate_bounds.hpp"
-#include "edit/fix/depenetrate_cells.hpp"
-#include "edit/fix/depenetrate_locks.hpp"
-#include "edit/fix/depenetrate_mesh.hpp"
-#include "edit/fix/depenetrate_rows.hpp"
 #include "edit/fix/harm.hpp"
 #include "edit/fix/movable.hpp"
+#include "edit/fix/nodes/depenetrate_bounds.hpp"
+#include "edit/fix/nodes/depenetrate_cells.hpp"
+#include "edit/fix/nodes/depenetrate_locks.hpp"
+#include "edit/fix/nodes/depenetrate_mesh.hpp"
+#include "edit/fix/nodes/depenetrate_rows.hpp"
 #include "edit/fix/type_rules.hpp"
 
 namespace deck {

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "edit/fix/depenetrate_rows.hpp"
+#include "edit/fix/nodes/depenetrate_rows.hpp"
 
 namespace deck::detail {
 

@@ -1,5 +1,5 @@
 // Projects moves of nodes on the directions out of their penetrations.
-#include "edit/fix/depenetrate_bounds.hpp"
+#include "edit/fix/nodes/depenetrate_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Depth and direction of one penetration where the nodes are now, and which nodes may give way.
-#include "edit/fix/depenetrate_rows.hpp"
+#include "edit/fix/nodes/depenetrate_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

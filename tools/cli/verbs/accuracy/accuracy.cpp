@@ -8,7 +8,7 @@
 #include "common.hpp"
 #include "deck/report/accuracy.hpp"
 #include "processor.hpp"
-#include "verbs/accuracy_cache.hpp"
+#include "verbs/accuracy/accuracy_cache.hpp"
 
 namespace deck::cli::verb_accuracy {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "deck/edit/depenetrate.hpp"
-#include "edit/fix/depenetrate_mesh.hpp"
+#include "edit/fix/nodes/depenetrate_mesh.hpp"
 
 namespace deck::detail {
 

@@ -2,7 +2,7 @@
 
 #include "common.hpp"
 #include "deck/base/escape.hpp"
-#include "verbs/lint_run.hpp"
+#include "verbs/lint/lint_run.hpp"
 #include "verbs/settings.hpp"
 
 namespace deck::cli::verb_lint {

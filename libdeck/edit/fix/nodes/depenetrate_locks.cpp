@@ -1,5 +1,5 @@
 // Reads boundary conditions, rigid bodies and options for the nodes that have to stay.
-#include "edit/fix/depenetrate_locks.hpp"
+#include "edit/fix/nodes/depenetrate_locks.hpp"
 
 #include <fmt/format.h>
 

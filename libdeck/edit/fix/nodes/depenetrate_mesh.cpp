@@ -1,5 +1,5 @@
 // Neighbours of nodes, crossings and inverted elements around moved ones.
-#include "edit/fix/depenetrate_mesh.hpp"
+#include "edit/fix/nodes/depenetrate_mesh.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,5 @@
 // Finds, reads and writes the kept measurement of the hard cases.
-#include "verbs/accuracy_cache.hpp"
+#include "verbs/accuracy/accuracy_cache.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // A run of lint over decks: loads and lints each, then fixes, writes and prints.
-#include "verbs/lint_run.hpp"
+#include "verbs/lint/lint_run.hpp"
 
 #include <fmt/format.h>
 
