@@ -1,4 +1,4 @@
-// Reads a page of schemas/rules: front matter, sections of text, examples in fences.
+// Reads a page of schemas/rules: front matter, then a paragraph or an example for each heading.
 #include "text/rule_page.hpp"
 
 #include <algorithm>
@@ -106,9 +106,13 @@ class PageReader {
   void skip_blank() {
     while (!done() && peek().empty()) next();
   }
+  /// The name in "**name.** text" at the start of the next paragraph; empty: none stands there.
   std::string_view next_heading() {
     skip_blank();
-    return peek().starts_with("## ") ? peek().substr(3) : std::string_view();
+    const std::string_view line = peek();
+    const auto end = line.find(".**");
+    return line.starts_with("**") && end != std::string_view::npos ? line.substr(2, end - 2)
+                                                                   : std::string_view();
   }
 
   void read_front_matter() {
@@ -190,33 +194,41 @@ class PageReader {
 
   void read_section(const Section& section) {
     const bool expected = next_heading() == section.heading;
-    next();
+    const std::string_view first = next();
     if (!expected) {
-      fail("expected the section '## " + std::string(section.heading) + "'");
+      fail("expected the section '**" + std::string(section.heading) + ".**'");
       return;
     }
-    skip_blank();
+    const std::string_view rest =
+        trimmed(first.substr(std::min(first.size(), section.heading.size() + 5)));
     std::string& text = rule_.*section.text;
     if (section.example) {
-      read_example(text);
+      read_example(text, rest);
     } else {
-      for (; !done() && !peek().starts_with("## "); next())
-        if (!peek().empty()) text += (text.empty() ? "" : " ") + std::string(peek());
+      for (text = rest; !done() && next_heading().empty(); next())
+        text += (text.empty() ? "" : " ") + std::string(peek());
     }
-    if (text.empty()) fail("the section '## " + std::string(section.heading) + "' is empty");
+    if (text.empty()) fail("the section '**" + std::string(section.heading) + ".**' is empty");
   }
 
-  void read_example(std::string& text) {
-    const std::string_view fence = next();
+  /// An example: one line between back quotes, or lines between fences.
+  void read_example(std::string& text, std::string_view line) {
+    if (line.size() > 2 && line.front() == '`' && line.back() == '`') {
+      text = std::string(line.substr(1, line.size() - 2)) + "\n";
+      return;
+    }
+    const std::string_view fence = line.empty() ? next() : line;
     if (fence != "```" && fence != "```escaped") {
-      fail("an example stands between lines ``` (or ```escaped and ```)");
+      fail(
+          "an example is one line between back quotes, or stands between lines ``` "
+          "(or ```escaped and ```)");
       return;
     }
     while (!done() && peek() != "```") {
-      std::string line = std::string(next()) + "\n";
-      if (fence != "```" && !unescape(line))
+      std::string row = std::string(next()) + "\n";
+      if (fence != "```" && !unescape(row))
         fail("\\r, \\t, \\xHH, \\\\ and \\ at the end of a line");
-      text += line;
+      text += row;
     }
     if (done()) fail("an example does not end: ``` is missing");
     next();

@@ -25,7 +25,7 @@ def page(path):
     head, body = open(path, encoding="utf-8").read().split("\n---\n", 1)
     keys = dict(line.split(": ", 1) for line in head.split("\n")[1:])
     sections = {m.group(1): " ".join(m.group(2).split())
-                for m in re.finditer(r"^## (.*?)\n\n(.*?)(?=\n\n## |\s*\Z)", body, re.S | re.M)}
+                for m in re.finditer(r"^\*\*(.*?)\.\*\*\s(.*?)(?=\n\n\*\*|\s*\Z)", body, re.S | re.M)}
     return keys, sections
 
 

@@ -51,7 +51,7 @@ TEST(RulePage, ThatBreaksTheFormIsRefusedWithItsLine) {
       {"types: 7", "types: seven", 8},
       {"types: 7, ", "known_from: hearsay\ntypes: 7, ", 8},
       {"types: 7, ", "known_from: run of a tube; hearsay\ntypes: 7, ", 8},
-      {"## Why it matters", "## Why", 15},
+      {"**Why it matters.**", "**Why.**", 12},
   };
   ASSERT_TRUE(detail::parse_rule_page("DK301.md", page()));
   for (const auto& [from, to, line] : breaks) {
@@ -67,17 +67,18 @@ TEST(RulePage, WithoutASectionAnExampleOrAnEndIsRefused) {
     return !detail::parse_rule_page("DK301.md", text);
   };
   EXPECT_TRUE(refused(""));
-  EXPECT_TRUE(refused(page().substr(0, page().find("## How to fix"))));
+  EXPECT_TRUE(refused(page().substr(0, page().find("**How to fix"))));
   EXPECT_TRUE(refused(replaced(page(), "title: \"initial penetrations\"\n", "")));
-  EXPECT_TRUE(refused(page() + "\n## More\n"));
-  const auto good = page().find("## Stays silent on"), ignore = page().find("## When to ignore");
+  EXPECT_TRUE(refused(page() + "\n**More.** Text.\n"));
+  const auto good = page().find("**Stays silent on"), ignore = page().find("**When to ignore");
   EXPECT_TRUE(refused(page().substr(0, good) + page().substr(ignore))) << "one example only";
-  EXPECT_TRUE(refused(page().substr(0, page().rfind("```")))) << "a fence that stays open";
+  EXPECT_TRUE(refused(replaced(page(), "**Fires on.** ", "**Fires on.**\n```\n")))
+      << "a fence that stays open";
 }
 
 TEST(RulePage, MayLeaveOutWhenToIgnore) {
   const auto rule =
-      detail::parse_rule_page("DK301.md", page().substr(0, page().find("## When to ignore")));
+      detail::parse_rule_page("DK301.md", page().substr(0, page().find("**When to ignore")));
   ASSERT_TRUE(rule) << rule.error().message;
   EXPECT_EQ(rule->ignore, "");
 }
@@ -100,16 +101,16 @@ TEST(RulePage, IsNamedByItsNumber) {
 TEST(RulePage, LinesOfASectionAreOneTextWithABlankBetweenThem) {
   const auto rule = detail::parse_rule_page(
       "DK301.md",
-      replaced(page(), "## Why it matters\n\n", "## Why it matters\n\none\ntwo\n\nthree "));
+      replaced(page(), "**Why it matters.** ", "**Why it matters.** one\ntwo\n\nthree "));
   ASSERT_TRUE(rule) << rule.error().message;
   EXPECT_TRUE(rule->why.starts_with("one two three ")) << rule->why;
 }
 
 TEST(RulePage, BytesThatAPageCannotShowAreEscaped) {
-  const auto at = page().find("## Fires on"), end = page().find("## Stays silent on");
+  const auto at = page().find("**Fires on"), end = page().find("**Stays silent on");
   const auto with = [&](const std::string& line) {
     return detail::parse_rule_page("DK301.md", page().substr(0, at) +
-                                                   "## Fires on\n\n```escaped\n" + line +
+                                                   "**Fires on.**\n```escaped\n" + line +
                                                    "\n```\n\n" + page().substr(end));
   };
   EXPECT_EQ(with(R"(a\rb\tc\x01\\d\)")->bad, "a\rb\tc\x01\\d");
