@@ -1,12 +1,12 @@
 // Which accuracy costs what, and the advice that follows.
-#include "deck/accuracy/choice.hpp"
+#include "accuracy/shared/choice.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "deck/base/count.hpp"
+#include "base/shared/count.hpp"
 
 namespace deck {
 namespace {

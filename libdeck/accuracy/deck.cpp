@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "deck/accuracy/accuracy.hpp"
+#include "accuracy/shared/accuracy.hpp"
 
 namespace deck {
 namespace {

@@ -1,7 +1,7 @@
 // Times the pair loop of each contact with and without each effect. A loop is compared with itself
 // chosen in another way (flags instead of a composition) before it is timed, and with its first
 // answer afterwards.
-#include "deck/accuracy/effect_cost.hpp"
+#include "accuracy/shared/effect_cost.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "deck/accuracy/accuracy.hpp"
+#include "accuracy/shared/accuracy.hpp"
 
 namespace deck {
 namespace {

@@ -1,6 +1,6 @@
 // Writes and reads a measurement: one line a record, floating-point numbers as their bits, the last
 // line a hash of all before it.
-#include "deck/accuracy/store.hpp"
+#include "accuracy/shared/store.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <bit>
 #include <charconv>
 
-#include "deck/base/hash.hpp"
+#include "base/shared/hash.hpp"
 
 namespace deck {
 namespace {

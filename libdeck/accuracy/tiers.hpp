@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "deck/accuracy/accuracy.hpp"
-#include "deck/contact/filtered.hpp"
+#include "accuracy/shared/accuracy.hpp"
+#include "contact/shared/filtered.hpp"
 
 namespace deck::accuracy {
 

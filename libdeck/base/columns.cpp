@@ -1,10 +1,10 @@
 // Measures, folds and cuts text for a terminal.
-#include "deck/base/columns.hpp"
+#include "base/shared/columns.hpp"
 
 #include <algorithm>
 #include <iterator>
 
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 
 namespace deck {
 namespace {

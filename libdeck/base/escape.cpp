@@ -1,5 +1,5 @@
 // Escaping for every medium that text leaves through.
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 
 #include <fmt/format.h>
 

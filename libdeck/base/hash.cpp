@@ -1,5 +1,5 @@
 // XXH64 in plain C++.
-#include "deck/base/hash.hpp"
+#include "base/shared/hash.hpp"
 
 #include <bit>
 #include <cstring>

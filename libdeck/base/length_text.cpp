@@ -1,5 +1,5 @@
 // Lengths as text.
-#include "deck/base/length_text.hpp"
+#include "base/shared/length_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // Normal forms of paths, taken from their text in one pass.
-#include "deck/base/paths.hpp"
+#include "base/shared/paths.hpp"
 
 #include <filesystem>
 

@@ -1,5 +1,5 @@
 // Words in capitals; distance of two words, one row of the table at a time.
-#include "deck/base/spelling.hpp"
+#include "base/shared/spelling.hpp"
 
 #include <algorithm>
 #include <vector>

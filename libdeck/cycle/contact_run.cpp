@@ -7,7 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "cycle/adapter/parts.hpp"
-#include "deck/cycle/sharing.hpp"
+#include "cycle/shared/sharing.hpp"
 
 namespace deck::cycle::detail {
 namespace {

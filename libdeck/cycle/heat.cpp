@@ -1,5 +1,5 @@
 // Heat between the two sides of a pair: conduction, radiation and friction heat.
-#include "deck/cycle/heat.hpp"
+#include "cycle/shared/heat.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // Recorded states held against the kernel: result columns computed again, group by group.
-#include "deck/cycle/replay.hpp"
+#include "cycle/shared/replay.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "cycle/replay/results.hpp"
-#include "deck/text/gzip.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck::cycle {
 namespace {

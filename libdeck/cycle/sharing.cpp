@@ -1,6 +1,6 @@
 // Finds the pairs of neighbouring segments that meet the other side in one point, so that it pushes
 // once.
-#include "deck/cycle/sharing.hpp"
+#include "cycle/shared/sharing.hpp"
 
 #include <algorithm>
 #include <array>

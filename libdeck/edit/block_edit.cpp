@@ -6,13 +6,13 @@
 #include <functional>
 #include <optional>
 
-#include "deck/base/spelling.hpp"
+#include "base/shared/spelling.hpp"
 #include "deck/edit/rewrite.hpp"
-#include "deck/keyword/place.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/version_cards.hpp"
 #include "keyword/decode/parts.hpp"
 #include "keyword/line_check.hpp"
+#include "keyword/shared/place.hpp"
 #include "text/columns.hpp"
 
 namespace deck::detail {

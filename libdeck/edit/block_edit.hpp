@@ -7,7 +7,7 @@
 
 #include "deck/edit/edit.hpp"
 #include "deck/keyword/decode.hpp"
-#include "deck/text/edits.hpp"
+#include "text/shared/edits.hpp"
 
 namespace deck::detail {
 

@@ -12,16 +12,16 @@
 #include <set>
 #include <utility>
 
-#include "deck/base/paths.hpp"
-#include "deck/edit/edit_set.hpp"
-#include "deck/edit/include_scan.hpp"
+#include "base/shared/paths.hpp"
 #include "deck/edit/rewrite.hpp"
-#include "deck/edit/write.hpp"
 #include "deck/front/loaded_deck.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
 #include "edit/block_edit.hpp"
 #include "edit/fix/nodes/depenetrate_cells.hpp"
+#include "edit/shared/edit_set.hpp"
+#include "edit/shared/include_scan.hpp"
+#include "edit/shared/write.hpp"
 #include "text/columns.hpp"
 
 namespace deck {

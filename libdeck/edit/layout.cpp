@@ -1,9 +1,9 @@
 // Lays cards out by their schema.
-#include "deck/edit/layout.hpp"
+#include "edit/shared/layout.hpp"
 
 #include <algorithm>
 
-#include "deck/keyword/place.hpp"
+#include "keyword/shared/place.hpp"
 #include "text/columns.hpp"
 
 namespace deck {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "deck/text/edits.hpp"
 #include "keyword/reader.hpp"
+#include "text/shared/edits.hpp"
 
 namespace deck {
 

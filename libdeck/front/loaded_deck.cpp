@@ -7,10 +7,10 @@
 #include "contact/scene/scene_parts.hpp"
 #include "contact/tied/parts.hpp"
 #include "cycle/contact_run.hpp"
-#include "deck/model/kinematics.hpp"
-#include "deck/model/mesh.hpp"
 #include "deck/text/rule_id.hpp"
 #include "front/findings.hpp"
+#include "model/shared/kinematics.hpp"
+#include "model/shared/mesh.hpp"
 
 namespace deck {
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <set>
 
-#include "deck/keyword/references.hpp"
-#include "deck/model/connectivity.hpp"
 #include "deck/verdict.hpp"
+#include "keyword/shared/references.hpp"
+#include "model/shared/connectivity.hpp"
 
 namespace deck {
 

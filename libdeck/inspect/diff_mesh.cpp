@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "deck/model/connectivity.hpp"
 #include "deck/text/number.hpp"
+#include "model/shared/connectivity.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {

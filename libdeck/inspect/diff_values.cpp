@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "deck/keyword/references.hpp"
 #include "deck/text/number.hpp"
+#include "keyword/shared/references.hpp"
 #include "model/constant_stiffness.hpp"
 
 namespace deck::detail {

@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "deck/inspect/diff.hpp"
 #include "deck/keyword/decode.hpp"
 #include "inspect/cell_key.hpp"
 #include "inspect/element_cells.hpp"
 #include "inspect/equal_numbers.hpp"
 #include "inspect/function_uses.hpp"
 #include "inspect/match.hpp"
+#include "inspect/shared/diff.hpp"
 #include "keyword/decode/implied_one.hpp"
 
 namespace deck::detail {

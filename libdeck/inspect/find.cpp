@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <set>
 
-#include "deck/base/spelling.hpp"
-#include "deck/inspect/show.hpp"
+#include "base/shared/spelling.hpp"
 #include "deck/text/number.hpp"
 #include "inspect/families.hpp"
+#include "inspect/shared/show.hpp"
 #include "text/columns.hpp"
 
 namespace deck {

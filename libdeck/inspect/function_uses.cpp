@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/keyword/references.hpp"
 #include "keyword/decode/implied_one.hpp"
+#include "keyword/shared/references.hpp"
 
 namespace deck::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "deck/keyword/decode.hpp"
-#include "deck/keyword/references.hpp"
+#include "keyword/shared/references.hpp"
 #include "text/columns.hpp"
 
 namespace deck::detail {

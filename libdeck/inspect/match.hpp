@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "deck/inspect/diff.hpp"
 #include "inspect/families.hpp"
+#include "inspect/shared/diff.hpp"
 
 namespace deck::detail {
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "deck/inspect/listing.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/source.hpp"
+#include "inspect/shared/listing.hpp"
 
 namespace deck {
 namespace listing_reading {

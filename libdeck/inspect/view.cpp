@@ -5,12 +5,12 @@
 #include <set>
 #include <tuple>
 
-#include "deck/inspect/show.hpp"
-#include "deck/model/connectivity.hpp"
-#include "deck/model/kinematics.hpp"
 #include "deck/model/selection.hpp"
 #include "inspect/families.hpp"
+#include "inspect/shared/show.hpp"
+#include "model/shared/connectivity.hpp"
 #include "model/shared/families.hpp"
+#include "model/shared/kinematics.hpp"
 
 namespace deck {
 namespace {

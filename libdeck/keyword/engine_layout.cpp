@@ -1,5 +1,5 @@
 // The table of the Engine keywords whose lines are known.
-#include "deck/keyword/engine_layout.hpp"
+#include "keyword/shared/engine_layout.hpp"
 
 #include <string_view>
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "deck/base/paths.hpp"
-#include "deck/text/similar_file.hpp"
+#include "base/shared/paths.hpp"
 #include "keyword/reader.hpp"
+#include "text/shared/similar_file.hpp"
 
 namespace deck::detail {
 namespace fs = std::filesystem;

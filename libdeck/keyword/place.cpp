@@ -1,5 +1,5 @@
 // From a place in a file to the block, the line of its card and the cell.
-#include "deck/keyword/place.hpp"
+#include "keyword/shared/place.hpp"
 
 #include <algorithm>
 

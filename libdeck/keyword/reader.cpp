@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <set>
 
-#include "deck/text/gzip.hpp"
 #include "deck/text/number.hpp"
 #include "keyword/header_line.hpp"
 #include "keyword/include_file.hpp"
 #include "text/number_scan.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck {
 namespace {

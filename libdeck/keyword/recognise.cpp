@@ -1,10 +1,10 @@
 // What the main file is if it is no Starter deck.
-#include "deck/keyword/recognise.hpp"
+#include "keyword/shared/recognise.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 #include "keyword/reader.hpp"
 #include "text/number_scan.hpp"
 

@@ -1,5 +1,5 @@
 // Reads the ids that blocks name: cells of type id, clauses of sets, ranges, header numbers.
-#include "deck/keyword/references.hpp"
+#include "keyword/shared/references.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // Lays out a card from its schema.
-#include "deck/keyword/render.hpp"
+#include "keyword/shared/render.hpp"
 
 #include <algorithm>
 #include <charconv>

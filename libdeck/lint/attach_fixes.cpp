@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "deck/lint/fix.hpp"
 #include "keyword/reader.hpp"
+#include "lint/shared/fix.hpp"
 
 namespace deck::detail {
 namespace {

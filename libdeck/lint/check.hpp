@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/lint/fix.hpp"
 #include "deck/lint/lint.hpp"
 #include "lint/context.hpp"
+#include "lint/shared/fix.hpp"
 
 namespace deck::detail {
 

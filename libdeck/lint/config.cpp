@@ -1,5 +1,5 @@
 // The configuration is the one place of the library that reads TOML; the parser is header-only.
-#include "deck/lint/config.hpp"
+#include "lint/shared/config.hpp"
 
 namespace deck {
 namespace {
@@ -35,7 +35,7 @@ struct ParserLost {};
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "deck/base/spelling.hpp"
+#include "base/shared/spelling.hpp"
 
 namespace deck {
 namespace fs = std::filesystem;

@@ -2,7 +2,7 @@
 // `deck lint --show-config` and the test of the documentation go by.
 #include <algorithm>
 
-#include "deck/lint/config.hpp"
+#include "lint/shared/config.hpp"
 
 namespace deck {
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <type_traits>
 
-#include "deck/base/length_text.hpp"
+#include "base/shared/length_text.hpp"
 #include "lint/targets.hpp"
 
 namespace deck {

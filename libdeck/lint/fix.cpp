@@ -1,5 +1,5 @@
 // Picks the repairs that may be applied together and applies them.
-#include "deck/lint/fix.hpp"
+#include "lint/shared/fix.hpp"
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,7 @@
 // that no pattern takes more than its length times that of the path.
 #include <vector>
 
-#include "deck/lint/config.hpp"
+#include "lint/shared/config.hpp"
 
 namespace deck {
 namespace {

@@ -8,13 +8,13 @@
 #include <set>
 #include <tuple>
 
-#include "deck/base/count.hpp"
-#include "deck/base/paths.hpp"
-#include "deck/lint/config.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/paths.hpp"
 #include "deck/model/coverage.hpp"
 #include "lint/attach_fixes.hpp"
 #include "lint/check_tables.hpp"
 #include "lint/context.hpp"
+#include "lint/shared/config.hpp"
 #include "lint/suppress.hpp"
 
 namespace deck {

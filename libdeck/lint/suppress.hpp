@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/keyword/place.hpp"
 #include "deck/lint/lint.hpp"
+#include "keyword/shared/place.hpp"
 
 namespace deck::detail {
 

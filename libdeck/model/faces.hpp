@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "deck/model/connectivity.hpp"
 #include "deck/model/model.hpp"
+#include "model/shared/connectivity.hpp"
 
 namespace deck::detail {
 

@@ -1,14 +1,14 @@
 // `deck accuracy`: the measured tiers as text and JSON.
-#include "deck/report/accuracy.hpp"
+#include "report/shared/accuracy.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "deck/base/count.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/report/json.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck {
 namespace {

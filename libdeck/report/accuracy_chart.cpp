@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 
 namespace deck {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "deck/report/accuracy.hpp"
+#include "report/shared/accuracy.hpp"
 
 namespace deck {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "deck/report/text_table.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "deck/contact/scene.hpp"
-#include "deck/report/json.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck {
 

@@ -7,12 +7,12 @@
 #include <set>
 #include <tuple>
 
-#include "deck/keyword/references.hpp"
-#include "deck/lint/geometry.hpp"
 #include "deck/lint/lint.hpp"
-#include "deck/lint/messages.hpp"
-#include "deck/model/mesh.hpp"
-#include "deck/report/listing.hpp"
+#include "keyword/shared/references.hpp"
+#include "lint/shared/geometry.hpp"
+#include "lint/shared/messages.hpp"
+#include "model/shared/mesh.hpp"
+#include "report/shared/listing.hpp"
 
 namespace deck {
 namespace listing_comparison {

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <set>
 
-#include "deck/base/count.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/report/accuracy.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
 #include "report/gaps_names.hpp"
+#include "report/shared/accuracy.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck {
 namespace {

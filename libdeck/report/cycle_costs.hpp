@@ -3,8 +3,8 @@
 #pragma once
 #include <string>
 
-#include "deck/report/cycle.hpp"
-#include "deck/report/json.hpp"
+#include "report/shared/cycle.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "deck/report/cycle.hpp"
+#include "report/shared/cycle.hpp"
 
 namespace deck {
 namespace {

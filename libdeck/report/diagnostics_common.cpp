@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "deck/base/paths.hpp"
-#include "deck/lint/gate.hpp"
+#include "base/shared/paths.hpp"
+#include "lint/shared/gate.hpp"
 #include "text/rule_page.hpp"
 
 namespace deck {

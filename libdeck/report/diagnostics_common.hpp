@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "deck/model/coverage.hpp"
-#include "deck/report/diagnostics.hpp"
+#include "report/shared/diagnostics.hpp"
 
 namespace deck::detail {
 

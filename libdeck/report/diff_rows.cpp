@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "base/length3.hpp"
-#include "deck/base/count.hpp"
-#include "deck/base/length_text.hpp"
-#include "deck/report/json.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/length_text.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck {
 namespace {

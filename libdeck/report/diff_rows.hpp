@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/report/diff.hpp"
+#include "report/shared/diff.hpp"
 
 namespace deck {
 

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "deck/report/gaps.hpp"
-#include "deck/report/text_table.hpp"
 #include "report/gaps_names.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck {
 

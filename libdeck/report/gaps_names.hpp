@@ -5,7 +5,7 @@
 
 #include "deck/contact/crossings.hpp"
 #include "deck/contact/view.hpp"
-#include "deck/report/json.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck {
 

@@ -1,7 +1,7 @@
 // The loss report as a JSON array.
-#include "deck/report/losses.hpp"
+#include "report/shared/losses.hpp"
 
-#include "deck/report/json.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck {
 

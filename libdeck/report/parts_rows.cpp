@@ -6,8 +6,8 @@
 #include <bit>
 
 #include "deck/keyword/decode.hpp"
-#include "deck/model/connectivity.hpp"
 #include "deck/model/selection.hpp"
+#include "model/shared/connectivity.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {

@@ -1,5 +1,5 @@
 // Draws the side view of a pair, and finds the pair by the ids of its nodes.
-#include "deck/report/side_view.hpp"
+#include "report/shared/side_view.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,8 +9,8 @@
 #include <set>
 #include <span>
 
+#include "base/shared/escape.hpp"
 #include "contact/scene/scene_parts.hpp"
-#include "deck/base/escape.hpp"
 #include "deck/text/number.hpp"
 
 namespace deck {

@@ -3,12 +3,12 @@
 
 #include <iterator>
 
+#include "base/shared/escape.hpp"
 #include "contact/scene/element_names.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/contact/tie_text.hpp"
-#include "deck/model/connectivity.hpp"
+#include "deck/contact/ties.hpp"
 #include "deck/report/gaps.hpp"
 #include "model/bulk/item_spans.hpp"
+#include "model/shared/connectivity.hpp"
 
 namespace deck {
 namespace {

@@ -1,8 +1,8 @@
 // The verdict as a member of JSON documents and as a line of text.
-#include "deck/base/escape.hpp"
-#include "deck/report/cycle.hpp"
-#include "deck/report/text_table.hpp"
-#include "deck/report/verdict.hpp"
+#include "base/shared/escape.hpp"
+#include "report/shared/cycle.hpp"
+#include "report/shared/text_table.hpp"
+#include "report/shared/verdict.hpp"
 
 namespace deck {
 namespace {

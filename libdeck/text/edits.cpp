@@ -1,10 +1,10 @@
 // Applies edits to bytes and prints unified diffs.
-#include "deck/text/edits.hpp"
+#include "text/shared/edits.hpp"
 
 #include <algorithm>
 #include <cstdint>
 
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 #include "text/columns.hpp"
 
 namespace deck {

@@ -1,5 +1,5 @@
 // Reads and writes gzip by zlib, piece by piece, so that no file can cost more than its limit.
-#include "deck/text/gzip.hpp"
+#include "text/shared/gzip.hpp"
 
 #include <zlib.h>
 

@@ -1,11 +1,11 @@
 // Reads folders for names that differ from a wanted one in a few letters, or in their case.
-#include "deck/text/similar_file.hpp"
+#include "text/shared/similar_file.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <vector>
 
-#include "deck/base/spelling.hpp"
+#include "base/shared/spelling.hpp"
 
 namespace deck {
 namespace {

@@ -14,7 +14,7 @@
 #include <numeric>
 #include <system_error>
 
-#include "deck/text/gzip.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck {
 namespace {

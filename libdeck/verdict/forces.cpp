@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "deck/base/count.hpp"
+#include "base/shared/count.hpp"
 #include "verdict/parts.hpp"
 
 namespace deck {

@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "deck/base/count.hpp"
-#include "deck/contact/tie_text.hpp"
+#include "base/shared/count.hpp"
+#include "deck/contact/ties.hpp"
 #include "deck/text/rule.hpp"
 #include "verdict/parts.hpp"
 

@@ -1,5 +1,5 @@
 // Text measured, folded and cut for a terminal.
-#include "deck/base/columns.hpp"
+#include "base/shared/columns.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What a title or a file name may hold, and what of it reaches a terminal, a log and a parser.
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 
 #include <gtest/gtest.h>
 

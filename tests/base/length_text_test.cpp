@@ -1,5 +1,5 @@
 // A length as text.
-#include "deck/base/length_text.hpp"
+#include "base/shared/length_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Paths taken from their text are those of std::filesystem.
-#include "deck/base/paths.hpp"
+#include "base/shared/paths.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Distance of words against its definition.
-#include "deck/base/spelling.hpp"
+#include "base/shared/spelling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Decks of a few elements as text, and what the geometry stage makes of them. Interface cards are
-// written as "@/INTER/TYPE7/1 Gapmin=1" (notation of deck/lint/example.hpp).
+// written as "@/INTER/TYPE7/1 Gapmin=1" (notation of lint/shared/example.hpp).
 #pragma once
 #include <fmt/printf.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 #include "deck/contact/view.hpp"
 #include "deck/front/loaded_deck.hpp"
-#include "deck/lint/example.hpp"
+#include "lint/shared/example.hpp"
 
 namespace deck::test {
 

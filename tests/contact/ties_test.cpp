@@ -8,7 +8,7 @@
 #include "contact/small_deck.hpp"
 #include "contact/tied/parts.hpp"
 #include "contact/tied_sheet.hpp"
-#include "deck/contact/tie_text.hpp"
+#include "deck/contact/ties.hpp"
 
 namespace deck::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/small_deck.hpp"
-#include "deck/report/cycle.hpp"
+#include "report/shared/cycle.hpp"
 #include "report/vtk_reading.hpp"
 
 namespace deck::cycle {

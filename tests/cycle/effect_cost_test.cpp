@@ -1,6 +1,6 @@
 // What effects cost on a deck: which loops are held against each other, over which pairs, and what
 // must hold before a time is told.
-#include "deck/accuracy/effect_cost.hpp"
+#include "accuracy/shared/effect_cost.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "cycle/plates.hpp"
-#include "deck/report/cycle.hpp"
+#include "report/shared/cycle.hpp"
 
 namespace deck {
 namespace {

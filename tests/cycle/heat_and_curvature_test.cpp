@@ -1,5 +1,5 @@
 // Worked numeric vectors of heat exchange, curved main sides and adaptivity criteria.
-#include "deck/cycle/heat.hpp"
+#include "cycle/shared/heat.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Bookings of kinematic conditions: which conflict, how many the solver counts, and what walls
 // lose.
-#include "deck/model/kinematics.hpp"
+#include "model/shared/kinematics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 
 #include "contact/small_deck.hpp"
 #include "cycle/adapter/parts.hpp"
+#include "cycle/shared/heat.hpp"
+#include "cycle/shared/replay.hpp"
 #include "cycle/support.hpp"
-#include "deck/cycle/heat.hpp"
-#include "deck/cycle/replay.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 
 namespace deck::cycle {

@@ -2,7 +2,7 @@
 // good one and without being asked for, and names what pushes.
 #include <gtest/gtest.h>
 
-#include "deck/lint/geometry.hpp"
+#include "lint/shared/geometry.hpp"
 #include "lint/support.hpp"
 
 namespace deck::test {

@@ -1,5 +1,5 @@
 // Time steps, masses and stiffness of elements, nodes and parts, on decks of a few elements.
-#include "deck/model/mesh.hpp"
+#include "model/shared/mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // of the interface card in the deck beside each set of records.
 #include <gtest/gtest.h>
 
+#include "cycle/shared/replay.hpp"
 #include "cycle/support.hpp"
-#include "deck/cycle/replay.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "cycle/shared/replay.hpp"
 #include "cycle/support.hpp"
-#include "deck/cycle/replay.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "cycle/plates.hpp"
-#include "deck/report/cycle.hpp"
 #include "deck/text/rule_id.hpp"
+#include "report/shared/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -1,5 +1,5 @@
 // Nodes over shared edges and corners are pushed once, by the right segment, without jumps.
-#include "deck/cycle/sharing.hpp"
+#include "cycle/shared/sharing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "contact/small_deck.hpp"
+#include "cycle/shared/heat.hpp"
 #include "cycle/support.hpp"
-#include "deck/cycle/heat.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 
 namespace deck::cycle {

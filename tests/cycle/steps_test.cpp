@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "contact/small_deck.hpp"
-#include "deck/report/cycle.hpp"
+#include "report/shared/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -1,9 +1,8 @@
 // A deck and what a conversion makes of it mean the same, and what differs is told.
-#include "deck/edit/unit_system.hpp"
-#include "deck/edit/version.hpp"
-#include "deck/inspect/diff.hpp"
-#include "deck/report/diff.hpp"
+#include "deck/edit/convert.hpp"
 #include "edit/units_support.hpp"
+#include "inspect/shared/diff.hpp"
+#include "report/shared/diff.hpp"
 
 namespace deck::edit_test {
 namespace {

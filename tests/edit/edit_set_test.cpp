@@ -1,13 +1,13 @@
 // The decks of a call as one set of files: what is one file, what is a conflict, what is written.
-#include "deck/edit/edit_set.hpp"
+#include "edit/shared/edit_set.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <map>
 
-#include "deck/text/gzip.hpp"
 #include "lint/support.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck::test {
 namespace {

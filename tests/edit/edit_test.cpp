@@ -8,8 +8,8 @@
 
 #include "deck/deck.hpp"
 #include "deck/keyword/engine_file.hpp"
-#include "deck/text/gzip.hpp"
 #include "keyword/reading.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "../contact/small_deck.hpp"
-#include "deck/edit/extract.hpp"
+#include "deck/edit/convert.hpp"
 #include "edit/extract_support.hpp"
 
 namespace deck {

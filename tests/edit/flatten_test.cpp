@@ -4,7 +4,7 @@
 #include <random>
 
 #include "../contact/small_deck.hpp"
-#include "deck/edit/flatten.hpp"
+#include "deck/edit/convert.hpp"
 #include "edit/extract_support.hpp"
 
 namespace deck {

@@ -9,9 +9,9 @@
 #include <sstream>
 #include <tuple>
 
-#include "deck/edit/from_json.hpp"
-#include "deck/report/deck_json.hpp"
+#include "edit/shared/from_json.hpp"
 #include "edit/version_support.hpp"
+#include "report/shared/deck_json.hpp"
 #include "where.hpp"
 
 namespace deck::test {

@@ -1,7 +1,7 @@
 // Cards laid out by their schema.
 #include <gtest/gtest.h>
 
-#include "deck/edit/layout.hpp"
+#include "edit/shared/layout.hpp"
 #include "keyword/reading.hpp"
 
 namespace deck {

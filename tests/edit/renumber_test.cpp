@@ -5,7 +5,7 @@
 #include <random>
 
 #include "../contact/small_deck.hpp"
-#include "deck/edit/renumber.hpp"
+#include "deck/edit/convert.hpp"
 #include "deck/model/selection.hpp"
 #include "edit/extract_support.hpp"
 

@@ -1,5 +1,5 @@
 // Effective values on the cards: nothing changes but where they come from.
-#include "deck/edit/resolve.hpp"
+#include "edit/shared/resolve.hpp"
 
 #include <gmock/gmock.h>
 

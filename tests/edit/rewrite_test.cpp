@@ -8,10 +8,10 @@
 #include <random>
 
 #include "deck/keyword/decode.hpp"
-#include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
 #include "keyword/reading.hpp"
+#include "text/shared/edits.hpp"
 #include "where.hpp"
 
 namespace deck {

@@ -1,5 +1,5 @@
 // TYPE19 taken apart: the geometry stage finds the same contacts in the new interfaces.
-#include "deck/edit/type19.hpp"
+#include "deck/edit/convert.hpp"
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,7 @@
 // count in units of another cell, and dimensions that depend on a word.
 #include <gtest/gtest.h>
 
-#include "deck/edit/unit_system.hpp"
+#include "deck/edit/convert.hpp"
 #include "edit/units_support.hpp"
 
 namespace deck {

@@ -4,10 +4,7 @@
 #include <random>
 
 #include "../contact/small_deck.hpp"
-#include "deck/edit/extract.hpp"
-#include "deck/edit/flatten.hpp"
-#include "deck/edit/renumber.hpp"
-#include "deck/edit/unit_system.hpp"
+#include "deck/edit/convert.hpp"
 #include "edit/units_support.hpp"
 
 namespace deck {

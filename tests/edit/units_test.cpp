@@ -7,7 +7,7 @@
 #include <set>
 
 #include "../contact/small_deck.hpp"
-#include "deck/edit/unit_system.hpp"
+#include "deck/edit/convert.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/units/unit_system_decimal.hpp"
 #include "edit/units_support.hpp"

@@ -1,15 +1,12 @@
 // Verification: conversions that keep the model pass, changes of one value are named.
-#include "deck/edit/verify.hpp"
+#include "edit/shared/verify.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "deck/edit/changed_values.hpp"
-#include "deck/edit/extract.hpp"
-#include "deck/edit/renumber.hpp"
-#include "deck/edit/type19.hpp"
-#include "deck/edit/unit_system.hpp"
+#include "deck/edit/convert.hpp"
+#include "edit/shared/changed_values.hpp"
 #include "edit/units_support.hpp"
 #include "lint/support.hpp"
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "deck/edit/version.hpp"
+#include "deck/edit/convert.hpp"
 #include "deck/keyword/decode.hpp"
 #include "edit/version_support.hpp"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "deck/edit/rewrite.hpp"
-#include "deck/lint/example.hpp"
+#include "lint/shared/example.hpp"
 #include "where.hpp"
 
 namespace deck::test {

@@ -1,5 +1,5 @@
 // Conversion between input versions: cells keep their values, nothing is lost without a word.
-#include "deck/edit/version.hpp"
+#include "deck/edit/convert.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // Atomic writing: what is in place before, after and when something goes wrong.
-#include "deck/edit/write.hpp"
+#include "edit/shared/write.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

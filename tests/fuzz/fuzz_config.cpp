@@ -2,7 +2,7 @@
 // plain table of "this much of the pattern fits this much of the path" says.
 #include <vector>
 
-#include "deck/lint/config.hpp"
+#include "lint/shared/config.hpp"
 #include "support.hpp"
 
 namespace {

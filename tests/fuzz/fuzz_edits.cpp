@@ -1,13 +1,9 @@
 // Conversions: each is made and read again. An edit to what is there already changes no byte; there
 // and back gives the effective values of the beginning; default values written out stay the same to
 // the last bit.
-#include "deck/edit/extract.hpp"
+#include "deck/edit/convert.hpp"
 #include "deck/edit/fix.hpp"
-#include "deck/edit/renumber.hpp"
-#include "deck/edit/resolve.hpp"
-#include "deck/edit/type19.hpp"
-#include "deck/edit/unit_system.hpp"
-#include "deck/edit/version.hpp"
+#include "edit/shared/resolve.hpp"
 #include "support.hpp"
 
 namespace {

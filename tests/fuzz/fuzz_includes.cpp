@@ -2,9 +2,9 @@
 // Reading is repeatable; a deck becomes JSON and the same bytes again; flattening keeps every block
 // and the effective values. The input decides which of these is looked at beside what was read:
 // each costs several times as much as reading.
-#include "deck/edit/flatten.hpp"
-#include "deck/edit/from_json.hpp"
-#include "deck/report/deck_json.hpp"
+#include "deck/edit/convert.hpp"
+#include "edit/shared/from_json.hpp"
+#include "report/shared/deck_json.hpp"
 #include "support.hpp"
 
 namespace {

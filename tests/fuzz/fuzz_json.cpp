@@ -1,7 +1,7 @@
 // --from json: any document is read or refused; what was read becomes a deck, its JSON, and the
 // same files again.
-#include "deck/edit/from_json.hpp"
-#include "deck/report/deck_json.hpp"
+#include "edit/shared/from_json.hpp"
+#include "report/shared/deck_json.hpp"
 #include "support.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

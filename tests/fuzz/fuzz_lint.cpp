@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "deck/lint/config.hpp"
-#include "deck/lint/fix.hpp"
-#include "deck/lint/geometry.hpp"
 #include "deck/lint/lint.hpp"
-#include "deck/report/diagnostics.hpp"
+#include "lint/shared/config.hpp"
+#include "lint/shared/fix.hpp"
+#include "lint/shared/geometry.hpp"
+#include "report/shared/diagnostics.hpp"
 #include "support.hpp"
 
 namespace {

@@ -7,9 +7,9 @@
 #include "deck/contact/crossings.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"
-#include "deck/report/cycle.hpp"
 #include "deck/report/gaps.hpp"
-#include "deck/report/params_report.hpp"
+#include "report/shared/cycle.hpp"
+#include "report/shared/params_report.hpp"
 #include "support.hpp"
 
 namespace {

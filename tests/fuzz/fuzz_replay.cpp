@@ -1,7 +1,7 @@
 // Recorded states: any CSV, plain or gzip, is read or refused, and the statistics are sound.
 #include <cmath>
 
-#include "deck/cycle/replay.hpp"
+#include "cycle/shared/replay.hpp"
 #include "support.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deck/contact/tie_text.hpp"
+#include "deck/contact/ties.hpp"
 #include "deck/deck.hpp"
 #include "deck/edit/fix.hpp"
 #include "support.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "deck/keyword/schema.hpp"
-#include "deck/lint/example.hpp"
+#include "lint/shared/example.hpp"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "deck/keyword/deck.hpp"
-#include "deck/lint/example.hpp"
 #include "deck/lint/rule.hpp"
 #include "deck/model/interfaces.hpp"
-#include "deck/report/deck_json.hpp"
+#include "lint/shared/example.hpp"
+#include "report/shared/deck_json.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "deck/report/cycle.hpp"
 #include "golden/reference.hpp"
+#include "report/shared/cycle.hpp"
 
 namespace deck {
 namespace {

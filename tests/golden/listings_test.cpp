@@ -7,10 +7,10 @@
 #include <set>
 #include <sstream>
 
-#include "deck/lint/messages.hpp"
-#include "deck/report/listing.hpp"
 #include "deck/text/source.hpp"
 #include "golden/reference.hpp"
+#include "lint/shared/messages.hpp"
+#include "report/shared/listing.hpp"
 
 namespace deck {
 namespace {

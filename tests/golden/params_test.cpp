@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "deck/report/params_report.hpp"
 #include "golden/reference.hpp"
+#include "report/shared/params_report.hpp"
 
 namespace deck {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "contact/small_deck.hpp"
 #include "deck/deck.hpp"
-#include "deck/model/kinematics.hpp"
-#include "deck/report/parts.hpp"
 #include "golden/reference.hpp"
+#include "model/shared/kinematics.hpp"
+#include "report/shared/parts.hpp"
 
 namespace deck {
 namespace {

@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
+#include "cycle/shared/replay.hpp"
 #include "deck/cycle/adapter.hpp"
-#include "deck/cycle/replay.hpp"
 #include "golden/reference.hpp"
 
 namespace deck {

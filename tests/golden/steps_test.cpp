@@ -11,7 +11,7 @@
 #include <set>
 
 #include "cycle/replay/table.hpp"
-#include "deck/cycle/replay.hpp"
+#include "cycle/shared/replay.hpp"
 #include "deck/cycle/steps.hpp"
 #include "where.hpp"
 

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "deck/accuracy/store.hpp"
-#include "deck/contact/filtered.hpp"
-#include "deck/report/accuracy.hpp"
+#include "accuracy/shared/store.hpp"
+#include "contact/shared/filtered.hpp"
+#include "report/shared/accuracy.hpp"
 
 namespace deck {
 namespace {

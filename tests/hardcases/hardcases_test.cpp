@@ -9,9 +9,9 @@
 #include <set>
 
 #include "accuracy/pair_rewriting.hpp"
+#include "accuracy/shared/accuracy.hpp"
 #include "contact/distance/exact.hpp"
-#include "deck/accuracy/accuracy.hpp"
-#include "deck/contact/filtered.hpp"
+#include "contact/shared/filtered.hpp"
 
 namespace deck {
 namespace {

@@ -8,9 +8,9 @@
 #include <limits>
 #include <string>
 
+#include "accuracy/shared/accuracy.hpp"
 #include "contact/distance/exact.hpp"
-#include "deck/accuracy/accuracy.hpp"
-#include "deck/contact/filtered.hpp"
+#include "contact/shared/filtered.hpp"
 
 namespace deck {
 namespace {

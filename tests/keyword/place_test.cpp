@@ -1,8 +1,8 @@
 // What stands at a place of a deck.
 #include <gtest/gtest.h>
 
-#include "deck/keyword/place.hpp"
 #include "keyword/reading.hpp"
+#include "keyword/shared/place.hpp"
 
 namespace deck {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "deck/text/gzip.hpp"
 #include "keyword/reading.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck {
 namespace {

@@ -1,5 +1,5 @@
 // What is a Starter deck, and what everything else is called.
-#include "deck/keyword/recognise.hpp"
+#include "keyword/shared/recognise.hpp"
 
 #include <gtest/gtest.h>
 

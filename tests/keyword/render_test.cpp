@@ -1,5 +1,5 @@
 // A card laid out from its schema.
-#include "deck/keyword/render.hpp"
+#include "keyword/shared/render.hpp"
 
 #include <gtest/gtest.h>
 

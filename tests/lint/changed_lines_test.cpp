@@ -1,5 +1,5 @@
 // Lines that a change touched, and findings that move there.
-#include "deck/lint/changed_lines.hpp"
+#include "lint/shared/changed_lines.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // in /FRICTION.
 #include <gtest/gtest.h>
 
-#include "deck/lint/config.hpp"
+#include "lint/shared/config.hpp"
 #include "lint/support.hpp"
 
 namespace deck::test {

@@ -1,7 +1,7 @@
 // Lint looks at the Engine files beside a deck: which files it takes, and what it holds against
 // them.
-#include "deck/text/gzip.hpp"
 #include "lint/support.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck {
 namespace {

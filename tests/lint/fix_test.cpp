@@ -1,5 +1,5 @@
 // Fixes: what they write, that nothing else changes, and that the finding is gone afterwards.
-#include "deck/lint/fix.hpp"
+#include "lint/shared/fix.hpp"
 
 #include <gtest/gtest.h>
 

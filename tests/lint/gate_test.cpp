@@ -1,6 +1,6 @@
 // The gate: every rule of it fires on its bad example and stays silent on its good one; and what an
 // earlier run is compared by.
-#include "deck/lint/gate.hpp"
+#include "lint/shared/gate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // The engine: suppressions, baseline, selection, order, bounds, what was not checked.
 #include <gtest/gtest.h>
 
-#include "deck/lint/config.hpp"
-#include "deck/report/diagnostics.hpp"
+#include "lint/shared/config.hpp"
 #include "lint/support.hpp"
+#include "report/shared/diagnostics.hpp"
 
 namespace deck::test {
 namespace {

@@ -1,6 +1,6 @@
 // Messages that the solver prints about shells, vent holes and files beside the deck.
-#include "deck/report/diagnostics.hpp"
 #include "lint/support.hpp"
+#include "report/shared/diagnostics.hpp"
 
 namespace deck {
 namespace {

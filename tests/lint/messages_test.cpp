@@ -1,12 +1,12 @@
 // Messages of the solver by number and by words.
-#include "deck/lint/messages.hpp"
+#include "lint/shared/messages.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "deck/lint/topics.hpp"
 #include "deck/text/rule.hpp"
+#include "lint/shared/topics.hpp"
 
 namespace deck {
 namespace {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "deck/base/columns.hpp"
-#include "deck/report/diagnostics.hpp"
+#include "base/shared/columns.hpp"
 #include "lint/support.hpp"
+#include "report/shared/diagnostics.hpp"
 
 namespace deck::test {
 namespace {

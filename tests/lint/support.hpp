@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/lint/example.hpp"
-#include "deck/lint/geometry.hpp"
 #include "deck/lint/lint.hpp"
+#include "lint/shared/example.hpp"
+#include "lint/shared/geometry.hpp"
 
 namespace deck::test {
 
@@ -102,7 +102,7 @@ inline Linted lint_text(const std::string& text, const LintOptions& options = {}
   return out;
 }
 
-/// Lints an example in the notation of deck/lint/example.hpp.
+/// Lints an example in the notation of lint/shared/example.hpp.
 inline Linted lint_example(std::string_view example, const LintOptions& options = {}) {
   const ExampleDeck deck = example_deck(example, SchemaSet::built_in());
   if (deck.files.empty() && deck.limits.empty()) return lint_text(deck.main, options);

@@ -1,11 +1,11 @@
 // What can be asked of `deck explain`, and that every field of the contacts has its help.
-#include "deck/lint/topics.hpp"
+#include "lint/shared/topics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "deck/base/columns.hpp"
+#include "base/shared/columns.hpp"
 #include "deck/lint/rule.hpp"
 
 namespace deck {

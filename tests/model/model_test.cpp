@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "deck/model/connectivity.hpp"
 #include "model/bulk/item_spans.hpp"
+#include "model/shared/connectivity.hpp"
 #include "where.hpp"
 
 namespace deck::test {

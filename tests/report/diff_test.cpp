@@ -1,5 +1,5 @@
 // What two decks mean differently, and what makes no difference.
-#include "deck/base/columns.hpp"
+#include "base/shared/columns.hpp"
 #include "deck/verdict.hpp"
 #include "report/inspected.hpp"
 

@@ -1,11 +1,11 @@
 // The text of `deck gaps`: one row per interface, clean ones in one line, nothing wider than asked.
 #include <algorithm>
 
-#include "deck/base/columns.hpp"
-#include "deck/report/cycle.hpp"
+#include "base/shared/columns.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/text/rule.hpp"
 #include "report/inspected.hpp"
+#include "report/shared/cycle.hpp"
 
 namespace deck::test {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "contact/small_deck.hpp"
 #include "deck/contact/resolve.hpp"
-#include "deck/inspect/diff.hpp"
-#include "deck/report/diff.hpp"
-#include "deck/report/params_report.hpp"
-#include "deck/report/show.hpp"
+#include "inspect/shared/diff.hpp"
+#include "report/shared/diff.hpp"
+#include "report/shared/params_report.hpp"
+#include "report/shared/show.hpp"
 
 namespace deck::test {
 

@@ -1,5 +1,5 @@
 // Tests of the JSON writer.
-#include "deck/report/json.hpp"
+#include "report/shared/json.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "deck/report/text_table.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck {
 namespace {

@@ -1,11 +1,11 @@
 // Listings of the Starter read back and held against their decks.
-#include "deck/report/listing.hpp"
+#include "report/shared/listing.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "deck/base/columns.hpp"
-#include "deck/model/mesh.hpp"
+#include "base/shared/columns.hpp"
 #include "deck/text/rule_id.hpp"
+#include "model/shared/mesh.hpp"
 #include "report/inspected.hpp"
 
 namespace deck {

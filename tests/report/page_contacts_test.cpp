@@ -14,7 +14,7 @@
 #include "contact/small_deck.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"
-#include "deck/model/mesh.hpp"
+#include "model/shared/mesh.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck::test {

@@ -1,5 +1,5 @@
 // One entity with its card, users and references; and the tables of effective values.
-#include "deck/base/columns.hpp"
+#include "base/shared/columns.hpp"
 #include "report/inspected.hpp"
 
 #include <map>

@@ -1,5 +1,5 @@
 // The side view of a pair: which pair a name means, its lengths, and the drawing to scale.
-#include "deck/report/side_view.hpp"
+#include "report/shared/side_view.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/report/vtk.hpp"
+#include "report/shared/vtk.hpp"
 
 namespace deck::test {
 

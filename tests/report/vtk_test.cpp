@@ -1,6 +1,6 @@
 // VTK files of the geometry stage: read back by VTK itself (Debian: python3-vtk9) and compared
 // value by value; the tests that need it are skipped where it is not installed.
-#include "deck/report/vtk.hpp"
+#include "report/shared/vtk.hpp"
 
 #include <gtest/gtest.h>
 

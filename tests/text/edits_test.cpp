@@ -1,5 +1,5 @@
 // Tests of replaced spans and of diffs.
-#include "deck/text/edits.hpp"
+#include "text/shared/edits.hpp"
 
 #include <gtest/gtest.h>
 

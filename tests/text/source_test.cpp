@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "deck/text/diagnostic.hpp"
-#include "deck/text/gzip.hpp"
 #include "deck/text/rule_id.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck {
 namespace {

@@ -1,7 +1,7 @@
 // Input as it is: packed decks, names without their ending, words that were mistyped.
 #include <gmock/gmock.h>
 
-#include "deck/text/gzip.hpp"
+#include "text/shared/gzip.hpp"
 #include "tools/command_line.hpp"
 
 namespace deck {

@@ -11,10 +11,10 @@
 #include <map>
 #include <sstream>
 
+#include "base/shared/columns.hpp"
+#include "base/shared/escape.hpp"
+#include "base/shared/spelling.hpp"
 #include "common.hpp"
-#include "deck/base/columns.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/base/spelling.hpp"
 #include "deck/text/number.hpp"
 #include "verbs/completion_table.hpp"
 

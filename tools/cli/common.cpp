@@ -14,16 +14,16 @@
 #include <filesystem>
 #include <thread>
 
-#include "deck/base/columns.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/base/spelling.hpp"
+#include "base/shared/columns.hpp"
+#include "base/shared/escape.hpp"
+#include "base/shared/spelling.hpp"
 #include "deck/contact/resolve.hpp"
-#include "deck/keyword/recognise.hpp"
 #include "deck/model/coverage.hpp"
-#include "deck/report/json.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
-#include "deck/text/similar_file.hpp"
+#include "keyword/shared/recognise.hpp"
+#include "report/shared/json.hpp"
+#include "text/shared/similar_file.hpp"
 #include "writing/frame.hpp"
 #include "writing/library.hpp"
 

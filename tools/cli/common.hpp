@@ -12,8 +12,8 @@
 
 #include "command_line.hpp"
 #include "deck/base/limits.hpp"
-#include "deck/edit/write.hpp"
 #include "deck/front/loaded_deck.hpp"
+#include "edit/shared/write.hpp"
 #include "progress.hpp"
 #include "verb.hpp"
 

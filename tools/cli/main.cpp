@@ -13,8 +13,8 @@
 
 #include <unistd.h>
 
+#include "base/shared/escape.hpp"
 #include "common.hpp"
-#include "deck/base/escape.hpp"
 
 namespace {
 

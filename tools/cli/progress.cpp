@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "base/shared/columns.hpp"
+#include "base/shared/escape.hpp"
 #include "common.hpp"
-#include "deck/base/columns.hpp"
-#include "deck/base/escape.hpp"
 
 namespace deck::cli {
 namespace {

@@ -13,9 +13,9 @@
 #include <map>
 #include <set>
 
+#include "base/shared/paths.hpp"
 #include "common.hpp"
-#include "deck/base/paths.hpp"
-#include "deck/text/gzip.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck::cli {
 namespace {

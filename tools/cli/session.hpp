@@ -9,10 +9,10 @@
 #include <string_view>
 #include <utility>
 
-#include "deck/edit/write.hpp"
 #include "deck/report/drain.hpp"
 #include "deck/text/result.hpp"
 #include "deck/text/source.hpp"
+#include "edit/shared/write.hpp"
 
 namespace deck {
 class Deck;

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "common.hpp"
-#include "deck/report/diagnostics.hpp"
 #include "lsp/analysis.hpp"
+#include "report/shared/diagnostics.hpp"
 
 namespace {
 

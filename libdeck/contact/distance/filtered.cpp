@@ -1,6 +1,6 @@
 // Contact decisions: brackets of the exact distance in double and double-double, else exact
 // numbers.
-#include "deck/contact/filtered.hpp"
+#include "contact/shared/filtered.hpp"
 
 #include "contact/distance/exact.hpp"
 #include "contact/distance/filtered_bounds.hpp"

@@ -16,7 +16,7 @@
 
 #include "contact/distance/dd.hpp"
 #include "contact/distance/filtered_exact.hpp"
-#include "deck/contact/filtered.hpp"
+#include "contact/shared/filtered.hpp"
 
 namespace deck::filter {
 

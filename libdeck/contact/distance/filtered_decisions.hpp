@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "deck/contact/filtered.hpp"
+#include "contact/shared/filtered.hpp"
 #include "deck/contact/scene.hpp"
 
 namespace deck::detail {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "deck/keyword/place.hpp"
 #include "deck/text/rule_id.hpp"
+#include "keyword/shared/place.hpp"
 #include "text/columns.hpp"
 
 namespace deck::detail {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/scene/scene_parts.hpp"
-#include "deck/keyword/references.hpp"
+#include "keyword/shared/references.hpp"
 
 namespace deck::detail {
 

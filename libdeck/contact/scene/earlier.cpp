@@ -7,7 +7,7 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "deck/base/length_text.hpp"
+#include "base/shared/length_text.hpp"
 
 namespace deck {
 namespace {

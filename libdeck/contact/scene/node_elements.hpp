@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "deck/model/connectivity.hpp"
+#include "model/shared/connectivity.hpp"
 
 namespace deck {
 

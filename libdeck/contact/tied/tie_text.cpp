@@ -1,5 +1,5 @@
 // Counts and sentences about ties.
-#include "deck/contact/tie_text.hpp"
+#include "deck/contact/ties.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 
 #include "cycle/adapter/parts.hpp"
 #include "cycle/replay/node_outputs.hpp"
-#include "deck/cycle/heat.hpp"
+#include "cycle/shared/heat.hpp"
 #include "deck/cycle/kernel.hpp"
 
 namespace deck::cycle::detail {

@@ -5,7 +5,7 @@
 
 #include "cycle/replay/states.hpp"
 #include "cycle/replay/table.hpp"
-#include "deck/cycle/replay.hpp"
+#include "cycle/shared/replay.hpp"
 
 namespace deck::cycle::detail {
 

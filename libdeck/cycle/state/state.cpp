@@ -10,9 +10,9 @@
 #include "cycle/shared/step_scale.hpp"
 #include "cycle/state/state_parts.hpp"
 #include "deck/keyword/decode.hpp"
-#include "deck/model/mesh.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
+#include "model/shared/mesh.hpp"
 
 namespace deck::cycle {
 namespace {

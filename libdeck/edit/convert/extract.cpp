@@ -1,11 +1,11 @@
 // Finds what the wanted interfaces need, from block to block, until nothing new is named.
-#include "deck/edit/extract.hpp"
+#include "deck/edit/convert.hpp"
 
 #include <algorithm>
 
-#include "deck/keyword/references.hpp"
 #include "edit/convert/extract_state.hpp"
 #include "keyword/reader.hpp"
+#include "keyword/shared/references.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {

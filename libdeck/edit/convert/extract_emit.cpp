@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "deck/contact/scene.hpp"
-#include "deck/edit/flatten.hpp"
+#include "deck/edit/convert.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/extract_state.hpp"
 #include "edit/convert/units/unit_system_state.hpp"

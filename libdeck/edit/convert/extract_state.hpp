@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/edit/extract.hpp"
+#include "deck/edit/convert.hpp"
 #include "deck/model/selection.hpp"
 #include "model/shared/families.hpp"
 

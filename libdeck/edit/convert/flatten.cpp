@@ -1,5 +1,5 @@
 // Copies the include tree into one text, with the offsets and parameters of submodels worked in.
-#include "deck/edit/flatten.hpp"
+#include "deck/edit/convert.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,17 +1,17 @@
 // Walks all cells that hold ids and writes the new ones, or says what stands in the way.
-#include "deck/edit/renumber.hpp"
+#include "deck/edit/convert.hpp"
 
 #include <algorithm>
 #include <bitset>
 #include <unordered_map>
 
-#include "deck/keyword/references.hpp"
-#include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/renumber_ids.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
 #include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
+#include "keyword/shared/references.hpp"
+#include "text/shared/edits.hpp"
 
 namespace deck {
 namespace {

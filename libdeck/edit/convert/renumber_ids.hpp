@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/edit/renumber.hpp"
+#include "deck/edit/convert.hpp"
 
 namespace deck::detail {
 

@@ -1,5 +1,5 @@
 // Compares effective values with the cells of the card and writes those that differ.
-#include "deck/edit/resolve.hpp"
+#include "edit/shared/resolve.hpp"
 
 #include <algorithm>
 #include <cmath>

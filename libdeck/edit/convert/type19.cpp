@@ -1,5 +1,5 @@
 // Builds the cards, groups and lines that replace a TYPE19, with ids that are free.
-#include "deck/edit/type19.hpp"
+#include "deck/edit/convert.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,10 +7,10 @@
 #include <set>
 
 #include "deck/keyword/decode.hpp"
-#include "deck/keyword/render.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/version_cards.hpp"
+#include "keyword/shared/render.hpp"
 #include "text/columns.hpp"
 
 namespace deck {

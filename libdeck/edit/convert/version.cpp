@@ -1,6 +1,6 @@
 // Rewrites the blocks whose layout differs between two input versions, with a report of every
 // value.
-#include "deck/edit/version.hpp"
+#include "deck/edit/convert.hpp"
 
 #include <algorithm>
 #include <unordered_map>

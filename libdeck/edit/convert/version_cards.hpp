@@ -10,8 +10,8 @@
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/decode.hpp"
-#include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
+#include "text/shared/edits.hpp"
 
 namespace deck::detail {
 

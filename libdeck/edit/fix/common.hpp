@@ -8,7 +8,7 @@
 
 #include "deck/edit/fix.hpp"
 #include "deck/keyword/decode.hpp"
-#include "deck/text/edits.hpp"
+#include "text/shared/edits.hpp"
 
 namespace deck::detail {
 

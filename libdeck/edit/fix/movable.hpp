@@ -1,8 +1,8 @@
 // What strategies that move nodes work on. Private to the stage.
 #pragma once
-#include "deck/edit/depenetrate.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/nodes/depenetrate_cells.hpp"
+#include "edit/shared/depenetrate.hpp"
 
 namespace deck::detail {
 

@@ -1,5 +1,5 @@
 // Tries translations of whole parts and keeps the one that frees the most.
-#include "deck/edit/move_part.hpp"
+#include "edit/shared/move_part.hpp"
 
 #include <algorithm>
 #include <cmath>

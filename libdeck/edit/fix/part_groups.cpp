@@ -4,8 +4,8 @@
 #include <numeric>
 #include <set>
 
-#include "deck/model/kinematics.hpp"
 #include "edit/fix/common.hpp"
+#include "model/shared/kinematics.hpp"
 
 namespace deck::detail {
 namespace {

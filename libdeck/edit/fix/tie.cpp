@@ -8,9 +8,9 @@
 #include <set>
 
 #include "contact/tied/parts.hpp"
-#include "deck/model/kinematics.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
+#include "model/shared/kinematics.hpp"
 
 namespace deck {
 namespace {

@@ -1,14 +1,14 @@
 // Evaluates a deck, and compares masses and time steps of two.
-#include "deck/edit/verify.hpp"
+#include "edit/shared/verify.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "deck/inspect/diff.hpp"
-#include "deck/model/mesh.hpp"
 #include "edit/verify/verify_parts.hpp"
+#include "inspect/shared/diff.hpp"
+#include "model/shared/mesh.hpp"
 
 namespace deck {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "deck/contact/scene.hpp"
 #include "deck/cycle/scene_cycle.hpp"
-#include "deck/edit/verify.hpp"
+#include "edit/shared/verify.hpp"
 
 namespace deck {
 

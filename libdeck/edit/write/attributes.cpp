@@ -11,9 +11,9 @@
 #include <cstring>
 #include <optional>
 
-#include "deck/base/hash.hpp"
-#include "deck/edit/write.hpp"
+#include "base/shared/hash.hpp"
 #include "deck/text/source.hpp"
+#include "edit/shared/write.hpp"
 #include "edit/write/write_plan.hpp"
 
 namespace deck {

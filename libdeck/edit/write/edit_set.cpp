@@ -1,15 +1,15 @@
 // Merges the edits of all decks file by file and refuses what contradicts.
-#include "deck/edit/edit_set.hpp"
+#include "edit/shared/edit_set.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
-#include "deck/base/paths.hpp"
-#include "deck/text/edits.hpp"
-#include "deck/text/gzip.hpp"
+#include "base/shared/paths.hpp"
 #include "edit/write/tree.hpp"
 #include "edit/write/write_plan.hpp"
+#include "text/shared/edits.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck {
 namespace {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "deck/edit/edit_set.hpp"
-#include "deck/text/gzip.hpp"
+#include "edit/shared/edit_set.hpp"
 #include "edit/write/write_plan.hpp"
 #include "keyword/include_file.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck {
 namespace {

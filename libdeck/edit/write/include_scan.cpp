@@ -1,5 +1,5 @@
 // Looks for #include in files, and unites decks that share one.
-#include "deck/edit/include_scan.hpp"
+#include "edit/shared/include_scan.hpp"
 
 #include <sys/stat.h>
 
@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-#include "deck/base/paths.hpp"
+#include "base/shared/paths.hpp"
 #include "deck/text/source.hpp"
 #include "keyword/include_file.hpp"
 

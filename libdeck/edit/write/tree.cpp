@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "deck/base/paths.hpp"
+#include "base/shared/paths.hpp"
 
 namespace deck::detail {
 namespace {

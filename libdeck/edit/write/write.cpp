@@ -1,5 +1,5 @@
 // Temporaries, flushing, exchanging, taking back: one set of files, all or none.
-#include "deck/edit/write.hpp"
+#include "edit/shared/write.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -19,7 +19,7 @@
 #include <thread>
 #include <tuple>
 
-#include "deck/base/paths.hpp"
+#include "base/shared/paths.hpp"
 #include "deck/text/source.hpp"
 #include "edit/write/rename.hpp"
 #include "edit/write/write_plan.hpp"

@@ -14,7 +14,7 @@
 #include <set>
 #include <sstream>
 
-#include "deck/edit/write.hpp"
+#include "edit/shared/write.hpp"
 
 namespace deck {
 namespace detail {

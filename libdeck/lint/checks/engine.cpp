@@ -1,5 +1,5 @@
 // What the Engine files beside a deck ask for: the run they name, its times, the ids they list.
-#include "deck/keyword/engine_layout.hpp"
+#include "keyword/shared/engine_layout.hpp"
 
 #include <algorithm>
 #include <map>

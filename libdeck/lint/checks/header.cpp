@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "deck/base/spelling.hpp"
+#include "base/shared/spelling.hpp"
 #include "keyword/older_decks.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/base/paths.hpp"
+#include "base/shared/paths.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 

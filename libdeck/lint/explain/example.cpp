@@ -1,10 +1,10 @@
 // Turns the short examples of rule pages into whole decks.
-#include "deck/lint/example.hpp"
+#include "lint/shared/example.hpp"
 
 #include <algorithm>
 #include <charconv>
 
-#include "deck/text/gzip.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck {
 namespace {

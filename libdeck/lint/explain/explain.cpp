@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "deck/base/columns.hpp"
-#include "deck/lint/example.hpp"
+#include "base/shared/columns.hpp"
 #include "deck/lint/rule.hpp"
-#include "deck/lint/topics.hpp"
 #include "lint/context.hpp"
+#include "lint/shared/example.hpp"
+#include "lint/shared/topics.hpp"
 #include "text/rule_page.hpp"
 
 namespace deck {

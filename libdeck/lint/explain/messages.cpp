@@ -1,5 +1,5 @@
 // The catalogue of solver messages, and what deck explain says of a number or of words.
-#include "deck/lint/messages.hpp"
+#include "lint/shared/messages.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <set>
 
 #include "base/embedded.hpp"
-#include "deck/base/columns.hpp"
-#include "deck/base/spelling.hpp"
-#include "deck/lint/topics.hpp"
+#include "base/shared/columns.hpp"
+#include "base/shared/spelling.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule.hpp"
 #include "lint/limits.hpp"
+#include "lint/shared/topics.hpp"
 
 namespace deck {
 namespace solver_message {

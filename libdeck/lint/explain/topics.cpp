@@ -1,15 +1,15 @@
 // Finds the pages of `deck explain` from what people type.
-#include "deck/lint/topics.hpp"
+#include "lint/shared/topics.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
-#include "deck/base/columns.hpp"
-#include "deck/base/spelling.hpp"
-#include "deck/lint/messages.hpp"
+#include "base/shared/columns.hpp"
+#include "base/shared/spelling.hpp"
 #include "deck/lint/rule.hpp"
+#include "lint/shared/messages.hpp"
 
 namespace deck {
 namespace {

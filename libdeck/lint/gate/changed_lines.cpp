@@ -1,11 +1,11 @@
 // The lines of a deck that a change touched, and the findings that move there.
-#include "deck/lint/changed_lines.hpp"
+#include "lint/shared/changed_lines.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <utility>
 
-#include "deck/base/paths.hpp"
+#include "base/shared/paths.hpp"
 
 namespace deck {
 namespace {

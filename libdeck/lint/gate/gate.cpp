@@ -1,5 +1,5 @@
 // Holds the contacts of a scene against the bounds of a gate, and against an earlier run.
-#include "deck/lint/gate.hpp"
+#include "lint/shared/gate.hpp"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <map>
 #include <set>
 
-#include "deck/base/count.hpp"
-#include "deck/base/length_text.hpp"
-#include "deck/lint/config.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/length_text.hpp"
 #include "deck/text/number.hpp"
 #include "lint/gate/gate_places.hpp"
+#include "lint/shared/config.hpp"
 
 namespace deck {
 namespace {

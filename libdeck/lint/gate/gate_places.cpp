@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "deck/base/length_text.hpp"
+#include "base/shared/length_text.hpp"
 
 namespace deck::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "deck/contact/view.hpp"
-#include "deck/lint/changed_lines.hpp"
+#include "lint/shared/changed_lines.hpp"
 
 namespace deck::detail {
 

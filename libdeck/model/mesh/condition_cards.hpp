@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "deck/model/kinematics.hpp"
+#include "model/shared/kinematics.hpp"
 
 namespace deck::detail {
 

@@ -1,6 +1,6 @@
 // Books the kinematic conditions of a deck in the solver's order, and finds what conflicts, what
 // walls lose and what is refused.
-#include "deck/model/kinematics.hpp"
+#include "model/shared/kinematics.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // Goes over all elements once and adds up what they give to nodes and parts; then what rigid
 // bodies, added masses, ties and damping change at the nodes.
-#include "deck/model/mesh.hpp"
+#include "model/shared/mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include "base/parallel.hpp"
 #include "deck/keyword/decode.hpp"
-#include "deck/model/connectivity.hpp"
 #include "model/mesh/mesh_parts.hpp"
 #include "model/mesh/node_sums.hpp"
+#include "model/shared/connectivity.hpp"
 
 namespace deck {
 namespace {

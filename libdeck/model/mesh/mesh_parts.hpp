@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/vec.hpp"
-#include "deck/model/mesh.hpp"
+#include "model/shared/mesh.hpp"
 
 namespace deck::detail {
 

@@ -3,9 +3,9 @@
 #pragma once
 #include <vector>
 
-#include "deck/model/mesh.hpp"
 #include "model/mesh/mesh_parts.hpp"
 #include "model/mesh/rigid_bodies.hpp"
+#include "model/shared/mesh.hpp"
 
 namespace deck::detail {
 

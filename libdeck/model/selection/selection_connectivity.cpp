@@ -1,7 +1,7 @@
 // Counting sort of elements by node and by part.
 #include <algorithm>
 
-#include "deck/model/connectivity.hpp"
+#include "model/shared/connectivity.hpp"
 
 namespace deck {
 namespace {

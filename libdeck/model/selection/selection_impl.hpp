@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "deck/model/connectivity.hpp"
 #include "deck/model/selection.hpp"
 #include "model/faces.hpp"
 #include "model/model_build.hpp"
 #include "model/selection/boxes.hpp"
+#include "model/shared/connectivity.hpp"
 
 namespace deck {
 

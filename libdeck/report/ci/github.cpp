@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 #include "report/diagnostics_common.hpp"
 
 namespace deck {

@@ -1,8 +1,8 @@
 // Findings as a Code Quality report of GitLab.
 #include <map>
 
-#include "deck/report/json.hpp"
 #include "report/diagnostics_common.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck {
 

@@ -3,7 +3,7 @@
 // after an edit elsewhere.
 #include <map>
 
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 #include "report/diagnostics_common.hpp"
 
 namespace deck {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <map>
 
-#include "deck/report/json.hpp"
 #include "report/diagnostics_common.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck {
 namespace {

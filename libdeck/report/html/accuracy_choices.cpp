@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 #include "deck/contact/scene.hpp"
 
 namespace deck::detail {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/accuracy/choice.hpp"
+#include "accuracy/shared/choice.hpp"
 
 namespace deck::detail {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 #include "report/accuracy_chart.hpp"
 #include "report/html/accuracy_choices.hpp"
 #include "report/html/parts.hpp"

@@ -5,16 +5,16 @@
 
 #include <algorithm>
 
-#include "deck/base/escape.hpp"
-#include "deck/contact/tie_text.hpp"
+#include "base/shared/escape.hpp"
+#include "deck/contact/ties.hpp"
 #include "deck/front/loaded_deck.hpp"
-#include "deck/report/cycle.hpp"
 #include "deck/report/gaps.hpp"
-#include "deck/report/parts.hpp"
-#include "deck/report/verdict.hpp"
 #include "report/cycle_costs.hpp"
 #include "report/gaps_names.hpp"
 #include "report/html/parts.hpp"
+#include "report/shared/cycle.hpp"
+#include "report/shared/parts.hpp"
+#include "report/shared/verdict.hpp"
 
 namespace deck {
 

@@ -9,12 +9,12 @@
 
 #include "contact/scene/scene_parts.hpp"
 #include "deck/report/html.hpp"
-#include "deck/report/json.hpp"
 #include "report/html/stream.hpp"
 #include "report/html/viewer_bundle.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck {
-struct Mesh;  // deck/model/mesh.hpp
+struct Mesh;  // model/shared/mesh.hpp
 }
 
 namespace deck::detail {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deck/model/mesh.hpp"
+#include "model/shared/mesh.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck::detail {

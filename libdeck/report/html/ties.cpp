@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "contact/scene/element_names.hpp"
-#include "deck/contact/tie_text.hpp"
-#include "deck/model/connectivity.hpp"
+#include "deck/contact/ties.hpp"
 #include "model/bulk/item_spans.hpp"
+#include "model/shared/connectivity.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck::detail {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/shared/escape.hpp"
 #include "contact/scene/element_names.hpp"
-#include "deck/base/escape.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck {

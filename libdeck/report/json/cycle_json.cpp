@@ -1,11 +1,11 @@
 // The JSON of `deck cycle`.
-#include "deck/report/cycle.hpp"
-#include "deck/report/gate.hpp"
-#include "deck/report/json.hpp"
-#include "deck/report/verdict.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/cycle_costs.hpp"
 #include "report/gaps_names.hpp"
+#include "report/shared/cycle.hpp"
+#include "report/shared/gate.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/verdict.hpp"
 
 namespace deck {
 namespace {

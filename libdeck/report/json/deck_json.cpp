@@ -1,5 +1,5 @@
 // Writes a deck as JSON, block by block.
-#include "deck/report/deck_json.hpp"
+#include "report/shared/deck_json.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -7,10 +7,10 @@
 #include <optional>
 #include <unordered_map>
 
-#include "deck/base/paths.hpp"
+#include "base/shared/paths.hpp"
 #include "deck/keyword/decode.hpp"
-#include "deck/report/json.hpp"
 #include "keyword/deck_json_cells.hpp"
+#include "report/shared/json.hpp"
 #include "text/columns.hpp"
 
 namespace deck {

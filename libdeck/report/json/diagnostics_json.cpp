@@ -1,7 +1,7 @@
 // Findings as the project's own JSON document.
-#include "deck/base/columns.hpp"
-#include "deck/report/verdict.hpp"
+#include "base/shared/columns.hpp"
 #include "report/diagnostics_common.hpp"
+#include "report/shared/verdict.hpp"
 
 namespace deck {
 namespace {

@@ -1,7 +1,7 @@
 // The document of `deck diff --json`.
-#include "deck/report/diff.hpp"
-#include "deck/report/json.hpp"
-#include "deck/report/verdict.hpp"
+#include "report/shared/diff.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/verdict.hpp"
 
 namespace deck {
 namespace {

@@ -1,7 +1,7 @@
 // The result of `deck fix` as a JSON document.
-#include "deck/report/fix.hpp"
-#include "deck/report/json.hpp"
-#include "deck/report/verdict.hpp"
+#include "report/shared/fix.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/verdict.hpp"
 
 namespace deck {
 namespace {

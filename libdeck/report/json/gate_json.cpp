@@ -1,9 +1,9 @@
 // The gate and the comparison with an earlier run as members of a JSON document.
 #include <algorithm>
 
-#include "deck/report/gate.hpp"
-#include "deck/report/verdict.hpp"
 #include "report/diagnostics_common.hpp"
+#include "report/shared/gate.hpp"
+#include "report/shared/verdict.hpp"
 
 namespace deck {
 namespace {

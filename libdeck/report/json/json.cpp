@@ -1,11 +1,11 @@
 // Escapes strings, prints numbers and keeps the nesting right.
-#include "deck/report/json.hpp"
+#include "report/shared/json.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "deck/base/length_text.hpp"
+#include "base/shared/length_text.hpp"
 
 namespace deck {
 

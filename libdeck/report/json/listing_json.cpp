@@ -1,9 +1,9 @@
 // The document of a listing of the Starter beside its deck.
 #include <cmath>
 
-#include "deck/report/json.hpp"
-#include "deck/report/listing.hpp"
 #include "report/parts_rows.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/listing.hpp"
 
 namespace deck {
 namespace listing_document {

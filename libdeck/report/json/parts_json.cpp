@@ -1,11 +1,11 @@
 // The document of deck parts: parts, totals, steps of elements and nodes, kinematic conditions.
 #include <cmath>
 
-#include "deck/model/kinematics.hpp"
-#include "deck/model/mesh.hpp"
-#include "deck/report/json.hpp"
-#include "deck/report/parts.hpp"
+#include "model/shared/kinematics.hpp"
+#include "model/shared/mesh.hpp"
 #include "report/parts_rows.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/parts.hpp"
 
 namespace deck {
 namespace {

@@ -1,9 +1,9 @@
 // `deck replay`: how well the force kernel reproduces recorded states, as JSON and as text.
 #include <fmt/format.h>
 
-#include "deck/base/escape.hpp"
-#include "deck/report/cycle.hpp"
-#include "deck/report/json.hpp"
+#include "base/shared/escape.hpp"
+#include "report/shared/cycle.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck {
 namespace {

@@ -1,10 +1,10 @@
 // The document of `deck show --json`.
 #include <algorithm>
 
-#include "deck/keyword/place.hpp"
-#include "deck/report/json.hpp"
-#include "deck/report/show.hpp"
 #include "keyword/deck_json_cells.hpp"
+#include "keyword/shared/place.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/show.hpp"
 
 namespace deck {
 namespace {

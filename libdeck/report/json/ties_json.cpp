@@ -1,7 +1,7 @@
 // Ties of /INTER/TYPE2 as JSON.
 #include "report/json/ties_json.hpp"
 
-#include "deck/contact/tie_text.hpp"
+#include "deck/contact/ties.hpp"
 
 namespace deck::detail {
 namespace {

@@ -1,7 +1,7 @@
 // The member "ties" of deck/gaps documents.
 #pragma once
 #include "deck/contact/scene.hpp"
-#include "deck/report/json.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck::detail {
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "deck/base/count.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
 #include "report/cycle_costs.hpp"
+#include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {

@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "deck/report/cycle.hpp"
+#include "report/shared/cycle.hpp"
 
 namespace deck {
 

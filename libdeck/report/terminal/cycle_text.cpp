@@ -5,14 +5,14 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "base/shared/escape.hpp"
 #include "cycle/shared/step_scale.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/report/cycle.hpp"
-#include "deck/report/gate.hpp"
-#include "deck/report/text_table.hpp"
-#include "deck/report/verdict.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/cycle_costs.hpp"
+#include "report/shared/cycle.hpp"
+#include "report/shared/gate.hpp"
+#include "report/shared/text_table.hpp"
+#include "report/shared/verdict.hpp"
 #include "report/terminal/cycle_effects_text.hpp"
 #include "report/terminal/words.hpp"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <map>
 
-#include "deck/base/escape.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/escape.hpp"
 #include "report/diagnostics_common.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck {
 namespace concise_findings {

@@ -5,11 +5,11 @@
 #include <iterator>
 #include <map>
 
-#include "deck/base/columns.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/base/paths.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/columns.hpp"
+#include "base/shared/escape.hpp"
+#include "base/shared/paths.hpp"
 #include "report/diagnostics_common.hpp"
+#include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
 #include "text/rule_page.hpp"
 

@@ -1,9 +1,9 @@
 // A comparison of two decks as text for a terminal and as Markdown for a review.
 #include <fmt/format.h>
 
-#include "deck/base/escape.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/escape.hpp"
 #include "report/diff_rows.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <map>
 
-#include "deck/base/count.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/report/fix.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
+#include "report/shared/fix.hpp"
+#include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {

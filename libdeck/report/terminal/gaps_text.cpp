@@ -5,15 +5,15 @@
 #include <initializer_list>
 #include <iterator>
 
-#include "deck/base/escape.hpp"
-#include "deck/base/length_text.hpp"
+#include "base/shared/escape.hpp"
+#include "base/shared/length_text.hpp"
 #include "deck/report/gaps.hpp"
-#include "deck/report/gate.hpp"
-#include "deck/report/text_table.hpp"
-#include "deck/report/verdict.hpp"
 #include "model/bulk/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
+#include "report/shared/gate.hpp"
+#include "report/shared/text_table.hpp"
+#include "report/shared/verdict.hpp"
 #include "report/terminal/ties_text.hpp"
 #include "report/terminal/words.hpp"
 

@@ -1,8 +1,8 @@
 // The gate and the comparison with an earlier run, a line each.
 #include <fmt/format.h>
 
-#include "deck/base/escape.hpp"
-#include "deck/report/gate.hpp"
+#include "base/shared/escape.hpp"
+#include "report/shared/gate.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {

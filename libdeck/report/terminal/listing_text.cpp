@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deck/base/columns.hpp"
-#include "deck/base/count.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/report/listing.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/columns.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
 #include "report/parts_rows.hpp"
+#include "report/shared/listing.hpp"
+#include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {

@@ -1,6 +1,6 @@
 // Tables and JSON of `deck params`.
-#include "deck/report/params_report.hpp"
-#include "deck/base/escape.hpp"
+#include "report/shared/params_report.hpp"
+#include "base/shared/escape.hpp"
 #include "deck/contact/resolve.hpp"
 
 #include <fmt/format.h>
@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "deck/report/json.hpp"
-#include "deck/report/text_table.hpp"
 #include "deck/text/number.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {

@@ -3,14 +3,14 @@
 
 #include <cmath>
 
-#include "deck/base/count.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/model/kinematics.hpp"
-#include "deck/model/mesh.hpp"
-#include "deck/report/parts.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
 #include "deck/text/number.hpp"
+#include "model/shared/kinematics.hpp"
+#include "model/shared/mesh.hpp"
 #include "report/parts_rows.hpp"
+#include "report/shared/parts.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "deck/base/columns.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/report/json.hpp"
-#include "deck/report/show.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/columns.hpp"
+#include "base/shared/escape.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/show.hpp"
+#include "report/shared/text_table.hpp"
 #include "text/columns.hpp"
 
 namespace deck {

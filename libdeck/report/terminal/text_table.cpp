@@ -1,10 +1,10 @@
 // Measures the columns of a table and prints it.
-#include "deck/report/text_table.hpp"
+#include "report/shared/text_table.hpp"
 
 #include <algorithm>
 
-#include "deck/base/columns.hpp"
-#include "deck/base/escape.hpp"
+#include "base/shared/columns.hpp"
+#include "base/shared/escape.hpp"
 
 namespace deck {
 

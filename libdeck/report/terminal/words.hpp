@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "deck/base/count.hpp"
+#include "base/shared/count.hpp"
 #include "deck/contact/scene.hpp"
-#include "deck/report/text_table.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck {
 

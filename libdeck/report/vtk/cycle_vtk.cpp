@@ -6,7 +6,7 @@
 #include <map>
 
 #include "deck/contact/view.hpp"
-#include "deck/report/cycle.hpp"
+#include "report/shared/cycle.hpp"
 #include "report/vtk/vtk_writer.hpp"
 
 namespace deck {

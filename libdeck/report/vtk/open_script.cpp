@@ -1,7 +1,7 @@
 // The script beside the VTK files that opens them in ParaView with colours and arrows set.
 #include <algorithm>
 
-#include "deck/report/vtk.hpp"
+#include "report/shared/vtk.hpp"
 
 namespace deck {
 namespace {

@@ -1,5 +1,5 @@
 // Writes surfaces, edges and penetrations of every contact.
-#include "deck/report/vtk.hpp"
+#include "report/shared/vtk.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Tests of moving nodes out of gaps.
-#include "deck/edit/depenetrate.hpp"
+#include "edit/shared/depenetrate.hpp"
 
 #include "edit/fix/support.hpp"
 

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "contact/small_deck.hpp"
-#include "deck/edit/depenetrate.hpp"
 #include "deck/edit/fix.hpp"
+#include "edit/shared/depenetrate.hpp"
 #include "where.hpp"
 
 namespace deck::test {

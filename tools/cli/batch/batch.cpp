@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/shared/paths.hpp"
 #include "batch/list.hpp"
 #include "batch/run.hpp"
 #include "batch/summary.hpp"
-#include "deck/base/paths.hpp"
 #include "writing/library.hpp"
 
 namespace deck::cli::verb_batch {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/report/json.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck::cli {
 namespace {

@@ -10,11 +10,11 @@
 #include <set>
 #include <sstream>
 
-#include "deck/base/paths.hpp"
-#include "deck/edit/include_scan.hpp"
-#include "deck/text/gzip.hpp"
+#include "base/shared/paths.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/source.hpp"
+#include "edit/shared/include_scan.hpp"
+#include "text/shared/gzip.hpp"
 #include "writing/library.hpp"
 
 namespace deck::cli {

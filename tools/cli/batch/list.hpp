@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/edit/include_scan.hpp"
 #include "deck/text/result.hpp"
+#include "edit/shared/include_scan.hpp"
 
 namespace deck::cli {
 

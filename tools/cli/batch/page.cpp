@@ -7,9 +7,9 @@
 #include <map>
 #include <tuple>
 
+#include "base/shared/escape.hpp"
 #include "batch/reading.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/report/json.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck::cli {
 namespace {

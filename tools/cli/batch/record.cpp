@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "batch/json.hpp"
-#include "deck/report/json.hpp"
 #include "deck/text/source.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck::cli {
 

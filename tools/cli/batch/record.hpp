@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/base/hash.hpp"
+#include "base/shared/hash.hpp"
 #include "deck/text/result.hpp"
 
 namespace deck::cli {

@@ -18,12 +18,12 @@
 #include <thread>
 #include <unordered_map>
 
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
 #include "batch/json.hpp"
-#include "deck/base/count.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/lint/config.hpp"
-#include "deck/report/json.hpp"
 #include "deck/text/source.hpp"
+#include "lint/shared/config.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck::cli {
 namespace fs = std::filesystem;

@@ -9,8 +9,8 @@
 
 #include "batch/json.hpp"
 #include "common.hpp"
-#include "deck/report/json.hpp"
 #include "deck/text/source.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck::cli {
 namespace fs = std::filesystem;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "base/shared/escape.hpp"
+#include "base/shared/length_text.hpp"
 #include "batch/reading.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/base/length_text.hpp"
-#include "deck/report/text_table.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck::cli {
 namespace {

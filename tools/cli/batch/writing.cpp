@@ -10,13 +10,13 @@
 #include <new>
 #include <thread>
 
+#include "base/shared/paths.hpp"
 #include "batch/json.hpp"
 #include "batch/run.hpp"
-#include "deck/base/paths.hpp"
 #include "deck/keyword/engine_file.hpp"
-#include "deck/report/json.hpp"
-#include "deck/report/losses.hpp"
 #include "deck/text/source.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/losses.hpp"
 
 namespace deck::cli {
 namespace fs = std::filesystem;

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "deck/contact/resolve.hpp"
-#include "deck/keyword/recognise.hpp"
-#include "deck/lint/geometry.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule.hpp"
+#include "keyword/shared/recognise.hpp"
+#include "lint/shared/geometry.hpp"
 
 namespace deck::lsp {
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "deck/front/loaded_deck.hpp"
-#include "deck/keyword/place.hpp"
-#include "deck/keyword/references.hpp"
-#include "deck/lint/config.hpp"
 #include "deck/lint/lint.hpp"
+#include "keyword/shared/place.hpp"
+#include "keyword/shared/references.hpp"
+#include "lint/shared/config.hpp"
 #include "lsp/text.hpp"
 
 namespace deck::lsp {

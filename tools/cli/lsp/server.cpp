@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "deck/report/json.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck::lsp {
 namespace {

@@ -6,11 +6,11 @@
 #include <filesystem>
 
 #include "deck/contact/scene.hpp"
-#include "deck/edit/write.hpp"
-#include "deck/keyword/recognise.hpp"
-#include "deck/lint/topics.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/report/html.hpp"
+#include "edit/shared/write.hpp"
+#include "keyword/shared/recognise.hpp"
+#include "lint/shared/topics.hpp"
 #include "lsp/server.hpp"
 #include "writing/gap_page.hpp"
 

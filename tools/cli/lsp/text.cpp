@@ -5,8 +5,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include "deck/base/escape.hpp"
-#include "deck/base/paths.hpp"
+#include "base/shared/escape.hpp"
+#include "base/shared/paths.hpp"
 
 namespace deck::lsp {
 namespace {

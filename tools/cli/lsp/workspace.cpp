@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "deck/base/paths.hpp"
-#include "deck/text/gzip.hpp"
+#include "base/shared/paths.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck::lsp {
 namespace {

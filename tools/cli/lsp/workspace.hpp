@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/edit/include_scan.hpp"
+#include "edit/shared/include_scan.hpp"
 #include "lsp/analysis.hpp"
 #include "lsp/rpc.hpp"
 

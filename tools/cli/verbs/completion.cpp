@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "common.hpp"
-#include "deck/lint/topics.hpp"
+#include "lint/shared/topics.hpp"
 #include "verbs/completion_table.hpp"
 
 namespace deck::cli::verb_completion {

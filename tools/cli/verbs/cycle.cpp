@@ -8,14 +8,14 @@
 #include <filesystem>
 #include <optional>
 
+#include "accuracy/shared/effect_cost.hpp"
 #include "common.hpp"
-#include "deck/accuracy/effect_cost.hpp"
 #include "deck/contact/crossings.hpp"
-#include "deck/report/cycle.hpp"
 #include "deck/report/html.hpp"
-#include "deck/text/gzip.hpp"
 #include "deck/text/number.hpp"
 #include "processor.hpp"
+#include "report/shared/cycle.hpp"
+#include "text/shared/gzip.hpp"
 #include "verbs/accuracy_option.hpp"
 #include "verbs/gate/options.hpp"
 

@@ -1,6 +1,6 @@
 // deck diff: what two decks mean differently.
 
-#include "deck/report/diff.hpp"
+#include "report/shared/diff.hpp"
 
 #include <algorithm>
 #include <filesystem>

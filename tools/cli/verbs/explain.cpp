@@ -3,11 +3,11 @@
 
 #include <filesystem>
 
+#include "base/shared/escape.hpp"
 #include "common.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/lint/topics.hpp"
-#include "deck/report/listing.hpp"
-#include "deck/text/gzip.hpp"
+#include "lint/shared/topics.hpp"
+#include "report/shared/listing.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck::cli::verb_explain {
 namespace {

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
 #include "common.hpp"
-#include "deck/base/count.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/edit/move_part.hpp"
 #include "deck/model/coverage.hpp"
-#include "deck/report/fix.hpp"
 #include "deck/report/html.hpp"
 #include "deck/text/number.hpp"
+#include "edit/shared/move_part.hpp"
+#include "report/shared/fix.hpp"
 #include "writing/changes.hpp"
 #include "writing/fix_page.hpp"
 #include "writing/library.hpp"

@@ -7,13 +7,13 @@
 #include <optional>
 
 #include "common.hpp"
+#include "contact/shared/what_if_text.hpp"
 #include "deck/contact/view.hpp"
-#include "deck/contact/what_if_text.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/html.hpp"
-#include "deck/report/json.hpp"
-#include "deck/report/vtk.hpp"
-#include "deck/text/gzip.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/vtk.hpp"
+#include "text/shared/gzip.hpp"
 #include "verbs/accuracy_option.hpp"
 #include "verbs/gate/options.hpp"
 

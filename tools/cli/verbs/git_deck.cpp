@@ -15,10 +15,10 @@
 #include <optional>
 #include <set>
 
-#include "deck/base/paths.hpp"
-#include "deck/edit/include_scan.hpp"
+#include "base/shared/paths.hpp"
 #include "deck/report/gaps.hpp"
-#include "deck/report/json.hpp"
+#include "edit/shared/include_scan.hpp"
+#include "report/shared/json.hpp"
 #include "writing/library.hpp"
 
 extern char** environ;

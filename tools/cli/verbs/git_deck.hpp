@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "deck/lint/changed_lines.hpp"
+#include "lint/shared/changed_lines.hpp"
 
 namespace deck::cli {
 

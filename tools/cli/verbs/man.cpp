@@ -2,7 +2,7 @@
 // not listed among the verbs.
 
 #include "common.hpp"
-#include "deck/report/json.hpp"
+#include "report/shared/json.hpp"
 #include "verbs/completion_table.hpp"
 
 namespace deck::cli::verb_man {

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "common.hpp"
-#include "deck/report/params_report.hpp"
+#include "report/shared/params_report.hpp"
 #include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_params {

@@ -1,6 +1,6 @@
 // deck parts: the parts of a deck with mass, smallest time step and the interfaces that see them.
 
-#include "deck/report/parts.hpp"
+#include "report/shared/parts.hpp"
 #include "common.hpp"
 #include "deck/report/html.hpp"
 #include "writing/gap_page.hpp"

@@ -4,7 +4,7 @@
 
 #include "common.hpp"
 #include "deck/cycle/adapter.hpp"
-#include "deck/report/cycle.hpp"
+#include "report/shared/cycle.hpp"
 
 namespace deck::cli::verb_replay {
 namespace {

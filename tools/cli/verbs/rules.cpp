@@ -1,7 +1,7 @@
 // deck rules: all rules of deck lint, as a table or as JSON.
 
 #include "common.hpp"
-#include "deck/report/diagnostics.hpp"
+#include "report/shared/diagnostics.hpp"
 
 namespace deck::cli::verb_rules {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 
 namespace deck::cli {
 namespace {

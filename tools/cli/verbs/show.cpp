@@ -1,10 +1,10 @@
 // deck show: one entity of a deck, with its card, what the solver uses, and who uses it; of a pair
 // that penetrates, its side view.
 
-#include "deck/inspect/show.hpp"
+#include "inspect/shared/show.hpp"
 #include "common.hpp"
-#include "deck/report/show.hpp"
-#include "deck/report/side_view.hpp"
+#include "report/shared/show.hpp"
+#include "report/shared/side_view.hpp"
 
 namespace deck::cli::verb_show {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "deck/base/escape.hpp"
-#include "deck/base/paths.hpp"
+#include "base/shared/escape.hpp"
+#include "base/shared/paths.hpp"
 #include "writing/library.hpp"
 
 namespace deck::cli {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "deck/edit/edit_set.hpp"
+#include "edit/shared/edit_set.hpp"
 #include "writing/frame.hpp"
 
 namespace deck::cli {

@@ -5,7 +5,7 @@
 
 #include "deck/contact/crossings.hpp"
 #include "deck/report/gaps.hpp"
-#include "deck/report/json.hpp"
+#include "report/shared/json.hpp"
 #include "writing/gap_page.hpp"
 
 namespace deck::cli {

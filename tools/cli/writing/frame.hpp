@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/edit/include_scan.hpp"
 #include "deck/edit/rewrite.hpp"
-#include "deck/edit/write.hpp"
+#include "edit/shared/include_scan.hpp"
+#include "edit/shared/write.hpp"
 
 namespace deck::cli {
 

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <set>
 
-#include "deck/base/paths.hpp"
+#include "base/shared/paths.hpp"
 #include "deck/keyword/engine_file.hpp"
-#include "deck/text/gzip.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck::cli {
 namespace {

@@ -4,21 +4,21 @@
 #include <mutex>
 #include <utility>
 
-#include "deck/contact/tie_text.hpp"
+#include "deck/contact/ties.hpp"
 #include "deck/contact/view.hpp"
-#include "deck/inspect/diff.hpp"
-#include "deck/inspect/listing.hpp"
-#include "deck/inspect/show.hpp"
-#include "deck/lint/gate.hpp"
-#include "deck/lint/topics.hpp"
-#include "deck/report/diff.hpp"
 #include "deck/report/gaps.hpp"
-#include "deck/report/gate.hpp"
-#include "deck/report/listing.hpp"
-#include "deck/report/parts.hpp"
-#include "deck/report/show.hpp"
 #include "deck/verdict.hpp"
+#include "inspect/shared/diff.hpp"
+#include "inspect/shared/listing.hpp"
+#include "inspect/shared/show.hpp"
+#include "lint/shared/gate.hpp"
+#include "lint/shared/topics.hpp"
 #include "native.hpp"
+#include "report/shared/diff.hpp"
+#include "report/shared/gate.hpp"
+#include "report/shared/listing.hpp"
+#include "report/shared/parts.hpp"
+#include "report/shared/show.hpp"
 
 namespace deck::python {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "deck/edit/edit_set.hpp"
+#include "edit/shared/edit_set.hpp"
 #include "native.hpp"
 
 namespace deck::python {

@@ -3,21 +3,16 @@
 #include <functional>
 #include <map>
 
-#include "deck/edit/edit_set.hpp"
-#include "deck/edit/extract.hpp"
+#include "deck/edit/convert.hpp"
 #include "deck/edit/fix.hpp"
-#include "deck/edit/flatten.hpp"
-#include "deck/edit/move_part.hpp"
-#include "deck/edit/renumber.hpp"
-#include "deck/edit/resolve.hpp"
-#include "deck/edit/type19.hpp"
-#include "deck/edit/unit_system.hpp"
-#include "deck/edit/verify.hpp"
-#include "deck/edit/version.hpp"
-#include "deck/edit/write.hpp"
-#include "deck/report/fix.hpp"
-#include "deck/report/losses.hpp"
+#include "edit/shared/edit_set.hpp"
+#include "edit/shared/move_part.hpp"
+#include "edit/shared/resolve.hpp"
+#include "edit/shared/verify.hpp"
+#include "edit/shared/write.hpp"
 #include "native.hpp"
+#include "report/shared/fix.hpp"
+#include "report/shared/losses.hpp"
 
 namespace deck::python {
 namespace {

@@ -4,14 +4,14 @@
 #include <optional>
 #include <utility>
 
-#include "deck/keyword/recognise.hpp"
-#include "deck/lint/geometry.hpp"
 #include "deck/lint/lint.hpp"
-#include "deck/report/diagnostics.hpp"
-#include "deck/report/params_report.hpp"
 #include "deck/text/rule.hpp"
 #include "deck/text/rule_id.hpp"
+#include "keyword/shared/recognise.hpp"
+#include "lint/shared/geometry.hpp"
 #include "native.hpp"
+#include "report/shared/diagnostics.hpp"
+#include "report/shared/params_report.hpp"
 
 namespace deck::python {
 

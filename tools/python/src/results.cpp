@@ -3,15 +3,15 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/shared/what_if_text.hpp"
 #include "deck/contact/crossings.hpp"
 #include "deck/contact/view.hpp"
-#include "deck/contact/what_if_text.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 #include "deck/cycle/state.hpp"
-#include "deck/report/cycle.hpp"
 #include "deck/report/gaps.hpp"
-#include "deck/report/verdict.hpp"
 #include "native.hpp"
+#include "report/shared/cycle.hpp"
+#include "report/shared/verdict.hpp"
 
 namespace deck::python {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "deck/base/paths.hpp"
+#include "base/shared/paths.hpp"
 #include "deck/contact/resolve.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/model/interfaces.hpp"

@@ -3,8 +3,8 @@
 #pragma once
 #include <vector>
 
-#include "deck/edit/from_json.hpp"
 #include "edit/convert/json/document.hpp"
+#include "edit/shared/from_json.hpp"
 
 namespace deck::detail {
 

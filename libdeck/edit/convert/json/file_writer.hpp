@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "deck/edit/from_json.hpp"
 #include "deck/keyword/decode.hpp"
 #include "edit/convert/json/document.hpp"
+#include "edit/shared/from_json.hpp"
 
 namespace deck::detail {
 

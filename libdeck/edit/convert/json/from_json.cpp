@@ -1,6 +1,6 @@
 // Reads a deck's JSON: the text is parsed as a whole, every file is written from its lines, and
 // what came out is read back and held against everything else that the document says.
-#include "deck/edit/from_json.hpp"
+#include "edit/shared/from_json.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <set>
 
-#include "deck/base/paths.hpp"
+#include "base/shared/paths.hpp"
 #include "edit/convert/json/check.hpp"
 #include "edit/convert/json/file_writer.hpp"
 #include "keyword/deck_json_cells.hpp"

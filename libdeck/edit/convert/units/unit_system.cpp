@@ -1,7 +1,7 @@
 // Multiplies every cell of known dimension by its factor and lists what it could not decide.
 // One class over 600 lines: what a block needs — its cells, counts, functions, notes — is decided
 // cell by cell with the state of the block, which all its steps share.
-#include "deck/edit/unit_system.hpp"
+#include "deck/edit/convert.hpp"
 
 #include <algorithm>
 #include <bitset>
@@ -10,7 +10,6 @@
 #include <optional>
 #include <set>
 
-#include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
@@ -19,6 +18,7 @@
 #include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
 #include "model/constant_stiffness.hpp"
+#include "text/shared/edits.hpp"
 
 namespace deck {
 

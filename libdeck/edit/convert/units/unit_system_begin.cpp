@@ -2,11 +2,11 @@
 #include <array>
 #include <cctype>
 
-#include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
 #include "keyword/reader.hpp"
 #include "text/columns.hpp"
+#include "text/shared/edits.hpp"
 
 namespace deck::detail {
 namespace {

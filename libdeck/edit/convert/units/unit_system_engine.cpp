@@ -1,10 +1,10 @@
 // The times of Engine files in another unit system.
 #include <fmt/format.h>
 
-#include "deck/edit/unit_system.hpp"
-#include "deck/keyword/engine_layout.hpp"
+#include "deck/edit/convert.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
+#include "keyword/shared/engine_layout.hpp"
 
 namespace deck {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/edit/unit_system.hpp"
+#include "deck/edit/convert.hpp"
 #include "edit/convert/units/unit_system_decimal.hpp"
 
 namespace deck::detail {

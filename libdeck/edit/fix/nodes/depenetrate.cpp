@@ -1,6 +1,6 @@
 // The iteration: search, ask for displacements, smooth, print, search again.
 // Over 600 lines: the steps of an iteration share its state (places, limits, what holds a node).
-#include "deck/edit/depenetrate.hpp"
+#include "edit/shared/depenetrate.hpp"
 
 #include <algorithm>
 #include <cmath>

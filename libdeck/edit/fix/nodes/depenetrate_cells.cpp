@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "deck/text/edits.hpp"
 #include "model/bulk/item_spans.hpp"
+#include "text/shared/edits.hpp"
 
 namespace deck::detail {
 namespace {

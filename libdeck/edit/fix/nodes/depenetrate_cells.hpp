@@ -10,7 +10,7 @@
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/decode.hpp"
-#include "deck/text/edits.hpp"
+#include "text/shared/edits.hpp"
 
 namespace deck::detail {
 

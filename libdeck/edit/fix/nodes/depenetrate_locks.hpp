@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/edit/depenetrate.hpp"
 #include "edit/fix/nodes/depenetrate_mesh.hpp"
+#include "edit/shared/depenetrate.hpp"
 
 namespace deck::detail {
 

@@ -9,7 +9,7 @@
 
 #include "deck/contact/scene.hpp"
 #include "deck/edit/fix.hpp"
-#include "deck/model/connectivity.hpp"
+#include "model/shared/connectivity.hpp"
 
 namespace deck::detail {
 

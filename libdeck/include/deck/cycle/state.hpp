@@ -36,11 +36,11 @@ struct State {
   std::vector<std::string> not_evaluated;  ///< what the deck says about the state and was left out
 };
 
-/// Masses of elements and added masses, and the step of the structure, as deck/model/mesh.hpp gives
-/// them. Velocities of /INIVEL TRA and T+G on node groups (a skew other than a fixed one is noted
-/// as left out), then `velocities`, in order. Rotational initial velocities act on nodal rotations
-/// and move no node. Temperatures of /INITEMP, elsewhere T0 of /HEAT/MAT. `engine`: the Engine
-/// files beside the deck, some options of which change the step.
+/// Masses of elements and added masses, and the step of the structure, as model/shared/mesh.hpp
+/// gives them. Velocities of /INIVEL TRA and T+G on node groups (a skew other than a fixed one is
+/// noted as left out), then `velocities`, in order. Rotational initial velocities act on nodal
+/// rotations and move no node. Temperatures of /INITEMP, elsewhere T0 of /HEAT/MAT. `engine`: the
+/// Engine files beside the deck, some options of which change the step.
 [[nodiscard]] State make_state(const Scene& scene, const std::vector<PartVelocity>& velocities = {},
                                const EngineFiles* engine = nullptr);
 

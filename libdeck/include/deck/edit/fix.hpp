@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "deck/contact/scene.hpp"
-#include "deck/contact/tie_text.hpp"
+#include "deck/contact/ties.hpp"
 #include "deck/edit/rewrite.hpp"
 
 namespace deck {

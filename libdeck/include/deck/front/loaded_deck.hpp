@@ -23,8 +23,8 @@
 
 namespace deck {
 
-struct Kinematics;  // deck/model/kinematics.hpp
-struct Mesh;        // deck/model/mesh.hpp
+struct Kinematics;  // model/shared/kinematics.hpp
+struct Mesh;        // model/shared/mesh.hpp
 
 /// What is made of a deck, in this order; each needs those before it.
 enum class Stage : std::uint8_t {

@@ -14,7 +14,7 @@
 
 namespace deck {
 
-struct GateReport;  // deck/report/gate.hpp
+struct GateReport;  // report/shared/gate.hpp
 
 struct GapsTextOptions {
   std::size_t worst = 20;       ///< rows of the worst list

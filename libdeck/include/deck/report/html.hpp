@@ -16,7 +16,7 @@
 
 namespace deck {
 
-struct CycleInput;  // deck/report/cycle.hpp
+struct CycleInput;  // report/shared/cycle.hpp
 class LoadedDeck;   // deck/front/loaded_deck.hpp
 
 struct HtmlInput {

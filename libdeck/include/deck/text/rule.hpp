@@ -19,14 +19,14 @@ enum class RuleStage : std::uint8_t {
   model,    ///< nodes, elements, groups, interfaces
   check,    ///< a check of the lint stage
   extra,    ///< the extra checks of run_lint (geometry)
-  gate,     ///< bounds that a team has set (deck/lint/gate.hpp)
+  gate,     ///< bounds that a team has set (lint/shared/gate.hpp)
   linter,   ///< the linter itself: suppressions, baseline
 };
 
 enum class Fixable : std::uint8_t { no, safe, unsafe };
 
 /// The page of a rule. All text is the project's own; `bad` and `good` are examples in the notation
-/// of deck/lint/example.hpp and are run by the tests.
+/// of lint/shared/example.hpp and are run by the tests.
 struct Rule {
   RuleId id = RuleId::none;  ///< never reused
   std::string title;         ///< one line

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "deck/base/length_text.hpp"
+#include "base/shared/length_text.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {

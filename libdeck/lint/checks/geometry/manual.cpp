@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "deck/model/connectivity.hpp"
 #include "lint/checks/geometry/geometry.hpp"
+#include "model/shared/connectivity.hpp"
 
 namespace deck::detail {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "deck/base/length_text.hpp"
+#include "base/shared/length_text.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {

@@ -1,9 +1,9 @@
 // Names of contacts, segments, elements and lists as the findings of the geometry checks say them.
 #include <algorithm>
 
-#include "deck/base/count.hpp"
-#include "deck/lint/geometry.hpp"
+#include "base/shared/count.hpp"
 #include "lint/checks/geometry/geometry.hpp"
+#include "lint/shared/geometry.hpp"
 
 namespace deck {
 namespace detail {

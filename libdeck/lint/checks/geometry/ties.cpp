@@ -7,7 +7,7 @@
 
 #include "base/vec.hpp"
 #include "deck/contact/closest.hpp"
-#include "deck/contact/tie_text.hpp"
+#include "deck/contact/ties.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {

@@ -1,13 +1,13 @@
 // Kinematic conditions that do not go together: what the solver counts when it books them, and what
 // it refuses or takes away.
-#include "deck/model/kinematics.hpp"
+#include "model/shared/kinematics.hpp"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
 
-#include "deck/base/count.hpp"
+#include "base/shared/count.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 

@@ -8,13 +8,13 @@
 #include <set>
 #include <vector>
 
-#include "deck/base/count.hpp"
+#include "base/shared/count.hpp"
 #include "deck/base/point3.hpp"
-#include "deck/model/kinematics.hpp"
-#include "deck/model/mesh.hpp"
 #include "deck/text/number.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
+#include "model/shared/kinematics.hpp"
+#include "model/shared/mesh.hpp"
 
 namespace deck::detail {
 namespace {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <charconv>
 
-#include "deck/edit/layout.hpp"
-#include "deck/edit/renumber.hpp"
-#include "deck/lint/fix.hpp"
+#include "deck/edit/convert.hpp"
 #include "deck/model/selection.hpp"
+#include "edit/shared/layout.hpp"
+#include "lint/shared/fix.hpp"
 #include "lsp/view.hpp"
 
 namespace deck::lsp {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "deck/edit/layout.hpp"
-#include "deck/lint/topics.hpp"
+#include "edit/shared/layout.hpp"
+#include "lint/shared/topics.hpp"
 #include "lsp/view.hpp"
 
 namespace deck::lsp {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "deck/lint/topics.hpp"
-#include "deck/report/params_report.hpp"
 #include "deck/text/number.hpp"
+#include "lint/shared/topics.hpp"
 #include "lsp/view.hpp"
+#include "report/shared/params_report.hpp"
 
 namespace deck::lsp {
 namespace {

@@ -1,13 +1,13 @@
 // deck accuracy: what each word of --accuracy costs in time and gives, on the hard cases and on a
 // deck.
 
-#include "deck/accuracy/accuracy.hpp"
+#include "accuracy/shared/accuracy.hpp"
 
 #include <algorithm>
 
 #include "common.hpp"
-#include "deck/report/accuracy.hpp"
 #include "processor.hpp"
+#include "report/shared/accuracy.hpp"
 #include "verbs/accuracy/accuracy_cache.hpp"
 
 namespace deck::cli::verb_accuracy {

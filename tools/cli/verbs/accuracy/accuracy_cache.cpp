@@ -11,12 +11,12 @@
 #include <string>
 #include <utility>
 
+#include "accuracy/shared/store.hpp"
+#include "base/shared/hash.hpp"
 #include "batch/record.hpp"
-#include "deck/accuracy/store.hpp"
-#include "deck/base/hash.hpp"
-#include "deck/edit/write.hpp"
-#include "deck/report/accuracy.hpp"
+#include "edit/shared/write.hpp"
 #include "processor.hpp"
+#include "report/shared/accuracy.hpp"
 
 namespace deck::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "deck/accuracy/accuracy.hpp"
+#include "accuracy/shared/accuracy.hpp"
 
 namespace deck::cli {
 

@@ -10,15 +10,15 @@
 #include <set>
 #include <tuple>
 
+#include "base/shared/paths.hpp"
 #include "common.hpp"
-#include "deck/base/paths.hpp"
-#include "deck/edit/changed_values.hpp"
-#include "deck/edit/from_json.hpp"
 #include "deck/edit/rewrite.hpp"
-#include "deck/edit/verify.hpp"
-#include "deck/report/deck_json.hpp"
-#include "deck/report/losses.hpp"
-#include "deck/text/gzip.hpp"
+#include "edit/shared/changed_values.hpp"
+#include "edit/shared/from_json.hpp"
+#include "edit/shared/verify.hpp"
+#include "report/shared/deck_json.hpp"
+#include "report/shared/losses.hpp"
+#include "text/shared/gzip.hpp"
 #include "verbs/convert/convert_check.hpp"
 #include "verbs/convert/convert_losses.hpp"
 #include "verbs/convert/convert_steps.hpp"

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "deck/base/count.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
+#include "report/shared/text_table.hpp"
 #include "verbs/convert/convert_losses.hpp"
 
 namespace deck::cli {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "deck/base/escape.hpp"
+#include "base/shared/escape.hpp"
 #include "deck/keyword/engine_file.hpp"
 #include "deck/text/number.hpp"
 

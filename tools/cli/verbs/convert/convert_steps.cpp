@@ -1,14 +1,9 @@
 // Adds the options of the conversions and turns them into steps.
 #include "verbs/convert/convert_steps.hpp"
 
-#include "deck/edit/extract.hpp"
-#include "deck/edit/flatten.hpp"
-#include "deck/edit/from_json.hpp"
-#include "deck/edit/renumber.hpp"
-#include "deck/edit/resolve.hpp"
-#include "deck/edit/type19.hpp"
-#include "deck/edit/unit_system.hpp"
-#include "deck/edit/version.hpp"
+#include "deck/edit/convert.hpp"
+#include "edit/shared/from_json.hpp"
+#include "edit/shared/resolve.hpp"
 
 namespace deck::cli {
 

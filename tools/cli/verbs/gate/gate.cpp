@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "deck/base/count.hpp"
-#include "deck/report/text_table.hpp"
+#include "base/shared/count.hpp"
+#include "report/shared/text_table.hpp"
 #include "verbs/gate/init.hpp"
 #include "verbs/lint/lint_run.hpp"
 

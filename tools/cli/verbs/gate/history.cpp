@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "deck/base/count.hpp"
+#include "base/shared/count.hpp"
 #include "deck/report/gaps.hpp"
-#include "deck/report/text_table.hpp"
+#include "report/shared/text_table.hpp"
 #include "verbs/git_deck.hpp"
 #include "verbs/lint/lint_run.hpp"
 #include "writing/library.hpp"

@@ -8,12 +8,12 @@
 #include <memory>
 #include <vector>
 
-#include "deck/base/count.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/base/paths.hpp"
-#include "deck/lint/config.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
+#include "base/shared/paths.hpp"
 #include "deck/report/gaps.hpp"
-#include "deck/report/json.hpp"
+#include "lint/shared/config.hpp"
+#include "report/shared/json.hpp"
 #include "verbs/gate/history.hpp"
 #include "verbs/lint/lint_run.hpp"
 #include "writing/library.hpp"

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "deck/base/paths.hpp"
-#include "deck/lint/config.hpp"
+#include "base/shared/paths.hpp"
 #include "deck/report/gaps.hpp"
+#include "lint/shared/config.hpp"
 #include "verbs/git_deck.hpp"
 #include "writing/library.hpp"
 

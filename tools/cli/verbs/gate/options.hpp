@@ -8,11 +8,11 @@
 #include "common.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/contact/view.hpp"
-#include "deck/lint/changed_lines.hpp"
-#include "deck/lint/config.hpp"
-#include "deck/lint/gate.hpp"
-#include "deck/report/gate.hpp"
 #include "deck/verdict.hpp"
+#include "lint/shared/changed_lines.hpp"
+#include "lint/shared/config.hpp"
+#include "lint/shared/gate.hpp"
+#include "report/shared/gate.hpp"
 
 namespace deck::cli {
 

@@ -1,7 +1,7 @@
 // deck lint: findings with file, line and column, in every format that people and pipelines read.
 
+#include "base/shared/escape.hpp"
 #include "common.hpp"
-#include "deck/base/escape.hpp"
 #include "verbs/lint/lint_run.hpp"
 #include "verbs/settings.hpp"
 

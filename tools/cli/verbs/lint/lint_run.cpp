@@ -7,11 +7,11 @@
 #include <numeric>
 #include <tuple>
 
-#include "deck/base/count.hpp"
-#include "deck/base/escape.hpp"
-#include "deck/lint/config.hpp"
-#include "deck/lint/fix.hpp"
-#include "deck/lint/geometry.hpp"
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
+#include "lint/shared/config.hpp"
+#include "lint/shared/fix.hpp"
+#include "lint/shared/geometry.hpp"
 #include "writing/library.hpp"
 
 namespace deck::cli {

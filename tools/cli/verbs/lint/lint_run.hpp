@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "common.hpp"
-#include "deck/lint/fix.hpp"
 #include "deck/lint/lint.hpp"
-#include "deck/report/diagnostics.hpp"
-#include "deck/report/gate.hpp"
+#include "lint/shared/fix.hpp"
+#include "report/shared/diagnostics.hpp"
+#include "report/shared/gate.hpp"
 #include "verbs/gate/options.hpp"
 #include "writing/changes.hpp"
 

@@ -1,0 +1,36 @@
+// Cards laid out: headings over the columns, all lines of a new card, one card put in order, one
+// cell set. Columns stay what the schema says; text that is no cell is not touched.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/keyword/decode.hpp"
+#include "text/shared/edits.hpp"
+
+namespace deck {
+
+/// "#  grnd_IDs  surf_IDm      Istf": names that end where their columns end, cut to their width;
+/// one that is narrower than three columns is left out. Empty for a card of another version.
+std::string card_heading(const CardSchema& card, int version);
+
+/// Every line of a new card: `header`, a title if the keyword has one, and for each line that a
+/// card without values has a heading and a line of blanks up to its last column. A card that
+/// repeats stands once. Lines end with "\n".
+std::string new_card(const Schema& schema, std::string_view header, int version,
+                     std::string_view title);
+
+/// Edits that put every cell of a block where its columns end (texts: where they begin), and renew
+/// headings: comment lines right above a line that name at least one of its fields. Lines in free
+/// format, encrypted blocks, nodes and elements, titles and lines that no schema describes stay.
+/// Values do not change: a cell that would be read otherwise keeps its line as it is.
+std::vector<TextEdit> format_card(const Deck& deck, const Block& block);
+
+/// Edit that writes `text` into the first cell called `field` whose line is there, `round` lines of
+/// a repeated card later, and moves nothing else; empty text blanks it. Error (config): no such
+/// field in this version, its line is missing, the line is in free format, or the text is longer
+/// than the cell; the message says which.
+Result<TextEdit> set_cell(const Deck& deck, const Block& block, std::string_view field,
+                          std::string_view text, int round = 0);
+
+}  // namespace deck

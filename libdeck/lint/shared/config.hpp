@@ -1,0 +1,90 @@
+// Settings of a lint run that live in files: .decklint.toml beside or above the deck, and the
+// baseline of findings that are known and accepted.
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/lint/lint.hpp"
+#include "deck/text/result.hpp"
+#include "lint/shared/gate.hpp"
+
+namespace deck {
+
+/// A key that .decklint.toml may have.
+struct ConfigKey {
+  std::string_view table;     ///< "" or "gate"; "gate.interface" is [[gate.interface]], a list
+  std::string_view key;       ///< an example where it is a selector or a pattern
+  std::string_view example;   ///< a value, as TOML
+  std::string_view fallback;  ///< what holds without the key; empty: it has to be there
+  std::string_view meaning;
+};
+const std::vector<ConfigKey>& config_keys();
+/// The keys of a table and the tables in it, "max-depth, max-ratio, ...", for messages.
+std::string known_config_keys(std::string_view table);
+/// What `deck lint --init` writes: every key as a comment.
+std::string config_template();
+
+/// What is wrong with a selector that fits no rule, with the id that was probably meant.
+std::string unknown_selector(std::string_view text);
+
+/// .decklint.toml, read.
+struct LintConfig {
+  std::string path;  ///< file it came from; empty: none
+  /// Line of every key that is there: "fail-on", "severity.DK9", "gate.max-depth",
+  /// "gate.interface[0]".
+  std::map<std::string, std::uint64_t> lines;
+  std::vector<std::string> select, ignore;
+  std::string fail_on;
+  std::string baseline;
+  std::optional<bool> geometry;  ///< nullopt: as far as it is quick
+  std::map<std::string, Severity> severity;
+  std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;
+  Gate gate;
+  std::string compare;   ///< [gate] compare: an earlier `deck gaps --json`
+  std::string accepted;  ///< [gate] baseline: of `deck gaps --write-baseline`
+};
+
+/// Parses the text of a configuration; unknown keys and unknown rules are errors.
+Result<LintConfig> parse_lint_config(std::string_view text, const std::string& path);
+inline constexpr std::uint64_t most_config_bytes = std::uint64_t{1} << 20;
+inline constexpr std::uint64_t most_baseline_bytes = std::uint64_t{256} << 20;
+
+/// The bytes of a regular file of at most `most` bytes, or of standard input ("-").
+Result<std::string> read_config_file(const std::string& path, std::uint64_t most);
+/// Looks for .decklint.toml in the directory of `deck_path` and above. No file: an empty config.
+Result<LintConfig> find_lint_config(const std::string& deck_path);
+
+/// Findings that are known and accepted, by deck: an error in a deck that is not in the baseline is
+/// never hidden. Paths are absolute here, and relative to the baseline in its file.
+struct Baseline {
+  struct Entry {
+    std::string rule, entity;
+    std::uint64_t count = 0;
+  };
+  /// Absolute path of the deck -> findings of that deck.
+  std::map<std::string, std::map<FindingKey, Entry>> decks;
+
+  /// For LintOptions::baseline; nullptr: the deck is not in the baseline.
+  const std::map<FindingKey, Entry>* find(const std::string& deck_path) const;
+};
+
+/// Reads a baseline: JSON {"schema":"deck.baseline/2","decks":{"<deck>":[{"file":..,
+/// "fingerprint":..,"rule":..,"entity":..,"count":..}]}}, deck and file relative to `path`.
+Result<Baseline> parse_baseline(std::string_view text, const std::string& path);
+
+/// A deck for write_baseline.
+struct BaselinedDeck {
+  std::string path;
+  const Deck* deck = nullptr;
+  const LintResult* result = nullptr;
+};
+/// The findings of decks as a baseline that is to lie at `path`, ordered by deck and file.
+std::string write_baseline(const std::vector<BaselinedDeck>& decks, const std::string& path);
+
+/// `path` against a glob with * (no slash), ** and ?; also matches the last path component alone.
+bool glob_match(std::string_view pattern, std::string_view path);
+
+}  // namespace deck

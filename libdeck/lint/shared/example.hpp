@@ -1,0 +1,35 @@
+// Examples of rules: short texts that become whole decks. A line "@/INTER/TYPE7/1 Istf=7" stands
+// for the full card of that keyword with these fields, laid out by the schema of the deck's
+// version.
+#pragma once
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "deck/keyword/schema.hpp"
+#include "keyword/shared/render.hpp"
+
+namespace deck {
+
+/// Notation, line by line:
+///   @version N          input version of the deck (2022 if absent)
+///   @bare               no model around the text, only /BEGIN and /END
+///   @deck               the text is the whole main file
+///   @file NAME          what follows is the content of another file of the deck
+///   @gzip NAME          the same, and the file lies there packed
+///   @limit NAME N       a reading limit for this example (used by tests only)
+///   @/KEYWORD/1 A=1 B=2 the card of that keyword; interfaces get sides 1 and 2 if none are given
+///   anything else       taken as it is
+struct ExampleDeck {
+  std::string main;                                        ///< text of the main file
+  std::vector<std::pair<std::string, std::string>> files;  ///< further files: name, text
+  std::vector<std::pair<std::string, int>> limits;
+};
+
+/// The example as a complete deck.
+ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas);
+/// The example as people see it: cards laid out, no surrounding model.
+std::string example_text(std::string_view example, const SchemaSet& schemas);
+
+}  // namespace deck

@@ -1,0 +1,76 @@
+// The mesh itself, as the reference solver lists it at start-up: time steps and masses of elements,
+// nodal masses, stiffness and time steps, and what the parts add up to. No factor is applied to any
+// step. What is not established is NaN, and Mesh::left_out says why.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "deck/keyword/engine_file.hpp"
+#include "deck/model/model.hpp"
+#include "model/shared/tied_nodes.hpp"
+
+namespace deck {
+
+/// A step that limits nothing.
+inline constexpr double no_step = 1e30;
+
+/// One entry per element of a family.
+struct ElementFigures {
+  std::vector<double> dt;    ///< no_step: limits nothing; NaN: not computed
+  std::vector<double> mass;  ///< NaN: not computed
+};
+
+/// One entry per node, as the solver lists them: of contacts, only ties have a share.
+struct NodeFigures {
+  std::vector<double> dt;  ///< no_step: no mass or no stiffness; NaN: not computed
+  std::vector<double> mass, inertia, stiffness, rotational_stiffness;
+  std::vector<double> lumped_mass;  ///< of elements and added masses, before bodies and ties
+};
+
+/// An element by its family.
+struct ElementRef {
+  ElementKind kind = ElementKind::shell4;
+  std::uint32_t element = no_index;  ///< no_index: none
+};
+
+/// Of a part, or of all.
+struct PartFigures {
+  double mass = 0;                  ///< NaN: not computed
+  std::array<double, 3> centre{};   ///< where mass is not 0
+  std::array<double, 6> inertia{};  ///< about the centre, of what the nodes have: xx yy zz xy yz zx
+  double dt = no_step;              ///< smallest of its elements that are computed
+  ElementRef slowest;               ///< the element that gives dt
+  std::uint64_t not_computed = 0;   ///< elements without a step that is established
+};
+
+/// Something that is not established.
+struct LeftOut {
+  std::string what, why;
+  std::uint64_t count = 0;
+};
+
+struct Mesh {
+  std::array<ElementFigures, 8> elements;  ///< by ElementKind
+  NodeFigures nodes;
+  std::vector<PartFigures> parts;  ///< as Model::parts
+  PartFigures total;               ///< of all elements
+  std::vector<LeftOut> left_out;
+
+  const ElementFigures& of(ElementKind kind) const {
+    return elements[static_cast<std::size_t>(kind)];
+  }
+};
+
+struct MeshOptions {
+  int threads = 1;                           ///< changes no result
+  const Coordinates* coordinates = nullptr;  ///< of moved nodes; nullptr: those of the model
+  const EngineFiles* engine = nullptr;  ///< beside the deck: some of its options change lengths
+  /// What ties hold. nullptr: not known, nodes that /INTER/TYPE2 may change have no step.
+  const std::vector<TiedNodes>* ties = nullptr;
+};
+
+Mesh make_mesh(const Model& model, const MeshOptions& options = {});
+
+}  // namespace deck

@@ -1,0 +1,45 @@
+// What a gate said about a deck, and how its penetrations differ from an earlier run: for the
+// documents and texts of every verb that has a gate.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "deck/contact/earlier.hpp"
+#include "deck/keyword/deck.hpp"
+#include "lint/shared/gate.hpp"
+#include "report/shared/diagnostics.hpp"
+#include "report/shared/json.hpp"
+
+namespace deck {
+
+struct GateReport {
+  bool asked = false;                ///< some bound was set, or new and worse were asked for
+  std::vector<Diagnostic> findings;  ///< what check_gate gave
+  std::size_t undecided = 0;         ///< contacts that could not be evaluated
+  const EarlierGaps* earlier = nullptr;
+  GapsComparison comparison;  ///< with `earlier`
+
+  /// Nothing passes over the bounds, and that is known of every contact.
+  bool passed() const { return findings.empty() && undecided == 0; }
+};
+
+/// Holds the contacts against the gate. `forces`, `earlier` and `changed` may be nullptr, as in
+/// check_gate; the report refers to `earlier`.
+GateReport gate_report(const Gate& gate, const Scene& scene, const SceneView& view,
+                       const cycle::SceneOutcome* forces, const EarlierGaps* earlier,
+                       const ChangedLines* changed = nullptr);
+/// Contacts that could not be evaluated.
+std::size_t undecided_contacts(const Scene& scene);
+
+/// Members "gate" {passed, undecided, findings} and "compared" {with, new, worse, better, same,
+/// solved, rows}, null where they were not asked for.
+void write_gate(JsonWriter& json, const Deck& deck, const Scene& scene, const SceneView& view,
+                const GateReport& gate);
+/// What `deck gate --json` writes of a deck that could be read: the findings that it stops at, and
+/// the comparison in numbers.
+std::string gate_json(const LintedDeck& deck, const GateReport& gate,
+                      const std::vector<const Diagnostic*>& stops, bool passed);
+/// Both in a line each; "" if neither was asked for.
+std::string gate_text(const GateReport& gate);
+
+}  // namespace deck

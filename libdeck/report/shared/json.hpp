@@ -1,0 +1,79 @@
+// JsonWriter: JSON as text, written straight into a string. Doubles have the shortest form that
+// reads back to the same number; bytes that are no UTF-8 are taken for Latin-1, so every title
+// survives.
+#pragma once
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/shared/escape.hpp"
+#include "deck/keyword/deck.hpp"
+#include "deck/model/coverage.hpp"
+#include "deck/model/interfaces.hpp"
+#include "deck/model/model.hpp"
+#include "deck/text/number.hpp"
+
+namespace deck {
+
+class JsonWriter {
+ public:
+  explicit JsonWriter(std::string& out) : out_(out) {}
+
+  /// `line` true: the container and all in it stand on one line.
+  JsonWriter& begin_object(bool line = false) { return open('{', line); }
+  JsonWriter& end_object() { return close('}'); }
+  JsonWriter& begin_array(bool line = false) { return open('[', line); }
+  JsonWriter& end_array() { return close(']'); }
+  JsonWriter& key(std::string_view name);
+
+  JsonWriter& value(std::string_view text);
+  JsonWriter& value(const char* text) { return value(std::string_view(text)); }
+  JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
+  /// Always with a point or an exponent; infinite and undefined values become null.
+  JsonWriter& value(double number);
+  JsonWriter& value(bool b);
+  template <std::integral T>
+  requires(!std::same_as<T, bool>) JsonWriter& value(T number) {
+    return raw(std::to_string(number));
+  }
+  JsonWriter& null() { return raw("null"); }
+  /// Text that is JSON already.
+  JsonWriter& raw(std::string_view json);
+
+  /// key() and value() in one.
+  template <class T>
+  JsonWriter& field(std::string_view name, const T& v) {
+    return key(name).value(v);
+  }
+
+ private:
+  JsonWriter& open(char bracket, bool line);
+  JsonWriter& close(char bracket);
+  void before_value();
+
+  struct Level {
+    bool line = false;
+    bool empty = true;
+  };
+  std::string& out_;
+  std::vector<Level> levels_;
+  bool after_key_ = false;
+};
+
+/// Version of this library, "1.2.3".
+std::string_view library_version();
+
+/// What every document starts with: the members "schema" and "tool" ...
+void write_json_head(JsonWriter& json, std::string_view schema_id, int schema_version);
+/// ... and "deck": path as given, version, units, counts, includes. `model` and `interfaces` may be
+/// nullptr where they were not built.
+void write_json_deck(JsonWriter& json, std::string_view path, const Deck& deck, const Model* model,
+                     const Interfaces* interfaces);
+/// The members "examined" (how many interfaces) and "not_examined" (the others, by keyword).
+void write_json_coverage(JsonWriter& json, const Coverage& coverage);
+/// {"file": ..., "line": ..., "column": ...} of a span, or null.
+void write_json_place(JsonWriter& json, const Deck& deck, const Span& span);
+
+}  // namespace deck

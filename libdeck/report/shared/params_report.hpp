@@ -1,0 +1,55 @@
+// The effective values of all interfaces, for people and for programs: what the card says, what the
+// solver uses, and where that came from.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "deck/front/loaded_deck.hpp"
+#include "report/shared/json.hpp"
+#include "report/shared/text_table.hpp"
+
+namespace deck {
+
+struct ParamsInput {
+  /// Values of Origin::geometry are unknown where the interface is not resolved.
+  const LoadedDeck& loaded;
+  /// Says what the parts of a TYPE19 have where they differ from the interface; may be missing.
+  const Scene* scene = nullptr;
+};
+
+struct ParamsTextOptions {
+  bool color = false;
+  /// Only fields that are on the card and not the default.
+  bool changed_only = false;
+  bool filled_in_only = false;     ///< only fields whose value does not stand on the card
+  std::vector<std::int64_t> only;  ///< interface ids; empty: all
+  std::size_t width = 0;           ///< columns of a line; 0: any
+};
+
+/// One table per interface.
+std::string params_text(const ParamsInput& input, const ParamsTextOptions& options = {});
+/// One row per interface, one column per field that has a value of interest in some of them; values
+/// that do not stand on the card are in parentheses. Folded to the width.
+std::string params_matrix(const ParamsInput& input, const ParamsTextOptions& options = {});
+/// One line per interface and field, RFC 4180.
+std::string params_csv(const ParamsInput& input, const ParamsTextOptions& options = {});
+/// One line per interface with every field as a column, RFC 4180.
+std::string params_matrix_csv(const ParamsInput& input, const ParamsTextOptions& options = {});
+/// The document of `deck params --json` (schemas/output/params.schema.json).
+std::string params_json(const ParamsInput& input, const std::vector<std::int64_t>& only = {});
+
+/// Fields of one interface as a table of field, card, value, origin and place.
+TextTable params_table(const ParamsInput& input, const InterBase& inter,
+                       const ParamsTextOptions& options = {});
+/// The member "parameters" of one interface.
+void write_json_parameters(JsonWriter& json, const ParamsInput& input, const InterBase& inter);
+/// Value of a field for people: "0.5"; where the geometry decides, of every part of a TYPE19.
+template <class T>
+std::string effective_text(const ParamsInput& input, const InterBase& inter, std::string_view name,
+                           const Effective<T>& field);
+/// True if the field is written on the card with something else than what a blank would give.
+template <class T>
+bool changed_on_card(const ParamsInput& input, const InterBase& inter, std::string_view name,
+                     const Effective<T>& field);
+
+}  // namespace deck
