@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "accuracy/tiers.hpp"
-#include "cycle/contact_run.hpp"
+#include "cycle/shared/contact_run.hpp"
 
 namespace deck {
 namespace {

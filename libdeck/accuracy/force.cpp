@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "accuracy/tiers.hpp"
-#include "contact/distance/dd.hpp"
+#include "contact/shared/dd.hpp"
 #include "deck/cycle/kernel.hpp"
 
 namespace deck::accuracy {

@@ -3,7 +3,7 @@
 #include <CGAL/number_utils.h>
 
 #include "accuracy/tiers.hpp"
-#include "contact/distance/exact_number.hpp"
+#include "contact/shared/exact_number.hpp"
 
 namespace deck::accuracy {
 Outcome exact_force(const PairSample& s, FilterCounters&) {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "accuracy/tiers.hpp"
-#include "contact/distance/dd.hpp"
+#include "contact/shared/dd.hpp"
 
 namespace deck {
 namespace {

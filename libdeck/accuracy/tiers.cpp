@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/distance/dd.hpp"
+#include "contact/shared/dd.hpp"
 
 namespace deck::accuracy {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "accuracy/tiers.hpp"
-#include "contact/distance/exact_number.hpp"
+#include "contact/shared/exact_number.hpp"
 
 namespace deck::accuracy {
 namespace {

@@ -1,12 +1,12 @@
 // Asks the system for memory in large pieces.
-#include "base/pages.hpp"
+#include "base/shared/pages.hpp"
 
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <cstdint>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 
 namespace deck {
 namespace {

@@ -1,5 +1,5 @@
 // The one place that starts threads: shared loops that carry exceptions and a cancel flag.
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 
 #include <exception>
 #include <new>

@@ -1,6 +1,6 @@
 // Numbers from text and to text: the standard library's functions, or strtod in the C locale and
 // fmt in their place.
-#include "base/real_text.hpp"
+#include "base/shared/real_text.hpp"
 
 #include <fmt/format.h>
 #include <locale.h>

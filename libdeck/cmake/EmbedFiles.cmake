@@ -2,7 +2,7 @@
 # literals (a number for each byte takes the compiler seven times as long).
 file(GLOB files ${DIR}/${PATTERN})
 list(SORT files)
-set(text "// Generated from ${PATTERN} of ${NAME}; do not edit.\n#include \"base/embedded.hpp\"\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\nnamespace deck::detail {\n")
+set(text "// Generated from ${PATTERN} of ${NAME}; do not edit.\n#include \"base/shared/embedded.hpp\"\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\nnamespace deck::detail {\n")
 set(rows "")
 foreach(f ${files})
   get_filename_component(name ${f} NAME)

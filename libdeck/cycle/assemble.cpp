@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 
 namespace deck::cycle {
 namespace {

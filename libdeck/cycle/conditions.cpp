@@ -1,7 +1,7 @@
 // What the deck says about nodes besides contact: fixed translations, and elements that are gone.
 #include <algorithm>
 
-#include "cycle/contact_run.hpp"
+#include "cycle/shared/contact_run.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"

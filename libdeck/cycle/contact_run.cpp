@@ -1,11 +1,11 @@
 // One contact in one evaluation: its pairs, what they remember, their forces and the sums at its
 // nodes.
-#include "cycle/contact_run.hpp"
+#include "cycle/shared/contact_run.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "cycle/adapter/parts.hpp"
 #include "cycle/shared/sharing.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "cycle/contact_run.hpp"
+#include "cycle/shared/contact_run.hpp"
 #include "deck/model/interfaces_fields.hpp"
 
 namespace deck::cycle::detail {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "cycle/curvature.hpp"
 #include "cycle/kernel/effects.hpp"
 #include "cycle/kernel/vector.hpp"

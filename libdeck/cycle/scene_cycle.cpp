@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "cycle/contact_run.hpp"
+#include "cycle/shared/contact_run.hpp"
 
 namespace deck::cycle {
 namespace {

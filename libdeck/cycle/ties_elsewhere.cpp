@@ -1,8 +1,8 @@
 // Irem_i2 = 1: which pairs of a contact a tie (/INTER/TYPE2) of the deck holds already.
 #include <algorithm>
 
-#include "contact/tied/parts.hpp"
-#include "cycle/contact_run.hpp"
+#include "contact/shared/tie_parts.hpp"
+#include "cycle/shared/contact_run.hpp"
 
 namespace deck::cycle::detail {
 namespace {

@@ -10,10 +10,10 @@
 #include "deck/edit/rewrite.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/version_cards.hpp"
-#include "keyword/decode/parts.hpp"
-#include "keyword/line_check.hpp"
+#include "keyword/shared/decode_parts.hpp"
+#include "keyword/shared/line_check.hpp"
 #include "keyword/shared/place.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "deck/keyword/decode.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck {
 namespace {

@@ -22,7 +22,7 @@
 #include "edit/shared/edit_set.hpp"
 #include "edit/shared/include_scan.hpp"
 #include "edit/shared/write.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "keyword/shared/place.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {

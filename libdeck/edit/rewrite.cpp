@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "keyword/reader.hpp"
+#include "keyword/shared/reader.hpp"
 #include "text/shared/edits.hpp"
 
 namespace deck {

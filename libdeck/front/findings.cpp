@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/keyword/schema.hpp"
 #include "deck/model/selection.hpp"

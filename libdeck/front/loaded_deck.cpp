@@ -4,9 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include "contact/scene/scene_parts.hpp"
-#include "contact/tied/parts.hpp"
-#include "cycle/contact_run.hpp"
+#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/tie_parts.hpp"
+#include "cycle/shared/contact_run.hpp"
 #include "deck/text/rule_id.hpp"
 #include "front/findings.hpp"
 #include "model/shared/kinematics.hpp"

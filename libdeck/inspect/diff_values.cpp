@@ -9,7 +9,7 @@
 
 #include "deck/text/number.hpp"
 #include "keyword/shared/references.hpp"
-#include "model/constant_stiffness.hpp"
+#include "model/shared/constant_stiffness.hpp"
 
 namespace deck::detail {
 

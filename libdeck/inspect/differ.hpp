@@ -17,7 +17,7 @@
 #include "inspect/function_uses.hpp"
 #include "inspect/match.hpp"
 #include "inspect/shared/diff.hpp"
-#include "keyword/decode/implied_one.hpp"
+#include "keyword/shared/implied_one.hpp"
 
 namespace deck::detail {
 

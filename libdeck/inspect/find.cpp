@@ -8,7 +8,7 @@
 #include "deck/text/number.hpp"
 #include "inspect/families.hpp"
 #include "inspect/shared/show.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 

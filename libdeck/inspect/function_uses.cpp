@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "keyword/decode/implied_one.hpp"
+#include "keyword/shared/implied_one.hpp"
 #include "keyword/shared/references.hpp"
 
 namespace deck::detail {

@@ -7,7 +7,7 @@
 
 #include "deck/keyword/decode.hpp"
 #include "keyword/shared/references.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "deck/text/number.hpp"
 #include "keyword/blank_units.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck::detail {
 namespace {

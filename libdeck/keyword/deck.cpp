@@ -5,9 +5,9 @@
 #include <cstring>
 
 #include "deck/text/number.hpp"
-#include "keyword/header_line.hpp"
-#include "keyword/line_check.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/header_line.hpp"
+#include "keyword/shared/line_check.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck {
 

@@ -1,5 +1,5 @@
 // What the value of a cell is in JSON, for the writer and the reader.
-#include "keyword/deck_json_cells.hpp"
+#include "keyword/shared/deck_json_cells.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "keyword/reader.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck {
 namespace {

@@ -1,10 +1,10 @@
 // What can be wrong with the form of a keyword line: its length and its blanks.
-#include "keyword/header_line.hpp"
+#include "keyword/shared/header_line.hpp"
 
 #include <algorithm>
 
-#include "keyword/reader.hpp"
-#include "text/number_scan.hpp"
+#include "keyword/shared/reader.hpp"
+#include "text/shared/number_scan.hpp"
 
 namespace deck::detail {
 namespace {

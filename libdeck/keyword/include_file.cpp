@@ -1,12 +1,12 @@
 // The directive #include: its path over continued lines, the places where the file may lie, and
 // what a path that leads nowhere was probably meant to be.
-#include "keyword/include_file.hpp"
+#include "keyword/shared/include_file.hpp"
 
 #include <algorithm>
 #include <filesystem>
 
 #include "base/shared/paths.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/reader.hpp"
 #include "text/shared/similar_file.hpp"
 
 namespace deck::detail {

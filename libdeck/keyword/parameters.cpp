@@ -5,10 +5,10 @@
 #include <set>
 
 #include "deck/text/number.hpp"
-#include "keyword/decode/parts.hpp"
-#include "keyword/line_check.hpp"
-#include "keyword/reader.hpp"
-#include "text/number_scan.hpp"
+#include "keyword/shared/decode_parts.hpp"
+#include "keyword/shared/line_check.hpp"
+#include "keyword/shared/reader.hpp"
+#include "text/shared/number_scan.hpp"
 
 namespace deck::detail {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "keyword/include_file.hpp"
-#include "text/columns.hpp"
+#include "keyword/shared/include_file.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {

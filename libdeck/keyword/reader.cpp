@@ -1,6 +1,6 @@
 // One pass over the bytes of every file: only header lines and directives are looked at, everything
 // else becomes part of the block that is open. What needs the whole deck is in reader_finish.cpp.
-#include "keyword/reader.hpp"
+#include "keyword/shared/reader.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -8,10 +8,10 @@
 #include <set>
 
 #include "deck/text/number.hpp"
-#include "keyword/header_line.hpp"
-#include "keyword/include_file.hpp"
-#include "text/number_scan.hpp"
+#include "keyword/shared/header_line.hpp"
+#include "keyword/shared/include_file.hpp"
 #include "text/shared/gzip.hpp"
+#include "text/shared/number_scan.hpp"
 
 namespace deck {
 namespace {

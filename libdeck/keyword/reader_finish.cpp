@@ -4,9 +4,9 @@
 
 #include "deck/text/number.hpp"
 #include "keyword/blank_units.hpp"
-#include "keyword/decode/parts.hpp"
-#include "keyword/line_check.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/decode_parts.hpp"
+#include "keyword/shared/line_check.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck::detail {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 
 #include "base/shared/escape.hpp"
-#include "keyword/reader.hpp"
-#include "text/number_scan.hpp"
+#include "keyword/shared/reader.hpp"
+#include "text/shared/number_scan.hpp"
 
 namespace deck {
 namespace {

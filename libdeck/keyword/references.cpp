@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "deck/text/number.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 

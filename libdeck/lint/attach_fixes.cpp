@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "keyword/reader.hpp"
+#include "keyword/shared/reader.hpp"
 #include "lint/shared/fix.hpp"
 
 namespace deck::detail {

@@ -2,7 +2,7 @@
 // values beside the cells they came from. Private to the lint stage.
 #pragma once
 #include "deck/lint/lint.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 

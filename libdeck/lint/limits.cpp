@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "base/embedded.hpp"
+#include "base/shared/embedded.hpp"
 #include "deck/lint/rule.hpp"
 
 namespace deck::detail {

@@ -1,7 +1,7 @@
 // Exterior faces by hashing. A face starts at its smallest node; its second and its last node there
 // make two keys: what it offers to other solids (smallest, last) and what would end it (smallest,
 // second). A face that another one offers an end to is interior if that solid has all its nodes.
-#include "model/faces.hpp"
+#include "model/shared/faces.hpp"
 
 #include <algorithm>
 #include <utility>

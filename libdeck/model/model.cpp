@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "deck/model/selection.hpp"
 #include "model/bulk/bulk.hpp"
-#include "model/bulk/item_spans.hpp"
 #include "model/model_build.hpp"
-#include "text/columns.hpp"
+#include "model/shared/item_spans.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace detail {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "base/length3.hpp"
-#include "base/parallel.hpp"
+#include "base/shared/length3.hpp"
+#include "base/shared/parallel.hpp"
 #include "deck/text/number.hpp"
-#include "model/bulk/item_spans.hpp"
 #include "model/model_build.hpp"
+#include "model/shared/item_spans.hpp"
 
 namespace deck {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <mutex>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "model/model_build.hpp"
 
 namespace deck::detail {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/length3.hpp"
+#include "base/shared/length3.hpp"
 #include "deck/model/selection.hpp"
 #include "model/model_build.hpp"
 

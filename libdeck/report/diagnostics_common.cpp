@@ -6,7 +6,7 @@
 
 #include "base/shared/paths.hpp"
 #include "lint/shared/gate.hpp"
-#include "text/rule_page.hpp"
+#include "text/shared/rule_page.hpp"
 
 namespace deck {
 namespace {

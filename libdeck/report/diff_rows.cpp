@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/length3.hpp"
 #include "base/shared/count.hpp"
+#include "base/shared/length3.hpp"
 #include "base/shared/length_text.hpp"
 #include "report/shared/json.hpp"
 

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "base/shared/escape.hpp"
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 #include "deck/text/number.hpp"
 
 namespace deck {

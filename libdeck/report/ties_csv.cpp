@@ -4,11 +4,11 @@
 #include <iterator>
 
 #include "base/shared/escape.hpp"
-#include "contact/scene/element_names.hpp"
+#include "contact/shared/element_names.hpp"
 #include "deck/contact/ties.hpp"
 #include "deck/report/gaps.hpp"
-#include "model/bulk/item_spans.hpp"
 #include "model/shared/connectivity.hpp"
+#include "model/shared/item_spans.hpp"
 
 namespace deck {
 namespace {

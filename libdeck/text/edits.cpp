@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "base/shared/escape.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 

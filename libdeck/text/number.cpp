@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "base/real_text.hpp"
-#include "text/decimal.hpp"
-#include "text/number_scan.hpp"
+#include "base/shared/real_text.hpp"
+#include "text/shared/decimal.hpp"
+#include "text/shared/number_scan.hpp"
 
 namespace deck {
 namespace detail {

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <stdexcept>
 
-#include "base/embedded.hpp"
-#include "text/rule_page.hpp"
+#include "base/shared/embedded.hpp"
+#include "text/shared/rule_page.hpp"
 
 namespace deck {
 

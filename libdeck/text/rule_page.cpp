@@ -1,5 +1,5 @@
 // Reads a page of schemas/rules: front matter, then a paragraph or an example for each heading.
-#include "text/rule_page.hpp"
+#include "text/shared/rule_page.hpp"
 
 #include <algorithm>
 #include <charconv>

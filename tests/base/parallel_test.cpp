@@ -1,5 +1,5 @@
 // One place starts threads: exceptions come out of the call, every item runs once, order holds.
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "base/side_by_side.hpp"
+#include "base/shared/side_by_side.hpp"
 
 namespace deck {
 namespace {

@@ -1,6 +1,6 @@
 // Numbers from and to text without the standard library's functions: the same bits and the same
 // characters as with them; and the length of three doubles.
-#include "base/real_text.hpp"
+#include "base/shared/real_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "base/bits.hpp"
-#include "base/length3.hpp"
+#include "base/shared/bits.hpp"
+#include "base/shared/length3.hpp"
 
 namespace deck {
 namespace {

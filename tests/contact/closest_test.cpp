@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "contact/distance/dd.hpp"
 #include "contact/distance/exact.hpp"
+#include "contact/shared/dd.hpp"
 
 namespace deck {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "contact/distance/exact.hpp"
-#include "contact/distance/exact_number.hpp"
 #include "contact/search_scenes.hpp"
+#include "contact/shared/exact_number.hpp"
 
 namespace deck {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "contact/shared/tie_parts.hpp"
 #include "contact/small_deck.hpp"
-#include "contact/tied/parts.hpp"
 #include "contact/tied_sheet.hpp"
 #include "deck/contact/ties.hpp"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "deck/text/number.hpp"
-#include "text/number_scan.hpp"
+#include "text/shared/number_scan.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "accuracy/tiers.hpp"
-#include "contact/distance/dd.hpp"
 #include "contact/search/sweep.hpp"
+#include "contact/shared/dd.hpp"
 #include "deck/contact/search.hpp"
 #include "deck/cycle/kernel.hpp"
 

@@ -13,10 +13,10 @@
 #include <string>
 #include <thread>
 
-#include "base/embedded.hpp"
+#include "base/shared/embedded.hpp"
 #include "deck/keyword/decode.hpp"
-#include "keyword/older_decks.hpp"
 #include "keyword/schema/json.hpp"
+#include "keyword/shared/older_decks.hpp"
 #include "where.hpp"
 
 namespace deck {

@@ -8,7 +8,7 @@
 #include "lint/check_tables.hpp"
 #include "lint/limits.hpp"
 #include "lint/support.hpp"
-#include "text/rule_page.hpp"
+#include "text/shared/rule_page.hpp"
 #include "where.hpp"
 
 namespace deck::test {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "model/bulk/item_spans.hpp"
 #include "model/shared/connectivity.hpp"
+#include "model/shared/item_spans.hpp"
 #include "where.hpp"
 
 namespace deck::test {

@@ -1,8 +1,8 @@
 // Groups, surfaces and lines: what is selected, in which order, and what is said about mistakes.
 #include <algorithm>
 
-#include "model/faces.hpp"
 #include "model/selection_deck.hpp"
+#include "model/shared/faces.hpp"
 
 namespace deck::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <memory>
 #include <random>
 
-#include "text/number_scan.hpp"
+#include "text/shared/number_scan.hpp"
 
 namespace deck {
 namespace {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A stage of the library includes only stages to its left: base, text, keyword, model, contact, cycle, accuracy; front
 reads them up to cycle; inspect stands beside cycle and is read by edit and report; edit reads the row and is read by lint and
-report only; report is read by none of them. Everybody comes in through front: who builds a model, a scene or a first cycle without
+report only; report is read by none of them. Of another stage a file reads public headers and those of its folder shared/. Everybody comes in through front: who builds a model, a scene or a first cycle without
 it is listed here with the reason. Files that comments name are there.
 
     python3 tests/tools/check_stages.py"""
@@ -21,6 +21,7 @@ MAY["lint"] = {*ROW, "front", "edit", "lint"}
 MAY["verdict"] = {*ROW, "front", "verdict"}
 MAY["report"] = {*ROW, "front", "inspect", "edit", "lint", "verdict", "report"}
 MAY["all"] = set(MAY["report"])
+PRIVATE = re.compile(r'^\s*#\s*include\s+"(([a-z_]+)/(?!shared/)[^"]+)"', re.M)
 INCLUDE = re.compile(r'^\s*#\s*include\s+"(?:deck/)?([a-z_]+)(?:/|\.hpp)', re.M)
 COMMENT = re.compile(r"(?:^|\s)(//.*|/?\*.*)$", re.M)
 FILE_NAME = re.compile(r"(?<![\w./<*-])((?:\w[\w-]*/)*\w[\w-]*\.(?:cpp|hpp))\b")
@@ -68,6 +69,8 @@ def unknown_names(paths):
                 for name in FILE_NAME.findall(comment):
                     if name not in known and os.path.basename(name) not in GENERATED:
                         yield os.path.relpath(path, ROOT), name
+
+
 def builders():
     """Files that build what front has, but for those that front is made of."""
     for top in ("libdeck", "tools"):
@@ -91,7 +94,13 @@ def main():
     for stage, path in stage_files():
         files += 1
         with open(path, encoding="utf-8") as f:
-            read = {"all" if s == "deck" else s for s in INCLUDE.findall(f.read())}
+            text = f.read()
+        read = {"all" if s == "deck" else s for s in INCLUDE.findall(text)}
+        private = [name for name, of in PRIVATE.findall(text) if of in MAY and of != stage]
+        if private:
+            failed += 1
+            print("FAILED  %s, of stage %s, includes private headers of other stages: %s"
+                  % (os.path.relpath(path, ROOT), stage, ", ".join(private)))
         wrong = sorted(s for s in read if s in MAY and s not in MAY[stage])
         if wrong:
             failed += 1

@@ -1,6 +1,6 @@
 // Crossed elements: edges of the secondary side that pass through main segments, counted once.
 #include "deck/contact/crossings.hpp"
-#include "contact/scene/node_elements.hpp"
+#include "contact/shared/node_elements.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +9,13 @@
 #include <tuple>
 #include <utility>
 
-#include "base/pages.hpp"
-#include "base/parallel.hpp"
-#include "base/side_by_side.hpp"
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
+#include "base/shared/side_by_side.hpp"
 #include "contact/crossings/crossings_exact.hpp"
 #include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
-#include "model/faces.hpp"
+#include "model/shared/faces.hpp"
 
 namespace deck {
 namespace {

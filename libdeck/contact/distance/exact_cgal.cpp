@@ -4,7 +4,7 @@
 
 #include <CGAL/number_utils.h>
 
-#include "contact/distance/exact_number.hpp"
+#include "contact/shared/exact_number.hpp"
 
 namespace deck {
 namespace {

@@ -14,8 +14,8 @@
 #include <limits>
 #include <optional>
 
-#include "contact/distance/dd.hpp"
 #include "contact/distance/filtered_exact.hpp"
+#include "contact/shared/dd.hpp"
 #include "contact/shared/filtered.hpp"
 
 namespace deck::filter {

@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "base/bits.hpp"
-#include "contact/distance/exact_number.hpp"
+#include "base/shared/bits.hpp"
+#include "contact/shared/exact_number.hpp"
 
 namespace deck {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/search/margin.hpp"
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
-#include "contact/rules/removal.hpp"
+#include "contact/shared/removal.hpp"
 
 namespace deck::detail::modern {
 namespace {

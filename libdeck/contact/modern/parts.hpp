@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 
 namespace deck::detail::modern {
 

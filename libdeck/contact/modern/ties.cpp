@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "contact/modern/parts.hpp"
-#include "contact/tied/parts.hpp"
+#include "contact/shared/tie_parts.hpp"
 
 namespace deck::detail::modern {
 

@@ -6,13 +6,19 @@
 
 namespace deck {
 
-const char* action_words(PenetrationAction action) {
-  static constexpr const char* words[penetration_actions] = {
-      "nothing",     "nodes switched off", "segments switched off",
-      "nodes moved", "gaps reduced",       "edges switched off",
-      "ignored",     "stored as offsets",  "initial forces",
-      "held by ties"};
-  return words[static_cast<std::size_t>(action)];
+const char* action_words(PenetrationAction action, std::size_t pairs) {
+  static constexpr const char* words[penetration_actions][2] = {
+      {"nothing", "nothing"},
+      {"node switched off", "nodes switched off"},
+      {"segment switched off", "segments switched off"},
+      {"node moved", "nodes moved"},
+      {"gap reduced", "gaps reduced"},
+      {"edge switched off", "edges switched off"},
+      {"ignored", "ignored"},
+      {"stored as an offset", "stored as offsets"},
+      {"initial force", "initial forces"},
+      {"held by a tie", "held by ties"}};
+  return words[static_cast<std::size_t>(action)][pairs == 1 ? 0 : 1];
 }
 
 const char* to_string(PenetrationAction action) {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/vec.hpp"
+#include "base/shared/vec.hpp"
 #include "deck/contact/penetration.hpp"
 
 namespace deck::detail {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "base/vec.hpp"
+#include "base/shared/vec.hpp"
 #include "deck/contact/pair_gap.hpp"
 #include "deck/contact/search.hpp"
 

@@ -1,13 +1,13 @@
 // Finds what Irem_gap = 2 takes out: distances grow along the mesh, ring by ring from each main
 // item.
-#include "contact/rules/removal.hpp"
+#include "contact/shared/removal.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "base/vec.hpp"
+#include "base/shared/vec.hpp"
 #include "deck/contact/closest.hpp"
 
 namespace deck::detail {

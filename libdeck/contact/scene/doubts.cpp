@@ -7,7 +7,7 @@
 
 #include "deck/text/rule_id.hpp"
 #include "keyword/shared/place.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 namespace {

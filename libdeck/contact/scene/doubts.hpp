@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 #include "keyword/shared/references.hpp"
 
 namespace deck::detail {

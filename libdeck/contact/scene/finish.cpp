@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/parallel.hpp"
-#include "base/side_by_side.hpp"
+#include "base/shared/parallel.hpp"
+#include "base/shared/side_by_side.hpp"
 
 namespace deck::detail {
 namespace {

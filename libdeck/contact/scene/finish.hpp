@@ -11,7 +11,7 @@
 #include <string>
 
 #include "contact/scene/doubts.hpp"
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 
 namespace deck::detail {
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include "base/pages.hpp"
-#include "base/parallel.hpp"
-#include "contact/scene/scene_parts.hpp"
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
+#include "contact/shared/scene_parts.hpp"
 
 namespace deck::detail {
 namespace {

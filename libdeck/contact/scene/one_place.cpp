@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 #include "deck/text/rule.hpp"
 
 namespace deck::detail {

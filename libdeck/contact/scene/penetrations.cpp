@@ -8,12 +8,12 @@
 #include <optional>
 #include <utility>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/distance/filtered_decisions.hpp"
 #include "contact/rules/actions.hpp"
-#include "contact/rules/removal.hpp"
-#include "contact/scene/scene_parts.hpp"
-#include "contact/scene/sides.hpp"
+#include "contact/shared/removal.hpp"
+#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/sides.hpp"
 #include "deck/text/rule.hpp"
 
 namespace deck::detail {

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <set>
 
-#include "base/pages.hpp"
-#include "base/parallel.hpp"
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/distance/filtered_decisions.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/rules/gaps.hpp"
 #include "contact/scene/finish.hpp"
-#include "contact/scene/scene_parts.hpp"
-#include "contact/tied/parts.hpp"
+#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/tie_parts.hpp"
 #include "deck/text/rule.hpp"
 
 namespace deck {

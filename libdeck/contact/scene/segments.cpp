@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/pages.hpp"
-#include "base/parallel.hpp"
-#include "contact/scene/scene_parts.hpp"
-#include "model/faces.hpp"
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
+#include "contact/shared/scene_parts.hpp"
+#include "model/shared/faces.hpp"
 
 namespace deck::detail {
 namespace {

@@ -1,10 +1,10 @@
 // Copies what the pair search reads out of the items of a contact.
-#include "contact/scene/sides.hpp"
+#include "contact/shared/sides.hpp"
 
 #include <atomic>
 
-#include "base/pages.hpp"
-#include "base/parallel.hpp"
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/search/margin.hpp"
 #include "contact/search/short_loops.hpp"
 

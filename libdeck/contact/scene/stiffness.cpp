@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.hpp"
-#include "contact/scene/scene_parts.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/search/short_loops.hpp"
-#include "model/faces.hpp"
+#include "contact/shared/scene_parts.hpp"
+#include "model/shared/faces.hpp"
 
 namespace deck::detail {
 namespace {

@@ -6,10 +6,10 @@
 #include <map>
 #include <optional>
 
-#include "base/pages.hpp"
-#include "base/parallel.hpp"
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"
-#include "contact/scene/element_names.hpp"
+#include "contact/shared/element_names.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "deck/contact/closest.hpp"
 
 namespace deck {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/search/box_order.hpp"
 #include "contact/search/sweep.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/search/margin.hpp"
 #include "contact/search/short_loops.hpp"
 

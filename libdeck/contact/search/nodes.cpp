@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/pages.hpp"
-#include "base/parallel.hpp"
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/search/box_order.hpp"
 #include "contact/search/sweep.hpp"
 

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <limits>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/search/sweep.hpp"
 
 namespace deck::sweep {

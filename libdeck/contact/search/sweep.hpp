@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-#include "base/bits.hpp"
+#include "base/shared/bits.hpp"
 #include "contact/search/box_order.hpp"
 #include "contact/search/box_tree.hpp"
 #include "deck/contact/search.hpp"

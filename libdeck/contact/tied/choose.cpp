@@ -4,8 +4,8 @@
 #include <optional>
 #include <tuple>
 
-#include "base/parallel.hpp"
-#include "contact/tied/parts.hpp"
+#include "base/shared/parallel.hpp"
+#include "contact/shared/tie_parts.hpp"
 
 namespace deck::detail {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 #include <string_view>
 
-#include "contact/tied/parts.hpp"
+#include "contact/shared/tie_parts.hpp"
 #include "deck/keyword/decode.hpp"
 
 namespace deck::detail {

@@ -5,7 +5,7 @@
 #include <queue>
 #include <tuple>
 
-#include "contact/tied/parts.hpp"
+#include "contact/shared/tie_parts.hpp"
 
 namespace deck::detail {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "contact/tied/parts.hpp"
+#include "contact/shared/tie_parts.hpp"
 
 namespace deck::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "contact/tied/parts.hpp"
+#include "contact/shared/tie_parts.hpp"
 
 namespace deck::detail {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "contact/tied/parts.hpp"
+#include "contact/shared/tie_parts.hpp"
 
 namespace deck::detail {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/tied/parts.hpp"
+#include "contact/shared/tie_parts.hpp"
 
 namespace deck::detail {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/tied/parts.hpp"
+#include "contact/shared/tie_parts.hpp"
 #include "deck/text/rule.hpp"
 
 namespace deck::detail {

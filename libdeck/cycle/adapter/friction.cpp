@@ -4,7 +4,7 @@
 #include <map>
 #include <numbers>
 
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 #include "cycle/adapter/parts.hpp"
 #include "cycle/kernel/vector.hpp"
 #include "deck/keyword/decode.hpp"

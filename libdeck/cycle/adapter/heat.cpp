@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 #include "cycle/adapter/parts.hpp"
 #include "cycle/state/state_parts.hpp"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include "contact/rules/removal.hpp"
-#include "contact/scene/scene_parts.hpp"
-#include "contact/scene/sides.hpp"
+#include "contact/shared/removal.hpp"
+#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/sides.hpp"
 #include "cycle/adapter/parts.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/kernel.hpp"

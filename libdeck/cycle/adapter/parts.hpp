@@ -1,7 +1,7 @@
 // What only some effects want to know about a contact's pairs, each filled into ContactPairs on its
 // own. Private to the stage.
 #pragma once
-#include "contact/scene/node_elements.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "cycle/state/state_parts.hpp"
 #include "deck/cycle/adapter.hpp"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "base/vec.hpp"
+#include "base/shared/vec.hpp"
 
 namespace deck::cycle::detail {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/real_text.hpp"
+#include "base/shared/real_text.hpp"
 
 namespace deck::cycle::detail {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 #include "cycle/shared/step_scale.hpp"
 #include "cycle/state/state_parts.hpp"
 #include "deck/keyword/decode.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 #include "deck/keyword/decode.hpp"
 
 namespace deck::cycle::detail {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "edit/convert/extract_state.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/reader.hpp"
 #include "keyword/shared/references.hpp"
 #include "model/shared/families.hpp"
 

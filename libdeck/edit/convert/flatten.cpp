@@ -6,8 +6,8 @@
 
 #include "edit/convert/flatten_parameters.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
-#include "keyword/header_line.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/header_line.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck {
 namespace {

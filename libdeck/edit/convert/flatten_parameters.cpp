@@ -5,8 +5,8 @@
 #include <optional>
 #include <set>
 
-#include "keyword/reader.hpp"
-#include "text/columns.hpp"
+#include "keyword/shared/reader.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 namespace {

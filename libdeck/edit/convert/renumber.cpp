@@ -8,8 +8,8 @@
 #include "deck/text/number.hpp"
 #include "edit/convert/renumber_ids.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
-#include "keyword/line_check.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/line_check.hpp"
+#include "keyword/shared/reader.hpp"
 #include "keyword/shared/references.hpp"
 #include "text/shared/edits.hpp"
 

@@ -11,7 +11,7 @@
 #include "deck/text/number.hpp"
 #include "edit/convert/version_cards.hpp"
 #include "keyword/shared/render.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {

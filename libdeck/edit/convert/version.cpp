@@ -8,8 +8,8 @@
 #include "deck/text/number.hpp"
 #include "edit/convert/version_cards.hpp"
 #include "edit/convert/version_layout.hpp"
-#include "keyword/older_decks.hpp"
-#include "text/columns.hpp"
+#include "keyword/shared/older_decks.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/real_text.hpp"
+#include "base/shared/real_text.hpp"
 #include "deck/text/number.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 

@@ -5,10 +5,10 @@
 #include <charconv>
 #include <set>
 
-#include "base/real_text.hpp"
+#include "base/shared/real_text.hpp"
 #include "deck/contact/view.hpp"
 #include "edit/fix/type_rules.hpp"
-#include "keyword/line_check.hpp"
+#include "keyword/shared/line_check.hpp"
 
 namespace deck::detail {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "contact/tied/parts.hpp"
+#include "contact/shared/tie_parts.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
 #include "model/shared/kinematics.hpp"

@@ -4,7 +4,7 @@
 
 #include "edit/shared/edit_set.hpp"
 #include "edit/write/write_plan.hpp"
-#include "keyword/include_file.hpp"
+#include "keyword/shared/include_file.hpp"
 #include "text/shared/gzip.hpp"
 
 namespace deck {

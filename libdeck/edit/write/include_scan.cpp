@@ -11,7 +11,7 @@
 
 #include "base/shared/paths.hpp"
 #include "deck/text/source.hpp"
-#include "keyword/include_file.hpp"
+#include "keyword/shared/include_file.hpp"
 
 namespace deck {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "keyword/decode/parts.hpp"
+#include "keyword/shared/decode_parts.hpp"
 
 namespace deck {
 namespace {

@@ -3,11 +3,11 @@
 #include <cctype>
 #include <span>
 
-#include "keyword/deck_json_cells.hpp"
-#include "keyword/decode/parts.hpp"
-#include "keyword/line_check.hpp"
-#include "keyword/older_decks.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/deck_json_cells.hpp"
+#include "keyword/shared/decode_parts.hpp"
+#include "keyword/shared/line_check.hpp"
+#include "keyword/shared/older_decks.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck {
 namespace {

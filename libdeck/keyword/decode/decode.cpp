@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "keyword/decode/parts.hpp"
-#include "keyword/line_check.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/decode_parts.hpp"
+#include "keyword/shared/line_check.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck {
 

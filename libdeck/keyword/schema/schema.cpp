@@ -10,7 +10,7 @@
 #include <mutex>
 #include <set>
 
-#include "base/embedded.hpp"
+#include "base/shared/embedded.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/text/source.hpp"
 #include "keyword/schema/json.hpp"

@@ -1,5 +1,5 @@
 // Looks up the legal words of a keyword.
-#include "keyword/schema/words.hpp"
+#include "keyword/shared/words.hpp"
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/length3.hpp"
+#include "base/shared/length3.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 

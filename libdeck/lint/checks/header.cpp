@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/shared/spelling.hpp"
-#include "keyword/older_decks.hpp"
+#include "keyword/shared/older_decks.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 

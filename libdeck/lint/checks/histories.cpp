@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "keyword/schema/words.hpp"
+#include "keyword/shared/words.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 #include "lint/targets.hpp"

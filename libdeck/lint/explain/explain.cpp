@@ -10,7 +10,7 @@
 #include "lint/context.hpp"
 #include "lint/shared/example.hpp"
 #include "lint/shared/topics.hpp"
-#include "text/rule_page.hpp"
+#include "text/shared/rule_page.hpp"
 
 namespace deck {
 namespace {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/embedded.hpp"
 #include "base/shared/columns.hpp"
+#include "base/shared/embedded.hpp"
 #include "base/shared/spelling.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "base/pages.hpp"
-#include "base/parallel.hpp"
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
 #include "deck/text/rule.hpp"
 #include "model/bulk/bulk_plan.hpp"
 #include "model/bulk/bulk_read.hpp"

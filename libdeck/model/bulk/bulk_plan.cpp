@@ -5,7 +5,7 @@
 #include <cstring>
 #include <map>
 
-#include "text/number_scan.hpp"
+#include "text/shared/number_scan.hpp"
 
 namespace deck::detail {
 namespace {

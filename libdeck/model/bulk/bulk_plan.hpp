@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "deck/keyword/deck.hpp"
-#include "keyword/line_check.hpp"
+#include "keyword/shared/line_check.hpp"
 #include "model/bulk/bulk.hpp"
 
 namespace deck::detail {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/bulk/bulk_plan.hpp"
-#include "text/number_scan.hpp"
+#include "text/shared/number_scan.hpp"
 
 namespace deck::detail {
 

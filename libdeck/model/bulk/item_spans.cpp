@@ -1,5 +1,5 @@
 // Walks a bulk block once more for the lines of single nodes or elements.
-#include "model/bulk/item_spans.hpp"
+#include "model/shared/item_spans.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "deck/keyword/decode.hpp"
 #include "model/mesh/mesh_parts.hpp"
 #include "model/mesh/node_sums.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/vec.hpp"
+#include "base/shared/vec.hpp"
 #include "model/shared/mesh.hpp"
 
 namespace deck::detail {

@@ -2,7 +2,7 @@
 // groups.
 #include "model/selection/boxes.hpp"
 
-#include "base/length3.hpp"
+#include "base/shared/length3.hpp"
 #include "model/selection/selection_impl.hpp"
 
 namespace deck {

@@ -4,7 +4,7 @@
 
 #include "model/selection/selection_impl.hpp"
 #include "model/shared/families.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 

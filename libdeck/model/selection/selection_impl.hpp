@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "deck/model/selection.hpp"
-#include "model/faces.hpp"
 #include "model/model_build.hpp"
 #include "model/selection/boxes.hpp"
 #include "model/shared/connectivity.hpp"
+#include "model/shared/faces.hpp"
 
 namespace deck {
 

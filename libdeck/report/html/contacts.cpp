@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "contact/scene/scene_parts.hpp"
-#include "contact/scene/sides.hpp"
+#include "contact/shared/scene_parts.hpp"
+#include "contact/shared/sides.hpp"
 #include "deck/contact/search.hpp"
 #include "model/shared/families.hpp"
 #include "report/gaps_names.hpp"

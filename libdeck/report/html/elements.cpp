@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "model/bulk/item_spans.hpp"
+#include "model/shared/item_spans.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck::detail {

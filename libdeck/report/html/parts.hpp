@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 #include "deck/report/html.hpp"
 #include "report/html/stream.hpp"
 #include "report/html/viewer_bundle.hpp"

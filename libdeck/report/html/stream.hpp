@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/bits.hpp"
+#include "base/shared/bits.hpp"
 
 namespace deck::detail {
 

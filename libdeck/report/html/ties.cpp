@@ -2,10 +2,10 @@
 // tied, or tied from beyond the rim of their segment, what `deck gaps` says.
 #include <algorithm>
 
-#include "contact/scene/element_names.hpp"
+#include "contact/shared/element_names.hpp"
 #include "deck/contact/ties.hpp"
-#include "model/bulk/item_spans.hpp"
 #include "model/shared/connectivity.hpp"
+#include "model/shared/item_spans.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck::detail {

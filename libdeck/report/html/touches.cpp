@@ -7,7 +7,7 @@
 #include <map>
 
 #include "base/shared/escape.hpp"
-#include "contact/scene/element_names.hpp"
+#include "contact/shared/element_names.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck {

@@ -9,9 +9,9 @@
 
 #include "base/shared/paths.hpp"
 #include "deck/keyword/decode.hpp"
-#include "keyword/deck_json_cells.hpp"
+#include "keyword/shared/deck_json_cells.hpp"
 #include "report/shared/json.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {

@@ -1,7 +1,7 @@
 // The JSON of `deck gaps`. All members of a pair are lengths, for edges as for nodes; what the
 // solver stores of two edges, the square of the gap and what is left of it, stands in "solver".
 #include "deck/report/gaps.hpp"
-#include "model/bulk/item_spans.hpp"
+#include "model/shared/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
 #include "report/json/ties_json.hpp"

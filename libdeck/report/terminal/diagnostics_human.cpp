@@ -11,7 +11,7 @@
 #include "report/diagnostics_common.hpp"
 #include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
-#include "text/rule_page.hpp"
+#include "text/shared/rule_page.hpp"
 
 namespace deck {
 namespace {

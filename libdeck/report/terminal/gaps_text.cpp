@@ -8,7 +8,7 @@
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
 #include "deck/report/gaps.hpp"
-#include "model/bulk/item_spans.hpp"
+#include "model/shared/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
 #include "report/shared/gate.hpp"
@@ -66,7 +66,7 @@ std::string action_words(const std::vector<const Contact*>& contacts) {
   std::string text;
   for (std::size_t a = 0; a < std::size(by_action); ++a) {
     if (by_action[a] == 0) continue;
-    const char* const words = action_words(static_cast<PenetrationAction>(a));
+    const char* const words = action_words(static_cast<PenetrationAction>(a), by_action[a]);
     if (!text.empty()) text += ", ";
     text += by_action[a] == all ? words : fmt::format("{} {}", by_action[a], words);
   }
@@ -241,7 +241,7 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
     const PenetrationRow& row = row_of(scene, p);
     const bool stops = row.on_surface && on_surface_error(c) != 0;
     std::string action =
-        stops ? fmt::format("error {}", on_surface_error(c)) : to_string(row.action);
+        stops ? fmt::format("error {}", on_surface_error(c)) : action_words(row.action, 1);
     if (!stops && row.has_gap0 && !is_unbounded(row.gap0))
       action += fmt::format(" to {:.4g}", row.gap0);
     const Tone tone = stops                                   ? Tone::red

@@ -211,7 +211,7 @@ class Writer {
         table.row({std::to_string(contact.inter->id), ids(p.pair.secondary), ids(p.pair.main),
                    fmt::format("{} on {}", p.pair.secondary_element.part, p.pair.main_element.part),
                    figure(row.depth), figure(row.gap), listed_text(c, p),
-                   contact.ties() ? "tied" : action_words(row.action)});
+                   contact.ties() ? "tied" : action_words(row.action, 1)});
       }
       for (std::size_t i = 0;
            i < std::min<std::size_t>(c.only_listed.size(),

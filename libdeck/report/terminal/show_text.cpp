@@ -9,7 +9,7 @@
 #include "report/shared/json.hpp"
 #include "report/shared/show.hpp"
 #include "report/shared/text_table.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {

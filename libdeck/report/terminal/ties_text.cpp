@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "contact/scene/element_names.hpp"
+#include "contact/shared/element_names.hpp"
 #include "deck/contact/ties.hpp"
-#include "model/bulk/item_spans.hpp"
 #include "model/shared/connectivity.hpp"
+#include "model/shared/item_spans.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck::detail {

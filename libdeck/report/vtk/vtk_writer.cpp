@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "base/bits.hpp"
+#include "base/shared/bits.hpp"
 
 namespace deck::detail {
 namespace {

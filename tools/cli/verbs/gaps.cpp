@@ -1,10 +1,9 @@
 // deck gaps: gaps, stiffness, initial penetrations and what the solver does about them.
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "common.hpp"
 #include "contact/shared/what_if_text.hpp"
@@ -87,144 +86,152 @@ Result<void> write_html(const Options& o, const LoadedDeck& loaded, const SceneV
   return o.common.session->write_output(o.html, *page);
 }
 
-int run(const Options& o) {
-  if (std::string why; !o.html.empty() && !html_available(&why)) {
-    print_error(o.common, "--html: this build has no viewer: " + why);
+class GapsRun {
+ public:
+  explicit GapsRun(const Options& options)
+      : o_(options),
+        json_(options.common, "deck/gaps", 1),
+        to_baseline_(options.common),
+        baseline_(to_baseline_, "deck/gaps", 1),
+        gate_(options.gate) {
+    to_baseline_.json = o_.write_baseline;
+    if (!baseline_.wanted()) return;  // which replaces the old one
+    gate_.baseline.clear();
+    gate_.no_config = true;
+  }
+
+  int run() {
+    if (auto ready = prepare(); !ready) return usage(ready.error());
+    if (const int bad = check_outputs(
+            o_.common, {o_.common.json, o_.csv, o_.ties_csv, o_.html, o_.svg, o_.write_baseline});
+        bad != exit_clean)
+      return bad;
+    if (baseline_.wanted())
+      if (auto kept = keeps_other_decks(o_.write_baseline, o_.common.decks); !kept)
+        return usage(kept.error());
+    const int code = for_each_deck(o_.common, [&](LoadedDeck& loaded) { return one(loaded); });
+    return baseline_.finish(json_.finish(code));
+  }
+
+ private:
+  int usage(const Error& error) const {
+    print_error(o_.common, error.message);
     return exit_usage;
   }
-  if (auto legal = check_fail_on(o.gate); !legal) {
-    print_error(o.common, legal.error().message);
-    return exit_usage;
-  }
-  if (o.fail && (o.gate.fails_on("never") || o.gate.fails_on("error"))) {
-    print_error(o.common, "--fail-on-penetration and --fail-on " + o.gate.level() +
-                              " contradict one another");
-    return exit_usage;
-  }
-  if ((!o.html.empty() || !o.svg.empty()) && o.common.decks.size() > 1) {
-    print_error(o.common, "--html and --svg take one deck at a time");
-    return exit_usage;
-  }
-  if (const int bad = check_outputs(
-          o.common, {o.common.json, o.csv, o.ties_csv, o.html, o.svg, o.write_baseline});
-      bad != exit_clean)
-    return bad;
-  SceneOptions scene_options;
-  scene_options.threads = o.common.thread_count();
-  scene_options.only = o.only;
-  scene_options.accuracy = accuracy_of(o.accuracy);
-  scene_options.limits = o.common.limits;
-  scene_options.ties = true;
-  for (const std::string& text : o.what_if) {
-    auto w = parse_what_if(text);
-    if (!w) {
-      print_error(o.common, w.error().message);
-      return exit_usage;
+
+  /// Everything that can be said without a deck.
+  Result<void> prepare() {
+    const auto bad = [](std::string what) { return Error{Error::Code::config, std::move(what)}; };
+    if (std::string why; !o_.html.empty() && !html_available(&why))
+      return bad("--html: this build has no viewer: " + why);
+    if (auto legal = check_fail_on(o_.gate); !legal) return legal;
+    if (o_.fail && (o_.gate.fails_on("never") || o_.gate.fails_on("error")))
+      return bad("--fail-on-penetration and --fail-on " + o_.gate.level() +
+                 " contradict one another");
+    if ((!o_.html.empty() || !o_.svg.empty()) && o_.common.decks.size() > 1)
+      return bad("--html and --svg take one deck at a time");
+    scene_.threads = o_.common.thread_count();
+    scene_.only = o_.only;
+    scene_.accuracy = accuracy_of(o_.accuracy);
+    scene_.limits = o_.common.limits;
+    scene_.ties = true;
+    for (const std::string& text : o_.what_if) {
+      auto w = parse_what_if(text);
+      if (!w) return w.error();
+      scene_.what_if.push_back(*w);
     }
-    scene_options.what_if.push_back(*w);
+    return {};
   }
-  JsonOutput json(o.common, "deck/gaps", 1);
-  CommonOptions baseline_common = o.common;
-  baseline_common.json = o.write_baseline;
-  JsonOutput baseline(baseline_common, "deck/gaps", 1);
-  GateOptions gate_options = o.gate;
-  if (baseline.wanted()) {  // which replaces the old one
-    gate_options.baseline.clear();
-    gate_options.no_config = true;
-  }
-  if (baseline.wanted())
-    if (auto kept = keeps_other_decks(o.write_baseline, o.common.decks); !kept) {
-      print_error(o.common, kept.error().message);
-      return exit_usage;
-    }
-  bool first = true;
-  int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
-    if (auto fits = check_options(o, loaded, scene_options.what_if); !fits) {
-      print_error(o.common, fits.error().message);
-      return static_cast<int>(exit_usage);
-    }
-    auto gate = gate_of(gate_options, loaded, o.common);
-    if (!gate) {
-      print_error(o.common, gate.error().message);
-      return static_cast<int>(exit_usage);
-    }
+
+  int one(LoadedDeck& loaded) {
+    if (auto fits = check_options(o_, loaded, scene_.what_if); !fits) return usage(fits.error());
+    auto gate = gate_of(gate_, loaded, o_.common);
+    if (!gate) return usage(gate.error());
     {
-      Progress progress(!o.common.quiet);
+      Progress progress(!o_.common.quiet);
       progress.step("contacts");
-      const bool forces = !o.html.empty() || gate->gate.needs_forces();
-      scene_options.nodal_stiffness = (o.all && json.wanted()) || forces;
-      scene_options.progress = [&](std::size_t done, std::size_t total) {
-        progress.update(done, total);
-      };
-      loaded.set_scene_options(scene_options);
+      const bool forces = !o_.html.empty() || gate->gate.needs_forces();
+      scene_.nodal_stiffness = (o_.all && json_.wanted()) || forces;
+      scene_.progress = [&](std::size_t done, std::size_t total) { progress.update(done, total); };
+      loaded.set_scene_options(scene_);
       loaded.findings();
     }
     const Scene& scene = loaded.scene();
-    const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
-    const SceneView view = make_view(scene, &crossings, scene_options.threads);
+    const std::vector<Crossing> crossings = find_crossings(scene, scene_.threads);
+    const SceneView view = make_view(scene, &crossings, scene_.threads);
     const GateReport report = gate->look(
         loaded, scene, view, gate->gate.needs_forces() ? &loaded.cycle().outcome : nullptr);
-    print_findings(loaded, o.common);
-    if (json.wanted())
-      json.add([&](const TextDrain& drain) {
-        return gaps_json(loaded.path(), loaded.deck(), scene, view, o.all,
-                         o.crossings ? &crossings : nullptr, &report, drain);
-      });
-    if (baseline.wanted())
-      baseline.add(gaps_json(name_in_baseline(loaded.path(), o.write_baseline), loaded.deck(),
-                             scene, view, false));
-    if (!o.csv.empty())
-      if (auto r = o.common.session->write_output(
-              o.csv,
-              [&](const TextDrain& drain) { return gaps_csv(loaded.deck(), scene, view, drain); });
-          !r) {
-        print_error(o.common, r.error().message);
-        return static_cast<int>(exit_usage);
-      }
-    if (!o.ties_csv.empty())
-      if (auto r = o.common.session->write_output(
-              o.ties_csv,
-              [&](const TextDrain& drain) { return ties_csv(loaded.deck(), scene, drain); });
-          !r) {
-        print_error(o.common, r.error().message);
-        return static_cast<int>(exit_usage);
-      }
-    if (!o.vtk.empty())
-      if (auto r = write_vtk(o, loaded, scene, view); !r) {
-        print_error(o.common, r.error().message);
-        return static_cast<int>(exit_usage);
-      }
-    if (!o.html.empty())
-      if (auto r = write_html(o, loaded, view, crossings, report); !r) {
-        print_error(o.common, r.error().message);
-        return static_cast<int>(exit_usage);
-      }
-    if (!o.svg.empty())
-      if (auto r = o.common.session->write_output(o.svg, touches_svg(page_input(loaded, view)));
-          !r) {
-        print_error(o.common, r.error().message);
-        return static_cast<int>(exit_usage);
-      }
-    if (o.common.wants_text() && o.csv != "-" && o.ties_csv != "-" && o.html != "-" &&
-        o.svg != "-") {
-      GapsTextOptions text;
-      text.worst = o.worst;
-      text.color = o.common.color_on(1);
-      text.verbose = o.common.verbose;
-      text.width = text_width();
-      if (o.common.decks.size() > 1) text.name = loaded.path();
-      if (o.crossings) text.crossings = &crossings;
-      text.gate = &report;
-      print_lines((first ? "" : "\n") + gaps_text(loaded.deck(), scene, view, text));
-      first = false;
-    }
-    const bool accepted = baseline.wanted() || (gate->baseline && o.gate.level().empty());
+    print_findings(loaded, o_.common);
+    if (auto written = write(loaded, view, crossings, report); !written)
+      return usage(written.error());
+    print(loaded, view, crossings, report);
+    const bool accepted = baseline_.wanted() || (gate->baseline && o_.gate.level().empty());
     const int decided =
-        verdict_code(verdict_of(loaded.deck(), scene, view), o.gate, o.common, o.fail, accepted);
+        verdict_code(verdict_of(loaded.deck(), scene, view), o_.gate, o_.common, o_.fail, accepted);
     return report.passed() ? decided : static_cast<int>(exit_findings);
-  });
-  return baseline.finish(json.finish(code));
-}
+  }
+
+  /// Every file that was asked for.
+  Result<void> write(const LoadedDeck& loaded, const SceneView& view,
+                     const std::vector<Crossing>& crossings, const GateReport& report) {
+    const Deck& deck = loaded.deck();
+    const Scene& scene = loaded.scene();
+    Session& session = *o_.common.session;
+    if (json_.wanted())
+      json_.add([&](const TextDrain& drain) {
+        return gaps_json(loaded.path(), deck, scene, view, o_.all,
+                         o_.crossings ? &crossings : nullptr, &report, drain);
+      });
+    if (baseline_.wanted())
+      baseline_.add(
+          gaps_json(name_in_baseline(loaded.path(), o_.write_baseline), deck, scene, view, false));
+    const std::pair<const std::string&, std::function<Result<void>()>> outputs[] = {
+        {o_.csv,
+         [&] {
+           return session.write_output(
+               o_.csv, [&](const TextDrain& drain) { return gaps_csv(deck, scene, view, drain); });
+         }},
+        {o_.ties_csv,
+         [&] {
+           return session.write_output(
+               o_.ties_csv, [&](const TextDrain& drain) { return ties_csv(deck, scene, drain); });
+         }},
+        {o_.vtk, [&] { return write_vtk(o_, loaded, scene, view); }},
+        {o_.html, [&] { return write_html(o_, loaded, view, crossings, report); }},
+        {o_.svg,
+         [&] { return session.write_output(o_.svg, touches_svg(page_input(loaded, view))); }},
+    };
+    for (const auto& [path, written] : outputs)
+      if (!path.empty())
+        if (auto done = written(); !done) return done;
+    return {};
+  }
+
+  void print(const LoadedDeck& loaded, const SceneView& view,
+             const std::vector<Crossing>& crossings, const GateReport& report) {
+    if (!o_.common.wants_text()) return;
+    for (const std::string* path : {&o_.csv, &o_.ties_csv, &o_.html, &o_.svg})
+      if (*path == "-") return;
+    GapsTextOptions text;
+    text.worst = o_.worst;
+    text.color = o_.common.color_on(1);
+    text.verbose = o_.common.verbose;
+    text.width = text_width();
+    if (o_.common.decks.size() > 1) text.name = loaded.path();
+    if (o_.crossings) text.crossings = &crossings;
+    text.gate = &report;
+    print_lines((first_ ? "" : "\n") + gaps_text(loaded.deck(), loaded.scene(), view, text));
+    first_ = false;
+  }
+
+  const Options& o_;
+  JsonOutput json_;
+  CommonOptions to_baseline_;
+  JsonOutput baseline_;
+  GateOptions gate_;
+  SceneOptions scene_;
+  bool first_ = true;
+};
 
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
@@ -273,7 +280,7 @@ Action setup(CommandLine& line) {
       .value("FILE");
   return [options] {
     const int wrong = open_directories(options->common);
-    return wrong != exit_clean ? wrong : run(*options);
+    return wrong != exit_clean ? wrong : GapsRun(*options).run();
   };
 }
 

@@ -15,8 +15,8 @@
 
 #include "contact/rules/actions.hpp"
 #include "contact/rules/gaps.hpp"
-#include "contact/rules/removal.hpp"
 #include "contact/rules/settings.hpp"
+#include "contact/shared/removal.hpp"
 
 namespace {
 

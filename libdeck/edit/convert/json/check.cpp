@@ -15,8 +15,8 @@
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
 #include "edit/convert/json/file_writer.hpp"
-#include "keyword/deck_json_cells.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/deck_json_cells.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck::detail {
 namespace {

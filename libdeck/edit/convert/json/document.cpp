@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "keyword/deck_json_cells.hpp"
+#include "keyword/shared/deck_json_cells.hpp"
 
 namespace deck::detail {
 namespace {

@@ -9,9 +9,9 @@
 #include <limits>
 
 #include "edit/convert/version_cards.hpp"
-#include "keyword/deck_json_cells.hpp"
-#include "keyword/header_line.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/deck_json_cells.hpp"
+#include "keyword/shared/header_line.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck::detail {
 namespace {

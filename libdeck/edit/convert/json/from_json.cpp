@@ -11,7 +11,7 @@
 #include "base/shared/paths.hpp"
 #include "edit/convert/json/check.hpp"
 #include "edit/convert/json/file_writer.hpp"
-#include "keyword/deck_json_cells.hpp"
+#include "keyword/shared/deck_json_cells.hpp"
 
 namespace deck {
 namespace {

@@ -14,10 +14,10 @@
 #include "deck/text/rule_id.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
 #include "edit/convert/version_cards.hpp"
-#include "keyword/decode/implied_one.hpp"
-#include "keyword/line_check.hpp"
-#include "keyword/reader.hpp"
-#include "model/constant_stiffness.hpp"
+#include "keyword/shared/implied_one.hpp"
+#include "keyword/shared/line_check.hpp"
+#include "keyword/shared/reader.hpp"
+#include "model/shared/constant_stiffness.hpp"
 #include "text/shared/edits.hpp"
 
 namespace deck {

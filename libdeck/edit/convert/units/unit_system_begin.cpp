@@ -4,8 +4,8 @@
 
 #include "deck/text/number.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
-#include "keyword/reader.hpp"
-#include "text/columns.hpp"
+#include "keyword/shared/reader.hpp"
+#include "text/shared/columns.hpp"
 #include "text/shared/edits.hpp"
 
 namespace deck::detail {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "base/real_text.hpp"
+#include "base/shared/real_text.hpp"
 #include "deck/text/number.hpp"
-#include "text/decimal.hpp"
-#include "text/number_scan.hpp"
+#include "text/shared/decimal.hpp"
+#include "text/shared/number_scan.hpp"
 
 namespace deck::detail {
 namespace {

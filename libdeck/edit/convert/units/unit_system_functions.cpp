@@ -4,7 +4,7 @@
 
 #include "deck/text/number.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
-#include "keyword/reader.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck::detail {
 namespace {

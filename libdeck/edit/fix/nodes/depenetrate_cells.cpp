@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "model/bulk/item_spans.hpp"
+#include "model/shared/item_spans.hpp"
 #include "text/shared/edits.hpp"
 
 namespace deck::detail {

@@ -5,10 +5,10 @@
 #include <numeric>
 #include <queue>
 
-#include "contact/scene/node_elements.hpp"
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/node_elements.hpp"
+#include "contact/shared/scene_parts.hpp"
 #include "deck/contact/crossings.hpp"
-#include "model/faces.hpp"
+#include "model/shared/faces.hpp"
 
 namespace deck::detail {
 namespace {

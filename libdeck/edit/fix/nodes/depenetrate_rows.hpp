@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 #include "edit/fix/nodes/depenetrate_mesh.hpp"
 
 namespace deck::detail {

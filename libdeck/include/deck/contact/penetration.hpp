@@ -22,8 +22,8 @@ enum class PenetrationAction : std::uint8_t {
   removed_tied,            ///< TYPE24, 25: a tie holds the node, Irem_i2
 };
 inline constexpr std::size_t penetration_actions = 10;  ///< how many there are
-/// For people, of several: "nothing", "gaps reduced", "edges switched off", ...
-const char* action_words(PenetrationAction action);
+/// For people, of one or of several: "nothing", "gap reduced", "edges switched off", ...
+const char* action_words(PenetrationAction action, std::size_t pairs = 2);
 const char* to_string(PenetrationAction action);  ///< "none", "node-stiffness-zero", ...
 
 struct PenetrationRow {

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "base/vec.hpp"
+#include "base/shared/vec.hpp"
 #include "deck/contact/closest.hpp"
 #include "deck/contact/ties.hpp"
 #include "lint/checks/geometry/geometry.hpp"

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 #include "model/shared/connectivity.hpp"
 
 namespace deck {

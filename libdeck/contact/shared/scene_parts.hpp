@@ -5,10 +5,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/vec.hpp"
+#include "base/shared/vec.hpp"
 #include "contact/rules/gaps.hpp"
 #include "contact/rules/settings.hpp"
-#include "contact/scene/node_elements.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/model/selection.hpp"
 

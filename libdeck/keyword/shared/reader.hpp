@@ -6,7 +6,7 @@
 
 #include "deck/keyword/deck.hpp"
 #include "deck/text/rule.hpp"
-#include "text/columns.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 

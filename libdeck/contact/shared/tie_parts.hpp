@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "contact/scene/scene_parts.hpp"
+#include "contact/shared/scene_parts.hpp"
 #include "deck/contact/ties.hpp"
 
 namespace deck::detail {

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "base/parallel.hpp"
+#include "base/shared/parallel.hpp"
 
 namespace deck {
 

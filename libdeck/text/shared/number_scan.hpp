@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "base/bits.hpp"
+#include "base/shared/bits.hpp"
 #include "deck/text/number.hpp"
 
 namespace deck::detail {

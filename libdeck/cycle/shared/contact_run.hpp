@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/scene/node_elements.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 
 namespace deck::cycle::detail {

@@ -1,7 +1,7 @@
 // The element that a node is named after. Private to the library.
 #pragma once
 
-#include "contact/scene/node_elements.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "deck/contact/view.hpp"
 
 namespace deck {

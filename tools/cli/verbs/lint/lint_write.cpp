@@ -1,0 +1,119 @@
+// deck lint: its findings in every format, into files and onto the terminal; baselines.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
+#include "verbs/lint/lint_run.hpp"
+#include "writing/library.hpp"
+
+namespace deck::cli {
+namespace {
+
+std::string lint_as(std::string_view format, const std::vector<LintedDeck>& decks,
+                    const LintChoice& options, const SchemaSet& schemas, bool to_terminal) {
+  if (format == "json") return lint_json(decks);
+  if (format == "concise") return lint_concise(decks);
+  // The git work tree that this runs in, else the current directory.
+  const std::string root = library_root("here");
+  if (format == "sarif") return lint_sarif(decks, schemas, root);
+  if (format == "github") return lint_github(decks, root);
+  if (format == "junit") return lint_junit(decks);
+  if (format == "gitlab") return lint_gitlab(decks, root);
+  const std::size_t width = to_terminal ? text_width() : 0;
+  if (options.statistics)
+    return lint_statistics(decks, to_terminal && options.common.color_on(1), width);
+  HumanOptions human;
+  human.color = to_terminal && options.common.color_on(1);
+  human.ruler = options.ruler;
+  human.group = !options.common.verbose;
+  human.remarks_of_every_deck = options.common.verbose;
+  human.per_rule = options.per_rule >= 0 ? options.per_rule : options.common.verbose ? 0 : 10;
+  human.width = width;
+  return lint_human(decks, human);
+}
+
+}  // namespace
+
+/// Entries of the baseline that hide nothing: they would hide the next finding of that kind.
+void LintRun::report_stale() const {
+  for (const auto& job : jobs_) {
+    if (!job->loaded || job->result.stale.empty() || common_.quiet) continue;
+    constexpr std::size_t most = 10;
+    print_messages(fmt::format(
+        "{}: note: {}; write it again with --write-baseline\n", terminal_text(job->path),
+        count(job->result.stale.size(), "entry of the baseline no longer occurs",
+              "entries of the baseline no longer occur")));
+    std::size_t shown = 0;
+    for (const auto& [key, n] : job->result.stale) {
+      if (shown++ == most) break;
+      const auto& [rule, entity] = job->baseline_names.at(key);
+      print_messages(fmt::format("  {} {}{}{}: {}\n", terminal_text(key.first), terminal_text(rule),
+                                 entity.empty() ? "" : " ", terminal_text(entity),
+                                 deck::count(n, "time", "times")));
+    }
+  }
+}
+
+std::vector<LintedDeck> LintRun::linted() const {
+  std::vector<LintedDeck> out;
+  for (const auto& job : jobs_) out.push_back(job->linted());
+  return out;
+}
+std::string lint_text(const std::string& format, const LintJobs& jobs, const LintChoice& options,
+                      const SchemaSet& schemas) {
+  std::vector<LintedDeck> decks;
+  for (const auto& job : jobs) decks.push_back(job->linted());
+  return lint_as(format, decks, options, schemas, true);
+}
+
+LintedDeck LintJob::linted() const {
+  return {path,   loaded ? &loaded->deck() : nullptr,       loaded ? &result : nullptr,
+          error,  loaded ? &loaded->interfaces() : nullptr, nullptr,
+          verdict};
+}
+
+int LintRun::write() {
+  const auto decks = linted();
+  int code = exit_clean;
+  const auto put = [&](const std::string& file, const std::string& text) {
+    if (auto written = common_.session->write_output(file, text); !written)
+      code = std::max(code, usage(written.error().message));
+  };
+  for (const std::string& o : options_.outputs) {
+    const auto equal = o.find('=');
+    put(o.substr(equal + 1),
+        lint_as(o.substr(0, equal), decks, options_, schemas_, o.substr(equal + 1) == "-"));
+  }
+  if (!common_.json.empty() && !print_) put(common_.json, lint_json(decks));
+  if (!options_.write_baseline.empty()) {
+    std::vector<BaselinedDeck> baselined;
+    for (const auto& job : jobs_)
+      if (job->loaded) baselined.push_back({job->path, &job->loaded->deck(), &job->result});
+    std::vector<std::string> paths;
+    for (const BaselinedDeck& d : baselined) paths.push_back(d.path);
+    if (auto kept = keeps_other_decks(options_.write_baseline, paths); !kept)
+      code = std::max(code, usage(kept.error().message));
+    else
+      put(options_.write_baseline, deck::write_baseline(baselined, options_.write_baseline));
+  }
+  report_stale();
+  if (print_) return std::max(code, print_(jobs_, schemas_));
+  print(decks);
+  return code;
+}
+
+void LintRun::print(const std::vector<LintedDeck>& decks) const {
+  // --json - and -o FORMAT=- take standard output for themselves.
+  const bool taken = common_.json == "-" || options_.diff ||
+                     std::any_of(options_.outputs.begin(), options_.outputs.end(),
+                                 [](const std::string& o) { return o.ends_with("=-"); });
+  if (!taken && !(common_.quiet && options_.format == "human")) {
+    const std::string text = lint_as(options_.format, decks, options_, schemas_, true);
+    options_.format == "human" ? print_lines(text) : print_text(text);
+  } else if (options_.diff && !common_.quiet)
+    print_messages(lint_as("human", decks, options_, schemas_, false));
+}
+
+}  // namespace deck::cli
