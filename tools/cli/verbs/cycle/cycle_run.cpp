@@ -188,7 +188,7 @@ class CycleRun {
   }
 
   /// What the options name in this deck, and its gate.
-  auto ask(LoadedDeck& loaded) -> decltype(gate_of(o_.gate, loaded, o_.common)) {
+  Result<DeckGate> ask(LoadedDeck& loaded) {
     std::vector<std::int64_t> parts;
     for (const cycle::PartVelocity& v : velocities_) parts.push_back(v.part);
     for (const auto& known : {check_interfaces(loaded, o_.only, "--interface"),

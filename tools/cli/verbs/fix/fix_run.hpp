@@ -2,6 +2,7 @@
 #pragma once
 #include "common.hpp"
 #include "deck/edit/fix.hpp"
+#include "edit/shared/depenetrate.hpp"
 #include "writing/changes.hpp"
 
 namespace deck::cli::verb_fix {
