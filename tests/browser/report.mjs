@@ -17,7 +17,7 @@ import { largeModel } from "./large.mjs";
 import { tablesBehave, tablesFit, widths } from "./tables.mjs";
 import { banner, paperSays, pictureSays, scalesFit } from "./verdict.mjs";
 import { tiesAndModern } from "./ties.mjs";
-import { tryDeck } from "./what_if.mjs";
+import { stepTime, tryDeck } from "./what_if.mjs";
 
 mkdirSync(DECK_ARTEFACTS, { recursive: true });
 const scratch = join(WORK, "pages");
@@ -504,6 +504,10 @@ async function sled() {
       const [plain, first] = [0, 1].map((k) => turns.reduce((n, t) => n + t[k], 0) / turns.length);
       Object.assign(timings[name], { without_scripts_ms: Math.round(plain), to_the_picture_ms: Math.round(first) });
       check("the first picture of the sled costs little beside the page itself", first < 5.4 * plain, `${Math.round(first)} ms of processor time, ${Math.round(plain)} ms without scripts`);
+    }
+    if (name === "sled_inflated") {
+      const step = (timings[name].step = await stepTime(p));
+      check("a movement of a slider is seen within 100 ms on the inflated dummy", Math.min(step.shown_ms, step.worked_ms) <= 100, JSON.stringify(step));
     }
     check(`${name}: draw calls are bounded`, info.calls < 800, `${info.calls}`);
     if (json.summary.pairs > 0) {

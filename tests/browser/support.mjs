@@ -90,7 +90,7 @@ export async function open(browser, file, options = {}) {
 }
 
 /** Waits until the picture is drawn and no flight goes on. */
-export const settled = (p) => p.waitForFunction(() => window.deckReport.viewport.view?.resting ?? true);
+export const settled = (p) => p.waitForFunction(() => window.deckReport.report.told && (window.deckReport.viewport.view?.resting ?? true));
 
 /** Numbers without the state of the machine: same seed, same settings. */
 export function random(seed) {

@@ -1,5 +1,6 @@
 // Settings under test: what the page computes is, to the last bit, what `deck gaps --what-if` prints.
 import { difference } from "./difference.mjs";
+import { median } from "./first_picture.mjs";
 import { check, gapsLater, open, random } from "./support.mjs";
 
 /** Rows of a contact in the JSON, as the page names them. */
@@ -86,4 +87,38 @@ export async function tryDeck(browser, path, html, count, seed) {
   check(`nothing went wrong in the page of ${path}`, page.trouble.length === 0, page.trouble.join("; "));
   await page.close();
   return { compared, beyond };
+}
+
+/** Milliseconds from a movement of a slider to the picture of the browser that has its numbers, the median over the three
+ * interfaces with the most pairs; and those that the page's thread worked for each, as the machine may be busy. */
+export async function stepTime(page) {
+  const client = await page.context().newCDPSession(page);
+  await client.send("Performance.enable", { timeDomain: "threadTicks" });
+  const worked = async () => (await client.send("Performance.getMetrics")).metrics.find((m) => m.name === "TaskDuration").value * 1000;
+  const before = await worked();
+  const times = await page.evaluate(async () => {
+    const { report } = window.deckReport;
+    const pairs = (i) => report.contactsOf(i).reduce((n, c) => n + report.data.contacts[c].pairMain.length, 0);
+    const most = report.meta.interfaces.map((_, i) => i).filter((i) => report.contactsOf(i).length > 0 && !report.meta.contacts[report.contactsOf(i)[0]].given).sort((a, b) => pairs(b) - pairs(a)).slice(0, 3);
+    const out = [];
+    for (const i of most) {
+      report.setFilter({ interface: i });
+      const slider = document.getElementById("f-Gapmin");
+      const gapmin = report.results[report.contactsOf(i)[0]].setting.gapmin;
+      for (let k = 0; k < 12; k++) {
+        const start = performance.now();
+        slider.value = String(gapmin * (0.8 + 0.04 * k));
+        slider.dispatchEvent(new Event("input"));
+        await new Promise((shown) => requestAnimationFrame(() => setTimeout(shown)));
+        out.push(performance.now() - start);
+      }
+    }
+    return out;
+  });
+  const step = { shown_ms: Math.round(median(times)), worked_ms: Math.round(((await worked()) - before) / times.length) };
+  await page.evaluate(() => {
+    window.deckReport.report.clearOverrides(null);
+    window.deckReport.report.setFilter({ interface: null });
+  });
+  return step;
 }

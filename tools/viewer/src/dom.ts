@@ -76,6 +76,12 @@ export function replace(e: Element, ...children: Child[]): void {
   fill(e, null, children);
 }
 
+/** Once what was done so far is on the screen. */
+export function onceShown(then: () => void): void {
+  if (document.hidden) setTimeout(then);
+  else requestAnimationFrame(() => setTimeout(then));
+}
+
 /** Title of a section with its tools. */
 export function sectionHead(title: Node, ...tools: Child[]): HTMLElement {
   return h("div", { class: "section-head" }, title, h("div", { class: "tools" }, ...tools));

@@ -6,7 +6,7 @@ import { loadCrossed, loadCycle, loadEarlier, loadMeta, loadTies, unpack } from 
 import { loadModel } from "./decode/client";
 import type { Model } from "./decode/model";
 import { detail, notChecked } from "./sections/detail";
-import { button, fileName, group, h } from "./dom";
+import { button, fileName, group, h, onceShown } from "./dom";
 import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save, tclMarks } from "./exports";
 import { distribution, exportMenu, listSection, pairsSection } from "./sections/lists";
 import type { ContourKind, Look } from "./look";
@@ -55,12 +55,6 @@ async function start(): Promise<void> {
 
 const telephone = "(max-width: 600px)";
 const oneColumn = "(max-width: 1100px)";
-
-/** Once what was done so far is on the screen. */
-function onceShown(then: () => void): void {
-  if (document.hidden) setTimeout(then);
-  else requestAnimationFrame(() => setTimeout(then));
-}
 
 function build(model: Model & { beside: boolean }, software: boolean, machine: WebGLRenderer | null): void {
   const times: Record<string, number> = { decoded: performance.now() - started };

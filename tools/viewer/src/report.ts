@@ -2,6 +2,7 @@
 // when one of them changes.
 import { kindNames, type Contacts, type Mesh, type Steps } from "./data";
 import { onSurfaceError, type Raw, type Row } from "./core";
+import { onceShown } from "./dom";
 import { Evaluator, ratioOf, Tally, type Result } from "./evaluate";
 import { commonStart } from "./table/names";
 import type { Untied } from "./sections/untied";
@@ -138,8 +139,36 @@ export class Report {
   on(topic: Topic, f: () => void): void {
     this.listeners.set(topic, [...(this.listeners.get(topic) ?? []), f]);
   }
-  emit(topic: Topic): void {
-    for (const f of this.listeners.get(topic) ?? []) f();
+  /** Who listens to several of them is told once. */
+  emit(...topics: Topic[]): void {
+    const told = new Set(topics.flatMap((t) => this.listeners.get(t) ?? []));
+    this.rest = this.rest.filter((f) => !told.has(f));
+    for (const f of told) f();
+  }
+
+  private rest: (() => void)[] = [];
+  /** Tells of new results: the numbers that a slider is moved for at once, all other lists and the picture one after the
+   * other when nothing newer is to be done, so that the next movement of the slider is not kept waiting. */
+  private tellOfResults(): void {
+    this.emit("results");
+    const told = new Set(this.listeners.get("results"));
+    const others = [...new Set(["filter" as const, "selection" as const].flatMap((t) => this.listeners.get(t) ?? []))].filter((f) => !told.has(f));
+    const begin = this.rest.length === 0;
+    // What waits keeps its turn: nothing waits for ever while the slider moves.
+    this.rest = [...this.rest, ...others.filter((f) => !this.rest.includes(f))];
+    if (begin) onceShown(() => this.goOn());
+  }
+  /** New results are being told: more of them may follow soon. */
+  stepping = false;
+  private goOn(): void {
+    this.stepping = true;
+    this.rest.shift()?.();
+    this.stepping = false;
+    if (this.rest.length > 0) setTimeout(() => this.goOn());
+  }
+  /** Everything shows the settings under test. */
+  get told(): boolean {
+    return this.rest.length === 0;
   }
 
   /** "; 2 contacts were not evaluated", else empty: a contact that was not evaluated is not clean. */
@@ -193,9 +222,7 @@ export class Report {
     this.collect();
     this.untied = null;
     this.selected = key ? (this.hits.find((x) => x.key === key) ?? null) : null;
-    this.emit("results");
-    this.emit("filter");
-    this.emit("selection");
+    this.tellOfResults();
   }
   changed(inter: number): boolean {
     return Object.keys(this.overrides[inter]).length > 0;

@@ -171,6 +171,11 @@ export class View3D {
     }, 150);
   }
 
+  /** A machine that takes long to draw waits until changes have come to rest. */
+  drawLater(): void {
+    if (this.software) this.later();
+  }
+
   private readonly frustum = new Frustum();
   private render(): void {
     this.choose();
@@ -242,7 +247,7 @@ export class View3D {
         if (this.slices.drawing) return this.goOn();
         if (sliced) return this.drawnAt(again);
       } else this.setCoarse(false);
-    }
+    } else if (this.software && !this.coarse) return; // the picture at rest stays until it is due
     this.scaleArrows();
     this.render();
     this.drawnAt(again);

@@ -110,6 +110,7 @@ export class Viewport {
     this.report.on("filter", () => {
       this.crossing = null;
       this.refresh();
+      if (this.report.stepping) view.drawLater();
       // An interface or part pair that is chosen is zoomed to, once.
       const { interface: inter, pair } = this.report.filter;
       const key = `${inter}/${pair}`;

@@ -132,12 +132,20 @@ export function interfaces(report: Report): HTMLElement {
 export function actionsText(report: Report, contacts: number[]): string {
   const errors = contacts.reduce((n, c) => n + report.results[c].totals.solver_errors, 0);
   if (contacts.some((c) => !report.meta.contacts[c].evaluated)) return "not evaluated";
-  const rows = contacts.flatMap((c) => report.results[c].rows);
   if (errors > 0) return `stops (${errors})`;
-  if (rows.length === 0) return "–";
   const count = new Map<string, number>();
-  for (const r of rows) count.set(r.action, (count.get(r.action) ?? 0) + 1);
-  return [...count].map(([a, n]) => (n === rows.length ? actionWords[a] : `${n} ${actionWords[a]}`)).join(", ");
+  for (const c of contacts) for (const [action, n] of actionsOf(report.results[c])) count.set(action, (count.get(action) ?? 0) + n);
+  const all = [...count.values()].reduce((sum, n) => sum + n, 0);
+  return [...count].map(([a, n]) => (n === all ? actionWords[a] : `${n} ${actionWords[a]}`)).join(", ") || "–";
+}
+const counted = new WeakMap<Result, Map<string, number>>();
+function actionsOf(result: Result): Map<string, number> {
+  const known = counted.get(result);
+  if (known) return known;
+  const count = new Map<string, number>();
+  for (const r of result.rows) count.set(r.action, (count.get(r.action) ?? 0) + 1);
+  counted.set(result, count);
+  return count;
 }
 
 // ---- settings under test ----------------------------------------------------------------------

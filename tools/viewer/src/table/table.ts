@@ -22,11 +22,14 @@ const leastText = 104;
 const mostMeasured = 5000;
 let tables = 0;
 let pen: CanvasRenderingContext2D | null = null;
+let family = "";
 
 function widthOf(text: string, bold: boolean): number {
   pen ??= document.createElement("canvas").getContext("2d");
   if (!pen) return 8 * text.length;
-  pen.font = `${bold ? 600 : 400} ${bold ? 12 : 13}px ${getComputedStyle(document.body).fontFamily}`;
+  family ||= getComputedStyle(document.body).fontFamily;
+  const font = `${bold ? 600 : 400} ${bold ? 12 : 13}px ${family}`;
+  if (pen.font !== font) pen.font = font;
   return pen.measureText(text).width;
 }
 
@@ -43,6 +46,10 @@ export class VirtualTable<T> {
   private descending: boolean;
   private selected: T | null = null;
   private drawn = "";
+  private headDrawn = "";
+  private due = false;
+  /** As they were when the browser had laid the table out: to ask in between makes it do so again. */
+  private room = { width: 0, height: 0, head: 0, top: 0 };
   private columns: Column<T>[] = [];
   private natural = new Map<string, number>();
   /** Widths set by hand. */
@@ -77,6 +84,7 @@ export class VirtualTable<T> {
     this.element = h("div", { class: "vt" }, this.body);
     this.body.addEventListener("scroll", () => {
       fullText(null);
+      this.room.top = this.body.scrollTop;
       this.draw();
     });
     this.body.addEventListener("keydown", (e) => this.key(e));
@@ -103,7 +111,9 @@ export class VirtualTable<T> {
       options.context(row, e.clientX || (at?.left ?? 0) + 40, e.clientY || (at?.bottom ?? 0));
     });
     new ResizeObserver(() => {
+      this.lookAround();
       this.layOut();
+      if (this.revealed >= 0) this.reveal(this.revealed);
       this.draw();
     }).observe(this.body);
     this.columns = all;
@@ -124,7 +134,7 @@ export class VirtualTable<T> {
     };
     const places = new Map(this.shown.map((r) => [r, place(r)]));
     this.shown.sort((a, b) => places.get(a)! - places.get(b)!);
-    this.draw(true);
+    this.drawSoon();
   }
 
   /** Rows in the order shown. */
@@ -136,7 +146,7 @@ export class VirtualTable<T> {
     const same = this.options.same ?? ((a, b) => a === b);
     this.selected = row === null ? null : (this.shown.find((r) => r === row || same(r, row)) ?? null);
     if (reveal && this.selected) this.reveal(this.shown.indexOf(this.selected));
-    this.draw(true);
+    this.drawSoon();
   }
 
   /** The columns in sight as text with commas, RFC 4180. */
@@ -238,7 +248,7 @@ export class VirtualTable<T> {
   }
 
   private layOut(): void {
-    const room = this.body.clientWidth - 18;
+    const room = this.room.width - 18;
     if (room <= 0 || this.natural.size === 0) return;
     const natural = (c: Column<T>) => this.natural.get(c.key)!;
     const title = (c: Column<T>) => widthOf(`${c.title} ↓`, true) + 6 + padding;
@@ -271,7 +281,7 @@ export class VirtualTable<T> {
     this.body.style.setProperty("--least", `${Math.ceil(sum()) + 16}px`);
     this.body.setAttribute("aria-colcount", String(this.all.length));
     this.drawHead();
-    if (!same) this.draw(true);
+    if (!same) this.drawSoon();
     for (const f of this.choosers) f();
   }
 
@@ -308,7 +318,7 @@ export class VirtualTable<T> {
     this.spacer.style.height = `${this.shown.length * this.height}px`;
     this.body.setAttribute("aria-rowcount", String(this.shown.length + 1));
     this.drawHead();
-    this.draw(true);
+    this.drawSoon();
   }
 
   private get height(): number {
@@ -316,6 +326,9 @@ export class VirtualTable<T> {
   }
 
   private drawHead(): void {
+    const what = `${this.columns.map((c) => c.key).join(" ")} ${this.sortKey} ${this.descending}`;
+    if (what === this.headDrawn) return;
+    this.headDrawn = what;
     const focused = this.head.contains(document.activeElement) ? (document.activeElement as HTMLElement).dataset.sort : null;
     replace(this.head, h("div", { class: "vt-titles", role: "row", "aria-rowindex": 1 }, ...this.columns.map((c) => {
       const active = c.key === this.sortKey;
@@ -334,9 +347,19 @@ export class VirtualTable<T> {
     if (focused) this.head.querySelector<HTMLElement>(`[data-sort="${focused}"]`)?.focus();
   }
 
+  /** Once, when all that happens together has happened. */
+  private drawSoon(): void {
+    if (this.due) return;
+    this.due = true;
+    queueMicrotask(() => {
+      this.due = false;
+      this.draw(true);
+    });
+  }
+
   private draw(force = false): void {
-    const first = Math.max(0, Math.floor(this.body.scrollTop / this.height) - 4);
-    const last = Math.min(this.shown.length, first + Math.ceil(this.body.clientHeight / this.height) + 9);
+    const first = Math.max(0, Math.floor(Math.min(this.room.top, this.shown.length * this.height - this.room.height) / this.height) - 4);
+    const last = Math.min(this.shown.length, first + Math.ceil(this.room.height / this.height) + 9);
     const range = `${first}-${last}`;
     if (!force && range === this.drawn) return;
     this.drawn = range;
@@ -374,16 +397,26 @@ export class VirtualTable<T> {
     this.options.select(row);
   }
 
+  private lookAround(): void {
+    const { clientWidth: width, clientHeight: height, scrollTop: top } = this.body;
+    this.room = { width, height, head: this.head.offsetHeight, top };
+  }
+
+  /** The row that was last brought into sight, until the table has the height that it gets in the same frame; -1: none. */
+  private revealed = -1;
   private reveal(index: number): void {
+    if (this.room.height === 0) this.lookAround();
+    this.revealed = index;
+    setTimeout(() => (this.revealed = -1), 50);
     const top = index * this.height;
-    const room = this.body.clientHeight - this.head.offsetHeight;
-    if (top < this.body.scrollTop) this.body.scrollTop = top;
-    else if (top + this.height > this.body.scrollTop + room) this.body.scrollTop = top + this.height - room;
+    const room = this.room.height - this.room.head;
+    const to = top < this.room.top ? top : top + this.height > this.room.top + room ? top + this.height - room : this.room.top;
+    if (to !== this.room.top) this.body.scrollTop = this.room.top = to;
   }
 
   private key(e: KeyboardEvent): void {
     if (e.target !== this.body) return;
-    const page = Math.max(1, Math.floor(this.body.clientHeight / this.height) - 2);
+    const page = Math.max(1, Math.floor(this.room.height / this.height) - 2);
     const step: Record<string, number> = {
       ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -Infinity, End: Infinity,
     };
