@@ -69,11 +69,11 @@ async function forces(p, path) {
   const mine = await p.evaluate(() => window.deckReport.report.cycle.nodes.map((n) => ({ node: window.deckReport.report.nodeId(n[0]), force: n.slice(1, 4), stiffness: n[4], dt: n[5] })));
   check("there are nodes with forces", all.some((n) => Math.hypot(...n.force) > 0));
   same("forces, stiffness and steps of the nodes are those of the JSON", mine, all);
-  same("the page opens with forces in the picture", await p.$eval(".legend-title", (e) => e.textContent), "Nodal contact force");
+  same("the page opens with forces in the picture", await p.$eval(".legend-title", (e) => e.textContent), "Nodal contact force (kN)");
   await settled(p);
   const seen = await p.evaluate(() => {
     const { view } = window.deckReport.viewport;
-    return { count: view.arrowList.length, first: view.arrowList[0], visible: view.arrows.visible };
+    return { count: view.markers.list.length, first: view.markers.list[0], visible: view.markers.arrows.visible };
   });
   const pushed = all.filter((n) => Math.hypot(...n.force) > 0);
   same("an arrow per node that is pushed", [seen.count, seen.visible], [pushed.length, true]);

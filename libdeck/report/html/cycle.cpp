@@ -74,12 +74,20 @@ void use_nodes(std::span<const cycle::ActedNode> acted, PageNodes& nodes) {
 }
 
 std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycle::ActedNode> acted,
-                        const PageNodes& nodes) {
+                        const PageNodes& nodes, const Model& model) {
   std::string out;
   JsonWriter j(out);
   j.begin_object(true);
   step_field(j, "structure_dt", outcome.structure.dt);
   step_field(j, "contact_dt", outcome.contact_dt);
+  j.key("structure_element");
+  if (const cycle::StructureStep& s = outcome.structure; s.element == no_index)
+    j.null();
+  else
+    j.begin_array(true)
+        .value(static_cast<int>(s.kind))
+        .value(model.family(s.kind).id[s.element])
+        .end_array();
   j.key("contacts").begin_array(true);
   for (const cycle::ContactOutcome& c : outcome.contacts) write_contact(j, c);
   j.end_array();

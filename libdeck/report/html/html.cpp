@@ -228,7 +228,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
               detail::crossings_block(model, *in.crossings, nodes));
   if (in.cycle != nullptr)
     add_block(out, "deck-cycle", "application/octet-stream",
-              detail::cycle_block(*in.cycle, in.acted, nodes));
+              detail::cycle_block(*in.cycle, in.acted, nodes, *in.scene->model));
   if (in.effects != nullptr)
     add_block(out, "cycle-json", "application/json",
               detail::script_safe(cycle_json(*in.effects, false)));

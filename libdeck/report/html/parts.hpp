@@ -129,7 +129,7 @@ std::string moved_block(const Model& model, const Model& before, const PageNodes
 // cycle.cpp — forces, energies and time steps of the first cycle
 void use_nodes(std::span<const cycle::ActedNode> acted, PageNodes& nodes);
 std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycle::ActedNode> acted,
-                        const PageNodes& nodes);
+                        const PageNodes& nodes, const Model& model);
 
 // crossings.cpp — crossed elements
 void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes);

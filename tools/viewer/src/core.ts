@@ -14,6 +14,7 @@ interface Exports {
   contact(): void;
   reset(): void;
   evaluate(contact: number, moved: number, withPairs: number): void;
+  nearest(contact: number): void;
   secondary_gaps(): number;
   main_gaps(): number;
   pair_gap(igap: number, gapmin: number, gapmax: number, gs: number, gm: number, ls: number, lm: number): number;
@@ -282,12 +283,26 @@ export class Core {
   /** `moved`: how far the contacts before have moved a node; without pairs there are no rows. */
   evaluate(contact: number, change: Overrides, moved: number, withPairs: boolean): Raw {
     if (this.meta.contacts[contact].given) return this.given(contact, withPairs);
-    this.complete(contact, change);
-    const { Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti } = change;
-    this.send([Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti].map((v) => v ?? NaN));
+    this.ask(contact, change);
     this.wasm.evaluate(this.number[contact], moved, Number(withPairs));
     const head = new Float64Array(this.wasm.memory.buffer, this.wasm.exchange(), 14).slice();
     return { head, rows: new Float64Array(this.wasm.memory.buffer, head[13], head[12] * rowSize).slice() };
+  }
+
+  private ask(contact: number, change: Overrides): void {
+    this.complete(contact, change);
+    const { Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti } = change;
+    this.send([Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti].map((v) => v ?? NaN));
+  }
+
+  /** The pair with the least room left beyond its gap, where nothing has moved; null: the page has none. */
+  nearest(contact: number, change: Overrides): Row | null {
+    if (this.meta.contacts[contact].given) return null;
+    this.wasm.reset();
+    this.ask(contact, change);
+    this.wasm.nearest(this.number[contact]);
+    const row = new WrittenRow(contact, new Float64Array(this.wasm.memory.buffer, this.wasm.exchange(), rowSize).slice(), 0);
+    return row.secondary < 0 ? null : row;
   }
 
   /** What the page has no rules for: as the program found it. */

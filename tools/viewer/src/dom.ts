@@ -53,6 +53,7 @@ const icons: Record<string, string> = {
   up: "M4 10l4-4 4 4",
   down: "M4 6l4 4 4-4",
   right: "M6 4l4 4-4 4",
+  parallel: "M2 5h8v8H2zM6 2h8v8M2 5l4-3M10 5l4-3M10 13l4-3M14 2v8",
   camera: "M2 5h3l1-2h4l1 2h3v8H2zM8 6.500a2.500 2.500 0 100 5 2.500 2.500 0 000-5z",
 };
 

@@ -122,3 +122,14 @@ export function deckCommand(report: Report, verb: string = report.meta.page): st
   const path = report.meta.deck.path;
   return [`deck ${verb}`, /[^\w./-]/.test(path) ? `'${path.replace(/'/g, `'\\''`)}'` : path, ...parts].join(" ");
 }
+
+/** False: the browser lets the page write no pictures into the clipboard. */
+export async function copyImage(canvas: HTMLCanvasElement): Promise<boolean> {
+  const png = new Promise<Blob>((done, fail) => canvas.toBlob((b) => (b ? done(b) : fail(new Error("no picture")))));
+  try {
+    await navigator.clipboard.write([new ClipboardItem({ "image/png": png })]);
+    return true;
+  } catch {
+    return false;
+  }
+}

@@ -11,6 +11,11 @@ export interface Look {
   contour: ContourKind;
   /** Colours in steps instead of a smooth change. */
   bands: number;
+  /** Limits of the scale; null: those of the values. */
+  low: number | null;
+  high: number | null;
+  log: boolean;
+  maximum: boolean; // the largest value is labelled
 }
 
 export const contourNames: Record<ContourKind, string> = {

@@ -22,10 +22,12 @@ import { ViewState } from "./state";
 import { touchesSection } from "./sections/touches";
 import { verdict } from "./sections/verdict";
 import { tiesSection } from "./sections/ties";
+import { nearestSection } from "./sections/nearest";
 import { Report, type Hit } from "./report";
 import type { WebGLRenderer } from "three";
 import { drawsInSoftware } from "./scene/machine";
 import { readyToDraw } from "./scene/ready";
+import { mouseSchemes, type MouseScheme } from "./scene/mouse";
 import { Viewport } from "./scene/viewport";
 
 const started = performance.now();
@@ -63,9 +65,11 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
   times.evaluated = performance.now() - started;
   const doc = loadCycleDocument();
   const parts = loadPartsDocument(report);
-  const look: Look = { map: "heat", dark: false, contour: report.steps ? "element" : doc && report.acted?.length ? "force" : "depth", bands: 0 };
+  const look: Look = { map: "heat", dark: false, contour: report.steps ? "element" : doc && report.acted?.length ? "force" : "depth", bands: 0, low: null, high: null, log: false, maximum: false };
   const changeLook = (change: Partial<Look>) => {
-    Object.assign(look, change);
+    // Limits are those of one kind of values.
+    const other = change.contour !== undefined && change.contour !== look.contour;
+    Object.assign(look, other ? { low: null, high: null, log: false } : null, change);
     document.documentElement.dataset.theme = look.dark ? "dark" : "light";
     report.emit("look");
   };
@@ -78,7 +82,7 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
   // Choosing a row flies there: the picture follows the list.
   report.on("selection", () => report.selected && fly(report.selected));
 
-  const help = helpDialog();
+  const help = helpDialog((scheme) => viewport.setMouse(scheme));
   const undo = button("", "undo", () => state?.undo(), { "aria-label": "Undo (u)", title: "Undo (u)", class: "tool", disabled: true });
   const redo = button("", "redo", () => state?.redo(), { "aria-label": "Redo (U)", title: "Redo (U)", class: "tool", disabled: true });
   const link = button("", "link", async () => {
@@ -133,9 +137,9 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
     ], "export");
     const list = listSection(report, fly, exports, () => state?.note());
     const nav = h("nav", { "aria-label": "Sections" },
-      ...([["moved", "Moved"], ["parts", "Parts"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["ties", "Ties"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["effects", "Effects"], ["notes", "About"]] as const)
+      ...([["moved", "Moved"], ["parts", "Parts"], ["nearest", "Nearest"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["ties", "Ties"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["effects", "Effects"], ["notes", "About"]] as const)
         .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-    const sections = [nav, verdict(report), movedSection(report, (node) => viewport.openNode(node), (on) => viewport.showBefore(on)), parts && partsSection(report, parts, (part) => viewport.showPart(part)), doc && cycleSection(report), doc && effectsSection(report, doc, `${stem}_effects.svg`), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, tiesSection(report, (x) => viewport.openTie(x)), crossedSection(report, (row) => viewport.openCrossed(row)), !doc && cycleSection(report), notChecked(report)];
+    const sections = [nav, verdict(report), movedSection(report, (node) => viewport.openNode(node), (on) => viewport.showBefore(on)), parts && partsSection(report, parts, (part) => viewport.showPart(part)), doc && cycleSection(report), doc && effectsSection(report, doc, `${stem}_effects.svg`), nearestSection(report, (row) => viewport.openNear(row), pictured), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, tiesSection(report, (x) => viewport.openTie(x)), crossedSection(report, (row) => viewport.openCrossed(row)), !doc && cycleSection(report), notChecked(report)];
     left.append(...sections.filter((s) => !!s));
     for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
     // Sections are scrolled to; the address belongs to the state of the page.
@@ -241,23 +245,51 @@ const keyList: [string, string][] = [
   ["i", "isolate the chosen pair, or not"],
   ["h", "only what penetrates; or the rest see-through"],
   ["o", "all parts solid"],
-  ["m", "measure between two nodes"],
+  ["m", "measure: node to node, or node to surface"],
   ["s", "show everything again"],
   ["a", "arrows"],
   ["w", "element sides"],
+  ["v", "parallel projection"],
   ["x", "section planes"],
   ["p", "list of parts"],
   ["c", "edges of crossed elements"],
   ["n", "lines of ties, from node to segment"],
   ["1 … 9", "colours: depth, depth ÷ gap, gap, gap ÷ side, parts, force, stiffness, time step of node, of element"],
   ["t", "dark or light"],
-  ["drag · shift-drag · wheel", "turn · move · zoom"],
+  ["wheel", "zoom"],
   ["← ↑ → ↓", "turn the picture when it has the focus"],
 ];
 
-function helpDialog(): HTMLDialogElement {
+/** Kept where the browser lets the page keep something. */
+const mouseKey = "deck-mouse";
+function chooseMouse(set: (scheme: MouseScheme) => void): HTMLElement {
+  const said = h("span", { class: "muted" });
+  const names = Object.keys(mouseSchemes) as MouseScheme[];
+  let kept: string | null = null;
+  try {
+    kept = localStorage.getItem(mouseKey);
+  } catch {
+    // A page inside another one may have no storage.
+  }
+  const choice = h("select", { id: "mouse-scheme", "aria-label": "Mouse", onchange: () => use(choice.value as MouseScheme) },
+    ...names.map((n) => h("option", { value: n, selected: n === kept }, mouseSchemes[n].name)));
+  const use = (scheme: MouseScheme) => {
+    set(scheme);
+    said.textContent = mouseSchemes[scheme].says;
+    try {
+      localStorage.setItem(mouseKey, scheme);
+    } catch {
+      // As above: then it holds for this page.
+    }
+  };
+  use(choice.value as MouseScheme);
+  return h("p", { class: "mouse" }, h("label", { for: "mouse-scheme" }, "Mouse like "), choice, said);
+}
+
+function helpDialog(mouse: (scheme: MouseScheme) => void): HTMLDialogElement {
   const dialog = h("dialog", { class: "help", "aria-label": "Keys" },
     h("div", { class: "panel-head" }, h("h3", null, "Keys"), button("", "close", () => dialog.close(), { "aria-label": "Close", class: "tool" })),
+    chooseMouse(mouse),
     h("dl", null, ...keyList.flatMap(([k, t]) => [h("dt", null, ...k.split(/  | · /).map((x) => h("kbd", null, x))), h("dd", null, t)])));
   return dialog;
 }
@@ -277,6 +309,7 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
     a: () => viewport.toggleArrows(),
     w: () => viewport.toggleEdges(),
     x: () => viewport.toggleClip(),
+    v: () => viewport.toggleParallel(),
     p: () => viewport.toggleParts(),
     c: () => viewport.toggleCrossed(),
     n: () => viewport.toggleTies(),

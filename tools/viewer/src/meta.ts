@@ -168,6 +168,7 @@ export interface Earlier {
 export interface Cycle {
   structure_dt: number | null;
   contact_dt: number | null;
+  structure_element: [number, number] | null; // kind and id of the one that limits
   contacts: {
     active: boolean;
     complete: boolean;

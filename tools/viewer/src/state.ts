@@ -101,6 +101,10 @@ export class ViewState {
     set("colours", this.look.contour !== "depth" && this.look.contour);
     set("map", this.look.map !== "heat" && this.look.map);
     set("steps", this.look.bands > 0 && String(this.look.bands));
+    set("low", this.look.low !== null && String(this.look.low));
+    set("high", this.look.high !== null && String(this.look.high));
+    set("log", this.look.log && "yes");
+    set("maximum", this.look.maximum && "yes");
     set("theme", this.look.dark ? "dark" : "light");
     for (const [name, table] of Object.entries(this.tables)) set(`table.${name}`, table.state);
     for (const [key, value] of Object.entries(this.viewport.state)) set(`view.${key}`, value);
@@ -133,9 +137,11 @@ export class ViewState {
     };
     report.setFilter(filter);
     report.select(report.hits.find((x) => x.key === given.get("row")) ?? null);
+    const limit = (key: string) => (given.has(key) && Number.isFinite(Number(given.get(key))) ? Number(given.get(key)) : null);
     this.changeLook({
       contour: (given.get("colours") as ContourKind | null) ?? "depth", map: (given.get("map") as MapName | null) ?? "heat",
       bands: Number(given.get("steps") ?? 0), dark: given.get("theme") === "dark",
+      low: limit("low"), high: limit("high"), log: given.get("log") === "yes", maximum: given.get("maximum") === "yes",
     });
     for (const [name, table] of Object.entries(this.tables)) table.state = given.get(`table.${name}`) ?? "";
     const view: Record<string, string> = {};

@@ -247,6 +247,21 @@ class Pairs {
     c_.edges ? edge_rows() : node_rows();
   }
 
+  /// The pair with the least room left beyond its gap; none where the contact has no pairs.
+  std::optional<PenetrationRow> nearest() {
+    if (s_.card.irem_gap == 2) find_removed();
+    std::optional<PenetrationRow> out;
+    for (std::size_t p = 0; p < c_.pair_main.size(); ++p) {
+      const double g = gap(p);
+      if (out && lower_bound(p) - g >= out->distance - out->gap) continue;
+      if (is_out(p)) continue;
+      PenetrationRow row = measured(p, g);
+      if (!c_.edges) row.distance = node_distance(p);
+      if (!out || row.distance - g < out->distance - out->gap) out = row;
+    }
+    return out;
+  }
+
   double gap(std::size_t p) const {
     const auto s = c_.pair_secondary[p], m = c_.pair_main[p];
     return s_.rule(module.gap_s[s], module.gap_m[m], c_.length_s[s], c_.length_m[m]);
@@ -292,18 +307,22 @@ class Pairs {
     return row;
   }
 
+  double node_distance(std::size_t p) const {
+    const Segment4& n = c_.segments[c_.pair_main[p]];
+    return closest_on_segment<Form::reference>(
+               module.point(c_.nodes[c_.pair_secondary[p]]),
+               {module.point(n[0]), module.point(n[1]), module.point(n[2]), module.point(n[3])},
+               n[2] == n[3])
+        .distance();
+  }
+
   /// With Inacti 3: the pairs that the solver's search finds, before anything moves.
   std::vector<std::uint8_t> candidates() const {
     std::vector<std::uint8_t> out(c_.pair_main.size(), 0);
     for (std::size_t p = 0; p < out.size(); ++p) {
       const double limit = std::max(s_.drad, gap(p)) + s_.measures.margin;
       if (lower_bound(p) >= limit) continue;
-      const Segment4& n = c_.segments[c_.pair_main[p]];
-      const auto closest = closest_on_segment<Form::reference>(
-          module.point(c_.nodes[c_.pair_secondary[p]]),
-          {module.point(n[0]), module.point(n[1]), module.point(n[2]), module.point(n[3])},
-          n[2] == n[3]);
-      out[p] = closest.distance() < limit;
+      out[p] = node_distance(p) < limit;
     }
     return out;
   }
@@ -445,6 +464,17 @@ EXPORT(evaluate) void evaluate(std::size_t contact, double moved, int with_pairs
       s.measures.moved && s.card.igap == 3 ? 1.0 : 0.0,
       static_cast<double>(module.output.size()),
       static_cast<double>(reinterpret_cast<std::uintptr_t>(module.output.data()))};
+  std::memcpy(module.exchange, &out, sizeof out);
+}
+
+/// The pair of a contact, at the ChangeInput exchanged, that is nearest to a penetration; a
+/// RowOutput takes the place of it, with the secondary -1 where there is none.
+EXPORT(nearest) void nearest(std::size_t contact) {
+  const Contact& c = module.contacts[contact];
+  const Settings s = settings_of(c, received<ChangeInput>(), 0);
+  RowOutput out{};
+  out.secondary = -1;
+  if (const auto row = Pairs(c, s, 0).nearest()) out = output_of(*row);
   std::memcpy(module.exchange, &out, sizeof out);
 }
 

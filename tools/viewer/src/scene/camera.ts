@@ -1,6 +1,7 @@
 // Camera and its controls: free rotation about the point under the cursor, pan, zoom towards the
 // cursor, short flights. Nothing runs between events; a frame is asked for when something moved.
-import { PerspectiveCamera, Quaternion, Vector3 } from "three";
+import { PerspectiveCamera, Quaternion, type Ray, Vector3 } from "three";
+import { motionOf, type Motion, type MouseScheme } from "./mouse";
 
 export class CameraControl {
   readonly camera = new PerspectiveCamera(28, 1, 0.1, 1000);
@@ -12,7 +13,10 @@ export class CameraControl {
   /** What stands nearer to the camera than `length` before the point is not drawn. */
   cut: { point: Vector3; length: number } | null = null;
   private flight: { start: number; from: Pose; to: Pose } | null = null;
-  private drag: { id: number; x: number; y: number; pan: boolean; moved: number } | null = null;
+  /** Parallel projection: what is far is not smaller. */
+  parallel = false;
+  mouse: MouseScheme = "page";
+  private drag: { id: number; x: number; y: number; motion: Motion; moved: number } | null = null;
   private pinch = new Map<number, { x: number; y: number }>();
 
   constructor(
@@ -59,6 +63,14 @@ export class CameraControl {
     }
     this.camera.far = Math.max(depth + this.radius * 1.1, this.camera.near * 2);
     this.camera.updateProjectionMatrix();
+    if (this.parallel) {
+      // Of the size that things have at the target; what stands behind the camera is drawn, too.
+      const up = this.distance * Math.tan((this.camera.fov * Math.PI) / 360);
+      const near = this.cut && this.camera.near > (depth - this.radius) * 0.9 + 1e-12 && this.distance < this.cut.length * 30 + this.radius * 0.05 ? this.camera.near : depth - this.radius * 1.1 - this.distance;
+      const aside = up * this.camera.aspect;
+      this.camera.projectionMatrix.makeOrthographic(-aside, aside, up, -up, near, this.camera.far);
+      this.camera.projectionMatrixInverse.copy(this.camera.projectionMatrix).invert();
+    }
     this.camera.updateMatrixWorld();
     return this.flight !== null;
   }
@@ -104,8 +116,15 @@ export class CameraControl {
 
   /** World length of one pixel at a point. */
   pixel(at: Vector3): number {
-    const depth = at.clone().sub(this.camera.position).dot(new Vector3(0, 0, -1).applyQuaternion(this.camera.quaternion));
+    const depth = this.parallel ? this.distance : at.clone().sub(this.camera.position).dot(new Vector3(0, 0, -1).applyQuaternion(this.camera.quaternion));
     return (2 * depth * Math.tan((this.camera.fov * Math.PI) / 360)) / this.element.clientHeight;
+  }
+
+  /** The ray through a place of the picture, -1 to 1 each way. */
+  aim(ray: Ray, x: number, y: number): void {
+    const far = new Vector3(x, y, 1).unproject(this.camera);
+    ray.origin.copy(this.parallel ? new Vector3(x, y, -1).unproject(this.camera) : this.camera.position);
+    ray.direction.copy(far).sub(ray.origin).normalize();
   }
 
   rotate(dx: number, dy: number): void {
@@ -150,8 +169,7 @@ export class CameraControl {
   private down(e: PointerEvent): void {
     this.element.setPointerCapture(e.pointerId);
     this.pinch.set(e.pointerId, { x: e.clientX, y: e.clientY });
-    const pan = e.button === 1 || e.button === 2 || e.shiftKey;
-    this.drag = { id: e.pointerId, x: e.clientX, y: e.clientY, pan, moved: 0 };
+    this.drag = { id: e.pointerId, x: e.clientX, y: e.clientY, motion: motionOf(this.mouse, e), moved: 0 };
     this.flight = null;
   }
 
@@ -168,8 +186,10 @@ export class CameraControl {
       this.pan(dx / 2, dy / 2);
     } else if (e.pointerId === this.drag.id) {
       // The first real movement rotates about what is under the cursor's start.
-      if (this.drag.moved < 4 && this.drag.moved + Math.hypot(dx, dy) >= 4 && !this.drag.pan) this.pivot();
-      if (this.drag.moved + Math.hypot(dx, dy) >= 4) this.drag.pan ? this.pan(dx, dy) : this.rotate(dx, dy);
+      const { motion, moved } = this.drag;
+      const far = moved + Math.hypot(dx, dy) >= 4;
+      if (moved < 4 && far && motion === "turn") this.pivot();
+      if (far) motion === "move" ? this.pan(dx, dy) : motion === "zoom" ? this.zoom(Math.exp(dy * 0.006), null) : this.rotate(dx, dy);
     }
     this.drag.moved += Math.hypot(dx, dy);
     before.x = e.clientX;

@@ -12,6 +12,10 @@ export interface Contour {
   of(hit: Hit): number; // value of a row in [0, 1]
   /** What a place on the scale stands for. */
   tick(t: number): string;
+  /** Limits that can be set; none: the scale is not one of equal differences. */
+  scaled?: { low: number; high: number };
+  /** The values before other limits were set. */
+  unscaled?: Float32Array | null;
 }
 
 /** Forces, stiffness and time steps of the nodes; the smallest step is the hottest. */

@@ -82,6 +82,21 @@ export class Labels {
     this.lines.replaceChildren(...leaders);
   }
 
+  /** One label for one point. */
+  one(text: string, point: Vector3, place: (at: Vector3) => Point | null, room: Box, taken: Box[]): void {
+    const at = place(point);
+    if (!at) return this.hide();
+    if (this.node.dataset.key !== text) {
+      this.node.dataset.key = text;
+      replace(this.node, h("b", null, text));
+    }
+    this.node.hidden = false;
+    this.segment.hidden = true;
+    const box = placeFor(at, this.sizeOf(this.node), room, [at], taken, -Math.PI / 4);
+    this.put(this.node, box);
+    this.lines.replaceChildren(this.leader(box, at));
+  }
+
   private sizeOf(e: HTMLElement): { width: number; height: number } {
     return { width: e.offsetWidth, height: e.offsetHeight };
   }

@@ -67,7 +67,7 @@ export class Marked {
   }
 
   /** Line between measured points. */
-  measure(points: Vector3[], dark: boolean): void {
+  measure(points: Vector3[], dark: boolean, outlines: number[]): void {
     for (const old of this.rule.splice(0)) {
       this.scene.remove(old);
       old.geometry.dispose();
@@ -77,6 +77,7 @@ export class Marked {
     dots.renderOrder = 9;
     this.rule.push(dots);
     if (points.length === 2) this.rule.push(this.lines(Float32Array.from(points.flatMap((p) => p.toArray())), dark ? "#ff77ff" : "#aa00aa", 2.5));
+    if (outlines.length > 0) this.rule.push(this.lines(Float32Array.from(outlines), dark ? "#ffb454" : "#c2410c", 3));
     this.scene.add(...this.rule);
   }
 }

@@ -1,10 +1,5 @@
-// The 3D view: parts, penetrating nodes as dots, arrows, the selected pair and picking; frames are drawn on demand only.
-// Over 600 lines: one class owns the objects of the graphics processor and frees them.
-import {
-  BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, Frustum, HemisphereLight,
-  InstancedMesh, Matrix4, Mesh, MeshLambertMaterial, Points, type PointsMaterial, Quaternion, Raycaster, Scene,
-  Sphere, Vector2, Vector3, type WebGLRenderer,
-} from "three";
+// The 3D view: parts, markers of penetrating nodes, the selected pair and picking; frames are drawn on demand only.
+import { CanvasTexture, Color, DirectionalLight, Frustum, HemisphereLight, Matrix4, Mesh, Raycaster, Scene, Sphere, Vector3, type WebGLRenderer } from "three";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { CameraControl, directions } from "./camera";
 import { Parts3D, type Look, type Part3D } from "./parts3d";
@@ -13,7 +8,8 @@ import { Marked } from "./marked";
 import { Slices } from "./slices";
 import { LineLayer } from "./layer";
 import type { TieLines } from "./tied";
-import { arrowGeometry, discTexture, dotMaterial } from "./shapes";
+import { Markers, type Arrow } from "./markers";
+import { discTexture } from "./shapes";
 import type { Shape } from "../decode/shape";
 import type { Hit, Report } from "../report";
 
@@ -24,16 +20,6 @@ export interface Picked {
   /** Corner of the face nearest to the cursor, as page node; -1: none. */
   node: number;
 }
-
-export interface Arrow {
-  at: [number, number, number];
-  along: [number, number, number];
-  length: number; // of the longest
-  rgb: [number, number, number]; // linear, 0..1
-}
-
-const mostArrows = 10000;
-const mostDotsInSoftware = 20000; // no fewer than arrows
 
 export class View3D {
   readonly parts: Parts3D;
@@ -50,11 +36,7 @@ export class View3D {
   private readonly head = new DirectionalLight("#ffffff", 1.7);
   private readonly sky = new HemisphereLight("#ffffff", "#aab4c0", 1.7);
   private pending = false;
-  private dots: Points | null = null;
-  private dotHits: Hit[] = [];
-  private arrowList: Arrow[] = [];
-  private arrows: InstancedMesh | null = null;
-  private arrowsOn = true;
+  private readonly markers: Markers;
   private readonly marked: Marked;
   private readonly disc: CanvasTexture;
   readonly section: Section;
@@ -74,6 +56,7 @@ export class View3D {
     this.canvas.setAttribute("aria-label", "3D view of the model. Keys: see the list of shortcuts");
     container.prepend(this.canvas);
     this.disc = discTexture();
+    this.markers = new Markers(report, this.scene, this.disc, software);
     this.marked = new Marked(report, this.scene, this.disc, container);
     this.crossed = new LineLayer(this.scene, this.marked.lines, this.disc, () => this.request());
     this.ties = new LineLayer(this.scene, this.marked.lines, this.disc, () => this.request());
@@ -129,20 +112,14 @@ export class View3D {
   }
   private setDetail(coarse: boolean): void {
     this.coarse = coarse;
-    if (this.arrows) this.arrows.visible = this.arrowsOn && !coarse;
     for (const l of [this.crossed, this.ties, this.moved]) l.visible = !coarse;
-    this.dots?.geometry.setDrawRange(0, this.mostDots);
-  }
-
-  /** Rows are deepest first. */
-  private get mostDots(): number {
-    return this.software && this.coarse ? 1500 : Infinity;
+    this.markers.setDetail(coarse);
   }
 
   /** The first picture, at once; on a slow machine as while it moves. */
   drawFirst(): void {
     if (this.software) this.setCoarse(true);
-    this.scaleArrows();
+    this.markers.scaleArrows(this.control);
     this.render();
     this.frames++;
     this.onFrame();
@@ -194,7 +171,7 @@ export class View3D {
     if (!this.slices.drawing) {
       const coarse = this.coarse;
       this.setDetail(false);
-      this.scaleArrows();
+      this.markers.scaleArrows(this.control);
       this.choose();
       if (!this.slices.start(camera)) {
         if (coarse) this.size();
@@ -248,7 +225,7 @@ export class View3D {
         if (sliced) return this.drawnAt(again);
       } else this.setCoarse(false);
     } else if (this.software && !this.coarse) return; // the picture at rest stays until it is due
-    this.scaleArrows();
+    this.markers.scaleArrows(this.control);
     this.render();
     this.drawnAt(again);
   }
@@ -350,76 +327,11 @@ export class View3D {
 
   /** Dots of rows; `colorOf` gives a colour of 0..255 parts. Arrows show the way out of rows, or what is given instead. */
   setHits(hits: Hit[], colorOf: (h: Hit) => [number, number, number], instead: Arrow[] | null = null): void {
-    if (this.dots) {
-      this.scene.remove(this.dots);
-      this.dots.geometry.dispose();
-    }
-    if (this.arrows) {
-      this.scene.remove(this.arrows);
-      this.arrows.dispose();
-      this.arrows = null;
-    }
-    this.dotHits = hits;
-    const dots = this.software ? Math.min(hits.length, mostDotsInSoftware) : hits.length;
-    const position = new Float32Array(3 * dots);
-    const color = new Float32Array(3 * dots);
-    const c = new Color();
-    for (let i = 0; i < dots; i++) {
-      const [r, g, b] = colorOf(hits[i]);
-      c.setRGB(r / 255, g / 255, b / 255, "srgb").toArray(color, 3 * i);
-      position.set(this.report.point(hits[i].row), 3 * i);
-    }
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(position, 3));
-    geometry.setAttribute("color", new BufferAttribute(color, 3));
-    this.dots = new Points(geometry, dotMaterial(this.disc));
-    this.dots.frustumCulled = false;
-    this.dots.renderOrder = 3;
-    geometry.setDrawRange(0, this.mostDots);
-    this.scene.add(this.dots);
-    this.arrowList = instead ?? hits.slice(0, mostArrows).map((hit, i) => ({
-      at: this.report.point(hit.row), along: hit.row.normal, length: hit.row.onSurface ? 0 : 1, rgb: [color[3 * i], color[3 * i + 1], color[3 * i + 2]],
-    }));
-    const count = Math.min(this.arrowList.length, mostArrows);
-    if (count > 0) {
-      this.arrows = new InstancedMesh(arrowGeometry(), new MeshLambertMaterial({ color: "#ffffff" }), count);
-      this.arrows.frustumCulled = false;
-      this.arrows.visible = this.arrowsOn && !this.coarse;
-      for (let i = 0; i < count; i++) this.arrows.setColorAt(i, c.fromArray(this.arrowList[i].rgb));
-      this.scene.add(this.arrows);
-      this.arrowScale = 0;
-    }
-    this.clipMarkers();
+    this.markers.set(hits, colorOf, instead);
     this.request();
   }
-
-  /** Dots and arrows end where the model does. */
-  private clipMarkers(): void {
-    if (this.dots) (this.dots.material as PointsMaterial).clippingPlanes = this.section.planes;
-    if (this.arrows) (this.arrows.material as MeshLambertMaterial).clippingPlanes = this.section.planes;
-  }
-
-  private arrowScale = 0;
-  /** Arrows keep their size on the screen: short ones point out of a node the way it has to go. */
-  private scaleArrows(): void {
-    if (!this.arrows?.visible) return;
-    const scale = Math.min(this.control.pixel(this.control.target) * 44, this.control.radius * 0.08);
-    if (this.arrowScale > 0 && Math.abs(scale / this.arrowScale - 1) < 0.08) return;
-    this.arrowScale = scale;
-    const [up, m, q] = [new Vector3(0, 1, 0), new Matrix4(), new Quaternion()];
-    for (let i = 0; i < this.arrows.count; i++) {
-      const { at, along, length } = this.arrowList[i];
-      const n = new Vector3(...along).normalize();
-      q.setFromUnitVectors(up, n.lengthSq() > 0 ? n : up);
-      this.arrows.setMatrixAt(i, m.compose(new Vector3(...at), q, new Vector3(length > 0 ? scale : 0, scale * length, length > 0 ? scale : 0)));
-    }
-    this.arrows.instanceMatrix.needsUpdate = true;
-  }
-
   setArrows(on: boolean): void {
-    this.arrowsOn = on;
-    if (this.arrows) this.arrows.visible = on && !this.coarse;
-    this.arrowScale = 0;
+    this.markers.setArrows(on);
     this.request();
   }
 
@@ -448,8 +360,9 @@ export class View3D {
     this.marked.select(hit, this.dark);
     this.request();
   }
-  setRule(points: Vector3[]): void {
-    this.marked.measure(points, this.dark);
+  /** `outlines`: lines beside it, six numbers each. */
+  setRule(points: Vector3[], outlines: number[] = []): void {
+    this.marked.measure(points, this.dark, outlines);
     this.request();
   }
 
@@ -524,7 +437,7 @@ export class View3D {
   /** Cuts away what lies beyond each plane. */
   setSection(cuts: Cut[]): void {
     this.section.set(cuts, this.control.center, this.control.radius);
-    this.clipMarkers();
+    this.markers.clip(this.section.planes);
     this.request();
   }
 
@@ -540,7 +453,7 @@ export class View3D {
     const caster = new Raycaster();
     caster.firstHitOnly = true;
     this.control.update(performance.now());
-    caster.setFromCamera(new Vector2(((x - r.left) / r.width) * 2 - 1, 1 - ((y - r.top) / r.height) * 2), this.control.camera);
+    this.control.aim(caster.ray, ((x - r.left) / r.width) * 2 - 1, 1 - ((y - r.top) / r.height) * 2);
     return caster;
   }
 
@@ -576,7 +489,7 @@ export class View3D {
     let best: Hit | null = null;
     let near = 13;
     const v = new Vector3();
-    for (const hit of this.dotHits) {
+    for (const hit of this.markers.hits) {
       v.set(...this.report.point(hit.row));
       const shown = !this.section.hides(v);
       const world = v.clone();
@@ -598,7 +511,7 @@ export class View3D {
     if (!best && !ghost) {
       // The corners of the face may be penetrating nodes of the list.
       const nodes = new Set(corners.map((i) => part.data.node[i]));
-      best = this.dotHits.find((x) => this.report.secondaryNodes(x.row).some((n) => nodes.has(n))) ?? null;
+      best = this.markers.hits.find((x) => this.report.secondaryNodes(x.row).some((n) => nodes.has(n))) ?? null;
     }
     return { hit: best, part, item: triangleElement[surface.faceIndex!], node: part.data.node[nearest] };
   }

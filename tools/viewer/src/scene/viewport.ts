@@ -1,17 +1,23 @@
 // Around the 3D view: tool bar, legend, list of parts, axes, and what is known about the selection.
-// Over 600 lines: every control of the view acts on the one state that it shares with the others.
-import { Color, Vector3, type WebGLRenderer } from "three";
-import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
+import { Vector3, type WebGLRenderer } from "three";
 import { contourOf, type Contour } from "./contour";
+import { colorOf, hasValues, largestOf, Legend, rescaled, titleOf } from "./legend";
+import { drawCrossed, drawMoved, drawTies, outline } from "./overlays";
+import { crossedElements, forceArrows, markHot } from "./hot";
+import { toolbar } from "./toolbar";
+import { Ruler } from "./ruler";
+import { nearText } from "../sections/nearest";
+import type { Row } from "../core";
 import type { Crossed } from "../meta";
 import { crossingText, segmentOf } from "../sections/crossed";
 import { cornersOf, nodeOf, type Untied } from "../sections/untied";
-import { tieLines } from "./tied";
+import { footOn, tieLines } from "./tied";
 import { button, fileName, h, icon, num, plural, replace, svg } from "../dom";
-import { saveDataUrl } from "../exports";
+import { drawAxes, elementText } from "./names";
+import { copyImage, saveDataUrl } from "../exports";
 import { framed } from "./framed";
 import { frameOf } from "../find";
-import { contourNames, ofCycle, type ContourKind, type Look } from "../look";
+import { contourNames, ofCycle, type Look } from "../look";
 import { loadElements, kindNames, type ElementOrigin } from "../data";
 import type { Shape } from "../decode/shape";
 import { elementKey, type Look as PartLook, type Part3D } from "./parts3d";
@@ -22,7 +28,8 @@ import { ClipPanel } from "./clippanel";
 import { Labels } from "./labels";
 import { PartList } from "./partlist";
 import type { MenuItem } from "../menu";
-import { View3D, type Arrow, type Picked } from "./view3d";
+import type { MouseScheme } from "./mouse";
+import { View3D, type Picked } from "./view3d";
 
 const mostArrowsAtFirst = 400;
 
@@ -31,7 +38,7 @@ export class Viewport {
   view: View3D | null = null;
   onRest: () => void = () => {};
   onMenu: (p: Picked, x: number, y: number) => void = () => {};
-  private readonly legend = h("div", { class: "legend" });
+  private readonly legend: Legend;
   private readonly tip = h("div", { class: "tip", hidden: true });
   private readonly labels = new Labels();
   private readonly axes = svg("svg", { viewBox: "-30 -30 60 60", class: "axes", "aria-hidden": "true" });
@@ -43,9 +50,7 @@ export class Viewport {
   /** How much of the parts that are not chosen is seen, 0 to 1. */
   private context = 0;
   private allSolid = false;
-  private readonly ruler = h("div", { class: "tip ruler", hidden: true, "aria-live": "polite" });
-  private measuring = false;
-  private measured: number[] = []; // page nodes
+  private readonly ruler: Ruler;
   private origins: ((part: number, item: number) => ElementOrigin) | null = null;
   private follow = true;
   private arrows = true;
@@ -61,7 +66,9 @@ export class Viewport {
     private readonly software: boolean,
     private readonly machine: WebGLRenderer | null,
   ) {
-    this.element.append(...this.labels.elements, this.legend, h("div", { class: "said" }, this.ruler, this.tip), this.partList.element, this.clip.element, this.axes);
+    this.ruler = new Ruler(report, () => this.view);
+    this.legend = new Legend(look, changeLook);
+    this.element.append(...this.labels.elements, this.legend.element, h("div", { class: "said" }, this.ruler.element, this.tip), this.partList.element, this.clip.element, this.axes);
   }
 
   /** A button in place of the picture: small screens show the list first. */
@@ -72,7 +79,7 @@ export class Viewport {
       this.start();
     });
     this.element.classList.add("waiting");
-    this.legend.hidden = true;
+    this.legend.element.hidden = true;
     this.axes.toggleAttribute("hidden", true);
     this.element.append(show);
   }
@@ -87,23 +94,24 @@ export class Viewport {
       return;
     }
     const view = this.view;
+    view.control.mouse = this.mouse;
     this.tiesOn = this.report.meta.ties.some((t) => t.lost > 0);
     // So many arrows hide what they point at.
     this.arrows = this.report.filtered.length <= mostArrowsAtFirst || ofCycle(this.look.contour);
     view.setArrows(this.arrows);
     this.axes.toggleAttribute("hidden", false);
-    this.element.append(this.toolbar());
+    this.element.append(toolbar(this, this.report, this.look, this.changeLook, this.toggles));
     this.press("solid", (this.allSolid = this.report.meta.page === "parts"));
     this.buildParts();
     this.clip.build();
     view.onPick = (p) => {
-      if (this.measuring) return this.measure(p);
+      if (this.ruler.on) return this.ruler.take(p);
       if (p.hit) this.report.select(p.hit);
       else if (!p.part) this.report.select(null);
       this.showTip(p.part ? this.elementText(p.part, p.item, p.node) : "");
     };
     view.onFrame = () => {
-      this.drawAxes();
+      drawAxes(this.axes, view.control.camera.quaternion);
       this.placeLabels();
     };
     let zoomed = "";
@@ -138,42 +146,6 @@ export class Viewport {
 
   // ---- tool bar -----------------------------------------------------------------------------
 
-  private toolbar(): HTMLElement {
-    const contour = h("select", { "aria-label": "Colours show", title: "What the colours show (keys 1 to 5)", onchange: () => this.changeLook({ contour: contour.value as ContourKind }) },
-      ...Object.entries(contourNames).filter(([k]) => (k === "element" ? this.report.steps : !ofCycle(k as ContourKind) || this.report.cycle?.nodes.length)).map(([k, name]) => h("option", { value: k }, name)));
-    this.report.on("look", () => (contour.value = this.look.contour));
-    contour.value = this.look.contour;
-    const toggle = (key: string, name: string, iconName: string, on: boolean, run: () => void) => {
-      const b = button("", iconName, run, { "aria-label": name, title: name, "aria-pressed": on ? "true" : "false", class: "tool" });
-      this.toggles.set(key, b);
-      return b;
-    };
-    let last = "";
-    const axis = (name: string, d: [number, number, number], up: [number, number, number], title = `Look along ${name}; again: from the other side`) =>
-      button(name, null, () => {
-        const back = last === name && name !== "ISO";
-        last = back ? "" : name;
-        this.view!.look(new Vector3(...d).multiplyScalar(back ? -1 : 1), new Vector3(...up));
-      }, { class: "tool text", title });
-    return h("div", { class: "toolbar", role: "toolbar", "aria-label": "3D view" },
-      contour,
-      h("span", { class: "bar" },
-        toggle("arrows", "Arrows: the way out, or nodal forces where colours show those (a)", "arrows", this.arrows, () => this.toggleArrows()),
-        toggle("edges", "Element sides (w)", "mesh", this.edges, () => this.toggleEdges()),
-        toggle("rest", "Only what penetrates (h)", "ghost", false, () => this.toggleRest()),
-        toggle("solid", "All parts solid (o)", "parts3d", false, () => this.toggleSolid()),
-        toggle("follow", "Isolate the chosen pair (i)", "isolate", this.follow, () => this.toggleFollow()),
-        this.report.crossed?.total ? toggle("crossed", "Edges of crossed elements (c)", "cross", false, () => this.toggleCrossed()) : null,
-        this.report.ties.length > 0 ? toggle("ties", "Ties: from node to segment, what is not tied marked (n)", "tie", this.tiesOn, () => this.toggleTies()) : null,
-        toggle("clip", "Section planes (x)", "clip", false, () => this.toggleClip()),
-        toggle("measure", "Measure between two nodes (m)", "ruler", false, () => this.toggleMeasure()),
-        toggle("parts", "Parts (p)", "parts", false, () => this.toggleParts())),
-      h("span", { class: "bar" },
-        axis("ISO", [1, -1, 1], [0, 0, 1], "Look from a corner"), axis("X", [1, 0, 0], [0, 0, 1]), axis("Y", [0, -1, 0], [0, 0, 1]), axis("Z", [0, 0, 1], [0, 1, 0]),
-        button("", "fit", () => this.fit(), { "aria-label": "Fit (f)", title: "Fit (f)", class: "tool" }),
-        button("", "camera", () => this.savePicture(false), { "aria-label": "Save a PNG", title: "Save a PNG", class: "tool" })));
-  }
-
   private contextSlider(): HTMLElement {
     const slider = h("input", { type: "range", class: "context-share", min: 0, max: 1, step: 0.05, value: this.context, oninput: () => {
       this.context = Number(slider.value);
@@ -181,6 +153,10 @@ export class Viewport {
       this.onRest();
     } });
     return slider;
+  }
+  /** Whether a button of the tool bar is down when the view begins. */
+  isOn(key: string): boolean {
+    return { arrows: this.arrows, edges: this.edges, follow: this.follow, ties: this.tiesOn }[key] ?? false;
   }
   private press(key: string, on: boolean): void {
     this.toggles.get(key)?.setAttribute("aria-pressed", on ? "true" : "false");
@@ -207,45 +183,24 @@ export class Viewport {
     this.applyLooks();
   }
   toggleMeasure(): void {
-    this.measuring = !this.measuring;
-    this.measured = [];
-    this.press("measure", this.measuring);
-    this.view?.setRule([]);
-    this.ruler.hidden = !this.measuring;
-    replace(this.ruler, icon("ruler"), "Click a node, then another one.");
+    this.ruler.show(!this.ruler.on);
+    this.press("measure", this.ruler.on);
   }
-  /** Takes the node under the cursor as one end of the distance. */
-  private measure(p: Picked): void {
-    if (p.node < 0) return;
-    if (this.measured.length === 2) this.measured = [];
-    this.measured.push(p.node);
-    this.showMeasure();
+  private mouse: MouseScheme = "page";
+  setMouse(scheme: MouseScheme): void {
+    this.mouse = scheme;
+    if (this.view) this.view.control.mouse = scheme;
   }
-  private showMeasure(): void {
-    const x = this.report.nodePositions;
-    const points = this.measured.map((n) => new Vector3(x[3 * n], x[3 * n + 1], x[3 * n + 2]));
-    this.view?.setRule(points);
-    const ids = this.measured.map((n) => `node ${this.report.nodeId(n)}`);
-    if (points.length < 2) return replace(this.ruler, icon("ruler"), `${ids[0]} – click another node`);
-    const d = points[1].clone().sub(points[0]);
-    const unit = this.report.meta.deck.units.working?.length ?? "";
-    replace(this.ruler, icon("ruler"), h("b", null, `${num(d.length(), 6)} ${unit}`), ` ${ids.join(" – ")} · ${d.toArray().map((v) => num(v, 5)).join("  ")}`);
+  toggleParallel(): void {
+    if (!this.view) return;
+    const { control } = this.view;
+    control.parallel = !control.parallel;
+    this.press("parallel", control.parallel);
+    this.view.request();
   }
-  /** Id, part, property, thickness, and where the element is defined. */
   private elementText(part: Part3D, item: number, node: number): string {
     this.origins ??= loadElements(this.report.mesh);
-    const o = this.origins(part.index, item);
-    const meta = part.data.part < 0 ? null : this.report.meta.parts[part.data.part];
-    const thickness = o.thickness || meta?.thickness || 0;
-    const file = this.report.meta.files[o.file];
-    return [
-      `${kindNames[part.elementKind[item]]} ${part.element[item]}`,
-      `part ${this.report.partText(part.data.part)}`,
-      meta && `property ${meta.prop}${meta.prop_type ? ` ${meta.prop_type.replace("/PROP/", "")}` : ""}`,
-      thickness > 0 && `thickness ${num(thickness)}`,
-      node >= 0 && `node ${this.report.nodeId(node)}`,
-      o.line > 0 && file && `${fileName(file)}:${o.line}`,
-    ].filter(Boolean).join(" · ");
+    return elementText(this.report, this.origins(part.index, item), part, item, node);
   }
   toggleFollow(): void {
     this.follow = !this.follow;
@@ -265,23 +220,9 @@ export class Viewport {
     const inter = this.report.filter.interface;
     const own = (r: readonly number[]) =>
       (inter === null || this.report.meta.contacts[r[0]].interface === inter) && (!parts || parts.has(this.report.data.contacts[r[0]].mainOwner.part[r[5]]));
-    const rows = (this.crossedShown = this.crossing ? [this.crossing] : this.crossedOn ? (this.report.crossed?.rows ?? []).filter(own) : []);
-    if (rows.length === 0) return this.view?.crossed.set([]);
-    const x = this.report.nodePositions;
-    const edges = new Float32Array(6 * rows.length);
-    const outlines: number[] = [];
-    rows.forEach((r, i) => {
-      edges.set(x.subarray(3 * r[1], 3 * r[1] + 3), 6 * i);
-      edges.set(x.subarray(3 * r[2], 3 * r[2] + 3), 6 * i + 3);
-      const n = segmentOf(this.report, r);
-      n.forEach((a, k) => {
-        const b = n[(k + 1) % n.length];
-        outlines.push(...x.subarray(3 * a, 3 * a + 3), ...x.subarray(3 * b, 3 * b + 3));
-      });
-    });
-    this.view?.crossed.set([
-      { ends: Float32Array.from(outlines), color: this.look.dark ? "#ffb454" : "#b45309", width: 1.5 },
-      { ends: edges, color: this.look.dark ? "#ff6b81" : "#c1123f", width: 4 }]);
+    const rows = this.crossing ? [this.crossing] : this.crossedOn ? (this.report.crossed?.rows ?? []).filter(own) : [];
+    this.crossedShown = rows;
+    if (this.view) drawCrossed(this.view, this.report, rows, this.look.dark);
   }
   private tiesOn = false;
   private tiesShown = "";
@@ -298,20 +239,34 @@ export class Viewport {
     const key = `${on}/${inter}/${this.look.dark}`;
     if (!this.view || key === this.tiesShown) return;
     this.tiesShown = key;
-    if (!on) return this.view.ties.set([]);
-    const { tied, lost, lostNodes } = tieLines(this.report, inter);
-    const [own, bad] = this.look.dark ? ["#b79bff", "#ff5fc4"] : ["#6d3fd4", "#c2087f"];
-    this.view.ties.set([{ ends: tied, color: own, width: 1.5 }, { ends: lost, color: bad, width: 3 }], { at: lostNodes, color: bad });
+    drawTies(this.view, this.report, inter, on, this.look.dark);
   }
   /** Flies to a node of a tie and its segment, and says why it is not tied. */
   openTie(x: Untied): void {
     if (!this.tiesOn) this.toggleTies();
-    const p = this.report.nodePositions;
-    const at = (n: number) => new Vector3(p[3 * n], p[3 * n + 1], p[3 * n + 2]);
     const node = nodeOf(this.report, x);
     this.report.select(null, x);
-    this.view?.setRule([at(node)]);
-    this.view?.flyToPoints([node, ...cornersOf(this.report, x.tie, x.row[0])].map(at));
+    this.view?.setRule([this.at(node)]);
+    this.view?.flyToPoints([node, ...cornersOf(this.report, x.tie, x.row[0])].map((n) => this.at(n)));
+  }
+  private at(node: number): Vector3 {
+    const x = this.report.nodePositions;
+    return new Vector3(x[3 * node], x[3 * node + 1], x[3 * node + 2]);
+  }
+  /** Flies to a pair that does not penetrate, its parts alone, and says how far it is from doing so. */
+  openNear(row: Row): void {
+    const { report, view } = this;
+    report.select(null);
+    if (!view) return;
+    const { secondaryOwner, secondaryListed, mainOwner } = report.data.contacts[row.contact];
+    const parts = [secondaryOwner.part[secondaryListed[row.secondary]], mainOwner.part[row.main]].map((p) => view.partByIndex(p)).filter((p) => p !== undefined);
+    if (parts.length > 0) this.isolated = new Set(parts);
+    this.applyLooks();
+    const [from, main] = [new Vector3(...report.point(row)), report.mainNodes(row)];
+    const foot = report.isEdge(row) ? from.clone().addScaledVector(new Vector3(...row.normal), -row.distance) : footOn(main.map((n) => this.at(n)), from);
+    view.setRule([from, foot], [...outline(report, main), ...(report.isEdge(row) ? outline(report, report.secondaryNodes(row)) : [])]);
+    view.flyToPoints([from, foot, ...main.map((n) => this.at(n))]);
+    this.showTip(`Nearest: ${nearText(report, row)}`);
   }
   private crossing: Crossed["rows"][0] | null = null;
   /** Shows the two elements of a crossing, the rest of their parts see-through, and says which they are. */
@@ -321,18 +276,12 @@ export class Viewport {
     this.crossing = row;
     if (!this.crossedOn) this.toggleCrossed();
     this.refresh();
-    const x = this.report.nodePositions;
-    this.view.flyToPoints([row[1], row[2], ...segmentOf(this.report, row)].map((n) => new Vector3(x[3 * n], x[3 * n + 1], x[3 * n + 2])));
+    this.view.flyToPoints([row[1], row[2], ...segmentOf(this.report, row)].map((n) => this.at(n)));
     this.showTip(crossingText(this.report, row));
-  }
-  private crossedElements(row: Crossed["rows"][0]): Set<number> {
-    const main = this.report.data.contacts[row[0]].mainOwner;
-    return new Set([elementKey(row[3], row[4]), ...(main.kind[row[5]] > 0 ? [elementKey(main.kind[row[5]] - 1, main.id[row[5]])] : [])]);
   }
   /** Flies to a node by its number in the page. */
   openNode(node: number): void {
-    const x = this.report.nodePositions;
-    const at = new Vector3(x[3 * node], x[3 * node + 1], x[3 * node + 2]);
+    const at = this.at(node);
     const row = this.report.moved?.rows.find((r) => r[0] === node);
     this.mark(at, row ? Math.max(12 * Math.hypot(row[1], row[2], row[3]), this.view?.control.pixel(at) ?? 0) : 1);
   }
@@ -345,10 +294,7 @@ export class Viewport {
     this.view.request();
   }
   private drawMoved(): void {
-    const rows = this.report.moved?.rows ?? [];
-    const x = this.report.nodePositions;
-    const ends = Float32Array.from(rows.flatMap((r) => [0, 1, 2].map((k) => x[3 * r[0] + k] - r[k + 1]).concat([0, 1, 2].map((k) => x[3 * r[0] + k]))));
-    this.view?.moved.set([{ ends, color: this.look.dark ? "#7cc7ff" : "#1d4ed8", width: 2.5 }]);
+    if (this.view) drawMoved(this.view, this.report, this.look);
   }
   toggleParts(): void {
     const list = this.partList.element;
@@ -370,9 +316,7 @@ export class Viewport {
     this.applyLooks();
     this.buildParts();
   }
-  fit(): void {
-    this.view?.fit();
-  }
+  fit = (): void => this.view?.fit();
   /** The picture with title, legend and axes; the view has to be there. */
   pictured(scale: number, white: boolean): HTMLCanvasElement {
     const { meta, filter } = this.report;
@@ -396,22 +340,15 @@ export class Viewport {
   }
   async copyPicture(): Promise<void> {
     if (!this.view) return;
-    const canvas = this.pictured(2, false);
-    const png = new Promise<Blob>((done, fail) => canvas.toBlob((b) => (b ? done(b) : fail(new Error("no picture")))));
-    try {
-      await navigator.clipboard.write([new ClipboardItem({ "image/png": png })]);
-      this.showTip("The picture is in the clipboard");
-    } catch {
-      this.showTip("This browser lets no page write pictures into the clipboard: save it instead");
-    }
+    const copied = await copyImage(this.pictured(2, false));
+    this.showTip(copied ? "The picture is in the clipboard" : "This browser lets no page write pictures into the clipboard: save it instead");
   }
 
   // ---- found and linked ---------------------------------------------------------------------
 
   /** Flies to a node and says what is known about it. */
   showNode(node: number): void {
-    const x = this.report.nodePositions;
-    const at = new Vector3(x[3 * node], x[3 * node + 1], x[3 * node + 2]);
+    const at = this.at(node);
     const hit = this.report.hits.find((h) => this.report.secondaryNodes(h.row).includes(node));
     if (hit) this.report.select(hit);
     else if (Number.isFinite(at.x)) this.mark(at, this.view ? this.view.control.radius * 0.02 : 1);
@@ -471,7 +408,8 @@ export class Viewport {
     if (this.tiesOn) out.ties = "yes";
     if (this.hidden.size > 0) out.hidden = [...this.hidden].map((p) => this.report.partId(p.data.part)).join(",");
     if (this.clip.any) out.section = this.clip.state;
-    if (this.measured.length === 2) out.ruler = this.measured.map((n) => this.report.nodeId(n)).join(",");
+    if (this.ruler.measured.length === 2) out.ruler = this.ruler.measured.map((n) => this.report.nodeId(n)).join(",");
+    if (this.view?.control.parallel) out.parallel = "yes";
     if (this.view) out.camera = this.view.control.pose;
     return out;
   }
@@ -492,17 +430,15 @@ export class Viewport {
     for (const p of this.view.parts.parts) if (hidden.has(this.report.partId(p.data.part))) this.hidden.add(p);
     this.clip.state = s.section ?? "";
     this.press("clip", this.clip.any);
-    this.measured = (s.ruler ?? "").split(",").filter(Boolean).map((id) => this.report.mesh.nodeId.indexOf(Number(id))).filter((n) => n >= 0);
-    this.measuring = this.measured.length === 2;
-    this.press("measure", this.measuring);
-    this.ruler.hidden = !this.measuring;
-    if (this.measuring) this.showMeasure();
-    else this.view.setRule([]);
+    this.ruler.set((s.ruler ?? "").split(",").filter(Boolean).map((id) => this.report.mesh.nodeId.indexOf(Number(id))).filter((n) => n >= 0));
+    this.press("measure", this.ruler.on);
+    if (!this.ruler.on) this.view.setRule([]);
+    this.view.control.parallel = s.parallel === "yes";
+    this.press("parallel", this.view.control.parallel);
     this.refresh();
     if (s.camera) this.view.control.pose = s.camera;
   }
   private later: Record<string, string> | null = null;
-
   // ---- parts --------------------------------------------------------------------------------
 
   private buildParts(): void {
@@ -523,7 +459,7 @@ export class Viewport {
     const parts = (this.view?.parts.parts ?? []).filter((p) => sides?.secondary.has(p.data.part) || sides?.main.has(p.data.part));
     this.isolated = this.follow && parts.length > 0 ? new Set(parts) : null;
     if (!this.crossing) return;
-    const own = this.crossedElements(this.crossing);
+    const own = crossedElements(this.report, this.crossing);
     this.isolated = new Set((this.view?.parts.parts ?? []).filter((p) => p.element.some((id, i) => own.has(elementKey(p.elementKind[i], id)))));
   }
 
@@ -561,55 +497,21 @@ export class Viewport {
   // ---- what is shown ------------------------------------------------------------------------
 
   private color(t: number): [number, number, number] {
-    const steps = this.look.bands;
-    const u = steps > 0 ? (Math.min(steps - 1, Math.floor(t * steps)) + 0.5) / steps : t;
-    return colorAt(this.look.map, u);
+    return colorOf(this.look, t);
   }
 
   private refresh(): void {
     const view = this.view;
     if (!view) return;
-    this.contour = contourOf(this.report, this.look.contour, this.report.filtered);
+    this.contour = rescaled(contourOf(this.report, this.look.contour, this.report.filtered), this.look, this.look.contour);
     view.parts.setColors((t) => this.color(t));
     view.parts.setContour(this.contour.values);
-    this.markHot();
+    markHot(view.parts, this.report, this.crossing);
     this.isolate();
     this.applyLooks();
     this.showHits();
     this.drawLegend();
     view.setSelected(this.report.selected);
-  }
-
-  /** Penetrating elements: around penetrating nodes, and the elements of main sides and edges. */
-  private markHot(): void {
-    const node = new Uint8Array(this.report.mesh.nodeId.length);
-    const touched = new Uint8Array(node.length);
-    if (this.crossing) {
-      for (const n of [this.crossing[1], this.crossing[2], ...segmentOf(this.report, this.crossing)]) touched[n] = 1;
-      return this.view?.parts.setHot(node, touched, () => this.crossedElements(this.crossing!));
-    }
-    const { filtered } = this.report;
-    for (const x of filtered) {
-      const data = this.report.data.contacts[x.contact];
-      const { secondary, main } = x.row;
-      const edge = this.report.isEdge(x.row);
-      const few = edge ? 2 : 1;
-      const many = edge ? 2 : 4;
-      if (!edge) node[data.secondaryNode[secondary]] = 1;
-      for (let k = 0; k < few; k++) touched[data.secondaryNode[few * secondary + k]] = 1;
-      for (let k = 0; k < many; k++) touched[data.mainNode[many * main + k]] = 1;
-    }
-    this.view?.parts.setHot(node, touched, () => this.hotElements(filtered));
-  }
-  private hotElements(hits: Hit[]): Set<number> {
-    const out = new Set<number>();
-    for (const { contact, row } of hits) {
-      const { secondaryListed, secondaryOwner: s, mainOwner: m } = this.report.data.contacts[contact];
-      const at = secondaryListed[row.secondary];
-      if (this.report.isEdge(row)) out.add(elementKey(s.kind[at] - 1, s.id[at]));
-      out.add(elementKey(m.kind[row.main] - 1, m.id[row.main]));
-    }
-    return out;
   }
 
   private hitsShownFor: unknown = null;
@@ -619,24 +521,10 @@ export class Viewport {
     const own = (x: Hit) => !parts || (parts.has(x.secondaryPart) && parts.has(x.mainPart));
     const hidden = new Set([...this.hidden].map((p) => p.data.part));
     this.view?.setHits(this.report.filtered.filter((x) => own(x) && !(hidden.has(x.secondaryPart) && hidden.has(x.mainPart))),
-      (x) => this.color(this.contour!.of(x)), ofCycle(this.look.contour) ? this.forces() : null);
+      (x) => this.color(this.contour!.of(x)), ofCycle(this.look.contour) ? forceArrows(this.report, (n) => this.color(this.contour!.values![n])) : null);
     this.hitsShownFor = this.isolationKey();
     this.drawCrossed();
     this.drawTies();
-  }
-  /** Nodal forces, largest first: length by size, colour by what the colours show. */
-  private forces(): Arrow[] {
-    const x = this.report.nodePositions;
-    const size = (n: readonly (number | null)[]) => Math.hypot(n[1]!, n[2]!, n[3]!);
-    const nodes = (this.report.acted ?? []).filter((n) => size(n) > 0).sort((a, b) => size(b) - size(a));
-    const c = new Color();
-    return nodes.map((n) => {
-      const [r, g, b] = this.color(this.contour!.values![n[0]]);
-      return {
-        at: [x[3 * n[0]], x[3 * n[0] + 1], x[3 * n[0] + 2]], along: [n[1], n[2], n[3]], length: 0.2 + 0.8 * (size(n) / size(nodes[0])),
-        rgb: c.setRGB(r / 255, g / 255, b / 255, "srgb").toArray() as [number, number, number],
-      };
-    });
   }
   private isolationKey(): string {
     const list = (s: Iterable<Part3D> | null) => (s ? [...s].map((p) => p.index).join(",") : "-");
@@ -665,49 +553,24 @@ export class Viewport {
 
   /** What the colours stand for; null: there are none. */
   private legendText(): { title: string; tick: (t: number) => string } | null {
-    const c = this.contour;
     const kind = this.look.contour;
-    if (!c || (kind === "element" ? !this.report.steps : ofCycle(kind) ? !this.report.acted?.length : !["gap", "edge"].includes(kind) && this.report.filtered.length === 0)) return null;
-    const unit = this.report.meta.deck.units.working?.length;
-    return { title: contourNames[kind === "none" ? "depth" : kind] + (unit && ["none", "depth", "gap"].includes(kind) ? ` (${unit})` : ""), tick: c.tick };
+    if (!this.contour || !hasValues(kind, this.report.steps !== null, (this.report.acted?.length ?? 0) > 0, this.report.filtered.length > 0)) return null;
+    return { title: titleOf(kind, this.report.meta.deck.units.working), tick: this.contour.tick };
   }
   private legendIsolated = false;
   private drawLegend(): void {
     const legend = this.legendText();
     this.legendIsolated = this.isolated !== null;
-    this.legend.hidden = !legend;
-    if (!legend) return;
-    const stops = Array.from({ length: 33 }, (_, i) => {
-      const [r, g, b] = this.color(Math.min(i / 32, 0.9999));
-      return `rgb(${r} ${g} ${b}) ${(100 * i) / 32}%`;
-    });
-    const maps = h("select", { "aria-label": "Colour map", title: "Colour map", onchange: () => this.changeLook({ map: maps.value as MapName }) },
-      ...mapNames.map((m) => h("option", { value: m, selected: m === this.look.map }, m)));
-    const bands = h("input", { type: "checkbox", checked: this.look.bands > 0, onchange: () => this.changeLook({ bands: bands.checked ? 8 : 0 }) });
-    replace(this.legend,
-      h("div", { class: "legend-title" }, legend.title),
-      h("div", { class: "legend-scale" }, h("div", { class: "legend-bar", style: `background:linear-gradient(to top, ${stops.join(",")})` }),
-        h("div", { class: "legend-ticks" }, ...[1, 0.75, 0.5, 0.25, 0].map((t) => h("span", null, legend.tick(t))))),
-      h("div", { class: "legend-options" }, maps, h("label", { class: "check" }, bands, "steps")),
-      this.isolated && h("label", { class: "legend-options", title: "How much of the other parts is seen beside what is chosen" }, "context", this.contextSlider()));
-    this.legend.style.setProperty("--low", cssColor(this.look.map, 0));
+    this.legend.element.hidden = !legend;
+    if (legend) this.legend.draw(legend.title, this.contour!, this.isolated && this.contextSlider());
+    this.largest = legend && this.look.maximum ? largestOf(this.contour!, this.look.contour) : null;
+    this.placeLabels();
   }
-
-  private drawAxes(): void {
-    const q = this.view!.control.camera.quaternion.clone().invert();
-    const items = ([["X", "#c0392b", 1, 0, 0], ["Y", "#2e8b57", 0, 1, 0], ["Z", "#2f6fde", 0, 0, 1]] as const).map(([name, color, x, y, z]) => {
-      const v = new Vector3(x, y, z).applyQuaternion(q);
-      return { z: v.z, e: [
-        svg("line", { x1: 0, y1: 0, x2: 18 * v.x, y2: -18 * v.y, stroke: color, "stroke-width": 2, "stroke-linecap": "round" }),
-        svg("text", { x: 25 * v.x, y: -25 * v.y + 3, fill: color }, name)] };
-    });
-    items.sort((a, b) => a.z - b.z);
-    replace(this.axes, ...items.flatMap((i) => i.e));
-  }
+  private largest: { node: number; text: string } | null = null;
 
   private placeLabels(): void {
     const x = this.report.selected;
-    if (!x || !this.view) return this.labels.hide();
+    if (!this.view || (!x && !this.largest)) return this.labels.hide();
     const r = this.element.getBoundingClientRect();
     const taken = [...this.element.querySelectorAll<HTMLElement>(".legend, .toolbar > *, .part-list, .clip-panel, .tip")].filter((e) => !e.hidden).map((e) => {
       const b = e.getBoundingClientRect();
@@ -718,7 +581,9 @@ export class Viewport {
       return p && { x: p.x - r.left, y: p.y - r.top };
     };
     this.view.control.update(performance.now());
-    this.labels.show(this.report, x, place, { left: 8, top: 8, right: r.width - 8, bottom: r.height - 8 }, taken);
+    const room = { left: 8, top: 8, right: r.width - 8, bottom: r.height - 8 };
+    if (x) this.labels.show(this.report, x, place, room, taken);
+    else this.labels.one(`${this.largest!.text} at node ${this.report.nodeId(this.largest!.node)}`, this.at(this.largest!.node), place, room, taken);
   }
 
   private tipTimer = 0;

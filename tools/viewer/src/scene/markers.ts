@@ -1,0 +1,113 @@
+// Dots of penetrating nodes, and arrows: the way out of each, or what is given in place of it.
+import {
+  BufferAttribute, BufferGeometry, type CanvasTexture, Color, InstancedMesh, Matrix4, MeshLambertMaterial, type Plane, Points, type PointsMaterial, Quaternion,
+  type Scene, Vector3,
+} from "three";
+import type { CameraControl } from "./camera";
+import { arrowGeometry, dotMaterial } from "./shapes";
+import type { Hit, Report } from "../report";
+
+export interface Arrow {
+  at: [number, number, number];
+  along: [number, number, number];
+  length: number; // of the longest
+  rgb: [number, number, number]; // linear, 0..1
+}
+
+const mostArrows = 10000;
+const mostDotsInSoftware = 20000; // no fewer than arrows
+
+export class Markers {
+  hits: Hit[] = [];
+  private dots: Points | null = null;
+  private list: Arrow[] = [];
+  private arrows: InstancedMesh | null = null;
+  private arrowsOn = true;
+  private coarse = false;
+  private planes: Plane[] = [];
+  private scale = 0;
+
+  constructor(private readonly report: Report, private readonly scene: Scene, private readonly disc: CanvasTexture, private readonly software: boolean) {}
+
+  /** `colorOf` gives a colour of 0..255 parts. */
+  set(hits: Hit[], colorOf: (h: Hit) => [number, number, number], instead: Arrow[] | null): void {
+    if (this.dots) {
+      this.scene.remove(this.dots);
+      this.dots.geometry.dispose();
+    }
+    if (this.arrows) {
+      this.scene.remove(this.arrows);
+      this.arrows.dispose();
+      this.arrows = null;
+    }
+    this.hits = hits;
+    const dots = this.software ? Math.min(hits.length, mostDotsInSoftware) : hits.length;
+    const position = new Float32Array(3 * dots);
+    const color = new Float32Array(3 * dots);
+    const c = new Color();
+    for (let i = 0; i < dots; i++) {
+      const [r, g, b] = colorOf(hits[i]);
+      c.setRGB(r / 255, g / 255, b / 255, "srgb").toArray(color, 3 * i);
+      position.set(this.report.point(hits[i].row), 3 * i);
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(position, 3));
+    geometry.setAttribute("color", new BufferAttribute(color, 3));
+    this.dots = new Points(geometry, dotMaterial(this.disc));
+    this.dots.frustumCulled = false;
+    this.dots.renderOrder = 3;
+    geometry.setDrawRange(0, this.most);
+    this.scene.add(this.dots);
+    this.list = instead ?? hits.slice(0, mostArrows).map((hit, i) => ({
+      at: this.report.point(hit.row), along: hit.row.normal, length: hit.row.onSurface ? 0 : 1, rgb: [color[3 * i], color[3 * i + 1], color[3 * i + 2]],
+    }));
+    const count = Math.min(this.list.length, mostArrows);
+    if (count > 0) {
+      this.arrows = new InstancedMesh(arrowGeometry(), new MeshLambertMaterial({ color: "#ffffff" }), count);
+      this.arrows.frustumCulled = false;
+      this.arrows.visible = this.arrowsOn && !this.coarse;
+      for (let i = 0; i < count; i++) this.arrows.setColorAt(i, c.fromArray(this.list[i].rgb));
+      this.scene.add(this.arrows);
+      this.scale = 0;
+    }
+    this.clip(this.planes);
+  }
+
+  /** Dots and arrows end where the model does. */
+  clip(planes: Plane[]): void {
+    this.planes = planes;
+    if (this.dots) (this.dots.material as PointsMaterial).clippingPlanes = planes;
+    if (this.arrows) (this.arrows.material as MeshLambertMaterial).clippingPlanes = planes;
+  }
+
+  /** Rows are deepest first. */
+  private get most(): number {
+    return this.software && this.coarse ? 1500 : Infinity;
+  }
+  setDetail(coarse: boolean): void {
+    this.coarse = coarse;
+    if (this.arrows) this.arrows.visible = this.arrowsOn && !coarse;
+    this.dots?.geometry.setDrawRange(0, this.most);
+  }
+  setArrows(on: boolean): void {
+    this.arrowsOn = on;
+    if (this.arrows) this.arrows.visible = on && !this.coarse;
+    this.scale = 0;
+  }
+
+  /** Arrows keep their size on the screen: short ones point out of a node the way it has to go. */
+  scaleArrows(control: CameraControl): void {
+    if (!this.arrows?.visible) return;
+    const scale = Math.min(control.pixel(control.target) * 44, control.radius * 0.08);
+    if (this.scale > 0 && Math.abs(scale / this.scale - 1) < 0.08) return;
+    this.scale = scale;
+    const [up, m, q] = [new Vector3(0, 1, 0), new Matrix4(), new Quaternion()];
+    for (let i = 0; i < this.arrows.count; i++) {
+      const { at, along, length } = this.list[i];
+      const n = new Vector3(...along).normalize();
+      q.setFromUnitVectors(up, n.lengthSq() > 0 ? n : up);
+      this.arrows.setMatrixAt(i, m.compose(new Vector3(...at), q, new Vector3(length > 0 ? scale : 0, scale * length, length > 0 ? scale : 0)));
+    }
+    this.arrows.instanceMatrix.needsUpdate = true;
+  }
+}
