@@ -1,5 +1,6 @@
 // Ties, TYPE24 and TYPE25 on the page against the JSON: tables, lines and marks in the picture, the panel; what was not
 // evaluated is said; and the side view of a pair, to scale.
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible } from "./axe.mjs";
 import { check, corpus, deck, gaps, open, same, sample, settled } from "./support.mjs";
@@ -44,28 +45,50 @@ async function ties(browser, scratch, shot) {
 }
 
 async function modern(browser, scratch, shot) {
+  let tried = 0;
   for (const name of ["airbag_fold", "coated_block"]) {
     const path = sample(name);
     const file = join(scratch, `${name}.html`);
     deck("gaps", path, "--quiet", "--html", file);
     const p = await open(browser, file);
     const json = gaps(path);
-    const rows = (list) => list.map((r) => JSON.stringify([r.interface, r.secondary, r.main, r.depth, r.gap, r.distance, r.normal, r.action])).sort();
-    const shown = await p.evaluate(() => {
+    const rows = (list) => list.map((r) => JSON.stringify([r.interface, r.secondary, r.main, r.depth, r.gap, r.distance, r.normal, r.action, r.stored])).sort();
+    const shownNow = () => p.evaluate(() => {
       const { report } = window.deckReport;
       return report.hits.map(({ row: r }) => ({
         interface: report.meta.interfaces[report.meta.contacts[r.contact].interface].id, secondary: report.secondaryNodes(r).map((n) => report.nodeId(n)),
-        main: report.data.contacts[r.contact].mainNode.length ? report.mainNodes(r).map((n) => report.nodeId(n)) : [], depth: r.depth, gap: r.gap, distance: r.distance, normal: r.normal, action: r.action,
+        main: report.data.contacts[r.contact].mainNode.length ? report.mainNodes(r).map((n) => report.nodeId(n)) : [], depth: r.depth, gap: r.gap, distance: r.distance, normal: r.normal, action: r.action, stored: r.stored,
       }));
     });
-    const want = json.interfaces.flatMap((i) => i.contacts.flatMap((c) => [...c.penetrations, ...(c.edge_penetrations ?? [])].map((r) => {
+    const wanted = (document) => document.interfaces.flatMap((i) => i.contacts.flatMap((c) => [...c.penetrations, ...(c.edge_penetrations ?? [])].map((r) => {
       const main = r.segment ?? r.main_edge;
-      return { interface: i.id, secondary: r.edge ?? [r.node], main: main.length === 4 && main[2] === main[3] ? main.slice(0, 3) : main, depth: r.depth ?? r.penetration, gap: r.gap, distance: r.distance, normal: r.normal, action: r.action };
+      return { interface: i.id, secondary: r.edge ?? [r.node], main: main.length === 4 && main[2] === main[3] ? main.slice(0, 3) : main, depth: r.depth ?? r.penetration, gap: r.gap, distance: r.distance, normal: r.normal, action: r.action, stored: r.stored };
     })));
+    const shown = await shownNow();
+    const want = wanted(json);
     same(`${name}: rows are those of the JSON, bit for bit`, rows(shown), rows(want));
     check(`${name}: counts of the page are those of the program`, await p.evaluate(() => window.deckReport.report.verified));
-    await p.click(".interfaces-table .vt-row");
-    check(`${name}: in place of the sliders stands how to try other settings`, await p.$eval("#whatif", (e) => e.querySelectorAll("input, select").length === 0 && e.textContent.includes("--what-if")));
+    // What the page can try is what deck gaps makes of the changed deck; what it cannot has no control and is named.
+    for (const inter of json.interfaces) {
+      await p.evaluate((id) => window.deckReport.report.setFilter({ interface: window.deckReport.report.meta.interfaces.findIndex((i) => i.id === id) }), inter.id);
+      const panel = await p.$eval("#whatif", (e) => ({ controls: [...e.querySelectorAll("input, select")].map((c) => c.id), options: [...e.querySelectorAll("#f-Inacti option")].map((o) => Number(o.value)), text: e.textContent }));
+      check(`${name} ${inter.id}: no control but Inacti, and how to try the rest`, panel.controls.every((c) => c === "f-Inacti") && panel.text.includes("--what-if") && panel.text.includes("Gapmax"), JSON.stringify(panel));
+      const now = await p.evaluate(() => Number(document.getElementById("f-Inacti")?.value ?? NaN));
+      check(`${name} ${inter.id}: Inacti is offered where the same pairs are found`, Number.isNaN(now) === (panel.options.length === 0) && panel.options.every((v) => (v === 0) === (now === 0)), JSON.stringify(panel));
+      for (const value of panel.options.filter((v) => v !== now)) {
+        tried++;
+        await p.selectOption("#f-Inacti", String(value));
+        await settled(p);
+        same(`${name} ${inter.id}: Inacti ${value} in the page is deck gaps of the changed deck`, rows(await shownNow()), rows(wanted(gaps(path, "--what-if", `${inter.id}:Inacti=${value}`))));
+        const card = await p.$eval(".card", (e) => e.textContent);
+        const changed = join(scratch, "changed_0000.rad");
+        writeFileSync(changed, readFileSync(path, "utf8").replace(new RegExp(`/INTER/TYPE${inter.type}/${inter.id}\\n[^]*?(?=\\n/)`), card.trimEnd()));
+        same(`${name} ${inter.id}: and of the card with that Inacti`, rows(await shownNow()), rows(wanted(gaps(changed))));
+        await p.evaluate(() => window.deckReport.report.clearOverrides(null));
+        await settled(p);
+      }
+    }
+    await p.keyboard.press("Escape");
     await p.click(".list-table .vt-row");
     await settled(p);
     await shot(p, name);
@@ -73,6 +96,7 @@ async function modern(browser, scratch, shot) {
     clean(name, p);
     await p.close();
   }
+  check("settings of TYPE24 and TYPE25 were tried", tried > 3, `${tried}`);
 }
 
 /** Lengths of the drawing are those of the row. */

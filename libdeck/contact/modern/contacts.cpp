@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/modern/parts.hpp"
+#include "contact/rules/actions.hpp"
 #include "deck/text/rule.hpp"
 
 namespace deck {
@@ -80,20 +81,6 @@ void list_sides(SceneContext& context, const Sides& s, Contact& out) {
   out.crowded = s.crowded;
 }
 
-PenetrationAction action_of(const Settings& set) {
-  return set.inacti == 0   ? PenetrationAction::ignored
-         : set.inacti == 5 ? PenetrationAction::offset_stored
-                           : PenetrationAction::initial_force;
-}
-
-/// What Inacti stores: a TYPE25 with -1 nothing, and neither without Inacti but for what is too
-/// small to count.
-double stored(const Settings& set, double penetration) {
-  constexpr double tiny = 1e-8;
-  if (set.inacti == 5 || (set.type == 24 && set.inacti == -1)) return penetration;
-  return set.inacti == 0 && penetration <= tiny ? penetration : 0;
-}
-
 /// The row of a penetration of a node or an edge.
 template <class Penetration>
 PenetrationRow row_of(const Settings& set, const Penetration& p, std::uint32_t secondary,
@@ -105,8 +92,7 @@ PenetrationRow row_of(const Settings& set, const Penetration& p, std::uint32_t s
   row.gap = p.gap;
   row.distance = p.distance;
   row.normal = {p.normal.x, p.normal.y, p.normal.z};
-  row.action = action_of(set);
-  row.p0 = stored(set, p.penetration);
+  act_on_modern(set.type, set.inacti, row);
   return row;
 }
 

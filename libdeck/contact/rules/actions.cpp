@@ -110,6 +110,17 @@ void act_on_node(int inacti, double fpenmax, PenetrationRow& row, const MovableN
   }
 }
 
+void act_on_modern(int type, int inacti, PenetrationRow& row) {
+  constexpr double tiny = 1e-8;
+  row.action = inacti == 0   ? PenetrationAction::ignored
+               : inacti == 5 ? PenetrationAction::offset_stored
+                             : PenetrationAction::initial_force;
+  const bool all = inacti == 5 || (type == 24 && inacti == -1);
+  row.p0 = all || (inacti == 0 && row.depth <= tiny) ? row.depth : 0;
+}
+
+bool finds_the_same(int inacti, int other) { return (inacti == 0) == (other == 0); }
+
 int on_surface_error(int type, int itied, double fpenmax, int inacti) {
   if (fpenmax != 0 || inacti == 1 || inacti == 2) return 0;
   if (type == 10 && itied != 0) return 0;

@@ -75,6 +75,13 @@ class CandidateGroup {
 void act_on_node(int inacti, double fpenmax, PenetrationRow& row, const MovableNodes& x,
                  std::uint32_t node, CandidateGroup& group);
 
+/// The same of a TYPE24 or TYPE25, which store what is taken off from then on: a TYPE25 with -1
+/// nothing, and neither without Inacti but for what is too small to count.
+void act_on_modern(int type, int inacti, PenetrationRow& row);
+/// Whether a TYPE24 or TYPE25 finds the same penetrations with either Inacti: only 0 looks
+/// otherwise.
+bool finds_the_same(int inacti, int other);
+
 /// The solver's error for a node exactly on a segment; 0: it starts all the same.
 int on_surface_error(int type, int itied, double fpenmax, int inacti);
 

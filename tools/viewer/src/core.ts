@@ -20,6 +20,8 @@ interface Exports {
   pair_gap(igap: number, gapmin: number, gapmax: number, gs: number, gm: number, ls: number, lm: number): number;
   on_surface_error(type: number, itied: number, fpenmax: number, inacti: number): number;
   act(inacti: number, fpenmax: number, depth: number, gap: number, onSurface: number): void;
+  act_modern(type: number, inacti: number, depth: number): void;
+  finds_the_same(inacti: number, other: number): number;
   action_text(action: number): number;
   origin_text(origin: number): number;
 }
@@ -155,6 +157,13 @@ export function onSurfaceError(meta: ContactMeta, fpenmax: number, inacti: numbe
   return meta.kind === "edge_edge" ? 0 : rules().on_surface_error(meta.type, meta.itied, fpenmax, inacti);
 }
 
+/** Values of Inacti that the page can try on a TYPE24 or TYPE25, the deck's among them: those with which the same pairs are
+ * found, unless a tie could hold nodes (Irem_i2) that are not told apart with the deck's own. */
+export function modernInacti(meta: ContactMeta, heldByTies: boolean): number[] {
+  const { inacti } = meta;
+  return [-1, 0, 5].filter((v) => v === inacti || (rules().finds_the_same(v, inacti) === 1 && !(heldByTies && v === 5)));
+}
+
 /** Pair gap from what the two sides bring. */
 export function pairGap(s: Setting, gs: number, gm: number, ls: number, lm: number): number {
   return rules().pair_gap(s.rule, s.gapmin, s.gapmax, gs, gm, ls, lm);
@@ -282,7 +291,7 @@ export class Core {
 
   /** `moved`: how far the contacts before have moved a node; without pairs there are no rows. */
   evaluate(contact: number, change: Overrides, moved: number, withPairs: boolean): Raw {
-    if (this.meta.contacts[contact].given) return this.given(contact, withPairs);
+    if (this.meta.contacts[contact].given) return this.given(contact, change, withPairs);
     this.ask(contact, change);
     this.wasm.evaluate(this.number[contact], moved, Number(withPairs));
     const head = new Float64Array(this.wasm.memory.buffer, this.wasm.exchange(), 14).slice();
@@ -305,14 +314,23 @@ export class Core {
     return row.secondary < 0 ? null : row;
   }
 
-  /** What the page has no rules for: as the program found it. */
-  private given(contact: number, withPairs: boolean): Raw {
+  /** What the page has no rules for: as the program found it, with what another Inacti does about it. */
+  private given(contact: number, change: Overrides, withPairs: boolean): Raw {
     const c = this.meta.contacts[contact];
-    const rows = withPairs ? this.data.contacts[contact].given! : new Float64Array(0);
+    const found = withPairs ? this.data.contacts[contact].given! : new Float64Array(0);
+    const inacti = change.Inacti ?? c.inacti;
+    const rows = inacti === c.inacti ? found : found.slice();
     let reached = 0;
-    for (let at = 3; at < rows.length; at += rowSize) reached = Math.max(reached, rows[at]);
+    for (let at = 0; at < rows.length; at += rowSize) {
+      reached = Math.max(reached, rows[at + 3]);
+      if (rows === found) continue;
+      this.wasm.act_modern(c.type, inacti, rows[at + 2]);
+      const acted = new Float64Array(this.wasm.memory.buffer, this.wasm.exchange(), rowSize);
+      rows[at + 9] = acted[9];
+      rows[at + 12] = acted[12];
+    }
     const limited = c.type === 25 && c.igap === 3; // by the mesh size
-    const head = [c.igap, c.inacti, c.irem_gap, c.fpenmax, c.gap_scale, c.gapmin, 0, Infinity, c.max_gap, c.drad, reached, 0, rows.length / rowSize, 0, limited ? 3 : 1];
+    const head = [c.igap, inacti, c.irem_gap, c.fpenmax, c.gap_scale, c.gapmin, 0, Infinity, c.max_gap, c.drad, reached, 0, rows.length / rowSize, 0, limited ? 3 : 1];
     return { head: Float64Array.from(head), rows };
   }
 

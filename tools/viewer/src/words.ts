@@ -29,8 +29,9 @@ export const modernInactiWords: Record<number, string> = {
   5: "stored as offset",
 };
 
-export function flagText(field: "Igap" | "Inacti", value: number): string {
-  const words = field === "Igap" ? igapWords : inactiWords;
+/** `modern`: of a TYPE24 or TYPE25. */
+export function flagText(field: "Igap" | "Inacti", value: number, modern = false): string {
+  const words = field === "Igap" ? (modern ? modernIgapWords : igapWords) : modern ? modernInactiWords : inactiWords;
   return `${value} – ${words[value] ?? "unknown"}`;
 }
 

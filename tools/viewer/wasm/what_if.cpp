@@ -510,6 +510,18 @@ EXPORT(act) void act(int inacti, double fpenmax, double depth, double gap, int o
   std::memcpy(module.exchange, &out, sizeof out);
 }
 
+/// The same of a TYPE24 or TYPE25.
+EXPORT(act_modern) void act_modern(int type, int inacti, double depth) {
+  PenetrationRow row;
+  row.depth = depth;
+  act_on_modern(type, inacti, row);
+  const RowOutput out = output_of(row);
+  std::memcpy(module.exchange, &out, sizeof out);
+}
+EXPORT(finds_the_same) int same_found(int inacti, int other) {
+  return finds_the_same(inacti, other) ? 1 : 0;
+}
+
 /// Texts, ended by a zero: of PenetrationAction, of GapminOrigin.
 EXPORT(action_text) const char* action_text(int action) {
   return to_string(static_cast<PenetrationAction>(action));

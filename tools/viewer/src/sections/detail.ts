@@ -142,7 +142,7 @@ export function notChecked(report: Report): HTMLElement {
     `Pairs are carried up to about three times the largest gap of each interface${beyond ? `; for ${beyond} of them only what penetrates, because there are too many` : ""}. Beyond that the page says so.`,
   ];
   if (meta.contacts.some((c) => c.given))
-    items.push("TYPE24 and TYPE25 are shown as the program found them, for the deck's settings: the page has no rules to try others, and in Who touches whom they count where they penetrate only.");
+    items.push("TYPE24 and TYPE25 are shown as the program found them: of their settings the page can try an Inacti with which the same pairs are found, and no other; in Who touches whom they count where they penetrate only.");
   if (meta.ties.length > 0) items.push("Ties (TYPE2) are formed as the Starter forms them. A line ends at the nearest point of the segment.");
   const odd = meta.contacts.filter((c) => c.repaired + c.degenerate + c.reoriented + c.no_carrier > 0);
   const counts = meta.deck.counts;

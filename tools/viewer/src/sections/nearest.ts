@@ -37,11 +37,11 @@ function stepText(report: Report): string {
   return own === null ? "" : `The time step is limited by ${name}: ${num(own)} ${unit}; ${contact === null ? "no contact limits it" : `contact would allow ${num(contact)}`}.`;
 }
 
-/** `ready`: the first picture is drawn, what takes a while may begin. */
-export function nearestSection(report: Report, open: (row: Row) => void, ready: Promise<void>): HTMLElement {
+/** `ready`: the first picture is drawn, what takes a while may begin. null: the deck has penetrations. */
+export function nearestSection(report: Report, open: (row: Row) => void, ready: Promise<void>): HTMLElement | null {
+  if (report.hits.length > 0 || report.meta.contacts.length === 0) return null;
   const said = h("p", { class: "nearest-said" });
-  const section = h("section", { id: "nearest", hidden: report.hits.length > 0 || report.meta.contacts.length === 0 }, h("h2", null, "Nearest"), said);
-  if (section.hidden) return section;
+  const section = h("section", { id: "nearest" }, h("h2", null, "Nearest"), said);
   const inter = (r: Row) => report.meta.interfaces[report.meta.contacts[r.contact].interface];
   const table = new VirtualTable<Row>(
     [

@@ -1,5 +1,6 @@
 // The table of interfaces and the settings under test.
 import { cardText, changedCard } from "../card";
+import { modernInacti } from "../core";
 import { button, group, h, lengthText, num, percent, plural, replace, sectionHead } from "../dom";
 import { copyText, deckCommand, whatIfCommand } from "../exports";
 import type { FieldName, Totals } from "../meta";
@@ -150,11 +151,19 @@ function actionsOf(result: Result): Map<string, number> {
 
 // ---- settings under test ----------------------------------------------------------------------
 
-function fieldsOf(type: number): FieldName[] {
+function fieldsOf(report: Report, inter: number): FieldName[] {
+  const { type } = report.meta.interfaces[inter];
+  if (type === 24 || type === 25) return triedInacti(report, inter).length > 1 ? ["Inacti"] : [];
   if (type === 10) return ["Gapmin"];
   if (type === 11) return ["Igap", "Gapmin", "Inacti"];
   if (type === 19) return ["Igap", "Gapmin", "Fscalegap", "Gapmax", "Inacti"];
   return ["Igap", "Gapmin", "Fscalegap", "Gapmax", "Inacti", "Fpenmax"];
+}
+
+/** What the page can try in place of the Inacti of a TYPE24 or TYPE25. */
+function triedInacti(report: Report, inter: number): number[] {
+  const held = Number(report.meta.interfaces[inter].values.Irem_i2?.value) === 1 && report.meta.ties.length > 0;
+  return modernInacti(report.meta.contacts[report.contactsOf(inter)[0]], held);
 }
 
 /** All settings under test in a line, with what to do with them. */
@@ -177,7 +186,8 @@ export function settingsBar(report: Report): HTMLElement {
 
 /** Value of a field as the deck has it; Gapmin 0 means: from the mesh. */
 function deckValue(report: Report, inter: number, field: FieldName): number {
-  const card = report.meta.contacts[report.contactsOf(inter)[0]].card;
+  const { card, given, inacti } = report.meta.contacts[report.contactsOf(inter)[0]];
+  if (given && field === "Inacti") return inacti;
   return field === "Gapmax" && card.Gapmax >= 1e30 ? 0 : card[field];
 }
 
@@ -214,11 +224,13 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
     replace(panel, h("p", { class: "note" }, tie ? `TYPE2 ${meta.id}: ${tie.text}. Its nodes are listed under Ties.` : "This interface has no contact that could be evaluated."));
     return () => {};
   }
-  if (report.meta.contacts[contacts[0]].given) {
-    replace(panel, ...asFound(report, inter));
+  const { given } = report.meta.contacts[contacts[0]];
+  const fields = fieldsOf(report, inter);
+  if (given && fields.length === 0) {
+    replace(panel, h("div", { class: "panel-head" }, h("h3", null, h("span", { class: "muted" }, `Interface ${report.interfaceName(inter)}`))), ...asFound(report, inter));
     return () => {};
   }
-  for (const field of fieldsOf(meta.type)) {
+  for (const field of fields) {
     const c = control(report, inter, field);
     grid.append(c.element);
     controls.push(c.update);
@@ -235,7 +247,7 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
   replace(
     panel,
     h("div", { class: "panel-head" }, h("h3", null, "What if? ", h("span", { class: "muted" }, `Interface ${report.interfaceName(inter)}`)), reset),
-    grid, outcome, reach,
+    grid, outcome, reach, ...(given ? asFound(report, inter) : []),
     h("details", { class: "card-fold", open: cardOpen, ontoggle: (e) => (cardOpen = (e.target as HTMLDetailsElement).open) },
       h("summary", null, "Card with these values"), h("div", { class: "buttons" }, command, copy), card, notes),
   );
@@ -285,16 +297,18 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
   };
 }
 
-/** What stands in place of the controls where the page has no rules. */
+/** What stands in place of the controls for which the page has no rules. */
 function asFound(report: Report, inter: number): Node[] {
   const { id, type } = report.meta.interfaces[inter];
   const c = report.meta.contacts[report.contactsOf(inter)[0]];
   const words = [type === 25 && `Igap ${c.igap} – ${modernIgapWords[c.igap] ?? "unknown"}`, `Inacti ${c.inacti} – ${modernInactiWords[c.inacti] ?? "unknown"}`].filter(Boolean).join(", ");
   const missing = report.contactsOf(inter).filter((k) => !report.meta.contacts[k].complete);
+  const others = triedInacti(report, inter).length > 1 ? [] : ["Inacti"];
+  if (type === 25) others.unshift("Igap", "Fscalegap");
+  others.unshift("Gapmax");
   const tried = `${deckCommand(report, "gaps")} --what-if ${id}:${type === 25 ? "Igap=2,Inacti=-1" : "Inacti=-1"} --html page.html`;
   return [
-    h("div", { class: "panel-head" }, h("h3", null, h("span", { class: "muted" }, `Interface ${report.interfaceName(inter)}`))),
-    h("p", { class: "note" }, `TYPE${type}: ${words}. The page shows it as the deck has it and cannot try other settings; the program does: `, h("code", null, tried)),
+    h("p", { class: "note" }, `TYPE${type}: ${words}. Other values of ${others.join(", ")} decide anew which segment a node is paired with: the page has no rules for that, the program does: `, h("code", null, tried)),
     ...(missing.length > 0 ? [h("p", { class: "note warn" }, `Of ${missing.length === 1 ? "a contact" : "several contacts"} of it the page holds only the deepest pairs.`)] : []),
   ];
 }
@@ -311,10 +325,11 @@ function control(report: Report, inter: number, field: FieldName): { element: HT
   const set = (v: number) => report.setOverride(inter, field, v === deck ? undefined : v);
   if (field === "Igap" || field === "Inacti") {
     const type = report.meta.interfaces[inter].type;
-    const options = field === "Igap" ? (type === 11 ? [0, 1, 3] : [0, 1, 2, 3]) : type === 11 ? [0, 1, 2, 5, 6] : [0, 1, 2, 3, 5, 6];
+    const modern = report.meta.contacts[report.contactsOf(inter)[0]].given;
+    const options = modern ? triedInacti(report, inter) : field === "Igap" ? (type === 11 ? [0, 1, 3] : [0, 1, 2, 3]) : type === 11 ? [0, 1, 2, 5, 6] : [0, 1, 2, 3, 5, 6];
     for (const v of [deck, current()]) if (!options.includes(v)) options.push(v);
     const select = h("select", { id, onchange: () => set(Number(select.value)) },
-      ...options.map((v) => h("option", { value: v }, flagText(field, v) + (v === deck ? " (deck)" : ""))));
+      ...options.map((v) => h("option", { value: v }, flagText(field, v, modern) + (v === deck ? " (deck)" : ""))));
     const element = h("div", { class: "control wide" }, h("label", { for: id }, field), select);
     return { element, update: () => { select.value = String(current()); element.classList.toggle("on", current() !== deck); } };
   }
