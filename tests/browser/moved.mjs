@@ -1,5 +1,6 @@
 // The pages of `deck fix --html` and `deck diff --html`: moved nodes against the JSON, the mesh before and after, what was solved.
 import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible } from "./axe.mjs";
 import { check, DECK, deck, open, same, sample, settled } from "./support.mjs";
@@ -14,12 +15,17 @@ const height = (p, part) =>
     return Math.max(...x.filter((_, i) => i % 3 === 2));
   }, part);
 
+async function patchOf(p) {
+  const [download] = await Promise.all([p.waitForEvent("download"), p.click("#repair button:has-text('Save the patch')")]);
+  return readFileSync(await download.path(), "utf8");
+}
+
 export async function repairPages(browser, scratch, shot) {
   const call = [sample("too_close"), "--strategy", "move-nodes", "--max-moved", "100%", "--quiet"];
   const file = join(scratch, "fix.html");
   deck("fix", ...call, "--html", file);
   const json = JSON.parse(deck("fix", ...call, "--json", "-"));
-  let p = await open(browser, file);
+  let p = await open(browser, file, { acceptDownloads: true });
   const shown = await p.evaluate(() => window.deckReport.report.moved.rows.map((r) => [window.deckReport.report.nodeId(r[0]), Math.hypot(r[1], r[2], r[3])]));
   const sorted = (list) => list.map(([id, d]) => `${id} ${d.toPrecision(6)}`).sort();
   same("repair: nodes and lengths are those of the JSON", sorted(shown), sorted(json.moved.map((m) => [m.node, m.distance])));
@@ -34,10 +40,33 @@ export async function repairPages(browser, scratch, shot) {
   await p.click("#moved button:has-text('After')");
   same("repair: and 'After' where they stand now", await height(p, 2), after);
   same("repair: what was solved is counted", await p.$eval(".compare .solved b", (e) => Number(e.textContent)), json.interfaces[0].before.nodes);
+  same("repair: everything was treated, and the patch is that of --diff", [await p.$$eval(".refused-table .vt-row", (r) => r.length), await patchOf(p)], [json.not_treated.length, deck("fix", ...call, "--diff")]);
   await p.click(".moved-table .vt-row");
   await settled(p);
   await accessible(p, "repair");
   check("repair: no console error and no request", p.trouble.length === 0, p.trouble.join("; "));
+  await p.close();
+
+  // What is left, why, and what to call next.
+  const half = [sample("crash_box"), "--strategy", "move-nodes", "--quiet"];
+  const some = join(scratch, "fix_some.html");
+  deck("fix", ...half, "--html", some);
+  const left = JSON.parse(deck("fix", ...half, "--json", "-")).not_treated;
+  p = await open(browser, some, { viewport: { width: 1280, height: 800 } });
+  same("repair: what was not treated is that of the JSON", (await p.$eval("#repair .count", (e) => parseInt(e.textContent))), left.length);
+  const listed = await p.$eval(".reasons", (e) => e.textContent);
+  check("repair: every reason is said", left.length > 0 && left.every((r) => listed.includes(r.reason)), listed);
+  await p.click(".refused-table .vt-row");
+  await settled(p);
+  const commands = await p.$$eval(".next code", (c) => c.map((e) => e.textContent));
+  check("repair: the next commands are there", commands.length === 3 && commands[0].endsWith("--strategy move-nodes -o fixed") && commands[1].endsWith("--crossings") && commands[2].endsWith("--interface 2"), commands.join("; "));
+  for (const c of commands) {
+    const words = c.split(" ").slice(1).map((w) => (w === "fixed" ? join(scratch, "fixed") : w.replace(/^fixed\//, `${scratch}/fixed/`)));
+    check(`repair: ${words[0]} ${words.at(-1)} can be called`, deck(...words, "--quiet") !== null);
+  }
+  await accessible(p, "repair, some left");
+  await shot(p, "repair_left");
+  check("repair, some left: no console error and no request", p.trouble.length === 0, p.trouble.join("; "));
   await p.close();
 
   // Two decks: the patch applied, against the old one.

@@ -18,6 +18,7 @@ import { tablesBehave, tablesFit, widths } from "./tables.mjs";
 import { banner, paperSays, pictureSays, scalesFit } from "./verdict.mjs";
 import { tiesAndModern } from "./ties.mjs";
 import { nearest, viewTools } from "./view.mjs";
+import { thumbnails } from "./thumbnails.mjs";
 import { stepTime, tryDeck } from "./what_if.mjs";
 
 mkdirSync(DECK_ARTEFACTS, { recursive: true });
@@ -556,7 +557,7 @@ async function manySettings() {
 }
 
 // ONLY=crashBox,layout runs some pieces; the later ones read pages that crashBox writes.
-const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), effects: () => effectsPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), largeModel: () => largeModel(browser, scratch, timings), view: () => viewTools(browser, join(scratch, "crash_box.html"), shot), nearest: () => nearest(browser, page, shot), ties: () => tiesAndModern(browser, scratch, shot), parts: () => partsPage(browser, scratch, shot), repair: () => repairPages(browser, scratch, shot), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
+const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), effects: () => effectsPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), largeModel: () => largeModel(browser, scratch, timings), view: () => viewTools(browser, join(scratch, "crash_box.html"), shot), nearest: () => nearest(browser, page, shot), thumbnails: () => thumbnails(browser, scratch), ties: () => tiesAndModern(browser, scratch, shot), parts: () => partsPage(browser, scratch, shot), repair: () => repairPages(browser, scratch, shot), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
 const only = process.env.ONLY?.split(",");
 timings.seconds = {};
 for (const [name, piece] of Object.entries(pieces)) {

@@ -66,6 +66,7 @@ const html = `<!doctype html>
 <body>
 <noscript>This page is a program: it needs scripts.</noscript>
 <script type="text/plain" id="engine">${packed(readFileSync(join(options.engine, "deck.wasm")))}</script>
+<script type="text/plain" id="sample">${packed(readFileSync(join(here, "../../samples/crash_box_0000.rad")))}</script>
 <script type="text/plain" id="worker">${packed(Buffer.from(worker))}</script>
 <script>${page}</script>
 </body>

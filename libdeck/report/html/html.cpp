@@ -223,6 +223,9 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   if (in.before != nullptr)
     add_block(out, "deck-moved", "application/octet-stream",
               detail::moved_block(model, *in.before, nodes));
+  if (!in.repair.empty())
+    add_block(out, "deck-repair", "application/octet-stream",
+              detail::packed_text(std::string(in.repair)));
   if (in.crossings != nullptr)
     add_block(out, "deck-crossed", "application/octet-stream",
               detail::crossings_block(model, *in.crossings, nodes));

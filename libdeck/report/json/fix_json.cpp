@@ -96,7 +96,33 @@ void write_step(JsonWriter& j, const PenetrationFix& step) {
   j.field("not_treated", score.not_treated).end_object().end_object();
 }
 
+void write_refused(JsonWriter& j, const PenetrationFix& fix) {
+  j.key("not_treated").begin_array();
+  for (const FixRefusal& r : fix.refused) {
+    j.begin_object(true).field("interface", r.interface_id);
+    write_ids(j, "nodes", r.nodes);
+    j.field("depth", r.depth).key("distance");
+    r.distance > 0 ? j.value(r.distance) : j.null();
+    j.field("reason", r.reason).end_object();
+  }
+  j.end_array();
+}
+
 }  // namespace
+
+std::string repair_json(const PenetrationFix& fix, const std::vector<NextCommand>& next,
+                        std::string_view patch) {
+  std::string out;
+  JsonWriter j(out);
+  j.begin_object().field("strategy", fix.strategy);
+  write_crossings(j, fix);
+  write_refused(j, fix);
+  j.key("next").begin_array();
+  for (const NextCommand& n : next)
+    j.begin_object(true).field("does", n.does).field("command", n.command).end_object();
+  j.end_array().field("patch", patch).end_object();
+  return out;
+}
 
 std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::string_view written,
                      const std::vector<PenetrationFix>& steps) {
@@ -141,15 +167,8 @@ std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::s
     j.field("solver_stops", a.stops).field("gap_left", a.gap0).end_object();
   }
   j.end_array();
-  j.key("not_treated").begin_array();
-  for (const FixRefusal& r : fix.refused) {
-    j.begin_object(true).field("interface", r.interface_id);
-    write_ids(j, "nodes", r.nodes);
-    j.field("depth", r.depth).key("distance");
-    r.distance > 0 ? j.value(r.distance) : j.null();
-    j.field("reason", r.reason).end_object();
-  }
-  j.end_array().end_object();
+  write_refused(j, fix);
+  j.end_object();
   out += '\n';
   return out;
 }

@@ -34,4 +34,13 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
 std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::string_view written,
                      const std::vector<PenetrationFix>& steps = {});
 
+/// A call that goes on from a fix, and what it does.
+struct NextCommand {
+  std::string does, command;
+};
+/// What the page of `deck fix --html` says beside the moved nodes (HtmlInput::repair): what was not
+/// treated, what to call next, and the patch.
+std::string repair_json(const PenetrationFix& fix, const std::vector<NextCommand>& next,
+                        std::string_view patch);
+
 }  // namespace deck

@@ -11,7 +11,7 @@
 namespace deck::cli {
 
 Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after, const char* verb,
-                                    std::string_view path) {
+                                    std::string_view path, std::string_view repair) {
   const int threads = after.options().threads;
   const std::string was = [&] {
     SceneOptions options = before.scene_options();
@@ -28,17 +28,18 @@ Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after,
   input.verb = verb;
   input.earlier = &*earlier;
   input.before = &before.model();
+  input.repair = repair;
   return gap_page(after, input);
 }
 
 Result<std::string> fix_page(const LoadedDeck& before, const ChangedFiles& changed,
-                             const CommonOptions& options) {
+                             std::string_view repair, const CommonOptions& options) {
   Overlay overlay(changed.begin(), changed.end());
   const std::string& main = before.deck().sources[0].path();
   overlay.try_emplace(main, before.deck().sources[0].bytes());  // standard input is no file
   auto after = load(main, load_options(options, before.schemas(), &overlay));
   if (!after) return after.error();
-  return difference_page(before, *after, "fix", before.path());
+  return difference_page(before, *after, "fix", before.path(), repair);
 }
 
 }  // namespace deck::cli

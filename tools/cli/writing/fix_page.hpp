@@ -13,11 +13,12 @@ namespace deck::cli {
 /// with what is new, solved or deeper than in the earlier one. `path`: name of the deck in the
 /// page.
 Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after, const char* verb,
-                                    std::string_view path);
+                                    std::string_view path, std::string_view repair = {});
 
 /// The page of `deck fix --html` of the deck with `changed` texts, against the deck as
-/// it was read. Error: it cannot be read again, or the viewer is not there.
+/// it was read. `repair`: HtmlInput::repair. Error: it cannot be read again, or the viewer is not
+/// there.
 Result<std::string> fix_page(const LoadedDeck& before, const ChangedFiles& changed,
-                             const CommonOptions& options);
+                             std::string_view repair, const CommonOptions& options);
 
 }  // namespace deck::cli

@@ -14,6 +14,7 @@ import type { FieldName, Overrides } from "./meta";
 import { interfaces } from "./sections/overview";
 import { printing } from "./paper";
 import { movedSection } from "./sections/moved";
+import { repairSection } from "./sections/repair";
 import { loadPartsDocument, partsSection } from "./sections/parts";
 import { effectsSection, loadCycleDocument } from "./sections/effects";
 import { findBox } from "./find";
@@ -45,7 +46,7 @@ async function start(): Promise<void> {
   });
   const machine = matchMedia(telephone).matches ? null : readyToDraw(software);
   try {
-    await unpack(["deck-moved", "deck-earlier", "deck-cycle", "deck-crossed", "deck-ties"]);
+    await unpack(["deck-moved", "deck-repair", "deck-earlier", "deck-cycle", "deck-crossed", "deck-ties"]);
   } catch {
     // A browser that cannot do that reads the blocks itself.
   }
@@ -137,9 +138,9 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
     ], "export");
     const list = listSection(report, fly, exports, () => state?.note());
     const nav = h("nav", { "aria-label": "Sections" },
-      ...([["moved", "Moved"], ["parts", "Parts"], ["nearest", "Nearest"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["ties", "Ties"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["effects", "Effects"], ["notes", "About"]] as const)
+      ...([["moved", "Moved"], ["repair", "Not treated"], ["parts", "Parts"], ["nearest", "Nearest"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["ties", "Ties"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["effects", "Effects"], ["notes", "About"]] as const)
         .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-    const sections = [nav, verdict(report), movedSection(report, (node) => viewport.openNode(node), (on) => viewport.showBefore(on)), parts && partsSection(report, parts, (part) => viewport.showPart(part)), doc && cycleSection(report), doc && effectsSection(report, doc, `${stem}_effects.svg`), nearestSection(report, (row) => viewport.openNear(row), pictured), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, tiesSection(report, (x) => viewport.openTie(x)), crossedSection(report, (row) => viewport.openCrossed(row)), !doc && cycleSection(report), notChecked(report)];
+    const sections = [nav, verdict(report), movedSection(report, (node) => viewport.openNode(node), (on) => viewport.showBefore(on)), repairSection(report, (node) => viewport.showNode(node)), parts && partsSection(report, parts, (part) => viewport.showPart(part)), doc && cycleSection(report), doc && effectsSection(report, doc, `${stem}_effects.svg`), nearestSection(report, (row) => viewport.openNear(row), pictured), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, tiesSection(report, (x) => viewport.openTie(x)), crossedSection(report, (row) => viewport.openCrossed(row)), !doc && cycleSection(report), notChecked(report)];
     left.append(...sections.filter((s) => !!s));
     for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
     // Sections are scrolled to; the address belongs to the state of the page.

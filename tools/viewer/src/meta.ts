@@ -207,6 +207,15 @@ export interface Moved {
   rows: MovedRow[]; // farthest first
 }
 
+/** What a repair says beside the moved nodes. */
+export interface Repair {
+  strategy: string;
+  crossings: { before: number; after: number };
+  not_treated: { interface: number; nodes: number[]; depth: number; distance: number | null; reason: string }[];
+  next: { does: string; command: string }[];
+  patch: string;
+}
+
 /** Crossed elements: contact, page nodes of the edge, kind and id of its element, position of the
  * segment. */
 export interface Crossed {

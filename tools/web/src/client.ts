@@ -8,7 +8,7 @@ export class Cancelled extends Error {
 }
 
 /** base64 of gzip in an element of the page. */
-async function unpacked(id: string): Promise<ArrayBuffer> {
+export async function unpacked(id: string): Promise<ArrayBuffer> {
   const text = atob(document.getElementById(id)?.textContent?.trim() ?? "");
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);

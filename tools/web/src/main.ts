@@ -2,32 +2,23 @@
 // sent and nothing is kept.
 import { button, h, plural, replace } from "../../viewer/src/dom";
 import { drawCards, type Card, type Cell, type Shown } from "./card";
-import { Cancelled, deck, engine, KeptLane, Lane } from "./client";
+import { Cancelled, deck, engine, KeptLane, Lane, unpacked } from "./client";
 import type { Result } from "./engine";
 import { chosen, dropped, save, type Given } from "./files";
-import { drawFinding, FindingList, type Finding, type LintDocument } from "./findings";
+import { drawFinding, FindingList, type Finding, type LintDocument, type Rule } from "./findings";
 import { TextView, type Mark } from "./text";
 import { Tree, unpack } from "./tree";
+import { asPrinted, Values, type ParamsDocument } from "./values";
 
 const text = (b: Uint8Array) => new TextDecoder().decode(b);
 const OTHER = "other";
-
-interface Parameter {
-  input: unknown;
-  value: unknown;
-  origin: string;
-  source?: { file: string; line: number; column: number; end_column: number };
-}
-interface ParamsDocument {
-  interfaces: { id: number; type: number; title: string; parameters: Record<string, Parameter> }[];
-}
 
 let tree = new Tree();
 let main = "";
 let other: Tree | null = null;
 let lint: LintDocument | null = null;
 let place: (Mark & { file: string }) | null = null;
-const lanes = { kept: new KeptLane(), lint: new Lane(), values: new Lane(), gaps: new Lane(), card: new Lane(), page: new Lane(), cycle: new Lane(), diff: new Lane() };
+const lanes = { kept: new KeptLane(), lint: new Lane(), values: new Lane(), gaps: new Lane(), card: new Lane(), rules: new Lane(), page: new Lane(), cycle: new Lane(), diff: new Lane() };
 
 /* ---- parts of the page ---- */
 
@@ -36,6 +27,7 @@ const cancel = button("Cancel", null, () => stopAll(), { class: "small", hidden:
 const title = h("h1", null, "deck");
 const roots = h("select", { "aria-label": "Deck", hidden: true });
 const verdict = h("p", { class: "verdict-line", role: "status" });
+const stage = h("div", { class: "stages", hidden: true });
 const trouble = h("div", { class: "note warn trouble", role: "alert", hidden: true });
 const missing = h("div", { class: "note warn missing", hidden: true });
 const files = h("input", { type: "file", multiple: true, hidden: true, id: "files", "aria-label": "Files" });
@@ -46,9 +38,9 @@ const about = h("section", { class: "about", "aria-label": "Finding" });
 const cards = h("section", { class: "card-panel", "aria-label": "Cards" });
 const view = new TextView();
 const which = h("select", { "aria-label": "File" });
-const values = h("div", { class: "values" });
+const values = new Values((s, keyword, id) => goTo(s, keyword, id));
 const gapsPage = h("div", { class: "report" });
-const cyclePage = h("div", { class: "output-page" });
+const cyclePage = h("div", { class: "report" });
 const diffPage = h("div", { class: "output-page" });
 const explained = h("dialog", { class: "explain", "aria-label": "Explanation" });
 const undo = button("Undo", "undo", () => {
@@ -80,7 +72,7 @@ const downloads = h(
 
 const tabs: { id: string; label: string; body: HTMLElement; open?: () => void }[] = [
   { id: "findings", label: "Findings", body: h("div", { class: "two" }, list.element, h("div", { class: "beside" }, about, cards, h("div", { class: "text-head" }, which), view.element)) },
-  { id: "values", label: "Values", body: values },
+  { id: "values", label: "Values", body: values.element },
   { id: "gaps", label: "Gaps", body: gapsPage, open: () => void openGaps() },
   { id: "cycle", label: "First cycle", body: cyclePage, open: () => void openCycle() },
   { id: "diff", label: "Difference", body: diffPage, open: () => void openDiff() },
@@ -111,11 +103,18 @@ function show(id: string): void {
 
 const welcome = h(
   "main", { class: "welcome" },
-  h("h2", null, "Drop a Radioss deck here"),
-  h("p", null, "A Starter deck (", h("code", null, "NAME_0000.rad"), "), its folder with all includes, a .zip or a .gz. It is checked by ", h("code", null, "deck"), " itself, in this page: nothing is installed, nothing is sent, nothing is kept."),
-  h("p", { class: "buttons" }, button("Choose files…", null, () => files.click(), { class: "primary" }), button("Choose a folder…", null, () => folder.click())),
+  h("div", { class: "drop-area" },
+    h("h2", null, "Drop a Radioss deck here"),
+    h("p", null, "A Starter deck (", h("code", null, "NAME_0000.rad"), "), its folder with all includes, a .zip or a .gz."),
+    h("p", { class: "buttons" }, button("Choose files\u2026", null, () => files.click(), { class: "primary" }), button("Choose a folder\u2026", null, () => folder.click()))),
+  h("p", { class: "buttons" }, "No deck at hand? ", button("Try the crash box", null, () => void arrive(sampleDeck(), open), { class: "sample" })),
+  h("p", { class: "muted" }, "The deck is checked by ", h("code", null, "deck"), " itself, in this page: nothing is installed, nothing is sent, nothing is kept."),
 );
-const work = h("main", { class: "work", hidden: true }, h("div", { class: "work-head" }, verdict, missing), tabList, ...tabs.map((t) => t.body));
+/** The sample that the page brings. */
+async function sampleDeck(): Promise<Given[]> {
+  return [{ name: "crash_box_0000.rad", bytes: new Uint8Array(await unpacked("sample")) }];
+}
+const work = h("main", { class: "work", hidden: true }, h("div", { class: "work-head" }, stage, verdict, missing), tabList, ...tabs.map((t) => t.body));
 const dark = button("Dark or light", "sun", () => {
   const now = document.documentElement.dataset.theme === "dark" ? "light" : "dark";
   document.documentElement.dataset.theme = now;
@@ -136,27 +135,42 @@ function say(message: string): void {
   trouble.hidden = message === "";
 }
 
+/** What runs now, by what it is called on the page. */
+const doing: string[] = [];
+let done = 0;
+
+function drawStages(): void {
+  const seconds = ((performance.now() - began) / 1000).toFixed(1);
+  status.textContent = `working, ${seconds} s`;
+  stage.hidden = running === 0 || performance.now() - began < 300;
+  replace(stage, h("progress", { max: done + doing.length, value: done, "aria-label": "Runs that are done" }), h("span", null, `${[...new Set(doing)].join(", ")} (${done} of ${done + doing.length} done, ${seconds} s)`));
+}
+
 function tick(): void {
   const busy = running > 0;
   cancel.hidden = !busy;
   if (busy && clock === 0) {
     began = performance.now();
-    clock = window.setInterval(() => {
-      status.textContent = `working, ${((performance.now() - began) / 1000).toFixed(1)} s`;
-    }, 200);
+    clock = window.setInterval(drawStages, 150);
   } else if (!busy && clock !== 0) {
     clearInterval(clock);
     clock = 0;
+    done = 0;
     status.textContent = "";
+    stage.hidden = true;
   }
   document.documentElement.dataset.busy = String(busy);
 }
 
-/** null: a newer run took its place, or it was cancelled. */
-const run = (lane: Lane, args: string[], given = tree.all()): Promise<Result | null> => whileBusy(() => lane.run(args, given));
+const stageNames: Record<string, string> = { lint: "findings", params: "values", gaps: "gaps and penetrations", cycle: "first cycle", diff: "difference", show: "card", explain: "explanation", rules: "rules" };
 
-async function whileBusy<T>(work: () => Promise<T>): Promise<T | null> {
+/** null: a newer run took its place, or it was cancelled. */
+const run = (lane: Lane, args: string[], given = tree.all()): Promise<Result | null> =>
+  whileBusy(args.includes("--no-geometry") && args[0] === "lint" ? "findings of the text" : args[0] === "lint" ? "findings of the geometry" : (stageNames[args[0]] ?? args[0]), () => lane.run(args, given));
+
+async function whileBusy<T>(what: string, work: () => Promise<T>): Promise<T | null> {
   ++running;
+  doing.push(what);
   tick();
   try {
     return await work();
@@ -165,6 +179,8 @@ async function whileBusy<T>(work: () => Promise<T>): Promise<T | null> {
     return null;
   } finally {
     --running;
+    doing.splice(doing.indexOf(what), 1);
+    ++done;
     tick();
   }
 }
@@ -173,11 +189,6 @@ function stopAll(): void {
   ++turns;
   for (const lane of Object.values(lanes)) lane.cancel();
   say("Cancelled. What is shown may be out of date; “Undo”, another change or another file starts again.");
-}
-
-/** Values as the program printed them: ids whole, no figure formed anew. */
-function asPrinted(key: string, v: unknown, at?: { source?: string }): unknown {
-  return (key === "value" || key === "input") && typeof v === "number" ? (at?.source ?? String(v)) : v;
 }
 
 function parsed<T>(r: Result, reviver?: (key: string, v: unknown) => unknown): T | null {
@@ -215,7 +226,7 @@ const mostKept = 64e6;
 async function refreshText(): Promise<void> {
   const files = tree.map();
   const size = [...files.values()].reduce((sum, b) => sum + b.length, 0);
-  const again = size > mostKept ? null : await whileBusy(async () => ({ stdout: await lanes.kept.lint(main, files) }));
+  const again = size > mostKept ? null : await whileBusy("findings of the text", async () => ({ stdout: await lanes.kept.lint(main, files) }));
   if (size <= mostKept && !again) return;
   const r = again?.stdout ? { exitCode: 0, stdout: again.stdout, stderr: new Uint8Array(), files: {} } : await run(lanes.lint, ["lint", main, "--no-geometry", "--json", "-", "-q"]);
   if (r) showLint(r, "text");
@@ -250,22 +261,20 @@ async function refreshValues(): Promise<void> {
   const r = await run(lanes.values, ["params", main, "--json", "-", "-q"]);
   const document = r && parsed<ParamsDocument>(r, asPrinted);
   if (!document) return;
-  replace(
-    values,
-    document.interfaces.length === 0 ? h("p", null, "This deck has no contact interface that deck knows.") : null,
-    ...document.interfaces.map((i) =>
-      h("details", { open: document.interfaces.length < 4 }, h("summary", null, `TYPE${i.type} ${i.id} `, h("span", { class: "muted" }, i.title)),
-        h("table", { class: "plain" }, h("thead", null, h("tr", null, ...["Field", "Card", "Value", "Origin", "Place"].map((t) => h("th", { scope: "col" }, t)))),
-          h("tbody", null, ...Object.entries(i.parameters).map(([name, p]) =>
-            h("tr", null, h("td", null, name), h("td", null, p.input === null ? "–" : String(p.input)), h("td", null, p.value === null ? "–" : typeof p.value === "string" ? p.value : JSON.stringify(p.value)), h("td", null, p.origin),
-              h("td", null, p.source ? button(`${p.source.file}:${p.source.line}`, null, () => goTo(p.source as Mark & { file: string; end_column: number }, `/INTER/TYPE${i.type}`, i.id), { class: "link" }) : "")))))))
-  );
+  values.show(document);
 }
 
 async function refreshGaps(): Promise<void> {
   // What is printed ends with the verdict, a paragraph of its own; the JSON of a large deck would be hundreds of MB.
-  const r = await run(lanes.gaps, ["gaps", main, "--color", "never"]);
-  if (r) verdict.textContent = text(r.stdout).trimEnd().split("\n\n").at(-1)!.split("\n", 1)[0];
+  const r = await run(lanes.gaps, ["gaps", main, "--color", "always"]);
+  if (r) showVerdict(text(r.stdout).trimEnd().split("\n\n").at(-1)!.split("\n", 1)[0]);
+}
+
+/** The program colours its verdict by its level: that is the level here, too. */
+function showVerdict(line: string): void {
+  const code = /^\u001b\[(?:\d+;)*(3[123])m/.exec(line)?.[1];
+  verdict.dataset.level = code === "31" ? "error" : code === "33" ? "warning" : code === "32" ? "good" : "none";
+  verdict.textContent = line.replace(/\u001b\[[\d;]*m/g, "");
 }
 
 /* ---- findings, cards, text ---- */
@@ -359,48 +368,58 @@ async function explain(rule: string): Promise<void> {
 
 let versions = 0;
 let gapsOf = -1;
+/** A page of the program in a frame of its own without rights: it reaches neither this page nor anything else. */
+async function framed(into: HTMLElement, lane: Lane, args: string[], label: string, given = tree.all()): Promise<boolean> {
+  if (into.childElementCount === 0) replace(into, h("p", { class: "muted" }, `${label} is being made \u2026`));
+  const r = await run(lane, [...args, "--html", "page.html", "-q"], given);
+  if (!r) return false;
+  const page = r.files["page.html"];
+  if (!page) {
+    replace(into, h("pre", { class: "bad", tabindex: "0" }, text(r.stderr) || "There is no report."));
+    return false;
+  }
+  const frame = h("iframe", { title: label, sandbox: "allow-scripts allow-downloads allow-modals" });
+  frame.srcdoc = text(page);
+  replace(into, frame);
+  return true;
+}
+
+/** Made anew when the text is another one. */
 async function openGaps(): Promise<void> {
   const state = versions;
-  if (gapsOf === state) return;
-  const r = await run(lanes.page, ["gaps", main, "--html", "gaps.html", "-q"]);
-  if (!r) return;
-  const page = r.files["gaps.html"];
-  if (!page) {
-    replace(gapsPage, h("p", { class: "bad" }, text(r.stderr) || "There is no report."));
-    return;
-  }
-  gapsOf = state;
-  // A frame of its own without rights: it reaches neither this page nor anything else.
-  const frame = h("iframe", { title: "Gap report", sandbox: "allow-scripts allow-downloads allow-modals" });
-  frame.srcdoc = text(page);
-  replace(gapsPage, frame);
+  if (gapsOf !== state && (await framed(gapsPage, lanes.page, ["gaps", main], "Gap report"))) gapsOf = state;
+}
+let cycleOf = -1;
+async function openCycle(): Promise<void> {
+  const state = versions;
+  if (cycleOf !== state && (await framed(cyclePage, lanes.cycle, ["cycle", main], "First cycle"))) cycleOf = state;
 }
 
-async function printed(into: HTMLElement, lane: Lane, args: string[], given = tree.all()): Promise<void> {
-  const r = await run(lane, [...args, "--color", "never"], given);
-  if (r) replace(into, h("pre", { tabindex: "0" }, text(r.stdout) || text(r.stderr)));
-}
-
-const openCycle = () => printed(cyclePage, lanes.cycle, ["cycle", main]);
-
+let diffOf = -1;
 async function openDiff(): Promise<void> {
-  const choose = button("Compare with another deck…", null, () => second.click(), { class: "primary" });
-  const out = h("div", null);
+  if (diffOf === versions && !other) return;
+  diffOf = versions;
+  const choose = button("Compare with another deck\u2026", null, () => second.click(), { class: "primary" });
+  const out = h("div", { class: "report" });
   const siblings = tree.roots().filter((n) => n !== main);
   const pick = h("select", { "aria-label": "Deck to compare with" }, ...siblings.map((n) => h("option", { value: n }, n)));
-  const compare = () => printed(out, lanes.diff, ["diff", pick.value, main]);
-  pick.addEventListener("change", () => void compare());
+  const compared = async (with_: string, given = tree.all()) => {
+    replace(out);
+    await framed(out, lanes.diff, ["diff", with_, main], "Difference", given);
+  };
+  pick.addEventListener("change", () => void compared(pick.value));
   const unchanged = tree.changed().length > 0 ? button("With the deck as it was opened", null, () => {
     const both = tree.all();
     for (const [n, b] of tree.original) both[`${OTHER}/${n}`] = b;
-    void printed(out, lanes.diff, ["diff", `${OTHER}/${main}`, main], both);
+    void compared(`${OTHER}/${main}`, both);
   }) : null;
-  replace(diffPage, h("p", { class: "buttons" }, siblings.length > 0 && pick, choose, unchanged), out);
+  const what = !other && siblings.length === 0 ? h("p", { class: "muted" }, unchanged ? "Compare with the deck as it was opened, or with another one." : "Choose or drop the deck to compare with: an earlier state of this one, or a variant.") : null;
+  replace(diffPage, h("p", { class: "buttons" }, siblings.length > 0 && pick, choose, unchanged), what, out);
   if (other) {
     const both = tree.all();
     for (const n of other.names) both[`${OTHER}/${n}`] = other.get(n) as Uint8Array;
-    await printed(out, lanes.diff, ["diff", `${OTHER}/${other.roots()[0]}`, main], both);
-  } else if (siblings.length > 0) await compare();
+    await compared(`${OTHER}/${other.roots()[0]}`, both);
+  } else if (siblings.length > 0) await compared(pick.value);
 }
 
 /* ---- files ---- */
@@ -466,7 +485,11 @@ function start(): void {
   replace(roots, ...all.map((n) => h("option", { value: n, selected: n === main }, n)));
   welcome.hidden = true;
   work.hidden = false;
-  replace(gapsPage);
+  for (const page of [gapsPage, cyclePage]) replace(page);
+  cycleOf = diffOf = -1;
+  verdict.textContent = "";
+  delete verdict.dataset.level;
+  downloads.hidden = false;
   show(tab);
   void refresh();
 }
@@ -512,7 +535,13 @@ document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark
 document.body.append(header, trouble, welcome, work, files, folder, second, explained);
 show("findings");
 Object.assign(globalThis, { deck });
+downloads.hidden = true; // there is nothing to save yet
+async function loadRules(): Promise<void> {
+  const r = await lanes.rules.run(["rules", "--json", "-"], {});
+  list.setRules((JSON.parse(text(r.stdout)) as { rules: Rule[] }).rules);
+}
 void engine().then(() => {
   document.documentElement.dataset.ready = "true";
+  void loadRules().catch(() => {}); // without them findings are grouped by their numbers alone
 }, (e: Error) => say(`This browser cannot run deck: ${e.message}`));
 if (location.protocol.startsWith("http") && "serviceWorker" in navigator) void navigator.serviceWorker.register("service-worker.js").catch(() => {});

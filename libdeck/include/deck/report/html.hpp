@@ -41,6 +41,8 @@ struct HtmlInput {
   /// An earlier model: nodes that stand elsewhere now are listed, and the picture shows both. May
   /// be nullptr.
   const Model* before = nullptr;
+  /// What a repair says of itself: repair_json() of deck/report/fix.hpp; may be empty.
+  std::string_view repair;
   const char* verb =
       nullptr;  ///< that the page names: "fix", "diff"; nullptr: gaps, cycle or parts
   const std::vector<Crossing>* crossings = nullptr;  ///< of the same scene; may be nullptr

@@ -60,7 +60,11 @@ class FixRun {
         fixed->fixes.size() == 1 ? fixed->fixes.front() : combined(fixed->fixes);
     changes_.propose(*member, loaded.deck(), changed);
     if (!o_.html.empty()) {
-      auto page = fix_page(loaded, changed, o_.common);
+      const auto patch = changes_.diff();
+      if (!patch) return fail(patch.error());
+      auto page = fix_page(loaded, changed,
+                           repair_json(whole, next(loaded.path(), whole, !changed.empty()), *patch),
+                           o_.common);
       if (!page) return fail(page.error());
       page_ = std::move(*page);
     }
@@ -192,6 +196,29 @@ class FixRun {
           fmt::format("{}", plain.move.clearance));
     }
     return text + " -o fixed";
+  }
+
+  /// What to call after this fix.
+  std::vector<NextCommand> next(const std::string& path, const PenetrationFix& fix,
+                                bool changes) const {
+    std::vector<NextCommand> out;
+    const bool written = !o_.write.directory.empty() || o_.write.in_place;
+    if (changes && !written)
+      out.push_back({"write the repaired deck", command(path, fix.strategy)});
+    if (fix.crossings_after > 0)
+      out.push_back({"list the crossed elements, which no fix separates",
+                     fmt::format("deck gaps {} --crossings", shell_word(path))});
+    std::vector<std::int64_t> left;
+    for (const FixedInterface& i : fix.interfaces)
+      if (i.after.pairs > 0) left.push_back(i.id);
+    const std::string name = path.substr(path.find_last_of("/\\") + 1);
+    const std::string folder = o_.write.directory.empty() ? "fixed" : o_.write.directory;
+    const std::string deck = o_.write.in_place || !changes ? path : folder + "/" + name;
+    if (!left.empty())
+      out.push_back(
+          {"say what each strategy would do about the rest",
+           fmt::format("deck fix {} --interface {}", shell_word(deck), fmt::join(left, ","))});
+    return out;
   }
 
   /// These strategies in their order.

@@ -30,7 +30,7 @@ export function movedSection(report: Report, fly: (node: number) => void, before
   report.moved = moved;
   const section = h("section", { id: "moved" });
   if (moved.total === 0) {
-    section.append(h("h2", null, "Moved nodes"), h("p", { class: "note" }, report.meta.page === "fix" ? "No node was moved: the repair changed cards only. The patch is what deck fix --diff prints." : "No node has moved."));
+    section.append(h("h2", null, "Moved nodes"), h("p", { class: "note" }, report.meta.page === "fix" ? "No node was moved: the repair changed cards only." : "No node has moved."));
     return section;
   }
   const part = partsOf(report, moved.rows);

@@ -1,0 +1,59 @@
+// The small pictures of samples/README.md: made here, held against those of the repository (samples/pictures).
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { check, deck, DECK_ARTEFACTS, open, ROOT, same, sample, settled } from "./support.mjs";
+
+const names = ["clean_plates", "inacti_variants", "crossing_edges", "welds", "airbag_fold", "coated_block", "solid_and_skin", "crash_box"];
+const most = 30000; // bytes
+const folder = join(ROOT, "samples/pictures");
+
+export async function thumbnails(browser, scratch) {
+  const made = join(DECK_ARTEFACTS, "thumbnails"); // copied to samples/pictures when one looks different
+  mkdirSync(made, { recursive: true });
+  const readme = readFileSync(join(ROOT, "samples/README.md"), "utf8");
+  for (const name of names) {
+    const file = join(scratch, `thumbnail_${name}.html`);
+    deck("gaps", sample(name), "--quiet", "--html", file);
+    const p = await open(browser, file, { viewport: { width: 1600, height: 880 }, colorScheme: "light" });
+    await p.evaluate(() => {
+      const { report, viewport } = window.deckReport;
+      document.querySelector(".split").style.setProperty("--left", "25%"); // the picture has the shape of a thumbnail
+      if (report.hits.length === 0 || report.ties.length > 0) viewport.showAll();
+    });
+    await p.waitForFunction(() => window.deckReport.viewport.view.canvas.clientWidth > 1100);
+    await p.evaluate(() => window.deckReport.viewport.fit());
+    await settled(p);
+    const [bytes, different] = await p.evaluate(async (old) => {
+      const small = (image, w, h) => {
+        const c = document.createElement("canvas");
+        [c.width, c.height] = [240, 150];
+        const scale = Math.min(240 / w, 150 / h);
+        c.getContext("2d").fillStyle = "#ffffff";
+        c.getContext("2d").fillRect(0, 0, 240, 150);
+        c.getContext("2d").drawImage(image, (240 - scale * w) / 2, (150 - scale * h) / 2, scale * w, scale * h);
+        return c;
+      };
+      const { view } = window.deckReport.viewport;
+      const now = view.pictured(1, "#ffffff", (canvas) => small(canvas, canvas.width, canvas.height));
+      const pixels = (c) => c.getContext("2d").getImageData(0, 0, 240, 150).data;
+      let share = 1;
+      if (old) {
+        const image = new Image();
+        image.src = `data:image/png;base64,${old}`;
+        await image.decode();
+        const [a, b] = [pixels(now), pixels(small(image, image.width, image.height))];
+        let n = 0;
+        for (let i = 0; i < a.length; i += 4) n += Number(Math.abs(a[i] - b[i]) + Math.abs(a[i + 1] - b[i + 1]) + Math.abs(a[i + 2] - b[i + 2]) > 60);
+        share = n / (240 * 150);
+      }
+      return [now.toDataURL("image/png").split(",")[1], share];
+    }, existsSync(join(folder, `${name}.png`)) ? readFileSync(join(folder, `${name}.png`)).toString("base64") : null);
+    const png = Buffer.from(bytes, "base64");
+    writeFileSync(join(made, `${name}.png`), png);
+    check(`${name}: its picture has 30 KB at most`, png.length <= most, `${png.length}`);
+    check(`${name}: the picture of samples/pictures looks like the page (else copy ${made}/${name}.png)`, different <= 0.02, `${(100 * different).toFixed(1)} % of the pixels`);
+    check(`${name}: samples/README.md shows it`, readme.includes(`pictures/${name}.png`));
+    same(`${name}: no console error and no request`, p.trouble, []);
+    await p.close();
+  }
+}

@@ -1,0 +1,171 @@
+// The page of the whole program with the native `deck` in place of its WebAssembly: what it shows, without em++.
+import { spawnSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { dirname, join, relative } from "node:path";
+import { gzipSync } from "node:zlib";
+import { accessible } from "../browser/axe.mjs";
+import { check, DECK, DECK_ARTEFACTS, deck, finish, launch, open, ROOT, same, sample, WORK } from "../browser/support.mjs";
+
+const esbuild = createRequire(join(WORK, "x.js"))("esbuild");
+const scratch = mkdtempSync(join(tmpdir(), "deck-views-"));
+mkdirSync(DECK_ARTEFACTS, { recursive: true });
+
+// ---- the page -------------------------------------------------------------------------------------
+
+const client = `
+  export class Cancelled extends Error {}
+  export const engine = async () => ({});
+  export const unpacked = async (id) => {
+    const bytes = Uint8Array.from(atob(document.getElementById(id).textContent), (c) => c.charCodeAt(0));
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  };
+  const coded = (b) => { let s = ""; for (const c of typeof b === "string" ? new TextEncoder().encode(b) : b) s += String.fromCharCode(c); return btoa(s); };
+  const bytes = (s) => Uint8Array.from(atob(s), (c) => c.charCodeAt(0));
+  export class Lane {
+    async run(args, files) {
+      const r = await window.native(args, Object.entries(files).map(([n, b]) => [n, coded(b)]));
+      return { exitCode: r.exitCode, stdout: bytes(r.stdout), stderr: bytes(r.stderr), files: Object.fromEntries(r.files.map(([n, b]) => [n, bytes(b)])) };
+    }
+    cancel() {}
+    close() {}
+  }
+  export class KeptLane extends Lane { async lint() { return null; } }
+  export const deck = async () => { throw new Error("not here"); };`;
+const bundled = async (entry) => (await esbuild.build({
+  entryPoints: [join(ROOT, "tools/web/src", entry)], bundle: true, write: false, target: ["es2022"], charset: "ascii", format: "iife", nodePaths: [join(WORK, "node_modules")],
+  plugins: [{ name: "native", setup: (b) => {
+    b.onResolve({ filter: /^\.\/client$/ }, () => ({ path: "client", namespace: "native" }));
+    b.onLoad({ filter: /.*/, namespace: "native" }, () => ({ contents: client, loader: "js" }));
+  } }],
+})).outputFiles[0].text;
+const packed = (path) => gzipSync(readFileSync(path)).toString("base64");
+const page = join(scratch, "deck.html");
+writeFileSync(page, `<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>deck</title><link rel="icon" href="data:,"><style>${await bundled("style.css")}</style></head><body>
+<script type="text/plain" id="sample">${packed(sample("crash_box"))}</script><script>${await bundled("main.ts")}</script></body></html>`);
+
+let runs = 0;
+function native(args, files) {
+  const folder = join(scratch, `run${runs++}`);
+  mkdirSync(folder);
+  for (const [name, text] of files) {
+    mkdirSync(dirname(join(folder, name)), { recursive: true });
+    writeFileSync(join(folder, name), Buffer.from(text, "base64"));
+  }
+  const given = new Set(files.map(([n]) => n));
+  const r = spawnSync(DECK, args, { cwd: folder, maxBuffer: 1 << 30 });
+  const made = readdirSync(folder, { recursive: true }).map((n) => join(folder, n)).filter((n) => statSync(n).isFile() && !given.has(relative(folder, n)));
+  return { exitCode: r.status, stdout: r.stdout.toString("base64"), stderr: r.stderr.toString("base64"), files: made.map((n) => [relative(folder, n), readFileSync(n).toString("base64")]) };
+}
+
+const browser = await launch();
+async function start(options = {}) {
+  const context = await browser.newContext({ acceptDownloads: true, ...options });
+  await context.exposeFunction("native", native);
+  const p = await open(context, page);
+  return p;
+}
+const idle = (p) => p.waitForFunction(() => document.documentElement.dataset.busy === "false" && document.documentElement.dataset.linted === "all", null, { timeout: 120000 });
+const shot = (p, name) => p.screenshot({ path: join(DECK_ARTEFACTS, `views-${name}.png`) });
+const framed = async (p, tab) => {
+  await p.click(`#tab-${tab}`);
+  await p.waitForSelector(`#panel-${tab} iframe`, { timeout: 60000 });
+  const frame = await (await p.$(`#panel-${tab} iframe`)).contentFrame();
+  await frame.waitForFunction(() => document.documentElement.dataset.ready === "true", null, { timeout: 60000 });
+  return frame;
+};
+
+// ---- from nothing to the verdict -------------------------------------------------------------------
+
+{
+  const p = await start({ viewport: { width: 1280, height: 800 } });
+  const drop = await p.$eval(".drop-area", (e) => ({ border: getComputedStyle(e).borderStyle, area: e.clientWidth * e.clientHeight }));
+  check("a drop area is seen", drop.border === "dashed" && drop.area > 60000, JSON.stringify(drop));
+  check("there is nothing to download before there is a deck", await p.$eval(".downloads", (e) => e.hidden));
+  await accessible(p, "welcome");
+  await shot(p, "welcome");
+  await p.evaluate(() => {
+    window.said = [];
+    new MutationObserver(() => {
+      const s = document.querySelector(".stages");
+      if (!s.hidden && s.querySelector("progress")) window.said.push(s.textContent);
+    }).observe(document.querySelector("main.work"), { subtree: true, childList: true, attributes: true });
+  });
+  await p.click(".sample");
+  await idle(p);
+  const json = JSON.parse(deck("gaps", sample("crash_box"), "--json", "-", "-q"));
+  same("the sample is read: the verdict is that of the command line, red as the solver stops", await p.$eval(".verdict-line", (e) => [e.textContent, e.dataset.level]), [json.verdict.text, "error"]);
+  check("while it works the page names what it does", (await p.evaluate(() => window.said)).some((s) => /findings|gaps/.test(s)), JSON.stringify(await p.evaluate(() => window.said.slice(0, 3))));
+
+  // Findings by rule and by interface.
+  const lint = JSON.parse(deck("lint", sample("crash_box"), "--geometry", "--json", "-", "-q")).diagnostics;
+  const groups = () => p.$$eval(".findings > li[data-group]", (all) => all.map((e) => [e.dataset.group, e.querySelectorAll(".finding").length]));
+  const tally = (key) => [...lint.reduce((m, f) => m.set(key(f), (m.get(key(f)) ?? 0) + 1), new Map())].sort();
+  same("findings are grouped by rule", (await groups()).sort(), tally((f) => f.rule));
+  const ranks = await p.$$eval(".findings > li[data-group] summary .severity", (all) => all.map((e) => ["error", "warning", "info"].findIndex((s) => e.classList.contains(s))));
+  check("errors come first", ranks.every((r, i) => i === 0 || r >= ranks[i - 1]), ranks.join(" "));
+  const counts = await p.$$eval(".severity-chips button", (all) => all.reduce((n, e) => n + parseInt(e.textContent), 0));
+  same("the chips count all findings", counts, lint.length);
+  await shot(p, "findings");
+  await accessible(p, "findings by rule");
+  await p.selectOption("[aria-label='Group findings']", "interface");
+  same("and by interface", (await groups()).sort(), tally((f) => (f.entity?.keyword.startsWith("/INTER/") ? `${f.entity.keyword}/${f.entity.id}` : "")));
+  await p.selectOption("[aria-label='Group findings']", "rule");
+
+  // Values as a matrix.
+  await p.click("#tab-values");
+  const params = JSON.parse(deck("params", sample("crash_box"), "--json", "-", "-q"));
+  const cell = (field, id) => p.$eval(`td[data-field="${field}"][data-interface="${id}"]`, (e) => [e.textContent, e.className]);
+  for (const i of params.interfaces)
+    for (const [name, v] of Object.entries(i.parameters).slice(0, 6)) {
+      const [text, own] = await cell(name, i.id);
+      check(`${name} of interface ${i.id} is that of deck params`, Number.isNaN(Number(text)) ? text === "–" || text === String(v.value) : Number(text) === v.value, `${text} ${JSON.stringify(v)}`);
+      same(`${name} of interface ${i.id}: bold where the card says it`, own === "own", v.origin === "card");
+    }
+  await p.selectOption("[aria-label='Which fields']", "differs");
+  const rows = await p.$$eval(".matrix-values tbody tr", (all) => all.map((r) => new Set([...r.querySelectorAll("td[data-field]")].map((c) => c.textContent)).size));
+  check("fields that are alike everywhere can be left out", rows.length > 2 && rows.every((n) => n > 1), rows.join(" "));
+  await shot(p, "values");
+  await accessible(p, "values");
+
+  // The pages of the command line.
+  let frame = await framed(p, "gaps");
+  same("the gap report is that of deck gaps --html", await frame.$eval("#verdict", (e) => e.dataset.verdict), json.verdict.level);
+  frame = await framed(p, "cycle");
+  same("the first cycle is the page of deck cycle --html", await frame.$eval(".brand", (e) => e.textContent), "deck cycle");
+  await shot(p, "cycle");
+  await p.click("#tab-diff");
+  check("an empty difference says what to do", /Choose or drop/.test(await p.textContent("#panel-diff")));
+  const repaired = join(scratch, "fixed");
+  deck("fix", sample("crash_box"), "--strategy", "move-nodes", "-o", repaired, "-q");
+  await p.setInputFiles("#second", [join(repaired, "crash_box_0000.rad")]);
+  frame = await framed(p, "diff");
+  same("the difference is the page of deck diff --html", await frame.$eval(".brand", (e) => e.textContent), "deck diff");
+  await shot(p, "diff");
+  same("no console error and no request", p.trouble, []);
+  await p.context().close();
+}
+
+// ---- causes before what follows from them ------------------------------------------------------------
+
+{
+  const p = await start({ viewport: { width: 390, height: 800 }, colorScheme: "dark" });
+  const input = join(scratch, "include_tree_0000.rad");
+  writeFileSync(input, readFileSync(sample("include_tree")));
+  await p.setInputFiles("#files", [input]);
+  await idle(p);
+  const groups = await p.$$eval(".findings > li[data-group]", (all) => all.map((e) => [e.dataset.group, e.querySelector("details").open, e.querySelector("summary").textContent.includes("may follow")]));
+  same("a missing file stands before what may follow from it, which is folded", [groups[0][0], groups[0][2], groups.slice(1).every((g) => g[2])], ["DK004", false, true]);
+  check("the missing file is asked for", (await p.textContent(".missing")).includes("mesh.inc"));
+  for (const tab of ["findings", "values"]) {
+    await p.click(`#tab-${tab}`);
+    check(`${tab} at 390: nothing beyond the right edge`, (await p.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
+    await shot(p, `${tab}-390-dark`);
+  }
+  await accessible(p, "390 dark");
+  same("missing file: no console error and no request", p.trouble, []);
+  await p.context().close();
+}
+await browser.close();
+finish();

@@ -1,0 +1,52 @@
+// What a repair says of itself: what it left and why, what to call next, and its patch to save.
+import { loadRepair } from "../data";
+import { button, fileName, h, lengthText, plural, sectionHead } from "../dom";
+import { copyText, save } from "../exports";
+import type { Repair } from "../meta";
+import type { Report } from "../report";
+import { VirtualTable } from "../table/table";
+
+type Refusal = Repair["not_treated"][0];
+
+/** `fly` goes to a node by its number in the page. */
+export function repairSection(report: Report, fly: (node: number) => void): HTMLElement | null {
+  const repair = loadRepair();
+  if (!repair) return null;
+  const stem = fileName(report.meta.deck.path).replace(/\.rad$/i, "");
+  const patch = repair.patch ? button("Save the patch", "save", () => save(`${stem}_${repair.strategy.replaceAll(",", "_")}.patch`, repair.patch), { class: "small", title: "git apply and patch take it" }) : null;
+  const left = repair.not_treated;
+  const section = h("section", { id: "repair" },
+    sectionHead(h("h2", null, "Not treated", h("span", { class: "muted count" }, plural(left.length, "pair", "pairs"))), patch));
+  if (left.length === 0) section.append(h("p", { class: "note" }, repair.crossings.after > 0 ? "Every penetration that was looked at was treated; crossed elements stay." : "Everything was treated."));
+  else section.append(refusals(report, left, fly));
+  if (repair.next.length > 0)
+    section.append(h("h3", null, "Next"), h("dl", { class: "next" }, ...repair.next.flatMap((n) => {
+      const copy = button("", "copy", async () => copy.classList.toggle("done", await copyText(n.command)), { "aria-label": `Copy: ${n.command}`, title: "Copy", class: "tool" });
+      return [h("dt", null, n.does), h("dd", null, h("code", null, n.command), copy)];
+    })));
+  return section;
+}
+
+function refusals(report: Report, left: Refusal[], fly: (node: number) => void): HTMLElement {
+  const interfaceName = (r: Refusal) => String(r.interface);
+  const nodes = (r: Refusal) => r.nodes.join("–") || "–";
+  const table = new VirtualTable<Refusal>(
+    [
+      { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: (r) => r.interface, text: interfaceName },
+      { key: "nodes", title: "Node / edge", kind: "id", value: (r) => r.nodes[0] ?? 0, text: nodes },
+      { key: "depth", title: "Depth", kind: "number", value: (r) => r.depth, text: (r) => (r.depth > 0 ? lengthText(report, r.depth) : "–") },
+      { key: "reason", title: "Because", kind: "text", least: 200, value: (r) => r.reason, text: (r) => r.reason },
+    ],
+    { label: "Not treated", sort: "depth", descending: true, select: (r) => {
+      const at = r?.nodes.length ? report.mesh.nodeId.indexOf(r.nodes[0]) : -1;
+      if (at >= 0) fly(at);
+    } },
+  );
+  table.element.classList.add("refused-table");
+  table.setRows(left);
+  table.element.style.setProperty("--rows", String(Math.min(left.length, 8)));
+  const reasons = new Map<string, number>();
+  for (const r of left) reasons.set(r.reason, (reasons.get(r.reason) ?? 0) + 1);
+  return h("div", null,
+    h("ul", { class: "reasons" }, ...[...reasons].sort((a, b) => b[1] - a[1]).map(([reason, n]) => h("li", null, h("b", null, String(n)), ` ${reason}`))), table.element);
+}
