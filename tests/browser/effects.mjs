@@ -134,6 +134,25 @@ export async function effectsPage(browser, scratch, shot) {
   const r = await open(browser, html);
   check("a hostile title is text in the cycle page", r.trouble.length === 0 && (await r.$$eval(".left script", (e) => e.length)) === 0, r.trouble.join("; "));
   await r.close();
+  // With and without an effect, side by side.
+  const call = [sample("inacti_variants"), "--without", "gap-reduction", "--quiet"];
+  deck("cycle", ...call, "--html", html, "--json", json);
+  const both = JSON.parse(readFileSync(json));
+  const w = await open(browser, html, { viewport: { width: 1280, height: 800 } });
+  const shown = await w.$$eval(".without tbody tr", (rows) => rows.map((e) => [Number(e.dataset.interface), ...[...e.querySelectorAll("td")].map((c) => c.textContent.replace(/ \(.*/, "").replace(/\u202f/g, ""))]));
+  const forces_of = (i) => both.interfaces.find((x) => x.id === i).contacts.reduce((n, c) => n + c.sum.sizes, 0);
+  const figure = (v) => (v === null ? NaN : v);
+  check("without an effect: one row an interface", shown.length === both.without.interfaces.length && shown.length > 3, JSON.stringify(shown));
+  for (const o of both.without.interfaces) {
+    const row = shown.find((r) => r[0] === o.id);
+    const near = (text, v) => (Number.isNaN(figure(v)) ? text === "–" : Math.abs(Number(text) - v) <= 1e-3 * Math.abs(v));
+    check(`without an effect: figures of interface ${o.id} are those of the JSON`, near(row[1], forces_of(o.id)) && near(row[2], o.force_sum) && near(row[4], o.elastic_energy) && near(row[6], o.contact_dt), JSON.stringify([row, o, forces_of(o.id)]));
+  }
+  check("without an effect: what changes is marked and stands first", (await w.$$eval(".without tbody tr", (r) => r.map((e) => e.querySelector(".changed") !== null))).join() === [...shown.map((_, i) => i < shown.filter((r) => r[1] !== r[2]).length)].join());
+  await accessible(w, "with and without an effect");
+  await shot(w, "cycle_without");
+  check("with and without an effect: no trouble", w.trouble.length === 0, w.trouble.join("; "));
+  await w.close();
   const refused = run("cycle", path, "--quiet", "--html", html, "--steps", "3", "--dt", "1e-3");
   check("--html with --steps is refused with a reason", refused.code === 2 && /--steps/.test(refused.err), refused.err);
 }

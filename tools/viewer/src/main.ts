@@ -20,6 +20,7 @@ import { effectsSection, loadCycleDocument } from "./sections/effects";
 import { findBox } from "./find";
 import { openMenu, rowItems } from "./menu";
 import { ViewState } from "./state";
+import { withoutSection } from "./sections/without";
 import { touchesSection } from "./sections/touches";
 import { verdict } from "./sections/verdict";
 import { tiesSection } from "./sections/ties";
@@ -138,9 +139,9 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
     ], "export");
     const list = listSection(report, fly, exports, () => state?.note());
     const nav = h("nav", { "aria-label": "Sections" },
-      ...([["moved", "Moved"], ["repair", "Not treated"], ["parts", "Parts"], ["nearest", "Nearest"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["ties", "Ties"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["effects", "Effects"], ["notes", "About"]] as const)
+      ...([["moved", "Moved"], ["repair", "Not treated"], ["parts", "Parts"], ["nearest", "Nearest"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["ties", "Ties"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["without", "With and without"], ["effects", "Effects"], ["notes", "About"]] as const)
         .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-    const sections = [nav, verdict(report), movedSection(report, (node) => viewport.openNode(node), (on) => viewport.showBefore(on)), repairSection(report, (node) => viewport.showNode(node)), parts && partsSection(report, parts, (part) => viewport.showPart(part)), doc && cycleSection(report), doc && effectsSection(report, doc, `${stem}_effects.svg`), nearestSection(report, (row) => viewport.openNear(row), pictured), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, tiesSection(report, (x) => viewport.openTie(x)), crossedSection(report, (row) => viewport.openCrossed(row)), !doc && cycleSection(report), notChecked(report)];
+    const sections = [nav, verdict(report), movedSection(report, (node) => viewport.openNode(node), (on) => viewport.showBefore(on)), repairSection(report, (node) => viewport.showNode(node)), parts && partsSection(report, parts, (part) => viewport.showPart(part)), doc && cycleSection(report), doc && withoutSection(report, doc), doc && effectsSection(report, doc, `${stem}_effects.svg`), nearestSection(report, (row) => viewport.openNear(row), pictured), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, tiesSection(report, (x) => viewport.openTie(x)), crossedSection(report, (row) => viewport.openCrossed(row)), !doc && cycleSection(report), notChecked(report)];
     left.append(...sections.filter((s) => !!s));
     for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
     // Sections are scrolled to; the address belongs to the state of the page.

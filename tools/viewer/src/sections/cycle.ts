@@ -7,7 +7,7 @@ import { VirtualTable } from "../table/table";
 type Whole = Omit<Cycle["contacts"][0], "rows" | "active" | "acceleration">;
 
 /** The first cycle of an interface: sums over its contacts, the smallest step; null: settings have changed. */
-function wholeOf(report: Report, inter: number): Whole | null {
+export function wholeOf(report: Report, inter: number): Whole | null {
   const out: Whole = { complete: true, dt: null, because: "", with_force: 0, force: 0, largest: 0, elastic: 0 };
   for (const i of report.contactsOf(inter)) {
     const c = report.cycleOf(i);

@@ -43,6 +43,15 @@ interface Inter {
 export interface CycleDocument {
   costs: { verdict: string; pairs: number; loop_ns: number; flags_ns: number; all_ns: number; repeats: number; processor: string; compiler: string } | null;
   interfaces: Inter[];
+  nodal_force: { max: number };
+  dt: { contact: number | null };
+  /** The same evaluation without an effect, where it was asked for. */
+  without?: {
+    effect: string;
+    interfaces: { id: number; force_sum: number; elastic_energy: number; contact_dt: number | null }[];
+    largest_nodal_force: number;
+    contact_dt: number | null;
+  };
 }
 
 export function loadCycleDocument(): CycleDocument | null {
