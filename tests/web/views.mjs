@@ -135,10 +135,24 @@ const framed = async (p, tab) => {
   frame = await framed(p, "cycle");
   same("the first cycle is the page of deck cycle --html", await frame.$eval(".brand", (e) => e.textContent), "deck cycle");
   await shot(p, "cycle");
-  await p.click("#tab-diff");
-  check("an empty difference says what to do", /Choose or drop/.test(await p.textContent("#panel-diff")));
+  // A repair, taken over.
+  await p.click("#tab-repair");
+  await p.click("[data-strategy=move-nodes]");
+  frame = await framed(p, "repair");
+  same("a repair is the page of deck fix --html", await frame.$eval(".brand", (e) => e.textContent), "deck fix");
+  await accessible(p, "repair");
+  await p.evaluate(() => delete document.documentElement.dataset.linted);
+  await p.click("#panel-repair .primary");
+  await idle(p);
   const repaired = join(scratch, "fixed");
   deck("fix", sample("crash_box"), "--strategy", "move-nodes", "-o", repaired, "-q");
+  same("taken over, the verdict is that of the repaired deck", await p.textContent(".verdict-line"), JSON.parse(deck("gaps", join(repaired, "crash_box_0000.rad"), "--json", "-", "-q")).verdict.text);
+  await p.evaluate(() => delete document.documentElement.dataset.linted);
+  await p.click('button:has-text("Undo")');
+  await idle(p);
+  same("and undone it is the old one", await p.textContent(".verdict-line"), json.verdict.text);
+  await p.click("#tab-diff");
+  check("an empty difference says what to do", /Choose or drop/.test(await p.textContent("#panel-diff")));
   await p.setInputFiles("#second", [join(repaired, "crash_box_0000.rad")]);
   frame = await framed(p, "diff");
   same("the difference is the page of deck diff --html", await frame.$eval(".brand", (e) => e.textContent), "deck diff");

@@ -6,6 +6,7 @@ import { Cancelled, deck, engine, KeptLane, Lane, unpacked } from "./client";
 import type { Result } from "./engine";
 import { chosen, dropped, save, type Given } from "./files";
 import { drawFinding, FindingList, type Finding, type LintDocument, type Rule } from "./findings";
+import { RepairView } from "./repair";
 import { TextView, type Mark } from "./text";
 import { Tree, unpack } from "./tree";
 import { asPrinted, Values, type ParamsDocument } from "./values";
@@ -18,7 +19,7 @@ let main = "";
 let other: Tree | null = null;
 let lint: LintDocument | null = null;
 let place: (Mark & { file: string }) | null = null;
-const lanes = { kept: new KeptLane(), lint: new Lane(), values: new Lane(), gaps: new Lane(), card: new Lane(), rules: new Lane(), page: new Lane(), cycle: new Lane(), diff: new Lane() };
+const lanes = { kept: new KeptLane(), lint: new Lane(), values: new Lane(), gaps: new Lane(), card: new Lane(), rules: new Lane(), repair: new Lane(), page: new Lane(), cycle: new Lane(), diff: new Lane() };
 
 /* ---- parts of the page ---- */
 
@@ -41,6 +42,17 @@ const which = h("select", { "aria-label": "File" });
 const values = new Values((s, keyword, id) => goTo(s, keyword, id));
 const gapsPage = h("div", { class: "report" });
 const cyclePage = h("div", { class: "report" });
+const repair = new RepairView({
+  main: () => main,
+  get: (name) => tree.get(name),
+  run: (args) => run(lanes.repair, args),
+  frame: (page, label) => frameOf(page, label),
+  take: (files) => {
+    tree.change(files);
+    list.reset();
+    void refresh();
+  },
+});
 const diffPage = h("div", { class: "output-page" });
 const explained = h("dialog", { class: "explain", "aria-label": "Explanation" });
 const undo = button("Undo", "undo", () => {
@@ -75,6 +87,7 @@ const tabs: { id: string; label: string; body: HTMLElement; open?: () => void }[
   { id: "values", label: "Values", body: values.element },
   { id: "gaps", label: "Gaps", body: gapsPage, open: () => void openGaps() },
   { id: "cycle", label: "First cycle", body: cyclePage, open: () => void openCycle() },
+  { id: "repair", label: "Repair", body: repair.element },
   { id: "diff", label: "Difference", body: diffPage, open: () => void openDiff() },
 ];
 let tab = "findings";
@@ -162,7 +175,7 @@ function tick(): void {
   document.documentElement.dataset.busy = String(busy);
 }
 
-const stageNames: Record<string, string> = { lint: "findings", params: "values", gaps: "gaps and penetrations", cycle: "first cycle", diff: "difference", show: "card", explain: "explanation", rules: "rules" };
+const stageNames: Record<string, string> = { lint: "findings", params: "values", gaps: "gaps and penetrations", cycle: "first cycle", diff: "difference", show: "card", explain: "explanation", rules: "rules", fix: "repair" };
 
 /** null: a newer run took its place, or it was cancelled. */
 const run = (lane: Lane, args: string[], given = tree.all()): Promise<Result | null> =>
@@ -211,6 +224,7 @@ async function refresh(): Promise<void> {
   title.textContent = `${main}${tree.changed().length > 0 ? " (changed)" : ""}`;
   say("");
   drawText();
+  repair.reset();
   // The findings of the text come first, with the machine to themselves.
   for (const lane of [lanes.lint, lanes.values, lanes.gaps]) lane.cancel();
   await refreshText();
@@ -378,10 +392,13 @@ async function framed(into: HTMLElement, lane: Lane, args: string[], label: stri
     replace(into, h("pre", { class: "bad", tabindex: "0" }, text(r.stderr) || "There is no report."));
     return false;
   }
+  replace(into, frameOf(page, label));
+  return true;
+}
+function frameOf(page: Uint8Array, label: string): HTMLElement {
   const frame = h("iframe", { title: label, sandbox: "allow-scripts allow-downloads allow-modals" });
   frame.srcdoc = text(page);
-  replace(into, frame);
-  return true;
+  return frame;
 }
 
 /** Made anew when the text is another one. */
@@ -524,7 +541,7 @@ addEventListener("drop", (e) => {
 });
 addEventListener("keydown", (e) => {
   const busyTyping = e.target instanceof HTMLInputElement || e.target instanceof HTMLSelectElement;
-  if (!busyTyping && !e.ctrlKey && !e.metaKey && !e.altKey && /^[1-5]$/.test(e.key) && main !== "") show(tabs[Number(e.key) - 1].id);
+  if (!busyTyping && !e.ctrlKey && !e.metaKey && !e.altKey && /^[1-6]$/.test(e.key) && main !== "") show(tabs[Number(e.key) - 1].id);
   if (!busyTyping && (e.ctrlKey || e.metaKey) && e.key === "z" && tree.undo()) void refresh();
 });
 document.addEventListener("click", (e) => {
