@@ -40,10 +40,10 @@ const bundled = async (entry) => (await esbuild.build({
     b.onLoad({ filter: /.*/, namespace: "native" }, () => ({ contents: client, loader: "js" }));
   } }],
 })).outputFiles[0].text;
-const packed = (path) => gzipSync(readFileSync(path)).toString("base64");
+const packed = (bytes) => gzipSync(bytes).toString("base64");
 const page = join(scratch, "deck.html");
 writeFileSync(page, `<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>deck</title><link rel="icon" href="data:,"><style>${await bundled("style.css")}</style></head><body>
-<script type="text/plain" id="sample">${packed(sample("crash_box"))}</script><script>${await bundled("main.ts")}</script></body></html>`);
+<script type="text/plain" id="sample">${packed(readFileSync(sample("crash_box")))}</script><script type="text/plain" id="bridge">${packed(await bundled("../../vscode/src/bridge.ts"))}</script><script>${await bundled("main.ts")}</script></body></html>`);
 
 let runs = 0;
 function native(args, files) {
@@ -113,6 +113,20 @@ const framed = async (p, tab) => {
   same("and by interface", (await groups()).sort(), tally((f) => (f.entity?.keyword.startsWith("/INTER/") ? `${f.entity.keyword}/${f.entity.id}` : "")));
   await p.selectOption("[aria-label='Group findings']", "rule");
 
+  // From a finding to the picture, and from a place in the report to the text.
+  const of = lint.find((f) => f.entity?.keyword.startsWith("/INTER/") && f.rule === "DK301");
+  await p.fill("[aria-label='Filter findings']", of.message.slice(0, 40));
+  await p.click(".finding");
+  await p.click(".to-picture");
+  let frame = await framed(p, "gaps");
+  await frame.waitForFunction(() => window.deckReport.report.selected !== null, null, { timeout: 30000 });
+  same("a finding leads to its interface in the picture", await frame.evaluate(() => window.deckReport.report.meta.interfaces[window.deckReport.report.filter.interface].id), of.entity.id);
+  const line = await frame.evaluate(() => window.deckReport.report.place(window.deckReport.report.selected.row).line);
+  await frame.evaluate(() => document.querySelector("#detail dd.place").click());
+  await p.waitForFunction(() => !document.getElementById("panel-findings").hidden);
+  same("a place in the report leads to its line in the text", await p.$eval(".text-line.marked .number", (e) => Number(e.textContent)), line);
+  await p.fill("[aria-label='Filter findings']", "");
+
   // Values as a matrix.
   await p.click("#tab-values");
   const params = JSON.parse(deck("params", sample("crash_box"), "--json", "-", "-q"));
@@ -130,7 +144,7 @@ const framed = async (p, tab) => {
   await accessible(p, "values");
 
   // The pages of the command line.
-  let frame = await framed(p, "gaps");
+  frame = await framed(p, "gaps");
   same("the gap report is that of deck gaps --html", await frame.$eval("#verdict", (e) => e.dataset.verdict), json.verdict.level);
   frame = await framed(p, "cycle");
   same("the first cycle is the page of deck cycle --html", await frame.$eval(".brand", (e) => e.textContent), "deck cycle");

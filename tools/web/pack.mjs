@@ -36,14 +36,15 @@ async function bundled(entry, more = {}) {
 }
 const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString("base64");
 
-const [page, style, worker, service, engine] = await Promise.all([
+const [page, style, worker, service, bridge, engine] = await Promise.all([
   bundled("main.ts"),
   bundled("style.css"),
   bundled("worker.ts"),
   bundled("service-worker.ts"),
+  bundled("../../vscode/src/bridge.ts"),
   bundled("engine.ts", { format: "esm", minify: false }),
 ]);
-if (/<\/script|<!--/i.test(page) || /<\/style/i.test(style)) throw new Error("the bundle holds a tag that would end its element in a page");
+if (/<\/script|<!--/i.test(page + bridge) || /<\/style/i.test(style)) throw new Error("the bundle holds a tag that would end its element in a page");
 writeFileSync(join(options.engine, "engine.mjs"), engine);
 
 // Scripts may run, also those of the report in its frame; threads come from the page itself. Nothing may
@@ -67,6 +68,7 @@ const html = `<!doctype html>
 <noscript>This page is a program: it needs scripts.</noscript>
 <script type="text/plain" id="engine">${packed(readFileSync(join(options.engine, "deck.wasm")))}</script>
 <script type="text/plain" id="sample">${packed(readFileSync(join(here, "../../samples/crash_box_0000.rad")))}</script>
+<script type="text/plain" id="bridge">${packed(Buffer.from(bridge))}</script>
 <script type="text/plain" id="worker">${packed(Buffer.from(worker))}</script>
 <script>${page}</script>
 </body>

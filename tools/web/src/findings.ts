@@ -174,7 +174,7 @@ export class FindingList {
 }
 
 /** What a finding says, with what can be done about it. */
-export function drawFinding(into: HTMLElement, f: Finding, on: { explain: (rule: string) => void; fix: (f: Finding) => void; go: (file: string, line: number, column: number, end: number) => void }): void {
+export function drawFinding(into: HTMLElement, f: Finding, on: { explain: (rule: string) => void; fix: (f: Finding) => void; picture: (() => void) | null; go: (file: string, line: number, column: number, end: number) => void }): void {
   replace(
     into,
     h("h2", null, h("span", { class: `severity ${f.severity}` }, f.severity), button(f.rule, null, () => on.explain(f.rule), { class: "link rule", title: "What this rule says" })),
@@ -182,6 +182,7 @@ export function drawFinding(into: HTMLElement, f: Finding, on: { explain: (rule:
     f.reference_behaviour && h("p", { class: "note" }, `Solver: ${f.reference_behaviour}`),
     f.help && h("p", { class: "note" }, `Help: ${f.help}`),
     ...f.notes.map((n) => h("p", { class: "note" }, `${n.message} `, button(`${n.file}:${n.line}`, null, () => on.go(n.file, n.line, n.column, n.end_column), { class: "link" }))),
+    on.picture && h("p", { class: "buttons" }, button("Show in the picture", "camera", on.picture, { class: "small to-picture" })),
     f.fix && h("p", { class: "buttons" }, button(`${f.fix.safe ? "Fix" : "Fix (changes the meaning)"}: ${f.fix.title}`, null, () => on.fix(f), { class: "fix" })),
   );
 }

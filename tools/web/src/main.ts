@@ -6,6 +6,7 @@ import { Cancelled, deck, engine, KeptLane, Lane, unpacked } from "./client";
 import type { Result } from "./engine";
 import { chosen, dropped, save, type Given } from "./files";
 import { drawFinding, FindingList, type Finding, type LintDocument, type Rule } from "./findings";
+import { Picture } from "./picture";
 import { RepairView } from "./repair";
 import { TextView, type Mark } from "./text";
 import { Tree, unpack } from "./tree";
@@ -42,11 +43,12 @@ const which = h("select", { "aria-label": "File" });
 const values = new Values((s, keyword, id) => goTo(s, keyword, id));
 const gapsPage = h("div", { class: "report" });
 const cyclePage = h("div", { class: "report" });
+const picture = new Picture(unpacked("bridge").then((b) => new TextDecoder().decode(b)), (file, line) => goTo({ file, line, column: 1, end_column: 1 }, null, 0));
 const repair = new RepairView({
   main: () => main,
   get: (name) => tree.get(name),
   run: (args) => run(lanes.repair, args),
-  frame: (page, label) => frameOf(page, label),
+  frame: (page, label) => frameOf(text(page), label),
   take: (files) => {
     tree.change(files);
     list.reset();
@@ -302,11 +304,20 @@ function drawText(): void {
 }
 
 function showFinding(f: Finding): void {
-  drawFinding(about, f, { explain, fix: applyFix, go: (file, line, column, end) => goTo({ file, line, column, end_column: end }, null, 0) });
+  drawFinding(about, f, { explain, fix: applyFix, picture: pictureOf(f), go: (file, line, column, end) => goTo({ file, line, column, end_column: end }, null, 0) });
   place = { file: f.file, line: f.line, column: f.column, endColumn: f.end_column };
   drawText();
   if (f.entity) void showCards(f.entity.keyword, f.entity.id);
   else replace(cards);
+}
+
+/** Shows the interface of a finding in the gap report; null: it is not one of an interface. */
+function pictureOf(f: Finding): (() => void) | null {
+  const source = f.entity?.keyword.startsWith("/INTER/") ? values.document?.interfaces.find((i) => i.id === f.entity!.id)?.source : undefined;
+  return source ? () => {
+    picture.show(source.file, source.line);
+    show("gaps");
+  } : null;
 }
 
 function goTo(s: { file: string; line: number; column: number; end_column: number }, keyword: string | null, id: number): void {
@@ -383,7 +394,7 @@ async function explain(rule: string): Promise<void> {
 let versions = 0;
 let gapsOf = -1;
 /** A page of the program in a frame of its own without rights: it reaches neither this page nor anything else. */
-async function framed(into: HTMLElement, lane: Lane, args: string[], label: string, given = tree.all()): Promise<boolean> {
+async function framed(into: HTMLElement, lane: Lane, args: string[], label: string, given = tree.all(), more = (page: string) => Promise.resolve(page)): Promise<boolean> {
   if (into.childElementCount === 0) replace(into, h("p", { class: "muted" }, `${label} is being made \u2026`));
   const r = await run(lane, [...args, "--html", "page.html", "-q"], given);
   if (!r) return false;
@@ -392,19 +403,22 @@ async function framed(into: HTMLElement, lane: Lane, args: string[], label: stri
     replace(into, h("pre", { class: "bad", tabindex: "0" }, text(r.stderr) || "There is no report."));
     return false;
   }
-  replace(into, frameOf(page, label));
+  replace(into, frameOf(await more(text(page)), label));
   return true;
 }
-function frameOf(page: Uint8Array, label: string): HTMLElement {
+function frameOf(page: string, label: string): HTMLElement {
   const frame = h("iframe", { title: label, sandbox: "allow-scripts allow-downloads allow-modals" });
-  frame.srcdoc = text(page);
+  frame.srcdoc = page;
   return frame;
 }
 
 /** Made anew when the text is another one. */
 async function openGaps(): Promise<void> {
   const state = versions;
-  if (gapsOf !== state && (await framed(gapsPage, lanes.page, ["gaps", main], "Gap report"))) gapsOf = state;
+  if (gapsOf !== state && (await framed(gapsPage, lanes.page, ["gaps", main], "Gap report", tree.all(), (page) => picture.with(page)))) {
+    gapsOf = state;
+    picture.use(gapsPage.querySelector("iframe")!);
+  }
 }
 let cycleOf = -1;
 async function openCycle(): Promise<void> {

@@ -14,7 +14,7 @@ export interface Parameter {
   source?: Source | null;
 }
 export interface ParamsDocument {
-  interfaces: { id: number; type: number; title: string; parameters: Record<string, Parameter> }[];
+  interfaces: { id: number; type: number; title: string; source: { file: string; line: number }; parameters: Record<string, Parameter> }[];
 }
 
 /** Values as the program printed them: ids whole, no figure formed anew. */
@@ -30,7 +30,7 @@ export class Values {
   private readonly which = h("select", { "aria-label": "Which fields" },
     h("option", { value: "card" }, "what the cards say"), h("option", { value: "derived" }, "what is not from a card"), h("option", { value: "differs" }, "what differs between interfaces"), h("option", { value: "all", selected: true }, "all fields"));
   private readonly table = h("div", { class: "values-scroll", tabindex: 0, role: "region", "aria-label": "Values" });
-  private document: ParamsDocument | null = null;
+  document: ParamsDocument | null = null;
 
   /** `go` opens the place of a value in the text. */
   constructor(private readonly go: (s: Source, keyword: string, id: number) => void) {
