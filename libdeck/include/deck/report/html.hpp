@@ -41,7 +41,7 @@ struct HtmlInput {
   /// An earlier model: nodes that stand elsewhere now are listed, and the picture shows both. May
   /// be nullptr.
   const Model* before = nullptr;
-  /// What a repair says of itself: repair_json() of deck/report/fix.hpp; may be empty.
+  /// What a repair says of itself: repair_json() of report/shared/fix.hpp; may be empty.
   std::string_view repair;
   const char* verb =
       nullptr;  ///< that the page names: "fix", "diff"; nullptr: gaps, cycle or parts
