@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "contact/published.hpp"
+#include "contact/rules/actions.hpp"
 
 namespace deck::test {
 namespace {
@@ -122,6 +123,23 @@ TEST(WarpedQuad, StoredPenetrationsOfInacti6) {
   expect_normal(c.penetrations[0], {-0.196116, 0, 0.980581});
   expect_normal(c.penetrations[1], {-0.099015, 0.099015, 0.990148});
   expect_normal(c.penetrations[3], {0, -0.196116, 0.980581});
+}
+
+TEST(ModernInacti, WhatIsStoredAndWhichFindTheSame) {
+  const auto acted = [](int type, int inacti, double depth) {
+    PenetrationRow row;
+    row.depth = depth;
+    detail::act_on_modern(type, inacti, row);
+    return std::pair(row.action, row.p0);
+  };
+  EXPECT_EQ(acted(24, 5, 0.25), std::pair(PenetrationAction::offset_stored, 0.25));
+  EXPECT_EQ(acted(24, -1, 0.25), std::pair(PenetrationAction::initial_force, 0.25));
+  EXPECT_EQ(acted(25, -1, 0.25), std::pair(PenetrationAction::initial_force, 0.0));
+  EXPECT_EQ(acted(25, 0, 0.25), std::pair(PenetrationAction::ignored, 0.0));
+  EXPECT_EQ(acted(25, 0, 1e-9), std::pair(PenetrationAction::ignored, 1e-9))
+      << "too small to count";
+  EXPECT_TRUE(detail::finds_the_same(5, -1));
+  EXPECT_FALSE(detail::finds_the_same(0, 5));
 }
 
 TEST(Inacti5, StoresThePenetrationItself) {

@@ -422,9 +422,15 @@ TEST(PageForces, NodesHaveForceStiffnessAndStep) {
   const std::array acted{a};
   detail::use_nodes(acted, p.nodes);
   p.nodes.number();
-  const PageBlock block(detail::cycle_block(cycle::SceneOutcome{}, acted, p.nodes));
-  const Json page = Json::parse(block.bytes());
-  EXPECT_EQ(page["nodes"], Json::parse("[[0,1.5,-2.5,3.5,7.0,0.25]]"));
+  cycle::SceneOutcome outcome;
+  const auto written = [&] {
+    const PageBlock block(detail::cycle_block(outcome, acted, p.nodes, p.b.model));
+    return Json::parse(block.bytes());
+  };
+  EXPECT_EQ(written()["nodes"], Json::parse("[[0,1.5,-2.5,3.5,7.0,0.25]]"));
+  EXPECT_EQ(written()["structure_element"], Json()) << "no element limits";
+  outcome.structure = {0.125, ElementKind::shell4, 1};
+  EXPECT_EQ(written()["structure_element"], Json::array({0, p.b.model.shell4.id[1]}));
 }
 
 TEST(PageSteps, ColourANodeByTheSmallestStepOfItsElementsInEqualRatios) {
