@@ -295,10 +295,13 @@ TEST_F(FixCommand, TheReportShowsTheFixedDeckBesideTheOneBefore) {
   // The same page but for the paths of the deck and of what is compared; its data are packed.
   const auto size = [&](const char* name) { return static_cast<long>(read(dir_ / name).size()); };
   const std::string page = read(dir_ / "page.html");
-  const auto moved = page.find("<script type=\"application/octet-stream\" id=\"deck-moved\">");
-  ASSERT_NE(moved, std::string::npos);
-  const auto block = static_cast<long>(page.find("</script>\n", moved) + 10 - moved);
-  EXPECT_LT(std::abs(size("page.html") - block - size("gaps.html")), 100);
+  long blocks = 0;  // what moved, and what the repair says of itself
+  for (const std::string id : {"deck-moved", "deck-repair"}) {
+    const auto at = page.find("<script type=\"application/octet-stream\" id=\"" + id + "\">");
+    ASSERT_NE(at, std::string::npos) << id;
+    blocks += static_cast<long>(page.find("</script>\n", at) + 10 - at);
+  }
+  EXPECT_LT(std::abs(size("page.html") - blocks - size("gaps.html")), 100);
   EXPECT_GT(size("page.html"), size("plain.html") + 200);
   EXPECT_EQ(deck("fix too_close_0000.rad include_tree_0000.rad --html x.html --strategy inacti"),
             2);
