@@ -1,5 +1,6 @@
 // What can be set in the picture: limits of the colours, parallel projection, what is measured, the mouse; and what is
 // nearest where nothing penetrates.
+import { accessible } from "./axe.mjs";
 import { check, gaps, open, same, sample, settled } from "./support.mjs";
 
 const near = (a, b, share = 1e-3) => Math.abs(a - b) <= share * Math.abs(b);
@@ -43,6 +44,7 @@ export async function viewTools(browser, file, shot) {
   check("the largest value is labelled where it is", said !== null && near(Number(said[1]), deepest.depth), `${label} ${JSON.stringify(deepest)}`);
   await p.waitForFunction(() => /low=0.01/.test(location.hash) && /log=yes/.test(location.hash) && /maximum=yes/.test(location.hash));
   await shot(p, "legend");
+  await accessible(p, "legend with limits");
   await p.keyboard.press("2");
   check("another kind of values has limits of its own", (await ticks()).at(-1) === 0);
   await p.keyboard.press("1");
@@ -151,6 +153,9 @@ export async function nearest(browser, page, shot) {
   const shown = await p.evaluate(() => ({ tip: document.querySelector("#view .tip:not(.ruler)").textContent, solid: window.deckReport.viewport.view.parts.parts.filter((x) => x.look === "solid").length }));
   check("the link shows the pair", shown.tip.startsWith("Nearest: node") && shown.solid > 0, JSON.stringify(shown));
   await shot(p, "nearest");
+  await accessible(p, "nearest");
+  await p.keyboard.press("t");
+  await accessible(p, "nearest, dark");
   same("nearest: no console error and no request", p.trouble, []);
   await p.close();
 }
