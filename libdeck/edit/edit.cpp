@@ -351,6 +351,7 @@ Result<std::vector<std::string>> Edit::save(const SaveOptions& options) {
   }
   WriteOptions write;
   write.backup_suffix = options.backup_suffix;
+  write.note_beside = plan->main;
   if (const auto done = write_files_atomic(plan->files, write); !done) return done.error();
   return paths;
 }

@@ -2,6 +2,7 @@
 #include "edit/shared/write.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -16,6 +17,8 @@
 #include <iterator>
 #include <string_view>
 #include <thread>
+
+#include "base/shared/hash.hpp"
 
 namespace deck {
 namespace {
@@ -397,57 +400,48 @@ TEST_F(AtomicWriting, TwoThreadsWriteTheSameFileWhole) {
   EXPECT_EQ(entries(), 1u);
 }
 
-/// Two files of a set as a kill between their renames leaves them: a.rad is new, b.inc is old and
-/// its new contents lie beside it; both have the note.
+/// Two files of a set as a kill between their renames leaves them: b.inc is new, a.rad, the main
+/// file, is old and its new contents lie beside it, as does the note.
 class InterruptedSet : public AtomicWriting {
  protected:
   InterruptedSet() {
-    put("a.rad", "new a");
-    put("b.inc", "old b");
-    put(".b.inc.1-0.tmp", "new b");
-    const auto status = [&](const std::string& name) {
-      struct stat s {};
-      EXPECT_EQ(stat(at(name).c_str(), &s), 0);
-      return s;
-    };
-    const auto a = status("a.rad"), b = status("b.inc"), fresh = status(".b.inc.1-0.tmp");
-    std::ofstream plan(at(".a.rad.unfinished"));
-    plan << "deck unfinished 1\n"
-         << at(".a.rad.1-0.tmp") << '\t' << at("a.rad") << '\t' << a.st_ino << "\t12345\t1\t2\t3\n"
-         << at(".b.inc.1-0.tmp") << '\t' << at("b.inc") << '\t' << fresh.st_ino << '\t' << b.st_ino
-         << '\t' << b.st_mtim.tv_sec << '\t' << b.st_mtim.tv_nsec << '\t' << b.st_size << "\nend\n";
-    plan.close();
-    fs::permissions(at(".a.rad.unfinished"), fs::perms::owner_read | fs::perms::owner_write);
-    fs::create_hard_link(at(".a.rad.unfinished"), at(".b.inc.unfinished"));
+    put("a.rad", "old a");
+    put("b.inc", "new b");
+    put(".a.rad.1-0.tmp", "new a");
+    put(".b.inc.1-1.tmp", "old b");
+    note(step("1-0", "-", "old a", "new a", at("a.rad")) +
+         step("1-2", "1-1", "old b", "new b", at("b.inc")));
   }
-  Result<FinishedWrite> finish(const std::string& name) const {
-    return finish_interrupted_write(at(name), {at("a.rad"), at("b.inc")});
+  /// One line of a note.
+  static std::string step(const std::string& fresh, const std::string& old, const std::string& was,
+                          const std::string& is, const std::string& target) {
+    return fmt::format("{}\t{}\t{:016x}\t{:016x}\t{}\n", fresh, old, content_hash(was),
+                       content_hash(is), target);
   }
-  /// A note beside a.rad that moves one file to another, as an attacker would plant it.
-  void plant(const std::string& from, const std::string& to) const {
-    struct stat status {};
-    EXPECT_EQ(stat(from.c_str(), &status), 0);
+  void note(const std::string& steps) const {
     fs::remove(at(".a.rad.unfinished"));
-    put(".a.rad.unfinished", "deck unfinished 1\n" + from + "\t" + to + "\t" +
-                                 std::to_string(status.st_ino) + "\t0\t0\t0\t0\nend\n");
+    put(".a.rad.unfinished", "deck unfinished 2\n" + steps + "end\n");
     fs::permissions(at(".a.rad.unfinished"), fs::perms::owner_read | fs::perms::owner_write);
+  }
+  Result<FinishedWrite> finish() const {
+    return finish_interrupted_write(at("a.rad"), {at("a.rad"), at("b.inc")});
   }
   /// The note is not obeyed and stays where it is.
   void expect_left_alone(const std::string& why) const {
     const std::size_t before = entries();
-    const auto finished = finish("a.rad");
+    const auto finished = finish();
     ASSERT_TRUE(finished) << finished.error().message;
     EXPECT_EQ(finished->files, 0u);
     EXPECT_NE(finished->refused.find(why), std::string::npos) << finished->refused;
     EXPECT_EQ(entries(), before);
-    EXPECT_EQ(get("b.inc"), "old b");
+    EXPECT_EQ(get("a.rad"), "old a");
   }
 };
 
 TEST_F(InterruptedSet, IsOnlyLookedAtByWhoReads) {
   EXPECT_EQ(unfinished_note(at("a.rad")), at(".a.rad.unfinished"));
   EXPECT_EQ(unfinished_note(at("c.rad")), std::nullopt);
-  EXPECT_EQ(get("b.inc"), "old b");
+  EXPECT_EQ(get("a.rad"), "old a");
   EXPECT_EQ(entries(), 5u);
 }
 
@@ -457,7 +451,7 @@ TEST_F(InterruptedSet, IsNotFinishedWithoutTheDecksOfAllItsFiles) {
   EXPECT_EQ(finished->files, 0u);
   EXPECT_NE(finished->refused.find("b.inc, which is not a file of the given decks"),
             std::string::npos);
-  EXPECT_EQ(get("b.inc"), "old b");
+  EXPECT_EQ(get("a.rad"), "old a");
   EXPECT_EQ(entries(), 5u);
 }
 
@@ -470,15 +464,18 @@ TEST_F(InterruptedSet, ANoteWithTheModeOfACheckoutIsNotBelieved) {
 TEST_F(InterruptedSet, ANoteThatLeadsOutOfTheDeckIsNotObeyed) {
   fs::create_directories(dir_ / "home");
   put("home/thesis.txt", "precious");
-  plant(at("home/thesis.txt"), at("x"));
+  note(step("1-0", "-", "precious", "new a", at("home/thesis.txt")));
   expect_left_alone("not a file of the given decks");
-  plant(at("home/thesis.txt"), at("b.inc"));
-  expect_left_alone("another directory");
-  put("payload", "content of an attacker");
-  plant(at("payload"), at("b.inc"));
-  expect_left_alone("not a valid name for such a file");
-  fs::create_symlink(at("home/thesis.txt"), at(".b.inc.7-7.tmp"));
-  plant(at(".b.inc.7-7.tmp"), at("b.inc"));
+  note(step("1-0", "-", "old a", "new a", "a.rad"));
+  expect_left_alone("not a file of the given decks");
+  for (const char* suffix : {"../home/thesis.txt", "1-0/../x", "1", "-1", ""}) {
+    note(step(suffix, "-", "old a", "precious", at("a.rad")));
+    expect_left_alone("not a whole note");
+  }
+  fs::create_symlink(at("home/thesis.txt"), at(".a.rad.7-7.tmp"));
+  note(step("7-7", "-", "old a", "precious", at("a.rad")));
+  expect_left_alone("not a file of yours");
+  note(step("1-0", "7-7", "old a", "new a", at("a.rad")));
   expect_left_alone("not a file of yours");
   EXPECT_EQ(get("home/thesis.txt"), "precious");
 }
@@ -497,31 +494,41 @@ TEST_F(InterruptedSet, ANoteThatIsTooLongIsNotRead) {
   expect_left_alone("too long");
 }
 
-TEST_F(InterruptedSet, IsFinishedFromAnyOfItsFiles) {
-  const auto finished = finish("b.inc");
+TEST_F(InterruptedSet, IsFinishedFromItsMainFile) {
+  const auto finished = finish();
   ASSERT_TRUE(finished) << finished.error().message;
   EXPECT_EQ(finished->files, 1u);
   EXPECT_EQ(get("a.rad"), "new a");
   EXPECT_EQ(get("b.inc"), "new b");
   EXPECT_EQ(entries(), 2u);
-  EXPECT_EQ(finish("a.rad")->files, 0u);
+  EXPECT_EQ(finish()->files, 0u);
+}
+
+TEST_F(InterruptedSet, ANewFileIsPutInPlaceIfItsPlaceIsStillFree) {
+  fs::remove(at("b.inc"));
+  put(".b.inc.1-2.tmp", "new b");
+  const std::string free =
+      fmt::format("1-2\t-\t{:016x}\t{:016x}\t{}\n", 0, content_hash("new b"), at("b.inc"));
+  note(free + step("1-0", "-", "old a", "new a", at("a.rad")));
+  EXPECT_EQ(finish()->files, 2u);
+  EXPECT_EQ(get("b.inc"), "new b");
 }
 
 TEST_F(InterruptedSet, IsDroppedWhereAFileWasChangedSince) {
-  put("b.inc", "restored by hand");
-  const auto finished = finish("a.rad");
+  put("a.rad", "restored by hand");
+  const auto finished = finish();
   ASSERT_TRUE(finished) << finished.error().message;
   EXPECT_EQ(finished->files, 0u);
-  EXPECT_EQ(get("b.inc"), "restored by hand");
+  EXPECT_EQ(get("a.rad"), "restored by hand");
   EXPECT_EQ(entries(), 2u);
 }
 
 TEST_F(InterruptedSet, IsDroppedWhereAFinishedFileWasReplacedSince) {
-  fs::rename(at("a.rad"), at("moved away"));
-  put("a.rad", "old a, restored");
-  EXPECT_EQ(finish("b.inc")->files, 0u);
-  EXPECT_EQ(get("b.inc"), "old b");
-  EXPECT_EQ(get("a.rad"), "old a, restored");
+  put("b.inc", "old b, restored");
+  EXPECT_EQ(finish()->files, 0u);
+  EXPECT_EQ(get("a.rad"), "old a");
+  EXPECT_EQ(get("b.inc"), "old b, restored");
+  EXPECT_EQ(entries(), 2u);
 }
 
 TEST_F(InterruptedSet, IsLeftToAWriterThatLives) {
@@ -540,12 +547,12 @@ TEST_F(InterruptedSet, IsLeftToAWriterThatLives) {
   char c = 0;
   ASSERT_EQ(read(ready[0], &c, 1), 1);
   ASSERT_EQ(c, 'y');
-  EXPECT_EQ(finish("b.inc")->files, 0u);
-  EXPECT_EQ(get("b.inc"), "old b");
+  EXPECT_EQ(finish()->files, 0u);
+  EXPECT_EQ(get("a.rad"), "old a");
   close(leave[1]);
   waitpid(writer, nullptr, 0);
-  EXPECT_EQ(finish("b.inc")->files, 1u);
-  EXPECT_EQ(get("b.inc"), "new b");
+  EXPECT_EQ(finish()->files, 1u);
+  EXPECT_EQ(get("a.rad"), "new a");
 }
 
 TEST_F(InterruptedSet, ANoteThatIsNoNoteIsLeftAlone) {
@@ -556,7 +563,8 @@ TEST_F(InterruptedSet, ANoteThatIsNoNoteIsLeftAlone) {
 TEST_F(AtomicWriting, FinishedSetLeavesNoNote) {
   put("a.rad", "old");
   put("b.inc", "old");
-  ASSERT_TRUE(write_files_atomic({{at("a.rad"), "new"}, {at("b.inc"), "new"}}));
+  ASSERT_TRUE(write_files_atomic({{at("a.rad"), "new", read_now(at("a.rad"), "old")},
+                                  {at("b.inc"), "new", read_now(at("b.inc"), "old")}}));
   EXPECT_EQ(entries(), 2u);
 }
 
@@ -567,6 +575,9 @@ TEST(TemporaryName, BelongsToItsTargetOnly) {
   EXPECT_FALSE(is_temporary_of("car.json.12-0.tmp", "car.json"));
   EXPECT_FALSE(is_temporary_of(".car.json..tmp", "car.json"));
   EXPECT_FALSE(is_temporary_of(".tmp", ""));
+  EXPECT_EQ(temporary_of(".car.json.12-0.tmp"), 12);
+  for (const char* name : {".car.json.12.tmp", ".car.json.x-0.tmp", "car.json.12-0.tmp", ".tmp"})
+    EXPECT_EQ(temporary_of(name), std::nullopt) << name;
 }
 
 }  // namespace

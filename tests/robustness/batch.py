@@ -4,6 +4,7 @@
 was, and one bad deck costs nothing but itself."""
 import fcntl
 import glob
+import gzip
 import html.parser
 import json
 import os
@@ -144,12 +145,19 @@ def launched(c, command, env=None, timeout=300):
 def at_work(c, out, decks):
     """A file that another shard is about to put in place is left alone; a whole run takes it for one that was left behind."""
     os.makedirs(os.path.join(out, ".batch"))
-    temporary = os.path.join(out, ".batch", ".verb.12345-1.tmp")
+    temporary = os.path.join(out, ".batch", ".other_0000.record.%d-1.tmp" % gone())
     for name, args, stays in (("a shard leaves the temporary files of others", ("--shard", "1/2"), True), ("a whole run clears up", (), False)):
         with open(temporary, "w") as f:
             f.write("lint")
         c.run("batch", "-o", out, *args, *decks)
         c.check(name, os.path.exists(temporary) == stays)
+
+
+def gone():
+    """The number of a process that was."""
+    p = subprocess.Popen(["true"])
+    p.wait()
+    return p.pid
 
 
 def mpi(c, out, manifest, same):
@@ -263,6 +271,11 @@ def bad_decks(c, tmp, shim):
     c.check("what failed is tried again", r.code == 0 and b"2 were finished before" in r.out and summary(out)["totals"]["clean"] == 4, r.text[-200:])
 
 
+def records(out):
+    """How many decks are done: each has its record."""
+    return len(glob.glob(os.path.join(out, ".batch", "*.record")))
+
+
 def finished(r):
     """How many decks the run took over."""
     text = r.out.decode()
@@ -319,8 +332,14 @@ def going_on(c, tmp):
     after("a configuration that was not there", lambda: open(config, "w").write('ignore = ["DK904"]\n'), 0, ("--verb", "lint"))
     after("the same configuration", lambda: None, 6, ("--verb", "lint"))
     after("another configuration", lambda: open(config, "w").write('ignore = ["DK905"]\n'), 0, ("--verb", "lint"))
-    journal = os.path.join(out, ".batch", "all.jsonl")
-    after("a line of the journal cut off", lambda: os.truncate(journal, os.path.getsize(journal) - 40), 5, ("--verb", "lint"))
+    packed = os.path.join(work, "packed_0000.rad.gz")
+    with gzip.open(packed, "wb") as f:
+        f.write(read(decks[0]))
+    c.run("batch", "-o", os.path.join(work, "packed"), packed)
+    r = c.run("batch", "-o", os.path.join(work, "packed"), packed)
+    c.check("a packed deck is taken over", r.code == 0 and finished(r) == 1, r.text[-200:])
+    record = os.path.join(out, ".batch", "d0002_0000.record")
+    after("a record cut off", lambda: os.truncate(record, os.path.getsize(record) - 40), 5, ("--verb", "lint"))
 
 
 def screen(c, columns, args, cwd):
@@ -543,14 +562,13 @@ def thousand(c, tmp):
         shutil.rmtree(out, ignore_errors=True)
         p = subprocess.Popen([c.program, "batch", "-o", out, "--jobs", "2", "--manifest", manifest], stdout=subprocess.DEVNULL,
                              stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, start_new_session=True)
-        journal = os.path.join(out, ".batch", "all.jsonl")
-        while p.poll() is None and (not os.path.exists(journal) or read(journal).count(b"\n") < 100):
+        while p.poll() is None and records(out) < 100:
             time.sleep(0.002)
         workers = children(p.pid)
         p.send_signal(how)
         _, err = p.communicate(timeout=60)
         name = signal.Signals(how).name
-        done = read(journal).count(b"\n")
+        done = records(out)
         c.check("%s in the middle" % name, p.returncode == -how and 100 <= done < 1000, "exit code %s, %d done" % (p.returncode, done))
         if how != signal.SIGKILL:
             c.check("%s: it says how to go on" % name, b"run the same command to continue" in err, err.decode()[-200:])
@@ -617,9 +635,8 @@ def two_at_once(c, tmp, shim):
     out = os.path.join(tmp, "twice-out")
     env = dict(os.environ, LD_PRELOAD=shim, DECK_FAULT_OPEN="hang:d0001")
     p = subprocess.Popen([c.program, "batch", "-o", out, "--quiet", *decks], stdin=subprocess.DEVNULL, env=env)
-    journal = os.path.join(out, ".batch", "all.jsonl")
     until = time.monotonic() + 30
-    while time.monotonic() < until and (not os.path.exists(journal) or not read(journal)):
+    while time.monotonic() < until and not records(out):
         time.sleep(0.01)
     r = c.run("batch", "-o", out, *decks)
     c.check("a second batch in the same directory is refused", r.code == 2 and b"another deck batch" in r.err, r.text)

@@ -135,6 +135,9 @@ def rewriting(c, s, tmp, name, args, old, repeatable=True):
             why = whole_or_old(now, old, new, True)
             if why:
                 return why
+            done = [k for k in new if now.get(k) == new[k] != old.get(k)]
+            if any(k.endswith("_0000.rad") for k in done) and any(now.get(k) != new[k] for k in new if k.endswith(".inc")):
+                return "a main file is new before its include"
             if "car_0000.rad" in old and args[0] != "convert" or "--in-place" in args:
                 # Who reads the deck next changes nothing; who rewrites it next (here: nothing but what was
                 # left) gets all of it old or all of it new.

@@ -193,6 +193,15 @@ def in_place(c, tmp):
     r = c.run("batch", "-o", out, lib, *verb)
     c.check("edited since: said, not converted twice", r.code == 2 and b"--force" in r.err and tree(lib) == edited, r.text[-200:])
     r = c.run("batch", "-o", out, lib, *verb, "--force")
+    # What a conversion had no effect on may be edited.
+    other, plain = os.path.join(tmp, "other"), os.path.join(tmp, "plain", "car_0000.rad")
+    os.makedirs(os.path.dirname(plain))
+    shutil.copy(os.path.join(ROOT, "samples", "too_close_0000.rad"), plain)
+    for turn in range(2):
+        p = c.run("batch", "-o", other, plain, "--verb", "convert --in-place")
+        c.check("nothing to convert in place, turn %d" % turn, p.code == 0 and b"finished before" not in p.out, p.text[-200:])
+        with open(plain, "a") as f:
+            f.write("# edited\n")
     c.check("--force converts again and numbers the backups", r.code == 0 and any(k.endswith(".orig.2") for k in tree(lib)), r.text[-200:])
 
 
@@ -316,23 +325,6 @@ def read_once(c, tmp, shim):
     c.check("the decks are as they were", tree(lib) == before)
 
 
-def launchers(c, tmp):
-    """Variables that launchers set share the decks out, or mean nothing; the decks written are the same."""
-    lib, one, out = (os.path.join(tmp, n) for n in ("llib", "lone", "lout"))
-    library(lib, 3, 2)
-    verb = ("--verb", "convert --units kg,m,s", "--jobs", "1", "--quiet")
-    c.run("batch", "-o", one, lib, *verb)
-    expected = results(one)
-    for task in (3, 1, 2):
-        env = {"SLURM_ARRAY_TASK_ID": str(task), "SLURM_ARRAY_TASK_COUNT": "3", "SLURM_PROCID": "0", "SLURM_NTASKS": "8", "SLURM_JOB_ID": "4711",
-               "SLURM_CPUS_PER_TASK": "1"}
-        command = 'exec "$0" batch -o "$1" "$2" --verb "convert --units kg,m,s" --jobs 1 --quiet --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT"'
-        subprocess.run(["sh", "-c", command, c.program, out, lib], env=dict(os.environ, **env), stdin=subprocess.DEVNULL, timeout=120)
-    r = c.run("batch", "-o", out, "--merge")
-    merged = {k: v for k, v in results(out).items() if "-of-3" not in k}
-    c.check("a Slurm array writes what one process writes", r.code == 0 and merged == expected, "%s; %s" % (r.text[-200:], differing(merged, expected)))
-
-
 def times(c, tmp, families, each):
     """Against copying the library and parsing it once."""
     lib = os.path.join(tmp, "time")
@@ -419,7 +411,6 @@ def main():
         together_or_not(c, tmp)
         in_place(c, tmp)
         unverified(c, tmp)
-        launchers(c, tmp)
         shim = build_shim(tmp)
         read_once(c, tmp, shim)
         full_disk(c, tmp, shim, 40 if c.options.all else 8)

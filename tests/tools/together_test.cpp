@@ -1,11 +1,13 @@
 // Several decks of one call, files that others work on, and outputs over decks: nobody's bytes are
 // lost.
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <sys/xattr.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/shared/hash.hpp"
 #include "tools/command_line.hpp"
 
 namespace {
@@ -266,15 +268,10 @@ TEST_F(Together, AnotherDeckOfTheCallIsNotTheTarget) {
 TEST_F(Together, AReadingVerbLeavesAnInterruptedRewritingAlone) {
   const std::string temporary = (dir_ / "common/.x.inc.1-0.tmp").string();
   write(temporary, "/TITLE\nnew\n");
-  struct stat fresh {
-  }, old{};
-  ASSERT_EQ(stat(temporary.c_str(), &fresh), 0);
-  ASSERT_EQ(stat((dir_ / "common/x.inc").c_str(), &old), 0);
-  const fs::path note = dir_ / "common/.x.inc.unfinished";
-  write(note, "deck unfinished 1\n" + temporary + "\t" + (dir_ / "common/x.inc").string() + "\t" +
-                  std::to_string(fresh.st_ino) + "\t" + std::to_string(old.st_ino) + "\t" +
-                  std::to_string(old.st_mtim.tv_sec) + "\t" + std::to_string(old.st_mtim.tv_nsec) +
-                  "\t" + std::to_string(old.st_size) + "\nend\n");
+  const fs::path note = dir_ / "a/.a_0000.rad.unfinished";
+  write(note, fmt::format("deck unfinished 2\n1-0\t-\t{:016x}\t{:016x}\t{}\nend\n",
+                          deck::content_hash(contact), deck::content_hash("/TITLE\nnew\n"),
+                          (dir_ / "common/x.inc").string()));
   fs::permissions(note, fs::perms::owner_read | fs::perms::owner_write);
   for (const char* call :
        {"lint a/a_0000.rad --no-config --fail-on never", "params a/a_0000.rad --no-geometry",
@@ -295,12 +292,21 @@ TEST_F(Together, BatchDoesNotFollowLinksInTheDirectoryOfResults) {
   write(dir_ / "precious", "precious\n");
   write(dir_ / "home/thesis", "precious\n");
   fs::create_directories(dir_ / "results/.batch");
-  for (const char* name : {"a_0000.json", "summary.json", "index.html", ".batch/all.jsonl"})
+  for (const char* name : {"a_0000.json", "summary.json", "index.html", ".batch/a_0000.record"})
     fs::create_symlink(dir_ / "precious", dir_ / "results" / name);
   EXPECT_LE(deck("batch -o results a/a_0000.rad --verb 'params --no-geometry'"), 1) << err();
   EXPECT_EQ(read(dir_ / "precious"), "precious\n");
   EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(dir_ / "results/a_0000.json")));
   EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(dir_ / "results/summary.json")));
+  // A record that somebody laid there removes nothing outside of the results.
+  write(dir_ / "results/.batch/x_0000.record",
+        fmt::format(R"({{"verb":"params","decks":["x"],"settings":"0","contents":"0","done":true,)"
+                    R"("before":"0","seconds":0.0,"entries":[],"outputs":[{{"path":"../precious",)"
+                    R"("hash":"{:016x}"}}],"former":[],"losses":null}})",
+                    deck::content_hash("precious\n")));
+  EXPECT_LE(deck("batch -o results a/a_0000.rad --verb 'params --no-geometry'"), 1) << err();
+  EXPECT_TRUE(fs::exists(dir_ / "precious"));
+  EXPECT_FALSE(fs::exists(dir_ / "results/.batch/x_0000.record"));
   // A link in place of the directory of its own notes is refused, and one in place of the lock.
   fs::remove_all(dir_ / "results");
   fs::create_directories(dir_ / "results");
@@ -309,7 +315,7 @@ TEST_F(Together, BatchDoesNotFollowLinksInTheDirectoryOfResults) {
   EXPECT_EQ(count_files(dir_ / "home"), 1u);
   fs::remove(dir_ / "results/.batch");
   fs::create_directories(dir_ / "results/.batch");
-  fs::create_symlink(dir_ / "made", dir_ / "results/.batch/all.lock");
+  fs::create_symlink(dir_ / "made", dir_ / "results/.batch/lock");
   EXPECT_EQ(deck("batch -o results a/a_0000.rad"), 2);
   EXPECT_FALSE(fs::exists(dir_ / "made"));
 }

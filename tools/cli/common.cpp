@@ -22,10 +22,10 @@
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
 #include "keyword/shared/recognise.hpp"
+#include "library.hpp"
 #include "report/shared/json.hpp"
 #include "text/shared/similar_file.hpp"
 #include "writing/frame.hpp"
-#include "writing/library.hpp"
 
 namespace deck::cli {
 
@@ -152,54 +152,14 @@ const Scene& resolve_geometry(const LoadedDeck& loaded, const CommonOptions& opt
 
 namespace {
 
-/// The files of all decks of the call: what may be written to finish an interrupted writing.
-std::vector<std::string> files_of_call(const SchemaSet& schemas, const CommonOptions& options) {
-  std::vector<std::string> paths;
-  ReadOptions read;
-  read.include_paths = options.include_paths;
-  for (const std::string& path : options.decks) {
-    if (path == "-") continue;
-    const auto deck = read_deck(path, schemas, read);
-    for (std::uint32_t f = 0; deck && f < deck->sources.size(); ++f)
-      paths.push_back(deck->sources[f].path());
-  }
-  return paths;
-}
-
-/// What a kill left of an earlier rewriting of these files: who rewrites them finishes it first,
-/// who only reads says that it is there. True if files changed.
-Result<bool> settle_interrupted(const Deck& deck, const SchemaSet& schemas,
-                                const CommonOptions& options) {
-  std::vector<std::string> files;
-  for (std::uint32_t f = 0; f < deck.sources.size(); ++f)
-    if (unfinished_note(deck.sources[f].path())) files.push_back(deck.sources[f].path());
-  if (files.empty()) return false;
-  if (!options.rewrites) {
-    if (!options.quiet)
-      print_messages(fmt::format(
-          "deck: note: writing {} was interrupted ({}): some of its files may be old and some new; "
-          "the next convert --in-place, fix --in-place or lint --fix of it finishes this\n",
-          terminal_text(files.front()), terminal_text(*unfinished_note(files.front()))));
-    return false;
-  }
-  const std::vector<std::string> tree = files_of_call(schemas, options);
-  std::size_t finished = 0;
-  for (const std::string& path : files) {
-    const auto done = finish_interrupted_write(path, tree);
-    if (!done) return done.error();
-    if (!done->refused.empty())
-      return Error{Error::Code::config,
-                   "a rewriting of " + path +
-                       " was interrupted and cannot be finished: " + done->refused +
-                       "; nothing was written. Give all decks of that call again, or remove the "
-                       "note if it is not wanted"};
-    finished += done->files;
-  }
-  if (finished > 0 && !options.quiet)
-    print_messages(
-        fmt::format("deck: note: the interrupted writing of {} was finished: {} file{}\n",
-                    terminal_text(files.front()), finished, finished == 1 ? "" : "s"));
-  return finished > 0;
+/// Who only reads says that a kill left a rewriting of this deck half done.
+void tell_of_interrupted(const std::string& main, const CommonOptions& options) {
+  const auto note = options.rewrites || options.quiet ? std::nullopt : unfinished_note(main);
+  if (!note) return;
+  print_messages(fmt::format(
+      "deck: note: writing {} was interrupted ({}): some of its files may be old and some new; "
+      "the next convert --in-place, fix --in-place or lint --fix of it finishes this\n",
+      terminal_text(main), terminal_text(*note)));
 }
 
 /// A mapped file that is written to while it is read has no bytes of one moment. Smaller ones are
@@ -226,13 +186,8 @@ Result<Deck> read_settled(const std::string& path, const SchemaSet& schemas,
   clock_gettime(CLOCK_REALTIME_COARSE, &since);
   auto deck = read_deck(path, schemas, read);
   if (!deck || read.overlay != nullptr) return deck;
-  const auto settled = settle_interrupted(*deck, schemas, options);
-  if (!settled) return settled.error();
-  if (*settled) {
-    clock_gettime(CLOCK_REALTIME_COARSE, &since);
-    deck = read_deck(path, schemas, read);
-  }
-  if (deck && options.rewrites)
+  tell_of_interrupted(path, options);
+  if (options.rewrites)
     if (auto same = check_mapped(*deck, read.limits, since); !same) return same.error();
   return deck;
 }

@@ -92,8 +92,7 @@ LoadOptions load_options(const CommonOptions& options, const SchemaSet& schemas,
 /// Reads one deck and makes of it what comes up to `stage`. Error: the main file cannot be read, or
 /// is no Starter deck; the message says what it is. `schemas` must outlive it. Values that follow
 /// from the mesh are open until resolve_geometry().
-/// Where the deck is to be rewritten in place (options.rewrites), an interrupted writing of its
-/// files is finished first; a verb that only reads says that there is one and changes nothing.
+/// A verb that only reads says that a rewriting of the deck was interrupted (finish_interrupted).
 /// A name without its ending is found (see find_deck), with a note.
 Result<LoadedDeck> load(const std::string& given, const SchemaSet& schemas,
                         const CommonOptions& options, Stage stage = Stage::interfaces,

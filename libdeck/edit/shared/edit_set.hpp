@@ -29,6 +29,7 @@ class EditSet {
     std::vector<OutputFile> files;     ///< by path; the bytes are those that will be on disk
     std::deque<std::string> packed;    ///< bytes of packed files
     std::vector<std::string> outside;  ///< trees: included by an absolute path, left where they are
+    std::string main;                  ///< in place: main file of the first deck
   };
 
   /// Takes the files of a deck as they were read, before anything is changed. `name` stands for the
@@ -79,8 +80,6 @@ class EditSet {
   /// `written` is a deck read from what was planned: what is not as it was proposed; empty:
   /// nothing.
   std::string read_back_difference(std::size_t deck, const Deck& written) const;
-  /// The paths of all files, as they were opened.
-  std::vector<std::string> paths() const;
 
  private:
   /// A deck's use of a file.

@@ -26,15 +26,20 @@ class IncludeScan {
   struct File {
     std::string path;  ///< as the reader opens it
     FileIdentity identity;
+    std::uint64_t contents = 0;  ///< hash of its bytes; 0: it cannot be read
   };
   /// The files of a deck, the main file first, each once. What cannot be opened is left out. Files
   /// behind the main file's /END count as well.
   std::vector<File> files(const std::string& deck);
 
  private:
-  const std::vector<std::string>& written(const File& file);
+  struct Text {
+    std::vector<std::string> names;  ///< that it includes
+    std::uint64_t contents = 0;
+  };
+  const Text& read(const File& file);
   std::vector<std::string> include_paths_;
-  std::map<FileIdentity, std::vector<std::string>> written_;
+  std::map<FileIdentity, Text> read_;
 };
 
 /// Decks that share a file, directly or by way of others, in one group. Groups in the order of

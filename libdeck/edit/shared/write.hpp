@@ -33,6 +33,7 @@ struct OutputFile {
   WritePieces pieces = nullptr;  ///< given: called once for the contents, instead of `bytes`
   /// Not empty: what the contents were made from; kept with the file, see is_unchanged_output.
   std::string origin = {};
+  bool is_main = false;  ///< of a deck: put in place after the others of the set
 };
 
 struct WriteOptions {
@@ -47,6 +48,9 @@ struct WriteOptions {
   /// Not empty: all files go below this directory. Where a link stands in place of a file or of a
   /// directory below it, or something else that is no regular file, nothing is written.
   std::string below = {};
+  /// Where several files are rewritten in place: the note of what is unfinished lies beside this
+  /// one, the main file of a deck; empty: beside the last of the set.
+  std::string note_beside = {};
 };
 
 /// Puts one file in place in one step. At any moment, also after a kill, the path holds the old
@@ -64,16 +68,15 @@ Result<void> write_file_atomic(const std::string& path, const WritePieces& piece
                                const WriteOptions& options = {});
 
 /// The same for several files: all of them are written and flushed beside their places before the
-/// first is renamed. If a rename fails, those made before are taken back. A kill between two
-/// renames leaves some files old and some new, each of them whole, and a note of what is missing;
-/// see finish_interrupted_write. Two entries that lead to the same file must have the same bytes.
+/// first is renamed; main files are the last. If a rename fails, those made before are taken back.
+/// A kill between two renames leaves some files old and some new, each of them whole, and, if files
+/// have `read`, a note of what is missing; see finish_interrupted_write. Two entries that lead to
+/// the same file must have the same bytes.
 ///
 /// Files with `read` are compared with what was read, under a lock that others who write this way
-/// wait for, before any file is replaced and again as it is replaced: the two are exchanged in one
-/// step, and exchanged back if what was taken out is not what was read. What remains: where a file
-/// system cannot exchange names (EINVAL: some network and FAT file systems), an edit saved in the
-/// instant between comparing and renaming; and an editor that has the old file open and writes into
-/// it later writes into a file that has no name any more.
+/// wait for, before any file is replaced and again just before each is. What remains: an edit saved
+/// by another program in the instant between comparing and renaming; and an editor that has the old
+/// file open and writes into it later writes into a file that has no name any more.
 Result<void> write_files_atomic(const std::vector<OutputFile>& files,
                                 const WriteOptions& options = {"", true, true, true});
 
@@ -87,24 +90,26 @@ struct FinishedWrite {
   std::size_t files = 0;  ///< put in place
   std::string refused;  ///< "note: why": there is a note that cannot be ours, and it was left alone
 };
-/// Finishes a set of files, `path` being one of them, whose writing was killed between two renames:
-/// puts the remaining new files in place and removes the note (".NAME.unfinished") that said so. No
+/// Finishes a set of files whose writing was killed between two renames: puts the remaining new
+/// files in place and removes the note (".NAME.unfinished" beside the main file) that said so. No
 /// file is put in place where nothing was left to do, where the writer is still at work, and where
 /// somebody changed a file of the set since: then only the note is removed, and the new files
 /// beside the old ones.
 ///
 /// The note is believed only if it is a regular file (not a link) of the user with the mode that
-/// notes get, not too long, and if all it does is to rename temporaries of the right name and owner
-/// to files beside them that are in `tree`, the files of the decks that are to be rewritten. Error:
-/// a file cannot be put in place.
-Result<FinishedWrite> finish_interrupted_write(const std::string& path,
+/// notes get, not too long, and if all it does is to rename temporaries of the user to the files
+/// beside them, which are in `tree`, the files of the decks that are to be rewritten. Error: a file
+/// cannot be put in place.
+Result<FinishedWrite> finish_interrupted_write(const std::string& main,
                                                const std::vector<std::string>& tree);
 
-/// The note beside `path` that finish_interrupted_write would read; changes and opens nothing.
-std::optional<std::string> unfinished_note(const std::string& path);
+/// The note beside `main` that finish_interrupted_write would read; changes and opens nothing.
+std::optional<std::string> unfinished_note(const std::string& main);
 
-/// True if `name` is what a killed write of the file `target` (both without directory) left behind:
-/// ".TARGET.PID-NUMBER.tmp".
+/// The number of the process if `name` (without directory) is that of a temporary, which a killed
+/// write leaves behind: ".TARGET.PID-NUMBER.tmp".
+std::optional<int> temporary_of(std::string_view name);
+/// True if it is one of the file `target`.
 bool is_temporary_of(std::string_view name, std::string_view target);
 
 }  // namespace deck

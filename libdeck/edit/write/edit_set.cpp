@@ -254,6 +254,7 @@ Result<EditSet::Plan> EditSet::in_place() const {
   auto changed = changes();
   if (!changed) return changed.error();
   Plan plan;
+  if (!decks_.empty()) plan.main = decks_.front().main;
   for (const auto& [file, text] : *changed) {
     if (file->is_new) {
       plan.files.push_back({file->uses.front().path, file->texts[text]});
@@ -265,7 +266,10 @@ Result<EditSet::Plan> EditSet::in_place() const {
     const std::string_view bytes = as_written(plan, file->texts[text], packed);
     const FileRead read{file->device, file->inode,
                         packed ? std::string_view(file->on_disk) : file->texts.front()};
-    for (const auto& [place, path] : file->places) plan.files.push_back({path, bytes, read});
+    const bool is_main = std::any_of(file->uses.begin(), file->uses.end(),
+                                     [](const Use& use) { return use.place.empty(); });
+    for (const auto& [place, path] : file->places)
+      plan.files.push_back({path, bytes, read, nullptr, {}, is_main});
   }
   return plan;
 }
@@ -335,6 +339,7 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
     const std::string& from = source.second->path;
     plan.files.push_back({target, as_written(plan, text, has_gz_name(target))});
     if (from != "-") plan.files.back().origin = absolute_path(from);
+    plan.files.back().is_main = source.second->place.empty();
   }
   plan.outside.assign(outside.begin(), outside.end());
   return plan;
@@ -394,13 +399,6 @@ std::set<FileIdentity> EditSet::changed_files() const {
   for (const File& file : files_)
     for (const Use& use : file.uses)
       if (use.text != 0 && file.inode != 0) out.emplace(file.device, file.inode);
-  return out;
-}
-
-std::vector<std::string> EditSet::paths() const {
-  std::vector<std::string> out;
-  for (const File& file : files_)
-    for (const auto& [place, path] : file.places) out.push_back(path);
   return out;
 }
 

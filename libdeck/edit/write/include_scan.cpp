@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "base/shared/hash.hpp"
 #include "base/shared/paths.hpp"
 #include "deck/text/source.hpp"
 #include "keyword/shared/include_file.hpp"
@@ -40,11 +41,11 @@ std::vector<std::string> included_names(std::string_view text) {
   return out;
 }
 
-const std::vector<std::string>& IncludeScan::written(const File& file) {
-  const auto [it, is_new] = written_.try_emplace(file.identity);
+const IncludeScan::Text& IncludeScan::read(const File& file) {
+  const auto [it, is_new] = read_.try_emplace(file.identity);
   if (is_new)
     if (const auto source = Source::open_text(file.path, Limits{}))
-      it->second = included_names((*source)->bytes());
+      it->second = {included_names((*source)->bytes()), content_hash((*source)->on_disk())};
   return it->second;
 }
 
@@ -59,7 +60,9 @@ std::vector<IncludeScan::File> IncludeScan::files(const std::string& deck) {
   for (std::size_t i = 0; i < out.size() && out.size() < 10000; ++i) {
     std::vector<std::string> directories = {std::string(parent_path(out[i].path)), main_directory};
     directories.insert(directories.end(), include_paths_.begin(), include_paths_.end());
-    for (const std::string& name : written(out[i])) {
+    const Text& text = read(out[i]);
+    out[i].contents = text.contents;
+    for (const std::string& name : text.names) {
       detail::IncludeCandidates places(name, directories);
       while (const std::string* path = places.next()) {
         const auto found = regular_file(*path);

@@ -1,5 +1,5 @@
-// What lies beside the files of a set while they are put in place one after the other: the note of
-// what goes where (".NAME.unfinished"), and the names of temporaries. Private to the edit stage.
+// What lies beside files while a set of them is put in place: the note ".NAME.unfinished" beside
+// the main file, which says what goes where, and temporaries. Private to the edit stage.
 #pragma once
 #include <cerrno>
 #include <cstdint>
@@ -12,32 +12,36 @@
 
 namespace deck::detail {
 
-/// One file of a plan.
+/// One file of a set. Its temporaries are named by their suffix alone ("PID-NUMBER"): they lie
+/// beside it and have its name, or are none of ours.
 struct Step {
-  std::string temporary, target;
-  std::uint64_t fresh = 0;                              ///< inode of the new file
-  std::uint64_t old = 0;                                ///< inode of the file to replace, 0: none
-  std::int64_t seconds = 0, nanoseconds = 0, size = 0;  ///< its time and size
+  std::string target;
+  std::string fresh;  ///< suffix of the new file
+  std::string old;    ///< suffix of the other name of the old file; empty: there is none
+  std::uint64_t old_hash = 0, new_hash = 0;  ///< of the contents; old 0: there was no file
 };
 
-std::string plan_text(const std::vector<Step>& steps);
-/// nullopt: not a whole plan.
-std::optional<std::vector<Step>> parse_plan(const std::string& text);
+/// One line a file between a head and an end, so that a note that was cut off is known as such.
+std::string note_text(const std::vector<Step>& steps);
 /// Name of the note beside a file.
-std::string plan_name(const std::string& target);
+std::string note_name(const std::string& target);
 
 /// Mode of a note: a file of that name that came with an archive or a checkout has another one.
-inline constexpr unsigned plan_mode = 0600;
+inline constexpr unsigned note_mode = 0600;
 
-/// Name of a temporary beside `path`, of this process.
-std::string temporary_name(const std::string& path, int number);
+/// Name of a temporary beside `path`.
+std::string temporary_name(const std::string& path, const std::string& suffix);
+/// "PID-NUMBER" of such a name; "" of "".
+std::string suffix_of(const std::string& temporary);
+/// "PID-NUMBER" of this process.
+std::string own_suffix(int number);
 
-/// Makes a name beside `path` by `make`, which returns 0, or -1 with EEXIST where the name is
-/// taken: by another thread, or left by a killed process that had the same number.
+/// Makes a name beside `path` by `make`, which returns 0 or more, or -1 with EEXIST where the name
+/// is taken: by another thread, or left by a killed process that had the same number.
 template <class Make>
 std::optional<std::string> take_temporary(const std::string& path, Make make) {
   for (int number = 0; number < 10000; ++number) {
-    std::string name = temporary_name(path, number);
+    std::string name = temporary_name(path, own_suffix(number));
     if (make(name.c_str()) >= 0) return name;
     if (errno != EEXIST) return std::nullopt;
   }

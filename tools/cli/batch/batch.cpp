@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/shared/paths.hpp"
 #include "batch/list.hpp"
 #include "batch/run.hpp"
 #include "batch/summary.hpp"
-#include "writing/library.hpp"
+#include "library.hpp"
+#include "writing/changes.hpp"
 
 namespace deck::cli::verb_batch {
 namespace {
@@ -32,24 +32,19 @@ std::string value_among(const std::vector<std::string>& words, const std::string
 }
 
 /// What a verb that writes decks does with them.
-Result<void> parse_writing(BatchTask& task, const CommandLine& line) {
-  const std::string& verb = std::string(task.verb.name);
-  const auto has = [&](const char* option) { return line.given(option); };
-  if (verb == "convert") {
-    const std::string from = value_among(task.words, "--from"),
-                      to = value_among(task.words, "--to");
-    if (from == "json") task.ending = document_ending;
-    task.from_json = from == "json";
-    task.to_json = to == "json";
+void parse_writing(BatchTask& task, const CommandLine& line) {
+  if (task.converts()) {
+    task.from_json = value_among(task.words, "--from") == "json";
+    task.to_json = value_among(task.words, "--to") == "json";
+    if (task.from_json) task.ending = document_ending;
   }
-  task.writes = verb == "convert" || verb == "fix" || has("--fix") || has("--unsafe-fixes");
-  if (!task.writes) return {};
-  task.in_place = verb == "lint" || has("--in-place");
-  task.with_documents = verb != "convert";
-  task.with_dependents = has("--with-dependents");
-  task.split_includes = has("--split-includes");
+  task.writes = task.converts() || task.verb.name == "fix" || line.given("--fix") ||
+                line.given("--unsafe-fixes");
+  if (!task.writes) return;
+  task.in_place = task.verb.name == "lint" || line.given("--in-place");
+  task.with_documents = !task.converts();
+  task.with_dependents = line.given("--with-dependents");
   task.root = value_among(task.words, "--root");
-  return {};
 }
 
 /// Error: no such verb, or options that it does not take.
@@ -75,8 +70,7 @@ Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all
   for (const std::string& name : not_in_a_batch)
     if (line.given(name)) return refuse(name + " is not for a batch");
   if (line.existing("decks").count() != 1) return refuse("decks are named after the options");
-  if (const auto writing = parse_writing(task, line); !writing)
-    return refuse(writing.error().message);
+  parse_writing(task, line);
   for (const std::string& dir : o.common.include_paths)
     task.options.insert(task.options.end(), {"--include-path", dir});
   for (const std::string& dir : o.common.schema_dirs)
@@ -96,67 +90,86 @@ bool holds_includes(const std::string& document) {
   return head.find("\"includes\": []") == head.npos;
 }
 
-/// The decks of the list that have to be done together, and where the batch writes them.
-Result<void> plan_groups(const BatchOptions& o, BatchTask& task, BatchList& list,
-                         std::vector<std::vector<std::size_t>>& groups) {
-  std::vector<BatchDeck>& decks = list.decks;
-  if (!task.writes) {
-    for (std::size_t i = 0; i < decks.size(); ++i) groups.push_back({i});
+/// In place: what a kill left half written is finished, and the decks that depend on the same files
+/// join the list, or their files are outsiders'.
+Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, BatchList& list) {
+  std::vector<std::string> paths;
+  for (const BatchDeck& d : list.decks) paths.push_back(d.path);
+  for (const std::string& deck : paths)
+    if (const auto finished = finish_interrupted(deck, paths, o.common); finished && *finished)
+      list.files.clear();  // an error concerns its group alone: the worker says so
+  auto dependents = find_dependents(paths, task.root, o.common.include_paths);
+  if (!dependents) return dependents.error();
+  if (const std::string where = dependents->where(); !where.empty() && !o.common.quiet)
+    print_note(where);
+  if (!task.with_dependents || dependents->decks.empty()) {
+    task.outsiders = std::move(dependents->shared);
     return {};
   }
-  const auto& given = o.common.decks;
-  std::vector<std::string> paths;
-  for (const BatchDeck& d : decks) paths.push_back(d.path);
-  if (task.in_place) {
-    auto dependents = find_dependents(paths, task.root, o.common.include_paths);
-    if (!dependents) return dependents.error();
-    if (const std::string where = dependents->where(); !where.empty() && !o.common.quiet)
-      print_note(where);
-    if (task.with_dependents && !dependents->decks.empty()) {
-      paths.insert(paths.end(), dependents->decks.begin(), dependents->decks.end());
-      auto more = list_decks(paths, "", task.ending, o.directory, o.common.include_paths);
-      if (!more) return more.error();
-      decks = std::move(more->decks);
-    } else {
-      task.outsiders = std::move(dependents->shared);
-    }
+  paths.insert(paths.end(), dependents->decks.begin(), dependents->decks.end());
+  auto more = list_decks(paths, "", task.ending, o.directory, o.common.include_paths);
+  if (!more) return more.error();
+  list.decks = std::move(more->decks);
+  return {};
+}
+
+/// The decks of the list that have to be done together, and where the batch writes them.
+Result<std::vector<BatchGroup>> plan_groups(const BatchOptions& o, BatchTask& task,
+                                            BatchList& list) {
+  if (task.in_place)
+    if (auto prepared = prepare_in_place(o, task, list); !prepared) return prepared.error();
+  std::vector<BatchGroup> groups;
+  if (!task.writes || task.to_json)  // a document holds all files of its deck
+    for (std::size_t i = 0; i < list.decks.size(); ++i) groups.push_back({{i}});
+  if (!task.writes) return groups;
+  std::vector<std::vector<IncludeScan::File>> trees;
+  IncludeScan scan(o.common.include_paths);
+  for (const BatchDeck& deck : list.decks) {
+    const auto known = list.files.find(deck.path);
+    if (!task.from_json)
+      trees.push_back(known == list.files.end() ? scan.files(deck.path) : known->second);
+    else if (holds_includes(deck.path))  // which others may hold as well
+      trees.push_back({{deck.path, FileIdentity(), file_hash(deck.path)}});
+    else
+      trees.emplace_back();
   }
+  if (!task.to_json)
+    for (std::vector<std::size_t>& decks : sharing_groups(trees))
+      groups.push_back({std::move(decks)});
   std::vector<std::string> directories, files;
   std::error_code ec;
-  for (const std::string& path : given)
+  for (const std::string& path : o.common.decks)
     if (std::filesystem::is_directory(path, ec)) directories.push_back(path);
-  std::vector<std::vector<IncludeScan::File>> files_of_decks;
-  IncludeScan scan(o.common.include_paths);
-  std::size_t together = SIZE_MAX;
-  for (std::size_t i = 0; i < decks.size(); ++i) {
-    if (task.from_json) {
-      files.push_back(decks[i].path);
-      const bool several = holds_includes(decks[i].path);
-      if (several && together != SIZE_MAX) {
-        groups[together].push_back(i);
-        continue;
-      }
-      if (several) together = groups.size();
-      groups.push_back({i});
-      continue;
+  for (BatchGroup& group : groups) {
+    std::vector<std::string> decks;
+    std::vector<std::vector<IncludeScan::File>> of_decks;
+    for (const std::size_t i : group.decks) {
+      decks.push_back(list.decks[i].path);
+      of_decks.push_back(std::move(trees[i]));
     }
-    const auto known = list.files.find(decks[i].path);
-    files_of_decks.push_back(known == list.files.end() ? scan.files(decks[i].path)
-                                                       : std::move(known->second));
-    files.push_back(decks[i].path);
-    std::set<std::string>& seen = task.seen[decks[i].path];
-    for (const IncludeScan::File& f : files_of_decks.back()) {
-      files.push_back(f.path);
-      seen.insert(absolute_path(f.path));
-    }
+    const DeckFiles found = files_of_decks(decks, of_decks);
+    group.files = found.paths;
+    group.contents = found.contents;
+    files.insert(files.end(), group.files.begin(), group.files.end());
   }
   task.frame_root = common_root(directories, files);
-  if (task.from_json) return {};
-  if (task.to_json)  // a document holds all files of its deck
-    for (std::size_t i = 0; i < decks.size(); ++i) groups.push_back({i});
-  else
-    groups = sharing_groups(files_of_decks);
-  return {};
+  return groups;
+}
+
+/// --merge: the whole from the summaries of all shards.
+int merge(const BatchOptions& o) {
+  const auto usage = [&](const std::string& message) {
+    print_error(o.common, message);
+    return exit_usage;
+  };
+  if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
+    return usage("--merge takes no decks: it merges the summaries in DIR");
+  const auto merged = merge_shards(o.directory);
+  if (!merged) return usage(merged.error().message);
+  remove_strays_below(o.directory);
+  if (auto written = write_overview(*o.common.session, o.directory, *merged); !written)
+    return usage(written.error().message);
+  return report_batch(o, *merged, 0);
 }
 
 int run(const BatchOptions& o) {
@@ -165,17 +178,7 @@ int run(const BatchOptions& o) {
     return exit_usage;
   };
   if (const int bad = check_outputs(o.common, {o.common.json}); bad != exit_clean) return bad;
-  if (o.merge) {
-    if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
-      return usage("--merge takes no decks: it merges the summaries in DIR");
-    const auto parts = read_shard_summaries(o.directory);
-    if (!parts) return usage(parts.error().message);
-    const auto merged = merge_summaries(*parts);
-    if (!merged) return usage(merged.error().message);
-    if (auto written = write_overview(*o.common.session, o.directory, *merged); !written)
-      return usage(written.error().message);
-    return report_batch(o, *merged, 0);
-  }
+  if (o.merge) return merge(o);
   const auto shard = parse_shard(o.shard);
   if (!shard) return usage(shard.error().message);
   auto task = parse_task(o, verbs());
@@ -202,10 +205,9 @@ int run(const BatchOptions& o) {
                      : "no decks among the files found: " + list->includes.front().path + " " +
                            list->includes.front().why);
   if (const auto schemas = load_schemas(o.common); !schemas) return usage(schemas.error().message);
-  std::vector<std::vector<std::size_t>> groups;
-  if (auto planned = plan_groups(o, *task, *list, groups); !planned)
-    return usage(planned.error().message);
-  Batch batch(o, std::move(*task), std::move(*list), std::move(groups), *shard);
+  auto groups = plan_groups(o, *task, *list);
+  if (!groups) return usage(groups.error().message);
+  Batch batch(o, std::move(*task), std::move(*list), std::move(*groups), *shard);
   return batch.run();
 }
 

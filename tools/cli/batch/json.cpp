@@ -2,9 +2,6 @@
 #include "batch/json.hpp"
 
 #include <nlohmann/json.hpp>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "report/shared/json.hpp"
 
@@ -12,80 +9,6 @@ namespace deck::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Listens to a document being parsed and keeps the members of its "summary", its "verdict" whole,
-/// how much it says was examined, and the length of its "interfaces".
-class Facts : public nlohmann::json_sax<Json> {
- public:
-  bool null() override { return scalar(nullptr); }
-  bool boolean(bool v) override { return scalar(v); }
-  bool number_integer(number_integer_t v) override { return scalar(v); }
-  bool number_unsigned(number_unsigned_t v) override { return scalar(v); }
-  bool number_float(number_float_t v, const string_t&) override { return scalar(v); }
-  bool string(string_t& v) override { return scalar(v); }
-  bool binary(binary_t&) override { return false; }
-  bool start_object(std::size_t) override {
-    if (depth_ == 2 && section_ == "summary") counts[member_] = Json::object();
-    return open(Json::object());
-  }
-  bool end_object() override { return close(); }
-  bool start_array(std::size_t) override { return open(Json::array()); }
-  bool end_array() override { return close(); }
-  bool key(string_t& name) override {
-    if (depth_ == 1) section_ = name;
-    if (depth_ == 2) member_ = name;
-    if (depth_ == 3) inner_ = name;
-    name_ = name;
-    return true;
-  }
-  bool parse_error(std::size_t, const std::string&, const Json::exception&) override {
-    return false;
-  }
-
-  Json counts = Json::object();
-  Json verdict;
-  std::optional<std::uint64_t> examined;
-  std::optional<bool> gate;
-
- private:
-  /// A value of the verdict, in its place there.
-  Json& keep(Json value) {
-    if (building_.empty()) return verdict = std::move(value);
-    Json& in = *building_.back();
-    if (!in.is_array()) return in[name_] = std::move(value);
-    in.push_back(std::move(value));
-    return in.back();
-  }
-  bool in_verdict() const { return depth_ >= 1 && section_ == "verdict"; }
-  bool open(Json empty) {
-    if (in_verdict()) building_.push_back(&keep(std::move(empty)));
-    if (depth_ == 1 && section_ == "interfaces") counts["interfaces"] = 0;
-    if (depth_ == 2 && section_ == "interfaces")
-      counts["interfaces"] = counts["interfaces"].get<std::uint64_t>() + 1;
-    ++depth_;
-    return true;
-  }
-  bool close() {
-    --depth_;
-    if (!building_.empty()) building_.pop_back();
-    return true;
-  }
-  template <class T>
-  bool scalar(const T& value) {
-    if (in_verdict()) keep(value);
-    if (depth_ == 2 && section_ == "summary") counts[member_] = value;
-    if (depth_ == 3 && section_ == "summary" && counts[member_].is_object())
-      counts[member_][inner_] = value;
-    if constexpr (std::is_same_v<T, bool>)
-      if (depth_ == 2 && section_ == "gate" && member_ == "passed") gate = value;
-    if constexpr (std::is_same_v<T, number_unsigned_t>)
-      if (depth_ == 1 && section_ == "examined") examined = value;
-    return true;
-  }
-  int depth_ = 0;
-  std::string section_, member_, inner_, name_;
-  std::vector<Json*> building_;  ///< containers of the verdict that are open
-};
 
 void write_value(JsonWriter& json, const Json& v) {
   if (v.is_object()) {
@@ -114,6 +37,12 @@ void write_value(JsonWriter& json, const Json& v) {
   }
 }
 
+/// The member of that name if it is an object, else an empty one.
+Json object_of(const Json& document, const char* name) {
+  const auto found = document.find(name);
+  return found != document.end() && found->is_object() ? *found : Json::object();
+}
+
 }  // namespace
 
 std::string json_line(const Json& value) {
@@ -124,15 +53,36 @@ std::string json_line(const Json& value) {
   return text;
 }
 
-std::optional<DocumentFacts> document_facts(std::string_view document) {
-  Facts facts;
-  if (!Json::sax_parse(document.begin(), document.end(), &facts)) return std::nullopt;
-  DocumentFacts out{json_line(facts.counts), {}, {}, facts.examined, facts.gate};
-  if (facts.verdict.is_object()) {
-    out.verdict = json_line(facts.verdict);
-    out.level = facts.verdict.value("level", "");
+std::optional<DocumentFacts> document_facts(std::string_view text) {
+  std::string member;  // of the document
+  std::optional<std::uint64_t> interfaces;
+  // Of the members that are lists or objects three are kept, of "interfaces" the number is.
+  const auto keep = [&](int depth, Json::parse_event_t event, Json& value) {
+    const bool opens =
+        event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    if (depth == 1 && event == Json::parse_event_t::key) member = value.get<std::string>();
+    if (opens && member == "interfaces" && depth == 1) interfaces = 0;
+    if (opens && member == "interfaces" && depth == 2) ++*interfaces;
+    return depth != 1 || !opens || member == "summary" || member == "verdict" || member == "gate";
+  };
+  const Json document = Json::parse(text, keep, false);
+  if (!document.is_object()) return std::nullopt;
+  DocumentFacts facts;
+  Json counts = object_of(document, "summary");
+  for (auto it = counts.begin(); it != counts.end();)
+    it = it->is_array() ? counts.erase(it) : std::next(it);
+  if (interfaces) counts["interfaces"] = *interfaces;
+  facts.counts = json_line(counts);
+  if (const Json verdict = object_of(document, "verdict"); !verdict.empty()) {
+    facts.verdict = json_line(verdict);
+    facts.level = verdict.value("level", "");
   }
-  return out;
+  if (const auto examined = document.find("examined");
+      examined != document.end() && examined->is_number_unsigned())
+    facts.examined = examined->get<std::uint64_t>();
+  if (const Json gate = object_of(document, "gate"); gate.contains("passed"))
+    facts.gate = gate.at("passed").get<bool>();
+  return facts;
 }
 
 }  // namespace deck::cli

@@ -1,6 +1,8 @@
 // Walks directories and manifests and names the results.
 #include "batch/list.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -10,12 +12,14 @@
 #include <set>
 #include <sstream>
 
+#include "base/shared/hash.hpp"
 #include "base/shared/paths.hpp"
+#include "batch/record.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/source.hpp"
 #include "edit/shared/include_scan.hpp"
+#include "library.hpp"
 #include "text/shared/gzip.hpp"
-#include "writing/library.hpp"
 
 namespace deck::cli {
 namespace {
@@ -192,6 +196,37 @@ Result<BatchList> list_decks(const std::vector<std::string>& given, const std::s
   const auto names = result_names(paths);
   for (std::size_t i = 0; i < decks.size(); ++i) decks[i].result = names[i] + ".json";
   return list;
+}
+
+DeckFiles files_of_decks(const std::vector<std::string>& decks,
+                         const std::vector<std::vector<IncludeScan::File>>& trees) {
+  DeckFiles out;
+  std::string text;
+  const auto add = [&](const std::string& path, std::uint64_t contents) {
+    out.paths.push_back(path);
+    text += "\n" + path + " " + std::to_string(contents);
+  };
+  for (std::size_t d = 0; d < decks.size(); ++d) {
+    if (trees[d].empty()) add(decks[d], file_hash(decks[d]));
+    for (const IncludeScan::File& f : trees[d]) add(f.path, f.contents);
+    std::string name = without_gz(decks[d]);
+    if (!name.ends_with(deck_ending)) continue;
+    name.resize(name.size() - deck_ending.size());
+    for (int number = 1;; ++number) {
+      const std::string engine = fmt::format("{}_{:04}.rad", name, number);
+      const std::uint64_t plain = file_hash(engine), packed = file_hash(engine + ".gz");
+      if (plain == 0 && packed == 0) break;
+      add(engine, plain == 0 ? packed : plain);
+    }
+  }
+  out.contents = content_hash(text);
+  return out;
+}
+
+DeckFiles files_of_decks(const std::vector<std::string>& decks, IncludeScan& scan) {
+  std::vector<std::vector<IncludeScan::File>> trees;
+  for (const std::string& deck : decks) trees.push_back(scan.files(deck));
+  return files_of_decks(decks, trees);
 }
 
 Result<Shard> parse_shard(const std::string& text) {

@@ -47,6 +47,16 @@ Result<BatchList> list_decks(const std::vector<std::string>& given, const std::s
                              std::string_view ending, const std::string& output,
                              const std::vector<std::string>& include_paths);
 
+/// The files of decks, as far as they can be found, with Engine files, which some verbs look at.
+struct DeckFiles {
+  std::vector<std::string> paths;
+  std::uint64_t contents = 0;  ///< hash of paths and contents
+};
+DeckFiles files_of_decks(const std::vector<std::string>& decks, IncludeScan& scan);
+/// The same with the include trees of the decks known; empty: those of documents.
+DeckFiles files_of_decks(const std::vector<std::string>& decks,
+                         const std::vector<std::vector<IncludeScan::File>>& trees);
+
 /// Part `index` (1-based) of `count`: every count-th deck, or group of decks that share files.
 struct Shard {
   std::size_t index = 1, count = 1;

@@ -66,23 +66,6 @@ for(const table of document.querySelectorAll("table.sorts")){
   for(const r of body.rows)r.hidden=on&&r.dataset.level!==button.dataset.level}}
 )";
 
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 /// A path as the address of a file beside the page.
 std::string address_of(std::string_view path) {
   constexpr std::string_view hex = "0123456789ABCDEF";

@@ -1,13 +1,16 @@
-// Forks workers, hands out jobs, notices those that die or take too long.
+// Forks workers, hands out jobs, notices those that die or take too long. A worker and the parent
+// have a pair of sockets, for the numbers of jobs and for "done", and files in memory that they
+// share.
 #include "batch/pool.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <malloc.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/signalfd.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,77 +20,43 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <exception>
-#include <memory>
 
 namespace deck::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-volatile sig_atomic_t caught = 0;
-void on_signal(int number) { caught = number; }
-
-/// Catches the signals that end a program from outside, as long as it lives.
-class SignalGuard {
+/// Holds back the signals that end a program from outside, as long as it lives: `file` tells them.
+class HeldSignals {
  public:
-  SignalGuard() {
-    caught = 0;
-    struct sigaction action {};
-    action.sa_handler = on_signal;
-    for (std::size_t i = 0; i < std::size(numbers); ++i)
-      sigaction(numbers[i], &action, &before_[i]);
-    struct sigaction ignore {};
-    ignore.sa_handler = SIG_IGN;  // a worker that is gone shows as the end of its pipe
-    sigaction(SIGPIPE, &ignore, &pipe_before_);
+  HeldSignals() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+      struct sigaction now {};
+      sigaction(number, nullptr, &now);
+      if (now.sa_handler != SIG_IGN) sigaddset(&set, number);  // nohup
+    }
+    pthread_sigmask(SIG_BLOCK, &set, &before_);
+    file = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
   }
-  SignalGuard(const SignalGuard&) = delete;
-  SignalGuard& operator=(const SignalGuard&) = delete;
-  ~SignalGuard() {
-    for (std::size_t i = 0; i < std::size(numbers); ++i)
-      sigaction(numbers[i], &before_[i], nullptr);
-    sigaction(SIGPIPE, &pipe_before_, nullptr);
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+  ~HeldSignals() {
+    if (file >= 0) close(file);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }
+  /// Number of one that came; 0: none.
+  int caught() const {
+    signalfd_siginfo info{};
+    return read(file, &info, sizeof info) == sizeof info ? static_cast<int>(info.ssi_signo) : 0;
+  }
+
+  int file = -1;
 
  private:
-  static constexpr int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-  struct sigaction before_[3]{}, pipe_before_{};
+  sigset_t before_{};
 };
-
-/// One deck after the other asks for the same memory again: what is free stays where it is instead
-/// of being joined, given back to the system and fetched anew for each.
-void keep_memory() {
-#ifdef __GLIBC__
-  constexpr int most = 64 << 20;
-  mallopt(M_MXFAST, 0);
-  mallopt(M_MMAP_THRESHOLD, most / 2);
-  mallopt(M_TRIM_THRESHOLD, most);
-#endif
-}
-
-bool read_exactly(int fd, void* to, std::size_t size) {
-  auto* at = static_cast<char*>(to);
-  while (size > 0) {
-    const ssize_t n = read(fd, at, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    at += n;
-    size -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
-bool write_exactly(int fd, const void* from, std::size_t size) {
-  const auto* at = static_cast<const char*>(from);
-  while (size > 0) {
-    const ssize_t n = write(fd, at, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    at += n;
-    size -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
 
 std::string whole(int fd) {
   std::string text;
@@ -104,6 +73,16 @@ std::string whole(int fd) {
   return text;
 }
 
+bool write_whole(int fd, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = write(fd, text.data(), text.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return true;
+}
+
 /// A file in memory that writes always extend.
 int memory_file(const char* name) {
   const int fd = memfd_create(name, MFD_CLOEXEC);
@@ -113,236 +92,177 @@ int memory_file(const char* name) {
 
 struct Worker {
   pid_t pid = -1;
-  int jobs = -1, results = -1, err = -1;
+  int line = -1;                        ///< to the worker
+  int answer = -1, out = -1, err = -1;  ///< files in memory, which the worker fills
   bool busy = false;
   std::size_t job = 0;
-  Clock::time_point deadline;
-  std::string received;
+  Clock::time_point deadline = {};
 
-  void close_all() {
-    for (int* fd : {&jobs, &results, &err}) {
-      if (*fd >= 0) close(*fd);
-      *fd = -1;
-    }
+  void close_all() const {
+    for (const int fd : {line, answer, out, err})
+      if (fd >= 0) close(fd);
   }
 };
 
-/// The life of a worker: numbers come in, length and message go out.
-[[noreturn]] void serve(int jobs, int results, int err, const WorkerPool::Work& work) {
-  const int out = memory_file("out");
-  if (out < 0 || dup2(out, 1) < 0 || dup2(err, 2) < 0) _exit(120);
-  Captured captured(out, err);
+/// The life of a worker. `line` leads to the parent.
+[[noreturn]] void serve(int line, const Worker& files, const WorkerPool& pool) {
+  if (dup2(files.out, 1) < 0 || dup2(files.err, 2) < 0) _exit(120);
   std::uint64_t job = 0;
-  while (read_exactly(jobs, &job, sizeof job)) {
-    captured.reset();
-    const std::string message = work(static_cast<std::size_t>(job), captured);
-    const std::uint64_t size = message.size();
-    if (!write_exactly(results, &size, sizeof size) ||
-        !write_exactly(results, message.data(), message.size()))
-      break;
+  while (recv(line, &job, sizeof job, 0) == sizeof job) {
+    for (const int fd : {files.answer, files.out, files.err})
+      if (ftruncate(fd, 0) != 0) _exit(120);
+    const std::string answer = pool.work(static_cast<std::size_t>(job), {files.out, files.err});
+    if (!write_whole(files.answer, answer) || send(line, "", 1, MSG_NOSIGNAL) != 1) _exit(120);
   }
   _exit(0);
 }
 
-class Run {
+/// The workers that live; none of them outlives it.
+class Workers {
  public:
-  Run(double timeout, const WorkerPool::Work& work) : timeout_(timeout), work_(work) {}
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
-  ~Run() {
-    for (Worker& w : workers_) {
-      if (w.busy) kill(w.pid, SIGKILL);
-      w.close_all();
-    }
-    for (const Worker& w : workers_)
-      if (w.pid > 0) waitpid(w.pid, nullptr, 0);
+  explicit Workers(const WorkerPool& pool) : pool_(pool) {}
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+  ~Workers() {
+    for (Worker& w : workers_) (void)bury(w, "");
   }
 
   Result<void> start();
-  void assign(Worker& worker, std::size_t job);
-  /// Waits for something to happen; the reports of what did.
-  std::vector<JobReport> wait(std::chrono::milliseconds longest);
-
-  std::vector<Worker>& workers() { return workers_; }
+  void assign(Worker& worker, std::size_t job) const;
+  /// Waits until something happens, a little at most; the reports of what did.
+  std::vector<JobReport> wait(int signals);
+  std::vector<Worker>& all() { return workers_; }
 
  private:
-  void receive(Worker& worker, std::vector<JobReport>& reports);
-  JobReport bury(Worker& worker, const std::string& why);
+  static JobReport bury(Worker& worker, const std::string& why);
 
-  double timeout_;
-  const WorkerPool::Work& work_;
+  const WorkerPool& pool_;
   std::vector<Worker> workers_;
 };
 
-Result<void> Run::start() {
-  int jobs[2], results[2];
-  const auto failed = [](const char* what) {
-    return Error{Error::Code::internal,
-                 std::string("cannot start a worker: ") + what + ": " + std::strerror(errno)};
-  };
-  if (pipe2(jobs, O_CLOEXEC) != 0) return failed("pipe");
-  if (pipe2(results, O_CLOEXEC) != 0) {
-    close(jobs[0]);
-    close(jobs[1]);
-    return failed("pipe");
-  }
+Result<void> Workers::start() {
+  int ends[2] = {-1, -1};
   Worker worker;
-  worker.jobs = jobs[1];
-  worker.results = results[0];
+  worker.answer = memory_file("answer");
+  worker.out = memory_file("out");
   worker.err = memory_file("err");
+  const bool ready = worker.answer >= 0 && worker.out >= 0 && worker.err >= 0 &&
+                     socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) == 0;
+  worker.line = ends[0];
   std::fflush(nullptr);  // what is buffered now must not be printed by the worker as well
   const pid_t parent = getpid();
-  worker.pid = worker.err < 0 ? -1 : fork();
+  if (ready) worker.pid = fork();
   if (worker.pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(0);
-    // The parent decides when to stop; an interrupt from the terminal reaches all of us.
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_IGN);
-    close(jobs[1]);
-    close(results[0]);
-    for (Worker& other : workers_) other.close_all();
-    keep_memory();
-    serve(jobs[0], results[1], worker.err, work_);
+    close(worker.line);
+    for (const Worker& other : workers_) other.close_all();
+    serve(ends[1], worker, pool_);  // with signals held: the parent decides when to stop
   }
   const int code = errno;
-  close(jobs[0]);
-  close(results[1]);
+  if (ends[1] >= 0) close(ends[1]);
   if (worker.pid < 0) {
     worker.close_all();
-    errno = code;
-    return failed("fork");
+    return Error{Error::Code::internal,
+                 std::string("cannot start a worker: ") + std::strerror(code)};
   }
-  fcntl(worker.results, F_SETFL, O_NONBLOCK);
-  workers_.push_back(std::move(worker));
+  workers_.push_back(worker);
   return {};
 }
 
-void Run::assign(Worker& worker, std::size_t job) {
+void Workers::assign(Worker& worker, std::size_t job) const {
   const std::uint64_t number = job;
   worker.busy = true;
   worker.job = job;
   worker.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                       std::chrono::duration<double>(timeout_));
-  // A worker that cannot be told what to do would be waited for; its end is noticed like any other.
-  if (!write_exactly(worker.jobs, &number, sizeof number)) kill(worker.pid, SIGKILL);
+                                       std::chrono::duration<double>(pool_.timeout));
+  // One that cannot be told what to do would be waited for; its end is noticed like any other.
+  if (send(worker.line, &number, sizeof number, MSG_NOSIGNAL) != sizeof number)
+    kill(worker.pid, SIGKILL);
 }
 
-JobReport Run::bury(Worker& worker, const std::string& why) {
-  int status = 0;
-  waitpid(worker.pid, &status, 0);
+/// Ends a worker, if it has not ended. `why` it is killed; empty: see how it ended.
+JobReport Workers::bury(Worker& worker, const std::string& why) {
   JobReport report;
+  int status = 0;
+  shutdown(worker.line, SHUT_RDWR);
+  if (!why.empty() || worker.busy) kill(worker.pid, SIGKILL);  // may be gone already
+  waitpid(worker.pid, &status, 0);
   report.job = worker.job;
   report.err = whole(worker.err);
   report.why = why;
-  if (why.empty() && WIFSIGNALED(status))
+  if (why.empty() && WIFSIGNALED(status)) {
     report.why =
         fmt::format("killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-  else if (why.empty()) {
+  } else if (why.empty()) {
     report.exit_code = WEXITSTATUS(status);
     report.why = fmt::format("ended with exit code {}", report.exit_code);
   }
   worker.close_all();
   worker.pid = -1;
-  worker.busy = false;
   return report;
 }
 
-void Run::receive(Worker& worker, std::vector<JobReport>& reports) {
-  char buffer[65536];
-  bool end = false;
-  for (;;) {
-    const ssize_t n = read(worker.results, buffer, sizeof buffer);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      end = n == 0 || errno != EAGAIN;
-      break;
-    }
-    worker.received.append(buffer, static_cast<std::size_t>(n));
-  }
-  std::uint64_t size = 0;
-  if (worker.received.size() >= sizeof size) {
-    std::memcpy(&size, worker.received.data(), sizeof size);
-    if (worker.received.size() >= sizeof size + size) {
-      JobReport report;
-      report.job = worker.job;
-      report.answered = true;
-      report.message = worker.received.substr(sizeof size, size);
-      worker.received.clear();  // one job at a time: nothing can follow
-      worker.busy = false;
-      reports.push_back(std::move(report));
-      return;
-    }
-  }
-  if (end) {
-    const bool busy = worker.busy;
-    kill(worker.pid, SIGKILL);  // nearly always gone already
-    JobReport report = bury(worker, "");
-    if (busy) reports.push_back(std::move(report));
-  }
-}
-
-std::vector<JobReport> Run::wait(std::chrono::milliseconds longest) {
+std::vector<JobReport> Workers::wait(int signals) {
+  auto until = Clock::now() + std::chrono::milliseconds(100);
   std::vector<pollfd> fds;
-  std::vector<std::size_t> who;
-  auto until = Clock::now() + longest;
-  for (std::size_t i = 0; i < workers_.size(); ++i) {
-    if (workers_[i].pid < 0) continue;
-    fds.push_back({workers_[i].results, POLLIN, 0});
-    who.push_back(i);
-    if (workers_[i].busy && timeout_ > 0) until = std::min(until, workers_[i].deadline);
+  for (const Worker& w : workers_) {
+    fds.push_back({w.line, POLLIN, 0});
+    if (w.busy && pool_.timeout > 0) until = std::min(until, w.deadline);
   }
+  fds.push_back({signals, POLLIN, 0});
   const auto left =
       std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
+  poll(fds.data(), fds.size(), static_cast<int>(std::max<std::int64_t>(0, left + 1)));
   std::vector<JobReport> reports;
-  if (poll(fds.data(), fds.size(), static_cast<int>(std::max<std::int64_t>(0, left + 1))) > 0)
-    for (std::size_t i = 0; i < fds.size(); ++i)
-      if (fds[i].revents != 0) receive(workers_[who[i]], reports);
-  if (timeout_ > 0)
-    for (Worker& w : workers_)
-      if (w.busy && Clock::now() >= w.deadline) {
-        kill(w.pid, SIGKILL);
-        reports.push_back(bury(w, fmt::format("no answer in {} s", timeout_)));
-      }
+  for (std::size_t i = 0; i < workers_.size(); ++i) {
+    Worker& w = workers_[i];
+    char done = 0;
+    if (fds[i].revents != 0 && recv(w.line, &done, 1, 0) == 1) {
+      w.busy = false;
+      reports.push_back({w.job, true, whole(w.answer), -1, "", ""});
+    } else if (fds[i].revents != 0) {
+      const bool busy = w.busy;
+      JobReport report = bury(w, "");
+      if (busy) reports.push_back(std::move(report));
+    } else if (w.busy && pool_.timeout > 0 && Clock::now() >= w.deadline) {
+      reports.push_back(bury(w, fmt::format("no answer in {} s", pool_.timeout)));
+    }
+  }
   std::erase_if(workers_, [](const Worker& w) { return w.pid < 0; });
   return reports;
 }
 
 }  // namespace
 
-void Captured::reset() {
-  for (const int fd : {out_, err_})
-    if (ftruncate(fd, 0) != 0) _exit(120);
-}
 std::string Captured::out() const {
   std::fflush(stdout);
-  return whole(out_);
+  return whole(out_file);
 }
 std::string Captured::err() const {
   std::fflush(stderr);
-  return whole(err_);
+  return whole(err_file);
 }
 
-Result<int> WorkerPool::run(const std::vector<std::size_t>& jobs,
-                            const std::function<bool(JobReport)>& done,
-                            const std::function<void()>& tick) {
-  const SignalGuard guard;
-  Run run(timeout_, work_);
-  std::size_t next = 0, finished = 0;
-  while (finished < jobs.size()) {
-    if (caught != 0) return static_cast<int>(caught);
+Result<int> WorkerPool::run(std::size_t jobs, const std::function<void(const JobReport&)>& done,
+                            const std::function<void()>& tick) const {
+  const HeldSignals signals;
+  Workers pool(*this);
+  for (std::size_t next = 0, finished = 0; finished < jobs;) {
     const std::size_t wanted =
-        std::min(static_cast<std::size_t>(std::max(1, workers_)), jobs.size() - finished);
-    while (run.workers().size() < wanted)
-      if (auto started = run.start(); !started) {
-        if (run.workers().empty()) return started.error();
+        std::min(static_cast<std::size_t>(std::max(1, workers)), jobs - finished);
+    while (pool.all().size() < wanted)
+      if (auto started = pool.start(); !started) {
+        if (pool.all().empty()) return started.error();
         break;  // fewer will do
       }
-    for (Worker& w : run.workers())
-      if (!w.busy && next < jobs.size()) run.assign(w, jobs[next++]);
-    for (JobReport& report : run.wait(std::chrono::milliseconds(100))) {
+    for (Worker& w : pool.all())
+      if (!w.busy && next < jobs) pool.assign(w, next++);
+    const std::vector<JobReport> reports = pool.wait(signals.file);
+    if (const int caught = signals.caught(); caught != 0) return caught;
+    for (const JobReport& report : reports) {
       ++finished;
-      if (caught != 0) return static_cast<int>(caught);
-      if (!done(std::move(report))) return 0;
+      done(report);
     }
     tick();
   }

@@ -1,5 +1,5 @@
-// Worker processes for a batch: each does one job after the other, and one that crashes, hangs or
-// runs out of memory costs its own job only.
+// Worker processes of a batch: one for each job, so many at a time, each with a time limit. One
+// that crashes, hangs or runs out of memory costs its own job only.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -10,47 +10,34 @@
 
 namespace deck::cli {
 
-/// Standard output and standard error of a worker, kept in memory.
-class Captured {
- public:
-  Captured(int out, int err) : out_(out), err_(err) {}
-  void reset();
+/// Standard output and standard error of a job, kept in memory.
+struct Captured {
+  int out_file = -1, err_file = -1;
   std::string out() const;
   std::string err() const;
-
- private:
-  int out_, err_;
 };
 
 /// How a job ended.
 struct JobReport {
   std::size_t job = 0;
   bool answered = false;
-  std::string message;  ///< what the work returned
-  int exit_code = -1;   ///< of a worker that ended without an answer by itself; -1: see `why`
-  std::string why;      ///< "killed by signal 11 (Segmentation fault)", "no answer in 5 s"
-  std::string err;      ///< standard error of a worker that ended without an answer
+  std::string answer;  ///< what the work returned
+  int exit_code = -1;  ///< of a worker that ended without an answer by itself; -1: see `why`
+  std::string why;     ///< "killed by signal 11 (Segmentation fault)", "no answer in 5 s"
+  std::string err;     ///< standard error of a worker that ended without an answer
 };
 
-class WorkerPool {
- public:
-  /// Runs in a worker; the message reaches JobReport::message.
-  using Work = std::function<std::string(std::size_t job, Captured& output)>;
+struct WorkerPool {
+  int workers = 1;
+  double timeout = 0;  ///< seconds for one job; 0: no limit
+  /// Runs in a worker; what it returns reaches JobReport::answer.
+  std::function<std::string(std::size_t job, const Captured& output)> work;
 
-  /// `timeout` in seconds for one job; 0: none.
-  WorkerPool(int workers, double timeout, Work work)
-      : workers_(workers), timeout_(timeout), work_(std::move(work)) {}
-
-  /// Does the jobs. `done` is called in this process, in the order of completion; it returns false
-  /// to stop. `tick` is called about ten times a second. Returns the number of the signal
-  /// (interrupt, termination, hang-up) that ended it early, or 0. Error: no process can be started.
-  Result<int> run(const std::vector<std::size_t>& jobs, const std::function<bool(JobReport)>& done,
-                  const std::function<void()>& tick);
-
- private:
-  int workers_;
-  double timeout_;
-  Work work_;
+  /// Does the jobs 0 ... `jobs` - 1. `done` is called in this process, in the order of completion;
+  /// `tick` about ten times a second. Returns the number of the signal (interrupt, termination,
+  /// hang-up) that ended it early, or 0. Error: no process can be started.
+  Result<int> run(std::size_t jobs, const std::function<void(const JobReport&)>& done,
+                  const std::function<void()>& tick) const;
 };
 
 }  // namespace deck::cli

@@ -1,5 +1,5 @@
-// What a batch remembers of a finished deck: which files and options its result came from, so that
-// the next run can tell whether it still holds. Records are lines of JSON in DIR/.batch/.
+// What a batch remembers of a group of decks: what its results came from and what they are, so that
+// the next run can tell whether they still hold. One file in DIR/.batch a group.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -8,74 +8,51 @@
 #include <string_view>
 #include <vector>
 
-#include "base/shared/hash.hpp"
+#include "batch/summary.hpp"
 #include "deck/text/result.hpp"
 
 namespace deck::cli {
 
-/// A file as it was when it was read.
-struct FileState {
-  std::string path;  ///< as opened
-  std::uint64_t size = 0;
-  std::int64_t mtime = 0;  ///< nanoseconds; 0: not to be relied on, compare the hash
+/// A file that was written.
+struct WrittenFile {
+  std::string path;  ///< relative to the output directory if it lies below that, else absolute
   std::uint64_t hash = 0;
 };
 
-/// State of a file with the bytes known. `since` is when reading began (nanoseconds): a file that
-/// was modified then or just before could be modified once more without its time showing it.
-FileState file_state(const std::string& path, std::string_view bytes, std::int64_t since);
-/// The same, reading the file; nullopt if that is not possible.
-std::optional<FileState> file_state(const std::string& path);
-/// Nanoseconds since the epoch, by the clock of file times.
-std::int64_t file_clock_now();
-
-/// One finished deck.
+/// Decks that were done together: several only where decks are written.
 struct Record {
-  std::string deck;                   ///< as given
-  std::string result;                 ///< file name in the output directory; empty: there is none
-  std::uint64_t key = 0;              ///< of tool, verb and options
-  std::uint64_t bytes = 0, hash = 0;  ///< of the result file
-  double seconds = 0;
-  std::vector<FileState> files;     ///< the include tree
-  std::vector<FileState> settings;  ///< other files the result depends on
-  std::vector<FileState> outputs;   ///< decks and documents written below the output directory
-  bool written = false;             ///< decks were written, below that directory or in place
-  bool announced = false;           ///< they are about to be written: `files`, `outputs` say what
-  std::string losses;  ///< of the decks that were written together: the lists of a loss report
-  std::string entry;   ///< its line of the summary, a JSON object
-  int code = 0;
+  std::string verb;
+  std::vector<std::string> decks;  ///< as given
+  std::uint64_t settings = 0;      ///< hash of program, verb, options and configuration
+  std::uint64_t contents = 0;      ///< hash of the files of the decks
+  /// False: refused, or about to be written. Whether it then was written, `outputs` tell.
+  bool done = false;
+  /// Not 0: `contents` before the decks were converted in place, which must not be done twice.
+  std::uint64_t before = 0;
+  double seconds = 0;  ///< of each deck
+  std::vector<SummaryEntry> entries;
+  std::vector<WrittenFile> outputs;
+  std::vector<WrittenFile> former;  ///< outputs of earlier runs that are none any more
+  std::string losses;               ///< the lists of a loss report
 };
 
-/// One line of JSON with its end.
-std::string record_line(const Record& record);
-/// nullopt: not a record, for example a line that was cut off.
-std::optional<Record> parse_record(std::string_view line);
+std::string record_text(const Record& record);
+/// nullopt: not a record.
+std::optional<Record> parse_record(std::string_view text);
+/// Where the record of the group is whose first deck has this result.
+std::string record_path(const std::string& directory, const std::string& result);
+/// The records of an output directory, by path.
+std::map<std::string, Record> read_records(const std::string& directory);
 
-/// The records of a text of such lines; what is no record is passed over.
-std::vector<Record> parse_records(std::string_view lines);
-
-/// Tells whether finished decks are still finished. Files that many decks include are looked at
-/// once.
-class Freshness {
- public:
-  /// True if the result in `directory` is as it was written and so are all files it came from.
-  /// `settings` are the paths it would depend on now.
-  bool holds(const Record& record, const std::string& directory, std::uint64_t key,
-             const std::string& result, const std::vector<std::string>& settings);
-  bool unchanged(const FileState& state);
-
- private:
-  struct Seen {
-    std::optional<std::uint64_t> size, hash;
-    std::int64_t mtime = 0;
-  };
-  std::map<std::string, Seen> seen_;
-};
+/// Hash of a regular file; 0: there is none.
+std::uint64_t file_hash(const std::string& path);
+/// True if the file is as it was written.
+bool is_as_written(const std::string& directory, const WrittenFile& file);
 
 /// `path` as it reads in JSON: bytes that are no UTF-8 are taken for Latin-1.
 std::string as_utf8(std::string_view text);
 
-/// What identifies this program: version and the identity the linker gave it.
+/// What identifies this program: its version and the hash of its files.
 std::string program_identity();
 
 }  // namespace deck::cli

@@ -1,19 +1,22 @@
-// The run of a batch in one process: what is to do, workers that do it, journal, results, summary.
+// The run of a batch in one process: what is to do, workers that do it, results, summary.
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "batch/json.hpp"
 #include "batch/list.hpp"
 #include "batch/pool.hpp"
 #include "batch/record.hpp"
 #include "batch/summary.hpp"
 #include "common.hpp"
+#include "library.hpp"
 #include "writing/frame.hpp"
-#include "writing/library.hpp"
 
 namespace deck::cli {
 
@@ -36,25 +39,29 @@ struct BatchTask {
   bool writes = false;
   bool in_place = false;        ///< else below the output directory
   bool with_documents = false;  ///< they have a document as well
-  bool from_json = false, to_json = false;
-  bool with_dependents = false, split_includes = false;
+  bool from_json = false, to_json = false, with_dependents = false;
   std::string root;        ///< where to look for decks that depend on the same files
   std::string frame_root;  ///< decks are written where they lie below it
   std::map<FileIdentity, std::string> outsiders;  ///< see BatchFrame
-  /// Files of each deck, by its path, that grouping the decks has seen; normal paths. Empty: decks
-  /// are no text with includes.
-  std::map<std::string, std::set<std::string>> seen;
+
+  bool converts() const { return verb.name == "convert"; }
+};
+
+/// Decks that are done together: one, or where decks are written those that share files.
+struct BatchGroup {
+  std::vector<std::size_t> decks;       ///< in the list of all
+  std::vector<std::string> files = {};  ///< see DeckFiles; where decks are written
+  std::uint64_t contents = 0;           ///< the same; 0: nobody has looked yet
 };
 
 /// One process's part of a batch. Nothing is lost when it is killed: results are put in place
-/// whole, each is noted in the journal DIR/.batch/NAME.jsonl after that (decks that are written
-/// before that, too), and a run begins with what the journals say and what still holds.
+/// whole, each group has a record that is written after them, and a run begins with what the
+/// records say and what still holds. Where decks are written, the record says before what will be.
 class Batch {
  public:
-  /// `list` has the decks of all shards, `groups` those that are done together; the process takes
-  /// the groups of its shard.
-  Batch(const BatchOptions& o, BatchTask task, BatchList list,
-        std::vector<std::vector<std::size_t>> groups, Shard shard);
+  /// `list` has the decks of all shards; the process takes the groups of its shard.
+  Batch(const BatchOptions& o, BatchTask task, BatchList list, std::vector<BatchGroup> groups,
+        Shard shard);
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
   ~Batch();
@@ -63,63 +70,64 @@ class Batch {
   int run();
 
  private:
+  struct Job {
+    BatchGroup group;
+    std::vector<std::string> decks;         ///< as given
+    std::string result;                     ///< name of the first one's
+    std::uint64_t settings = 0;             ///< see Record
+    std::vector<const Record*> known = {};  ///< that have one of the decks
+    std::optional<Record> record = {};      ///< done, now or before
+    bool overtaken = false;                 ///< was changed after it was converted in place
+  };
+  /// What came of a call of the verb.
+  struct Outcome {
+    int code = exit_internal;
+    std::string broken;  ///< why there is no result at all
+    std::string document, err;
+    std::optional<DocumentFacts> facts = {};
+  };
+
   int fail(const std::string& message) const {
     print_error(o_.common, message);
     return exit_usage;
   }
   std::string in_directory(const std::string& name) const { return o_.directory + "/" + name; }
-  std::string label() const;
+  /// A path as records have it: relative to the output directory where it lies below that.
+  std::string below_directory(const std::string& path) const;
 
+  Result<void> lock();
   Result<void> prepare();
-  Result<void> claim_directory() const;
-  void remove_strays(const std::set<std::string>& targets) const;
-  void read_journals();
-  Result<int> work();
-  std::string work_on(std::size_t index, Captured& output) const;
-  std::vector<Record> records_of(const JobReport& report) const;
-  Result<void> keep(Record record, std::size_t index);
-  /// Adds lines to the journal; of the process and its workers, each at once.
-  Result<void> note(const std::string& lines, bool flush) const;
-  Summary summary() const;
-  std::vector<const Record*> lasting() const;
-  Result<void> shorten_journal() const;
-  int finish();
+  void remove_temporaries() const;
+  void take_over(Job& job) const;
+  Result<int> work(std::size_t& kept);
+  void take(Job& job, const JobReport& report) const;
+  int finish(std::size_t kept);
 
-  // ---- writing.cpp: groups of decks that are written together
-  std::string write_group(std::size_t group, Captured& output) const;
-  /// Cleans up behind a writing that was killed: finishes it, and removes what is half written.
-  void settle(const std::vector<Record>& announced) const;
-  /// The same for all that the journals say was to be written.
-  void settle_announced();
-  /// What our journal says that these decks were to write.
-  std::vector<Record> announced_by(const std::vector<std::size_t>& group) const;
-  /// True if the file is one that this batch wrote, as it wrote it.
-  bool is_ours(const std::string& path) const;
-  /// Removes what the journals know and the list does not.
-  void remove_leftovers() const;
+  // ---- work.cpp: in a worker
+  std::string work_on(const Job& job, const Captured& output) const;
+  Outcome call(const Job& job, const Captured& output, BatchFrame& frame, Record& record) const;
+  Result<void> announce(const Job& job, const std::set<std::string>& read,
+                        const std::vector<OutputFile>& files, BatchFrame& frame,
+                        Record& record) const;
+  void keep_document(const Job& job, Outcome& outcome) const;
+  void enter_written(Record& record, const Job& job, BatchFrame& frame, const Outcome& outcome,
+                     bool written) const;
+  SummaryEntry entry_read(const Job& job, const Outcome& outcome) const;
+  void set_outputs(Record& record, const Job& job, std::vector<WrittenFile> outputs) const;
+  Result<void> write_record(const Job& job, const Record& record, bool sync) const;
 
   const BatchOptions& o_;
   BatchTask task_;
-  std::vector<BatchDeck> all_;
-  std::vector<IncludeFile> includes_;             ///< of all shards
-  std::vector<BatchDeck> decks_;                  ///< ours
-  std::vector<std::size_t> positions_;            ///< of ours among all
-  std::vector<std::vector<std::size_t>> groups_;  ///< of ours
   Shard shard_;
-  std::uint64_t key_ = 0;
-  std::vector<Record> records_;  ///< by deck; code -1: to do
-  std::vector<Record> known_;    ///< all that the journals hold
-  /// What was to be written when a process was killed, by the label of its journal.
-  std::map<std::string, std::vector<Record>> announced_;
-  /// What was written below the output directory, normal path and hash.
+  std::size_t all_ = 0;                ///< decks of all shards
+  std::vector<IncludeFile> includes_;  ///< of all shards
+  std::vector<Job> jobs_;              ///< ours
+  std::map<std::string, Record> known_;
+  /// What earlier runs wrote, by normal path and hash.
   std::set<std::pair<std::string, std::uint64_t>> written_;
-  std::set<std::size_t> overtaken_;  ///< decks that were changed after they were written in place
-  std::size_t kept_ = 0;
-  int journal_ = -1, lock_ = -1;
+  int lock_ = -1;
 };
 
-/// Runs a verb as `deck VERB ... DECK...` would; its output goes where standard output goes.
-int run_verb(const BatchTask& task, const std::vector<std::string>& decks, Session& session);
 /// The first line of what a program says on standard error.
 std::string first_line(std::string_view text);
 
@@ -130,11 +138,14 @@ Result<void> make_own_directory(const std::string& path);
 Result<void> write_result(Session& session, const std::string& path, std::string_view bytes,
                           bool sync);
 
-/// Writes the summary, the overview and, of decks that were converted, their loss report, which the
-/// journals hold. `own`: the records of the journal `own_name`, which is not read then.
-Result<void> write_overview(Session& session, const std::string& directory, const Summary& summary,
-                            const std::string& own_name = {},
-                            const std::vector<const Record*>& own = {});
+/// Removes temporary files that a killed process left, of these names in one directory or of all
+/// names below it.
+void remove_strays(const std::string& directory, const std::set<std::string>& names);
+void remove_strays_below(const std::string& directory);
+
+/// Writes the summary. Of the whole also the overview, and what earlier runs wrote and this summary
+/// does not have is removed; of decks that were converted their loss report.
+Result<void> write_overview(Session& session, const std::string& directory, const Summary& summary);
 
 /// Prints the totals and writes the document for --json; the exit code.
 int report_batch(const BatchOptions& options, const Summary& summary, std::size_t kept);

@@ -32,16 +32,12 @@ std::string_view status_of(int code) {
   return code == exit_input ? "unreadable" : "failed";
 }
 
-SummaryEntry entry_of(std::string json, int code) {
-  const auto parsed = nlohmann::json::parse(json, nullptr, false);
-  const auto status = parsed.is_object() ? parsed.find("status") : parsed.end();
-  const bool known = parsed.is_object() && status != parsed.end() && status->is_string();
-  return {std::move(json), code, known ? status->get<std::string>() : std::string(status_of(code))};
+SummaryEntry entry_of(const nlohmann::ordered_json& entry) {
+  return {json_line(entry), entry.at("exit_code").get<int>(),
+          entry.at("status").get<std::string>()};
 }
 
-std::string summary_entry(std::string_view deck, std::string_view status, std::string_view result,
-                          int code, std::string_view error, std::string_view verdict,
-                          std::string_view counts, std::optional<bool> gate) {
+SummaryEntry summary_entry(const EntryFacts& f) {
   std::string text;
   JsonWriter json(text);
   const auto text_or_null = [&](const char* name, std::string_view value) {
@@ -51,15 +47,15 @@ std::string summary_entry(std::string_view deck, std::string_view status, std::s
     else
       json.value(value);
   };
-  json.begin_object(true).field("deck", deck).field("status", status);
-  text_or_null("result", result);
-  json.field("exit_code", code);
-  text_or_null("error", error);
-  json.key("verdict").raw(verdict.empty() ? "null" : verdict);
-  text_or_null("gate", !gate ? "" : *gate ? "passed" : "failed");
-  json.key("counts").raw(counts.empty() ? "{}" : counts).end_object();
+  json.begin_object(true).field("deck", f.deck).field("status", f.status);
+  text_or_null("result", f.result);
+  json.field("exit_code", f.code);
+  text_or_null("error", f.error);
+  json.key("verdict").raw(f.verdict.empty() ? "null" : f.verdict);
+  text_or_null("gate", !f.gate ? "" : *f.gate ? "passed" : "failed");
+  json.key("counts").raw(f.counts.empty() ? "{}" : f.counts).end_object();
   text.erase(text.find_last_not_of('\n') + 1);
-  return text;
+  return {std::move(text), f.code, std::string(f.status)};
 }
 
 std::string summary_json(const Summary& s) {
@@ -112,8 +108,7 @@ Result<Summary> parse_summary(std::string_view text) {
     s.tool = json.at("tool").at("version").get<std::string>();
     s.verb = json.at("verb").get<std::string>();
     s.arguments = json.at("arguments").get<std::vector<std::string>>();
-    for (const auto& e : json.at("decks"))
-      s.entries.push_back(entry_of(json_line(e), e.at("exit_code").get<int>()));
+    for (const auto& e : json.at("decks")) s.entries.push_back(entry_of(e));
     if (json.contains("includes"))
       for (const auto& f : json.at("includes"))
         s.includes.push_back({f.at("file").get<std::string>(), f.at("why").get<std::string>()});
@@ -133,25 +128,64 @@ Result<Summary> parse_summary(std::string_view text) {
   }
 }
 
-Result<Summary> merge_summaries(const std::vector<Summary>& parts) {
+std::string summary_name(const Shard& shard) {
+  if (shard.whole()) return "summary.json";
+  return "summary-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) + ".json";
+}
+
+namespace {
+
+/// The summaries of all shards.
+Result<std::vector<Summary>> read_parts(const std::string& directory) {
   const auto refuse = [](const std::string& why) { return Error{Error::Code::config, why}; };
-  if (parts.empty()) return refuse("there is nothing to merge");
-  Summary merged = parts.front();
+  std::vector<Summary> parts;
+  std::set<std::string> names;
+  std::error_code ec;
+  for (auto it = fs::directory_iterator(directory, ec); !ec && it != fs::directory_iterator();
+       it.increment(ec))
+    if (const std::string name = it->path().filename().string();
+        name.starts_with("summary-") && name.ends_with(".json"))
+      names.insert(name);
+  if (ec) return refuse("cannot read " + directory + ": " + ec.message());
+  if (names.empty()) return refuse("there is no summary-i-of-n.json in " + directory);
+  for (const std::string& name : names) {
+    const auto source = Source::open(directory + "/" + name, Limits{});
+    if (!source) return refuse(source.error().message);
+    auto summary = parse_summary((*source)->bytes());
+    if (!summary) return refuse(directory + "/" + name + ": " + summary.error().message);
+    parts.push_back(std::move(*summary));
+  }
+  const std::size_t shards = parts.front().shard.count;
+  std::string missing;
+  for (std::size_t i = 1; i <= shards; ++i)
+    if (const Shard shard{i, shards}; names.erase(summary_name(shard)) == 0)
+      missing += " " + std::to_string(i) + "/" + std::to_string(shards);
+  if (!missing.empty()) return refuse("these shards are not finished:" + missing);
+  if (!names.empty())
+    return refuse(directory + " has summaries of " + std::to_string(shards) +
+                  " shards and others (" + *names.begin() +
+                  "); remove those that do not belong to this run");
+  return parts;
+}
+
+}  // namespace
+
+Result<Summary> merge_shards(const std::string& directory) {
+  const auto refuse = [](const std::string& why) { return Error{Error::Code::config, why}; };
+  const auto parts = read_parts(directory);
+  if (!parts) return parts.error();
+  Summary merged = parts->front();
   merged.entries.clear();
   merged.positions.clear();
   merged.shard = {};
   std::map<std::size_t, SummaryEntry> whole;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Summary& p = parts[i];
-    const std::string name = "shard " + std::to_string(i + 1);
-    if (p.verb != merged.verb || p.arguments != merged.arguments)
-      return refuse(name + " ran another verb or other options than shard 1");
-    if (p.tool != merged.tool)
-      return refuse(name + " was made by version " + p.tool + ", shard 1 by " + merged.tool);
-    if (p.all != merged.all) return refuse(name + " had another list of decks than shard 1");
-    for (std::size_t k = 0; k < p.entries.size(); ++k)
-      if (!whole.emplace(p.positions[k], p.entries[k]).second)
-        return refuse(name + " has a deck that another shard has too");
+  for (const Summary& p : *parts) {
+    if (p.verb != merged.verb || p.arguments != merged.arguments || p.tool != merged.tool ||
+        p.all != merged.all)
+      return refuse(summary_name(p.shard) +
+                    " has another list of decks, verb, options or version "
+                    "of the program than the other shards");
+    for (std::size_t k = 0; k < p.entries.size(); ++k) whole.emplace(p.positions[k], p.entries[k]);
   }
   if (whole.size() != merged.all)
     return refuse(
@@ -162,43 +196,6 @@ Result<Summary> merge_summaries(const std::vector<Summary>& parts) {
     merged.entries.push_back(std::move(entry));
   }
   return merged;
-}
-
-std::string summary_name(const Shard& shard) {
-  if (shard.whole()) return "summary.json";
-  return "summary-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) + ".json";
-}
-
-Result<std::vector<Summary>> read_shard_summaries(const std::string& directory) {
-  const auto refuse = [](const std::string& why) { return Error{Error::Code::config, why}; };
-  std::map<std::size_t, std::map<std::size_t, Summary>> sets;
-  std::error_code ec;
-  for (auto it = fs::directory_iterator(directory, ec); !ec && it != fs::directory_iterator();
-       it.increment(ec)) {
-    const std::string name = it->path().filename().string();
-    if (!name.starts_with("summary-") || !name.ends_with(".json")) continue;
-    const auto source = Source::open(it->path().string(), Limits{});
-    if (!source) return refuse(source.error().message);
-    auto summary = parse_summary((*source)->bytes());
-    if (!summary) return refuse(it->path().string() + ": " + summary.error().message);
-    if (summary_name(summary->shard) != name)
-      return refuse(it->path().string() + " says it is " + summary_name(summary->shard));
-    sets[summary->shard.count].emplace(summary->shard.index, std::move(*summary));
-  }
-  if (ec) return refuse("cannot read " + directory + ": " + ec.message());
-  if (sets.empty()) return refuse("there is no summary-i-of-n.json in " + directory);
-  if (sets.size() > 1)
-    return refuse(directory + " has summaries of " + std::to_string(sets.begin()->first) +
-                  " and of " + std::to_string(sets.rbegin()->first) +
-                  " shards; remove those that do not belong to this run");
-  auto& [count, set] = *sets.begin();
-  std::string missing;
-  for (std::size_t i = 1; i <= count; ++i)
-    if (!set.contains(i)) missing += " " + std::to_string(i) + "/" + std::to_string(count);
-  if (!missing.empty()) return refuse("these shards are not finished:" + missing);
-  std::vector<Summary> parts;
-  for (auto& [index, summary] : set) parts.push_back(std::move(summary));
-  return parts;
 }
 
 }  // namespace deck::cli

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,7 +15,7 @@
 namespace deck::cli {
 
 struct SummaryEntry {
-  std::string json;  ///< one line: deck, status, result, exit_code, error, verdict, counts
+  std::string json;  ///< one line: deck, status, result, exit_code, error, verdict, gate, counts
   int code = 0;
   std::string status = {};  ///< as in the line
 };
@@ -37,14 +38,18 @@ struct Summary {
 
 /// clean, findings, unreadable or failed.
 std::string_view status_of(int code);
-/// An entry from its line.
-SummaryEntry entry_of(std::string json, int code);
-
-/// The line of one deck. `result` empty: there is none; `verdict` and `counts` are JSON
-/// objects, no verdict is empty; `gate` as in DocumentFacts.
-std::string summary_entry(std::string_view deck, std::string_view status, std::string_view result,
-                          int code, std::string_view error, std::string_view verdict,
-                          std::string_view counts, std::optional<bool> gate = std::nullopt);
+/// What the line of a deck says.
+struct EntryFacts {
+  std::string_view deck, status;
+  std::string_view result;  ///< empty: there is none
+  int code = 0;
+  std::string_view error;
+  std::string_view verdict, counts;  ///< JSON objects; empty: there is none
+  std::optional<bool> gate = {};     ///< as in DocumentFacts
+};
+SummaryEntry summary_entry(const EntryFacts& facts);
+/// An entry of a summary that was parsed. Throws where it is none.
+SummaryEntry entry_of(const nlohmann::ordered_json& entry);
 
 std::string summary_json(const Summary& summary);
 Result<Summary> parse_summary(std::string_view text);
@@ -57,13 +62,9 @@ std::string summary_page(const Summary& summary, const Summary* previous,
 /// "" if all are clean. No line is longer than `width` (0: any length).
 std::string summary_table(const Summary& summary, std::size_t width, bool color);
 
-/// Parts of one list as the whole. Error: parts that do not belong together or do not make up the
-/// whole.
-Result<Summary> merge_summaries(const std::vector<Summary>& parts);
-
 /// "summary.json" or "summary-2-of-8.json".
 std::string summary_name(const Shard& shard);
-/// The complete set of shard summaries in a directory, in order. Error: none, or several sets.
-Result<std::vector<Summary>> read_shard_summaries(const std::string& directory);
+/// The whole from the summaries of all shards in a directory. Error: they do not make up one.
+Result<Summary> merge_shards(const std::string& directory);
 
 }  // namespace deck::cli

@@ -12,7 +12,7 @@
 #include "keyword/shared/recognise.hpp"
 #include "lint/shared/topics.hpp"
 #include "lsp/server.hpp"
-#include "writing/gap_page.hpp"
+#include "verbs/gap_page.hpp"
 
 namespace deck::lsp {
 

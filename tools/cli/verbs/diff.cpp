@@ -10,9 +10,9 @@
 #include "deck/model/coverage.hpp"
 #include "deck/report/html.hpp"
 #include "deck/verdict.hpp"
+#include "verbs/fix_page.hpp"
 #include "verbs/gate/options.hpp"
 #include "verbs/git_deck.hpp"
-#include "writing/fix_page.hpp"
 
 namespace deck::cli::verb_diff {
 namespace {

@@ -18,8 +18,8 @@
 #include "base/shared/paths.hpp"
 #include "deck/report/gaps.hpp"
 #include "edit/shared/include_scan.hpp"
+#include "library.hpp"
 #include "report/shared/json.hpp"
-#include "writing/library.hpp"
 
 extern char** environ;
 

@@ -3,7 +3,7 @@
 #include "report/shared/parts.hpp"
 #include "common.hpp"
 #include "deck/report/html.hpp"
-#include "writing/gap_page.hpp"
+#include "verbs/gap_page.hpp"
 
 namespace deck::cli::verb_parts {
 namespace {

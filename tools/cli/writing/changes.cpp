@@ -1,12 +1,15 @@
 // Expands the decks of a call, looks for others that depend on their files, and writes.
 #include "writing/changes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
+#include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "base/shared/paths.hpp"
-#include "writing/library.hpp"
+#include "library.hpp"
 
 namespace deck::cli {
 namespace {
@@ -42,6 +45,27 @@ std::string usage_error(const WriteChoice& choice) {
   return {};
 }
 
+Result<bool> finish_interrupted(const std::string& main, const std::vector<std::string>& decks,
+                                const CommonOptions& common) {
+  if (!unfinished_note(main)) return false;
+  std::vector<std::string> tree;
+  IncludeScan scan(common.include_paths);
+  for (const std::string& deck : decks)
+    for (const IncludeScan::File& f : scan.files(deck)) tree.push_back(f.path);
+  const auto done = finish_interrupted_write(main, tree);
+  if (!done) return done.error();
+  if (!done->refused.empty())
+    return Error{Error::Code::config,
+                 "a rewriting of " + main +
+                     " was interrupted and cannot be finished: " + done->refused +
+                     "; nothing was written. Give all decks of that call again, or remove the "
+                     "note if it is not wanted"};
+  if (done->files > 0 && !common.quiet)
+    print_messages(fmt::format("deck: note: the interrupted writing of {} was finished: {}\n",
+                               terminal_text(main), count(done->files, "file", "files")));
+  return done->files > 0;
+}
+
 Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& given,
                                                 std::string_view ending) {
   if (ending == deck_ending)
@@ -68,14 +92,28 @@ Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& 
         files.push_back(deck);
     root_ = common_root(directories, files);
   } else if ((choice_.in_place || choice_.diff) && ending == deck_ending) {
-    auto dependents = find_dependents(*all, choice_.root, common_.include_paths);
-    if (!dependents) return dependents.error();
-    if (const std::string where = dependents->where(); !where.empty() && !common_.quiet)
-      print_note(where);
-    if (choice_.with_dependents)
-      all->insert(all->end(), dependents->decks.begin(), dependents->decks.end());
-    else
-      outsiders_ = std::move(dependents->shared);
+    const std::vector<std::string> named = *all;
+    const auto look = [&]() -> Result<std::string> {
+      auto dependents = find_dependents(named, choice_.root, common_.include_paths);
+      if (!dependents) return dependents.error();
+      *all = named;
+      if (choice_.with_dependents)
+        all->insert(all->end(), dependents->decks.begin(), dependents->decks.end());
+      else
+        outsiders_ = std::move(dependents->shared);
+      return dependents->where();
+    };
+    auto where = look();
+    if (!where) return where.error();
+    bool finished = false;
+    for (std::size_t d = 0; common_.rewrites && d < all->size(); ++d) {
+      const auto changed = finish_interrupted((*all)[d], *all, common_);
+      if (!changed) return changed.error();
+      finished = finished || *changed;
+    }
+    if (finished)  // other files lie there now
+      if (where = look(); !where) return where.error();
+    if (!where->empty() && !common_.quiet) print_note(*where);
   }
   set_ = EditSet(root_);
   return all;
@@ -177,6 +215,7 @@ Result<void> Changes::write(bool list) {
     if (auto announced = announce(plan->files); !announced) return announced;
     WriteOptions options;
     options.backup_suffix = choice_.backup_suffix;
+    options.note_beside = plan->main;
     if (auto done = write_files_atomic(plan->files, options); !done) return done;
     if (!plan->files.empty()) common_.session->remember_written();
   } else {

@@ -22,13 +22,19 @@ void add_dependent_options(CommandLine& line, WriteChoice& choice);
 /// What is wrong with the combination; empty: nothing.
 std::string usage_error(const WriteChoice& choice);
 
+/// Finishes what a kill left half written, if there is a note of it beside `main`, one of the
+/// decks, which are to be rewritten. True if files changed. Error: a note that is not believed.
+Result<bool> finish_interrupted(const std::string& main, const std::vector<std::string>& decks,
+                                const CommonOptions& common);
+
 class Changes {
  public:
   Changes(const CommonOptions& common, const WriteChoice& choice)
       : common_(common), choice_(choice) {}
 
   /// The decks to work on: `given` with directories and patterns expanded and, where they are asked
-  /// for, with those that depend on the same files. Call before anything else.
+  /// for, with those that depend on the same files. What a kill left half written of them is
+  /// finished first. Call before anything else.
   Result<std::vector<std::string>> decks(const std::vector<std::string>& given,
                                          std::string_view ending);
   /// The directory below which decks keep their place; empty: decks are written at the top.

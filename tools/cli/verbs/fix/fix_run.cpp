@@ -11,9 +11,9 @@
 #include "deck/model/coverage.hpp"
 #include "deck/text/number.hpp"
 #include "edit/shared/move_part.hpp"
+#include "library.hpp"
 #include "report/shared/fix.hpp"
-#include "writing/fix_page.hpp"
-#include "writing/library.hpp"
+#include "verbs/fix_page.hpp"
 
 namespace deck::cli::verb_fix {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "base/shared/count.hpp"
 #include "deck/report/gaps.hpp"
+#include "library.hpp"
 #include "report/shared/text_table.hpp"
 #include "verbs/git_deck.hpp"
 #include "verbs/lint/lint_run.hpp"
-#include "writing/library.hpp"
 
 namespace deck::cli {
 namespace looking_back {

@@ -12,11 +12,11 @@
 #include "base/shared/escape.hpp"
 #include "base/shared/paths.hpp"
 #include "deck/report/gaps.hpp"
+#include "library.hpp"
 #include "lint/shared/config.hpp"
 #include "report/shared/json.hpp"
 #include "verbs/gate/history.hpp"
 #include "verbs/lint/lint_run.hpp"
-#include "writing/library.hpp"
 
 namespace deck::cli {
 namespace writing_gate {

@@ -10,9 +10,9 @@
 
 #include "base/shared/paths.hpp"
 #include "deck/report/gaps.hpp"
+#include "library.hpp"
 #include "lint/shared/config.hpp"
 #include "verbs/git_deck.hpp"
-#include "writing/library.hpp"
 
 namespace deck::cli {
 namespace {

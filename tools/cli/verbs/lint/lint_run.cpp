@@ -9,10 +9,10 @@
 
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
+#include "library.hpp"
 #include "lint/shared/config.hpp"
 #include "lint/shared/fix.hpp"
 #include "lint/shared/geometry.hpp"
-#include "writing/library.hpp"
 
 namespace deck::cli {
 namespace linting {

@@ -5,8 +5,8 @@
 
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
+#include "library.hpp"
 #include "verbs/lint/lint_run.hpp"
-#include "writing/library.hpp"
 
 namespace deck::cli {
 namespace {

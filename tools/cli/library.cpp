@@ -1,5 +1,5 @@
 // Walks directories, matches patterns and looks for decks that share files.
-#include "writing/library.hpp"
+#include "library.hpp"
 
 #include <glob.h>
 

@@ -1,12 +1,12 @@
 // Evaluates a deck before and after, and hands both to the report.
-#include "writing/fix_page.hpp"
+#include "verbs/fix_page.hpp"
 
 #include <utility>
 
 #include "deck/contact/crossings.hpp"
 #include "deck/report/gaps.hpp"
 #include "report/shared/json.hpp"
-#include "writing/gap_page.hpp"
+#include "verbs/gap_page.hpp"
 
 namespace deck::cli {
 

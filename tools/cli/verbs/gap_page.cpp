@@ -1,5 +1,5 @@
 // Adds crossings and forces to the scene of a deck and hands it to the report.
-#include "writing/gap_page.hpp"
+#include "verbs/gap_page.hpp"
 
 #include "deck/contact/crossings.hpp"
 

@@ -1,0 +1,233 @@
+// The conversions of a deck: every one sees the deck as the one before left it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "edit/shared/changed_values.hpp"
+#include "edit/shared/verify.hpp"
+#include "report/shared/losses.hpp"
+#include "verbs/convert/convert_losses.hpp"
+#include "verbs/convert/convert_run.hpp"
+
+namespace deck::cli::verb_convert {
+namespace {
+
+/// A deck on its way through the conversions.
+struct Conversion {
+  LoadedDeck now;
+  Overlay changed;  ///< contents that differ from the files on disk
+  std::vector<LossEntry> losses;
+  std::unique_ptr<Behaviour> behaviour;  ///< of `now`, if it is to be verified
+  std::vector<std::string> refusals = {};
+  bool together = false;  ///< with other decks: what it loses is said with what they lose
+};
+
+void print_refusals(const CommonOptions& common, const std::vector<std::string>& refusals) {
+  constexpr std::size_t most = 20;
+  for (std::size_t i = 0; i < std::min(most, refusals.size()); ++i)
+    print_error(common, refusals[i]);
+  if (refusals.size() > most)
+    print_error(common, fmt::format("... and {} more", refusals.size() - most));
+}
+
+std::unique_ptr<Behaviour> behaviour_of(LoadedDeck& loaded) {
+  SceneOptions contacts = loaded.scene_options();
+  contacts.candidates = false;
+  loaded.set_scene_options(contacts);
+  return std::make_unique<Behaviour>(loaded);
+}
+
+/// Compares the deck with what it was before a step. An exit code if it is another one.
+int verify(Conversion& c, LoadedDeck& again, const ConvertStep& step,
+           const std::vector<LossEntry>& losses, const CommonOptions& common, Progress& progress) {
+  progress.step(c.now.path() + ": comparing the result of " + step.option + " with the deck");
+  auto after = behaviour_of(again);
+  VerifyRelation relation = relation_of(losses);
+  relation.new_ids = step.option == "--renumber";
+  relation.extract = step.option == "--extract-contacts";
+  relation.expanded = step.option == "--expand-type19";
+  relation.cells =
+      (step.option == "--units" || step.option == "--version") &&
+      std::none_of(losses.begin(), losses.end(), [](const LossEntry& e) {
+        return (e.loss == Loss::dropped || e.loss == Loss::undecided) && !e.without_effect;
+      });
+  const auto difference = first_difference(*c.behaviour, *after, relation);
+  c.behaviour = std::move(after);
+  progress.clear();
+  if (!difference) return exit_clean;
+  print_error(common, c.now.path() + ": " + step.option +
+                          ": the result is not the same model: " + *difference +
+                          "; nothing was written. --no-verify writes it nevertheless");
+  return exit_findings;
+}
+
+/// One conversion, and the deck read again as it is then. An exit code if that failed.
+int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
+          const ConvertOptions& options, Progress& progress) {
+  const CommonOptions& common = options.common;
+  const LoadedDeck& context = c.now;
+  progress.step(c.now.path() + ": " + step.option);
+  Rewrite rewrite = step.run(context);
+  if (step.engine && rewrite.refusals.empty())
+    step.engine(c.now.deck(), c.now.engine_files(), rewrite);
+  // With a batch the values that only changed are left out: its report holds all decks.
+  if (!options.report.empty()) add_changed_values(context, step.option, rewrite);
+  progress.clear();
+  const std::vector<LossEntry> losses = std::move(rewrite.losses);
+  c.losses.insert(c.losses.end(), losses.begin(), losses.end());
+  if (!rewrite.refusals.empty()) {
+    if (options.check && !rewrite.misasked) {
+      c.refusals = std::move(rewrite.refusals);
+      return exit_findings;
+    }
+    if (!c.together || rewrite.misasked) print_refusals(common, rewrite.refusals);
+    for (const std::string& r : rewrite.refusals) c.losses.push_back(refused_entry(r));
+    c.refusals = rewrite.refusals;
+    print_error(common, c.now.path() + ": " + step.option + " was not done; nothing was written" +
+                            (step.way_out.empty() || rewrite.misasked ? "" : ". " + step.way_out));
+    return rewrite.misasked ? exit_usage : exit_findings;
+  }
+  if (!common.quiet && !options.check)
+    for (const std::string& note : rewrite.notes)
+      print_note(std::string(step.option) + ": " + note);
+  auto files = apply_rewrite(c.now.deck().sources, rewrite);
+  if (!files) {
+    print_error(common, files.error().message);
+    return exit_findings;
+  }
+  if (files->empty()) return exit_clean;
+  if (options.verifies() && !c.behaviour) c.behaviour = behaviour_of(c.now);
+  if (c.now.path() == "-" && !c.changed.contains("-"))  // it cannot be read twice
+    c.changed["-"] = std::string(c.now.deck().sources[0].bytes());
+  for (auto& [path, text] : *files) c.changed[path] = std::move(text);
+  auto again = load(c.now.path(), schemas, common, Stage::interfaces, &c.changed);
+  if (!again) {
+    print_error(common, again.error().message);
+    return exit_internal;
+  }
+  if (again->incomplete()) {
+    print_findings(*again, common);
+    print_error(common, c.now.path() + ": not written, a file could be read before, but not again");
+    return exit_input;
+  }
+  const int code = c.behaviour ? verify(c, *again, step, losses, common, progress) : exit_clean;
+  c.now = std::move(*again);
+  return code;
+}
+
+/// Engine files that no conversion has to do with are written beside the deck as they are.
+void tell_of_copies(Conversion& c) {
+  for (const EngineFile& file : c.now.engine_files().files) {
+    const std::string& path = c.now.deck().sources[file.file].path();
+    if (std::any_of(c.losses.begin(), c.losses.end(),
+                    [&](const LossEntry& e) { return e.file == path; }))
+      continue;
+    LossEntry entry;
+    entry.file = path;
+    entry.line = 1;
+    entry.note = "Engine file: copied unchanged";
+    c.losses.push_back(std::move(entry));
+  }
+}
+
+/// What the deck has become goes into the set.
+int add_result(ConvertRun& run, std::size_t member, Conversion& c, const SchemaSet& schemas) {
+  const ConvertOptions& options = run.options;
+  if (options.to == "json") return add_document(run, c.now, schemas);
+  if (c.now.path() == "-" && options.from == "rad" && !options.write.diff && !options.check) {
+    if (c.now.deck().sources.size() == 1 && options.write.directory.empty()) {
+      print_contents(c.now.deck().sources[0].bytes());
+      return exit_clean;
+    }
+    print_error(options.common,
+                "a deck from standard input has no name to write it to; without -o a deck of one "
+                "file goes to standard output");
+    return exit_usage;
+  }
+  run.changes.propose(member, c.now.deck(), c.changed);
+  return exit_clean;
+}
+
+int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded, Overlay overlay,
+            const std::vector<LossEntry>& losses, const SchemaSet& schemas) {
+  const ConvertOptions& options = run.options;
+  if (loaded.incomplete()) {
+    run.refused = true;
+    if (options.check) {
+      run.check.add(name, ConversionCheck::Outcome::unreadable, {}, {},
+                    "the include tree is not complete");
+      return exit_input;
+    }
+    print_findings(loaded, options.common);
+    print_error(options.common, loaded.path() + ": not written, the include tree is not complete");
+    return exit_input;
+  }
+  const auto member = run.changes.add(loaded, name);
+  if (!member) {
+    run.refused = true;
+    return fail(run, member.error());
+  }
+  Conversion c{std::move(loaded), std::move(overlay), losses, nullptr};
+  c.together = run.together;
+  int code = exit_clean;
+  for (const ConvertStep& step : run.steps) {
+    code = apply(c, step, schemas, options, run.progress);
+    if (code != exit_clean) break;
+  }
+  if (code == exit_clean && !options.write.directory.empty()) tell_of_copies(c);
+  if (code == exit_clean && !options.check && !run.together) print_losses(c.losses, options.common);
+  if (BatchFrame* frame = options.common.session->frame)
+    for (const LossEntry& e : c.losses) ++frame->decks[name].losses[static_cast<int>(e.loss)];
+  const bool open = std::any_of(c.losses.begin(), c.losses.end(),
+                                [](const LossEntry& e) { return e.loss == Loss::undecided; });
+  if (options.check || run.together)
+    run.check.add(name,
+                  code != exit_clean ? ConversionCheck::Outcome::refused
+                  : open             ? ConversionCheck::Outcome::undecided
+                                     : ConversionCheck::Outcome::written,
+                  c.losses, c.refusals,
+                  code != exit_clean && c.refusals.empty() ? "the result was refused" : "");
+  for (LossEntry& e : c.losses) run.losses.push_back(std::move(e));
+  if (code == exit_clean) code = add_result(run, *member, c, schemas);
+  run.refused = run.refused || code != exit_clean;
+  return code == exit_clean && open ? exit_findings : code;
+}
+
+/// The deck of one command line argument, whatever it is written in.
+Result<std::pair<LoadedDeck, Overlay>> open_input(const std::string& path,
+                                                  const ConvertOptions& options,
+                                                  const SchemaSet& schemas, bool whole,
+                                                  std::vector<LossEntry>& losses) {
+  Overlay overlay;
+  std::string main = path;
+  if (options.from == "json") {
+    auto files = files_of_json(*options.common.session, path, schemas, options.steps, losses);
+    if (!files) return files.error();
+    main = files->main;
+    overlay = std::move(files->contents);
+  }
+  auto loaded = load(main, schemas, options.common, whole ? Stage::interfaces : Stage::deck,
+                     options.from == "json" ? &overlay : nullptr);
+  if (!loaded) return loaded.error();
+  return std::pair(std::move(*loaded), std::move(overlay));
+}
+
+}  // namespace
+
+int convert_one(ConvertRun& run, const std::string& path, const SchemaSet& schemas) {
+  const ConvertOptions& options = run.options;
+  std::vector<LossEntry> losses;
+  auto input =
+      open_input(path, options, schemas, !run.steps.empty() || options.to == "json", losses);
+  if (input)
+    return convert(run, path, std::move(input->first), std::move(input->second), losses, schemas);
+  run.refused = true;
+  if (options.check || run.together)
+    run.check.add(path, ConversionCheck::Outcome::unreadable, {}, {}, input.error().message);
+  if (!options.check) print_error(options.common, input.error().message);
+  const bool wrong = input.error().code == Error::Code::config && options.from == "rad";
+  return wrong ? exit_usage : exit_input;
+}
+
+}  // namespace deck::cli::verb_convert
