@@ -1,5 +1,5 @@
-// Finds the index of an id: by counting where ids do nothing else, in a table where they lie close,
-// else in a sorted list.
+// Finds the index of an id: by counting where ids do nothing else, in one or several tables where
+// they lie close, else in a sorted list.
 #include <algorithm>
 #include <limits>
 
@@ -11,6 +11,46 @@ namespace {
 // A table entry costs 4 bytes, a sorted entry 16: up to this many table entries per id the table is
 // the smaller of the two as well as the faster.
 constexpr std::uint64_t entries_per_id = 4;
+
+/// Ids of several files lie close in each of them. A table has whole pages.
+constexpr std::int64_t ids_of_a_page = 256;
+
+std::int64_t page_of(std::int64_t id) {
+  return id / ids_of_a_page - static_cast<std::int64_t>(id % ids_of_a_page < 0);
+}
+
+/// The first ids of tables that follow each other, with where they begin, and what is behind the
+/// last; empty: they would be larger than a sorted list.
+std::vector<std::pair<std::int64_t, std::uint32_t>> tables_for(
+    const std::vector<std::int64_t>& ids) {
+  const std::uint64_t most = entries_per_id * ids.size() / ids_of_a_page;
+  std::vector<std::int64_t> pages;
+  for (const std::int64_t id : ids)
+    if (const std::int64_t page = page_of(id); pages.empty() || pages.back() != page)
+      pages.push_back(page);
+  std::sort(pages.begin(), pages.end());
+  pages.erase(std::unique(pages.begin(), pages.end()), pages.end());
+  std::vector<std::pair<std::int64_t, std::uint32_t>> tables;
+  if (pages.size() > most) return tables;
+  for (std::size_t i = 0; i < pages.size(); ++i)
+    if (i == 0 || pages[i] != pages[i - 1] + 1)
+      tables.emplace_back(pages[i] * ids_of_a_page, static_cast<std::uint32_t>(i * ids_of_a_page));
+  tables.emplace_back(std::numeric_limits<std::int64_t>::max(),
+                      static_cast<std::uint32_t>(pages.size() * ids_of_a_page));
+  return tables;
+}
+
+/// Place of an id in these tables; any place behind the last for one that is in none.
+std::size_t place_in(const std::vector<std::pair<std::int64_t, std::uint32_t>>& tables,
+                     std::int64_t id) {
+  const auto after = std::partition_point(tables.begin(), tables.end() - 1,
+                                          [&](const auto& table) { return table.first <= id; });
+  const std::size_t none = tables.back().second;
+  if (after == tables.begin()) return none;
+  const auto& table = *(after - 1);
+  const std::uint64_t at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(table.first);
+  return at < after->second - table.second ? table.second + at : none;
+}
 
 /// Each id is one above the one before, and there is one more behind the last.
 bool count_up(const std::vector<std::int64_t>& ids) {
@@ -48,10 +88,15 @@ void IdMap::build(const std::vector<std::int64_t>& ids) {
   if (range < entries_per_id * std::uint64_t{count} + 64) {
     base_ = *low;
     dense_.assign(static_cast<std::size_t>(range) + 1, no_index);
+  } else if (sorted_ = tables_for(ids); !sorted_.empty()) {
+    dense_.assign(sorted_.back().second, no_index);
+  }
+  if (!dense_.empty()) {
     for (std::uint32_t i = 0; i < count; ++i) {
-      std::uint32_t& slot = dense_[static_cast<std::size_t>(ids[i] - base_)];
-      if (slot == no_index)
-        slot = i;
+      const std::size_t at =
+          sorted_.empty() ? static_cast<std::size_t>(ids[i] - base_) : place_in(sorted_, ids[i]);
+      if (dense_[at] == no_index)
+        dense_[at] = i;
       else
         duplicates_.push_back(i);
     }
@@ -73,6 +118,10 @@ void IdMap::build(const std::vector<std::int64_t>& ids) {
 }
 
 std::uint32_t IdMap::find(std::int64_t id) const {
+  if (!dense_.empty() && !sorted_.empty()) {
+    const std::size_t at = place_in(sorted_, id);
+    return at < dense_.size() ? dense_[at] : no_index;
+  }
   if (!dense_.empty()) {
     const std::uint64_t at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(base_);
     return at < dense_.size() ? dense_[static_cast<std::size_t>(at)] : no_index;

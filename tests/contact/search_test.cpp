@@ -1,4 +1,5 @@
-// The pair search finds exactly the pairs of the brute-force loop, on meshes made to break it.
+// The pair search finds exactly the pairs of the brute-force loop, on meshes made to break it. Over
+// 600 lines: orders, kernels, threads and limits are tried on the same scenes.
 #include "deck/contact/search.hpp"
 
 #include <gtest/gtest.h>
@@ -163,13 +164,25 @@ Mesh two_sheets(int n) {
   return mesh;
 }
 
+// Every `step`-th of a list, so that few lie everywhere.
+template <class T>
+std::vector<T> some_of(const std::vector<T>& list, std::size_t end, std::size_t step) {
+  std::vector<T> out;
+  for (std::size_t i = 0; i < end; i += step) out.push_back(list[i]);
+  return out;
+}
+
 // Lists long enough that the search first tries the order they come in.
 struct LongList {
   Mesh mesh = two_sheets(100);  // nodes of the second against segments of the first
+  std::vector<std::array<std::uint32_t, 4>> segments = some_of(mesh.segments, 10000, 23);
   LongList() { mesh.secondary.erase(mesh.secondary.begin(), mesh.secondary.begin() + 101 * 101); }
   NodeSegmentInput input() {
     NodeSegmentInput in = node_input(mesh);
-    in.segments = in.segments.subspan(3000, 400);
+    in.segments = segments;
+    in.segment_gap = {};
+    in.segment_length = {};
+    in.segment_stiffness = {};
     return in;
   }
   // Runs of `length` nodes in any order.
@@ -204,6 +217,36 @@ TEST(SearchOrder, NodesInTheOrderOfTheMeshAreTakenAsTheyCome) {
   list.expect_all_pairs();
 }
 
+// Two sheets that overlap at one corner: the rest of both is left out before anything is sorted.
+TEST(SearchOrder, DistantPartsOfBothSidesAreLeftOut) {
+  constexpr int n = 24, corner = 4;
+  Mesh mesh;
+  for (const double from : {0.0, double{n - corner}})
+    scenes::add_sheet(mesh, n, false, [&](int i, int j) {
+      return std::array{from + i, from + j, from == 0 ? 0.0 : 0.3};
+    });
+  mesh.all_nodes_secondary();
+  mesh.edges_of_segments();
+  NodeSegmentInput in = node_input(mesh);
+  in.secondary = in.secondary.subspan((n + 1) * (n + 1));
+  in.segments = in.segments.first(n * n);
+  EdgeEdgeInput edges = edge_input(mesh);
+  edges.main = edges.main.first(edges.main.size() / 2);
+  edges.secondary = edges.secondary.subspan(edges.secondary.size() / 2);
+  const SearchOptions o = LongList::options();
+  for (const int threads : {1, 3}) {
+    const sweep::NodeSweep nodes(in, o, threads);
+    EXPECT_LE(nodes.items.size(), 49U);
+    EXPECT_LE(nodes.segments.size(), 49U);
+    EXPECT_LE(sweep::EdgeSweep(edges, o, threads).mains.size(), 112U);
+  }
+  expect_brute_force(find_node_segment_pairs, in, o, 0);
+  expect_brute_force(find_edge_edge_pairs, edges, o, 0);
+  EXPECT_EQ(find_node_segment_pairs(in, o).pairs.size(), 81U);
+  for (std::uint32_t node : in.secondary) mesh.z[node] += 1;  // out of reach
+  EXPECT_TRUE(find_node_segment_pairs(in, o).pairs.empty());
+}
+
 TEST(SearchOrder, ShuffledNodesAreSorted) {
   LongList list;
   list.shuffle(1);
@@ -220,7 +263,8 @@ TEST(SearchOrder, ShortRunsFromEverywhereAreSorted) {
 
 bool segments_keep_their_order(const Mesh& mesh) {
   NodeSegmentInput in = node_input(mesh);
-  in.secondary = in.secondary.first(64);
+  const auto few = some_of(mesh.secondary, mesh.secondary.size(), 97);
+  in.secondary = few;
   const sweep::NodeSweep w(in, LongList::options(), 1);
   return std::is_sorted(w.segments.begin(), w.segments.end());
 }

@@ -673,6 +673,30 @@ TEST(IdMap, FindsEveryIdHoweverTheyAreSpread) {
   }
 }
 
+TEST(IdMap, FindsTheIdsOfSeveralFiles) {
+  std::mt19937_64 random(5);
+  std::vector<std::int64_t> all;
+  std::map<std::int64_t, std::uint32_t> expected;
+  std::vector<std::uint32_t> duplicates;
+  // As files come, not as they count; some meet, and one repeats ids of another.
+  for (const std::int64_t first : {15000000LL, 1LL, -70000LL, 2000LL, 900000000000LL, 15000500LL})
+    for (std::int64_t k = 0; k < 2000; ++k)
+      if (random() % 4 != 0) {
+        const auto index = static_cast<std::uint32_t>(all.size());
+        if (!expected.emplace(first + k, index).second) duplicates.push_back(index);
+        all.push_back(first + k);
+      }
+  ASSERT_FALSE(duplicates.empty());
+  IdMap map;
+  map.build(all);
+  EXPECT_EQ(map.duplicates(), duplicates);
+  for (const std::int64_t first : {15000000LL, 0LL, -70000LL, 900000000000LL, 7000000LL})
+    for (std::int64_t id = first - 600; id < first + 5000; ++id) {
+      const auto it = expected.find(id);
+      ASSERT_EQ(map.find(id), it == expected.end() ? no_index : it->second) << id;
+    }
+}
+
 TEST(IdMap, IdsThatCountUpNeedNoTable) {
   for (const std::int64_t first : {std::int64_t{-3}, std::int64_t{1}, std::int64_t{1} << 40}) {
     std::vector<std::int64_t> ids(3000);

@@ -24,22 +24,13 @@ constexpr std::size_t width = BoxBlock::kWidth;
 constexpr std::size_t at_once = 512;  // edges, or elements with theirs
 
 Box segment_box(const NodeArrays& nodes, const std::array<std::uint32_t, 4>& segment) {
-  Box box;
-  double largest = 0;
-  const std::span<const double> axes[] = {nodes.x, nodes.y, nodes.z};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double a = axes[k][segment[0]], b = axes[k][segment[1]];
-    const double c = axes[k][segment[2]], d = axes[k][segment[3]];
-    box.low[k] = std::min(std::min(a, b), std::min(c, d));
-    box.high[k] = std::max(std::max(a, b), std::max(c, d));
-    largest = std::max(largest, std::max(-box.low[k], box.high[k]));
-  }
-  const double r = sweep::Reach::widened(0, largest);
-  for (std::size_t k = 0; k < 3; ++k) {
-    box.low[k] -= r;
-    box.high[k] += r;
-  }
-  return box;
+  return sweep::segment_box(nodes, segment, 0);
+}
+
+std::vector<std::uint32_t> all_of(std::size_t count) {
+  std::vector<std::uint32_t> out(count);
+  std::iota(out.begin(), out.end(), 0U);
+  return out;
 }
 
 /// Exact numbers are made of finite ones only; without a place nothing passes through anything.
@@ -67,9 +58,10 @@ bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>&
 template <class SegmentOf>
 class SegmentTree {
  public:
-  SegmentTree(const NodeArrays& nodes, std::size_t count, const SegmentOf& segment_of, int threads)
-      : order_(count) {
-    std::iota(order_.begin(), order_.end(), 0U);
+  SegmentTree(const NodeArrays& nodes, std::vector<std::uint32_t> some, const SegmentOf& segment_of,
+              int threads)
+      : order_(std::move(some)) {
+    const std::size_t count = order_.size();
     sweep::put_in_order(
         order_, [&](std::uint32_t i) { return segment_box(nodes, segment_of(i)); }, threads);
     std::vector<BoxBlock> blocks;
@@ -95,7 +87,6 @@ class SegmentTree {
   }
   std::uint32_t segment(std::uint32_t leaf) const { return order_[leaf]; }
   const std::array<std::uint32_t, 4>& corners(std::uint32_t leaf) const { return corners_[leaf]; }
-  Box bounds() const { return tree_.level(tree_.levels() - 1)[0].bounds(); }
 
  private:
   std::vector<std::uint32_t> order_;
@@ -111,7 +102,7 @@ std::vector<CandidatePair> find_crossing_pairs(
   if (edges.empty() || segments.empty()) return {};
   threads = effective_threads(threads);
   const auto segment_of = [&](std::uint32_t i) { return segments[i]; };
-  const SegmentTree tree(nodes, segments.size(), segment_of, threads);
+  const SegmentTree tree(nodes, all_of(segments.size()), segment_of, threads);
   struct Piece {
     std::vector<Box> boxes;
     std::vector<sweep::Meeting> near;
@@ -230,16 +221,22 @@ void find_rows(Bearers& bearers, std::size_t node_count) {
   each([&](NodeIndex n, std::uint32_t i) { bearers.at_node.entries[--first[n]] = i; });
 }
 
-/// Those that have two nodes or more of the contact's secondary side, ascending; where there are no
-/// rows to find them in, all.
-std::vector<std::uint32_t> bearers_of(const Bearers& bearers, const Contact& contact) {
+/// Those that have two nodes or more of the contact's secondary side, unless all of these lie
+/// beyond one side of the box; ascending. Where there are no rows to find them in, all.
+std::vector<std::uint32_t> bearers_of(const Bearers& bearers, const Contact& contact,
+                                      const std::vector<std::uint8_t>& marks) {
   if (bearers.at_node.rows() == 0) return bearers.elements;
-  std::vector<std::uint8_t> nodes(bearers.elements.size());
-  std::vector<std::uint32_t> out;
-  for (const SecondaryNode& s : contact.secondary)
+  // One bit for the first node, one for another, and the sides that they are all beyond.
+  constexpr std::uint8_t one = 0x40, more = 0x80;
+  std::vector<std::uint8_t> found(bearers.elements.size());
+  for (const SecondaryNode& s : contact.secondary) {
+    const std::uint8_t beyond = marks[s.node] & outside_box;
     for (const std::uint32_t i : bearers.at_node.row(s.node))
-      if (nodes[i] < 2 && ++nodes[i] == 2) out.push_back(bearers.elements[i]);
-  std::sort(out.begin(), out.end());
+      found[i] = found[i] == 0 ? one | beyond : more | (found[i] & beyond);
+  }
+  std::vector<std::uint32_t> out;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i] == more) out.push_back(bearers.elements[i]);
   return out;
 }
 
@@ -290,7 +287,8 @@ class RecentEdges {
 template <class Tree>
 void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const NodeArrays& nodes,
            const Contact& contact, const Tree& tree, int threads, std::vector<Crossing>& out) {
-  const std::vector<std::uint32_t> elements = bearers_of(bearers, contact);
+  const std::vector<std::uint32_t> elements = bearers_of(bearers, contact, marks);
+  if (elements.empty()) return;
   struct Piece {
     RecentEdges recent;  // also of pieces before this one: their elements come first
     std::vector<std::pair<std::array<NodeIndex, 2>, std::uint32_t>> edges;  // with their elements
@@ -338,14 +336,21 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bea
   std::vector<Crossing> found;
   if (contact.main.empty() || contact.secondary.empty()) return found;
   const auto segment_of = [&](std::uint32_t i) { return contact.main[i].nodes; };
-  const SegmentTree tree(nodes, contact.main.size(), segment_of, threads);
-  const Box box = tree.bounds();
+  Box around;  // the secondary nodes
+  for (const SecondaryNode& s : contact.secondary)
+    around.add(sweep::box_of_nodes(nodes, std::array{s.node}, 0));
+  std::vector<std::uint32_t> near = all_of(contact.main.size());
+  const Box box = sweep::keep_inside(
+      near, [&](std::uint32_t i) { return segment_box(nodes, segment_of(i)); }, around, threads);
+  if (near.empty()) return found;
   unsigned beyond = outside_box;  // sides of the box that all nodes are beyond
   for (const SecondaryNode& s : contact.secondary)
     if (all_placed(nodes, std::array{s.node}))
       beyond &= marks[s.node] = mark_of(nodes, s.node, box);
-  if (beyond == 0)
+  if (beyond == 0) {
+    const SegmentTree tree(nodes, std::move(near), segment_of, threads);
     for (const Bearers& b : all) cross(b, marks, nodes, contact, tree, threads, found);
+  }
   for (const SecondaryNode& s : contact.secondary) marks[s.node] = 0;
   // Of the elements that have an edge the first one stays.
   std::stable_sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {

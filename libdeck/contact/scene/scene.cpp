@@ -206,6 +206,8 @@ class Builder {
     const std::int64_t from = role == ContactRole::primary ? s : m;
     const std::int64_t to = role == ContactRole::primary ? m : s;
     set_secondary(contact, nodes_of_surface(from));
+    // Nodes and edges of a set are wanted later: its segments are formed with them.
+    if (!selections_.is_plain("surf", to)) selections_.set(to);
     finish(std::move(contact), card, selections_.outline(to));
   }
 

@@ -77,6 +77,7 @@ SolidsOfSegment solids_of(SceneContext& c, const std::array<NodeIndex, 4>& segme
   for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, segment[0])) {
     if (!solid_contains(c.model, e, segment)) continue;
     if (found.count++ == 0) found.first = e;
+    found.last = e;
     if (found.best == no_index || family.id[e] > family.id[found.best]) found.best = e;
   }
   return found;
@@ -84,14 +85,17 @@ SolidsOfSegment solids_of(SceneContext& c, const std::array<NodeIndex, 4>& segme
 
 namespace {
 
-/// A solid that has all nodes of a quadrangle, but not as one of its faces: solids overlap there.
-bool inside_a_solid(SceneContext& c, const Quad& segment) {
-  if (segment[2] == segment[3]) return false;
+/// One of the solids that have all nodes of a quadrangle has it not as one of its faces: solids
+/// overlap there.
+bool inside_a_solid(SceneContext& c, const SolidsOfSegment& having, const Quad& segment) {
+  if (having.count == 0 || segment[2] == segment[3]) return false;
   const Elements& solids = c.model.solid8;
-  const auto& around = c.connectivity.elements(ElementKind::solid8, segment[0]);
-  return std::any_of(around.begin(), around.end(), [&](std::uint32_t e) {
+  const auto inside = [&](std::uint32_t e) {
     return slots_contain_all(solids.of(e), segment) && !has_face_of(solids.of(e), segment);
-  });
+  };
+  if (having.count <= 2) return inside(having.first) || inside(having.last);
+  const auto& around = c.connectivity.elements(ElementKind::solid8, segment[0]);
+  return std::any_of(around.begin(), around.end(), inside);
 }
 
 }  // namespace
@@ -191,8 +195,9 @@ void add_segment(SceneContext& c, int type, const Segment& segment, Piece& out) 
     }
     if (m.carrier == Carrier::none) out.no_carrier.push_back(here);
   } else if (segment.carrier == Carrier::solid) {
-    outward = solids_of(c, m.nodes).count == 1;
-    inside = !outward && inside_a_solid(c, m.nodes);
+    const SolidsOfSegment found = solids_of(c, m.nodes);
+    outward = found.count == 1;
+    inside = !outward && inside_a_solid(c, found, m.nodes);
   }
   if (inside) out.inside_solids.push_back(here);
   if (outward && solid != no_index) out.reoriented += orient_outward(c, solid, m.nodes);

@@ -79,9 +79,9 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
   const Model& model = c.model;
   const Coordinates& x = c.scene.coordinates;
   const double f = contact.factor;
+  const bool constant = contact.istf == 1;
   for (ContactEdge& edge : edges) {
     const NodeIndex a = edge.nodes[0], b = edge.nodes[1];
-    const double l = distance(x, a, b);
     double k = 0;
     edge.shell = edge.section = 0;
     edge.carrier = Carrier::none;
@@ -92,7 +92,6 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
           (solid == no_index || model.solid8.id[e] > model.solid8.id[solid]))
         solid = e;
     if (solid != no_index) {
-      k = l > 0 ? f * solid_volume(x, model.solid8.of(solid)) * bulk_of(model, solid) / (l * l) : 0;
       edge.carrier = Carrier::solid;
       edge.element = solid;
     }
@@ -137,7 +136,11 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
         edge.section = s;
       }
     }
-    edge.stiffness = contact.istf == 1 && edge.carrier != Carrier::none ? std::fabs(f) : k;
+    if (edge.carrier == Carrier::solid && !constant) {
+      const double l = distance(x, a, b);
+      k = l > 0 ? f * solid_volume(x, model.solid8.of(solid)) * bulk_of(model, solid) / (l * l) : 0;
+    }
+    edge.stiffness = constant && edge.carrier != Carrier::none ? std::fabs(f) : k;
   }
 }
 

@@ -21,6 +21,11 @@ struct Box {
       high[k] = b.high[k] > high[k] ? b.high[k] : high[k];
     }
   }
+  // False for a box without a number, as for one that holds nothing.
+  bool overlaps(const Box& b) const {
+    return (low[0] <= b.high[0]) & (high[0] >= b.low[0]) & (low[1] <= b.high[1]) &
+           (high[1] >= b.low[1]) & (low[2] <= b.high[2]) & (high[2] >= b.low[2]);
+  }
   double size() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
 };
 

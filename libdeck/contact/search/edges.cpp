@@ -20,7 +20,12 @@ EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int thread
   const auto secondary_box = [&](std::uint32_t i) {
     return edge_box(in.nodes, in.secondary[i], secondary_reach(o, at(in.secondary_gap, i, 0.0)));
   };
+  const auto main_box = [&](std::uint32_t i) {
+    return edge_box(in.nodes, in.main[i], main_reach(o, robust, at(in.main_gap, i, 0.0)));
+  };
   items = active(in.secondary.size(), in.secondary_stiffness);
+  mains = active(in.main.size(), in.main_stiffness);
+  drop_distant(items, secondary_box, mains, main_box, threads);
   sort_in_space(items, secondary_box, threads);
   std::vector<BoxBlock> blocks((items.size() + kWidth - 1) / kWidth);
   parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -29,11 +34,6 @@ EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int thread
     }
   });
   tree = BoxTree(std::move(blocks), threads);
-
-  mains = active(in.main.size(), in.main_stiffness);
-  const auto main_box = [&](std::uint32_t i) {
-    return edge_box(in.nodes, in.main[i], main_reach(o, robust, at(in.main_gap, i, 0.0)));
-  };
   put_in_order(mains, main_box, threads);
 }
 

@@ -2,6 +2,7 @@
 // vectors do the same operations on more lanes: contraction is off, so the bits do not change.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "contact/search/sweep.hpp"
@@ -17,11 +18,13 @@ namespace deck::sweep {
 namespace baseline {
 #define DECK_LANES 2
 #define DECK_LANE_BITS(m) static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(m)))
+#define DECK_ID_BITS(m) static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(m)))
 #define DECK_SUB_BITS(m) (((m)[0] | (m)[1] | (m)[2] | (m)[3]) != 0)
 #include "contact/search/lanes.hpp"
 #include "contact/search/lanes_edges.hpp"
 #undef DECK_LANES
 #undef DECK_LANE_BITS
+#undef DECK_ID_BITS
 #undef DECK_SUB_BITS
 }  // namespace baseline
 
@@ -34,11 +37,13 @@ namespace baseline {
 namespace avx2 {
 #define DECK_LANES 4
 #define DECK_LANE_BITS(m) static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(m)))
+#define DECK_ID_BITS(m) static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(m)))
 #define DECK_SUB_BITS(m) _mm256_movemask_pd(reinterpret_cast<__m256d>(m))
 #include "contact/search/lanes.hpp"
 #include "contact/search/lanes_edges.hpp"
 #undef DECK_LANES
 #undef DECK_LANE_BITS
+#undef DECK_ID_BITS
 #undef DECK_SUB_BITS
 }  // namespace avx2
 #if defined(__clang__)
@@ -62,11 +67,15 @@ std::span<const Kernels> all_kernels() {
 namespace generic {
 #define DECK_LANES 2
 #define DECK_LANE_BITS(m) (static_cast<unsigned>(-(m)[0]) | static_cast<unsigned>(-(m)[1]) << 1)
+#define DECK_ID_BITS(m)                                                   \
+  (static_cast<unsigned>(-(m)[0]) | static_cast<unsigned>(-(m)[1]) << 1 | \
+   static_cast<unsigned>(-(m)[2]) << 2 | static_cast<unsigned>(-(m)[3]) << 3)
 #define DECK_SUB_BITS(m) (((m)[0] | (m)[1] | (m)[2] | (m)[3]) != 0)
 #include "contact/search/lanes.hpp"
 #include "contact/search/lanes_edges.hpp"
 #undef DECK_LANES
 #undef DECK_LANE_BITS
+#undef DECK_ID_BITS
 #undef DECK_SUB_BITS
 }  // namespace generic
 

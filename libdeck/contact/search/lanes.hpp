@@ -37,25 +37,27 @@ struct Hit {
 };
 
 struct Walk {
+  struct Step {
+    std::uint32_t level, block;
+  };
+  // A tree of 2^32 leaves has eleven levels; of each but the first, seven steps wait at most.
+  static constexpr std::size_t most_steps = 7 * 11 + 1;
   std::vector<Hit> hits;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> stack;  // level, block
+  std::array<Step, most_steps> steps;
 
   void find(const BoxTree& tree, const Box& b) {
     hits.clear();
-    stack.clear();
-    stack.emplace_back(static_cast<std::uint32_t>(tree.levels() - 1), 0);
-    while (!stack.empty()) {
-      const auto [level, block] = stack.back();
-      stack.pop_back();
+    std::size_t waiting = 1;
+    steps[0] = {static_cast<std::uint32_t>(tree.levels() - 1), 0};
+    while (waiting > 0) {
+      const auto [level, block] = steps[--waiting];
       unsigned mask = overlaps(tree.level(level)[block], b);
       if (level == 0) {
         if (mask != 0) hits.push_back({block, mask});
         continue;
       }
-      for (; mask != 0; mask &= mask - 1) {
-        const auto child = static_cast<std::uint32_t>(__builtin_ctz(mask));
-        stack.emplace_back(level - 1, block * 8 + child);
-      }
+      for (; mask != 0; mask &= mask - 1)
+        steps[waiting++] = {level - 1, block * 8 + static_cast<std::uint32_t>(__builtin_ctz(mask))};
     }
   }
 };
@@ -117,6 +119,22 @@ inline unsigned near_points(const PointBlock& p, const Shape& s, double r) {
     in &= (h >= all(s.slab_low - r));
     in &= (h <= all(s.slab_high + r));
     bits |= DECK_LANE_BITS(in) << c;
+  }
+  return bits;
+}
+
+// Which nodes of a leaf are corners of a segment.
+typedef std::uint32_t Ids __attribute__((vector_size(8 * DECK_LANES)));
+
+inline unsigned own_points(const std::uint32_t* nodes,
+                           const std::array<std::uint32_t, 4>& corners) {
+  unsigned bits = 0;
+  for (unsigned c = 0; c < PointBlock::kWidth; c += 2 * DECK_LANES) {
+    Ids ids;
+    __builtin_memcpy(&ids, nodes + c, sizeof ids);
+    const auto own =
+        (ids == corners[0]) | (ids == corners[1]) | (ids == corners[2]) | (ids == corners[3]);
+    bits |= DECK_ID_BITS(own) << c;
   }
   return bits;
 }
@@ -273,7 +291,6 @@ inline bool any_below(const Subs& squared, const Threshold& t) {
 struct SegmentTest {
   const NodeSweep& w;
   const Shape& shape;
-  const std::array<std::uint32_t, 4>& corners;
   std::uint32_t segment;
   double gap_m, length_m;
   bool constant, lengths, reference;
@@ -284,7 +301,6 @@ struct SegmentTest {
   SegmentTest(const NodeSweep& sweep, const Shape& s, std::uint32_t which)
       : w(sweep),
         shape(s),
-        corners(w.input->segments[which]),
         segment(which),
         gap_m(at(w.input->segment_gap, which, 0.0)),
         length_m(at(w.input->segment_length, which, kInfinity)),
@@ -322,12 +338,9 @@ struct SegmentTest {
     const Offsets offsets = sub.offsets(p);
     const bool near = reference ? any_below(offsets.squared, threshold)
                                 : robust_below(p, offsets, threshold.limit);
-    const std::uint32_t node = w.nodes[rank];
-    bool own = false;
-    for (const std::uint32_t corner : corners) own |= node == corner;
     const CandidatePair pair{w.items[rank], segment};
-    found.pairs.push_if(near & !own, pair);
-    if (w.robust_margin < 0.0 || near || own) return;
+    found.pairs.push_if(near, pair);
+    if (w.robust_margin < 0.0 || near) return;
     if (robust_below(p, offsets, limit + w.robust_margin)) [[unlikely]]
       found.robust_only.push(pair);
   }
@@ -341,15 +354,17 @@ inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, cons
   const std::vector<BoxBlock>& blocks = w.tree.level(0);
   const auto last_leaf = static_cast<std::uint32_t>(w.points.size() - 1);
   const unsigned last_bits = (2U << ((w.items.size() - 1) % 8)) - 1U;
-  SegmentTest test(w, s, segment);
-  std::array<std::uint32_t, 8> leaf{};
+  const std::array<std::uint32_t, 4>& corners = w.input->segments[segment];
+  std::optional<SegmentTest> test;  // most segments have nothing near but their own corners
+  std::array<std::uint32_t, 8> leaf;
   unsigned leaves = 0;
   std::uint64_t points = 0;
   const auto test_points = [&] {
+    if (leaves > 0 && !test) test.emplace(w, s, segment);
     for (; points != 0; points &= points - 1) {
       const auto bit = static_cast<unsigned>(__builtin_ctzll(points));
       const std::uint32_t i = leaf[bit / 8];
-      test.point(w.points[i], i * 8 + bit % 8, found);
+      test->point(w.points[i], i * 8 + bit % 8, found);
     }
     leaves = 0;
   };
@@ -365,8 +380,10 @@ inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, cons
       const std::uint32_t i = hits[first + bit / 8].block * 8 + bit % 8;
       unsigned bits = near_points(w.points[i], s, Reach::widened(s.reach + w.reach[i], s.largest));
       if (i == last_leaf) bits &= last_bits;
+      bits &= ~own_points(&w.nodes[std::size_t{i} * 8], corners);
       points |= std::uint64_t{bits} << (8 * leaves);
-      leaf[leaves++] = i;
+      leaf[leaves] = i;
+      leaves += bits != 0;
       if (leaves == 8) test_points();
     }
   }

@@ -12,16 +12,19 @@ namespace {
 
 using sweep::at;
 
-// Box of a segment, widened by its own reach; only for judging order and size.
-Box segment_box(const NodeSegmentInput& in, const SearchOptions& options, double robust_margin,
-                std::uint32_t i) {
-  const double reach = sweep::main_reach(options, robust_margin, at(in.segment_gap, i, 0.0));
-  Box box;
-  for (const std::uint32_t node : in.segments[i]) {
-    const Point3<double> p = sweep::point(in.nodes, node);
-    box.add({{p.x - reach, p.y - reach, p.z - reach}, {p.x + reach, p.y + reach, p.z + reach}});
-  }
-  return box;
+// Box of a segment, widened by its own reach.
+Box reach_of_segment(const NodeSegmentInput& in, const SearchOptions& options, double robust_margin,
+                     std::uint32_t i) {
+  return sweep::segment_box(in.nodes, in.segments[i],
+                            sweep::main_reach(options, robust_margin, at(in.segment_gap, i, 0.0)));
+}
+
+// The same of a node.
+Box reach_of_node(const NodeSegmentInput& in, const SearchOptions& options, std::uint32_t i) {
+  const Point3<double> p = sweep::point(in.nodes, in.secondary[i]);
+  const double own = sweep::secondary_reach(options, at(in.secondary_gap, i, 0.0));
+  const double r = sweep::Reach::widened(own, 0.0);
+  return {{p.x - r, p.y - r, p.z - r}, {p.x + r, p.y + r, p.z + r}};
 }
 
 }  // namespace
@@ -30,11 +33,13 @@ namespace sweep {
 
 NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads, double robust)
     : input(&in), options(&o), robust_margin(robust) {
+  const auto segment_at = [&](std::uint32_t i) { return reach_of_segment(in, o, robust, i); };
   segments = active(in.segments.size(), in.segment_stiffness);
-  put_in_order(
-      segments, [&](std::uint32_t i) { return segment_box(in, o, robust, i); }, threads);
-
   items = active(in.secondary.size(), in.secondary_stiffness);
+  drop_distant(
+      items, [&](std::uint32_t i) { return reach_of_node(in, o, i); }, segments, segment_at,
+      threads);
+  put_in_order(segments, segment_at, threads);
   // Large meshes are mostly numbered along their rows, which serves as well as any order.
   if (looks_ordered()) {
     pack(threads);
@@ -68,7 +73,7 @@ bool NodeSweep::looks_ordered() const {
     return box.size();
   });
   const double segment = median(segments.size(), [&](std::size_t i) {
-    return segment_box(*input, *options, robust_margin, segments[i]).size();
+    return reach_of_segment(*input, *options, robust_margin, segments[i]).size();
   });
   return apart <= 16.0 * segment;
 }
@@ -81,7 +86,7 @@ void NodeSweep::pack(int threads) {
   make_room(points, leaf_count, threads);
   points.resize(leaf_count);
   reach.resize(leaf_count);
-  nodes.resize(items.size());
+  nodes.assign(leaf_count * kWidth, kNoNode);
   std::vector<BoxBlock> blocks;
   make_room(blocks, (leaf_count + kWidth - 1) / kWidth, threads);
   blocks.resize((leaf_count + kWidth - 1) / kWidth);
@@ -100,8 +105,7 @@ void NodeSweep::pack(int threads) {
         leaf.gap[k] = at(in.secondary_gap, items[rank], 0.0);
         const double own = secondary_reach(*options, leaf.gap[k]);
         reach[i] = k == 0 ? own : std::max(reach[i], own);
-        const double r = Reach::widened(own, 0.0);
-        box.add({{p.x - r, p.y - r, p.z - r}, {p.x + r, p.y + r, p.z + r}});
+        box.add(reach_of_node(in, *options, items[rank]));
       }
       blocks[i / kWidth].set(i % kWidth, box);
     }
@@ -119,7 +123,7 @@ bool NodeSweep::serves_well() const {
   std::size_t tested = 0, allowed = 0;
   std::vector<std::pair<std::size_t, std::size_t>> stack;  // level, block
   for (std::size_t i = stride / 2; i < segments.size(); i += stride) {
-    const Box b = segment_box(*input, *options, robust_margin, segments[i]);
+    const Box b = reach_of_segment(*input, *options, robust_margin, segments[i]);
     const auto apart = [&b](std::size_t axis, double low, double high) {
       return !(low <= b.high[axis] && high >= b.low[axis]);  // unused places are apart
     };

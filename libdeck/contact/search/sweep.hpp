@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/shared/bits.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/search/box_order.hpp"
 #include "contact/search/box_tree.hpp"
 #include "deck/contact/search.hpp"
@@ -93,6 +94,8 @@ class Sink {
   std::size_t fill_ = kChunk;
 };
 
+inline constexpr std::uint32_t kNoNode = std::numeric_limits<std::uint32_t>::max();
+
 // What one thread found.
 struct Found {
   explicit Found(std::atomic<std::int64_t>* allowance = nullptr)
@@ -118,7 +121,7 @@ struct NodeSweep {
   std::vector<PointBlock> points;
   std::vector<double> reach;         // per leaf: largest share of the gap among its nodes
   std::vector<std::uint32_t> items;  // per rank: position in the list of secondary nodes
-  std::vector<std::uint32_t> nodes;  // per rank: node
+  std::vector<std::uint32_t> nodes;  // per rank: node; the last leaf is filled up
   BoxTree tree;                      // leaves: boxes of the point blocks, widened by their reach
 
   // The search structure over the secondary nodes of an input, and its segments in order.
@@ -235,29 +238,105 @@ inline std::vector<std::uint32_t> active(std::size_t count, std::span<const doub
   return ids;
 }
 
+// The box round all boxes of a list.
+template <class BoxOf>
+Box bounds_of(const std::vector<std::uint32_t>& ids, const BoxOf& box_of, int threads) {
+  std::vector<Box> parts(static_cast<std::size_t>(std::max(1, threads)));
+  parallel_parts(threads, ids.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    Box all;
+    for (std::size_t i = begin; i < end; ++i) all.add(box_of(ids[i]));
+    parts[part] = all;
+  });
+  Box all;
+  for (const Box& part : parts) all.add(part);
+  return all;
+}
+
+// Keeps what overlaps `box`, in its order; the box round that.
+template <class BoxOf>
+Box keep_inside(std::vector<std::uint32_t>& ids, const BoxOf& box_of, const Box& box, int threads) {
+  struct Kept {
+    std::size_t begin = 0, end = 0;
+    Box bounds;
+  };
+  std::vector<Kept> parts(static_cast<std::size_t>(std::max(1, threads)));
+  parallel_parts(threads, ids.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    Kept mine{begin, begin, {}};
+    for (std::size_t i = begin; i < end; ++i) {
+      const Box own = box_of(ids[i]);
+      if (!own.overlaps(box)) continue;
+      mine.bounds.add(own);
+      ids[mine.end++] = ids[i];
+    }
+    parts[part] = mine;
+  });
+  std::size_t kept = 0;
+  Box all;
+  for (const Kept& part : parts) {
+    all.add(part.bounds);
+    if (part.begin != kept)
+      std::copy(ids.begin() + static_cast<std::ptrdiff_t>(part.begin),
+                ids.begin() + static_cast<std::ptrdiff_t>(part.end),
+                ids.begin() + static_cast<std::ptrdiff_t>(kept));
+    kept += part.end - part.begin;
+  }
+  ids.resize(kept);
+  return all;
+}
+
+// Drops from both lists what lies beyond the box round all of the other: most of a surface that
+// others touch at one end only. Boxes are widened by the reach of their things.
+template <class BoxOf, class OtherBoxOf>
+void drop_distant(std::vector<std::uint32_t>& ids, const BoxOf& box_of,
+                  std::vector<std::uint32_t>& others, const OtherBoxOf& other_box_of, int threads) {
+  Box round_ids = bounds_of(ids, box_of, threads);
+  std::size_t before = 0;
+  do {
+    before = ids.size();
+    const Box round_others = keep_inside(others, other_box_of, round_ids, threads);
+    round_ids = keep_inside(ids, box_of, round_others, threads);
+  } while (ids.size() < before / 2);  // else another round would gain little
+}
+
 // Things whose sizes differ by more than a factor of eight or so are kept in different leaves and
 // groups. The class repeats every 8^8, which does no harm.
 inline unsigned size_class(double size) {
   return static_cast<unsigned>(((bit_cast<std::uint64_t>(size) >> 52) & 0x7ffU) / 3) & 7U;
 }
 
-// Box of an edge, widened by `reach`.
+// By value: std::min and std::max keep what they compare in memory.
+inline double smaller_of(double a, double b) { return b < a ? b : a; }
+inline double larger_of(double a, double b) { return a < b ? b : a; }
+
+// Box of one, two or four nodes, widened by `reach`.
+template <std::size_t N>
+Box box_of_nodes(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of, double reach) {
+  struct Range {
+    double low, high;
+    double farthest() const { return larger_of(-low, high); }
+  };
+  const auto range = [&of](const double* v) -> Range {
+    const double a = v[of[0]], b = v[of[N > 1 ? 1 : 0]];
+    Range r{smaller_of(a, b), larger_of(a, b)};
+    if constexpr (N == 4) {
+      const double c = v[of[2]], d = v[of[3]];
+      r = {smaller_of(r.low, smaller_of(c, d)), larger_of(r.high, larger_of(c, d))};
+    }
+    return r;
+  };
+  const Range x = range(nodes.x.data()), y = range(nodes.y.data()), z = range(nodes.z.data());
+  const double largest =
+      larger_of(larger_of(0.0, x.farthest()), larger_of(y.farthest(), z.farthest()));
+  const double r = Reach::widened(reach, largest);
+  return {{x.low - r, y.low - r, z.low - r}, {x.high + r, y.high + r, z.high + r}};
+}
 inline Box edge_box(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
                     double reach) {
-  const Point3<double> a = point(nodes, edge[0]), b = point(nodes, edge[1]);
-  Box box;
-  box.low = {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-  box.high = {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-  double largest = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    largest = std::max(largest, std::max(-box.low[k], box.high[k]));
-  }
-  const double r = Reach::widened(reach, largest);
-  for (std::size_t k = 0; k < 3; ++k) {
-    box.low[k] -= r;
-    box.high[k] += r;
-  }
-  return box;
+  return box_of_nodes(nodes, edge, reach);
+}
+inline Box segment_box(const NodeArrays& nodes, const std::array<std::uint32_t, 4>& segment,
+                       double reach) {
+  return box_of_nodes(nodes, segment, reach);
 }
 
 // Orders things in space by their places, place_of(id) each.

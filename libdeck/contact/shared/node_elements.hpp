@@ -20,10 +20,10 @@ class Connectivity {
   /// Elements of `kind` that touch `node`, ascending; mid-side nodes of solids count. Not thread
   /// safe.
   std::span<const std::uint32_t> elements(ElementKind kind, NodeIndex node) {
-    const Elements& family = model_.family(kind);
-    if (family.size() == 0) return {};
-    prepare(kind);
-    return rows_[static_cast<std::size_t>(kind)].row(node);
+    const NodeElements& rows = rows_[static_cast<std::size_t>(kind)];
+    if (rows.first.empty()) prepare(kind);
+    if (rows.first.empty()) return {};  // there are no such elements
+    return rows.row(node);
   }
   /// From now on elements(kind, ...) may be asked by several threads.
   void prepare(ElementKind kind) {

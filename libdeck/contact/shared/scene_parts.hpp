@@ -62,7 +62,8 @@ void make_main_segments(SceneContext& context, const SegmentList& segments, Cont
 bool repair(std::array<NodeIndex, 4>& segment);
 /// The solids that have all nodes of a segment.
 struct SolidsOfSegment {
-  std::uint32_t first = no_index, best = no_index;  ///< best: largest user id
+  std::uint32_t first = no_index, last = no_index;
+  std::uint32_t best = no_index;  ///< the one of the largest user id
   int count = 0;
 };
 SolidsOfSegment solids_of(SceneContext& context, const std::array<NodeIndex, 4>& segment);

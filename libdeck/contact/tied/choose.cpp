@@ -83,6 +83,13 @@ class Reach {
 
 struct SegmentBox {
   Vec low, high;
+  double distance_from(const Vec& p) const {
+    const auto beyond = [](double v, double least, double most) {
+      return std::max(std::max(least - v, v - most), 0.0);
+    };
+    return norm(
+        {beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y), beyond(p.z, low.z, high.z)});
+  }
   bool holds(const Vec& p, double wider) const {
     return p.x >= low.x - wider && p.x <= high.x + wider && p.y >= low.y - wider &&
            p.y <= high.y + wider && p.z >= low.z - wider && p.z <= high.z + wider;
@@ -99,26 +106,33 @@ SegmentBox box_of(const Coordinates& x, const Corners& c) {
   return b;
 }
 
-/// A sub-triangle has so little area that the solver's distance may be less than the true one.
-bool collapsed(const Coordinates& x, const Corners& c) {
+/// What the solver's distance is worth on a segment. Where a sub-triangle has so little area that
+/// rounding decides, it may be less than the true one.
+enum class Trust : std::uint8_t { none, box, distance };
+
+Trust trust_in(const Coordinates& x, const Corners& c) {
   const Vec centre = 0.25 * (at(x, c[0]) + at(x, c[1]) + at(x, c[2]) + at(x, c[3]));
-  const auto thin = [](const Vec& a, const Vec& b, const Vec& d) {
+  double least = 1;  // area, as a share of a right angle's
+  const auto look = [&](const Vec& a, const Vec& b, const Vec& d) {
     const double longest = std::max({norm(b - a), norm(d - a), norm(d - b)});
-    constexpr double share = 1e-6;  // of a right angle's area: far above what rounding reaches
-    return norm(cross(b - a, d - a)) <= share * longest * longest;
+    const double area = norm(cross(b - a, d - a));
+    // Far above what rounding reaches.
+    for (const double share : {1e-6, 1e-3})
+      if (!(area > share * longest * longest)) least = std::min(least, share);
   };
-  if (is_triangle(c)) return thin(at(x, c[2]), at(x, c[0]), at(x, c[1]));
-  for (std::size_t k = 0; k < 4; ++k)
-    if (thin(centre, at(x, c[k]), at(x, c[(k + 1) % 4]))) return true;
-  return false;
+  if (is_triangle(c))
+    look(at(x, c[2]), at(x, c[0]), at(x, c[1]));
+  else
+    for (std::size_t k = 0; k < 4; ++k) look(centre, at(x, c[k]), at(x, c[(k + 1) % 4]));
+  return least == 1 ? Trust::distance : least == 1e-3 ? Trust::box : Trust::none;
 }
 
-/// Every node in the widened boxes of collapsed segments.
+/// Every node in the widened boxes of segments whose distance tells nothing.
 void add_pairs_by_box(const Coordinates& x, const Tie& tie, const Reach& reach,
-                      std::vector<CandidatePair>& pairs) {
+                      const std::vector<Trust>& trust, std::vector<CandidatePair>& pairs) {
   std::vector<std::pair<double, std::uint32_t>> along;
   for (std::uint32_t m = 0; m < tie.main.size(); ++m) {
-    if (!collapsed(x, tie.main[m])) continue;
+    if (trust[m] != Trust::none) continue;
     if (along.empty()) {
       for (std::uint32_t i = 0; i < tie.nodes.size(); ++i)
         along.emplace_back(x.x[tie.nodes[i].node], i);
@@ -137,7 +151,7 @@ void add_pairs_by_box(const Coordinates& x, const Tie& tie, const Reach& reach,
 
 /// Pairs that may be within reach, by node, then segment. False: there are too many.
 bool candidates(SceneContext& c, const Tie& tie, const Reach& reach,
-                std::vector<CandidatePair>& out) {
+                const std::vector<Trust>& trust, std::vector<CandidatePair>& out) {
   const Coordinates& x = c.scene.coordinates;
   std::vector<std::uint32_t> nodes;
   std::vector<double> of_nodes, of_segments;
@@ -162,7 +176,7 @@ bool candidates(SceneContext& c, const Tie& tie, const Reach& reach,
   SearchResult found = find_node_segment_pairs(input, options);
   if (!found.complete) return false;
   out = std::move(found.pairs);
-  add_pairs_by_box(x, tie, reach, out);
+  add_pairs_by_box(x, tie, reach, trust, out);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return true;
@@ -192,35 +206,83 @@ bool replaces(const Projection& a, bool a_triangle, const Projection& b, bool b_
   return mine.off_centre < other.off_centre;
 }
 
-void choose(const Coordinates& x, const Tie& tie, const Reach& reach,
-            std::span<const CandidatePair> pairs, TiedNode& out) {
+/// A node and a segment that may get it.
+struct Trial {
+  Projection projection;
+  double within = 0, stored = 0;
+  bool in_box = false;
+};
+
+/// Nothing where the segment cannot get the node.
+std::optional<Trial> try_segment(const Coordinates& x, const Tie& tie, const Reach& reach,
+                                 const CandidatePair& pair, NodeIndex node) {
+  const Corners& corners = tie.main[pair.main];
+  Trial out;
+  out.within = reach.of_pair(pair.secondary, pair.main);
+  out.projection = project(x, node, corners, out.within, tie.spotflag == 27);
+  const Projection& p = out.projection;
   const bool bounded = tie.ignore >= 1 && tie.ignore <= 3;
-  const bool weights = tie.spotflag == 27;
+  if (!(p.depth > 0)) return {};
+  if (bounded && !(std::fabs(p.s) < beyond && std::fabs(p.t) < beyond)) return {};
+  out.in_box = box_of(x, corners).holds(at(x, node), reach.widening(pair.main));
+  out.stored = reach.stored(out.within) - p.depth;
+  return out;
+}
+
+/// No more than Trial::stored of this pair.
+double least_stored(const Coordinates& x, const Tie& tie, const Reach& reach, Trust trust,
+                    const CandidatePair& pair, NodeIndex node) {
+  const double within = reach.of_pair(pair.secondary, pair.main);
+  double distance = 0;
+  if (trust == Trust::distance) {
+    const Vec p = at(x, node);
+    const SegmentBox box = box_of(x, tie.main[pair.main]);
+    distance = box.distance_from(p);
+    // Rounding of the solver's formula stays far below.
+    distance -= 1e-9 * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z) + distance +
+                        norm(box.high - box.low));
+  }
+  return reach.stored(within) - std::max(0.0, within - std::max(0.0, distance));
+}
+
+/// `trust`: of all segments; `least`: room.
+void choose(const Coordinates& x, const Tie& tie, const Reach& reach,
+            std::span<const CandidatePair> pairs, const std::vector<Trust>& trust,
+            std::vector<double>& least, TiedNode& out) {
+  if (pairs.empty()) return;
+  least.clear();
+  for (const CandidatePair& pair : pairs)
+    least.push_back(least_stored(x, tie, reach, trust[pair.main], pair, out.node));
+  // The one that is likely to be the nearest rules out most others without their distances.
+  const auto likely =
+      static_cast<std::size_t>(std::min_element(least.begin(), least.end()) - least.begin());
+  const std::optional<Trial> first = try_segment(x, tie, reach, pairs[likely], out.node);
+  const bool known = first && first->in_box;
   Projection best;
-  for (const CandidatePair& pair : pairs) {
-    const Corners& corners = tie.main[pair.main];
-    const bool in_box = box_of(x, corners).holds(at(x, out.node), reach.widening(pair.main));
-    const double within = reach.of_pair(pair.secondary, pair.main);
-    const Projection p = project(x, out.node, corners, within, weights);
-    if (!(p.depth > 0)) continue;
-    if (bounded && !(std::fabs(p.s) < beyond && std::fabs(p.t) < beyond)) continue;
-    if (!in_box) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (known && least[i] > first->stored) continue;
+    const CandidatePair& pair = pairs[i];
+    const std::optional<Trial> trial =
+        i == likely ? first : try_segment(x, tie, reach, pair, out.node);
+    if (!trial) continue;
+    if (!trial->in_box) {
       out.missed = true;  // unless another segment is found
       continue;
     }
-    const double stored = reach.stored(within) - p.depth;
+    const Projection& p = trial->projection;
     if (out.segment != no_index) {
-      if (stored > out.distance) continue;
-      if (stored == out.distance &&
-          !replaces(p, is_triangle(corners), best, is_triangle(tie.main[out.segment]), weights))
+      if (trial->stored > out.distance) continue;
+      if (trial->stored == out.distance &&
+          !replaces(p, is_triangle(tie.main[pair.main]), best, is_triangle(tie.main[out.segment]),
+                    tie.spotflag == 27))
         continue;
     }
     best = p;
     out.segment = pair.main;
     out.s = p.s;
     out.t = p.t;
-    out.distance = stored;
-    out.search = within;
+    out.distance = trial->stored;
+    out.search = trial->within;
   }
   if (out.segment != no_index) out.missed = false;
 }
@@ -274,8 +336,11 @@ void classify(const Tie& tie, TiedNode& n) {
 
 void search_ties(SceneContext& c, TieThickness& thickness, Tie& tie) {
   const Reach reach(c, thickness, tie);
+  std::vector<Trust> trust;
+  trust.reserve(tie.main.size());
+  for (const Corners& corners : tie.main) trust.push_back(trust_in(c.scene.coordinates, corners));
   std::vector<CandidatePair> pairs;
-  if (!candidates(c, tie, reach, pairs)) {
+  if (!candidates(c, tie, reach, trust, pairs)) {
     tie.not_evaluated = "too many pairs of nodes and segments are within its search distance";
     return;
   }
@@ -284,10 +349,11 @@ void search_ties(SceneContext& c, TieThickness& thickness, Tie& tie) {
   parallel_parts(threads, tie.nodes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     auto next = std::lower_bound(pairs.begin(), pairs.end(),
                                  CandidatePair{static_cast<std::uint32_t>(begin), 0});
+    std::vector<double> least;
     for (std::size_t i = begin; i < end; ++i) {
       const auto first = next;
       while (next != pairs.end() && next->secondary == i) ++next;
-      choose(x, tie, reach, {first, next}, tie.nodes[i]);
+      choose(x, tie, reach, {first, next}, trust, least, tie.nodes[i]);
       classify(tie, tie.nodes[i]);
     }
   });

@@ -41,13 +41,33 @@ Baseline::Baseline(const Scene& scene, const FixOptions& options) : options_(&op
     for (const PenetrationRow& row : contact.penetrations) {
       if (!is_penetration(row)) continue;
       const PairKey pair = key_of(scene, {c, row.secondary, row.main});
-      Row& kept = rows_[judged(pair)];
-      kept.pair = pair;
-      kept.depth = std::max(kept.depth, row.depth);
-      kept.tie = tie;
+      rows_.push_back({judged(pair), pair, row.depth, tie});
     }
   }
   add_ties(scene);
+  settle();
+}
+
+/// Sorts rows; of those with one key the last stays, as deep as the deepest.
+void Baseline::settle() {
+  std::stable_sort(rows_.begin(), rows_.end(),
+                   [](const Row& a, const Row& b) { return a.key < b.key; });
+  std::size_t kept = 0;
+  for (const Row& row : rows_) {
+    if (kept > 0 && !(rows_[kept - 1].key < row.key)) {
+      Row& same = rows_[kept - 1];
+      same = {row.key, row.pair, std::max(same.depth, row.depth), row.tie};
+    } else {
+      rows_[kept++] = row;
+    }
+  }
+  rows_.resize(kept);
+}
+
+const Baseline::Row* Baseline::find(const PairKey& key) const {
+  const auto it = std::lower_bound(rows_.begin(), rows_.end(), key,
+                                   [](const Row& row, const PairKey& k) { return row.key < k; });
+  return it != rows_.end() && !(key < it->key) ? &*it : nullptr;
 }
 
 void Baseline::add_ties(const Scene& scene) {
@@ -59,19 +79,19 @@ void Baseline::add_ties(const Scene& scene) {
       pair.secondary = {n.node, 0};
       pair.main = scene.ties[t].main[n.segment];
       std::sort(pair.main.begin(), pair.main.end());
-      rows_[pair] = {pair, 1, true};
+      rows_.push_back({pair, pair, 1, true});
     }
 }
 
 std::size_t Baseline::tied_pairs() const {
   return static_cast<std::size_t>(
-      std::count_if(rows_.begin(), rows_.end(), [](const auto& row) { return row.second.tie; }));
+      std::count_if(rows_.begin(), rows_.end(), [](const Row& row) { return row.tie; }));
 }
 
 std::size_t Baseline::tied_nodes() const {
   std::set<std::pair<std::uint32_t, std::array<NodeIndex, 2>>> nodes;
-  for (const auto& [key, row] : rows_)
-    if (row.tie) nodes.insert({key.contact, key.secondary});
+  for (const Row& row : rows_)
+    if (row.tie) nodes.insert({row.key.contact, row.key.secondary});
   return nodes.size();
 }
 
@@ -82,13 +102,13 @@ std::vector<Harm> Baseline::harm(const Scene& now) const {
   const auto add = [&](const Row& row, double before, double depth) {
     out.push_back({row.pair, nodes_of(now, row.pair), row.tie, before, depth});
   };
-  for (const auto& [key, row] : after.rows_) {
-    const auto it = rows_.find(key);
-    const double before = it == rows_.end() ? 0 : it->second.depth;
-    if (row.tie ? it == rows_.end() : row.depth > before * deeper) add(row, before, row.depth);
+  for (const Row& row : after.rows_) {
+    const Row* const known = find(row.key);
+    const double before = known == nullptr ? 0 : known->depth;
+    if (row.tie ? known == nullptr : row.depth > before * deeper) add(row, before, row.depth);
   }
-  for (const auto& [key, row] : rows_)
-    if (row.tie && !after.rows_.contains(key)) add(row, row.depth, 0);
+  for (const Row& row : rows_)
+    if (row.tie && after.find(row.key) == nullptr) add(row, row.depth, 0);
   std::stable_sort(out.begin(), out.end(),
                    [](const Harm& a, const Harm& b) { return a.tie > b.tie; });
   return out;

@@ -2,7 +2,6 @@
 // than before, and what is tied stays tied. Private to the stage.
 #pragma once
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +27,7 @@ class Baseline {
   Baseline() = default;
   /// With FixOptions::ties ties of the interfaces asked for count as penetrations.
   Baseline(const Scene& scene, const FixOptions& options);
-  bool contains(const PairKey& pair) const { return rows_.contains(judged(pair)); }
+  bool contains(const PairKey& pair) const { return find(judged(pair)) != nullptr; }
   std::size_t tied_pairs() const;
   std::size_t tied_nodes() const;  ///< secondary ones
   /// Everything that is worse in `now`, a scene of the same deck. Ties first.
@@ -36,20 +35,23 @@ class Baseline {
 
  private:
   struct Row {
+    PairKey key;  ///< judged()
     PairKey pair;
     double depth = 0;
     bool tie = false;
   };
-  /// What stands for a pair in `rows_`.
+  /// What stands for a pair in a row.
   PairKey judged(PairKey pair) const {
     if (pair.contact < by_node_.size() && by_node_[pair.contact]) pair.main = {};
     return pair;
   }
   void add_ties(const Scene& scene);
+  void settle();
+  const Row* find(const PairKey& key) const;
   const FixOptions* options_ = nullptr;
   std::vector<bool> by_node_;  ///< by contact
   /// Keys with contacts beyond those of the scene: its ties.
-  std::map<PairKey, Row> rows_;
+  std::vector<Row> rows_;  ///< by key, each once
 };
 
 /// Takes all of a fix back if the deck read again with it is worse than before, and says so in

@@ -436,6 +436,8 @@ DecodedCard detail::decode_in_context(const Deck& deck, const Block& block, cons
   }
   if (card.repeat == Repeat::ids) {
     const int most = card.count.empty() ? line_columns : card.per_line;
+    const Field& id = card.fields.back();
+    out.cells.reserve(line.text.size() / static_cast<std::size_t>(id.last - id.first + 1) + 1);
     read_ids(deck, findings, card, block.version, line, context.cells > 0 ? context.cells : most,
              out);
     return out;
@@ -443,6 +445,7 @@ DecodedCard detail::decode_in_context(const Deck& deck, const Block& block, cons
   // Where a schema describes only the cells that matter here, the other columns are not blank.
   const bool complete = block.schema == nullptr || block.schema->layout_known();
   if (findings.on() && complete) check_gaps(findings, card, block.version, line);
+  out.cells.reserve(card.fields.size());
   for_each_field(card, block.version, out, context, [&](const Field& f) {
     out.cells.push_back(read_cell(deck, findings, f, detail::columns(line.text, f.first, f.last),
                                   line.columns(f.first, f.last)));

@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
 #include <set>
 
+#include "base/shared/parallel.hpp"
 #include "deck/contact/crossings.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
@@ -15,6 +19,7 @@
 #include "edit/fix/nodes/depenetrate_locks.hpp"
 #include "edit/fix/nodes/depenetrate_mesh.hpp"
 #include "edit/fix/nodes/depenetrate_rows.hpp"
+#include "edit/fix/nodes/node_table.hpp"
 #include "edit/fix/type_rules.hpp"
 
 namespace deck {
@@ -122,14 +127,15 @@ class Depenetrator : MovableDeck {
     for (int i = 0; i < options_.iterations; ++i) {
       const Scene scene = evaluate();
       double total = 0;
-      std::size_t left = 0;
+      std::vector<PairAt> too_close;
       for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
         for (const PenetrationRow& row : scene.contacts[c].penetrations)
           if (is_task(scene, {c, row.secondary, row.main}) && is_penetration(row)) {
-            active_.insert({c, row.secondary, row.main});
+            too_close.push_back({c, row.secondary, row.main});
             total += row.depth / row.gap;
-            ++left;
           }
+      const std::size_t left = too_close.size();
+      remember(std::move(too_close));
       if (options_.progress)
         options_.progress("moving nodes", first_left_ - std::min(first_left_, left), first_left_);
       if (fix_.iterations == 0) first_left_ = left;
@@ -146,6 +152,15 @@ class Depenetrator : MovableDeck {
     return false;
   }
 
+  /// Adds pairs to those that were ever too close.
+  void remember(std::vector<PairAt> pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    std::vector<PairAt> all;
+    std::set_union(active_.begin(), active_.end(), pairs.begin(), pairs.end(),
+                   std::back_inserter(all));
+    active_ = std::move(all);
+  }
+
   std::size_t tasks_left() {
     const Scene scene = evaluate();
     std::size_t left = 0;
@@ -157,10 +172,10 @@ class Depenetrator : MovableDeck {
 
   /// A penetration that should go: of the interfaces asked for, or one that was not there before.
   bool is_task(const Scene& scene, const PairAt& at) const {
-    const PairKey key = key_of(scene, at);
     const Contact& contact = scene.contacts[at.contact];
-    if (skipped_.contains(key)) return false;
-    return is_wanted(options_, contact) || (!contact.ties() && !baseline_.contains(key));
+    if (!skipped_.empty() && skipped_.contains(key_of(scene, at))) return false;
+    return is_wanted(options_, contact) ||
+           (!contact.ties() && !baseline_.contains(key_of(scene, at)));
   }
 
   /// Moves nodes once; false if none can move.
@@ -172,25 +187,24 @@ class Depenetrator : MovableDeck {
       nodes.insert(nodes.end(), w.state.nodes.begin(), w.state.nodes.begin() + w.state.count);
     hold_unwritable(nodes);
     for (;;) {
-      std::map<NodeIndex, Vec> moves = moves_for(wishes);
+      const NodeMoves moves = moves_for(wishes);
       if (admit(moves)) return apply(scene, pairs, moves);
     }
   }
 
-  std::map<NodeIndex, Vec> moves_for(const std::vector<Wish>& wishes) {
-    std::map<NodeIndex, Vec> moves = solve_wishes(wishes, holds_, sweeps);
+  NodeMoves moves_for(const std::vector<Wish>& wishes) {
+    NodeMoves moves = solve_wishes(wishes, holds_, sweeps);
     if (options_.smooth > 0) smooth(moves);
-    std::map<NodeIndex, double> cap;
+    constexpr double none = std::numeric_limits<double>::infinity();
+    std::vector<double> cap(holds_.size(), none);  // by node: its smallest gap
     for (const Wish& w : wishes)
       for (int i = 0; i < w.state.count; ++i) {
-        const NodeIndex n = w.state.nodes[static_cast<std::size_t>(i)];
-        const auto it = cap.try_emplace(n, w.state.gap).first;
-        it->second = std::min(it->second, w.state.gap);
+        double& least = cap[w.state.nodes[static_cast<std::size_t>(i)]];
+        least = std::min(least, w.state.gap);
       }
     for (auto& [n, move] : moves) {
-      const auto it = cap.find(n);
-      if (it == cap.end()) continue;
-      const double most = largest_step * it->second, l = norm(move);
+      if (cap[n] == none) continue;
+      const double most = largest_step * cap[n], l = norm(move);
       if (l > most) move = (most / l) * move;
     }
     keep_within_bounds(moves);
@@ -202,9 +216,12 @@ class Depenetrator : MovableDeck {
 
   /// Every pair that was ever too close, as it is now; by contact and secondary node.
   std::vector<PairNow> active_pairs(const Scene& scene) const {
-    std::vector<PairNow> out;
-    out.reserve(active_.size());
-    for (const PairAt& at : active_) out.push_back({at, state_of(scene, now_, at)});
+    std::vector<PairNow> out(active_.size());
+    parallel_parts(effective_threads(options_.threads), out.size(),
+                   [&](std::size_t, std::size_t begin, std::size_t end) {
+                     for (std::size_t i = begin; i < end; ++i)
+                       out[i] = {active_[i], state_of(scene, now_, active_[i])};
+                   });
     return out;
   }
 
@@ -231,7 +248,8 @@ class Depenetrator : MovableDeck {
   }
 
   /// Neighbours of moved nodes follow, ring by ring, less and less.
-  void smooth(std::map<NodeIndex, Vec>& moves) {
+  void smooth(NodeMoves& of_wishes) {
+    std::map<NodeIndex, Vec> moves(of_wishes.begin(), of_wishes.end());
     std::set<NodeIndex> ring;
     for (const auto& [n, move] : moves) ring.insert(n);
     for (int k = 1; k <= options_.smooth; ++k) {
@@ -261,11 +279,12 @@ class Depenetrator : MovableDeck {
         ring.insert(n);
       }
     }
+    of_wishes.assign(moves.begin(), moves.end());
   }
 
   /// Counts the moved nodes of each part. False: parts would pass their share. These are left
   /// alone as a whole from now on, since a few moved nodes of a part are a dent and no repair.
-  bool admit(const std::map<NodeIndex, Vec>& moves) {
+  bool admit(const NodeMoves& moves) {
     std::map<std::uint32_t, std::uint32_t> added;
     for (const auto& [n, move] : moves)
       if (const std::uint32_t part = mesh_->part_of(n); part != no_index && !moved_.contains(n))
@@ -292,9 +311,18 @@ class Depenetrator : MovableDeck {
   }
 
   /// Out of the penetrations, no farther than they are deep, and within --max-displacement.
-  void keep_within_bounds(std::map<NodeIndex, Vec>& moves) {
-    for (auto& [n, move] : moves) {
-      const DepthBounds::Place may = bounds_.allowed(n, at(now_, n) + move - at(start_, n));
+  void keep_within_bounds(NodeMoves& moves) {
+    std::vector<DepthBounds::Place> places(moves.size());
+    parallel_parts(effective_threads(options_.threads), moves.size(),
+                   [&](std::size_t, std::size_t begin, std::size_t end) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                       const auto& [n, move] = moves[i];
+                       places[i] = bounds_.allowed(n, at(now_, n) + move - at(start_, n));
+                     }
+                   });
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      auto& [n, move] = moves[i];
+      const DepthBounds::Place& may = places[i];
       move = at(start_, n) + may.by - at(now_, n);
       if (may.at_bound) hold(n, Hold::depth);
       if (!options_.most_displacement) continue;
@@ -314,19 +342,17 @@ class Depenetrator : MovableDeck {
   }
 
   /// Makes the moves; those that cross elements or spoil their shape are halved, then dropped.
-  bool apply(const Scene& scene, const std::vector<PairNow>& pairs,
-             const std::map<NodeIndex, Vec>& moves) {
-    std::map<NodeIndex, double> share;
-    std::map<NodeIndex, Vec> from;
+  bool apply(const Scene& scene, const std::vector<PairNow>& pairs, const NodeMoves& moves) {
+    std::vector<double> share(moves.size(), 1);
+    std::vector<Vec> from;
     std::vector<NodeIndex> nodes;
     for (const auto& [n, move] : moves) {
-      share[n] = 1;
-      from[n] = at(now_, n);
+      from.push_back(at(now_, n));
       nodes.push_back(n);
     }
     for (int attempt = 0;; ++attempt) {
-      for (const NodeIndex n : nodes)
-        place(n, share[n] == 0 ? from[n] : from[n] + share[n] * moves.at(n));
+      for (std::size_t i = 0; i < moves.size(); ++i)
+        place(nodes[i], share[i] == 0 ? from[i] : from[i] + share[i] * moves[i].second);
       std::map<NodeIndex, Hold> bad = harmful_shapes(nodes);
       // Lines and lone nodes have no faces that would cross: they must not change sides.
       for (const auto& [pair, was] : pairs)
@@ -335,17 +361,19 @@ class Depenetrator : MovableDeck {
             bad.emplace(was.nodes[static_cast<std::size_t>(i)], Hold::would_cross);
       bool changed = false;
       for (const auto& [n, why] : bad) {
-        const auto it = share.find(n);
-        if (it == share.end() || it->second == 0) continue;
-        it->second = attempt < 2 ? 0.5 * it->second : 0;
+        const auto it = std::lower_bound(nodes.begin(), nodes.end(), n);
+        if (it == nodes.end() || *it != n) continue;
+        double& own = share[static_cast<std::size_t>(it - nodes.begin())];
+        if (own == 0) continue;
+        own = attempt < 2 ? 0.5 * own : 0;
         changed = true;
-        if (it->second > 0) continue;
+        if (own > 0) continue;
         blocked_[n] = why;
         if (++strikes_[n] >= 3) hold(n, why);
       }
       if (!changed) break;
     }
-    return std::any_of(share.begin(), share.end(), [](const auto& s) { return s.second > 0; });
+    return std::any_of(share.begin(), share.end(), [](double s) { return s > 0; });
   }
 
   /// Nodes of elements that cross, are turned, or have shrunk, since the start.
@@ -370,8 +398,8 @@ class Depenetrator : MovableDeck {
   /// Puts every moved node where its printed coordinates are.
   void print_all() {
     texts_.clear();
-    for (auto it = moved_.begin(); it != moved_.end();) {
-      const NodeIndex n = *it;
+    for (const NodeIndex n : moved_.all()) {
+      bool written = false;
       const Vec u = at(now_, n) - at(start_, n);
       const double size = norm(u);
       const double to[3] = {now_.x[n], now_.y[n], now_.z[n]};
@@ -383,15 +411,13 @@ class Depenetrator : MovableDeck {
         const auto text = cells_.print(n, axis, to[axis]);
         if (!text || text->value == old[axis]) continue;
         printed[axis] = text->value;
-        texts_[{n, axis}] = text->text;
+        texts_.emplace_hint(texts_.end(), std::pair(n, axis), text->text);
+        written = true;
       }
       place(n, {printed[0], printed[1], printed[2]});
-      if (texts_.lower_bound({n, 0}) == texts_.lower_bound({n, 3})) {
-        forget(n);
-        it = moved_.erase(it);
-      } else {
-        ++it;
-      }
+      if (written) continue;
+      forget(n);
+      moved_.erase(n);
     }
   }
 
@@ -404,7 +430,7 @@ class Depenetrator : MovableDeck {
   std::size_t take_back_harmful() {
     std::size_t taken = 0;
     while (!moved_.empty()) {
-      const std::vector<NodeIndex> nodes(moved_.begin(), moved_.end());
+      const std::vector<NodeIndex> nodes = moved_.all();
       std::map<NodeIndex, Hold> bad = harmful_shapes(nodes);
       blame(evaluate(), bad);
       const std::size_t before = taken;
@@ -416,7 +442,7 @@ class Depenetrator : MovableDeck {
 
   /// Puts a node back where it was; false if it has not moved.
   bool take_back(NodeIndex n) {
-    if (moved_.erase(n) == 0) return false;
+    if (!moved_.erase(n)) return false;
     place(n, at(start_, n));
     forget(n);
     for (int axis = 0; axis < 3; ++axis) texts_.erase({n, axis});
@@ -439,7 +465,7 @@ class Depenetrator : MovableDeck {
     if (moved_.empty()) return 0;
     const Baseline left(evaluate(), options_);
     std::vector<NodeIndex> idle;
-    for (const NodeIndex n : moved_) {
+    for (const NodeIndex n : moved_.all()) {
       const std::vector<PairKey>& pairs = bounds_.pairs_of(n);
       const std::span<const NodeIndex> next = mesh_->neighbours(n);
       const bool needed =
@@ -469,7 +495,7 @@ class Depenetrator : MovableDeck {
       }
       // Nobody of the pair moved: its gap changed, because a default follows the shortest side.
       if (!found)
-        for (const NodeIndex n : moved_) bad.emplace(n, why);
+        for (const NodeIndex n : moved_.all()) bad.emplace(n, why);
     }
   }
 
@@ -495,7 +521,7 @@ class Depenetrator : MovableDeck {
       fix_.strategy = "move-nodes";
       fix_.crossings_after = find_crossings(after, options_.threads).size();
       set_interfaces(fix_, context_.interfaces(), options_, before, after);
-      fix_.moved = moved_list(model_, *mesh_, {moved_.begin(), moved_.end()}, start_, now_);
+      fix_.moved = moved_list(model_, *mesh_, moved_.all(), start_, now_);
       list_refused(after);
       note_unevaluated(fix_, after, options_);
       fix_.complete = fix_.refused.empty();
@@ -566,11 +592,11 @@ class Depenetrator : MovableDeck {
   std::optional<FixMesh> mesh_;
   std::vector<std::uint8_t> holds_;
   std::vector<bool> looked_up_;  ///< by cells_
-  std::set<NodeIndex> moved_;
+  NodeMarks moved_;
   std::vector<std::uint32_t> moved_in_part_;
   std::map<NodeIndex, int> strikes_;               ///< how often a move was dropped
   std::map<NodeIndex, Hold> blocked_;              ///< and why, the last time
-  std::set<PairAt> active_;                        ///< every pair that was ever too close
+  std::vector<PairAt> active_;                     ///< every pair that was ever too close
   Baseline baseline_;                              ///< penetrations and ties before
   DepthBounds bounds_;                             ///< of the nodes in penetrations
   std::map<std::uint32_t, std::uint32_t> needed_;  ///< nodes, of parts that are left alone

@@ -1,10 +1,10 @@
 // How far and which way a node may move: out of the penetrations it is in, along their normals, and
 // by no more than the depth that it repairs there. Private to the stage.
 #pragma once
-#include <map>
 #include <vector>
 
 #include "edit/fix/nodes/depenetrate_rows.hpp"
+#include "edit/fix/nodes/node_table.hpp"
 
 namespace deck::detail {
 
@@ -34,7 +34,7 @@ class DepthBounds {
     std::vector<Vec> directions;  ///< unit, all different
     std::vector<PairKey> pairs;
   };
-  std::map<NodeIndex, Bound> nodes_;
+  NodeTable<Bound> nodes_;
 };
 
 }  // namespace deck::detail

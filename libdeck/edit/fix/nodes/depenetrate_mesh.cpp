@@ -2,6 +2,7 @@
 #include "edit/fix/nodes/depenetrate_mesh.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <queue>
 
@@ -32,6 +33,18 @@ IndexRows rows_by_node(const Items& items, std::size_t nodes) {
   std::vector<std::uint32_t> at(rows.first.begin(), rows.first.end() - 1);
   each([&](NodeIndex n, std::uint32_t i) { rows.entries[at[n]++] = i; });
   return rows;
+}
+
+/// The items around some nodes, each once, ascending. `count`: of all items.
+std::vector<std::uint32_t> items_around(const IndexRows& rows, std::span<const NodeIndex> nodes,
+                                        std::size_t count) {
+  std::vector<bool> around(count);
+  for (const NodeIndex n : nodes)
+    for (const std::uint32_t i : rows.row(n)) around[i] = true;
+  std::vector<std::uint32_t> out;
+  for (std::size_t i = 0; i < count; ++i)
+    if (around[i]) out.push_back(static_cast<std::uint32_t>(i));
+  return out;
 }
 
 /// Slots of a node-defined shape that are part of it: a beam's third node only orients it.
@@ -183,17 +196,10 @@ bool FixMesh::connected_within(const Coordinates& x, NodeIndex from, std::span<c
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> FixMesh::crossings(
     const Coordinates& x, std::span<const NodeIndex> nodes, int threads) const {
-  std::vector<std::uint32_t> moved_edges, moved_faces;
-  for (const NodeIndex n : nodes) {
-    for (const std::uint32_t e : edges_of_.row(n)) moved_edges.push_back(e);
-    for (const std::uint32_t f : faces_of_.row(n)) moved_faces.push_back(f);
-  }
-  for (auto* list : {&moved_edges, &moved_faces}) {
-    std::sort(list->begin(), list->end());
-    list->erase(std::unique(list->begin(), list->end()), list->end());
-  }
+  const std::vector<std::uint32_t> moved_edges = items_around(edges_of_, nodes, edges_.size());
+  const std::vector<std::uint32_t> moved_faces = items_around(faces_of_, nodes, faces_.size());
   std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
-  // Moved edges against all faces near them, then all edges against the moved faces.
+  // Moved edges against all faces near them, then all other edges against the moved faces.
   const auto pairs = [&](const std::vector<std::uint32_t>& edge_list,
                          const std::vector<std::uint32_t>& face_list) {
     std::vector<std::array<NodeIndex, 2>> edges;
@@ -215,7 +221,11 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> FixMesh::crossings(
   for (const std::uint32_t f : moved_faces)
     for (const NodeIndex n : faces_[f]) face_box.add(x, n);
   pairs(moved_edges, near(faces_, edge_box));
-  pairs(near(edges_, face_box), moved_faces);
+  std::vector<std::uint32_t> others;
+  const std::vector<std::uint32_t> near_edges = near(edges_, face_box);
+  std::set_difference(near_edges.begin(), near_edges.end(), moved_edges.begin(), moved_edges.end(),
+                      std::back_inserter(others));
+  pairs(others, moved_faces);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
@@ -292,12 +302,7 @@ std::vector<NodeIndex> FixMesh::inverted(const Coordinates& before, const Coordi
   std::vector<NodeIndex> out;
   const auto look = [&](const IndexRows& rows, const Elements& family, const auto& turned) {
     if (family.size() == 0) return;
-    std::vector<std::uint32_t> elements;
-    for (const NodeIndex n : nodes)
-      elements.insert(elements.end(), rows.row(n).begin(), rows.row(n).end());
-    std::sort(elements.begin(), elements.end());
-    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
-    for (const std::uint32_t e : elements) {
+    for (const std::uint32_t e : items_around(rows, nodes, family.size())) {
       const NodeIndex* n = family.of(e);
       if (complete(n, family.width) && turned(n, e)) out.insert(out.end(), n, n + family.width);
     }

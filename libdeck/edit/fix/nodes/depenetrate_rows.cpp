@@ -186,14 +186,16 @@ std::vector<bool> inside_solids(const Scene& scene, std::uint32_t contact) {
   return inside;
 }
 
-std::map<NodeIndex, Vec> solve_wishes(const std::vector<Wish>& wishes,
-                                      const std::vector<std::uint8_t>& held, int sweeps) {
-  std::map<NodeIndex, std::uint32_t> index;
+NodeMoves solve_wishes(const std::vector<Wish>& wishes, const std::vector<std::uint8_t>& held,
+                       int sweeps) {
+  std::vector<std::uint32_t> index(held.size(), no_index);  // by node
+  std::uint32_t count_of_nodes = 0;
   for (const Wish& w : wishes)
-    for (int i = 0; i < w.state.count; ++i)
-      index.emplace(w.state.nodes[static_cast<std::size_t>(i)],
-                    static_cast<std::uint32_t>(index.size()));
-  std::vector<Vec> move(index.size());
+    for (int i = 0; i < w.state.count; ++i) {
+      std::uint32_t& at = index[w.state.nodes[static_cast<std::size_t>(i)]];
+      if (at == no_index) at = count_of_nodes++;
+    }
+  std::vector<Vec> move(count_of_nodes);
   struct Row {
     std::array<std::uint32_t, 6> at{};
     std::array<double, 6> weight{}, give{};
@@ -206,7 +208,7 @@ std::map<NodeIndex, Vec> solve_wishes(const std::vector<Wish>& wishes,
     for (std::size_t i = 0; i < static_cast<std::size_t>(w.state.count); ++i) {
       const NodeIndex n = w.state.nodes[i];
       const bool main = static_cast<int>(i) >= w.state.secondary_count;
-      rows[r].at[i] = index.at(n);
+      rows[r].at[i] = index[n];
       rows[r].weight[i] = w.state.weights[i];
       const bool free = held[n] == 0 && (!main || w.main_gives_way);
       rows[r].give[i] = free ? w.state.weights[i] : 0;
@@ -239,9 +241,10 @@ std::map<NodeIndex, Vec> solve_wishes(const std::vector<Wish>& wishes,
     }
     if (!changed) break;
   }
-  std::map<NodeIndex, Vec> out;
-  for (const auto& [node, i] : index)
-    if (dot(move[i], move[i]) > 0) out.emplace(node, move[i]);
+  NodeMoves out;
+  for (NodeIndex n = 0; n < index.size(); ++n)
+    if (const std::uint32_t i = index[n]; i != no_index && dot(move[i], move[i]) > 0)
+      out.emplace_back(n, move[i]);
   return out;
 }
 

@@ -3,13 +3,13 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "contact/shared/scene_parts.hpp"
 #include "edit/fix/nodes/depenetrate_mesh.hpp"
+#include "edit/fix/nodes/node_table.hpp"
 
 namespace deck::detail {
 
@@ -77,7 +77,7 @@ struct Wish {
 /// The smallest displacements (sum of squares) that fulfil the wishes, approached in `sweeps`
 /// passes over them in the order given; nodes with held[n] != 0 stay. Where wishes contradict each
 /// other the result is a compromise.
-std::map<NodeIndex, Vec> solve_wishes(const std::vector<Wish>& wishes,
-                                      const std::vector<std::uint8_t>& held, int sweeps);
+NodeMoves solve_wishes(const std::vector<Wish>& wishes, const std::vector<std::uint8_t>& held,
+                       int sweeps);
 
 }  // namespace deck::detail
