@@ -176,14 +176,14 @@ TEST(Type25, SearchFindsWhatAllPairsGive) {
     make_sides(context, *b.model.selections, inter, s);
     set_gaps(context, s);
     set_stiffness(context, s);
-    const Topology t = make_topology(scene.coordinates, s.faces);
+    const Topology t(scene.coordinates, s, 1);
     const Found search = find_nodes25(context, s, t);
     std::size_t at = 0;
     for (std::uint32_t n = 0; n < s.nodes.size(); ++n) {
       double nearest = 0, p = 0;
       bool any = false;
-      for (std::uint32_t f = 0; f < s.faces.size(); ++f) {
-        const Face& face = s.faces[f];
+      for (std::uint32_t f = 0; f < s.count(); ++f) {
+        const Face face = s.face(f);
         const auto& corners = face.nodes;
         if (std::find(corners.begin(), corners.end(), s.nodes[n].node) != corners.end()) continue;
         if (!s.across(s.nodes[n].bits, face.bits)) continue;
@@ -223,18 +223,19 @@ TEST(Type25, NeighboursAreMutualAndBordersFree) {
   Sides s;
   s.set = settings_of(*b.interfaces.ordered.front(), {});
   make_sides(context, *b.model.selections, *b.interfaces.ordered.front(), s);
-  const Topology t = make_topology(scene.coordinates, s.faces);
+  const Topology t(scene.coordinates, s, 1);
   std::size_t free = 0;
-  for (std::uint32_t i = 0; i < s.faces.size(); ++i)
+  for (std::uint32_t i = 0; i < s.count(); ++i)
     for (std::uint32_t k = 0; k < 4; ++k) {
-      if (s.faces[i].nodes[k] == s.faces[i].nodes[(k + 1) % 4]) continue;
-      const std::uint32_t j = t.neighbour[i][k];
-      if (j == no_index) {
+      if (s.nodes_of(i)[k] == s.nodes_of(i)[(k + 1) % 4]) continue;
+      const Topology::Across j = t.across(i, k);
+      if (j.free()) {
         ++free;
         continue;
       }
-      const auto& back = t.neighbour[j];
-      EXPECT_NE(std::find(back.begin(), back.end(), i), back.end());
+      const Topology::Across back = t.across(j.face, j.side);
+      EXPECT_EQ(back.face, i);
+      EXPECT_EQ(back.side, k);
     }
   EXPECT_EQ(free, 2u * 2u * 24u) << "24 sides of each sheet, front and back";
 }
@@ -259,7 +260,40 @@ TEST(Type25, EdgesOfSheetsThatCross) {
   EXPECT_FALSE(edges.penetrations.empty());
   for (const Contact& c : b.scene.contacts)
     EXPECT_TRUE(c.inter->id != 2 || c.role == ContactRole::primary) << "no edges without Iedge";
-  EXPECT_FALSE(b.contact(3, ContactRole::edges).evaluated) << "edges against solids are left open";
+  EXPECT_TRUE(b.contact(3, ContactRole::edges).evaluated);
+}
+
+// A cube and a sheet whose first side comes through its top, 0.6 from the edge at x = 10, slanting.
+TEST(Type25, EdgesThroughTheFacesOfSolids) {
+  SmallDeck d;
+  const double x[4] = {0, 10, 10, 0}, y[4] = {0, 0, 10, 10};
+  for (int i = 0; i < 4; ++i) d.node(1 + i, x[i], y[i], 0).node(5 + i, x[i], y[i], 10);
+  d.node(101, 9.8, 5, 8).node(102, 9, 5, 12).node(103, 9, 9, 12.5);
+  d.solid_part(1).shell_part(2, 0.5).brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8});
+  d.shell3(2, 2, 101, 102, 103);
+  d.group("/SURF/PART/EXT/1", {1}).group("/SURF/PART/2", {2});
+  d.add("@/INTER/TYPE25/1 surf_ID1=1 surf_ID2=2 Inacti=5 Iedge=11");
+  d.add("@/INTER/TYPE25/2 surf_ID1=1 surf_ID2=2 Inacti=5 Iedge=1");
+  d.add("@/INTER/TYPE25/3 surf_ID1=1 surf_ID2=2 Inacti=5 Iedge=11 Igap=2");
+  const Built b(d);
+  const Contact& edges = b.contact(1, ContactRole::edges);
+  EXPECT_TRUE(edges.evaluated);
+  int met = 0;
+  for (const EdgeThroughSegment& e : edges.edges_through_segments) {
+    const auto& nodes = edges.main_edges[e.edge].nodes;
+    if (b.model.node_id(nodes[0]) != 101 || b.model.node_id(nodes[1]) != 102) continue;
+    ++met;
+    const auto& top = b.contact(1).main[e.main].nodes;
+    const auto corner = [&](int k) {
+      return b.model.node_id(top[static_cast<std::size_t>(k) % 4]);
+    };
+    EXPECT_EQ(std::min(corner(e.side - 1), corner(e.side)), 6);
+    EXPECT_EQ(std::max(corner(e.side - 1), corner(e.side)), 7);
+    EXPECT_NEAR(e.depth, 0.6 * 4 / std::sqrt(0.64 + 16), 1e-12);
+  }
+  EXPECT_EQ(met, 1) << "beside one side of one face";
+  EXPECT_TRUE(b.contact(2, ContactRole::edges).edges_through_segments.empty());
+  EXPECT_FALSE(b.contact(3, ContactRole::edges).evaluated) << "Igap 2 is left open";
 }
 
 TEST(Type25, SidesOfSolidsSheetsAndCoats) {

@@ -22,6 +22,7 @@ template <class T>
 void make_room(std::vector<T>& vector, std::size_t count, int threads) {
   if (count <= vector.capacity()) return;
   vector.reserve(count);
+  prefer_large_pages(vector);
   lay_pages(vector.data() + vector.size(), vector.data() + count, threads);
 }
 

@@ -282,11 +282,46 @@ class RecentEdges {
   std::vector<std::array<NodeIndex, 2>> slots_;
 };
 
+/// The main segments of a contact without those that are the other side of one before them: where
+/// an edge meets both it is one place, and counts for the first.
+struct MainSides {
+  std::size_t count = 0;                ///< of the others, which come first
+  std::vector<std::uint32_t> opposite;  ///< of each of them; no_index: none. Empty: nobody has one
+
+  explicit MainSides(const Contact& contact) : count(contact.main.size()) {
+    const auto& kinds = contact.segment_kinds;
+    const auto mirrored = [](SegmentKind k) {
+      return k == SegmentKind::shell_opposite || k == SegmentKind::coat_opposite;
+    };
+    const auto first = std::find_if(kinds.begin(), kinds.end(), mirrored);
+    if (first == kinds.end()) return;
+    count = static_cast<std::size_t>(first - kinds.begin());
+    opposite.assign(count, no_index);
+    // In the same order.
+    auto next = static_cast<std::uint32_t>(count);
+    for (std::size_t i = 0; i < count && next < contact.main.size(); ++i) {
+      const auto& n = contact.main[i].nodes;
+      const bool triangle = n[2] == n[3];
+      const std::array<NodeIndex, 4> other{n[1], n[0], triangle ? n[2] : n[3], n[2]};
+      if (contact.main[next].nodes == other && kinds[i] != SegmentKind::solid) opposite[i] = next++;
+    }
+  }
+  /// What an edge passes through: the segment, or else its other side, which is bent along the
+  /// other diagonal; no_index: neither.
+  std::uint32_t met(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
+                    std::uint32_t segment, const std::array<std::uint32_t, 4>& s) const {
+    if (passes_through(nodes, edge, s)) return segment;
+    if (opposite.empty() || opposite[segment] == no_index || s[2] == s[3]) return no_index;
+    return passes_through(nodes, edge, {s[1], s[0], s[3], s[2]}) ? opposite[segment] : no_index;
+  }
+};
+
 /// Edges of these elements between marked nodes that pass through main segments of one contact, in
 /// the order of the elements: an edge comes once at least, with the first element that has it.
 template <class Tree>
 void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const NodeArrays& nodes,
-           const Contact& contact, const Tree& tree, int threads, std::vector<Crossing>& out) {
+           const Contact& contact, const MainSides& main, const Tree& tree, int threads,
+           std::vector<Crossing>& out) {
   const std::vector<std::uint32_t> elements = bearers_of(bearers, contact, marks);
   if (elements.empty()) return;
   struct Piece {
@@ -310,8 +345,8 @@ void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const
     tree.near(p.boxes, p.near);
     for (const sweep::Meeting& m : p.near) {
       const auto& [edge, element] = p.edges[m.box];
-      if (passes_through(nodes, edge, tree.corners(m.leaf)))
-        p.found.push_back({0, edge, bearers.family->kind, element, tree.segment(m.leaf)});
+      const std::uint32_t met = main.met(nodes, edge, tree.segment(m.leaf), tree.corners(m.leaf));
+      if (met != no_index) p.found.push_back({0, edge, bearers.family->kind, element, met});
     }
   };
   run_in_order<Piece>((elements.size() + at_once - 1) / at_once, threads, work,
@@ -336,10 +371,11 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bea
   std::vector<Crossing> found;
   if (contact.main.empty() || contact.secondary.empty()) return found;
   const auto segment_of = [&](std::uint32_t i) { return contact.main[i].nodes; };
+  const MainSides main(contact);
   Box around;  // the secondary nodes
   for (const SecondaryNode& s : contact.secondary)
     around.add(sweep::box_of_nodes(nodes, std::array{s.node}, 0));
-  std::vector<std::uint32_t> near = all_of(contact.main.size());
+  std::vector<std::uint32_t> near = all_of(main.count);
   const Box box = sweep::keep_inside(
       near, [&](std::uint32_t i) { return segment_box(nodes, segment_of(i)); }, around, threads);
   if (near.empty()) return found;
@@ -349,7 +385,7 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bea
       beyond &= marks[s.node] = mark_of(nodes, s.node, box);
   if (beyond == 0) {
     const SegmentTree tree(nodes, std::move(near), segment_of, threads);
-    for (const Bearers& b : all) cross(b, marks, nodes, contact, tree, threads, found);
+    for (const Bearers& b : all) cross(b, marks, nodes, contact, main, tree, threads, found);
   }
   for (const SecondaryNode& s : contact.secondary) marks[s.node] = 0;
   // Of the elements that have an edge the first one stays.

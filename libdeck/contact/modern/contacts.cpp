@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
+#include "contact/distance/filtered_decisions.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/rules/actions.hpp"
 #include "deck/text/rule.hpp"
@@ -47,11 +50,19 @@ Contact head(const InterBase& inter, const Settings& set, ContactKind kind) {
   return c;
 }
 
+double shortest_side(const Coordinates& x, const std::vector<Face>& faces) {
+  double shortest = never;
+  for (const Face& f : faces)
+    for (std::size_t k = 0; k < 4; ++k)
+      if (const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4]; a != b)
+        shortest = std::min(shortest, distance(x, a, b));
+  return faces.empty() ? 0 : shortest;
+}
+
 void list_sides(SceneContext& context, const Sides& s, Contact& out) {
-  const Coordinates& x = context.scene.coordinates;
-  out.secondary.reserve(s.nodes.size());
-  out.main.reserve(s.faces.size());
-  out.segment_kinds.reserve(s.faces.size());
+  const int threads = effective_threads(context.options.threads);
+  make_room(out.secondary, s.nodes.size(), threads);
+  make_room(out.main, s.count(), threads);
   for (const SideNode& n : s.nodes) {
     SecondaryNode node;
     node.node = n.node;
@@ -59,23 +70,23 @@ void list_sides(SceneContext& context, const Sides& s, Contact& out) {
     node.length = n.length;
     out.secondary.push_back(node);
   }
-  double shortest = never;
-  for (const Face& f : s.faces) {
-    MainSegment m;
-    m.nodes = f.nodes;
-    m.carrier = f.carrier;
-    m.element = f.element;
-    m.stiffness = f.stiffness;
-    m.gap = f.gap;
-    m.thickness = 2 * f.own_gap;
-    m.length = f.length;
-    out.main.push_back(m);
-    out.segment_kinds.push_back(f.kind);
-    for (std::size_t k = 0; k < 4; ++k)
-      if (const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4]; a != b)
-        shortest = std::min(shortest, distance(x, a, b));
-  }
-  out.shortest_side = s.faces.empty() ? 0 : shortest;
+  out.main.resize(s.count());
+  out.segment_kinds.resize(s.count());
+  parallel_parts(threads, s.count(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Face f = s.face(static_cast<std::uint32_t>(i));
+      MainSegment& m = out.main[i];
+      m.nodes = f.nodes;
+      m.carrier = f.carrier;
+      m.element = f.element;
+      m.stiffness = f.stiffness;
+      m.gap = f.gap;
+      m.thickness = 2 * f.own_gap;
+      m.length = f.length;
+      out.segment_kinds[i] = f.kind;
+    }
+  });
+  out.shortest_side = shortest_side(context.scene.coordinates, s.faces);
   out.max_gap = s.largest;
   out.reoriented_segments = s.reoriented;
   out.crowded = s.crowded;
@@ -96,22 +107,47 @@ PenetrationRow row_of(const Settings& set, const Penetration& p, std::uint32_t s
   return row;
 }
 
+/// A pair that is a penetration to the solver only, or not to the solver.
+void note(PairJudge& judge, const NodePenetration& p, const PenetrationRow& row) {
+  DecisionDifference d;
+  d.secondary = row.secondary;
+  d.main = row.main;
+  d.exact = p.in_contact;
+  d.gap = p.gap;
+  d.solver_distance = p.solver_distance;
+  d.exact_distance = p.exact_distance;
+  d.action = row.action;
+  judge.note(d);
+}
+
 void list_penetrations(SceneContext& context, const Sides& s, const Found& found, Contact& out) {
+  DecisionReport decisions = found.decisions;
+  PairJudge judge(context.options.accuracy, decisions);
+  const bool exact = context.options.accuracy == Accuracy::exact;
   std::vector<bool> held(found.penetrations.size(), false);
   if (s.set.irem_i2 == 1 && !found.penetrations.empty())
     held = held_by_ties(context, s, found.penetrations);
   for (std::size_t i = 0; i < found.penetrations.size(); ++i) {
     const NodePenetration& p = found.penetrations[i];
     PenetrationRow row = row_of(s.set, p, p.node, p.face);
+    row.in_contact = p.in_contact;
+    const bool acts = exact ? p.in_contact : p.solver_acts;
     if (held[i] && s.set.inacti == 5) {
       row.action = PenetrationAction::removed_tied;
       row.p0 = 0;
     }
+    if (!acts) {
+      row.action = PenetrationAction::none;
+      row.p0 = 0;
+    }
+    if (p.in_contact != p.solver_acts) note(judge, p, row);
+    if (exact && !p.in_contact) continue;
     out.penetrations.push_back(row);
   }
   out.candidates = found.candidates;
   out.removed_pairs = found.removed;
   out.largest_accepted = found.largest_accepted;
+  add_decisions(decisions, context.scene.contacts.size(), context.scene.decisions);
 }
 
 /// What is left open is said, and the contact is no clean one.
@@ -137,7 +173,7 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
   for (const SideEdge& e : edges) {
     ContactEdge edge;
     edge.nodes = e.nodes;
-    const Face& f = s.faces[e.face];
+    const Face& f = s.faces[s.base(e.face)];
     edge.carrier = f.carrier;
     edge.element = f.element;
     edge.stiffness = e.stiffness;
@@ -157,9 +193,13 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
     row.weight_m = p.weight_m;
     out.penetrations.push_back(row);
   }
-  if (evaluated && s.set.solid_edges() != 0)
-    not_evaluated(context, out, "Iedge = " + std::to_string(s.set.iedge),
-                  "edges against faces of solids were not evaluated");
+  if (evaluated && s.set.solid_edges() != 0) {
+    if (s.set.igap == 2)  // which of them are left out as near along the mesh is not established
+      not_evaluated(context, out, "Igap = 2 and Iedge = " + std::to_string(s.set.iedge),
+                    "edges against faces of solids were not evaluated");
+    else
+      out.edges_through_segments = edges_through_solids(context, s, topology, edges);
+  }
   context.scene.contacts.push_back(std::move(out));
 }
 
@@ -184,18 +224,18 @@ void build_contacts(SceneContext& context, Selections& selections, const InterBa
   list_sides(context, s, out);
   const bool ready = context.options.penetrations && evaluate(out);
   const bool ready25 = ready && inter.type == 25;
-  Topology topology;
-  if (ready25) topology = make_topology(context.scene.coordinates, s.faces);
+  std::optional<Topology> topology;
+  if (ready25)
+    topology.emplace(context.scene.coordinates, s, effective_threads(context.options.threads));
   if (ready) {
-    const Found found =
-        inter.type == 25 ? find_nodes25(context, s, topology) : find_nodes24(context, s);
+    const Found found = topology ? find_nodes25(context, s, *topology) : find_nodes24(context, s);
     if (found.complete)
       list_penetrations(context, s, found, out);
     else
       not_evaluated(context, out, "too many pairs");
   }
   context.scene.contacts.push_back(std::move(out));
-  if (ready25 && s.set.iedge != 0) edges_of(context, s, topology, inter, ready);
+  if (ready25 && s.set.iedge != 0) edges_of(context, s, *topology, inter, ready);
   if (ready && inter.type == 24 && s.set.iedge > 0) points_on_edges(context, s, inter);
 }
 

@@ -16,8 +16,9 @@ class Lister {
       : x_(c.scene.coordinates), ids_(c.model.nodes.id), s_(s), t_(t) {}
 
   std::vector<SideEdge> edges() {
-    for (std::uint32_t i = 0; i < s_.faces.size(); ++i)
-      for (std::uint32_t k = 0; k < 4; ++k) add(i, k);
+    s_.each_face([&](std::uint32_t i, const Face& f) {
+      for (std::uint32_t k = 0; k < 4; ++k) add(i, f, k);
+    });
     const auto key = [this](const SideEdge& e) {
       const std::uint32_t across = e.free() ? 0 : e.across + 1;
       return std::tuple(ids_[e.nodes[0]], ids_[e.nodes[1]], s_.base(e.face), across);
@@ -34,11 +35,10 @@ class Lister {
   }
 
  private:
-  void add(std::uint32_t i, std::uint32_t k) {
-    const Face& f = s_.faces[i];
+  void add(std::uint32_t i, const Face& f, std::uint32_t k) {
     const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4];
     if (f.interior || a == b) return;
-    const std::uint32_t j = t_.neighbour[i][k];
+    const std::uint32_t j = t_.across(i, k).face;
     if (j != no_index && s_.base(j) >= s_.base(i)) return;
     SideEdge e;
     e.nodes = ids_[a] < ids_[b] ? std::array{a, b} : std::array{b, a};
@@ -49,7 +49,7 @@ class Lister {
     e.stiffness = f.stiffness;
     const bool solid = f.kind == SegmentKind::solid;
     if (j != no_index) {
-      const Face& g = s_.faces[j];
+      const Face g = s_.face(j);
       e.across = s_.base(j);
       e.bits |= g.bits;
       e.gap = std::max(f.gap, g.gap);
@@ -71,7 +71,7 @@ class Lister {
     if (e.kind != 1) return s_.set.shell_edges() != 0;
     const int z = s_.set.solid_edges();
     if (z != 1 && z != 3) return z == 2;
-    const Face &a = s_.faces[e.face], &b = s_.faces[e.across];
+    const Face &a = s_.faces[e.face], &b = s_.faces[e.across];  // solids have no mirrored ones
     if (dot(normal(a), normal(b)) < s_.set.cos_edge) return true;
     e.kind = -1;
     return z == 1;
@@ -227,7 +227,7 @@ class EdgePairs {
   std::pair<std::int64_t, std::int64_t> key(const SideEdge& e) const {
     return {ids_[e.nodes[0]], ids_[e.nodes[1]]};
   }
-  const Vec& beta(const SideEdge& e) const { return t_.direction[e.face][e.side]; }
+  Vec beta(const SideEdge& e) const { return t_.direction(e.face, e.side); }
 
   /// The two ends, moved inward by `by` along the directions of the border where `free`.
   std::array<Vec, 2> recessed(const SideEdge& e, double by, bool free) const {
@@ -235,9 +235,9 @@ class EdgePairs {
     if (!free) return end;
     const Vec b = beta(e);
     for (std::size_t k = 0; k < 2; ++k) {
-      const std::size_t corner =
-          s_.faces[e.face].nodes[e.side] == e.nodes[k] ? e.side : (e.side + 1) % 4;
-      const Topology::Vertex& v = t_.vertices[t_.vertex[e.face][corner]];
+      const std::uint32_t corner =
+          s_.nodes_of(e.face)[e.side] == e.nodes[k] ? e.side : (e.side + 1) % 4;
+      const Topology::Vertex v = t_.vertex(e.face, corner);
       Vec d = sum_single(v.first, v.second);
       double c = dot(d, b);
       if (c < 0) {

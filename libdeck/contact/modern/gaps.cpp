@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/search/margin.hpp"
@@ -28,8 +29,7 @@ void each_side(const Face& f, F&& use) {
 /// the first two sides and the one without length: its neighbour across the last side is alone.
 std::vector<std::uint8_t> border_nodes(const Sides& s, std::size_t nodes) {
   std::vector<std::pair<NodeIndex, NodeIndex>> sides;
-  for (std::size_t i = 0; i < s.undoubled; ++i) {
-    const Face& f = s.faces[i];
+  for (const Face& f : s.faces) {
     for (std::size_t k = 0; k < (f.triangle() ? 2 : 4); ++k) {
       const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4];
       if (a != b) sides.emplace_back(std::min(a, b), std::max(a, b));
@@ -51,10 +51,10 @@ std::vector<std::uint8_t> border_nodes(const Sides& s, std::size_t nodes) {
 void add_border24(const Sides& s, std::uint8_t bits, const Model& model,
                   std::vector<std::uint8_t>& border) {
   std::vector<std::pair<std::int64_t, std::int64_t>> sides;
-  for (std::size_t i = 0; i < s.undoubled; ++i) {
-    if ((s.faces[i].bits & bits) == 0) continue;
+  for (const Face& f : s.faces) {
+    if ((f.bits & bits) == 0) continue;
     for (std::size_t k = 0; k < 4; ++k) {
-      const NodeIndex a = s.faces[i].nodes[k], b = s.faces[i].nodes[(k + 1) % 4];
+      const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4];
       sides.emplace_back(std::min(a, b), std::max(a, b));
     }
   }
@@ -122,26 +122,35 @@ void set_secondary_gaps(const Surroundings& around, const std::vector<double>& h
     if (border[n.node] != 0) n.gap = set.type == 25 ? 0 : 1e-20;
 }
 
-void set_main_gaps(const Model& model, const std::vector<double>& half, Sides& s) {
+/// Of the corners of segments, by node.
+void set_corner_gaps(const std::vector<double>& half, bool own, double scale, Sides& s) {
   const Settings& set = s.set;
-  std::vector<std::uint8_t> on_solid(half.size(), 0);
+  s.main_gap.resize(half.size());
+  for (std::size_t n = 0; n < half.size(); ++n) {
+    const double h = half[n] > 0 && own ? 0.5 * set.thick_m : half[n];
+    s.main_gap[n] = std::min(std::max(0.0, scale * h), set.cap_m);
+  }
   for (const Face& f : s.faces)
     if (f.kind == SegmentKind::solid)
-      for (const NodeIndex n : f.nodes) on_solid[n] = 1;
+      for (const NodeIndex n : f.nodes) s.main_gap[n] = 0;
+}
+
+void set_main_gaps(const Model& model, const std::vector<double>& half, Sides& s) {
+  const Settings& set = s.set;
   const bool own = set.type == 25 && set.igap == 5 && set.thick_m > 0;
   const double scale = own ? set.thick_m_scale : set.scale;
+  if (set.type == 25) set_corner_gaps(half, own, scale, s);
   for (Face& f : s.faces) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const NodeIndex n = f.nodes[k];
-      const double h = half[n] > 0 && own ? 0.5 * set.thick_m : half[n];
-      f.nodal_gap[k] = on_solid[n] != 0 ? 0 : std::min(std::max(0.0, scale * h), set.cap_m);
-    }
-    f.gap = *std::max_element(f.nodal_gap.begin(), f.nodal_gap.end());
     if (f.kind != SegmentKind::solid && f.element != no_index) {
       const double t = gap_thickness(model, shell_kind(f.carrier), f.element);
       f.own_gap = scale * 0.5 * (own ? set.thick_m : t);
     }
-    if (set.type == 24) f.gap = std::min(f.own_gap, set.cap_m);
+    if (set.type == 24) {
+      f.gap = std::min(f.own_gap, set.cap_m);
+      continue;
+    }
+    f.gap = s.main_gap[f.nodes[0]];
+    for (const NodeIndex n : f.nodes) f.gap = std::max(f.gap, s.main_gap[n]);
   }
 }
 
@@ -152,7 +161,7 @@ void set_lengths(const Coordinates& x, Sides& s) {
   for (Face& f : s.faces) {
     const double side = set.mesh_fraction * shortest_side(x, f);
     for (const NodeIndex n : f.nodes) at_node[n] = std::min(at_node[n], side);
-    f.length = f.opposite_side() ? 0 : std::min(side, set.cap_m);
+    f.length = std::min(side, set.cap_m);  // its opposite: 0
   }
   for (SideNode& n : s.nodes) n.length = std::min(at_node[n.node], set.cap_s);
 }
@@ -202,11 +211,32 @@ void set_sheet(SceneContext& c, const Settings& set, Face& face) {
   if (face.element == no_index) return;
   const double f = set.factor;
   double k = shell_stiffness(c.model, f, shell_kind(face.carrier), face.element);
-  const bool constant = set.type == 25 && f < 0;
-  if (constant && !face.opposite_side()) k = std::max(f, k);
+  face.back_stiffness = k;
+  if (set.type == 25 && f < 0) k = std::max(f, k);
   if (face.kind == SegmentKind::coat && face.solid != no_index)
     k = std::max(k, solid_stiffness(c, f, area_of(c.scene.coordinates, face), face.solid));
   face.stiffness = k;
+}
+
+/// From the sides of all segments, the mirrored ones too; their sum has an order.
+void set_margin(const Coordinates& x, int threads, Sides& s) {
+  if (s.faces.empty()) return;
+  const NodeArrays nodes{x.x, x.y, x.z};
+  std::vector<std::array<double, 4>> sides;
+  make_room(sides, s.faces.size(), threads);
+  sides.resize(s.faces.size());
+  parallel_parts(threads, sides.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t k = 0; k < 4; ++k)
+        sides[i][k] =
+            detail::edge_length(nodes, s.faces[i].nodes[k], s.faces[i].nodes[(k + 1) % 4]);
+  });
+  double sum = 0;
+  for (const auto& of : sides)
+    for (const double length : of) sum += length;
+  for (const std::uint32_t i : s.mirrors)
+    for (std::uint32_t k = 0; k < 4; ++k) sum += sides[i][mirrored_side(k)];
+  s.margin = margin_of(sum, 4 * std::size_t{s.count()});
 }
 
 }  // namespace
@@ -228,11 +258,9 @@ void set_gaps(SceneContext& c, Sides& s) {
           f.length = std::min(f.length, solid_volume(x, c.model.solid8.of(f.solid)) / area);
       }
   double gap_s = 0, gap_m = 0, length_s = 0, length_m = 0;
-  std::vector<std::array<std::uint32_t, 4>> segments;
   for (const Face& f : s.faces) {
     gap_m = std::max(gap_m, f.own_gap);
     length_m = std::max(length_m, f.length);
-    segments.push_back(f.nodes);
   }
   for (const SideNode& n : s.nodes) {
     gap_s = std::max(gap_s, n.gap);
@@ -240,8 +268,7 @@ void set_gaps(SceneContext& c, Sides& s) {
   }
   s.largest = gap_s + gap_m;
   if (s.set.local()) s.largest = std::min(s.largest, length_s + length_m);
-  if (!segments.empty())
-    s.margin = candidate_margin({x.x, x.y, x.z}, segments, effective_threads(c.options.threads));
+  set_margin(x, effective_threads(c.options.threads), s);
 }
 
 void set_stiffness(SceneContext& c, Sides& s) {

@@ -1,31 +1,87 @@
-// The search that TYPE24 and TYPE25 share: from nodes and faces with their gaps to pairs.
+// The search that TYPE24 and TYPE25 share: from nodes and segments with their gaps to pairs.
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 
 namespace deck::detail::modern {
+namespace {
 
-SearchResult near_faces(const SceneContext& context, const Sides& sides,
-                        const std::vector<double>& node_gaps, const std::vector<double>& face_gaps,
-                        const std::vector<double>& stiffness) {
-  const Coordinates& x = context.scene.coordinates;
-  std::vector<std::uint32_t> nodes;
-  std::vector<std::array<std::uint32_t, 4>> segments;
-  nodes.reserve(sides.nodes.size());
-  segments.reserve(sides.faces.size());
-  for (const SideNode& n : sides.nodes) nodes.push_back(n.node);
-  for (const Face& f : sides.faces) segments.push_back(f.nodes);
+/// Whether a node that comes from `node` is looked at where those of the surface `side` are.
+bool belongs(std::uint8_t node, std::uint8_t side, bool group_meets_all) {
+  return (node & side) != 0 || (group_meets_all && (node & from_group) != 0);
+}
+
+/// Pairs of nodes of one surface and segments of the other.
+SearchResult from_surface(const Sides& sides, const SearchLists& lists, NodeSegmentInput in,
+                          const SearchOptions& options, std::uint8_t from, std::uint8_t to,
+                          bool group_meets_all) {
+  std::vector<double> on(sides.nodes.size()), searched(lists.searched);
+  for (std::size_t i = 0; i < on.size(); ++i)
+    on[i] = belongs(sides.nodes[i].bits, from, group_meets_all) ? 1 : 0;
+  for (std::size_t i = 0; i < searched.size(); ++i)
+    if ((sides.faces[i].bits & to) == 0) searched[i] = 0;
+  in.secondary_stiffness = on;
+  in.segment_stiffness = searched;
+  return find_node_segment_pairs(in, options);
+}
+
+}  // namespace
+
+SearchLists search_lists(const Sides& sides, int threads) {
+  SearchLists out;
+  make_room(out.nodes, sides.nodes.size(), threads);
+  make_room(out.node_gaps, sides.nodes.size(), threads);
+  for (const SideNode& n : sides.nodes) {
+    out.nodes.push_back(n.node);
+    out.node_gaps.push_back(n.gap);
+  }
+  make_room(out.segments, sides.faces.size(), threads);
+  make_room(out.gaps, sides.faces.size(), threads);
+  make_room(out.searched, sides.faces.size(), threads);
+  for (const Face& f : sides.faces) {
+    out.segments.push_back(f.nodes);
+    out.gaps.push_back(f.gap);
+    out.searched.push_back(f.stiffness != 0 || f.back_stiffness != 0 ? 1 : 0);
+  }
+  return out;
+}
+
+NodeSegmentInput input_of(const Coordinates& x, const SearchLists& lists) {
   NodeSegmentInput in;
   in.nodes = {x.x, x.y, x.z};
-  in.secondary = nodes;
-  in.secondary_gap = node_gaps;
-  in.segments = segments;
-  in.segment_gap = face_gaps;
-  in.segment_stiffness = stiffness;
+  in.secondary = lists.nodes;
+  in.secondary_gap = lists.node_gaps;
+  in.segments = lists.segments;
+  in.segment_gap = lists.gaps;
+  in.segment_stiffness = lists.searched;
+  return in;
+}
+
+SearchResult near_faces(const SceneContext& context, const Sides& sides, const SearchLists& lists,
+                        bool group_meets_all) {
+  const NodeSegmentInput in = input_of(context.scene.coordinates, lists);
   SearchOptions options;
   options.gap = PairGap::from_igap(1, 0);
   // Rounding of the sum of gaps and margin must not lose a pair.
   options.margin = sides.margin * (1 + 1e-12);
   options.threads = context.options.threads;
-  return find_node_segment_pairs(in, options);
+  if (sides.set.level != 2) return find_node_segment_pairs(in, options);
+  // A surface lies on itself everywhere: looking at all would find much that is not wanted.
+  SearchResult one =
+      from_surface(sides, lists, in, options, from_first, from_second, group_meets_all);
+  const SearchResult two =
+      from_surface(sides, lists, in, options, from_second, from_first, group_meets_all);
+  SearchResult out;
+  out.complete = one.complete && two.complete;
+  make_room(out.pairs, one.pairs.size() + two.pairs.size(),
+            effective_threads(context.options.threads));
+  std::set_union(one.pairs.begin(), one.pairs.end(), two.pairs.begin(), two.pairs.end(),
+                 std::back_inserter(out.pairs));
+  return out;
 }
 
 }  // namespace deck::detail::modern

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "deck/contact/search.hpp"
 
@@ -30,8 +31,7 @@ std::vector<std::uint32_t> node_parts(const Model& model, const std::vector<Face
 std::vector<Vec> node_normals(const Coordinates& x, const Sides& s) {
   std::vector<Vec> out(x.x.size());
   std::vector<std::uint32_t> count(x.x.size(), 0);
-  for (std::size_t i = 0; i < s.undoubled; ++i) {
-    const Face& f = s.faces[i];
+  for (const Face& f : s.faces) {
     if (!(f.stiffness > 0)) continue;
     const std::size_t corners = f.triangle() ? 3 : 4;
     std::array<Vec, 4> normal;
@@ -243,15 +243,15 @@ class Tester {
 };
 
 SearchResult search24(SceneContext& c, const Sides& s, const Limits24& limits) {
-  std::vector<double> node_gaps, gaps, stiffness;
-  for (const SideNode& n : s.nodes) node_gaps.push_back(n.gap * std::sqrt(3.0));
-  for (const Face& f : s.faces) {
+  SearchLists lists = search_lists(s, effective_threads(c.options.threads));
+  for (double& gap : lists.node_gaps) gap *= std::sqrt(3.0);
+  for (std::size_t i = 0; i < s.faces.size(); ++i) {
     // The node is within a box around the segment: farther at its corners than from its faces.
+    const Face& f = s.faces[i];
     const double margin = f.solid_like() ? limits.solid_margin : s.margin;
-    gaps.push_back(f.gap + (std::sqrt(3.0) - 1) * (f.gap + margin) + margin - s.margin);
-    stiffness.push_back(f.stiffness);
+    lists.gaps[i] = f.gap + (std::sqrt(3.0) - 1) * (f.gap + margin) + margin - s.margin;
   }
-  return near_faces(c, s, node_gaps, gaps, stiffness);
+  return near_faces(c, s, lists, true);
 }
 
 bool in_box(const Coordinates& x, const Face& f, NodeIndex node, double by) {
@@ -322,15 +322,21 @@ Found find_nodes24(SceneContext& c, Sides& s) {
     const std::uint32_t at_node = near.pairs[i].secondary;
     const SideNode& node = s.nodes[at_node];
     State state(s.set, limits.accepted);
-    for (; i < near.pairs.size() && near.pairs[i].secondary == at_node; ++i) {
-      const Face& f = s.faces[near.pairs[i].main];
+    const auto take = [&](std::uint32_t number) {
+      const Face f = s.face(number);
       const double margin = f.solid_like() ? limits.solid_margin : s.margin;
-      if (!across(node.bits, f.bits) || !in_box(x, f, node.node, margin + node.gap + f.gap))
-        continue;
+      if (f.stiffness == 0 || !across(node.bits, f.bits) ||
+          !in_box(x, f, node.node, margin + node.gap + f.gap))
+        return;
       ++out.candidates;
       const Tested t = tester.test(node, f);
-      if (t.exists) state.take(at_node, near.pairs[i].main, t);
-    }
+      if (t.exists) state.take(at_node, number, t);
+    };
+    std::size_t end = i;
+    for (; end < near.pairs.size() && near.pairs[end].secondary == at_node; ++end)
+      take(near.pairs[end].main);
+    for (; i < end; ++i)
+      if (const std::uint32_t o = s.faces[near.pairs[i].main].opposite; o != no_index) take(o);
     if (state.found()) out.penetrations.push_back(state.best());
   }
   return out;

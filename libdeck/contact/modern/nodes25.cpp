@@ -2,9 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
+#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
+#include "contact/search/sweep.hpp"
 #include "contact/shared/removal.hpp"
 
 namespace deck::detail::modern {
@@ -100,7 +104,7 @@ Reach reach_of(const Coordinates& x, const Sides& s) {
   for (const Face& f : s.faces) {
     if (f.solid_like())
       for (const NodeIndex n : f.nodes) on_solid[n] = 1;
-    if (!(f.stiffness > 0)) continue;
+    if (!(f.stiffness > 0) && !(f.opposite != no_index && f.back_stiffness > 0)) continue;
     for (std::size_t k = 0; k < 4; ++k) {
       const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4];
       const double l = distance(x, a, b);
@@ -127,63 +131,90 @@ bool remove_near(SceneContext& c, const Sides& s, RemovalLists& lists) {
   const Coordinates& x = c.scene.coordinates;
   std::vector<std::uint8_t> bits(x.x.size(), 0);
   for (const SideNode& n : s.nodes) bits[n.node] = n.bits;
-  std::vector<std::uint32_t> nodes;
-  std::vector<double> node_gaps, node_lengths, gaps, lengths;
-  std::vector<std::array<std::uint32_t, 4>> segments;
+  SearchLists of = search_lists(s, effective_threads(c.options.threads));
   bool any = false;
   double shortest = std::numeric_limits<double>::infinity();
-  for (const SideNode& n : s.nodes) {
-    nodes.push_back(n.node);
-    node_gaps.push_back(n.gap);
-  }
-  node_lengths.assign(nodes.size(), never);
   std::vector<std::uint8_t> secondary(x.x.size(), 0);
   for (const SideNode& n : s.nodes) secondary[n.node] = 1;
-  for (const Face& f : s.faces) {
-    segments.push_back(f.nodes);
-    gaps.push_back(f.gap);
+  for (const Face& f : s.faces)
     for (std::size_t k = 0; k < 4; ++k) {
       const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4];
       any = any || (secondary[a] != 0 && s.across(bits[a], f.bits));
       if (a != b) shortest = std::min(shortest, distance(x, a, b));
     }
-  }
-  lengths.assign(gaps.size(), never);
   if (!any) return true;
-  NodeSegmentInput in;
-  in.nodes = {x.x, x.y, x.z};
-  in.secondary = nodes;
-  in.secondary_gap = node_gaps;
+  for (const std::uint32_t i : s.mirrors) {
+    of.segments.push_back(mirrored(s.faces[i].nodes));
+    of.gaps.push_back(s.faces[i].gap);
+  }
+  of.searched.clear();
+  const std::vector<double> node_lengths(of.nodes.size(), never), lengths(of.gaps.size(), never);
+  NodeSegmentInput in = input_of(x, of);
   in.secondary_length = node_lengths;
-  in.segments = segments;
-  in.segment_gap = gaps;
   in.segment_length = lengths;
   const RemovalGaps rule{PairGap::from_igap(1, 0), 1, 0, s.largest, shortest};
   return remove_along_mesh(in, rule, most_removals, lists);
 }
 
-/// Every pair that the solver could look at, by node.
-SearchResult search(SceneContext& c, const Sides& s, const Reach& reach) {
-  std::vector<double> node_gaps, gaps, stiffness;
+/// Lists for all pairs that the solver could look at.
+SearchLists lists_of(const Sides& s, const Reach& reach, int threads) {
+  SearchLists out = search_lists(s, threads);
   const bool solids =
       std::any_of(s.faces.begin(), s.faces.end(), [](const Face& f) { return f.solid_like(); });
-  for (std::size_t i = 0; i < s.nodes.size(); ++i) {
-    const double more = solids ? std::max(0.0, reach.of_node[i] - s.margin) : 0;
-    node_gaps.push_back(s.nodes[i].gap + more);
-  }
-  for (const Face& f : s.faces) {
-    gaps.push_back(f.gap);
-    const bool off = f.interior || f.kind == SegmentKind::coat_opposite;
-    stiffness.push_back(off ? 0 : f.stiffness);
-  }
-  return near_faces(c, s, node_gaps, gaps, stiffness);
+  if (solids)
+    for (std::size_t i = 0; i < s.nodes.size(); ++i)
+      out.node_gaps[i] += std::max(0.0, reach.of_node[i] - s.margin);
+  for (std::size_t i = 0; i < s.faces.size(); ++i)
+    if (s.faces[i].interior) out.searched[i] = 0;
+  return out;
 }
+
+/// A pair that the solver looks at, with a segment or its opposite.
+struct Candidate {
+  std::uint32_t face = 0;
+  unsigned facets = all_facets;
+  double least = 0;  ///< the distance is no less
+  double slack = 0;  ///< what round-off may make of lengths
+};
+
+/// What is in doubt about the pair of a node that counts.
+class Doubts25 {
+ public:
+  void add(const PairFigures& p, double slack, bool counts) {
+    if (p.doubtful)
+      least_doubtful_ = std::min(least_doubtful_, std::sqrt(p.distance_squared) - slack);
+    else if (counts)
+      rivals_.push_back({std::sqrt(p.distance_squared) - slack, p.penetration > 0});
+  }
+  /// Whether another pair may count, or the one that does may be judged wrongly.
+  bool any(bool found, double distance, double slack, bool penetrates) const {
+    if (!found) return least_doubtful_ < never;
+    return least_doubtful_ <= distance + slack ||
+           std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& r) {
+             return r.penetrates != penetrates && r.least <= distance + slack;
+           });
+  }
+  void clear() {
+    rivals_.clear();
+    least_doubtful_ = never;
+  }
+
+ private:
+  struct Rival {
+    double least = 0;
+    bool penetrates = false;
+  };
+  std::vector<Rival> rivals_;
+  double least_doubtful_ = never;
+};
 
 class Chooser {
  public:
   Chooser(SceneContext& c, const Sides& s, const Topology& t, const Reach& reach,
           const RemovalLists& removed)
-      : x_(c.scene.coordinates),
+      : accuracy_(c.options.accuracy),
+        placed_(c.all_placed),
+        x_(c.scene.coordinates),
         model_(c.model),
         connectivity_(c.connectivity),
         s_(s),
@@ -194,60 +225,112 @@ class Chooser {
     for (const SideNode& n : s.nodes) gap_s_ = std::max(gap_s_, n.gap);
   }
 
-  /// Whether the solver pairs them. `open`: whether it may be a penetration.
-  bool candidate(const CandidatePair& pair, bool& open) const {
-    const SideNode& n = s_.nodes[pair.secondary];
-    const Face& f = s_.faces[pair.main];
+  /// Whether the solver pairs a node and a segment or its opposite. `open`: whether it may be a
+  /// penetration.
+  bool candidate(std::uint32_t node, std::uint32_t face, const sweep::NearDistance& near,
+                 bool& open) const {
+    const SideNode& n = s_.nodes[node];
+    const bool mirror = s_.is_mirror(face);
+    const Face& f = s_.faces[s_.base(face)];
+    if (f.interior || (mirror ? f.back_stiffness : f.stiffness) == 0) return false;
+    const bool solid = f.solid_like();
+    if (mirror && solid) return false;  // the inside of a coat
     if (!s_.across(n.bits, f.bits)) return false;
-    if (f.solid_like() && same_part(n.node, f)) return false;
-    const double far =
-        f.solid_like() ? std::max(s_.margin, reach_.of_node[pair.secondary]) : s_.margin;
     double gap = n.gap + f.gap;
+    if (!solid && !s_.set.local() && near.distance + near.slack < gap + s_.margin) {
+      // Within the reach from all sides, and within that of the grid, which takes the largest gap.
+      if (near.distance - near.slack > gap) return true;
+      open = true;
+      return true;
+    }
+    if (!solid && near.distance - near.slack >= gap + s_.margin) return false;
+    if (solid && same_part(n.node, f)) return false;
+    const double far = solid ? std::max(s_.margin, reach_.of_node[node]) : s_.margin;
     const Vec q = at(x_, n.node);
     Grid::Box box = box_of(x_, f);
     box.widen(gap + far);
     if (!box.holds(q)) return false;
-    if (s_.set.local()) gap = std::min(gap, n.length + f.length);
-    const double r = gap + far, d = facet_distance_squared(x_, f, n.node);
+    const Face own = s_.face(face);
+    if (s_.set.local()) gap = std::min(gap, n.length + own.length);
+    const double r = gap + far, d = facet_distance_squared(x_, own, n.node);
     if (!(d < r * r)) return false;
     // The gap of a place on the segment is the largest of its corners' at most, but for rounding.
     constexpr double rounding = 1 + 1e-12;
-    open = f.solid_like() || !(d >= gap * gap * rounding);
+    open = open || solid || !(near.slack < never) || !(d >= gap * gap * rounding);
     Grid::Box covered = box_of(x_, f);
-    covered.widen(gap_s_ + f.gap + (f.solid_like() ? std::max(s_.margin, reach_.grid) : s_.margin));
+    covered.widen(gap_s_ + f.gap + (solid ? std::max(s_.margin, reach_.grid) : s_.margin));
     return grid_.covers(covered, q);
   }
   bool removed(const CandidatePair& pair) const { return is_removed(removed_, pair); }
 
   /// The pair of a node that counts, from its candidates by ascending segments; penetration 0:
   /// none.
-  NodePenetration choose(std::span<const CandidatePair> pairs) const {
+  NodePenetration choose(std::uint32_t node, std::span<const Candidate> pairs, Doubts25& doubts,
+                         DecisionReport& decisions) const {
     const bool adhesion = s_.set.ivis2 == -1;
+    const bool decides = accuracy_ >= Accuracy::robust && !adhesion && placed_;
     NodePenetration best;
-    double best_d = 0;
+    double best_d = 0, best_slack = 0;
     bool found = false;
-    for (const CandidatePair& pair : pairs) {
-      const SideNode& n = s_.nodes[pair.secondary];
-      const Face& f = s_.faces[pair.main];
-      const PairFigures p = evaluate_pair(x_, s_, t_, n, pair.main);
-      const bool sheet = f.kind == SegmentKind::shell || f.kind == SegmentKind::shell_opposite;
-      if (p.excluded && (adhesion || f.kind != SegmentKind::solid)) continue;
-      if (sheet && (p.behind > 0 || (adhesion && p.penetration == 0))) continue;
+    doubts.clear();
+    for (const Candidate& pair : pairs) {
+      if (found && !adhesion && pair.least > best.distance) continue;
+      ++decisions.pairs;
+      const SideNode& n = s_.nodes[node];
+      const PairFigures p =
+          evaluate_pair(x_, s_, t_, n, pair.face, pair.facets, decides ? pair.slack : -1);
+      const SegmentKind kind = kind_of(pair.face);
+      const bool sheet = kind == SegmentKind::shell;
+      const bool out = (p.excluded && (adhesion || kind != SegmentKind::solid)) ||
+                       (sheet && (p.behind > 0 || (adhesion && p.penetration == 0)));
+      if (decides) doubts.add(p, pair.slack, !out);
+      if (out) continue;
       const double limit = adhesion ? best.penetration : best_d;
       if (found && p.distance_squared > limit) continue;
       found = true;
       best_d = p.distance_squared;
-      best.node = pair.secondary;
-      best.face = pair.main;
+      best_slack = pair.slack;
+      best.node = node;
+      best.face = pair.face;
       best.penetration = adhesion ? std::max(0.0, p.penetration - 0.5 * p.gap) : p.penetration;
       best.gap = p.gap;
       best.distance = std::sqrt(p.distance_squared);
       best.normal = p.normal;
     }
+    if (!decides) return best;
+    const bool penetrates = best.penetration > 0;
+    if (accuracy_ == Accuracy::exact || doubts.any(found, best.distance, best_slack, penetrates))
+      decide(node, pairs, best, decisions);
     return best;
   }
+  /// Of a segment or its opposite: a shell's opposite is a shell.
+  SegmentKind kind_of(std::uint32_t face) const { return s_.faces[s_.base(face)].kind; }
 
  private:
+  /// In exact arithmetic. The segment the solver takes stays where it finds a penetration, too.
+  void decide(std::uint32_t node, std::span<const Candidate> pairs, NodePenetration& best,
+              DecisionReport& decisions) const {
+    std::vector<FacetRule> rules;
+    for (const Candidate& pair : pairs)
+      rules.push_back(facet_rule(x_, s_, t_, s_.nodes[node], pair.face));
+    if (!std::all_of(rules.begin(), rules.end(), is_finite)) return;
+    decisions.fallback += pairs.size();
+    decisions.exact += pairs.size();
+    best.solver_acts = best.penetration > 0;
+    const std::optional<ExactChoice> exact = exact_choice(rules, best.solver_acts);
+    best.in_contact = exact && exact->penetrates;
+    best.solver_distance = best.distance;
+    best.exact_distance = exact ? exact->distance : best.distance;
+    if (best.in_contact && (!best.solver_acts || accuracy_ == Accuracy::exact)) {
+      best.node = node;
+      best.face = pairs[exact->pair].face;
+      best.penetration = exact->depth;
+      best.gap = exact->gap;
+      best.distance = exact->distance;
+      best.normal = evaluate_pair(x_, s_, t_, s_.nodes[node], best.face).normal;
+    }
+  }
+
   /// A solid at the node is of the same part as the one behind the segment.
   bool same_part(NodeIndex n, const Face& f) const {
     if (f.solid == no_index) return false;
@@ -257,6 +340,8 @@ class Chooser {
                        [&](std::uint32_t e) { return part[e] == part[f.solid]; });
   }
 
+  Accuracy accuracy_;
+  bool placed_;
   const Coordinates& x_;
   const Model& model_;
   Connectivity& connectivity_;
@@ -268,52 +353,108 @@ class Chooser {
   double gap_s_ = 0;
 };
 
+/// Goes through the pairs of nodes, one node after the other.
+class NodeByNode {
+ public:
+  NodeByNode(const Chooser& chooser, const Sides& s, const NodeSegmentInput& in)
+      : chooser_(chooser), s_(s), in_(in) {}
+
+  /// All pairs of a node, by ascending segments.
+  NodePenetration choose(std::span<const CandidatePair> near) {
+    near_.resize(near.size());
+    sweep::kernels().distances(in_, near, near_.data());
+    pairs_.clear();
+    any_open_ = false;
+    for (std::size_t i = 0; i < near.size(); ++i) take(near[i], near[i].main, near_[i]);
+    // Their opposites have the same order.
+    for (std::size_t i = 0; i < near.size(); ++i)
+      if (const std::uint32_t o = s_.faces[near[i].main].opposite; o != no_index)
+        take(near[i], o, near_[i]);
+    kept += counted_;
+    counted_ = 0;
+    // If no pair is open none is a penetration, whichever is the nearest.
+    if (!any_open_) return {};
+    return chooser_.choose(near.front().secondary, pairs_, doubts_, decisions);
+  }
+  std::uint64_t kept = 0, dropped = 0;
+  DecisionReport decisions;
+
+ private:
+  void take(const CandidatePair& pair, std::uint32_t face, const sweep::NearDistance& near) {
+    bool open = false;
+    const bool mirror = s_.is_mirror(face);
+    if (!chooser_.candidate(pair.secondary, face, near, open)) return;
+    any_open_ = any_open_ || open;
+    if (chooser_.removed({pair.secondary, face})) {
+      ++dropped;
+      return;
+    }
+    ++counted_;
+    // Sheets see what is in front of them.
+    const int side = mirror ? -near.side : near.side;
+    if (side < 0 && chooser_.kind_of(face) == SegmentKind::shell) return;
+    unsigned facets = near.nearest;
+    if (mirror) facets = (facets & 5U) | (facets >> 2 & 2U) | (facets << 2 & 8U);
+    pairs_.push_back({face, facets, near.distance - near.slack, near.slack});
+  }
+
+  const Chooser& chooser_;
+  const Sides& s_;
+  const NodeSegmentInput& in_;
+  std::vector<sweep::NearDistance> near_;
+  std::vector<Candidate> pairs_;
+  Doubts25 doubts_;
+  std::uint64_t counted_ = 0;
+  bool any_open_ = false;
+};
+
 }  // namespace
 
 Found find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
   Found out;
   const Reach reach = reach_of(c.scene.coordinates, s);
-  RemovalLists lists;
-  const bool fits = remove_near(c, s, lists);
-  const SearchResult near = fits ? search(c, s, reach) : SearchResult{};
+  RemovalLists removal;
+  const bool fits = remove_near(c, s, removal);
+  const int threads = effective_threads(c.options.threads);
+  const SearchLists lists = lists_of(s, reach, threads);
+  const SearchResult near = fits ? near_faces(c, s, lists, false) : SearchResult{};
   out.complete = fits && near.complete;
   if (!out.complete) return out;
   c.connectivity.prepare(ElementKind::solid8);
-  const Chooser chooser(c, s, t, reach, lists);
+  const Chooser chooser(c, s, t, reach, removal);
+  const NodeSegmentInput in = input_of(c.scene.coordinates, lists);
   // Pieces end where a node ends, so that every node is one thread's.
   std::vector<std::size_t> first;
+  make_room(first, std::min(near.pairs.size(), s.nodes.size()) + 1, threads);
   for (std::size_t i = 0; i < near.pairs.size(); ++i)
     if (i == 0 || near.pairs[i].secondary != near.pairs[i - 1].secondary) first.push_back(i);
   first.push_back(near.pairs.size());
-  const std::size_t nodes = first.size() - 1;
-  std::vector<NodePenetration> best(nodes);
-  const int threads = effective_threads(c.options.threads);
-  std::vector<std::uint64_t> candidates(static_cast<std::size_t>(threads)), removed(candidates);
-  parallel_parts(threads, nodes, [&](std::size_t part, std::size_t begin, std::size_t end) {
-    std::vector<CandidatePair> pairs;
+  struct Part {
+    std::vector<NodePenetration> found;
     std::uint64_t kept = 0, dropped = 0;
-    for (std::size_t n = begin; n < end; ++n) {
-      pairs.clear();
-      bool any_open = false;  // else none of them is a penetration, whichever is the nearest
-      for (std::size_t i = first[n]; i < first[n + 1]; ++i) {
-        bool open = false;
-        if (!chooser.candidate(near.pairs[i], open)) continue;
-        any_open = any_open || open;
-        if (chooser.removed(near.pairs[i]))
-          ++dropped;
-        else
-          pairs.push_back(near.pairs[i]);
-      }
-      kept += pairs.size();
-      if (any_open) best[n] = chooser.choose(pairs);
-    }
-    candidates[part] = kept;
-    removed[part] = dropped;
-  });
-  for (const NodePenetration& p : best)
-    if (p.penetration != 0) out.penetrations.push_back(p);
-  for (const std::uint64_t n : candidates) out.candidates += n;
-  for (const std::uint64_t n : removed) out.removed += n;
+    DecisionReport decisions;
+  };
+  std::vector<Part> parts(static_cast<std::size_t>(threads));
+  parallel_parts(
+      threads, first.size() - 1, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        NodeByNode nodes(chooser, s, in);
+        for (std::size_t n = begin; n < end; ++n) {
+          const auto of = std::span(near.pairs).subspan(first[n], first[n + 1] - first[n]);
+          const NodePenetration p = nodes.choose(of);
+          if (p.penetration != 0) parts[part].found.push_back(p);
+        }
+        parts[part].kept = nodes.kept;
+        parts[part].dropped = nodes.dropped;
+        parts[part].decisions = nodes.decisions;
+      });
+  for (const Part& part : parts) {
+    out.penetrations.insert(out.penetrations.end(), part.found.begin(), part.found.end());
+    out.candidates += part.kept;
+    out.removed += part.dropped;
+    out.decisions.pairs += part.decisions.pairs;
+    out.decisions.fallback += part.decisions.fallback;
+    out.decisions.exact += part.decisions.exact;
+  }
   return out;
 }
 

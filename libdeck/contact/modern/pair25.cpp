@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/modern/parts.hpp"
+#include "contact/shared/filtered.hpp"
 
 namespace deck::detail::modern {
 namespace {
@@ -77,23 +78,110 @@ Facet facet_of(const Corners& c, std::size_t k, const Vec& q, double& o, double&
 class Pair {
  public:
   Pair(const Coordinates& x, const Sides& sides, const Topology& t, const SideNode& node,
-       std::uint32_t face)
+       std::uint32_t face, unsigned facets, double slack)
       : set_(sides.set),
         t_(t),
         node_(node),
-        face_(sides.faces[face]),
+        main_gap_(sides.main_gap),
+        face_(sides.face(face)),
+        facets_(facets),
+        slack_(slack),
         at_face_(face),
         q_(at(x, node.node)),
         c_(corners_of(x, face_)) {}
 
   PairFigures figures() {
     choose_facet();
-    foot_ = q_ + f_.behind * f_.normal;
+    PairFigures out = of_facet();
+    if (slack_ < 0) return out;
+    // Another facet may be the one in exact arithmetic: mostly it makes no difference.
+    const Facet chosen = f_;
+    for (std::size_t i = 0; i < others_; ++i) {
+      nearest_ = nearest_ && other_[i].distance_squared == f_.distance_squared;
+      f_ = other_[i];
+      const PairFigures o = of_facet();
+      doubtful_ =
+          doubtful_ || left_out(o) != left_out(out) || (o.penetration > 0) != (out.penetration > 0);
+    }
+    f_ = chosen;
+    out.doubtful = doubtful_ || !(slack_ < never);
+    return out;
+  }
+
+  FacetRule rule() const {
+    FacetRule r;
+    r.node = q_;
+    r.corner = c_.p;
+    r.triangle = face_.triangle();
+    r.kind = face_.sheet()                      ? FacetRule::Kind::sheet
+             : face_.kind == SegmentKind::solid ? FacetRule::Kind::solid
+                                                : FacetRule::Kind::coat;
+    r.ishape = set_.ishape;
+    for (std::size_t k = 0; k < 4; ++k) r.corner_gap[k] = main_gap_[face_.nodes[k]];
+    r.node_gap = node_.gap;
+    if (set_.local()) r.most_gap = node_.length + face_.length;
+    for (std::size_t k = 0; k < 4; ++k) {
+      r.free[k] = face_.nodes[k] != face_.nodes[(k + 1) % 4] && is_free(k);
+      r.beta[k] = beta(k);
+      const Topology::Vertex v = vertex(k);
+      r.border[k] = v.border;
+      r.first[k] = v.first;
+      r.second[k] = v.second;
+      r.both[k] = unit(sum_single(v.first, v.second));
+    }
+    return r;
+  }
+
+ private:
+  bool thin() const { return face_.kind != SegmentKind::solid || node_.gap > 0; }
+  bool left_out(const PairFigures& p) const {
+    return (face_.sheet() && p.behind > 0) || (p.excluded && face_.kind != SegmentKind::solid);
+  }
+  /// Round-off may turn the sign of a length, or of another number that it changes by `by`.
+  void weigh(double length) { weigh(length, slack_); }
+  void weigh(double number, double by) { doubtful_ = doubtful_ || !(std::fabs(number) > by); }
+
+  /// Nodes that lie on a segment, and those exactly at the gap, are frequent: sums and products of
+  /// integers tell them.
+  void weigh_side() {
+    if (slack_ < 0 || std::fabs(f_.behind) > slack_) return;
+    const bool on_it = nearest_ && slack_ < never && f_.distance_squared <= slack_ * slack_ &&
+                       is_touching(q_, c_.p, face_.triangle());
+    doubtful_ = doubtful_ || !on_it || f_.behind > 0;
+  }
+  void weigh_room(double room) {
+    if (slack_ < 0 || std::fabs(room) > slack_) return;
+    const double corner = main_gap_[face_.nodes[0]];
+    const bool even = std::all_of(face_.nodes.begin(), face_.nodes.end(),
+                                  [&](NodeIndex n) { return main_gap_[n] == corner; });
+    if (!even || !nearest_ || set_.local() || !(slack_ < never) || is_bordered()) {
+      doubtful_ = true;
+      return;
+    }
+    // Of the gap and the next number, where their sum lies between the two.
+    const double gap = node_.gap + corner, back = gap - node_.gap;
+    const double rest = (node_.gap - (gap - back)) + (corner - back);
+    const bool closer = is_closer_than(q_, c_.p, face_.triangle(), gap);
+    const double next = std::nextafter(gap, rest > 0 ? never : 0);
+    doubtful_ = doubtful_ || closer != (room > 0) ||
+                (rest != 0 && is_closer_than(q_, c_.p, face_.triangle(), next) != closer);
+  }
+  /// A border beside the facet has a say in the depth.
+  bool is_bordered() const {
+    if (lone_border_corner() != 4) return true;
+    if (!face_.triangle()) return is_free(f_.side);
+    return is_free(0) || is_free(1) || is_free(3);
+  }
+
+  PairFigures of_facet() {
     PairFigures out;
     out.gap = f_.gap;
     out.distance_squared = f_.distance_squared;
     out.behind = f_.behind;
     out.normal = f_.normal;
+    weigh_side();
+    if (face_.sheet() && f_.behind > 0) return out;
+    foot_ = q_ + f_.behind * f_.normal;
     out.beside = f_.a < -0.001 || f_.b < -0.001 || f_.a + f_.b > 1.001;
     beside_ = out.beside;
     p_ = raw();
@@ -104,42 +192,60 @@ class Pair {
     return out;
   }
 
- private:
-  bool thin() const { return face_.kind != SegmentKind::solid || node_.gap > 0; }
+  /// Facets that exact arithmetic may take in place of `chosen`.
+  void note_others(const std::array<Facet, 4>& all, std::size_t count, const Facet& chosen,
+                   double least, double excess) {
+    const double by = 4 * slack_ * (std::sqrt(chosen.distance_squared) + slack_);
+    if (chosen.distance_squared != least) weigh(1.03 * least - chosen.distance_squared, by);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Facet& f = all[k];
+      if (f.side == chosen.side || f.distance_squared > 1.03 * least + by) continue;
+      if (excess_of(f) > excess + by) continue;
+      other_[others_++] = f;
+    }
+  }
+  static double excess_of(const Facet& f) {
+    return f.a >= 0 && f.b >= 0 ? 0 : std::max(0.0, f.distance_squared - f.behind * f.behind);
+  }
 
   void choose_facet() {
     std::array<Facet, 4> all;
+    std::size_t count = 0;
     double least = 0;
     for (std::size_t k = 0; k < c_.facets; ++k) {
+      if ((facets_ >> k & 1U) == 0) continue;
       double o = 0, a = 0, b = 0;
-      Facet& f = all[k] = facet_of(c_, k, q_, o, a, b);
+      Facet& f = all[count++] = facet_of(c_, k, q_, o, a, b);
       f.gap = gap_at(k, o, a, b);
-      least = k == 0 ? f.distance_squared : std::min(least, f.distance_squared);
+      least = count == 1 ? f.distance_squared : std::min(least, f.distance_squared);
     }
     double best = 0;
     bool found = false;
-    for (std::size_t k = 0; k < c_.facets; ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       const Facet& f = all[k];
       if (f.distance_squared > 1.03 * least) continue;
-      const double excess =
-          f.a >= 0 && f.b >= 0 ? 0 : std::max(0.0, f.distance_squared - f.behind * f.behind);
+      const double excess = excess_of(f);
       if (found && excess >= best) continue;
       best = excess;
       found = true;
       f_ = f;
     }
     if (!found) f_ = all[0];
+    nearest_ = f_.distance_squared == least;
+    if (slack_ >= 0 && slack_ < never) note_others(all, count, f_, least, best);
   }
 
   double gap_at(std::size_t k, double o, double a, double b) const {
-    const auto& g = face_.nodal_gap;
+    double g[4];
+    for (std::size_t i = 0; i < 4; ++i) g[i] = main_gap_[face_.nodes[i]];
     const double centre = face_.triangle() ? g[2] : 0.25 * (g[0] + g[1] + g[2] + g[3]);
     const double gap = node_.gap + o * centre + a * g[k] + b * g[(k + 1) % 4];
     return set_.local() ? std::min(gap, node_.length + face_.length) : gap;
   }
 
-  double raw() const {
-    const double near = std::max(0.0, f_.gap - std::sqrt(f_.distance_squared));
+  double raw() {
+    const double room = f_.gap - std::sqrt(f_.distance_squared), near = std::max(0.0, room);
+    if (face_.kind != SegmentKind::solid && f_.behind <= 0) weigh_room(room);
     switch (face_.kind) {
       case SegmentKind::solid:
         return f_.behind > 0 ? f_.gap + f_.behind : 0;
@@ -150,10 +256,17 @@ class Pair {
     }
   }
 
-  const Vec& beta(std::size_t side) const { return t_.direction[at_face_][side]; }
-  bool is_free(std::size_t side) const { return t_.is_free(at_face_, side); }
-  const Topology::Vertex& vertex(std::size_t corner) const {
-    return t_.vertices[t_.vertex[at_face_][corner]];
+  Vec beta(std::size_t side) const {
+    return t_.direction(at_face_, static_cast<std::uint32_t>(side));
+  }
+  bool is_free(std::size_t side) const {
+    return t_.is_free(at_face_, static_cast<std::uint32_t>(side));
+  }
+  bool on_border(std::size_t corner) const {
+    return t_.on_border(at_face_, static_cast<std::uint32_t>(corner));
+  }
+  Topology::Vertex vertex(std::size_t corner) const {
+    return t_.vertex(at_face_, static_cast<std::uint32_t>(corner));
   }
   /// Overhang of the foot point over a side, seen from the place where the side starts.
   double over(std::size_t side) const { return dot(foot_ - c_.p[side], beta(side)); }
@@ -163,7 +276,7 @@ class Pair {
   std::size_t lone_border_corner(const std::array<std::size_t, N>& corners) const {
     std::size_t found = 4, count = 0;
     for (const std::size_t k : corners)
-      if (vertex(k).border) {
+      if (on_border(k)) {
         found = k;
         ++count;
       }
@@ -175,32 +288,48 @@ class Pair {
   }
 
   /// Beyond the plane that halves the angle at a side, by more than a hundredth.
-  bool past_bisector(std::size_t side) const {
+  bool past_bisector(std::size_t side) {
     const Vec d = c_.p[(side + 1) % 4] - c_.p[side];
     const Vec to = c_.p[side] - q_, out = cross(d, beta(side));
     const double size = norm(to) * norm(out);
-    return size > 0 && dot(to, out) / size < -0.01;
+    if (!(size > 0)) return false;
+    const double cosine = dot(to, out) / size;
+    weigh(cosine + 0.01, 0x1p-30 + 4 * slack_ / norm(to));
+    return cosine < -0.01;
   }
 
-  bool past_corner() const {
+  bool past_corner() {
     const std::size_t k = lone_border_corner();
     if (k == 4 || !thin()) return false;
-    const Topology::Vertex& v = vertex(k);
+    const Topology::Vertex v = vertex(k);
     const Vec h = foot_ - c_.p[k];
-    return dot(h, v.first) >= node_.gap && dot(h, v.second) >= node_.gap;
+    return hangs_over(dot(h, v.first)) && hangs_over(dot(h, v.second));
   }
 
-  bool excluded() const {
+  /// By the gap of the node at least.
+  bool hangs_over(double v) {
+    weigh(v - node_.gap, 4 * slack_);
+    return v >= node_.gap;
+  }
+
+  bool excluded() {
+    // What turns on it is the bisector.
+    const double by = 0x1p-30 * (1 + std::fabs(f_.a) + std::fabs(f_.b));
+    if (f_.behind > 0) {
+      weigh(f_.a + 0.001, by);
+      weigh(f_.b + 0.001, by);
+      weigh(f_.a + f_.b - 1.001, by);
+    }
     const bool turns = beside_ || f_.behind <= 0;
     if (!face_.triangle()) {
-      if (is_free(f_.side) ? thin() && over(f_.side) >= node_.gap : past_corner()) return true;
+      if (is_free(f_.side) ? thin() && hangs_over(over(f_.side)) : past_corner()) return true;
       return turns && past_bisector(f_.side);
     }
     bool any_free = false;
     for (const std::size_t side : {0U, 1U, 3U}) {
       if (!is_free(side)) continue;
       any_free = true;
-      if (thin() && over(side) >= node_.gap) return true;
+      if (thin() && hangs_over(over(side))) return true;
     }
     if (!any_free && past_corner()) return true;
     if (!turns) return false;
@@ -210,7 +339,7 @@ class Pair {
   }
 
   /// Direction of the border beside the node, and how far the node hangs over; false: none.
-  bool overhang(Vec& direction, double& v, int& times) const {
+  bool overhang(Vec& direction, double& v, int& times) {
     times = 1;
     if (!face_.triangle()) {
       if (is_free(f_.side)) {
@@ -228,6 +357,7 @@ class Pair {
       // The solver measures the last side from the centre.
       const Vec b = side == 3 ? unit(beta(side)) : beta(side);
       const double here = dot(foot_ - (side == 3 ? c_.centre : c_.p[side]), b);
+      weigh(here - v, 4 * slack_);
       if (here >= v) continue;
       v = here;
       direction = b;
@@ -236,12 +366,12 @@ class Pair {
     return times > 0;
   }
 
-  bool corner_overhang(Vec& direction, double& v) const {
+  bool corner_overhang(Vec& direction, double& v) {
     const std::size_t k = lone_border_corner();
     if (k == 4) return false;
-    const Topology::Vertex& at = vertex(k);
+    const Topology::Vertex at = vertex(k);
     const Vec h = foot_ - c_.p[k];
-    const bool first = dot(h, at.first) < node_.gap, second = dot(h, at.second) < node_.gap;
+    const bool first = !hangs_over(dot(h, at.first)), second = !hangs_over(dot(h, at.second));
     if (!first && !second) return false;
     direction = first && second ? unit(sum_single(at.first, at.second))
                 : first         ? at.first
@@ -266,12 +396,17 @@ class Pair {
     const double g = f_.gap, s = node_.gap, b = f_.behind;
     if (v > 0 && b + (g - s) < 0) {
       const double d = norm(q_ - (f_.closest + (g - s) * f_.normal));
+      weigh(d - 1e-4, 4 * slack_);
       if (d > 1e-4) {
+        weigh(s - d, 4 * slack_);
         p_ = std::max(0.0, s - d);
         return;
       }
     }
     v -= s;
+    weigh(v, 4 * slack_);
+    weigh(g + v, 4 * slack_);
+    if (v < 0 && g + v > 0 && -b >= g + v) weigh(g + b, 4 * slack_);
     if (v >= 0)
       p_ = 0;
     else if (g + v > 0)
@@ -281,15 +416,22 @@ class Pair {
   void cylinder(double& v, const Vec& direction) {
     const double g = f_.gap;
     v -= node_.gap;
+    weigh(v, 4 * slack_);
+    weigh(g + v, 4 * slack_);
     if (!(v < 0 && g + v > 0)) return;
     const double d = norm(q_ - (foot_ - (g + v) * direction));
+    weigh(d - 1e-4, 4 * slack_);
+    weigh(g - d, 4 * slack_);
     if (d > 1e-4) p_ = std::max(0.0, g - d);
   }
 
   const Settings& set_;
   const Topology& t_;
   const SideNode& node_;
-  const Face& face_;
+  const std::vector<double>& main_gap_;
+  Face face_;
+  unsigned facets_;
+  double slack_;
   std::uint32_t at_face_;
   Vec q_;
   Corners c_;
@@ -297,25 +439,38 @@ class Pair {
   Vec foot_;
   bool beside_ = false;
   double p_ = 0;
+  std::array<Facet, 3> other_;
+  std::size_t others_ = 0;
+  bool nearest_ = false;  ///< no facet is nearer
+  bool doubtful_ = false;
 };
 
 }  // namespace
 
-double facet_distance_squared(const Coordinates& x, const Face& face, NodeIndex node) {
+double facet_distance_squared(const Coordinates& x, const Face& face, NodeIndex node,
+                              unsigned facets) {
   const Corners c = corners_of(x, face);
   const Vec q = at(x, node);
   double least = 0;
+  bool any = false;
   for (std::size_t k = 0; k < c.facets; ++k) {
+    if ((facets >> k & 1U) == 0) continue;
     double o = 0, a = 0, b = 0;
     const double d = facet_of(c, k, q, o, a, b).distance_squared;
-    least = k == 0 ? d : std::min(least, d);
+    least = any ? std::min(least, d) : d;
+    any = true;
   }
   return least;
 }
 
 PairFigures evaluate_pair(const Coordinates& x, const Sides& sides, const Topology& topology,
-                          const SideNode& node, std::uint32_t face) {
-  return Pair(x, sides, topology, node, face).figures();
+                          const SideNode& node, std::uint32_t face, unsigned facets, double slack) {
+  return Pair(x, sides, topology, node, face, facets, slack).figures();
+}
+
+FacetRule facet_rule(const Coordinates& x, const Sides& sides, const Topology& topology,
+                     const SideNode& node, std::uint32_t face) {
+  return Pair(x, sides, topology, node, face, all_facets, -1).rule();
 }
 
 }  // namespace deck::detail::modern

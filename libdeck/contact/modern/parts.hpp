@@ -4,9 +4,12 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "contact/modern/facet_rule.hpp"
 #include "contact/shared/scene_parts.hpp"
+#include "deck/contact/search.hpp"
 
 namespace deck::detail::modern {
 
@@ -44,28 +47,34 @@ struct Settings {
 };
 Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if);
 
+using Quad = std::array<NodeIndex, 4>;
+
 /// A main segment. Sheets have one a side, the second behind all others.
 struct Face {
-  std::array<NodeIndex, 4> nodes{};  ///< triangle: last two equal
+  Quad nodes{};  ///< triangle: last two equal
   SegmentKind kind = SegmentKind::shell;
   std::uint8_t bits = 0;
   bool interior = false;            ///< between two solids: never searched
   Carrier carrier = Carrier::none;  ///< what decides gap and stiffness
   std::uint32_t element = no_index;
-  std::uint32_t solid = no_index;  ///< behind a solid segment or coat, no_index: shells
-  std::uint32_t opposite = no_index;
-  double stiffness = 0, gap = 0;
+  std::uint32_t solid = no_index;            ///< behind a solid segment or coat, no_index: shells
+  std::uint32_t opposite = no_index;         ///< the mirrored segment, or what it mirrors
+  double stiffness = 0, back_stiffness = 0;  ///< of the segment, of the mirrored one
+  double gap = 0;
   double own_gap = 0;     ///< half the thickness of its own shell, scaled
   double length = never;  ///< Igap 3; TYPE24: characteristic length of solids
-  std::array<double, 4> nodal_gap{};
-  std::uint32_t part = no_index;  ///< TYPE24: tag
   bool triangle() const { return nodes[2] == nodes[3]; }
   bool solid_like() const { return kind == SegmentKind::solid || kind == SegmentKind::coat; }
   bool coat_like() const { return kind == SegmentKind::coat || kind == SegmentKind::coat_opposite; }
-  bool opposite_side() const {
-    return kind == SegmentKind::shell_opposite || kind == SegmentKind::coat_opposite;
-  }
+  bool sheet() const { return kind == SegmentKind::shell || kind == SegmentKind::shell_opposite; }
 };
+
+/// The first two and the last two nodes change places.
+inline Quad mirrored(const Quad& n) {
+  return n[2] == n[3] ? Quad{n[1], n[0], n[2], n[2]} : Quad{n[1], n[0], n[3], n[2]};
+}
+/// The side of a mirrored segment that lies on a side of the other, and the reverse.
+constexpr std::uint32_t mirrored_side(std::uint32_t side) { return (4 - side) % 4; }
 
 struct SideNode {
   NodeIndex node = no_index;
@@ -73,19 +82,35 @@ struct SideNode {
   double gap = 0, length = never;
 };
 
-/// The two sides of a contact under way.
+/// The two sides of a contact under way. A segment has a number: that of its place in `faces`, or a
+/// mirrored one, in their order, a number behind all these.
 struct Sides {
   Settings set;
-  std::vector<Face> faces;
-  std::size_t undoubled = 0;  ///< faces before the mirrored ones
+  std::vector<Face> faces;             ///< without the mirrored ones
+  std::vector<std::uint32_t> mirrors;  ///< what each of those mirrors
   std::vector<SideNode> nodes;
-  double margin = 0;   ///< of the search
-  double largest = 0;  ///< gap that the solver's search expects
+  std::vector<double> main_gap;  ///< by node: gap of a corner of segments; TYPE25
+  double margin = 0;             ///< of the search
+  double largest = 0;            ///< gap that the solver's search expects
   int reoriented = 0;
   std::vector<std::uint32_t> crowded;
-  /// Position of the segment that `i` mirrors, or its own.
-  std::uint32_t base(std::uint32_t i) const {
-    return faces[i].opposite_side() ? faces[i].opposite : i;
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(faces.size() + mirrors.size()); }
+  bool is_mirror(std::uint32_t i) const { return i >= faces.size(); }
+  /// The segment that `i` mirrors, or its own number.
+  std::uint32_t base(std::uint32_t i) const { return is_mirror(i) ? mirrors[i - faces.size()] : i; }
+  /// The other side of a sheet's segment; no_index: it has none.
+  std::uint32_t other_side(std::uint32_t i) const {
+    return is_mirror(i) ? base(i) : faces[i].opposite;
+  }
+  Quad nodes_of(std::uint32_t i) const {
+    return is_mirror(i) ? mirrored(faces[base(i)].nodes) : faces[i].nodes;
+  }
+  Face face(std::uint32_t i) const;
+  /// Calls use(number, segment) for all.
+  template <class F>
+  void each_face(F&& use) const {
+    for (std::uint32_t i = 0; i < count(); ++i) use(i, face(i));
   }
   /// Whether a contact between these is wanted: across the surfaces where there are two.
   bool across(std::uint8_t a, std::uint8_t b) const {
@@ -104,23 +129,58 @@ void make_sides(SceneContext& context, Selections& selections, const InterBase& 
 void set_gaps(SceneContext& context, Sides& sides);
 void set_stiffness(SceneContext& context, Sides& sides);
 
-/// How the segments hang together: for each of its sides the segment across it.
-struct Topology {
-  static constexpr std::uint32_t free_side = no_index;
-  std::vector<std::array<std::uint32_t, 4>> neighbour;
-  std::vector<std::array<std::uint32_t, 4>> vertex;  ///< of each corner
-  std::vector<std::array<Vec, 4>> direction;         ///< of each side: outward where it is free
+/// How the segments of a TYPE25 hang together: for each of its sides the segment across it, corners
+/// that belong together, and the direction of every side. What is around a pair of nodes does not
+/// depend on the rest, and is found when it is asked for. May be asked by several threads.
+class Topology {
+ public:
+  Topology(const Coordinates& x, const Sides& sides, int threads);
+
+  struct Across {
+    std::uint32_t face = no_index, side = 0;
+    bool free() const { return face == no_index; }
+  };
+  /// Corners of segments that hang together over sides.
   struct Vertex {
     bool border = false;
     Vec first, second;  ///< directions of free sides that end here; null: none
   };
-  std::vector<Vertex> vertices;
-  bool is_free(std::uint32_t face, std::size_t side) const {
-    return neighbour[face][side] == free_side;
+  Across across(std::uint32_t face, std::uint32_t side) const;
+  bool is_free(std::uint32_t face, std::uint32_t side) const { return across(face, side).free(); }
+  /// Outward where the side is free; in single precision, as the solver has it.
+  Vec direction(std::uint32_t face, std::uint32_t side) const;
+  Vertex vertex(std::uint32_t face, std::uint32_t corner) const;
+  bool on_border(std::uint32_t face, std::uint32_t corner) const;
+  /// Mean direction of the facets around a corner, in single precision.
+  Vec normal(std::uint32_t face, std::uint32_t corner) const;
+
+ private:
+  /// A side that leads from a node to another.
+  struct DirectedSide {
+    NodeIndex to = no_index;
+    std::uint32_t face = 0;
+    std::uint32_t side = 0;
+  };
+  struct FreeEnd {
+    std::uint32_t face = no_index, side = 0;
+  };
+  std::span<const DirectedSide> leaving(NodeIndex n) const {
+    return {sides_.data() + first_[n], sides_.data() + first_[n + 1]};
   }
+  bool simple(std::uint32_t i, std::uint32_t j, NodeIndex a, NodeIndex b) const;
+  bool closed_around(NodeIndex n) const;
+  Across among_many(std::uint32_t face, std::uint32_t side, NodeIndex a, NodeIndex b) const;
+  /// From a corner through the segments around it, from each over the side that leaves the corner
+  /// (or ends in it), to the free one; none: the corner is inside. visit(segment, corner) for each.
+  template <class Visit>
+  FreeEnd walk(std::uint32_t face, std::uint32_t corner, bool onward, const Visit& visit) const;
+  FreeEnd walk(std::uint32_t face, std::uint32_t corner, bool onward) const;
+
+  const Coordinates& x_;
+  const Sides& s_;
+  std::vector<std::uint32_t> first_;  ///< by node: where the sides that leave it are
+  std::vector<DirectedSide> sides_;   ///< of segments that are no mirrored ones
 };
-// topology.cpp
-Topology make_topology(const Coordinates& x, const std::vector<Face>& faces);
 
 /// One node and one segment of a TYPE25.
 struct PairFigures {
@@ -128,24 +188,36 @@ struct PairFigures {
   double distance_squared = 0, behind = 0;  ///< behind > 0: the node is behind the facet
   Vec normal;                               ///< of the facet
   bool beside = false, excluded = false;
+  bool doubtful = false;  ///< whether it counts, or penetrates, may be round-off
 };
 // pair25.cpp
+constexpr unsigned all_facets = 0xf;
 /// Smallest squared distance of a node and the facets of a segment.
-double facet_distance_squared(const Coordinates& x, const Face& face, NodeIndex node);
+double facet_distance_squared(const Coordinates& x, const Face& face, NodeIndex node,
+                              unsigned facets = all_facets);
+/// Of a sheet the node is behind, no more than that. `facets`: bit mask of those that may be the
+/// nearest, or nearly so. `slack`: what round-off may make of a length; < 0: nobody asks for
+/// doubts.
 PairFigures evaluate_pair(const Coordinates& x, const Sides& sides, const Topology& topology,
-                          const SideNode& node, std::uint32_t face);
+                          const SideNode& node, std::uint32_t face, unsigned facets = all_facets,
+                          double slack = -1);
+FacetRule facet_rule(const Coordinates& x, const Sides& sides, const Topology& topology,
+                     const SideNode& node, std::uint32_t face);
 
 /// What a node was found to penetrate.
 struct NodePenetration {
   std::uint32_t node = 0, face = 0;  ///< positions
   double penetration = 0, gap = 0, distance = 0;
   Vec normal;
+  bool in_contact = true, solver_acts = true;  ///< in exact arithmetic, and in that of the solver
+  double solver_distance = 0, exact_distance = 0;  ///< where the two differ
 };
 struct Found {
   std::vector<NodePenetration> penetrations;  ///< ascending nodes
   std::uint64_t candidates = 0, removed = 0;
   double largest_accepted = 0;
   bool complete = true;  ///< false: too many pairs
+  DecisionReport decisions;
 };
 // nodes25.cpp
 Found find_nodes25(SceneContext& context, const Sides& sides, const Topology& topology);
@@ -154,13 +226,13 @@ Found find_nodes24(SceneContext& context, Sides& sides);
 
 /// An edge of a TYPE25.
 struct SideEdge {
-  std::array<NodeIndex, 2> nodes{};            ///< smaller id first
-  std::uint32_t face = 0, side = 0;            ///< where it was found
-  std::uint32_t across = Topology::free_side;  ///< position among the undoubled, or free
-  std::int8_t kind = 2;                        ///< 1 between solids, -1 flat, 2 other
+  std::array<NodeIndex, 2> nodes{};  ///< smaller id first
+  std::uint32_t face = 0, side = 0;  ///< where it was found
+  std::uint32_t across = no_index;   ///< no mirrored one; no_index: the edge is free
+  std::int8_t kind = 2;              ///< 1 between solids, -1 flat, 2 other
   std::uint8_t bits = 0;
   double stiffness = 0, gap = 0, length = never;
-  bool free() const { return across == Topology::free_side; }
+  bool free() const { return across == no_index; }
 };
 struct EdgePenetration {
   std::uint32_t secondary = 0, main = 0;
@@ -174,13 +246,27 @@ std::vector<SideEdge> make_edges(SceneContext& context, const Sides& sides,
 bool find_edges25(SceneContext& context, const Sides& sides, const Topology& topology,
                   const std::vector<SideEdge>& edges, std::vector<EdgePenetration>& out);
 
+// edges_solid25.cpp
+/// Ascending by edge, segment and side.
+std::vector<EdgeThroughSegment> edges_through_solids(const SceneContext& context,
+                                                     const Sides& sides, const Topology& topology,
+                                                     const std::vector<SideEdge>& edges);
+
 // near_faces.cpp
-/// The project's own search: the faces with a stiffness that a node may touch, by gaps of nodes and
-/// faces (summed) and the margin of the sides. It gives a little more than the rule of the type,
-/// which decides about each pair.
-SearchResult near_faces(const SceneContext& context, const Sides& sides,
-                        const std::vector<double>& node_gaps, const std::vector<double>& face_gaps,
-                        const std::vector<double>& stiffness);
+/// What the search needs of a contact: of the nodes, and of segments that are no mirrored ones.
+struct SearchLists {
+  std::vector<std::uint32_t> nodes;
+  std::vector<Quad> segments;
+  std::vector<double> node_gaps, gaps;
+  std::vector<double> searched;  ///< of segments: 0: no pairs with it are wanted
+};
+SearchLists search_lists(const Sides& sides, int threads);
+NodeSegmentInput input_of(const Coordinates& x, const SearchLists& lists);
+/// The project's own search: the segments that a node may touch across the surfaces, by gaps of
+/// nodes and segments (summed) and the margin of the sides. It gives a little more than the rule of
+/// the type, which decides about each pair. `group_meets_all`: nodes of the group meet both.
+SearchResult near_faces(const SceneContext& context, const Sides& sides, const SearchLists& lists,
+                        bool group_meets_all);
 
 // ties.cpp
 /// Which of the penetrations a tie (/INTER/TYPE2) of the deck holds already.

@@ -2,18 +2,14 @@
 // solver does, with a mirrored segment behind every sheet; and the secondary nodes.
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 
 namespace deck::detail::modern {
 namespace {
-
-using Quad = std::array<NodeIndex, 4>;
-
-/// Sheets: the first two and the last two nodes change places.
-Quad mirrored(const Quad& n) {
-  return n[2] == n[3] ? Quad{n[1], n[0], n[2], n[2]} : Quad{n[1], n[0], n[3], n[2]};
-}
 
 bool is_shell(Carrier c) { return c == Carrier::shell4 || c == Carrier::shell3; }
 
@@ -42,8 +38,15 @@ class Maker {
       merge();
       for (Face& f : out_.faces) f.interior = f.interior && f.kind == SegmentKind::solid;
     }
-    out_.undoubled = out_.faces.size();
-    for (std::uint32_t i = 0; i < out_.undoubled; ++i) mirror(i);
+    out_.mirrors.reserve(out_.faces.size());
+    auto number = static_cast<std::uint32_t>(out_.faces.size());
+    for (std::uint32_t i = 0; i < out_.faces.size(); ++i) {
+      Face& f = out_.faces[i];
+      if (f.kind == SegmentKind::solid) continue;
+      if (f.kind == SegmentKind::coat && out_.set.type == 24) continue;
+      f.opposite = number++;
+      out_.mirrors.push_back(i);
+    }
   }
 
  private:
@@ -114,46 +117,47 @@ class Maker {
     return k;
   }
 
+  struct Keyed {
+    std::array<std::int64_t, 4> key;
+    int kind;
+    std::uint32_t face;
+    bool same(const Keyed& other) const { return key == other.key && kind == other.kind; }
+    bool operator<(const Keyed& other) const {
+      return std::tie(key, kind, face) < std::tie(other.key, other.kind, other.face);
+    }
+  };
+  Keyed keyed(std::uint32_t i) const {
+    const Carrier carrier = out_.faces[i].carrier;
+    return {key(out_.faces[i]),
+            static_cast<int>(carrier == Carrier::none ? Carrier::solid : carrier), i};
+  }
+  /// Mostly they stand in the file as the solver sorts them, each once.
+  bool merged_already() const {
+    for (std::uint32_t i = 1; i < out_.faces.size(); ++i) {
+      const Keyed before = keyed(i - 1), here = keyed(i);
+      if (!(before < here) || before.same(here)) return false;
+    }
+    return true;
+  }
+
   /// Segments of the same nodes become one; ascending by their nodes.
   void merge() {
-    struct Keyed {
-      std::array<std::int64_t, 4> key;
-      int kind;
-      std::uint32_t face;
-      bool operator<(const Keyed& other) const {
-        return std::tie(key, kind, face) < std::tie(other.key, other.kind, other.face);
-      }
-    };
-    const std::vector<Face> faces = std::move(out_.faces);
+    if (merged_already()) return;
     std::vector<Keyed> all;
-    all.reserve(faces.size());
-    for (std::uint32_t i = 0; i < faces.size(); ++i) {
-      const Carrier carrier = faces[i].carrier;
-      all.push_back({key(faces[i]),
-                     static_cast<int>(carrier == Carrier::none ? Carrier::solid : carrier), i});
-    }
-    if (!std::is_sorted(all.begin(), all.end())) std::sort(all.begin(), all.end());
+    all.reserve(out_.faces.size());
+    for (std::uint32_t i = 0; i < out_.faces.size(); ++i) all.push_back(keyed(i));
+    std::sort(all.begin(), all.end());
+    const std::vector<Face> faces = std::move(out_.faces);
     out_.faces.clear();
-    out_.faces.reserve(2 * faces.size());  // sheets are doubled
+    out_.faces.reserve(faces.size());
     const Keyed* last = nullptr;
     for (const Keyed& k : all) {
-      if (last != nullptr && last->key == k.key && last->kind == k.kind)
+      if (last != nullptr && last->same(k))
         out_.faces.back().bits |= faces[k.face].bits;
       else
         out_.faces.push_back(faces[k.face]);
       last = &k;
     }
-  }
-
-  void mirror(std::uint32_t i) {
-    Face f = out_.faces[i];
-    if (f.kind == SegmentKind::solid) return;
-    if (f.kind == SegmentKind::coat && out_.set.type == 24) return;
-    f.kind = f.kind == SegmentKind::coat ? SegmentKind::coat_opposite : SegmentKind::shell_opposite;
-    f.nodes = mirrored(f.nodes);
-    f.opposite = i;
-    out_.faces[i].opposite = static_cast<std::uint32_t>(out_.faces.size());
-    out_.faces.push_back(f);
   }
 
   SceneContext& c_;
@@ -174,6 +178,19 @@ class NodeList {
       list[p].bits |= bits;
     }
   }
+  /// Ascending by their numbers in the file.
+  void sort(const std::vector<std::int64_t>& ids, int threads) {
+    std::vector<SideNode> by_place;
+    make_room(by_place, list.size(), threads);
+    for (const std::uint32_t p : place_)
+      if (p != no_index) by_place.push_back(list[p]);
+    list = std::move(by_place);
+    const auto before = [&](const SideNode& a, const SideNode& b) {
+      return ids[a.node] < ids[b.node];
+    };
+    if (!std::is_sorted(list.begin(), list.end(), before))
+      std::sort(list.begin(), list.end(), before);
+  }
   std::vector<SideNode> list;
 
  private:
@@ -181,6 +198,17 @@ class NodeList {
 };
 
 }  // namespace
+
+Face Sides::face(std::uint32_t i) const {
+  Face f = faces[base(i)];
+  if (!is_mirror(i)) return f;
+  f.opposite = base(i);
+  f.kind = f.kind == SegmentKind::coat ? SegmentKind::coat_opposite : SegmentKind::shell_opposite;
+  f.nodes = mirrored(f.nodes);
+  std::swap(f.stiffness, f.back_stiffness);
+  if (set.local()) f.length = 0;
+  return f;
+}
 
 void make_sides(SceneContext& c, Selections& selections, const InterBase& inter, Sides& out) {
   std::int64_t first = 0, second = 0, group = 0;
@@ -200,6 +228,7 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
   };
   const auto one = level == 3 ? std::nullopt : surface(first);
   const auto two = surface(second);
+  const int threads = effective_threads(c.options.threads);
   NodeList nodes(c.model.nodes.size());
   const auto add_nodes = [&](const std::optional<SurfaceOutline>& s, std::uint8_t bits, bool join) {
     if (s && level != 3)
@@ -217,11 +246,10 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
   if (group != 0)
     if (const NodeSet* set = selections.node_group(group))
       for (const NodeIndex n : set->nodes) nodes.add(n, from_group, false);
+  if (inter.type == 25) nodes.sort(c.model.nodes.id, threads);
   out.nodes = std::move(nodes.list);
-  if (inter.type == 25)
-    std::stable_sort(out.nodes.begin(), out.nodes.end(), [&](const SideNode& a, const SideNode& b) {
-      return c.model.nodes.id[a.node] < c.model.nodes.id[b.node];
-    });
+  make_room(out.faces, (one ? one->segments.size() : 0) + (two ? two->segments.size() : 0),
+            threads);
   Maker maker(c, out);
   if (one) maker.add(one->segments, level == 3 ? 0 : from_first);
   if (two) maker.add(two->segments, level == 3 ? 0 : from_second);

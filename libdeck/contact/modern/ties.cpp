@@ -21,7 +21,7 @@ std::vector<bool> held_by_ties(SceneContext& c, const Sides& s,
   std::vector<bool> held(penetrations.size(), false);
   for (std::size_t i = 0; i < penetrations.size(); ++i) {
     const NodeIndex n = s.nodes[penetrations[i].node].node;
-    for (const NodeIndex corner : s.faces[penetrations[i].face].nodes)
+    for (const NodeIndex corner : s.nodes_of(penetrations[i].face))
       if (tied(n, corner) || tied(corner, n)) held[i] = true;
   }
   return held;

@@ -1,160 +1,20 @@
 // How the segments of a TYPE25 hang together: neighbours across sides, corners that belong
 // together, and the direction of every side, in single precision as the solver has it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <tuple>
+#include <utility>
 
+#include "base/shared/pages.hpp"
 #include "contact/modern/parts.hpp"
 
 namespace deck::detail::modern {
 namespace {
 
 using Single = Point3<float>;
-
-/// A side that leads from a node to another.
-struct DirectedSide {
-  NodeIndex to = no_index;
-  std::uint32_t face = 0, side = 0;
-};
-
-class Joiner {
- public:
-  Joiner(const Coordinates& x, const std::vector<Face>& faces, Topology& out)
-      : x_(x), faces_(faces), out_(out) {
-    out.neighbour.assign(faces.size(), {no_index, no_index, no_index, no_index});
-    partner_side_.assign(faces.size(), {});
-    first_.assign(x.x.size() + 1, 0);
-    each_side([&](std::uint32_t i, std::uint32_t k) { ++first_[from(i, k) + 1]; });
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    sides_.resize(first_.back());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    each_side([&](std::uint32_t i, std::uint32_t k) {
-      sides_[next[from(i, k)]++] = {to(i, k), i, k};
-    });
-  }
-
-  void join() {
-    each_side([&](std::uint32_t i, std::uint32_t k) {
-      if (out_.neighbour[i][k] == no_index) join(i, k);
-    });
-  }
-  /// Side of the neighbour that lies on side k of i.
-  std::uint32_t partner_side(std::uint32_t i, std::uint32_t k) const { return partner_side_[i][k]; }
-
- private:
-  /// Calls f(face, side) for all sides that have a length, in order.
-  template <class F>
-  void each_side(F&& f) const {
-    for (std::uint32_t i = 0; i < faces_.size(); ++i)
-      for (std::uint32_t k = 0; k < 4; ++k)
-        if (!faces_[i].interior && from(i, k) != to(i, k)) f(i, k);
-  }
-  NodeIndex from(std::uint32_t i, std::uint32_t k) const { return faces_[i].nodes[k]; }
-  NodeIndex to(std::uint32_t i, std::uint32_t k) const { return faces_[i].nodes[(k + 1) % 4]; }
-  Vec normal(const Face& f) const {
-    return unit_of(
-        cross(at(x_, f.nodes[2]) - at(x_, f.nodes[0]), at(x_, f.nodes[3]) - at(x_, f.nodes[1])));
-  }
-
-  bool fits(const Face& i, const Face& j, NodeIndex a, NodeIndex b) const {
-    const auto has = [](const Face& f, NodeIndex n) {
-      return std::find(f.nodes.begin(), f.nodes.end(), n) != f.nodes.end();
-    };
-    if (i.coat_like() != j.coat_like()) return false;
-    if (std::all_of(j.nodes.begin(), j.nodes.end(), [&](NodeIndex n) { return has(i, n); }))
-      return false;
-    const auto third_is_shared = [&](const Face& triangle, const Face& other) {
-      for (const NodeIndex n : triangle.nodes)
-        if (n != a && n != b && has(other, n)) return true;
-      return false;
-    };
-    return !(i.triangle() && third_is_shared(i, j)) && !(j.triangle() && third_is_shared(j, i));
-  }
-
-  void join(std::uint32_t i, std::uint32_t k) {
-    const NodeIndex a = from(i, k), b = to(i, k);
-    const Vec d = at(x_, b) - at(x_, a);
-    Vec ni, yi;
-    const DirectedSide* best = nullptr;
-    double best_c = 0;
-    bool best_front = false;
-    const std::span<const DirectedSide> there(sides_.data() + first_[b],
-                                              sides_.data() + first_[b + 1]);
-    for (auto s = there.begin(); s != there.end(); ++s) {
-      if (s->to != a || s->face == i || out_.neighbour[s->face][s->side] != no_index) continue;
-      if (!fits(faces_[i], faces_[s->face], a, b)) continue;
-      if (best == nullptr) {
-        ni = normal(faces_[i]);
-        yi = unit_of(cross(ni, d));
-      }
-      const Vec yj = -1.0 * unit_of(cross(normal(faces_[s->face]), d));
-      const double c = dot(yi, yj);
-      const bool front = dot(ni, yj) >= 0;
-      const bool better = best == nullptr || (front && !best_front) ||
-                          (front == best_front && (front ? c > best_c : c < best_c));
-      if (!better) continue;
-      best = &*s;
-      best_c = c;
-      best_front = front;
-    }
-    if (best == nullptr) return;
-    out_.neighbour[i][k] = best->face;
-    partner_side_[i][k] = best->side;
-    out_.neighbour[best->face][best->side] = i;
-    partner_side_[best->face][best->side] = k;
-  }
-
-  const Coordinates& x_;
-  const std::vector<Face>& faces_;
-  Topology& out_;
-  std::vector<std::uint32_t> first_;  ///< by node: where its sides are
-  std::vector<DirectedSide> sides_;  ///< by the node they lead from, then faces and sides ascending
-  std::vector<std::array<std::uint32_t, 4>> partner_side_;
-};
-
-/// Classes of corners.
-class CornerClasses {
- public:
-  explicit CornerClasses(std::size_t faces) : parent_(4 * faces) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t find(std::uint32_t c) {
-    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-    return c;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-void set_vertices(const std::vector<Face>& faces, const Joiner& joiner, Topology& t) {
-  CornerClasses corners(faces.size());
-  for (std::uint32_t i = 0; i < faces.size(); ++i) {
-    if (faces[i].triangle()) corners.unite(4 * i + 2, 4 * i + 3);
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      const std::uint32_t j = t.neighbour[i][k];
-      if (j == no_index) continue;
-      const std::uint32_t l = joiner.partner_side(i, k);
-      corners.unite(4 * i + k, 4 * j + (l + 1) % 4);
-      corners.unite(4 * i + (k + 1) % 4, 4 * j + l);
-    }
-  }
-  std::vector<std::uint32_t> number(4 * faces.size(), no_index);
-  t.vertex.resize(faces.size());
-  std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < faces.size(); ++i)
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      std::uint32_t& n = number[corners.find(4 * i + k)];
-      if (n == no_index) n = count++;
-      t.vertex[i][k] = n;
-    }
-  t.vertices.resize(count);
-}
 
 Single rounded(const Vec& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -165,64 +25,234 @@ Single unit(const Single& v) {
 }
 Vec to_double(const Single& v) { return {v.x, v.y, v.z}; }
 
-/// Normal of each facet; a mirrored segment has the negatives of its opposite's.
-std::array<Single, 4> facet_normals(const Coordinates& x, const Face& f) {
+/// Normal of a facet; a mirrored segment has the negative of its opposite's.
+Single facet_normal(const Coordinates& x, const Sides& s, std::uint32_t face, std::uint32_t side) {
+  if (s.is_mirror(face)) return -facet_normal(x, s, s.base(face), mirrored_side(side));
+  const Quad& nodes = s.faces[face].nodes;
   Single p[4];
-  for (std::size_t k = 0; k < 4; ++k) p[k] = rounded(at(x, f.nodes[k]));
-  std::array<Single, 4> out;
-  if (f.triangle()) {
-    out.fill(unit(cross(p[0] - p[2], p[1] - p[2])));
-    return out;
-  }
+  for (std::size_t k = 0; k < 4; ++k) p[k] = rounded(at(x, nodes[k]));
+  if (nodes[2] == nodes[3]) return unit(cross(p[0] - p[2], p[1] - p[2]));
   const Single o = 0.25F * (p[0] + p[1] + p[2] + p[3]);
-  for (std::size_t k = 0; k < 4; ++k) out[k] = unit(cross(p[k] - o, p[(k + 1) % 4] - o));
-  return out;
+  return unit(cross(p[side] - o, p[(side + 1) % 4] - o));
 }
 
-std::vector<std::array<Single, 4>> all_normals(const Coordinates& x,
-                                               const std::vector<Face>& faces) {
-  std::vector<std::array<Single, 4>> out(faces.size());
-  // Side 1 of a segment is side 1 of its opposite, 2 is 4, 3 is 3.
-  constexpr std::size_t same[] = {0, 3, 2, 1};
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (!faces[i].opposite_side()) {
-      out[i] = facet_normals(x, faces[i]);
-      continue;
-    }
-    const auto& front = out[faces[i].opposite];
-    for (std::size_t k = 0; k < 4; ++k) out[i][k] = -front[same[k]];
-  }
-  return out;
+Vec segment_normal(const Coordinates& x, const Quad& n) {
+  return unit_of(cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1])));
+}
+
+bool has(const Quad& nodes, NodeIndex n) {
+  return std::find(nodes.begin(), nodes.end(), n) != nodes.end();
+}
+
+/// Whether segments may be neighbours across the side between a and b.
+bool fits(const Quad& i, const Quad& j, bool coat_i, bool coat_j, NodeIndex a, NodeIndex b) {
+  if (coat_i != coat_j) return false;
+  if (std::all_of(j.begin(), j.end(), [&](NodeIndex n) { return has(i, n); })) return false;
+  const auto third_is_shared = [&](const Quad& triangle, const Quad& other) {
+    return triangle[2] == triangle[3] &&
+           std::any_of(triangle.begin(), triangle.end(),
+                       [&](NodeIndex n) { return n != a && n != b && has(other, n); });
+  };
+  return !third_is_shared(i, j) && !third_is_shared(j, i);
 }
 
 }  // namespace
 
-Topology make_topology(const Coordinates& x, const std::vector<Face>& faces) {
-  Topology t;
-  Joiner joiner(x, faces, t);
-  joiner.join();
-  set_vertices(faces, joiner, t);
-  const auto normals = all_normals(x, faces);
-  t.direction.resize(faces.size());
-  for (std::uint32_t i = 0; i < faces.size(); ++i)
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      const NodeIndex a = faces[i].nodes[k], b = faces[i].nodes[(k + 1) % 4];
-      if (a == b || faces[i].interior) continue;
-      if (!t.is_free(i, k)) {
-        const Single other = normals[t.neighbour[i][k]][joiner.partner_side(i, k)];
-        t.direction[i][k] = to_double(unit(normals[i][k] + other));
-        continue;
-      }
-      const Vec along = at(x, b) - at(x, a);
-      const Vec outward = to_double(unit(cross(rounded(along), normals[i][k])));
-      t.direction[i][k] = outward;
-      for (const std::uint32_t corner : {k, (k + 1) % 4}) {
-        Topology::Vertex& v = t.vertices[t.vertex[i][corner]];
-        (v.border ? v.second : v.first) = outward;
-        v.border = true;
-      }
+Topology::Topology(const Coordinates& x, const Sides& sides, int threads) : x_(x), s_(sides) {
+  first_.assign(x.x.size() + 1, 0);
+  const auto each_side = [&](std::uint32_t i, const auto& use) {
+    const Face& f = s_.faces[i];
+    if (f.interior) return;
+    for (std::uint32_t k = 0; k < 4; ++k)
+      if (const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4]; a != b) use(a, b, k);
+  };
+  for (std::uint32_t i = 0; i < s_.faces.size(); ++i)
+    each_side(i, [&](NodeIndex a, NodeIndex, std::uint32_t) { ++first_[a]; });
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  make_room(sides_, first_.back(), threads);
+  sides_.resize(first_.back());
+  // From the end of each row to its beginning, which is where the row before ends.
+  for (auto i = static_cast<std::uint32_t>(s_.faces.size()); i-- > 0;)
+    each_side(i, [&](NodeIndex a, NodeIndex b, std::uint32_t k) {
+      sides_[--first_[a]] = {b, i, k};
+    });
+}
+
+/// Whether two segments, which are alone at a pair of nodes and run along it in opposite
+/// directions, are neighbours there on both sides.
+bool Topology::simple(std::uint32_t i, std::uint32_t j, NodeIndex a, NodeIndex b) const {
+  const Face &f = s_.faces[i], &g = s_.faces[j];
+  return i != j && (f.opposite == no_index) == (g.opposite == no_index) &&
+         fits(f.nodes, g.nodes, f.coat_like(), g.coat_like(), a, b);
+}
+
+Topology::Across Topology::across(std::uint32_t face, std::uint32_t side) const {
+  const Quad nodes = s_.nodes_of(face);
+  const NodeIndex a = nodes[side], b = nodes[(side + 1) % 4];
+  const std::uint32_t base = s_.base(face);
+  if (a == b || s_.faces[base].interior) return {};
+  const DirectedSide *along = nullptr, *against = nullptr;
+  bool several = false;
+  for (const DirectedSide& d : leaving(a))
+    if (d.to == b) several = several || along != nullptr, along = &d;
+  for (const DirectedSide& d : leaving(b))
+    if (d.to == a) several = several || against != nullptr, against = &d;
+  if (several) return among_many(face, side, a, b);
+  if (along == nullptr || against == nullptr) return {};
+  if (!simple(along->face, against->face, a, b)) return among_many(face, side, a, b);
+  const DirectedSide& other = along->face == base ? *against : *along;
+  if (!s_.is_mirror(face)) return {other.face, other.side};
+  return {s_.faces[other.face].opposite, mirrored_side(other.side)};
+}
+
+/// The segments between a and b join each other in their order, each with the one that comes first
+/// when turning about the side from its front.
+Topology::Across Topology::among_many(std::uint32_t face, std::uint32_t side, NodeIndex a,
+                                      NodeIndex b) const {
+  struct Entry {
+    std::uint32_t face = 0, side = 0;
+    bool forward = false;  // from a to b
+    std::uint32_t joined = no_index;
+  };
+  std::vector<Entry> all;
+  for (const bool forward : {true, false})
+    for (const DirectedSide& d : leaving(forward ? a : b)) {
+      if (d.to != (forward ? b : a)) continue;
+      all.push_back({d.face, d.side, forward});
+      if (const std::uint32_t o = s_.faces[d.face].opposite; o != no_index)
+        all.push_back({o, mirrored_side(d.side), !forward});
     }
-  return t;
+  std::sort(all.begin(), all.end(), [](const Entry& u, const Entry& v) {
+    return std::tie(u.face, u.side) < std::tie(v.face, v.side);
+  });
+  for (std::uint32_t e = 0; e < all.size(); ++e) {
+    if (all[e].joined != no_index) continue;
+    const Face f = s_.face(all[e].face);
+    const Vec d = all[e].forward ? at(x_, b) - at(x_, a) : at(x_, a) - at(x_, b);
+    const Vec ni = segment_normal(x_, f.nodes), yi = unit_of(cross(ni, d));
+    std::uint32_t best = no_index;
+    double best_c = 0;
+    bool best_front = false;
+    for (std::uint32_t o = 0; o < all.size(); ++o) {
+      if (all[o].forward == all[e].forward || all[o].face == all[e].face) continue;
+      if (all[o].joined != no_index) continue;
+      const Face g = s_.face(all[o].face);
+      if (!fits(f.nodes, g.nodes, f.coat_like(), g.coat_like(), a, b)) continue;
+      const Vec yj = -1.0 * unit_of(cross(segment_normal(x_, g.nodes), d));
+      const double c = dot(yi, yj);
+      const bool front = dot(ni, yj) >= 0;
+      const bool better = best == no_index || (front && !best_front) ||
+                          (front == best_front && (front ? c > best_c : c < best_c));
+      if (!better) continue;
+      best = o;
+      best_c = c;
+      best_front = front;
+    }
+    if (best == no_index) continue;
+    all[e].joined = best;
+    all[best].joined = e;
+  }
+  for (const Entry& e : all)
+    if (e.face == face && e.side == side && e.joined != no_index)
+      return {all[e.joined].face, all[e.joined].side};
+  return {};
+}
+
+Vec Topology::direction(std::uint32_t face, std::uint32_t side) const {
+  const Quad nodes = s_.nodes_of(face);
+  const NodeIndex a = nodes[side], b = nodes[(side + 1) % 4];
+  if (a == b || s_.faces[s_.base(face)].interior) return {};
+  const Single own = facet_normal(x_, s_, face, side);
+  if (const Across other = across(face, side); !other.free())
+    return to_double(unit(own + facet_normal(x_, s_, other.face, other.side)));
+  return to_double(unit(cross(rounded(at(x_, b) - at(x_, a)), own)));
+}
+
+/// Whether all sides at a node have their neighbours, in the simple way.
+bool Topology::closed_around(NodeIndex n) const {
+  constexpr std::size_t most = 16;
+  const auto sides = leaving(n);
+  if (sides.size() > most) return false;
+  std::array<NodeIndex, most> from{};  // where the sides come from that end here
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Quad& nodes = s_.faces[sides[i].face].nodes;
+    std::uint32_t k = (sides[i].side + 3) % 4;
+    if (nodes[k] == n) k = (k + 3) % 4;
+    from[i] = nodes[k];
+    if (nodes[(k + 1) % 4] != n || std::count(nodes.begin(), nodes.end(), n) !=
+                                       (nodes[2] == nodes[3] && nodes[2] == n ? 2 : 1))
+      return false;
+  }
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    std::size_t partner = most, count = 0;
+    for (std::size_t j = 0; j < sides.size(); ++j) {
+      if (j != i && sides[j].to == sides[i].to) return false;
+      if (from[j] != sides[i].to) continue;
+      partner = j;
+      ++count;
+    }
+    if (count != 1 || !simple(sides[i].face, sides[partner].face, n, sides[i].to)) return false;
+  }
+  return true;
+}
+
+template <class Visit>
+Topology::FreeEnd Topology::walk(std::uint32_t face, std::uint32_t corner, bool onward,
+                                 const Visit& visit) const {
+  std::uint32_t i = face, c = corner;
+  for (;;) {
+    const Quad nodes = s_.nodes_of(i);
+    const bool triangle = nodes[2] == nodes[3];
+    if (triangle && c >= 2) c = onward ? 3 : 2;  // one corner
+    visit(i, c);
+    const std::uint32_t side = onward ? c : (c + 3) % 4;
+    if (nodes[side] == nodes[(side + 1) % 4] || s_.faces[s_.base(i)].interior) return {};
+    const Across next = across(i, side);
+    if (next.free()) return {i, side};
+    i = next.face;
+    c = onward ? (next.side + 1) % 4 : next.side;
+    const bool same =
+        i == face &&
+        (c == corner || (c >= 2 && corner >= 2 && s_.nodes_of(i)[2] == s_.nodes_of(i)[3]));
+    if (same) return {};
+  }
+}
+
+Topology::FreeEnd Topology::walk(std::uint32_t face, std::uint32_t corner, bool onward) const {
+  return walk(face, corner, onward, [](std::uint32_t, std::uint32_t) {});
+}
+
+Topology::Vertex Topology::vertex(std::uint32_t face, std::uint32_t corner) const {
+  Vertex out;
+  if (closed_around(s_.nodes_of(face)[corner])) return out;
+  FreeEnd one = walk(face, corner, true), two = walk(face, corner, false);
+  if (one.face == no_index ||
+      (two.face != no_index && std::tie(two.face, two.side) < std::tie(one.face, one.side)))
+    std::swap(one, two);
+  if (one.face == no_index) return out;
+  out.border = true;
+  out.first = direction(one.face, one.side);
+  if (two.face != no_index) out.second = direction(two.face, two.side);
+  return out;
+}
+
+Vec Topology::normal(std::uint32_t face, std::uint32_t corner) const {
+  Single sum;
+  const auto add = [&](std::uint32_t i, std::uint32_t c) {
+    sum = sum + facet_normal(x_, s_, i, c) + facet_normal(x_, s_, i, (c + 3) % 4);
+  };
+  if (walk(face, corner, true, add).face != no_index) {
+    bool first = true;  // of the way back
+    walk(face, corner, false, [&](std::uint32_t i, std::uint32_t c) {
+      if (!std::exchange(first, false)) add(i, c);
+    });
+  }
+  return to_double(unit(sum));
+}
+
+bool Topology::on_border(std::uint32_t face, std::uint32_t corner) const {
+  return !closed_around(s_.nodes_of(face)[corner]) &&
+         (walk(face, corner, true).face != no_index || walk(face, corner, false).face != no_index);
 }
 
 }  // namespace deck::detail::modern

@@ -54,8 +54,9 @@ namespace avx2 {
 
 namespace {
 const std::array<Kernels, 2> kAll{
-    Kernels{baseline::sweep_nodes, baseline::sweep_edges, baseline::meet_boxes, "sse2"},
-    Kernels{avx2::sweep_nodes, avx2::sweep_edges, avx2::meet_boxes, "avx2"}};
+    Kernels{baseline::sweep_nodes, baseline::sweep_edges, baseline::near_distances,
+            baseline::meet_boxes, "sse2"},
+    Kernels{avx2::sweep_nodes, avx2::sweep_edges, avx2::near_distances, avx2::meet_boxes, "avx2"}};
 }  // namespace
 
 std::span<const Kernels> all_kernels() {
@@ -80,8 +81,8 @@ namespace generic {
 }  // namespace generic
 
 namespace {
-const std::array<Kernels, 1> kAll{
-    Kernels{generic::sweep_nodes, generic::sweep_edges, generic::meet_boxes, "generic"}};
+const std::array<Kernels, 1> kAll{Kernels{generic::sweep_nodes, generic::sweep_edges,
+                                          generic::near_distances, generic::meet_boxes, "generic"}};
 }  // namespace
 
 std::span<const Kernels> all_kernels() { return kAll; }

@@ -427,6 +427,61 @@ inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, 
   }
 }
 
+inline void near_distances(const NodeSegmentInput& in, std::span<const CandidatePair> pairs,
+                           NearDistance* out) {
+  constexpr double kOfCoordinate = 0x1p-34, kThin = 0x1p-20, kFarther = 1.04 * 1.04;
+  for (const CandidatePair& pair : pairs) {
+    NearDistance& d = *out++;
+    d = NearDistance{};
+    const auto& nodes = in.segments[pair.main];
+    Shape shape;
+    for (std::size_t k = 0; k < 4; ++k) shape.corner[k] = point(in.nodes, nodes[k]);
+    shape.triangle = nodes[2] == nodes[3];
+    SubTriangles sub;
+    sub.set(shape);
+    const Point3<double> p = point(in.nodes, in.secondary[pair.secondary]);
+    const Offsets offsets = sub.offsets(p);
+    const Subs nn = sub.n.x * sub.n.x + sub.n.y * sub.n.y + sub.n.z * sub.n.z;
+    const Subs height =
+        sub.n.x * (p.x - sub.o.x) + sub.n.y * (p.y - sub.o.y) + sub.n.z * (p.z - sub.o.z);
+    const std::size_t count = shape.triangle ? 1 : 4;  // the others are no facets of their own
+    double least = kInfinity, largest = 0.0;
+    bool thin = false;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double longest = std::max(sub.ee[k], std::max(sub.aa[k], sub.bb[k]));
+      thin |= !(nn[k] >= kThin * longest * longest);
+      least = std::min(least, offsets.squared[k]);
+    }
+    for (const auto& c : shape.corner)
+      largest = std::max(largest, std::max(std::abs(c.x), std::max(std::abs(c.y), std::abs(c.z))));
+    largest = std::max(largest, std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z))));
+    d.distance = std::sqrt(least);
+    if (thin || !(largest > 0x1p-300 && largest < 0x1p300)) continue;
+    d.slack = (largest + d.distance) * kOfCoordinate;
+    // The formula is not that of the closest point for very obtuse sub-triangles.
+    bool farther = false;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double excess = offsets.squared[k] - offsets.lowest[k] - d.slack * d.slack;
+      farther |= excess > 0.0 && excess * excess > d.slack * d.slack * offsets.squared[k];
+    }
+    if (farther) {
+      d.slack = kInfinity;
+      continue;
+    }
+    const double far = kFarther * (d.distance + d.slack) * (d.distance + d.slack);
+    unsigned nearest = 0, front = 0, behind = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (offsets.squared[k] > far) continue;
+      const unsigned bit = 1U << k;
+      nearest |= bit;
+      if (height[k] * height[k] > d.slack * d.slack * nn[k])
+        (height[k] > 0.0 ? front : behind) |= bit;
+    }
+    d.nearest = static_cast<std::uint8_t>(nearest);
+    d.side = static_cast<std::int8_t>(front == nearest ? 1 : behind == nearest ? -1 : 0);
+  }
+}
+
 // Boxes first ... last-1 of a list against a tree: as one if they lie together, else by halves.
 inline void meet_some(const BoxTree& tree, std::span<const Box> boxes, std::size_t first,
                       std::size_t last, Walk& walk, std::vector<Meeting>& out) {
@@ -455,6 +510,7 @@ inline void meet_some(const BoxTree& tree, std::span<const Box> boxes, std::size
 inline void meet_boxes(const BoxTree& tree, std::span<const Box> boxes, std::vector<Meeting>& out) {
   if (tree.levels() == 0) return;
   Walk walk;
-  for (std::size_t first = 0; first < boxes.size(); first += kGroup)
-    meet_some(tree, boxes, first, std::min(boxes.size(), first + kGroup), walk, out);
+  constexpr std::size_t at_once = 4 * kGroup;  // a walk costs more than tests of some boxes more
+  for (std::size_t first = 0; first < boxes.size(); first += at_once)
+    meet_some(tree, boxes, first, std::min(boxes.size(), first + at_once), walk, out);
 }

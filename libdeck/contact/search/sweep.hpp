@@ -167,11 +167,21 @@ struct Meeting {
   std::uint32_t box = 0, leaf = 0;
 };
 
+// How far a node is from a segment, nearly: the distance differs from that of any plain formula by
+// less than `slack`, which is infinite where sub-triangles are too thin to tell.
+struct NearDistance {
+  double distance = 0.0, slack = kInfinity;
+  std::uint8_t nearest = 0xf;  // sub-triangles that are nearest, or may be by a hundredth; bit mask
+  std::int8_t side = 0;        // of all these: 1: the node is in front, -1: behind, 0: not told
+};
+
 // Sweeps over positions [begin, end) of the main side. One version per instruction set; all give
 // the same pairs, bit for bit the same distances.
 struct Kernels {
   void (*nodes)(const NodeSweep&, std::size_t begin, std::size_t end, Found&);
   void (*edges)(const EdgeSweep&, std::size_t begin, std::size_t end, Found&);
+  // Of pairs that were found, from the lists of the input.
+  void (*distances)(const NodeSegmentInput&, std::span<const CandidatePair>, NearDistance*);
   // Adds all meetings of the boxes, box after box.
   void (*meetings)(const BoxTree&, std::span<const Box>, std::vector<Meeting>&);
   const char* name;

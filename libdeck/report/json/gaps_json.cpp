@@ -178,6 +178,22 @@ void write_penetrations(const Rows& rows, const Deck& deck, const Scene& scene,
   j.end_array();
 }
 
+/// Edges of a TYPE25 through its solids.
+void write_edges_through(const Rows& rows, const Model& model, const Contact& c,
+                         const Contact& edges) {
+  JsonWriter& j = rows.json;
+  j.key("edge_solid_penetrations").begin_array();
+  for (const EdgeThroughSegment& e : edges.edges_through_segments) {
+    j.begin_object(true).key("edge");
+    write_nodes(j, model, edges.main_edges[e.edge].nodes.data(), 2);
+    j.key("segment");
+    write_nodes(j, model, c.main[e.main].nodes.data(), 4);
+    j.field("side", e.side).field("penetration", e.depth);
+    rows.end_row();
+  }
+  j.end_array();
+}
+
 void write_crossings(JsonWriter& j, const Scene& scene, const std::vector<Crossing>& crossings,
                      std::uint32_t contact) {
   const Model& model = *scene.model;
@@ -291,6 +307,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
           write_totals(j, view.contacts[i + 1]);
           j.end_object();
           write_penetrations(rows, deck, scene, named[i + 1], *edges, "edge_penetrations");
+          write_edges_through(rows, *scene.model, c, *edges);
         }
         if (crossings != nullptr)
           write_crossings(j, scene, *crossings, static_cast<std::uint32_t>(i));
