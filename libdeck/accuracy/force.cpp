@@ -122,6 +122,10 @@ struct Packet {
 
 }  // namespace
 
+double elastic_force(double gap, double distance, double depth) {
+  return law(gap, distance, depth);
+}
+
 double force_slope(double distance, double gap) {
   const double rho = std::max(distance / gap, kLinearBelow);
   return 0.5 / (rho * rho);

@@ -63,6 +63,8 @@ Outcome exact(const PairSample& s, FilterCounters& counters);
 constexpr double kLinearBelow = 1e-8;
 // Elastic normal force of the robust model for K0 = 1, rounded from more than 200 bits.
 Outcome exact_force(const PairSample& s, FilterCounters& counters);
+// The same in double, from a distance and a depth that are known.
+double elastic_force(double gap, double distance, double depth);
 // dF/dd at the exact distance: what an error of the distance makes of itself in the force.
 double force_slope(double distance, double gap);
 

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
+#include "accuracy/shared/motion.hpp"
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "report/shared/json.hpp"
@@ -140,6 +142,33 @@ void write_choices(JsonWriter& j, const std::vector<AccuracyChoice>& choices) {
   j.end_array();
 }
 
+void write_motion(JsonWriter& j, const HardMotion& m) {
+  const auto point = [&](const Point3<double>& p) {
+    j.begin_array(true).value(p.x).value(p.y).value(p.z).end_array();
+  };
+  j.key("motion").begin_object().key("corners").begin_array(true);
+  for (const Point3<double>& p : m.corners) point(p);
+  j.end_array().key("from");
+  point(m.from);
+  j.key("to");
+  point(m.to);
+  j.field("gap", m.gap).field("way", m.way).key("lines").begin_array();
+  for (const HardMotion::Line& line : m.lines) {
+    j.begin_object().field("accuracy", to_string(line.accuracy));
+    for (const auto& [name, values] : {std::pair("depth", &line.depth), {"force", &line.force}}) {
+      j.key(name).begin_array(true);
+      for (const double v : *values) j.value(v);
+      j.end_array();
+    }
+    j.key("jumps").begin_array(true);
+    for (const std::size_t step : line.jumps) j.value(step);
+    j.end_array().end_object();
+  }
+  j.end_array().key("sentences").begin_array();
+  for (const std::string& sentence : motion_sentences(m)) j.value(sentence);
+  j.end_array().end_object();
+}
+
 // Number types and formulas, and what kinds of hard cases the reference formula gets wrong.
 std::string expert_tables(const AccuracyReport& report, bool color, std::size_t width) {
   std::string out;
@@ -262,6 +291,7 @@ std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& c
   for (const std::string& sentence : accuracy_advice(choices)) j.value(sentence);
   j.end_array();
   write_choices(j, choices);
+  if (!choices.empty()) write_motion(j, hard_motion());
   j.key("tiers").begin_array();
   for (const TierResult& t : report.tiers) {
     j.begin_object(true).field("name", t.name).field("what", t.what).field("samples", t.samples);

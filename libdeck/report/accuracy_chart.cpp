@@ -244,16 +244,19 @@ constexpr std::string_view kChartStyle =
     ".dk-default{fill:none;stroke:#9a5b00;stroke-width:2} .dk-svg text{fill:#5c6979} "
     ".dk-svg .dk-label{fill:#17202b;stroke:#fff;stroke-width:3px;paint-order:stroke} .dk-svg "
     ".dk-strong{font-weight:bold} "
+    ".dk-line{fill:none;stroke-width:1.8} .dk-wide{stroke-width:6;stroke-opacity:.4} "
+    ".dk-line.dk-reference{stroke:#b3261e} .dk-line.dk-fast{stroke:#1f5fd0} "
+    ".dk-line.dk-robust{stroke:#17202b;stroke-dasharray:6 4} .dk-line.dk-exact{stroke:#0b6b3a} "
     ".dk-svg .dk-title{fill:#17202b;font-size:13px;font-weight:bold}</style>\n";
 
-std::string open_svg(double height, const std::string& name) {
+std::string open_svg(double width, double height, const std::string& name) {
   return fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' class='dk-svg' viewBox='0 0 {0} {1}' width='{0}' "
       "height='{1}' "
       "font-family='system-ui, sans-serif' font-size='12' role='img' aria-label='{3}'>\n{2}<rect "
       "width='{0}' "
       "height='{1}' class='dk-ground'/>\n",
-      kWidth, height, kChartStyle, xml_text(name));
+      width, height, kChartStyle, xml_text(name));
 }
 
 }  // namespace
@@ -267,8 +270,55 @@ std::string accuracy_title(const AccuracyReport& report, const AccuracyContext& 
 std::string accuracy_panel(const AccuracyReport& report, const std::string& what) {
   const Panel panel = panel_of(report, what);
   if (panel.tiers.empty()) return {};
-  return open_svg(kPanel, panel.title + ": " + panel.label + " against time") + frame(panel) +
-         frontier(panel) + marks(panel) + "</svg>\n";
+  return open_svg(kWidth, kPanel, panel.title + ": " + panel.label + " against time") +
+         frame(panel) + frontier(panel) + marks(panel) + "</svg>\n";
+}
+
+std::string motion_panel(const HardMotion& motion) {
+  constexpr double width = 360, height = 264, left = 30, right = 348, top = 62, bottom = 226;
+  double most = 1.0;
+  for (const HardMotion::Line& l : motion.lines)
+    most = std::max(most, std::ceil(*std::max_element(l.force.begin(), l.force.end())));
+  const std::size_t last = motion.lines.front().force.size() - 1;
+  const auto x = [&](std::size_t step) {
+    return left + static_cast<double>(step) / static_cast<double>(last) * (right - left);
+  };
+  const auto y = [&](double force) { return bottom - force / most * (bottom - top); };
+  std::string out = open_svg(width, height, "Elastic force against step, a node over a sliver");
+  out += text(4, 18, "start", "Elastic force, stiffness 1", "class='dk-title'");
+  for (double force = 0; force <= most; ++force) {
+    out += line(left, y(force), right, y(force), "dk-grid");
+    out += text(left - 8, y(force) + 4, "end", fmt::format("{:.0f}", force));
+  }
+  for (std::size_t step = 0; step <= last; step += 25)
+    out += text(x(step), bottom + 18, step == last ? "end" : "middle", std::to_string(step));
+  out += text(0.5 * (left + right), bottom + 34, "middle", "step");
+  std::string rings;
+  double key = left;
+  // Wide lines below narrow ones: those that coincide are both seen.
+  for (const Accuracy a :
+       {Accuracy::exact, Accuracy::reference, Accuracy::fast, Accuracy::robust}) {
+    const bool wide = a == Accuracy::exact || a == Accuracy::reference;
+    const std::string kind = fmt::format("dk-line dk-{}{}", to_string(a), wide ? " dk-wide" : "");
+    out += line(key, 38, key + 20, 38, kind) + text(key + 25, 42, "start", to_string(a));
+    key += a == Accuracy::reference ? 98 : 76;
+    for (const HardMotion::Line& l : motion.lines) {
+      if (l.accuracy != a) continue;
+      std::string points;
+      for (std::size_t k = 0; k < l.force.size(); ++k)
+        points += fmt::format("{:.1f},{:.1f} ", x(k), y(l.force[k]));
+      out += "<polyline points='" + points + "' class='" + kind + "'/>\n";
+      for (const std::size_t k : l.jumps) {
+        rings += fmt::format(
+            "<rect x='{:.1f}' y='{:.1f}' width='14' height='14' rx='7' class='dk-default' "
+            "data-accuracy='{}' data-step='{}'/>\n",
+            x(k) - 7, y(l.force[k]) - 7, to_string(a), k);
+        if (a == Accuracy::robust)
+          rings += text(x(k) + 8, y(l.force[k]) - 9, "start", fmt::format("step {}", k));
+      }
+    }
+  }
+  return out + rings + "</svg>\n";
 }
 
 }  // namespace deck

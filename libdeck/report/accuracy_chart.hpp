@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "accuracy/shared/motion.hpp"
 #include "report/shared/accuracy.hpp"
 
 namespace deck {
@@ -11,5 +12,7 @@ std::string accuracy_title(const AccuracyReport& report, const AccuracyContext& 
 /// the pair; of decisions alone: wrong ones), both logarithmic; the frontier of what nothing else
 /// beats on these axes; the rest hollow. Empty: there are no tiers of this kind.
 std::string accuracy_panel(const AccuracyReport& report, const std::string& what);
+/// The force of each word against the step, with a ring at every jump.
+std::string motion_panel(const HardMotion& motion);
 
 }  // namespace deck

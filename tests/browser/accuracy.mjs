@@ -2,7 +2,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible, reachable } from "./axe.mjs";
-import { check, deck, same, sample } from "./support.mjs";
+import { check, deck, DECK_ARTEFACTS, same, sample } from "./support.mjs";
 
 const widths = [390, 768, 1024, 1280, 1440, 1920];
 
@@ -79,10 +79,27 @@ async function kinds(p, name, data) {
   check(`${name}: arrows lead along the kinds`, (await p.textContent("#example")).includes(`${robust.kinds[1].name}, robust`));
 }
 
+/** The hard case in motion: a line for every word, a ring and a sentence for every jump. */
+async function motion(p, name, data) {
+  const m = data.motion;
+  for (const width of [390, 1280]) {
+    await p.setViewportSize({ width, height: 900 });
+    const shown = await p.$eval("#motion", (e) => ({
+      lines: [...e.querySelectorAll("polyline")].map((l) => l.points.length), rings: [...e.querySelectorAll(".dk-default")].map((r) => `${r.dataset.accuracy} ${r.dataset.step}`).sort(),
+      sentences: [...e.querySelectorAll(".jump")].map((j) => j.textContent), cut: [...e.querySelectorAll("svg text, .dk-default")].filter((t) => t.getBoundingClientRect().right > e.querySelector("figure").getBoundingClientRect().right).length,
+    }));
+    same(`${name}, ${width} wide: four lines over the steps`, shown.lines, m.lines.map((l) => l.force.length));
+    same(`${name}, ${width} wide: a ring at every jump`, shown.rings, m.lines.flatMap((l) => l.jumps.map((k) => `${l.accuracy} ${k}`)).sort());
+    same(`${name}, ${width} wide: a sentence for every jump`, shown.sentences, m.sentences);
+    check(`${name}, ${width} wide: jumps are shown, nothing is cut`, shown.rings.length > 0 && m.sentences.length > 0 && shown.cut === 0);
+    await (await p.$("#motion")).screenshot({ path: join(DECK_ARTEFACTS, `accuracy_motion_${width}.png`) });
+  }
+}
+
 /** What is folded: charts whose texts do not meet, and where the time goes. */
 async function folded(p, name, data) {
   await p.$$eval("details", (all) => all.forEach((d) => (d.open = true)));
-  const charts = await p.$$eval("figure svg", (all) => all.map((s) => {
+  const charts = await p.$$eval("details figure svg", (all) => all.map((s) => {
     const labels = [...s.querySelectorAll("text")].map((e) => ({ text: e.textContent, r: e.getBoundingClientRect() }));
     const meet = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 3 && b.top < a.bottom - 3;
     const out = s.getBoundingClientRect();
@@ -123,6 +140,7 @@ export async function accuracyPage(browser, scratch, shot) {
     await shot(p, `accuracy_${decks.length}`);
     await p.setViewportSize({ width: 390, height: 844 });
     await shot(p, `accuracy_${decks.length}_phone`);
+    await motion(p, name, data);
     await folded(p, name, data);
     await accessible(p, `accuracy of ${name}`);
     await p.click("#theme");

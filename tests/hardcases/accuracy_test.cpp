@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <tuple>
 
+#include "accuracy/shared/motion.hpp"
 #include "accuracy/shared/store.hpp"
+#include "accuracy/tiers.hpp"
 #include "contact/shared/filtered.hpp"
 #include "report/shared/accuracy.hpp"
 
@@ -317,6 +320,32 @@ TEST(AccuracyReports, TheDefaultIsNotDrawnAsBeatenWithoutAReason) {
   EXPECT_EQ(accuracy_html(alike, context).find("better than robust"), std::string::npos);
 }
 
+TEST(AccuracyMotion, TheReferenceFormulaJumpsAndTheExactOneDoesNot) {
+  const HardMotion m = hard_motion();
+  ASSERT_EQ(m.lines.size(), 4u);
+  const auto& [reference, fast, robust, exact] =
+      std::tie(m.lines[0], m.lines[1], m.lines[2], m.lines[3]);
+  EXPECT_EQ(reference.jumps, std::vector<std::size_t>{47});
+  EXPECT_EQ(robust.jumps, (std::vector<std::size_t>{47, 77}));
+  EXPECT_TRUE(fast.jumps.empty() && exact.jumps.empty());
+  FilterCounters unused;
+  for (std::size_t k = 0; k <= 100; ++k) {
+    PairSample s;
+    s.triangle = true;
+    s.gap = m.gap;
+    s.x = {m.corners[0], m.corners[1], m.corners[2], m.corners[2],
+           m.from + (static_cast<double>(k) / 100.0) * (m.to - m.from)};
+    EXPECT_NEAR(exact.depth[k], m.gap - accuracy::exact(s, unused).value, 1e-15) << k;
+    const double force = accuracy::exact_force(s, unused).value;
+    EXPECT_NEAR(exact.force[k], force, 1e-14 * force) << k;
+    EXPECT_NEAR(fast.force[k], force, 1e-12 * force) << k;
+    // Figures of the reference formula where it sees a contact, else exact ones.
+    EXPECT_EQ(robust.depth[k], (reference.depth[k] > 0 ? reference : exact).depth[k]) << k;
+  }
+  EXPECT_LT(reference.force[47], 0.1 * exact.force[47]);
+  EXPECT_EQ(motion_sentences(m).size(), 2u);
+}
+
 TEST(AccuracyReports, ChartMarksEveryTierAndFetchesNothing) {
   const AccuracyReport r = small_report();
   AccuracyContext context;
@@ -344,7 +373,7 @@ TEST(AccuracyReports, ChartPutsTimesAndLabelsWhereTheAxesAre) {
   kept[1].ns_per_pair = 2000;
   r.tiers = kept;
   const std::string html = accuracy_html(r, {});
-  const auto chart = html.find("<svg xmlns");
+  const auto chart = html.find("<svg xmlns", html.find("For experts"));
   ASSERT_NE(chart, std::string::npos);
   const std::string svg = html.substr(chart, html.find("</svg>", chart) - chart);
   const auto number = [&](std::size_t from, const std::string& name) {

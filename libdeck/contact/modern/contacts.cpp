@@ -5,9 +5,9 @@
 
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
-#include "contact/distance/filtered_decisions.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/rules/actions.hpp"
+#include "contact/shared/filtered_decisions.hpp"
 #include "deck/text/rule.hpp"
 
 namespace deck {

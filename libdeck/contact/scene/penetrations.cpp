@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/shared/parallel.hpp"
-#include "contact/distance/filtered_decisions.hpp"
 #include "contact/rules/actions.hpp"
+#include "contact/shared/filtered_decisions.hpp"
 #include "contact/shared/removal.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"

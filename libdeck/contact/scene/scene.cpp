@@ -7,10 +7,10 @@
 
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
-#include "contact/distance/filtered_decisions.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/rules/gaps.hpp"
 #include "contact/scene/finish.hpp"
+#include "contact/shared/filtered_decisions.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/tie_parts.hpp"
 #include "deck/text/rule.hpp"

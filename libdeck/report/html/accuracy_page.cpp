@@ -47,6 +47,8 @@ th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; wh
 [data-theme=dark] .dk-ground, [data-theme=dark] .dk-mark.dk-hollow { fill: #171e27; } [data-theme=dark] .dk-grid { stroke: #303c4c; }
 [data-theme=dark] .dk-svg text { fill: #93a2b4; } [data-theme=dark] .dk-svg .dk-label, [data-theme=dark] .dk-svg .dk-title { fill: #e7edf4; }
 [data-theme=dark] .dk-svg .dk-label { stroke: #171e27; } [data-theme=dark] .dk-mark { fill: #7fb2ff; stroke: #7fb2ff; } [data-theme=dark] .dk-frontier { stroke: #7fb2ff; } [data-theme=dark] .dk-default { stroke: #ffc069; }
+[data-theme=dark] .dk-line.dk-reference { stroke: #ff8a80; } [data-theme=dark] .dk-line.dk-fast { stroke: #7fb2ff; } [data-theme=dark] .dk-line.dk-robust { stroke: #e7edf4; } [data-theme=dark] .dk-line.dk-exact { stroke: #5fd38d; }
+#motion > div { display: flex; flex-wrap: wrap; gap: 8px 24px; align-items: center; margin-top: 8px; } #motion figure { flex: 0 1 460px; min-width: 0; margin: 0; } #motion figure svg { min-width: 0; } #motion div div { flex: 1 1 320px; } .jump { margin: 4px 0; }
 @media (min-width: 1400px) { .stable { grid-template-columns: minmax(0, 1fr) 350px; } }
 @media (max-width: 1120px) { .choose { grid-template-columns: auto 1fr; } .who { width: auto; min-width: 104px; } }
 @media (max-width: 820px) {
@@ -220,6 +222,22 @@ std::string time_shares(const AccuracyReport& r) {
          rows + "</tbody></table>\n";
 }
 
+std::string motion_section() {
+  const HardMotion motion = hard_motion();
+  std::string said;
+  for (const std::string& sentence : motion_sentences(motion, "code"))
+    said += "<p class=\"jump\">" + sentence + "</p>\n";
+  return fmt::format(
+      R"~(<section id="motion"><h2>A node passes a sliver</h2>
+<div><figure tabindex="0">{}<button type="button" class="save" data-name="accuracy_motion.svg">Save as SVG</button></figure>
+<div>{}<p class="note">The area of the triangle is round-off: there the reference formula takes the wrong edge. <code>robust</code>
+decides contact without round-off and prints the figures of the reference formula; where that formula sees no contact, the exact ones.</p>
+<p class="note">A ring is a jump: the depth changes by more than the node moves ({:.3g} a step, gap {:g}), which no distance can do.</p>
+</div></div></section>
+)~",
+      motion_panel(motion), said, motion.way, motion.gap);
+}
+
 std::string tier_row(const TierResult& t) {
   std::string out = fmt::format("<tr><th class=\"l\" scope=\"row\">{}</th>", html_text(t.name));
   const auto cell = [&](std::string_view label, const std::string& text) {
@@ -274,7 +292,9 @@ std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& c
          html_text(context.path.empty() ? "the hard cases" : terminal_text(context.path)) +
          "</small></h1><button type=\"button\" id=\"json\">JSON</button><button type=\"button\" "
          "id=\"theme\">Dark or light</button></header>\n<main>\n";
-  out += detail::accuracy_first_screen(accuracy_choices_of(report, context));
+  const std::vector<AccuracyChoice> choices = accuracy_choices_of(report, context);
+  out += detail::accuracy_first_screen(choices);
+  if (!choices.empty()) out += motion_section();
   if (!report.stages.empty())
     out += "<details><summary>Where robust spends its time</summary>\n" + time_shares(report) +
            "</details>\n";

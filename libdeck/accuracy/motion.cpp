@@ -1,0 +1,74 @@
+// A node passes a sliver: where the force jumps though the node does not.
+#include "accuracy/shared/motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy/tiers.hpp"
+#include "contact/shared/filtered_decisions.hpp"
+
+namespace deck {
+namespace {
+
+constexpr std::size_t kMotionSteps = 100;
+
+HardMotion::Line motion_line(const HardMotion& m, Accuracy accuracy) {
+  HardMotion::Line out;
+  out.accuracy = accuracy;
+  DecisionReport unused;
+  detail::PairJudge judge(accuracy, unused);
+  const std::array<Point3<double>, 4> x{m.corners[0], m.corners[1], m.corners[2], m.corners[2]};
+  for (std::size_t k = 0; k <= kMotionSteps; ++k) {
+    const Point3<double> p =
+        m.from + (static_cast<double>(k) / static_cast<double>(kMotionSteps)) * (m.to - m.from);
+    const detail::PairVerdict verdict = judge.judge(p, x, true, m.gap);
+    const PenetrationRow& row = verdict.row;
+    const bool pressed = verdict.is_row();
+    out.depth.push_back(pressed ? row.depth : 0.0);
+    out.force.push_back(pressed ? accuracy::elastic_force(m.gap, row.distance, row.depth) : 0.0);
+    // A thousandth for the rounding of the steps themselves.
+    if (k > 0 && std::abs(out.depth[k] - out.depth[k - 1]) > 1.001 * m.way) out.jumps.push_back(k);
+  }
+  return out;
+}
+
+}  // namespace
+
+HardMotion hard_motion() {
+  HardMotion m;
+  // The first corner is the middle of the opposite edge: the area of these tenths is round-off.
+  m.corners = {Point3<double>{-0.1, 0, 0}, {0.6, 0.9, 0}, {-0.8, -0.9, 0}};
+  m.from = {-0.1, 1.1, 0.3}, m.to = {1.9, 1.3, 0.3};
+  m.gap = 2;
+  m.way = length(m.to - m.from) / static_cast<double>(kMotionSteps);
+  for (const Accuracy a : {Accuracy::reference, Accuracy::fast, Accuracy::robust, Accuracy::exact})
+    m.lines.push_back(motion_line(m, a));
+  return m;
+}
+
+std::vector<std::string> motion_sentences(const HardMotion& motion, const std::string& tag) {
+  std::vector<std::string> out;
+  const auto named = [&](Accuracy a) {
+    const std::string name = to_string(a);
+    return tag.empty() ? name : "<" + tag + ">" + name + "</" + tag + ">";
+  };
+  for (std::size_t k = 1; k <= kMotionSteps; ++k) {
+    std::string who;
+    const HardMotion::Line* first = nullptr;
+    for (const HardMotion::Line& line : motion.lines) {
+      if (std::find(line.jumps.begin(), line.jumps.end(), k) == line.jumps.end()) continue;
+      who += (first == nullptr ? "" : " and ") + named(line.accuracy);
+      if (first == nullptr) first = &line;
+    }
+    if (first == nullptr) continue;
+    const double before = first->force[k - 1], after = first->force[k];
+    out.push_back(fmt::format(
+        "At step {} the force of {} {} from {:.2f} to {:.2f}; exactly {:.2f}.", k, who,
+        after < before ? "falls" : "rises", before, after, motion.lines.back().force[k]));
+  }
+  return out;
+}
+
+}  // namespace deck
