@@ -1,8 +1,8 @@
 // A scripted client against the real server: what the extension asks beyond the protocol, and that the
 // grammar and the server see the same cells.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
+import { spawn, spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -15,10 +15,11 @@ const { ROOT, WORK, DECK } = process.env;
 const require = createRequire(join(WORK, "x.js"));
 const { StreamMessageReader, StreamMessageWriter, createMessageConnection } = require("vscode-jsonrpc/node");
 const out = mkdtempSync(join(tmpdir(), "deck-client-"));
-for (const name of ["program", "columns", "page"])
+for (const name of ["program", "columns", "page", "new_interface"])
   await require("esbuild").build({ entryPoints: [join(ROOT, `tools/vscode/src/${name}.ts`)], bundle: true, format: "esm", platform: "node", outfile: join(out, `${name}.mjs`) });
 const { serverCall, serverOptions } = await import(join(out, "program.mjs"));
 const { layoutOf, ruler } = await import(join(out, "columns.mjs"));
+const { planOf } = await import(join(out, "new_interface.mjs"));
 const { withScript } = await import(join(out, "page.mjs"));
 
 const settings = { path: DECK, includePaths: [join(ROOT, "samples")], arguments: ["--threads", "1"], geometryOnSave: false };
@@ -40,7 +41,8 @@ after(async () => {
 });
 const { capabilities } = await connection.sendRequest("initialize", {
   processId: process.pid, rootUri: null, initializationOptions: serverOptions(settings),
-  capabilities: { general: { positionEncodings: ["utf-16"] }, textDocument: { semanticTokens: { requests: { full: true }, tokenTypes: [], tokenModifiers: [], formats: ["relative"] } } },
+  capabilities: { general: { positionEncodings: ["utf-16"] }, textDocument: { semanticTokens: { requests: { full: true }, tokenTypes: [], tokenModifiers: [], formats: ["relative"] },
+    documentSymbol: { hierarchicalDocumentSymbolSupport: true }, completion: { completionItem: { snippetSupport: true } } } },
 });
 await connection.sendNotification("initialized", {});
 
@@ -111,6 +113,52 @@ test("a field is set where its columns end, and nothing else moves", async () =>
   assert.ok(JSON.stringify(edits).includes("newText"), "all fixes of the file");
   await close(deck);
 });
+
+test("a part of the tree is found in the file that holds it", async () => {
+  const deck = await open("include_tree_0000.rad");
+  const { uri, range } = await connection.sendRequest("deck/locate", { textDocument: deck.textDocument, kind: "part", id: 2 });
+  assert.match(readFileSync(new URL(uri), "utf8").split("\n")[range.start.line], /^\/PART\/2$/);
+  assert.equal(await connection.sendRequest("deck/locate", { textDocument: deck.textDocument, kind: "part", id: 3 }), null);
+  await close(deck);
+});
+
+/** Inserts an interface of every type that is offered; the deck with all of them. */
+async function withNewOnes(name, text) {
+  const inserted = [];
+  for (let more = true; more; ) {
+    const deck = await open(name, text);
+    const plan = await planOf((method, params) => connection.sendRequest(method, params), deck.textDocument, { line: 0, character: 0 });
+    const { label } = plan.keywords[inserted.length];
+    edits.length = 0;
+    await connection.sendRequest("workspace/executeCommand", { command: "deck.insertCard", arguments: [{ textDocument: deck.textDocument, position: plan.position, keyword: label, id: plan.id, title: "New interface" }] });
+    const [edit, ...others] = Object.values(edits[0].changes).flat();
+    assert.deepEqual([others.length, edit.range.start], [0, edit.range.end], "one edit, which replaces nothing");
+    const lines = text.split("\n");
+    text = [...lines.slice(0, edit.range.start.line), edit.newText + lines.slice(edit.range.start.line).join("\n")].join("\n");
+    inserted.push({ label, id: plan.id, at: edit.range.start.line });
+    more = inserted.length < plan.keywords.length;
+    await close(deck);
+  }
+  return { inserted, text };
+}
+for (const [version, types] of [["2022", [2, 7, 10, 11, 19, 24, 25]], ["110", [2, 7, 10, 11, 19]]])
+  test(`a new interface of each type of version ${version} is read back, with the next free id and all defaults`, async () => {
+    const name = "too_close_0000.rad";
+    assert.equal(spawnSync(DECK, ["convert", join(ROOT, "samples", name), "--version", version, "-o", join(out, version)]).status, 0);
+    const { inserted, text } = await withNewOnes(name, readFileSync(join(out, version, name), "utf8"));
+    assert.deepEqual(inserted.map((i) => i.id), inserted.map((_, i) => i + 2));
+    for (const { label, id, at } of inserted) assert.ok(text.split("\n").indexOf(`${label}/${id}`) === at, `${label} stands behind the one before`);
+    writeFileSync(join(out, version, name), text);
+    const said = JSON.parse(spawnSync(DECK, ["params", join(out, version, name), "--json", "-"], { encoding: "utf8" }).stdout);
+    assert.equal(said.deck.version, Number(version));
+    for (const type of types) {
+      const { id } = inserted.find((i) => i.label === `/INTER/TYPE${type}`);
+      const found = said.interfaces.filter((i) => i.id === id);
+      assert.deepEqual(found.map((i) => [i.type, i.title]), [[type, "New interface"]]);
+      for (const [field, p] of Object.entries(found[0].parameters)) assert.ok(p.input === null && ["built-in", "derived"].includes(p.origin), `TYPE${type}.${field}: ${p.input}, ${p.origin}`);
+    }
+    assert.equal(said.interfaces.length + said.not_evaluated.length, 1 + inserted.length);
+  });
 
 test("what the solver does is told by topic", async () => {
   const { text } = await connection.sendRequest("deck/explain", { topic: "/INTER/TYPE7.Inacti" });

@@ -17,10 +17,12 @@ const part = async (name) => {
   await require("esbuild").build({ entryPoints: [join(ROOT, "tools/vscode/src", `${name}.ts`)], bundle: true, format: "esm", platform: "node", outfile, logLevel: "warning" });
   return import(outfile);
 };
-const { convert, fix, lintCall, locate, noServer, notFound } = await part("program");
+const { convert, fix, gapsCall, lintCall, locate, noServer, notFound, partsCall } = await part("program");
 const { cellAt, layoutOf, nextCell, ruler } = await part("columns");
 const { headerAbove, withScript } = await part("page");
 const { toggled } = await part("comments");
+const { treeOf } = await part("tree");
+const { planOf } = await part("new_interface");
 const manifest = JSON.parse(readFileSync(join(WORK, "stage/package.json"), "utf8"));
 const source = readdirSync(join(ROOT, "tools/vscode/src")).map((f) => readFileSync(join(ROOT, "tools/vscode/src", f), "utf8")).join("\n");
 
@@ -145,6 +147,61 @@ test("lines become comments in the first column, and what they were again", () =
   assert.deepEqual(toggled(card), ["#         1       2.5", "#", "## heading"]);
   assert.deepEqual(toggled(toggled(card)), card);
   assert.deepEqual(toggled(["# heading"]), [" heading"]);
+});
+
+const settings = { path: "deck", includePaths: [], arguments: [], geometryOnSave: true };
+const sample = (name) => join(ROOT, "samples", `${name}_0000.rad`);
+const json = (call) => JSON.parse(spawnSync(DECK, call, { encoding: "utf8", maxBuffer: 1 << 28 }).stdout);
+const gapsOf = (name, ...more) => json([...gapsCall(settings, sample(name)), ...more]);
+const lines = (row, above = "") => [`${above}${row.label} | ${row.description} | ${row.icon}`, ...row.rows.flatMap((r) => lines(r, `${above}  `))];
+test("the tree of a deck: includes, interfaces with level and depth, parts, in this order", () => {
+  const tree = (name) => treeOf(gapsOf(name), json(partsCall(settings, sample(name))));
+  const parts = (first, second) => ["  Parts | 2 | group", `    1 lower plate | ${first} | part`, `    2 upper plate | ${second} | part`];
+  assert.deepEqual(lines(tree("include_tree")), [
+    "include_tree_0000.rad | penetrates | penetrates", "  Includes | 1 | group", "    include_tree/mesh.inc |  | include", "      sheets.inc |  | include",
+    "  Interfaces | 1 | group", "    1 upper on lower | penetrates, 0.2 deep, 16.7 % of the gap · TYPE7 | penetrates",
+    ...parts("mass 0.00374, time step 0.0017", "mass 0.0024, time step 0.00136"),
+  ]);
+  assert.deepEqual(lines(tree("too_close")), [
+    "too_close_0000.rad | penetrates | penetrates", "  Interfaces | 1 | group", "    1 upper on lower | penetrates, 0.35 deep, 28 % of the gap · TYPE7 | penetrates",
+    ...parts("mass 0.00468, time step 0.0017", "mass 0.002, time step 0.00136"),
+  ]);
+  const [included, interfaces, of] = tree("include_tree").rows;
+  assert.deepEqual(included.rows[0].rows[0].place, { file: join(ROOT, "samples/include_tree/sheets.inc"), line: 1 });
+  const { file, line } = interfaces.rows[0].place;
+  assert.equal(readFileSync(file, "utf8").split("\n")[line - 1], "/INTER/TYPE7/1");
+  assert.deepEqual(of.rows[1].find, { kind: "part", id: 2 });
+  const mistakes = lines(treeOf(gapsOf("every_mistake"), null));
+  assert.ok(mistakes.includes("    70 | not-examined · TYP7 | not-examined"), "nor are types that nobody examines left out");
+  assert.equal(mistakes.some((l) => l.includes("Parts")), false, "parts that could not be had");
+});
+test("the level of an interface is the verdict on it alone, its depth the deepest of its contacts", () => {
+  const levels = new Set();
+  for (const name of readdirSync(join(ROOT, "samples")).flatMap((f) => f.match(/^(.*)_0000\.rad$/)?.[1] ?? [])) {
+    const gaps = gapsOf(name);
+    if (gaps.verdict.counts.errors > 0) continue; // then the verdict is on the deck
+    for (const r of treeOf(gaps, null).rows.find((r) => r.label === "Interfaces").rows) {
+      const alone = gapsOf(name, "--interface", String(r.find.id));
+      assert.equal(r.icon, alone.verdict.level, `${name}: ${r.label}`);
+      assert.equal(Number(r.description.match(/([\d.e-]+) deep/)?.[1] ?? 0), Number(alone.summary.max_depth.toPrecision(3)), `${name}: ${r.label}`);
+      levels.add(r.icon);
+    }
+  }
+  assert.deepEqual([...levels].sort(), ["clean", "penetrates", "stops", "untied"]);
+});
+
+test("a new interface goes behind the last one, else behind the cursor's block, and into no submodel", async () => {
+  const plan = async (names, line, ...taken) => {
+    const symbols = names.map((name, i) => ({ name, selectionRange: { start: { line: 10 * i, character: 0 } } }));
+    const items = ["/INTER/LAGMUL/TYPE7", "/INTER/TYPE11", "/INTER/TYPE7", "/NODE"].flatMap((label) => [{ label, detail: "a" }, { label: `${label} …`, detail: "b" }]);
+    const answers = { "textDocument/documentSymbol": () => symbols, "deck/locate": ({ id }) => (taken.includes(id) ? {} : null), "textDocument/completion": () => ({ items: [...items, { label: "/INTER/TYPE9", detail: "no card" }] }) };
+    return planOf(async (method, params) => answers[method](params), { uri: "" }, { line, character: 0 });
+  };
+  const { position, id, keywords } = await plan(["/BEGIN", "/INTER/TYPE7/5", "/INTER/LAGMUL/TYPE7/8/2", "/PART/9", "//SUBMODEL/1", "/INTER/TYPE7/3", "//ENDSUB", "/NODE"], 0, 9, 10);
+  assert.deepEqual([position.line, id, keywords.map((k) => k.label)], [20, 11, ["/INTER/TYPE7", "/INTER/TYPE11", "/INTER/LAGMUL/TYPE7"]]);
+  const at = async (line) => (await plan(["/BEGIN", "/PART/9", "//SUBMODEL/1", "/NODE", "//ENDSUB", "/NODE"], line)).position.line;
+  assert.deepEqual(await Promise.all([0, 19, 35, 45, 99].map(at)), [0, 10, 10, 40, 50]);
+  assert.equal(await plan([], 0), null);
 });
 
 test("every command of the manifest is carried out, and every one carried out is in it", () => {

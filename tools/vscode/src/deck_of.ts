@@ -5,8 +5,8 @@ import { basename } from "node:path";
 const starter = /_0000\.rad(\.gz)?$/i;
 const chosen = new Map<string, vscode.Uri>();
 
-/** The deck of `file`; asks if several may be meant; undefined: nobody chose. */
-export async function deckOf(file: vscode.Uri): Promise<vscode.Uri | undefined> {
+/** The deck of `file`; `ask`: somebody if several may be meant; undefined: nobody chose. */
+export async function deckOf(file: vscode.Uri, ask = true): Promise<vscode.Uri | undefined> {
   if (starter.test(file.path)) return file;
   const before = chosen.get(file.toString());
   if (before) return before;
@@ -21,6 +21,7 @@ export async function deckOf(file: vscode.Uri): Promise<vscode.Uri | undefined> 
   if (among.length === 0) return file;
   let deck: vscode.Uri | undefined = among[0];
   if (among.length > 1) {
+    if (!ask) return undefined;
     const items = among.map((d) => ({ label: vscode.workspace.asRelativePath(d), deck: d }));
     deck = (await vscode.window.showQuickPick(items, { title: `Which deck includes ${name}?` }))?.deck;
   }

@@ -8,8 +8,8 @@ import { headerAbove, withScript } from "./page";
 
 const most = 100 << 20; // characters of a page for a panel; larger ones are for a browser
 
-/** The editor shows a line beside the report. */
-async function open(place: Place, deck: vscode.Uri, focus: boolean): Promise<void> {
+/** The editor shows a line, beside the report if that is open. */
+export async function open(place: Place, deck: vscode.Uri, focus: boolean): Promise<void> {
   const uri = vscode.Uri.file(isAbsolute(place.file) ? place.file : resolve(dirname(deck.fsPath), place.file));
   const shown = vscode.window.visibleTextEditors.find((e) => e.document.uri.fsPath === uri.fsPath);
   const line = Math.max(0, place.line - 1);
