@@ -171,6 +171,7 @@ test("the tree of a deck: includes, interfaces with level and depth, parts, in t
   const { file, line } = interfaces.rows[0].place;
   assert.equal(readFileSync(file, "utf8").split("\n")[line - 1], "/INTER/TYPE7/1");
   assert.deepEqual(of.rows[1].find, { kind: "part", id: 2 });
+  assert.ok(lines(tree("every_mistake")).some((l) => l.startsWith("  Parts | ")), "a deck with errors has parts, too");
   const mistakes = lines(treeOf(gapsOf("every_mistake"), null));
   assert.ok(mistakes.includes("    70 | not-examined · TYP7 | not-examined"), "nor are types that nobody examines left out");
   assert.equal(mistakes.some((l) => l.includes("Parts")), false, "parts that could not be had");

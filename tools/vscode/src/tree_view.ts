@@ -5,7 +5,7 @@ import type { LanguageClient } from "vscode-languageclient/node";
 import { deckOf } from "./deck_of";
 import { gapsCall, partsCall } from "./program";
 import { open } from "./report";
-import { run } from "./run";
+import { run, type Said } from "./run";
 import { settings } from "./settings";
 import { treeOf, type Gaps, type Parts, type Row } from "./tree";
 
@@ -92,11 +92,12 @@ export class DeckTree implements vscode.TreeDataProvider<Row>, vscode.Disposable
     const ask = (call: string[]) => run(this.program, call, file, cancel);
     const [gaps, parts] = await Promise.all([ask(gapsCall(settings(deck), file)), ask(partsCall(settings(deck), file))]);
     if (cancel.isCancellationRequested) return;
-    this.view.message = [gaps, parts].find((s) => s.code !== 0)?.error.trim().split("\n")[0];
+    const fine = (s: Said) => s.code === 0 || s.code === 1; // 1: read, with findings
+    this.view.message = [gaps, parts].find((s) => !fine(s))?.error.trim().split("\n")[0];
     this.root = null;
-    if (gaps.code === 0) {
+    if (fine(gaps)) {
       const said: Gaps = JSON.parse(gaps.out);
-      this.root = treeOf(said, parts.code === 0 ? (JSON.parse(parts.out) as Parts) : null);
+      this.root = treeOf(said, fine(parts) ? (JSON.parse(parts.out) as Parts) : null);
       this.files = [file, ...said.deck.includes.map((i) => i.path)];
       this.stamp = stampOf(this.files);
     }
