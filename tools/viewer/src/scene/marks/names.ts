@@ -1,9 +1,9 @@
 // What things in the picture are called: elements, and the axes in its corner.
 import { Vector3, type Quaternion } from "three";
-import { kindNames, type ElementOrigin } from "../data";
-import { fileName, num, replace, svg } from "../dom";
-import type { Report } from "../report";
-import type { Part3D } from "./parts3d";
+import { kindNames, type ElementOrigin } from "../../data";
+import { fileName, num, replace, svg } from "../../dom";
+import type { Report } from "../../report";
+import type { Part3D } from "../parts3d";
 
 /** Id, part, property, thickness, and where the element is defined. */
 export function elementText(report: Report, o: ElementOrigin, part: Part3D, item: number, node: number): string {

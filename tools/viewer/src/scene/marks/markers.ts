@@ -3,9 +3,9 @@ import {
   BufferAttribute, BufferGeometry, type CanvasTexture, Color, InstancedMesh, Matrix4, MeshLambertMaterial, type Plane, Points, type PointsMaterial, Quaternion,
   type Scene, Vector3,
 } from "three";
-import type { CameraControl } from "./camera";
-import { arrowGeometry, dotMaterial } from "./shapes";
-import type { Hit, Report } from "../report";
+import type { CameraControl } from "../camera";
+import { arrowGeometry, dotMaterial } from "../shapes";
+import type { Hit, Report } from "../../report";
 
 export interface Arrow {
   at: [number, number, number];

@@ -1,7 +1,7 @@
 // Names of the chosen node and segment in the picture: beside what they name, never on it, with a line that leads there.
 import { Vector3 } from "three";
-import { h, lengthText, num, replace, svg } from "../dom";
-import type { Hit, Report } from "../report";
+import { h, lengthText, num, replace, svg } from "../../dom";
+import type { Hit, Report } from "../../report";
 
 export interface Point {
   x: number;

@@ -1,8 +1,8 @@
 // What is marked in the picture: the chosen row with its outline and the way out, and the line between measured points.
 import { BufferGeometry, type CanvasTexture, type Mesh, Points, PointsMaterial, type Scene, Vector3 } from "three";
 import type { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
-import type { Hit, Report } from "../report";
-import { coneAt, thickLines } from "./shapes";
+import type { Hit, Report } from "../../report";
+import { coneAt, thickLines } from "../shapes";
 
 export class Marked {
   readonly selection: (LineSegments2 | Points | Mesh)[] = [];

@@ -1,10 +1,10 @@
 // What of the model penetrates, crosses or is pushed: elements that stand out, and arrows of nodal forces.
 import { Color } from "three";
-import type { Crossed } from "../meta";
-import type { Report } from "../report";
-import { segmentOf } from "../sections/crossed";
+import type { Crossed } from "../../meta";
+import type { Report } from "../../report";
+import { segmentOf } from "../../sections/crossed";
 import type { Arrow } from "./markers";
-import { elementKey, type Parts3D } from "./parts3d";
+import { elementKey, type Parts3D } from "../parts3d";
 
 type Crossing = Crossed["rows"][0];
 

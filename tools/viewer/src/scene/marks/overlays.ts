@@ -1,10 +1,10 @@
 // Lines over the picture: edges of crossed elements, ties, the ways of nodes that a repair has moved.
-import type { Crossed } from "../meta";
-import type { Look } from "../look";
-import type { Report } from "../report";
-import { segmentOf } from "../sections/crossed";
-import { tieLines } from "./tied";
-import type { View3D } from "./view3d";
+import type { Crossed } from "../../meta";
+import type { Look } from "../../look";
+import type { Report } from "../../report";
+import { segmentOf } from "../../sections/crossed";
+import { tieLines } from "../tied";
+import type { View3D } from "../view3d";
 
 type Crossing = Crossed["rows"][0];
 
