@@ -63,7 +63,8 @@ class Room {
   std::uint64_t left_;
 };
 
-/// Distances along the mesh from one item, with stamps so that nothing is cleared between items.
+/// Distances along the mesh from one item. An item marks with its number what it has visited, so
+/// the tables are not cleared between items.
 struct Front {
   explicit Front(std::size_t nodes, std::size_t items)
       : dist(nodes, unreached), expanded(nodes, 0), met(items, 0) {}

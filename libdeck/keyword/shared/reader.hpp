@@ -27,7 +27,7 @@ inline Span make_span(std::uint32_t file, std::uint64_t begin, std::uint64_t end
   return {file, static_cast<std::uint32_t>(end - begin < longest ? end - begin : longest), begin};
 }
 
-/// Errors for a file that nobody can mean as a deck: nothing but blanks; UTF-16 or binary data.
+/// Errors for a file that is no deck: it holds blanks only; it is UTF-16 or binary data.
 Result<void> refuse_empty(const Source& source);
 Result<void> refuse_binary(const Source& source);
 

@@ -65,7 +65,7 @@ export class Report implements vscode.Disposable {
     await this.refresh();
   }
 
-  /** Has the page made anew; what was chosen in it stays chosen. */
+  /** Makes the page again and keeps the selection. */
   private async refresh(): Promise<void> {
     this.work?.cancel();
     const work = (this.work = new vscode.CancellationTokenSource());

@@ -19,8 +19,8 @@ namespace {
 bool is_reference(std::string_view text) { return text.starts_with('&') || text.starts_with("-&"); }
 
 constexpr const char* take_one_out =
-    "; the text was changed by hand, so that nobody knows which of the two is meant: make them "
-    "agree, or take one of them out";
+    "; the text was changed by hand, and the two do not agree: make them agree, or remove one of "
+    "them";
 
 /// One file of the document.
 class FileWriter {

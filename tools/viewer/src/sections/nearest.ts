@@ -1,4 +1,4 @@
-// A report in which nothing penetrates: what is nearest to it, by interface, and what limits the time step.
+// A report without penetrations: the nearest pair of each interface, and what limits the time step.
 import { kindNames } from "../data";
 import { h, lengthText, num, percent, replace } from "../dom";
 import type { Row } from "../core";
