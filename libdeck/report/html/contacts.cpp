@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "contact/shared/scene_parts.hpp"
@@ -59,6 +58,16 @@ std::vector<std::uint32_t> deepest_rows(const Contact& contact, bool& all) {
   return rows;
 }
 
+/// Distances in 255ths of the reach, rounded down, so that the page need not look at pairs that are
+/// too far for a gap.
+std::vector<std::uint8_t> shares(const std::vector<double>& distances, double reach) {
+  std::vector<std::uint8_t> out(distances.size(), 0);
+  if (!(reach > 0)) return out;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = static_cast<std::uint8_t>(std::min(255.0, 255 * (distances[i] / reach)));
+  return out;
+}
+
 /// Sides of a contact whose gaps are formed already.
 PlainSides formed_sides(const Contact& contact) {
   PlainSides out;
@@ -81,9 +90,10 @@ PageContact wide_pairs(const Contact& contact, PlainSides plain, const Coordinat
     page.given = deepest_rows(contact, page.complete);
     for (const std::uint32_t r : page.given)
       page.pairs.push_back({contact.penetrations[r].secondary, contact.penetrations[r].main});
+    page.shares.assign(page.pairs.size(), 0);
     return page;
   }
-  const SearchSides sides(contact, SearchSides::Off::included);
+  const SearchSides sides(contact, SearchSides::Off::included, threads);
   if (!sides.edge_pairs()) page.margin = sides.margin(x);
   if (!std::isfinite(page.margin)) page.margin = 0;
   SearchOptions search;
@@ -99,6 +109,7 @@ PageContact wide_pairs(const Contact& contact, PlainSides plain, const Coordinat
     SearchResult found = sides.find(x, search);
     if (!found.complete) continue;
     page.pairs = std::move(found.pairs);
+    page.shares = shares(sides.least_distances(x, page.pairs), page.reach);
     return page;
   }
   // Too many: what penetrates, deepest first if even that is too much.
@@ -108,6 +119,7 @@ PageContact wide_pairs(const Contact& contact, PlainSides plain, const Coordinat
   for (const std::uint32_t r : deepest_rows(contact, all))
     page.pairs.push_back({contact.penetrations[r].secondary, contact.penetrations[r].main});
   std::sort(page.pairs.begin(), page.pairs.end());
+  page.shares.assign(page.pairs.size(), 0);
   return page;
 }
 
@@ -127,28 +139,24 @@ struct NodeLine {
   std::uint64_t line = 0;
 };
 
-/// Places of many nodes in one pass over their blocks.
+/// Places of nodes, sorted and each once, in one pass over their blocks.
 std::vector<NodeLine> node_places(const Model& model, const Deck& deck,
                                   const std::vector<NodeIndex>& nodes) {
   std::vector<NodeLine> places(nodes.size());
-  std::vector<std::uint32_t> order(nodes.size());  // of the nodes, by their indices
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return nodes[a] < nodes[b]; });
-  auto wanted = order.begin();
+  auto wanted = nodes.begin();
   for (const BulkBlock& range : model.node_blocks) {
     LineCursor cursor(deck.sources, *range.block);
     std::uint32_t file = Span::no_file;
     std::uint64_t at = 0, line_number = 1, given_back = 0;
     NodeIndex node = range.first;
-    while (wanted != order.end() && nodes[*wanted] < node) ++wanted;
+    while (wanted != nodes.end() && *wanted < node) ++wanted;
     for (Line line = cursor.next();
-         line.valid() && node < range.first + range.count && wanted != order.end();
+         line.valid() && node < range.first + range.count && wanted != nodes.end();
          line = cursor.next()) {
       if (line.text.find_first_not_of(' ') == std::string_view::npos) continue;
       const NodeIndex here = node++;
       const bool another = line.file != file || line.offset < at;
-      if (nodes[*wanted] != here && !another && line.offset - at < given_back_at_once) continue;
+      if (*wanted != here && !another && line.offset - at < given_back_at_once) continue;
       if (another) {
         file = line.file;
         line_number = deck.sources[file].position(line.offset).line;
@@ -162,8 +170,8 @@ std::vector<NodeLine> node_places(const Model& model, const Deck& deck,
         deck.sources[file].release(given_back, at);
         given_back = at;
       }
-      for (; wanted != order.end() && nodes[*wanted] == here; ++wanted)
-        places[*wanted] = {file, line_number};
+      if (wanted != nodes.end() && *wanted == here)
+        places[static_cast<std::size_t>(wanted++ - nodes.begin())] = {file, line_number};
     }
   }
   return places;
@@ -206,21 +214,13 @@ class Writer {
 
   std::string run() {
     exact_coordinates();
+    find_places();
     for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
       const Contact& c = input_.scene->contacts[i];
       const PageContact& wide = page_.contacts[i];
-      const bool edge_pairs = c.kind == ContactKind::edge_edge;
-      const std::size_t s = edge_pairs ? c.secondary_edges.size() : c.secondary.size();
-      const std::size_t m = edge_pairs ? c.main_edges.size() : c.main.size();
-      if (c.irem_gap == 2) {  // removal along the mesh looks at all items
-        secondary_ = everything(s);
-        main_ = everything(m);
-      } else {
-        secondary_ = distinct(wide.pairs, &CandidatePair::secondary, s);
-        main_ = distinct(wide.pairs, &CandidatePair::main, m);
-      }
-      pairs(c, wide);
-      if (!edge_pairs)
+      choose_items(c, wide);
+      pairs(wide);
+      if (c.kind == ContactKind::node_segment)
         node_segment(c, wide.plain);
       else
         edges(c, wide.plain);
@@ -230,6 +230,39 @@ class Writer {
   }
 
  private:
+  /// The items of which the page needs more than their nodes.
+  void choose_items(const Contact& c, const PageContact& wide) {
+    const bool edge_pairs = c.kind == ContactKind::edge_edge;
+    const std::size_t s = edge_pairs ? c.secondary_edges.size() : c.secondary.size();
+    const std::size_t m = edge_pairs ? c.main_edges.size() : c.main.size();
+    if (c.irem_gap == 2) {  // removal along the mesh looks at all items
+      secondary_ = everything(s);
+      main_ = everything(m);
+    } else {
+      secondary_ = distinct(wide.pairs, &CandidatePair::secondary, s);
+      main_ = distinct(wide.pairs, &CandidatePair::main, m);
+    }
+  }
+
+  /// The node by which a chosen item of the secondary side is found in the deck.
+  static NodeIndex named_by(const Contact& c, std::uint32_t secondary) {
+    return c.kind == ContactKind::node_segment ? c.secondary[secondary].node
+                                               : c.secondary_edges[secondary].nodes[0];
+  }
+
+  /// Lines of the nodes of all contacts together: blocks of nodes are long.
+  void find_places() {
+    std::vector<std::uint8_t> wanted(model_.nodes.size(), 0);
+    for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
+      const Contact& c = input_.scene->contacts[i];
+      choose_items(c, page_.contacts[i]);
+      for (const std::uint32_t s : secondary_) wanted[named_by(c, s)] = 1;
+    }
+    for (NodeIndex n = 0; n < wanted.size(); ++n)
+      if (wanted[n]) named_.push_back(n);
+    lines_ = node_places(model_, *input_.deck, named_);
+  }
+
   /// True if Inacti 3 of a contact before can move a node whose place the gaps depend on.
   static bool can_be_moved(const Contact& c, const std::vector<std::uint8_t>& movable) {
     const auto any = [&](const auto& items) {
@@ -301,9 +334,11 @@ class Writer {
     }
   }
 
-  void places(const std::vector<NodeIndex>& nodes) {
+  void places(const Contact& c) {
     Delta file, line;
-    for (const NodeLine& p : node_places(model_, *input_.deck, nodes)) {
+    for (const std::uint32_t s : secondary_) {
+      const auto at = std::lower_bound(named_.begin(), named_.end(), named_by(c, s));
+      const NodeLine& p = lines_[static_cast<std::size_t>(at - named_.begin())];
       out_.s(file(p.file == Span::no_file ? -1 : std::int64_t{p.file}));
       out_.s(line(static_cast<std::int64_t>(p.line)));
     }
@@ -322,10 +357,10 @@ class Writer {
       for (const NodeIndex i : m.nodes) out_.s(corner(nodes_[i]));
     out_.palette(c.main, [&](const MainSegment& m) { return formed ? m.gap : thickness_of(m); });
     owners(c.main, [&](const MainSegment& m) { return owner(model_, m.carrier, m.element); });
-    std::vector<NodeIndex> paired;
-    for (const std::uint32_t s : secondary_) paired.push_back(c.secondary[s].node);
-    owners(paired, [&](NodeIndex node) { return owner_of_node(model_, connectivity_, node); });
-    places(paired);
+    owners(secondary_, [&](std::uint32_t s) {
+      return owner_of_node(model_, connectivity_, c.secondary[s].node);
+    });
+    places(c);
     selected(secondary_, plain.secondary_length);
     selected(main_, plain.main_length);
   }
@@ -344,24 +379,17 @@ class Writer {
     const auto of_edge = [&](const ContactEdge& e) { return owner(model_, e.carrier, e.element); };
     owners(c.main_edges, of_edge);
     owners(secondary_, [&](std::uint32_t s) { return of_edge(c.secondary_edges[s]); });
-    std::vector<NodeIndex> first;
-    for (const std::uint32_t s : secondary_) first.push_back(c.secondary_edges[s].nodes[0]);
-    places(first);
+    places(c);
     selected(secondary_, plain.secondary_length);
     selected(main_, plain.main_length);
   }
 
-  /// Pairs, and for each a byte: its distance in 255ths of the reach, rounded down, so that the
-  /// page need not look at pairs that are too far for a gap.
-  void pairs(const Contact& c, const PageContact& wide) {
+  void pairs(const PageContact& wide) {
     Delta s, m;
     out_.u(wide.pairs.size());
     for (const CandidatePair& p : wide.pairs) out_.s(s(p.secondary));
     for (const CandidatePair& p : wide.pairs) out_.s(m(p.main));
-    for (const CandidatePair& p : wide.pairs) {
-      const double share = wide.reach > 0 ? 255 * (distance(c, p) / wide.reach) : 0;
-      out_.byte(share >= 255 ? 255u : share > 0 ? static_cast<unsigned>(share) : 0u);
-    }
+    for (const std::uint8_t share : wide.shares) out_.byte(share);
   }
 
   /// What was found of a contact for which the page has no rules, one number after the other.
@@ -381,29 +409,15 @@ class Writer {
     for (const std::uint32_t r : rows) out_.byte(static_cast<unsigned>(c.penetrations[r].action));
   }
 
-  double distance(const Contact& c, const CandidatePair& pair) const {
-    const Coordinates& x = page_.start(*input_.scene);
-    const auto at = [&](NodeIndex n) { return Point3<double>{x.x[n], x.y[n], x.z[n]}; };
-    if (c.kind == ContactKind::edge_edge) {
-      const auto& s = c.secondary_edges[pair.secondary].nodes;
-      const auto& m = c.main_edges[pair.main].nodes;
-      return closest_between_edges<Form::reference>(at(s[0]), at(s[1]), at(m[0]), at(m[1]))
-          .distance;
-    }
-    const auto& m = c.main[pair.main].nodes;
-    return closest_on_segment<Form::reference>(at(c.secondary[pair.secondary].node),
-                                               {at(m[0]), at(m[1]), at(m[2]), at(m[3])},
-                                               m[2] == m[3])
-        .distance();
-  }
-
   const HtmlInput& input_;
   const PageContacts& page_;
   const PageNodes& nodes_;
   const Model& model_;
   Connectivity connectivity_;
   ByteStream out_;
-  std::vector<std::uint32_t> secondary_, main_;
+  std::vector<std::uint32_t> secondary_, main_;  // of the contact that is written
+  std::vector<NodeIndex> named_;                 // ascending
+  std::vector<NodeLine> lines_;                  // of these
 };
 
 }  // namespace

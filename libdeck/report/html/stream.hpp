@@ -14,7 +14,7 @@
 
 namespace deck::detail {
 
-/// Bytes that are packed (zlib, level 9) and written as base64 piece by piece as they come.
+/// Bytes that are packed (zlib) and written as base64 piece by piece as they come.
 class PackedText {
  public:
   PackedText();

@@ -15,6 +15,7 @@ struct GeometryRun {
   Reporter& reporter;
   const Scene& scene;
   const SceneView& view;
+  const std::vector<Crossing>& crossings;
   const std::vector<Tie>& ties;  ///< of the scene, or found beside it
   int threads = 1;
   /// Takes contacts that are too large for a quick look; nullptr: those are findings.

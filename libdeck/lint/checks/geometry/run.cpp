@@ -155,6 +155,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
                                 reporter,
                                 scene,
                                 view,
+                                crossings,
                                 with_ties ? scene.ties : context.loaded->ties(),
                                 threads,
                                 chosen.quick ? &left_out : nullptr};

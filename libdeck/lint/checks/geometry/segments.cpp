@@ -132,13 +132,12 @@ void check_crossings(const GeometryRun& run) {
     std::uint64_t places = 0;
   };
   const Model& model = run.model();
-  const std::vector<Crossing> all = find_crossings(run.scene, run.threads);
   const auto part_of = [&](const Crossing& x) -> std::int64_t {
     const std::uint32_t p = model.family(x.edge_kind).part[x.edge_element];
     return p == no_index ? 0 : model.parts[p].id;
   };
   std::map<std::pair<std::int64_t, std::int64_t>, Group> groups;
-  for (const Crossing& x : all) {
+  for (const Crossing& x : run.crossings) {
     const Contact& c = run.scene.contacts[x.contact];
     const MainSegment& m = c.main[x.main];
     const std::int64_t a = part_of(x), b = carrier_name(model, m.carrier, m.element).part;
