@@ -33,6 +33,16 @@ std::string ids_text(const std::vector<std::int64_t>& ids) {
 
 }  // namespace
 
+std::string examined_types(Examined examined) {
+  std::string text = examined == Examined::contacts ? "TYPE" : "TYPE2, ";
+  for (std::size_t i = 0; i < interface_types.size(); ++i)
+    text += (i == 0                            ? ""
+             : i + 1 == interface_types.size() ? " and "
+                                               : ", ") +
+            std::to_string(interface_types[i]->type);
+  return text;
+}
+
 Coverage coverage_of(const Deck& deck, const Interfaces& interfaces, Examined examined) {
   Coverage out;
   const auto& looked_at = examined == Examined::contacts ? interfaces.ordered : interfaces.all;

@@ -494,7 +494,7 @@ int run_program(int argc, char** argv, const std::string& version, Session& sess
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   settle_help(words);
   if (const int code = check_verb(words, all); code != exit_clean) return code;
-  CLI::App app("Radioss contact decks (TYPE7, 10, 11, 19): read, check, measure, rewrite.", "deck");
+  CLI::App app("Contacts and ties of Radioss decks: read, check, measure, rewrite.", "deck");
   app.set_version_flag("--version", version, "Version and compiler");
   app.set_help_flag("-h,--help", "This help; 'deck help VERB' explains a verb");
   std::map<CLI::App*, Action> actions;

@@ -127,7 +127,8 @@ int open_directories(CommonOptions& options) {
 
 void add_require_examined(CommandLine& line, CommonOptions& options) {
   line.flag("--require-examined", options.require_examined,
-            "Exit 1 if the deck has no interface of an examined type (TYPE7, 10, 11, 19)");
+            "Exit 1 if the deck has no interface of an examined type (" +
+                examined_types(Examined::contacts_and_ties) + ")");
 }
 
 void add_verbose(CommandLine& line, CommonOptions& options, const std::string& what) {
@@ -296,8 +297,8 @@ Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::i
   std::sort(known.begin(), known.end());
   for (const std::int64_t id : ids) {
     if (std::binary_search(known.begin(), known.end(), id)) continue;
-    std::string text = fmt::format("{} {}: {} has no interface {} of TYPE{}7, 10, 11 or 19", option,
-                                   id, loaded.path(), id, ties ? "2, " : "");
+    std::string text = fmt::format("{} {}: {} has no interface {} of {}", option, id, loaded.path(),
+                                   id, examined_types(which));
     for (const NotExamined& n : coverage_of(loaded.deck(), loaded.interfaces(), which).not_examined)
       if (std::find(n.ids.begin(), n.ids.end(), id) != n.ids.end())
         text += fmt::format("; {}/{} is of a type that is not examined", n.keyword, id);

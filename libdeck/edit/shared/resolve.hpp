@@ -11,7 +11,7 @@ struct ResolveOptions {
   bool allow_loss = false;
 };
 
-/// Fills every cell of /INTER/TYPE7, 10, 11 and 19 whose effective value comes from a default card
+/// Fills every cell of a contact or tie whose effective value comes from a default card
 /// or is built in and is not zero. Effective values stay the same to the last bit. Cells that hold
 /// a value already are not touched, except where the meaning of their unit changes (Stfac, once
 /// Istf 1 stands on the card). The default cards stay; they have no effect on these cells any more.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "deck/model/coverage.hpp"
 #include "edit/verify/verify_parts.hpp"
 
 namespace deck::detail {
@@ -73,8 +74,8 @@ DeckComparison::Difference DeckComparison::values() const {
   const auto &was = before.context.interfaces().all, &now = after.context.interfaces().all;
   const bool by_place = !relation.extract && !relation.expanded;
   if (by_place && was.size() != now.size())
-    return fmt::format("the deck has {} interfaces of TYPE2, 7, 10, 11 and 19, expected {}",
-                       now.size(), was.size());
+    return fmt::format("the deck has {} interfaces of {}, expected {}", now.size(),
+                       examined_types(Examined::contacts_and_ties), was.size());
   std::vector<NamedValue> a, b;
   for (std::size_t i = 0; i < now.size(); ++i) {
     const InterBase* old = by_place ? was[i] : nullptr;

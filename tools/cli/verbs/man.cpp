@@ -2,6 +2,7 @@
 // not listed among the verbs.
 
 #include "common.hpp"
+#include "deck/model/coverage.hpp"
 #include "report/shared/json.hpp"
 #include "verbs/completion_table.hpp"
 
@@ -153,7 +154,8 @@ std::string program_page(const std::vector<VerbInfo>& all) {
   text += ".SH DESCRIPTION\n" +
           line(
               "Reads Radioss Starter decks (*_0000.rad) with their includes and shows what their "
-              "contact interfaces (TYPE7, TYPE10, TYPE11, TYPE19) will do.");
+              "contact interfaces (" +
+              examined_types(Examined::contacts_and_ties) + ") will do.");
   text += ".SH VERBS\n";
   for (const VerbInfo& v : all)
     text += ".TP\n.BR deck\\-" + plain(v.name) + " (1)\n" + line(v.summary + ".");

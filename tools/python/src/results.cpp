@@ -8,6 +8,7 @@
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 #include "deck/cycle/state.hpp"
+#include "deck/model/coverage.hpp"
 #include "deck/report/gaps.hpp"
 #include "native.hpp"
 #include "report/shared/cycle.hpp"
@@ -69,8 +70,8 @@ ScenePointer contacts_of(const DeckPointer& deck, const std::vector<std::int64_t
   const auto known = [&](std::int64_t id) -> const InterBase* {
     for (const InterBase* i : loaded.interfaces().ordered)
       if (i->id == id) return i;
-    throw py::key_error(deck->path + " has no interface " + std::to_string(id) +
-                        " of TYPE7, 10, 11 or 19");
+    throw py::key_error(deck->path + " has no interface " + std::to_string(id) + " of " +
+                        examined_types(Examined::contacts));
   };
   for (const std::int64_t id : only) known(id);
   for (const std::string& text : what_if) {

@@ -27,6 +27,8 @@ struct Coverage {
 
 /// What was looked at: contacts alone, or the ties of /INTER/TYPE2 as well.
 enum class Examined : std::uint8_t { contacts, contacts_and_ties };
+/// "TYPE7, 10, 11, 19, 24 and 25", with 2 where ties are looked at.
+std::string examined_types(Examined examined);
 Coverage coverage_of(const Deck& deck, const Interfaces& interfaces,
                      Examined examined = Examined::contacts);
 
