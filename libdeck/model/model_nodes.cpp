@@ -114,7 +114,7 @@ void check_coordinates(BuildContext& c) {
   const Nodes& nodes = c.model.nodes;
   const auto fits = [](double v) { return std::abs(v) <= largest; };
   std::atomic<bool> all_fit{true};
-  parallel_parts(c.threads, nodes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_pieces(c.threads, nodes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (const auto* axis : {&nodes.x, &nodes.y, &nodes.z})
       if (!std::all_of(axis->data() + begin, axis->data() + end, fits)) all_fit = false;
   });

@@ -83,7 +83,7 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
     needs_own[p] = prop.thickness == 0 && !free && prop.block != nullptr && !prop.block->opaque;
   }
   std::mutex mutex;
-  parallel_parts(c.threads, shells.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_pieces(c.threads, shells.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     std::vector<PartTally> own_thin(m.parts.size()), own_collapsed(m.parts.size()),
         own_twice(m.parts.size());
     for (std::size_t e = begin; e < end; ++e) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <new>
 #include <numeric>
 #include <stdexcept>
@@ -124,6 +125,42 @@ TEST(ParallelParts, BoundsDependOnTheNumberOfThreadsOnly) {
     EXPECT_EQ(bounds.back().second, count);
     for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(bounds[k].first, bounds[k - 1].second);
   }
+}
+
+TEST(ParallelPieces, EveryItemIsInOnePieceAndPiecesHaveTheirOrder) {
+  for (const int threads : {1, 2, 3, 64})
+    for (const std::size_t count :
+         {std::size_t{0}, std::size_t{10}, std::size_t{4096}, std::size_t{100'001}}) {
+      std::vector<std::pair<std::size_t, std::size_t>> bounds(pieces_of(threads, count));
+      std::vector<std::atomic<int>> ran(bounds.size());
+      parallel_pieces(threads, count, [&](std::size_t piece, std::size_t begin, std::size_t end) {
+        bounds.at(piece) = {begin, end};
+        ++ran[piece];
+      });
+      std::size_t next = 0;
+      for (const auto& [begin, end] : bounds) {
+        EXPECT_EQ(begin, next);
+        next = end;
+      }
+      EXPECT_EQ(next, count);
+      for (const auto& times : ran) EXPECT_EQ(times.load(), 1);
+    }
+}
+
+TEST(ParallelPieces, WhatAThreadDoesNotGetToIsDoneByTheOther) {
+  using Clock = std::chrono::steady_clock;
+  const auto deadline = Clock::now() + std::chrono::seconds(60);
+  const std::size_t count = 100'000, pieces = pieces_of(2, count);
+  ASSERT_GT(pieces, 4U);
+  std::atomic<std::size_t> done{0};
+  parallel_pieces(2, count, [&](std::size_t piece, std::size_t, std::size_t) {
+    // Whoever has the first piece is held up until all others are done.
+    while (piece == 0 && done.load() + 1 < pieces && Clock::now() < deadline)
+      std::this_thread::yield();
+    ++done;
+  });
+  EXPECT_EQ(done.load(), pieces);
+  EXPECT_LT(Clock::now(), deadline);
 }
 
 TEST(RunInOrder, ResultsAreTakenInOrder) {

@@ -55,17 +55,38 @@ void parallel_items(int threads, std::size_t count, const Body& body) {
               });
 }
 
-// Calls body(part, begin, end) for `threads` contiguous parts of [0, count). The bounds of a part
-// depend only on the number of threads, so that callers can make results independent of it.
+constexpr std::size_t kWorthAThread = 4096;  // items of a loop
+
+// Where part `part` of `parts` parts of [0, count) begins; they are as equal as can be.
+inline std::size_t part_bound(std::size_t count, std::size_t parts, std::size_t part) {
+  return count / parts * part + std::min(part, count % parts);
+}
+
+// Calls body(part, begin, end) for `threads` contiguous parts of [0, count): for loops that begin
+// with work that is the same for every part. Results must not depend on the bounds.
 template <class Body>
 void parallel_parts(int threads, std::size_t count, const Body& body) {
-  constexpr std::size_t kWorthAThread = 4096;
   const auto parts = static_cast<std::size_t>(std::max(1, threads));
-  const auto bound = [count, parts](std::size_t part) {
-    return count / parts * part + std::min(part, count % parts);
-  };
-  parallel_items(count < kWorthAThread ? 1 : threads, parts,
-                 [&](std::size_t part) { body(part, bound(part), bound(part + 1)); });
+  parallel_items(count < kWorthAThread ? 1 : threads, parts, [&](std::size_t part) {
+    body(part, part_bound(count, parts, part), part_bound(count, parts, part + 1));
+  });
+}
+
+// How many pieces parallel_pieces makes of `count` items.
+inline std::size_t pieces_of(int threads, std::size_t count) {
+  constexpr std::size_t smallest = 1024, most_per_thread = 16;
+  if (threads <= 1 || count < kWorthAThread) return 1;
+  return std::min(count / smallest, most_per_thread * static_cast<std::size_t>(threads));
+}
+
+// The same for many pieces, each done by whoever is free: a thread that shares its processor with
+// another program does fewer. What is found is put together by the number of the piece.
+template <class Body>
+void parallel_pieces(int threads, std::size_t count, const Body& body) {
+  const std::size_t pieces = pieces_of(threads, count);
+  parallel_items(threads, pieces, [&](std::size_t piece) {
+    body(piece, part_bound(count, pieces, piece), part_bound(count, pieces, piece + 1));
+  });
 }
 
 // Calls work(k, out) for k = 0 ... n-1 on up to `threads` threads, and take(k, out) in the order of

@@ -41,6 +41,24 @@ bool all_placed(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of)
   });
 }
 
+/// True where round-off cannot hide that `p` and `q` are on one side of the plane through 0, `b`
+/// and `c`: the determinant of these rows of differences has six products, each off by less than
+/// eight halves of a unit in the last place of what the largest entries of the columns give.
+bool on_one_side(const Point3<double>& b, const Point3<double>& c, const Point3<double>& p,
+                 const Point3<double>& q) {
+  constexpr double share = 0x1p-46, vanishing = 0x1p-700, huge = 0x1p300;
+  const auto largest = [](double k, double l, double m, double n) {
+    const double first = sweep::larger_of(std::abs(k), std::abs(l));
+    return sweep::larger_of(first, sweep::larger_of(std::abs(m), std::abs(n)));
+  };
+  const double x = largest(b.x, c.x, p.x, q.x), y = largest(b.y, c.y, p.y, q.y),
+               z = largest(b.z, c.z, p.z, q.z), off = share * (x * y * z);
+  const Point3<double> normal = cross(b, c);
+  const double of_p = dot(normal, p), of_q = dot(normal, q);
+  return off > vanishing && x + y + z < huge &&
+         ((of_p > off && of_q > off) || (of_p < -off && of_q < -off));
+}
+
 /// Of an edge and a segment whose nodes all have a place.
 bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
                     const std::array<std::uint32_t, 4>& s) {
@@ -50,8 +68,11 @@ bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>&
     return false;
   const auto at = [&](std::uint32_t n) { return sweep::point(nodes, n); };
   const Point3<double> p = at(edge[0]), q = at(edge[1]), a = at(s[0]), c = at(s[2]);
-  if (detail::passes_through(p, q, a, at(s[1]), c)) return true;
-  return s[2] != s[3] && detail::passes_through(p, q, a, c, at(s[3]));
+  const Point3<double> ap = p - a, aq = q - a, ac = c - a;
+  const auto meets = [&](const Point3<double>& corner) {
+    return !on_one_side(corner - a, ac, ap, aq) && detail::passes_through(p, q, a, corner, c);
+  };
+  return meets(at(s[1])) || (s[2] != s[3] && meets(at(s[3])));
 }
 
 /// Segments in a tree of their boxes. `segment_of(i)`: the nodes of one.
@@ -69,7 +90,7 @@ class SegmentTree {
     blocks.resize((count + width - 1) / width);
     make_room(corners_, count, threads);
     corners_.resize(count);
-    parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    parallel_pieces(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin * width; i < std::min(count, end * width); ++i) {
         corners_[i] = segment_of(order_[i]);
         // Else the place in the block stays as those that are not used: nothing meets it.
@@ -243,23 +264,21 @@ std::vector<std::uint32_t> bearers_of(const Bearers& bearers, const Contact& con
 std::vector<Bearers> bearers(const Model& model, const std::vector<std::uint8_t>& marks,
                              int threads) {
   std::vector<Bearers> out;
-  std::vector<std::vector<std::uint32_t>> parts(static_cast<std::size_t>(threads));
   for (const ElementKind kind : families_with_edges) {
     Bearers all{&model.family(kind), {}};
-    parallel_parts(threads, all.family->size(),
-                   [&](std::size_t part, std::size_t begin, std::size_t end) {
-                     std::vector<std::uint32_t>& elements = parts[part];
-                     elements.clear();
-                     for (auto e = static_cast<std::uint32_t>(begin); e < end; ++e) {
-                       bool any = false;
-                       marked_edges(*all.family, e, marks, [&](const auto&) { any = true; });
-                       if (any) elements.push_back(e);
-                     }
-                   });
+    std::vector<std::vector<std::uint32_t>> parts(pieces_of(threads, all.family->size()));
+    parallel_pieces(threads, all.family->size(),
+                    [&](std::size_t part, std::size_t begin, std::size_t end) {
+                      std::vector<std::uint32_t>& elements = parts[part];
+                      for (auto e = static_cast<std::uint32_t>(begin); e < end; ++e) {
+                        bool any = false;
+                        marked_edges(*all.family, e, marks, [&](const auto&) { any = true; });
+                        if (any) elements.push_back(e);
+                      }
+                    });
     all.elements = std::move(parts[0]);
     for (std::size_t part = 1; part < parts.size(); ++part)
       all.elements.insert(all.elements.end(), parts[part].begin(), parts[part].end());
-    parts[0].clear();
     if (!all.elements.empty()) out.push_back(std::move(all));
   }
   return out;

@@ -19,8 +19,8 @@ namespace {
 template <class Items, class EachNodeOf>
 NodeIndex last_lost(const Coordinates& x, int threads, const Items& items,
                     const EachNodeOf& each_node_of) {
-  std::vector<NodeIndex> parts(static_cast<std::size_t>(threads), no_index);
-  parallel_parts(threads, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+  std::vector<NodeIndex> parts(pieces_of(threads, items.size()), no_index);
+  parallel_pieces(threads, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     NodeIndex lost = no_index;
     for (std::size_t i = begin; i < end; ++i)
       each_node_of(items[i], [&](NodeIndex n) {

@@ -117,9 +117,9 @@ struct Extremes {
 /// Calls set(item, extremes) for all items on several threads; the extremes of all.
 template <class Item, class Set>
 Extremes set_each(int threads, std::vector<Item>& items, const Set& set) {
-  std::vector<Extremes> parts(static_cast<std::size_t>(threads));
-  parallel_parts(threads, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    Extremes found;  // of this thread alone: neighbours in `parts` share a cache line
+  std::vector<Extremes> parts(pieces_of(threads, items.size()));
+  parallel_pieces(threads, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    Extremes found;  // of this piece alone: neighbours in `parts` share a cache line
     for (std::size_t i = begin; i < end; ++i) set(items[i], found);
     parts[part] = found;
   });

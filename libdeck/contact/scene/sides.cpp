@@ -47,7 +47,7 @@ void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<O
   const std::size_t count = items.size();
   const auto each = [&](const auto& f) {
     const int threads = threads_for(count, threads_);
-    parallel_parts(threads, count, [&](std::size_t, std::size_t begin, std::size_t end) {
+    parallel_pieces(threads, count, [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) f(i);
     });
   };

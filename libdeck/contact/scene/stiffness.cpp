@@ -69,10 +69,10 @@ void set_main_stiffness(SceneContext& c, Contact& contact) {
       m.stiffness = f < 0 ? std::fabs(f) : f * shell_stiffness(c.model, kind, m.element, t);
     }
   };
-  parallel_parts(threads_for(contact.main.size(), effective_threads(c.options.threads)),
-                 contact.main.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-                   for (std::size_t i = begin; i < end; ++i) set(contact.main[i]);
-                 });
+  parallel_pieces(threads_for(contact.main.size(), effective_threads(c.options.threads)),
+                  contact.main.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i) set(contact.main[i]);
+                  });
 }
 
 void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const Contact& contact) {

@@ -311,7 +311,7 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
   make_room(view.penetrations, penetrations, threads);
   view.penetrations.resize(penetrations);
   view.ties.resize(places.size() - penetrations);
-  parallel_parts(namers, in_order.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_pieces(namers, in_order.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t at = in_order[k];
       (at < penetrations ? view.penetrations[at] : view.ties[at - penetrations]) =

@@ -181,8 +181,8 @@ void each_place(std::span<const std::uint32_t> ids, const PlacesOf& places, cons
 
 Bounds bounds_of(std::span<const std::uint32_t> ids, const PlacesOf& places, const Scratch& scratch,
                  int threads) {
-  std::vector<Bounds> parts(static_cast<std::size_t>(threads));
-  parallel_parts(threads, ids.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+  std::vector<Bounds> parts(pieces_of(threads, ids.size()));
+  parallel_pieces(threads, ids.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     Bounds bounds;
     each_place(ids, places, scratch, begin, end,
                [&](std::size_t, const Place& place) { bounds.add(place.centre); });
@@ -216,7 +216,7 @@ void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& 
   const CurveGrid grid(all.low, all.high, bits);
   if (!grid.usable() && depth > 0) return;
   scratch.keys.resize(n);
-  parallel_parts(threads, n, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_pieces(threads, n, [&](std::size_t, std::size_t begin, std::size_t end) {
     each_place(ids, places, scratch, begin, end, [&](std::size_t i, const Place& place) {
       const std::uint64_t curve = grid.usable() ? grid.index(place.centre) : 0;
       const std::uint64_t key = (std::uint64_t{place.size_class} << (3 * bits)) | curve;

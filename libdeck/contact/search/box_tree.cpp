@@ -15,7 +15,7 @@ BoxTree::BoxTree(std::vector<BoxBlock> leaves, int threads) {
     const std::vector<BoxBlock>& below = levels_.back();
     constexpr std::size_t kWidth = BoxBlock::kWidth;
     std::vector<BoxBlock> above((below.size() + kWidth - 1) / kWidth);
-    parallel_parts(threads, above.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    parallel_pieces(threads, above.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const std::size_t last = std::min(below.size(), (i + 1) * kWidth);
         for (std::size_t j = i * kWidth; j < last; ++j) above[i].set(j % kWidth, below[j].bounds());

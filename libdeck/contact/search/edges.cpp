@@ -28,7 +28,7 @@ EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int thread
   drop_distant(items, secondary_box, mains, main_box, threads);
   sort_in_space(items, secondary_box, threads);
   std::vector<BoxBlock> blocks((items.size() + kWidth - 1) / kWidth);
-  parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_pieces(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin * kWidth; k < std::min(items.size(), end * kWidth); ++k) {
       blocks[k / kWidth].set(k % kWidth, secondary_box(items[k]));
     }

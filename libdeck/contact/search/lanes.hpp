@@ -43,7 +43,15 @@ struct Walk {
   // A tree of 2^32 leaves has eleven levels; of each but the first, seven steps wait at most.
   static constexpr std::size_t most_steps = 7 * 11 + 1;
   std::vector<Hit> hits;
+  std::vector<Hit> near;  // those of some things of the group
   std::array<Step, most_steps> steps;
+
+  void keep_near(const std::vector<BoxBlock>& leaves, const Box& b) {
+    near.clear();
+    for (const Hit& hit : hits)
+      if (const unsigned mask = overlaps(leaves[hit.block], b) & hit.mask; mask != 0)
+        near.push_back({hit.block, mask});
+  }
 
   void find(const BoxTree& tree, const Box& b) {
     hits.clear();
@@ -499,12 +507,18 @@ inline void meet_some(const BoxTree& tree, std::span<const Box> boxes, std::size
   }
   const std::vector<BoxBlock>& leaves = tree.level(0);
   walk.find(tree, group);
-  for (std::size_t i = first; i < last; ++i)
-    for (const Hit& hit : walk.hits)
-      for (unsigned mask = overlaps(leaves[hit.block], boxes[i]) & hit.mask; mask != 0;
-           mask &= mask - 1)
-        out.push_back({static_cast<std::uint32_t>(i),
-                       hit.block * 8 + static_cast<std::uint32_t>(__builtin_ctz(mask))});
+  for (std::size_t i = first; i < last;) {
+    const std::size_t end = std::min(last, i + kGroup);
+    Box some;
+    for (std::size_t k = i; k < end; ++k) some.add(boxes[k]);
+    walk.keep_near(leaves, some);
+    for (; i < end; ++i)
+      for (const Hit& hit : walk.near)
+        for (unsigned mask = overlaps(leaves[hit.block], boxes[i]) & hit.mask; mask != 0;
+             mask &= mask - 1)
+          out.push_back({static_cast<std::uint32_t>(i),
+                         hit.block * 8 + static_cast<std::uint32_t>(__builtin_ctz(mask))});
+  }
 }
 
 inline void meet_boxes(const BoxTree& tree, std::span<const Box> boxes, std::vector<Meeting>& out) {

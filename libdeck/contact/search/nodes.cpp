@@ -90,7 +90,7 @@ void NodeSweep::pack(int threads) {
   std::vector<BoxBlock> blocks;
   make_room(blocks, (leaf_count + kWidth - 1) / kWidth, threads);
   blocks.resize((leaf_count + kWidth - 1) / kWidth);
-  parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_pieces(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     const std::size_t last = std::min(leaf_count, end * kWidth);
     for (std::size_t i = begin * kWidth; i < last; ++i) {
       PointBlock& leaf = points[i];

@@ -47,7 +47,7 @@ void merge(const std::vector<Found>& found, std::size_t secondaries, int threads
       });
     }
   });
-  parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_pieces(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       CandidatePair* const first = out + (i == 0 ? 0 : next[i - 1]);
       sort_by_main(first, out + next[i]);

@@ -251,8 +251,8 @@ inline std::vector<std::uint32_t> active(std::size_t count, std::span<const doub
 // The box round all boxes of a list.
 template <class BoxOf>
 Box bounds_of(const std::vector<std::uint32_t>& ids, const BoxOf& box_of, int threads) {
-  std::vector<Box> parts(static_cast<std::size_t>(std::max(1, threads)));
-  parallel_parts(threads, ids.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+  std::vector<Box> parts(pieces_of(threads, ids.size()));
+  parallel_pieces(threads, ids.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     Box all;
     for (std::size_t i = begin; i < end; ++i) all.add(box_of(ids[i]));
     parts[part] = all;
@@ -269,8 +269,8 @@ Box keep_inside(std::vector<std::uint32_t>& ids, const BoxOf& box_of, const Box&
     std::size_t begin = 0, end = 0;
     Box bounds;
   };
-  std::vector<Kept> parts(static_cast<std::size_t>(std::max(1, threads)));
-  parallel_parts(threads, ids.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+  std::vector<Kept> parts(pieces_of(threads, ids.size()));
+  parallel_pieces(threads, ids.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     Kept mine{begin, begin, {}};
     for (std::size_t i = begin; i < end; ++i) {
       const Box own = box_of(ids[i]);

@@ -346,7 +346,7 @@ void search_ties(SceneContext& c, TieThickness& thickness, Tie& tie) {
   }
   const Coordinates& x = c.scene.coordinates;
   const int threads = effective_threads(c.options.threads);
-  parallel_parts(threads, tie.nodes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_pieces(threads, tie.nodes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     auto next = std::lower_bound(pairs.begin(), pairs.end(),
                                  CandidatePair{static_cast<std::uint32_t>(begin), 0});
     std::vector<double> least;
@@ -361,7 +361,7 @@ void search_ties(SceneContext& c, TieThickness& thickness, Tie& tie) {
   if (std::any_of(tie.nodes.begin(), tie.nodes.end(),
                   [](const TiedNode& n) { return n.segment == no_index; }))
     nearest.emplace(x, tie.main);
-  parallel_parts(threads, tie.nodes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_pieces(threads, tie.nodes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       explain(reach, nearest ? &*nearest : nullptr, i, tie.nodes[i]);
   });
