@@ -185,6 +185,43 @@ TEST(MoveNodes, CoincidentPlatesComeApartAsAWhole) {
   EXPECT_TRUE(oracle_crossings(*after).empty());
 }
 
+TEST(MoveNodes, NodesOnNodesComeApart) {
+  // Every upper node is where a lower one is, and every edge where one is.
+  for (const char* card : {"@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0",
+                           "@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Gapmin=1.0"}) {
+    SCOPED_TRACE(card);
+    SmallDeck d;
+    d.shell_part(1, 1.0).shell_part(2, 1.0);
+    for (const int first : {1, 101})
+      add_sheet(d, first / 100 + 1, first, 3, 3, [](int i, int j) {
+        return P{2.0 * i, 2.0 * j, 0.1 * i};
+      });
+    d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2});
+    d.group("/LINE/SURF/1", {1}).group("/LINE/SURF/2", {2});
+    const Built before(d.add(card));
+    const PenetrationFix fix = moved(before);
+    const auto after = expect_harmless(before, fix);
+    EXPECT_EQ(fix.complete, oracle_penetrations(*after).empty());
+    for (const FixRefusal& r : fix.refused) EXPECT_FALSE(r.reason.empty());
+  }
+}
+
+TEST(MoveNodes, WhatLiesAtOnePlaceIsRefusedWithoutATry) {
+  SmallDeck d;
+  d.shell_part(1, 1.0);
+  for (int n = 1; n <= 40; ++n) d.node(n, 50, 0.1, -7);
+  for (int e = 0; e < 10; ++e) d.shell(1, 1 + e, 4 * e + 1, 4 * e + 2, 4 * e + 3, 4 * e + 4);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/PART/1", {1});
+  const Built before(d.add(node_cards[0]));
+  const PenetrationFix fix = moved(before);
+  EXPECT_TRUE(fix.rewrite.edits.empty());
+  EXPECT_FALSE(fix.complete);
+  EXPECT_EQ(fix.iterations, 0);
+  ASSERT_EQ(fix.refused.size(), 40U);
+  for (const FixRefusal& r : fix.refused)
+    EXPECT_THAT(r.reason, ::testing::HasSubstr("at one place"));
+}
+
 // ---- what holds nodes -------------------------------------------------------------------------
 
 const char* const plain = "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0";

@@ -33,6 +33,7 @@ constexpr int patience = 8;               // iterations without progress
 constexpr double largest_step = 0.45;     // of the gap: two sides cannot pass each other unseen
 constexpr double least_side = 0.5;        // of the length of an element's side before
 constexpr double least_component = 1e-3;  // of a move along an axis, to be printed
+constexpr double enough_clearance = 0.5;  // of it may be lacking
 constexpr double least_move = 1e-6;       // of the depth: a shorter one repairs nothing
 
 void put(Nodes& nodes, NodeIndex n, Vec p) {
@@ -100,9 +101,9 @@ class Depenetrator : MovableDeck {
       skipped_[key_of(scene, at)] = std::move(why);
       return;
     }
-    anything_to_do_ = true;
-    bounds_.add(key_of(scene, at), state, way_out(scene, *mesh_, now_, at, state),
-                row.depth + options_.clearance * row.gap);
+    const Vec way = way_out(scene, *mesh_, now_, at, state);
+    anything_to_do_ |= dot(way, way) > 0;
+    bounds_.add(key_of(scene, at), state, way, row.depth + options_.clearance * row.gap);
   }
 
   /// How many nodes of a part may move.
@@ -125,7 +126,7 @@ class Depenetrator : MovableDeck {
     double best = -1;
     int waited = 0;
     for (int i = 0; i < options_.iterations; ++i) {
-      const Scene scene = evaluate();
+      const Scene& scene = evaluate();
       double total = 0;
       std::vector<PairAt> too_close;
       for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
@@ -147,6 +148,7 @@ class Depenetrator : MovableDeck {
         return false;
       }
       ++fix_.iterations;
+      waiting_ = waited > 0;
       if (!step(scene)) return false;
     }
     return false;
@@ -162,7 +164,7 @@ class Depenetrator : MovableDeck {
   }
 
   std::size_t tasks_left() {
-    const Scene scene = evaluate();
+    const Scene& scene = evaluate();
     std::size_t left = 0;
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
       for (const PenetrationRow& row : scene.contacts[c].penetrations)
@@ -217,11 +219,11 @@ class Depenetrator : MovableDeck {
   /// Every pair that was ever too close, as it is now; by contact and secondary node.
   std::vector<PairNow> active_pairs(const Scene& scene) const {
     std::vector<PairNow> out(active_.size());
-    parallel_parts(effective_threads(options_.threads), out.size(),
-                   [&](std::size_t, std::size_t begin, std::size_t end) {
-                     for (std::size_t i = begin; i < end; ++i)
-                       out[i] = {active_[i], state_of(scene, now_, active_[i])};
-                   });
+    parallel_pieces(effective_threads(options_.threads), out.size(),
+                    [&](std::size_t, std::size_t begin, std::size_t end) {
+                      for (std::size_t i = begin; i < end; ++i)
+                        out[i] = {active_[i], state_of(scene, now_, active_[i])};
+                    });
     return out;
   }
 
@@ -232,7 +234,10 @@ class Depenetrator : MovableDeck {
       w.state = pair->state;
       w.normal = way_out(scene, *mesh_, now_, pair->at, w.state);
       const double lack = w.state.depth() + options_.clearance * w.state.gap;
-      w.by = lack > 0 ? options_.share * lack : lack;
+      // Where nothing gets better any more, free pairs need not come closer to all of the
+      // clearance.
+      const bool enough = waiting_ && lack <= enough_clearance * options_.clearance * w.state.gap;
+      w.by = lack <= 0 ? lack : enough ? 0 : options_.share * lack;
       w.main_gives_way = !options_.secondary_only;
       if (dot(w.normal, w.normal) > 0) wishes.push_back(w);
     }
@@ -312,14 +317,9 @@ class Depenetrator : MovableDeck {
 
   /// Out of the penetrations, no farther than they are deep, and within --max-displacement.
   void keep_within_bounds(NodeMoves& moves) {
-    std::vector<DepthBounds::Place> places(moves.size());
-    parallel_parts(effective_threads(options_.threads), moves.size(),
-                   [&](std::size_t, std::size_t begin, std::size_t end) {
-                     for (std::size_t i = begin; i < end; ++i) {
-                       const auto& [n, move] = moves[i];
-                       places[i] = bounds_.allowed(n, at(now_, n) + move - at(start_, n));
-                     }
-                   });
+    NodeMoves wanted = moves;
+    for (auto& [n, move] : wanted) move = at(now_, n) + move - at(start_, n);
+    const auto places = bounds_.allowed(wanted, effective_threads(options_.threads));
     for (std::size_t i = 0; i < moves.size(); ++i) {
       auto& [n, move] = moves[i];
       const DepthBounds::Place& may = places[i];
@@ -350,46 +350,65 @@ class Depenetrator : MovableDeck {
       from.push_back(at(now_, n));
       nodes.push_back(n);
     }
+    std::vector<FixMesh::Crossed> crossings;
+    std::vector<NodeIndex> placed = nodes;  // differently than in the attempt before
     for (int attempt = 0;; ++attempt) {
       for (std::size_t i = 0; i < moves.size(); ++i)
         place(nodes[i], share[i] == 0 ? from[i] : from[i] + share[i] * moves[i].second);
-      std::map<NodeIndex, Hold> bad = harmful_shapes(nodes);
-      // Lines and lone nodes have no faces that would cross: they must not change sides.
-      for (const auto& [pair, was] : pairs)
-        if (has_direction(was) && dot(state_of(scene, now_, pair).normal, was.normal) < 0)
-          for (int i = 0; i < was.count; ++i)
-            bad.emplace(was.nodes[static_cast<std::size_t>(i)], Hold::would_cross);
-      bool changed = false;
+      mesh_->update_crossings(now_, placed, options_.threads, crossings);
+      std::map<NodeIndex, Hold> bad = harmful_shapes(nodes, crossings);
+      add_turned(scene, pairs, bad);
+      placed.clear();
       for (const auto& [n, why] : bad) {
         const auto it = std::lower_bound(nodes.begin(), nodes.end(), n);
         if (it == nodes.end() || *it != n) continue;
         double& own = share[static_cast<std::size_t>(it - nodes.begin())];
         if (own == 0) continue;
         own = attempt < 2 ? 0.5 * own : 0;
-        changed = true;
+        placed.push_back(n);
         if (own > 0) continue;
         blocked_[n] = why;
         if (++strikes_[n] >= 3) hold(n, why);
       }
-      if (!changed) break;
+      if (placed.empty()) break;
     }
     return std::any_of(share.begin(), share.end(), [](double s) { return s > 0; });
   }
 
-  /// Nodes of elements that cross, are turned, or have shrunk, since the start.
-  std::map<NodeIndex, Hold> harmful_shapes(const std::vector<NodeIndex>& nodes) const {
+  /// Nodes of pairs whose direction turned round: lines and lone nodes have no faces that would
+  /// cross, and must not change sides.
+  void add_turned(const Scene& scene, const std::vector<PairNow>& pairs,
+                  std::map<NodeIndex, Hold>& bad) const {
+    std::vector<std::uint8_t> turned(pairs.size());
+    parallel_pieces(effective_threads(options_.threads), pairs.size(),
+                    [&](std::size_t, std::size_t begin, std::size_t end) {
+                      for (std::size_t i = begin; i < end; ++i) {
+                        const auto& [pair, was] = pairs[i];
+                        turned[i] = has_direction(was) &&
+                                    dot(state_of(scene, now_, pair).normal, was.normal) < 0;
+                      }
+                    });
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (turned[i] != 0)
+        for (int k = 0; k < pairs[i].state.count; ++k)
+          bad.emplace(pairs[i].state.nodes[static_cast<std::size_t>(k)], Hold::would_cross);
+  }
+
+  /// Nodes of elements that cross, are turned, or have shrunk, since the start; `crossings`: those
+  /// that touch the nodes.
+  std::map<NodeIndex, Hold> harmful_shapes(const std::vector<NodeIndex>& nodes,
+                                           const std::vector<FixMesh::Crossed>& crossings) const {
     std::map<NodeIndex, Hold> out;
-    for (const auto& crossing : mesh_->crossings(now_, nodes, options_.threads))
+    for (const auto& crossing : crossings)
       if (!std::binary_search(crossings_.begin(), crossings_.end(), crossing))
         for (const NodeIndex n : mesh_->nodes_of(crossing)) out.emplace(n, Hold::would_cross);
-    for (const NodeIndex n : mesh_->inverted(start_, now_, nodes))
+    for (const NodeIndex n : mesh_->inverted(start_, now_, nodes, options_.threads))
       out.emplace(n, Hold::would_invert);
-    for (const NodeIndex n : nodes)
-      for (const NodeIndex next : mesh_->neighbours(n))
-        if (distance(now_, n, next) < least_side * distance(start_, n, next)) {
-          out.emplace(n, Hold::would_shrink);
-          out.emplace(next, Hold::would_shrink);
-        }
+    for (const auto& [n, next] :
+         mesh_->shortened(start_, now_, nodes, least_side, options_.threads)) {
+      out.emplace(n, Hold::would_shrink);
+      out.emplace(next, Hold::would_shrink);
+    }
     return out;
   }
 
@@ -431,8 +450,9 @@ class Depenetrator : MovableDeck {
     std::size_t taken = 0;
     while (!moved_.empty()) {
       const std::vector<NodeIndex> nodes = moved_.all();
-      std::map<NodeIndex, Hold> bad = harmful_shapes(nodes);
-      blame(evaluate(), bad);
+      std::map<NodeIndex, Hold> bad =
+          harmful_shapes(nodes, mesh_->crossings(now_, nodes, options_.threads));
+      blame(evaluate_with_ties(), bad);
       const std::size_t before = taken;
       for (const auto& [n, why] : bad) taken += take_back(n, why);
       if (taken == before) break;
@@ -541,7 +561,7 @@ class Depenetrator : MovableDeck {
         r.nodes = secondary_ids(*scene.model, contact, *row);
         r.depth = row->depth;
         const auto it = skipped_.find(key_of(scene, at));
-        r.reason = it != skipped_.end() ? it->second : what_holds(state_of(scene, now_, at));
+        r.reason = it != skipped_.end() ? it->second : what_holds(scene, at);
         fix_.refused.push_back(std::move(r));
       }
     }
@@ -551,7 +571,11 @@ class Depenetrator : MovableDeck {
         });
   }
 
-  std::string what_holds(const PairState& state) {
+  std::string what_holds(const Scene& scene, const PairAt& place) {
+    const PairState state = state_of(scene, now_, place);
+    const Vec way = way_out(scene, *mesh_, now_, place, state);
+    if (!(dot(way, way) > 0))
+      return "both sides are at one place and have no direction: move one of them off it first";
     std::string secondary, main;
     bool main_free = false;
     for (int i = 0; i < state.count; ++i) {
@@ -601,10 +625,11 @@ class Depenetrator : MovableDeck {
   DepthBounds bounds_;                             ///< of the nodes in penetrations
   std::map<std::uint32_t, std::uint32_t> needed_;  ///< nodes, of parts that are left alone
   std::map<PairKey, std::string> skipped_;         ///< pairs that moving cannot solve, and why
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_;  ///< before
+  std::vector<FixMesh::Crossed> crossings_;        ///< before
   std::map<std::pair<NodeIndex, int>, std::string> texts_;
   PenetrationFix fix_;
   std::size_t first_left_ = 0;
+  bool waiting_ = false;  ///< the last iteration made nothing better
   bool anything_to_do_ = false;
 };
 

@@ -20,13 +20,13 @@ class DepthBounds {
   /// The penetrations that a node is in; none of one that follows.
   const std::vector<PairKey>& pairs_of(NodeIndex n) const { return nodes_.at(n).pairs; }
   double reach_of(NodeIndex n) const { return nodes_.at(n).reach; }
-  /// The closest to `wanted` that the node may be away from its place: a sum of shares of its
+  /// The closest to `wanted` that a node may be away from its place: a sum of shares of its
   /// normals, none negative, and along none of them farther than its reach.
   struct Place {
     Vec by;
     bool at_bound = false;
   };
-  Place allowed(NodeIndex n, const Vec& wanted) const;
+  std::vector<Place> allowed(const NodeMoves& wanted, int threads) const;
 
  private:
   struct Bound {
@@ -34,6 +34,8 @@ class DepthBounds {
     std::vector<Vec> directions;  ///< unit, all different
     std::vector<PairKey> pairs;
   };
+  /// A sum of shares, shortened to the reach.
+  static Place within(const Bound& bound, const Vec& by);
   NodeTable<Bound> nodes_;
 };
 

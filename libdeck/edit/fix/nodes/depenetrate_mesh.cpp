@@ -6,6 +6,7 @@
 #include <numeric>
 #include <queue>
 
+#include "base/shared/parallel.hpp"
 #include "contact/shared/node_elements.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "deck/contact/crossings.hpp"
@@ -73,6 +74,20 @@ Bounds bounds_of(const Coordinates& x, const Item& item) {
   Bounds b;
   for (const NodeIndex n : item) b.add(x, n);
   return b;
+}
+
+/// Positions below `count` of which `holds` is true, ascending.
+template <class Holds>
+std::vector<std::uint32_t> those_that(int threads, std::size_t count, const Holds& holds) {
+  threads = effective_threads(threads);
+  std::vector<std::vector<std::uint32_t>> pieces(pieces_of(threads, count));
+  parallel_pieces(threads, count, [&](std::size_t piece, std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+      if (holds(i)) pieces[piece].push_back(i);
+  });
+  std::vector<std::uint32_t> out;
+  for (const auto& piece : pieces) out.insert(out.end(), piece.begin(), piece.end());
+  return out;
 }
 
 }  // namespace
@@ -194,11 +209,12 @@ bool FixMesh::connected_within(const Coordinates& x, NodeIndex from, std::span<c
 
 // ---- crossings --------------------------------------------------------------------------------
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> FixMesh::crossings(
-    const Coordinates& x, std::span<const NodeIndex> nodes, int threads) const {
+std::vector<FixMesh::Crossed> FixMesh::crossings(const Coordinates& x,
+                                                 std::span<const NodeIndex> nodes,
+                                                 int threads) const {
   const std::vector<std::uint32_t> moved_edges = items_around(edges_of_, nodes, edges_.size());
   const std::vector<std::uint32_t> moved_faces = items_around(faces_of_, nodes, faces_.size());
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  std::vector<Crossed> out;
   // Moved edges against all faces near them, then all other edges against the moved faces.
   const auto pairs = [&](const std::vector<std::uint32_t>& edge_list,
                          const std::vector<std::uint32_t>& face_list) {
@@ -210,10 +226,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> FixMesh::crossings(
       out.emplace_back(edge_list[p.secondary], face_list[p.main]);
   };
   const auto near = [&](const auto& items, const Bounds& box) {
-    std::vector<std::uint32_t> list;
-    for (std::uint32_t i = 0; i < items.size(); ++i)
-      if (bounds_of(x, items[i]).meets(box)) list.push_back(i);
-    return list;
+    return those_that(threads, items.size(),
+                      [&](std::uint32_t i) { return bounds_of(x, items[i]).meets(box); });
   };
   Bounds edge_box, face_box;
   for (const std::uint32_t e : moved_edges)
@@ -231,15 +245,31 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> FixMesh::crossings(
   return out;
 }
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> FixMesh::all_crossings(const Coordinates& x,
-                                                                            int threads) const {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+void FixMesh::update_crossings(const Coordinates& x, std::span<const NodeIndex> nodes, int threads,
+                               std::vector<Crossed>& known) const {
+  if (!known.empty()) {
+    std::vector<bool> moved(model_.nodes.size());
+    for (const NodeIndex n : nodes) moved[n] = true;
+    const auto any = [&](const auto& item) {
+      return std::any_of(item.begin(), item.end(), [&](NodeIndex n) { return moved[n]; });
+    };
+    std::erase_if(known,
+                  [&](const Crossed& c) { return any(edges_[c.first]) || any(faces_[c.second]); });
+  }
+  const std::vector<Crossed> now = crossings(x, nodes, threads);
+  const auto before = static_cast<std::ptrdiff_t>(known.size());
+  known.insert(known.end(), now.begin(), now.end());
+  std::inplace_merge(known.begin(), known.begin() + before, known.end());
+}
+
+std::vector<FixMesh::Crossed> FixMesh::all_crossings(const Coordinates& x, int threads) const {
+  std::vector<Crossed> out;
   for (const CandidatePair& p : find_crossing_pairs({x.x, x.y, x.z}, edges_, faces_, threads))
     out.emplace_back(p.secondary, p.main);
   return out;
 }
 
-std::vector<NodeIndex> FixMesh::nodes_of(std::pair<std::uint32_t, std::uint32_t> crossing) const {
+std::vector<NodeIndex> FixMesh::nodes_of(const Crossed& crossing) const {
   std::vector<NodeIndex> out(edges_[crossing.first].begin(), edges_[crossing.first].end());
   out.insert(out.end(), faces_[crossing.second].begin(), faces_[crossing.second].end());
   return out;
@@ -298,13 +328,17 @@ bool turned_solid(const Coordinates& before, const Coordinates& now, const NodeI
 }  // namespace
 
 std::vector<NodeIndex> FixMesh::inverted(const Coordinates& before, const Coordinates& now,
-                                         std::span<const NodeIndex> nodes) const {
+                                         std::span<const NodeIndex> nodes, int threads) const {
   std::vector<NodeIndex> out;
   const auto look = [&](const IndexRows& rows, const Elements& family, const auto& turned) {
     if (family.size() == 0) return;
-    for (const std::uint32_t e : items_around(rows, nodes, family.size())) {
-      const NodeIndex* n = family.of(e);
-      if (complete(n, family.width) && turned(n, e)) out.insert(out.end(), n, n + family.width);
+    const std::vector<std::uint32_t> around = items_around(rows, nodes, family.size());
+    for (const std::uint32_t i : those_that(threads, around.size(), [&](std::uint32_t k) {
+           const NodeIndex* n = family.of(around[k]);
+           return complete(n, family.width) && turned(n, around[k]);
+         })) {
+      const NodeIndex* n = family.of(around[i]);
+      out.insert(out.end(), n, n + family.width);
     }
   };
   look(shells4_, model_.shell4,
@@ -316,6 +350,24 @@ std::vector<NodeIndex> FixMesh::inverted(const Coordinates& before, const Coordi
   });
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+std::vector<std::pair<NodeIndex, NodeIndex>> FixMesh::shortened(const Coordinates& before,
+                                                                const Coordinates& now,
+                                                                std::span<const NodeIndex> nodes,
+                                                                double least, int threads) const {
+  const auto shorter = [&](NodeIndex n, NodeIndex next) {
+    return distance(now, n, next) < least * distance(before, n, next);
+  };
+  std::vector<std::pair<NodeIndex, NodeIndex>> out;
+  for (const std::uint32_t i : those_that(threads, nodes.size(), [&](std::uint32_t k) {
+         const auto next = neighbours(nodes[k]);
+         return std::any_of(next.begin(), next.end(),
+                            [&](NodeIndex other) { return shorter(nodes[k], other); });
+       }))
+    for (const NodeIndex next : neighbours(nodes[i]))
+      if (shorter(nodes[i], next)) out.emplace_back(nodes[i], next);
   return out;
 }
 

@@ -29,20 +29,27 @@ class FixMesh {
   /// Nodes whose first part is this one.
   std::uint32_t nodes_of_part(std::uint32_t part) const { return part_nodes_[part]; }
 
-  /// (edge, face) pairs that cross and touch one of `nodes`, sorted.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings(const Coordinates& x,
-                                                                 std::span<const NodeIndex> nodes,
-                                                                 int threads) const;
-  /// All crossing pairs.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> all_crossings(const Coordinates& x,
-                                                                     int threads) const;
-  /// Nodes of an edge and a face.
-  std::vector<NodeIndex> nodes_of(std::pair<std::uint32_t, std::uint32_t> crossing) const;
+  /// An edge and a face that cross.
+  using Crossed = std::pair<std::uint32_t, std::uint32_t>;
+  /// Those that touch one of `nodes`, sorted.
+  std::vector<Crossed> crossings(const Coordinates& x, std::span<const NodeIndex> nodes,
+                                 int threads) const;
+  /// Of what crosses where `nodes` were, to where they are.
+  void update_crossings(const Coordinates& x, std::span<const NodeIndex> nodes, int threads,
+                        std::vector<Crossed>& crossings) const;
+  std::vector<Crossed> all_crossings(const Coordinates& x, int threads) const;
+  std::vector<NodeIndex> nodes_of(const Crossed& crossing) const;
 
   /// Nodes of the elements touching `nodes` that are turned inside out at a corner at `now` but not
   /// at `before`.
   std::vector<NodeIndex> inverted(const Coordinates& before, const Coordinates& now,
-                                  std::span<const NodeIndex> nodes) const;
+                                  std::span<const NodeIndex> nodes, int threads) const;
+  /// Neighbours, one of them of `nodes`, that are closer at `now` than `least` of the distance
+  /// `before`.
+  std::vector<std::pair<NodeIndex, NodeIndex>> shortened(const Coordinates& before,
+                                                         const Coordinates& now,
+                                                         std::span<const NodeIndex> nodes,
+                                                         double least, int threads) const;
 
  private:
   void collect_faces(const Scene& scene);
