@@ -2,6 +2,7 @@
 // edges, what is left open, and the search against looking at all pairs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -320,6 +321,27 @@ TEST(Type25, SidesOfSolidsSheetsAndCoats) {
   EXPECT_DOUBLE_EQ(coat.main[0].gap, 0.25);
   EXPECT_NEAR(coat.main[1].stiffness, 200 * 0.5, 1e-9) << "the opposite has the shell's";
   EXPECT_EQ(b.contact(3).segment_kinds, (std::vector<SegmentKind>{SegmentKind::coat}));
+}
+
+// Three bricks have the nodes 5 to 8. The solver sorts the segments, and merges the two on these.
+TEST(Type25, SegmentsInMoreThanTwoSolidsAreNamedAtTheirPlaceInTheSortedList) {
+  SmallDeck d;
+  const double x[4] = {0, 2, 2, 0}, y[4] = {0, 0, 2, 2};
+  for (int i = 0; i < 4; ++i)
+    for (int level = 0; level < 3; ++level) d.node(1 + 4 * level + i, x[i], y[i], 2 * level);
+  d.solid_part(1);
+  d.brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8}).brick(1, 2, {5, 6, 7, 8, 9, 10, 11, 12});
+  d.brick(1, 3, {5, 6, 7, 8, 9, 10, 11, 12});
+  d.segments("/SURF/SEG/1", {{9, 10, 11, 12}, {5, 6, 7, 8}, {1, 2, 3, 4}, {8, 7, 6, 5}});
+  d.add("@/INTER/TYPE25/1 surf_ID1=1").add("@/INTER/TYPE24/2 surf_ID1=1");
+  const Built b(d);
+  const Contact& sorted = b.contact(1);
+  ASSERT_EQ(sorted.main.size(), 3u);
+  ASSERT_EQ(sorted.crowded.size(), 1u);
+  auto nodes = b.ids(sorted.main[sorted.crowded[0]].nodes);
+  std::sort(nodes.begin(), nodes.end());
+  EXPECT_EQ(nodes, (std::array<std::int64_t, 4>{5, 6, 7, 8}));
+  EXPECT_EQ(b.contact(2).crowded, (std::vector<std::uint32_t>{1, 3})) << "those of a TYPE24 stay";
 }
 
 TEST(Type25, GapZeroOnBordersTakesTheLastSideOfTrianglesForOne) {

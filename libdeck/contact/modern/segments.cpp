@@ -133,7 +133,13 @@ class Maker {
   }
   /// Mostly they stand in the file as the solver sorts them, each once.
   bool merged_already() const {
+    const auto first = [&](const Face& f) {
+      return f.kind == SegmentKind::solid ? key(f)[0] : id(f.nodes[0]);
+    };
     for (std::uint32_t i = 1; i < out_.faces.size(); ++i) {
+      const std::int64_t a = first(out_.faces[i - 1]), b = first(out_.faces[i]);
+      if (a < b) continue;
+      if (a > b) return false;
       const Keyed before = keyed(i - 1), here = keyed(i);
       if (!(before < here) || before.same(here)) return false;
     }
@@ -150,14 +156,20 @@ class Maker {
     const std::vector<Face> faces = std::move(out_.faces);
     out_.faces.clear();
     out_.faces.reserve(faces.size());
+    std::vector<std::uint32_t> place(faces.size());
     const Keyed* last = nullptr;
     for (const Keyed& k : all) {
       if (last != nullptr && last->same(k))
         out_.faces.back().bits |= faces[k.face].bits;
       else
         out_.faces.push_back(faces[k.face]);
+      place[k.face] = static_cast<std::uint32_t>(out_.faces.size() - 1);
       last = &k;
     }
+    std::vector<std::uint32_t>& crowded = out_.crowded;
+    for (std::uint32_t& i : crowded) i = place[i];
+    std::sort(crowded.begin(), crowded.end());
+    crowded.erase(std::unique(crowded.begin(), crowded.end()), crowded.end());
   }
 
   SceneContext& c_;
