@@ -107,8 +107,17 @@ PenetrationRow row_of(const Settings& set, const Penetration& p, std::uint32_t s
   return row;
 }
 
-/// A pair that is a penetration to the solver only, or not to the solver.
-void note(PairJudge& judge, const NodePenetration& p, const PenetrationRow& row) {
+/// What was decided of a pair, in its row; one that is a penetration to the solver only, or not to
+/// the solver, is noted. False: it is no row.
+template <class Penetration>
+bool settle(Accuracy accuracy, PairJudge& judge, const Penetration& p, PenetrationRow& row) {
+  const bool exact = accuracy == Accuracy::exact;
+  row.in_contact = p.in_contact;
+  if (!(exact ? p.in_contact : p.solver_acts)) {
+    row.action = PenetrationAction::none;
+    row.p0 = 0;
+  }
+  if (p.in_contact == p.solver_acts) return true;
   DecisionDifference d;
   d.secondary = row.secondary;
   d.main = row.main;
@@ -118,31 +127,25 @@ void note(PairJudge& judge, const NodePenetration& p, const PenetrationRow& row)
   d.exact_distance = p.exact_distance;
   d.action = row.action;
   judge.note(d);
+  return p.in_contact || !exact;
 }
 
 void list_penetrations(SceneContext& context, const Sides& s, const Found& found, Contact& out) {
   DecisionReport decisions = found.decisions;
   PairJudge judge(context.options.accuracy, decisions);
-  const bool exact = context.options.accuracy == Accuracy::exact;
+  make_room(out.penetrations, found.penetrations.size(),
+            effective_threads(context.options.threads));
   std::vector<bool> held(found.penetrations.size(), false);
   if (s.set.irem_i2 == 1 && !found.penetrations.empty())
     held = held_by_ties(context, s, found.penetrations);
   for (std::size_t i = 0; i < found.penetrations.size(); ++i) {
     const NodePenetration& p = found.penetrations[i];
     PenetrationRow row = row_of(s.set, p, p.node, p.face);
-    row.in_contact = p.in_contact;
-    const bool acts = exact ? p.in_contact : p.solver_acts;
     if (held[i] && s.set.inacti == 5) {
       row.action = PenetrationAction::removed_tied;
       row.p0 = 0;
     }
-    if (!acts) {
-      row.action = PenetrationAction::none;
-      row.p0 = 0;
-    }
-    if (p.in_contact != p.solver_acts) note(judge, p, row);
-    if (exact && !p.in_contact) continue;
-    out.penetrations.push_back(row);
+    if (settle(context.options.accuracy, judge, p, row)) out.penetrations.push_back(row);
   }
   out.candidates = found.candidates;
   out.removed_pairs = found.removed;
@@ -184,15 +187,20 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
   }
   out.main_edges = out.secondary_edges;
   std::vector<EdgePenetration> found;
-  if (evaluated && !find_edges25(context, s, topology, edges, found)) {
+  DecisionReport decisions;
+  if (evaluated && !find_edges25(context, s, topology, edges, found, decisions)) {
     not_evaluated(context, out, "too many pairs of edges");
   }
-  for (const EdgePenetration& p : found) {
-    PenetrationRow row = row_of(s.set, p, p.secondary, p.main);
-    row.weight_s = p.weight_s;
-    row.weight_m = p.weight_m;
-    out.penetrations.push_back(row);
+  {
+    PairJudge judge(context.options.accuracy, decisions);
+    for (const EdgePenetration& p : found) {
+      PenetrationRow row = row_of(s.set, p, p.secondary, p.main);
+      row.weight_s = p.weight_s;
+      row.weight_m = p.weight_m;
+      if (settle(context.options.accuracy, judge, p, row)) out.penetrations.push_back(row);
+    }
   }
+  add_decisions(decisions, context.scene.contacts.size(), context.scene.decisions);
   if (evaluated && s.set.solid_edges() != 0) {
     if (s.set.igap == 2)  // which of them are left out as near along the mesh is not established
       not_evaluated(context, out, "Igap = 2 and Iedge = " + std::to_string(s.set.iedge),

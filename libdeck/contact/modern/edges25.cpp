@@ -4,7 +4,9 @@
 #include <numeric>
 #include <tuple>
 
+#include "contact/modern/edge_rule.hpp"
 #include "contact/modern/parts.hpp"
+#include "contact/shared/filtered.hpp"
 #include "deck/contact/search.hpp"
 
 namespace deck::detail::modern {
@@ -200,57 +202,37 @@ class EdgePairs {
     return key(b) > key(a);
   }
 
-  /// The penetration of a pair that is wanted; 0: none.
-  EdgePenetration evaluate(std::uint32_t s, std::uint32_t m) const {
+  EdgeRule rule(std::uint32_t s, std::uint32_t m) const {
     const SideEdge &a = edges_[s], &b = edges_[m];
     const bool local = s_.set.local();
-    const auto main = recessed(b, local ? std::min(b.gap, b.length) : b.gap, b.free());
-    const auto own = recessed(a, a.gap, a.free() && s_.set.igap0 != 0);
-    const auto c = closest_between_edges<Form::reference>(own[0], own[1], main[0], main[1]);
-    EdgePenetration p;
-    p.secondary = s;
-    p.main = m;
-    p.gap = b.gap + a.gap;
-    if (local) p.gap = std::min(p.gap, a.length + b.length);
-    p.distance = c.distance;
-    p.weight_s = c.weight_s;
-    p.weight_m = c.weight_m;
-    p.penetration = std::max(0.0, p.gap - c.distance);
-    if (c.distance > 0) p.normal = (1 / c.distance) * c.vector;
-    constexpr double tilt = 1e-4;
-    if (b.free() && -dot(c.vector, beta(b)) > tilt * c.distance) p.penetration = 0;
-    if (a.free() && a.kind != 1 && dot(c.vector, beta(a)) > tilt * c.distance) p.penetration = 0;
-    return p;
+    EdgeRule r;
+    r.secondary = edge(a, a.gap, a.free() && s_.set.igap0 != 0);
+    r.main = edge(b, local ? std::min(b.gap, b.length) : b.gap, b.free());
+    r.secondary.one_sided = a.free() && a.kind != 1;
+    r.main.one_sided = b.free();
+    if (local) r.most_gap = a.length + b.length;
+    return r;
   }
 
  private:
   std::pair<std::int64_t, std::int64_t> key(const SideEdge& e) const {
     return {ids_[e.nodes[0]], ids_[e.nodes[1]]};
   }
-  Vec beta(const SideEdge& e) const { return t_.direction(e.face, e.side); }
-
-  /// The two ends, moved inward by `by` along the directions of the border where `free`.
-  std::array<Vec, 2> recessed(const SideEdge& e, double by, bool free) const {
-    std::array<Vec, 2> end{at(x_, e.nodes[0]), at(x_, e.nodes[1])};
-    if (!free) return end;
-    const Vec b = beta(e);
-    for (std::size_t k = 0; k < 2; ++k) {
+  RuleEdge edge(const SideEdge& e, double inward, bool recessed) const {
+    RuleEdge out;
+    out.end = {at(x_, e.nodes[0]), at(x_, e.nodes[1])};
+    out.gap = e.gap;
+    out.recessed = recessed;
+    out.inward = inward;
+    if (!e.free()) return out;
+    out.beta = t_.direction(e.face, e.side);
+    for (std::size_t k = 0; k < 2 && recessed; ++k) {
       const std::uint32_t corner =
           s_.nodes_of(e.face)[e.side] == e.nodes[k] ? e.side : (e.side + 1) % 4;
       const Topology::Vertex v = t_.vertex(e.face, corner);
-      Vec d = sum_single(v.first, v.second);
-      double c = dot(d, b);
-      if (c < 0) {
-        d = d - (2 * c) * b;
-        c = -c;
-      }
-      const double size = dot(d, d);
-      if (2 * c * c < size) d = d + (std::sqrt(size - c * c) - c) * b;
-      d = unit_of(d);
-      const double along = dot(d, b);
-      if (along != 0) end[k] = end[k] - (by / along) * d;
+      out.border[k] = sum_single(v.first, v.second);
     }
-    return end;
+    return out;
   }
 
   const Coordinates& x_;
@@ -259,6 +241,91 @@ class EdgePairs {
   const std::vector<SideEdge>& edges_;
   const std::vector<std::int64_t>& ids_;
 };
+
+std::array<Vec, 2> ends_of(const RuleEdge& e) {
+  std::array<Vec, 2> out = e.end;
+  const auto root = [](double v) { return std::sqrt(v); };
+  for (std::size_t k = 0; k < 2 && e.recessed; ++k)
+    out[k] = moved_inward(out[k], e.inward, e.beta, e.border[k], root, unit_of);
+  return out;
+}
+
+/// What round-off may make of the distance of two edges.
+class EdgeDoubt {
+ public:
+  EdgeDoubt(const std::array<Vec, 2>& s, const std::array<Vec, 2>& m, double gap) : s_(s), m_(m) {
+    const Vec u = s[1] - s[0], v = m[1] - m[0], w = m[1] - s[1];
+    double largest = 0;
+    for (const Vec& p : {s[0], s[1], m[0], m[1]}) largest = std::max(largest, largest_component(p));
+    const double aa = dot(u, u), cc = dot(v, v), across = norm(cross(u, v));
+    // The solver's floors, and squares that vanish, are left to exact numbers.
+    if (!(aa > 1e-12 && cc > 1e-12 && largest < 0x1p200)) return;
+    const double sine_squared = across * across / (aa * cc);
+    slack = (largest + norm(w) + gap) * 0x1p-44;
+    parallel_ = !(sine_squared >= 0x1p-12 && across * across > 1e-12);
+    if (!parallel_) turn = slack /= sine_squared;
+  }
+  double slack = never;  ///< of the distance
+  double turn = never;   ///< of the way between them; vague where they are nearly parallel
+
+  /// False: the distance of the solver's formula is no less than `gap`, for sure.
+  bool may_be_closer(double gap, double distance) const {
+    if (!(slack < never)) return true;
+    if (!parallel_) return distance - slack < gap;
+    return is_closer_than(s_[0], s_[1], m_[0], m_[1], gap + slack);
+  }
+  /// Less than `gap`, for sure.
+  bool is_closer(double gap, double distance) const {
+    if (!(slack < never)) return false;
+    if (!parallel_) return distance + slack < gap;
+    // Where the formula starts from on the second edge is round-off.
+    return std::max(from(0), from(1)) + slack < gap;
+  }
+
+ private:
+  /// The distance if it starts there: weight of the first end.
+  double from(double weight) const {
+    const Vec u = s_[0] - s_[1], v = m_[0] - m_[1], w = s_[1] - m_[1];
+    const auto clamped = [](double h) { return std::max(0.0, std::min(1.0, h)); };
+    const double on_s = clamped(dot(weight * v - w, u) / dot(u, u));
+    const double on_m = clamped(dot(w + on_s * u, v) / dot(v, v));
+    return norm(w + on_s * u - on_m * v);
+  }
+  const std::array<Vec, 2>&s_, &m_;
+  bool parallel_ = true;
+};
+
+/// The figures of a pair as the accuracy asks: `in_contact` in exact arithmetic, if it is wanted.
+EdgePenetration decided(const CandidatePair& pair, const EdgeRule& rule, Accuracy accuracy,
+                        DecisionReport& decisions) {
+  const bool decides = accuracy >= Accuracy::robust && is_finite(rule);
+  const EdgeFigures f = evaluate_edges(rule, decides);
+  EdgePenetration p;
+  p.secondary = pair.secondary;
+  p.main = pair.main;
+  p.penetration = f.penetration;
+  p.gap = f.gap;
+  p.distance = f.closest.distance;
+  p.weight_s = f.closest.weight_s;
+  p.weight_m = f.closest.weight_m;
+  if (p.distance > 0) p.normal = (1 / p.distance) * f.closest.vector;
+  p.in_contact = p.solver_acts = p.penetration > 0;
+  if (!decides) return p;
+  ++decisions.pairs;
+  if (accuracy != Accuracy::exact && !f.doubtful) return p;
+  ++decisions.fallback;
+  ++decisions.exact;
+  const ExactEdgePair exact = exact_edge_pair(rule);
+  p.in_contact = exact.penetrates;
+  p.solver_distance = p.distance;
+  p.exact_distance = exact.distance;
+  if (exact.penetrates && (!p.solver_acts || accuracy == Accuracy::exact)) {
+    p.penetration = exact.depth;
+    p.gap = exact.gap;
+    p.distance = exact.distance;
+  }
+  return p;
+}
 
 SearchResult search_edges(SceneContext& c, const Sides& s, const std::vector<SideEdge>& edges) {
   const Coordinates& x = c.scene.coordinates;
@@ -298,8 +365,36 @@ std::vector<SideEdge> make_edges(SceneContext& c, const Sides& s, const Topology
   return edges;
 }
 
+EdgeFigures evaluate_edges(const EdgeRule& r, bool weigh) {
+  EdgeFigures out;
+  const auto s = ends_of(r.secondary), m = ends_of(r.main);
+  out.closest = closest_between_edges<Form::reference>(s[0], s[1], m[0], m[1]);
+  const EdgeClosest<double>& c = out.closest;
+  out.gap = std::min(r.main.gap + r.secondary.gap, r.most_gap);
+  out.penetration = std::max(0.0, out.gap - c.distance);
+  const double over_m = -dot(c.vector, r.main.beta), over_s = dot(c.vector, r.secondary.beta);
+  const double tilt = edge_tilt * c.distance;
+  if (r.main.one_sided && over_m > tilt) out.penetration = 0;
+  if (r.secondary.one_sided && over_s > tilt) out.penetration = 0;
+  if (!weigh) return out;
+  const EdgeDoubt doubt(s, m, out.gap);
+  if (!doubt.may_be_closer(out.gap, c.distance)) return out;
+  // Beside a free edge for sure, there is no contact at any distance.
+  const auto beside = [&](const RuleEdge& e, double over) {
+    return e.one_sided && over - tilt > 2 * doubt.turn;
+  };
+  if (beside(r.main, over_m) || beside(r.secondary, over_s)) return out;
+  const auto unsure = [&](const RuleEdge& e, double over) {
+    return e.one_sided && !(tilt - over > 2 * doubt.turn);
+  };
+  out.doubtful = unsure(r.main, over_m) || unsure(r.secondary, over_s) ||
+                 !doubt.is_closer(out.gap, c.distance);
+  return out;
+}
+
 bool find_edges25(SceneContext& c, const Sides& s, const Topology& t,
-                  const std::vector<SideEdge>& edges, std::vector<EdgePenetration>& out) {
+                  const std::vector<SideEdge>& edges, std::vector<EdgePenetration>& out,
+                  DecisionReport& decisions) {
   if (s.set.shell_edges() == 0) return true;
   const Coordinates& x = c.scene.coordinates;
   NearPairs near;
@@ -307,12 +402,14 @@ bool find_edges25(SceneContext& c, const Sides& s, const Topology& t,
   const SearchResult found = search_edges(c, s, edges);
   if (!found.complete) return false;
   const EdgePairs pairs(x, s, t, edges, c.model.nodes.id);
+  const Accuracy accuracy = c.all_placed ? c.options.accuracy : Accuracy::reference;
   for (const CandidatePair& pair : found.pairs) {
     if (!pairs.wanted(pair.secondary, pair.main)) continue;
     const std::pair both(std::min(pair.secondary, pair.main), std::max(pair.secondary, pair.main));
     if (std::binary_search(near.begin(), near.end(), both)) continue;
-    const EdgePenetration p = pairs.evaluate(pair.secondary, pair.main);
-    if (p.penetration > 0) out.push_back(p);
+    const EdgePenetration p =
+        decided(pair, pairs.rule(pair.secondary, pair.main), accuracy, decisions);
+    if (p.in_contact || p.solver_acts) out.push_back(p);
   }
   return true;
 }

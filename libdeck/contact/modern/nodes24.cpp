@@ -1,16 +1,16 @@
-// TYPE24: edge points, largest accepted penetration, candidates, the test of one node and one
-// segment on the bilinear patch, and what becomes of a node as its candidates are gone through.
+// TYPE24: largest accepted penetration, candidates, the test of one node and one segment in double
+// with what round-off may make of it, and what becomes of a node as its candidates are gone
+// through.
 #include <algorithm>
 #include <cmath>
 
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
+#include "contact/modern/patch_rule.hpp"
 #include "deck/contact/search.hpp"
 
 namespace deck::detail::modern {
 namespace {
-
-constexpr double tolerance = 1e-8;
 
 /// Part of each node: that of the last 4-node shell, then 3-node shell, then solid segment at it.
 std::vector<std::uint32_t> node_parts(const Model& model, const std::vector<Face>& faces) {
@@ -77,86 +77,127 @@ Limits24 limits_of(const Sides& s) {
   return out;
 }
 
-/// A node's foot on the patch of a segment.
-struct Foot {
-  Vec closest, normal;
-  bool outside = false;
-  double area = 0;
-};
-
-/// Parameters of a triangle's foot; `c` are the sub-areas at sides 1, 2, 4 seen from the node.
-void triangle_parameters(double a1, double c1, double c2, double c4, double& s, double& t) {
-  constexpr double e = 2e-6;
-  t = c1 / a1 - 1;
-  if (c2 <= 0 && c4 <= 0 && c2 >= -e * a1 && c4 >= -e * a1)
-    s = 0;
-  else if (c2 <= 0 && c4 > 0)
-    s = -c2 / a1 <= e ? 1 : 2;
-  else if (c4 <= 0 && c2 > 0)
-    s = -c4 / a1 <= e ? -1 : -2;
-}
-
-void onto_triangle(double& s, double& t) {
-  double w1 = 0.25 * (1 - t) * (1 - s), w2 = 0.25 * (1 - t) * (1 + s);
-  const auto cut = [](double v) { return std::clamp(v, 0.0, 1.0); };
-  if (1 - w1 - w2 >= 0) {
-    w1 = cut(w1), w2 = cut(w2);
-  } else if (w2 > w1 && w2 >= 1) {
-    w1 = 0, w2 = 1;
-  } else if (w1 >= 1) {
-    w1 = 1, w2 = 0;
-  } else {
-    const double d = w1 - w2;
-    w1 = cut(0.5 * (1 + d)), w2 = cut(0.5 * (1 - d));
-  }
-  if (w1 + w2 == 0) return;
-  s = (w2 - w1) / (w1 + w2);
-  t = 1 - 2 * (w1 + w2);
-}
-
-Foot foot_of(const Coordinates& x, const Face& f, const Vec& q) {
-  std::array<Vec, 4> p;
-  Vec o;
-  for (std::size_t k = 0; k < 4; ++k) {
-    p[k] = at(x, f.nodes[k]);
-    o = o + 0.25 * p[k];
-  }
-  Vec sum;
-  for (std::size_t k = 0; k < 4; ++k) sum = sum + cross(p[k] - o, p[(k + 1) % 4] - o);
-  Foot out;
-  out.area = 0.5 * norm(sum);
-  out.normal = unit_of(sum);
-  std::array<double, 4> a{}, c{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    a[k] = dot(out.normal, cross(p[k] - o, p[(k + 1) % 4] - o));
-    c[k] = dot(out.normal, cross(p[k] - q, p[(k + 1) % 4] - q));
-  }
-  constexpr double flat = 1e-10, e = 2e-6;
-  const auto ratio = [&](double up, double down) {
-    return std::fabs(down) <= flat * out.area ? 0 : up / down;
-  };
-  double s = ratio(a[1] * c[3] - c[1] * a[3], a[1] * c[3] + c[1] * a[3]);
-  double t = ratio(c[0] * a[2] - a[0] * c[2], c[0] * a[2] + a[0] * c[2]);
-  const bool triangle = std::fabs(a[2]) <= flat * out.area;
-  if (triangle) triangle_parameters(a[0], c[0], c[1], c[3], s, t);
-  out.outside = std::fabs(s) > 1 + e || std::fabs(t) > 1 + e;
-  if (out.outside && triangle && t < 1) onto_triangle(s, t);
-  s = std::clamp(s, -1.0, 1.0);
-  t = std::clamp(t, -1.0, 1.0);
-  out.closest = 0.25 * ((1 - t) * (1 - s) * p[0] + (1 - t) * (1 + s) * p[1] +
-                        (1 + t) * (1 + s) * p[2] + (1 + t) * (1 - s) * p[3]);
-  return out;
-}
-
-struct Tested {
-  bool exists = true, blocks = true;
-  double penetration = 0, gap = 0, distance = 0;
-  Vec normal;
-};
-
-class Tester {
+/// What round-off may make of the foot of a node on a patch: bounds from the sizes of what is
+/// summed.
+class FootError {
  public:
-  Tester(SceneContext& c, const Sides& s, const Limits24& limits)
+  /// Sub-areas as place_on_patch() has them; `size`: of the patch with the node, `largest`:
+  /// coordinate.
+  FootError(const PatchRule& r, const std::array<double, 4>& a, const std::array<double, 4>& c,
+            const PatchPlace<double>& place, double area, double size, double largest)
+      : a_(a), c_(c), flat_(flat_patch * area) {
+    const double moment = size * largest;
+    turn = 0x1p-42 * moment / (2 * area) + 0x1p-50;
+    if (!(turn < 0x1p-20)) return;
+    of_area_ = 0x1p-45 * moment + size * size * turn;
+    for (std::size_t k = 0; k < 4; ++k)
+      most_ = std::max(most_, std::max(std::fabs(a[k]), std::fabs(c[k])));
+    const bool triangle = r.corner[2].x == r.corner[3].x && r.corner[2].y == r.corner[3].y &&
+                          r.corner[2].z == r.corner[3].z;
+    if (!triangle && !(std::fabs(a[2]) > 2 * flat_ + of_area_)) return;
+    triangle ? weigh_triangle(place, size) : weigh_quad(place, size);
+    shift += 0x1p-49 * largest;
+  }
+  double shift = never;                  ///< the foot may move so far; never: nothing is known
+  double turn = 0;                       ///< and the normal turn by this angle
+  bool outside = false, inside = false;  ///< for sure
+
+ private:
+  /// Of the ratio of two products of areas.
+  double of_ratio(double up, double down) const {
+    const double by = 4 * most_ * of_area_ + 2 * of_area_ * of_area_ + 0x1p-50 * most_ * most_;
+    if (std::fabs(down) <= flat_) return std::fabs(down) + by < 0.99 * flat_ ? 0 : never;
+    if (!(std::fabs(down) > 1.01 * flat_ + 4 * by)) return never;
+    return 2 * by * (1 + std::fabs(up / down)) / std::fabs(down);
+  }
+  double of_s() const {
+    return of_ratio(a_[1] * c_[3] - c_[1] * a_[3], a_[1] * c_[3] + c_[1] * a_[3]);
+  }
+  double of_t() const {
+    return of_ratio(c_[0] * a_[2] - a_[0] * c_[2], c_[0] * a_[2] + a_[0] * c_[2]);
+  }
+  void compare(const PatchPlace<double>& place, double s, double t) {
+    constexpr double most = 1 + beside_patch;
+    outside = std::fabs(place.s) - s > most || std::fabs(place.t) - t > most;
+    inside = std::fabs(place.s) + s < most && std::fabs(place.t) + t < most;
+  }
+
+  void weigh_quad(const PatchPlace<double>& place, double size) {
+    const double s = of_s(), t = of_t();
+    compare(place, s, t);
+    if (outside || inside) shift = s < 1 && t < 1 ? size * (s + t) : never;
+  }
+
+  /// Beside the last corner and on the lines of the two sides that meet there one parameter means
+  /// nothing, or jumps: each such place is looked at by itself.
+  void weigh_triangle(const PatchPlace<double>& place, double size) {
+    const double a1 = a_[0], c2 = c_[1], c4 = c_[3], by = of_area_, reach = beside_patch * a1;
+    if (!(reach > 16 * by)) return;
+    const double t = 2 * by * (1 + std::fabs(c_[0] / a1)) / a1, to_corner = std::fabs(1 - place.t);
+    const double least = std::min(c2, c4), most = std::max(c2, c4);
+    double s = 0, place_by = 0;
+    if (least >= -by && most <= by) {
+      place_by = 2 * size * (to_corner + t);
+    } else if (least >= -by) {
+      if (std::fabs(a_[1] * c4 + c2 * a_[3]) < 1.01 * flat_) return;
+      s = least <= by ? 2 * of_s() : of_s();
+    } else if (most <= by) {  // beyond the corner
+      outside = least < -reach - 2 * by;
+      shift = outside ? 0 : never;
+      return;
+    } else if (!(std::fabs(least + reach) > 2 * by)) {
+      return;
+    }
+    compare(place, s, t);
+    if (!outside && !inside) return;
+    if (place.t > 1 + t) {  // the corner, whatever the other parameter is
+      shift = 0;
+      return;
+    }
+    if (outside) {
+      const double w1 = 0.25 * (1 - place.t) * (1 - place.s),
+                   w2 = 0.25 * (1 - place.t) * (1 + place.s),
+                   w = (1 + std::fabs(place.s)) * t + to_corner * s + s * t;
+      const bool jumps = std::fabs(w1 - 1) <= w || std::fabs(w2 - 1) <= w ||
+                         (std::fabs(w2 - w1) <= 2 * w && w1 >= 1 - w);
+      if (w1 + w2 > 1 - 2 * w && jumps) return;
+      place_by += 4 * size * w;
+    }
+    if (s < 1) shift = size * (to_corner * s + t) + place_by;
+  }
+
+  const std::array<double, 4>&a_, &c_;
+  double flat_, of_area_ = 0, most_ = 0;
+};
+
+/// Whether round-off may change what a pair is to the node. `by`: of the height.
+bool is_doubtful(const PatchRule& r, const FootError& foot, double gap, double height, double by,
+                 const Vec& normal) {
+  if (r.rejects_part || (foot.outside && (!r.solid || r.never_blocks))) return false;
+  const auto near = [&](double v, double limit) { return !(std::fabs(v - limit) > by); };
+  if (!(by < never)) return true;
+  constexpr double tiny = tiny_penetration;
+  if (!r.solid) {
+    const double p = gap - std::fabs(height);
+    if (near(p, 0) || near(p, r.accepted) || near(p, tiny) || near(p, -tiny)) return true;
+    return (!foot.inside && (p > -tiny ? p < r.accepted : !r.never_blocks)) ||
+           (p > 0 && p < r.accepted && near(height, 0));
+  }
+  const double p = gap - height;
+  if (near(p, tiny) || near(p, -tiny)) return true;
+  const bool live = p > -tiny;
+  if (foot.outside || (!live && foot.inside)) return false;
+  if (!foot.inside) return !r.never_blocks || (live && !r.own_solid && p < r.limit + by);
+  if (r.own_solid || p > r.limit + by) return false;
+  if (near(p, r.limit)) return true;
+  return r.by_direction &&
+         !(std::fabs(dot(normal, r.direction)) > (foot.turn + 0x1p-50) * norm(r.direction));
+}
+
+/// The pairs of one contact, as rules.
+class Rules24 {
+ public:
+  Rules24(SceneContext& c, const Sides& s, const Limits24& limits)
       : x_(c.scene.coordinates),
         model_(c.model),
         connectivity_(c.connectivity),
@@ -165,62 +206,29 @@ class Tester {
         parts_(node_parts(c.model, s.faces)),
         normals_(node_normals(c.scene.coordinates, s)) {}
 
-  Tested test(const SideNode& node, const Face& f) const {
-    const Vec q = at(x_, node.node);
-    const Foot foot = foot_of(x_, f, q);
-    const double height = dot(foot.normal, q - foot.closest);
-    Tested out;
-    out.gap = node.gap + f.gap;
-    out.normal = foot.normal;
-    out.distance = foot.outside ? norm(q - foot.closest) : std::fabs(height);
-    const bool solid = f.solid_like();
-    if (solid)
-      test_solid(node, f, foot, height, out);
-    else if (!test_sheet(foot, height, out))
-      return out;
-    const std::uint32_t own = parts_[node.node], other = part_of(f);
-    if (s_.set.inacti != 0 && s_.set.ipen0 != 1 && live(out.penetration) && own == other)
-      reject(out);
-    if (s_.set.inacti == 0 || own == other || (out.gap > 0 && solid)) out.blocks = false;
-    return out;
+  PatchRule rule(const SideNode& node, const Face& f) const {
+    PatchRule r;
+    r.node = at(x_, node.node);
+    for (std::size_t k = 0; k < 4; ++k) r.corner[k] = at(x_, f.nodes[k]);
+    r.solid = f.solid_like();
+    r.node_gap = node.gap;
+    r.segment_gap = f.gap;
+    const bool ignored = s_.set.inacti == 0;
+    r.accepted = limits_.accepted;
+    r.limit = ignored ? f.length : limits_.accepted;
+    r.own_solid = r.solid && own_solid(node.node, f);
+    const bool same = parts_[node.node] == part_of(f);
+    r.rejects_part = same && !ignored && s_.set.ipen0 != 1;
+    r.never_blocks = ignored || same || (node.gap + f.gap > 0 && r.solid);
+    r.by_direction = r.solid && !ignored && s_.set.level != 3;
+    r.direction = normals_[node.node];
+    return r;
   }
 
  private:
-  static bool live(double p) { return p > 0 || std::fabs(p) < tolerance; }
-  static void reject(Tested& t) { t.penetration = -std::fabs(t.penetration) - tolerance; }
   std::uint32_t part_of(const Face& f) const {
     return f.solid_like() ? (f.solid == no_index ? no_index : model_.solid8.part[f.solid])
                           : parts_[f.nodes[0]];
-  }
-
-  bool test_sheet(const Foot& foot, double height, Tested& out) const {
-    if (foot.outside) {
-      out.exists = false;
-      return false;
-    }
-    out.penetration = out.gap - std::fabs(height);
-    out.blocks = !(out.penetration > limits_.accepted);
-    const bool deep = out.penetration > limits_.accepted;
-    if (out.penetration > 0) out.distance = std::fabs(out.gap - height);
-    if (height < 0 || deep) reject(out);
-    return true;
-  }
-
-  void test_solid(const SideNode& node, const Face& f, const Foot& foot, double height,
-                  Tested& out) const {
-    out.penetration = out.gap - height;
-    if (foot.outside) reject(out);
-    if (live(out.penetration)) {
-      const double limit = s_.set.inacti == 0 ? f.length : limits_.accepted;
-      if (out.penetration >= limit || own_solid(node.node, f)) {
-        reject(out);
-        out.blocks = false;
-      }
-    }
-    if (s_.set.inacti == 0 || s_.set.level == 3 || !live(out.penetration)) return;
-    if (dot(foot.normal, normals_[node.node]) < 0) return;
-    reject(out);
-    out.blocks = false;
   }
 
   /// A solid at the node has a corner of the segment.
@@ -268,76 +276,192 @@ bool in_box(const Coordinates& x, const Face& f, NodeIndex node, double by) {
   return true;
 }
 
-/// What is known of a node while its candidates are gone through.
-class State {
+/// What is in doubt about a node.
+class Doubts24 {
  public:
-  State(const Settings& set, double accepted) : set_(set), accepted_(accepted) {}
-
-  void take(std::uint32_t node, std::uint32_t face, const Tested& t) {
-    const double p = t.penetration;
-    if (std::fabs(p) < tolerance || (p < 0 && t.blocks)) {
-      if (!known_) {
-        memory_ = -t.distance;
-        known_ = true;
-      } else if (t.distance < std::fabs(memory_)) {
-        memory_ = -t.distance;
-        if (set_.inacti != 0) found_ = false;
-      }
-      return;
-    }
-    if (p > accepted_ || !(p > 0)) return;
-    const bool better =
-        !known_ || (set_.inacti == 0 ? p < memory_ : t.distance < std::fabs(memory_));
-    if (!better) return;
-    memory_ = set_.inacti == 0 ? p : t.distance;
-    known_ = found_ = true;
-    best_ = {node, face, p, t.gap, std::fabs(t.gap - p), t.normal};
+  explicit Doubts24(bool nearest) : nearest_(nearest) {}
+  void add(const PatchFigures& f) {
+    const double p = f.result.penetration;
+    const bool blocks = std::fabs(p) < tiny_penetration || (p < 0 && f.result.blocks);
+    if (!f.doubtful && (!f.result.exists || !(blocks || p > 0))) return;
+    const Kind kind = f.doubtful ? Kind::doubtful : blocks ? Kind::blocks : Kind::penetrates;
+    const double least = f.doubtful ? f.least : f.result.distance - f.slack;
+    pairs_.push_back({kind, least, f.result.distance + f.slack});
   }
-  bool found() const { return found_; }
-  const NodePenetration& best() const { return best_; }
+  /// Whether exact arithmetic may find a penetration where double finds none, or the reverse.
+  bool any() const {
+    if (pairs_.empty()) return false;
+    if (!nearest_) return pairs_.front().kind == Kind::doubtful;  // the first one settles it
+    double most = never;
+    for (const Pair& p : pairs_)
+      if (p.kind != Kind::doubtful) most = std::min(most, p.most);
+    bool kinds[3] = {};
+    for (const Pair& p : pairs_)
+      if (!(p.least > most)) kinds[static_cast<std::size_t>(p.kind)] = true;
+    return kinds[2] || (kinds[0] && kinds[1]);
+  }
 
  private:
-  const Settings& set_;
-  double accepted_;
-  bool known_ = false, found_ = false;
-  double memory_ = 0;
-  NodePenetration best_;
+  enum class Kind : std::uint8_t { blocks, penetrates, doubtful };
+  struct Pair {
+    Kind kind;
+    double least, most;
+  };
+  bool nearest_;
+  std::vector<Pair> pairs_;
+};
+
+/// Goes through the pairs of nodes.
+class NodeByNode24 {
+ public:
+  NodeByNode24(SceneContext& c, const Sides& s, const Limits24& limits)
+      : x_(c.scene.coordinates),
+        s_(s),
+        limits_(limits),
+        rules_(c, s, limits),
+        accuracy_(c.options.accuracy),
+        decides_(accuracy_ >= Accuracy::robust && c.all_placed),
+        nearest_(s.set.inacti != 0) {}
+
+  /// The segments near a node, ascending.
+  void look(std::span<const CandidatePair> near, Found& out) {
+    numbers_.clear();
+    pairs_.clear();
+    at_node_ = near.front().secondary;
+    for (const CandidatePair& pair : near) take(pair.main);
+    for (const CandidatePair& pair : near)
+      if (const std::uint32_t o = s_.faces[pair.main].opposite; o != no_index) take(o);
+    out.candidates += pairs_.size();
+    if (pairs_.empty()) return;
+    const PatchChoice chosen = choose_pair(pairs_, nearest_, decides_);
+    const PatchFigures& f = chosen.figures;
+    NodePenetration best;
+    best.in_contact = best.solver_acts = chosen.penetrates;
+    if (chosen.penetrates) {
+      const double p = f.result.penetration;
+      best = {at_node_, numbers_[chosen.pair], p, f.gap, std::fabs(f.gap - p), f.normal};
+    }
+    if (decides_) {
+      out.decisions.pairs += pairs_.size();
+      if (accuracy_ == Accuracy::exact || chosen.doubtful) decide(chosen, best, out.decisions);
+    }
+    if (best.in_contact || best.solver_acts) out.penetrations.push_back(best);
+  }
+
+ private:
+  void take(std::uint32_t number) {
+    const Face f = s_.face(number);
+    const SideNode& node = s_.nodes[at_node_];
+    const bool across =
+        s_.set.level != 2 || (node.bits & from_group) != 0 || s_.across(node.bits, f.bits);
+    const double margin = f.solid_like() ? limits_.solid_margin : s_.margin;
+    if (f.stiffness == 0 || !across || !in_box(x_, f, node.node, margin + node.gap + f.gap)) return;
+    numbers_.push_back(number);
+    pairs_.push_back(rules_.rule(node, f));
+  }
+
+  /// In exact arithmetic. The segment the solver takes stays where it finds a penetration, too.
+  void decide(const PatchChoice& chosen, NodePenetration& best, DecisionReport& decisions) const {
+    for (const PatchRule& r : pairs_)
+      if (!is_finite(r)) return;
+    decisions.fallback += pairs_.size();
+    decisions.exact += pairs_.size();
+    const ExactNode exact = exact_node(pairs_, nearest_, chosen.pair);
+    best.in_contact = exact.penetrates;
+    best.solver_distance = best.distance;
+    best.exact_distance = exact.distance;
+    if (!exact.penetrates || (best.solver_acts && accuracy_ != Accuracy::exact)) return;
+    const PatchFigures f = evaluate_patch(pairs_[exact.pair], false);
+    if (!best.solver_acts) best.solver_distance = std::fabs(f.gap - f.result.penetration);
+    best.node = at_node_;
+    best.face = numbers_[exact.pair];
+    best.penetration = exact.depth;
+    best.gap = exact.gap;
+    best.distance = exact.distance;
+    best.normal = f.normal;
+  }
+
+  const Coordinates& x_;
+  const Sides& s_;
+  const Limits24& limits_;
+  Rules24 rules_;
+  Accuracy accuracy_;
+  bool decides_, nearest_;
+  std::uint32_t at_node_ = 0;
+  std::vector<std::uint32_t> numbers_;
+  std::vector<PatchRule> pairs_;
 };
 
 }  // namespace
 
+PatchFigures evaluate_patch(const PatchRule& r, bool weigh) {
+  PatchFigures out;
+  Vec o, sum;
+  for (const Vec& p : r.corner) o = o + 0.25 * p;
+  double size = 0, largest = largest_component(r.node);
+  for (std::size_t k = 0; k < 4; ++k) {
+    sum = sum + cross(r.corner[k] - o, r.corner[(k + 1) % 4] - o);
+    if (!weigh) continue;
+    size = std::max(size, std::max(norm(r.corner[k] - o), norm(r.corner[k] - r.node)));
+    largest = std::max(largest, largest_component(r.corner[k]));
+  }
+  const double area = 0.5 * norm(sum);
+  out.normal = unit_of(sum);
+  std::array<double, 4> a{}, c{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec &p = r.corner[k], &next = r.corner[(k + 1) % 4];
+    a[k] = dot(out.normal, cross(p - o, next - o));
+    c[k] = dot(out.normal, cross(p - r.node, next - r.node));
+  }
+  const auto flat = [&](double v) { return std::fabs(v) <= flat_patch * area; };
+  const PatchPlace<double> place = place_on_patch(a, c, flat, flat);
+  const Vec apart = r.node - closest_on_patch(r.corner, place);
+  const double height = dot(out.normal, apart);
+  const double away = place.outside ? norm(apart) : std::fabs(height);
+  out.gap = r.node_gap + r.segment_gap;
+  const bool same_way = !(dot(out.normal, r.direction) < 0);
+  out.result = judge_patch(r, out.gap, height, away, place.outside, same_way);
+  if (!weigh) return out;
+  const bool sane = largest > 0x1p-200 && largest < 0x1p200;
+  const FootError foot(r, a, c, place, area, size, largest);
+  out.slack = sane && foot.shift < never ? foot.shift + 2 * foot.turn * norm(apart) +
+                                               0x1p-50 * (out.gap + std::fabs(height))
+                                         : never;
+  out.doubtful = is_doubtful(r, foot, out.gap, height, out.slack, out.normal);
+  const double h = std::fabs(height);
+  if (out.slack < never)
+    out.least = (r.solid ? h : std::min(h, std::fabs(out.gap - height))) - out.slack;
+  return out;
+}
+
+PatchChoice choose_pair(std::span<const PatchRule> pairs, bool nearest, bool weigh) {
+  PatchChoice out;
+  PatchState<double> state(nearest, pairs.empty() ? 0 : pairs.front().accepted);
+  Doubts24 doubts(nearest);
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    const PatchFigures f = evaluate_patch(pairs[i], weigh);
+    if (weigh) doubts.add(f);
+    if (!state.take(f.result)) continue;
+    out.pair = i;
+    out.figures = f;
+  }
+  out.penetrates = state.found();
+  out.doubtful = weigh && doubts.any();
+  return out;
+}
+
 Found find_nodes24(SceneContext& c, Sides& s) {
-  const Coordinates& x = c.scene.coordinates;
   const Limits24 limits = limits_of(s);
   Found out;
   out.largest_accepted = limits.accepted;
   const SearchResult near = search24(c, s, limits);
   out.complete = near.complete;
   if (!near.complete) return out;
-  const Tester tester(c, s, limits);
-  const auto across = [&](std::uint8_t node, std::uint8_t face) {
-    return s.set.level != 2 || (node & from_group) != 0 || s.across(node, face);
-  };
-  for (std::size_t i = 0; i < near.pairs.size();) {
-    const std::uint32_t at_node = near.pairs[i].secondary;
-    const SideNode& node = s.nodes[at_node];
-    State state(s.set, limits.accepted);
-    const auto take = [&](std::uint32_t number) {
-      const Face f = s.face(number);
-      const double margin = f.solid_like() ? limits.solid_margin : s.margin;
-      if (f.stiffness == 0 || !across(node.bits, f.bits) ||
-          !in_box(x, f, node.node, margin + node.gap + f.gap))
-        return;
-      ++out.candidates;
-      const Tested t = tester.test(node, f);
-      if (t.exists) state.take(at_node, number, t);
-    };
-    std::size_t end = i;
-    for (; end < near.pairs.size() && near.pairs[end].secondary == at_node; ++end)
-      take(near.pairs[end].main);
-    for (; i < end; ++i)
-      if (const std::uint32_t o = s.faces[near.pairs[i].main].opposite; o != no_index) take(o);
-    if (state.found()) out.penetrations.push_back(state.best());
+  NodeByNode24 nodes(c, s, limits);
+  const std::span<const CandidatePair> all(near.pairs);
+  for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
+    while (end < all.size() && all[end].secondary == all[i].secondary) ++end;
+    nodes.look(all.subspan(i, end - i), out);
   }
   return out;
 }

@@ -313,7 +313,8 @@ class Chooser {
     std::vector<FacetRule> rules;
     for (const Candidate& pair : pairs)
       rules.push_back(facet_rule(x_, s_, t_, s_.nodes[node], pair.face));
-    if (!std::all_of(rules.begin(), rules.end(), is_finite)) return;
+    if (!std::all_of(rules.begin(), rules.end(), [](const FacetRule& r) { return is_finite(r); }))
+      return;
     decisions.fallback += pairs.size();
     decisions.exact += pairs.size();
     best.solver_acts = best.penetration > 0;

@@ -1,6 +1,8 @@
 // TYPE24 and TYPE25: the steps from a card to contacts, one concept per file. Private to the stage.
 #pragma once
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -107,6 +109,9 @@ struct Sides {
     return is_mirror(i) ? mirrored(faces[base(i)].nodes) : faces[i].nodes;
   }
   Face face(std::uint32_t i) const;
+  bool has_solids() const {
+    return std::any_of(faces.begin(), faces.end(), [](const Face& f) { return f.solid_like(); });
+  }
   /// Calls use(number, segment) for all.
   template <class F>
   void each_face(F&& use) const {
@@ -238,13 +243,16 @@ struct EdgePenetration {
   std::uint32_t secondary = 0, main = 0;
   double penetration = 0, gap = 0, distance = 0, weight_s = 0, weight_m = 0;
   Vec normal;
+  bool in_contact = true, solver_acts = true;  ///< as of a NodePenetration
+  double solver_distance = 0, exact_distance = 0;
 };
 // edges25.cpp
 std::vector<SideEdge> make_edges(SceneContext& context, const Sides& sides,
                                  const Topology& topology);
 /// False: too many pairs.
 bool find_edges25(SceneContext& context, const Sides& sides, const Topology& topology,
-                  const std::vector<SideEdge>& edges, std::vector<EdgePenetration>& out);
+                  const std::vector<SideEdge>& edges, std::vector<EdgePenetration>& out,
+                  DecisionReport& decisions);
 
 // edges_solid25.cpp
 /// Ascending by edge, segment and side.

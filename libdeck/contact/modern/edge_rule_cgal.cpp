@@ -1,0 +1,46 @@
+// The rule of TYPE25 for edges of sheets in CGAL's exact numbers: the solver's formulas without
+// their round-off. Roots that move an end are cut off after 300 binary digits.
+#include "contact/modern/edge_rule.hpp"
+
+#include <CGAL/number_utils.h>
+
+#include <limits>
+
+#include "contact/shared/exact_number.hpp"
+
+namespace deck::detail::modern {
+
+ExactEdgePair exact_edge_pair(const EdgeRule& r) {
+  using Q = LazyRational;
+  const auto lift = [](const Vec& p) { return Point3<Q>{Q(p.x), Q(p.y), Q(p.z)}; };
+  const auto root = [](const Q& square) { return Q(long_square_root(square.exact())); };
+  const auto same = [](const Point3<Q>& v) { return v; };
+  const auto ends = [&](const RuleEdge& e) {
+    std::array<Point3<Q>, 2> out{lift(e.end[0]), lift(e.end[1])};
+    for (std::size_t k = 0; k < 2 && e.recessed; ++k)
+      out[k] = moved_inward(out[k], Q(e.inward), lift(e.beta), lift(e.border[k]), root, same);
+    return out;
+  };
+  const auto s = ends(r.secondary), m = ends(r.main);
+  const EdgeClosest<Q> c = closest_between_edges<Form::reference>(s[0], s[1], m[0], m[1]);
+  Q gap = Q(r.main.gap) + Q(r.secondary.gap);
+  if (gap > Q(r.most_gap)) gap = Q(r.most_gap);
+  const auto beside = [&](const RuleEdge& e, const Q& along) {
+    const Q tilt(edge_tilt);
+    return e.one_sided && CGAL::is_positive(along) &&
+           along * along > tilt * tilt * c.distance_squared;
+  };
+  const auto over = [&](const RuleEdge& e) { return dot(c.vector, lift(e.beta)); };
+  ExactEdgePair out;
+  out.gap = rounded_towards_zero(gap.exact());
+  out.distance = rounded_square_root(c.distance_squared.exact());
+  out.penetrates = CGAL::is_positive(gap) && c.distance_squared < gap * gap &&
+                   !beside(r.main, Q(-over(r.main))) && !beside(r.secondary, over(r.secondary));
+  if (!out.penetrates) return out;
+  const Q distance = CGAL::is_positive(c.distance_squared) ? root(c.distance_squared) : Q(0);
+  const double depth = rounded_towards_zero(Q(gap - distance).exact());
+  out.depth = depth > 0 ? depth : std::numeric_limits<double>::denorm_min();
+  return out;
+}
+
+}  // namespace deck::detail::modern

@@ -1,0 +1,91 @@
+// The rule of TYPE24 in CGAL's exact numbers: the solver's formulas without their round-off. Roots
+// are cut off after 300 binary digits, where they are compared with other lengths.
+#include "contact/modern/patch_rule.hpp"
+
+#include <CGAL/number_utils.h>
+
+#include <limits>
+
+#include "contact/shared/exact_number.hpp"
+
+namespace deck::detail::modern {
+namespace {
+
+/// A pair: nothing where the patch has no area.
+class ExactPatch {
+ public:
+  using Q = LazyRational;
+  using V = Point3<Q>;
+
+  explicit ExactPatch(const PatchRule& r) : gap_(Q(r.node_gap) + Q(r.segment_gap)) {
+    std::array<V, 4> p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = lift(r.corner[k]);
+    const V q = lift(r.node), o = Q(0.25) * (p[0] + p[1] + p[2] + p[3]);
+    V n;
+    for (std::size_t k = 0; k < 4; ++k) n = n + cross(p[k] - o, p[(k + 1) % 4] - o);
+    const Q size = dot(n, n);
+    if (CGAL::is_zero(size)) return;
+    std::array<Q, 4> a, c;
+    for (std::size_t k = 0; k < 4; ++k) {
+      a[k] = dot(n, cross(p[k] - o, p[(k + 1) % 4] - o));
+      c[k] = dot(n, cross(p[k] - q, p[(k + 1) % 4] - q));
+    }
+    // The solver's numbers are of a unit vector, these of one as long as twice the area.
+    const Q flat = Q(flat_patch) * Q(0.5), square = flat * flat * size * size * size;
+    if (CGAL::is_zero(a[0]) && CGAL::abs(a[2]) <= flat * size) return;
+    const PatchPlace<Q> place = place_on_patch(
+        a, c, [&](const Q& v) { return CGAL::abs(v) <= flat * size; },
+        [&](const Q& v) { return v * v <= square; });
+    const V apart = q - closest_on_patch(p, place);
+    const Q along = dot(n, apart), height_squared = along * along / size;
+    // A root that is a gap is no matter of digits.
+    Q height = height_squared == gap_ * gap_ ? Q(CGAL::abs(gap_)) : root(height_squared);
+    distance_ = height;
+    const Q away = place.outside ? root(dot(apart, apart)) : height;
+    if (CGAL::is_negative(along)) height = -height;
+    const bool same_way = !CGAL::is_negative(dot(n, lift(r.direction)));
+    result_ = judge_patch(r, gap_, height, away, place.outside, same_way);
+    defined_ = true;
+  }
+
+  const PatchResult<Q>* result() const { return defined_ ? &result_ : nullptr; }
+  void figures(ExactNode& out) const {
+    out.gap = rounded_towards_zero(gap_.exact());
+    out.distance = rounded_towards_zero(distance_.exact());
+    if (!out.penetrates) return;
+    const double depth = rounded_towards_zero(result_.penetration.exact());
+    out.depth = depth > 0 ? depth : std::numeric_limits<double>::denorm_min();
+  }
+
+ private:
+  static V lift(const Vec& p) { return {Q(p.x), Q(p.y), Q(p.z)}; }
+  static Q root(const Q& square) {
+    return CGAL::is_positive(square) ? Q(long_square_root(square.exact())) : Q(0);
+  }
+
+  Q gap_, distance_;
+  bool defined_ = false;
+  PatchResult<Q> result_;
+};
+
+}  // namespace
+
+ExactNode exact_node(std::span<const PatchRule> pairs, bool nearest, std::uint32_t asked) {
+  ExactNode out;
+  if (pairs.empty()) return out;
+  PatchState<ExactPatch::Q> state(nearest, pairs.front().accepted);
+  std::optional<ExactPatch> best, other;
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    const ExactPatch patch(pairs[i]);
+    if (i == asked) other = patch;
+    if (patch.result() == nullptr || !state.take(*patch.result())) continue;
+    best = patch;
+    out.pair = i;
+  }
+  out.penetrates = state.found();
+  if (!out.penetrates) out.pair = asked;
+  if (const auto& of = out.penetrates ? best : other) of->figures(out);
+  return out;
+}
+
+}  // namespace deck::detail::modern

@@ -1,0 +1,181 @@
+// The rule of TYPE24 against exact arithmetic: the families of hard cases, penetrations that
+// only round-off rejects, and meshes at random.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include "accuracy/shared/accuracy.hpp"
+#include "contact/modern/patch_rule.hpp"
+#include "contact/small_deck.hpp"
+
+namespace deck::test {
+namespace {
+
+using namespace detail::modern;
+
+/// A node and one segment of a sheet, seen from both sides, or of a solid.
+std::vector<PatchRule> rules_of(const PairSample& p, bool solid, double share) {
+  PatchRule r;
+  r.node = p.x[4];
+  for (std::size_t k = 0; k < 4; ++k) r.corner[k] = p.x[k];
+  if (p.triangle) r.corner[3] = r.corner[2];
+  r.node_gap = share * p.gap;
+  r.segment_gap = (1 - share) * p.gap;
+  r.accepted = r.limit = 0.75 * p.gap;
+  r.solid = solid;
+  r.never_blocks = solid && share > 0;
+  if (solid) {
+    r.by_direction = true;
+    r.direction = {0.6, 0, -0.8};
+    if (share == 0) r.segment_gap = 0, r.accepted = r.limit = p.gap;
+    return {r};
+  }
+  PatchRule back = r;
+  const auto& c = r.corner;
+  back.corner =
+      p.triangle ? std::array{c[1], c[0], c[2], c[2]} : std::array{c[1], c[0], c[3], c[2]};
+  return {r, back};
+}
+
+TEST(PatchRule, HardCasesAreJudgedAsExactArithmeticDoes) {
+  std::size_t families = 0, all = 0, sure = 0, differ = 0;
+  for (const HardFamily& family : hard_families()) {
+    ++families;
+    for (const PairSample& p : hard_cases(family.id, 10)) {
+      if (p.edges || !(p.gap > 0)) continue;
+      for (const int kind : {0, 1, 2}) {  // sheet, solid, solid without a gap
+        const auto rules = rules_of(p, kind > 0, kind == 1 ? 0.25 : kind == 2 ? 0 : 0.5);
+        if (!is_finite(rules.front())) continue;
+        for (const bool nearest : {true, false}) {
+          const PatchChoice quick = choose_pair(rules, nearest, true);
+          const ExactNode exact = exact_node(rules, nearest, quick.pair);
+          ++all;
+          differ += quick.penetrates != exact.penetrates ? 1 : 0;
+          if (quick.doubtful) continue;
+          ++sure;
+          EXPECT_EQ(quick.penetrates, exact.penetrates) << family.name << " " << kind << nearest;
+        }
+      }
+    }
+  }
+  EXPECT_GE(families, 40u);
+  EXPECT_GT(all, 1000u);
+  EXPECT_GT(differ, 0u) << "there are hard cases among them";
+  EXPECT_GT(sure, all / 5) << "the quick way knows something";
+  std::cout << sure << " of " << all << " decided without exact numbers, double wrong in " << differ
+            << "\n";
+}
+
+TEST(PatchRule, PlacesBesideATriangleAreJudgedAsExactArithmeticDoes) {
+  std::size_t sure = 0, all = 0;
+  PatchRule r;
+  r.corner = {Vec{1, 2, 0}, Vec{4, 2, 0}, Vec{1, 5, 0}, Vec{1, 5, 0}};
+  r.accepted = r.limit = 1.5;
+  for (const bool solid : {false, true})
+    for (const bool blocks : {false, true})
+      for (int i = -4; i <= 14; ++i)
+        for (int j = -4; j <= 14; ++j)
+          for (const double z : {-0.75, -0.1, 0.1, 0.75, 1.0, 1.25}) {
+            r.solid = solid;
+            r.never_blocks = !blocks;
+            r.node_gap = r.segment_gap = 0.5;
+            r.node = {0.5 * i, 0.5 * j, z};
+            const PatchChoice quick = choose_pair({&r, 1}, true, true);
+            ++all;
+            if (quick.doubtful) continue;
+            ++sure;
+            EXPECT_EQ(quick.penetrates, exact_node({&r, 1}, true, 0).penetrates)
+                << i << " " << j << " " << z;
+          }
+  EXPECT_GT(sure, all / 2);
+}
+
+/// A node 1.5 over a tilted sheet with the normal (2, -2, 1) / 3 and the gap 3: its penetration is
+/// the deepest that counts.
+SmallDeck deepest(double side) {
+  const double x = 7 * side;
+  SmallDeck d;
+  d.node(1, x, 3, -5).node(2, x + side, 3 + 2 * side, -5 + 2 * side);
+  d.node(3, x + 3 * side, 3 + 3 * side, -5).node(4, x + 2 * side, 3 + side, -5 - 2 * side);
+  d.node(101, x + 1.5 * side + 1, 3 + 1.5 * side - 1, -5 + 0.5);
+  d.shell_part(1, 6).shell(1, 1, 1, 2, 3, 4);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {101});
+  return d.add("@/INTER/TYPE24/1 surf_ID2=1 grnd_IDs=2 Inacti=5");
+}
+
+TEST(PatchRule, ADeepPenetrationThatOnlyRoundOffRejectsIsListed) {
+  std::uint64_t differ = 0, decided = 0;
+  for (int k = 0; k < 60; ++k) {
+    const SmallDeck d = deepest(7 + 0.1 * k);
+    const Built b(d);
+    const DecisionReport& report = b.scene.decisions;
+    decided += report.exact;
+    differ += report.contact_differs;
+    for (const DecisionDifference& x : report.differences) {
+      EXPECT_NEAR(x.exact_distance, 1.5, 1e-9);
+      EXPECT_NEAR(x.solver_distance, x.exact_distance, 1e-9);
+    }
+    SceneOptions o;
+    o.accuracy = Accuracy::exact;
+    const Built exact(d, o);
+    std::size_t in_contact = 0;
+    for (const PenetrationRow& r : b.contact().penetrations) in_contact += r.in_contact ? 1 : 0;
+    EXPECT_EQ(exact.contact().penetrations.size(), in_contact) << k;
+  }
+  EXPECT_GT(decided, 0u);
+  EXPECT_GT(differ, 0u);
+}
+
+// Nodes on a lattice over triangles and squares: many lie on lines, at the gap, or in the plane.
+TEST(PatchRule, MeshesOnALatticeAreJudgedAsExactArithmeticDoes) {
+  std::size_t found = 0, decided = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    std::mt19937 random(seed);
+    SmallDeck d;
+    const int n = 5;
+    const double step = seed % 2 == 0 ? 1 : 0.1;
+    for (int sheet = 0; sheet < 2; ++sheet)
+      for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j)
+          d.node(100 * sheet + (n + 1) * i + j + 1, step * (2 * i + static_cast<int>(random() % 2)),
+                 step * (2 * j + sheet), step * (sheet * 1.0 + static_cast<int>(random() % 3) - 1));
+    d.shell_part(1, step).shell_part(2, step);
+    int id = 0;
+    for (int sheet = 0; sheet < 2; ++sheet)
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          const int a = 100 * sheet + (n + 1) * i + j + 1, c = a + n + 1;
+          if (random() % 2 == 0) {
+            d.shell(sheet + 1, ++id, a, c, c + 1, a + 1);
+            continue;
+          }
+          d.shell3(sheet + 1, ++id, a, c, c + 1);
+          d.shell3(sheet + 1, ++id, a, c + 1, a + 1);
+        }
+    d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).group("/SURF/PART/3", {1, 2});
+    d.add("@/INTER/TYPE24/1 surf_ID1=1 surf_ID2=2 Inacti=5");
+    d.add("@/INTER/TYPE24/2 surf_ID1=3 Inacti=5 Ipen0=1");
+    d.add("@/INTER/TYPE24/3 surf_ID1=3");
+    SceneOptions o;
+    const Built robust(d, o);
+    o.accuracy = Accuracy::exact;
+    const Built exact(d, o);
+    decided += robust.scene.decisions.exact;
+    for (const int inter : {1, 2, 3}) {
+      std::vector<std::uint32_t> a, b;
+      for (const PenetrationRow& r : robust.contact(inter).penetrations)
+        if (r.in_contact) a.push_back(r.secondary);
+      for (const PenetrationRow& r : exact.contact(inter).penetrations) b.push_back(r.secondary);
+      EXPECT_EQ(a, b) << seed << " " << inter;
+      found += a.size();
+    }
+  }
+  EXPECT_GT(found, 30u);
+  EXPECT_GT(decided, 0u);
+}
+
+}  // namespace
+}  // namespace deck::test
