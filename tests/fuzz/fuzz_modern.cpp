@@ -1,9 +1,12 @@
 // TYPE24 and TYPE25: the input is a list of blocks behind two sheets, one of them bent onto itself,
 // a brick with a coat and a bar. Whatever cards, segments and nodes it brings: a penetration has a
-// place in the lists, a depth and an action that fits Inacti; threads change nothing; and a fix
-// ends with a deck that is no worse, or says why not.
+// place in the lists, a depth and an action that fits Inacti; threads change nothing; what is in
+// contact is what exact arithmetic says; and a fix ends with a deck that is no worse, or says why
+// not.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "deck/contact/scene.hpp"
 #include "deck/deck.hpp"
@@ -124,6 +127,18 @@ void check(const Contact& c) {
   }
 }
 
+/// The nodes, or pairs of edges, in contact. Where several segments are equally near any may be
+/// named.
+std::vector<std::array<std::uint32_t, 3>> in_contact(const Scene& scene) {
+  std::vector<std::array<std::uint32_t, 3>> out;
+  for (std::uint32_t i = 0; i < scene.contacts.size(); ++i)
+    for (const PenetrationRow& r : scene.contacts[i].penetrations)
+      if (is_modern(scene.contacts[i].type) && r.in_contact)
+        out.push_back(
+            {i, r.secondary, scene.contacts[i].kind == ContactKind::edge_edge ? r.main : 0});
+  return out;
+}
+
 /// What a fix must not end with; an error says why there is none.
 void check_fix(const Result<PenetrationFix>& fix, const LoadedDeck& loaded) {
   if (!fix.ok()) {
@@ -153,6 +168,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.threads = 3;
   const Scene three = whole->loaded.scene_with(options, found);
   require(describe(one) == describe(three), "threads change nothing");
+  options.accuracy = Accuracy::exact;
+  require(in_contact(one) == in_contact(whole->loaded.scene_with(options, found)),
+          "what is in contact is exact");
   if (whole->interfaces.type24.size() + whole->interfaces.type25.size() == 0) return 0;
   ReduceGapOptions gap;
   gap.least_share = 0;
