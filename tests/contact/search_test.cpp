@@ -343,22 +343,39 @@ TEST(SearchKernels, EveryInstructionSetFindsTheSameMeetingsOfBoxes) {
   std::vector<BoxBlock> leaves((boxes.size() + 7) / 8);
   for (std::size_t i = 0; i < boxes.size(); ++i) leaves[i / 8].set(i % 8, boxes[i]);
   const BoxTree tree(leaves, 1);
+  // The last box is no edge's.
+  std::vector<sweep::EdgeNodes> edges(mesh.edges.begin(), mesh.edges.end());
+  edges.push_back({sweep::kNoNode - 1, sweep::kNoNode - 1});
+  std::vector<sweep::CornerBlock> corners(leaves.size());
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k) corners[i / 8].node[k][i % 8] = edges[i][k / 2];
+  const auto share = [&](std::size_t i, std::size_t j) {
+    const auto &a = edges[i], &b = edges[j];
+    return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+  };
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-  Pairs expected;
+  Pairs expected, expected_apart;
   for (std::uint32_t i = 0; i < boxes.size(); ++i)
     for (std::uint32_t j = 0; j < boxes.size(); ++j) {
       bool meet = true;
       for (std::size_t k = 0; k < 3; ++k)
         meet &= boxes[i].low[k] <= boxes[j].high[k] && boxes[j].low[k] <= boxes[i].high[k];
       if (meet) expected.emplace_back(i, j);
+      if (meet && !share(i, j)) expected_apart.emplace_back(i, j);
     }
-  for (const auto& kernels : sweep::all_kernels()) {
-    std::vector<sweep::Meeting> meetings;
-    kernels.meetings(tree, boxes, meetings);
+  ASSERT_LT(expected_apart.size(), expected.size());
+  const auto sorted = [](const std::vector<sweep::Meeting>& meetings) {
     Pairs found;
     for (const sweep::Meeting& m : meetings) found.emplace_back(m.box, m.leaf);
     std::sort(found.begin(), found.end());
-    EXPECT_EQ(found, expected) << kernels.name;
+    return found;
+  };
+  for (const auto& kernels : sweep::all_kernels()) {
+    std::vector<sweep::Meeting> meetings, apart;
+    kernels.meetings(tree, boxes, meetings);
+    EXPECT_EQ(sorted(meetings), expected) << kernels.name;
+    kernels.meetings_apart(tree, corners, boxes, edges, apart);
+    EXPECT_EQ(sorted(apart), expected_apart) << kernels.name;
   }
 }
 

@@ -15,7 +15,6 @@
 #include "contact/crossings/crossings_exact.hpp"
 #include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
-#include "model/shared/faces.hpp"
 
 namespace deck {
 namespace {
@@ -59,13 +58,9 @@ bool on_one_side(const Point3<double>& b, const Point3<double>& c, const Point3<
          ((of_p > off && of_q > off) || (of_p < -off && of_q < -off));
 }
 
-/// Of an edge and a segment whose nodes all have a place.
+/// Of an edge and a segment that have no node in common, whose nodes all have a place.
 bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
                     const std::array<std::uint32_t, 4>& s) {
-  // Mostly they have one in common.
-  if (static_cast<int>(detail::any_is(s.data(), 4, edge[0])) |
-      static_cast<int>(detail::any_is(s.data(), 4, edge[1])))
-    return false;
   const auto at = [&](std::uint32_t n) { return sweep::point(nodes, n); };
   const Point3<double> p = at(edge[0]), q = at(edge[1]), a = at(s[0]), c = at(s[2]);
   const Point3<double> ap = p - a, aq = q - a, ac = c - a;
@@ -88,30 +83,34 @@ class SegmentTree {
     std::vector<BoxBlock> blocks;
     make_room(blocks, (count + width - 1) / width, threads);
     blocks.resize((count + width - 1) / width);
-    make_room(corners_, count, threads);
-    corners_.resize(count);
+    make_room(corners_, blocks.size(), threads);
+    corners_.resize(blocks.size());
     parallel_pieces(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin * width; i < std::min(count, end * width); ++i) {
-        corners_[i] = segment_of(order_[i]);
+        const std::array<std::uint32_t, 4> own = segment_of(order_[i]);
+        for (std::size_t k = 0; k < 4; ++k) corners_[i / width].node[k][i % width] = own[k];
         // Else the place in the block stays as those that are not used: nothing meets it.
-        if (all_placed(nodes, corners_[i]))
-          blocks[i / width].set(i % width, segment_box(nodes, corners_[i]));
+        if (all_placed(nodes, own)) blocks[i / width].set(i % width, segment_box(nodes, own));
       }
     });
     tree_ = BoxTree(std::move(blocks), threads);
   }
 
-  /// The leaves that edges with these boxes may pass through, box after box.
-  void near(std::span<const Box> boxes, std::vector<sweep::Meeting>& out) const {
+  /// The leaves that edges with these boxes may pass through, box after box: none that have a node
+  /// of the edge.
+  void near(std::span<const sweep::EdgeNodes> edges, std::span<const Box> boxes,
+            std::vector<sweep::Meeting>& out) const {
     out.clear();
-    sweep::kernels().meetings(tree_, boxes, out);
+    sweep::kernels().meetings_apart(tree_, corners_, boxes, edges, out);
   }
   std::uint32_t segment(std::uint32_t leaf) const { return order_[leaf]; }
-  const std::array<std::uint32_t, 4>& corners(std::uint32_t leaf) const { return corners_[leaf]; }
+  std::array<std::uint32_t, 4> corners(std::uint32_t leaf) const {
+    return corners_[leaf / width].of(leaf % width);
+  }
 
  private:
   std::vector<std::uint32_t> order_;
-  std::vector<std::array<std::uint32_t, 4>> corners_;  // in this order
+  std::vector<sweep::CornerBlock> corners_;  // in this order
   BoxTree tree_;
 };
 
@@ -136,9 +135,9 @@ std::vector<CandidatePair> find_crossing_pairs(
         const std::size_t first = piece * at_once;
         out.boxes.clear();
         out.found.clear();
-        for (const auto& edge : edges.subspan(first, std::min(at_once, edges.size() - first)))
-          out.boxes.push_back(sweep::edge_box(nodes, edge, 0));
-        tree.near(out.boxes, out.near);
+        const auto some = edges.subspan(first, std::min(at_once, edges.size() - first));
+        for (const auto& edge : some) out.boxes.push_back(sweep::edge_box(nodes, edge, 0));
+        tree.near(some, out.boxes, out.near);
         for (const sweep::Meeting& m : out.near) {
           const auto& edge = edges[first + m.box];
           if (all_placed(nodes, edge) && passes_through(nodes, edge, tree.corners(m.leaf)))
@@ -345,27 +344,31 @@ void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const
   if (elements.empty()) return;
   struct Piece {
     RecentEdges recent;  // also of pieces before this one: their elements come first
-    std::vector<std::pair<std::array<NodeIndex, 2>, std::uint32_t>> edges;  // with their elements
+    std::vector<sweep::EdgeNodes> edges;
+    std::vector<std::uint32_t> elements;  // that have these
     std::vector<Box> boxes;
     std::vector<sweep::Meeting> near;
     std::vector<Crossing> found;
   };
   const auto work = [&](std::size_t piece, Piece& p) {
     p.edges.clear();
+    p.elements.clear();
     p.boxes.clear();
     p.found.clear();
     const std::size_t end = std::min(elements.size(), (piece + 1) * at_once);
     for (std::size_t i = piece * at_once; i < end; ++i)
       marked_edges(*bearers.family, elements[i], marks, [&](const auto& edge) {
         if (!p.recent.add(edge)) return;
-        p.edges.emplace_back(edge, elements[i]);
+        p.edges.push_back(edge);
+        p.elements.push_back(elements[i]);
         p.boxes.push_back(sweep::edge_box(nodes, edge, 0));
       });
-    tree.near(p.boxes, p.near);
+    tree.near(p.edges, p.boxes, p.near);
     for (const sweep::Meeting& m : p.near) {
-      const auto& [edge, element] = p.edges[m.box];
+      const sweep::EdgeNodes& edge = p.edges[m.box];
       const std::uint32_t met = main.met(nodes, edge, tree.segment(m.leaf), tree.corners(m.leaf));
-      if (met != no_index) p.found.push_back({0, edge, bearers.family->kind, element, met});
+      if (met != no_index)
+        p.found.push_back({0, edge, bearers.family->kind, p.elements[m.box], met});
     }
   };
   run_in_order<Piece>((elements.size() + at_once - 1) / at_once, threads, work,

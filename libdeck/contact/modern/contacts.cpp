@@ -50,15 +50,6 @@ Contact head(const InterBase& inter, const Settings& set, ContactKind kind) {
   return c;
 }
 
-double shortest_side(const Coordinates& x, const std::vector<Face>& faces) {
-  double shortest = never;
-  for (const Face& f : faces)
-    for (std::size_t k = 0; k < 4; ++k)
-      if (const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4]; a != b)
-        shortest = std::min(shortest, distance(x, a, b));
-  return faces.empty() ? 0 : shortest;
-}
-
 void list_sides(SceneContext& context, const Sides& s, Contact& out) {
   const int threads = effective_threads(context.options.threads);
   make_room(out.secondary, s.nodes.size(), threads);
@@ -86,7 +77,7 @@ void list_sides(SceneContext& context, const Sides& s, Contact& out) {
       out.segment_kinds[i] = f.kind;
     }
   });
-  out.shortest_side = shortest_side(context.scene.coordinates, s.faces);
+  out.shortest_side = s.shortest;
   out.max_gap = s.largest;
   out.reoriented_segments = s.reoriented;
   out.crowded = s.crowded;

@@ -102,10 +102,12 @@ void set_secondary_gaps(const Surroundings& around, const std::vector<double>& h
       for (const NodeIndex n : f.nodes) on_sheet[n] = 1;
   const bool own = set.type == 25 && set.igap == 5 && set.thick_s > 0;
   const double scale = own ? set.thick_s_scale : set.scale;
+  const Model& model = around.model;
+  const bool lines = model.truss.size() + model.beam.size() + model.spring.size() > 0;
   for (SideNode& n : s.nodes) {
     double w = 0;
     if (on_sheet[n.node] != 0 && half[n.node] > 0) w = own ? 0.5 * set.thick_s : half[n.node];
-    const double line = line_half_thickness(around, n.node);
+    const double line = lines ? line_half_thickness(around, n.node) : 0;
     if (line > 0) w = std::max(w, own ? 0.5 * set.thick_s : line);
     n.gap = std::min(scale * w, set.cap_s);
   }
@@ -218,19 +220,25 @@ void set_sheet(SceneContext& c, const Settings& set, Face& face) {
   face.stiffness = k;
 }
 
-/// From the sides of all segments, the mirrored ones too; their sum has an order.
+/// From the sides of all segments, the mirrored ones too; their sum has an order. And the shortest.
 void set_margin(const Coordinates& x, int threads, Sides& s) {
   if (s.faces.empty()) return;
   const NodeArrays nodes{x.x, x.y, x.z};
   std::vector<std::array<double, 4>> sides;
   make_room(sides, s.faces.size(), threads);
   sides.resize(s.faces.size());
-  parallel_parts(threads, sides.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  std::vector<double> least(static_cast<std::size_t>(threads), never);
+  parallel_parts(threads, sides.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    double shortest = never;
     for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t k = 0; k < 4; ++k)
-        sides[i][k] =
-            detail::edge_length(nodes, s.faces[i].nodes[k], s.faces[i].nodes[(k + 1) % 4]);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const NodeIndex a = s.faces[i].nodes[k], b = s.faces[i].nodes[(k + 1) % 4];
+        sides[i][k] = detail::edge_length(nodes, a, b);
+        if (a != b) shortest = std::min(shortest, sides[i][k]);
+      }
+    least[part] = shortest;
   });
+  s.shortest = *std::min_element(least.begin(), least.end());
   double sum = 0;
   for (const auto& of : sides)
     for (const double length : of) sum += length;

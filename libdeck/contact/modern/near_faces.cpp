@@ -1,6 +1,4 @@
 // The search that TYPE24 and TYPE25 share: from nodes and segments with their gaps to pairs.
-#include <algorithm>
-#include <iterator>
 #include <vector>
 
 #include "base/shared/pages.hpp"
@@ -15,15 +13,18 @@ bool belongs(std::uint8_t node, std::uint8_t side, bool group_meets_all) {
   return (node & side) != 0 || (group_meets_all && (node & from_group) != 0);
 }
 
-/// Pairs of nodes of one surface and segments of the other.
+/// Pairs of nodes of one surface and segments of the other. `on`, `searched`: room for who takes
+/// part.
 SearchResult from_surface(const Sides& sides, const SearchLists& lists, NodeSegmentInput in,
                           const SearchOptions& options, std::uint8_t from, std::uint8_t to,
-                          bool group_meets_all) {
-  std::vector<double> on(sides.nodes.size()), searched(lists.searched);
+                          bool group_meets_all, std::vector<double>& on,
+                          std::vector<double>& searched) {
+  on.resize(sides.nodes.size());
+  searched.resize(sides.faces.size());
   for (std::size_t i = 0; i < on.size(); ++i)
     on[i] = belongs(sides.nodes[i].bits, from, group_meets_all) ? 1 : 0;
   for (std::size_t i = 0; i < searched.size(); ++i)
-    if ((sides.faces[i].bits & to) == 0) searched[i] = 0;
+    searched[i] = (sides.faces[i].bits & to) == 0 ? 0 : lists.searched[i];
   in.secondary_stiffness = on;
   in.segment_stiffness = searched;
   return find_node_segment_pairs(in, options);
@@ -61,26 +62,23 @@ NodeSegmentInput input_of(const Coordinates& x, const SearchLists& lists) {
   return in;
 }
 
-SearchResult near_faces(const SceneContext& context, const Sides& sides, const SearchLists& lists,
-                        bool group_meets_all) {
+PairsByNode near_faces(const SceneContext& context, const Sides& sides, const SearchLists& lists,
+                       bool group_meets_all) {
   const NodeSegmentInput in = input_of(context.scene.coordinates, lists);
   SearchOptions options;
   options.gap = PairGap::from_igap(1, 0);
   // Rounding of the sum of gaps and margin must not lose a pair.
   options.margin = sides.margin * (1 + 1e-12);
   options.threads = context.options.threads;
-  if (sides.set.level != 2) return find_node_segment_pairs(in, options);
+  if (sides.set.level != 2) return {find_node_segment_pairs(in, options), {}};
   // A surface lies on itself everywhere: looking at all would find much that is not wanted.
-  SearchResult one =
-      from_surface(sides, lists, in, options, from_first, from_second, group_meets_all);
-  const SearchResult two =
-      from_surface(sides, lists, in, options, from_second, from_first, group_meets_all);
-  SearchResult out;
-  out.complete = one.complete && two.complete;
-  make_room(out.pairs, one.pairs.size() + two.pairs.size(),
-            effective_threads(context.options.threads));
-  std::set_union(one.pairs.begin(), one.pairs.end(), two.pairs.begin(), two.pairs.end(),
-                 std::back_inserter(out.pairs));
+  std::vector<double> on, searched;
+  const auto find = [&](std::uint8_t from, std::uint8_t to) {
+    return from_surface(sides, lists, in, options, from, to, group_meets_all, on, searched);
+  };
+  PairsByNode out;
+  out.one = find(from_first, from_second);
+  out.two = find(from_second, from_first);
   return out;
 }
 

@@ -250,7 +250,7 @@ class Rules24 {
   std::vector<Vec> normals_;
 };
 
-SearchResult search24(SceneContext& c, const Sides& s, const Limits24& limits) {
+PairsByNode search24(SceneContext& c, const Sides& s, const Limits24& limits) {
   SearchLists lists = search_lists(s, effective_threads(c.options.threads));
   for (double& gap : lists.node_gaps) gap *= std::sqrt(3.0);
   for (std::size_t i = 0; i < s.faces.size(); ++i) {
@@ -372,7 +372,7 @@ class NodeByNode24 {
     best.exact_distance = exact.distance;
     if (!exact.penetrates || (best.solver_acts && accuracy_ != Accuracy::exact)) return;
     const PatchFigures f = evaluate_patch(pairs_[exact.pair], false);
-    if (!best.solver_acts) best.solver_distance = std::fabs(f.gap - f.result.penetration);
+    if (!best.solver_acts) best.solver_distance = f.height;
     best.node = at_node_;
     best.face = numbers_[exact.pair];
     best.penetration = exact.depth;
@@ -421,6 +421,7 @@ PatchFigures evaluate_patch(const PatchRule& r, bool weigh) {
   out.gap = r.node_gap + r.segment_gap;
   const bool same_way = !(dot(out.normal, r.direction) < 0);
   out.result = judge_patch(r, out.gap, height, away, place.outside, same_way);
+  out.height = std::fabs(height);
   if (!weigh) return out;
   const bool sane = largest > 0x1p-200 && largest < 0x1p200;
   const FootError foot(r, a, c, place, area, size, largest);
@@ -428,7 +429,7 @@ PatchFigures evaluate_patch(const PatchRule& r, bool weigh) {
                                                0x1p-50 * (out.gap + std::fabs(height))
                                          : never;
   out.doubtful = is_doubtful(r, foot, out.gap, height, out.slack, out.normal);
-  const double h = std::fabs(height);
+  const double h = out.height;
   if (out.slack < never)
     out.least = (r.solid ? h : std::min(h, std::fabs(out.gap - height))) - out.slack;
   return out;
@@ -454,15 +455,12 @@ Found find_nodes24(SceneContext& c, Sides& s) {
   const Limits24 limits = limits_of(s);
   Found out;
   out.largest_accepted = limits.accepted;
-  const SearchResult near = search24(c, s, limits);
-  out.complete = near.complete;
-  if (!near.complete) return out;
+  const PairsByNode near = search24(c, s, limits);
+  out.complete = near.complete();
+  if (!out.complete) return out;
   NodeByNode24 nodes(c, s, limits);
-  const std::span<const CandidatePair> all(near.pairs);
-  for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
-    while (end < all.size() && all[end].secondary == all[i].secondary) ++end;
-    nodes.look(all.subspan(i, end - i), out);
-  }
+  near.each_node(0, s.nodes.size(),
+                 [&](std::span<const CandidatePair> pairs) { nodes.look(pairs, out); });
   return out;
 }
 

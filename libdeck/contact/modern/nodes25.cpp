@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/shared/pages.hpp"
@@ -19,14 +20,14 @@ constexpr std::uint64_t most_removals = std::uint64_t{1} << 28;
 /// The solver's grid, which can lose far pairs of solids: it takes one length for all nodes.
 class Grid {
  public:
-  Grid(const Coordinates& x, const Sides& s) {
+  Grid(const Coordinates& x, const Sides& s, const SearchLists& lists) {
     std::vector<std::uint8_t> on_main(x.x.size(), 0);
     Box main, all;
     std::size_t count = 0;
-    for (const Face& f : s.faces)
-      for (const NodeIndex n : f.nodes) {
-        if (on_main[n] == 0) ++count;
-        on_main[n] = 1;
+    for (const Quad& nodes : lists.segments)
+      for (const NodeIndex n : nodes) {
+        if (std::exchange(on_main[n], 1) != 0) continue;
+        ++count;
         main.add(at(x, n));
       }
     main.widen(s.margin + s.largest);
@@ -98,7 +99,7 @@ struct Reach {
 Reach reach_of(const Coordinates& x, const Sides& s) {
   Reach out;
   out.of_node.assign(s.nodes.size(), 0);
-  if (s.set.inacti != 5 && s.set.inacti != -1) return out;
+  if (!s.solids || (s.set.inacti != 5 && s.set.inacti != -1)) return out;
   std::vector<double> longest(x.x.size(), 0);
   std::vector<std::uint8_t> on_solid(x.x.size(), 0);
   for (const Face& f : s.faces) {
@@ -159,9 +160,7 @@ bool remove_near(SceneContext& c, const Sides& s, RemovalLists& lists) {
 /// Lists for all pairs that the solver could look at.
 SearchLists lists_of(const Sides& s, const Reach& reach, int threads) {
   SearchLists out = search_lists(s, threads);
-  const bool solids =
-      std::any_of(s.faces.begin(), s.faces.end(), [](const Face& f) { return f.solid_like(); });
-  if (solids)
+  if (s.solids)
     for (std::size_t i = 0; i < s.nodes.size(); ++i)
       out.node_gaps[i] += std::max(0.0, reach.of_node[i] - s.margin);
   for (std::size_t i = 0; i < s.faces.size(); ++i)
@@ -211,7 +210,7 @@ class Doubts25 {
 class Chooser {
  public:
   Chooser(SceneContext& c, const Sides& s, const Topology& t, const Reach& reach,
-          const RemovalLists& removed)
+          const RemovalLists& removed, const SearchLists& lists)
       : accuracy_(c.options.accuracy),
         placed_(c.all_placed),
         x_(c.scene.coordinates),
@@ -221,14 +220,14 @@ class Chooser {
         t_(t),
         reach_(reach),
         removed_(removed),
-        grid_(x_, s) {
+        grid_(x_, s, lists) {
     for (const SideNode& n : s.nodes) gap_s_ = std::max(gap_s_, n.gap);
   }
 
   /// Whether the solver pairs a node and a segment or its opposite. `open`: whether it may be a
-  /// penetration.
+  /// penetration. `both`: the same holds for the opposite, by all but its stiffness.
   bool candidate(std::uint32_t node, std::uint32_t face, const sweep::NearDistance& near,
-                 bool& open) const {
+                 bool& open, bool& both) const {
     const SideNode& n = s_.nodes[node];
     const bool mirror = s_.is_mirror(face);
     const Face& f = s_.faces[s_.base(face)];
@@ -239,8 +238,8 @@ class Chooser {
     double gap = n.gap + f.gap;
     if (!solid && !s_.set.local() && near.distance + near.slack < gap + s_.margin) {
       // Within the reach from all sides, and within that of the grid, which takes the largest gap.
-      if (near.distance - near.slack > gap) return true;
-      open = true;
+      both = true;
+      open = open || !(near.distance - near.slack > gap);
       return true;
     }
     if (!solid && near.distance - near.slack >= gap + s_.margin) return false;
@@ -366,11 +365,12 @@ class NodeByNode {
     sweep::kernels().distances(in_, near, near_.data());
     pairs_.clear();
     any_open_ = false;
-    for (std::size_t i = 0; i < near.size(); ++i) take(near[i], near[i].main, near_[i]);
+    both_.assign(near.size(), 0);
+    for (std::size_t i = 0; i < near.size(); ++i) take(near[i], near[i].main, near_[i], both_[i]);
     // Their opposites have the same order.
     for (std::size_t i = 0; i < near.size(); ++i)
       if (const std::uint32_t o = s_.faces[near[i].main].opposite; o != no_index)
-        take(near[i], o, near_[i]);
+        take(near[i], o, near_[i], both_[i]);
     kept += counted_;
     counted_ = 0;
     // If no pair is open none is a penetration, whichever is the nearest.
@@ -381,10 +381,14 @@ class NodeByNode {
   DecisionReport decisions;
 
  private:
-  void take(const CandidatePair& pair, std::uint32_t face, const sweep::NearDistance& near) {
-    bool open = false;
+  void take(const CandidatePair& pair, std::uint32_t face, const sweep::NearDistance& near,
+            std::uint8_t& both) {
+    bool open = false, same = false;
     const bool mirror = s_.is_mirror(face);
-    if (!chooser_.candidate(pair.secondary, face, near, open)) return;
+    if (both != 0 ? s_.faces[pair.main].back_stiffness == 0
+                  : !chooser_.candidate(pair.secondary, face, near, open, same))
+      return;
+    both = same ? 1 : 0;
     any_open_ = any_open_ || open;
     if (chooser_.removed({pair.secondary, face})) {
       ++dropped;
@@ -404,6 +408,7 @@ class NodeByNode {
   const NodeSegmentInput& in_;
   std::vector<sweep::NearDistance> near_;
   std::vector<Candidate> pairs_;
+  std::vector<std::uint8_t> both_;  ///< 1: what is known of the segment holds for its opposite
   Doubts25 doubts_;
   std::uint64_t counted_ = 0;
   bool any_open_ = false;
@@ -415,41 +420,40 @@ Found find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
   Found out;
   const Reach reach = reach_of(c.scene.coordinates, s);
   RemovalLists removal;
-  const bool fits = remove_near(c, s, removal);
+  out.complete = remove_near(c, s, removal);
+  if (!out.complete) return out;
   const int threads = effective_threads(c.options.threads);
   const SearchLists lists = lists_of(s, reach, threads);
-  const SearchResult near = fits ? near_faces(c, s, lists, false) : SearchResult{};
-  out.complete = fits && near.complete;
+  const PairsByNode near = near_faces(c, s, lists, false);
+  out.complete = near.complete();
   if (!out.complete) return out;
   c.connectivity.prepare(ElementKind::solid8);
-  const Chooser chooser(c, s, t, reach, removal);
+  const Chooser chooser(c, s, t, reach, removal, lists);
   const NodeSegmentInput in = input_of(c.scene.coordinates, lists);
-  // Pieces end where a node ends, so that every node is one thread's.
-  std::vector<std::size_t> first;
-  make_room(first, std::min(near.pairs.size(), s.nodes.size()) + 1, threads);
-  for (std::size_t i = 0; i < near.pairs.size(); ++i)
-    if (i == 0 || near.pairs[i].secondary != near.pairs[i - 1].secondary) first.push_back(i);
-  first.push_back(near.pairs.size());
   struct Part {
     std::vector<NodePenetration> found;
     std::uint64_t kept = 0, dropped = 0;
     DecisionReport decisions;
   };
   std::vector<Part> parts(static_cast<std::size_t>(threads));
-  parallel_parts(
-      threads, first.size() - 1, [&](std::size_t part, std::size_t begin, std::size_t end) {
-        NodeByNode nodes(chooser, s, in);
-        for (std::size_t n = begin; n < end; ++n) {
-          const auto of = std::span(near.pairs).subspan(first[n], first[n + 1] - first[n]);
-          const NodePenetration p = nodes.choose(of);
-          if (p.penetration != 0) parts[part].found.push_back(p);
-        }
-        parts[part].kept = nodes.kept;
-        parts[part].dropped = nodes.dropped;
-        parts[part].decisions = nodes.decisions;
-      });
-  for (const Part& part : parts) {
-    out.penetrations.insert(out.penetrations.end(), part.found.begin(), part.found.end());
+  parallel_parts(threads, s.nodes.size(),
+                 [&](std::size_t part, std::size_t begin, std::size_t end) {
+                   Part& mine = parts[part];
+                   NodeByNode nodes(chooser, s, in);
+                   mine.found.reserve(end - begin);
+                   near.each_node(begin, end, [&](std::span<const CandidatePair> pairs) {
+                     const NodePenetration p = nodes.choose(pairs);
+                     if (p.penetration != 0) mine.found.push_back(p);
+                   });
+                   mine.kept = nodes.kept;
+                   mine.dropped = nodes.dropped;
+                   mine.decisions = nodes.decisions;
+                 });
+  for (Part& part : parts) {
+    if (out.penetrations.empty())
+      out.penetrations = std::move(part.found);
+    else
+      out.penetrations.insert(out.penetrations.end(), part.found.begin(), part.found.end());
     out.candidates += part.kept;
     out.removed += part.dropped;
     out.decisions.pairs += part.decisions.pairs;

@@ -2,6 +2,7 @@
 // beside the segment or beyond its border, and what the border's shape makes of the depth.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "contact/modern/parts.hpp"
 #include "contact/shared/filtered.hpp"
@@ -256,12 +257,16 @@ class Pair {
     }
   }
 
+  /// Looked up once.
+  const Topology::Across& across(std::size_t side) const {
+    std::optional<Topology::Across>& known = across_[side];
+    if (!known) known = t_.across(at_face_, static_cast<std::uint32_t>(side));
+    return *known;
+  }
   Vec beta(std::size_t side) const {
-    return t_.direction(at_face_, static_cast<std::uint32_t>(side));
+    return t_.direction(at_face_, static_cast<std::uint32_t>(side), across(side));
   }
-  bool is_free(std::size_t side) const {
-    return t_.is_free(at_face_, static_cast<std::uint32_t>(side));
-  }
+  bool is_free(std::size_t side) const { return across(side).free(); }
   bool on_border(std::size_t corner) const {
     return t_.on_border(at_face_, static_cast<std::uint32_t>(corner));
   }
@@ -439,6 +444,7 @@ class Pair {
   Vec foot_;
   bool beside_ = false;
   double p_ = 0;
+  mutable std::array<std::optional<Topology::Across>, 4> across_;
   std::array<Facet, 3> other_;
   std::size_t others_ = 0;
   bool nearest_ = false;  ///< no facet is nearer

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <vector>
@@ -93,7 +94,9 @@ struct Sides {
   std::vector<SideNode> nodes;
   std::vector<double> main_gap;  ///< by node: gap of a corner of segments; TYPE25
   double margin = 0;             ///< of the search
+  double shortest = 0;           ///< side of all
   double largest = 0;            ///< gap that the solver's search expects
+  bool solids = false;           ///< some segments are of solids, or coats
   int reoriented = 0;
   std::vector<std::uint32_t> crowded;
 
@@ -109,9 +112,6 @@ struct Sides {
     return is_mirror(i) ? mirrored(faces[base(i)].nodes) : faces[i].nodes;
   }
   Face face(std::uint32_t i) const;
-  bool has_solids() const {
-    return std::any_of(faces.begin(), faces.end(), [](const Face& f) { return f.solid_like(); });
-  }
   /// Calls use(number, segment) for all.
   template <class F>
   void each_face(F&& use) const {
@@ -151,29 +151,36 @@ class Topology {
     Vec first, second;  ///< directions of free sides that end here; null: none
   };
   Across across(std::uint32_t face, std::uint32_t side) const;
-  bool is_free(std::uint32_t face, std::uint32_t side) const { return across(face, side).free(); }
   /// Outward where the side is free; in single precision, as the solver has it.
-  Vec direction(std::uint32_t face, std::uint32_t side) const;
+  Vec direction(std::uint32_t face, std::uint32_t side) const {
+    return direction(face, side, across(face, side));
+  }
+  Vec direction(std::uint32_t face, std::uint32_t side, const Across& other) const;
   Vertex vertex(std::uint32_t face, std::uint32_t corner) const;
   bool on_border(std::uint32_t face, std::uint32_t corner) const;
   /// Mean direction of the facets around a corner, in single precision.
   Vec normal(std::uint32_t face, std::uint32_t corner) const;
 
  private:
-  /// A side that leads from a node to another.
+  /// A side that leads from a node to another; face no_index: none.
   struct DirectedSide {
     NodeIndex to = no_index;
-    std::uint32_t face = 0;
-    std::uint32_t side = 0;
+    std::uint32_t face = no_index, side = 0;
   };
   struct FreeEnd {
     std::uint32_t face = no_index, side = 0;
   };
-  std::span<const DirectedSide> leaving(NodeIndex n) const {
-    return {sides_.data() + first_[n], sides_.data() + first_[n + 1]};
+  /// Calls use(side) for all that leave a node.
+  template <class F>
+  void each_leaving(NodeIndex n, F&& use) const {
+    for (std::uint32_t i = first_[n]; i < first_[n + 1]; ++i) {
+      const std::uint32_t face = sides_[i] / 4, side = sides_[i] % 4;
+      use(DirectedSide{s_.faces[face].nodes[(side + 1) % 4], face, side});
+    }
   }
   bool simple(std::uint32_t i, std::uint32_t j, NodeIndex a, NodeIndex b) const;
   bool closed_around(NodeIndex n) const;
+  bool find_closed(NodeIndex n) const;
   Across among_many(std::uint32_t face, std::uint32_t side, NodeIndex a, NodeIndex b) const;
   /// From a corner through the segments around it, from each over the side that leaves the corner
   /// (or ends in it), to the free one; none: the corner is inside. visit(segment, corner) for each.
@@ -184,7 +191,10 @@ class Topology {
   const Coordinates& x_;
   const Sides& s_;
   std::vector<std::uint32_t> first_;  ///< by node: where the sides that leave it are
-  std::vector<DirectedSide> sides_;   ///< of segments that are no mirrored ones
+  std::vector<std::uint32_t>
+      sides_;  ///< four times a segment that is no mirrored one, and its side
+  enum class Closed : std::uint8_t { unknown, no, yes };
+  mutable std::vector<std::atomic<Closed>> closed_;  ///< by node, as far as it was asked for
 };
 
 /// One node and one segment of a TYPE25.
@@ -270,11 +280,48 @@ struct SearchLists {
 };
 SearchLists search_lists(const Sides& sides, int threads);
 NodeSegmentInput input_of(const Coordinates& x, const SearchLists& lists);
+/// The segments near each node, from one search or two.
+struct PairsByNode {
+  SearchResult one, two;
+  bool complete() const { return one.complete && two.complete; }
+  /// Calls use(pairs) for each of the nodes begin ... end-1 that has any; ascending.
+  template <class F>
+  void each_node(std::size_t begin, std::size_t end, F&& use) const {
+    std::vector<CandidatePair> both;
+    using Pairs = std::span<const CandidatePair>;
+    const auto from = [&](const SearchResult& r) {
+      const CandidatePair first{static_cast<std::uint32_t>(begin), 0};
+      return Pairs(std::lower_bound(r.pairs.begin(), r.pairs.end(), first), r.pairs.end());
+    };
+    const auto take = [](Pairs& rest, std::uint32_t node) {
+      std::size_t count = 0;
+      while (count < rest.size() && rest[count].secondary == node) ++count;
+      const Pairs taken = rest.first(count);
+      rest = rest.subspan(count);
+      return taken;
+    };
+    for (Pairs a = from(one), b = from(two); !a.empty() || !b.empty();) {
+      const std::uint32_t node = a.empty()   ? b.front().secondary
+                                 : b.empty() ? a.front().secondary
+                                             : std::min(a.front().secondary, b.front().secondary);
+      if (node >= end) return;
+      const Pairs of_a = take(a, node), of_b = take(b, node);
+      if (!of_a.empty() && !of_b.empty()) {
+        both.clear();
+        std::set_union(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                       std::back_inserter(both));
+        use(Pairs(both));
+      } else {
+        use(of_a.empty() ? of_b : of_a);
+      }
+    }
+  }
+};
 /// The project's own search: the segments that a node may touch across the surfaces, by gaps of
 /// nodes and segments (summed) and the margin of the sides. It gives a little more than the rule of
 /// the type, which decides about each pair. `group_meets_all`: nodes of the group meet both.
-SearchResult near_faces(const SceneContext& context, const Sides& sides, const SearchLists& lists,
-                        bool group_meets_all);
+PairsByNode near_faces(const SceneContext& context, const Sides& sides, const SearchLists& lists,
+                       bool group_meets_all);
 
 // ties.cpp
 /// Which of the penetrations a tie (/INTER/TYPE2) of the deck holds already.

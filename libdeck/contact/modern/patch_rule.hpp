@@ -204,7 +204,7 @@ class PatchState {
 /// A pair in double.
 struct PatchFigures {
   PatchResult<double> result;
-  double gap = 0;
+  double gap = 0, height = 0;  ///< height: without its sign
   Vec normal;
   bool doubtful = false;  ///< what it is to the node may be round-off
   double slack = 0;       ///< what round-off may make of the distance

@@ -42,6 +42,7 @@ class Maker {
     auto number = static_cast<std::uint32_t>(out_.faces.size());
     for (std::uint32_t i = 0; i < out_.faces.size(); ++i) {
       Face& f = out_.faces[i];
+      out_.solids = out_.solids || f.solid_like();
       if (f.kind == SegmentKind::solid) continue;
       if (f.kind == SegmentKind::coat && out_.set.type == 24) continue;
       f.opposite = number++;
@@ -176,37 +177,50 @@ class Maker {
   Sides& out_;
 };
 
-/// Nodes in the order of their first mention, with the union of their bits.
-class NodeList {
+/// Nodes with the union of their bits.
+class NodesById {
  public:
-  explicit NodeList(std::size_t nodes) : place_(nodes, no_index) {}
-  void add(NodeIndex n, std::uint8_t bits, bool join) {
-    if (n == no_index) return;
-    std::uint32_t& p = place_[n];
-    if (p == no_index) {
-      p = static_cast<std::uint32_t>(list.size());
-      list.push_back({n, bits, 0, never});
-    } else if (join) {
-      list[p].bits |= bits;
-    }
+  explicit NodesById(std::size_t nodes) : bits_(nodes, 0) {}
+  void add(NodeIndex n, std::uint8_t bits) {
+    if (n != no_index) bits_[n] |= bits;
+  }
+  /// Of a group: those that are not there yet.
+  void add_others(const std::vector<NodeIndex>& group) {
+    for (const NodeIndex n : group)
+      if (n != no_index && bits_[n] == 0) bits_[n] = from_group;
   }
   /// Ascending by their numbers in the file.
-  void sort(const std::vector<std::int64_t>& ids, int threads) {
-    std::vector<SideNode> by_place;
-    make_room(by_place, list.size(), threads);
-    for (const std::uint32_t p : place_)
-      if (p != no_index) by_place.push_back(list[p]);
-    list = std::move(by_place);
+  std::vector<SideNode> list(const std::vector<std::int64_t>& ids, int threads) const {
+    std::vector<SideNode> out;
+    make_room(out,
+              bits_.size() - static_cast<std::size_t>(std::count(bits_.begin(), bits_.end(), 0)),
+              threads);
+    for (NodeIndex n = 0; n < bits_.size(); ++n)
+      if (bits_[n] != 0) out.push_back({n, bits_[n], 0, never});
     const auto before = [&](const SideNode& a, const SideNode& b) {
       return ids[a.node] < ids[b.node];
     };
-    if (!std::is_sorted(list.begin(), list.end(), before))
-      std::sort(list.begin(), list.end(), before);
+    if (!std::is_sorted(out.begin(), out.end(), before)) std::sort(out.begin(), out.end(), before);
+    return out;
+  }
+
+ private:
+  std::vector<std::uint8_t> bits_;
+};
+
+/// Nodes in the order of their first mention, with the bits of that.
+class NodesByMention {
+ public:
+  explicit NodesByMention(std::size_t nodes) : known_(nodes, false) {}
+  void add(NodeIndex n, std::uint8_t bits) {
+    if (n == no_index || known_[n]) return;
+    known_[n] = true;
+    list.push_back({n, bits, 0, never});
   }
   std::vector<SideNode> list;
 
  private:
-  std::vector<std::uint32_t> place_;
+  std::vector<bool> known_;
 };
 
 }  // namespace
@@ -241,25 +255,27 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
   const auto one = level == 3 ? std::nullopt : surface(first);
   const auto two = surface(second);
   const int threads = effective_threads(c.options.threads);
-  NodeList nodes(c.model.nodes.size());
-  const auto add_nodes = [&](const std::optional<SurfaceOutline>& s, std::uint8_t bits, bool join) {
+  const auto nodes_of = [&](const std::optional<SurfaceOutline>& s, const auto& use) {
     if (s && level != 3)
       s->segments.each([&](const Segment& segment) {
-        for (const NodeIndex n : segment.nodes) nodes.add(n, bits, join);
+        for (const NodeIndex n : segment.nodes) use(n);
       });
   };
+  const NodeSet* const grnod = group != 0 ? selections.node_group(group) : nullptr;
   if (inter.type == 25) {
-    add_nodes(one, from_first, true);
-    add_nodes(two, from_second, true);
+    NodesById nodes(c.model.nodes.size());
+    nodes_of(one, [&](NodeIndex n) { nodes.add(n, from_first); });
+    nodes_of(two, [&](NodeIndex n) { nodes.add(n, from_second); });
+    if (grnod != nullptr) nodes.add_others(grnod->nodes);
+    out.nodes = nodes.list(c.model.nodes.id, threads);
   } else {
-    add_nodes(two, from_second, false);
-    add_nodes(one, from_first, false);
+    NodesByMention nodes(c.model.nodes.size());
+    nodes_of(two, [&](NodeIndex n) { nodes.add(n, from_second); });
+    nodes_of(one, [&](NodeIndex n) { nodes.add(n, from_first); });
+    if (grnod != nullptr)
+      for (const NodeIndex n : grnod->nodes) nodes.add(n, from_group);
+    out.nodes = std::move(nodes.list);
   }
-  if (group != 0)
-    if (const NodeSet* set = selections.node_group(group))
-      for (const NodeIndex n : set->nodes) nodes.add(n, from_group, false);
-  if (inter.type == 25) nodes.sort(c.model.nodes.id, threads);
-  out.nodes = std::move(nodes.list);
   make_room(out.faces, (one ? one->segments.size() : 0) + (two ? two->segments.size() : 0),
             threads);
   Maker maker(c, out);

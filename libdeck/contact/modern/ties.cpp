@@ -14,11 +14,12 @@ std::vector<bool> held_by_ties(SceneContext& c, const Sides& s,
     for (const TiedNode& n : tie.nodes)
       if (n.tied)
         for (const NodeIndex corner : tie.main[n.segment]) pairs.emplace_back(n.node, corner);
+  std::vector<bool> held(penetrations.size(), false);
+  if (pairs.empty()) return held;
   std::sort(pairs.begin(), pairs.end());
   const auto tied = [&](NodeIndex node, NodeIndex corner) {
     return std::binary_search(pairs.begin(), pairs.end(), std::pair{node, corner});
   };
-  std::vector<bool> held(penetrations.size(), false);
   for (std::size_t i = 0; i < penetrations.size(); ++i) {
     const NodeIndex n = s.nodes[penetrations[i].node].node;
     for (const NodeIndex corner : s.nodes_of(penetrations[i].face))

@@ -58,24 +58,23 @@ bool fits(const Quad& i, const Quad& j, bool coat_i, bool coat_j, NodeIndex a, N
 
 }  // namespace
 
-Topology::Topology(const Coordinates& x, const Sides& sides, int threads) : x_(x), s_(sides) {
+Topology::Topology(const Coordinates& x, const Sides& sides, int threads)
+    : x_(x), s_(sides), closed_(x.x.size()) {
   first_.assign(x.x.size() + 1, 0);
   const auto each_side = [&](std::uint32_t i, const auto& use) {
     const Face& f = s_.faces[i];
     if (f.interior) return;
     for (std::uint32_t k = 0; k < 4; ++k)
-      if (const NodeIndex a = f.nodes[k], b = f.nodes[(k + 1) % 4]; a != b) use(a, b, k);
+      if (const NodeIndex a = f.nodes[k]; a != f.nodes[(k + 1) % 4]) use(a, k);
   };
   for (std::uint32_t i = 0; i < s_.faces.size(); ++i)
-    each_side(i, [&](NodeIndex a, NodeIndex, std::uint32_t) { ++first_[a]; });
+    each_side(i, [&](NodeIndex a, std::uint32_t) { ++first_[a]; });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   make_room(sides_, first_.back(), threads);
   sides_.resize(first_.back());
   // From the end of each row to its beginning, which is where the row before ends.
   for (auto i = static_cast<std::uint32_t>(s_.faces.size()); i-- > 0;)
-    each_side(i, [&](NodeIndex a, NodeIndex b, std::uint32_t k) {
-      sides_[--first_[a]] = {b, i, k};
-    });
+    each_side(i, [&](NodeIndex a, std::uint32_t k) { sides_[--first_[a]] = 4 * i + k; });
 }
 
 /// Whether two segments, which are alone at a pair of nodes and run along it in opposite
@@ -91,16 +90,21 @@ Topology::Across Topology::across(std::uint32_t face, std::uint32_t side) const 
   const NodeIndex a = nodes[side], b = nodes[(side + 1) % 4];
   const std::uint32_t base = s_.base(face);
   if (a == b || s_.faces[base].interior) return {};
-  const DirectedSide *along = nullptr, *against = nullptr;
+  DirectedSide along, against;
   bool several = false;
-  for (const DirectedSide& d : leaving(a))
-    if (d.to == b) several = several || along != nullptr, along = &d;
-  for (const DirectedSide& d : leaving(b))
-    if (d.to == a) several = several || against != nullptr, against = &d;
+  const auto look = [&](NodeIndex from, NodeIndex to, DirectedSide& out) {
+    each_leaving(from, [&](const DirectedSide& d) {
+      if (d.to != to) return;
+      several = several || out.face != no_index;
+      out = d;
+    });
+  };
+  look(a, b, along);
+  look(b, a, against);
   if (several) return among_many(face, side, a, b);
-  if (along == nullptr || against == nullptr) return {};
-  if (!simple(along->face, against->face, a, b)) return among_many(face, side, a, b);
-  const DirectedSide& other = along->face == base ? *against : *along;
+  if (along.face == no_index || against.face == no_index) return {};
+  if (!simple(along.face, against.face, a, b)) return among_many(face, side, a, b);
+  const DirectedSide& other = along.face == base ? against : along;
   if (!s_.is_mirror(face)) return {other.face, other.side};
   return {s_.faces[other.face].opposite, mirrored_side(other.side)};
 }
@@ -116,12 +120,12 @@ Topology::Across Topology::among_many(std::uint32_t face, std::uint32_t side, No
   };
   std::vector<Entry> all;
   for (const bool forward : {true, false})
-    for (const DirectedSide& d : leaving(forward ? a : b)) {
-      if (d.to != (forward ? b : a)) continue;
+    each_leaving(forward ? a : b, [&](const DirectedSide& d) {
+      if (d.to != (forward ? b : a)) return;
       all.push_back({d.face, d.side, forward});
       if (const std::uint32_t o = s_.faces[d.face].opposite; o != no_index)
         all.push_back({o, mirrored_side(d.side), !forward});
-    }
+    });
   std::sort(all.begin(), all.end(), [](const Entry& u, const Entry& v) {
     return std::tie(u.face, u.side) < std::tie(v.face, v.side);
   });
@@ -158,21 +162,33 @@ Topology::Across Topology::among_many(std::uint32_t face, std::uint32_t side, No
   return {};
 }
 
-Vec Topology::direction(std::uint32_t face, std::uint32_t side) const {
+Vec Topology::direction(std::uint32_t face, std::uint32_t side, const Across& other) const {
   const Quad nodes = s_.nodes_of(face);
   const NodeIndex a = nodes[side], b = nodes[(side + 1) % 4];
   if (a == b || s_.faces[s_.base(face)].interior) return {};
   const Single own = facet_normal(x_, s_, face, side);
-  if (const Across other = across(face, side); !other.free())
-    return to_double(unit(own + facet_normal(x_, s_, other.face, other.side)));
+  if (!other.free()) return to_double(unit(own + facet_normal(x_, s_, other.face, other.side)));
   return to_double(unit(cross(rounded(at(x_, b) - at(x_, a)), own)));
 }
 
 /// Whether all sides at a node have their neighbours, in the simple way.
 bool Topology::closed_around(NodeIndex n) const {
+  std::atomic<Closed>& known = closed_[n];
+  Closed closed = known.load(std::memory_order_relaxed);
+  if (closed == Closed::unknown) {  // every thread finds the same
+    closed = find_closed(n) ? Closed::yes : Closed::no;
+    known.store(closed, std::memory_order_relaxed);
+  }
+  return closed == Closed::yes;
+}
+
+bool Topology::find_closed(NodeIndex n) const {
   constexpr std::size_t most = 16;
-  const auto sides = leaving(n);
-  if (sides.size() > most) return false;
+  if (first_[n + 1] - first_[n] > most) return false;
+  std::array<DirectedSide, most> room;
+  std::size_t filled = 0;
+  each_leaving(n, [&](const DirectedSide& d) { room[filled++] = d; });
+  const std::span<const DirectedSide> sides(room.data(), filled);
   std::array<NodeIndex, most> from{};  // where the sides come from that end here
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Quad& nodes = s_.faces[sides[i].face].nodes;

@@ -55,8 +55,9 @@ namespace avx2 {
 namespace {
 const std::array<Kernels, 2> kAll{
     Kernels{baseline::sweep_nodes, baseline::sweep_edges, baseline::near_distances,
-            baseline::meet_boxes, "sse2"},
-    Kernels{avx2::sweep_nodes, avx2::sweep_edges, avx2::near_distances, avx2::meet_boxes, "avx2"}};
+            baseline::meet_boxes, baseline::meet_edges, "sse2"},
+    Kernels{avx2::sweep_nodes, avx2::sweep_edges, avx2::near_distances, avx2::meet_boxes,
+            avx2::meet_edges, "avx2"}};
 }  // namespace
 
 std::span<const Kernels> all_kernels() {
@@ -82,7 +83,8 @@ namespace generic {
 
 namespace {
 const std::array<Kernels, 1> kAll{Kernels{generic::sweep_nodes, generic::sweep_edges,
-                                          generic::near_distances, generic::meet_boxes, "generic"}};
+                                          generic::near_distances, generic::meet_boxes,
+                                          generic::meet_edges, "generic"}};
 }  // namespace
 
 std::span<const Kernels> all_kernels() { return kAll; }

@@ -490,9 +490,28 @@ inline void near_distances(const NodeSegmentInput& in, std::span<const Candidate
   }
 }
 
+// Which of eight segments have a node of an edge.
+inline unsigned with_node(const CornerBlock& corners, const EdgeNodes& edge) {
+  unsigned bits = 0;
+  for (unsigned c = 0; c < 8; c += 2 * DECK_LANES) {
+    Ids ids;
+    __builtin_memcpy(&ids, &corners.node[0][c], sizeof ids);
+    auto any = (ids == edge[0]) | (ids == edge[1]);
+    for (unsigned k = 1; k < 4; ++k) {
+      __builtin_memcpy(&ids, &corners.node[k][c], sizeof ids);
+      any |= (ids == edge[0]) | (ids == edge[1]);
+    }
+    bits |= DECK_ID_BITS(any) << c;
+  }
+  return bits;
+}
+
 // Boxes first ... last-1 of a list against a tree: as one if they lie together, else by halves.
+// dropped(block, box): bit mask of leaves that are not wanted.
+template <class Dropped>
 inline void meet_some(const BoxTree& tree, std::span<const Box> boxes, std::size_t first,
-                      std::size_t last, Walk& walk, std::vector<Meeting>& out) {
+                      std::size_t last, const Dropped& dropped, Walk& walk,
+                      std::vector<Meeting>& out) {
   Box group;
   double sizes = 0.0;
   for (std::size_t i = first; i < last; ++i) {
@@ -501,8 +520,8 @@ inline void meet_some(const BoxTree& tree, std::span<const Box> boxes, std::size
   }
   if (last - first > 1 && !worth_sharing(group.size(), sizes)) {
     const std::size_t middle = first + (last - first) / 2;
-    meet_some(tree, boxes, first, middle, walk, out);
-    meet_some(tree, boxes, middle, last, walk, out);
+    meet_some(tree, boxes, first, middle, dropped, walk, out);
+    meet_some(tree, boxes, middle, last, dropped, walk, out);
     return;
   }
   const std::vector<BoxBlock>& leaves = tree.level(0);
@@ -513,18 +532,35 @@ inline void meet_some(const BoxTree& tree, std::span<const Box> boxes, std::size
     for (std::size_t k = i; k < end; ++k) some.add(boxes[k]);
     walk.keep_near(leaves, some);
     for (; i < end; ++i)
-      for (const Hit& hit : walk.near)
-        for (unsigned mask = overlaps(leaves[hit.block], boxes[i]) & hit.mask; mask != 0;
-             mask &= mask - 1)
+      for (const Hit& hit : walk.near) {
+        unsigned mask = overlaps(leaves[hit.block], boxes[i]) & hit.mask;
+        if (mask == 0) continue;
+        for (mask &= ~dropped(hit.block, i); mask != 0; mask &= mask - 1)
           out.push_back({static_cast<std::uint32_t>(i),
                          hit.block * 8 + static_cast<std::uint32_t>(__builtin_ctz(mask))});
+      }
   }
 }
 
-inline void meet_boxes(const BoxTree& tree, std::span<const Box> boxes, std::vector<Meeting>& out) {
+template <class Dropped>
+inline void meet(const BoxTree& tree, std::span<const Box> boxes, const Dropped& dropped,
+                 std::vector<Meeting>& out) {
   if (tree.levels() == 0) return;
   Walk walk;
   constexpr std::size_t at_once = 4 * kGroup;  // a walk costs more than tests of some boxes more
   for (std::size_t first = 0; first < boxes.size(); first += at_once)
-    meet_some(tree, boxes, first, std::min(boxes.size(), first + at_once), walk, out);
+    meet_some(tree, boxes, first, std::min(boxes.size(), first + at_once), dropped, walk, out);
+}
+
+inline void meet_boxes(const BoxTree& tree, std::span<const Box> boxes, std::vector<Meeting>& out) {
+  meet(
+      tree, boxes, [](std::uint32_t, std::size_t) { return 0U; }, out);
+}
+
+inline void meet_edges(const BoxTree& tree, std::span<const CornerBlock> corners,
+                       std::span<const Box> boxes, std::span<const EdgeNodes> edges,
+                       std::vector<Meeting>& out) {
+  meet(
+      tree, boxes,
+      [&](std::uint32_t block, std::size_t i) { return with_node(corners[block], edges[i]); }, out);
 }

@@ -167,6 +167,18 @@ struct Meeting {
   std::uint32_t box = 0, leaf = 0;
 };
 
+// The corners of eight segments; unused places hold kNoNode.
+struct CornerBlock {
+  std::array<std::array<std::uint32_t, 8>, 4> node;
+  CornerBlock() {
+    for (auto& corner : node) corner.fill(kNoNode);
+  }
+  std::array<std::uint32_t, 4> of(std::size_t i) const {
+    return {node[0][i], node[1][i], node[2][i], node[3][i]};
+  }
+};
+using EdgeNodes = std::array<std::uint32_t, 2>;
+
 // How far a node is from a segment, nearly: the distance differs from that of any plain formula by
 // less than `slack`, which is infinite where sub-triangles are too thin to tell.
 struct NearDistance {
@@ -184,6 +196,9 @@ struct Kernels {
   void (*distances)(const NodeSegmentInput&, std::span<const CandidatePair>, NearDistance*);
   // Adds all meetings of the boxes, box after box.
   void (*meetings)(const BoxTree&, std::span<const Box>, std::vector<Meeting>&);
+  // The same for the boxes of edges, without segments that have a node of the edge.
+  void (*meetings_apart)(const BoxTree&, std::span<const CornerBlock>, std::span<const Box>,
+                         std::span<const EdgeNodes>, std::vector<Meeting>&);
   const char* name;
 };
 // The fastest versions this processor runs.
