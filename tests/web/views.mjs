@@ -165,6 +165,56 @@ const framed = async (p, tab) => {
   await p.click('button:has-text("Undo")');
   await idle(p);
   same("and undone it is the old one", await p.textContent(".verdict-line"), json.verdict.text);
+  // A conversion: what the program lists, to be saved and taken over.
+  const set = (option, value) => (typeof value === "boolean" ? p.setChecked(`[data-option="${option}"]`, value) : option === "--version" ? p.selectOption(`[data-option="${option}"]`, value) : p.fill(`[data-option="${option}"]`, value));
+  const converted = async (options) => {
+    for (const [option, value] of Object.entries(options)) await set(option, value);
+    await p.click("#panel-convert .primary");
+    await p.waitForSelector(".conversion-result");
+    for (const [option, value] of Object.entries(options)) await set(option, value === true ? false : "");
+    return { result: await p.textContent(".conversion-result"), exit: Number(await p.getAttribute(".conversion-result", "data-exit")), told: await p.$eval(".conversion", (e) => e.querySelector("pre")?.textContent ?? "") };
+  };
+  const natively = (name, ...args) => {
+    const folder = join(scratch, name);
+    mkdirSync(folder);
+    writeFileSync(join(folder, "crash_box_0000.rad"), readFileSync(sample("crash_box")));
+    const r = spawnSync(DECK, ["convert", "crash_box_0000.rad", ...args, "--verify", "-o", "converted", "--report", "losses.json"], { cwd: folder, encoding: "utf8" });
+    return { told: (r.stdout + r.stderr).trim(), exit: r.status, losses: JSON.parse(readFileSync(join(folder, "losses.json"), "utf8")), deck: join(folder, "converted/crash_box_0000.rad") };
+  };
+  const listed = () => p.$$eval(".conversion details", (all) => Object.fromEntries(all.map((e) => [e.dataset.kind, e.querySelectorAll("tbody tr").length])));
+  const counted = (losses) => Object.fromEntries(["undecided", "dropped", "approximated", "kept"].filter((k) => losses[k].length > 0).map((k) => [k, losses[k].length]));
+  await p.click("#tab-convert");
+  await p.click("#panel-convert .primary");
+  check("without a choice nothing is converted", /Nothing is chosen/.test(await p.textContent(".conversion")));
+  const refusal = natively("refused", "--version", "110");
+  const refused = await converted({ "--version": "110" });
+  same("a conversion that is refused says why in the words of the program, and there is nothing to save", [refused, await p.isVisible('#panel-convert button:has-text("Download")')], [{ result: "Nothing was written. The conversion would do this:", exit: refusal.exit, told: refusal.told }, false]);
+  same("and lists what would be lost", await listed(), counted(refusal.losses));
+  await p.click(".conversion td .link");
+  same("with its place in the text", await p.$eval(".text-line.marked .number", (e) => Number(e.textContent)), refusal.losses.undecided[0].line);
+  await p.click("#tab-convert");
+  const lossy = natively("lossy", "--version", "110", "--allow-loss");
+  same("it is done if losses are accepted", await converted({ "--version": "110", "--allow-loss": true }), { result: "1 file is changed.", exit: lossy.exit, told: lossy.told });
+  const wrong = await converted({ "--units": "kg, mm, fortnights" });
+  check("a wrong value is answered by the program", wrong.exit === 2 && wrong.result === "Nothing was written." && /fortnights/.test(wrong.told), JSON.stringify(wrong));
+  const older = natively("older", "--version", "2018");
+  same("a conversion says what the command line says", await converted({ "--version": "2018" }), { result: "1 file is changed.", exit: older.exit, told: older.told });
+  same("and lists the same values", await listed(), counted(older.losses));
+  await accessible(p, "convert");
+  await shot(p, "convert");
+  const [download] = await Promise.all([p.waitForEvent("download"), p.click('#panel-convert button:has-text("Download")')]);
+  same("what is saved is the converted deck", [download.suggestedFilename(), readFileSync(await download.path(), "utf8")], ["crash_box_0000.rad", readFileSync(older.deck, "utf8")]);
+  await p.evaluate(() => delete document.documentElement.dataset.linted);
+  await p.click('#panel-convert button:has-text("Take it over")');
+  await idle(p);
+  check("taken over, the deck is the converted one", (await p.textContent("h1")).includes("(changed)") && JSON.parse(deck("gaps", older.deck, "--json", "-", "-q")).verdict.text === (await p.textContent(".verdict-line")));
+  await p.evaluate(() => delete document.documentElement.dataset.linted);
+  await p.click('button:has-text("Undo")');
+  await idle(p);
+  for (const version of await p.$$eval('[data-option="--version"] option', (all) => all.map((e) => e.value).filter(Boolean)))
+    check(`the program knows version ${version}`, spawnSync(DECK, ["convert", sample("crash_box"), "--version", version, "--check", "-q"]).status < 2);
+  for (const system of await p.$$eval("#unit-systems option", (all) => all.map((e) => e.value)))
+    check(`the program knows the units ${system}`, spawnSync(DECK, ["convert", sample("crash_box"), "--units", system, "--check", "-q"]).status < 2);
   await p.click("#tab-diff");
   check("an empty difference says what to do", /Choose or drop/.test(await p.textContent("#panel-diff")));
   await p.setInputFiles("#second", [join(repaired, "crash_box_0000.rad")]);

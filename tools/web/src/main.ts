@@ -3,6 +3,7 @@
 import { button, h, plural, replace } from "../../viewer/src/dom";
 import { drawCards, type Card, type Cell, type Shown } from "./card";
 import { Cancelled, deck, engine, KeptLane, Lane, unpacked } from "./client";
+import { ConvertView } from "./convert";
 import type { Result } from "./engine";
 import { chosen, dropped, save, type Given } from "./files";
 import { drawFinding, FindingList, type Finding, type LintDocument, type Rule } from "./findings";
@@ -20,7 +21,7 @@ let main = "";
 let other: Tree | null = null;
 let lint: LintDocument | null = null;
 let place: (Mark & { file: string }) | null = null;
-const lanes = { kept: new KeptLane(), lint: new Lane(), values: new Lane(), gaps: new Lane(), card: new Lane(), rules: new Lane(), repair: new Lane(), page: new Lane(), cycle: new Lane(), diff: new Lane() };
+const lanes = { kept: new KeptLane(), lint: new Lane(), values: new Lane(), gaps: new Lane(), card: new Lane(), rules: new Lane(), repair: new Lane(), convert: new Lane(), page: new Lane(), cycle: new Lane(), diff: new Lane() };
 
 /* ---- parts of the page ---- */
 
@@ -44,16 +45,25 @@ const values = new Values((s, keyword, id) => goTo(s, keyword, id));
 const gapsPage = h("div", { class: "report" });
 const cyclePage = h("div", { class: "report" });
 const picture = new Picture(unpacked("bridge").then((b) => new TextDecoder().decode(b)), (file, line) => goTo({ file, line, column: 1, end_column: 1 }, null, 0));
+const takeOver = (files: Record<string, Uint8Array>) => {
+  tree.change(files);
+  list.reset();
+  void refresh();
+};
 const repair = new RepairView({
   main: () => main,
   get: (name) => tree.get(name),
   run: (args) => run(lanes.repair, args),
   frame: (page, label) => frameOf(text(page), label),
-  take: (files) => {
-    tree.change(files);
-    list.reset();
-    void refresh();
-  },
+  take: takeOver,
+});
+const convert = new ConvertView({
+  main: () => main,
+  stem: () => stem(),
+  get: (name) => tree.get(name),
+  run: (args) => run(lanes.convert, args),
+  take: takeOver,
+  go: (file, line) => goTo({ file, line, column: 1, end_column: 1 }, null, 0),
 });
 const diffPage = h("div", { class: "output-page" });
 const explained = h("dialog", { class: "explain", "aria-label": "Explanation" });
@@ -90,6 +100,7 @@ const tabs: { id: string; label: string; body: HTMLElement; open?: () => void }[
   { id: "gaps", label: "Gaps", body: gapsPage, open: () => void openGaps() },
   { id: "cycle", label: "First cycle", body: cyclePage, open: () => void openCycle() },
   { id: "repair", label: "Repair", body: repair.element },
+  { id: "convert", label: "Convert", body: convert.element },
   { id: "diff", label: "Difference", body: diffPage, open: () => void openDiff() },
 ];
 let tab = "findings";
@@ -177,7 +188,7 @@ function tick(): void {
   document.documentElement.dataset.busy = String(busy);
 }
 
-const stageNames: Record<string, string> = { lint: "findings", params: "values", gaps: "gaps and penetrations", cycle: "first cycle", diff: "difference", show: "card", explain: "explanation", rules: "rules", fix: "repair" };
+const stageNames: Record<string, string> = { lint: "findings", params: "values", gaps: "gaps and penetrations", cycle: "first cycle", diff: "difference", show: "card", explain: "explanation", rules: "rules", fix: "repair", convert: "conversion" };
 
 /** null: a newer run took its place, or it was cancelled. */
 const run = (lane: Lane, args: string[], given = tree.all()): Promise<Result | null> =>
@@ -227,6 +238,7 @@ async function refresh(): Promise<void> {
   say("");
   drawText();
   repair.reset();
+  convert.reset();
   // The findings of the text come first, with the machine to themselves.
   for (const lane of [lanes.lint, lanes.values, lanes.gaps]) lane.cancel();
   await refreshText();
@@ -555,7 +567,7 @@ addEventListener("drop", (e) => {
 });
 addEventListener("keydown", (e) => {
   const busyTyping = e.target instanceof HTMLInputElement || e.target instanceof HTMLSelectElement;
-  if (!busyTyping && !e.ctrlKey && !e.metaKey && !e.altKey && /^[1-6]$/.test(e.key) && main !== "") show(tabs[Number(e.key) - 1].id);
+  if (!busyTyping && !e.ctrlKey && !e.metaKey && !e.altKey && /^[1-7]$/.test(e.key) && main !== "") show(tabs[Number(e.key) - 1].id);
   if (!busyTyping && (e.ctrlKey || e.metaKey) && e.key === "z" && tree.undo()) void refresh();
 });
 document.addEventListener("click", (e) => {

@@ -22,8 +22,8 @@ export interface RepairHost {
 
 const same = (a: Uint8Array, b: Uint8Array) => a.length === b.length && a.every((v, i) => v === b[i]);
 
-/** What a run wrote below its folder and is other than in the page, by its name there. */
-export function takenOver(main: string, get: (name: string) => Uint8Array | undefined, files: Record<string, Uint8Array>): Record<string, Uint8Array> {
+/** What a run wrote below `folder` and is other than in the page, by its name there. */
+export function takenOver(folder: string, main: string, get: (name: string) => Uint8Array | undefined, files: Record<string, Uint8Array>): Record<string, Uint8Array> {
   const own = main.slice(0, main.lastIndexOf("/") + 1);
   const out: Record<string, Uint8Array> = {};
   for (const [path, bytes] of Object.entries(files)) {
@@ -63,7 +63,7 @@ export class RepairView {
     const page = r.files["page.html"];
     if (!page) return replace(this.out, h("pre", { class: "bad", tabindex: "0" }, new TextDecoder().decode(r.stderr) || "There is no report."));
     replace(this.out, this.host.frame(page, `Repair: ${strategy}`));
-    this.files = takenOver(this.host.main(), this.host.get, r.files);
+    this.files = takenOver(folder, this.host.main(), this.host.get, r.files);
     this.take.hidden = Object.keys(this.files).length === 0;
   }
 

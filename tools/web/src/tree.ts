@@ -1,6 +1,5 @@
 // The files that a page was given: as they were, as they are now, and what became of them.
 import { gunzipSync, gzipSync, unzipSync, zipSync } from "fflate";
-import type { Files } from "./engine";
 import { plainName } from "./engine";
 
 export interface Edit {
@@ -64,6 +63,11 @@ export function unpack(given: { name: string; bytes: Uint8Array }[]): Map<string
   return out;
 }
 
+/** One archive; what is packed already is only put in. */
+export function zipped(files: Record<string, Uint8Array>): Uint8Array {
+  return zipSync(Object.fromEntries(Object.entries(files).map(([n, b]) => [n, isGzip(b) ? [b, { level: 0 }] : b])), { level: 6 });
+}
+
 export class Tree {
   readonly original = new Map<string, Uint8Array>();
   private files = new Map<string, Uint8Array>();
@@ -77,7 +81,7 @@ export class Tree {
   get(name: string): Uint8Array | undefined {
     return this.files.get(name);
   }
-  all(): Files {
+  all(): Record<string, Uint8Array> {
     return Object.fromEntries(this.files);
   }
   map(): Map<string, Uint8Array> {
@@ -180,7 +184,7 @@ export class Tree {
   }
 
   zip(): Uint8Array {
-    return zipSync(Object.fromEntries([...this.files].map(([n, b]) => [n, isGzip(b) ? [b, { level: 0 }] : b])), { level: 6 });
+    return zipped(this.all());
   }
   /** What was changed as a patch that `git apply` takes. */
   patch(): string {
