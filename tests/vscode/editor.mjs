@@ -132,8 +132,12 @@ const node = join(process.execPath, "..");
 let run = await start(`${node}${delimiter}/usr/bin${delimiter}/bin`.split(delimiter).filter((d) => !existsSync(join(d, "deck"))).join(delimiter));
 let page = await open(run.address);
 await show(page, "crash_box_0000.rad");
-const told = await soon(() => page.textContent(".notification-list-item-message"));
-check("without the program one is told what to do", told?.includes("The program 'deck' was not found on PATH"), told);
+if (existsSync(join(WORK, "stage/engine/deck.wasm"))) {
+  check("without a program on PATH the extension's own finds what is wrong", await soon(() => page.$(".squiggly-error, .squiggly-warning"), 60));
+} else {
+  const told = await soon(() => page.textContent(".notification-list-item-message"));
+  check("without the program one is told what to do", told?.includes("The program 'deck' was not found on PATH"), told);
+}
 check("and decks are coloured", await soon(async () => (await page.$$eval(".view-line span[class*=mtk]", (s) => new Set(s.map((e) => e.className)).size)) > 2));
 await picture(page, "no_program");
 await page.close();
@@ -176,9 +180,11 @@ await page.keyboard.press("Control+k");
 await page.keyboard.press("3");
 check("and a card again", await soon(async () => (await lines()).some((l) => l.startsWith("       131       131         5")), 10));
 
-// Lenses are drawn anew when their numbers come; a click in between is lost.
+// Lenses of lines out of sight are in the page as well, hidden, in an order of their own; those in sight are
+// drawn anew when their numbers come, and a click in between is lost.
 await soon(async () => {
-  await page.click(".codelens-decoration a:has-text('Inacti')", { timeout: 3000 });
+  const inSight = page.locator(".codelens-decoration a:visible", { hasText: "Inacti" });
+  await inSight.nth((await inSight.count()) >> 1).click({ timeout: 3000 }); // in the middle nothing lies over it
   return page.waitForSelector(".tab.active:has-text('Inacti')", { timeout: 3000 });
 });
 check("the lens over an interface tells what the solver does", await soon(async () => (await lines()).some((l) => l.startsWith("Inacti of /INTER/TYPE7")), 15));
