@@ -12,6 +12,7 @@
 #include "deck/contact/ties.hpp"
 #include "deck/text/rule.hpp"
 #include "verdict/parts.hpp"
+#include "verdict/shared/of_interface.hpp"
 
 namespace deck {
 namespace {
@@ -28,6 +29,30 @@ std::size_t contacts_with(const ContactFacts& f, std::initializer_list<Obstacle>
 std::size_t idle(const ContactFacts& f) {
   return contacts_with(f, {Obstacle::empty_main, Obstacle::empty_secondary, Obstacle::no_gap,
                            Obstacle::no_stiffness});
+}
+
+/// Contacts that stop the solver before it has looked for pairs.
+bool stop_before_pairs(const ContactFacts& f) {
+  return contacts_with(f, {Obstacle::no_gap, Obstacle::no_area, Obstacle::no_element}) > 0;
+}
+
+/// Nodes of contacts and ties for which the solver stops.
+bool stop_at_nodes(const ContactFacts& f) {
+  return f.total.solver_errors > 0 || (f.ties && f.ties->solver_errors + f.ties->main_and_tied > 0);
+}
+
+/// What contacts and ties say where the solver does not stop; clean: nothing.
+VerdictLevel level_without_stops(const ContactFacts& f) {
+  if (f.total.count.pairs > 0) return VerdictLevel::penetrates;
+  if (f.total.crossed_elements.value_or(0) > 0) return VerdictLevel::crossed;
+  if (f.total.untied + (f.ties ? f.ties->untied : 0) > 0) return VerdictLevel::untied;
+  const bool ties_left_out = f.ties && f.ties->not_evaluated > 0;
+  return f.not_evaluated > 0 || idle(f) > 0 || ties_left_out ? VerdictLevel::not_examined
+                                                             : VerdictLevel::clean;
+}
+
+VerdictLevel level_of_contacts(const ContactFacts& f) {
+  return stop_before_pairs(f) || stop_at_nodes(f) ? VerdictLevel::stops : level_without_stops(f);
 }
 
 void say_obstacles(const ContactFacts& f, Sentences& out) {
@@ -238,17 +263,36 @@ VerdictCounts all_counts(const VerdictInput& in, const Coverage& coverage, std::
   return out;
 }
 
+/// Whether a contact was evaluated, and what it lacks.
+void add_state(ContactFacts& f, const Contact& c) {
+  f.not_evaluated += !c.evaluated;
+  if (c.evaluated) ++f.obstacles[static_cast<std::size_t>(obstacle_of(c))];
+}
+
+/// `main_and_tied`: of all ties so far, each node once.
+void add_tie(TieFacts& f, const Tie& tie, std::set<NodeIndex>& main_and_tied) {
+  ++f.ties;
+  if (!tie.not_evaluated.empty()) {
+    ++f.not_evaluated;
+    return;
+  }
+  const TieCounts counts = count_ties(tie);
+  f.nodes += counts.nodes;
+  f.tied += counts.tied;
+  const std::uint64_t lost = counts.lost();
+  f.untied += lost;
+  if (lost > 0) f.losses.push_back({tie.inter->id, counts.nodes, lost});
+  for (const TiedNode& n : tie.nodes) f.solver_errors += n.message == 1078;
+  main_and_tied.insert(tie.main_and_tied.begin(), tie.main_and_tied.end());
+}
+
 VerdictLevel level_of(const VerdictInput& in, const Coverage& coverage, const Verdict& v,
                       bool stops) {
   if (stops) return VerdictLevel::stops;
-  if (v.count("pairs") > 0) return VerdictLevel::penetrates;
-  if (v.count("crossed_elements") > 0) return VerdictLevel::crossed;
-  if (v.count("untied_nodes") > 0) return VerdictLevel::untied;
-  const bool ties_left_out =
-      in.contacts && in.contacts->ties && in.contacts->ties->not_evaluated > 0;
-  const bool left_out =
-      in.contacts ? in.contacts->not_evaluated > 0 || idle(*in.contacts) > 0 || ties_left_out
-                  : in.lint && in.lint->contacts_left_out;
+  if (in.contacts)
+    if (const VerdictLevel found = level_without_stops(*in.contacts); found != VerdictLevel::clean)
+      return found;
+  const bool left_out = !in.contacts && in.lint && in.lint->contacts_left_out;
   // A run of lint that was told not to look at contacts says nothing about them, and lint has rules
   // for decks without any.
   const bool looked = in.contacts || (coverage.nothing() && !in.lint);
@@ -276,10 +320,7 @@ std::uint64_t Verdict::count(std::string_view name) const {
 ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
   ContactFacts out;
   out.contacts = scene.contacts.size();
-  for (const Contact& c : scene.contacts) {
-    out.not_evaluated += !c.evaluated;
-    if (c.evaluated) ++out.obstacles[static_cast<std::size_t>(obstacle_of(c))];
-  }
+  for (const Contact& c : scene.contacts) add_state(out, c);
   out.total = view.total;
   if (scene.examined == Examined::contacts_and_ties) out.ties = tie_facts(scene.ties);
   const double largest = largest_bounded_gap(*scene.model);
@@ -297,22 +338,38 @@ ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
 
 TieFacts tie_facts(const std::vector<Tie>& ties) {
   TieFacts out;
-  out.ties = ties.size();
   std::set<NodeIndex> main_and_tied;
-  for (const Tie& tie : ties) {
-    out.not_evaluated += !tie.not_evaluated.empty();
-    if (!tie.not_evaluated.empty()) continue;
-    const TieCounts counts = count_ties(tie);
-    out.nodes += counts.nodes;
-    out.tied += counts.tied;
-    const std::uint64_t lost = counts.lost();
-    out.untied += lost;
-    if (lost > 0) out.losses.push_back({tie.inter->id, counts.nodes, lost});
-    for (const TiedNode& n : tie.nodes) out.solver_errors += n.message == 1078;
-    main_and_tied.insert(tie.main_and_tied.begin(), tie.main_and_tied.end());
-  }
+  for (const Tie& tie : ties) add_tie(out, tie, main_and_tied);
   out.main_and_tied = main_and_tied.size();
   return out;
+}
+
+InterfaceVerdict verdict_of_interface(const Scene& scene, const SceneView& view,
+                                      const InterBase& inter) {
+  InterfaceVerdict out;
+  ContactFacts own;
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    if (scene.contacts[i].inter != &inter) continue;
+    add_state(own, scene.contacts[i]);
+    const ContactTotals& t = view.contacts[i];
+    ContactTotals& sum = own.total;
+    sum.count.pairs += t.count.pairs;
+    sum.untied += t.untied;
+    sum.solver_errors += t.solver_errors;
+    sum.crossed_elements = sum.crossed_elements.value_or(0) + t.crossed_elements.value_or(0);
+    out.max_depth = std::max(out.max_depth, t.max_depth);
+    out.max_ratio = std::max(out.max_ratio, t.max_ratio);
+  }
+  out.level = level_of_contacts(own);
+  return out;
+}
+
+VerdictLevel level_of_tie(const Tie& tie) {
+  ContactFacts own;
+  std::set<NodeIndex> main_and_tied;
+  add_tie(own.ties.emplace(), tie, main_and_tied);
+  own.ties->main_and_tied = main_and_tied.size();
+  return level_of_contacts(own);
 }
 
 Verdict make_verdict(const VerdictInput& in) {
@@ -339,16 +396,11 @@ Verdict make_verdict(const VerdictInput& in) {
             {});
   const std::uint64_t all_errors = in.lint ? in.lint->errors : errors.all;
   v.counts = all_counts(in, coverage, all_errors, say);
-  v.stops_before_pairs =
-      all_errors > 0 || (!in.lint && in.contacts &&
-                         contacts_with(*in.contacts, {Obstacle::no_gap, Obstacle::no_area,
-                                                      Obstacle::no_element}) > 0);
-  v.undecided = !in.lint && in.contacts && in.contacts->not_evaluated > 0;
-  v.level = level_of(
-      in, coverage, v,
-      v.stops_before_pairs ||
-          (!in.lint &&
-           v.count("solver_errors") + v.count("tie_errors") + v.count("main_and_tied") > 0));
+  const bool contacts_decide = !in.lint && in.contacts;  // else lint has said it in its errors
+  v.stops_before_pairs = all_errors > 0 || (contacts_decide && stop_before_pairs(*in.contacts));
+  v.undecided = contacts_decide && in.contacts->not_evaluated > 0;
+  v.level = level_of(in, coverage, v,
+                     v.stops_before_pairs || (contacts_decide && stop_at_nodes(*in.contacts)));
   v.warns = in.lint ? in.lint->warnings > 0
                     : v.count("pairs") + v.count("crossed_elements") + v.count("untied_nodes") > 0;
   if (in.lint) say.all.insert(say.all.begin(), lint_sentence(*in.lint, v.level));

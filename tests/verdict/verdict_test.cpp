@@ -3,6 +3,7 @@
 
 #include "deck/text/rule.hpp"
 #include "report/inspected.hpp"
+#include "verdict/shared/of_interface.hpp"
 
 namespace deck::test {
 namespace {
@@ -107,6 +108,47 @@ TEST(Verdict, AnInterfaceThatIsNotExaminedIsSaid) {
   EXPECT_EQ(v.count("interfaces_not_examined"), 1u);
   EXPECT_EQ(exit_code_of(v), 0);
   EXPECT_EQ(exit_code_of(v, {.require_examined = true}), 1);
+}
+
+TEST(Verdict, AnInterfaceHasTheLevelOfTheDeckWithItAlone) {
+  Plates p;
+  p.card = "Gapmin=0.1";
+  for (const std::string& text :
+       {plates(), plates(p), tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 0.4, 1.5),
+        tie("TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1", 0.4, 0),
+        tie("TYPE7/1 grnd_IDs=9 surf_IDm=1 Gapmin=1\n/GRNOD/NODE/9\nempty\n")}) {
+    const Inspected d(text);
+    ASSERT_EQ(d.interfaces.ordered.size(), 1u) << text;
+    const InterfaceVerdict own = verdict_of_interface(d.scene, d.view, *d.interfaces.ordered[0]);
+    const Verdict all = of(text);
+    EXPECT_EQ(own.level, all.count("errors") > 0 ? VerdictLevel::not_examined : all.level)
+        << all.text;
+    EXPECT_EQ(own.max_depth, d.view.total.max_depth);
+    EXPECT_EQ(own.max_ratio, d.view.total.max_ratio);
+  }
+}
+
+TEST(Verdict, AnInterfaceIsNotBlamedForAnother) {
+  const std::string text = tie("TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1\n" +
+                               std::string("@/INTER/TYPE7/2 grnd_IDs=2 surf_IDm=1 Gapmin=0.1"));
+  const Inspected d(text);
+  ASSERT_EQ(d.interfaces.ordered.size(), 2u);
+  const auto level = [&](std::size_t i) {
+    return verdict_of_interface(d.scene, d.view, *d.interfaces.ordered[i]).level;
+  };
+  EXPECT_EQ(level(0), VerdictLevel::penetrates);
+  EXPECT_EQ(level(1), VerdictLevel::clean);
+}
+
+TEST(Verdict, ATieHasTheLevelOfItsNodes) {
+  for (const auto& [card, far, level] :
+       {std::tuple("TYPE2/1 grnd_IDs=2 surf_IDm=1 dsearch=1", 0.4, VerdictLevel::clean),
+        std::tuple("TYPE2/1 grnd_IDs=2 surf_IDm=1 dsearch=1 Ignore=1", 9., VerdictLevel::untied),
+        std::tuple("TYPE2/1 grnd_IDs=2 surf_IDm=1 dsearch=1", 9., VerdictLevel::stops)}) {
+    const Inspected d(tie(card, 0.4, far));
+    ASSERT_EQ(d.loaded.ties().size(), 1u);
+    EXPECT_EQ(level_of_tie(d.loaded.ties()[0]), level) << card;
+  }
 }
 
 TEST(Verdict, TheTextIsItsSentences) {

@@ -8,6 +8,7 @@
 #include "report/shared/gate.hpp"
 #include "report/shared/json.hpp"
 #include "report/shared/verdict.hpp"
+#include "verdict/shared/of_interface.hpp"
 
 namespace deck {
 namespace {
@@ -268,7 +269,9 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
     j.begin_object().field("id", inter->id).field("type", inter->type);
     j.field("title", inter->title).key("source");
     write_json_place(j, deck, inter->span);
-    j.key("contacts").begin_array();
+    const InterfaceVerdict own = verdict_of_interface(scene, view, *inter);
+    j.field("level", to_string(own.level)).field("max_depth", own.max_depth);
+    j.field("max_ratio", own.max_ratio).key("contacts").begin_array();
     for (const ContactRole role :
          {ContactRole::primary, ContactRole::reversed, ContactRole::edges}) {
       for (std::size_t i = 0; i < scene.contacts.size(); ++i) {

@@ -2,6 +2,7 @@
 #include "report/json/ties_json.hpp"
 
 #include "deck/contact/ties.hpp"
+#include "verdict/shared/of_interface.hpp"
 
 namespace deck::detail {
 namespace {
@@ -42,7 +43,8 @@ void write_ties(JsonWriter& j, const Scene& scene, bool all) {
   j.key("ties").begin_array();
   for (const Tie& tie : scene.ties) {
     j.begin_object().field("id", tie.inter->id).field("type", tie.inter->type);
-    j.field("title", tie.inter->title).key("search_distance");
+    j.field("title", tie.inter->title).field("level", to_string(level_of_tie(tie)));
+    j.key("search_distance");
     tie.search_distance != 0 ? j.value(tie.search_distance) : j.null();
     j.key("not_evaluated");
     tie.not_evaluated.empty() ? j.null() : j.value(tie.not_evaluated);

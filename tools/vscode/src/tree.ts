@@ -2,7 +2,7 @@
 // interfaces with level and depth, parts. Knows nothing of the editor.
 import type { Place } from "./messages";
 
-/** Of a verdict (schemas/output/gaps.schema.json). */
+/** Of the deck or of an interface (schemas/output/gaps.schema.json). */
 export type Level = "stops" | "penetrates" | "crossed" | "untied" | "not-examined" | "warnings" | "remarks" | "clean";
 
 export interface Row {
@@ -15,24 +15,18 @@ export interface Row {
   rows: Row[];
 }
 
-interface Contact {
-  evaluated: boolean;
-  obstacle: string | null;
-  totals: { pairs: number; nodes: number; edges: number; solver_errors: number; crossed_elements: number | null; max_depth: number | null; max_ratio: number | null };
-}
 interface Tie {
   id: number;
   type: number;
   title: string;
+  level: Level;
   not_evaluated: string | null;
-  nodes: { tied: boolean; message: number | null }[];
-  main_and_tied: number[];
-  summary: { nodes: number; tied: number; not_found: number; dropped: number };
+  summary: { nodes: number; tied: number };
 }
 export interface Gaps {
   deck: { path: string; title: string; includes: { path: string; written: string; from: Place }[] };
   verdict: { level: Level; text: string };
-  interfaces: { id: number; type: number; title: string; source: Place; contacts: Contact[] }[];
+  interfaces: { id: number; type: number; title: string; source: Place; level: Level; max_depth: number | null; max_ratio: number | null }[];
   ties: Tie[];
   not_examined: { keyword: string; ids: number[] }[];
 }
@@ -42,34 +36,15 @@ export interface Parts {
 }
 
 const short = (x: number): string => String(Number(x.toPrecision(3)));
-const stopping = ["no_gap", "no_area", "no_element"];
-const idle = ["empty_main", "empty_secondary", "no_gap", "no_stiffness"];
-
-/** The deck's verdict has the level of all interfaces; this is the one of an interface alone: the first that applies. */
-function levelOf(contacts: Contact[]): Level {
-  const any = (f: (c: Contact) => boolean) => contacts.some(f);
-  const obstacle = (c: Contact, of: string[]) => c.evaluated && c.obstacle !== null && of.includes(c.obstacle);
-  if (any((c) => c.totals.solver_errors > 0 || obstacle(c, stopping))) return "stops";
-  if (any((c) => c.totals.pairs > 0)) return "penetrates";
-  if (any((c) => (c.totals.crossed_elements ?? 0) > 0)) return "crossed";
-  return any((c) => !c.evaluated || obstacle(c, idle)) ? "not-examined" : "clean";
-}
-
-function levelOfTie(t: Tie): Level {
-  if (t.not_evaluated !== null) return "not-examined";
-  if (t.main_and_tied.length > 0 || t.nodes.some((n) => n.message === 1078)) return "stops";
-  return t.summary.not_found + t.summary.dropped > 0 ? "untied" : "clean";
-}
 
 function interfaceRows(gaps: Gaps): Row[] {
   // What matters most comes first: a view is narrow.
   const row = (id: number, title: string, type: string, level: Level, more: string, place?: Place) =>
     ({ id, label: `${id} ${title}`.trim(), description: `${level}${more && `, ${more}`} · ${type}`, tooltip: `/INTER/${type}/${id} ${title}`, icon: level, place, find: { kind: "inter" as const, id }, rows: [] });
-  const largest = (contacts: Contact[], what: "max_depth" | "max_ratio") => Math.max(0, ...contacts.map((c) => c.totals[what] ?? 0));
-  const depth = (c: Contact[]) => (largest(c, "max_depth") > 0 ? `${short(largest(c, "max_depth"))} deep, ${short(100 * largest(c, "max_ratio"))} % of the gap` : "");
+  const depth = (i: Gaps["interfaces"][0]) => (i.max_depth ? `${short(i.max_depth)} deep, ${short(100 * (i.max_ratio ?? 0))} % of the gap` : "");
   return [
-    ...gaps.interfaces.map((i) => row(i.id, i.title, `TYPE${i.type}`, levelOf(i.contacts), depth(i.contacts), i.source)),
-    ...gaps.ties.map((t) => row(t.id, t.title, `TYPE${t.type}`, levelOfTie(t), t.not_evaluated ?? `${t.summary.tied} of ${t.summary.nodes} nodes tied`)),
+    ...gaps.interfaces.map((i) => row(i.id, i.title, `TYPE${i.type}`, i.level, depth(i), i.source)),
+    ...gaps.ties.map((t) => row(t.id, t.title, `TYPE${t.type}`, t.level, t.not_evaluated ?? `${t.summary.tied} of ${t.summary.nodes} nodes tied`)),
     ...gaps.not_examined.flatMap((n) => n.ids.map((id) => row(id, "", n.keyword.replace("/INTER/", ""), "not-examined", ""))),
   ].sort((a, b) => a.id - b.id);
 }
