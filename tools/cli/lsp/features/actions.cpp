@@ -315,9 +315,11 @@ Answer code_lenses(const View& view, const Json&) {
     std::string doing = "what the solver does";
     visit_interface(*inter, [&](const auto& typed) {
       const std::int64_t inacti = typed.Inacti.value == 1000 ? 0 : typed.Inacti.value;
-      if (const Field* f = block.schema->find_field("Inacti"))
-        doing = fmt::format("Inacti {}: {}", typed.Inacti.value,
-                            meaning_of_value(*f, inacti == 0 ? 1000 : inacti));
+      if (const Field* f = block.schema->find_field("Inacti")) {
+        const std::string meaning = meaning_of_value(*f, inacti == 0 ? 1000 : inacti);
+        doing = fmt::format("Inacti {}{}{}", typed.Inacti.value, meaning.empty() ? "" : ": ",
+                            meaning);
+      }
     });
     out.push_back(
         {{"range", range},
