@@ -1,8 +1,5 @@
 // deck lsp: the language server for editors, on standard input and output.
-#include <sys/resource.h>
 #include <unistd.h>
-
-#include <csignal>
 
 #include "common.hpp"
 #include "lsp/server.hpp"
@@ -27,15 +24,11 @@ int run(const Options& o) {
                 "type here");
     return exit_usage;
   }
-  // A client that is gone shows in what write() says.
-  std::signal(SIGPIPE, SIG_IGN);
-  lsp::Connection connection(0, 1);
   lsp::Settings settings;
   settings.include_paths = o.common.include_paths;
   settings.limits = o.common.limits;
   settings.threads = o.common.threads > 0 ? o.common.threads : 1;
-  lsp::Server server(connection, *schemas, std::move(settings));
-  return server.run() == 0 ? exit_clean : exit_findings;
+  return lsp::serve(*schemas, std::move(settings)) == 0 ? exit_clean : exit_findings;
 }
 
 Action setup(CommandLine& line) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 
 namespace deck::lsp {
@@ -43,11 +44,18 @@ class Queue {
   std::deque<Task> tasks_;
 };
 
-/// One thread that does what it is given; ends when this does, after the task at hand.
+/// One thread that does what it is given; ends when this does, after the task at hand. Where
+/// threads cannot be started the owner calls do_one().
 class Worker {
  public:
-  Worker() : thread_([this] { run(); }) {}
+  Worker() {
+    try {
+      thread_ = std::thread([this] { run(); });
+    } catch (const std::system_error&) {  // a machine without threads
+    }
+  }
   ~Worker() {
+    if (!thread_.joinable()) return;
     queue_.push({});
     thread_.join();
   }
@@ -55,6 +63,13 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   void push(Queue::Task task) { queue_.push(std::move(task)); }
+  /// Does the next task here; false: there is none, or a thread does them.
+  bool do_one() {
+    if (thread_.joinable()) return false;
+    const auto task = queue_.pop(Queue::Clock::now());
+    if (task) (*task)();
+    return task.has_value();
+  }
 
  private:
   void run() {

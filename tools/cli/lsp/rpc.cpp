@@ -10,6 +10,7 @@ namespace deck::lsp {
 namespace {
 
 constexpr std::size_t most_header = 8192;
+constexpr std::size_t most_kept = 65536;  // of what was taken already
 constexpr std::size_t most_content = std::size_t{2} << 30;
 
 /// N of "Content-Length: N" among the lines of a header; nullopt: there is none.
@@ -47,39 +48,43 @@ std::size_t end_of_header(std::string_view text) {
 }  // namespace
 
 bool Connection::fill() {
-  if (begin_ > 0) {
-    buffer_.erase(0, begin_);
-    begin_ = 0;
-  }
   char chunk[65536];
   ssize_t n = 0;
   do {
     n = ::read(in_, chunk, sizeof chunk);
   } while (n < 0 && errno == EINTR);
   if (n <= 0) return false;
-  buffer_.append(chunk, static_cast<std::size_t>(n));
+  receive({chunk, static_cast<std::size_t>(n)});
   return true;
 }
 
 std::optional<std::string> Connection::read() {
-  const auto unreadable = [&]() -> std::optional<std::string> {
+  for (;;) {
+    if (auto content = arrived()) return content;
+    if (closed_ || !fill()) return std::nullopt;
+  }
+}
+
+std::optional<std::string> Connection::arrived() {
+  const std::string_view rest = std::string_view(buffer_).substr(begin_);
+  const std::size_t size = end_of_header(rest.substr(0, most_header));
+  if (size == rest.npos && rest.size() < most_header) return std::nullopt;
+  const auto length = size == rest.npos ? std::nullopt : content_length(rest.substr(0, size));
+  if (!length) {
     write({{"jsonrpc", "2.0"},
            {"id", nullptr},
            {"error", {{"code", -32700}, {"message", "a header without Content-Length"}}}});
+    closed_ = true;
     return std::nullopt;
-  };
-  std::size_t size = 0;
-  while ((size = end_of_header(std::string_view(buffer_).substr(begin_))) == buffer_.npos) {
-    if (buffer_.size() - begin_ > most_header) return unreadable();
-    if (!fill()) return std::nullopt;
   }
-  const auto length = content_length(std::string_view(buffer_).substr(begin_, size));
-  if (!length) return unreadable();
-  begin_ += size;
-  while (buffer_.size() - begin_ < *length)
-    if (!fill()) return std::nullopt;
-  std::string content = buffer_.substr(begin_, *length);
-  begin_ += *length;
+  if (rest.size() - size < *length) return std::nullopt;
+  std::string content(rest.substr(size, *length));
+  begin_ += size + *length;
+  // Messages that arrived together are not moved for each of them.
+  if (begin_ == buffer_.size() || begin_ > most_kept) {
+    buffer_.erase(0, begin_);
+    begin_ = 0;
+  }
   return content;
 }
 

@@ -115,35 +115,54 @@ int Server::run() {
     start_due();
   }
   reader.join();
-  return shutdown_ ? 0 : 1;
+  return exit_code();
+}
+
+std::optional<Server::Clock::time_point> Server::step() {
+  // All that has arrived is seen before any of it is done: it may be cancelled.
+  while (const auto content = connection_.arrived())
+    if (!take(*content)) break;
+  if (connection_.closed()) queue_.push([this] { done_ = true; });
+  const auto do_short_tasks = [this] {
+    while (!done_) {
+      const auto task = queue_.pop(Clock::now());
+      if (task) (*task)();
+      start_due();
+      if (!task) return;
+    }
+  };
+  do_short_tasks();
+  if (done_ || !(analyst_->do_one() || geometer_->do_one())) return next_due();
+  do_short_tasks();
+  return Clock::now();  // there may be another one
 }
 
 /// On a thread of its own, so that a request can be cancelled while others are worked through.
 void Server::read_messages() {
-  for (;;) {
-    auto content = connection_.read();
-    if (!content) {
-      queue_.push([this] { done_ = true; });
-      return;
-    }
-    Json message = Json::parse(*content, nullptr, false);
-    const Json& method = at(message, {"method"});
-    if (method == "$/cancelRequest") {
-      const std::string id = at(message, {"params", "id"}).dump();
-      const std::lock_guard lock(cancelling_);
-      cancelled_.insert(id);
-      if (const auto it = reports_.find(id); it != reports_.end()) it->second->stop = true;
-      continue;
-    }
-    const bool end = method == "exit";
-    queue_.push([this, m = std::move(message)] {
-      if (m.is_discarded())
-        fail(nullptr, parse_error, "the message is no JSON");
-      else
-        dispatch(m);
-    });
-    if (end) return;
+  while (const auto content = connection_.read())
+    if (!take(*content)) return;
+  queue_.push([this] { done_ = true; });
+}
+
+/// Puts a message into the queue; false: it is the last one.
+bool Server::take(const std::string& content) {
+  Json message = Json::parse(content, nullptr, false);
+  const Json& method = at(message, {"method"});
+  if (method == "$/cancelRequest") {
+    const std::string id = at(message, {"params", "id"}).dump();
+    const std::lock_guard lock(cancelling_);
+    cancelled_.insert(id);
+    if (const auto it = reports_.find(id); it != reports_.end()) it->second->stop = true;
+    return true;
   }
+  const bool last = method == "exit";
+  queue_.push([this, m = std::move(message)] {
+    if (m.is_discarded())
+      fail(nullptr, parse_error, "the message is no JSON");
+    else
+      dispatch(m);
+  });
+  return !last;
 }
 
 bool Server::cancelled(const Json& id) {

@@ -317,8 +317,8 @@ Answer code_lenses(const View& view, const Json&) {
       const std::int64_t inacti = typed.Inacti.value == 1000 ? 0 : typed.Inacti.value;
       if (const Field* f = block.schema->find_field("Inacti")) {
         const std::string meaning = meaning_of_value(*f, inacti == 0 ? 1000 : inacti);
-        doing = fmt::format("Inacti {}{}{}", typed.Inacti.value, meaning.empty() ? "" : ": ",
-                            meaning);
+        doing =
+            fmt::format("Inacti {}{}{}", typed.Inacti.value, meaning.empty() ? "" : ": ", meaning);
       }
     });
     out.push_back(
