@@ -1,4 +1,5 @@
-// Builds the model whose nodes a strategy moves, and keeps its contacts up to date.
+// Builds the model whose nodes a strategy moves, keeps its contacts up to date, and tells what became
+// of it.
 #include "edit/fix/movable.hpp"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/tie_parts.hpp"
+#include "edit/fix/nodes/depenetrate_locks.hpp"
 
 namespace deck::detail {
 namespace {
@@ -184,6 +186,47 @@ void MovableDeck::search_again(Contact& contact, const std::vector<bool>& moved)
   };
   contact.kind == ContactKind::edge_edge ? look(&Contact::secondary_edges, &Contact::main_edges)
                                          : look(&Contact::secondary, &Contact::main);
+}
+
+Result<Scene> MovableDeck::prepare() {
+  auto holds = make_holds(context_, options_);
+  if (!holds) return holds.error();
+  holds_ = std::move(*holds);
+  Scene before = evaluate();
+  if (auto why = unevaluated(before, options_)) return *why;
+  mesh_.emplace(before);
+  crossings_ = mesh_->all_crossings(now_, options_.threads);
+  crossed_ = find_crossings(before, options_.threads);
+  baseline_ = Baseline(before, options_);
+  fix_.crossings_before = crossed_.size();
+  fix_.tied_pairs = baseline_.tied_pairs();
+  fix_.tied_nodes = baseline_.tied_nodes();
+  return before;
+}
+
+void MovableDeck::place(NodeIndex n, const Vec& p) {
+  now_.x[n] = model_.nodes.x[n] = p.x;
+  now_.y[n] = model_.nodes.y[n] = p.y;
+  now_.z[n] = model_.nodes.z[n] = p.z;
+}
+
+void MovableDeck::report(const Scene& before, const Scene& after,
+                         const std::vector<NodeIndex>& moved,
+                         const std::function<std::string(const Scene&, const PairAt&)>& reason_of) {
+  fix_.crossings_after = find_crossings(after, options_.threads).size();
+  set_interfaces(fix_, context_.interfaces(), options_, before, after);
+  fix_.moved = moved_list(model_, *mesh_, moved, start_, now_);
+  for (std::uint32_t c = 0; c < after.contacts.size(); ++c) {
+    const Contact& contact = after.contacts[c];
+    if (!is_wanted(options_, contact)) continue;
+    for (const auto& [secondary, row] : deepest_rows(contact))
+      fix_.refused.push_back({contact.inter->id, secondary_ids(*after.model, contact, *row),
+                              row->depth, reason_of(after, {c, row->secondary, row->main})});
+  }
+  std::stable_sort(
+      fix_.refused.begin(), fix_.refused.end(), [](const FixRefusal& a, const FixRefusal& b) {
+        return std::tuple(a.interface_id, -a.depth) < std::tuple(b.interface_id, -b.depth);
+      });
 }
 
 }  // namespace deck::detail

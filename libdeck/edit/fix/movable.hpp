@@ -1,7 +1,18 @@
 // What strategies that move nodes work on. Private to the stage.
 #pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deck/contact/crossings.hpp"
 #include "edit/fix/common.hpp"
+#include "edit/fix/harm.hpp"
 #include "edit/fix/nodes/depenetrate_cells.hpp"
+#include "edit/fix/nodes/depenetrate_mesh.hpp"
+#include "edit/fix/nodes/depenetrate_rows.hpp"
 #include "edit/shared/depenetrate.hpp"
 
 namespace deck::detail {
@@ -21,12 +32,27 @@ class MovableDeck {
   const Scene& evaluate();
   const Scene& evaluate_with_ties();
 
+  /// The contacts before anything moves; keeps what may not move and what must not get worse.
+  /// Error: bad options, or a wanted interface that cannot be evaluated.
+  Result<Scene> prepare();
+  void place(NodeIndex n, const Vec& p);
+  /// Fills in what the repair leaves behind: counts, moved nodes, and one line per secondary node
+  /// or edge that still penetrates, with the reason of its deepest pair.
+  void report(const Scene& before, const Scene& after, const std::vector<NodeIndex>& moved,
+              const std::function<std::string(const Scene&, const PairAt&)>& reason_of);
+
   const LoadedDeck& context_;
   const MoveNodesOptions& options_;
   Model model_;
   Interfaces interfaces_;
   Coordinates start_, now_;
   NodeCells cells_;
+  std::vector<std::uint8_t> holds_;  ///< by node: a Hold
+  std::optional<FixMesh> mesh_;
+  Baseline baseline_;              ///< penetrations and ties before
+  std::vector<Crossing> crossed_;  ///< before: of edges with main segments
+  std::vector<FixMesh::Crossed> crossings_;  ///< before: of the whole mesh
+  PenetrationFix fix_;
 
  private:
   bool keeps_its_sides(const Contact& contact) const;

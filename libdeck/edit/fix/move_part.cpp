@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "deck/contact/crossings.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
 #include "edit/fix/movable.hpp"
@@ -29,22 +28,13 @@ class PartMover : MovableDeck {
       : MovableDeck(context, options) {}
 
   Result<PenetrationFix> run() {
-    auto holds = make_holds(context_, options_);
-    if (!holds) return holds.error();
-    holds_ = std::move(*holds);
-    const Scene before = evaluate();
-    if (auto why = unevaluated(before, options_)) return *why;
-    mesh_.emplace(before);
-    groups_.emplace(context_, before, options_);
-    baseline_ = Baseline(before, options_);
-    crossings_ = mesh_->all_crossings(now_, options_.threads);
+    const auto before = prepare();
+    if (!before) return before.error();
+    groups_.emplace(context_, *before, options_);
     fix_.strategy = "move-part";
-    fix_.crossings_before = find_crossings(before, options_.threads).size();
-    fix_.tied_pairs = baseline_.tied_pairs();
-    fix_.tied_nodes = baseline_.tied_nodes();
-    collect(before);
-    try_all(before);
-    return finish(before);
+    collect(*before);
+    try_all(*before);
+    return finish(*before);
   }
 
  private:
@@ -134,12 +124,6 @@ class PartMover : MovableDeck {
     return out;
   }
 
-  void place(NodeIndex n, const std::array<double, 3>& p) {
-    now_.x[n] = model_.nodes.x[n] = p[0];
-    now_.y[n] = model_.nodes.y[n] = p[1];
-    now_.z[n] = model_.nodes.z[n] = p[2];
-  }
-
   /// Puts the nodes where their printed coordinates are. False: a coordinate does not fit.
   bool move(const std::vector<NodeIndex>& nodes, const Vec& by, Texts& texts) {
     const double step[3] = {by.x, by.y, by.z};
@@ -156,7 +140,7 @@ class PartMover : MovableDeck {
         to[k] = text->value;
         texts[{n, axis}] = text->text;
       }
-      place(n, to);
+      place(n, {to[0], to[1], to[2]});
     }
     return true;
   }
@@ -217,27 +201,10 @@ class PartMover : MovableDeck {
     const Scene after = fix_scene(*again, options_, false);
     if (const auto why = harm_text(model_, after, baseline_.harm(after)))
       return Error{Error::Code::internal, "the deck read again differs: " + *why};
-    fix_.crossings_after = find_crossings(after, options_.threads).size();
-    set_interfaces(fix_, context_.interfaces(), options_, before, after);
-    fix_.moved = moved_list(model_, *mesh_, moved_, start_, now_);
-    list_refused(after);
+    report(before, after, moved_,
+           [this](const Scene& scene, const PairAt& at) { return reason_of(key_of(scene, at)); });
     fix_.complete = fix_.refused.empty();
     return std::move(fix_);
-  }
-
-  void list_refused(const Scene& scene) {
-    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
-      const Contact& contact = scene.contacts[c];
-      if (!is_wanted(options_, contact)) continue;
-      for (const auto& [secondary, row] : deepest_rows(contact))
-        fix_.refused.push_back({contact.inter->id, secondary_ids(*scene.model, contact, *row),
-                                row->depth,
-                                reason_of(key_of(scene, {c, row->secondary, row->main}))});
-    }
-    std::stable_sort(
-        fix_.refused.begin(), fix_.refused.end(), [](const FixRefusal& a, const FixRefusal& b) {
-          return std::tuple(a.interface_id, -a.depth) < std::tuple(b.interface_id, -b.depth);
-        });
   }
 
   std::string reason_of(const PairKey& key) const {
@@ -253,21 +220,16 @@ class PartMover : MovableDeck {
     return "no translation within the bound frees it (--max-displacement)";
   }
 
-  std::optional<FixMesh> mesh_;
   std::optional<PartGroups> groups_;
-  std::vector<std::uint8_t> holds_;
   std::map<std::uint32_t, std::vector<WayOut>> ways_;                 ///< by group
   std::map<PairKey, std::pair<std::uint32_t, std::uint32_t>> sides_;  ///< groups of both sides
   std::map<PairKey, std::string> skipped_;
   std::map<std::uint32_t, std::string> obstacles_;  ///< by group: why it may not move
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_;
-  Baseline baseline_;
   double deepest_ = 0;
   std::optional<Candidate> chosen_;
   std::vector<NodeIndex> moved_;
   Texts texts_;
   std::string why_not_;  ///< of the last translation that would harm
-  PenetrationFix fix_;
 };
 
 }  // namespace

@@ -1,5 +1,4 @@
 // The iteration: search, ask for displacements, smooth, print, search again.
-// Over 600 lines: the steps of an iteration share its state (places, limits, what holds a node).
 #include "edit/shared/depenetrate.hpp"
 
 #include <algorithm>
@@ -10,7 +9,6 @@
 #include <set>
 
 #include "base/shared/parallel.hpp"
-#include "deck/contact/crossings.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
 #include "edit/fix/movable.hpp"
@@ -36,49 +34,33 @@ constexpr double least_component = 1e-3;  // of a move along an axis, to be prin
 constexpr double enough_clearance = 0.5;  // of it may be lacking
 constexpr double least_move = 1e-6;       // of the depth: a shorter one repairs nothing
 
-void put(Nodes& nodes, NodeIndex n, Vec p) {
-  nodes.x[n] = p.x;
-  nodes.y[n] = p.y;
-  nodes.z[n] = p.z;
-}
-
 class Depenetrator : MovableDeck {
  public:
   Depenetrator(const LoadedDeck& context, const MoveNodesOptions& options)
       : MovableDeck(context, options) {}
 
   Result<PenetrationFix> run() {
-    auto holds = make_holds(context_, options_);
-    if (!holds) return holds.error();
-    holds_ = std::move(*holds);
-    const Scene before = evaluate();
-    if (auto why = unevaluated(before, options_)) return *why;
-    begin(before);
+    const auto before = prepare();
+    if (!before) return before.error();
+    begin(*before);
     for (int round = 0; round < rounds && anything_to_do_; ++round) {
       const bool solved = iterate();
       print_all();
       // Printing leaves small components out, which may cost a little of the clearance.
       if (take_back_harmful() == 0 && (!solved || tasks_left() == 0)) break;
     }
-    settle();
-    return finish(before);
+    keep_needed_moves();
+    return finish(*before);
   }
 
  private:
   void begin(const Scene& scene) {
-    mesh_.emplace(scene);
     moved_in_part_.assign(model_.parts.size(), 0);
     looked_up_.assign(model_.nodes.size(), false);
-    crossings_ = mesh_->all_crossings(now_, options_.threads);
-    const auto crossed = find_crossings(scene, options_.threads);
-    fix_.crossings_before = crossed.size();
-    for (const Crossing& c : crossed) {
+    for (const Crossing& c : crossed_) {
       for (const NodeIndex n : c.edge) hold(n, Hold::crossed);
       for (const NodeIndex n : scene.contacts[c.contact].main[c.main].nodes) hold(n, Hold::crossed);
     }
-    baseline_ = Baseline(scene, options_);
-    fix_.tied_pairs = baseline_.tied_pairs();
-    fix_.tied_nodes = baseline_.tied_nodes();
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
       if (!is_wanted(options_, scene.contacts[c])) continue;
       const std::vector<bool> inside = inside_solids(scene, c);  // all false for edges
@@ -334,13 +316,6 @@ class Depenetrator : MovableDeck {
     }
   }
 
-  void place(NodeIndex n, Vec p) {
-    put(model_.nodes, n, p);
-    now_.x[n] = p.x;
-    now_.y[n] = p.y;
-    now_.z[n] = p.z;
-  }
-
   /// Makes the moves; those that cross elements or spoil their shape are halved, then dropped.
   bool apply(const Scene& scene, const std::vector<PairNow>& pairs, const NodeMoves& moves) {
     std::vector<double> share(moves.size(), 1);
@@ -475,7 +450,7 @@ class Depenetrator : MovableDeck {
   }
 
   /// Takes back what repairs nothing, and what would harm without it, until all moves are needed.
-  void settle() {
+  void keep_needed_moves() {
     while (take_back_idle() + take_back_harmful() > 0) {
     }
   }
@@ -532,43 +507,24 @@ class Depenetrator : MovableDeck {
       std::size_t taken = 0;
       for (const auto& [n, why] : bad) taken += take_back(n, why);
       if (taken > 0) {
-        settle();
+        keep_needed_moves();
         continue;
       }
       const std::vector<Harm> harm = baseline_.harm(after);
       if (const auto why = harm_text(model_, after, harm))
         return Error{Error::Code::internal, "the deck read again differs: " + *why};
       fix_.strategy = "move-nodes";
-      fix_.crossings_after = find_crossings(after, options_.threads).size();
-      set_interfaces(fix_, context_.interfaces(), options_, before, after);
-      fix_.moved = moved_list(model_, *mesh_, moved_.all(), start_, now_);
-      list_refused(after);
+      report(before, after, moved_.all(),
+             [this](const Scene& scene, const PairAt& at) { return reason_of(scene, at); });
       note_unevaluated(fix_, after, options_);
       fix_.complete = fix_.refused.empty();
       return std::move(fix_);
     }
   }
 
-  /// One line per secondary node or edge that still penetrates: the deepest pair and what held it.
-  void list_refused(const Scene& scene) {
-    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
-      const Contact& contact = scene.contacts[c];
-      if (!is_wanted(options_, contact)) continue;
-      for (const auto& [secondary, row] : deepest_rows(contact)) {
-        const PairAt at{c, row->secondary, row->main};
-        FixRefusal r;
-        r.interface_id = contact.inter->id;
-        r.nodes = secondary_ids(*scene.model, contact, *row);
-        r.depth = row->depth;
-        const auto it = skipped_.find(key_of(scene, at));
-        r.reason = it != skipped_.end() ? it->second : what_holds(scene, at);
-        fix_.refused.push_back(std::move(r));
-      }
-    }
-    std::stable_sort(
-        fix_.refused.begin(), fix_.refused.end(), [](const FixRefusal& a, const FixRefusal& b) {
-          return std::tuple(a.interface_id, -a.depth) < std::tuple(b.interface_id, -b.depth);
-        });
+  std::string reason_of(const Scene& scene, const PairAt& at) {
+    const auto it = skipped_.find(key_of(scene, at));
+    return it != skipped_.end() ? it->second : what_holds(scene, at);
   }
 
   std::string what_holds(const Scene& scene, const PairAt& place) {
@@ -613,21 +569,16 @@ class Depenetrator : MovableDeck {
            std::to_string(all) + " nodes); nothing done";
   }
 
-  std::optional<FixMesh> mesh_;
-  std::vector<std::uint8_t> holds_;
   std::vector<bool> looked_up_;  ///< by cells_
   NodeMarks moved_;
   std::vector<std::uint32_t> moved_in_part_;
   std::map<NodeIndex, int> strikes_;               ///< how often a move was dropped
   std::map<NodeIndex, Hold> blocked_;              ///< and why, the last time
   std::vector<PairAt> active_;                     ///< every pair that was ever too close
-  Baseline baseline_;                              ///< penetrations and ties before
   DepthBounds bounds_;                             ///< of the nodes in penetrations
   std::map<std::uint32_t, std::uint32_t> needed_;  ///< nodes, of parts that are left alone
   std::map<PairKey, std::string> skipped_;         ///< pairs that moving cannot solve, and why
-  std::vector<FixMesh::Crossed> crossings_;        ///< before
   std::map<std::pair<NodeIndex, int>, std::string> texts_;
-  PenetrationFix fix_;
   std::size_t first_left_ = 0;
   bool waiting_ = false;  ///< the last iteration made nothing better
   bool anything_to_do_ = false;
