@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""A tour through the verbs in a pseudo-terminal: what a person sees at 80 and 120 columns is compared with the screens in
+"""A tour through the verbs in a pseudo-terminal: what a person sees at 80 columns is compared with the screens in
 tests/tools/screens, and no line of any screen is wider than the terminal, at 80, 120 and 200 columns, over the samples
-and, where they are there, decks outside of the project (whose screens are measured, not kept). At the end a repository
-whose server stops a change that makes one gap worse and takes one that makes it better.
+and, where they are there, decks outside of the project (whose screens are measured, not kept).
 
     python3 tests/tools/tour.py DECK            compares
     python3 tests/tools/tour.py DECK --record   writes the screens anew; look at the difference before you commit it
 
-A file of screens has a command behind '$', then a screen for each width. Verbs whose output depends on the machine are only
+A file of screens has a command behind '$', then its screen. Verbs whose output depends on the machine are only
 measured. It ends with 'N passed, N failed'."""
 import argparse
 import difflib
@@ -26,7 +25,7 @@ import unicodedata
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCREENS = os.path.join(ROOT, "tests", "tools", "screens")
-KEPT, MEASURED = (80, 120), (80, 120, 200)
+KEPT, MEASURED = 80, (80, 120, 200)
 ESCAPES = re.compile(r"\x1b\[[0-9;]*[mK]")
 
 # One file of screens each: commands as they are typed in a directory with samples/ and the decks made below.
@@ -272,8 +271,8 @@ class Tour:
             for columns in MEASURED:
                 screen, code = seen(self.program, command.split(), columns, folder)
                 self.measure("deck " + command, screen, columns)
-                if columns in KEPT:
-                    text += ["---- %d columns, exit code %d" % (columns, code), screen]
+                if columns == KEPT:
+                    text += ["---- exit code %d" % code, screen]
                 self.check("deck %s at %d shows no path of this machine" % (command, columns), folder not in screen and ROOT not in screen)
             screen, _ = seen(self.program, command.split(), 80, folder, color=True)
             self.measure("coloured deck " + command, screen, 80)
@@ -308,40 +307,6 @@ class Tour:
                 screen, code = seen(self.program, (verb[0], path, *verb[1:]), 80, folder)
                 self.measure("deck %s of %s" % (" ".join(verb), os.path.relpath(path, corpus)), screen, 80, code)
 
-    def repository(self, folder):
-        """A server that takes a push only if no gap got worse."""
-        if shutil.which("git") is None:
-            print("skipped the repository: there is no git")
-            return
-        env = {**os.environ, "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1", "GIT_AUTHOR_NAME": "a", "GIT_AUTHOR_EMAIL": "a@b.example",
-               "GIT_COMMITTER_NAME": "a", "GIT_COMMITTER_EMAIL": "a@b.example", "DECK": self.program}
-        server, work = os.path.join(folder, "server.git"), os.path.join(folder, "work")
-
-        def git(*words, cwd=work):
-            return subprocess.run(["git", *words], cwd=cwd, env=env, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
-        git("init", "-q", "--bare", server, cwd=folder)
-        hook = os.path.join(server, "hooks", "pre-receive")
-        with open(hook, "w") as f:
-            f.write("#!/bin/sh\nfolder=$(mktemp -d)\ntrap 'rm -rf \"$folder\"' EXIT\nread old new ref\ngit archive \"$new\" | tar -x -C \"$folder\"\n"
-                    "cd \"$folder\" && \"$DECK\" gaps car_0000.rad --compare gaps.json --fail-on new,worse --worst 0\n")
-        os.chmod(hook, 0o755)
-        git("init", "-q", "-b", "main", work, cwd=folder)
-        car = os.path.join(work, "car_0000.rad")
-        shutil.copy(os.path.join(folder, "samples", "too_close_0000.rad"), car)
-        subprocess.run([self.program, "gaps", "car_0000.rad", "--json", "gaps.json", "--quiet"], cwd=work, timeout=60)
-        git("add", "-A")
-        git("commit", "-qm", "the car")
-        git("remote", "add", "origin", server)
-        for name, source, taken, said in (("the deck as it is", None, True, "Gate: passed"), ("a change that makes one gap worse", "worse_0000.rad", False, "1 worse"),
-                                          ("a change that makes it better", "better_0000.rad", True, "1 better")):
-            if source:
-                git("checkout", "-q", "-B", "change", "main")
-                shutil.copy(os.path.join(folder, source), car)
-                git("commit", "-qam", name)
-            r = git("push", "-q", "-f", "origin", "HEAD")
-            self.check("%s is %s by the server" % (name, "taken" if taken else "stopped"), (r.returncode == 0) == taken and said in r.stderr,
-                       "git push: %d, %s" % (r.returncode, r.stderr[-600:]))
-
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -356,7 +321,6 @@ def main():
         tour.screens(folder)
         if not tour.options.only:
             tour.outside(folder)
-            tour.repository(folder)
     print("%d passed, %d failed" % (tour.passed, tour.failed))
     sys.exit(1 if tour.failed else 0)
 
