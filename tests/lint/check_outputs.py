@@ -12,39 +12,19 @@ import subprocess
 import sys
 import tempfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "robustness"))
+from common import ROOT, Checks  # noqa: E402
+
 MISTAKES = os.path.join(ROOT, "samples", "every_mistake_0000.rad")
 CLEAN = os.path.join(ROOT, "samples", "clean_plates_0000.rad")
 
 
-class Checks:
-    def __init__(self):
-        program = sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "build", "dev", "tools", "deck")
-        self.program = os.path.abspath(program)
-        if not os.access(self.program, os.X_OK):
-            sys.exit("%s: no such program; build the target 'deck' first" % self.program)
-        self.passed = self.failed = 0
-
-    def check(self, name, ok, why=""):
-        if ok:
-            self.passed += 1
-        else:
-            self.failed += 1
-            print("FAILED  %s%s" % (name, ": " + str(why)[:300] if why else ""))
-        return ok
-
-    def skip(self, name, why):
-        print("skipped %s: %s" % (name, why))
-
+class Lint(Checks):
     def run(self, *args, cwd=None, stdin=None):
+        """As text, unlike the others' run()."""
         env = dict(os.environ, NO_COLOR="1")
         return subprocess.run([self.program, *args], cwd=cwd, input=stdin, capture_output=True, text=True, env=env,
                               stdin=None if stdin is not None else subprocess.DEVNULL, timeout=120)
-
-    def finish(self):
-        print("%d passed, %d failed" % (self.passed, self.failed))
-        sys.exit(1 if self.failed else 0)
 
 
 def lint(c, *args, **kw):
@@ -233,7 +213,7 @@ def pages(c):
 
 
 def main():
-    c = Checks()
+    c = Lint()
     tmp = tempfile.mkdtemp(prefix="deck-lint-")
     try:
         exit_codes(c, tmp)

@@ -64,7 +64,7 @@ class Checks:
             self.passed += 1
         else:
             self.failed += 1
-            print("FAILED  %s%s" % (name, ": " + why if why else ""), flush=True)
+            print("FAILED  %s%s" % (name, ": %s" % (why,) if why else ""), flush=True)
         return ok
 
     def skip(self, name, why):

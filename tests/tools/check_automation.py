@@ -11,21 +11,13 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "robustness"))
+from common import ROOT, Checks  # noqa: E402
+
 SAMPLES = os.path.join(ROOT, "samples")
 
 
-class Checks:
-    def __init__(self, program):
-        self.program = os.path.abspath(program)
-        self.passed = self.failed = 0
-
-    def check(self, name, ok, why=""):
-        self.passed += bool(ok)
-        self.failed += not ok
-        if not ok:
-            print("FAILED  %s: %s" % (name, str(why)[:400]))
-
+class Scripts(Checks):
     def script(self, name, *arguments):
         env = dict(os.environ, DECK=self.program, NO_COLOR="1")
         return subprocess.run([sys.executable, os.path.join(SAMPLES, "automation", name), *arguments], env=env, capture_output=True,
@@ -96,7 +88,7 @@ def friction(c):
 
 
 def main():
-    c = Checks(sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "build", "dev", "tools", "deck"))
+    c = Scripts()
     tmp = tempfile.mkdtemp(prefix="deck-automation-")
     try:
         add_interface(c, tmp)
@@ -109,8 +101,7 @@ def main():
     for name in sorted(os.listdir(os.path.join(SAMPLES, "automation"))):
         if name.endswith(".py"):
             c.check("samples/README.md names " + name, name in readme)
-    print("%d passed, %d failed" % (c.passed, c.failed))
-    sys.exit(1 if c.failed else 0)
+    c.finish()
 
 
 if __name__ == "__main__":
