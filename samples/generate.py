@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the sample decks beside this file. Run it after changing a deck here; the decks are kept in
-the repository so you need not run it to use them.
+the repository so you need not run it to use them. Over 600 lines: one function a deck.
 
     python3 samples/generate.py            write all decks
     python3 samples/generate.py --check    exit 1 if a deck on disk differs from what would be written

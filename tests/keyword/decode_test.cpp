@@ -1,4 +1,5 @@
 // Cells of a block against a schema written for the test.
+// Over 600 lines: independent tests of one schema.
 #include "deck/keyword/decode.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // The walk through a deck: blocks, headers, /BEGIN, includes, submodels, ends.
+// Over 600 lines: independent tests of one reader.
 #include <gmock/gmock.h>
 
 #include <random>

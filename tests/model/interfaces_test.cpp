@@ -1,4 +1,5 @@
 // Tests of effective values and where they come from.
+// Over 600 lines: independent tests, a few lines for each field.
 #include "deck/model/interfaces.hpp"
 #include "deck/text/rule_id.hpp"
 

@@ -1,4 +1,5 @@
 // Groups, surfaces and lines: what is selected, in which order, and what is said about mistakes.
+// Over 600 lines: independent tests of one resolver.
 #include <algorithm>
 
 #include "model/selection_deck.hpp"

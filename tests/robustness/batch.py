@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """deck batch: the results are those of the verbs, the bytes do not depend on how the work was divided
 (jobs, shards under mpirun, Slurm arrays, GNU parallel, Snakemake), a batch that was stopped goes on where it
-was, and one bad deck costs nothing but itself."""
+was, and one bad deck costs nothing but itself. Over 600 lines: independent checks that share the runs."""
 import fcntl
 import glob
 import gzip

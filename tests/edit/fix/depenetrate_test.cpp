@@ -1,4 +1,4 @@
-// Tests of moving nodes out of gaps.
+// Tests of moving nodes out of gaps. Over 600 lines: independent tests of one strategy.
 #include "edit/shared/depenetrate.hpp"
 
 #include "edit/fix/support.hpp"

@@ -10,6 +10,7 @@
 Arrays are NumPy arrays over the memory of the library: nothing is copied, and what they belong to lives as long as
 they do. All lengths, forces and times are in the deck's working units.
 """
+# Over 600 lines: half of them are the documentation of what users see in one module.
 from __future__ import annotations
 
 import json as _json

@@ -60,6 +60,7 @@ async function start(): Promise<void> {
 const telephone = "(max-width: 600px)";
 const oneColumn = "(max-width: 1100px)";
 
+// Over 80 lines: header, picture, tables and keys know one another, and the order decides what is painted first.
 function build(model: Model & { beside: boolean }, software: boolean, machine: WebGLRenderer | null): void {
   const times: Record<string, number> = { decoded: performance.now() - started };
   const meta = loadMeta();

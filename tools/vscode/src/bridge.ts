@@ -23,6 +23,7 @@ declare function acquireVsCodeApi(): { postMessage(message: FromPage): void };
 const editor = acquireVsCodeApi();
 let asked = false; // what the editor asks for is not reported back to it
 
+// Over 80 lines: what the editor asks for must not be reported back to it, which both directions share.
 function start(report: Report): void {
   const cardOf = (hit: Hit) => report.meta.interfaces[report.meta.contacts[hit.contact].interface];
   const place = ({ file, line }: Place): Place => ({ file, line });

@@ -50,6 +50,7 @@ function missing(context: vscode.ExtensionContext, why: string): void {
   void say();
 }
 
+// Over 80 lines: the commands share the client, which lives as long as they do.
 async function start(context: vscode.ExtensionContext, channel: vscode.LogOutputChannel): Promise<void> {
   await stop();
   const s = settings();

@@ -228,6 +228,7 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
 
 // ---- list -------------------------------------------------------------------------------------
 
+// Over 80 lines: the columns of the list and its filters share what a row is.
 export function listSection(report: Report, open: (hit: Hit) => void, exportsMenu: HTMLElement, changed: () => void): { element: HTMLElement; table: VirtualTable<Hit> } {
   const interfaceId = (x: Hit) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id;
   const action = (x: Hit) => {

@@ -17,7 +17,8 @@ interface ContactRow {
   part: boolean;
 }
 
-/** Table of interfaces, the contacts of a TYPE19 folded; choosing a row filters everything and opens its settings. */
+/** Table of interfaces, the contacts of a TYPE19 folded; choosing a row filters everything and opens its settings. Over 80
+ * lines: its columns share what a row is. */
 export function interfaces(report: Report): HTMLElement {
   const open = new Set<number>();
   const rowsNow = (): ContactRow[] =>
@@ -214,6 +215,7 @@ function whatIf(report: Report): HTMLElement {
 
 let cardOpen = false;
 
+// Over 80 lines: what is made here is filled by the function returned.
 function build(report: Report, inter: number, panel: HTMLElement): () => void {
   const meta = report.meta.interfaces[inter];
   const contacts = report.contactsOf(inter);
