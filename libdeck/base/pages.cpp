@@ -33,7 +33,7 @@ void prefer_large_pages(const void* begin, const void* end) {
     ::madvise(reinterpret_cast<void*>(all.begin), all.end - all.begin, MADV_HUGEPAGE);
 }
 
-void lay_pages(void* begin, void* end, int threads) {
+void populate_pages(void* begin, void* end, int threads) {
 #ifdef MADV_POPULATE_WRITE
   constexpr std::uintptr_t page = 4096, at_once = 4 * large_page;
   const Inside all(begin, end, page);

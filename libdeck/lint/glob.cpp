@@ -26,7 +26,7 @@ class Reached {
   }
   void start() { now_[0] = true; }
   /// Follows what needs no character; false if no position is left.
-  bool settle() {
+  bool pass_stars() {
     bool any = now_.back();
     for (std::size_t i = 0; i < kind_.size(); ++i) {
       if (!now_[i]) continue;
@@ -81,12 +81,12 @@ bool glob_match(std::string_view pattern, std::string_view path) {
   reached.start();
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (i > 0 && path[i - 1] == '/' && (folders || i - 1 == last)) reached.start();
-    const bool hopeless = !reached.settle() && (last == std::string_view::npos || i > last);
+    const bool hopeless = !reached.pass_stars() && (last == std::string_view::npos || i > last);
     if (hopeless) return false;
     reached.step(path[i]);
   }
   if (!path.empty() && path.back() == '/') reached.start();
-  reached.settle();
+  reached.pass_stars();
   return reached.at_end();
 }
 

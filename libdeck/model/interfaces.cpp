@@ -21,7 +21,7 @@ std::int64_t flag(const EffectiveInt& e) { return e.value == nothing ? 0 : e.val
 
 /// Gives a field a value that the card did not ask for.
 template <class T>
-void settle(Effective<T>& e, T value) {
+void set_effective(Effective<T>& e, T value) {
   if (e.value == value) return;
   e.origin = e.value == T{} ? Origin::built_in : Origin::derived;
   e.value = value;
@@ -30,7 +30,7 @@ void settle(Effective<T>& e, T value) {
 /// 0 and blank mean `value`.
 template <class T>
 void fallback(Effective<T>& e, T value) {
-  if (e.value == T{}) settle(e, value);
+  if (e.value == T{}) set_effective(e, value);
 }
 
 /// Marks a field that the geometry has to fill.
@@ -52,17 +52,17 @@ class Rules {
     default_flag(t.Isearch, "Isearch", 2);
     default_flag(t.Idel2, "Idel", nothing);
     // 1000 beats the block and is the solver's own value.
-    if (t.Spotflag.value == nothing) settle<std::int64_t>(t.Spotflag, 5);
-    if (t.Isearch.value == nothing) settle<std::int64_t>(t.Isearch, 2);
+    if (t.Spotflag.value == nothing) set_effective<std::int64_t>(t.Spotflag, 5);
+    if (t.Isearch.value == nothing) set_effective<std::int64_t>(t.Isearch, 2);
     const std::int64_t f = t.Spotflag.value;
     const bool penalty = f >= 25 && f <= 28, rupture = f >= 20 && f <= 22;
-    if (f != 0 && f != 5 && f != 1 && !penalty) settle<std::int64_t>(t.Idel2, nothing);
+    if (f != 0 && f != 5 && f != 1 && !penalty) set_effective<std::int64_t>(t.Idel2, nothing);
     if (penalty) {
-      settle<std::int64_t>(t.Level, 0);
+      set_effective<std::int64_t>(t.Level, 0);
       fallback(t.Stfac, 1.0);
       fallback(t.Visc, 0.05);
       default_flag(t.Istf, "Istf", 2);
-      if (t.Istf.value == nothing) settle<std::int64_t>(t.Istf, 2);
+      if (t.Istf.value == nothing) set_effective<std::int64_t>(t.Istf, 2);
     }
     if (rupture) {
       fallback<std::int64_t>(t.Rupt, 2);
@@ -70,7 +70,7 @@ class Rules {
       fallback(t.Max_T_Dist, 1e20);
       if (t.Ifiltr.value == 1) {
         fallback(t.Alpha, 1.0);
-        settle(t.Alpha, std::clamp(t.Alpha.value, 0.0, 1.0));
+        set_effective(t.Alpha, std::clamp(t.Alpha.value, 0.0, 1.0));
       }
     }
     fallback<std::int64_t>(t.Iproj, 1);
@@ -82,7 +82,7 @@ class Rules {
     default_flag(t.Ibag, "Ibag", nothing);
     common_flags(t);
     airbag(t.Ibag);
-    if (!model_.has_adaptive_mesh) settle<std::int64_t>(t.Iadm, 0);
+    if (!model_.has_adaptive_mesh) set_effective<std::int64_t>(t.Iadm, 0);
     scaled_gap(t);
     stiffness_bounds(t, flag(t.Istf) > 1);
     fallback(t.AscaleF, 1.0);
@@ -135,7 +135,7 @@ class Rules {
     tied_nodes(t.Irem_i2);
     default_flag(t.Ibag, "Ibag", nothing);
     common_flags(t);
-    if (t.Igap.value == 4) settle<std::int64_t>(t.Irem_gap, 2);
+    if (t.Igap.value == 4) set_effective<std::int64_t>(t.Irem_gap, 2);
     airbag(t.Ibag);
     scaled_gap(t);
     fallback(t.Edge_scale_gap, 1.0);
@@ -160,7 +160,7 @@ class Rules {
     else
       modern_inacti(t);
     if (flag(t.Iedge) <= 0 || level_of(t.surf_ID1.value, t.surf_ID2.value) == 3)
-      settle(t.Iedge, nothing);
+      set_effective(t.Iedge, nothing);
     stiffness_bounds(t, flag(t.Istf) > 1 || t.Istf.value == -1);
     modern_rest(t);
   }
@@ -176,7 +176,7 @@ class Rules {
     default_flag(t.Inacti, "Inacti", nothing);
     default_flag(t.Ithick, "Ithick", nothing);
     if (t.Igap.value == 3 && t.Ishape.value == 1) overrule(t.Ishape, 2);
-    if (model_.implicit && flag(t.Inacti) == 0) settle<std::int64_t>(t.Inacti, -1);
+    if (model_.implicit && flag(t.Inacti) == 0) set_effective<std::int64_t>(t.Inacti, -1);
     modern_inacti(t);
     mesh_fraction(t);
     fallback(t.Gap_scale, 1.0);
@@ -189,7 +189,7 @@ class Rules {
     }
     if (t.Ithe.value > 0) {
       fallback(t.AscaleK, 1.0);
-      if (!model_.has_thermal_material) settle<std::int64_t>(t.Ithe, 0);
+      if (!model_.has_thermal_material) set_effective<std::int64_t>(t.Ithe, 0);
     }
     modern_rest(t);
   }
@@ -226,8 +226,8 @@ class Rules {
     fallback(t.Stfac, 1.0);
     fallback(t.Tstop, never);
     fallback(t.VISs, 0.05);
-    if (t.Inacti.value != -1 && t.Inacti.value != -2) settle(t.Tpressfit, 0.0);
-    if (t.Xfreq.value == 0) settle<std::int64_t>(t.Ifiltr, 0);
+    if (t.Inacti.value != -1 && t.Inacti.value != -2) set_effective(t.Tpressfit, 0.0);
+    if (t.Xfreq.value == 0) set_effective<std::int64_t>(t.Ifiltr, 0);
   }
 
   void default_flag(EffectiveInt& e, std::string_view name, std::int64_t hard) const {
@@ -280,7 +280,7 @@ class Rules {
   void airbag(EffectiveInt& ibag) const {
     if (flag(ibag) == 0 || model_.has_monitored_volume || model_.has_ale || model_.has_sol2sph)
       return;
-    settle(ibag, nothing);
+    set_effective(ibag, nothing);
   }
 
   template <class Inter>
@@ -289,8 +289,8 @@ class Rules {
       fallback(t.Fscalegap, 1.0);
       fallback(t.Gapmax, never);
     } else {
-      settle(t.Fscalegap, 1.0);
-      settle(t.Gapmax, never);
+      set_effective(t.Fscalegap, 1.0);
+      set_effective(t.Gapmax, never);
     }
     mesh_fraction(t);
   }
@@ -302,11 +302,11 @@ class Rules {
 
   template <class Inter>
   static void stiffness_bounds(Inter& t, bool used) {
-    if (!used) settle(t.Stmin, 0.0);
+    if (!used) set_effective(t.Stmin, 0.0);
     if (used)
       fallback(t.Stmax, never);
     else
-      settle(t.Stmax, never);
+      set_effective(t.Stmax, never);
   }
 
   template <class Inter>
@@ -326,7 +326,7 @@ class Rules {
   void friction_law(Inter& t) const {
     const Friction* f = friction_of(t);
     if (f == nullptr) {
-      if (t.Xfreq.value == 0) settle<std::int64_t>(t.Ifiltr, 0);
+      if (t.Xfreq.value == 0) set_effective<std::int64_t>(t.Ifiltr, 0);
       return;
     }
     take(t.Ifric, f->Ifric, f->span);
@@ -343,7 +343,7 @@ class Rules {
   void surface_friction_damping(Inter& t) const {
     if (friction_of(t) != nullptr) return;
     if (t.Iform.value == 2)
-      settle(t.VISF, 0.0);
+      set_effective(t.VISF, 0.0);
     else if (t.Fric.value != 0 || t.Ifric.value != 0)
       fallback(t.VISF, 1.0);
   }
@@ -355,7 +355,7 @@ class Rules {
     fallback(t.Kthe, t.fct_IDK.value != 0 ? 1.0 : no_function);
     fallback(t.AscaleK, 1.0);
     if (t.Drad.value == 0) leave_to_geometry(t.Drad);
-    if (!model_.has_thermal_material) settle<std::int64_t>(t.Ithe, 0);
+    if (!model_.has_thermal_material) set_effective<std::int64_t>(t.Ithe, 0);
   }
 
   static void self_contact(EffectiveInt& to, const EffectiveInt& from) {
@@ -391,10 +391,10 @@ void unit_scales(const Deck& deck, const InterfaceCard& card, InterType2& t) {
     if (field->value != 0) continue;
     const Cell* cell = block.find(name);
     if (cell != nullptr && units != nullptr)
-      settle(*field,
-             conversion_factor(*units, deck.begin.working, dimension_of(*cell->field, block)));
+      set_effective(
+          *field, conversion_factor(*units, deck.begin.working, dimension_of(*cell->field, block)));
     else if (cell != nullptr || rupture)
-      settle(*field, 1.0);
+      set_effective(*field, 1.0);
   }
 }
 

@@ -181,8 +181,8 @@ Result<void> check_mapped(const Deck& deck, const Limits& limits, const timespec
 }
 
 /// The deck, and what has to be seen to before it is rewritten.
-Result<Deck> read_settled(const std::string& path, const SchemaSet& schemas,
-                          const CommonOptions& options, const ReadOptions& read) {
+Result<Deck> read_for_rewriting(const std::string& path, const SchemaSet& schemas,
+                                const CommonOptions& options, const ReadOptions& read) {
   timespec since{};
   clock_gettime(CLOCK_REALTIME_COARSE, &since);
   auto deck = read_deck(path, schemas, read);
@@ -219,7 +219,7 @@ Result<LoadedDeck> load(const std::string& given, const SchemaSet& schemas,
   Progress progress(!options.quiet);
   progress.step("reading " + path);
   const LoadOptions how = load_options(options, schemas, overlay);
-  auto deck = read_settled(path, schemas, options, how.read);
+  auto deck = read_for_rewriting(path, schemas, options, how.read);
   if (!deck) {
     Error error = deck.error();
     if (std::error_code ec; path != "-" && !std::filesystem::exists(path, ec))

@@ -13,9 +13,9 @@ void prefer_large_pages(const std::vector<T>& vector) {
   prefer_large_pages(vector.data(), vector.data() + vector.capacity());
 }
 
-// Has the system lay the pages begin ... end, which all will be written, on up to `threads`
-// threads.
-void lay_pages(void* begin, void* end, int threads);
+// Has the system provide the pages begin ... end, all of which will be written, on up to
+// `threads` threads.
+void populate_pages(void* begin, void* end, int threads);
 
 // Reserves room for `count` items in all, which will all be used.
 template <class T>
@@ -23,7 +23,7 @@ void make_room(std::vector<T>& vector, std::size_t count, int threads) {
   if (count <= vector.capacity()) return;
   vector.reserve(count);
   prefer_large_pages(vector);
-  lay_pages(vector.data() + vector.size(), vector.data() + count, threads);
+  populate_pages(vector.data() + vector.size(), vector.data() + count, threads);
 }
 
 }  // namespace deck

@@ -177,7 +177,7 @@ struct Candidate {
 };
 
 /// What is in doubt about the pair of a node that counts.
-class Doubts25 {
+class DoubtfulPairs {
  public:
   void add(const PairFigures& p, double slack, bool counts) {
     if (p.doubtful)
@@ -264,8 +264,8 @@ class Chooser {
 
   /// The pair of a node that counts, from its candidates by ascending segments; penetration 0:
   /// none.
-  NodePenetration choose(std::uint32_t node, std::span<const Candidate> pairs, Doubts25& doubts,
-                         DecisionReport& decisions) const {
+  NodePenetration choose(std::uint32_t node, std::span<const Candidate> pairs,
+                         DoubtfulPairs& doubts, DecisionReport& decisions) const {
     const bool adhesion = s_.set.ivis2 == -1;
     const bool decides = accuracy_ >= Accuracy::robust && !adhesion && placed_;
     NodePenetration best;

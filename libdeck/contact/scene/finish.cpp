@@ -36,10 +36,11 @@ NodeIndex last_lost(const Coordinates& x, int threads, const Items& items,
 
 }  // namespace
 
-Obstacle obstacle_to(const SceneContext& c, const Doubts& doubts, const std::string& doubt,
-                     bool complete, Contact& contact) {
+Obstacle obstacle_to(const SceneContext& c, const NotEvaluated& not_evaluated,
+                     const std::string& card_reason, bool complete, Contact& contact) {
   contact.evaluated = false;
-  const std::string why = doubt.empty() ? doubts.about_nodes(contact) : doubt;
+  const std::string why =
+      card_reason.empty() ? not_evaluated.reason_in_nodes(contact) : card_reason;
   if (!why.empty()) return {why, Severity::warning, true};
   NodeIndex lost = no_index;
   const auto look = [&](const auto& items, const auto& each_node_of) {
@@ -68,28 +69,30 @@ Obstacle obstacle_to(const SceneContext& c, const Doubts& doubts, const std::str
 
 namespace {
 
-void finish_nodes(SceneContext& c, const Doubts& doubts, OpenContact& open, Contact& contact) {
+void finish_nodes(SceneContext& c, const NotEvaluated& not_evaluated, OpenContact& open,
+                  Contact& contact) {
   if (open.surface) make_main_segments(c, open.surface->segments, contact);
   set_main_stiffness(c, contact);
   set_gaps(c, contact, open.gapmin);
   contact.drad =
       radiation_distance(open.thermal, open.drad, contact.max_gap, contact.shortest_side);
   if (c.options.penetrations) {
-    open.obstacle = obstacle_to(c, doubts, open.doubt, open.complete, contact);
+    open.obstacle = obstacle_to(c, not_evaluated, open.card_reason, open.complete, contact);
     if (contact.evaluated) find_penetrations(c, contact, open.decisions);
   }
   report_one_place(c, contact);
   if (c.options.nodal_stiffness && contact.istf >= 2) set_nodal_stiffness(c, contact);
 }
 
-void finish_edges(SceneContext& c, const Doubts& doubts, OpenContact& open, Contact& contact) {
+void finish_edges(SceneContext& c, const NotEvaluated& not_evaluated, OpenContact& open,
+                  Contact& contact) {
   set_edge_stiffness(c, contact.main_edges, contact);
   set_edge_stiffness(c, contact.secondary_edges, contact);
   set_edge_gaps(c, contact, open.gapmin);
   contact.drad =
       radiation_distance(open.thermal, open.drad, contact.max_gap, contact.shortest_side);
   if (c.options.penetrations) {
-    open.obstacle = obstacle_to(c, doubts, open.doubt, open.complete, contact);
+    open.obstacle = obstacle_to(c, not_evaluated, open.card_reason, open.complete, contact);
     if (contact.evaluated) find_edge_penetrations(c, contact, open.decisions);
   }
   report_one_place(c, contact);
@@ -143,10 +146,10 @@ std::size_t elements_of(const Model& model) {
 
 }  // namespace
 
-Finisher::Finisher(SceneContext& context, const Doubts& doubts, Conclude conclude,
+Finisher::Finisher(SceneContext& context, const NotEvaluated& not_evaluated, Conclude conclude,
                    Progress progress)
     : c_(context),
-      doubts_(doubts),
+      not_evaluated_(not_evaluated),
       conclude_(std::move(conclude)),
       progress_(std::move(progress)),
       alone_(context.options),
@@ -196,7 +199,7 @@ void Finisher::finish(Entry& entry, const SceneOptions& options) {
                    options,  c_.shells,       c_.all_placed};
   Contact& contact = c_.scene.contacts[entry.open.place];
   const auto finish = contact.kind == ContactKind::edge_edge ? finish_edges : finish_nodes;
-  finish(own, doubts_, entry.open, contact);
+  finish(own, not_evaluated_, entry.open, contact);
 }
 
 /// Takes small contacts until no more come.

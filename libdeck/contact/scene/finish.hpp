@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "contact/scene/doubts.hpp"
+#include "contact/scene/not_evaluated.hpp"
 #include "contact/shared/scene_parts.hpp"
 
 namespace deck::detail {
@@ -28,8 +28,8 @@ struct OpenContact {
   std::optional<SurfaceOutline> surface = {};
   double gapmin = 0, drad = 0;  ///< of the card
   bool thermal = false;
-  bool complete = true;    ///< no selection has left out members so far
-  std::string doubt = {};  ///< Doubts::about_card()
+  bool complete = true;          ///< no selection has left out members so far
+  std::string card_reason = {};  ///< NotEvaluated::reason_in_card()
 
   // What came of it.
   Obstacle obstacle = {};
@@ -37,9 +37,9 @@ struct OpenContact {
   DecisionReport decisions = {};
 };
 
-/// Sets Contact::evaluated, and says what is in the way. `doubt`, `complete`: as above.
-Obstacle obstacle_to(const SceneContext& context, const Doubts& doubts, const std::string& doubt,
-                     bool complete, Contact& contact);
+/// Sets Contact::evaluated, and says what is in the way. `card_reason`, `complete`: as above.
+Obstacle obstacle_to(const SceneContext& context, const NotEvaluated& not_evaluated,
+                     const std::string& card_reason, bool complete, Contact& contact);
 
 /// Finishes contacts while others are still being selected. Nothing depends on the number of
 /// threads.
@@ -51,7 +51,8 @@ class Finisher {
   /// `conclude` is called for every contact that is finished, in their order; `progress` now and
   /// then with the number of those that are finished but not concluded. Both in the thread that
   /// calls the functions below.
-  Finisher(SceneContext& context, const Doubts& doubts, Conclude conclude, Progress progress);
+  Finisher(SceneContext& context, const NotEvaluated& not_evaluated, Conclude conclude,
+           Progress progress);
 
   /// Calls select(), which adds contacts, and finishes them all.
   void run(const std::function<void()>& select);
@@ -70,7 +71,7 @@ class Finisher {
   void close();
 
   SceneContext& c_;
-  const Doubts& doubts_;
+  const NotEvaluated& not_evaluated_;
   Conclude conclude_;
   Progress progress_;
   SceneOptions alone_;  ///< those of the scene, for one thread

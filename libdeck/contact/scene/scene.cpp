@@ -85,9 +85,9 @@ class Builder {
       : c_(context),
         selections_(selections),
         threads_(effective_threads(context.options.threads)),
-        doubts_(context.model, selections),
+        not_evaluated_(context.model, selections),
         finisher_(
-            context, doubts_, [this](detail::OpenContact& open) { conclude(open); },
+            context, not_evaluated_, [this](detail::OpenContact& open) { conclude(open); },
             [this](std::size_t finished) { show_progress(finished); }) {}
 
   void build() {
@@ -107,8 +107,9 @@ class Builder {
       if (!wanted(*base) || (base->type != 24 && base->type != 25)) continue;
       detail::modern::build_contacts(c_, selections_, *base, [this](Contact& contact) {
         report_empty_sides(contact, selections_.complete());
-        report(contact, detail::obstacle_to(c_, doubts_, doubts_.about_card(contact),
-                                            selections_.complete(), contact));
+        report(contact,
+               detail::obstacle_to(c_, not_evaluated_, not_evaluated_.reason_in_card(contact),
+                                   selections_.complete(), contact));
         return contact.evaluated;
       });
       step();
@@ -284,7 +285,7 @@ class Builder {
     open.drad = card.drad;
     open.thermal = card.thermal;
     open.complete = selections_.complete();
-    if (c_.options.penetrations) open.doubt = doubts_.about_card(contact);
+    if (c_.options.penetrations) open.card_reason = not_evaluated_.reason_in_card(contact);
     c_.scene.contacts.push_back(std::move(contact));
     finisher_.add(std::move(open));
     if (moves_nodes) finisher_.finish_all();
@@ -359,8 +360,8 @@ class Builder {
   SceneContext& c_;
   Selections& selections_;
   int threads_;
-  detail::Doubts doubts_;
-  std::set<const InterBase*> reported_;           ///< interfaces whose doubt was reported
+  detail::NotEvaluated not_evaluated_;
+  std::set<const InterBase*> reported_;           ///< interfaces whose reason was reported
   std::size_t done_ = 0, shown_ = 0, total_ = 0;  ///< contacts
   detail::Finisher finisher_;
 };

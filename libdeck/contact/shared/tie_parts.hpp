@@ -97,7 +97,7 @@ void search_ties_by_nearest_node(const Model& model, const Coordinates& x, Tie& 
 // conditions.cpp
 /// What the ties and other conditions of the deck do to one another: repeated ties, main nodes
 /// that are secondary, ties that become penalties, condensed mid nodes.
-void settle_ties(SceneContext& context, std::vector<Tie>& ties);
+void resolve_tie_conflicts(SceneContext& context, std::vector<Tie>& ties);
 
 // ties.cpp
 /// Root of the mean square of all sides, as far as the solver looks by itself; a triangle has a

@@ -153,7 +153,7 @@ std::vector<MidNode> condensed_mid_nodes(const Model& model) {
   return out;
 }
 
-void settle_mid_nodes(const Model& model, std::vector<Tie>& ties, NodeFlags& penalty) {
+void untie_mid_nodes(const Model& model, std::vector<Tie>& ties, NodeFlags& penalty) {
   const std::vector<MidNode> mids = condensed_mid_nodes(model);
   if (mids.empty()) return;
   std::map<NodeIndex, const MidNode*> at;
@@ -189,7 +189,7 @@ void settle_mid_nodes(const Model& model, std::vector<Tie>& ties, NodeFlags& pen
 void find_penalties(const Model& model, std::vector<Tie>& ties) {
   if (std::none_of(ties.begin(), ties.end(), [](const Tie& t) { return is_mixed(t.spotflag); })) {
     NodeFlags none(model.nodes.size(), false);
-    settle_mid_nodes(model, ties, none);
+    untie_mid_nodes(model, ties, none);
     return;
   }
   NodeFlags penalty = conditioned_nodes(model), seen(model.nodes.size(), false);
@@ -207,7 +207,7 @@ void find_penalties(const Model& model, std::vector<Tie>& ties) {
     if (f == 0 || f == 1 || is_mixed(f))
       each_main_node(tie, [&](NodeIndex n) { penalty[n] = true; });
   }
-  settle_mid_nodes(model, ties, penalty);
+  untie_mid_nodes(model, ties, penalty);
   for (Tie& tie : ties)
     if (is_mixed(tie.spotflag))
       for (TiedNode& n : tie.nodes) n.penalty = n.tied && penalty[n.node];
@@ -215,7 +215,7 @@ void find_penalties(const Model& model, std::vector<Tie>& ties) {
 
 }  // namespace
 
-void settle_ties(SceneContext& c, std::vector<Tie>& ties) {
+void resolve_tie_conflicts(SceneContext& c, std::vector<Tie>& ties) {
   remove_repeated(ties);
   find_main_and_tied(c.model.nodes.size(), ties);
   find_penalties(c.model, ties);

@@ -110,7 +110,7 @@ const std::vector<Tie>& ties_of(SceneContext& c) {
     TieThickness thickness(own);
     for (const InterType2& inter : c.scene.interfaces->type2)
       out.push_back(find_tie(own, thickness, inter));
-    settle_ties(own, out);
+    resolve_tie_conflicts(own, out);
   }
   return c.ties.emplace(std::move(out));
 }

@@ -334,7 +334,7 @@ Rewrite extract_contacts(const LoadedDeck& context, std::span<const std::int64_t
                            std::to_string(id) +
                            " of type 2, 7, 10, 11, 19, 24 or 25; the deck has " +
                            (have.empty() ? "none" : have + (all.size() > 20 ? ", ..." : "")));
-    out.misasked = true;
+    out.bad_request = true;
   }
   if (ids.empty())
     out.refusals.push_back(context.deck().sources[0].path() + ":1:1: no interface was named");

@@ -2,13 +2,12 @@
 #include "deck/edit/convert.hpp"
 
 #include <algorithm>
-#include <bitset>
 #include <unordered_map>
 
 #include "deck/text/number.hpp"
 #include "edit/convert/renumber_ids.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
-#include "keyword/shared/line_check.hpp"
+#include "edit/convert/version_cards.hpp"
 #include "keyword/shared/reader.hpp"
 #include "keyword/shared/references.hpp"
 #include "text/shared/edits.hpp"
@@ -417,47 +416,22 @@ class Renumbering {
   /// One finding a block is enough.
   void tokens(const Block& b, const DecodedBlock& d) {
     if (const auto spaces = possible_spaces(b); spaces && spaces->empty()) return;
-    const auto scan = [&](const Line& line, const std::bitset<detail::line_columns + 1>& known) {
-      const std::string_view text = line.text.substr(0, detail::line_columns);
-      const auto hidden = [&](std::size_t i) {
-        return known.test(i + 1) || static_cast<unsigned char>(text[i]) <= ' ' || text[i] == ',';
-      };
-      for (std::size_t at = 0; at < text.size(); ++at) {
-        if (hidden(at)) continue;
-        const std::size_t begin = at;
-        while (at < text.size() && !hidden(at)) ++at;
-        const std::string_view token = text.substr(begin, at - begin);
-        const Span place = line.columns(static_cast<int>(begin) + 1, static_cast<int>(at));
-        if (glued(b, line, begin, at)) return true;
-        if (token.starts_with('&') || token.starts_with("-&")) {
-          const std::int64_t value = detail::read_offset(deck_, place);
-          if (value != 0 && number(b, place, value)) return true;
-          continue;
-        }
-        const IntegerCell n = read_integer(token);
-        if (n.status != NumberStatus::ok || n.value == 0) continue;
-        if (number(b, place, n.value)) return true;
+    const auto scan = [&](const Line& line, std::size_t begin, std::size_t end) {
+      const std::string_view token = line.text.substr(begin, end - begin);
+      const Span place = line.columns(static_cast<int>(begin) + 1, static_cast<int>(end));
+      if (glued(b, line, begin, end)) return true;
+      if (token.starts_with('&') || token.starts_with("-&")) {
+        const std::int64_t value = detail::read_offset(deck_, place);
+        return value != 0 && number(b, place, value);
       }
-      return false;
+      const IntegerCell n = read_integer(token);
+      return n.status == NumberStatus::ok && n.value != 0 && number(b, place, n.value);
     };
-    if (b.schema == nullptr) {
-      if (b.id.present && number(b, b.id.span, b.id.value)) return;
-      LineCursor cursor(deck_.sources, b);
-      for (Line line = cursor.next(); line.valid(); line = cursor.next())
-        if (scan(line, {})) return;
-      return;
-    }
-    for (const DecodedCard& card : d.cards) {
-      if (card.missing() || card.free_format) continue;
-      std::bitset<detail::line_columns + 1> known;
-      for (const Field& f : card.schema->fields)
-        if (f.in_version(b.version))
-          for (int c = f.first; c <= std::min(f.last, detail::line_columns); ++c)
-            known.set(static_cast<std::size_t>(c));
-      if (scan(card.line, known)) return;
-    }
-    for (const Line& line : d.extra)
-      if (scan(line, {})) return;
+    if (b.schema != nullptr) return detail::find_undescribed_words(d, scan);
+    if (b.id.present && number(b, b.id.span, b.id.value)) return;
+    LineCursor cursor(deck_.sources, b);
+    for (Line line = cursor.next(); line.valid(); line = cursor.next())
+      if (detail::find_words(line, {}, scan)) return;
   }
 
   const Deck& deck_;
@@ -474,7 +448,7 @@ Rewrite renumber(const LoadedDeck& context, const RenumberOptions& options) {
   out.refusals = detail::unread_files(context.deck());
   const std::size_t unread = out.refusals.size();
   IdSpaces spaces = detail::collect_spaces(context, options, out.refusals);
-  out.misasked = out.refusals.size() > unread;
+  out.bad_request = out.refusals.size() > unread;
   if (!out.refusals.empty()) return out;
   return Renumbering(context, options, std::move(spaces)).run();
 }

@@ -60,8 +60,8 @@ class VersionRewriter {
 
   bool accepted() {
     const Begin& begin = c_.deck().begin;
-    out_.misasked = !is_target_version(target_);
-    if (out_.misasked)
+    out_.bad_request = !is_target_version(target_);
+    if (out_.bad_request)
       out_.refusals.push_back(c_.deck().sources[0].path() + ":1:1: " + number(target_) +
                               " is no version that can be written; 110 to 140 and 2017 to " +
                               number(newest_version) + " are");

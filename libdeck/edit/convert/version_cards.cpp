@@ -114,4 +114,33 @@ void LineEdits::finish(std::vector<TextEdit>& out) const {
     out.push_back({Span{place.first, 0, place.second}, text});
 }
 
+bool find_words(const Line& line, const std::bitset<line_columns + 1>& known,
+                const FoundWord& found) {
+  const std::string_view text = line.text.substr(0, line_columns);
+  const auto hidden = [&](std::size_t i) {
+    return known.test(i + 1) || static_cast<unsigned char>(text[i]) <= ' ' || text[i] == ',';
+  };
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (hidden(at)) continue;
+    const std::size_t begin = at;
+    while (at < text.size() && !hidden(at)) ++at;
+    if (found(line, begin, at)) return true;
+  }
+  return false;
+}
+
+void find_undescribed_words(const DecodedBlock& block, const FoundWord& found) {
+  for (const DecodedCard& card : block.cards) {
+    if (card.missing() || card.free_format) continue;
+    std::bitset<line_columns + 1> known;
+    for (const Field& f : card.schema->fields)
+      if (f.in_version(block.block->version))
+        for (int c = f.first; c <= std::min(f.last, line_columns); ++c)
+          known.set(static_cast<std::size_t>(c));
+    if (find_words(card.line, known, found)) return;
+  }
+  for (const Line& line : block.extra)
+    if (find_words(line, {}, found)) return;
+}
+
 }  // namespace deck::detail

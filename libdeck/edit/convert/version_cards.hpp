@@ -1,6 +1,9 @@
 // Line by line: what a block's data lines become in another layout of the same keyword. Private to
 // the edit stage.
 #pragma once
+#include <bitset>
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +14,7 @@
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
+#include "keyword/shared/line_check.hpp"
 #include "text/shared/edits.hpp"
 
 namespace deck::detail {
@@ -28,6 +32,13 @@ std::optional<FormattedReal> cell_text(double value, double factor, int width);
 
 /// True for a block that ends before its title line: a line put there would be taken for the title.
 bool lacks_title(const DecodedBlock& block);
+
+/// Calls found(line, begin, end) for every word of a block that no schema describes, by its bytes
+/// in the line, until it returns true. The first: of one line, less what lies in `known` columns.
+using FoundWord = std::function<bool(const Line& line, std::size_t begin, std::size_t end)>;
+bool find_words(const Line& line, const std::bitset<line_columns + 1>& known,
+                const FoundWord& found);
+void find_undescribed_words(const DecodedBlock& block, const FoundWord& found);
 
 /// A byte of the line behind which the end of the main file begins; invalid: there is none.
 Span end_of_main(const Deck& deck);

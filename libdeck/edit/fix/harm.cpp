@@ -45,11 +45,11 @@ Baseline::Baseline(const Scene& scene, const FixOptions& options) : options_(&op
     }
   }
   add_ties(scene);
-  settle();
+  sort_rows();
 }
 
 /// Sorts rows; of those with one key the last stays, as deep as the deepest.
-void Baseline::settle() {
+void Baseline::sort_rows() {
   std::stable_sort(rows_.begin(), rows_.end(),
                    [](const Row& a, const Row& b) { return a.key < b.key; });
   std::size_t kept = 0;

@@ -46,7 +46,7 @@ class Baseline {
     return pair;
   }
   void add_ties(const Scene& scene);
-  void settle();
+  void sort_rows();
   const Row* find(const PairKey& key) const;
   const FixOptions* options_ = nullptr;
   std::vector<bool> by_node_;  ///< by contact

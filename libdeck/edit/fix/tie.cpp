@@ -222,7 +222,7 @@ class TieFix {
       who = fmt::format("node {}, {:.6g} from its segment: {}", before_.model->node_id(is.node),
                         limit, held);
     }
-    settle(plan, wanted, limit, who, holders);
+    take_nearer(plan, wanted, limit, who, holders);
   }
 
   static constexpr const char* beyond_rim =
@@ -238,8 +238,8 @@ class TieFix {
   }
 
   /// Takes the nodes before the limit, and the dsearch for them.
-  void settle(Plan& plan, std::vector<Candidate>& wanted, double limit, const std::string& who,
-              Holders& holders) {
+  void take_nearer(Plan& plan, std::vector<Candidate>& wanted, double limit, const std::string& who,
+                   Holders& holders) {
     const Tie& tie = ties_[plan.at];
     plan.keep = farthest_tied(tie);
     plan.limit = limit;

@@ -469,16 +469,16 @@ void check_keyword(const std::string& keyword, const Path& path) {
 
 /// What a deck older than the keyword is read with: the oldest layout, so what that has is there in
 /// all versions before; or nothing. The one place that decides this.
-void settle_older_decks(Schema& schema, bool unread) {
-  const auto settle = [&](int& from, int until) {
+void extend_to_older_decks(Schema& schema, bool unread) {
+  const auto extend = [&](int& from, int until) {
     if (unread)
       from = std::max(from, schema.from);
     else if (from <= schema.from && until >= schema.from)
       from = 0;
   };
   for (CardSchema& card : schema.cards) {
-    settle(card.from, card.until);
-    for (Field& field : card.fields) settle(field.from, field.until);
+    extend(card.from, card.until);
+    for (Field& field : card.fields) extend(field.from, field.until);
   }
 }
 
@@ -525,7 +525,7 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
     for (const auto& item : expect_array(json["cards"], here))
       schema.cards.push_back(card_of(item, at(here, schema.cards.size())));
   }
-  settle_older_decks(schema, unread);
+  extend_to_older_decks(schema, unread);
   if (const auto wrong = check_schema(schema); !wrong.empty()) throw Wrong{path.text() + wrong};
   return schema;
 }

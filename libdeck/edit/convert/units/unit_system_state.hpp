@@ -113,6 +113,8 @@ struct UnitConversion {
 
 /// /BEGIN, or the /UNIT/LENGTH ... of old versions. False: refused.
 bool convert_begin(UnitConversion& conversion);
+/// The cells of all blocks.
+void convert_blocks(UnitConversion& conversion);
 /// The definitions of the parameters that converted cells use; where a parameter stands for more
 /// than one thing, the cells get numbers.
 void convert_parameters(UnitConversion& conversion);

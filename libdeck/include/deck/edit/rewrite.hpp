@@ -38,10 +38,9 @@ struct Rewrite {
   std::vector<TextEdit> edits;          ///< of files of the deck; never overlapping
   std::optional<std::string> new_text;  ///< instead: the whole deck as one file without includes
   std::vector<LossEntry> losses;
-  std::vector<std::string> notes;  ///< for people, one line each ("length: factor 0.001")
-  std::vector<std::string>
-      refusals;           ///< "file:line:column: why"; not empty: nothing may be written
-  bool misasked = false;  ///< the refusals are about what was asked for, which no deck has to cure
+  std::vector<std::string> notes;     ///< for people, one line each ("length: factor 0.001")
+  std::vector<std::string> refusals;  ///< "file:line:column: why"; any: nothing may be written
+  bool bad_request = false;           ///< the refusals are about the request, not about the deck
 };
 
 /// New contents by path (as the deck opened it), of changed files only.

@@ -77,16 +77,17 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
   const std::vector<LossEntry> losses = std::move(rewrite.losses);
   c.losses.insert(c.losses.end(), losses.begin(), losses.end());
   if (!rewrite.refusals.empty()) {
-    if (options.check && !rewrite.misasked) {
+    if (options.check && !rewrite.bad_request) {
       c.refusals = std::move(rewrite.refusals);
       return exit_findings;
     }
-    if (!c.together || rewrite.misasked) print_refusals(common, rewrite.refusals);
+    if (!c.together || rewrite.bad_request) print_refusals(common, rewrite.refusals);
     for (const std::string& r : rewrite.refusals) c.losses.push_back(refused_entry(r));
     c.refusals = rewrite.refusals;
-    print_error(common, c.now.path() + ": " + step.option + " was not done; nothing was written" +
-                            (step.way_out.empty() || rewrite.misasked ? "" : ". " + step.way_out));
-    return rewrite.misasked ? exit_usage : exit_findings;
+    print_error(common,
+                c.now.path() + ": " + step.option + " was not done; nothing was written" +
+                    (step.way_out.empty() || rewrite.bad_request ? "" : ". " + step.way_out));
+    return rewrite.bad_request ? exit_usage : exit_findings;
   }
   if (!common.quiet && !options.check)
     for (const std::string& note : rewrite.notes)

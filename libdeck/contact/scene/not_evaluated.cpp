@@ -1,6 +1,6 @@
 // Finds groups with members that are left out, smoothed sides, and nodes whose transform is not
 // evaluated.
-#include "contact/scene/doubts.hpp"
+#include "contact/scene/not_evaluated.hpp"
 
 #include <algorithm>
 #include <set>
@@ -26,12 +26,12 @@ bool is_evaluated(const DecodedBlock& d) {
 
 }  // namespace
 
-Doubts::Doubts(const Model& model, Selections& selections)
+NotEvaluated::NotEvaluated(const Model& model, Selections& selections)
     : model_(model), selections_(selections) {
   find_unplaced();
 }
 
-void Doubts::find_unplaced() {
+void NotEvaluated::find_unplaced() {
   const Deck& deck = *model_.deck;
   for (const Block& block : deck.blocks) {
     if (!is_below(block.header, "/TRANSFORM")) continue;
@@ -50,7 +50,7 @@ void Doubts::find_unplaced() {
   }
 }
 
-void Doubts::find_partial() {
+void NotEvaluated::find_partial() {
   const std::vector<Diagnostic>& all = selections_.diagnostics().all();
   if (looked_at_ == all.size()) return;
   std::optional<BlockIndex> index;
@@ -63,7 +63,7 @@ void Doubts::find_partial() {
   }
 }
 
-std::string Doubts::partial_group(const Block& inter) {
+std::string NotEvaluated::partial_group(const Block& inter) {
   find_partial();
   if (partial_.empty()) return {};
   if (!definitions_) definitions_.emplace(*model_.deck);
@@ -85,7 +85,7 @@ std::string Doubts::partial_group(const Block& inter) {
   return {};
 }
 
-std::string Doubts::about_nodes(const Contact& contact) const {
+std::string NotEvaluated::reason_in_nodes(const Contact& contact) const {
   if (unplaced_.empty()) return {};
   NodeIndex found = no_index;
   const auto look = [&](NodeIndex n) {
@@ -102,7 +102,7 @@ std::string Doubts::about_nodes(const Contact& contact) const {
          " is moved by a /TRANSFORM that deck does not evaluate";
 }
 
-std::string Doubts::about_card(const Contact& contact) {
+std::string NotEvaluated::reason_in_card(const Contact& contact) {
   const Block* block = contact.inter->block;
   if (block == nullptr) return {};
   if (contact.inter->type == 7 && block->version >= 2026 &&

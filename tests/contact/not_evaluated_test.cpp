@@ -28,7 +28,7 @@ std::pair<bool, std::size_t> judged(const Built& b, std::size_t contact = 0) {
 }
 constexpr std::pair<bool, std::size_t> yes{true, 0}, no{false, 1};
 
-TEST(Doubts, SetsWithClausesThatAreNotEvaluated) {
+TEST(NotEvaluated, SetsWithClausesThatAreNotEvaluated) {
   const auto deck = [](const std::string& clauses) {
     return squares(5).add("/SET/GENERAL/9\nset\n" + clauses +
                           "@/INTER/TYPE7/1 grnd_IDs=9 Gapmin=1");
@@ -38,7 +38,7 @@ TEST(Doubts, SetsWithClausesThatAreNotEvaluated) {
   EXPECT_EQ(judged(Built(deck(clause("PART_B", 2)))), no);
 }
 
-TEST(Doubts, GoThroughGroupsAndSurfaces) {
+TEST(NotEvaluated, GoThroughGroupsAndSurfaces) {
   const auto deck = [](const std::string& clauses, const std::string& inter) {
     return squares(5).add("/SET/GENERAL/9\nset\n" + clauses + "/GRNOD/GRNOD/7\ng\n" +
                           clause("", 9) + "/SURF/SURF/8\ns\n         9\n" + inter);
@@ -51,7 +51,7 @@ TEST(Doubts, GoThroughGroupsAndSurfaces) {
   EXPECT_EQ(judged(Built(deck(clause("PART_C", 2), "@/INTER/TYPE7/1 grnd_IDs=2 Gapmin=1"))), yes);
 }
 
-TEST(Doubts, PartsWithParticles) {
+TEST(NotEvaluated, PartsWithParticles) {
   const auto deck = [](const char* type, int id) {
     return squares(5)
         .node(31, 5, 5, 0.5)
@@ -64,7 +64,7 @@ TEST(Doubts, PartsWithParticles) {
   EXPECT_EQ(judged(Built(deck("NODE", 31))).first, true) << "its node is named";
 }
 
-TEST(Doubts, SmoothedSides) {
+TEST(NotEvaluated, SmoothedSides) {
   for (const int ists : {0, 1}) {
     std::string text = squares(5).add("@/INTER/TYPE7/1 grnd_IDs=2 Gapmin=1").text();
     const auto version = text.find("      2022");
@@ -78,7 +78,7 @@ TEST(Doubts, SmoothedSides) {
   }
 }
 
-TEST(Doubts, NodesThatATransformMovesWhichIsNotEvaluated) {
+TEST(NotEvaluated, NodesThatATransformMovesWhichIsNotEvaluated) {
   const auto deck = [](const char* type, const char* group) {
     return squares(5).add(std::string("/TRANSFORM/") + type + "/1\nmove\n" + group +
                           "                 0.0                 0.0                -4.5\n\n"

@@ -10,16 +10,16 @@
 
 namespace deck::detail {
 
-class Doubts {
+class NotEvaluated {
  public:
   /// Looks for transforms that are not evaluated here (DK110). Both must outlive this.
-  Doubts(const Model& model, Selections& selections);
+  NotEvaluated(const Model& model, Selections& selections);
 
   /// Why the contact is not to be judged; empty: everything is known. Of its card and groups: its
   /// sides must have been resolved, so that the findings about their groups are there.
-  std::string about_card(const Contact& contact);
+  std::string reason_in_card(const Contact& contact);
   /// Of the places of its nodes. May be asked by several threads.
-  std::string about_nodes(const Contact& contact) const;
+  std::string reason_in_nodes(const Contact& contact) const;
 
  private:
   void find_unplaced();

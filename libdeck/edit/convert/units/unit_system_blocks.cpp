@@ -1,0 +1,541 @@
+// Multiplies every cell of known dimension by its factor, block by block.
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "deck/text/number.hpp"
+#include "edit/convert/units/unit_system_state.hpp"
+#include "edit/convert/version_cards.hpp"
+#include "keyword/shared/implied_one.hpp"
+#include "keyword/shared/line_check.hpp"
+#include "keyword/shared/reader.hpp"
+#include "model/shared/constant_stiffness.hpp"
+#include "text/shared/edits.hpp"
+
+namespace deck {
+
+using detail::UnitConversion;
+using detail::UnitFactor;
+
+namespace {
+
+/// Keywords described in part whose undescribed text holds ids, flags and names only.
+bool free_of_units(std::string_view keyword) {
+  constexpr std::string_view list[] = {
+      "/ANALY",       "/DEF_SHELL", "/DEF_SOLID",   "/IOFLAG",    "/MEMORY", "/SPMD",
+      "/BCS",         "/TH",        "/ATH",         "/BTH",       "/CTH",    "/DTH",
+      "/RBE2",        "/SHFRA",     "/CAA",         "/REFSTA",    "/UPWIND", "/ALE/GRID/ZERO",
+      "/RLINK",       "/ALE/BCS",   "/DUMMY_START", "/DUMMY_END", "/AMS",    "/TABLE",
+      "/FUNCT_PYTHON"};
+  for (const std::string_view k : list)
+    if (keyword == k || (keyword.starts_with(k) && keyword[k.size()] == '/')) return true;
+  return false;
+}
+
+/// Blocks that name units or parameters, or hold no values; treated elsewhere or not at all.
+bool outside_conversion(const Block& b) {
+  return b.schema->kind == "engine" || b.schema->kind == "parameter" || b.header == "/BEGIN" ||
+         b.header.starts_with("/BEGIN/") || b.header.starts_with("//") ||
+         b.header.starts_with("/UNIT") || b.header.starts_with("/TITLE") ||
+         free_of_units(b.keyword) || free_of_units(b.header);
+}
+
+bool has_dimension(const Field& f) {
+  Dimension d = f.dimension;
+  d.temperature = 0;  // temperatures have no unit in a deck
+  return !d.dimensionless() || !f.dimension_when.empty();
+}
+
+bool worth_decoding(const Schema& s) {
+  if (s.opaque_tail) return true;
+  for (const CardSchema& card : s.cards)
+    for (const Field& f : card.fields)
+      if (has_dimension(f) || !f.dimension_known || !f.unit_for.empty() || f.ref == "funct" ||
+          f.ref == "table")
+        return true;
+  return false;
+}
+
+class BlockConverter {
+ public:
+  explicit BlockConverter(UnitConversion& c) : c_(c), deck_(c.deck) {}
+
+  void convert(const Block& b) {
+    const UnitConversion::OpenShare share(c_, b);
+    const auto before = c_.out.edits.size();
+    convert_block(b);
+    for (TextEdit& e : grown_.finish()) c_.out.edits.push_back(std::move(e));
+    if (const auto values = c_.out.edits.size() - before; values > 0) {
+      LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
+      entry.note = std::to_string(values) + (values == 1 ? " value" : " values") + " converted";
+      c_.out.losses.push_back(std::move(entry));
+    }
+  }
+
+ private:
+  void convert_block(const Block& b) {
+    const UnitSystem* units = deck_.units_of(b);
+    own_units_ = units != &deck_.begin.input;
+    if (b.schema == nullptr) {
+      if (!own_units_ || units == nullptr)
+        c_.undecided(b, {}, "", "deck does not know this keyword, so it cannot convert its values");
+      return;
+    }
+    if (outside_conversion(b)) return;
+    if (units == nullptr) {
+      c_.undecided(b, b.unit_id.span, "", "its unit id is not defined");
+      return;
+    }
+    if (own_units_) ++c_.own_unit_blocks;
+    if (own_units_ && !c_.working_changes) return;
+    if (b.opaque) {
+      if (!own_units_) c_.undecided(b, {}, "", "the block is encrypted");
+      return;
+    }
+    // Values that the solver takes in working units, in the units of this block from now on.
+    from_working_ = detail::UnitFactors(deck_.begin.working, own_units_ ? *units : c_.target);
+    if (b.header.starts_with("/CNODE/") && !own_units_) tolerance(b);
+    if (b.schema->kind == "set") {
+      if (!own_units_) set_clauses(b);
+      return;
+    }
+    if (!worth_decoding(*b.schema)) return;
+    if (const CardSchema* rows = plain_rows(b); rows != nullptr)
+      convert_rows(b, *rows);
+    else
+      convert_cards(b);
+  }
+
+  /// The one repeated card of a block without conditions; nullptr: the block is another one.
+  static const CardSchema* plain_rows(const Block& b) {
+    const CardSchema* only = nullptr;
+    for (const CardSchema& card : b.schema->cards) {
+      if (!card.in_version(b.version)) continue;
+      if (only != nullptr || card.repeat != Repeat::rows || !card.when.empty()) return nullptr;
+      only = &card;
+    }
+    if (only == nullptr || b.schema->opaque_tail || b.schema->has_title) return nullptr;
+    for (const Field& f : only->fields)
+      if (!f.dimension_when.empty() || !f.dimension_known || f.ref == "funct" ||
+          detail::ordinary_default(f))
+        return nullptr;
+    return only;
+  }
+
+  /// Nodes and elements: many lines, few kinds of cells.
+  void convert_rows(const Block& b, const CardSchema& card) {
+    struct Column {
+      const Field* field;
+      UnitFactor factor;
+    };
+    if (own_units_) return;
+    std::vector<Column> columns;
+    for (const Field& f : card.fields) {
+      if (f.type != FieldType::real || !f.in_version(b.version) || !has_dimension(f)) continue;
+      const UnitFactor factor = c_.factors.of(f.dimension);
+      if (factor.one()) continue;
+      c_.note_dimension(f.dimension, factor);
+      columns.push_back({&f, factor});
+    }
+    if (columns.empty()) return;
+    LineCursor cursor(deck_.sources, b);
+    for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
+      const std::string_view text = line.text.substr(0, detail::line_columns);
+      if (text.find(',') != std::string_view::npos || text.find('&') != std::string_view::npos) {
+        DecodedBlock none;
+        none.block = &b;
+        convert_card(b, none, decode_line(deck_, b, card, line, nullptr));
+        continue;
+      }
+      for (const Column& column : columns)
+        c_.convert_fixed(b, line, column.field->first, column.field->last, column.field->name,
+                         column.factor);
+    }
+  }
+
+  void convert_cards(const Block& b) {
+    const DecodedBlock d = decode(deck_, b);
+    brought_.clear();
+    absent_.clear();
+    for (const DecodedCard& card : d.cards) {
+      if (card.missing()) continue;
+      for (const Cell& cell : card.cells) function_use(b, d, card, cell);
+      for (const Cell& cell : card.cells)
+        if (detail::measures(d, card, cell)) brought_.insert(&cell);
+    }
+    for (const DecodedCard& card : d.cards)
+      if (!card.missing()) convert_card(b, d, card);
+    add_lines(b, d);
+    if (!own_units_ && !b.schema->layout_known()) undescribed(b, d);
+  }
+
+  /// Blank scales on lines that the block leaves away at its end are written out, too.
+  void add_lines(const Block& b, const DecodedBlock& d) {
+    std::map<const CardSchema*, std::string> texts;
+    for (const std::string& name : absent_)
+      for (const CardSchema& card : b.schema->cards)
+        for (const Field& f : card.fields) {
+          if (f.name != name || !card.in_version(b.version) || !f.in_version(b.version)) continue;
+          if (!holds(card.when, d) || !holds(f.when, d)) continue;
+          const UnitFactor factor = c_.factors.of(written_dimension(
+              f, dimension_of(f, d), f.solver_dimension && holds(f.solver_when, d)));
+          if (factor.one()) continue;
+          const auto text = detail::scale_text("1.0", f.last - f.first + 1, factor);
+          if (!text) {
+            c_.undecided(b, {}, name, "blank means 1, which does not fit in the new units");
+            continue;
+          }
+          CellWriter::put(texts[&card], f.first, f.last, text->text);
+          LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
+          entry.field = name;
+          entry.new_text = text->text;
+          entry.note = "its line was missing; blank is 1 in the units of the block, which change";
+          c_.out.losses.push_back(std::move(entry));
+        }
+    if (texts.empty()) return;
+    const CardSchema* next = b.schema->cards.data();
+    Span anchor = d.title_line.valid() ? d.title_line.whole() : b.header_span;
+    for (const DecodedCard& card : d.cards)
+      if (!card.missing()) {
+        next = card.schema + 1;
+        anchor = card.line.whole();
+      }
+    std::vector<std::string> lines;
+    std::size_t added = 0;
+    const CardSchema* const end = b.schema->cards.data() + b.schema->cards.size();
+    for (; next != end && added < texts.size(); ++next) {
+      if (!next->in_version(b.version) || !holds(next->when, d)) continue;
+      if (next->repeat != Repeat::once) break;
+      const auto text = texts.find(next);
+      added += text == texts.end() ? 0 : 1;
+      lines.push_back(text == texts.end() ? std::string() : text->second);
+    }
+    if (added < texts.size() || !d.extra.empty() || detail::lacks_title(d)) {
+      c_.undecided(b, {}, *absent_.begin(), "this scale has no line in the block; add the line");
+      return;
+    }
+    detail::LineEdits edits(deck_.sources);
+    for (const std::string& line : lines) edits.insert_after(anchor, line);
+    edits.finish(c_.out.edits);
+  }
+
+  // ---- functions ------------------------------------------------------------------------------
+
+  /// Which cells scale the axes of the function that `cell` names, and what its points are.
+  void function_use(const Block& b, const DecodedBlock& d, const DecodedCard& card,
+                    const Cell& cell) {
+    const Field& f = *cell.field;
+    if (f.axes.empty() || (cell.integer == 0 && !cell.parameter)) return;
+    UnitConversion::FunctionUse use{
+        UnitConversion::place_of(b, card, cell), std::abs(cell.integer), {}};
+    for (const Axis& axis : f.axes) {
+      bool scaled = axis.scales.empty();
+      for (const std::string& name : axis.scales) {
+        if (keeps_number(d, name)) {
+          scaled = scaled || name[0] != 'A';
+          continue;
+        }
+        const detail::AxisScale scale = detail::axis_scale(d, card, cell, name);
+        if (scale.cell != nullptr) brought_.insert(scale.cell);
+        if (scale.absent) absent_.insert(name);
+        scaled = scaled || scale.counts();
+      }
+      Dimension points;
+      if (axis.scales.empty()) {
+        points = axis.dimension;
+        for (const auto& [when, dimension] : axis.dimension_when)
+          if (holds(when, d, &card)) {
+            points = dimension;
+            break;
+          }
+      } else if (!scaled) {
+        // This version has no cell for the scale: it is 1, and the points have its dimension; or
+        // the scale has to keep its number.
+        const Field* scale = b.schema->find_field(axis.scales.front());
+        if (scale != nullptr) points = dimension_of(*scale, d, &card);
+      }
+      points.temperature = 0;
+      use.points.push_back(points);
+    }
+    c_.function_uses.push_back(std::move(use));
+  }
+
+  /// The solver divides K of a spring by its coefficient A where the spring counts in contacts, and
+  /// the force is f(x) (A + B ln(v / D) + E g(v / F)): only if A, B and E keep their numbers and
+  /// the points of f take the unit of force do both stay what they are. True for such a
+  /// coefficient; where K is no stiffness or f has no points it is converted as any other scale.
+  bool keeps_number(const DecodedBlock& d, const std::string& name) const {
+    if (!c_.working_changes || own_units_ || name.empty() || name.size() > 2 ||
+        std::string_view("ABE").find(name[0]) == std::string_view::npos || d.block == nullptr ||
+        d.block->schema->kind != "prop")
+      return false;
+    const std::string row = name.size() == 1 ? "1" : name.substr(1);
+    const Cell* k = d.find("K") != nullptr ? d.find("K") : d.find("K" + row);
+    if (k == nullptr || (k->real == 0 && !k->parameter)) return false;
+    const Cell* a = d.find(d.find("A") != nullptr ? "A" : "A" + row);
+    constexpr int residual = 5;  // the second function gives elongations, which A does not scale
+    return a != nullptr && !a->parameter && k->field->dimension == Dimension{1, 0, -2, 0} &&
+           d.integer("Ileng") == 0 && d.integer("H" + row) != residual &&
+           d.integer("fct_ID1" + row) != 0 && has_points(d, "fct_ID1" + row) &&
+           has_points(d, "fct_ID3" + row);
+  }
+
+  /// The cell names no function, or one that is given point by point.
+  bool has_points(const DecodedBlock& d, const std::string& name) const {
+    const Cell* cell = d.find(name);
+    if (cell == nullptr || (cell->integer == 0 && !cell->parameter)) return true;
+    const std::int64_t id = std::abs(cell->integer) + deck_.offset_of(*d.block, "funct");
+    return std::any_of(deck_.blocks.begin(), deck_.blocks.end(), [&](const Block& b) {
+      return b.schema != nullptr && b.schema->keyword == "/FUNCT" &&
+             b.id.value + deck_.offset_of(b, "funct") == id;
+    });
+  }
+
+  // ---- cells ----------------------------------------------------------------------------------
+
+  void convert_card(const Block& b, const DecodedBlock& d, const DecodedCard& card) {
+    for (const Cell& cell : card.cells) {
+      const Field& f = *cell.field;
+      if (f.type == FieldType::id && f.axes.empty() && (cell.integer != 0 || cell.parameter)) {
+        if (c_.working_changes && f.ref == "funct")
+          c_.undecided(b, cell.span, f.name,
+                       "the function's values are in working units, which change");
+        else if (!f.dimension_known && !own_units_)
+          c_.undecided(b, cell.span, f.name,
+                       "the units of the axes of this function are not known");
+        else if (f.ref == "funct")
+          c_.function_uses.push_back(
+              {UnitConversion::place_of(b, card, cell), std::abs(cell.integer), {}});
+      }
+      if (f.type != FieldType::real) continue;
+      const bool zero = cell.blank() || (cell.status == NumberStatus::ok && cell.real == 0);
+      const bool brought = brought_.contains(&cell);
+      if (!f.dimension_known) {
+        if (!own_units_ && (!zero || cell.parameter || brought))
+          c_.undecided(b, cell.span, f.name, "the dimension of this value is not known");
+        continue;
+      }
+      if (keeps_number(d, f.name)) continue;
+      const std::optional<Dimension> stfac = stfac_dimension(d, cell);
+      const bool working = stfac && !(*stfac == Dimension{});
+      const Dimension dimension = stfac ? *stfac : effective_dimension(d, card, cell);
+      if (zero && !cell.parameter) {
+        if (brought && own_units_ && f.solver_dimension && !f.solver_dimension->dimensionless())
+          c_.undecided(b, cell.span, f.name,
+                       "blank means 1 in working units here, while the block has units of its own; "
+                       "write the number");
+        else if (brought)
+          write_one(b, card, cell, dimension);
+        else if (c_.working_changes)
+          write_default(b, card, cell, dimension_of(f, d, &card));
+      } else if (!own_units_ || working || f.solver_dimension) {
+        convert_cell(b, card, cell, dimension);
+      }
+    }
+  }
+
+  /// The power of the units with which the number itself changes. The solver brings a number from
+  /// the units of its block to working units by S, while it means a quantity of dimension P: with
+  /// new working units the number that arrives must change by P.
+  Dimension effective_dimension(const DecodedBlock& d, const DecodedCard& card,
+                                const Cell& cell) const {
+    const Field& f = *cell.field;
+    Dimension physical = dimension_of(f, d, &card);
+    if (!f.over.empty() && holds(f.over_when, d, &card)) {
+      // The number counts times that of the scale: where the scale's number changes, it does not.
+      const Cell* scale = detail::cell_beside(d, card, cell, f.over);
+      if (scale != nullptr &&
+          (brought_.contains(scale) || scale->parameter || (!scale->blank() && scale->real != 0)))
+        physical = minus(physical, dimension_of(*scale->field, d, &card));
+    }
+    return written_dimension(f, physical, f.solver_dimension && holds(f.solver_when, d, &card));
+  }
+
+  Dimension written_dimension(const Field& f, const Dimension& physical, bool by_solver) const {
+    const Dimension solver = by_solver ? *f.solver_dimension : physical;
+    if (own_units_) return minus(physical, solver);
+    return c_.working_changes ? physical : solver;
+  }
+
+  static Dimension minus(Dimension a, const Dimension& b) {
+    a.mass = static_cast<std::int8_t>(a.mass - b.mass);
+    a.length = static_cast<std::int8_t>(a.length - b.length);
+    a.time = static_cast<std::int8_t>(a.time - b.time);
+    a.temperature = static_cast<std::int8_t>(a.temperature - b.temperature);
+    return a;
+  }
+
+  void convert_cell(const Block& b, const DecodedCard& card, const Cell& cell,
+                    const Dimension& dimension) {
+    const Field& f = *cell.field;
+    const UnitFactor factor = c_.factors.of(dimension);
+    if (factor.one()) return;
+    c_.note_dimension(dimension, factor);
+    const UnitConversion::Place place = UnitConversion::place_of(b, card, cell);
+    if (cell.parameter) {
+      std::string_view name = cell.text;
+      name.remove_prefix(name.starts_with('-') ? 2 : 1);
+      c_.parameter_uses[std::string(name)].push_back({place, dimension, cell.real});
+    } else if (card.free_format) {
+      c_.convert_free(b, card.line, cell.span, f.name, factor);
+    } else {
+      c_.convert_fixed(b, card.line, place.first, place.last, f.name, factor);
+    }
+  }
+
+  /// The power of the units with which the number of Stfac changes, in an interface whose effective
+  /// Istf says whether it is a stiffness. The solver brings it from the units of the block to
+  /// working units where the card itself has Istf 1, and takes it as it is elsewhere.
+  std::optional<Dimension> stfac_dimension(const DecodedBlock& d, const Cell& cell) const {
+    if (cell.field->name != "Stfac" || cell.real == 0) return std::nullopt;
+    for (const InterBase* inter : c_.context.interfaces().ordered)
+      if (inter->block == d.block) {
+        const Dimension stiffness = detail::stiffness_dimension;
+        const Dimension physical = detail::constant_stiffness(*inter) ? stiffness : Dimension{};
+        const Dimension solver = d.integer("Istf") == 1 ? stiffness : Dimension{};
+        if (own_units_) return minus(physical, solver);
+        return c_.working_changes ? physical : solver;
+      }
+    return std::nullopt;
+  }
+
+  /// A blank scale is 1 in the units of the block: written out when these change.
+  void write_one(const Block& b, const DecodedCard& card, const Cell& cell,
+                 const Dimension& dimension) {
+    const Field& f = *cell.field;
+    const UnitFactor factor = c_.factors.of(dimension);
+    if (factor.one()) return;
+    const auto text = detail::scale_text("1.0", f.last - f.first + 1, factor);
+    if (!text) {
+      c_.undecided(b, cell.span, f.name, "blank means 1, which does not fit in the new units");
+      return;
+    }
+    c_.note_dimension(dimension, factor);
+    write_out(b, card, cell, text->text,
+              "blank is 1 in the units of the block, which change; it was written out");
+  }
+
+  /// 0 and blank mean a number in working units: written out when these change.
+  void write_default(const Block& b, const DecodedCard& card, const Cell& cell,
+                     const Dimension& dimension) {
+    const Field& f = *cell.field;
+    const auto value = detail::ordinary_default(f);
+    const UnitFactor factor = from_working_.of(dimension);
+    if (!value || factor.one()) return;
+    const bool whole = f.default_text.find_first_of(".eE") == std::string::npos;
+    const auto text =
+        detail::scale_text(f.default_text + (whole ? ".0" : ""), f.last - f.first + 1, factor);
+    if (!text) {
+      c_.undecided(b, cell.span, f.name,
+                   "blank means " + f.default_text + " in working units, which change");
+      return;
+    }
+    write_out(b, card, cell, text->text,
+              "the default " + f.default_text + " is in working units and was written out");
+  }
+
+  /// Puts `text` into a cell that was 0 or blank.
+  void write_out(const Block& b, const DecodedCard& card, const Cell& cell, const std::string& text,
+                 std::string note) {
+    const Field& f = *cell.field;
+    const Line& line = card.line;
+    const UnitConversion::Place place = UnitConversion::place_of(b, card, cell);
+    if (card.free_format) {
+      const bool there = cell.span.offset + cell.span.length <= line.offset + line.text.size();
+      if (!there || line.text.size() + text.size() > detail::line_columns) {
+        c_.undecided(b, cell.span, f.name,
+                     "blank means a number that has to be written out, and this free-format line "
+                     "has no room for it");
+        return;
+      }
+      c_.out.edits.push_back({cell.span, text});
+    } else if (static_cast<int>(line.text.size()) >= place.first) {
+      c_.replace_fixed(line, place.first, place.last, text);
+    } else {
+      grown_.set(line.whole(), place.first, place.last, text);
+    }
+    LossEntry entry = loss_entry(deck_, Loss::kept, b, cell.span);
+    entry.field = f.name;
+    entry.old_text = std::string(cell.text);
+    entry.new_text = text;
+    entry.note = std::move(note);
+    c_.out.losses.push_back(std::move(entry));
+  }
+
+  // ---- text that no schema describes ----------------------------------------------------------
+
+  /// One finding a block is enough. Zeros are zero in any unit.
+  void undescribed(const Block& b, const DecodedBlock& d) {
+    detail::find_undescribed_words(d, [&](const Line& line, std::size_t begin, std::size_t end) {
+      const RealCell value = read_real(line.text.substr(begin, end - begin));
+      if (value.status == NumberStatus::ok && value.value == 0) return false;
+      c_.undecided(b, line.columns(static_cast<int>(begin) + 1, static_cast<int>(end)), "",
+                   "the keyword is described in part only; the dimension of this value is not "
+                   "known");
+      return true;
+    });
+  }
+
+  // ---- what no schema cell holds --------------------------------------------------------------
+
+  /// /CNODE/tolerance: a length in the header.
+  void tolerance(const Block& b) {
+    Dimension length;
+    length.length = 1;
+    const UnitFactor factor = c_.factors.of(length);
+    const std::string_view text = detail::trim(b.header.substr(7));
+    if (text.empty() || factor.one() || read_real(text).value == 0) return;
+    const auto offset = static_cast<std::uint64_t>(text.data() - b.header.data());
+    const Span place{b.header_span.file, static_cast<std::uint32_t>(text.size()),
+                     b.header_span.offset + offset};
+    const auto scaled = detail::scale_text(text, 24, factor);
+    if (!scaled) {
+      c_.undecided(b, place, "tolerance", "'" + std::string(text) + "' is not a plain number");
+      return;
+    }
+    c_.out.edits.push_back({place, scaled->text});
+    ++c_.changed_cells;
+  }
+
+  /// PLANE and ELLIPS clauses of a set hold lengths on two lines.
+  void set_clauses(const Block& b) {
+    Dimension length;
+    length.length = 1;
+    const UnitFactor factor = c_.factors.of(length);
+    LineCursor cursor(deck_.sources, b);
+    cursor.next();  // title
+    for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
+      const std::string_view clause = detail::trim(detail::columns(line.text, 1, 10));
+      if (!clause.starts_with("PLANE") && !clause.starts_with("ELLIPS")) continue;
+      c_.note_dimension(length, factor);
+      for (int row = 0; row < 2 && line.valid(); ++row) {
+        if (row > 0) line = cursor.next();
+        if (!line.valid()) return;
+        if (line.text.find(',') != std::string_view::npos ||
+            line.text.find('&') != std::string_view::npos) {
+          c_.undecided(b, line.whole(), std::string(clause),
+                       "coordinates in free format or by parameters are not converted");
+          continue;
+        }
+        for (int cell = 0; cell < 3; ++cell)
+          c_.convert_fixed(b, line, 11 + 20 * cell, 30 + 20 * cell, clause, factor);
+      }
+    }
+  }
+
+  UnitConversion& c_;
+  const Deck& deck_;
+  bool own_units_ = false;
+  detail::UnitFactors from_working_{{}, {}};
+  CellWriter grown_{deck_.sources};  // cells behind the end of their line
+  std::set<const Cell*> brought_;    // of this block: blank is 1 and has to be said
+  std::set<std::string> absent_;     // the same, where the block has no line for the cell
+};
+}  // namespace
+
+void detail::convert_blocks(UnitConversion& conversion) {
+  BlockConverter blocks(conversion);
+  for (const Block& b : conversion.deck.blocks) blocks.convert(b);
+}
+
+}  // namespace deck
