@@ -2,6 +2,7 @@
 // solids. Which cells they come from depends on the law; the table below is per law on purpose.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "model/model_build.hpp"
 
@@ -31,105 +32,35 @@ struct Law {
 };
 
 Law law_of(int number) {
-  switch (number) {
-    case 0:
-    case 1:
-    case 2:
-    case 13:
-    case 22:
-    case 23:
-    case 24:
-    case 27:
-    case 32:
-    case 36:
-    case 43:
-    case 44:
-    case 48:
-    case 52:
-    case 57:
-    case 60:
-    case 63:
-    case 64:
-    case 65:
-    case 66:
-    case 71:
-    case 73:
-    case 74:
-    case 76:
-    case 78:
-    case 84:
-    case 87:
-      return {Rule::isotropic, true};
-    // Hydrodynamic laws without an equation of state.
-    case 3:
-    case 4:
-      return {Rule::isotropic, true};
-    // C1 of the card, or curve slopes, would change B or E and are not read.
-    case 10:
-    case 70:
-    case 90:
-      return {Rule::isotropic, false};
-    case 15:
-    case 25:
-      return {Rule::direct_strain, false};
-    case 19:
-      return {Rule::direct_strain, true};
-    case 21:
-      return {Rule::given_bulk, true};
-    case 35:
-    case 38:
-    case 54:
-      return {Rule::modulus_twice, true};
-    case 83:
-    case 101:
-      return {Rule::third, true};
-    case 33:
-      return {Rule::foam, true};
-    case 34:
-      return {Rule::boltzmann, true};
-    case 42:
-      return {Rule::ogden, true};
-    case 62:
-      return {Rule::hyperfoam, true};
-    case 53:
-      return {Rule::largest, true};
-    case 59:
-      return {Rule::connection, true};
-    case 28:
-    case 50:
-      return {Rule::largest_bulk, false};
-    case 12:
-    case 14:
-    case 58:
-    case 68:
-    case 93:
-    case 107:
-    case 112:
-    case 116:
-    case 117:
-    case 122:
-      return {Rule::largest, false};
-    case 6:
-    case 5:
-    case 11:
-    case 18:
-    case 20:
-    case 37:
-    case 46:
-    case 51:
-    case 69:
-    case 82:
-    case 88:
-    case 92:
-    case 94:
-    case 95:
-    case 97:
-    case 100:
-    case 151:
-      return {Rule::none, false};
-    default:
-      return {Rule::isotropic, false};
-  }
+  struct Group {
+    Law law;
+    std::vector<int> numbers;
+  };
+  static const Group groups[] = {
+      {{Rule::isotropic, true}, {0,  1,  2,  13, 22, 23, 24, 27, 32, 36, 43, 44, 48, 52,
+                                 57, 60, 63, 64, 65, 66, 71, 73, 74, 76, 78, 84, 87}},
+      // Hydrodynamic laws without an equation of state.
+      {{Rule::isotropic, true}, {3, 4}},
+      // C1 of the card, or curve slopes, would change B or E and are not read.
+      {{Rule::isotropic, false}, {10, 70, 90}},
+      {{Rule::direct_strain, false}, {15, 25}},
+      {{Rule::direct_strain, true}, {19}},
+      {{Rule::given_bulk, true}, {21}},
+      {{Rule::modulus_twice, true}, {35, 38, 54}},
+      {{Rule::third, true}, {83, 101}},
+      {{Rule::foam, true}, {33}},
+      {{Rule::boltzmann, true}, {34}},
+      {{Rule::ogden, true}, {42}},
+      {{Rule::hyperfoam, true}, {62}},
+      {{Rule::largest, true}, {53}},
+      {{Rule::connection, true}, {59}},
+      {{Rule::largest_bulk, false}, {28, 50}},
+      {{Rule::largest, false}, {12, 14, 58, 68, 93, 107, 112, 116, 117, 122}},
+      {{Rule::none, false}, {5, 6, 11, 18, 20, 37, 46, 51, 69, 82, 88, 92, 94, 95, 97, 100, 151}},
+  };
+  for (const Group& g : groups)
+    if (std::find(g.numbers.begin(), g.numbers.end(), number) != g.numbers.end()) return g.law;
+  return {Rule::isotropic, false};
 }
 
 double isotropic_bulk(double e, double nu) { return e / (3 * (1 - 2 * nu)); }

@@ -39,6 +39,17 @@ RealCell read_hexadecimal(std::string_view s) {
   return {value, NumberStatus::trailing_text};  // not the number that a deck's author has in mind
 }
 
+/// What a text without a digit is: "nan", "inf" and what begins so, or no number at all.
+NumberStatus status_of_word(std::string_view text) {
+  const auto starts = [&](std::string_view word) {
+    if (text.size() < word.size()) return false;
+    for (std::size_t k = 0; k < word.size(); ++k)
+      if ((text[k] | 0x20) != word[k]) return false;
+    return true;
+  };
+  return starts("nan") || starts("inf") ? NumberStatus::not_finite : NumberStatus::not_a_number;
+}
+
 /// Reads "mantissa e exponent" that scan_real() found too long or too large for exact arithmetic,
 /// or that is malformed. `s` is trimmed and not empty.
 RealCell convert(std::string_view s) {
@@ -57,17 +68,7 @@ RealCell convert(std::string_view s) {
       break;
     }
   }
-  if (digits == 0) {
-    const std::string_view rest = s.substr(digits_begin);
-    const auto starts = [&](std::string_view word) {
-      if (rest.size() < word.size()) return false;
-      for (std::size_t k = 0; k < word.size(); ++k)
-        if ((rest[k] | 0x20) != word[k]) return false;
-      return true;
-    };
-    return {0,
-            starts("nan") || starts("inf") ? NumberStatus::not_finite : NumberStatus::not_a_number};
-  }
+  if (digits == 0) return {0, status_of_word(s.substr(digits_begin))};
   if (i < s.size() && (s[i] | 0x20) == 'x' && s.substr(digits_begin, i - digits_begin) == "0")
     if (const auto hex = read_hexadecimal(s.substr(i + 1)); hex.status != NumberStatus::blank)
       return {negative ? -hex.value : hex.value, hex.status};

@@ -362,48 +362,52 @@ TEST(Renumber, FileIncludedUnderTwoOffsetsMustAgree) {
   EXPECT_FALSE(numbered(*w, {"node=1001"}).refusals.empty());
 }
 
+/// Two sheets of shells, solids and beams between them, with ids at random, in five contacts.
+std::string random_contacts(std::mt19937& random) {
+  const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  test::SmallDeck d;
+  constexpr int side = 4;
+  std::vector<int> node_id;
+  for (int i = 0; i < 2 * side * side; ++i)
+    node_id.push_back((node_id.empty() ? 1 : node_id.back()) + 1 + pick(7));
+  std::shuffle(node_id.begin(), node_id.end(), random);
+  for (int i = 0; i < 2 * side * side; ++i)
+    d.node(node_id[static_cast<std::size_t>(i)], i % side * 10.0 + 0.01 * pick(99),
+           i / side % side * 10.0, i / (side * side) * 1.0);
+  d.shell_part(3, 1.5).shell_part(5, 2.5).solid_part(8).beam_part(9, 2);
+  int id = 10;
+  const auto n = [&](int i) { return node_id[static_cast<std::size_t>(i)]; };
+  for (int k = 0; k < 2; ++k)
+    for (int y = 0; y + 1 < side; ++y)
+      for (int x = 0; x + 1 < side; ++x) {
+        const int i = x + side * y + side * side * k;
+        id += 1 + pick(3);
+        d.shell(k == 0 ? 3 : 5, id, n(i), n(i + 1), n(i + 1 + side), n(i + side));
+        if (k == 0 && pick(3) == 0)
+          d.brick(
+              8, id,
+              {n(i), n(i + 1), n(i + 1 + side), n(i + side), n(i + side * side),
+               n(i + 1 + side * side), n(i + 1 + side + side * side), n(i + side + side * side)});
+        if (pick(4) == 0) d.bar("BEAM", 9, id, n(i), n(i + 1), n(i + side));
+      }
+  d.group("/SURF/PART/4", {3}).group("/SURF/PART/EXT/6", {3, 8}).group("/GRNOD/PART/4", {5, 9});
+  d.group("/GRNOD/GENE/7", {n(1), n(1) + 40}).group("/LINE/EDGE/2", {4}).group("/LINE/SURF/3", {6});
+  d.add("/SET/GENERAL/44\nset\nPART               5\nNODE_D    " +
+        std::string(10 - std::to_string(n(20)).size(), ' ') + std::to_string(n(20)) + "\n");
+  d.add("@/INTER/TYPE7/11 grnd_IDs=4 surf_IDm=6 Igap=" + std::to_string(pick(4)) + " Inacti=5");
+  d.add("@/INTER/TYPE7/12 grnd_IDs=7 surf_IDm=4 Igap=1 Inacti=6");
+  d.add("@/INTER/TYPE7/13 grnd_IDs=44 surf_IDm=4 Igap=1");
+  d.add("@/INTER/TYPE11/14 line_IDs=2 line_IDm=3 Igap=1");
+  d.add("@/INTER/TYPE19/15 surf_IDs=4 surf_IDm=44 Igap=1");
+  return d.text();
+}
+
 /// The scene of a random model is the same modulo the map of ids.
 TEST(Renumber, SceneIsTheSameModuloTheMap) {
   std::mt19937 random(23);
   const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   for (int round = 0; round < 40; ++round) {
-    test::SmallDeck d;
-    constexpr int side = 4;
-    std::vector<int> node_id;
-    for (int i = 0; i < 2 * side * side; ++i)
-      node_id.push_back((node_id.empty() ? 1 : node_id.back()) + 1 + pick(7));
-    std::shuffle(node_id.begin(), node_id.end(), random);
-    for (int i = 0; i < 2 * side * side; ++i)
-      d.node(node_id[static_cast<std::size_t>(i)], i % side * 10.0 + 0.01 * pick(99),
-             i / side % side * 10.0, i / (side * side) * 1.0);
-    d.shell_part(3, 1.5).shell_part(5, 2.5).solid_part(8).beam_part(9, 2);
-    int id = 10;
-    const auto n = [&](int i) { return node_id[static_cast<std::size_t>(i)]; };
-    for (int k = 0; k < 2; ++k)
-      for (int y = 0; y + 1 < side; ++y)
-        for (int x = 0; x + 1 < side; ++x) {
-          const int i = x + side * y + side * side * k;
-          id += 1 + pick(3);
-          d.shell(k == 0 ? 3 : 5, id, n(i), n(i + 1), n(i + 1 + side), n(i + side));
-          if (k == 0 && pick(3) == 0)
-            d.brick(
-                8, id,
-                {n(i), n(i + 1), n(i + 1 + side), n(i + side), n(i + side * side),
-                 n(i + 1 + side * side), n(i + 1 + side + side * side), n(i + side + side * side)});
-          if (pick(4) == 0) d.bar("BEAM", 9, id, n(i), n(i + 1), n(i + side));
-        }
-    d.group("/SURF/PART/4", {3}).group("/SURF/PART/EXT/6", {3, 8}).group("/GRNOD/PART/4", {5, 9});
-    d.group("/GRNOD/GENE/7", {n(1), n(1) + 40})
-        .group("/LINE/EDGE/2", {4})
-        .group("/LINE/SURF/3", {6});
-    d.add("/SET/GENERAL/44\nset\nPART               5\nNODE_D    " +
-          std::string(10 - std::to_string(n(20)).size(), ' ') + std::to_string(n(20)) + "\n");
-    d.add("@/INTER/TYPE7/11 grnd_IDs=4 surf_IDm=6 Igap=" + std::to_string(pick(4)) + " Inacti=5");
-    d.add("@/INTER/TYPE7/12 grnd_IDs=7 surf_IDm=4 Igap=1 Inacti=6");
-    d.add("@/INTER/TYPE7/13 grnd_IDs=44 surf_IDm=4 Igap=1");
-    d.add("@/INTER/TYPE11/14 line_IDs=2 line_IDm=3 Igap=1");
-    d.add("@/INTER/TYPE19/15 surf_IDs=4 surf_IDm=44 Igap=1");
-    const auto w = Whole::text(d.text());
+    const auto w = Whole::text(random_contacts(random));
     const std::vector<std::vector<std::string>> choices{
         {"all+1000"},
         {"node=1", "element=1", "part+3", "inter=1"},

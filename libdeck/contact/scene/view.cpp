@@ -251,6 +251,33 @@ std::vector<RowPlace> rows_by_depth(const Scene& scene, std::size_t& penetration
   return places;
 }
 
+/// Of each secondary node or edge the penetration that is the deepest.
+void find_deepest(const Scene& scene, const std::vector<RowPlace>& places, SceneView& view) {
+  std::vector<std::vector<std::uint8_t>> seen;  // by contact and secondary item
+  for (const Contact& c : scene.contacts)
+    seen.emplace_back(
+        c.penetrations.empty() ? 0 : std::max(c.secondary.size(), c.secondary_edges.size()), 0);
+  for (std::uint32_t i = 0; i < view.penetrations.size(); ++i) {
+    const RowPlace& p = places[i];
+    std::uint8_t& known = seen[p.contact][scene.contacts[p.contact].penetrations[p.row].secondary];
+    if (known == 0) view.deepest_per_node.push_back(i);
+    known = 1;
+  }
+}
+
+void pair_parts(const Scene& scene, SceneView& view) {
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> pairs;
+  auto last = pairs.end();  // rows of a pair of parts mostly follow each other
+  for (std::uint32_t i = 0; i < view.penetrations.size(); ++i) {
+    const NamedPenetration& p = view.penetrations[i];
+    const std::pair parts(p.secondary_element.part, p.main_element.part);
+    if (last == pairs.end() || last->first != parts) last = pairs.try_emplace(parts).first;
+    last->second.push_back(i);
+  }
+  for (const auto& [parts, list] : pairs)
+    view.part_pairs.push_back(part_pair(scene, view, parts.first, parts.second, list));
+}
+
 }  // namespace
 
 double largest_bounded_gap(const Model& model) {
@@ -318,32 +345,9 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
           named(scene, connectivity, places[at].contact, places[at].row);
     }
   });
-  const auto find_deepest = [&] {
-    std::vector<std::vector<std::uint8_t>> seen;  // by contact and secondary item
-    for (const Contact& c : scene.contacts)
-      seen.emplace_back(
-          c.penetrations.empty() ? 0 : std::max(c.secondary.size(), c.secondary_edges.size()), 0);
-    for (std::uint32_t i = 0; i < penetrations; ++i) {
-      const RowPlace& p = places[i];
-      std::uint8_t& known =
-          seen[p.contact][scene.contacts[p.contact].penetrations[p.row].secondary];
-      if (known == 0) view.deepest_per_node.push_back(i);
-      known = 1;
-    }
-  };
-  const auto pair_parts = [&] {
-    std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> pairs;
-    auto last = pairs.end();  // rows of a pair of parts mostly follow each other
-    for (std::uint32_t i = 0; i < penetrations; ++i) {
-      const NamedPenetration& p = view.penetrations[i];
-      const std::pair parts(p.secondary_element.part, p.main_element.part);
-      if (last == pairs.end() || last->first != parts) last = pairs.try_emplace(parts).first;
-      last->second.push_back(i);
-    }
-    for (const auto& [parts, list] : pairs)
-      view.part_pairs.push_back(part_pair(scene, view, parts.first, parts.second, list));
-  };
-  parallel_items(threads, 2, [&](std::size_t i) { i == 0 ? find_deepest() : pair_parts(); });
+  parallel_items(threads, 2, [&](std::size_t i) {
+    i == 0 ? find_deepest(scene, places, view) : pair_parts(scene, view);
+  });
   std::stable_sort(view.part_pairs.begin(), view.part_pairs.end(),
                    [](const PartPair& a, const PartPair& b) { return a.max_depth > b.max_depth; });
   return view;

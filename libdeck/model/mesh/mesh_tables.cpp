@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <system_error>
 
@@ -228,6 +229,12 @@ class MaterialFiller {
     return not_known;
   }
 
+  /// Laws that need cells that are not read, or rules that are not established.
+  static bool hides_bulk(int law) {
+    constexpr int laws[] = {5, 10, 16, 17, 18, 20, 24, 37, 46, 88, 97, 102, 105, 120};
+    return std::find(std::begin(laws), std::end(laws), law) != std::end(laws);
+  }
+
   void solids() {
     const double e = m_.young, nu = m_.poisson, rho = m_.reference_density;
     double b = e / (3 * (1 - 2 * nu)), g = m_.shear, f = 4.0 / 3.0;
@@ -291,25 +298,8 @@ class MaterialFiller {
         if (c_.integer("Iform") == 6) m_.fixed_step = 1e20;
         b = not_known;
         break;
-      // These need cells that are not read, or rules that are not established.
-      case 5:
-      case 10:
-      case 16:
-      case 17:
-      case 18:
-      case 20:
-      case 24:
-      case 37:
-      case 46:
-      case 88:
-      case 97:
-      case 102:
-      case 105:
-      case 120:
-        b = not_known;
-        break;
       default:
-        if (e == 0) b = not_known;
+        if (e == 0 || hides_bulk(m_.law)) b = not_known;
         break;
     }
     if (m_.law != 3 && m_.law != 4 && m_.law != 6 && state_equation(model_, from_.id) != nullptr)

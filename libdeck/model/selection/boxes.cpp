@@ -133,28 +133,35 @@ bool Selections::Impl::skew_axes(std::int64_t id, std::array<Vec, 3>& axes) {
   return true;
 }
 
+void Selections::Impl::report_box(const Block& block, std::string what, std::string help,
+                                  int number) {
+  report({RuleId::DK159,
+          block.header_span,
+          std::string(block.keyword) + " " + std::to_string(block.id.value) + ": " + what,
+          std::string(block.keyword),
+          block.id.value,
+          {.message = number, .solver = "it stops with an error", .fix = std::move(help)}});
+}
+
+/// /BOX/BOX: a union of others, less some.
+void Selections::Impl::collect_boxes(Box& b, const Block& block, const DecodedBlock& d) {
+  const detail::IdList list = id_list(d);
+  if (list.positive.empty() && list.negative.empty())
+    report_box(block, "the list of boxes is empty", "list boxes or remove it", 801);
+  for (const auto* refs : {&list.positive, &list.negative})
+    for (const detail::IdRef& ref : *refs)
+      if (const Box* member = box(ref.id, block, 795)) {
+        b.members.push_back(member);
+        b.subtracted.push_back(refs == &list.negative);
+      }
+}
+
 void Selections::Impl::fill_box(Box& b, const Definition& def, const DecodedBlock& d) {
   const Block& block = *def.block;
+  if (def.type == "BOX") return collect_boxes(b, block, d);
   const auto fail = [&](std::string what, std::string help, int number) {
-    report({RuleId::DK159,
-            block.header_span,
-            std::string(block.keyword) + " " + std::to_string(block.id.value) + ": " + what,
-            std::string(block.keyword),
-            block.id.value,
-            {.message = number, .solver = "it stops with an error", .fix = std::move(help)}});
+    report_box(block, std::move(what), std::move(help), number);
   };
-  if (def.type == "BOX") {
-    const detail::IdList list = id_list(d);
-    if (list.positive.empty() && list.negative.empty())
-      fail("the list of boxes is empty", "list boxes or remove it", 801);
-    for (const auto* refs : {&list.positive, &list.negative})
-      for (const detail::IdRef& ref : *refs)
-        if (const Box* member = box(ref.id, block, 795)) {
-          b.members.push_back(member);
-          b.subtracted.push_back(refs == &list.negative);
-        }
-    return;
-  }
   const AffineMap motion = block.submodel >= 0 && static_cast<std::size_t>(block.submodel) <
                                                       model->submodel_motions.size()
                                ? model->submodel_motions[static_cast<std::size_t>(block.submodel)]

@@ -275,6 +275,7 @@ struct Selections::Impl {
   // ------------------------------------------------------------------
   const LineSet* line(std::int64_t id);
   std::vector<Edge> resolve_line(const detail::Definition& def, const DecodedBlock& d);
+  std::vector<Edge> listed_edges(const Block& block, const DecodedBlock& d);
   std::vector<Edge> edges_of(const std::vector<Segment>& segments, bool free_only) const;
   void add_line_elements(ElementKind kind, const detail::Indices& members,
                          std::vector<Edge>& out) const;
@@ -283,6 +284,8 @@ struct Selections::Impl {
   // ------------------------------------------------------------------------------
   const detail::Box* box(std::int64_t id, const Block& from, int missing_number);
   void fill_box(detail::Box& b, const detail::Definition& def, const DecodedBlock& d);
+  void collect_boxes(detail::Box& b, const Block& block, const DecodedBlock& d);
+  void report_box(const Block& block, std::string what, std::string help, int number);
   bool skew_axes(std::int64_t id, std::array<Vec, 3>& axes);
   std::array<double, 3> box_point(NodeIndex n) const;
 

@@ -49,31 +49,34 @@ void Selections::Impl::add_line_elements(ElementKind kind, const Indices& member
   }
 }
 
+std::vector<Edge> Selections::Impl::listed_edges(const Block& block, const DecodedBlock& d) {
+  std::vector<Edge> out;
+  std::vector<IdRef> missing;
+  for (const DecodedCard& card : d.cards) {
+    Edge edge;
+    std::size_t at = 0;
+    bool complete = true;
+    for (const Cell& cell : card.cells) {
+      if (cell.field->ref != "node" || at >= 2) continue;
+      const std::int64_t id = shift(block, "node", cell.integer);
+      edge.nodes[at] = node(id);
+      if (edge.nodes[at] == no_index) {
+        complete = false;
+        if (id != 0) missing.push_back({id, cell.span});
+      }
+      ++at;
+    }
+    if (complete && at == 2) out.push_back(edge);
+  }
+  report_missing(RuleId::DK150, block, "node", missing, 78);
+  return out;
+}
+
 std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const DecodedBlock& d) {
   const Block& block = *def.block;
   const std::string_view type = def.type;
   std::vector<Edge> out;
-  if (type == "SEG") {
-    std::vector<IdRef> missing;
-    for (const DecodedCard& card : d.cards) {
-      Edge edge;
-      std::size_t at = 0;
-      bool complete = true;
-      for (const Cell& cell : card.cells) {
-        if (cell.field->ref != "node" || at >= 2) continue;
-        const std::int64_t id = shift(block, "node", cell.integer);
-        edge.nodes[at] = node(id);
-        if (edge.nodes[at] == no_index) {
-          complete = false;
-          if (id != 0) missing.push_back({id, cell.span});
-        }
-        ++at;
-      }
-      if (complete && at == 2) out.push_back(edge);
-    }
-    report_missing(RuleId::DK150, block, "node", missing, 78);
-    return out;
-  }
+  if (type == "SEG") return listed_edges(block, d);
   const detail::IdList list = id_list(d);
   if (type == "LINE") {
     std::vector<IdRef> missing;
