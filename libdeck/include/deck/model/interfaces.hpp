@@ -37,8 +37,22 @@ struct InterBase {
   bool resolved = false;  ///< values of Origin::geometry are filled in (deck/contact/resolve.hpp)
 };
 
+/// What an interface of type T has beside its fields.
+template <class T>
+struct InterFields : InterBase {
+  /// Calls f(name, field) for every field in the order of the manual.
+  template <class F>
+  void for_each(F&& f) {
+    visit_fields(static_cast<T&>(*this), f);
+  }
+  template <class F>
+  void for_each(F&& f) const {
+    visit_fields(static_cast<const T&>(*this), f);
+  }
+};
+
 /// A tie. Its fields mean something else than those of contacts, so it is in no list with them.
-struct InterType2 : InterBase {
+struct InterType2 : InterFields<InterType2> {
   static constexpr InterfaceTraits traits{
       2, "/INTER/TYPE2", {"grnd_IDs", "grnod"}, {"surf_IDm", "surf"}, "dsearch"};
   EffectiveInt grnd_IDs, surf_IDm, Ignore, Spotflag, Level, Isearch, Idel2, surf_IDs;
@@ -49,14 +63,10 @@ struct InterType2 : InterBase {
   EffectiveInt Istf, Ithe;
   EffectiveReal Kthe;
   EffectiveInt Iproj;
-  template <class F>
-  void for_each(F&& f);
-  template <class F>
-  void for_each(F&& f) const;
 };
 
 /// The fields common to types 7, 11 and 19. IBC is "xyz", one digit each.
-struct InterType7 : InterBase {
+struct InterType7 : InterFields<InterType7> {
   static constexpr InterfaceTraits traits{
       7, "/INTER/TYPE7", {"grnd_IDs", "grnod"}, {"surf_IDm", "surf"}, "Gapmin"};
   EffectiveInt grnd_IDs, surf_IDm, Istf, Ithe, Igap, Ibag, Idel, Icurv, Iadm;
@@ -80,27 +90,18 @@ struct InterType7 : InterBase {
   EffectiveReal Tint;
   EffectiveInt Ithe_form;
   EffectiveReal AscaleK, Frad, Drad, Fheats, Fheatm;
-  /// Calls f(name, field) for every field in the order of the manual.
-  template <class F>
-  void for_each(F&& f);
-  template <class F>
-  void for_each(F&& f) const;
 };
 
-struct InterType10 : InterBase {
+struct InterType10 : InterFields<InterType10> {
   static constexpr InterfaceTraits traits{
       10, "/INTER/TYPE10", {"grnd_IDs", "grnod"}, {"surf_IDm", "surf"}, "Gap"};
   EffectiveInt grnd_IDs, surf_IDm, Idel;
   EffectiveReal Stfac, Gap, Tstart, Tstop;
   EffectiveInt ITIED, Inacti;
   EffectiveReal VISs, Bumult;
-  template <class F>
-  void for_each(F&& f);
-  template <class F>
-  void for_each(F&& f) const;
 };
 
-struct InterType11 : InterBase {
+struct InterType11 : InterFields<InterType11> {
   static constexpr InterfaceTraits traits{
       11, "/INTER/TYPE11", {"line_IDs", "line"}, {"line_IDm", "line"}, "Gapmin"};
   EffectiveInt line_IDs, line_IDm, Istf, Ithe, Igap, Irem_gap, Idel;
@@ -116,13 +117,9 @@ struct InterType11 : InterBase {
   EffectiveReal AscaleK, Tint;
   EffectiveInt Ithe_form;
   EffectiveReal Frad, Drad;
-  template <class F>
-  void for_each(F&& f);
-  template <class F>
-  void for_each(F&& f) const;
 };
 
-struct InterType19 : InterBase {
+struct InterType19 : InterFields<InterType19> {
   static constexpr InterfaceTraits traits{
       19, "/INTER/TYPE19", {"surf_IDs", "surf"}, {"surf_IDm", "surf"}, "Gapmin"};
   EffectiveInt surf_IDs, surf_IDm, Istf, Ithe, Igap, Iedge, Ibag, Idel, Icurv;
@@ -140,14 +137,10 @@ struct InterType19 : InterBase {
   EffectiveReal Tint;
   EffectiveInt Ithe_form;
   EffectiveReal AscaleK, Frad, Drad, Fheats, Fheatm;
-  template <class F>
-  void for_each(F&& f);
-  template <class F>
-  void for_each(F&& f) const;
 };
 
 /// Segments against nodes, of one surface or of two; no minimum gap: gaps follow the thicknesses.
-struct InterType24 : InterBase {
+struct InterType24 : InterFields<InterType24> {
   static constexpr InterfaceTraits traits{
       24, "/INTER/TYPE24", {"surf_ID1", "surf"}, {"surf_ID2", "surf"}, ""};
   EffectiveInt surf_ID1, surf_ID2, Istf, Irem_i2, Idel, IPSTIF, grnd_IDs, Iedge;
@@ -163,14 +156,10 @@ struct InterType24 : InterBase {
   EffectiveReal DTSTIF;
   EffectiveInt fric_ID;
   EffectiveReal C1, C2, C3, C4, C5, C6;
-  template <class F>
-  void for_each(F&& f);
-  template <class F>
-  void for_each(F&& f) const;
 };
 
 /// The same with both sides of the mesh joined to a whole: what current models use.
-struct InterType25 : InterBase {
+struct InterType25 : InterFields<InterType25> {
   static constexpr InterfaceTraits traits{
       25, "/INTER/TYPE25", {"surf_ID1", "surf"}, {"surf_ID2", "surf"}, ""};
   EffectiveInt surf_ID1, surf_ID2, Istf, Ithe, Igap, Irem_i2, Idel, Iedge, IPSTIF, grnd_IDs;
@@ -194,10 +183,6 @@ struct InterType25 : InterBase {
   EffectiveReal AscaleK, Frad, Drad, Fheats, Fheatm;
   EffectiveInt FRIC_FUN, Fcond;
   EffectiveReal Dcond, THICK_S, THICK_S_SCALE, THICK_M, THICK_M_SCALE;
-  template <class F>
-  void for_each(F&& f);
-  template <class F>
-  void for_each(F&& f) const;
 };
 
 /// /DEFAULT/INTER/TYPEn: the non-zero fields.

@@ -7,7 +7,6 @@
 #include "deck/model/interfaces.hpp"
 
 namespace deck {
-namespace detail {
 
 template <class Self, class F>
 requires std::is_same_v<std::remove_const_t<Self>, InterType2>
@@ -320,65 +319,6 @@ void visit_fields(Self& s, F& f) {
   f("THICK_S_SCALE", s.THICK_S_SCALE);
   f("THICK_M", s.THICK_M);
   f("THICK_M_SCALE", s.THICK_M_SCALE);
-}
-
-}  // namespace detail
-
-template <class F>
-void InterType2::for_each(F&& f) {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType2::for_each(F&& f) const {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType7::for_each(F&& f) {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType7::for_each(F&& f) const {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType10::for_each(F&& f) {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType10::for_each(F&& f) const {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType11::for_each(F&& f) {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType11::for_each(F&& f) const {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType19::for_each(F&& f) {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType19::for_each(F&& f) const {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType24::for_each(F&& f) {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType24::for_each(F&& f) const {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType25::for_each(F&& f) {
-  detail::visit_fields(*this, f);
-}
-template <class F>
-void InterType25::for_each(F&& f) const {
-  detail::visit_fields(*this, f);
 }
 
 /// Calls f(contact) with the contact as its own type; `base` must be in Interfaces::ordered.
