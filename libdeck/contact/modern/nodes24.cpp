@@ -277,9 +277,9 @@ bool in_box(const Coordinates& x, const Face& f, NodeIndex node, double by) {
 }
 
 /// What is in doubt about a node.
-class Doubts24 {
+class DoubtfulPairs24 {
  public:
-  explicit Doubts24(bool nearest) : nearest_(nearest) {}
+  explicit DoubtfulPairs24(bool nearest) : nearest_(nearest) {}
   void add(const PatchFigures& f) {
     const double p = f.result.penetration;
     const bool blocks = std::fabs(p) < tiny_penetration || (p < 0 && f.result.blocks);
@@ -438,7 +438,7 @@ PatchFigures evaluate_patch(const PatchRule& r, bool weigh) {
 PatchChoice choose_pair(std::span<const PatchRule> pairs, bool nearest, bool weigh) {
   PatchChoice out;
   PatchState<double> state(nearest, pairs.empty() ? 0 : pairs.front().accepted);
-  Doubts24 doubts(nearest);
+  DoubtfulPairs24 doubts(nearest);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     const PatchFigures f = evaluate_patch(pairs[i], weigh);
     if (weigh) doubts.add(f);

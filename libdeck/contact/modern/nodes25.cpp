@@ -409,7 +409,7 @@ class NodeByNode {
   std::vector<sweep::NearDistance> near_;
   std::vector<Candidate> pairs_;
   std::vector<std::uint8_t> both_;  ///< 1: what is known of the segment holds for its opposite
-  Doubts25 doubts_;
+  DoubtfulPairs doubts_;
   std::uint64_t counted_ = 0;
   bool any_open_ = false;
 };
