@@ -186,8 +186,8 @@ Sample needle(Random& r) {
   return thin_triangle(r, t, epsilon);
 }
 Sample sliver(Random& r) {
-  constexpr double kAt[] = {0.5, -1e-3, 1.0 + 1e-3};
-  const double t = kAt[r.below(3)], epsilon = r.log(-15, -3);
+  constexpr double shares[] = {0.5, -1e-3, 1.0 + 1e-3};
+  const double t = shares[r.below(3)], epsilon = r.log(-15, -3);
   return thin_triangle(r, t, epsilon);
 }
 Sample collinear(Random& r) {
@@ -283,9 +283,9 @@ Sample near_touch(Random& r) {
 // --- families 17 to 22: sizes and special numbers ------------------------------------------------
 
 Sample huge_offset(Random& r) {
-  constexpr double kSize[] = {1e6, 1e8, 1e9};
+  constexpr double sizes[] = {1e6, 1e8, 1e9};
   Sample s = ordinary(r);
-  const double size = kSize[r.below(3)];
+  const double size = sizes[r.below(3)];
   if (!s.edges) s.x[4] = 0.25 * (s.x[0] + s.x[1] + s.x[2] + s.x[3]) + 1e-3 * r.direction();
   translate(s, size * r.direction());
   if (r.below(2) == 0) s.gap = 1e-3;
@@ -349,9 +349,9 @@ Sample near_collinear(Random& r) {
   return edges(o, o + d, start, along + (lateral * r.range(-1, 1)) * side);
 }
 Sample crossing(Random& r) {
-  constexpr double kAt[] = {0.0, 0.5, 1.0};
+  constexpr double shares[] = {0.0, 0.5, 1.0};
   const P s = r.integers(32), m = r.integers(32), o = r.integers(64);
-  const double hs = kAt[r.below(3)], hm = kAt[r.below(3)];
+  const double hs = shares[r.below(3)], hm = shares[r.below(3)];
   const P s1 = o - hs * s, m1 = o - hm * m;
   return edges(s1, s1 + s, m1, m1 + m);
 }
@@ -382,7 +382,7 @@ Sample zero_length(Random& r) {
 // ------------------------------------------------
 
 Sample touching(Random& r) {
-  constexpr double kTriples[][3] = {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {1, 0, 1}};
+  constexpr double triples[][3] = {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {1, 0, 1}};
   Sample s;
   double d = 0.0;
   const double scale = std::ldexp(1.0, r.integer(-12, 12));
@@ -391,14 +391,14 @@ Sample touching(Random& r) {
     d = scale * static_cast<double>(r.integer(1, 99));
     s.x[4].z = r.sign() * d;
   } else {
-    const double* t = kTriples[r.below(4)];
+    const double* t = triples[r.below(4)];
     s = edges({0, 0, -1}, {0, 0, 1}, {scale * t[0], scale * t[1], -1},
               {scale * t[0], scale * t[1], 2});
     d = scale * t[2];
   }
   permute_axes(s, r);
-  constexpr int kSteps[] = {-1, 0, 1};
-  const int step = kSteps[r.below(3)];
+  constexpr int ulps[] = {-1, 0, 1};
+  const int step = ulps[r.below(3)];
   s.gap = step == 0 ? d : std::nextafter(d, step < 0 ? 0.0 : 2.0 * d);
   return s;
 }
@@ -472,9 +472,9 @@ struct Recipe {
   Sample (*make)(Random&);
 };
 
-const char* const kSame = "finite, correctly rounded, decision exact";
-const Recipe kRecipes[] = {
-    {{1, "needle", kSame}, needle},
+const char* const same_as_exact = "finite, correctly rounded, decision exact";
+const Recipe recipes[] = {
+    {{1, "needle", same_as_exact}, needle},
     {{2, "sliver", "region at the obtuse corner as in exact arithmetic"}, sliver},
     {{3, "zero area, collinear", "behaves as its longest edge"}, collinear},
     {{4, "zero area, two nodes coincide", "behaves as an edge"}, coincident_pair},
@@ -517,7 +517,7 @@ const Recipe kRecipes[] = {
     {{37, "rounding mode", "not sampled", false}, nullptr},
     {{38, "search degeneracies", "pairs of such scenes; the search itself has its own tests"},
      search_shapes},
-    {{39, "extreme size ratio", kSame}, size_ratio},
+    {{39, "extreme size ratio", same_as_exact}, size_ratio},
     {{40, "sharp dihedral", "continuous, first sub-triangle of ties"}, dihedral},
 };
 
@@ -526,7 +526,7 @@ const Recipe kRecipes[] = {
 std::span<const HardFamily> hard_families() {
   static const std::vector<HardFamily> list = [] {
     std::vector<HardFamily> out;
-    for (const Recipe& recipe : kRecipes) out.push_back(recipe.family);
+    for (const Recipe& recipe : recipes) out.push_back(recipe.family);
     return out;
   }();
   return list;
@@ -534,7 +534,7 @@ std::span<const HardFamily> hard_families() {
 
 std::vector<PairSample> hard_cases(int family, std::size_t samples, std::uint64_t seed) {
   std::vector<PairSample> out;
-  for (const Recipe& recipe : kRecipes) {
+  for (const Recipe& recipe : recipes) {
     if (recipe.family.id != family || recipe.make == nullptr) continue;
     Random random(seed * 64 + static_cast<std::uint64_t>(family));
     out.reserve(samples);

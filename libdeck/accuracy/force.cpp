@@ -15,7 +15,7 @@ namespace {
 // numbers must not meet in a product.
 template <class T>
 T law(const T& gap, const T& distance, const T& depth) {
-  const T half(0.5), floor(kLinearBelow), share = distance / gap;
+  const T half(0.5), floor(linear_below), share = distance / gap;
   if (share >= floor) return half * depth / share;
   return half * gap * ((T(1) - floor) / floor + (floor - share) / (floor * floor));
 }
@@ -76,7 +76,7 @@ Outcome robust_force(const PairSample& s, FilterCounters& counters) {
   return out;
 }
 
-const Tier kForceTiers[] = {
+const Tier tiers_of_forces[] = {
     {"float", "force", force<float, Way::residual>},
     {"float-local", "force", force<float, Way::local>},
     {"double", "force", force<double, Way::textbook>},
@@ -127,11 +127,11 @@ double elastic_force(double gap, double distance, double depth) {
 }
 
 double force_slope(double distance, double gap) {
-  const double rho = std::max(distance / gap, kLinearBelow);
+  const double rho = std::max(distance / gap, linear_below);
   return 0.5 / (rho * rho);
 }
 
-std::span<const Tier> force_tiers() { return kForceTiers; }
+std::span<const Tier> force_tiers() { return tiers_of_forces; }
 
 KernelRun run_kernel(std::span<const PairSample> samples, int repeats) {
   KernelRun out;

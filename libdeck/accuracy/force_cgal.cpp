@@ -13,12 +13,12 @@ Outcome exact_force(const PairSample& s, FilterCounters&) {
   const Rational gap(s.gap), difference = CGAL::square(gap) - squared;
   out.closer = s.gap > 0.0 && CGAL::is_positive(difference);
   if (!out.closer) return out;
-  const Rational share(kLinearBelow), d = long_square_root(squared), floor = share * gap;
+  const Rational share(linear_below), d = long_square_root(squared), floor = share * gap;
   Rational force;
   if (d >= floor) {
     force = gap * difference / ((gap + d) * 2 * d);
   } else {
-    force = (gap - floor) / (2 * share) + (floor - d) / (2 * Rational(kLinearBelow * kLinearBelow));
+    force = (gap - floor) / (2 * share) + (floor - d) / (2 * Rational(linear_below * linear_below));
   }
   out.value = CGAL::to_double(force);
   return out;

@@ -13,18 +13,18 @@ namespace {
 
 using accuracy::Outcome;
 using accuracy::Tier;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double infinite_error = std::numeric_limits<double>::infinity();
 
 double relative_error(double got, double want) {
   if (got == want) return 0.0;
-  if (!std::isfinite(got) || want == 0.0) return kNever;
+  if (!std::isfinite(got) || want == 0.0) return infinite_error;
   return std::abs(got - want) / want;
 }
 
 double error_in_ulp(double got, double want) {
   if (got == want) return 0.0;
-  if (!std::isfinite(got)) return kNever;
-  return std::abs(got - want) / (std::nextafter(want, kNever) - want);
+  if (!std::isfinite(got)) return infinite_error;
+  return std::abs(got - want) / (std::nextafter(want, infinite_error) - want);
 }
 
 // The point a tier names, measured exactly: how far is it from the other side?
@@ -63,14 +63,14 @@ bool wrong_feature(const PairSample& s, const Outcome& got, const Outcome& want)
 double scaled_error(const PairSample& s, double got, double want, bool force, double distance) {
   if (got == want) return 0.0;
   const double size = force ? std::max(size_of(s), s.gap) : size_of(s);
-  if (!std::isfinite(got) || !(size > 0.0)) return kNever;
+  if (!std::isfinite(got) || !(size > 0.0)) return infinite_error;
   const double slope = force ? accuracy::force_slope(distance, s.gap) : 1.0;
   return std::abs(got / slope - want / slope) / size;
 }
 
 // How far off a wrong decision was: the error of its distance over the gap or the distance.
 double error_of_wrong(const PairSample& s, double got, double want) {
-  if (!std::isfinite(got)) return kNever;
+  if (!std::isfinite(got)) return infinite_error;
   const double scale = std::max({s.gap, got, want});
   return scale > 0.0 ? std::abs(got - want) / scale : 0.0;
 }

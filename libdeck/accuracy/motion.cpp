@@ -12,7 +12,7 @@
 namespace deck {
 namespace {
 
-constexpr std::size_t kMotionSteps = 100;
+constexpr std::size_t motion_steps = 100;
 
 HardMotion::Line motion_line(const HardMotion& m, Accuracy accuracy) {
   HardMotion::Line out;
@@ -20,9 +20,9 @@ HardMotion::Line motion_line(const HardMotion& m, Accuracy accuracy) {
   DecisionReport unused;
   detail::PairJudge judge(accuracy, unused);
   const std::array<Point3<double>, 4> x{m.corners[0], m.corners[1], m.corners[2], m.corners[2]};
-  for (std::size_t k = 0; k <= kMotionSteps; ++k) {
+  for (std::size_t k = 0; k <= motion_steps; ++k) {
     const Point3<double> p =
-        m.from + (static_cast<double>(k) / static_cast<double>(kMotionSteps)) * (m.to - m.from);
+        m.from + (static_cast<double>(k) / static_cast<double>(motion_steps)) * (m.to - m.from);
     const detail::PairVerdict verdict = judge.judge(p, x, true, m.gap);
     const PenetrationRow& row = verdict.row;
     const bool pressed = verdict.is_row();
@@ -42,7 +42,7 @@ HardMotion hard_motion() {
   m.corners = {Point3<double>{-0.1, 0, 0}, {0.6, 0.9, 0}, {-0.8, -0.9, 0}};
   m.from = {-0.1, 1.1, 0.3}, m.to = {1.9, 1.3, 0.3};
   m.gap = 2;
-  m.way = length(m.to - m.from) / static_cast<double>(kMotionSteps);
+  m.way = length(m.to - m.from) / static_cast<double>(motion_steps);
   for (const Accuracy a : {Accuracy::reference, Accuracy::fast, Accuracy::robust, Accuracy::exact})
     m.lines.push_back(motion_line(m, a));
   return m;
@@ -54,7 +54,7 @@ std::vector<std::string> motion_sentences(const HardMotion& motion, const std::s
     const std::string name = to_string(a);
     return tag.empty() ? name : "<" + tag + ">" + name + "</" + tag + ">";
   };
-  for (std::size_t k = 1; k <= kMotionSteps; ++k) {
+  for (std::size_t k = 1; k <= motion_steps; ++k) {
     std::string who;
     const HardMotion::Line* first = nullptr;
     for (const HardMotion::Line& line : motion.lines) {

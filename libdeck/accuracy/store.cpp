@@ -13,13 +13,13 @@
 namespace deck {
 namespace {
 
-constexpr char kSeparator = '\t';
+constexpr char column_separator = '\t';
 
 struct RowWriter {
   std::string out;
   RowWriter& add(std::string_view text) {
     out += text;
-    out += kSeparator;
+    out += column_separator;
     return *this;
   }
   RowWriter& add(double v) { return add(std::bit_cast<std::uint64_t>(v)); }
@@ -32,7 +32,7 @@ struct RowReader {
   bool good = true;
 
   std::string_view text() {
-    const auto end = std::min(rest.find(kSeparator), rest.size());
+    const auto end = std::min(rest.find(column_separator), rest.size());
     const std::string_view out = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     return out;

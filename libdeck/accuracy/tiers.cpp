@@ -77,21 +77,21 @@ Outcome robust_distance(const PairSample& s, FilterCounters& counters) {
   return out;
 }
 
-constexpr Form kRobust = Form::robust, kReference = Form::reference;
+constexpr Form by_robust = Form::robust, by_reference = Form::reference;
 
-const Tier kDistanceTiers[] = {
-    {"float", "distance", evaluate<float, kRobust>},
-    {"float-local", "distance", evaluate<float, kRobust, true>},
-    {"double", "distance", evaluate<double, kRobust, false, true>},
-    {"double-residual", "distance", evaluate<double, kRobust>},
-    {"reference", "distance", evaluate<double, kReference>},
-    {"double-double", "distance", evaluate<DoubleDouble, kRobust>},
+const Tier tiers_of_distances[] = {
+    {"float", "distance", evaluate<float, by_robust>},
+    {"float-local", "distance", evaluate<float, by_robust, true>},
+    {"double", "distance", evaluate<double, by_robust, false, true>},
+    {"double-residual", "distance", evaluate<double, by_robust>},
+    {"reference", "distance", evaluate<double, by_reference>},
+    {"double-double", "distance", evaluate<DoubleDouble, by_robust>},
     {"robust", "distance", robust_distance},
     {"interval", "distance", interval, true},
     {"epeck", "distance", lazy_exact, true},
     {"exact", "distance", exact, true, true},
-    {"fast", "gaps", evaluate<double, kRobust>},
-    {"reference", "gaps", evaluate<double, kReference>},
+    {"fast", "gaps", evaluate<double, by_robust>},
+    {"reference", "gaps", evaluate<double, by_reference>},
     {"robust", "gaps", robust_decision},
     {"exact", "gaps", exact, true, true},
 };
@@ -103,6 +103,6 @@ bool decide(const PairSample& s, FilterCounters& counters) {
                  : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap, &counters);
 }
 
-std::span<const Tier> distance_tiers() { return kDistanceTiers; }
+std::span<const Tier> distance_tiers() { return tiers_of_distances; }
 
 }  // namespace deck::accuracy

@@ -60,7 +60,7 @@ Outcome interval(const PairSample& s, FilterCounters& counters);
 // Rationals throughout: exact distance rounded once, exact decision.
 Outcome exact(const PairSample& s, FilterCounters& counters);
 // Below this share of the gap the robust force law is linear in the distance.
-constexpr double kLinearBelow = 1e-8;
+constexpr double linear_below = 1e-8;
 // Elastic normal force of the robust model for K0 = 1, rounded from more than 200 bits.
 Outcome exact_force(const PairSample& s, FilterCounters& counters);
 // The same in double, from a distance and a depth that are known.

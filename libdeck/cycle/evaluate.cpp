@@ -32,8 +32,8 @@ Constants make_constants(const KernelPlan& plan, const PacketView& view) {
 
 namespace {
 
+using detail::block_pairs;
 using detail::GeometryBlock;
-using detail::kBlock;
 
 template <std::size_t N>
 bool present(const std::array<const double*, N>& arrays, std::size_t from = 0, std::size_t to = N) {
@@ -62,9 +62,9 @@ void evaluate_range(const KernelPlan& plan, const PacketView& view, const Packet
   const bool curved =
       plan.card.icurv >= 1 && plan.card.icurv <= 3 && plan.card.kind == ContactKind::node_segment;
   const bool triangles = plan.table->geometry_triangles != nullptr;
-  for (std::size_t b = begin; b < end; b += kBlock) {
+  for (std::size_t b = begin; b < end; b += block_pairs) {
     GeometryBlock block;
-    const std::size_t n = std::min(kBlock, end - b);
+    const std::size_t n = std::min(block_pairs, end - b);
     // A pack that steps back may meet a quadrangle of the block before.
     const bool only =
         triangles && n % static_cast<std::size_t>(width) == 0 && all_triangles(view, b, n);
@@ -120,10 +120,10 @@ void shrink(PacketResult& out, std::size_t n) {
 void evaluate_split(const KernelPlan& plan, const PacketView& view, const PacketView& wide,
                     PacketResult& out, unsigned threads) {
   const std::size_t n = view.size;
-  const std::size_t blocks = std::max<std::size_t>(1, n / kBlock);  // the last may be longer
+  const std::size_t blocks = std::max<std::size_t>(1, n / block_pairs);  // the last may be longer
   const std::size_t parts = std::min<std::size_t>(std::max(1u, threads), blocks);
   const auto bound = [&](std::size_t part) {
-    return part == parts ? n : part * blocks / parts * kBlock;
+    return part == parts ? n : part * blocks / parts * block_pairs;
   };
   const auto run = [&](std::size_t part) {
     evaluate_range(plan, view, wide, bound(part), bound(part + 1), out);

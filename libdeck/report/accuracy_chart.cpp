@@ -13,8 +13,9 @@
 namespace deck {
 namespace {
 
-constexpr double kWidth = 920, kPanel = 440, kHead = 44, kFoot = 70;
-constexpr double kLeft = 84, kRight = 890, kTop = 34, kBottom = 372;  // within a panel
+constexpr double chart_width = 920, panel_height = 440, head_height = 44, foot_height = 70;
+constexpr double panel_left = 84, panel_right = 890, panel_top = 34,
+                 panel_bottom = 372;  // within a panel
 
 // The tiers of one kind, and what is drawn upwards for them.
 struct Panel {
@@ -30,12 +31,13 @@ struct Panel {
     return scaled ? t.max_scaled_error : t.max_relative_error;
   }
   double x(double ns) const {
-    return kLeft + (std::log10(std::max(ns, 1e-3)) - first) / (last - first) * (kRight - kLeft);
+    return panel_left +
+           (std::log10(std::max(ns, 1e-3)) - first) / (last - first) * (panel_right - panel_left);
   }
   double y(double error) const {
     const double at =
         error > 0.0 ? std::clamp(std::log10(std::min(error, 1e300)), floor, ceiling) : floor;
-    return kBottom - (at - floor) / (ceiling - floor) * (kBottom - kTop);
+    return panel_bottom - (at - floor) / (ceiling - floor) * (panel_bottom - panel_top);
   }
   // Another one is not slower and has no larger error on this axis, and is better in one of both.
   // Times that differ by no more than they do from run to run are equal.
@@ -112,37 +114,37 @@ std::string power_of_ten(double power) {
 }
 
 std::string frame(const Panel& panel) {
-  std::string out = text(kLeft, kTop - 14, "start", panel.title, "class='dk-title'");
+  std::string out = text(panel_left, panel_top - 14, "start", panel.title, "class='dk-title'");
   for (double p = panel.first; p <= panel.last; ++p) {
     const double x = panel.x(std::pow(10.0, p));
-    out += line(x, kTop, x, kBottom, "dk-grid");
-    out += text(x, kBottom + 18, "middle", time_text(p));
+    out += line(x, panel_top, x, panel_bottom, "dk-grid");
+    out += text(x, panel_bottom + 18, "middle", time_text(p));
     for (const double part : {2.0, 5.0})
       if (p < panel.last) {
         const double at = panel.x(part * std::pow(10.0, p));
-        out += line(at, kBottom - 5, at, kBottom, "dk-grid");
+        out += line(at, panel_bottom - 5, at, panel_bottom, "dk-grid");
       }
   }
   const auto level = [&](double y, const std::string& label) {
-    out += line(kLeft, y, kRight, y, "dk-grid");
-    out += text(kLeft - 8, y + 4, "end", label);
+    out += line(panel_left, y, panel_right, y, "dk-grid");
+    out += text(panel_left - 8, y + 4, "end", label);
   };
-  level(kBottom, panel.counts() ? "none" : "exact");
+  level(panel_bottom, panel.counts() ? "none" : "exact");
   if (panel.counts()) {
     for (double p = 0; p <= panel.ceiling; ++p)
       level(panel.y(std::pow(10.0, p)), fmt::format("{:.0f}", std::pow(10.0, p)));
   } else {
     for (double p = panel.floor + 2; p <= panel.ceiling; p += 4)
-      if (panel.y(std::pow(10.0, p)) > kTop + 16)
+      if (panel.y(std::pow(10.0, p)) > panel_top + 16)
         level(panel.y(std::pow(10.0, p)), power_of_ten(p));
-    level(kTop, "more");
+    level(panel_top, "more");
     const double ulp = panel.y(0x1p-52);
-    out += line(kLeft, ulp, kRight, ulp, "dk-ulp");
-    out += text(kRight - 4, ulp - 4, "end", "1 ulp");
+    out += line(panel_left, ulp, panel_right, ulp, "dk-ulp");
+    out += text(panel_right - 4, ulp - 4, "end", "1 ulp");
   }
-  out += text(0.5 * (kLeft + kRight), kBottom + 38, "middle", "time per pair");
-  out += text(18, 0.5 * (kTop + kBottom), "middle", panel.label,
-              fmt::format("transform='rotate(-90 18 {:.1f})'", 0.5 * (kTop + kBottom)));
+  out += text(0.5 * (panel_left + panel_right), panel_bottom + 38, "middle", "time per pair");
+  out += text(18, 0.5 * (panel_top + panel_bottom), "middle", panel.label,
+              fmt::format("transform='rotate(-90 18 {:.1f})'", 0.5 * (panel_top + panel_bottom)));
   return out;
 }
 
@@ -157,11 +159,12 @@ std::string frontier(const Panel& panel) {
   std::string path;
   for (const TierResult* t : best) {
     const double x = panel.x(t->ns_per_pair), y = panel.y(panel.error(*t));
-    path += path.empty() ? fmt::format("M{:.1f} {:.1f} V{:.1f}", x, kTop, y)
+    path += path.empty() ? fmt::format("M{:.1f} {:.1f} V{:.1f}", x, panel_top, y)
                          : fmt::format(" H{:.1f} V{:.1f}", x, y);
   }
-  return path.empty() ? path
-                      : fmt::format("<path d='{} H{:.1f}' class='dk-frontier'/>\n", path, kRight);
+  return path.empty()
+             ? path
+             : fmt::format("<path d='{} H{:.1f}' class='dk-frontier'/>\n", path, panel_right);
 }
 
 struct LabelBox {
@@ -170,7 +173,8 @@ struct LabelBox {
     return x < b.x + b.width && b.x < x + width && y < b.y + b.height && b.y < y + height;
   }
   bool inside() const {
-    return x >= kLeft && x + width <= kRight && y >= kTop - 8 && y + height <= kBottom + 2;
+    return x >= panel_left && x + width <= panel_right && y >= panel_top - 8 &&
+           y + height <= panel_bottom + 2;
   }
 };
 
@@ -204,7 +208,8 @@ std::string reason(const Panel& panel, const TierResult& standard) {
 std::string marks(const Panel& panel) {
   std::string out;
   std::vector<LabelBox> taken;
-  if (!panel.counts()) taken.push_back({kRight - 44, panel.y(0x1p-52) - 18, 44, 18});  // "1 ulp"
+  if (!panel.counts())
+    taken.push_back({panel_right - 44, panel.y(0x1p-52) - 18, 44, 18});  // "1 ulp"
   for (const TierResult* t : panel.tiers)
     taken.push_back({panel.x(t->ns_per_pair) - 8, panel.y(panel.error(*t)) - 8, 16, 16});
   for (const TierResult* tier : panel.tiers) {
@@ -229,13 +234,14 @@ std::string marks(const Panel& panel) {
                        : fmt::format("error {:.3g}", panel.error(t)));
     out += text(box.x, box.y + 11, "start", name,
                 standard ? "class='dk-label dk-strong'" : "class='dk-label'");
-    if (standard) out += text(kRight, kBottom + 58, "end", reason(panel, t), "class='dk-reason'");
+    if (standard)
+      out += text(panel_right, panel_bottom + 58, "end", reason(panel, t), "class='dk-reason'");
   }
-  return out + text(kRight, kBottom + 38, "end",
+  return out + text(panel_right, panel_bottom + 38, "end",
                     "hollow: another tier is as fast and not worse on this axis");
 }
 
-constexpr std::string_view kChartStyle =
+constexpr std::string_view chart_style =
     "<style>.dk-ground{fill:#fff} .dk-grid{stroke:#dde2e8} "
     ".dk-ulp{stroke:#b3261e;stroke-dasharray:5 4} "
     ".dk-frontier{fill:none;stroke:#1f5fd0;stroke-width:2;stroke-opacity:.35} "
@@ -256,7 +262,7 @@ std::string open_svg(double width, double height, const std::string& name) {
       "font-family='system-ui, sans-serif' font-size='12' role='img' aria-label='{3}'>\n{2}<rect "
       "width='{0}' "
       "height='{1}' class='dk-ground'/>\n",
-      width, height, kChartStyle, xml_text(name));
+      width, height, chart_style, xml_text(name));
 }
 
 }  // namespace
@@ -270,7 +276,7 @@ std::string accuracy_title(const AccuracyReport& report, const AccuracyContext& 
 std::string accuracy_panel(const AccuracyReport& report, const std::string& what) {
   const Panel panel = panel_of(report, what);
   if (panel.tiers.empty()) return {};
-  return open_svg(kWidth, kPanel, panel.title + ": " + panel.label + " against time") +
+  return open_svg(chart_width, panel_height, panel.title + ": " + panel.label + " against time") +
          frame(panel) + frontier(panel) + marks(panel) + "</svg>\n";
 }
 

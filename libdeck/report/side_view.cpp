@@ -16,8 +16,8 @@
 namespace deck {
 namespace {
 
-constexpr double kViewWidth = 420, kViewHeight = 230, kViewLeft = 10, kViewRight = 250,
-                 kViewTop = 30, kViewBottom = 190;
+constexpr double view_width = 420, view_height = 230, view_left = 10, view_right = 250,
+                 view_top = 30, view_bottom = 190;
 
 Error no_pair(std::string_view text) {
   return {
@@ -90,15 +90,15 @@ Ghost ghost_of(const PenetrationRow& r) {
 
 struct SideDrawing {
   double low = 0, high = 1;
-  double scale() const { return (kViewBottom - kViewTop) / (high - low); }
-  double y(double above) const { return kViewBottom - (above - low) * scale(); }
+  double scale() const { return (view_bottom - view_top) / (high - low); }
+  double y(double above) const { return view_bottom - (above - low) * scale(); }
   std::string band(std::string_view kind, double from, double to) const {
     return fmt::format("<rect class='{}' x='{}' width='{}' y='{:.2f}' height='{:.2f}'/>\n", kind,
-                       kViewLeft, kViewRight - kViewLeft, y(to), (to - from) * scale());
+                       view_left, view_right - view_left, y(to), (to - from) * scale());
   }
   std::string level(std::string_view kind, double at) const {
     return fmt::format("<line class='{}' x1='{}' x2='{}' y1='{:.2f}' y2='{:.2f}'/>\n", kind,
-                       kViewLeft, kViewRight, y(at), y(at));
+                       view_left, view_right, y(at), y(at));
   }
   std::string upright(std::string_view kind, double x, double from, double to) const {
     return fmt::format("<line class='{}' x1='{}' x2='{}' y1='{:.2f}' y2='{:.2f}'/>\n", kind, x, x,
@@ -106,7 +106,7 @@ struct SideDrawing {
   }
   std::string round(std::string_view kind, double at, double radius) const {
     return fmt::format("<circle class='{}' cx='{}' cy='{:.2f}' r='{:.2f}'/>\n", kind,
-                       0.5 * (kViewLeft + kViewRight), y(at), radius);
+                       0.5 * (view_left + view_right), y(at), radius);
   }
 };
 
@@ -120,20 +120,20 @@ std::string names_text(const SideDrawing& d, std::vector<Name> names) {
   std::stable_sort(names.begin(), names.end(),
                    [](const Name& a, const Name& b) { return a.at < b.at; });
   std::string out;
-  double last = kViewHeight;
+  double last = view_height;
   for (const Name& n : names) {
     const double at = std::min(d.y(n.at), last - 16.0);
     last = at;
     out += fmt::format(
         "<path class='leader' d='M{} {:.2f}L{} {:.2f}'/>\n"
         "<text class='{}' x='{}' y='{:.2f}'>{}</text>\n",
-        kViewRight + 2, d.y(n.at), kViewRight + 14, at, n.kind, kViewRight + 18, at + 4,
+        view_right + 2, d.y(n.at), view_right + 14, at, n.kind, view_right + 18, at + 4,
         xml_text(n.text));
   }
   return out;
 }
 
-constexpr std::string_view kSideStyle =
+constexpr std::string_view side_style =
     "<style>text{font:12px system-ui,sans-serif;fill:#17202b} .ground{fill:#fff} "
     ".band{fill:#1f5fd0;opacity:.1} .main{fill:#17202b;opacity:.22} "
     ".half{fill:#1f5fd0;opacity:.22} "
@@ -152,8 +152,8 @@ std::string drawn(const PairHeights& v, const Ghost& ghost, bool edge, const Sid
   out += d.round("half", v.at, std::max(v.secondary, 0.0) * d.scale());
   out += d.level(ghost.segment_off ? "surface off" : "surface", 0) + d.level("gap-end", v.gap);
   if (ghost.gap > 0) out += d.level("ghost", ghost.gap);
-  out += d.upright("gap-length", kViewLeft + 8, 0, v.gap);
-  const double middle = 0.5 * (kViewLeft + kViewRight);
+  out += d.upright("gap-length", view_left + 8, 0, v.gap);
+  const double middle = 0.5 * (view_left + view_right);
   out += d.upright("distance", middle, 0, v.at) + d.upright("depth", middle, v.at, v.gap);
   std::vector<Name> names{{0, edge ? "main edge" : "segment", ""},
                           {v.gap, "gap " + short_number(v.gap), ""},
@@ -280,16 +280,16 @@ std::string side_view_svg(const Scene& scene, const FoundPair& pair) {
   if (!(d.high > d.low)) d.high = d.low + 1.0;
   const std::string title = title_of(scene, c, r);
   // Long ids make a long title; a character is at most 7.5 wide.
-  const double wide = std::max(kViewWidth, 2 * kViewLeft + 7.5 * static_cast<double>(title.size()));
+  const double wide = std::max(view_width, 2 * view_left + 7.5 * static_cast<double>(title.size()));
   std::string out = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
       "role='img' aria-label='{2}' data-scale='{3}' data-gap='{4}' data-depth='{5}' "
       "data-distance='{6}'>\n{7}<rect class='ground' width='{0}' height='{1}'/>\n",
-      wide, kViewHeight, xml_text(pair_equation(v)), d.scale(), v.gap, v.depth, v.distance,
-      kSideStyle);
-  out += fmt::format("<text x='{}' y='18'>{}</text>\n", kViewLeft, xml_text(title));
+      wide, view_height, xml_text(pair_equation(v)), d.scale(), v.gap, v.depth, v.distance,
+      side_style);
+  out += fmt::format("<text x='{}' y='18'>{}</text>\n", view_left, xml_text(title));
   out += drawn(v, ghost, c.kind == ContactKind::edge_edge, d);
-  return out + fmt::format("<text x='{}' y='{}'>{}</text>\n</svg>\n", kViewLeft, kViewHeight - 12,
+  return out + fmt::format("<text x='{}' y='{}'>{}</text>\n</svg>\n", view_left, view_height - 12,
                            xml_text(pair_equation(v)));
 }
 

@@ -31,9 +31,9 @@ TEST(Closest, CoordinatesWithoutBoundsGiveAnAnswerOfSomeKind) {
 using P = Point3<double>;
 using Corners = std::array<P, 4>;
 
-constexpr Corners kFlat{P{0, 0, 0}, P{10, 0, 0}, P{10, 10, 0}, P{0, 10, 0}};
-constexpr Corners kWarped{P{0, 0, 0}, P{10, 0, 2}, P{10, 10, 0}, P{0, 10, 2}};
-constexpr Corners kTriangle{P{0, 0, 0}, P{6, 0, 0}, P{0, 6, 0}, P{0, 6, 0}};
+constexpr Corners flat{P{0, 0, 0}, P{10, 0, 0}, P{10, 10, 0}, P{0, 10, 0}};
+constexpr Corners warped{P{0, 0, 0}, P{10, 0, 2}, P{10, 10, 0}, P{0, 10, 2}};
+constexpr Corners flat_triangle{P{0, 0, 0}, P{6, 0, 0}, P{0, 6, 0}, P{0, 6, 0}};
 
 double squared(const P& p) { return dot(p, p); }
 
@@ -71,14 +71,13 @@ void expect_both(const Corners& x, bool triangle, const SegmentCase& c) {
 }
 
 TEST(NodeOverFlatQuad, DistancesPenetrationAndNormal) {
-  expect_both(kFlat, false, {{3, 4, 0.4}, {0.812404, 2.271563, 2.158703, 0.4}, 0.6, 4, {0, 0, 1}});
-  expect_both(kFlat, false,
-              {{3, 4, -0.7}, {0.994987, 2.343075, 2.233831, 0.7}, 0.3, 4, {0, 0, -1}});
-  expect_both(kFlat, false, {{5, 5, 0.25}, {0.25, 0.25, 0.25, 0.25}, 0.75, 1, {0, 0, 1}});
+  expect_both(flat, false, {{3, 4, 0.4}, {0.812404, 2.271563, 2.158703, 0.4}, 0.6, 4, {0, 0, 1}});
+  expect_both(flat, false, {{3, 4, -0.7}, {0.994987, 2.343075, 2.233831, 0.7}, 0.3, 4, {0, 0, -1}});
+  expect_both(flat, false, {{5, 5, 0.25}, {0.25, 0.25, 0.25, 0.25}, 0.75, 1, {0, 0, 1}});
 }
 
 TEST(NodeOverFlatQuad, WeightsOfSubTriangleAndCorners) {
-  const auto c = closest_on_segment<Form::reference>(P{3, 4, 0.4}, kFlat, false);
+  const auto c = closest_on_segment<Form::reference>(P{3, 4, 0.4}, flat, false);
   EXPECT_EQ(c.best, 3);
   EXPECT_NEAR(c.closest().weight_a, 0.1, 1e-15);
   EXPECT_NEAR(c.closest().weight_b, 0.3, 1e-15);
@@ -91,43 +90,43 @@ TEST(NodeOverFlatQuad, WeightsOfSubTriangleAndCorners) {
 
 TEST(NodeOutsideFlatQuad, EdgeCornerAndCandidateOnly) {
   const double r = std::sqrt(0.5);
-  expect_both(kFlat, false, {{10.5, 5, 0.5}, {0.707107}, 0.292893, 2, {r, 0, r}});
-  expect_both(kFlat, false,
+  expect_both(flat, false, {{10.5, 5, 0.5}, {0.707107}, 0.292893, 2, {r, 0, r}});
+  expect_both(flat, false,
               {{10.6, 10.3, 0.3}, {0.734847}, 0.265153, 2, {0.816497, 0.408248, 0.408248}});
-  expect_both(kFlat, false, {{10.9, 10.9, 0.5}, {1.367479}, 0.0, 0, {}});
-  const auto edge = closest_on_segment<Form::reference>(P{10.5, 5, 0.5}, kFlat, false);
+  expect_both(flat, false, {{10.9, 10.9, 0.5}, {1.367479}, 0.0, 0, {}});
+  const auto edge = closest_on_segment<Form::reference>(P{10.5, 5, 0.5}, flat, false);
   EXPECT_EQ(edge.feature, Feature::edge);
   EXPECT_EQ(edge.feature_index, 1);
   EXPECT_NEAR(edge.weights[1], 0.5, 1e-15);
   EXPECT_NEAR(edge.weights[2], 0.5, 1e-15);
-  const auto corner = closest_on_segment<Form::reference>(P{10.6, 10.3, 0.3}, kFlat, false);
+  const auto corner = closest_on_segment<Form::reference>(P{10.6, 10.3, 0.3}, flat, false);
   EXPECT_EQ(corner.feature, Feature::corner);
   EXPECT_EQ(corner.feature_index, 2);
 }
 
 TEST(NodeOverWarpedQuad, DistancesPenetrationAndNormal) {
-  expect_both(kWarped, false,
+  expect_both(warped, false,
               {{5, 3, 1.3},
                {0.294174, 1.417676, 2.022375, 1.498365},
                0.705826,
                1,
                {-0.196116, 0, 0.980581}});
-  expect_both(kWarped, false,
+  expect_both(warped, false,
               {{1, 5, 1.8},
                {3.067860, 4.079216, 2.856022, 0.784465},
                0.215535,
                4,
                {0, -0.196116, 0.980581}});
   // Ties up to round-off: the sub-triangle is free.
-  expect_both(kWarped, false,
+  expect_both(warped, false,
               {{8, 2, 1.9}, {0.297044, 0.297044, 4.337050, 4.337050}, 0.702956, 0, {}});
-  expect_both(kWarped, false,
+  expect_both(warped, false,
               {{5, 5, 0.6}, {0.396059, 0.396059, 0.396059, 0.396059}, 0.603941, 0, {}});
 }
 
 TEST(NodeOverTriangle, ThirdNodeIsTheCentre) {
   const auto row = [](P p, double d1, double rest, double pene, P normal) {
-    expect_both(kTriangle, true, {p, {d1, rest, rest, rest}, pene, 1, normal});
+    expect_both(flat_triangle, true, {p, {d1, rest, rest, rest}, pene, 1, normal});
   };
   row({1, 1, 0.5}, 0.5, 5.123475, 0.5, {0, 0, 1});
   row({3.5, 3.5, 0.4}, 0.812404, 4.319722, 0.187596, {0.615457, 0.615457, 0.492366});
@@ -138,8 +137,8 @@ TEST(NodeOverTriangle, ThirdNodeIsTheCentre) {
 
 TEST(NodeOverTriangle, FeaturesAreThoseOfTheTriangle) {
   const auto feature = [](P p) {
-    const auto reference = closest_on_segment<Form::reference>(p, kTriangle, true);
-    const auto robust = closest_on_segment<Form::robust>(p, kTriangle, true);
+    const auto reference = closest_on_segment<Form::reference>(p, flat_triangle, true);
+    const auto robust = closest_on_segment<Form::robust>(p, flat_triangle, true);
     EXPECT_EQ(reference.feature, robust.feature);
     EXPECT_EQ(reference.feature_index, robust.feature_index);
     return std::pair(robust.feature, robust.feature_index);
@@ -155,7 +154,7 @@ TEST(NodeOverTriangle, FeaturesAreThoseOfTheTriangle) {
 
 TEST(NodeOnSegment, OnlyExactZeroIsOnTheSurface) {
   for (const double z : {0.0, 1e-16, 0.9999999999, 1.0}) {
-    const auto c = closest_on_segment<Form::reference>(P{3, 4, z}, kFlat, false);
+    const auto c = closest_on_segment<Form::reference>(P{3, 4, z}, flat, false);
     const auto pene = penetration(c, 1.0);
     EXPECT_EQ(pene.on_surface, z == 0.0);
     EXPECT_DOUBLE_EQ(pene.value, 1.0 - z);
@@ -303,7 +302,7 @@ TEST(RobustSegment, IsNeverFartherThanAnyPointOfTheSegment) {
 TEST(RobustSegment, AgreesWithReferenceOnWellShapedQuads) {
   Random random(3);
   for (int i = 0; i < 2000; ++i) {
-    Corners x = kFlat;
+    Corners x = flat;
     for (P& corner : x) corner = corner + random.point(2.0);
     const P p = random.point(8.0) + P{5, 5, 0};
     const auto a = closest_on_segment<Form::reference>(p, x, false);
@@ -438,9 +437,9 @@ TEST(DoubleDoubleNumber, KeepsAboutThirtyTwoDigits) {
 
 TEST(ExactDecision, SeesOneUnitInTheLastPlace) {
   const P p{3, 4, 0.1 * 3.0};
-  EXPECT_EQ(exact_compare_distance(p, kFlat, false, 0.3), 1);
-  EXPECT_EQ(exact_compare_distance(p, kFlat, false, 0.1 * 3.0), 0);
-  EXPECT_EQ(exact_compare_distance(p, kFlat, false, std::nextafter(0.1 * 3.0, 1.0)), -1);
+  EXPECT_EQ(exact_compare_distance(p, flat, false, 0.3), 1);
+  EXPECT_EQ(exact_compare_distance(p, flat, false, 0.1 * 3.0), 0);
+  EXPECT_EQ(exact_compare_distance(p, flat, false, std::nextafter(0.1 * 3.0, 1.0)), -1);
   EXPECT_EQ(exact_compare_distance(P{0, 0, 0}, P{1, 0, 0}, P{0, 0, 3}, P{0, 1, 3}, 3.0), 0);
 }
 

@@ -15,8 +15,8 @@ namespace {
 
 using scenes::Dice;
 
-constexpr double kLeast = std::numeric_limits<double>::denorm_min(),
-                 kMost = std::numeric_limits<double>::max();
+constexpr double smallest_double = std::numeric_limits<double>::denorm_min(),
+                 largest_double = std::numeric_limits<double>::max();
 
 TEST(ExactAgainstCgal, SquaredDistanceOfPointAndTriangle) {
   using Exact = CGAL::Simple_cartesian<Rational>;
@@ -96,8 +96,8 @@ TEST(ExactSquareRoot, IsCorrectlyRounded) {
 }
 
 TEST(ExactSquareRoot, OfTheMiddleOfTwoDoublesIsTheEvenOne) {
-  for (const double even : {1.0, 4 * kLeast, 0x1p-1022, 0x1.8p1000}) {
-    const double above = std::nextafter(even, kMost), below = std::nextafter(even, 0.0);
+  for (const double even : {1.0, 4 * smallest_double, 0x1p-1022, 0x1.8p1000}) {
+    const double above = std::nextafter(even, largest_double), below = std::nextafter(even, 0.0);
     for (const double odd : {above, below}) {
       const Rational middle = (Rational(even) + Rational(odd)) / Rational(2);
       EXPECT_EQ(rounded_square_root(CGAL::square(middle)), even);
@@ -108,16 +108,16 @@ TEST(ExactSquareRoot, OfTheMiddleOfTwoDoublesIsTheEvenOne) {
 }
 
 TEST(ExactSquareRoot, BeyondAllDoublesIsZeroOrInfinite) {
-  const Rational least(kLeast), most(kMost);
+  const Rational least(smallest_double), most(largest_double);
   EXPECT_EQ(rounded_square_root(CGAL::square(least) / Rational(4)), 0.0);
-  EXPECT_EQ(rounded_square_root(CGAL::square(least) / Rational(3)), kLeast);
-  EXPECT_EQ(rounded_square_root(CGAL::square(most)), kMost);
+  EXPECT_EQ(rounded_square_root(CGAL::square(least) / Rational(3)), smallest_double);
+  EXPECT_EQ(rounded_square_root(CGAL::square(most)), largest_double);
   EXPECT_EQ(rounded_square_root(CGAL::square(most) * Rational(2)),
             std::numeric_limits<double>::infinity());
 }
 
 TEST(ExactSquareRoot, HasThreeHundredDigitsWhereItIsCutOff) {
-  for (const double x : {2.0, 3e-300, 7e300, kLeast}) {
+  for (const double x : {2.0, 3e-300, 7e300, smallest_double}) {
     const Rational root = long_square_root(Rational(x)), step = root * Rational(0x1p-300);
     EXPECT_TRUE(CGAL::square(root) <= Rational(x));
     EXPECT_TRUE(CGAL::square(Rational(root + step)) > Rational(x));
@@ -133,13 +133,13 @@ TEST(ExactDepth, IsRoundedTowardsZeroWhateverCancels) {
     const double depth = rounded_depth(gap, CGAL::square(distance));
     const Rational exact = Rational(gap) - distance;
     EXPECT_TRUE(Rational(depth) <= exact);
-    EXPECT_TRUE(Rational(std::nextafter(depth, kMost)) > exact);
+    EXPECT_TRUE(Rational(std::nextafter(depth, largest_double)) > exact);
   }
   EXPECT_EQ(rounded_depth(1.0, Rational(1)), 0.0);
   EXPECT_EQ(rounded_depth(0.0, Rational(0)), 0.0);
   EXPECT_EQ(rounded_depth(1.5, Rational(0)), 1.5);
-  const Rational just_below = Rational(1) - Rational(kLeast) * Rational(kLeast);
-  EXPECT_EQ(rounded_depth(1.0, just_below), kLeast);
+  const Rational just_below = Rational(1) - Rational(smallest_double) * Rational(smallest_double);
+  EXPECT_EQ(rounded_depth(1.0, just_below), smallest_double);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ void add_sheet(Mesh& mesh, int n, bool triangles, const Place& place) {
 
 inline bool within(const NodeSegmentInput& in, const SearchOptions& o, std::size_t i,
                    std::size_t j) {
-  constexpr double kInf = std::numeric_limits<double>::infinity();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto at = [](std::span<const double> v, std::size_t k, double otherwise) {
     return v.empty() ? otherwise : v[k];
   };
@@ -92,8 +92,9 @@ inline bool within(const NodeSegmentInput& in, const SearchOptions& o, std::size
     return Point3<double>{in.nodes.x[k], in.nodes.y[k], in.nodes.z[k]};
   };
   const std::array<Point3<double>, 4> x{point(s[0]), point(s[1]), point(s[2]), point(s[3])};
-  const double gap = o.gap(at(in.secondary_gap, i, 0), at(in.segment_gap, j, 0),
-                           at(in.secondary_length, i, kInf), at(in.segment_length, j, kInf));
+  const double gap =
+      o.gap(at(in.secondary_gap, i, 0), at(in.segment_gap, j, 0),
+            at(in.secondary_length, i, infinity), at(in.segment_length, j, infinity));
   const double limit = std::max(o.drad, gap) + o.margin;
   const bool triangle = s[2] == s[3];
   if (o.form == Form::reference) {
@@ -103,7 +104,7 @@ inline bool within(const NodeSegmentInput& in, const SearchOptions& o, std::size
 }
 
 inline bool within(const EdgeEdgeInput& in, const SearchOptions& o, std::size_t i, std::size_t j) {
-  constexpr double kInf = std::numeric_limits<double>::infinity();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto at = [](std::span<const double> v, std::size_t k, double otherwise) {
     return v.empty() ? otherwise : v[k];
   };
@@ -114,7 +115,7 @@ inline bool within(const EdgeEdgeInput& in, const SearchOptions& o, std::size_t 
     return Point3<double>{in.nodes.x[k], in.nodes.y[k], in.nodes.z[k]};
   };
   const double gap = o.gap(at(in.secondary_gap, i, 0), at(in.main_gap, j, 0),
-                           at(in.secondary_length, i, kInf), at(in.main_length, j, kInf));
+                           at(in.secondary_length, i, infinity), at(in.main_length, j, infinity));
   const double limit = std::max(o.drad, gap) + o.margin;
   const auto s1 = point(s[0]), s2 = point(s[1]), m1 = point(m[0]), m2 = point(m[1]);
   if (o.form == Form::reference) {
@@ -145,10 +146,10 @@ inline std::vector<CandidatePair> brute_force(const EdgeEdgeInput& in, const Sea
   return brute_force(in, o, in.secondary.size(), in.main.size());
 }
 
-inline constexpr int kFamilies = 12;
+inline constexpr int families = 12;
 
 // One scene of a family; `gap` receives a gap that finds some pairs. Self contact throughout:
-// every node is a secondary node.
+// every node is a secondary node. Over 80 lines: one case a family.
 inline Mesh make(int family, Dice& dice, double& gap) {
   Mesh mesh;
   const int n = 3 + dice.below(7);

@@ -147,7 +147,7 @@ TEST_P(SceneFamily, OneSweepInBothFormsEqualsTwoSearches) {
   EXPECT_GT(edges, 100U);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SceneFamily, testing::Range(0, scenes::kFamilies));
+INSTANTIATE_TEST_SUITE_P(All, SceneFamily, testing::Range(0, scenes::families));
 
 // A larger scene without ties: found pairs as (secondary, main).
 Mesh two_sheets(int n) {
@@ -308,10 +308,10 @@ std::vector<CandidatePair> sorted(const sweep::Sink& sink) {
 }
 
 TEST(SearchKernels, EveryInstructionSetFindsTheSamePairs) {
-  for (int k = 0; k < 10 * scenes::kFamilies; ++k) {
+  for (int k = 0; k < 10 * scenes::families; ++k) {
     Dice dice(static_cast<std::uint64_t>(9000 + k));
     double gap = 0;
-    const Mesh mesh = scenes::make(k % scenes::kFamilies, dice, gap);
+    const Mesh mesh = scenes::make(k % scenes::families, dice, gap);
     const NodeSegmentInput in = node_input(mesh);
     SearchOptions o;
     o.gap = PairGap::constant(gap);
@@ -339,13 +339,14 @@ TEST(SearchKernels, EveryInstructionSetFindsTheSameMeetingsOfBoxes) {
   const Mesh mesh = scenes::make(0, dice, gap);
   std::vector<Box> boxes;
   for (const auto& edge : mesh.edges) boxes.push_back(sweep::edge_box(mesh.nodes(), edge, gap));
-  boxes.push_back({{-Box::kInf, -Box::kInf, -Box::kInf}, {Box::kInf, Box::kInf, Box::kInf}});
+  boxes.push_back({{-Box::infinity, -Box::infinity, -Box::infinity},
+                   {Box::infinity, Box::infinity, Box::infinity}});
   std::vector<BoxBlock> leaves((boxes.size() + 7) / 8);
   for (std::size_t i = 0; i < boxes.size(); ++i) leaves[i / 8].set(i % 8, boxes[i]);
   const BoxTree tree(leaves, 1);
   // The last box is no edge's.
   std::vector<sweep::EdgeNodes> edges(mesh.edges.begin(), mesh.edges.end());
-  edges.push_back({sweep::kNoNode - 1, sweep::kNoNode - 1});
+  edges.push_back({sweep::no_node - 1, sweep::no_node - 1});
   std::vector<sweep::CornerBlock> corners(leaves.size());
   for (std::size_t i = 0; i < edges.size(); ++i)
     for (std::size_t k = 0; k < 4; ++k) corners[i / 8].node[k][i % 8] = edges[i][k / 2];
@@ -550,12 +551,12 @@ TEST(PairGapRule, SharesOfTheTwoSidesCoverThePairGap) {
 }
 
 TEST(SpaceOrder, HilbertCurveVisitsEveryCellAndMovesByOne) {
-  constexpr unsigned kBits = 3, kSide = 1U << kBits;
-  std::vector<std::array<int, 3>> cell(kSide * kSide * kSide, {-1, -1, -1});
-  for (unsigned x = 0; x < kSide; ++x) {
-    for (unsigned y = 0; y < kSide; ++y) {
-      for (unsigned z = 0; z < kSide; ++z) {
-        cell.at(order_detail::hilbert_index(x, y, z, kBits)) = {
+  constexpr unsigned level_bits = 3, side = 1U << level_bits;
+  std::vector<std::array<int, 3>> cell(side * side * side, {-1, -1, -1});
+  for (unsigned x = 0; x < side; ++x) {
+    for (unsigned y = 0; y < side; ++y) {
+      for (unsigned z = 0; z < side; ++z) {
+        cell.at(order_detail::hilbert_index(x, y, z, level_bits)) = {
             static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)};
       }
     }

@@ -72,7 +72,7 @@ TEST_P(SidesOfFamily, LeastDistanceIsNotAboveTheReferencesAndNearlyIt) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SidesOfFamily, testing::Range(0, scenes::kFamilies));
+INSTANTIATE_TEST_SUITE_P(All, SidesOfFamily, testing::Range(0, scenes::families));
 
 }  // namespace
 }  // namespace deck

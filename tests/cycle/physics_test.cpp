@@ -1,5 +1,6 @@
 // What any contact force must satisfy: balance of momentum and moment, invariance of frame, unit
 // and order, energy, and closed-form answers of small mechanical problems.
+// Over 600 lines: the statements share their small problems.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ using testing::operator*;
 using testing::operator+;
 using testing::operator-;
 
-constexpr Model kModels[] = {Model::reference, Model::robust};
+constexpr Model models[] = {Model::reference, Model::robust};
 
 ContactCard rubbing_card(int iform = 1) {
   ContactCard card;
@@ -56,7 +57,7 @@ std::vector<PairForce> forces(const ContactCard& card, const std::vector<Pair>& 
 TEST(Momentum, MainForcesOfAPairAddUpToTheSecondaryForce) {
   const std::vector<Pair> pairs = testing::random_pairs(4000, 2);
   const double ulp = 2.220446049250313e-16;
-  for (const Model model : kModels) {
+  for (const Model model : models) {
     double worst = 0.0;
     for (const PairForce& p : forces(rubbing_card(), pairs, model)) {
       Vec sum{};
@@ -118,7 +119,7 @@ TEST(Invariance, ForcesTurnWithTheScene) {
     for (auto& v : p.v) v = q(v) + Vec{7, 8, 9};
     p.ft = q(p.ft);
   }
-  for (const Model model : kModels) {
+  for (const Model model : models) {
     for (const int iform : {1, 2}) {
       const auto before = forces(rubbing_card(iform), pairs, model);
       const auto after = forces(rubbing_card(iform), moved, model);
@@ -174,7 +175,7 @@ TEST(Invariance, UnitSystemsGiveTheSamePhysicalForce) {
   // kg m s, t mm s, g mm ms: factors of length, mass and time.
   const struct { double l, m, t; } units[] = {{1e3, 1e-3, 1.0}, {1e3, 1e3, 1e3}};
   const std::vector<Pair> pairs = testing::random_pairs(500, 8);
-  for (const Model model : kModels) {
+  for (const Model model : models) {
     const auto si = forces(rubbing_card(), pairs, model, 1e-5);
     for (const auto& u : units) {
       std::vector<Pair> scaled = pairs;
@@ -267,7 +268,7 @@ TEST(Assembly, IsTheSameForAnyNumberOfThreadsAndConservesMomentum) {
       s.x[c][n] += 0.01 * u(rng);
     }
   }
-  for (const Model model : kModels) {
+  for (const Model model : models) {
     const NodalSums one = evaluate_scene(s, rubbing_card(), model, 1);
     double total_abs = 0.0;
     Vec total{};
@@ -418,7 +419,7 @@ TEST(StickSlip, LoopAreaIsTheDissipatedWork) {
   ContactCard card = elastic_card();
   card.fric = 0.2;
   card.iform = 2;
-  for (const Model model : kModels) {
+  for (const Model model : models) {
     Pair p = triangle_pair({2, 3, 0.75});
     const double normal_force = -run(card, p, 1, 1, model).all.normal_force[0];
     const double cap = 0.2 * normal_force;
@@ -470,7 +471,7 @@ std::pair<double, double> bounce(const ContactCard& card, double dt, Model model
 }
 
 TEST(Bounce, EnergyDriftIsOfSecondOrderInTheStep) {
-  for (const Model model : kModels) {
+  for (const Model model : models) {
     const auto [v1, d1] = bounce(elastic_card(), 2e-6, model);
     const auto [v2, d2] = bounce(elastic_card(), 1e-6, model);
     EXPECT_LT(d1, 1e-3);

@@ -27,7 +27,7 @@ class Dice {
   std::mt19937_64 engine_{7};
 };
 
-constexpr int kPairs = 6000;
+constexpr int pairs = 6000;
 // Quads, triangles and edges of about unit size, at the origin or a thousand units from it.
 P place_of(int i) { return i % 2 == 0 ? P{0, 0, 0} : P{1234.5, -0.75, 310}; }
 
@@ -48,7 +48,7 @@ struct Segment {
 TEST(PieceDistance, OfASegmentIsTheExactOneWithItsFeature) {
   Dice dice;
   int proved = 0;
-  for (int i = 0; i < kPairs; ++i) {
+  for (int i = 0; i < pairs; ++i) {
     const Segment s(dice, i);
     const filter::SegmentPair pair(s.node, s.corners, s.triangle);
     const auto c = closest_on_segment<Form::robust>(s.node, s.corners, s.triangle);
@@ -67,13 +67,13 @@ TEST(PieceDistance, OfASegmentIsTheExactOneWithItsFeature) {
       ASSERT_FALSE(answer == filter::Answer::no && sign < 0) << i;
     }
   }
-  EXPECT_GT(proved, 0.97 * kPairs);
+  EXPECT_GT(proved, 0.97 * pairs);
 }
 
 TEST(PieceDistance, OfTwoEdgesIsTheExactOneWithItsWeights) {
   Dice dice;
   int proved = 0, rounded = 0;
-  for (int i = 0; i < kPairs; ++i) {
+  for (int i = 0; i < pairs; ++i) {
     const P at = place_of(i);
     const std::array<P, 4> x{dice.around(at, 1), dice.around(at, 1), dice.around(at, 2),
                              dice.around(at, 2)};
@@ -93,8 +93,8 @@ TEST(PieceDistance, OfTwoEdgesIsTheExactOneWithItsWeights) {
     ASSERT_EQ(piece->weight[0], w.weight_s.hi()) << i;
     ASSERT_EQ(piece->weight[1], w.weight_m.hi()) << i;
   }
-  EXPECT_GT(proved, 0.97 * kPairs);
-  EXPECT_GT(rounded, 0.97 * kPairs);
+  EXPECT_GT(proved, 0.97 * pairs);
+  EXPECT_GT(rounded, 0.97 * pairs);
 }
 
 // A corner written twice, so that two features are equally close: the distance is still proved, but

@@ -23,7 +23,7 @@ struct Case {
   int wrong;
 };
 
-inline const Case kCases[] = {
+inline const Case cases[] = {
     {1,
      "needle",
      Kind::triangle,

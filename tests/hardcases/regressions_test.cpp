@@ -67,7 +67,7 @@ std::string name_of(const testing::TestParamInfo<Case>& info) {
   for (const char* p = info.param.name; *p != 0; ++p) out += *p >= 'a' && *p <= 'z' ? *p : '_';
   return out;
 }
-INSTANTIATE_TEST_SUITE_P(Family, Regression, testing::ValuesIn(regressions::kCases), name_of);
+INSTANTIATE_TEST_SUITE_P(Family, Regression, testing::ValuesIn(regressions::cases), name_of);
 
 // Decided wrongly by the filter once, one pair in 1e7: a mean of the four corners that is no point
 // of any sub-triangle counted as one of the segment. One step beside the first corner.

@@ -20,11 +20,11 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAreArray;
 
-constexpr int kVersions[] = {41,   42,   44,   51,   90,   100,  110,  120,  130,  140,
-                             2017, 2018, 2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
+constexpr int all_versions[] = {41,   42,   44,   51,   90,   100,  110,  120,  130,  140,
+                                2017, 2018, 2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
 std::vector<int> versions_from(int first) {
   std::vector<int> versions;
-  for (const int version : kVersions)
+  for (const int version : all_versions)
     if (version >= first) versions.push_back(version);
   return versions;
 }
@@ -133,7 +133,7 @@ TEST(InterType7Layout, ThermalLineComesBeforeAdaptiveLineUpTo100) {
 }
 
 TEST(InterType10Layout, ThreeLinesInEveryVersion) {
-  for (const int version : kVersions) EXPECT_EQ(lines("/INTER/TYPE10", version), 3u) << version;
+  for (const int version : all_versions) EXPECT_EQ(lines("/INTER/TYPE10", version), 3u) << version;
 }
 
 TEST(InterType11Layout, FixedLinesGrowWithTheVersion) {
@@ -317,7 +317,7 @@ TEST(FindField, SpeaksForTheNewestLayout) {
 // ---------------------------------------------------------------------------------------------
 // Contact fields: documentation, legal values, dimensions
 
-const char* const kContact[] = {
+const char* const contact[] = {
     "/INTER/TYPE7",          "/INTER/TYPE10",      "/INTER/TYPE11",        "/INTER/TYPE19",
     "/INTER/LAGMUL/TYPE7",   "/INTER/LAGDT/TYPE7", "/DEFAULT/INTER/TYPE7", "/DEFAULT/INTER/TYPE11",
     "/DEFAULT/INTER/TYPE19", "/FRICTION"};
@@ -337,7 +337,7 @@ TEST(ContactFields, EveryFieldIsDocumentedAndBounded) {
                                              "%mesh_size", "dtmin",  "Stfac",   "Fric",   "Gapmin",
                                              "Gap",        "VISs",   "VISF",    "Bumult", "Tstart",
                                              "Tstop",      "Frad",   "Drad",    "Xfreq",  "Padm"};
-  for (const char* keyword : kContact)
+  for (const char* keyword : contact)
     for (const auto& card : schema(keyword).cards)
       for (const auto& field : card.fields) {
         const std::string where = std::string(keyword) + "." + field.name;

@@ -25,8 +25,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAreArray;
 
-constexpr int kVersions[] = {41,   42,   44,   51,   90,   100,  110,  120,  130,  140,
-                             2017, 2018, 2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
+constexpr int all_versions[] = {41,   42,   44,   51,   90,   100,  110,  120,  130,  140,
+                                2017, 2018, 2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
 std::string error_of(std::string_view text) {
   SchemaSet set;
   const auto added = set.add_json("test.json", text);
@@ -125,7 +125,7 @@ TEST(BuiltInSchemas, NoTwoFilesDescribeTheSameKeyword) {
 TEST(BuiltInSchemas, CellsOverlapInNoVersionUnlessConditionsTellThemApart) {
   for (const auto* s : SchemaSet::built_in().all())
     for (const auto& card : s->cards)
-      for (const int version : kVersions) {
+      for (const int version : all_versions) {
         if (!card.in_version(version)) continue;
         std::array<const Field*, 101> owner{};
         for (const auto& field : card.fields) {
@@ -142,7 +142,7 @@ TEST(BuiltInSchemas, CellsOverlapInNoVersionUnlessConditionsTellThemApart) {
 
 TEST(BuiltInSchemas, ConditionsTestFieldsThatWereReadBefore) {
   for (const auto* s : SchemaSet::built_in().all())
-    for (const int version : kVersions) {
+    for (const int version : all_versions) {
       if (version < s->from) continue;
       std::set<std::string> known;
       for (const auto& card : s->cards) {
@@ -160,7 +160,7 @@ TEST(BuiltInSchemas, NoVersionIsLeftWithoutCards) {
   // A hole in the version ranges would make a keyword lose its first line in some version.
   for (const auto* s : SchemaSet::built_in().all()) {
     if (s->cards.empty()) continue;
-    for (const int version : kVersions) {
+    for (const int version : all_versions) {
       if (version < std::max(s->from, 51)) continue;
       // A keyword may have lost its cards for good.
       const bool any = std::any_of(s->cards.begin(), s->cards.end(),

@@ -34,26 +34,26 @@ class ForceStage {
  public:
   ForceStage(const KernelPlan& plan, const PacketView& view) : plan_(plan), view_(view) {
     const detail::Constants k = detail::make_constants(plan_, view_);
-    blocks_.resize(view.size / detail::kBlock);
+    blocks_.resize(view.size / detail::block_pairs);
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      plan_.table->geometry(k, view_, b * detail::kBlock, detail::kBlock, blocks_[b]);
+      plan_.table->geometry(k, view_, b * detail::block_pairs, detail::block_pairs, blocks_[b]);
     }
     out_.resize(view.size);
   }
   void geometry() {
     const detail::Constants k = detail::make_constants(plan_, view_);
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      plan_.table->geometry(k, view_, b * detail::kBlock, detail::kBlock, blocks_[b]);
+      plan_.table->geometry(k, view_, b * detail::block_pairs, detail::block_pairs, blocks_[b]);
     }
   }
   void force() {
     const detail::Constants k = detail::make_constants(plan_, view_);
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      plan_.table->force(k, plan_.effects, view_, b * detail::kBlock, detail::kBlock, blocks_[b],
-                         out_);
+      plan_.table->force(k, plan_.effects, view_, b * detail::block_pairs, detail::block_pairs,
+                         blocks_[b], out_);
     }
   }
-  [[nodiscard]] std::size_t pairs() const { return blocks_.size() * detail::kBlock; }
+  [[nodiscard]] std::size_t pairs() const { return blocks_.size() * detail::block_pairs; }
   [[nodiscard]] const std::vector<detail::GeometryBlock>& blocks() const { return blocks_; }
   [[nodiscard]] const PacketResult& out() const { return out_; }
 
@@ -85,7 +85,7 @@ template <class Registers>
   double *const pen = out.penetration.data() + at, *const dist = out.distance.data() + at;
   double* const ge = out.effective_gap.data() + at;
   std::int64_t* const status = out.status.data() + at;
-  for (std::size_t i = 0; i < detail::kBlock; i += sizeof(V) / sizeof(double)) {
+  for (std::size_t i = 0; i < detail::block_pairs; i += sizeof(V) / sizeof(double)) {
     constexpr std::int64_t touching = status_contact, over = status_gap_closed;
     const V zero = {}, p = in(g.penetration + i), room = in(gap + i);
     const V all = in(g.keep + i) != 0.0 ? in(k0 + i) : zero;
@@ -245,9 +245,9 @@ void flags_per_pair(const KernelPlan& plan, const PacketView& view, PacketResult
   using One = detail::Pack<1>;
   const detail::Constants k = detail::make_constants(plan, view);
   out.prepare(view.size, plan.writes);
-  for (std::size_t b = 0; b < view.size; b += detail::kBlock) {
+  for (std::size_t b = 0; b < view.size; b += detail::block_pairs) {
     detail::GeometryBlock block;
-    const std::size_t n = std::min(detail::kBlock, view.size - b);
+    const std::size_t n = std::min(detail::block_pairs, view.size - b);
     detail::geometry_block<One, M, K, false>(k, view, b, n, block);
     detail::force_block<One, M, K>(detail::RuntimeEffects{plan.effects}, k, view, b, n, block, out);
   }
@@ -455,7 +455,8 @@ nlohmann::json hand_written_race(const Scene& scene, int rounds) {
   const PacketView view = scene.view();
   ContactCard card;
   card.viss = 0.0;
-  const double per_pair = 1e9 / static_cast<double>(view.size / detail::kBlock * detail::kBlock);
+  const double per_pair =
+      1e9 / static_cast<double>(view.size / detail::block_pairs * detail::block_pairs);
   nlohmann::json rows = nlohmann::json::array();
   for (const Isa isa : {Isa::automatic, Isa::avx2, Isa::baseline}) {
     PlanOptions options = option(false, false, isa);
@@ -468,7 +469,7 @@ nlohmann::json hand_written_race(const Scene& scene, int rounds) {
     out.resize(view.size);
     const auto by_hand = [&] {
       for (std::size_t b = 0; b < stage.blocks().size(); ++b) {
-        const std::size_t at = b * detail::kBlock;
+        const std::size_t at = b * detail::block_pairs;
         loop(stage.blocks()[b], view.gap + at, view.k0 + at, at, out);
       }
     };

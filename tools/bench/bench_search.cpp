@@ -191,7 +191,7 @@ bool run_edges(const Settings& settings) {
     in.secondary = edges;
     in.main = edges;
     deck::SearchOptions options;
-    options.gap = deck::PairGap::constant(2 * kSideGap);
+    options.gap = deck::PairGap::constant(2 * side_gap);
     std::size_t bytes = 0;
     const auto run = [&options, &bytes](const deck::EdgeEdgeInput& input) {
       deck::SearchResult result = deck::find_edge_edge_pairs(input, options);
@@ -201,7 +201,7 @@ bool run_edges(const Settings& settings) {
     std::vector<Contestant<deck::EdgeEdgeInput>> all{{"libdeck, 1 thread", run}};
     if (settings.rivals) {
       all.push_back({"CGAL box_intersection_d (cutoff 2000)", [](const deck::EdgeEdgeInput& input) {
-                       return cgal_edge_boxes(input, 2 * kSideGap, 2000);
+                       return cgal_edge_boxes(input, 2 * side_gap, 2000);
                      }});
     }
     double time = 0.0;

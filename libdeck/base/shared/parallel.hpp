@@ -55,7 +55,7 @@ void parallel_items(int threads, std::size_t count, const Body& body) {
               });
 }
 
-constexpr std::size_t kWorthAThread = 4096;  // items of a loop
+constexpr std::size_t worth_a_thread = 4096;  // items of a loop
 
 // Where part `part` of `parts` parts of [0, count) begins; they are as equal as can be.
 inline std::size_t part_bound(std::size_t count, std::size_t parts, std::size_t part) {
@@ -67,7 +67,7 @@ inline std::size_t part_bound(std::size_t count, std::size_t parts, std::size_t 
 template <class Body>
 void parallel_parts(int threads, std::size_t count, const Body& body) {
   const auto parts = static_cast<std::size_t>(std::max(1, threads));
-  parallel_items(count < kWorthAThread ? 1 : threads, parts, [&](std::size_t part) {
+  parallel_items(count < worth_a_thread ? 1 : threads, parts, [&](std::size_t part) {
     body(part, part_bound(count, parts, part), part_bound(count, parts, part + 1));
   });
 }
@@ -75,7 +75,7 @@ void parallel_parts(int threads, std::size_t count, const Body& body) {
 // How many pieces parallel_pieces makes of `count` items.
 inline std::size_t pieces_of(int threads, std::size_t count) {
   constexpr std::size_t smallest = 1024, most_per_thread = 16;
-  if (threads <= 1 || count < kWorthAThread) return 1;
+  if (threads <= 1 || count < worth_a_thread) return 1;
   return std::min(count / smallest, most_per_thread * static_cast<std::size_t>(threads));
 }
 

@@ -19,7 +19,7 @@
 namespace deck {
 namespace {
 
-constexpr std::size_t width = BoxBlock::kWidth;
+constexpr std::size_t width = BoxBlock::width;
 constexpr std::size_t at_once = 512;  // edges, or elements with theirs
 
 Box segment_box(const NodeArrays& nodes, const std::array<std::uint32_t, 4>& segment) {

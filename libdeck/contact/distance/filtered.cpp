@@ -13,7 +13,7 @@ using namespace filter;
 bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
                     FilterCounters* counters) {
   if (!(gap > 0.0)) return count(counters, FilterStage::double_precision), false;
-  if (gap == kUnbounded) return count(counters, FilterStage::double_precision), true;
+  if (gap == unbounded) return count(counters, FilterStage::double_precision), true;
   SegmentPair pair(p, corners, triangle);
   const double big = largest_of(pair.largest);
   FilterStage stage = FilterStage::double_precision;
@@ -63,7 +63,7 @@ bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, 
 bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double gap,
                     FilterCounters* counters) {
   if (!(gap > 0.0)) return count(counters, FilterStage::double_precision), false;
-  if (gap == kUnbounded) return count(counters, FilterStage::double_precision), true;
+  if (gap == unbounded) return count(counters, FilterStage::double_precision), true;
   EdgePair pair({s1, s2, m1, m2});
   const double big = largest_of(pair.largest);
   FilterStage stage = FilterStage::double_precision;

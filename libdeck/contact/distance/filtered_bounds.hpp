@@ -26,13 +26,13 @@ using P = Point3<double>;
 template <class T>
 using Hull = std::array<Point3<T>, 4>;
 
-constexpr double kTiny = 0x1p-500, kUnbounded = std::numeric_limits<double>::infinity();
+constexpr double tiny = 0x1p-500, unbounded = std::numeric_limits<double>::infinity();
 
 // 16 times a bound of the relative error of one operation.
 template <class T>
-inline constexpr double kSlack = 0x1p-49;
+inline constexpr double safety = 0x1p-49;
 template <>
-inline constexpr double kSlack<DoubleDouble> = 0x1p-98;
+inline constexpr double safety<DoubleDouble> = 0x1p-98;
 
 // The leading double of a number: enough for error bounds, which have a factor of 16 to spare.
 inline double head(double a) { return a; }
@@ -68,8 +68,8 @@ struct Support {
     for (std::size_t k = 0; k < 4; ++k) value[k] = -dot(w, v[k]);
     error = dot(magnitude_of(w), largest);
     squared = dot(w, w);
-    usable = error > kTiny && head(squared) > kTiny && head(squared) < 1 / kTiny;
-    error *= kSlack<T>;
+    usable = error > tiny && head(squared) > tiny && head(squared) < 1 / tiny;
+    error *= safety<T>;
   }
   T least() const { return smaller(smaller(value[0], value[1]), smaller(value[2], value[3])); }
   // Of points k, k+1 and the mean of all.
@@ -81,14 +81,14 @@ struct Support {
   T bound(const T& smallest) const {
     using std::sqrt;
     if (!usable || !(head(smallest) > error)) return T(0);
-    return (smallest - T(error)) / sqrt(squared) * (T(1) - T(kSlack<T>));
+    return (smallest - T(error)) / sqrt(squared) * (T(1) - T(safety<T>));
   }
   // True only if that distance is at least `gap`. Squares instead of a root and a quotient.
   bool is_apart(const T& smallest, double gap) const {
     if (!usable || !(head(smallest) > error)) return false;
     if (!can_be_squared(gap)) return bound(smallest) >= T(gap);
     const T m = smallest - T(error);
-    return m * m * (T(1) - T(2 * kSlack<T>)) >= T(gap) * T(gap) * squared;
+    return m * m * (T(1) - T(2 * safety<T>)) >= T(gap) * T(gap) * squared;
   }
   bool is_apart(double gap) const { return is_apart(least(), gap); }
 };
@@ -111,21 +111,21 @@ struct WeightedPoint {
       error += w * (m.x + m.y + m.z);
       sum = sum + weights[k];
     }
-    error = kSlack<T> * error + kTiny;
+    error = safety<T> * error + tiny;
     usable = head(sum) > 0.5 && head(sum) < 2.0;
   }
   // Upper bound of the distance.
   T bound() const {
     using std::sqrt;
-    if (!usable) return T(kUnbounded);
-    return (sqrt(dot(r, r)) + T(error)) / sum * (T(1) + T(kSlack<T>));
+    if (!usable) return T(unbounded);
+    return (sqrt(dot(r, r)) + T(error)) / sum * (T(1) + T(safety<T>));
   }
   // True only if the distance is below `gap`.
   bool is_closer(double gap) const {
     if (!usable) return false;
     if (!can_be_squared(gap)) return bound() < T(gap);
     const T limit = T(gap) * sum - T(error);
-    return head(limit) > 0x1p-250 && dot(r, r) * (T(1) + T(2 * kSlack<T>)) < limit * limit;
+    return head(limit) > 0x1p-250 && dot(r, r) * (T(1) + T(2 * safety<T>)) < limit * limit;
   }
 };
 
@@ -151,7 +151,7 @@ struct Scaled {
   static Scaled of(std::array<P, N>& points, double big) {
     Scaled out;
     if (big >= 0x1p-100 && big <= 0x1p100) return out;
-    out.shift = big < kUnbounded ? -std::ilogb(big) : -1026;
+    out.shift = big < unbounded ? -std::ilogb(big) : -1026;
     for (P& q : points) {
       for (double* c : {&q.x, &q.y, &q.z}) {
         const double y = std::ldexp(*c, out.shift);
@@ -166,7 +166,7 @@ struct Scaled {
     if (!possible) return std::nullopt;
     if (shift == 0) return value;
     const double scaled = std::ldexp(value, shift);
-    if (!std::isfinite(scaled)) return kUnbounded;
+    if (!std::isfinite(scaled)) return unbounded;
     if (std::ldexp(scaled, -shift) != value) return std::nullopt;
     return scaled;
   }
@@ -315,7 +315,7 @@ inline SegmentClosest<DoubleDouble> wide_closest(const SegmentPair& pair,
   bool first = true;
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t next = (k + 1) % 4;
-    out.sub[k].distance = T(kUnbounded);
+    out.sub[k].distance = T(unbounded);
     out.sub[k].vector = lift<T>(narrow.sub[k].vector);
     const Support<double> own(narrow.sub[k].vector, pair.v, pair.largest);
     if (own.bound(own.least(k)) > high) continue;

@@ -12,12 +12,12 @@ using namespace filter;
 namespace {
 
 // Depth and distance if the bracket [low, high] of the distance fixes both well enough.
-constexpr double kDepthTolerance = 0x1p-40;
+constexpr double depth_tolerance = 0x1p-40;
 template <class T>
 std::optional<FilteredDepth> depth_within(const T& low, const T& high, double gap) {
   if (low >= T(gap)) return FilteredDepth{};
   const T width = high - low, depth = T(gap) - high;
-  if (!(width <= T(kDepthTolerance) * low && width <= T(kDepthTolerance) * depth))
+  if (!(width <= T(depth_tolerance) * low && width <= T(depth_tolerance) * depth))
     return std::nullopt;
   FilteredDepth out;
   out.depth = static_cast<double>(T(gap) - low);

@@ -12,11 +12,11 @@ namespace {
 using D = DoubleDouble;
 using Q = Point3<D>;
 
-constexpr double kUnit = 0x1p-53;
+constexpr double half_ulp = 0x1p-53;
 // Weights this close to 0 or 1 may belong to another part: that is for others to decide.
-constexpr double kInside = 0x1p-20;
+constexpr double inside_by = 0x1p-20;
 // Directions of a plane may not be much more parallel than this: |a| |b| / |a x b|.
-constexpr double kMostOblique = 0x1p10;
+constexpr double most_oblique = 0x1p10;
 
 double sum_of_sizes(const P& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
 P head_of(const Q& q) { return {q.x.hi(), q.y.hi(), q.z.hi()}; }
@@ -64,10 +64,10 @@ struct Foot {
     if (piece.free == 1) {
       const P e = head_of(piece.direction[0]);
       const double ee = dot(e, e), g = dot(q, e);
-      if (!(ee > kTiny)) return;
+      if (!(ee > tiny)) return;
       const double size = std::sqrt(ee);
       along = std::abs(g) / size;
-      slack = 16.0 * kUnit * length;
+      slack = 16.0 * half_ulp * length;
       moved[0] = -g / ee;
       unsure[0] = slack / size;
       subtract(along * along, along * along * 0x1p-38 + (2.0 * along + slack) * slack);
@@ -75,19 +75,19 @@ struct Foot {
       const P a = head_of(piece.direction[0]), b = head_of(piece.direction[1]), n = cross(a, b);
       const double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), nn = dot(n, n);
       const double ga = dot(q, a), gb = dot(q, b);
-      if (!(nn * (kMostOblique * kMostOblique) > aa * bb && nn > kTiny)) return;
+      if (!(nn * (most_oblique * most_oblique) > aa * bb && nn > tiny)) return;
       moved = {(gb * ab - ga * bb) / nn, (ga * ab - gb * aa) / nn};
       const double root = std::sqrt(nn), size_a = std::sqrt(aa), size_b = std::sqrt(bb);
       along = (std::abs(ga) * size_b + std::abs(gb) * size_a) / root;
-      slack = 32.0 * kUnit * length * (size_a * size_b / root);
+      slack = 32.0 * half_ulp * length * (size_a * size_b / root);
       unsure = {slack * (size_b / root), slack * (size_a / root)};
       // The part along the plane in full: what the bound above exceeds it by counts as error.
       const double part = -(moved[0] * ga + moved[1] * gb);
       subtract(part, along * along * 0x1p-38 + (2.0 * along + slack) * slack);
     }
-    off = (along + slack) * (1.0 + 0x1p-20) + 2.0 * kUnit * length;
+    off = (along + slack) * (1.0 + 0x1p-20) + 2.0 * half_ulp * length;
     // Far smaller distances than sizes have digits in double-double only.
-    usable = distance.squared.hi() > kTiny && length > 0x1p-30 * sizes && off < 0x1p-10 * length;
+    usable = distance.squared.hi() > tiny && length > 0x1p-30 * sizes && off < 0x1p-10 * length;
   }
 
  private:
@@ -105,7 +105,7 @@ struct Beyond {
   Beyond() = default;
   Beyond(const P& d, const Foot& foot)
       : height(dot(d, foot.q)),
-        margin(sum_of_sizes(d) * (foot.off + 32.0 * kUnit * sum_of_sizes(foot.q))),
+        margin(sum_of_sizes(d) * (foot.off + 32.0 * half_ulp * sum_of_sizes(foot.q))),
         coincides(sum_of_sizes(d) == 0.0) {}
   Beyond& operator+=(const Beyond& other) {
     height += other.height;
@@ -116,12 +116,12 @@ struct Beyond {
   explicit operator bool() const { return height > margin || coincides; }
 };
 
-bool is_inside(double weight) { return weight > kInside && weight < 1.0 - kInside; }
+bool is_inside(double weight) { return weight > inside_by && weight < 1.0 - inside_by; }
 
 // Whether the exact weights may be taken to lie where the given ones do.
 bool stays(const Foot& foot, const Piece& piece) {
   for (unsigned k = 0; k < piece.free; ++k)
-    if (!(std::abs(foot.moved[k]) + foot.unsure[k] < 0.0625 * kInside)) return false;
+    if (!(std::abs(foot.moved[k]) + foot.unsure[k] < 0.0625 * inside_by)) return false;
   return true;
 }
 

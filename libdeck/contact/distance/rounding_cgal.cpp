@@ -15,11 +15,11 @@
 namespace deck {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Infinity counts as the first power of two that no double holds: so rounding does.
 Rational number_of(double value) {
-  return value == kInfinity ? Rational(2) * Rational(0x1p1023) : Rational(value);
+  return value == infinity ? Rational(2) * Rational(0x1p1023) : Rational(value);
 }
 
 // A number above 0 divided by an even power of two, 4^shift, so that doubles can hold it.
@@ -27,12 +27,12 @@ struct Normalised {
   Rational value;
   int shift = 0;
 };
-constexpr int kStep = 450;
+constexpr int exponent_step = 450;
 Normalised normalised(Rational value) {
   int shift = 0;
   const Rational low(0x1p-600), high(0x1p600), up(0x1p900), down(0x1p-900);
-  for (; value < low; shift -= kStep) value *= up;
-  for (; value > high; shift += kStep) value *= down;
+  for (; value < low; shift -= exponent_step) value *= up;
+  for (; value > high; shift += exponent_step) value *= down;
   return {value, shift};
 }
 
@@ -45,11 +45,11 @@ double guessed_square_root(const Rational& value) {
 // The largest double that is at most the number; `at_most(r)`: r is.
 template <class Test>
 double rounded_down(double guess, const Test& at_most) {
-  double r = guess < kInfinity ? guess : std::numeric_limits<double>::max();
+  double r = guess < infinity ? guess : std::numeric_limits<double>::max();
   while (!at_most(r)) r = std::nextafter(r, 0.0);
   for (;;) {
-    const double next = std::nextafter(r, kInfinity);
-    if (next == kInfinity || !at_most(next)) return r;
+    const double next = std::nextafter(r, infinity);
+    if (next == infinity || !at_most(next)) return r;
     r = next;
   }
 }
@@ -70,7 +70,7 @@ double rounded_square_root(const Rational& value) {
   const double low = rounded_down(guessed_square_root(value), [&](double r) {
     return CGAL::compare(CGAL::square(Rational(r)), value) != CGAL::LARGER;
   });
-  const double high = std::nextafter(low, kInfinity);
+  const double high = std::nextafter(low, infinity);
   const Rational twice_the_middle = number_of(low) + number_of(high);
   switch (CGAL::compare(CGAL::square(twice_the_middle), Rational(4) * value)) {
     case CGAL::LARGER:
@@ -86,14 +86,14 @@ double rounded_square_root(const Rational& value) {
 Rational long_square_root(const Rational& value) {
   if (!CGAL::is_positive(value)) return Rational(0);
   const Normalised s = normalised(value);
-  const Rational places(0x1p600), step(std::ldexp(1.0, kStep));
+  const Rational places(0x1p600), step(std::ldexp(1.0, exponent_step));
   CGAL::Exact_integer numerator, denominator;
   CGAL::Fraction_traits<Rational>::Decompose()(s.value * CGAL::square(places), numerator,
                                                denominator);
   const CGAL::Exact_integer whole = numerator / denominator;
   Rational root = Rational(CGAL::sqrt(whole)) / places;
-  for (int left = s.shift; left > 0; left -= kStep) root *= step;
-  for (int left = s.shift; left < 0; left += kStep) root /= step;
+  for (int left = s.shift; left > 0; left -= exponent_step) root *= step;
+  for (int left = s.shift; left < 0; left += exponent_step) root /= step;
   return root;
 }
 

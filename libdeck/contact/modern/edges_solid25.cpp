@@ -160,7 +160,7 @@ std::vector<EdgeThroughSegment> edges_through_solids(const SceneContext& c, cons
       order.push_back(i);
   if (order.empty()) return out;
   sweep::put_in_order(order, box_of, threads);
-  constexpr std::size_t width = BoxBlock::kWidth, at_once = 512;
+  constexpr std::size_t width = BoxBlock::width, at_once = 512;
   std::vector<BoxBlock> blocks((order.size() + width - 1) / width);
   for (std::size_t i = 0; i < order.size(); ++i) blocks[i / width].set(i % width, box_of(order[i]));
   const BoxTree tree(std::move(blocks), threads);

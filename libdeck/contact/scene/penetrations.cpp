@@ -105,7 +105,7 @@ Candidates candidates(const SearchSides& sides, const Coordinates& x, Accuracy a
   const bool one = accuracy == Accuracy::fast || accuracy == Accuracy::reference;
   search.form = accuracy == Accuracy::fast ? Form::robust : Form::reference;
   // Far above the round-off of the robust formula.
-  sweep::BothForms found = sides.find_both_forms(x, search, one ? sweep::kOneForm : 1e-6 * size);
+  sweep::BothForms found = sides.find_both_forms(x, search, one ? sweep::one_form : 1e-6 * size);
   Candidates out;
   out.complete = found.result.complete;
   out.pairs = std::move(found.result.pairs);

@@ -19,7 +19,7 @@ struct Step {
   std::uint8_t octant;  // rank of the child along the curve
   std::uint8_t state;
 };
-constexpr unsigned kStates = 24;
+constexpr unsigned curve_states = 24;
 
 constexpr unsigned rotate_left(unsigned v, unsigned by) {
   by %= 3;
@@ -40,7 +40,7 @@ constexpr unsigned direction(unsigned w) {
 }
 
 constexpr auto make_steps() {
-  std::array<std::array<Step, 8>, kStates> steps{};
+  std::array<std::array<Step, 8>, curve_states> steps{};
   for (unsigned e = 0; e < 8; ++e) {
     for (unsigned d = 0; d < 3; ++d) {
       for (unsigned cell = 0; cell < 8; ++cell) {
@@ -54,7 +54,7 @@ constexpr auto make_steps() {
   }
   return steps;
 }
-constexpr auto kSteps = make_steps();
+constexpr auto single_steps = make_steps();
 
 // Two steps at once: index by state and by two bits of each axis (zzyyxx).
 struct DoubleStep {
@@ -62,18 +62,18 @@ struct DoubleStep {
   std::uint8_t state;
 };
 constexpr auto make_double_steps() {
-  std::array<std::array<DoubleStep, 64>, kStates> steps{};
-  for (unsigned state = 0; state < kStates; ++state) {
+  std::array<std::array<DoubleStep, 64>, curve_states> steps{};
+  for (unsigned state = 0; state < curve_states; ++state) {
     for (unsigned c = 0; c < 64; ++c) {
       const unsigned x = c & 3U, y = (c >> 2) & 3U, z = c >> 4;
-      const Step one = kSteps[state][(x >> 1) | (y >> 1) << 1 | (z >> 1) << 2];
-      const Step two = kSteps[one.state][(x & 1U) | (y & 1U) << 1 | (z & 1U) << 2];
+      const Step one = single_steps[state][(x >> 1) | (y >> 1) << 1 | (z >> 1) << 2];
+      const Step two = single_steps[one.state][(x & 1U) | (y & 1U) << 1 | (z & 1U) << 2];
       steps[state][c] = {static_cast<std::uint8_t>(one.octant << 3 | two.octant), two.state};
     }
   }
   return steps;
 }
-constexpr auto kDoubleSteps = make_double_steps();
+constexpr auto double_steps = make_double_steps();
 
 }  // namespace
 
@@ -84,14 +84,14 @@ std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z, u
   if (bits % 2 != 0) {
     const unsigned top = bits - 1;
     const Step step =
-        kSteps[0][((x >> top) & 1U) | ((y >> top) & 1U) << 1 | ((z >> top) & 1U) << 2];
+        single_steps[0][((x >> top) & 1U) | ((y >> top) & 1U) << 1 | ((z >> top) & 1U) << 2];
     index = step.octant;
     state = step.state;
   }
   for (unsigned level = bits & ~1U; level > 0;) {
     level -= 2;
     const unsigned cell = ((x >> level) & 3U) | ((y >> level) & 3U) << 2 | ((z >> level) & 3U) << 4;
-    const DoubleStep step = kDoubleSteps[state][cell];
+    const DoubleStep step = double_steps[state][cell];
     index = (index << 6) | step.rank;
     state = step.state;
   }
@@ -110,26 +110,26 @@ CurveGrid::CurveGrid(const Point3<double>& low, const Point3<double>& high, unsi
 
 void radix_sort(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& spare, unsigned low,
                 unsigned high, int threads) {
-  constexpr std::size_t kSmall = 2048;
-  constexpr unsigned kDigit = 11;
-  constexpr std::size_t kBuckets = std::size_t{1} << kDigit;
-  if (keys.size() < kSmall) {
+  constexpr std::size_t small = 2048;
+  constexpr unsigned digit = 11;
+  constexpr std::size_t buckets = std::size_t{1} << digit;
+  if (keys.size() < small) {
     // The bits below `low` are the position at entry: a full sort is the stable one.
     std::sort(keys.begin(), keys.end());
     return;
   }
   spare.resize(keys.size());
   const auto parts = static_cast<std::size_t>(threads);
-  std::vector<std::array<std::size_t, kBuckets>> counts(parts);
-  for (unsigned shift = low; shift < high; shift += kDigit) {
-    const std::uint64_t mask = (std::uint64_t{1} << std::min(kDigit, high - shift)) - 1;
+  std::vector<std::array<std::size_t, buckets>> counts(parts);
+  for (unsigned shift = low; shift < high; shift += digit) {
+    const std::uint64_t mask = (std::uint64_t{1} << std::min(digit, high - shift)) - 1;
     parallel_parts(threads, keys.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
       auto& count = counts[part];
       count.fill(0);
       for (std::size_t i = begin; i < end; ++i) ++count[(keys[i] >> shift) & mask];
     });
     std::size_t sum = 0;
-    for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
+    for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
       for (auto& count : counts) {
         const std::size_t here = count[bucket];
         count[bucket] = sum;
@@ -152,11 +152,11 @@ struct Scratch {
   std::vector<Place> places;
 };
 // Up to this many places are kept while their keys are formed.
-constexpr std::size_t kKept = 32768;
+constexpr std::size_t most_kept = 32768;
 
 struct Bounds {
-  static constexpr double kInf = std::numeric_limits<double>::infinity();
-  Point3<double> low{kInf, kInf, kInf}, high{-kInf, -kInf, -kInf};
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  Point3<double> low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   void add(const Point3<double>& p) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
@@ -167,7 +167,7 @@ struct Bounds {
 template <class Visit>
 void each_place(std::span<const std::uint32_t> ids, const PlacesOf& places, const Scratch& scratch,
                 std::size_t begin, std::size_t end, const Visit& visit) {
-  if (ids.size() <= kKept) {
+  if (ids.size() <= most_kept) {
     for (std::size_t i = begin; i < end; ++i) visit(i, scratch.places[i]);
     return;
   }
@@ -199,12 +199,12 @@ Bounds bounds_of(std::span<const std::uint32_t> ids, const PlacesOf& places, con
 // Sorts `ids` by size class and curve position, then crowded cells again on their own grids.
 void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& scratch,
                  int threads, int depth) {
-  constexpr std::size_t kSmall = 32;  // runs up to this length are left as they are
-  constexpr int kDeepest = 64;        // beyond it only coincident points are left
-  constexpr unsigned kClassBits = 3;
+  constexpr std::size_t small = 32;  // runs up to this length are left as they are
+  constexpr int deepest = 64;        // beyond it only coincident points are left
+  constexpr unsigned class_bits = 3;
   const std::size_t n = ids.size();
-  if (n < 2 || depth > kDeepest) return;
-  if (n <= kKept) {
+  if (n < 2 || depth > deepest) return;
+  if (n <= most_kept) {
     scratch.places.resize(n);
     places(ids, scratch.places.data());
   }
@@ -212,7 +212,7 @@ void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& 
   // Key: class, curve position, place in the list; all in 64 bits.
   const auto id_bits = static_cast<unsigned>(std::bit_width(n - 1));
   const unsigned wanted = std::max(4U, id_bits / 2 + 2);
-  const unsigned bits = std::min(wanted, (64 - kClassBits - id_bits) / 3);
+  const unsigned bits = std::min(wanted, (64 - class_bits - id_bits) / 3);
   const CurveGrid grid(all.low, all.high, bits);
   if (!grid.usable() && depth > 0) return;
   scratch.keys.resize(n);
@@ -223,7 +223,7 @@ void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& 
       scratch.keys[i] = (key << id_bits) | i;
     });
   });
-  radix_sort(scratch.keys, scratch.spare, id_bits, id_bits + 3 * bits + kClassBits, threads);
+  radix_sort(scratch.keys, scratch.spare, id_bits, id_bits + 3 * bits + class_bits, threads);
   const std::uint64_t mask = (std::uint64_t{1} << id_bits) - 1;
   if (depth == 0) {  // ids[i] == i
     for (std::size_t i = 0; i < n; ++i) ids[i] = static_cast<std::uint32_t>(scratch.keys[i] & mask);
@@ -237,7 +237,7 @@ void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& 
   for (std::size_t i = 0; i < n;) {
     std::size_t j = i + 1;
     while (j < n && (scratch.keys[j] >> id_bits) == (scratch.keys[i] >> id_bits)) ++j;
-    if (j - i > kSmall) runs.emplace_back(i, j - i);
+    if (j - i > small) runs.emplace_back(i, j - i);
     i = j;
   }
   for (const auto& [first, count] : runs) {

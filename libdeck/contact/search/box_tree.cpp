@@ -13,12 +13,12 @@ BoxTree::BoxTree(std::vector<BoxBlock> leaves, int threads) {
   levels_.push_back(std::move(leaves));
   while (levels_.back().size() > 1) {
     const std::vector<BoxBlock>& below = levels_.back();
-    constexpr std::size_t kWidth = BoxBlock::kWidth;
-    std::vector<BoxBlock> above((below.size() + kWidth - 1) / kWidth);
+    constexpr std::size_t width = BoxBlock::width;
+    std::vector<BoxBlock> above((below.size() + width - 1) / width);
     parallel_pieces(threads, above.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        const std::size_t last = std::min(below.size(), (i + 1) * kWidth);
-        for (std::size_t j = i * kWidth; j < last; ++j) above[i].set(j % kWidth, below[j].bounds());
+        const std::size_t last = std::min(below.size(), (i + 1) * width);
+        for (std::size_t j = i * width; j < last; ++j) above[i].set(j % width, below[j].bounds());
       }
     });
     levels_.push_back(std::move(above));

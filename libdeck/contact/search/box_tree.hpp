@@ -11,9 +11,9 @@
 namespace deck {
 
 struct Box {
-  static constexpr double kInf = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{kInf, kInf, kInf};
-  std::array<double, 3> high{-kInf, -kInf, -kInf};
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{infinity, infinity, infinity};
+  std::array<double, 3> high{-infinity, -infinity, -infinity};
 
   void add(const Box& b) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -32,9 +32,9 @@ struct Box {
 // Eight boxes. Unused places hold no number at all: no comparison with them is true, so that they
 // overlap nothing, not even a box without bounds, and add nothing to the bounds of the block.
 struct alignas(64) BoxBlock {
-  static constexpr std::size_t kWidth = 8;
-  std::array<std::array<double, kWidth>, 3> low;
-  std::array<std::array<double, kWidth>, 3> high;
+  static constexpr std::size_t width = 8;
+  std::array<std::array<double, width>, 3> low;
+  std::array<std::array<double, width>, 3> high;
 
   BoxBlock() {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -49,7 +49,7 @@ struct alignas(64) BoxBlock {
   }
   Box bounds() const {
     Box all;
-    for (std::size_t c = 0; c < kWidth; ++c) {
+    for (std::size_t c = 0; c < width; ++c) {
       all.add({{low[0][c], low[1][c], low[2][c]}, {high[0][c], high[1][c], high[2][c]}});
     }
     return all;

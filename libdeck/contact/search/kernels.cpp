@@ -53,7 +53,7 @@ namespace avx2 {
 #endif
 
 namespace {
-const std::array<Kernels, 2> kAll{
+const std::array<Kernels, 2> kernel_sets{
     Kernels{baseline::sweep_nodes, baseline::sweep_edges, baseline::near_distances,
             baseline::meet_boxes, baseline::meet_edges, "sse2"},
     Kernels{avx2::sweep_nodes, avx2::sweep_edges, avx2::near_distances, avx2::meet_boxes,
@@ -61,7 +61,7 @@ const std::array<Kernels, 2> kAll{
 }  // namespace
 
 std::span<const Kernels> all_kernels() {
-  return std::span(kAll).first(__builtin_cpu_supports("avx2") ? 2 : 1);
+  return std::span(kernel_sets).first(__builtin_cpu_supports("avx2") ? 2 : 1);
 }
 
 #else  // any other processor: two lanes, left to the compiler
@@ -82,12 +82,12 @@ namespace generic {
 }  // namespace generic
 
 namespace {
-const std::array<Kernels, 1> kAll{Kernels{generic::sweep_nodes, generic::sweep_edges,
-                                          generic::near_distances, generic::meet_boxes,
-                                          generic::meet_edges, "generic"}};
+const std::array<Kernels, 1> kernel_sets{Kernels{generic::sweep_nodes, generic::sweep_edges,
+                                                 generic::near_distances, generic::meet_boxes,
+                                                 generic::meet_edges, "generic"}};
 }  // namespace
 
-std::span<const Kernels> all_kernels() { return kAll; }
+std::span<const Kernels> all_kernels() { return kernel_sets; }
 
 #endif
 

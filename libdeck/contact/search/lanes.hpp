@@ -18,7 +18,7 @@ inline Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
 // Which of eight boxes overlap box `b`, as bit mask.
 inline unsigned overlaps(const BoxBlock& block, const Box& b) {
   unsigned bits = 0;
-  for (unsigned c = 0; c < BoxBlock::kWidth; c += DECK_LANES) {
+  for (unsigned c = 0; c < BoxBlock::width; c += DECK_LANES) {
     LaneMask in = (load(&block.low[0][c]) <= all(b.high[0]));
     in &= (load(&block.high[0][c]) >= all(b.low[0]));
     in &= (load(&block.low[1][c]) <= all(b.high[1]));
@@ -117,7 +117,7 @@ struct Shape {
 inline unsigned near_points(const PointBlock& p, const Shape& s, double r) {
   unsigned bits = 0;
   const Lanes zero = all(0.0), limit = all(r * r);
-  for (unsigned c = 0; c < PointBlock::kWidth; c += DECK_LANES) {
+  for (unsigned c = 0; c < PointBlock::width; c += DECK_LANES) {
     const Lanes x = load(&p.x[c]), y = load(&p.y[c]), z = load(&p.z[c]);
     const Lanes dx = larger(larger(s.box.low[0] - x, x - s.box.high[0]), zero);
     const Lanes dy = larger(larger(s.box.low[1] - y, y - s.box.high[1]), zero);
@@ -137,7 +137,7 @@ typedef std::uint32_t Ids __attribute__((vector_size(8 * DECK_LANES)));
 inline unsigned own_points(const std::uint32_t* nodes,
                            const std::array<std::uint32_t, 4>& corners) {
   unsigned bits = 0;
-  for (unsigned c = 0; c < PointBlock::kWidth; c += 2 * DECK_LANES) {
+  for (unsigned c = 0; c < PointBlock::width; c += 2 * DECK_LANES) {
     Ids ids;
     __builtin_memcpy(&ids, nodes + c, sizeof ids);
     const auto own =
@@ -177,19 +177,19 @@ struct Offsets {
 struct RobustLimit {
   Subs near, far;  // squares; not far: nothing is told for sure
 
-  static constexpr double kVanishing = 0x1p-900;
+  static constexpr double vanishing = 0x1p-900;
 
   RobustLimit(const Subs& limit, const Subs& largest_coordinate) {
     const Subs zero{};
     const Subs wider =
-        limit * Reach::kRelative + largest_coordinate * Reach::kOfCoordinate + Reach::kUnderflow;
+        limit * Reach::relative + largest_coordinate * Reach::of_coordinate + Reach::underflow;
     const Subs low = limit - wider, high = limit + wider;
     near = low > zero ? low * low : zero;
     far = high * high;
   }
   // Masks of those that are below for sure, and of those that are not for sure.
   void judge(const Offsets& o, SubMask& below, SubMask& not_below) const {
-    const SubMask told = o.squared > Subs{} + kVanishing;
+    const SubMask told = o.squared > Subs{} + vanishing;
     below = told & (o.squared < near);
     not_below = told & (o.lowest > Subs{}) & (o.lowest * o.lowest > o.squared * far);
   }
@@ -311,7 +311,7 @@ struct SegmentTest {
         shape(s),
         segment(which),
         gap_m(at(w.input->segment_gap, which, 0.0)),
-        length_m(at(w.input->segment_length, which, kInfinity)),
+        length_m(at(w.input->segment_length, which, infinity)),
         constant(w.options->gap.rule == GapRule::constant),
         lengths(w.options->gap.rule == GapRule::sum_limited),
         reference(w.options->form == Form::reference),
@@ -338,7 +338,7 @@ struct SegmentTest {
     const Point3<double> p{leaf.x[place], leaf.y[place], leaf.z[place]};
     if (!constant) {
       const double length_s =
-          lengths ? at(w.input->secondary_length, w.items[rank], kInfinity) : kInfinity;
+          lengths ? at(w.input->secondary_length, w.items[rank], infinity) : infinity;
       limit = pair_limit(*w.options, leaf.gap[place], gap_m, length_s, length_m);
       threshold = Threshold(limit + w.options->margin);
     }
@@ -402,9 +402,9 @@ inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, 
   if (w.tree.levels() == 0) return;
   const NodeSegmentInput& in = *w.input;
   Walk walk;
-  std::array<Shape, kGroup> shapes;
-  for (std::size_t first = begin; first < end; first += kGroup) {
-    const std::size_t count = std::min(kGroup, end - first);
+  std::array<Shape, items_at_once> shapes;
+  for (std::size_t first = begin; first < end; first += items_at_once) {
+    const std::size_t count = std::min(items_at_once, end - first);
     Box group;
     double sizes = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -437,7 +437,7 @@ inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, 
 
 inline void near_distances(const NodeSegmentInput& in, std::span<const CandidatePair> pairs,
                            NearDistance* out) {
-  constexpr double kOfCoordinate = 0x1p-34, kThin = 0x1p-20, kFarther = 1.04 * 1.04;
+  constexpr double of_coordinate = 0x1p-34, thin_below = 0x1p-20, farther_by = 1.04 * 1.04;
   for (const CandidatePair& pair : pairs) {
     NearDistance& d = *out++;
     d = NearDistance{};
@@ -453,11 +453,11 @@ inline void near_distances(const NodeSegmentInput& in, std::span<const Candidate
     const Subs height =
         sub.n.x * (p.x - sub.o.x) + sub.n.y * (p.y - sub.o.y) + sub.n.z * (p.z - sub.o.z);
     const std::size_t count = shape.triangle ? 1 : 4;  // the others are no facets of their own
-    double least = kInfinity, largest = 0.0;
+    double least = infinity, largest = 0.0;
     bool thin = false;
     for (std::size_t k = 0; k < count; ++k) {
       const double longest = std::max(sub.ee[k], std::max(sub.aa[k], sub.bb[k]));
-      thin |= !(nn[k] >= kThin * longest * longest);
+      thin |= !(nn[k] >= thin_below * longest * longest);
       least = std::min(least, offsets.squared[k]);
     }
     for (const auto& c : shape.corner)
@@ -465,7 +465,7 @@ inline void near_distances(const NodeSegmentInput& in, std::span<const Candidate
     largest = std::max(largest, std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z))));
     d.distance = std::sqrt(least);
     if (thin || !(largest > 0x1p-300 && largest < 0x1p300)) continue;
-    d.slack = (largest + d.distance) * kOfCoordinate;
+    d.slack = (largest + d.distance) * of_coordinate;
     // The formula is not that of the closest point for very obtuse sub-triangles.
     bool farther = false;
     for (std::size_t k = 0; k < count; ++k) {
@@ -473,10 +473,10 @@ inline void near_distances(const NodeSegmentInput& in, std::span<const Candidate
       farther |= excess > 0.0 && excess * excess > d.slack * d.slack * offsets.squared[k];
     }
     if (farther) {
-      d.slack = kInfinity;
+      d.slack = infinity;
       continue;
     }
-    const double far = kFarther * (d.distance + d.slack) * (d.distance + d.slack);
+    const double far = farther_by * (d.distance + d.slack) * (d.distance + d.slack);
     unsigned nearest = 0, front = 0, behind = 0;
     for (std::size_t k = 0; k < count; ++k) {
       if (offsets.squared[k] > far) continue;
@@ -527,7 +527,7 @@ inline void meet_some(const BoxTree& tree, std::span<const Box> boxes, std::size
   const std::vector<BoxBlock>& leaves = tree.level(0);
   walk.find(tree, group);
   for (std::size_t i = first; i < last;) {
-    const std::size_t end = std::min(last, i + kGroup);
+    const std::size_t end = std::min(last, i + items_at_once);
     Box some;
     for (std::size_t k = i; k < end; ++k) some.add(boxes[k]);
     walk.keep_near(leaves, some);
@@ -547,7 +547,8 @@ inline void meet(const BoxTree& tree, std::span<const Box> boxes, const Dropped&
                  std::vector<Meeting>& out) {
   if (tree.levels() == 0) return;
   Walk walk;
-  constexpr std::size_t at_once = 4 * kGroup;  // a walk costs more than tests of some boxes more
+  constexpr std::size_t at_once =
+      4 * items_at_once;  // a walk costs more than tests of some boxes more
   for (std::size_t first = 0; first < boxes.size(); first += at_once)
     meet_some(tree, boxes, first, std::min(boxes.size(), first + at_once), dropped, walk, out);
 }

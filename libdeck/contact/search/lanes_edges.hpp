@@ -18,12 +18,12 @@ struct EdgeTest {
         m1(point(w.input->nodes, m[0])),
         m2(point(w.input->nodes, m[1])),
         gap_m(at(w.input->main_gap, which, 0.0)),
-        length_m(at(w.input->main_length, which, kInfinity)) {}
+        length_m(at(w.input->main_length, which, infinity)) {}
 
   // Without margin.
   double limit(std::uint32_t i) const {
     return pair_limit(*w.options, at(w.input->secondary_gap, i, 0.0), gap_m,
-                      at(w.input->secondary_length, i, kInfinity), length_m);
+                      at(w.input->secondary_length, i, infinity), length_m);
   }
 
   void add(std::uint32_t i, Found& found) {
@@ -150,9 +150,9 @@ inline void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, 
   if (w.tree.levels() == 0) return;
   const EdgeEdgeInput& in = *w.input;
   Walk walk;
-  std::array<Box, kGroup> boxes;
-  for (std::size_t first = begin; first < end; first += kGroup) {
-    const std::size_t count = std::min(kGroup, end - first);
+  std::array<Box, items_at_once> boxes;
+  for (std::size_t first = begin; first < end; first += items_at_once) {
+    const std::size_t count = std::min(items_at_once, end - first);
     Box group;
     double sizes = 0.0;
     for (std::size_t i = 0; i < count; ++i) {

@@ -53,20 +53,20 @@ NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int thr
 // Whether neighbours in the list of nodes are mostly no further apart than some segments are large:
 // a cheap look before the tree is tried.
 bool NodeSweep::looks_ordered() const {
-  constexpr std::size_t kWorthTrying = 8192, kSamples = 64, kWidth = PointBlock::kWidth;
-  if (items.size() < kWorthTrying || segments.empty()) return false;
+  constexpr std::size_t worth_trying = 8192, samples = 64, width = PointBlock::width;
+  if (items.size() < worth_trying || segments.empty()) return false;
   const auto median = [](std::size_t count, const auto& size_of) {
     std::vector<double> sizes;
-    for (std::size_t i = 0; i < kSamples; ++i) {
-      const double size = size_of(i * (count / kSamples));
-      sizes.push_back(size >= 0.0 ? size : sweep::kInfinity);  // an order needs numbers
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double size = size_of(i * (count / samples));
+      sizes.push_back(size >= 0.0 ? size : sweep::infinity);  // an order needs numbers
     }
-    std::nth_element(sizes.begin(), sizes.begin() + kSamples / 2, sizes.end());
-    return sizes[kSamples / 2];
+    std::nth_element(sizes.begin(), sizes.begin() + samples / 2, sizes.end());
+    return sizes[samples / 2];
   };
-  const double apart = median(items.size() - kWidth, [&](std::size_t first) {
+  const double apart = median(items.size() - width, [&](std::size_t first) {
     Box box;
-    for (std::size_t k = 0; k < kWidth; ++k) {
+    for (std::size_t k = 0; k < width; ++k) {
       const Point3<double> p = point(input->nodes, input->secondary[items[first + k]]);
       box.add({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
     }
@@ -80,23 +80,23 @@ bool NodeSweep::looks_ordered() const {
 
 // Packs points and gaps in the order of `items` and builds the tree over them.
 void NodeSweep::pack(int threads) {
-  constexpr std::size_t kWidth = PointBlock::kWidth;
+  constexpr std::size_t width = PointBlock::width;
   const NodeSegmentInput& in = *input;
-  const std::size_t leaf_count = (items.size() + kWidth - 1) / kWidth;
+  const std::size_t leaf_count = (items.size() + width - 1) / width;
   make_room(points, leaf_count, threads);
   points.resize(leaf_count);
   reach.resize(leaf_count);
-  nodes.assign(leaf_count * kWidth, kNoNode);
+  nodes.assign(leaf_count * width, no_node);
   std::vector<BoxBlock> blocks;
-  make_room(blocks, (leaf_count + kWidth - 1) / kWidth, threads);
-  blocks.resize((leaf_count + kWidth - 1) / kWidth);
+  make_room(blocks, (leaf_count + width - 1) / width, threads);
+  blocks.resize((leaf_count + width - 1) / width);
   parallel_pieces(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    const std::size_t last = std::min(leaf_count, end * kWidth);
-    for (std::size_t i = begin * kWidth; i < last; ++i) {
+    const std::size_t last = std::min(leaf_count, end * width);
+    for (std::size_t i = begin * width; i < last; ++i) {
       PointBlock& leaf = points[i];
       Box box;
-      for (std::size_t rank = i * kWidth; rank < std::min(items.size(), (i + 1) * kWidth); ++rank) {
-        const std::size_t k = rank % kWidth;
+      for (std::size_t rank = i * width; rank < std::min(items.size(), (i + 1) * width); ++rank) {
+        const std::size_t k = rank % width;
         nodes[rank] = in.secondary[items[rank]];
         const Point3<double> p = point(in.nodes, nodes[rank]);
         leaf.x[k] = p.x;
@@ -107,7 +107,7 @@ void NodeSweep::pack(int threads) {
         reach[i] = k == 0 ? own : std::max(reach[i], own);
         box.add(reach_of_node(in, *options, items[rank]));
       }
-      blocks[i / kWidth].set(i % kWidth, box);
+      blocks[i / width].set(i % width, box);
     }
   });
   tree = BoxTree(std::move(blocks), threads);
@@ -116,10 +116,10 @@ void NodeSweep::pack(int threads) {
 // Whether walks through the tree meet little else than what they look for, tried with some of the
 // segments: boxes tested against points found. Decides speed only, never the result.
 bool NodeSweep::serves_well() const {
-  constexpr std::size_t kSamples = 64;
-  constexpr std::size_t kPerLevel = 3;  // and one per point; a space-filling curve needs about 2
-  constexpr std::size_t kPatience = 4096;
-  const std::size_t stride = segments.size() / kSamples + 1;
+  constexpr std::size_t samples = 64;
+  constexpr std::size_t per_level = 3;  // and one per point; a space-filling curve needs about 2
+  constexpr std::size_t patience = 4096;
+  const std::size_t stride = segments.size() / samples + 1;
   std::size_t tested = 0, allowed = 0;
   std::vector<std::pair<std::size_t, std::size_t>> stack;  // level, block
   for (std::size_t i = stride / 2; i < segments.size(); i += stride) {
@@ -127,19 +127,19 @@ bool NodeSweep::serves_well() const {
     const auto apart = [&b](std::size_t axis, double low, double high) {
       return !(low <= b.high[axis] && high >= b.low[axis]);  // unused places are apart
     };
-    allowed += kPerLevel * tree.levels();
+    allowed += per_level * tree.levels();
     stack.emplace_back(tree.levels() - 1, 0);
     while (!stack.empty()) {
-      if (++tested > allowed + kPatience) return false;
+      if (++tested > allowed + patience) return false;
       const auto [level, block] = stack.back();
       stack.pop_back();
       const BoxBlock& boxes = tree.level(level)[block];
-      for (std::size_t c = 0; c < BoxBlock::kWidth; ++c) {
+      for (std::size_t c = 0; c < BoxBlock::width; ++c) {
         if (apart(0, boxes.low[0][c], boxes.high[0][c]) ||
             apart(1, boxes.low[1][c], boxes.high[1][c]) ||
             apart(2, boxes.low[2][c], boxes.high[2][c]))
           continue;
-        const std::size_t child = block * BoxBlock::kWidth + c;
+        const std::size_t child = block * BoxBlock::width + c;
         if (level > 0) {
           stack.emplace_back(level - 1, child);
           continue;
@@ -147,7 +147,7 @@ bool NodeSweep::serves_well() const {
         ++tested;
         const PointBlock& leaf = points[child];
         const double r = reach[child];
-        for (std::size_t k = 0; k < PointBlock::kWidth; ++k) {
+        for (std::size_t k = 0; k < PointBlock::width; ++k) {
           if (!apart(0, leaf.x[k] - r, leaf.x[k] + r) && !apart(1, leaf.y[k] - r, leaf.y[k] + r) &&
               !apart(2, leaf.z[k] - r, leaf.z[k] + r))
             ++allowed;
@@ -177,7 +177,7 @@ BothForms find_both_forms(const NodeSegmentInput& in, const SearchOptions& optio
 }  // namespace sweep
 
 SearchResult find_node_segment_pairs(const NodeSegmentInput& in, const SearchOptions& options) {
-  return sweep::find_both_forms(in, options, sweep::kOneForm).result;
+  return sweep::find_both_forms(in, options, sweep::one_form).result;
 }
 
 }  // namespace deck

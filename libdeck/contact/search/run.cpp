@@ -59,14 +59,14 @@ void merge(const std::vector<Found>& found, std::size_t secondaries, int threads
 
 void run(const std::function<void(std::size_t, std::size_t, Found&)>& body, std::size_t count,
          std::size_t secondaries, const SearchOptions& options, BothForms& both) {
-  constexpr std::size_t kChunk = 64 * kGroup;
-  const std::size_t chunks = (count + kChunk - 1) / kChunk;
+  constexpr std::size_t chunk_items = 64 * items_at_once;
+  const std::size_t chunks = (count + chunk_items - 1) / chunk_items;
   const int threads = effective_threads(options.threads);
   // Every sink may leave its last chunk nearly empty: full means that there are too many for sure.
-  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max() / 2);
-  const std::size_t slack = 2 * static_cast<std::size_t>(threads) * Sink::kChunk;
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max() / 2);
+  const std::size_t slack = 2 * static_cast<std::size_t>(threads) * Sink::chunk_items;
   std::atomic<std::int64_t> allowance{
-      static_cast<std::int64_t>(std::min(options.max_pairs, kMost) + slack)};
+      static_cast<std::int64_t>(std::min(options.max_pairs, most) + slack)};
   std::vector<Found> found;
   for (int t = 0; t < threads; ++t) found.emplace_back(&allowance);
   std::atomic<std::size_t> next_chunk{0}, pairs{0};
@@ -77,7 +77,7 @@ void run(const std::function<void(std::size_t, std::size_t, Found&)>& body, std:
       const std::size_t chunk = next_chunk.fetch_add(1);
       if (chunk >= chunks || pairs.load() > options.max_pairs || cancel.is_set()) return;
       const std::size_t before = mine.size();
-      body(chunk * kChunk, std::min(count, (chunk + 1) * kChunk), mine);
+      body(chunk * chunk_items, std::min(count, (chunk + 1) * chunk_items), mine);
       if (mine.full()) cancel.set();
       pairs += mine.size() - before;
     }

@@ -9,8 +9,8 @@ namespace deck {
 // as some thousand of them, and to wait for it where other programs have the processors much
 // longer.
 inline int threads_for(std::size_t count, int threads) {
-  constexpr std::size_t kWorthAThread = 32768;
-  return count < kWorthAThread ? 1 : threads;
+  constexpr std::size_t worth_a_thread = 32768;
+  return count < worth_a_thread ? 1 : threads;
 }
 
 }  // namespace deck

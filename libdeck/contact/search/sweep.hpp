@@ -24,7 +24,7 @@
 
 namespace deck::sweep {
 
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline double at(std::span<const double> values, std::size_t i, double otherwise) {
   return values.empty() ? otherwise : values[i];
@@ -33,20 +33,20 @@ inline double at(std::span<const double> values, std::size_t i, double otherwise
 // Eight secondary nodes, neighbours in space: a leaf of the tree. A node's rank is 8 * (number of
 // its leaf) + its place in it.
 struct alignas(64) PointBlock {
-  static constexpr std::size_t kWidth = BoxBlock::kWidth;
-  std::array<double, kWidth> x{}, y{}, z{};
-  std::array<double, kWidth> gap{};
+  static constexpr std::size_t width = BoxBlock::width;
+  std::array<double, width> x{}, y{}, z{};
+  std::array<double, width> gap{};
 };
 
 // How far beyond a segment or edge its tests reach. Computed distances may be smaller than exact
 // ones by a few units in the last place of the coordinates; boxes are widened by much more than
 // that, so that no pair the distance formula accepts is lost to a box test.
 struct Reach {
-  static constexpr double kRelative = 0x1p-40;
-  static constexpr double kOfCoordinate = 0x1p-42;
-  static constexpr double kUnderflow = 0x1p-500;  // squares of shorter distances vanish
+  static constexpr double relative = 0x1p-40;
+  static constexpr double of_coordinate = 0x1p-42;
+  static constexpr double underflow = 0x1p-500;  // squares of shorter distances vanish
   static double widened(double reach, double largest_coordinate) {
-    return reach + (std::abs(reach) * kRelative + largest_coordinate * kOfCoordinate + kUnderflow);
+    return reach + (std::abs(reach) * relative + largest_coordinate * of_coordinate + underflow);
   }
 };
 
@@ -55,23 +55,25 @@ struct Reach {
 // more.
 class Sink {
  public:
-  static constexpr std::size_t kChunk = 16384;
+  static constexpr std::size_t chunk_items = 16384;
   // Without an allowance there is no bound.
   explicit Sink(std::atomic<std::int64_t>* allowance = nullptr) : allowance_(allowance) {}
   void push(CandidatePair pair) { push_if(true, pair); }
   // Without a branch: whether a pair is within its gap is known late and cannot be predicted, and a
   // wrong guess would throw away the distances of the next pairs that are under way.
   void push_if(bool wanted, CandidatePair pair) {
-    if (fill_ == kChunk) grow();
+    if (fill_ == chunk_items) grow();
     last_[fill_] = pair;
     fill_ += wanted;
   }
   bool full() const { return full_; }
-  std::size_t size() const { return chunks_.empty() ? 0 : (chunks_.size() - 1) * kChunk + fill_; }
+  std::size_t size() const {
+    return chunks_.empty() ? 0 : (chunks_.size() - 1) * chunk_items + fill_;
+  }
   template <class Visit>
   void for_each(const Visit& visit) const {
     for (std::size_t c = 0; c < chunks_.size(); ++c) {
-      const std::size_t count = c + 1 == chunks_.size() ? fill_ : kChunk;
+      const std::size_t count = c + 1 == chunks_.size() ? fill_ : chunk_items;
       for (std::size_t i = 0; i < count; ++i) visit(chunks_[c][i]);
     }
   }
@@ -80,21 +82,21 @@ class Sink {
   void grow() {
     fill_ = 0;
     if (allowance_ != nullptr && !chunks_.empty() &&
-        allowance_->fetch_sub(static_cast<std::int64_t>(kChunk)) <
-            static_cast<std::int64_t>(kChunk))
+        allowance_->fetch_sub(static_cast<std::int64_t>(chunk_items)) <
+            static_cast<std::int64_t>(chunk_items))
       full_ = true;
     if (full_) return;  // further pairs overwrite: a full sink is not read
-    chunks_.push_back(std::make_unique<CandidatePair[]>(kChunk));
+    chunks_.push_back(std::make_unique<CandidatePair[]>(chunk_items));
     last_ = chunks_.back().get();
   }
   std::atomic<std::int64_t>* allowance_;
   bool full_ = false;
   std::vector<std::unique_ptr<CandidatePair[]>> chunks_;
   CandidatePair* last_ = nullptr;
-  std::size_t fill_ = kChunk;
+  std::size_t fill_ = chunk_items;
 };
 
-inline constexpr std::uint32_t kNoNode = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint32_t no_node = std::numeric_limits<std::uint32_t>::max();
 
 // What one thread found.
 struct Found {
@@ -108,7 +110,7 @@ struct Found {
 };
 
 // The margin of a sweep that decides in one form only.
-inline constexpr double kOneForm = -1.0;
+inline constexpr double one_form = -1.0;
 
 // Everything a sweep over the main side reads. Filled by nodes.cpp and edges.cpp.
 struct NodeSweep {
@@ -116,7 +118,7 @@ struct NodeSweep {
   const SearchOptions* options = nullptr;
   // Not negative: pairs that the options' form does not find, but the robust form with this margin,
   // are found apart.
-  double robust_margin = kOneForm;
+  double robust_margin = one_form;
   std::vector<std::uint32_t> segments;  // active ones in spatial order
   std::vector<PointBlock> points;
   std::vector<double> reach;         // per leaf: largest share of the gap among its nodes
@@ -126,7 +128,7 @@ struct NodeSweep {
 
   // The search structure over the secondary nodes of an input, and its segments in order.
   NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads,
-            double robust_margin = kOneForm);
+            double robust_margin = one_form);
   std::size_t bytes() const;
 
  private:
@@ -138,13 +140,13 @@ struct NodeSweep {
 struct EdgeSweep {
   const EdgeEdgeInput* input = nullptr;
   const SearchOptions* options = nullptr;
-  double robust_margin = kOneForm;   // as in NodeSweep
+  double robust_margin = one_form;   // as in NodeSweep
   std::vector<std::uint32_t> mains;  // active main edges in spatial order
   std::vector<std::uint32_t> items;  // active secondary edges in spatial order
   BoxTree tree;                      // leaves: boxes of single secondary edges, widened
 
   EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads,
-            double robust_margin = kOneForm);
+            double robust_margin = one_form);
   std::size_t bytes() const;
 };
 
@@ -167,11 +169,11 @@ struct Meeting {
   std::uint32_t box = 0, leaf = 0;
 };
 
-// The corners of eight segments; unused places hold kNoNode.
+// The corners of eight segments; unused places hold no_node.
 struct CornerBlock {
   std::array<std::array<std::uint32_t, 8>, 4> node;
   CornerBlock() {
-    for (auto& corner : node) corner.fill(kNoNode);
+    for (auto& corner : node) corner.fill(no_node);
   }
   std::array<std::uint32_t, 4> of(std::size_t i) const {
     return {node[0][i], node[1][i], node[2][i], node[3][i]};
@@ -182,7 +184,7 @@ using EdgeNodes = std::array<std::uint32_t, 2>;
 // How far a node is from a segment, nearly: the distance differs from that of any plain formula by
 // less than `slack`, which is infinite where sub-triangles are too thin to tell.
 struct NearDistance {
-  double distance = 0.0, slack = kInfinity;
+  double distance = 0.0, slack = infinity;
   std::uint8_t nearest = 0xf;  // sub-triangles that are nearest, or may be by a hundredth; bit mask
   std::int8_t side = 0;        // of all these: 1: the node is in front, -1: behind, 0: not told
 };
@@ -210,7 +212,7 @@ inline Point3<double> point(const NodeArrays& nodes, std::uint32_t i) {
   return {nodes.x[i], nodes.y[i], nodes.z[i]};
 }
 
-inline constexpr std::size_t kGroup = 8;  // main items that share one walk through the tree
+inline constexpr std::size_t items_at_once = 8;  // main items that share one walk through the tree
 
 // A group walks the tree as one only if its box is not much larger than its members': a giant or a
 // stray among small ones would make the others test far too much.
@@ -224,15 +226,15 @@ inline bool worth_sharing(double group_size, double sum_of_sizes) {
 // these are some of the groups and, in short rows, many of the windows.
 template <class BoxOf>
 bool is_coherent(std::span<const std::uint32_t> ids, const BoxOf& box_of) {
-  constexpr std::size_t kWindow = 64, kStride = 16 * kWindow;
+  constexpr std::size_t window_items = 64, stride = 16 * window_items;
   std::size_t windows = 0, good_windows = 0, groups = 0, good_groups = 0;
-  for (std::size_t first = 0; first + kWindow <= ids.size(); first += kStride) {
+  for (std::size_t first = 0; first + window_items <= ids.size(); first += stride) {
     Box window;
     double window_sum = 0.0;
-    for (std::size_t g = 0; g < kWindow; g += kGroup) {
+    for (std::size_t g = 0; g < window_items; g += items_at_once) {
       Box group;
       double group_sum = 0.0;
-      for (std::size_t i = 0; i < kGroup; ++i) {
+      for (std::size_t i = 0; i < items_at_once; ++i) {
         const Box b = box_of(ids[first + g + i]);
         group.add(b);
         group_sum += b.size();

@@ -13,18 +13,18 @@
 
 namespace deck::cycle::detail {
 
-inline constexpr std::size_t kBlock = 64;  ///< pairs per block; a multiple of every pack width
+inline constexpr std::size_t block_pairs = 64;  ///< pairs per block; a multiple of every pack width
 
 struct Constants;  // effects.hpp
 
 /// Geometry of a block: one slot per pair.
 struct alignas(64) GeometryBlock {
-  double penetration[kBlock];
-  double distance[kBlock];
-  double keep[kBlock];  ///< 1 when the pair is within reach, else 0
-  double normal[3][kBlock];
-  double raw[4][kBlock];     ///< weights for velocities
-  double weight[4][kBlock];  ///< weights for forces
+  double penetration[block_pairs];
+  double distance[block_pairs];
+  double keep[block_pairs];  ///< 1 when the pair is within reach, else 0
+  double normal[3][block_pairs];
+  double raw[4][block_pairs];     ///< weights for velocities
+  double weight[4][block_pairs];  ///< weights for forces
 };
 
 /// Slot s of the block starting at pair `begin` holds pair min(begin + s, last full pack): the last

@@ -7,9 +7,9 @@
 namespace deck::cycle::detail {
 
 // Distance, relative to the gap, below which the robust law continues linearly.
-inline constexpr double kRobustFloor = 1e-8;
+inline constexpr double robust_floor = 1e-8;
 // The solver drops a node when less than this share of its gap is left (double precision).
-inline constexpr double kClosed = 1e-10;
+inline constexpr double closed_below = 1e-10;
 
 /// Inacti 5 and 6: the penetration found at start is taken off the gap and slowly given back.
 struct GapReduction : PairEffect {
@@ -73,10 +73,10 @@ struct Elastic : PairEffect {
       }
       s.rho = ratio_or_one(s.d, s.ge);
     }
-    s.gap_closed = (s.rho < V::fill(kClosed)) & (s.k0 > zero);
+    s.gap_closed = (s.rho < V::fill(closed_below)) & (s.k0 > zero);
     s.k0 = select(s.gap_closed, zero, s.k0);
     if constexpr (K == ContactKind::edge_edge) s.pi = select(s.gap_closed, zero, s.pi);
-    if constexpr (M == Model::robust) s.rho = max(s.rho, V::fill(kRobustFloor));
+    if constexpr (M == Model::robust) s.rho = max(s.rho, V::fill(robust_floor));
   }
   template <class V>
   static V ratio_or_one(const V& num, const V& den) {

@@ -14,7 +14,7 @@
 namespace deck {
 namespace {
 
-constexpr std::string_view kPageStyle = R"~(
+constexpr std::string_view page_style = R"~(
 :root { --ground:#f5f6f8; --panel:#fff; --ink:#17202b; --muted:#5c6979; --line:#e2e6ec; --accent:#1f5fd0; --soft:#e8f0fe; --good:#0b6b3a; --some:#b45309; --bad:#b3261e; color-scheme: light; }
 [data-theme=dark] { --ground:#10151b; --panel:#171e27; --ink:#e7edf4; --muted:#93a2b4; --line:#303c4c; --accent:#7fb2ff; --soft:#1b2c47; --good:#5fd38d; --some:#f0a860; --bad:#ff8a80; color-scheme: dark; }
 * { box-sizing: border-box; }
@@ -60,7 +60,7 @@ th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; wh
 @media print { header button, .save { display: none; } }
 )~";
 
-constexpr std::string_view kPageScript = R"~(
+constexpr std::string_view page_script = R"~(
 const root = document.documentElement, data = JSON.parse(document.getElementById("accuracy-json").textContent);
 root.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 document.getElementById("theme").onclick = () => root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
@@ -287,7 +287,7 @@ std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& c
       "style-src 'unsafe-inline'; img-src data: blob:\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
       html_text(accuracy_title(report, context)) + "</title>\n<style>";
-  out += kPageStyle;
+  out += page_style;
   out += "</style>\n</head>\n<body>\n<header><h1>What accuracy costs <small>" +
          html_text(context.path.empty() ? "the hard cases" : terminal_text(context.path)) +
          "</small></h1><button type=\"button\" id=\"json\">JSON</button><button type=\"button\" "
@@ -306,7 +306,7 @@ std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& c
     out += "<p class=\"note\">" + html_text(terminal_text(line)) + "</p>\n";
   out += "</main>\n<script type=\"application/json\" id=\"accuracy-json\">" +
          detail::script_safe(accuracy_json(report, context)) + "</script>\n<script>";
-  out += kPageScript;
+  out += page_script;
   return out + "</script>\n</body>\n</html>\n";
 }
 

@@ -7,8 +7,8 @@
 namespace deck::detail {
 namespace {
 
-constexpr std::size_t most_rows = 100000;   // per contact, largest force first
-constexpr std::size_t most_nodes = 100000;  // largest force first
+constexpr std::size_t most_pair_rows = 100000;  // per contact, largest force first
+constexpr std::size_t most_nodes = 100000;      // largest force first
 
 const char* because_of(cycle::StepLimit::Source source) {
   switch (source) {
@@ -40,12 +40,12 @@ void write_contact(JsonWriter& j, const cycle::ContactOutcome& c) {
   j.field("acceleration", c.largest_acceleration).field("elastic", c.totals.elastic_energy);
   std::vector<const cycle::PairOutcome*> rows;
   for (const cycle::PairOutcome& p : c.pairs) rows.push_back(&p);
-  if (rows.size() > most_rows) {
+  if (rows.size() > most_pair_rows) {
     std::stable_sort(rows.begin(), rows.end(),
                      [](const cycle::PairOutcome* a, const cycle::PairOutcome* b) {
                        return size_of(a->force) > size_of(b->force);
                      });
-    rows.resize(most_rows);
+    rows.resize(most_pair_rows);
   }
   j.key("rows").begin_array(true);
   for (const cycle::PairOutcome* p : rows) {

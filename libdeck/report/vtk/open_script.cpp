@@ -6,7 +6,7 @@
 namespace deck {
 namespace {
 
-constexpr const char* kScriptHead =
+constexpr const char* script_head =
     R"~(# Opens the files of this folder in ParaView, coloured and with arrows:
 #   paraview --script=open.py     or File > Load State, or: pvpython open.py (writes open.png)
 # Made for paraview.simple of ParaView 5.9 and later.
@@ -60,7 +60,7 @@ def points(name, array, arrow, size, longest):
 
 )~";
 
-constexpr const char* kTail = R"~(
+constexpr const char* script_tail = R"~(
 VIEW.ResetCamera()
 pv.Render(VIEW)
 if os.path.basename(sys.executable or "").startswith("pvpython"):
@@ -78,7 +78,7 @@ VtkFile paraview_script(const std::vector<VtkFile>& files) {
   // Of a series only the collections: they hold its files.
   const bool series = std::any_of(files.begin(), files.end(),
                                   [](const VtkFile& f) { return ends(f.name, ".pvd"); });
-  std::string out = kScriptHead;
+  std::string out = script_head;
   for (const VtkFile& f : files) {
     if (series && !ends(f.name, ".pvd")) continue;
     const std::string name = "\"" + f.name + "\"";
@@ -95,7 +95,7 @@ VtkFile paraview_script(const std::vector<VtkFile>& files) {
     else
       out += "surface(" + name + ", \"depth\", 1.0)\n";
   }
-  return {"open.py", out + kTail};
+  return {"open.py", out + script_tail};
 }
 
 }  // namespace deck

@@ -21,7 +21,7 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-constexpr double kSideGap = 0.3;  // gap of each side, in edge lengths
+constexpr double side_gap = 0.3;  // gap of each side, in edge lengths
 
 // A wavy sheet of n x n quads of edge h from corner (x0, y0), and one secondary node per quad at
 // 0.05 to 0.5 edges from it.
@@ -43,11 +43,11 @@ inline void add_patch(Scene& s, Dice& dice, int n, double h, double x0, double y
       const auto a = first + static_cast<std::uint32_t>(i * (n + 1) + j);
       const auto b = a + static_cast<std::uint32_t>(n + 1);
       s.segments.push_back({a, b, b + 1, a + 1});
-      s.segment_gap.push_back(kSideGap * h);
+      s.segment_gap.push_back(side_gap * h);
       const double side = dice.uniform(0, 1) < 0.5 ? -1 : 1;
       s.secondary.push_back(
           add(i + dice.uniform(0, 1), j + dice.uniform(0, 1), side * dice.uniform(0.05, 0.5)));
-      s.secondary_gap.push_back(kSideGap * h);
+      s.secondary_gap.push_back(side_gap * h);
     }
   }
 }
@@ -95,7 +95,7 @@ inline Scene folded_scene(std::size_t size) {
       s.y.push_back(j + dice.uniform(-0.1, 0.1));
       s.z.push_back(0.5 * layer + dice.uniform(-0.02, 0.02));
       s.secondary.push_back(static_cast<std::uint32_t>(s.x.size() - 1));
-      s.secondary_gap.push_back(kSideGap);
+      s.secondary_gap.push_back(side_gap);
     }
   }
   for (int i = 0; i < n; ++i) {
@@ -103,7 +103,7 @@ inline Scene folded_scene(std::size_t size) {
       const auto a = static_cast<std::uint32_t>(i * (width + 1) + j);
       const auto b = a + static_cast<std::uint32_t>(width + 1);
       s.segments.push_back({a, b, b + 1, a + 1});
-      s.segment_gap.push_back(kSideGap);
+      s.segment_gap.push_back(side_gap);
     }
   }
   return s;

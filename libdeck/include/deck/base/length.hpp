@@ -68,9 +68,9 @@ T largest_component(const Point3<T>& v) {
 template <class T>
 T length(const Point3<T>& v) {
   if constexpr (std::is_floating_point_v<T>) {
-    constexpr int kSafe = std::numeric_limits<T>::max_exponent / 3;
+    constexpr int safe = std::numeric_limits<T>::max_exponent / 3;
     const T big = largest_component(v);
-    if (big > T(0) && (big < std::ldexp(T(1), -kSafe) || big > std::ldexp(T(1), kSafe))) {
+    if (big > T(0) && (big < std::ldexp(T(1), -safe) || big > std::ldexp(T(1), safe))) {
       const int shift = -std::ilogb(big);
       const Point3<T> w{std::ldexp(v.x, shift), std::ldexp(v.y, shift), std::ldexp(v.z, shift)};
       return std::ldexp(std::sqrt(dot(w, w)), -shift);

@@ -189,9 +189,8 @@ std::array<SubTriangleClosest<T>, 4> reference_sub_triangles(const Point3<T>& p,
 // finite coordinates divided by the largest power of two are at most 1.
 template <class T>
 int safe_shift(const T& big) {
-  constexpr int kSafe = std::numeric_limits<T>::max_exponent / 10;
-  if (!(big > T(0)) || (big >= std::ldexp(T(1), -kSafe) && big <= std::ldexp(T(1), kSafe)))
-    return 0;
+  constexpr int safe = std::numeric_limits<T>::max_exponent / 10;
+  if (!(big > T(0)) || (big >= std::ldexp(T(1), -safe) && big <= std::ldexp(T(1), safe))) return 0;
   return big <= std::numeric_limits<T>::max() ? -std::ilogb(big)
                                               : -std::numeric_limits<T>::max_exponent;
 }
