@@ -3,6 +3,7 @@
 // through.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
@@ -314,11 +315,11 @@ class DoubtfulPairs24 {
 /// Goes through the pairs of nodes.
 class NodeByNode24 {
  public:
-  NodeByNode24(SceneContext& c, const Sides& s, const Limits24& limits)
+  NodeByNode24(const SceneContext& c, const Sides& s, const Limits24& limits, const Rules24& rules)
       : x_(c.scene.coordinates),
         s_(s),
         limits_(limits),
-        rules_(c, s, limits),
+        rules_(rules),
         accuracy_(c.options.accuracy),
         decides_(accuracy_ >= Accuracy::robust && c.all_placed),
         nearest_(s.set.inacti != 0) {}
@@ -384,7 +385,7 @@ class NodeByNode24 {
   const Coordinates& x_;
   const Sides& s_;
   const Limits24& limits_;
-  Rules24 rules_;
+  const Rules24& rules_;
   Accuracy accuracy_;
   bool decides_, nearest_;
   std::uint32_t at_node_ = 0;
@@ -458,9 +459,26 @@ Found find_nodes24(SceneContext& c, Sides& s) {
   const PairsByNode near = search24(c, s, limits);
   out.complete = near.complete();
   if (!out.complete) return out;
-  NodeByNode24 nodes(c, s, limits);
-  near.each_node(0, s.nodes.size(),
-                 [&](std::span<const CandidatePair> pairs) { nodes.look(pairs, out); });
+  c.connectivity.prepare(ElementKind::solid8);
+  const Rules24 rules(c, s, limits);
+  const int threads = effective_threads(c.options.threads);
+  std::vector<Found> parts(static_cast<std::size_t>(threads));
+  parallel_parts(
+      threads, s.nodes.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+        NodeByNode24 nodes(c, s, limits, rules);
+        Found mine;
+        near.each_node(begin, end,
+                       [&](std::span<const CandidatePair> pairs) { nodes.look(pairs, mine); });
+        parts[part] = std::move(mine);
+      });
+  for (const Found& part : parts) {
+    out.penetrations.insert(out.penetrations.end(), part.penetrations.begin(),
+                            part.penetrations.end());
+    out.candidates += part.candidates;
+    out.decisions.pairs += part.decisions.pairs;
+    out.decisions.fallback += part.decisions.fallback;
+    out.decisions.exact += part.decisions.exact;
+  }
   return out;
 }
 
