@@ -353,7 +353,9 @@ void search_ties(SceneContext& c, TieThickness& thickness, Tie& tie) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto first = next;
       while (next != pairs.end() && next->secondary == i) ++next;
-      choose(x, tie, reach, {first, next}, trust, least, tie.nodes[i]);
+      const std::size_t at = static_cast<std::size_t>(first - pairs.begin());
+      const std::size_t count = static_cast<std::size_t>(next - first);
+      choose(x, tie, reach, {pairs.data() + at, count}, trust, least, tie.nodes[i]);
       classify(tie, tie.nodes[i]);
     }
   });

@@ -52,7 +52,7 @@ bool is_as_written(const std::string& directory, const WrittenFile& file);
 /// `path` as it reads in JSON: bytes that are no UTF-8 are taken for Latin-1.
 std::string as_utf8(std::string_view text);
 
-/// What identifies this program: its version and the hash of its files.
+/// What identifies this program: its version and the hash of its files. Empty: nothing does.
 std::string program_identity();
 
 }  // namespace deck::cli

@@ -40,8 +40,8 @@ std::filesystem::path cache_directory() {
 }
 
 /// What the measurement depends on: the program, the processor, and what was asked.
-std::string measurement_key(const HardCases& which) {
-  return fmt::format("deck hard cases, form 1; {}; {}; {}; {} {} {} {}", program_identity(),
+std::string measurement_key(const std::string& program, const HardCases& which) {
+  return fmt::format("deck hard cases, form 1; {}; {}; {}; {} {} {} {}", program,
                      accuracy_compiler(), processor_name(), which.samples, which.seed,
                      which.repeats, which.decisions_only ? "decisions" : "all");
 }
@@ -52,8 +52,9 @@ struct KeptPlace {
 
 KeptPlace kept_place(const HardCases& which) {
   const std::filesystem::path directory = cache_directory();
-  if (directory.empty()) return {};
-  const std::string key = measurement_key(which);
+  const std::string program = program_identity();
+  if (directory.empty() || program.empty()) return {};
+  const std::string key = measurement_key(program, which);
   return {key, (directory / fmt::format("hard-cases-{:016x}", content_hash(key))).string()};
 }
 
