@@ -213,6 +213,9 @@ check("the policy allows nothing by default and no connections", policy.includes
       const expected = native(samples, ...args, "-q");
       check(`window.deck: ${args.slice(0, 2).join(" ")} as on the command line`, r.exitCode === expected.exitCode && r.stdout === expected.stdout, `${r.exitCode} ${expected.exitCode} ${r.stderr.slice(0, 200)}`);
     }
+  const converted = await ask(["convert", "hot_contact_0000.rad", "--units", "kg,m,s", "--verify", "-o", "out"], files);
+  const natively = native(samples, "convert", "hot_contact_0000.rad", "--units", "kg,m,s", "--verify", "-o", join(scratch, "out"));
+  same("a conversion writes what the command line writes", [converted.exitCode, converted.stderr, converted.files["out/hot_contact_0000.rad"]], [natively.exitCode, natively.stderr, readFileSync(join(scratch, "out/hot_contact_0000.rad"), "latin1")]);
   const made = await ask(["convert", "two_surfaces_0000.rad", "-o", "out", "-q"], files);
   same("what a run wrote comes back", Object.keys(made.files), ["out/two_surfaces_0000.rad"]);
   same("wrong usage has its exit code", (await ask(["gaps"], {})).exitCode, 2);

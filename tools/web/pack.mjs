@@ -1,6 +1,7 @@
 // Makes the page of the engine: one file, and a folder to be served.
-//   node pack.mjs --engine DIR --modules NODE_MODULES --out DIR
+//   node pack.mjs --engine DIR --command FILE --modules NODE_MODULES --out DIR
 // --engine: deck.js and deck.wasm; gets engine.mjs as well, the function run() for other programs.
+// --command: what emscripten made of the program for node; becomes node/deck.js, beside its deck.wasm.
 // --out: deck.html; site/index.html (the same) with site/service-worker.js
 import { createHash } from "node:crypto";
 import { mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
@@ -36,13 +37,14 @@ async function bundled(entry, more = {}) {
 }
 const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString("base64");
 
-const [page, style, worker, service, bridge, engine] = await Promise.all([
+const [page, style, worker, service, bridge, engine, command] = await Promise.all([
   bundled("main.ts"),
   bundled("style.css"),
   bundled("worker.ts"),
   bundled("service-worker.ts"),
   bundled("../../vscode/src/bridge.ts"),
   bundled("engine.ts", { format: "esm", minify: false }),
+  bundled("../node.mjs", { format: "cjs", platform: "node", alias: { "deck-engine": options.command }, banner: { js: "#!/usr/bin/env node" } }),
 ]);
 if (/<\/script|<!--/i.test(page + bridge) || /<\/style/i.test(style)) throw new Error("the bundle holds a tag that would end its element in a page");
 writeFileSync(join(options.engine, "engine.mjs"), engine);
@@ -76,6 +78,8 @@ const html = `<!doctype html>
 `;
 if (html.length > limit) throw new Error(`deck.html would have ${html.length} bytes; the limit is ${limit}`);
 mkdirSync(join(options.out, "site"), { recursive: true });
+mkdirSync(join(options.out, "node"), { recursive: true });
+writeFileSync(join(options.out, "node/deck.js"), command, { mode: 0o755 });
 writeFileSync(join(options.out, "deck.html"), html);
 writeFileSync(join(options.out, "site/index.html"), html);
 writeFileSync(join(options.out, "site/service-worker.js"), service.replace("deck-VERSION", `deck-${createHash("sha256").update(html).digest("hex").slice(0, 12)}`));

@@ -54,14 +54,14 @@ function missing(context: vscode.ExtensionContext, why: string): void {
 async function start(context: vscode.ExtensionContext, channel: vscode.LogOutputChannel): Promise<void> {
   await stop();
   const s = settings();
-  const path = program(s);
-  if (path === null) return missing(context, notFound(s.path));
-  if ((await run(path, ["lsp", "--help"], context.extensionPath)).code !== 0) return missing(context, noServer(path));
-  channel.info(`${path} ${serverCall(s).join(" ")}`);
+  const deck = program(s, context.extensionPath);
+  if (deck === null) return missing(context, notFound(s.path));
+  if ((await run(deck, ["lsp", "--help"], context.extensionPath)).code !== 0) return missing(context, noServer(deck.name));
+  channel.info(`${deck.name} ${serverCall(s).join(" ")}`);
   const server = new LanguageClient(
     "deck",
     "libdeck",
-    { command: path, args: serverCall(s), transport: TransportKind.stdio },
+    { command: deck.command, args: [...deck.before, ...serverCall(s)], options: { env: { ...process.env, ...deck.env } }, transport: TransportKind.stdio },
     {
       documentSelector: [{ language: "radioss", scheme: "file" }],
       initializationOptions: serverOptions(s),
@@ -134,8 +134,8 @@ async function start(context: vscode.ExtensionContext, channel: vscode.LogOutput
   parts = [
     report,
     ruler,
-    new DeckTree(path, server),
-    ...registerCommands(path, channel),
+    new DeckTree(deck, server),
+    ...registerCommands(deck, channel),
     vscode.commands.registerCommand("deck.showGapReport", showReport),
     vscode.commands.registerCommand("deck.showInReport", async () => {
       const editor = deckEditor();

@@ -1,7 +1,8 @@
 // The settings of the extension, as the editor holds them for a file.
 import * as vscode from "vscode";
 import { homedir } from "node:os";
-import { locate, type Settings } from "./program";
+import { join } from "node:path";
+import { programOf, type Program, type Settings } from "./program";
 
 /** `~` and `${workspaceFolder}` stand for what they stand for elsewhere. */
 function expanded(text: string, folder: string): string {
@@ -15,4 +16,5 @@ export function settings(scope?: vscode.Uri): Settings {
   return { path: expanded(c.get("path", "deck"), folder), includePaths: list("includePaths"), arguments: list("arguments"), geometryOnSave: c.get("geometryOnSave", true) };
 }
 
-export const program = (s: Settings): string | null => locate(s.path, process.env.PATH);
+/** `extension`: the folder of the extension. */
+export const program = (s: Settings, extension: string): Program | null => programOf(s, process.env.PATH, join(extension, "engine"));
