@@ -45,4 +45,16 @@ inline SmallDeck published_edges() {
   return d;
 }
 
+/// Eight quads, width 2, bent over; thickness 0.8 (the published example).
+inline SmallDeck bent_strip() {
+  SmallDeck d;
+  const double x[] = {0, 1, 2, 3, 3.6, 3, 2, 1, 0};
+  const double z[] = {0, 0, 0, 0, 0.5, 1.1, 1.1, 1.1, 1.1};
+  for (int i = 0; i < 9; ++i) d.node(i + 1, x[i], 0, z[i]).node(101 + i, x[i], 2, z[i]);
+  d.shell_part(1, 0.8);
+  for (int i = 1; i < 9; ++i) d.shell(1, i, i, i + 1, 101 + i, 100 + i);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/SURF/2", {1}).group("/LINE/SURF/1", {1});
+  return d;
+}
+
 }  // namespace deck::test

@@ -3,25 +3,13 @@
 
 #include <cmath>
 
-#include "contact/small_deck.hpp"
+#include "contact/published.hpp"
 
 namespace deck::test {
 namespace {
 
-/// Eight quads, width 2, bent over; thickness 0.8 (the published example).
-SmallDeck strip() {
-  SmallDeck d;
-  const double x[] = {0, 1, 2, 3, 3.6, 3, 2, 1, 0};
-  const double z[] = {0, 0, 0, 0, 0.5, 1.1, 1.1, 1.1, 1.1};
-  for (int i = 0; i < 9; ++i) d.node(i + 1, x[i], 0, z[i]).node(101 + i, x[i], 2, z[i]);
-  d.shell_part(1, 0.8);
-  for (int i = 1; i < 9; ++i) d.shell(1, i, i, i + 1, 101 + i, 100 + i);
-  d.group("/SURF/PART/1", {1}).group("/GRNOD/SURF/2", {1}).group("/LINE/SURF/1", {1});
-  return d;
-}
-
 TEST(CurvilinearRemoval, CountsOfThePublishedExample) {
-  const Built b(strip()
+  const Built b(bent_strip()
                     .add("@/INTER/TYPE7/1 Gapmin=1.2 Inacti=6")
                     .add("@/INTER/TYPE7/2 Gapmin=1.2 Inacti=6 Irem_gap=2"));
   EXPECT_EQ(b.contact(1).candidates, 72u);
@@ -32,7 +20,7 @@ TEST(CurvilinearRemoval, CountsOfThePublishedExample) {
 }
 
 TEST(CurvilinearRemoval, EdgesOfThePublishedExample) {
-  const Built b(strip()
+  const Built b(bent_strip()
                     .add("@/INTER/TYPE11/9 line_IDs=1 line_IDm=1 Gapmin=1.2 Irem_gap=2")
                     .add("@/INTER/TYPE11/10 line_IDs=1 line_IDm=1 Gapmin=1.2"));
   EXPECT_EQ(b.contact(9).penetrations.size(), 32u);
@@ -41,7 +29,7 @@ TEST(CurvilinearRemoval, EdgesOfThePublishedExample) {
 
 TEST(CurvilinearRemoval, EveryRemovedPairIsNearAlongTheStrip) {
   const Built b(
-      strip().add("@/INTER/TYPE7/1 Gapmin=1.2").add("@/INTER/TYPE7/2 Gapmin=1.2 Irem_gap=2"));
+      bent_strip().add("@/INTER/TYPE7/1 Gapmin=1.2").add("@/INTER/TYPE7/2 Gapmin=1.2 Irem_gap=2"));
   const Contact &all = b.contact(1), &kept = b.contact(2);
   // Paths along the strip from its column of nodes to that of the segment; diagonals shorten them
   // by less than the width allows, so columns give a lower bound.
@@ -68,7 +56,7 @@ TEST(CurvilinearRemoval, EveryRemovedPairIsNearAlongTheStrip) {
 TEST(CurvilinearRemoval, VariableGapUsesThePairGap) {
   // Pair gap 0.8 everywhere: reach 1.131 takes in one column of nodes beside each segment, while
   // the reach of a constant gap of 1.2 is 1.697.
-  const Built b(strip()
+  const Built b(bent_strip()
                     .add("@/INTER/TYPE7/1 Igap=1 Gapmin=0.1")
                     .add("@/INTER/TYPE7/2 Igap=1 Gapmin=0.1 Irem_gap=2"));
   const Contact &all = b.contact(1), &kept = b.contact(2);
@@ -78,7 +66,7 @@ TEST(CurvilinearRemoval, VariableGapUsesThePairGap) {
 }
 
 TEST(CurvilinearRemoval, NothingHappensBetweenSeparateMeshes) {
-  SmallDeck d = strip();
+  SmallDeck d = bent_strip();
   d.node(500, 1.5, 1, 0.3).group("/GRNOD/NODE/5", {500});
   d.add("@/INTER/TYPE7/1 grnd_IDs=5 Gapmin=1.2 Irem_gap=2");
   const Built b(d);
@@ -88,7 +76,7 @@ TEST(CurvilinearRemoval, NothingHappensBetweenSeparateMeshes) {
 
 TEST(CurvilinearRemoval, NoRingIsExpandedBelowTheShortestSide) {
   // sqrt(2) * 0.5 is less than the shortest side 0.78: nothing is removed.
-  const Built b(strip().add("@/INTER/TYPE7/1 Gapmin=0.5 Irem_gap=2"));
+  const Built b(bent_strip().add("@/INTER/TYPE7/1 Gapmin=0.5 Irem_gap=2"));
   EXPECT_EQ(b.contact().removed_pairs, 0u);
 }
 

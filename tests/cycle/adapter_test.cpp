@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/small_deck.hpp"
+#include "contact/published.hpp"
 
 namespace deck::cycle {
 namespace {
@@ -131,13 +131,7 @@ TEST(CyclePairs, PairsDoNotDependOnThreads) {
 
 TEST(CyclePairs, WhatIremGapKeepsApartMakesNoForce) {
   // A strip bent over, in contact with itself: as many pairs as start-up counts penetrations.
-  SmallDeck d;
-  const double x[] = {0, 1, 2, 3, 3.6, 3, 2, 1, 0};
-  const double z[] = {0, 0, 0, 0, 0.5, 1.1, 1.1, 1.1, 1.1};
-  for (int i = 0; i < 9; ++i) d.node(i + 1, x[i], 0, z[i]).node(101 + i, x[i], 2, z[i]);
-  d.shell_part(1, 0.8);
-  for (int i = 1; i < 9; ++i) d.shell(1, i, i, i + 1, 101 + i, 100 + i);
-  d.group("/SURF/PART/1", {1}).group("/GRNOD/SURF/2", {1});
+  SmallDeck d = deck::test::bent_strip();
   d.add("@/INTER/TYPE7/1 Gapmin=1.2").add("@/INTER/TYPE7/2 Gapmin=1.2 Irem_gap=2");
   const Built b(d, with_stiffness());
   const auto pairs = [&](std::int64_t id) {

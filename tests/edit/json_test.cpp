@@ -1,4 +1,5 @@
 // Deck -> JSON -> deck gives the same bytes; a value changed in the JSON lands in its columns.
+// Over 600 lines: independent tests of one format.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -20,7 +21,7 @@ namespace {
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-std::string to_json(const Opened& o) {
+std::string to_json(const Whole& o) {
   auto json = deck_to_json({o.deck.sources[0].path(), &o.deck, &o.model, &o.interfaces});
   EXPECT_TRUE(json.ok()) << (json ? "" : json.error().message);
   return json ? *json : "";
@@ -74,7 +75,7 @@ const std::string small =
                     "       110                             6\n\n/UNKNOWN/9\nanything, at all\n");
 
 /// Bytes of every file, by the place that the document gives it.
-void expect_same_bytes(const Opened& o, const std::string& what) {
+void expect_same_bytes(const Whole& o, const std::string& what) {
   const std::string json = to_json(o);
   const auto files = from_json(json);
   ASSERT_FALSE(files.empty()) << what;
@@ -88,7 +89,7 @@ void expect_same_bytes(const Opened& o, const std::string& what) {
     if (seen.insert(o.deck.sources[f].path()).second) original.insert(bytes_of(o, f));
   EXPECT_TRUE(written == original) << what;
   // Written under its own names it is a fixed point.
-  const Opened again(files[0].path, contents);
+  const Whole again(files[0].path, contents);
   const std::string second = to_json(again);
   const auto files_again = from_json(second);
   ASSERT_EQ(files_again.size(), files.size());
@@ -101,7 +102,7 @@ void expect_same_bytes(const Opened& o, const std::string& what) {
 }
 
 TEST(DeckJson, EverySampleComesBackByteForByte) {
-  for (const std::string& path : sample_decks()) expect_same_bytes(Opened(path), path);
+  for (const std::string& path : sample_decks()) expect_same_bytes(Whole(path), path);
 }
 
 TEST(DeckJson, CorpusComesBackByteForByte) {
@@ -109,7 +110,7 @@ TEST(DeckJson, CorpusComesBackByteForByte) {
   if (!std::filesystem::exists(corpus / "corpus")) GTEST_SKIP() << "no corpus at " << corpus;
   for (const auto& e : std::filesystem::recursive_directory_iterator(corpus / "corpus"))
     if (e.path().string().ends_with("_0000.rad") && e.file_size() < 1'000'000)
-      expect_same_bytes(Opened(e.path().string()), e.path().string());
+      expect_same_bytes(Whole(e.path().string()), e.path().string());
 }
 
 TEST(DeckJson, EveryKindOfLineEndAndByteSurvives) {
@@ -362,7 +363,7 @@ TEST(DeckFromJson, RandomEditsOfOneValueTouchTheirColumnsAndReadBack) {
   std::mt19937 random(3);
   int edits = 0;
   for (const std::string& path : sample_decks()) {
-    const Opened before(path);
+    const Whole before(path);
     const Json original = Json::parse(to_json(before));
     // Every real value of a card as (item, line, field).
     std::vector<std::tuple<std::size_t, std::size_t, std::string>> places;
@@ -404,7 +405,7 @@ TEST(DeckFromJson, RandomEditsOfOneValueTouchTheirColumnsAndReadBack) {
       EXPECT_EQ(std::count(old_text.begin(), old_text.end(), '\n'),
                 std::count(new_text.begin(), new_text.end(), '\n'));
       Files overlay{{path, new_text}};
-      const Json again = Json::parse(to_json(Opened(path, overlay)));
+      const Json again = Json::parse(to_json(Whole(path, overlay)));
       EXPECT_EQ(again["files"][0]["items"][i]["lines"][l]["fields"][field], value) << path;
       ++edits;
     }

@@ -12,14 +12,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::unique_ptr<Opened> resolved(const Opened& before) {
+std::unique_ptr<Whole> resolved(const Whole& before) {
   const Rewrite r = resolve_defaults(before.context());
   EXPECT_TRUE(r.refusals.empty()) << joined(r.refusals);
   return applied(before, r);
 }
 
 /// The same text without its /DEFAULT/INTER blocks.
-std::string without_defaults(const Opened& o) {
+std::string without_defaults(const Whole& o) {
   std::string out;
   bool skip = false;
   std::string_view rest = o.deck.sources[0].bytes();
@@ -166,7 +166,7 @@ TEST(ResolveDefaults, ParameterOfZeroIsUndecided) {
 
 TEST(ResolveDefaultsProperty, SamplesKeepTheirValuesAndASecondPassFindsNothing) {
   for (const std::string& path : sample_decks()) {
-    const Opened before(path);
+    const Whole before(path);
     const auto after = resolved(before);
     EXPECT_EQ(difference(effective_values(before), effective_values(*after)), "") << path;
     EXPECT_TRUE(resolve_defaults(after->context()).edits.empty()) << path;

@@ -16,13 +16,13 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::unique_ptr<Opened> expanded(const Opened& before) {
+std::unique_ptr<Whole> expanded(const Whole& before) {
   const Rewrite r = expand_type19(before.context());
   EXPECT_TRUE(r.refusals.empty()) << joined(r.refusals);
   return applied(before, r);
 }
 
-Scene scene_of(Opened& o) {
+Scene scene_of(Whole& o) {
   SceneOptions options;
   options.nodal_stiffness = true;
   return build_scene(o.model, o.interfaces, o.diagnostics, options);
@@ -74,7 +74,7 @@ std::vector<std::string> contact_lines(const Model& m, const Contact& c) {
   return out;
 }
 
-void expect_same_scene(Opened& before, Opened& after, const std::string& what) {
+void expect_same_scene(Whole& before, Whole& after, const std::string& what) {
   const Scene a = scene_of(before), b = scene_of(after);
   std::vector<const Contact*> old_contacts, new_contacts;
   for (const Contact& c : a.contacts)
@@ -284,7 +284,7 @@ TEST(ExpandType19, InterfaceInASubmodelStaysThereWithItsUnits) {
       "/SHELL/1\n         1         1         2         3         4\n/SURF/PART/8\ns\n         1");
   d.add("@/INTER/TYPE19/5 surf_IDs=8 surf_IDm=0 Gapmin=1.0\n//ENDSUB");
   const auto before = open_text(d.text());
-  Opened& b = *before;
+  Whole& b = *before;
   const auto after = expanded(b);
   ASSERT_EQ(after->interfaces.type7.size(), 1u);
   EXPECT_EQ(after->interfaces.type7[0].id, 1005);
@@ -330,7 +330,7 @@ TEST(ExpandType19, DeckWithoutType19IsNotTouched) {
 TEST(ExpandType19Property, SamplesGiveTheSameScene) {
   int expanded_decks = 0;
   for (const std::string& path : sample_decks()) {
-    Opened before(path);
+    Whole before(path);
     const Rewrite r = expand_type19(before.context());
     if (before.interfaces.type19.empty()) continue;
     const bool whole = r.refusals.empty();
@@ -347,7 +347,7 @@ TEST(ExpandType19Property, CorpusGivesTheSameScene) {
   const std::filesystem::path corpus = test::shared_dir() / "corpus";
   if (!std::filesystem::exists(corpus)) GTEST_SKIP() << "no corpus at " << corpus;
   for (const char* name : {"synthetic/synd_0000.rad", "EuroSID_II/EuroSID_II_0000.rad"}) {
-    Opened before((corpus / name).string());
+    Whole before((corpus / name).string());
     ASSERT_FALSE(before.interfaces.type19.empty());
     const auto after = expanded(before);
     expect_same_scene(before, *after, name);

@@ -16,26 +16,26 @@
 
 namespace deck::edit_test {
 
-/// A deck read from disk or from texts by path. Stays where it is.
-struct Whole {
-  using Files = std::map<std::string, std::string>;
+using Files = std::map<std::string, std::string>;
 
-  Whole(LoadedDeck&& read, Files with) : files(std::move(with)), loaded(std::move(read)) {
+/// A deck read from disk or from texts by path. Not movable: the parts point to one another.
+struct Whole {
+  using Files = edit_test::Files;
+
+  explicit Whole(const std::string& path, Files texts = {})
+      : files(std::move(texts)), loaded(open(path)) {
     diagnostics = loaded.found_by(Stage::model);
     diagnostics.merge(Diagnostics(loaded.found_by(Stage::interfaces)));
   }
+  Whole(const Whole&) = delete;
+  Whole& operator=(const Whole&) = delete;
 
   static std::unique_ptr<Whole> read(const std::string& path, Files files = {}) {
-    LoadOptions options;
-    options.read.overlay = &files;
-    options.geometry = false;
-    auto read = load(path, options);
-    EXPECT_TRUE(read.ok()) << (read.ok() ? "" : read.error().message);
-    if (!read) read = LoadedDeck::from(Deck());
-    return std::make_unique<Whole>(std::move(*read), std::move(files));
+    return std::make_unique<Whole>(path, std::move(files));
   }
-  static std::unique_ptr<Whole> text(const std::string& main) {
-    return read("memory_0000.rad", {{"memory_0000.rad", main}});
+  static std::unique_ptr<Whole> text(const std::string& main,
+                                     const std::string& name = "memory_0000.rad") {
+    return read(name, {{name, main}});
   }
 
   const LoadedDeck& context() const { return loaded; }
@@ -62,6 +62,16 @@ struct Whole {
   const Model& model = loaded.model();
   const Interfaces& interfaces = loaded.interfaces();
   Diagnostics diagnostics;  ///< of model and interfaces
+
+ private:
+  LoadedDeck open(const std::string& path) const {
+    LoadOptions options;
+    options.read.overlay = &files;
+    options.geometry = false;
+    auto read = load(path, options);
+    EXPECT_TRUE(read.ok()) << (read ? "" : read.error().message);
+    return read ? std::move(*read) : LoadedDeck::from(Deck());
+  }
 };
 
 /// (keyword, id, field, value) of every real cell, bulk blocks included, in deck order.

@@ -10,59 +10,26 @@
 #include <string>
 #include <vector>
 
-#include "deck/edit/rewrite.hpp"
+#include "edit/units_support.hpp"
 #include "lint/shared/example.hpp"
 #include "where.hpp"
 
 namespace deck::test {
 
-using Files = std::map<std::string, std::string>;
+using edit_test::Files;
+using edit_test::Whole;
 
-/// A deck with its model and interfaces. Not movable: the parts point to one another.
-struct Opened {
-  explicit Opened(const std::string& path, const Files& overlay = {})
-      : files(overlay), loaded(read(path)) {
-    diagnostics = loaded.found_by(Stage::model);
-    diagnostics.merge(Diagnostics(loaded.found_by(Stage::interfaces)));
-  }
-  Opened(const Opened&) = delete;
-  Opened& operator=(const Opened&) = delete;
-  const LoadedDeck& context() const { return loaded; }
-
-  Files files;
-  LoadedDeck loaded;
-  const Deck& deck = loaded.deck();
-  const Model& model = loaded.model();
-  const Interfaces& interfaces = loaded.interfaces();
-  Diagnostics diagnostics;  ///< of model and interfaces
-
- private:
-  LoadedDeck read(const std::string& path) const {
-    LoadOptions options;
-    options.read.overlay = &files;
-    options.geometry = false;
-    auto read = load(path, options);
-    EXPECT_TRUE(read.ok()) << (read ? "" : read.error().message);
-    return read ? std::move(*read) : LoadedDeck::from(Deck());
-  }
-};
-
-inline std::unique_ptr<Opened> open_text(const std::string& text,
-                                         const std::string& name = "main_0000.rad") {
-  return std::make_unique<Opened>(name, Files{{name, text}});
+inline std::unique_ptr<Whole> open_text(const std::string& text,
+                                        const std::string& name = "main_0000.rad") {
+  return Whole::text(text, name);
 }
 
 /// The deck with a rewrite applied.
-inline std::unique_ptr<Opened> applied(const Opened& before, const Rewrite& rewrite) {
-  auto changed = apply_rewrite(before.deck.sources, rewrite);
-  EXPECT_TRUE(changed.ok()) << (changed ? "" : changed.error().message);
-  Files files = before.files;
-  if (changed)
-    for (auto& [path, text] : *changed) files[path] = text;
-  return std::make_unique<Opened>(before.deck.sources[0].path(), files);
+inline std::unique_ptr<Whole> applied(const Whole& before, const Rewrite& rewrite) {
+  return before.after(rewrite);
 }
 
-inline std::string bytes_of(const Opened& o, std::uint32_t file = 0) {
+inline std::string bytes_of(const Whole& o, std::uint32_t file = 0) {
   return std::string(o.deck.sources[file].bytes());
 }
 
@@ -75,7 +42,7 @@ inline std::string as_text(double v) {
 inline std::string as_text(const std::string& v) { return v; }
 
 /// "/INTER/TYPE7/3 Istf" -> effective value, with the origin where it is asked for.
-inline std::map<std::string, std::string> effective_values(const Opened& o, bool origins = false) {
+inline std::map<std::string, std::string> effective_values(const Whole& o, bool origins = false) {
   std::map<std::string, std::string> out;
   for (const InterBase* i : o.interfaces.all) {
     const std::string head =

@@ -436,7 +436,7 @@ TEST(ToVersionProperty, CorpusKeepsItsEffectiveValues) {
     if (!std::filesystem::exists(shared / folder)) continue;
     for (const auto& e : std::filesystem::recursive_directory_iterator(shared / folder)) {
       if (!e.path().string().ends_with("_0000.rad") || e.file_size() > 1'000'000) continue;
-      const Opened before(e.path().string());
+      const Whole before(e.path().string());
       for (const int version : {110, 130, 2017, 2018, 2020, 2024, 2026}) {
         const Rewrite there = to_version(before.context(), version);
         if (!there.refusals.empty()) continue;
@@ -457,7 +457,7 @@ TEST(ToVersionProperty, CorpusKeepsItsEffectiveValues) {
 TEST(ToVersionProperty, SamplesKeepTheirEffectiveValuesInEveryVersionThatHoldsThem) {
   int converted = 0;
   for (const std::string& path : sample_decks()) {
-    const Opened before(path);
+    const Whole before(path);
     for (const int version : versions) {
       const Rewrite there = to_version(before.context(), version);
       if (!there.refusals.empty()) continue;
