@@ -11,13 +11,7 @@ namespace {
 using namespace deck;
 using fuzz::require;
 
-constexpr std::string_view model_text = R"(#RADIOSS STARTER
-/BEGIN
-selections
-      2022         0
-                  kg                  mm                  ms
-                  kg                  mm                  ms
-/PART/1
+constexpr std::string_view model_text = R"(/PART/1
 shells
          1         1         3
 /PART/2
@@ -32,20 +26,11 @@ both
 /SUBSET/4
 all
          3
-/PROP/SHELL/1
-sheet
-        24         0         0         0
-                 0.0                 0.0                 0.0                 0.0                 0.0
-         5                           1.0                 0.0                   0         0
 /PROP/SOLID/2
 block
 /PROP/TRUSS/3
 rod
                  2.0
-/MAT/ELAST/1
-steel
-             7.8e-06
-               210.0                 0.3
 /NODE
          1                 0.0                 0.0                 0.0
          2                10.0                 0.0                 0.0
@@ -132,9 +117,7 @@ constexpr const char* kinds[] = {"grnod",  "surf",   "line",   "set",    "grpart
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size > 8192) return 0;
-  const auto whole =
-      fuzz::read_text(std::string(model_text) + fuzz::text_of(data, size) + "\n/END\n");
+  const auto whole = fuzz::read_blocks(2022, model_text, data, size);
   if (!whole) return 0;
   const Model& model = whole->model;
   std::vector<std::pair<const char*, std::int64_t>> all;
