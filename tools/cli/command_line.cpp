@@ -30,10 +30,6 @@ Option& Option::describe(const std::string& text) {
   option_->description(text);
   return *this;
 }
-Option& Option::heading(const std::string& title) {
-  option_->group(title);
-  return *this;
-}
 Option& Option::show_default() {
   option_->capture_default_str();
   return *this;
@@ -159,7 +155,7 @@ Option CommandLine::option(const std::string& names, T& target, const std::strin
           return text.starts_with('-') ? "'" + text + "' is below 0" : std::string();
         },
         ""));
-  return Option(option);
+  return added(option);
 }
 template Option CommandLine::option(const std::string&, std::string&, const std::string&);
 template Option CommandLine::option(const std::string&, int&, const std::string&);
@@ -186,16 +182,22 @@ Option CommandLine::bytes(const std::string& names, std::function<void(std::uint
     }
     return "'" + given + "' is not a number of bytes, such as 500MB or 2GB";
   }));
-  return Option(option);
+  return added(option);
 }
 Option CommandLine::flag(const std::string& names, bool& target, const std::string& help) {
-  return Option(app_->add_flag(names, target, help));
+  return added(app_->add_flag(names, target, help));
 }
 Option CommandLine::flag(const std::string& names, std::string& target, const std::string& help) {
-  return Option(app_->add_flag(names, target, help));
+  return added(app_->add_flag(names, target, help));
 }
 CommandLine CommandLine::group(const std::string& title) {
-  return CommandLine(app_->add_option_group(title), session_);
+  CommandLine line(app_, session_);
+  line.heading_ = title;
+  return line;
+}
+Option CommandLine::added(CLI::Option* option) const {
+  if (!heading_.empty()) option->group(heading_);
+  return Option(option);
 }
 Option CommandLine::existing(const std::string& name) { return Option(app_->get_option(name)); }
 void CommandLine::remove(const std::string& name) { app_->remove_option(app_->get_option(name)); }
@@ -440,7 +442,7 @@ std::string folded_help(std::string_view text, std::size_t width) {
 }
 
 /// "deck help VERB" as "deck VERB --help".
-void settle_help(std::vector<std::string>& words) {
+void help_verb_to_option(std::vector<std::string>& words) {
   if (words.empty() || words.front() != "help") return;
   words.erase(words.begin());
   if (!words.empty() && !words.front().starts_with('-')) words.resize(1);
@@ -492,7 +494,7 @@ std::vector<OptionInfo> program_options() {
 int run_program(int argc, char** argv, const std::string& version, Session& session) {
   const std::vector<Verb> all = verbs();
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-  settle_help(words);
+  help_verb_to_option(words);
   if (const int code = check_verb(words, all); code != exit_clean) return code;
   CLI::App app("Contacts and ties of Radioss decks: read, check, measure, rewrite.", "deck");
   app.set_version_flag("--version", version, "Version and compiler");

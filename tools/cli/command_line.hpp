@@ -30,8 +30,6 @@ class Option {
   /// What the help calls the value, such as FILE.
   Option& value(const std::string& name);
   Option& describe(const std::string& text);
-  /// Heading of its own in the help.
-  Option& heading(const std::string& title);
   /// Shows the present value as the default.
   Option& show_default();
   Option& required(bool yes = true);
@@ -104,9 +102,12 @@ class CommandLine {
   Session& session() const { return session_; }
 
  private:
+  Option added(CLI::Option* option) const;
+
   std::unique_ptr<CLI::App> owned_;
   CLI::App* app_;
   Session& session_;
+  std::string heading_;  ///< of the options that are added; empty: none of their own
 };
 
 /// Splits a line at blanks as a shell would, quotes included; the quotes are gone.

@@ -156,33 +156,30 @@ Result<std::vector<BatchGroup>> plan_groups(const BatchOptions& o, BatchTask& ta
   return groups;
 }
 
+int usage(const BatchOptions& o, const std::string& message) {
+  print_error(o.common, message);
+  return exit_usage;
+}
+
 /// --merge: the whole from the summaries of all shards.
 int merge(const BatchOptions& o) {
-  const auto usage = [&](const std::string& message) {
-    print_error(o.common, message);
-    return exit_usage;
-  };
   if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
-    return usage("--merge takes no decks: it merges the summaries in DIR");
+    return usage(o, "--merge takes no decks: it merges the summaries in DIR");
   const auto merged = merge_shards(o.directory);
-  if (!merged) return usage(merged.error().message);
-  remove_strays_below(o.directory);
+  if (!merged) return usage(o, merged.error().message);
+  remove_strays(o.directory);
   if (auto written = write_overview(*o.common.session, o.directory, *merged); !written)
-    return usage(written.error().message);
+    return usage(o, written.error().message);
   return report_batch(o, *merged, 0);
 }
 
 int run(const BatchOptions& o) {
-  const auto usage = [&](const std::string& message) {
-    print_error(o.common, message);
-    return exit_usage;
-  };
   if (const int bad = check_outputs(o.common, {o.common.json}); bad != exit_clean) return bad;
   if (o.merge) return merge(o);
   const auto shard = parse_shard(o.shard);
-  if (!shard) return usage(shard.error().message);
+  if (!shard) return usage(o, shard.error().message);
   auto task = parse_task(o, verbs());
-  if (!task) return usage(task.error().message);
+  if (!task) return usage(o, task.error().message);
   // Other verbs are the first word behind the program.
   if (!o.common.decks.empty()) {
     const std::string& first = o.common.decks.front();
@@ -191,22 +188,24 @@ int run(const BatchOptions& o) {
             verbs_of_a_batch.end() &&
         !std::filesystem::exists(first, ec))
       return usage(
+          o,
           "'" + first +
-          "' is read as the name of a deck, which does not exist; name the verb with --verb " +
-          first);
+              "' is read as the name of a deck, which does not exist; name the verb with --verb " +
+              first);
   }
   auto list =
       list_decks(o.common.decks, o.manifest, task->ending, o.directory, o.common.include_paths);
-  if (!list) return usage(list.error().message);
+  if (!list) return usage(o, list.error().message);
   o.common.session->remember_read(o.manifest);
   if (list->decks.empty())
-    return usage(list->includes.empty()
-                     ? "no decks: name some, or a directory, or a --manifest"
-                     : "no decks among the files found: " + list->includes.front().path + " " +
-                           list->includes.front().why);
-  if (const auto schemas = load_schemas(o.common); !schemas) return usage(schemas.error().message);
+    return usage(o, list->includes.empty()
+                        ? "no decks: name some, or a directory, or a --manifest"
+                        : "no decks among the files found: " + list->includes.front().path + " " +
+                              list->includes.front().why);
+  if (const auto schemas = load_schemas(o.common); !schemas)
+    return usage(o, schemas.error().message);
   auto groups = plan_groups(o, *task, *list);
-  if (!groups) return usage(groups.error().message);
+  if (!groups) return usage(o, groups.error().message);
   Batch batch(o, std::move(*task), std::move(*list), std::move(*groups), *shard);
   return batch.run();
 }

@@ -3,8 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/shared/json.hpp"
-
 namespace deck::cli {
 namespace {
 
@@ -45,12 +43,15 @@ Json object_of(const Json& document, const char* name) {
 
 }  // namespace
 
-std::string json_line(const Json& value) {
+std::string json_line(const std::function<void(JsonWriter&)>& write) {
   std::string text;
   JsonWriter json(text);
-  write_value(json, value);
+  write(json);
   text.erase(text.find_last_not_of('\n') + 1);
   return text;
+}
+std::string json_line(const Json& value) {
+  return json_line([&](JsonWriter& json) { write_value(json, value); });
 }
 
 std::optional<DocumentFacts> document_facts(std::string_view text) {

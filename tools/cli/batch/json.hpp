@@ -2,10 +2,13 @@
 // the document as a tree, and parsed values printed the way the library prints them.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "report/shared/json.hpp"
 
 namespace deck::cli {
 
@@ -20,6 +23,8 @@ struct DocumentFacts {
 /// nullopt: not JSON.
 std::optional<DocumentFacts> document_facts(std::string_view document);
 
+/// What `write` writes, without the end of the line.
+std::string json_line(const std::function<void(JsonWriter&)>& write);
 /// A value on one line, in the spelling of JsonWriter.
 std::string json_line(const nlohmann::ordered_json& value);
 

@@ -40,48 +40,31 @@ Result<void> write_result(Session& session, const std::string& path, std::string
 
 // ---- what killed processes left --------------------------------------------------------------
 
-namespace {
-
-/// Tells which processes are gone; waits a little for one that was killed with its parent.
-class Processes {
- public:
-  bool is_gone(int pid) {
-    const auto [it, is_new] = gone_.try_emplace(pid, false);
+void remove_strays(const std::string& directory,
+                   const std::optional<std::set<std::string>>& names) {
+  std::map<int, bool> processes;  // those that are gone
+  // Waits a little for one that was killed with its parent.
+  const auto is_gone = [&](int pid) {
+    const auto [it, is_new] = processes.try_emplace(pid, false);
     for (int waited = 0; is_new && waited < 200 && !it->second; ++waited) {
       it->second = kill(pid, 0) != 0 && errno == ESRCH;
       if (!it->second) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return it->second;
-  }
-
- private:
-  std::map<int, bool> gone_;
-};
-
-}  // namespace
-
-void remove_strays(const std::string& directory, const std::set<std::string>& names) {
-  Processes processes;
-  std::error_code ec;
-  for (auto it = fs::directory_iterator(directory, ec); !ec && it != fs::directory_iterator();
-       it.increment(ec)) {
-    const std::string name = it->path().filename().string();
-    const auto temporary = temporary_of(name);
-    if (temporary && std::any_of(names.begin(), names.end(), [&](const std::string& target) {
-          return is_temporary_of(name, target);
-        }))
-      if (processes.is_gone(*temporary)) unlink(it->path().c_str());
-  }
-}
-
-void remove_strays_below(const std::string& directory) {
-  Processes processes;
+  };
   std::error_code ec;
   for (auto it = fs::recursive_directory_iterator(
            directory, fs::directory_options::skip_permission_denied, ec);
-       !ec && it != fs::recursive_directory_iterator(); it.increment(ec))
-    if (const auto temporary = temporary_of(it->path().filename().string()))
-      if (processes.is_gone(*temporary)) unlink(it->path().c_str());
+       !ec && it != fs::recursive_directory_iterator(); it.increment(ec)) {
+    if (names) it.disable_recursion_pending();
+    const std::string name = it->path().filename().string();
+    const auto temporary = temporary_of(name);
+    const bool wanted =
+        temporary && (!names || std::any_of(names->begin(), names->end(), [&](const auto& target) {
+          return is_temporary_of(name, target);
+        }));
+    if (wanted && is_gone(*temporary)) unlink(it->path().c_str());
+  }
 }
 
 namespace {

@@ -183,7 +183,7 @@ Result<void> Batch::prepare() {
 /// Removes the temporary files of a killed run.
 void Batch::remove_temporaries() const {
   if (shard_.whole())
-    remove_strays_below(o_.directory);
+    remove_strays(o_.directory);
   else {
     std::set<std::string> names = {summary_name(shard_)};
     for (const Job& job : jobs_) names.insert(job.result);

@@ -140,8 +140,8 @@ Result<void> write_result(Session& session, const std::string& path, std::string
 
 /// Removes temporary files that a killed process left, of these names in one directory or of all
 /// names below it.
-void remove_strays(const std::string& directory, const std::set<std::string>& names);
-void remove_strays_below(const std::string& directory);
+void remove_strays(const std::string& directory,
+                   const std::optional<std::set<std::string>>& names = std::nullopt);
 
 /// Writes the summary. Of the whole also the overview, and what earlier runs wrote and this summary
 /// does not have is removed; of decks that were converted their loss report.

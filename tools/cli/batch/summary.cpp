@@ -38,24 +38,23 @@ SummaryEntry entry_of(const nlohmann::ordered_json& entry) {
 }
 
 SummaryEntry summary_entry(const EntryFacts& f) {
-  std::string text;
-  JsonWriter json(text);
-  const auto text_or_null = [&](const char* name, std::string_view value) {
-    json.key(name);
-    if (value.empty())
-      json.null();
-    else
-      json.value(value);
-  };
-  json.begin_object(true).field("deck", f.deck).field("status", f.status);
-  text_or_null("result", f.result);
-  json.field("exit_code", f.code);
-  text_or_null("error", f.error);
-  json.key("verdict").raw(f.verdict.empty() ? "null" : f.verdict);
-  text_or_null("gate", !f.gate ? "" : *f.gate ? "passed" : "failed");
-  json.key("counts").raw(f.counts.empty() ? "{}" : f.counts).end_object();
-  text.erase(text.find_last_not_of('\n') + 1);
-  return {std::move(text), f.code, std::string(f.status)};
+  std::string line = json_line([&](JsonWriter& json) {
+    const auto text_or_null = [&](const char* name, std::string_view value) {
+      json.key(name);
+      if (value.empty())
+        json.null();
+      else
+        json.value(value);
+    };
+    json.begin_object(true).field("deck", f.deck).field("status", f.status);
+    text_or_null("result", f.result);
+    json.field("exit_code", f.code);
+    text_or_null("error", f.error);
+    json.key("verdict").raw(f.verdict.empty() ? "null" : f.verdict);
+    text_or_null("gate", !f.gate ? "" : *f.gate ? "passed" : "failed");
+    json.key("counts").raw(f.counts.empty() ? "{}" : f.counts).end_object();
+  });
+  return {std::move(line), f.code, std::string(f.status)};
 }
 
 std::string summary_json(const Summary& s) {

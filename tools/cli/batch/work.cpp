@@ -10,7 +10,6 @@
 #include "base/shared/hash.hpp"
 #include "base/shared/paths.hpp"
 #include "batch/run.hpp"
-#include "report/shared/json.hpp"
 #include "report/shared/losses.hpp"
 #include "text/shared/gzip.hpp"
 
@@ -36,25 +35,21 @@ std::string_view status_in(const BatchTask& task, int code,
 
 /// "counts" of a deck that was to be written.
 std::string counts_of(const BatchFrame::Deck& deck) {
-  std::string text;
-  JsonWriter json(text);
-  json.begin_object(true).field("changed_files", deck.changed);
-  constexpr const char* names[] = {"kept", "approximated", "dropped", "undecided"};
-  for (std::size_t k = 0; k < 4; ++k) json.field(names[k], deck.losses[k]);
-  json.end_object();
-  text.erase(text.find_last_not_of('\n') + 1);
-  return text;
+  return json_line([&](JsonWriter& json) {
+    json.begin_object(true).field("changed_files", deck.changed);
+    constexpr const char* names[] = {"kept", "approximated", "dropped", "undecided"};
+    for (std::size_t k = 0; k < 4; ++k) json.field(names[k], deck.losses[k]);
+    json.end_object();
+  });
 }
 
 /// The lists of a loss report, without what says whose it is.
 std::string loss_lists(const std::vector<LossEntry>& losses) {
-  std::string text;
-  JsonWriter json(text);
-  json.begin_object(true);
-  write_loss_lists(json, losses);
-  json.end_object();
-  text.erase(text.find_last_not_of('\n') + 1);
-  return text;
+  return json_line([&](JsonWriter& json) {
+    json.begin_object(true);
+    write_loss_lists(json, losses);
+    json.end_object();
+  });
 }
 
 }  // namespace

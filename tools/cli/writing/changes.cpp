@@ -16,27 +16,44 @@ namespace {
 namespace fs = std::filesystem;
 }
 
+void add_write_options(CommandLine& line, WriteChoice& choice) {
+  line.option("-o,--output", choice.directory,
+              "Directory to write to; made if missing. The include tree keeps its relative names")
+      .value("DIR");
+  line.flag("--overwrite", choice.overwrite,
+            "With -o: replace decks and includes in DIR that differ (earlier results of the same "
+            "files, if unchanged since, are replaced without it)");
+  line.flag("--in-place", choice.in_place, "Change the files of the deck");
+  line.flag("--backup{.orig}", choice.backup_suffix,
+            "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX); a "
+            "backup is never replaced, the next one is .orig.2");
+  line.flag("--diff", choice.diff,
+            "Write nothing; print the changes as a unified diff that git apply takes");
+  add_dependent_options(line, choice);
+}
+
 void add_dependent_options(CommandLine& line, WriteChoice& choice) {
-  const std::string group = "Decks that share files, with --in-place";
-  line.option("--root", choice.root,
+  CommandLine group = line.group("Decks that share files, with --in-place");
+  group
+      .option("--root", choice.root,
               "Where to look for other decks that include the same files (default: the git work "
               "tree, else the deepest folder that holds the deck and its includes)")
-      .heading(group)
       .value("DIR");
-  line.flag("--with-dependents", choice.with_dependents,
-            "Also change all other decks that include a file of these decks")
-      .heading(group);
-  line.flag("--split-includes", choice.split_includes,
-            "Give the deck its own copy of a file that others need unchanged (also with -o: if "
-            "decks of the call need different texts)")
-      .heading(group);
+  group.flag("--with-dependents", choice.with_dependents,
+             "Also change all other decks that include a file of these decks");
+  group.flag("--split-includes", choice.split_includes,
+             "Give the deck its own copy of a file that others need unchanged (also with -o: if "
+             "decks of the call need different texts)");
 }
 
 std::string usage_error(const WriteChoice& choice) {
-  if (choice.with_dependents && !choice.in_place && !choice.diff)
-    return "--with-dependents goes with --in-place or --diff";
-  if (!choice.root.empty() && !choice.in_place && !choice.diff)
-    return "--root goes with --in-place or --diff";
+  const bool changes = choice.in_place || choice.diff;
+  if (choice.in_place && (choice.diff || !choice.directory.empty()))
+    return "--in-place goes with neither -o nor --diff";
+  if (choice.overwrite && choice.directory.empty()) return "--overwrite goes with -o";
+  if (!choice.backup_suffix.empty() && !choice.in_place) return "--backup goes with --in-place";
+  if (choice.with_dependents && !changes) return "--with-dependents goes with --in-place or --diff";
+  if (!choice.root.empty() && !changes) return "--root goes with --in-place or --diff";
   if (choice.with_dependents && choice.split_includes)
     return "--with-dependents and --split-includes exclude each other";
   std::error_code ec;
@@ -132,7 +149,7 @@ void Changes::propose(std::size_t deck, const Deck& now, const ChangedFiles& cha
 }
 
 /// Outsiders and copies, before anything is planned.
-Result<void> Changes::settle() {
+Result<void> Changes::add_outsiders() {
   if (choice_.in_place || choice_.split_includes)
     for (const auto& [file, deck] : outsiders_) set_.add_outsider(file, deck);
   if (choice_.split_includes) return set_.split_includes();
@@ -176,7 +193,7 @@ Result<void> Changes::read_back(const std::vector<OutputFile>& files) const {
 }
 
 Result<std::string> Changes::diff() {
-  if (auto settled = settle(); !settled) return settled.error();
+  if (auto added = add_outsiders(); !added) return added.error();
   for (const FileIdentity& file : set_.changed_files())
     if (const auto other = outsiders_.find(file); other != outsiders_.end()) {
       if (!common_.quiet && !choice_.split_includes)
@@ -189,7 +206,7 @@ Result<std::string> Changes::diff() {
 }
 
 Result<void> Changes::check() {
-  if (auto settled = settle(); !settled) return settled.error();
+  if (auto added = add_outsiders(); !added) return added.error();
   if (!choice_.in_place && choice_.directory.empty()) {
     const auto patch = set_.diff();
     return patch ? Result<void>() : Result<void>(patch.error());
@@ -205,7 +222,7 @@ Result<void> Changes::check() {
 
 Result<void> Changes::write(bool list) {
   BatchFrame* frame = common_.session->frame;
-  if (auto settled = settle(); !settled) return settled.error();
+  if (auto added = add_outsiders(); !added) return added.error();
   auto plan = choice_.in_place ? set_.in_place() : set_.tree(choice_.directory);
   if (!plan) return plan.error();
   if (frame != nullptr)  // a batch keeps a record of its own

@@ -17,7 +17,8 @@ struct WriteChoice {
   bool with_dependents = false, split_includes = false;
   bool read_back = false;  ///< what was planned is read as it will lie there before it is written
 };
-/// --root, --with-dependents, --split-includes.
+/// Options that fill a choice, and of them --root, --with-dependents, --split-includes alone.
+void add_write_options(CommandLine& line, WriteChoice& choice);
 void add_dependent_options(CommandLine& line, WriteChoice& choice);
 /// What is wrong with the combination; empty: nothing.
 std::string usage_error(const WriteChoice& choice);
@@ -55,7 +56,7 @@ class Changes {
   Result<void> write_documents(const std::vector<OutputFile>& files, bool list);
 
  private:
-  Result<void> settle();
+  Result<void> add_outsiders();
   Result<void> read_back(const std::vector<OutputFile>& files) const;
   Result<void> announce(const std::vector<OutputFile>& files);
   void list_files(const std::vector<OutputFile>& files) const;

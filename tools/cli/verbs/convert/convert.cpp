@@ -31,9 +31,11 @@ int check(const ConvertOptions& options) {
     print_error(options.common, why);
     return static_cast<int>(exit_usage);
   };
-  const int places = (options.write.directory.empty() ? 0 : 1) + (options.write.in_place ? 1 : 0) +
-                     (options.write.diff ? 1 : 0);
-  if (places > 1) return refuse("-o, --in-place and --diff exclude one another");
+  if (const std::string wrong = usage_error(options.write); !wrong.empty()) return refuse(wrong);
+  if (options.write.diff && !options.write.directory.empty())
+    return refuse("-o and --diff exclude each other");
+  const bool somewhere =
+      !options.write.directory.empty() || options.write.in_place || options.write.diff;
   const bool only_standard_input = options.common.decks == std::vector<std::string>{"-"};
   if (options.write.in_place &&
       std::count(options.common.decks.begin(), options.common.decks.end(), std::string("-")) > 0)
@@ -41,7 +43,7 @@ int check(const ConvertOptions& options) {
   if (options.check && (options.to != "rad" || options.from != "rad"))
     return refuse("--check is about Starter decks; leave out --to and --from");
   if (options.check && options.write.diff) return refuse("--check and --diff exclude one another");
-  if (places == 0 && options.to == "rad" && !only_standard_input && !options.check)
+  if (!somewhere && options.to == "rad" && !only_standard_input && !options.check)
     return refuse(
         "say where to write: -o DIR, --in-place, or --diff or --check to see first what would "
         "happen");
@@ -50,11 +52,6 @@ int check(const ConvertOptions& options) {
   if (options.from != "rad" && (options.write.in_place || options.write.diff))
     return refuse("--from " + options.from + " needs -o DIR");
   if (options.steps.round && options.from != "json") return refuse("--round goes with --from json");
-  if (options.write.overwrite && options.write.directory.empty())
-    return refuse("--overwrite goes with -o");
-  if (!options.write.backup_suffix.empty() && !options.write.in_place)
-    return refuse("--backup goes with --in-place");
-  if (const std::string wrong = usage_error(options.write); !wrong.empty()) return refuse(wrong);
   return exit_clean;
 }
 
@@ -128,19 +125,6 @@ Action setup(CommandLine& line) {
   line.option("--from", options->from, "Format to read: rad, json (as written by --to json)")
       .one_of({"rad", "json"})
       .value("FORMAT");
-  line.option("-o,--output", options->write.directory,
-              "Directory to write to; made if missing. The include tree keeps its relative "
-              "names. With --to json also FILE.json")
-      .value("DIR");
-  line.flag("--overwrite", options->write.overwrite,
-            "With -o: replace decks and includes in DIR that differ (earlier results of the same "
-            "files, if unchanged since, are replaced without it)");
-  line.flag("--in-place", options->write.in_place, "Change the files of the deck");
-  line.flag("--backup{.orig}", options->write.backup_suffix,
-            "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX); a "
-            "backup is never replaced, the next one is .orig.2");
-  line.flag("--diff", options->write.diff,
-            "Write nothing; print the changes as a unified diff that git apply takes");
   line.flag("--check", options->check,
             "Write nothing; say for how many decks it would work, and what they would lose: one "
             "line a cause with the number of decks. With -o or --in-place also whether that could "
@@ -153,7 +137,11 @@ Action setup(CommandLine& line) {
             "Read the result back and compare: effective values, gaps, penetrations, actions, "
             "forces of the first cycle, masses, time steps; a result that differs is not written");
   line.flag("--no-verify", options->no_verify, "In a batch: do not verify");
-  add_dependent_options(line, options->write);
+  add_write_options(line, options->write);
+  line.existing("--output")
+      .describe(
+          "Directory to write to; made if missing. The include tree keeps its relative names. With "
+          "--to json also FILE.json");
   add_step_options(line, options->steps);
   line.existing("decks").describe("Starter decks, or directories: all *_0000.rad below them");
   return [options] {

@@ -11,48 +11,43 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
   line.flag("--round", steps.round,
             "With --from json: a number that does not fit its columns keeps the digits that fit "
             "and is reported");
-  const std::string group = "Conversions, in this order";
-  line.option("--extract-contacts", steps.extract,
+  CommandLine group = line.group("Conversions, in this order");
+  group
+      .option("--extract-contacts", steps.extract,
               "A small deck of one file with these interfaces and everything they need")
-      .heading(group)
       .comma_list()
       .value("ID[,ID...]");
-  line.flag("--flatten", steps.flatten, "One file: every #include replaced by its content")
-      .heading(group);
-  line.flag("--expand-type19", steps.expand_type19,
-            "Every TYPE19 as the TYPE7 and TYPE11 that the solver makes of it")
-      .heading(group);
-  line.flag("--resolve-defaults", steps.resolve_defaults,
-            "Write effective values onto the contact cards, so /DEFAULT/INTER is no longer needed")
-      .heading(group);
-  line.option("--version", steps.version,
+  group.flag("--flatten", steps.flatten, "One file: every #include replaced by its content");
+  group.flag("--expand-type19", steps.expand_type19,
+             "Every TYPE19 as the TYPE7 and TYPE11 that the solver makes of it");
+  group.flag(
+      "--resolve-defaults", steps.resolve_defaults,
+      "Write effective values onto the contact cards, so /DEFAULT/INTER is no longer needed");
+  group
+      .option("--version", steps.version,
               "Input version to write: 110, 120, 130, 140, 2017 ... 2026. Rewrites every block "
               "whose columns differ")
-      .heading(group)
       .value("N");
-  line.flag("--allow-loss", steps.allow_loss,
-            "With --version: drop values without a cell in the other version. With "
-            "--resolve-defaults: leave values without a cell to the default card. With --units: "
-            "leave keywords of Engine files unchanged whose cells are not known")
-      .heading(group);
-  line.option("--units", steps.units,
+  group.flag("--allow-loss", steps.allow_loss,
+             "With --version: drop values without a cell in the other version. With "
+             "--resolve-defaults: leave values without a cell to the default card. With --units: "
+             "leave keywords of Engine files unchanged whose cells are not known");
+  group
+      .option("--units", steps.units,
               "Unit system to write, mass,length,time: kg,mm,ms or Mg,mm,s or numbers (factors "
               "to kg, m, s)")
-      .heading(group)
       .value("SYSTEM");
-  line.flag("--keep-working-units", steps.keep_working,
-            "With --units: change the input units only; the solver computes as before")
-      .heading(group);
-  line.option("--renumber", steps.renumber,
+  group.flag("--keep-working-units", steps.keep_working,
+             "With --units: change the input units only; the solver computes as before");
+  group
+      .option("--renumber", steps.renumber,
               "New ids: KIND+N and KIND-N shift them, KIND=N counts from N on; KIND is node, "
               "part, element, surf, all ... (repeatable)")
-      .heading(group)
       .comma_list()
       .value("RULE");
-  line.flag("--partial", steps.partial,
-            "With --units or --renumber: convert the known values and list blocks that no schema "
-            "describes as undecided")
-      .heading(group);
+  group.flag("--partial", steps.partial,
+             "With --units or --renumber: convert the known values and list blocks that no schema "
+             "describes as undecided");
 }
 
 Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {

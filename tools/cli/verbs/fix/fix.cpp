@@ -37,11 +37,7 @@ std::string wrong_usage(const Options& o) {
   if (!o.html.empty() && o.common.decks.size() > 1) return "--html takes one deck at a time";
   if (std::string why; !o.html.empty() && !html_available(&why))
     return "--html: this build has no viewer: " + why;
-  if (o.write.in_place && !o.write.directory.empty()) return "--in-place and -o exclude each other";
-  if (o.write.in_place && o.write.diff)
-    return "--in-place and --diff exclude each other: --diff shows what would be written";
-  if (o.backup && !o.write.in_place) return "--backup needs --in-place";
-  if (o.write.overwrite && o.write.directory.empty()) return "--overwrite needs -o";
+  if (std::string wrong = deck::cli::usage_error(o.write); !wrong.empty()) return wrong;
   if (!share(o.max_moved)) return "--max-moved needs a share like 10% or 0.1";
   if (!share(o.min_gap)) return "--min-gap needs a share like 50% or 0.5";
   if (!o.fpenmax.empty() && !share(o.fpenmax)) return "--fpenmax needs a share like 80% or 0.8";
@@ -52,7 +48,7 @@ std::string wrong_usage(const Options& o) {
   const RealCell reach = read_real(o.reach);
   if (!o.reach.empty() && !(reach.status == NumberStatus::ok && reach.value > 0))
     return "--reach needs a length above 0";
-  return deck::cli::usage_error(o.write);
+  return {};
 }
 
 /// Options of the strategies that change interface cards.
@@ -145,18 +141,7 @@ Action setup(CommandLine& line) {
       "--ties", o.ties,
       "Treat ties (TYPE10, TYPE7 with ITIED) like other contacts: nodes that are moved out of "
       "their gap are no longer tied. By default ties are not changed; those of a TYPE2 never are");
-  line.flag("--diff", o.write.diff,
-            "Print the patch (git apply takes it); the report goes to stderr");
-  line.option("-o,--output", o.write.directory, "Write the deck with all it includes below DIR")
-      .value("DIR");
-  line.flag("--in-place", o.write.in_place, "Rewrite the files that change");
-  line.flag("--backup", o.backup,
-            "With --in-place: keep each old file as FILE.orig (a backup is never replaced: then "
-            "FILE.orig.2)");
-  line.flag("--overwrite", o.write.overwrite,
-            "With -o: replace decks and includes in DIR that differ (earlier results of the same "
-            "files, if unchanged since, are replaced without it)");
-  add_dependent_options(line, o.write);
+  add_write_options(line, o.write);
   line.option("--html", o.html,
               "Write a report with the deck as it is fixed, compared with before, to FILE")
       .value("FILE");
@@ -166,7 +151,6 @@ Action setup(CommandLine& line) {
   add_card_options(line, o);
   return [options] {
     options->common.rewrites = options->write.in_place;
-    if (options->backup) options->write.backup_suffix = ".orig";
     if (const std::string wrong = wrong_usage(*options); !wrong.empty()) {
       print_error(options->common, wrong);
       return static_cast<int>(exit_usage);

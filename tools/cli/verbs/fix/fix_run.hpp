@@ -12,7 +12,7 @@ struct Options {
   std::vector<std::string> strategies;  ///< in this order
   std::string html;
   WriteChoice write;
-  bool backup = false, ties = false;
+  bool ties = false;
   std::vector<std::int64_t> interfaces;
   std::size_t rows = 10;
   MoveNodesOptions move;
