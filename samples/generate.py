@@ -4,7 +4,7 @@ the repository so you need not run it to use them. Over 600 lines: one function 
 
     python3 samples/generate.py            write all decks
     python3 samples/generate.py --check    exit 1 if a deck on disk differs from what would be written
-    python3 samples/generate.py --sheets N FILE
+    python3 samples/generate.py --sheets N FILE [--apart MM]
                                            write a deck of 2 N^2 shells to FILE ('-': standard output), for
                                            measuring; nothing of it is kept in the repository
 
@@ -772,9 +772,9 @@ ALL = (clean_plates, too_close, inacti_variants, crossing_edges, two_surfaces, t
        too_close_listing)
 
 
-def sheets(n, out):
-    """Two wavy sheets of n by n shells each, one above the other, 1.2 mm apart on average with a gap of
-    1.0: crests of the lower one reach into the gap. TYPE7, upper nodes on lower segments. About 122
+def sheets(n, out, apart):
+    """Two wavy sheets of n by n shells each, one above the other, with a gap of 1.0. 1.2 mm apart on average
+    crests of the lower one reach into the gap, 0.5 mm apart nearly all upper nodes are in it. TYPE7, upper nodes on lower segments. About 122
     bytes a shell; written piece by piece, because a model may be larger than the memory."""
     d = Deck("sheets", "two wavy sheets of %d by %d shells" % (n, n))
     d.elastic(1, "steel")
@@ -787,7 +787,7 @@ def sheets(n, out):
     other = [math.cos(2 * math.pi * i / 56) for i in range(row)]
     out.write("/NODE\n#  node_ID                   X                   Y                   Z\n")
     for sheet in range(2):
-        wave, shift, low = (across, 0.0, 0.0) if sheet == 0 else (other, 0.37 * edge, 1.2)
+        wave, shift, low = (across, 0.0, 0.0) if sheet == 0 else (other, 0.37 * edge, apart)
         x = ["%20.6f" % (edge * i + shift) for i in range(row)]
         for j in range(row):
             first, y, t = 1 + (sheet * row + j) * row, "%20.6f" % (edge * j + shift), across[j]
@@ -811,16 +811,17 @@ def main():
     parser = argparse.ArgumentParser(description="Writes the sample decks beside this script.")
     parser.add_argument("--check", action="store_true", help="write nothing; end with 1 where a file differs")
     parser.add_argument("--sheets", nargs=2, metavar=("N", "FILE"), help="two wavy sheets of N by N shells into FILE ('-': standard output) instead")
+    parser.add_argument("--apart", type=float, default=1.2, metavar="MM", help="of these sheets, on average (default: 1.2)")
     options = parser.parse_args()
     if options.sheets:
         count, path = options.sheets
         if not count.isdigit() or int(count) < 1:
             parser.error("--sheets: N is the number of shells along each edge, not " + count)
         if path == "-":
-            sheets(int(count), sys.stdout)
+            sheets(int(count), sys.stdout, options.apart)
             return 0
         with open(path, "w", newline="\n") as f:
-            sheets(int(count), f)
+            sheets(int(count), f, options.apart)
         return 0
     different = 0
     for build in ALL:

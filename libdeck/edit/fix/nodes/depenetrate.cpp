@@ -31,6 +31,7 @@ constexpr int patience = 8;               // iterations without progress
 constexpr double largest_step = 0.45;     // of the gap: two sides cannot pass each other unseen
 constexpr double least_side = 0.5;        // of the length of an element's side before
 constexpr double least_component = 1e-3;  // of a move along an axis, to be printed
+constexpr double settled = 0.9;           // of what the iteration before has left
 constexpr double enough_clearance = 0.5;  // of it may be lacking
 constexpr double least_move = 1e-6;       // of the depth: a shorter one repairs nothing
 
@@ -105,7 +106,7 @@ class Depenetrator : MovableDeck {
 
   /// True if nothing is left to do.
   bool iterate() {
-    double best = -1;
+    double best = -1, last = -1;
     int waited = 0;
     for (int i = 0; i < options_.iterations; ++i) {
       const Scene& scene = evaluate();
@@ -130,7 +131,8 @@ class Depenetrator : MovableDeck {
         return false;
       }
       ++fix_.iterations;
-      waiting_ = waited > 0;
+      settling_ = last >= 0 && total > settled * last;
+      last = total;
       if (!step(scene)) return false;
     }
     return false;
@@ -164,8 +166,8 @@ class Depenetrator : MovableDeck {
 
   /// Moves nodes once; false if none can move.
   bool step(const Scene& scene) {
-    const std::vector<PairNow> pairs = active_pairs(scene);
-    const std::vector<Wish> wishes = make_wishes(scene, pairs);
+    const std::vector<PairNow>& pairs = active_pairs(scene);
+    const std::vector<Wish>& wishes = make_wishes(scene, pairs);
     std::vector<NodeIndex> nodes;
     for (const Wish& w : wishes)
       nodes.insert(nodes.end(), w.state.nodes.begin(), w.state.nodes.begin() + w.state.count);
@@ -199,8 +201,9 @@ class Depenetrator : MovableDeck {
   }
 
   /// Every pair that was ever too close, as it is now; by contact and secondary node.
-  std::vector<PairNow> active_pairs(const Scene& scene) const {
-    std::vector<PairNow> out(active_.size());
+  const std::vector<PairNow>& active_pairs(const Scene& scene) {
+    std::vector<PairNow>& out = pairs_;
+    out.resize(active_.size());
     parallel_pieces(effective_threads(options_.threads), out.size(),
                     [&](std::size_t, std::size_t begin, std::size_t end) {
                       for (std::size_t i = begin; i < end; ++i)
@@ -209,16 +212,15 @@ class Depenetrator : MovableDeck {
     return out;
   }
 
-  std::vector<Wish> make_wishes(const Scene& scene, const std::vector<PairNow>& pairs) const {
-    std::vector<Wish> wishes;
+  const std::vector<Wish>& make_wishes(const Scene& scene, const std::vector<PairNow>& pairs) {
+    std::vector<Wish>& wishes = wishes_;
+    wishes.clear();
     for (const PairNow* pair : strictest(pairs)) {
       Wish w;
       w.state = pair->state;
       w.normal = way_out(scene, *mesh_, now_, pair->at, w.state);
       const double lack = w.state.depth() + options_.clearance * w.state.gap;
-      // Where nothing gets better any more, free pairs need not come closer to all of the
-      // clearance.
-      const bool enough = waiting_ && lack <= enough_clearance * options_.clearance * w.state.gap;
+      const bool enough = settling_ && lack <= enough_clearance * options_.clearance * w.state.gap;
       w.by = lack <= 0 ? lack : enough ? 0 : options_.share * lack;
       w.main_gives_way = !options_.secondary_only;
       if (dot(w.normal, w.normal) > 0) wishes.push_back(w);
@@ -332,7 +334,10 @@ class Depenetrator : MovableDeck {
         place(nodes[i], share[i] == 0 ? from[i] : from[i] + share[i] * moves[i].second);
       mesh_->update_crossings(now_, placed, options_.threads, crossings);
       std::map<NodeIndex, Hold> bad = harmful_shapes(nodes, crossings);
-      add_turned(scene, pairs, bad);
+      // Lines and lone nodes have no faces that would cross: they must not change sides.
+      for (const PairNow* pair : turned_round(scene, now_, pairs, placed, options_.threads))
+        for (int i = 0; i < pair->state.count; ++i)
+          bad.emplace(pair->state.nodes[static_cast<std::size_t>(i)], Hold::would_cross);
       placed.clear();
       for (const auto& [n, why] : bad) {
         const auto it = std::lower_bound(nodes.begin(), nodes.end(), n);
@@ -348,25 +353,6 @@ class Depenetrator : MovableDeck {
       if (placed.empty()) break;
     }
     return std::any_of(share.begin(), share.end(), [](double s) { return s > 0; });
-  }
-
-  /// Nodes of pairs whose direction turned round: lines and lone nodes have no faces that would
-  /// cross, and must not change sides.
-  void add_turned(const Scene& scene, const std::vector<PairNow>& pairs,
-                  std::map<NodeIndex, Hold>& bad) const {
-    std::vector<std::uint8_t> turned(pairs.size());
-    parallel_pieces(effective_threads(options_.threads), pairs.size(),
-                    [&](std::size_t, std::size_t begin, std::size_t end) {
-                      for (std::size_t i = begin; i < end; ++i) {
-                        const auto& [pair, was] = pairs[i];
-                        turned[i] = has_direction(was) &&
-                                    dot(state_of(scene, now_, pair).normal, was.normal) < 0;
-                      }
-                    });
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (turned[i] != 0)
-        for (int k = 0; k < pairs[i].state.count; ++k)
-          bad.emplace(pairs[i].state.nodes[static_cast<std::size_t>(k)], Hold::would_cross);
   }
 
   /// Nodes of elements that cross, are turned, or have shrunk, since the start; `crossings`: those
@@ -575,12 +561,16 @@ class Depenetrator : MovableDeck {
   std::map<NodeIndex, int> strikes_;               ///< how often a move was dropped
   std::map<NodeIndex, Hold> blocked_;              ///< and why, the last time
   std::vector<PairAt> active_;                     ///< every pair that was ever too close
+  std::vector<PairNow> pairs_;                     ///< these, in the last iteration
+  std::vector<Wish> wishes_;                       ///< of them
   DepthBounds bounds_;                             ///< of the nodes in penetrations
   std::map<std::uint32_t, std::uint32_t> needed_;  ///< nodes, of parts that are left alone
   std::map<PairKey, std::string> skipped_;         ///< pairs that moving cannot solve, and why
   std::map<std::pair<NodeIndex, int>, std::string> texts_;
   std::size_t first_left_ = 0;
-  bool waiting_ = false;  ///< the last iteration made nothing better
+  /// Hardly anything gets better: free pairs need not come closer and closer to all of their
+  /// clearance.
+  bool settling_ = false;
   bool anything_to_do_ = false;
 };
 

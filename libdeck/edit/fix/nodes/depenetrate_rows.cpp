@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "base/shared/parallel.hpp"
 #include "deck/contact/closest.hpp"
 #include "edit/fix/type_rules.hpp"
 
@@ -131,7 +133,7 @@ Vec way_out(const Scene& scene, const FixMesh& mesh, const Coordinates& x, const
 }
 
 std::vector<const PairNow*> strictest(const std::vector<PairNow>& pairs) {
-  std::vector<const PairNow*> order;
+  std::vector<std::pair<double, std::size_t>> order;  // negative depth, position
   for (std::size_t i = 0; i < pairs.size();) {
     std::size_t end = i, nearest = i;
     for (; end < pairs.size() && pairs[end].at.contact == pairs[i].at.contact &&
@@ -142,14 +144,38 @@ std::vector<const PairNow*> strictest(const std::vector<PairNow>& pairs) {
       const PairState& state = pairs[k].state;
       const bool node = state.secondary_count == 1;
       if (node && k != nearest && follows(state, pairs[nearest].state)) continue;
-      if (state.depth() > -state.gap) order.push_back(&pairs[k]);
+      if (state.depth() > -state.gap) order.emplace_back(-state.depth(), k);
     }
     i = end;
   }
-  std::stable_sort(order.begin(), order.end(), [](const PairNow* a, const PairNow* b) {
-    return a->state.depth() > b->state.depth();
-  });
-  return order;
+  std::sort(order.begin(), order.end());
+  std::vector<const PairNow*> out;
+  out.reserve(order.size());
+  for (const auto& [depth, k] : order) out.push_back(&pairs[k]);
+  return out;
+}
+
+std::vector<const PairNow*> turned_round(const Scene& scene, const Coordinates& x,
+                                         const std::vector<PairNow>& pairs,
+                                         const std::vector<NodeIndex>& moved, int threads) {
+  NodeMarks marks;
+  for (const NodeIndex n : moved) marks.insert(n);
+  const auto turned = [&](const PairNow& pair) {
+    const PairState& was = pair.state;
+    return std::any_of(was.nodes.begin(), was.nodes.begin() + was.count,
+                       [&](NodeIndex n) { return marks.contains(n); }) &&
+           has_direction(was) && dot(state_of(scene, x, pair.at).normal, was.normal) < 0;
+  };
+  threads = effective_threads(threads);
+  std::vector<std::vector<const PairNow*>> pieces(pieces_of(threads, pairs.size()));
+  parallel_pieces(threads, pairs.size(),
+                  [&](std::size_t piece, std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i)
+                      if (turned(pairs[i])) pieces[piece].push_back(&pairs[i]);
+                  });
+  std::vector<const PairNow*> out;
+  for (const auto& piece : pieces) out.insert(out.end(), piece.begin(), piece.end());
+  return out;
 }
 
 std::string why_not_movable(const FixMesh& mesh, const Coordinates& x, const PairState& state) {

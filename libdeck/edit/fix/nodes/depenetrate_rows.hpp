@@ -61,6 +61,11 @@ struct PairNow {
 /// the closest pair of the same secondary node says better.
 std::vector<const PairNow*> strictest(const std::vector<PairNow>& pairs);
 
+/// Of pairs as they were those with one of the nodes `moved` whose direction has turned round.
+std::vector<const PairNow*> turned_round(const Scene& scene, const Coordinates& x,
+                                         const std::vector<PairNow>& pairs,
+                                         const std::vector<NodeIndex>& moved, int threads);
+
 /// Why a pair is no task for moving nodes; empty: it is one.
 std::string why_not_movable(const FixMesh& mesh, const Coordinates& x, const PairState& state);
 /// Secondary nodes that are inside a solid, judged by their closest solid segment, per contact.
