@@ -108,7 +108,8 @@ int for_each_deck(const CommonOptions& options, const std::function<int(LoadedDe
 /// exit_findings if --require-examined is given and nothing was examined, else exit_clean.
 int examined_code(const LoadedDeck& loaded, const CommonOptions& options);
 
-/// Refuses ids that are no examined interface of the deck. The error lists those that there are. `option` is what the ids were given to.
+/// Refuses ids that are no examined interface of the deck. The error lists those that there are.
+/// `option` is what the ids were given to.
 Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
                               std::string_view option, Examined which = Examined::contacts);
 /// The same for parts.

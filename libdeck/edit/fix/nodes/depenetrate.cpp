@@ -537,9 +537,14 @@ class Depenetrator : MovableDeck {
       return "there is no room for both sides: not solved in " + std::to_string(fix_.iterations) +
              " iterations";
     std::string text;
-    if (!secondary.empty()) text = "secondary: " + secondary;
-    if (!main.empty()) text += (text.empty() ? "main: " : "; main: ") + main;
-    if (main_free && !options_.secondary_only && !main.empty()) text += " (some of its nodes)";
+    if (secondary == main) {
+      text = "both sides: " + main;
+    } else {
+      if (!secondary.empty()) text = "secondary: " + secondary;
+      if (!main.empty()) text += (text.empty() ? "main: " : "; main: ") + main;
+    }
+    if (main_free && !options_.secondary_only && !main.empty())
+      text += " (some nodes of the main side)";
     return text;
   }
 
