@@ -328,14 +328,20 @@ double quantile(std::vector<double> v, double q) {
   return v[i] + (at - static_cast<double>(i)) * (next - v[i]);
 }
 
+/// As many passes as a timing takes to be long enough for the clock, which may stand still for many
+/// of them (browsers).
+int passes_for(Loop& loop, double least_ns) {
+  int times = 1;
+  while (times < (1 << 20) && loop.time(times) * times < least_ns) times *= 2;
+  return times;
+}
+
 /// Times of two loops, taken in turn.
 struct Race {
   std::vector<double> a, b;
 };
 Race race(Loop& a, Loop& b, const EffectCostOptions& how) {
-  // As many passes in a timing as the clock needs to be fine enough.
-  const double once = std::max(1.0, std::max(a.time(1), b.time(1)));
-  const int times = static_cast<int>(std::clamp(how.least_ns / once, 1.0, 1e6));
+  const int times = std::min(passes_for(a, how.least_ns), passes_for(b, how.least_ns));
   Race r;
   for (int k = 0; k < std::max(1, how.repeats); ++k) {
     const bool first = k % 2 == 0;
