@@ -178,8 +178,10 @@ check("the policy allows nothing by default and no connections", policy.includes
   check("missing includes are asked for by name", (await p.textContent(".missing")).includes("mesh.inc"));
   await give(p, readdirSync(join(samples, "include_tree")).map((n) => join(samples, "include_tree", n)));
   check("files that were asked for go where the deck looks for them", await p.$eval(".missing", (e) => e.hidden));
-  const whole = sorted(asRows(nativeFindings(samples, "include_tree_0000.rad")));
-  same("with its includes the deck has the findings of the command line", sorted(await findings(p)), whole);
+  // Files that are given without a folder lie where the deck names them, not where its folder has them.
+  const bare = (rows) => sorted(rows.map(([rule, at, message]) => [rule, basename(at), message]));
+  const whole = asRows(nativeFindings(samples, "include_tree_0000.rad"));
+  same("with its includes the deck has the findings of the command line", bare(await findings(p)), bare(whole));
   const zip = join(scratch, "tree.zip");
   const inside = { "car/include_tree_0000.rad": readFileSync(sample("include_tree")) };
   for (const n of readdirSync(join(samples, "include_tree"))) inside[`car/include_tree/${n}`] = readFileSync(join(samples, "include_tree", n));
@@ -187,7 +189,7 @@ check("the policy allows nothing by default and no connections", policy.includes
   await p.reload();
   await p.waitForFunction(() => document.documentElement.dataset.ready === "true");
   await give(p, [zip]);
-  same("a zip is a folder", sorted(await findings(p)), whole);
+  same("a zip is a folder", sorted(await findings(p)), sorted(whole));
   const packed = join(scratch, "two_surfaces_0000.rad.gz");
   writeFileSync(packed, gzipSync(readFileSync(sample("two_surfaces"))));
   await give(p, [packed]);
