@@ -291,7 +291,8 @@ struct PairsByNode {
     using Pairs = std::span<const CandidatePair>;
     const auto from = [&](const SearchResult& r) {
       const CandidatePair first{static_cast<std::uint32_t>(begin), 0};
-      return Pairs(std::lower_bound(r.pairs.begin(), r.pairs.end(), first), r.pairs.end());
+      const auto at = std::lower_bound(r.pairs.begin(), r.pairs.end(), first);
+      return Pairs(r.pairs).subspan(static_cast<std::size_t>(at - r.pairs.begin()));
     };
     const auto take = [](Pairs& rest, std::uint32_t node) {
       std::size_t count = 0;
