@@ -5,6 +5,7 @@
 
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
+#include "keyword/shared/line_check.hpp"
 #include "text/shared/columns.hpp"
 #include "text/shared/edits.hpp"
 
