@@ -1,4 +1,5 @@
-// Squared distances from one plane, line or corner, with their proof that nothing else is closer.
+// Squared distance to the plane, line or corner that double found nearest, if nothing else can be
+// nearer.
 #include "contact/distance/filtered_piece.hpp"
 
 #include <cmath>
