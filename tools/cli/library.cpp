@@ -106,11 +106,14 @@ Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& gi
   return out;
 }
 
+Error no_deck_in(const std::string& directory, std::string_view ending) {
+  return {Error::Code::io, directory + ": no *" + std::string(ending) + " in this directory"};
+}
+
 Result<std::vector<std::string>> decks_in_directories(const std::vector<std::string>& given) {
   if (!names_directory(given)) return given;
   auto decks = expand_decks(given, deck_ending);
-  if (decks && decks->empty())
-    return Error{Error::Code::io, given.front() + " is a directory without *_0000.rad"};
+  if (decks && decks->empty()) return no_deck_in(given.front(), deck_ending);
   return decks;
 }
 

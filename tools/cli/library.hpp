@@ -26,6 +26,8 @@ Result<std::vector<std::string>> files_below(
     const std::string& directory, std::string_view ending, const std::string& output = {},
     std::filesystem::directory_options closed = std::filesystem::directory_options::none);
 
+/// The refusal of a directory that holds no file of this ending, nor any folder in it.
+Error no_deck_in(const std::string& directory, std::string_view ending);
 /// `given` with every directory replaced by the decks below it, and every pattern (* ? [ ]) that no
 /// file is called by those that it matches. Error: a directory without a deck, a pattern that
 /// matches nothing.

@@ -89,10 +89,7 @@ Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& 
     for (const std::string& path : given) note_found(path, find_deck(path), common_);
   auto all = expand_decks(given, ending, choice_.directory);
   if (!all) return all;
-  if (all->empty())
-    return Error{Error::Code::io, (given.empty() ? "the directory" : given.front()) +
-                                      std::string(": this is a directory without any file *") +
-                                      std::string(ending)};
+  if (all->empty()) return no_deck_in(given.empty() ? "." : given.front(), ending);
   if (const BatchFrame* frame = common_.session->frame) {
     root_ = frame->root;
     outsiders_ = frame->outsiders;
