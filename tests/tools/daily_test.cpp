@@ -118,8 +118,14 @@ TEST_F(LintLines, TakeAFolderInTheOrderOfItsNames) {
     const json document = json::parse(read(dir_ / "all.json"));
     ASSERT_EQ(document["decks"].size(), 2u) << verb;
     EXPECT_EQ(document["decks"][0]["deck"]["path"], "decks/a_0000.rad") << verb;
+  }
+}
+
+TEST_F(LintLines, AnEmptyFolderIsRefusedByEveryVerbWithTheSameWords) {
+  write(dir_ / "empty/readme.txt", "nothing\n");
+  for (const char* verb : {"lint", "gaps", "cycle", "fix", "convert --flatten -o out"}) {
     EXPECT_EQ(deck(std::string(verb) + " empty"), 3) << verb;
-    EXPECT_TRUE(complains("without *_0000.rad")) << err();
+    EXPECT_TRUE(complains("empty: no *_0000.rad in this directory")) << verb << err();
   }
 }
 
