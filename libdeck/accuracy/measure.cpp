@@ -125,23 +125,32 @@ PairTime median(std::vector<double> values) {
   return {middle, middle > 0.0 ? (middle - values[values.size() / 4]) / middle : 0.0};
 }
 
-// The sum keeps the work from being left out.
-PairTime time_of(const Tier& tier, std::span<const PairSample> samples, int repeats) {
-  std::vector<double> times;
-  volatile double sink = 0.0;
-  for (int r = 0; r < std::max(1, repeats); ++r) {
-    FilterCounters counters;
-    double sum = 0.0;
-    const double start = accuracy::thread_nanoseconds();
-    for (const PairSample& s : samples) {
-      const Outcome o = tier.run(s, counters);
-      sum += o.value + static_cast<double>(o.closer);
-    }
-    const double spent = accuracy::thread_nanoseconds() - start;
-    sink = sink + sum;
-    times.push_back(spent / static_cast<double>(samples.size()));
+/// Nanoseconds per pair of one pass. The sum keeps the work from being left out.
+double pass_time(const Tier& tier, std::span<const PairSample> samples) {
+  static volatile double sink = 0.0;
+  FilterCounters counters;
+  double sum = 0.0;
+  const double start = accuracy::thread_nanoseconds();
+  for (const PairSample& s : samples) {
+    const Outcome o = tier.run(s, counters);
+    sum += o.value + static_cast<double>(o.closer);
   }
-  return median(std::move(times));
+  const double spent = accuracy::thread_nanoseconds() - start;
+  sink = sink + sum;
+  return spent / static_cast<double>(samples.size());
+}
+
+/// Passes of one tier after another over the same samples, again and again: what slows the machine
+/// down for a while then slows down all of them, and their ratios stay.
+struct InTurn {
+  const Tier* tier;
+  std::span<const PairSample> samples;
+  std::vector<double> ns;
+};
+void time_in_turn(std::vector<InTurn>& all, int repeats) {
+  for (int r = 0; r < std::max(1, repeats); ++r)
+    for (InTurn& t : all)
+      if (r == 0 || !t.tier->slow) t.ns.push_back(pass_time(*t.tier, t.samples));
 }
 
 // Every n-th sample, so that all families are there.
@@ -217,15 +226,23 @@ struct Measurement {
                                                             distances[k].value);
     }
     TierResult row = row_of(tier, errors, counters);
-    const PairTime time =
-        tier.slow ? time_of(tier, few, 1) : time_of(tier, samples, options.repeats);
-    row.ns_per_pair = time.ns;
-    row.spread = time.spread;
     // Asked of the exact decision too, which is one of the choices of --accuracy.
     if (what != "force" && (!tier.slow || what == "gaps")) check_invariance(tier, row);
     report.tiers.push_back(row);
     if (what == "distance") add_family_rows(report.families, tier, families);
     if (what == "gaps") add_family_rows(report.kinds, tier, families);
+  }
+  /// The rows of `report` are those of the tiers, in their order.
+  void run_times(const std::vector<Tier>& tiers, AccuracyReport& report) const {
+    std::vector<InTurn> all;
+    for (const Tier& tier : tiers)
+      all.push_back({&tier, tier.slow ? std::span<const PairSample>(few) : samples, {}});
+    time_in_turn(all, options.repeats);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const PairTime time = median(all[k].ns);
+      report.tiers[k].ns_per_pair = time.ns;
+      report.tiers[k].spread = time.spread;
+    }
   }
   void check_invariance(const Tier& tier, TierResult& row) const {
     const bool values = row.what == "distance";
@@ -248,8 +265,10 @@ struct Measurement {
     }
     constexpr const char* names[] = {"filter", "double-double", "exact"};
     for (std::size_t k = 0; k < ends.size(); ++k) {
-      const double ns = ends[k].empty() ? 0.0 : time_of(tier, ends[k], options.repeats).ns;
-      report.stages.push_back({names[k], ends[k].size(), ns});
+      std::vector<InTurn> one;
+      if (!ends[k].empty()) one.push_back({&tier, ends[k], {}});
+      time_in_turn(one, options.repeats);
+      report.stages.push_back({names[k], ends[k].size(), one.empty() ? 0.0 : median(one[0].ns).ns});
     }
   }
   void run_kernel(AccuracyReport& report) const {
@@ -303,6 +322,7 @@ AccuracyReport measure_accuracy(std::span<const PairSample> samples,
     measurement.run(tier, report);
   }
   step();
+  measurement.run_times(tiers, report);
   if (!options.decisions_only) {
     measurement.run_kernel(report);
     measurement.run_stages(report);
