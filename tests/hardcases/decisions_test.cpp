@@ -65,7 +65,7 @@ TEST(Decisions, EachAccuracyKeepsItsPromise) {
   }
 }
 
-// The reference takes the wrong edge of a very obtuse triangle: 30.1 instead of 15.9.
+// The reference takes the wrong edge of a triangle without area: 30.1 instead of 15.9.
 TEST(Decisions, AContactThatTheSolverMissesIsFound) {
   SmallDeck d;
   d.node(1, -2, 1, 0).node(2, -15, -11, 0).node(3, 11, 13, 0).node(101, 3, -16, 0);

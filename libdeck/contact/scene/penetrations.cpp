@@ -98,7 +98,7 @@ struct JudgedPairs {
 };
 
 /// Searches in the form that the accuracy needs. Exact decisions need both: the reference distance
-/// of a very obtuse segment can be far too large, and its round-off can hide a touch. `size`: a
+/// of a segment without area can be far too large, and its round-off can hide a touch. `size`: a
 /// length of the mesh.
 Candidates candidates(const SearchSides& sides, const Coordinates& x, Accuracy accuracy,
                       double size, SearchOptions search) {

@@ -466,7 +466,7 @@ inline void near_distances(const NodeSegmentInput& in, std::span<const Candidate
     d.distance = std::sqrt(least);
     if (thin || !(largest > 0x1p-300 && largest < 0x1p300)) continue;
     d.slack = (largest + d.distance) * of_coordinate;
-    // The formula is not that of the closest point for very obtuse sub-triangles.
+    // The formula is not that of the closest point for sub-triangles without area.
     bool farther = false;
     for (std::size_t k = 0; k < count; ++k) {
       const double excess = offsets.squared[k] - offsets.lowest[k] - d.slack * d.slack;

@@ -74,8 +74,8 @@ struct EdgeClosest {
 // `triangle` set). Quads are four triangles round the mean of the corners.
 //
 // Form::reference follows the reference solver operation by operation: it is the exact closest
-// point except for very obtuse sub-triangles. Form::robust is the closest point in exact
-// arithmetic; scaling the input by a power of two scales the answer and changes no decision.
+// point except for sub-triangles whose area is 0 or round-off. Form::robust is the closest point in
+// exact arithmetic; scaling the input by a power of two scales the answer and changes no decision.
 //
 //   const auto c = deck::closest_on_segment<deck::Form::reference>(p, corners, false);
 //   if (c.distance() < gap) ...
