@@ -426,6 +426,7 @@ std::string folded_help(std::string_view text, std::size_t width) {
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     const auto start = line.find_first_not_of(' ');
+    if (start == line.npos && out.ends_with("\n\n")) continue;  // one empty line between groups
     if (width == 0 || start == line.npos || display_width(line) <= width) {
       out += std::string(line) + '\n';
       continue;
