@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <regex>
 #include <set>
 
@@ -212,6 +214,30 @@ TEST(RuleTable, NoSourceSpellsAnIdAsText) {
       EXPECT_FALSE(std::regex_search(text, found, id)) << found.str() << " in " << entry.path();
     }
   EXPECT_GT(files, 100);
+}
+
+TEST(ElementsOnTheSameNodes, AreThoseThatEveryPairOfThemGives) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 20; ++round) {
+    SmallDeck d;
+    d.shell_part(1, 1);
+    std::vector<int> ids = {1, 2, 3, 4, 5, 6, 7};
+    for (const int n : ids) d.node(n, n, n * n, n * n * n);
+    std::vector<std::set<int>> before;
+    int repeated = 0;
+    for (int e = 1; e <= 40; ++e) {
+      std::shuffle(ids.begin(), ids.end(), random);
+      d.shell(1, e, ids[0], ids[1], ids[2], ids[3]);
+      const std::set<int> nodes(ids.begin(), ids.begin() + 4);
+      repeated += std::find(before.begin(), before.end(), nodes) != before.end() ? 1 : 0;
+      before.push_back(nodes);
+    }
+    const Linted run = lint_text(d.text());
+    const Diagnostic* found = run.find(RuleId::DK617);
+    ASSERT_NE(found, nullptr);
+    EXPECT_TRUE(found->message.starts_with(std::to_string(repeated) + " shells on the same nodes"))
+        << found->message << ", not " << repeated;
+  }
 }
 
 TEST(RuleTable, FamiliesFollowTheLeadingDigit) {

@@ -1,11 +1,10 @@
 // Does the model make sense: materials in other units than the deck's, folded solids,
 // elements on the same nodes, nodes that have stiffness or a contact but no mass.
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "base/shared/count.hpp"
@@ -173,23 +172,24 @@ class SameNodes {
   using Pairs = std::map<std::pair<std::uint32_t, std::uint32_t>, Pair>;
 
   Pairs of(const Elements& family) {
-    std::vector<std::uint64_t> keys(family.size(), 0);  // 0: does not count
-    for (std::size_t e = 0; e < keys.size(); ++e)
-      if (counts(family, e)) keys[e] = key(family, e);
     Pairs out;
-    const std::set<std::uint64_t> repeated = repeated_keys(keys);
-    if (repeated.empty()) return out;
-    std::map<std::uint64_t, std::vector<std::uint32_t>> alike;
-    for (std::size_t e = 0; e < keys.size(); ++e)
-      if (keys[e] != 0 && repeated.contains(keys[e]))
-        alike[keys[e]].push_back(static_cast<std::uint32_t>(e));
-    for (const auto& [_, elements] : alike)
-      for (std::size_t i = 1; i < elements.size(); ++i)
-        for (std::size_t k = 0; k < i; ++k)
-          if (corners(family, elements[k]) == corners(family, elements[i])) {
-            add(family, elements[k], elements[i], out);
-            break;  // a third one counts once
-          }
+    // Elements that share their two lowest nodes lie in one list: the latest of it, and of each the
+    // one before. Numbers of neighbours are near each other, and so are their lists.
+    const std::size_t size = family.size();
+    std::vector<std::uint32_t> latest(size, no_index), before(size, no_index);
+    for (std::size_t e = 0; e < size; ++e) {
+      if (!counts(family, e)) continue;
+      const Corners own = corners(family, e);
+      std::uint32_t& list = latest[(std::size_t{own[0]} + own[1]) % size];
+      std::uint32_t other = list;
+      while (other != no_index && corners(family, other) != own) other = before[other];
+      if (other != no_index) {
+        add(family, other, static_cast<std::uint32_t>(e), out);  // of a third one, too, the first
+        continue;
+      }
+      before[e] = list;
+      list = static_cast<std::uint32_t>(e);
+    }
     return out;
   }
 
@@ -202,40 +202,17 @@ class SameNodes {
     if (std::find(n, n + family.width, no_index) != n + family.width) return false;
     return m_.materials[m_.parts[part].mat].law > 0;
   }
-  static std::vector<NodeIndex> corners(const Elements& family, std::size_t e) {
-    std::vector<NodeIndex> out(family.of(e), family.of(e) + family.width);
-    std::sort(out.begin(), out.end());
+  using Corners = std::array<NodeIndex, 8>;
+  static Corners corners(const Elements& family, std::size_t e) {
+    Corners out{};
+    std::copy_n(family.of(e), family.width, out.begin());
+    std::sort(out.begin(), out.begin() + family.width);
     return out;
   }
   static void add(const Elements& family, std::uint32_t a, std::uint32_t b, Pairs& out) {
     const auto [low, high] = std::minmax(family.part[a], family.part[b]);
     Pair& p = out[{low, high}];
     if (p.count++ == 0 || b < p.other) p.first = a, p.other = b;
-  }
-  /// Keys that occur twice, by a table with open places.
-  static std::set<std::uint64_t> repeated_keys(const std::vector<std::uint64_t>& keys) {
-    std::set<std::uint64_t> out;
-    const std::size_t size = std::bit_ceil(2 * keys.size() + 1);
-    std::vector<std::uint64_t> table(size, 0);
-    for (const std::uint64_t k : keys) {
-      if (k == 0) continue;
-      std::size_t at = k & (size - 1);
-      while (table[at] != 0 && table[at] != k) at = (at + 1) & (size - 1);
-      if (table[at] == k) out.insert(k);
-      table[at] = k;
-    }
-    return out;
-  }
-  /// The same for any order of the nodes.
-  static std::uint64_t key(const Elements& family, std::size_t e) {
-    std::uint64_t sum = 0;
-    for (int i = 0; i < family.width; ++i) {
-      std::uint64_t h = family.of(e)[i] + 0x9e3779b97f4a7c15ull;
-      h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ull;
-      h = (h ^ (h >> 27)) * 0x94d049bb133111ebull;
-      sum += h ^ (h >> 31);
-    }
-    return sum;
   }
   const Model& m_;
 };
