@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "cycle/shared/contact_run.hpp"
-#include "deck/model/interfaces_fields.hpp"
+#include "deck/model/interfaces.hpp"
 
 namespace deck::cycle::detail {
 

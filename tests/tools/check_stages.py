@@ -25,7 +25,7 @@ PRIVATE = re.compile(r'^\s*#\s*include\s+"(([a-z_]+)/(?!shared/)[^"]+)"', re.M)
 INCLUDE = re.compile(r'^\s*#\s*include\s+"(?:deck/)?([a-z_]+)(?:/|\.hpp)', re.M)
 COMMENT = re.compile(r"(?:^|\s)(//.*|/?\*.*)$", re.M)
 FILE_NAME = re.compile(r"(?<![\w./<*-])((?:\w[\w-]*/)*\w[\w-]*\.(?:cpp|hpp))\b")
-GENERATED = {"rule_id.hpp"}
+GENERATED = {"rule_id.hpp", "interface_fields.hpp"}
 
 BUILDS = re.compile(r"\b(build_model|read_interfaces|build_scene|run_cycle)\(")
 BUILDERS = ("libdeck/front/", "libdeck/model/", "libdeck/contact/", "libdeck/cycle/", "libdeck/include/deck/")

@@ -3,17 +3,15 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "deck/model/interface_fields.hpp"
 #include "deck/model/model.hpp"
 
 namespace deck {
-
-using EffectiveInt = Effective<std::int64_t>;
-using EffectiveReal = Effective<double>;
-using EffectiveText = Effective<std::string>;
 
 /// What sets the interface types apart, one row a type. A side is the field that names it and what
 /// its id refers to, in the words of the schemas.
@@ -37,152 +35,56 @@ struct InterBase {
   bool resolved = false;  ///< values of Origin::geometry are filled in (deck/contact/resolve.hpp)
 };
 
-/// What an interface of type T has beside its fields.
-template <class T>
-struct InterFields : InterBase {
-  /// Calls f(name, field) for every field in the order of the manual.
+/// An interface with its fields, which are those of its schema (deck/model/interface_fields.hpp).
+template <class Fields>
+struct InterFields : InterBase, Fields {
+  /// Calls f(name, field) for every field in the order of the card.
   template <class F>
   void for_each(F&& f) {
-    visit_fields(static_cast<T&>(*this), f);
+    Fields::visit(*this, f);
   }
   template <class F>
   void for_each(F&& f) const {
-    visit_fields(static_cast<const T&>(*this), f);
+    Fields::visit(*this, f);
   }
 };
 
 /// A tie. Its fields mean something else than those of contacts, so it is in no list with them.
-struct InterType2 : InterFields<InterType2> {
+struct InterType2 : InterFields<Type2Fields> {
   static constexpr InterfaceTraits traits{
       2, "/INTER/TYPE2", {"grnd_IDs", "grnod"}, {"surf_IDm", "surf"}, "dsearch"};
-  EffectiveInt grnd_IDs, surf_IDm, Ignore, Spotflag, Level, Isearch, Idel2, surf_IDs;
-  EffectiveReal dsearch;
-  EffectiveInt Rupt, Ifiltr, fct_IDsr, fct_IDsn, fct_IDst, Isym;
-  EffectiveReal Max_N_Dist, Max_T_Dist, Fscalestress, Fscalestr_rate, Fscaledist, Alpha, Area;
-  EffectiveReal Stfac, Visc;
-  EffectiveInt Istf, Ithe;
-  EffectiveReal Kthe;
-  EffectiveInt Iproj;
 };
 
-/// The fields common to types 7, 11 and 19. IBC is "xyz", one digit each.
-struct InterType7 : InterFields<InterType7> {
+struct InterType7 : InterFields<Type7Fields> {
   static constexpr InterfaceTraits traits{
       7, "/INTER/TYPE7", {"grnd_IDs", "grnod"}, {"surf_IDm", "surf"}, "Gapmin"};
-  EffectiveInt grnd_IDs, surf_IDm, Istf, Ithe, Igap, Ibag, Idel, Icurv, Iadm;
-  EffectiveReal Fscalegap, Gapmax, Fpenmax;
-  EffectiveInt ITIED;
-  EffectiveReal Stmin, Stmax, mesh_size, dtmin;  ///< mesh_size is "%mesh_size"
-  EffectiveInt Irem_gap, Irem_i2, node_ID1, node_ID2;
-  EffectiveReal Stfac, Fric, Gapmin, Tstart, Tstop;
-  EffectiveText IBC;
-  EffectiveInt Inacti;
-  EffectiveReal VISs, VISF, Bumult;
-  EffectiveInt Ifric, Ifiltr;
-  EffectiveReal Xfreq;
-  EffectiveInt Iform, sens_ID, fct_IDF;
-  EffectiveReal AscaleF;
-  EffectiveInt fric_ID;
-  EffectiveReal C1, C2, C3, C4, C5, C6;
-  EffectiveInt NRadm;
-  EffectiveReal Padm, Angladm, Kthe;
-  EffectiveInt fct_IDK;
-  EffectiveReal Tint;
-  EffectiveInt Ithe_form;
-  EffectiveReal AscaleK, Frad, Drad, Fheats, Fheatm;
 };
 
-struct InterType10 : InterFields<InterType10> {
+struct InterType10 : InterFields<Type10Fields> {
   static constexpr InterfaceTraits traits{
       10, "/INTER/TYPE10", {"grnd_IDs", "grnod"}, {"surf_IDm", "surf"}, "Gap"};
-  EffectiveInt grnd_IDs, surf_IDm, Idel;
-  EffectiveReal Stfac, Gap, Tstart, Tstop;
-  EffectiveInt ITIED, Inacti;
-  EffectiveReal VISs, Bumult;
 };
 
-struct InterType11 : InterFields<InterType11> {
+struct InterType11 : InterFields<Type11Fields> {
   static constexpr InterfaceTraits traits{
       11, "/INTER/TYPE11", {"line_IDs", "line"}, {"line_IDm", "line"}, "Gapmin"};
-  EffectiveInt line_IDs, line_IDm, Istf, Ithe, Igap, Irem_gap, Idel;
-  EffectiveReal Stmin, Stmax, mesh_size, dtmin;
-  EffectiveInt Iform, sens_ID;
-  EffectiveReal Stfac, Fric, Gapmin, Tstart, Tstop;
-  EffectiveText IBC;
-  EffectiveInt Inacti;
-  EffectiveReal VISs, VISF, Bumult;
-  EffectiveInt fric_ID;
-  EffectiveReal Kthe;
-  EffectiveInt fct_IDK;
-  EffectiveReal AscaleK, Tint;
-  EffectiveInt Ithe_form;
-  EffectiveReal Frad, Drad;
 };
 
-struct InterType19 : InterFields<InterType19> {
+struct InterType19 : InterFields<Type19Fields> {
   static constexpr InterfaceTraits traits{
       19, "/INTER/TYPE19", {"surf_IDs", "surf"}, {"surf_IDm", "surf"}, "Gapmin"};
-  EffectiveInt surf_IDs, surf_IDm, Istf, Ithe, Igap, Iedge, Ibag, Idel, Icurv;
-  EffectiveReal Fscalegap, Gapmax, Edge_scale_gap, Stmin, Stmax, mesh_size, dtmin;
-  EffectiveInt Irem_gap, Irem_i2, node_ID1, node_ID2;
-  EffectiveReal Stfac, Fric, Gapmin, Tstart, Tstop;
-  EffectiveText IBC;
-  EffectiveInt Inacti;
-  EffectiveReal VISs, VISF, Bumult;
-  EffectiveInt Ifric, Ifiltr;
-  EffectiveReal Xfreq;
-  EffectiveInt Iform, sens_ID, fric_ID;
-  EffectiveReal C1, C2, C3, C4, C5, C6, Kthe;
-  EffectiveInt fct_IDK;
-  EffectiveReal Tint;
-  EffectiveInt Ithe_form;
-  EffectiveReal AscaleK, Frad, Drad, Fheats, Fheatm;
 };
 
 /// Segments against nodes, of one surface or of two; no minimum gap: gaps follow the thicknesses.
-struct InterType24 : InterFields<InterType24> {
+struct InterType24 : InterFields<Type24Fields> {
   static constexpr InterfaceTraits traits{
       24, "/INTER/TYPE24", {"surf_ID1", "surf"}, {"surf_ID2", "surf"}, ""};
-  EffectiveInt surf_ID1, surf_ID2, Istf, Irem_i2, Idel, IPSTIF, grnd_IDs, Iedge;
-  EffectiveReal Edge_angle, Gap_max_s, Gap_max_m, Stmin, Stmax;
-  EffectiveInt Igap0, Ipen0;
-  EffectiveReal Ipen_max, Ipen_min, STFAC_MDT, Stfac, Fric, Tstart, Tstop;
-  EffectiveText IBC;
-  EffectiveInt Inacti;
-  EffectiveReal VISs, Tpressfit;
-  EffectiveInt Ifric, Ifiltr;
-  EffectiveReal Xfreq;
-  EffectiveInt sens_ID;
-  EffectiveReal DTSTIF;
-  EffectiveInt fric_ID;
-  EffectiveReal C1, C2, C3, C4, C5, C6;
 };
 
 /// The same with both sides of the mesh joined to a whole: what current models use.
-struct InterType25 : InterFields<InterType25> {
+struct InterType25 : InterFields<Type25Fields> {
   static constexpr InterfaceTraits traits{
       25, "/INTER/TYPE25", {"surf_ID1", "surf"}, {"surf_ID2", "surf"}, ""};
-  EffectiveInt surf_ID1, surf_ID2, Istf, Ithe, Igap, Irem_i2, Idel, Iedge, IPSTIF, grnd_IDs;
-  EffectiveReal Gap_scale, mesh_size, Gap_max_s, Gap_max_m, Stmin, Stmax;
-  EffectiveInt Igap0, Ishape;
-  EffectiveReal Edge_angle, STFAC_MDT, Stfac, Fric, Tpressfit, Tstart, Tstop;
-  EffectiveText IBC;
-  EffectiveInt IVIS2, Inacti;
-  EffectiveReal VISs;
-  EffectiveInt Ithick;
-  EffectiveReal Pmax;
-  EffectiveInt Ifric, Ifiltr;
-  EffectiveReal Xfreq;
-  EffectiveInt sens_ID;
-  EffectiveReal DTSTIF;
-  EffectiveInt fric_ID;
-  EffectiveReal C1, C2, C3, C4, C5, C6, ViscFluid, SigMaxAdh, ViscAdhFact, Kthe;
-  EffectiveInt fct_IDK;
-  EffectiveReal Tint;
-  EffectiveInt Ithe_form;
-  EffectiveReal AscaleK, Frad, Drad, Fheats, Fheatm;
-  EffectiveInt FRIC_FUN, Fcond;
-  EffectiveReal Dcond, THICK_S, THICK_S_SCALE, THICK_M, THICK_M_SCALE;
 };
 
 /// /DEFAULT/INTER/TYPEn: the non-zero fields.
@@ -283,6 +185,29 @@ inline int level_of(std::int64_t surf_ID1, std::int64_t surf_ID2) {
 /// `resolve` (deck/contact/resolve.hpp) fills it in. Reading-level findings go to `diagnostics`.
 Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
-}  // namespace deck
+/// Calls f(contact) with the contact as its own type; `base` must be in Interfaces::ordered.
+template <class F>
+decltype(auto) visit_interface(const InterBase& base, F&& f) {
+  if (base.type == InterType7::traits.type) return f(static_cast<const InterType7&>(base));
+  if (base.type == InterType10::traits.type) return f(static_cast<const InterType10&>(base));
+  if (base.type == InterType11::traits.type) return f(static_cast<const InterType11&>(base));
+  if (base.type == InterType19::traits.type) return f(static_cast<const InterType19&>(base));
+  if (base.type == InterType24::traits.type) return f(static_cast<const InterType24&>(base));
+  if (base.type == InterType25::traits.type) return f(static_cast<const InterType25&>(base));
+  throw std::logic_error("visit_interface: not an element of Interfaces");
+}
 
-#include "deck/model/interfaces_fields.hpp"
+/// The same for contacts and ties: an element of Interfaces::all.
+template <class F>
+decltype(auto) visit_any_interface(const InterBase& base, F&& f) {
+  if (base.type == InterType2::traits.type) return f(static_cast<const InterType2&>(base));
+  return visit_interface(base, std::forward<F>(f));
+}
+
+/// Calls f(name, field) for every field of a contact or tie of whatever type.
+template <class F>
+void for_each_field(const InterBase& base, F&& f) {
+  visit_any_interface(base, [&](const auto& inter) { inter.for_each(f); });
+}
+
+}  // namespace deck

@@ -1,0 +1,81 @@
+# Generates deck/model/interface_fields.hpp in DECK_GENERATED: the fields of every interface type, from
+# its schema. A field is a cell of any version; they are in the order of the newest layout that has them.
+# A script as well: cmake -DDECK_GENERATED=DIR -P libdeck/cmake/InterfaceFields.cmake
+cmake_minimum_required(VERSION 3.25)
+set(interface_fields "")
+set(interface_schemas ${CMAKE_CURRENT_LIST_DIR}/../../schemas/keywords)
+
+# A struct of the fields of /INTER/TYPE<type>; ARGN: cells that the model does not know.
+function(add_interface_fields type file)
+  if(NOT CMAKE_SCRIPT_MODE_FILE)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${interface_schemas}/${file})
+  endif()
+  file(READ ${interface_schemas}/${file} schema)
+  string(JSON several ERROR_VARIABLE single GET "${schema}" schemas)
+  if(NOT single)
+    string(JSON last LENGTH "${several}")
+    math(EXPR last "${last} - 1")
+    foreach(i RANGE ${last})
+      string(JSON schema GET "${several}" ${i})
+      string(JSON keyword GET "${schema}" keyword)
+      if(keyword STREQUAL "/INTER/TYPE${type}")
+        break()
+      endif()
+    endforeach()
+  endif()
+  set(rows "")
+  string(JSON cards LENGTH "${schema}" cards)
+  math(EXPR cards "${cards} - 1")
+  foreach(c RANGE ${cards})
+    string(JSON fields ERROR_VARIABLE blank_line GET "${schema}" cards ${c} fields)
+    if(blank_line)
+      continue()
+    endif()
+    string(JSON last LENGTH "${fields}")
+    math(EXPR last "${last} - 1")
+    foreach(f RANGE ${last})
+      string(JSON name GET "${fields}" ${f} name)
+      string(JSON kind GET "${fields}" ${f} type)
+      string(JSON column GET "${fields}" ${f} cols 0)
+      if(name IN_LIST ARGN)
+        continue()
+      endif()
+      set(cpp EffectiveInt)
+      if(kind STREQUAL "real")
+        set(cpp EffectiveReal)
+      elseif(kind STREQUAL "flag") # IBCX, IBCY, IBCZ: the digits of IBC
+        set(cpp EffectiveText)
+        string(REGEX REPLACE ".$" "" name ${name})
+      endif()
+      math(EXPR place "100000 + 1000 * ${c} + ${column}")
+      list(FILTER rows EXCLUDE REGEX " ${name}$")
+      list(APPEND rows "${place} ${cpp} ${name}")
+    endforeach()
+  endforeach()
+  list(SORT rows)
+  set(members "")
+  set(visits "")
+  foreach(row ${rows})
+    string(REGEX MATCH "^[0-9]+ ([A-Za-z]+) (%?(.+))$" row "${row}")
+    string(APPEND members "  ${CMAKE_MATCH_1} ${CMAKE_MATCH_3};\n")
+    string(APPEND visits "    f(\"${CMAKE_MATCH_2}\", s.${CMAKE_MATCH_3});\n")
+  endforeach()
+  set(interface_fields "${interface_fields}
+struct Type${type}Fields {
+${members}
+  template <class Self, class F>
+  static void visit(Self& s, F& f) {
+${visits}  }
+};
+" PARENT_SCOPE)
+endfunction()
+
+add_interface_fields(2 inter_other.json prop_ID)
+add_interface_fields(7 inter_type7.json Multimp Rthe Ists)
+add_interface_fields(10 inter_type10.json Multimp)
+add_interface_fields(11 inter_type11.json Multimp)
+add_interface_fields(19 inter_type19.json)
+add_interface_fields(24 inter_other.json)
+add_interface_fields(25 inter_other.json)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/interface_fields.hpp.in
+               ${DECK_GENERATED}/deck/model/interface_fields.hpp @ONLY)
