@@ -35,7 +35,7 @@ inline std::string list_of(const std::vector<std::int64_t>& values) {
 
 inline Diagnostic* report_at(Reporter& r, const Rule& rule, const ContactCard& card,
                              std::string_view field, std::string message) {
-  return r.report(rule, *card.block, card.span(field), std::move(message));
+  return r.report(rule, field, *card.block, card.span(field), std::move(message));
 }
 
 /// Adds "because of this" with the place of another field of the card.

@@ -1,12 +1,21 @@
 // Which function looks for the violations of which rule: one table per file of checks. Private to
 // the lint stage.
 #pragma once
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "deck/lint/lint.hpp"
 
 namespace deck::detail {
+
+/// True if f(field) holds for a field of the rule; f("") for a rule without fields.
+template <class F>
+bool any_name(const Rule& rule, F&& f) {
+  if (rule.fields.empty()) return f(std::string_view());
+  return std::any_of(rule.fields.begin(), rule.fields.end(),
+                     [&](const RuleField& field) { return f(std::string_view(field.name)); });
+}
 
 struct Checked {
   RuleId id;

@@ -42,7 +42,12 @@ namespace fs = std::filesystem;
 
 std::string unknown_selector(std::string_view text) {
   std::vector<std::string> ids;
-  for (const Rule& rule : all_rules()) ids.emplace_back(id_text(rule.id));
+  for (const Rule& rule : all_rules()) {
+    ids.emplace_back(id_text(rule.id));
+    if (text.find(':') != text.npos)
+      for (const RuleField& f : rule.fields)
+        ids.push_back(std::string(id_text(rule.id)) + ":" + f.name);
+  }
   const std::string close = closest_word(text, ids);
   return "no rule is called '" + std::string(text) + "'" +
          (close.empty() ? "; see 'deck rules'" : "; did you mean '" + close + "'?");
@@ -429,7 +434,7 @@ std::string write_baseline(const std::vector<BaselinedDeck>& decks, const std::s
       const std::uint32_t file = d.span.valid() ? d.span.file : 0;
       Baseline::Entry& e =
           entries[{relative(b.deck->sources[file].path()), b.result->fingerprints[i]}];
-      e.rule = id_text(d.rule);
+      e.rule = finding_name(d);
       e.entity = d.keyword.empty() ? std::string() : d.keyword + "/" + std::to_string(d.id);
       ++e.count;
     }

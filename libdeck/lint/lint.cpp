@@ -20,14 +20,20 @@
 namespace deck {
 namespace {
 
-bool any_selects(const std::vector<std::string>& selectors, RuleId rule) {
+bool any_selects(const std::vector<std::string>& selectors, RuleId rule, std::string_view field) {
   return std::any_of(selectors.begin(), selectors.end(),
-                     [&](const std::string& s) { return selects(s, rule); });
+                     [&](const std::string& s) { return selects(s, rule, field); });
 }
 
+bool enabled(const LintOptions& options, RuleId rule, std::string_view field) {
+  if (!options.select.empty() && !any_selects(options.select, rule, field)) return false;
+  return !any_selects(options.ignore, rule, field);
+}
+
+/// Some findings of the rule are wanted.
 bool enabled(const LintOptions& options, RuleId rule) {
-  if (!options.select.empty() && !any_selects(options.select, rule)) return false;
-  return !any_selects(options.ignore, rule);
+  return detail::any_name(rule_of(rule),
+                          [&](std::string_view field) { return enabled(options, rule, field); });
 }
 
 /// per-file-ignores, each pattern matched once with each file.
@@ -42,7 +48,7 @@ class FileIgnores {
       for (const auto& [glob, rules] : options_.per_file_ignores)
         if (glob_match(glob, deck_.sources[d.span.file].path())) it->second.push_back(&rules);
     return std::any_of(it->second.begin(), it->second.end(),
-                       [&](const auto* rules) { return any_selects(*rules, d.rule); });
+                       [&](const auto* rules) { return any_selects(*rules, d.rule, d.field); });
   }
 
  private:
@@ -58,14 +64,17 @@ void soften(const Deck& deck, Diagnostic& d) {
     d.severity = Severity::info;
 }
 
-/// The severity override with the longest matching selector.
+/// The severity override with the longest matching selector; an id that means a field of the rule
+/// is longer than that of the rule.
 void override_severity(const LintOptions& options, Diagnostic& d) {
   std::size_t best = 0;
-  for (const auto& [selector, severity] : options.severity)
-    if (selector.size() > best && selects(selector, d.rule)) {
-      best = selector.size();
-      d.severity = severity;
-    }
+  for (const auto& [selector, severity] : options.severity) {
+    if (!selects(selector, d.rule, d.field)) continue;
+    const std::size_t size = selector.size() + (selects(selector, d.rule) ? 0 : 1);
+    if (size <= best) continue;
+    best = size;
+    d.severity = severity;
+  }
 }
 
 /// Where one finding lies within another that says more, it is left out.
@@ -103,7 +112,7 @@ struct Pool {
     std::map<RuleId, std::uint64_t> seen;
     for (const Diagnostic& d : from.all()) {
       ++seen[d.rule];
-      if (enabled(options, d.rule) && certain(schemas, d)) kept.push_back(d);
+      if (enabled(options, d.rule, d.field) && certain(schemas, d)) kept.push_back(d);
     }
     for (const auto& [rule, count] : from.counts())
       if (enabled(options, rule) && count > seen[rule]) dropped[rule] += count - seen[rule];
@@ -186,7 +195,9 @@ void report_unused(const std::vector<detail::Suppression>& suppressions, const L
     // A rule that is switched off cannot fire; its suppression is then not known to be useless.
     const bool active = std::any_of(s.rules.begin(), s.rules.end(), [&](const std::string& r) {
       return std::any_of(all_rules().begin(), all_rules().end(), [&](const Rule& known) {
-        return selects(r, known.id) && enabled(options, known.id);
+        return detail::any_name(known, [&](std::string_view field) {
+          return selects(r, known.id, field) && enabled(options, known.id, field);
+        });
       });
     });
     if (!active) continue;
@@ -276,18 +287,27 @@ Diagnostic* Reporter::report(const Rule& rule, Span span, std::string message) {
 }
 
 Diagnostic* Reporter::report(const Rule& rule, const Block& block, Span span, std::string message) {
-  Diagnostic* d = report(rule, span, std::move(message));
-  if (d != nullptr) {
-    d->keyword = block.schema ? block.schema->keyword : detail::clipped(block.keyword);
-    d->id = block.id.value;
-  }
-  return d;
+  return report(rule, {}, block, span, std::move(message));
+}
+
+Diagnostic* Reporter::report(const Rule& rule, std::string_view field, const Block& block,
+                             Span span, std::string message) {
+  if (rule.fields.empty()) field = {};
+  if (!field.empty() && options_ != nullptr && !enabled(*options_, rule.id, field)) return nullptr;
+  if (!sink_->wants(rule.id)) return nullptr;
+  Diagnostic& d = sink_->add(finding_of(rule.id, span, std::move(message), {.field = field}));
+  d.keyword = block.schema ? block.schema->keyword : detail::clipped(block.keyword);
+  d.id = block.id.value;
+  return &d;
 }
 
 std::string finding_file(const std::string& path) { return absolute_path(path); }
 
 std::string fingerprint(const Deck& deck, const Diagnostic& d) {
-  std::uint64_t hash = fnv1a(0xcbf29ce484222325ULL, id_text(d.rule));
+  // A field keeps the fingerprints that it had as a rule of its own.
+  const RuleField* const field = rule_of(d.rule).field(d.field);
+  std::uint64_t hash =
+      fnv1a(0xcbf29ce484222325ULL, id_text(field != nullptr ? field->was : d.rule));
   hash = fnv1a(hash, "|" + d.keyword + "|" + std::to_string(d.id) + "|");
   if (d.span.valid()) {
     const std::string_view line = deck.sources[d.span.file].line_at(d.span.offset);
@@ -343,7 +363,7 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options,
   pool.take(loaded.findings(Stage::interfaces), options);
 
   Diagnostics own(options.diagnostics_per_rule);
-  Reporter reporter(own);
+  Reporter reporter(own, &options);
   const LintContext context = detail::build_context(loaded, own);
   for (const auto& [rule, check] : detail::all_checks())
     if (enabled(options, rule)) check(context, rule_of(rule), reporter);

@@ -30,13 +30,32 @@ std::string_view family_of(RuleId id) {
   }
 }
 
-bool selects(std::string_view selector, RuleId id) {
-  return selector == "all" || (selector.starts_with("DK") && id_text(id).starts_with(selector));
+bool selects(std::string_view selector, RuleId id, std::string_view field) {
+  if (selector == "all") return true;
+  if (!selector.starts_with("DK")) return false;
+  if (const auto colon = selector.find(':'); colon != selector.npos)
+    return !field.empty() && selector.substr(0, colon) == id_text(id) &&
+           selector.substr(colon + 1) == field;
+  if (id_text(id).starts_with(selector)) return true;
+  const RuleField* const f = field.empty() ? nullptr : rule_of(id).field(field);
+  return f != nullptr && id_text(f->was).starts_with(selector);
 }
 
 bool known_selector(std::string_view selector) {
-  return std::any_of(all_rules().begin(), all_rules().end(),
-                     [&](const Rule& r) { return selects(selector, r.id); });
+  return std::any_of(all_rules().begin(), all_rules().end(), [&](const Rule& r) {
+    return detail::any_name(r,
+                            [&](std::string_view field) { return selects(selector, r.id, field); });
+  });
+}
+
+std::string renamed_selector(std::string_view selector) {
+  const Rule* const rule = find_successor(selector);
+  if (rule == nullptr) return {};
+  std::string out;
+  for (const RuleField& f : rule->fields)
+    if (id_text(f.was) == selector)
+      out += (out.empty() ? " is now " : ", ") + std::string(id_text(rule->id)) + ":" + f.name;
+  return std::string(selector) + out;
 }
 
 const std::vector<detail::Checked>& detail::all_checks() {

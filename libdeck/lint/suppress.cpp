@@ -9,7 +9,7 @@
 namespace deck::detail {
 namespace {
 
-/// "ignore[DK1,DK203] reason=text" behind the marker; false: not understood.
+/// "ignore[DK1,DK201:Istf] reason=text" behind the marker; false: not understood.
 bool parse(std::string_view text, Suppression& out) {
   text = trim(text);
   if (text.starts_with("ignore-file")) {
@@ -65,9 +65,13 @@ std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& i
         reporter.report(malformed, s.span, "this suppression comment cannot be read");
         continue;
       }
-      for (const std::string& rule : s.rules)
+      for (const std::string& rule : s.rules) {
         if (!known_selector(rule))
           reporter.report(unknown, s.span, "no rule is called '" + rule + "'");
+        else if (std::string now = renamed_selector(rule); !now.empty())
+          if (Diagnostic* d = reporter.report(unknown, s.span, std::move(now)); d != nullptr)
+            d->severity = Severity::info;
+      }
       if (s.reason.empty()) {
         reporter.report(no_reason, s.span, "the suppression gives no reason and has no effect");
         continue;
@@ -96,7 +100,7 @@ Suppression* covering(std::vector<Suppression>& suppressions, const BlockIndex& 
     const bool place = s.whole_file ? s.file == d.span.file : s.block >= 0 && s.block == block;
     if (!place) continue;
     for (const std::string& rule : s.rules)
-      if (selects(rule, d.rule)) return &s;
+      if (selects(rule, d.rule, d.field)) return &s;
   }
   return nullptr;
 }

@@ -1,4 +1,4 @@
-// Suppression comments in the deck: "# decklint: ignore[DK203] reason=..." for the block it stands
+// Suppression comments in the deck: "# decklint: ignore[DK104] reason=..." for the block it stands
 // in or before, "# decklint: ignore-file[...] reason=..." for its file. Private to the lint stage.
 #pragma once
 #include <string>
@@ -10,7 +10,7 @@
 namespace deck::detail {
 
 struct Suppression {
-  std::vector<std::string> rules;  ///< ids or prefixes
+  std::vector<std::string> rules;  ///< selectors (deck/lint/rule.hpp)
   std::string reason;
   bool whole_file = false;
   std::uint32_t file = 0;

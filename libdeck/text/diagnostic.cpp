@@ -30,6 +30,11 @@ std::string_view id_text(RuleId id) {
   return {id_texts.data() + static_cast<std::size_t>(n) * id_length, id_length};
 }
 
+std::string finding_name(const Diagnostic& diagnostic) {
+  std::string out(id_text(diagnostic.rule));
+  return diagnostic.field.empty() ? out : out + ":" + diagnostic.field;
+}
+
 bool Diagnostics::wants(RuleId rule) {
   return ++counts_[rule] <= static_cast<std::uint64_t>(per_rule_);
 }

@@ -41,6 +41,19 @@ const Rule& rule_of(RuleId id) {
   return *it;
 }
 
+const Rule* find_successor(std::string_view id) {
+  for (const Rule& rule : all_rules())
+    for (const RuleField& field : rule.fields)
+      if (field.was != rule.id && id_text(field.was) == id) return &rule;
+  return nullptr;
+}
+
+const RuleField* Rule::field(std::string_view name) const {
+  const auto it = std::find_if(fields.begin(), fields.end(),
+                               [&](const RuleField& f) { return f.name == name; });
+  return it == fields.end() ? nullptr : &*it;
+}
+
 ReferenceMessage Rule::message(int number) const {
   const auto it = std::find_if(messages.begin(), messages.end(),
                                [&](const ReferenceMessage& m) { return m.number == number; });
@@ -67,15 +80,22 @@ Diagnostic finding_of(RuleId id, Span span, std::string message, Case particular
   const Rule& rule = rule_of(id);
   Diagnostic d;
   d.rule = id;
-  d.severity = particular.severity.value_or(rule.severity());
+  d.field = particular.field;
+  const RuleField* const field = rule.field(particular.field);
+  assert((field != nullptr || particular.field.empty()) && "a field that its page does not list");
+  const RuleField of_all{};
+  const RuleField& own = field != nullptr ? *field : of_all;
+  d.severity = particular.severity.value_or(own.severity.value_or(rule.severity()));
   assert(std::find(rule.severities.begin(), rule.severities.end(), d.severity) !=
              rule.severities.end() &&
          "a severity that its page does not list");
   d.span = span;
   d.message = std::move(message);
-  d.reference_behaviour =
-      sentence(particular.solver.empty() ? rule.solver : std::move(particular.solver));
-  d.help = sentence(particular.fix.empty() ? rule.fix : std::move(particular.fix));
+  const auto first_of = [](std::string said, const std::string& of_field, const std::string& page) {
+    return sentence(!said.empty() ? std::move(said) : !of_field.empty() ? of_field : page);
+  };
+  d.reference_behaviour = first_of(std::move(particular.solver), own.solver, rule.solver);
+  d.help = first_of(std::move(particular.fix), own.fix, rule.fix);
   if (particular.message) {
     if (*particular.message != 0) d.reference = rule.message(*particular.message);
   } else if (!rule.messages.empty()) {

@@ -183,6 +183,12 @@ class PageReader {
       rule_.fixable = value == "safe" ? Fixable::safe : Fixable::unsafe;
       return value == "safe" || value == "unsafe";
     }
+    if (key == "fields") return read_fields(value, rule_.id);
+    if (key == "was") {
+      const auto blank = std::min(value.find(' '), value.size());
+      const RuleId was = id_of(std::string(value.substr(0, blank)) + ".md");
+      return was != RuleId::none && was != rule_.id && read_fields(value.substr(blank), was);
+    }
     if (key == "types")
       return each_item(value, [&](std::string_view item) {
         const auto number = whole_number(item);
@@ -190,6 +196,54 @@ class PageReader {
         return number.has_value();
       });
     return false;
+  }
+
+  /// "Gapmin, Gap": fields of the rule; "VISF (info)" has a severity of its own.
+  bool read_fields(std::string_view list, RuleId was) {
+    return each_item(list, [&](std::string_view item) {
+      const auto bracket = std::min(item.find('('), item.size());
+      RuleField field{std::string(trimmed(item.substr(0, bracket))), was};
+      if (bracket < item.size()) {
+        field.severity = severity_of(item.substr(bracket + 1, item.size() - bracket - 2));
+        if (!field.severity || item.back() != ')') return false;
+      }
+      if (field.name.empty() || rule_.field(field.name) != nullptr) return false;
+      rule_.fields.push_back(std::move(field));
+      return true;
+    });
+  }
+
+  /// "| a | b |" as its cells.
+  static std::vector<std::string_view> cells_of(std::string_view line) {
+    std::vector<std::string_view> out;
+    line.remove_prefix(1);
+    for (auto end = line.find('|'); end != std::string_view::npos; end = line.find('|')) {
+      out.push_back(trimmed(line.substr(0, end)));
+      line.remove_prefix(end + 1);
+    }
+    return out;
+  }
+
+  /// A table of what is particular about fields: their names, then the columns of its head:
+  /// "Solver", "Fix", and one of any other name, the note.
+  void read_table() {
+    const auto head = cells_of(next());
+    if (!next().starts_with("|--")) fail("a table has a line |---| below its head");
+    while (peek().starts_with('|')) {
+      const auto cells = cells_of(next());
+      bool known = cells.size() == head.size() && !cells.empty();
+      known = known && each_item(cells.front(), [&](std::string_view name) {
+                const auto field = std::find_if(rule_.fields.begin(), rule_.fields.end(),
+                                                [&](const RuleField& f) { return f.name == name; });
+                if (field == rule_.fields.end()) return false;
+                for (std::size_t i = 1; i < cells.size(); ++i)
+                  (head[i] == "Solver" ? field->solver
+                   : head[i] == "Fix"  ? field->fix
+                                       : field->note) = cells[i];
+                return true;
+              });
+      if (!known) fail("a line of a table has the cells of its head, the first one names fields");
+    }
   }
 
   void read_section(const Section& section) {
@@ -205,8 +259,11 @@ class PageReader {
     if (section.example) {
       read_example(text, rest);
     } else {
-      for (text = rest; !done() && next_heading().empty(); next())
-        text += (text.empty() ? "" : " ") + std::string(peek());
+      for (text = rest; !done() && next_heading().empty();)
+        if (peek().starts_with('|'))
+          read_table();
+        else
+          text += (text.empty() ? "" : " ") + std::string(next());
     }
     if (text.empty()) fail("the section '**" + std::string(section.heading) + ".**' is empty");
   }

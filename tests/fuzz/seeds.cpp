@@ -180,10 +180,11 @@ void replays(Seeds& seeds) {
 }
 
 void others(Seeds& seeds) {
-  seeds.put("fuzz_config", "toml",
-            "select = [\"DK2\", \"DK104\"]\nignore = [\"DK203\"]\nfail-on = \"warning\"\nbaseline "
-            "= \"b.json\"\n"
-            "[severity]\nDK104 = \"error\"\n[per-file-ignores]\n\"legacy/**/*.rad\" = [\"DK1\"]\n");
+  seeds.put(
+      "fuzz_config", "toml",
+      "select = [\"DK2\", \"DK104\"]\nignore = [\"DK201:Ibag\"]\nfail-on = \"warning\"\nbaseline "
+      "= \"b.json\"\n"
+      "[severity]\nDK104 = \"error\"\n[per-file-ignores]\n\"legacy/**/*.rad\" = [\"DK1\"]\n");
   seeds.put(
       "fuzz_config", "baseline",
       R"({"schema":"deck.baseline/2","decks":{"a_0000.rad":[{"file":"a_0000.rad","fingerprint":)"

@@ -24,8 +24,12 @@ NO_CLAIM = ("Not known", "Nothing")
 def page(path):
     head, body = open(path, encoding="utf-8").read().split("\n---\n", 1)
     keys = dict(line.split(": ", 1) for line in head.split("\n")[1:])
+    rows = [line.strip("| ").split("|") for line in body.splitlines() if line.startswith("| ")]
+    body = re.sub(r"^\|.*\n", "", body, flags=re.M)
     sections = {m.group(1): " ".join(m.group(2).split())
                 for m in re.finditer(r"^\*\*(.*?)\.\*\*\s(.*?)(?=\n\n\*\*|\s*\Z)", body, re.S | re.M)}
+    for row in rows[1:]:
+        sections.update({"%s, column %d" % (row[0].strip(), n): cell.strip() for n, cell in enumerate(row[1:], 2) if cell.strip()})
     return keys, sections
 
 
@@ -38,11 +42,10 @@ def wrong_words(keys, sections):
     claim = sections.get(SOLVER, "")
     if not sources(keys) and not claim.startswith(NO_CLAIM):
         yield "claims '%s' without a source (known_from)" % claim[:60]
-    for name in TEXTS:
-        text = sections.get(name)
-        if text is None:
+    for name, text in sections.items():
+        if name not in TEXTS and ", column" not in name:
             continue
-        name_first = re.match(r"deck\b|[a-z]+_", text)  # the program, or a field
+        name_first = re.match(r"deck\b|[a-z]+_|%|dtmin", text)  # the program, or a field
         if text[0].islower() and not name_first:
             yield "'%s' does not begin with a capital: %s" % (name, text[:40])
         if not text.endswith((".", "!", "?")):

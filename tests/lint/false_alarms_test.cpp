@@ -29,7 +29,7 @@ TEST(MissingInclude, HidesWhatItMayExplain) {
 
 TEST(MissingInclude, DoesNotHideWhatIsWrongInTheFilesThatAreThere) {
   const Linted run = lint_example("@/INTER/TYPE7/1 Stfac=-1.0 Gapmin=1.0\n#include parts.inc\n");
-  EXPECT_TRUE(run.fires(RuleId::DK223)) << run.list();
+  EXPECT_TRUE(run.fires(RuleId::DK221)) << run.list();
 }
 
 /// TYPE25 and TYPE5 have fields of their own in columns 11 to 30 of that line.

@@ -33,7 +33,7 @@ TEST_P(EveryFix, RemovesItsFinding) {
   LintOptions only;
   only.select = {std::string(id_text(rule.id))};
   // An unused suppression is one only where the suppressed rule runs as well.
-  if (rule.id == RuleId::DK091) only.select.emplace_back("DK223");
+  if (rule.id == RuleId::DK091) only.select.emplace_back("DK221");
   const Linted before = lint_example(rule.bad, only);
   ASSERT_TRUE(before.fires(rule.id));
   std::size_t with_fix = 0;
@@ -126,13 +126,13 @@ TEST(SafeFixes, MoveNoCellOfALineWithCommas) {
 
 TEST(SafeFixes, MakeNoKeywordOfALine) {
   LintOptions only;
-  only.select = {"DK279"};
+  only.select = {"DK265"};
   const auto fixable = [&](const char* viss) {
     const Linted run = lint_example("/INTER/TYPE10/1\nexample\n         2         1\n\n" +
                                         std::string(30, ' ') + "         6" + viss + "\n",
                                     only);
-    EXPECT_EQ(run.count(RuleId::DK279), 1u) << run.list();
-    return run.count(RuleId::DK279) == 1 && run.find(RuleId::DK279)->fix.has_value();
+    EXPECT_EQ(run.count(RuleId::DK265), 1u) << run.list();
+    return run.count(RuleId::DK265) == 1 && run.find(RuleId::DK265)->fix.has_value();
   };
   EXPECT_TRUE(fixable("                 0.1"));
   EXPECT_FALSE(fixable("                   /")) << "it would be the first text of the line";
@@ -244,7 +244,7 @@ TEST(ApplyFixes, LeavesUnsafeOnesUnlessAsked) {
 class FixedTogether : public testing::Test {
  protected:
   static constexpr const char* suppressed_ =
-      "# decklint: ignore[DK223] reason=known\n/INTER/TYPE7/1\nx\n         1         1\n\n\n\n\n";
+      "# decklint: ignore[DK221] reason=known\n/INTER/TYPE7/1\nx\n         1         1\n\n\n\n\n";
   static std::string main_deck(const std::string& more) {
     return "#RADIOSS STARTER\n/BEGIN\nx\n      2022         0\n" + more + "/END\n";
   }
@@ -255,7 +255,7 @@ class FixedTogether : public testing::Test {
   }
   Linted lint(const std::string& path) const {
     LintOptions only;
-    only.select = {"DK091", "DK223"};
+    only.select = {"DK091", "DK221"};
     return lint_file(path, only);
   }
   Folder folder_;

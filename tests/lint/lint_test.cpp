@@ -12,8 +12,8 @@ constexpr const char* negative = "@/INTER/TYPE7/1 Stfac=-1.0\n";
 
 TEST(Suppression, InFrontOfTheHeaderCoversTheBlockBehindIt) {
   const Linted run =
-      lint_example(std::string("# decklint: ignore[DK223] reason=a test\n") + negative);
-  EXPECT_FALSE(run.fires(RuleId::DK223)) << run.list();
+      lint_example(std::string("# decklint: ignore[DK221] reason=a test\n") + negative);
+  EXPECT_FALSE(run.fires(RuleId::DK221)) << run.list();
   EXPECT_EQ(run.result.suppressed, 1u);
   EXPECT_FALSE(run.fires(RuleId::DK091));
 }
@@ -23,13 +23,13 @@ TEST(Suppression, InsideABlockCoversTheWholeBlock) {
   const auto at = text.find("example\n", text.find("/INTER/TYPE7/1"));
   const Linted run = lint_text(
       std::string(text).insert(at + 8, "# decklint: ignore[DK2] reason=a prefix works too\n"));
-  EXPECT_FALSE(run.fires(RuleId::DK223)) << run.list();
+  EXPECT_FALSE(run.fires(RuleId::DK221)) << run.list();
   EXPECT_EQ(run.result.suppressed, 1u);
 }
 
 TEST(Suppression, IsFoundWhereTwoStretchesOfALargeFileMeet) {
   const std::string text = example_deck(negative, SchemaSet::built_in()).main;
-  const std::string comment = "# decklint: ignore[DK223] reason=a test\n";
+  const std::string comment = "# decklint: ignore[DK221] reason=a test\n";
   const auto at = text.find("/INTER/TYPE7/1");
   constexpr std::size_t stretch = std::size_t{8} << 20;
   const std::size_t colon = comment.find(':');
@@ -43,62 +43,135 @@ TEST(Suppression, IsFoundWhereTwoStretchesOfALargeFileMeet) {
 }
 
 TEST(Suppression, DoesNotReachTheNextBlock) {
-  const Linted run = lint_example(std::string("# decklint: ignore[DK223] reason=a test\n") +
+  const Linted run = lint_example(std::string("# decklint: ignore[DK221] reason=a test\n") +
                                   "@/INTER/TYPE7/2 Fric=0.1\n" + negative);
-  EXPECT_TRUE(run.fires(RuleId::DK223));
+  EXPECT_TRUE(run.fires(RuleId::DK221));
   EXPECT_TRUE(run.fires(RuleId::DK091)) << "the suppression covers nothing";
 }
 
 TEST(Suppression, WithoutReasonHasNoEffectAndIsAFinding) {
-  const Linted run = lint_example(std::string("# decklint: ignore[DK223]\n") + negative);
-  EXPECT_TRUE(run.fires(RuleId::DK223));
+  const Linted run = lint_example(std::string("# decklint: ignore[DK221]\n") + negative);
+  EXPECT_TRUE(run.fires(RuleId::DK221));
   EXPECT_TRUE(run.fires(RuleId::DK090));
   EXPECT_EQ(run.result.suppressed, 0u);
 }
 
 TEST(Suppression, OfAFileStandsAtItsTop) {
   std::string text = example_deck(negative, SchemaSet::built_in()).main;
-  const std::string comment = "# decklint: ignore-file[DK223] reason=a test\n";
+  const std::string comment = "# decklint: ignore-file[DK221] reason=a test\n";
   const Linted top = lint_text(std::string(text).insert(text.find("/BEGIN"), comment));
-  EXPECT_FALSE(top.fires(RuleId::DK223)) << top.list();
+  EXPECT_FALSE(top.fires(RuleId::DK221)) << top.list();
   const Linted late = lint_text(std::string(text).insert(text.find("/INTER"), comment));
-  EXPECT_TRUE(late.fires(RuleId::DK223));
+  EXPECT_TRUE(late.fires(RuleId::DK221));
   EXPECT_TRUE(late.fires(RuleId::DK093));
 }
 
 TEST(Suppression, OfARuleThatIsSwitchedOffIsNotCalledUnused) {
   LintOptions options;
-  options.ignore = {"DK223"};
+  options.ignore = {"DK221"};
   const Linted run = lint_example(
-      std::string("# decklint: ignore[DK223] reason=a test\n") + "@/INTER/TYPE7/1\n", options);
+      std::string("# decklint: ignore[DK221] reason=a test\n") + "@/INTER/TYPE7/1\n", options);
   EXPECT_FALSE(run.fires(RuleId::DK091)) << run.list();
 }
 
 TEST(Selection, SelectAndIgnoreTakeIdsAndPrefixes) {
   LintOptions only;
-  only.select = {"DK223"};
+  only.select = {"DK221"};
   const Linted a = lint_example(negative, only);
   ASSERT_EQ(a.result.diagnostics.size(), 1u) << a.list();
-  EXPECT_EQ(a.result.diagnostics[0].rule, RuleId::DK223);
+  EXPECT_EQ(a.result.diagnostics[0].rule, RuleId::DK221);
   LintOptions without;
   without.ignore = {"DK2"};
-  EXPECT_FALSE(lint_example(negative, without).fires(RuleId::DK223));
+  EXPECT_FALSE(lint_example(negative, without).fires(RuleId::DK221));
 }
 
 TEST(Selection, SeverityOverrideWithTheLongestSelectorWins) {
   LintOptions options;
-  options.severity = {{"DK2", Severity::info}, {"DK223", Severity::warning}};
+  options.severity = {{"DK2", Severity::info}, {"DK221", Severity::warning}};
   const Linted run = lint_example(negative, options);
-  ASSERT_TRUE(run.fires(RuleId::DK223));
-  EXPECT_EQ(run.find(RuleId::DK223)->severity, Severity::warning);
+  ASSERT_TRUE(run.fires(RuleId::DK221));
+  EXPECT_EQ(run.find(RuleId::DK221)->severity, Severity::warning);
 }
 
 TEST(Selection, PerFileIgnoresFollowTheGlob) {
   LintOptions options;
-  options.per_file_ignores = {{"*_0000.rad", {"DK223"}}};
-  EXPECT_FALSE(lint_example(negative, options).fires(RuleId::DK223));
-  options.per_file_ignores = {{"*.inc", {"DK223"}}};
-  EXPECT_TRUE(lint_example(negative, options).fires(RuleId::DK223));
+  options.per_file_ignores = {{"*_0000.rad", {"DK221"}}};
+  EXPECT_FALSE(lint_example(negative, options).fires(RuleId::DK221));
+  options.per_file_ignores = {{"*.inc", {"DK221"}}};
+  EXPECT_TRUE(lint_example(negative, options).fires(RuleId::DK221));
+}
+
+constexpr const char* two_negative = "@/INTER/TYPE7/1 Stfac=-1.0 Gapmin=-0.5\n";
+
+TEST(Selection, OfAFieldTakesThatFieldAlone) {
+  const auto fields = [](const Linted& run) {
+    std::string out;
+    for (const Diagnostic& d : run.result.diagnostics)
+      if (d.rule == RuleId::DK221) out += finding_name(d) + " ";
+    return out;
+  };
+  EXPECT_EQ(fields(lint_example(two_negative)), "DK221:Stfac DK221:Gapmin ");
+  for (const char* stfac : {"DK221:Stfac", "DK223"}) {
+    LintOptions only, without, file;
+    only.select = without.ignore = {stfac};
+    file.per_file_ignores = {{"*_0000.rad", {stfac}}};
+    EXPECT_EQ(fields(lint_example(two_negative, only)), "DK221:Stfac ");
+    EXPECT_EQ(fields(lint_example(two_negative, without)), "DK221:Gapmin ");
+    EXPECT_EQ(fields(lint_example(two_negative, file)), "DK221:Gapmin ");
+    const std::string comment = "# decklint: ignore[" + std::string(stfac) + "] reason=a test\n";
+    EXPECT_EQ(fields(lint_example(comment + two_negative)), "DK221:Gapmin ");
+    // A comment that hides nothing.
+    EXPECT_TRUE(lint_example(comment + "@/INTER/TYPE7/1 Gapmin=-0.5\n").fires(RuleId::DK091));
+  }
+}
+
+TEST(Selection, OfAFieldCountsNothingElse) {
+  LintOptions only;
+  only.select = {"DK221:Gapmin"};
+  only.diagnostics_per_rule = 1;
+  const Linted run = lint_example(std::string(negative) + two_negative, only);
+  ASSERT_EQ(run.result.diagnostics.size(), 1u) << run.list();
+  EXPECT_EQ(run.result.diagnostics[0].field, "Gapmin");
+  EXPECT_TRUE(run.result.dropped.empty());
+}
+
+TEST(Selection, ASeverityOfAFieldIsCloserThanThatOfItsRule) {
+  for (const char* stfac : {"DK221:Stfac", "DK223"}) {
+    LintOptions options;
+    options.severity = {{"DK221", Severity::info}, {stfac, Severity::error}};
+    const Linted run = lint_example(two_negative, options);
+    EXPECT_EQ(run.result.errors, 1u) << run.list();
+    EXPECT_EQ(run.find(RuleId::DK221)->severity, Severity::error);
+  }
+}
+
+TEST(FormerIds, AreAnsweredWithTheFieldsThatTheyMean) {
+  EXPECT_EQ(renamed_selector("DK202"), "DK202 is now DK201:Igap");
+  EXPECT_EQ(renamed_selector("DK224"), "DK224 is now DK221:Fric, DK221:Fric_pair, DK221:Fric_dir2");
+  for (const char* current : {"DK201", "DK201:Igap", "DK2", "all", "DK217", "DK999"})
+    EXPECT_EQ(renamed_selector(current), "") << current;
+  EXPECT_TRUE(known_selector("DK202"));
+  EXPECT_TRUE(known_selector("DK201:Igap"));
+  EXPECT_FALSE(known_selector("DK201:Gapmin"));
+  const Linted run =
+      lint_example(std::string("# decklint: ignore[DK223] reason=a test\n") + negative);
+  ASSERT_TRUE(run.fires(RuleId::DK092)) << run.list();
+  EXPECT_EQ(run.find(RuleId::DK092)->message, "DK223 is now DK221:Stfac");
+  EXPECT_EQ(run.find(RuleId::DK092)->severity, Severity::info);
+}
+
+/// Baselines that were written before the rules became one.
+TEST(FormerIds, KeepTheirFingerprints) {
+  const auto print = [](const char* example) {
+    const Linted run = lint_example(example);
+    for (std::size_t i = 0; i < run.result.diagnostics.size(); ++i)
+      if (!run.result.diagnostics[i].field.empty()) return run.result.fingerprints[i];
+    return std::string();
+  };
+  EXPECT_EQ(print("@/INTER/TYPE7/1 Istf=7\n"), "aa938647f5703a2d");
+  EXPECT_EQ(print("@/INTER/TYPE7/1 Igap=9\n"), "b164de3499dcbf3e");
+  EXPECT_EQ(print(negative), "b9e13d04dd7fdf4b");
+  EXPECT_EQ(print("@/INTER/TYPE7/1 Igap=2 %mesh_size=0.4\n"), "de43601330fefe7c");
 }
 
 /// A deck whose only finding is a negative Stfac, in a folder of its own.
@@ -109,7 +182,7 @@ class Baselines : public testing::Test {
   }
   Linted lint(const std::string& path, const std::string& baseline = {}) const {
     LintOptions options;
-    options.select = {"DK223"};
+    options.select = {"DK221"};
     if (!baseline.empty()) {
       const auto parsed = parse_baseline(baseline, file_);
       EXPECT_TRUE(parsed) << parsed.error().message;
@@ -141,24 +214,24 @@ TEST_F(Baselines, HideTheFindingsOfTheirDeckWhereverTheCardMoves) {
   EXPECT_TRUE(again.result.stale.empty());
   // Lines above move the card, but not its fingerprint; a changed value is a new finding.
   deck("old_0000.rad", std::string("# a comment\n/TITLE\nx\n") + negative);
-  EXPECT_FALSE(lint(path, baseline).fires(RuleId::DK223));
+  EXPECT_FALSE(lint(path, baseline).fires(RuleId::DK221));
   deck("old_0000.rad", "@/INTER/TYPE7/1 Stfac=-2.0\n");
-  EXPECT_TRUE(lint(path, baseline).fires(RuleId::DK223));
+  EXPECT_TRUE(lint(path, baseline).fires(RuleId::DK221));
 }
 
 TEST_F(Baselines, HideNothingInADeckThatWasNeverInThem) {
   const std::string baseline = baseline_of({deck("old_0000.rad", negative)});
-  EXPECT_TRUE(lint(deck("new_0000.rad", negative), baseline).fires(RuleId::DK223));
+  EXPECT_TRUE(lint(deck("new_0000.rad", negative), baseline).fires(RuleId::DK221));
 }
 
 TEST_F(Baselines, CountPerDeck) {
   const std::string a = deck("a_0000.rad", negative), b = deck("b_0000.rad", negative);
   const std::string baseline = baseline_of({a, b});
-  EXPECT_FALSE(lint(a, baseline).fires(RuleId::DK223));
-  EXPECT_FALSE(lint(b, baseline).fires(RuleId::DK223));
+  EXPECT_FALSE(lint(a, baseline).fires(RuleId::DK221));
+  EXPECT_FALSE(lint(b, baseline).fires(RuleId::DK221));
   // The same card once more: one finding more than this deck may have.
   deck("a_0000.rad", std::string(negative) + negative);
-  EXPECT_EQ(lint(a, baseline).count(RuleId::DK223), 1u);
+  EXPECT_EQ(lint(a, baseline).count(RuleId::DK221), 1u);
 }
 
 TEST_F(Baselines, ListWhatDoesNotOccurAnyMore) {
@@ -214,9 +287,9 @@ TEST(Floods, AreCountedBeyondTheBound) {
   LintOptions options;
   options.diagnostics_per_rule = 5;
   const Linted run = lint_example(text, options);
-  EXPECT_EQ(run.count(RuleId::DK223), 5u);
-  EXPECT_EQ(run.result.counts.at(RuleId::DK223), 40u);
-  EXPECT_EQ(run.result.dropped.at(RuleId::DK223), 35u);
+  EXPECT_EQ(run.count(RuleId::DK221), 5u);
+  EXPECT_EQ(run.result.counts.at(RuleId::DK221), 40u);
+  EXPECT_EQ(run.result.dropped.at(RuleId::DK221), 35u);
   EXPECT_GE(run.result.warnings, 40u);
 }
 
@@ -239,7 +312,7 @@ TEST(NotChecked, CountsRulesOnlyWhereSomeAreOff) {
   };
   EXPECT_EQ(rules_off({}), "");
   LintOptions options;
-  options.ignore = {"DK203"};
+  options.ignore = {"DK201"};
   EXPECT_EQ(rules_off(options), "1 of " + std::to_string(all_rules().size()) + " rules");
 }
 
@@ -419,15 +492,15 @@ TEST(UnknownKeyword, SuggestsTheClosestOne) {
 
 TEST(Config, ReadsEveryKey) {
   const auto config = parse_lint_config(
-      "select = [\"DK2\"]\nignore = [\"DK223\"]\nfail-on = \"warning\"\nbaseline = \"base.json\"\n"
-      "[severity]\nDK271 = \"error\"\n[per-file-ignores]\n\"*.inc\" = [\"DK0\"]\n",
+      "select = [\"DK2\"]\nignore = [\"DK221\"]\nfail-on = \"warning\"\nbaseline = \"base.json\"\n"
+      "[severity]\n\"DK265:VISF\" = \"error\"\n[per-file-ignores]\n\"*.inc\" = [\"DK0\"]\n",
       "/some/where/.decklint.toml");
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->select, std::vector<std::string>{"DK2"});
-  EXPECT_EQ(config->ignore, std::vector<std::string>{"DK223"});
+  EXPECT_EQ(config->ignore, std::vector<std::string>{"DK221"});
   EXPECT_EQ(config->fail_on, "warning");
   EXPECT_EQ(config->baseline, "/some/where/base.json");
-  EXPECT_EQ(config->severity.at("DK271"), Severity::error);
+  EXPECT_EQ(config->severity.at("DK265:VISF"), Severity::error);
   ASSERT_EQ(config->per_file_ignores.size(), 1u);
   EXPECT_EQ(config->per_file_ignores[0].first, "*.inc");
 }

@@ -59,7 +59,7 @@ TEST(ExplainTopic, ANumberOfAMessageAndOfARuleShowsBoth) {
   EXPECT_TRUE(has(both, "\nThe rule of that number\n\nDK312: ")) << both;
   EXPECT_TRUE(has(both, "Its page: deck explain DK312\n")) << both;
   EXPECT_FALSE(has(explain_topic("WARNING 312", schemas()), "DK312: "));
-  EXPECT_TRUE(explain_topic("203", schemas()).starts_with("DK203: "));
+  EXPECT_TRUE(explain_topic("204", schemas()).starts_with("DK204 is now DK201:Idel.\n\nDK201: "));
 }
 
 TEST(ExplainTopic, WordsOfAMessageLeadToIt) {

@@ -24,7 +24,8 @@ LintOptions only(std::string rule) {
 TEST(HumanReport, PointsAtTheCell) {
   const Linted run = lint_example("@/INTER/TYPE7/1 Istf=7\n", only("DK201"));
   const std::string text = lint_human(one(run), {});
-  EXPECT_NE(text.find("warning[DK201]: Istf of /INTER/TYPE7 1 is 7"), std::string::npos) << text;
+  EXPECT_NE(text.find("warning[DK201:Istf]: Istf of /INTER/TYPE7 1 is 7"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("         2         1         7\n"), std::string::npos) << text;
   EXPECT_NE(text.find("                             ^\n"), std::string::npos) << text;
   EXPECT_NE(text.find("= solver: "), std::string::npos);
@@ -39,7 +40,7 @@ TEST(HumanReport, ColoursAndRulerOnRequest) {
   HumanOptions options;
   options.color = options.ruler = true;
   const std::string text = lint_human(one(run), options);
-  EXPECT_NE(text.find("\x1b[1;33mwarning[DK201]"), std::string::npos);
+  EXPECT_NE(text.find("\x1b[1;33mwarning[DK201:Istf]"), std::string::npos);
   EXPECT_NE(text.find("....+....1....+....2"), std::string::npos);
 }
 
@@ -82,27 +83,27 @@ TEST(HumanReport, GroupsMoreThanThreeOfARule) {
   const Linted run = lint_example(many_alike(), these({"DK201"}));
   ASSERT_EQ(run.count(RuleId::DK201), 20u) << run.list();
   const std::string grouped = lint_human(one(run), {});
-  EXPECT_EQ(count_of(grouped, "warning[DK201]"), 1u) << grouped;
-  EXPECT_NE(grouped.find("19 more of DK201: "), std::string::npos) << grouped;
+  EXPECT_EQ(count_of(grouped, "warning[DK201:Istf]"), 1u) << grouped;
+  EXPECT_NE(grouped.find("19 more of DK201:Istf: "), std::string::npos) << grouped;
   EXPECT_NE(grouped.find(": Istf of /INTER/TYPE7 2 is 7"), std::string::npos) << grouped;
   EXPECT_NE(grouped.find("… and 10 more"), std::string::npos) << grouped;
   HumanOptions all;
   all.group = false;
   all.per_rule = 0;
-  EXPECT_EQ(count_of(lint_human(one(run), all), "warning[DK201]"), 20u);
+  EXPECT_EQ(count_of(lint_human(one(run), all), "warning[DK201:Istf]"), 20u);
 }
 
 TEST(HumanReport, ThreeOfARuleAreShownInFull) {
   const Linted run = lint_example(
       "@/INTER/TYPE7/1 Istf=7\n@/INTER/TYPE7/2 Istf=7\n@/INTER/TYPE7/3 Istf=7\n", only("DK201"));
-  EXPECT_EQ(count_of(lint_human(one(run), {}), "warning[DK201]"), 3u) << run.list();
+  EXPECT_EQ(count_of(lint_human(one(run), {}), "warning[DK201:Istf]"), 3u) << run.list();
 }
 
 TEST(HumanReport, ShowsErrorsBeforeWarnings) {
   const Linted run = lint_example(many_alike(), these({"DK201", "DK254"}));
   const std::string text = lint_human(one(run), {});
   ASSERT_NE(text.find("error[DK254]"), std::string::npos) << text;
-  EXPECT_LT(text.find("error[DK254]"), text.find("warning[DK201]")) << text;
+  EXPECT_LT(text.find("error[DK254]"), text.find("warning[DK201:Istf]")) << text;
 }
 
 TEST(HumanReport, ManyDecksHaveOneListOfWhatWasNotCheckedAndOneTotal) {

@@ -76,6 +76,31 @@ TEST(RulePage, WithoutASectionAnExampleOrAnEndIsRefused) {
       << "a fence that stays open";
 }
 
+TEST(RulePage, SaysWhatIsParticularAboutAField) {
+  const auto with = [](const std::string& keys, const std::string& row) {
+    return detail::parse_rule_page(
+        "DK301.md",
+        replaced(replaced(page(), "types: 7", keys + "\ntypes: 7"), "\n\n**How to fix",
+                 "\n\n| Field | Why | Solver |\n|---|---|---|\n" + row + "\n\n**How to fix"));
+  };
+  const auto rule = with("fields: A\nwas: DK302 B, C (info)", "| A, C | It is so. | It stops. |");
+  ASSERT_TRUE(rule) << rule.error().message;
+  ASSERT_EQ(rule->fields.size(), 3u);
+  EXPECT_EQ(rule->field("A")->was, RuleId::DK301);
+  EXPECT_EQ(rule->field("B")->was, RuleId::DK302);
+  EXPECT_EQ(rule->field("B")->solver, "");
+  EXPECT_EQ(rule->field("C")->solver, "It stops.");
+  EXPECT_EQ(rule->field("C")->note, "It is so.");
+  EXPECT_EQ(rule->field("C")->severity, Severity::info);
+  EXPECT_EQ(rule->field("D"), nullptr);
+  EXPECT_EQ(rule->solver.find('|'), std::string::npos);
+  EXPECT_FALSE(with("fields: A", "| D | It is so. | It stops. |")) << "not a field";
+  EXPECT_FALSE(with("fields: A", "| A | It is so. |")) << "a cell is missing";
+  EXPECT_FALSE(with("fields: A, A", "| A | It is so. | It stops. |")) << "twice";
+  EXPECT_FALSE(with("was: DK301 A", "| A | It is so. | It stops. |")) << "its own id";
+  EXPECT_FALSE(with("fields: A (great)", "| A | It is so. | It stops. |"));
+}
+
 TEST(RulePage, MayLeaveOutWhenToIgnore) {
   const auto rule =
       detail::parse_rule_page("DK301.md", page().substr(0, page().find("**When to ignore")));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "lint/support.hpp"
 
@@ -75,6 +76,7 @@ constexpr Example examples[] = {
     {RuleId::DK171, 19,
      "/GRNOD/PART/9\nmore\n         1\n@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=9\n"},
     {RuleId::DK181, 19, "@/INTER/TYPE19/1 surf_IDs=0 surf_IDm=0\n"},
+    {RuleId::DK201, 10, "@/INTER/TYPE10/1 ITIED=7\n"},
     {RuleId::DK240, 11,
      "/INTER/TYPE11/1\nexample\n         2         1         0         1\n\n"
      "                 1.0                 0.0                 0.5\n       000\n\n"},
@@ -83,11 +85,8 @@ constexpr Example examples[] = {
      "/INTER/TYPE11/1\nexample\n         2         1\n\n\n"
      "                 1.0                 0.2                 0.5\n"
      "       000                             6\n"},
-    {RuleId::DK267, 11, "@/INTER/TYPE11/1 Istf=1 Stfac=5.0 Stmax=5.0\n"},
-    {RuleId::DK276, 11, "@/INTER/TYPE11/1 Ithe=1 Kthe=1.0 AscaleK=2.0\n"},
-    {RuleId::DK276, 19, "@/INTER/TYPE19/1 Ithe=1 Kthe=1.0 AscaleK=2.0\n"},
-    {RuleId::DK280, 7, "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Irem_gap=2\n"},
-    {RuleId::DK280, 19, "@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=1 Irem_gap=2\n"},
+    {RuleId::DK265, 10, "@/INTER/TYPE10/1 Inacti=6\n"},
+    {RuleId::DK265, 11, "@/INTER/TYPE11/1 Igap=1 %mesh_size=0.4\n"},
     {RuleId::DK297, 11, "@/INTER/TYPE11/1 IBCX=1\n"},
     {RuleId::DK302, 19, "CORNER 0.00@/INTER/TYPE19/1 surf_IDs=9 Gapmin=1\n"},
     {RuleId::DK303, 19, "CORNER 0.00@/INTER/TYPE19/1 surf_IDs=9 Gapmin=1 Inacti=1\n"},
@@ -141,11 +140,169 @@ TEST_P(RuleTypes, FiresForExactlyTheTypesOfItsPage) {
 INSTANTIATE_TEST_SUITE_P(Rules, RuleTypes, testing::ValuesIn(rules_with_types()),
                          [](const auto& one) { return one.param; });
 
+/// A field of a rule that says the same of several: a card that fires, one that does not ("PAIR":
+/// of a /FRICTION), and the interface types; without any it fires for every type that has the
+/// field.
+struct FieldExample {
+  RuleId rule;
+  std::string_view field, bad, good;
+  std::vector<int> types = {};
+
+  std::string text(std::string_view card) const {
+    if (card.starts_with('@')) return std::string(card) + "\n";
+    if (card.starts_with("PAIR"))
+      return "@/FRICTION/1 Fric=0.1 grpart_ID1=0 part_ID1=1 part_ID2=2" +
+             std::string(card.substr(4)) + "\n@/INTER/TYPE7/1 fric_ID=1\n";
+    return "@/INTER/TYPE" + std::to_string(types.empty() ? 7 : types.front()) + "/1 " +
+           std::string(card) + "\n";
+  }
+};
+
+const std::vector<FieldExample>& field_examples() {
+  using enum RuleId;
+  static const std::vector<FieldExample> all = {
+      {DK201, "Istf", "Istf=7", "Istf=4"},
+      {DK201, "Igap", "Igap=9", "Igap=3"},
+      {DK201, "Ibag", "Ibag=4", "Ibag=1000"},
+      {DK201, "Idel", "Idel=5", "Idel=-2"},
+      {DK201, "Icurv", "Icurv=5", "Icurv=3"},
+      {DK201, "Iadm", "Iadm=3", "Iadm=1"},
+      {DK201, "Inacti", "Inacti=8", "Inacti=6"},
+      {DK201, "Irem_gap", "Irem_gap=4", "Irem_gap=2"},
+      {DK201, "Irem_i2", "Irem_i2=5", "Irem_i2=3"},
+      {DK201, "Iform", "Iform=6", "Iform=2"},
+      {DK201, "ITIED", "ITIED=7", "ITIED=1"},
+      {DK201, "Ifric", "Ifric=6 C1=0.1 C6=0.1", "Ifric=1 C1=0.1"},
+      {DK201, "Ifiltr", "Fric=0.1 Ifiltr=5 Xfreq=0.5", "Fric=0.1 Ifiltr=1 Xfreq=0.5"},
+      {DK201, "Ithe", "Ithe=3", "Ithe=1 Kthe=1.0"},
+      {DK201, "Ithe_form", "Ithe=1 Kthe=1.0 Ithe_form=3", "Ithe=1 Kthe=1.0 Ithe_form=1"},
+      {DK201,
+       "Iedge",
+       "@/DEFAULT/INTER/TYPE19 Iedge=7\n@/INTER/TYPE19/1",
+       "@/DEFAULT/INTER/TYPE19 Iedge=1\n@/INTER/TYPE19/1",
+       {19}},
+      {DK201,
+       "Idir",
+       "PAIR Idir=4 C1_pair=0.0 Fric_pair=0.2",
+       "PAIR Idir=0 C1_pair=0.0 Fric_pair=0.2",
+       {7}},
+      {DK221, "Gapmin", "Gapmin=-0.5", "Gapmin=0.5", {7, 11, 19}},
+      {DK221, "Gapmax", "Igap=2 Gapmax=-0.5", "Igap=2 Gapmax=0.5"},
+      {DK221, "Stfac", "Stfac=-0.5", "Stfac=0.5"},
+      {DK221, "Fric", "Fric=-0.5", "Fric=0.5"},
+      {DK221, "VISs", "VISs=-0.5", "VISs=0.5"},
+      {DK221, "VISF", "Fric=0.2 VISF=-0.5", "Fric=0.2 VISF=0.5"},
+      {DK221, "Bumult", "Bumult=-0.5", "Bumult=0.5"},
+      {DK221, "Fscalegap", "Igap=2 Fscalegap=-0.5", "Igap=2 Fscalegap=0.5"},
+      {DK221, "Fpenmax", "Fpenmax=-0.5", "Fpenmax=0.5"},
+      {DK221, "Stmin", "Istf=4 Stmin=-0.5", "Istf=4 Stmin=0.5"},
+      {DK221, "Stmax", "Istf=4 Stmax=-0.5", "Istf=4 Stmax=0.5"},
+      {DK221, "%mesh_size", "Igap=3 %mesh_size=-0.5", "Igap=3 %mesh_size=0.5"},
+      {DK221, "dtmin", "dtmin=-0.5", "dtmin=0.5"},
+      {DK221, "Tstart", "Tstart=-0.5", "Tstart=0.5"},
+      {DK221, "Tstop", "Tstop=-0.5", "Tstop=0.5"},
+      {DK221, "Kthe", "Ithe=1 Kthe=-0.5", "Ithe=1 Kthe=0.5"},
+      {DK221, "Frad", "Ithe=1 Kthe=1.0 Frad=-0.5", "Ithe=1 Kthe=1.0 Frad=0.5"},
+      {DK221, "Drad", "Ithe=1 Kthe=1.0 Drad=-0.5", "Ithe=1 Kthe=1.0 Drad=0.5"},
+      {DK221, "NRadm", "Iadm=2 Padm=1.0 NRadm=-1", "Iadm=2 Padm=1.0 NRadm=1"},
+      {DK221, "Padm", "Iadm=2 NRadm=3 Padm=-0.5", "Iadm=2 NRadm=3 Padm=0.5"},
+      {DK221, "Angladm", "Iadm=2 NRadm=3 Padm=1.0 Angladm=-0.5",
+       "Iadm=2 NRadm=3 Padm=1.0 Angladm=0.5"},
+      {DK221, "Gap", "Gap=-0.5", "Gap=0.5", {10}},
+      {DK221,
+       "Edge_scale_gap",
+       "@version 2024\n@/INTER/TYPE19/1 Edge_scale_gap=-0.5",
+       "@version 2024\n@/INTER/TYPE19/1 Edge_scale_gap=0.5",
+       {19}},
+      {DK221, "Rthe", "@version 120\n@/INTER/TYPE7/1 Ithe=1 Rthe=-1.0",
+       "@version 120\n@/INTER/TYPE7/1 Ithe=1 Rthe=1.0"},
+      {DK221,
+       "Fric_pair",
+       "PAIR C1_pair=0.0 Fric_pair=-0.2",
+       "PAIR C1_pair=0.0 Fric_pair=0.2",
+       {7}},
+      {DK221,
+       "Fric_dir2",
+       "PAIR Idir=1 C1_pair=0.0 Fric_pair=0.2 C1_dir2=0.0 Fric_dir2=-0.2",
+       "PAIR Idir=1 C1_pair=0.0 Fric_pair=0.2 C1_dir2=0.0 Fric_dir2=0.2",
+       {7}},
+      {DK221,
+       "VISF_pair",
+       "PAIR C1_pair=0.0 VISF_pair=-0.2",
+       "PAIR C1_pair=0.0 VISF_pair=0.2",
+       {7}},
+      {DK221,
+       "VISF_dir2",
+       "PAIR Idir=1 C1_pair=0.0 Fric_pair=0.2 C1_dir2=0.0 VISF_dir2=-0.2",
+       "PAIR Idir=1 C1_pair=0.0 Fric_pair=0.2 C1_dir2=0.0 VISF_dir2=0.2",
+       {7}},
+      {DK265, "Gapmax", "Igap=1000 Gapmin=1.0 Gapmax=2.0", "Igap=2 Gapmin=1.0 Gapmax=2.0"},
+      {DK265, "Fscalegap", "Igap=1 Fscalegap=0.5", "Igap=2 Fscalegap=0.5"},
+      {DK265, "%mesh_size", "Igap=1 %mesh_size=0.4", "Igap=3 %mesh_size=0.4"},
+      {DK265, "Stmin", "Istf=1 Stmin=5.0", "Istf=4 Stmin=5.0"},
+      {DK265, "Stmax", "Istf=1 Stmax=5.0", "Istf=4 Stmax=5.0"},
+      {DK265, "node_ID2", "Icurv=1 node_ID1=1 node_ID2=2", "Icurv=1 node_ID1=1"},
+      {DK265, "VISF", "Fric=0.2 Iform=2 VISF=0.5", "Fric=0.2 Iform=1 VISF=0.5"},
+      {DK265, "Ifiltr", "Fric=0 Ifiltr=1 Xfreq=0.5", "Fric=0.2 Ifiltr=1 Xfreq=0.5"},
+      {DK265, "Fheats", "Ithe=1 Kthe=1.0 Fheats=0.5", "Fric=0.2 Ithe=1 Kthe=1.0 Fheats=0.5"},
+      {DK265, "Fheatm", "Ithe=1 Kthe=1.0 Fheatm=0.5", "Fric=0.2 Ithe=1 Kthe=1.0 Fheatm=0.5"},
+      {DK265, "Iedge", "Iedge=1", "Igap=1", {19}},
+      {DK265, "Multimp", "@version 110\n@/INTER/TYPE7/1 Multimp=12",
+       "@version 110\n@/INTER/TYPE7/1"},
+      {DK265, "AscaleF", "Fric=0.2 AscaleF=2.0", "Fric=0.2 fct_IDF=1"},
+      {DK265, "AscaleK", "Ithe=1 Kthe=1.0 AscaleK=2.0", "Ithe=1 Kthe=1.0 AscaleK=2.0 fct_IDK=1"},
+      {DK265, "Tint", "Ithe=1 Kthe=1.0 Ithe_form=1 Tint=300.0",
+       "Ithe=1 Kthe=1.0 Ithe_form=0 Tint=300.0"},
+      {DK265, "Drad", "Ithe=1 Kthe=1.0 Drad=5.0", "Ithe=1 Kthe=1.0 Frad=1.0e-12 Drad=5.0"},
+      {DK265, "Inacti", "Inacti=6", "Idel=1", {10}},
+      {DK265,
+       "Irem_gap",
+       "line_IDs=2 line_IDm=1 Irem_gap=2",
+       "line_IDs=1 line_IDm=1 Irem_gap=2",
+       {11}},
+      {DK265, "Irem_gap", "Irem_gap=2", "Irem_gap=1", {7}},
+      {DK265, "Irem_gap", "Irem_gap=2", "surf_IDs=1 Irem_gap=2", {19}},
+  };
+  return all;
+}
+
+bool fires(std::string_view example, const FieldExample& of) {
+  const Linted run = lint_example(example);
+  return std::any_of(run.result.diagnostics.begin(), run.result.diagnostics.end(),
+                     [&](const Diagnostic& d) { return d.rule == of.rule && d.field == of.field; });
+}
+
+TEST(RuleFields, FireForTheTypesThatHaveThem) {
+  for (const FieldExample& e : field_examples()) {
+    const std::string name = std::string(id_text(e.rule)) + ":" + std::string(e.field);
+    const std::string bad = e.text(e.bad);
+    EXPECT_TRUE(fires(bad, e)) << name << "\n" << bad;
+    EXPECT_FALSE(fires(e.text(e.good), e)) << name << "\n" << e.good;
+    for (const int type : all_types) {
+      const auto example = asked_about(bad, type);
+      // One that says its types asks for these alone: its text is another card for the others.
+      const bool listed = e.types.empty()
+                              ? example.has_value()
+                              : std::find(e.types.begin(), e.types.end(), type) != e.types.end();
+      if (listed) {
+        EXPECT_TRUE(example && fires(*example, e)) << name << " TYPE" << type;
+      }
+    }
+  }
+}
+
+TEST(RuleFields, HaveAnExampleEach) {
+  std::set<std::pair<RuleId, std::string>> asked, listed;
+  for (const FieldExample& e : field_examples()) asked.emplace(e.rule, e.field);
+  for (const Rule& r : all_rules())
+    for (const RuleField& f : r.fields) listed.emplace(r.id, f.name);
+  EXPECT_EQ(asked, listed);
+}
+
 TEST(RuleTypesTable, EveryRuleThatNamesAnInterfaceInItsExampleHasTypes) {
   for (const Rule& r : all_rules()) {
     const bool about_options = id_number(r.id) / 100 == 2 || id_number(r.id) / 100 == 9;
-    const bool about_pairs = r.id == RuleId::DK218;  // of /FRICTION
-    if (about_options && !about_pairs && r.bad.find("/INTER/TYPE") != std::string_view::npos) {
+    if (about_options && r.bad.find("/INTER/TYPE") != std::string_view::npos) {
       EXPECT_FALSE(r.types.empty()) << id_text(r.id);
     }
   }

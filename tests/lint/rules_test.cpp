@@ -245,8 +245,8 @@ TEST(RuleTable, FamiliesFollowTheLeadingDigit) {
   EXPECT_EQ(family_of(RuleId::DK250), "contact options");
   EXPECT_TRUE(selects("DK2", RuleId::DK250));
   EXPECT_TRUE(selects("all", RuleId::DK250));
-  EXPECT_FALSE(selects("DK25", RuleId::DK205));
-  EXPECT_FALSE(selects("", RuleId::DK205));
+  EXPECT_FALSE(selects("DK25", RuleId::DK217));
+  EXPECT_FALSE(selects("", RuleId::DK217));
   EXPECT_TRUE(known_selector("DK5"));
   EXPECT_FALSE(known_selector("DK7"));
 }

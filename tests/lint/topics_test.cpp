@@ -71,6 +71,17 @@ TEST(ExplainTopic, APrefixListsItsRules) {
   EXPECT_FALSE(has(page, "DK201 "));
 }
 
+TEST(ExplainTopic, AFieldAndAFormerIdLeadToTheirRule) {
+  const std::string all = explain_topic("DK201", schemas());
+  const std::string page = explain_topic("dk201:igap", schemas());
+  EXPECT_TRUE(has(all, "\n  Igap\n") && has(all, "\n  Ibag\n")) << all;
+  EXPECT_TRUE(has(page, "\n  Igap\n") && !has(page, "\n  Ibag\n")) << page;
+  EXPECT_TRUE(has(page, "ignore[DK201:Igap]")) << page;
+  EXPECT_EQ(explain_topic("DK202", schemas()), "DK202 is now DK201:Igap.\n\n" + page);
+  EXPECT_TRUE(explain_topic("DK201:Gapmin", schemas()).empty());
+  EXPECT_TRUE(has(explain_topic("DK265", schemas()), "\n  VISF (info)\n"));
+}
+
 TEST(ExplainTopic, WhatIsNotKnownIsEmptyAndHasNeighbours) {
   EXPECT_TRUE(explain_topic("Gapmim", schemas()).empty());
   const auto near = similar_topics("Gapmim", schemas());
@@ -134,10 +145,22 @@ TEST(ExplainTopic, PagesOfContactsFitANarrowTerminal) {
     EXPECT_LE(widest(explain_topic(topic, schemas(), 80)), 80u) << topic;
 }
 
+TEST(ExplainTopic, TheCellOfAnExampleIsMarked) {
+  const std::string blanks(39, ' ');
+  const std::string marked = "  | " + blanks + "5\n  | " + blanks + "^\n";
+  for (const std::size_t width : {0, 60})
+    EXPECT_TRUE(has(explain_topic("DK254", schemas(), width), marked.c_str())) << width;
+  // Where the cell is far to the right, what stands before it is left out.
+  const std::string narrow = explain_topic("DK220", schemas(), 40);
+  EXPECT_TRUE(has(narrow, "  … ")) << narrow;
+  EXPECT_TRUE(has(narrow, "^")) << narrow;
+  EXPECT_LE(widest(narrow), 40u);
+}
+
 TEST(ExplainTopic, ACardThatIsContinuedKeepsItsCellsWhole) {
-  const std::string page = explain_topic("DK203", schemas(), 60);
+  const std::string page = explain_topic("DK301", schemas(), 60);
   EXPECT_LE(widest(page), 60u);
-  const std::string whole = explain_topic("DK203", schemas(), 0);
+  const std::string whole = explain_topic("DK301", schemas(), 0);
   EXPECT_EQ(page.find("…") != page.npos, widest(whole) > 60u) << page;
 }
 

@@ -55,7 +55,7 @@ class Library:
         head, nodes, groups, contact = pieces()
         self.files, self.trees = {}, {}
         if r.random() < 0.3:
-            contact = "# decklint: ignore[DK223] reason=unused in all\n" + contact
+            contact = "# decklint: ignore[DK221] reason=unused in all\n" + contact
         if r.random() < 0.6:
             groups += "/GRNOD/NODE/77\nx\n\t      101\n"
         variants = {"common/mesh.inc": nodes, "common/sub/inter.inc": contact, "common/groups.inc": groups}
@@ -71,7 +71,7 @@ class Library:
                 else:
                     main += text
             if r.random() < 0.4:
-                main += "# decklint: ignore[DK223] reason=unused in %s\n/TITLE\nx\n" % name
+                main += "# decklint: ignore[DK221] reason=unused in %s\n/TITLE\nx\n" % name
             own = "%s/%s_0000.rad" % (name, name)
             self.files[own] = main + "/END\n"
             self.trees[own] = [own] + used

@@ -100,8 +100,8 @@ TEST_F(Together, DecksOfALintCallDoNotUndoOneAnothersFixes) {
   const std::string tab =
       "/TITLE\nx\n/SURF/SEG/7\ns\n\t 1         1         2         3         3\n";
   write(dir_ / "common/x.inc", tab);
-  put("a", "# decklint: ignore[DK223] reason=unused in a\n/TITLE\na\n");
-  ASSERT_LE(deck("lint a/a_0000.rad b/b_0000.rad --no-config --select DK013,DK091,DK223 --fix"), 1)
+  put("a", "# decklint: ignore[DK221] reason=unused in a\n/TITLE\na\n");
+  ASSERT_LE(deck("lint a/a_0000.rad b/b_0000.rad --no-config --select DK013,DK091,DK221 --fix"), 1)
       << err();
   EXPECT_EQ(shared().find('\t'), std::string::npos) << shared();
   EXPECT_EQ(read(dir_ / "a/a_0000.rad").find("decklint"), std::string::npos);
@@ -142,9 +142,9 @@ TEST_F(Together, SettingsThatTheCallReadsAreNoOutput) {
   const std::string baseline = read(dir_ / "base.json");
   EXPECT_EQ(deck("lint a/a_0000.rad --no-config --baseline base.json --json base.json"), 2);
   EXPECT_EQ(read(dir_ / "base.json"), baseline);
-  write(dir_ / "a/.decklint.toml", "ignore = [\"DK223\"]\n");
+  write(dir_ / "a/.decklint.toml", "ignore = [\"DK221\"]\n");
   EXPECT_EQ(deck("lint a/a_0000.rad -o junit=a/.decklint.toml"), 2);
-  EXPECT_EQ(read(dir_ / "a/.decklint.toml"), "ignore = [\"DK223\"]\n");
+  EXPECT_EQ(read(dir_ / "a/.decklint.toml"), "ignore = [\"DK221\"]\n");
 }
 
 TEST_F(Together, WhatABaselineHidesNoMoreIsListed) {

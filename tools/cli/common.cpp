@@ -367,7 +367,7 @@ std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& opti
     const std::string where = d.span.valid() ? loaded.deck().sources.where(d.span) : loaded.path();
     print_messages(fmt::format("{}: {}{}:{} {} [{}]\n", terminal_text(where),
                                color ? color_of(d.severity) : "", to_string(d.severity),
-                               color ? "\x1b[0m" : "", terminal_text(d.message), id_text(d.rule)));
+                               color ? "\x1b[0m" : "", terminal_text(d.message), finding_name(d)));
   }
   if (hidden > 0)
     print_messages(fmt::format("{}: {} more like these; 'deck lint {}' shows them all\n",

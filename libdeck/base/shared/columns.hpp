@@ -14,6 +14,11 @@ std::size_t character_width(std::uint32_t code);
 /// Columns of a text; a byte that is no UTF-8 takes one.
 std::size_t display_width(std::string_view text);
 
+/// What an editor's ruler shows over a column, counted from 1.
+constexpr char ruler_mark(std::size_t column) {
+  return column % 10 == 0 ? static_cast<char>('0' + column / 10 % 10) : column % 5 == 0 ? '+' : '.';
+}
+
 /// `text`, or as much of it as leaves room for "…" behind it.
 std::string cut_to(std::string_view text, std::size_t width);
 

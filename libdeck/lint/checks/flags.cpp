@@ -1,5 +1,6 @@
-// One rule per flag: the legal values come from the schemas, so a rule holds for every keyword and
-// version that has the flag. Values that deserve a message of their own have a rule of their own.
+// Values that a flag does not know: the legal ones come from the schemas, so a rule holds for every
+// keyword and version that has the flag. Values that deserve a message of their own have a rule of
+// their own.
 #include <algorithm>
 #include <cmath>
 
@@ -9,20 +10,10 @@
 namespace deck::detail {
 namespace {
 
-struct FlagRule {
-  RuleId id;
-  std::string_view field;
-};
-
-constexpr FlagRule flag_rules[] = {
-    {RuleId::DK201, "Istf"},      {RuleId::DK202, "Igap"},     {RuleId::DK203, "Ibag"},
-    {RuleId::DK204, "Idel"},      {RuleId::DK205, "Icurv"},    {RuleId::DK206, "Iadm"},
-    {RuleId::DK207, "Inacti"},    {RuleId::DK208, "Ifric"},    {RuleId::DK209, "Ifiltr"},
-    {RuleId::DK210, "Iform"},     {RuleId::DK211, "Irem_gap"}, {RuleId::DK212, "Irem_i2"},
-    {RuleId::DK213, "Ithe"},      {RuleId::DK214, "ITIED"},    {RuleId::DK215, "Iedge"},
-    {RuleId::DK216, "Ithe_form"}, {RuleId::DK218, "Idir"},     {RuleId::DK352, "Spotflag"},
-    {RuleId::DK353, "Ignore"},    {RuleId::DK354, "Isearch"},  {RuleId::DK355, "Idel2"},
-    {RuleId::DK356, "Rupt"},
+/// Flags with a rule of their own, of /INTER/TYPE2; DK201 lists the others.
+constexpr std::pair<RuleId, std::string_view> own_rules[] = {
+    {RuleId::DK352, "Spotflag"}, {RuleId::DK353, "Ignore"}, {RuleId::DK354, "Isearch"},
+    {RuleId::DK355, "Idel2"},    {RuleId::DK356, "Rupt"},
 };
 
 /// Values with a rule of their own.
@@ -33,16 +24,25 @@ bool special(std::string_view keyword, std::string_view field, std::int64_t valu
   return keyword == "/INTER/TYPE10" && field == "Inacti" && value == 5;
 }
 
-void check_block(const Rule& rule, std::string_view field, const DecodedBlock& block, Reporter& r) {
+bool is_about(const Rule& rule, std::string_view field) {
+  if (rule.field(field) != nullptr) return true;
+  return std::any_of(std::begin(own_rules), std::end(own_rules),
+                     [&](const auto& own) { return own == std::pair(rule.id, field); });
+}
+
+/// `only`: no other field; empty: all of them.
+void check_block(const Rule& rule, const DecodedBlock& block, Reporter& r,
+                 std::string_view only = {}) {
   for (const DecodedCard& card : block.cards)
     for (const Cell& cell : card.cells) {
       const Field& f = *cell.field;
-      if (f.name != field || f.values.empty() || cell.blank() ||
-          cell.status == NumberStatus::not_a_number)
+      if (f.values.empty() || cell.blank() || cell.status == NumberStatus::not_a_number ||
+          std::find(f.values.begin(), f.values.end(), cell.integer) != f.values.end())
         continue;
-      if (std::find(f.values.begin(), f.values.end(), cell.integer) != f.values.end()) continue;
-      if (special(block.block->schema->keyword, field, cell.integer)) continue;
-      Diagnostic* d = r.report(rule, *block.block, cell.span,
+      if (!is_about(rule, f.name) || (!only.empty() && f.name != only) ||
+          special(block.block->schema->keyword, f.name, cell.integer))
+        continue;
+      Diagnostic* d = r.report(rule, f.name, *block.block, cell.span,
                                fmt::format("{} of {} {} is {}; legal values are {}", f.name,
                                            block.block->schema->keyword, block.block->id.value,
                                            cell.integer, list_of(f.values)));
@@ -51,14 +51,10 @@ void check_block(const Rule& rule, std::string_view field, const DecodedBlock& b
 }
 
 void check_flag(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const FlagRule& f : flag_rules) {
-    if (f.id != rule.id) continue;
-    for (const ContactCard& card : c.contacts) check_block(rule, f.field, card.decoded, r);
-    for (const DecodedBlock& block : c.frictions) check_block(rule, f.field, block, r);
-    // Iedge is read from /DEFAULT only; the other flags of a default have DK505.
-    if (f.field == "Iedge")
-      for (const DecodedBlock& block : c.defaults) check_block(rule, f.field, block, r);
-  }
+  for (const ContactCard& card : c.contacts) check_block(rule, card.decoded, r);
+  for (const DecodedBlock& block : c.frictions) check_block(rule, block, r);
+  // Iedge is read from /DEFAULT only; the other flags of a default have DK505.
+  for (const DecodedBlock& block : c.defaults) check_block(rule, block, r, "Iedge");
 }
 
 void check_ibc(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -77,14 +73,9 @@ void check_ibc(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> flag_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK201, check_flag}, {RuleId::DK202, check_flag}, {RuleId::DK203, check_flag},
-      {RuleId::DK204, check_flag}, {RuleId::DK205, check_flag}, {RuleId::DK206, check_flag},
-      {RuleId::DK207, check_flag}, {RuleId::DK208, check_flag}, {RuleId::DK209, check_flag},
-      {RuleId::DK210, check_flag}, {RuleId::DK211, check_flag}, {RuleId::DK212, check_flag},
-      {RuleId::DK213, check_flag}, {RuleId::DK214, check_flag}, {RuleId::DK215, check_flag},
-      {RuleId::DK216, check_flag}, {RuleId::DK217, check_ibc},  {RuleId::DK218, check_flag},
-      {RuleId::DK352, check_flag}, {RuleId::DK353, check_flag}, {RuleId::DK354, check_flag},
-      {RuleId::DK355, check_flag}, {RuleId::DK356, check_flag},
+      {RuleId::DK201, check_flag}, {RuleId::DK217, check_ibc},  {RuleId::DK352, check_flag},
+      {RuleId::DK353, check_flag}, {RuleId::DK354, check_flag}, {RuleId::DK355, check_flag},
+      {RuleId::DK356, check_flag},
   };
   return all;
 }

@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
+#include <optional>
+#include <sstream>
 
+#include "base/shared/columns.hpp"
+#include "deck/lint/lint.hpp"
 #include "text/shared/gzip.hpp"
 
 namespace deck {
@@ -185,6 +190,71 @@ std::string example_text(std::string_view example, const SchemaSet& schemas) {
     out += text;
     if (!out.empty() && out.back() != '\n') out += '\n';
   }
+  return out;
+}
+
+namespace {
+
+/// A line of an example, and the columns that a finding is about.
+struct MarkedLine {
+  std::string text;
+  std::size_t first = 0, last = 0;
+};
+
+std::optional<MarkedLine> finding_in(const Rule& rule, const SchemaSet& schemas) {
+  const ExampleDeck example = example_deck(rule.bad, schemas);
+  if (!example.files.empty() || !example.limits.empty()) return std::nullopt;
+  auto deck = read_deck_text("example_0000.rad", example.main, schemas);
+  if (!deck) return std::nullopt;
+  LoadOptions how;
+  how.schemas = &schemas;
+  how.geometry = false;
+  const LoadedDeck loaded = LoadedDeck::from(std::move(*deck), how);
+  LintOptions only;
+  only.select = {std::string(id_text(rule.id))};
+  for (const Diagnostic& d : run_lint(loaded, only).diagnostics) {
+    if (!d.span.valid()) continue;
+    const Source& source = loaded.deck().sources[d.span.file];
+    const std::string_view line = source.line_at(d.span.offset);
+    auto first = static_cast<std::size_t>(source.position(d.span.offset).column - 1);
+    std::size_t last = std::min<std::size_t>(first + d.span.length, line.size());
+    while (first + 1 < last && line[first] == ' ') ++first;
+    while (last > first + 1 && line[last - 1] == ' ') --last;
+    return MarkedLine{std::string(line), first, last};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string marked_example(const Rule& rule, const SchemaSet& schemas, std::size_t width) {
+  const auto mark = finding_in(rule, schemas);
+  if (!mark || mark->first >= mark->last) return {};
+  std::vector<std::string> lines;
+  for (std::istringstream in(example_text(rule.bad, schemas)); in;)
+    std::getline(in, lines.emplace_back());
+  const auto at = std::find(lines.begin(), lines.end(), mark->text);
+  if (at == lines.end()) return {};
+  // Of a wide card the columns up to the cell, whole cells of ten columns left out before it.
+  const std::size_t room = (width == 0 ? 1000 : std::max<std::size_t>(width, 24)) - 4;
+  const std::size_t start = mark->last <= room ? 0 : (mark->last - room + 9) / 10 * 10;
+  std::string out;
+  const auto show = [&](const std::string& line) {
+    std::string piece = line.size() > start ? line.substr(start, room) : std::string();
+    piece.resize(piece.find_last_not_of(' ') + 1);
+    if (line.size() > start + room && piece.size() > 2) piece.replace(piece.size() - 2, 2, " …");
+    out += piece.empty() ? "  |\n" : (start > 0 ? "  … " : "  | ") + piece + "\n";
+  };
+  const auto is_header = [](const std::string& line) { return line.starts_with('/'); };
+  auto header = std::find_if(std::reverse_iterator(at + 1), lines.rend(), is_header);
+  if (header != lines.rend() && !is_header(*at)) out += "  | " + *header + "\n";
+  std::string ruler;
+  for (std::size_t column = 1; column <= std::max(at->size(), mark->last); ++column)
+    ruler += ruler_mark(column);
+  if (!is_header(*at)) show(ruler);
+  if (at != lines.begin() && (at - 1)->starts_with('#')) show(*(at - 1));
+  show(*at);
+  show(std::string(mark->first, ' ') + std::string(mark->last - mark->first, '^'));
   return out;
 }
 

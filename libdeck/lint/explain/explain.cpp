@@ -180,7 +180,7 @@ std::string field_page(const Schema& schema, std::string_view field, std::size_t
   return out;
 }
 
-/// "run error 79; manual /RBODY" in words.
+/// "run error 79; manual /RBODY" in words, the kind once where it repeats.
 std::string sources_text(std::string_view sources) {
   constexpr std::pair<std::string_view, std::string_view> words[] = {
       {"run ", "run of the solver: "},
@@ -189,20 +189,55 @@ std::string sources_text(std::string_view sources) {
       {"specification ", "notes on the solver: "},
       {"manual ", "manual: "}};
   std::string out;
+  std::string_view before;
   while (!sources.empty()) {
     const std::string_view item = sources.substr(0, sources.find(';'));
     sources.remove_prefix(std::min(item.size() + 1, sources.size()));
     const std::string_view text = item.substr(std::min(item.find_first_not_of(' '), item.size()));
-    for (const auto& [kind, word] : words)
-      if (text.starts_with(kind))
-        out += fmt::format("{}{}{}", out.empty() ? "" : "; ", word, text.substr(kind.size()));
+    for (const auto& [kind, word] : words) {
+      if (!text.starts_with(kind)) continue;
+      if (kind == before)
+        out += ", ";
+      else
+        out += (out.empty() ? "" : "; ") + std::string(word);
+      out += text.substr(kind.size());
+      before = kind;
+    }
   }
   return out + ".";
 }
 
+/// What is particular about the fields that `selector` names, a row for those of which the same is
+/// said.
+std::string field_table(const Rule& rule, std::size_t width, std::string_view selector) {
+  std::vector<std::pair<std::string, std::string>> rows;  // names, text
+  for (const RuleField& f : rule.fields) {
+    if (!selects(selector, rule.id, f.name)) continue;
+    std::string text;
+    for (const std::string* part : {&f.note, &f.solver, &f.fix})
+      if (!part->empty()) text += (text.empty() ? "" : " ") + *part;
+    std::string name = f.name;
+    if (f.severity) name += fmt::format(" ({})", to_string(*f.severity));
+    const auto same =
+        std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.second == text; });
+    if (same == rows.end())
+      rows.emplace_back(std::move(name), std::move(text));
+    else
+      same->first += ", " + name;
+  }
+  std::string out;
+  for (const auto& [names, text] : rows)
+    out += wrapped(names, 2, width) + (text.empty() ? "" : wrapped(text, 6, width));
+  return out.empty() ? out : "Fields\n" + out + "\n";
+}
+
 }  // namespace
 
-std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width) {
+namespace {
+
+/// The page, of the fields that `selector` names; `marked`: the cell of the example is, too.
+std::string page_of_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width,
+                         std::string_view selector, bool marked) {
   const std::size_t card_width = width;
   if (width == 0) width = usual_page_width;
   namespace heading = detail::heading;
@@ -222,20 +257,34 @@ std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t
          section(heading::why, rule.why, width);
   const auto message = rule.messages.empty() ? std::nullopt : std::optional(rule.messages.front());
   out += section(heading::solver, detail::with_message(rule.solver, message), width);
+  out += field_table(rule, width, selector);
   if (!rule.source.empty()) out += section(heading::source, sources_text(rule.source), width);
   out += section(heading::fix, rule.fix, width);
-  if (!rule.bad.empty())
-    out += fmt::format("{}\n{}\n{}\n{}\n", heading::bad,
-                       indented(example_text(rule.bad, schemas), card_width), heading::good,
-                       indented(example_text(rule.good, schemas), card_width));
+  if (!rule.bad.empty()) {
+    const std::string card = marked ? marked_example(rule, schemas, card_width) : std::string();
+    out +=
+        fmt::format("{}\n{}\n", heading::bad,
+                    !card.empty() ? card : indented(example_text(rule.bad, schemas), card_width));
+  }
   if (!rule.ignore.empty()) out += section(heading::ignore, rule.ignore, width);
   out += "Suppress it for one block with a comment in or above the block:\n";
-  out += fmt::format("  # decklint: ignore[{}] reason=...\n", id_text(rule.id));
+  const auto named = std::find_if(rule.fields.begin(), rule.fields.end(), [&](const RuleField& f) {
+    return selects(selector, rule.id, f.name);
+  });
+  out += fmt::format("  # decklint: ignore[{}{}] reason=...\n", id_text(rule.id),
+                     named == rule.fields.end() ? "" : ":" + named->name);
   return out;
 }
 
+}  // namespace
+
+std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width,
+                         std::string_view selector) {
+  return page_of_rule(rule, schemas, width, selector, true);
+}
+
 std::string explain_rule(const Rule& rule, const SchemaSet& schemas) {
-  return explain_rule(rule, schemas, 0);
+  return page_of_rule(rule, schemas, 0, "all", false);
 }
 
 std::string explain_keyword(const Schema& schema, std::string_view field) {

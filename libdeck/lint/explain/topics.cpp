@@ -93,6 +93,21 @@ std::string rule_line(const Rule& r, std::size_t width) {
   return text.size() < 17 ? head + "\n" : head + text.substr(17);
 }
 
+/// The page of a rule by its id, with a field ("DK201:ISTF"), or by an id that it has taken over.
+std::string rule_page(std::string_view capitals, const SchemaSet& schemas, std::size_t width) {
+  if (const Rule* rule = find_successor(capitals))
+    return renamed_selector(capitals) + ".\n\n" + explain_rule(*rule, schemas, width, capitals);
+  const auto colon = std::min(capitals.find(':'), capitals.size());
+  const Rule* const rule = find_rule(capitals.substr(0, colon));
+  if (rule == nullptr) return {};
+  if (colon == capitals.size()) return explain_rule(*rule, schemas, width);
+  for (const RuleField& f : rule->fields)
+    if (in_capitals(f.name) == capitals.substr(colon + 1))
+      return explain_rule(*rule, schemas, width,
+                          std::string(capitals.substr(0, colon)) + ":" + f.name);
+  return {};
+}
+
 /// "DK1": a family of rules.
 std::string rule_family(const std::string& topic, std::size_t width) {
   if (!topic.starts_with("DK") || topic.size() > 4) return {};
@@ -178,17 +193,17 @@ std::string field_help(const Field& field, const SchemaSet& schemas, std::size_t
 std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std::size_t width) {
   const std::string capitals = in_capitals(topic);
   if (capitals.empty()) return {};
-  if (const Rule* rule = find_rule(capitals)) return explain_rule(*rule, schemas, width);
+  if (std::string page = rule_page(capitals, schemas, width); !page.empty()) return page;
   if (width == 0) width = usual_page_width;
   if (std::string page = rule_family(capitals, width); !page.empty()) return page;
   if (const auto number = message_number(topic)) {
     const std::string message = explain_message(*number, schemas, width);
     // A bare number may be that of a rule, too.
-    const Rule* rule = capitals.find_first_not_of("0123456789") == std::string::npos
-                           ? find_rule(fmt::format("DK{:03}", *number))
-                           : nullptr;
-    if (rule == nullptr) return message;
-    if (message.empty()) return explain_rule(*rule, schemas, width);
+    if (capitals.find_first_not_of("0123456789") != std::string::npos) return message;
+    const std::string id = fmt::format("DK{:03}", *number);
+    if (message.empty()) return rule_page(id, schemas, width);
+    const Rule* rule = find_rule(id);
+    if (rule == nullptr && (rule = find_successor(id)) == nullptr) return message;
     return message +
            fmt::format("\nThe rule of that number\n\n{}: {}\n{}  Its page: deck explain {}\n",
                        id_text(rule->id), rule->title, wrapped(rule->problem, 2, width),

@@ -21,8 +21,10 @@ constexpr std::size_t usual_page_width = 92;
 std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std::size_t width = 0);
 
 /// The pages of deck/lint/rule.hpp, as wide as `width` (0: the usual). Cards of examples are
-/// continued on further lines only where a width is given.
-std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width);
+/// continued on further lines only where a width is given. Of the fields of a rule those that
+/// `selector` names.
+std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width,
+                         std::string_view selector = "all");
 std::string explain_keyword(const Schema& schema, std::string_view field, std::size_t width);
 
 /// Topics that are spelled nearly so, the nearest first; at most three.

@@ -44,7 +44,7 @@ std::string lint_github(const std::vector<LintedDeck>& decks, const std::string&
     (d.severity == Severity::info ? notices : out) +=
         std::string("::") + command + " file=" + workflow_property(root.place(at.file)) +
         ",line=" + std::to_string(at.line) + ",col=" + std::to_string(at.column) +
-        ",endColumn=" + std::to_string(at.end_column) + ",title=" + std::string(id_text(d.rule)) +
+        ",endColumn=" + std::to_string(at.end_column) + ",title=" + finding_name(d) +
         "::" + workflow_text(d.message + ". " + detail::details(d)) + "\n";
   }
   return out + leads + notices + tails;

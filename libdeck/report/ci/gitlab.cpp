@@ -22,7 +22,7 @@ std::string lint_gitlab(const std::vector<LintedDeck>& decks, const std::string&
       if (const int n = seen[print]++; n > 0) print += "-" + std::to_string(n);
       json.begin_object();
       json.field("description", d.message + ". " + detail::details(d))
-          .field("check_name", id_text(d.rule))
+          .field("check_name", finding_name(d))
           .field("fingerprint", print)
           .field("severity", d.severity == Severity::error     ? "major"
                              : d.severity == Severity::warning ? "minor"

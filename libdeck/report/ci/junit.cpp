@@ -16,7 +16,7 @@ std::string attribute(std::string_view name, std::string_view value) {
 /// "DK171 /INTER/TYPE7/31", and "... (2)" for the second of a name in a file.
 std::string case_name(const Diagnostic& d, const std::string& file,
                       std::map<std::string, int>& seen) {
-  std::string name(id_text(d.rule));
+  std::string name = finding_name(d);
   if (!d.keyword.empty()) {
     name += " " + d.keyword;
     if (d.id != 0) name += "/" + std::to_string(d.id);

@@ -211,6 +211,8 @@ class Sarif {
       for (const auto& [span, message] : d.notes) location(deck, nullptr, span, &message);
       json_.end_array();
     }
+    if (!d.field.empty())
+      json_.key("properties").begin_object(true).field("field", d.field).end_object();
     json_.key("partialFingerprints").begin_object(true).field("deckFinding/v1", print).end_object();
     if (d.fix && d.fix->safe) fixes(deck, *d.fix);
     json_.end_object();

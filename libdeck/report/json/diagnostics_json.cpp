@@ -30,6 +30,7 @@ void write_diagnostic(JsonWriter& json, const LintedDeck& deck, const Diagnostic
   const detail::Place at = detail::place_of(deck, d.span);
   json.begin_object();
   json.field("rule", id_text(d.rule))
+      .field("field", d.field)
       .field("severity", to_string(d.severity))
       .field("file", at.file)
       .field("line", at.line)
@@ -177,6 +178,17 @@ std::string rules_json() {
     else
       json.null();
     json.field("fix", r.fix).field("ignore_when", r.ignore);
+    json.key("fields").begin_array();
+    for (const RuleField& f : r.fields)
+      json.begin_object(true)
+          .field("name", f.name)
+          .field("was", id_text(f.was))
+          .field("severity", to_string(f.severity.value_or(r.severity())))
+          .field("note", f.note)
+          .field("reference_behaviour", f.solver.empty() ? r.solver : f.solver)
+          .field("fix", f.fix.empty() ? r.fix : f.fix)
+          .end_object();
+    json.end_array();
     json.end_object();
   }
   json.end_array().end_object();

@@ -34,7 +34,7 @@ std::string lint_concise(const std::vector<LintedDeck>& decks) {
     for (const Diagnostic& d : deck.result->diagnostics) {
       const detail::Place at = detail::place_of(deck, d.span);
       out += fmt::format("{}:{}:{}: {} {}: {}\n", terminal_text(at.file), at.line, at.column,
-                         id_text(d.rule), to_string(d.severity), terminal_text(d.message));
+                         finding_name(d), to_string(d.severity), terminal_text(d.message));
     }
     for (const auto& [rule, n] : deck.result->dropped)
       if (n > 0)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <tuple>
 
 #include "base/shared/columns.hpp"
 #include "base/shared/escape.hpp"
@@ -25,11 +26,6 @@ struct Colors {
 constexpr Colors no_colors = {"", "", "", "", "", ""};
 constexpr Colors ansi = {"\x1b[1;31m", "\x1b[1;33m", "\x1b[1;36m",
                          "\x1b[1m",    "\x1b[1;34m", "\x1b[0m"};
-
-/// What an editor's ruler shows over a column of the file.
-char ruler_mark(std::size_t column) {
-  return column % 10 == 0 ? static_cast<char>('0' + column / 10 % 10) : column % 5 == 0 ? '+' : '.';
-}
 
 /// A character of a card line: where it stands in the file, and what is shown for it.
 struct Glyph {
@@ -71,13 +67,13 @@ class Human {
   /// Errors first; rules in the order in which they first occur, their findings together where
   /// there are more than a few.
   std::string findings() {
-    using Kind = std::pair<RuleId, Severity>;
+    using Kind = std::tuple<RuleId, std::string, Severity>;
     std::vector<const Diagnostic*> all;
     std::map<Kind, std::vector<const Diagnostic*>> of_kind;
     for (const Diagnostic& d : deck_.result->diagnostics) {
       if (!options_.remarks_of_every_deck && is_of_every_deck(d)) continue;
       all.push_back(&d);
-      of_kind[{d.rule, d.severity}].push_back(&d);
+      of_kind[{d.rule, d.field, d.severity}].push_back(&d);
     }
     std::stable_sort(all.begin(), all.end(), [](const Diagnostic* a, const Diagnostic* b) {
       return rank(a->severity) < rank(b->severity);
@@ -86,8 +82,8 @@ class Human {
     std::map<Kind, int> shown;
     std::map<RuleId, std::uint64_t> hidden = deck_.result->dropped;
     for (const Diagnostic* d : all) {
-      const auto& alike = of_kind[{d->rule, d->severity}];
-      int& n = shown[{d->rule, d->severity}];
+      const auto& alike = of_kind[{d->rule, d->field, d->severity}];
+      int& n = shown[{d->rule, d->field, d->severity}];
       if (options_.group && folds(*d, alike.size())) {
         if (n++ > 0) continue;
         out += folded(*d, alike.size() + hidden[d->rule]);
@@ -157,7 +153,7 @@ class Human {
   /// All findings of a kind in a line with their number, and the place of the first.
   std::string folded(const Diagnostic& first, std::uint64_t count) const {
     std::string out = fmt::format("{}{}[{}]{}{}: {} places: {}{}", color(first.severity),
-                                  to_string(first.severity), id_text(first.rule), c_.off, c_.bold,
+                                  to_string(first.severity), finding_name(first), c_.off, c_.bold,
                                   count, rule_of(first.rule).title, c_.off);
     if (first.reference)
       out += fmt::format(" (solver: {} {})", to_string(first.reference->severity),
@@ -177,7 +173,7 @@ class Human {
             : std::min(others.size(), static_cast<std::size_t>(options_.per_rule) - 1);
     std::string out =
         fmt::format("{}{} more of {}{}: {}\n", c_.bold, others.size() + dropped,
-                    id_text(others.front()->rule), c_.off, rule_of(others.front()->rule).title);
+                    finding_name(*others.front()), c_.off, rule_of(others.front()->rule).title);
     for (std::size_t i = 0; i < shown; ++i) {
       const Diagnostic& d = *others[i];
       const detail::Place at = detail::place_of(deck_, d.span);
@@ -195,7 +191,7 @@ class Human {
   std::string one(const Diagnostic& d, const std::string& others) {
     std::string out =
         fmt::format("{}{}[{}]{}{}: {}{}\n", color(d.severity), to_string(d.severity),
-                    id_text(d.rule), c_.off, c_.bold, terminal_text(d.message), c_.off);
+                    finding_name(d), c_.off, c_.bold, terminal_text(d.message), c_.off);
     const detail::Place at = detail::place_of(deck_, d.span);
     const std::string number = std::to_string(at.line);
     const std::string gutter(number.size(), ' ');

@@ -143,7 +143,7 @@ class Writer {
     std::string where;
     if (d.span.valid()) where = loaded_->deck().sources.where(d.span) + ": ";
     paragraph(
-        fmt::format("deck: {}{} {}: {}", where, id_text(d.rule), to_string(d.severity), d.message),
+        fmt::format("deck: {}{} {}: {}", where, finding_name(d), to_string(d.severity), d.message),
         indent);
   }
 
@@ -284,7 +284,7 @@ class Writer {
       std::string where;
       if (d.span.valid()) where = loaded_->deck().sources.where(d.span) + ": ";
       paragraph(fmt::format("{} {}: {}{} {}", to_string(d.reference->severity), d.reference->number,
-                            where, id_text(d.rule), d.message),
+                            where, finding_name(d), d.message),
                 2);
     }
     if (report_.not_listed.size() > most)

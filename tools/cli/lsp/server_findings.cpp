@@ -144,10 +144,10 @@ Json Server::finding(const OpenDeck& deck, const Diagnostic& d) const {
   const View view(workspace_, client_, deck, deck.path);
   Json out = {{"range", d.span.valid() ? view.range(d.span) : view.range(0, 0, 0)},
               {"severity", severity_of(d.severity)},
-              {"code", std::string(id_text(d.rule))},
+              {"code", finding_name(d)},
               {"source", "deck"},
               {"message", utf8(full_message(d))},
-              {"data", {{"rule", std::string(id_text(d.rule))}, {"message", utf8(d.message)}}}};
+              {"data", {{"rule", finding_name(d)}, {"message", utf8(d.message)}}}};
   if (d.fix) out["data"]["fix"] = {{"title", utf8(d.fix->title)}, {"safe", d.fix->safe}};
   Json related = Json::array();
   for (const auto& [span, text] : d.notes)

@@ -116,7 +116,7 @@ int explain_topics(const Options& options, const SchemaSet& schemas) {
         near += (near.empty() ? "; did you mean " : ", ") + name;
       print_error(options.common,
                   "nothing is known about '" + topic + "'" + near +
-                      "; expected a rule (DK203) or a family of them (DK2), a keyword "
+                      "; expected a rule (DK104) or a family of them (DK2), a keyword "
                       "(TYPE7), a field (Igap, TYPE7.Igap), the number or words of a solver "
                       "message (611, 'initial penetrations') or a listing (car_0000.out)");
       return exit_usage;

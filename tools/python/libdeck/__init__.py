@@ -72,6 +72,8 @@ class Finding:
     entity: Optional[Dict[str, Any]] = None
     reference: Optional[Dict[str, Any]] = None
     fix: Optional[Dict[str, Any]] = None
+    field: str = ""
+    """Which field, of a rule that says the same of several (DK201)."""
 
     def __str__(self) -> str:
         return f"{self.file}:{self.line}:{self.column}: {self.severity} {self.rule}: {self.message}"

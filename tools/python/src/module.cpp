@@ -31,6 +31,7 @@ py::object place_of(const Deck& deck, const Span& span) {
 py::dict finding_of(const Deck& deck, const Diagnostic& d) {
   py::dict out;
   out["rule"] = std::string(id_text(d.rule));
+  out["field"] = d.field;
   out["severity"] = to_string(d.severity);
   const py::object place = place_of(deck, d.span);
   for (const char* key : {"file", "line", "column", "end_column"})

@@ -4,6 +4,7 @@ import type { Edit } from "./tree";
 
 export interface Finding {
   rule: string;
+  field: string;
   severity: string;
   file: string;
   line: number;
@@ -43,6 +44,8 @@ interface Group {
 }
 type GroupBy = "rule" | "interface" | "none";
 
+/** "DK201:Istf" where a rule says the same of several fields. */
+const nameOf = (f: Finding): string => (f.field ? `${f.rule}:${f.field}` : f.rule);
 const interfaceOf = (f: Finding): string => (f.entity?.keyword.startsWith("/INTER/") ? `${f.entity.keyword}/${f.entity.id}` : "");
 
 export class FindingList {
@@ -108,7 +111,7 @@ export class FindingList {
 
   private draw(): void {
     const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const said = this.all.filter((f) => words.every((w) => `${f.rule} ${f.severity} ${f.message} ${f.file} ${f.entity?.keyword ?? ""}/${f.entity?.id ?? ""}`.toLowerCase().includes(w)));
+    const said = this.all.filter((f) => words.every((w) => `${nameOf(f)} ${f.severity} ${f.message} ${f.file} ${f.entity?.keyword ?? ""}/${f.entity?.id ?? ""}`.toLowerCase().includes(w)));
     const found = said.filter((f) => this.only === null || f.severity === this.only);
     this.count.textContent = plural(found.length, "finding", "findings");
     replace(this.chips, ...severities.map((s) => {
@@ -147,7 +150,7 @@ export class FindingList {
   private item(f: Finding): HTMLElement {
     return h("li", null, h(
       "button", { type: "button", class: `finding ${f.severity}`, "aria-current": f === this.selected ? "true" : null, onclick: () => this.pick(f, true) },
-      h("span", { class: "finding-head" }, h("b", null, `${f.severity} ${f.rule}`), h("span", { class: "muted" }, ` ${f.file}:${f.line}:${f.column}`)),
+      h("span", { class: "finding-head" }, h("b", null, `${f.severity} ${nameOf(f)}`), h("span", { class: "muted" }, ` ${f.file}:${f.line}:${f.column}`)),
       h("span", { class: "finding-text" }, f.message),
     ));
   }
@@ -177,7 +180,7 @@ export class FindingList {
 export function drawFinding(into: HTMLElement, f: Finding, on: { explain: (rule: string) => void; fix: (f: Finding) => void; picture: (() => void) | null; go: (file: string, line: number, column: number, end: number) => void }): void {
   replace(
     into,
-    h("h2", null, h("span", { class: `severity ${f.severity}` }, f.severity), button(f.rule, null, () => on.explain(f.rule), { class: "link rule", title: "What this rule says" })),
+    h("h2", null, h("span", { class: `severity ${f.severity}` }, f.severity), button(nameOf(f), null, () => on.explain(f.rule), { class: "link rule", title: "What this rule says" })),
     h("p", { class: "message" }, f.message),
     f.reference_behaviour && h("p", { class: "note" }, `Solver: ${f.reference_behaviour}`),
     f.help && h("p", { class: "note" }, `Help: ${f.help}`),

@@ -87,17 +87,25 @@ class LintContext {
   std::string_view text(const Span& span) const { return deck.sources.text(span); }
 };
 
+struct LintOptions;
+
 /// Takes findings of one rule; fills in what the rule's page already says.
 class Reporter {
  public:
-  explicit Reporter(Diagnostics& sink) : sink_(&sink) {}
+  /// `options`: fields that they switch off are not reported.
+  explicit Reporter(Diagnostics& sink, const LintOptions* options = nullptr)
+      : sink_(&sink), options_(options) {}
   /// nullptr: enough findings of this rule were kept already (it is counted).
   Diagnostic* report(const Rule& rule, Span span, std::string message);
   /// The same, about a block.
   Diagnostic* report(const Rule& rule, const Block& block, Span span, std::string message);
+  /// The same, about a field; rules that have no fields do not mind which.
+  Diagnostic* report(const Rule& rule, std::string_view field, const Block& block, Span span,
+                     std::string message);
 
  private:
   Diagnostics* sink_;
+  const LintOptions* options_;
 };
 
 /// What a baseline knows a finding by: its file (absolute path) and its fingerprint.
@@ -106,9 +114,9 @@ using FindingKey = std::pair<std::string, std::string>;
 std::string finding_file(const std::string& path);
 
 struct LintOptions {
-  std::vector<std::string> select;  ///< ids or prefixes; empty: all
+  std::vector<std::string> select;  ///< selectors (deck/lint/rule.hpp); empty: all
   std::vector<std::string> ignore;
-  std::map<std::string, Severity> severity;  ///< per id or prefix
+  std::map<std::string, Severity> severity;                                        ///< per selector
   std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;  ///< glob, rules
   std::map<FindingKey, std::uint64_t> baseline;  ///< of this deck: accepted findings and how many
   int diagnostics_per_rule = Limits{}.diagnostics_per_rule;

@@ -12,10 +12,14 @@ namespace deck {
 /// Family of a rule by the leading digit of its id: "syntax, columns, version" for DK0xx, and so
 /// on.
 std::string_view family_of(RuleId id);
-/// True if `selector` ("DK2", "DK203", "all") names the rule.
-bool selects(std::string_view selector, RuleId id);
-/// True if some rule matches the selector.
+/// True if `selector` names the finding: "all", an id ("DK104") or its beginning ("DK1"), a field
+/// of a rule ("DK201:Igap"), or the id that this field had as a rule of its own ("DK202").
+bool selects(std::string_view selector, RuleId id, std::string_view field = {});
+/// True if the selector names a finding that a rule can have.
 bool known_selector(std::string_view selector);
+/// "DK202 is now DK201:Igap", for the id of a rule that has become the field of another one; empty
+/// for every other selector.
+std::string renamed_selector(std::string_view selector);
 
 /// The explain page of a rule as plain text.
 std::string explain_rule(const Rule& rule, const SchemaSet& schemas);

@@ -18,11 +18,11 @@ constexpr const char* to_string(Severity severity) {
   return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "info";
 }
 
-/// Id of a rule: RuleId::DK203 is defined in deck/text/rule_id.hpp, which grows with every rule.
+/// Id of a rule: RuleId::DK104 is defined in deck/text/rule_id.hpp, which grows with every rule.
 enum class RuleId : std::uint16_t;
-/// "DK203"; empty for RuleId::none.
+/// "DK104"; empty for RuleId::none.
 std::string_view id_text(RuleId id);
-/// 203: the leading digits say what a rule is about.
+/// 104: the leading digits say what a rule is about.
 constexpr int id_number(RuleId id) { return static_cast<int>(id); }
 
 /// Replace the bytes of `span` by `text`. An empty span inserts.
@@ -46,7 +46,8 @@ struct ReferenceMessage {
 };
 
 struct Diagnostic {
-  RuleId rule{};  ///< stable
+  RuleId rule{};      ///< stable
+  std::string field;  ///< of a rule about several fields: which one ("Istf"); else empty
   Severity severity = Severity::error;
   Span span;
   std::string message;              ///< what was read and what was expected
@@ -58,6 +59,8 @@ struct Diagnostic {
   std::vector<std::pair<Span, std::string>> notes;  ///< related places
   std::optional<Fix> fix;
 };
+/// What a finding is called, and what selects it: "DK104", with its field "DK201:Istf".
+std::string finding_name(const Diagnostic& diagnostic);
 
 /// Collects diagnostics with a bound per rule: a million broken lines cost a million counts, not a
 /// million messages.

@@ -25,6 +25,15 @@ enum class RuleStage : std::uint8_t {
 
 enum class Fixable : std::uint8_t { no, safe, unsafe };
 
+/// A field of a rule that says the same of several, and what the page says of this field alone.
+struct RuleField {
+  std::string name;           ///< "Istf"
+  RuleId was = RuleId::none;  ///< the rule that it had for itself once; else the rule's own id
+  std::optional<Severity> severity = {};  ///< if it is not that of the rule
+  std::string note = {};                  ///< when, or why; empty: nothing particular
+  std::string solver = {}, fix = {};      ///< empty: as for the others
+};
+
 /// The page of a rule. All text is the project's own; `bad` and `good` are examples in the notation
 /// of lint/shared/example.hpp and are run by the tests.
 struct Rule {
@@ -46,10 +55,13 @@ struct Rule {
   /// Numbers of the interface types that it is true for ("19": for some part of a TYPE19); empty:
   /// it is not about interfaces of these types.
   std::vector<int> types;
+  std::vector<RuleField> fields;  ///< that its findings are about; empty: it is about none
   /// What shows that the solver does what `solver` says: a run, a record, ...; empty: no claim.
   std::string source;
 
   Severity severity() const { return severities.front(); }
+  /// nullptr: the rule is not about this field.
+  const RuleField* field(std::string_view name) const;
   /// The solver's message of that number; it is on the page.
   ReferenceMessage message(int number) const;
 };
@@ -60,10 +72,13 @@ const std::vector<Rule>& all_rules();
 const Rule* find_rule(std::string_view id);
 /// The page of an id that is not RuleId::none.
 const Rule& rule_of(RuleId id);
+/// The rule that says now what the rule of this id said ("DK202"); nullptr: there was none.
+const Rule* find_successor(std::string_view id);
 
 /// What a finding says otherwise than its page, which tells the case: one of the page's severities
 /// and messages (0: the solver says nothing), and what holds in this case only.
 struct Case {
+  std::string_view field = {};  ///< of a rule that has fields
   std::optional<Severity> severity = {};
   std::optional<int> message = {};
   std::string solver = {};  ///< empty: as on the page

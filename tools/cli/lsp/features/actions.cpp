@@ -23,7 +23,7 @@ const Semantics* present(const View& view) {
 /// A finding in short, for the client to join an action to what it shows.
 Json shown(const View& view, const Diagnostic& d) {
   return {{"range", d.span.valid() ? view.range(d.span) : view.range(0, 0, 0)},
-          {"code", std::string(id_text(d.rule))},
+          {"code", finding_name(d)},
           {"source", "deck"},
           {"message", utf8(d.message)}};
 }
@@ -47,7 +47,7 @@ std::optional<TextEdit> suppression(const View& view, const Diagnostic& d) {
   if (begin == 0) return std::nullopt;  // the banner stays the first line
   const bool crlf = source.bytes().substr(0, begin).ends_with("\r\n");
   return TextEdit{{block.header_span.file, 0, begin},
-                  fmt::format("# decklint: ignore[{}] reason=(say why){}", id_text(d.rule),
+                  fmt::format("# decklint: ignore[{}] reason=(say why){}", finding_name(d),
                               crlf ? "\r\n" : "\n")};
 }
 
@@ -107,7 +107,7 @@ Answer code_actions(const View& view, const Json& params) {
       if (file != view.file) continue;
       const std::uint64_t line = d.span.valid() ? lines.line_of(d.span.offset) : 0;
       if (line < first || line > last) continue;
-      const std::string rule(id_text(d.rule));
+      const std::string rule = finding_name(d);
       if (d.fix)
         out.push_back(action(
             view, (d.fix->safe ? "Fix: " : "Unsafe fix: ") + d.fix->title + " (" + rule + ")",

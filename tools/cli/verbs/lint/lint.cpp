@@ -68,7 +68,8 @@ Action setup(CommandLine& line) {
   line.option("-o,--output", o.outputs, "Also write FORMAT to FILE (repeatable)")
       .value("FORMAT=FILE")
       .one_each();
-  line.option("--select", o.select, "Only these rules: ids or prefixes (DK2), comma-separated")
+  line.option("--select", o.select,
+              "Only these rules: ids, prefixes (DK2) or fields (DK201:Istf), comma-separated")
       .by_commas()
       .value("RULES");
   line.option("--ignore", o.ignore, "Not these rules").by_commas().value("RULES");
@@ -140,7 +141,7 @@ const VerbRegistration registration{
      "\n"
      "Settings come from .decklint.toml beside or above the deck. A finding is switched off for "
      "one\n"
-     "block by a comment in or above it:  # decklint: ignore[DK203] reason=...\n",
+     "block by a comment in or above it:  # decklint: ignore[DK104] reason=...\n",
      setup}};
 
 }  // namespace

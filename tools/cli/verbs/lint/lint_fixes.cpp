@@ -45,7 +45,7 @@ Result<std::size_t> LintRun::collect_fixes(Changes& set, std::vector<FixResult>&
     print_messages(
         fmt::format("{}: note: not fixed ({}): {} includes this file too and needs it unchanged\n",
                     terminal_text(jobs[w.deck]->loaded->deck().sources.where(w.diagnostic->span)),
-                    id_text(w.diagnostic->rule), terminal_text(jobs[w.other]->path)));
+                    finding_name(*w.diagnostic), terminal_text(jobs[w.other]->path)));
   }
   if (agreed.withheld.size() > most && !common_.quiet)
     print_note(

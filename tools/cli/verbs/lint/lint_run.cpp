@@ -83,6 +83,19 @@ void stand_at_changes(LintResult& result, const SourceSet& sources, const Change
   result.fingerprints = std::move(sorted.fingerprints);
 }
 
+/// Says once which selectors of the settings are ids that rules had before.
+void note_renamed(const LintOptions& options, std::set<std::string>& told) {
+  std::vector<std::string> all = options.select;
+  all.insert(all.end(), options.ignore.begin(), options.ignore.end());
+  for (const auto& [selector, severity] : options.severity) all.push_back(selector);
+  for (const auto& [pattern, selectors] : options.per_file_ignores)
+    all.insert(all.end(), selectors.begin(), selectors.end());
+  for (const std::string& selector : all)
+    if (const std::string now = renamed_selector(selector);
+        !now.empty() && told.insert(selector).second)
+      print_note(now);
+}
+
 bool passes_a_gate(const LintResult& r) {
   return std::any_of(std::begin(gate_rules), std::end(gate_rules),
                      [&](RuleId rule) { return r.counts.contains(rule); });
@@ -195,6 +208,7 @@ int LintRun::lint_one(const std::string& path) {
   gate->note_baseline(common_, path);
   const auto lint = linting::lint_options(options_, *config, *job);
   if (!lint) return usage(lint.error().message);
+  if (!common_.quiet) linting::note_renamed(*lint, renamed_);
   auto loaded = load(path, schemas_, common_);
   if (!loaded) {
     job->error = loaded.error().message;

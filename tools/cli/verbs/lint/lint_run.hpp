@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -106,6 +107,7 @@ class LintRun {
   Print print_;
   LoadedSchemas schemas_;
   LintJobs jobs_;
+  std::set<std::string> renamed_;  ///< selectors of which it was said
   bool relint_ = false;
   int after_fix_ = exit_clean;
 };
