@@ -18,7 +18,7 @@ import termios
 import time
 
 from common import ROOT, SAMPLES, Checks
-from kill import build_shim, read, stable, tree
+from kill import build_shim, read, tree
 
 try:
     import jsonschema
@@ -29,7 +29,7 @@ except ImportError:
 def visible(directory):
     """Everything but the notes that batch keeps for itself."""
     found = tree(directory) if os.path.isdir(directory) else {}
-    return {k: stable(v) if k == "index.html" else v for k, v in found.items() if not k.startswith(".batch")}
+    return {k: v for k, v in found.items() if not k.startswith(".batch")}
 
 
 def differing(a, b):
@@ -426,29 +426,12 @@ def overview(c, tmp):
     c.check("the page needs nothing from elsewhere", all(a.startswith("./") and os.path.exists(os.path.join(out, a)) for a in shown.addresses)
             and b"prefers-color-scheme:dark" in read(page), str(shown.addresses))
     c.check("the page has the numbers", [shown.cell("too_close_0000.rad", t)[0] for t in ("status", "penetrating", "deepest", "of gap")] ==
-            ["findings", "9", "0.35", "28.0 %"] and shown.cell("too_close_0000.rad", "deck")[2] == "./too_close_0000.json", str(shown.rows))
+            ["findings", "9", "0.35", "28 %"] and shown.cell("too_close_0000.rad", "deck")[2] == "./too_close_0000.json", str(shown.rows))
     order = [r[0][0].rsplit("/", 1)[-1] for r in shown.rows[1:]]
     c.check("the page begins with the worst deck", order == ["empty_0000.rad", "crash_box_0000.rad", "front_crash_64_kmh_0000.rad", "too_close_0000.rad",
                                                               "hot_contact_0000.rad", "clean_plates_0000.rad"], str(order))
     levels = [shown.cell(n, "level") for n in ("empty_0000.rad", "crash_box_0000.rad", "too_close_0000.rad", "clean_plates_0000.rad")]
     c.check("levels have words and colours", [(t, k.split()[-1]) for t, k, _ in levels] == [("unreadable", "bad"), ("solver stops", "bad"), ("penetrates", "warn"), ("clean", "good")], str(levels))
-    c.check("without results of before there is no trend", "trend" not in [t[0] for t in shown.rows[0]])
-    # A gap that gets worse, one that gets better, a deck that is new, and one as it was.
-    def edit(name, old, new):
-        data = read(os.path.join(work, name))
-        assert old in data
-        with open(os.path.join(work, name), "wb") as f:
-            f.write(data.replace(old, new))
-    edit("too_close_0000.rad", b"                1.25", b"                1.35")
-    edit(os.path.join(long_name, "front_crash_64_kmh_0000.rad"), b"                1.25", b"                1.15")
-    shutil.copy(os.path.join(work, "clean_plates_0000.rad"), os.path.join(work, "fresh_0000.rad"))
-    for name in ("", " (again, nothing changed)"):
-        c.run("batch", "-o", "out", ".", cwd=work)
-        shown = Overview(read(page))
-        trends = [shown.cell(n, "trend")[1] for n in ("too_close_0000.rad", "kmh_0000.rad", "fresh_0000.rad", "crash_box_0000.rad")]
-        c.check("trend against the results of before" + name, trends == ["worse", "better", "first", "same"], str(trends))
-    c.check("the trend says what it was", "deepest 0.35 before" in shown.cell("too_close_0000.rad", "trend")[0], str(shown.rows))
-    c.check("a time for every deck that was read", float(shown.cell("too_close_0000.rad", "seconds")[0]) >= 0)
     c.run("batch", "-o", "gated", ".", "--verb", "gaps --max-ratio 0.3", cwd=work)
     shown = Overview(read(os.path.join(work, "gated", "index.html")))
     gates = [shown.cell(n, "gate")[0] for n in ("crash_box_0000.rad", "kmh_0000.rad", "empty_0000.rad")]
@@ -609,6 +592,7 @@ def terminal(c, tmp):
     """The bar appears on a terminal, with counts and the time left."""
     decks = small_decks(os.path.join(tmp, "bar"), 400)
     main, side = pty.openpty()
+    fcntl.ioctl(side, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 80, 0, 0))
     p = subprocess.Popen([c.program, "batch", "-o", os.path.join(tmp, "bar-out"), "--jobs", "1", *decks], stdin=subprocess.DEVNULL,
                          stdout=subprocess.DEVNULL, stderr=side)
     os.close(side)

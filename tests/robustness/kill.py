@@ -27,12 +27,6 @@ def read(path):
         return f.read()
 
 
-def stable(page):
-    """The overview of a batch without what differs from run to run: times, and the trend against the results of before."""
-    page = re.sub(rb'<td class="n seconds"[^>]*>[^<]*</td>', b"", page)
-    return re.sub(rb'<td class="(better|worse|changed|same|first)"[^>]*>[^<]*</td>|<th>trend</th>', b"", page)
-
-
 def tree(directory):
     """{relative path: bytes} of all files below a directory."""
     found = {}
@@ -215,7 +209,7 @@ def batch(c, s, tmp):
     args = ("batch", "-o", "out", "--jobs", "1", "--quiet", *sorted(decks))
 
     def visible(directory):
-        return {k: stable(v) if k == "index.html" else v for k, v in tree(directory).items() if not k.startswith(".batch")}
+        return {k: v for k, v in tree(directory).items() if not k.startswith(".batch")}
     put(work, decks)
     code, _, text = s.run(0, "none", *args, cwd=work)
     if not c.check("batch: runs", code in (0, 1), text[-300:]):

@@ -13,7 +13,7 @@ import tempfile
 import time
 
 from common import ROOT, Checks
-from kill import FAILURES, Striker, build_shim, stable, whole_or_old
+from kill import FAILURES, Striker, build_shim, whole_or_old
 from together import pieces, put, tree
 
 
@@ -51,7 +51,7 @@ def library(directory, families, each, side=4):
 
 
 def results(directory):
-    return {k: stable(v) if os.path.basename(k) == "index.html" else v for k, v in tree(directory).items() if ".batch" not in k.split(os.sep)}
+    return {k: v for k, v in tree(directory).items() if ".batch" not in k.split(os.sep)}
 
 
 def decks_of(directory):

@@ -231,7 +231,6 @@ Result<LoadedDeck> load(const std::string& given, const SchemaSet& schemas,
   options.session->remember_read(loaded.deck().sources);
   if (const std::string other = no_starter_deck(loaded.deck()); !other.empty())
     return Error{Error::Code::syntax, path + ": " + other};
-  if (options.session->on_load) options.session->on_load(loaded.deck());
   if (stage < Stage::model) return loaded;
   progress.step("building the model of " + path);
   loaded.interfaces();

@@ -31,8 +31,9 @@ void Progress::step(std::string_view what) {
   if (steady_clock::now() - start_ > patience) draw(-1);
 }
 
-void Progress::update(std::uint64_t done, std::uint64_t total) {
+void Progress::update(std::uint64_t done, std::uint64_t total, std::string_view what) {
   if (!enabled_) return;
+  if (!what.empty()) what_ = terminal_text(what);
   const auto now = steady_clock::now();
   if (now - start_ < patience || now - last_ < refresh) return;
   last_ = now;

@@ -18,8 +18,9 @@ class Progress {
 
   /// Begins a step of unknown length.
   void step(std::string_view what);
-  /// `done` of `total` of the step; cheap enough to call often. Not thread safe.
-  void update(std::uint64_t done, std::uint64_t total);
+  /// `done` of `total` of the step, which is called `what` from now on unless that is empty; cheap
+  /// enough to call often. Not thread safe.
+  void update(std::uint64_t done, std::uint64_t total, std::string_view what = {});
   /// Removes the line; later calls of step() bring it back.
   void clear();
 

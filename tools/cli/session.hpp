@@ -14,10 +14,6 @@
 #include "deck/text/source.hpp"
 #include "edit/shared/write.hpp"
 
-namespace deck {
-class Deck;
-}
-
 namespace deck::cli {
 
 struct BatchFrame;
@@ -41,8 +37,6 @@ class Session {
  public:
   /// Of `deck batch`, which runs the verb; nullptr: the verb was called by itself.
   BatchFrame* frame = nullptr;
-  /// Called with every deck that was read.
-  std::function<void(const Deck&)> on_load;
 
   /// From now on no output is written over these files.
   void remember_read(const SourceSet& sources);

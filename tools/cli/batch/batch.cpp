@@ -8,15 +8,15 @@
 
 #include "batch/list.hpp"
 #include "batch/run.hpp"
-#include "batch/summary.hpp"
-#include "library.hpp"
 #include "writing/changes.hpp"
 
 namespace deck::cli::verb_batch {
 namespace {
 
-const std::vector<std::string> verbs_of_a_batch = {"lint",  "params",  "gaps",
-                                                   "cycle", "convert", "fix"};
+bool is_verb_of_a_batch(std::string_view word) {
+  constexpr std::string_view all[] = {"lint", "params", "gaps", "cycle", "convert", "fix"};
+  return std::find(std::begin(all), std::end(all), word) != std::end(all);
+}
 /// Options that write files of one name, or are the batch's own.
 const std::vector<std::string> not_in_a_batch = {
     "--json", "--csv",   "--vtk",   "--html",    "--compare",        "--output", "--format",
@@ -42,7 +42,6 @@ void parse_writing(BatchTask& task, const CommandLine& line) {
                 line.given("--unsafe-fixes");
   if (!task.writes) return;
   task.in_place = task.verb.name == "lint" || line.given("--in-place");
-  task.with_documents = !task.converts();
   task.with_dependents = line.given("--with-dependents");
   task.root = value_among(task.words, "--root");
 }
@@ -56,9 +55,7 @@ Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all
   const std::vector<std::string> words = split_words(o.verb);
   if (words.empty()) return refuse("name a verb");
   for (const Verb& v : all)
-    if (v.name == words.front() && std::find(verbs_of_a_batch.begin(), verbs_of_a_batch.end(),
-                                             words.front()) != verbs_of_a_batch.end())
-      task.verb = v;
+    if (v.name == words.front() && is_verb_of_a_batch(v.name)) task.verb = v;
   if (task.verb.setup == nullptr)
     return refuse("expected lint, params, gaps, cycle, convert or fix");
   task.words.assign(words.begin() + 1, words.end());
@@ -96,8 +93,7 @@ Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, BatchList&
   std::vector<std::string> paths;
   for (const BatchDeck& d : list.decks) paths.push_back(d.path);
   for (const std::string& deck : paths)
-    if (const auto finished = finish_interrupted(deck, paths, o.common); finished && *finished)
-      list.files.clear();  // an error concerns its group alone: the worker says so
+    (void)finish_interrupted(deck, paths, o.common);  // an error is its group's: the worker says so
   auto dependents = find_dependents(paths, task.root, o.common.include_paths);
   if (!dependents) return dependents.error();
   if (const std::string where = dependents->where(); !where.empty() && !o.common.quiet)
@@ -107,53 +103,38 @@ Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, BatchList&
     return {};
   }
   paths.insert(paths.end(), dependents->decks.begin(), dependents->decks.end());
-  auto more = list_decks(paths, "", task.ending, o.directory, o.common.include_paths);
-  if (!more) return more.error();
-  list.decks = std::move(more->decks);
-  return {};
+  IncludeScan scan(o.common.include_paths);
+  auto more = list_decks(paths, "", task.ending, o.directory, scan);
+  if (more) list.decks = std::move(more->decks);
+  return more ? Result<void>() : more.error();
 }
 
 /// The decks of the list that have to be done together, and where the batch writes them.
-Result<std::vector<BatchGroup>> plan_groups(const BatchOptions& o, BatchTask& task,
-                                            BatchList& list) {
-  if (task.in_place)
-    if (auto prepared = prepare_in_place(o, task, list); !prepared) return prepared.error();
-  std::vector<BatchGroup> groups;
-  if (!task.writes || task.to_json)  // a document holds all files of its deck
-    for (std::size_t i = 0; i < list.decks.size(); ++i) groups.push_back({{i}});
-  if (!task.writes) return groups;
-  std::vector<std::vector<IncludeScan::File>> trees;
+std::vector<BatchJob> plan_jobs(const BatchOptions& o, BatchTask& task, const BatchList& list) {
   IncludeScan scan(o.common.include_paths);
-  for (const BatchDeck& deck : list.decks) {
-    const auto known = list.files.find(deck.path);
-    if (!task.from_json)
-      trees.push_back(known == list.files.end() ? scan.files(deck.path) : known->second);
-    else if (holds_includes(deck.path))  // which others may hold as well
-      trees.push_back({{deck.path, FileIdentity(), file_hash(deck.path)}});
-    else
-      trees.emplace_back();
+  std::vector<std::vector<IncludeScan::File>> trees(list.decks.size());
+  for (std::size_t d = 0; d < trees.size() && task.writes; ++d) {
+    const std::string& deck = list.decks[d].path;
+    if (task.from_json && holds_includes(deck))  // which others may hold as well
+      trees[d] = {{deck, FileIdentity()}};
+    if (!task.from_json && !task.to_json)  // a document holds all files of its deck
+      trees[d] = scan.files(deck);
   }
-  if (!task.to_json)
-    for (std::vector<std::size_t>& decks : sharing_groups(trees))
-      groups.push_back({std::move(decks)});
+  std::vector<BatchJob> jobs;
   std::vector<std::string> directories, files;
   std::error_code ec;
   for (const std::string& path : o.common.decks)
     if (std::filesystem::is_directory(path, ec)) directories.push_back(path);
-  for (BatchGroup& group : groups) {
-    std::vector<std::string> decks;
-    std::vector<std::vector<IncludeScan::File>> of_decks;
-    for (const std::size_t i : group.decks) {
-      decks.push_back(list.decks[i].path);
-      of_decks.push_back(std::move(trees[i]));
-    }
-    const DeckFiles found = files_of_decks(decks, of_decks);
-    group.files = found.paths;
-    group.contents = found.contents;
-    files.insert(files.end(), group.files.begin(), group.files.end());
+  for (std::vector<std::size_t>& group : sharing_groups(trees)) {
+    BatchJob& job = jobs.emplace_back();
+    for (const std::size_t i : group) job.decks.push_back(list.decks[i].path);
+    job.result = list.decks[group.front()].result;
+    job.positions = std::move(group);
+    if (task.writes) job.files = files_of_decks(job.decks, scan);
+    files.insert(files.end(), job.files.paths.begin(), job.files.paths.end());
   }
-  task.frame_root = common_root(directories, files);
-  return groups;
+  if (task.writes) task.frame_root = common_root(directories, files);
+  return jobs;
 }
 
 int usage(const BatchOptions& o, const std::string& message) {
@@ -168,9 +149,7 @@ int merge(const BatchOptions& o) {
   const auto merged = merge_shards(o.directory);
   if (!merged) return usage(o, merged.error().message);
   remove_strays(o.directory);
-  if (auto written = write_overview(*o.common.session, o.directory, *merged); !written)
-    return usage(o, written.error().message);
-  return report_batch(o, *merged, 0);
+  return write_overview(o, {}, *merged, 0);
 }
 
 int run(const BatchOptions& o) {
@@ -181,20 +160,15 @@ int run(const BatchOptions& o) {
   auto task = parse_task(o, verbs());
   if (!task) return usage(o, task.error().message);
   // Other verbs are the first word behind the program.
-  if (!o.common.decks.empty()) {
-    const std::string& first = o.common.decks.front();
-    std::error_code ec;
-    if (std::find(verbs_of_a_batch.begin(), verbs_of_a_batch.end(), first) !=
-            verbs_of_a_batch.end() &&
-        !std::filesystem::exists(first, ec))
-      return usage(
-          o,
-          "'" + first +
-              "' is read as the name of a deck, which does not exist; name the verb with --verb " +
-              first);
-  }
-  auto list =
-      list_decks(o.common.decks, o.manifest, task->ending, o.directory, o.common.include_paths);
+  const std::string first = o.common.decks.empty() ? "" : o.common.decks.front();
+  std::error_code ec;
+  if (is_verb_of_a_batch(first) && !std::filesystem::exists(first, ec))
+    return usage(o, "'" + first +
+                        "' is read as the name of a deck, which does not exist; name the verb "
+                        "with --verb " +
+                        first);
+  IncludeScan scan(o.common.include_paths);
+  auto list = list_decks(o.common.decks, o.manifest, task->ending, o.directory, scan);
   if (!list) return usage(o, list.error().message);
   o.common.session->remember_read(o.manifest);
   if (list->decks.empty())
@@ -204,10 +178,14 @@ int run(const BatchOptions& o) {
                               list->includes.front().why);
   if (const auto schemas = load_schemas(o.common); !schemas)
     return usage(o, schemas.error().message);
-  auto groups = plan_groups(o, *task, *list);
-  if (!groups) return usage(o, groups.error().message);
-  Batch batch(o, std::move(*task), std::move(*list), std::move(*groups), *shard);
-  return batch.run();
+  if (task->in_place)
+    if (auto prepared = prepare_in_place(o, *task, *list); !prepared)
+      return usage(o, prepared.error().message);
+  std::vector<BatchJob> jobs;
+  std::vector<BatchJob> all = plan_jobs(o, *task, *list);
+  for (std::size_t g = 0; g < all.size(); ++g)
+    if (shard->has(g)) jobs.push_back(std::move(all[g]));
+  return run_batch({o, std::move(*task), std::move(*list), *shard, std::move(jobs)});
 }
 
 Action setup(CommandLine& line) {

@@ -7,10 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "base/shared/hash.hpp"
 #include "base/shared/paths.hpp"
@@ -25,27 +23,19 @@ namespace deck::cli {
 namespace {
 namespace fs = std::filesystem;
 
-Result<std::string> read_manifest(const std::string& path) {
-  std::ostringstream text;
-  if (path == "-") {
-    text << std::cin.rdbuf();
-    return text.str();
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (in) text << in.rdbuf();
-  if (!in) return Error{Error::Code::config, "cannot read the manifest " + path};
-  return text.str();
-}
-
-/// Lines without blanks at their ends, without empty lines and comments.
-std::vector<std::string> manifest_lines(const std::string& text) {
+/// Lines without blanks at their ends, without empty lines and comments. "-": standard input.
+Result<std::vector<std::string>> manifest_lines(const std::string& path) {
+  std::ifstream file;
+  if (path != "-") file.open(path, std::ios::binary);
+  if (!file) return Error{Error::Code::config, "cannot read the manifest " + path};
+  std::istream& in = path == "-" ? std::cin : file;
   std::vector<std::string> out;
-  std::istringstream in(text);
   for (std::string line; std::getline(in, line);) {
     const auto first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
     out.push_back(line.substr(first, line.find_last_not_of(" \t\r") + 1 - first));
   }
+  if (in.bad()) return Error{Error::Code::config, "cannot read the manifest " + path};
   return out;
 }
 
@@ -67,25 +57,18 @@ std::string name_with_parents(const fs::path& path, int parents) {
 std::vector<std::string> result_names(const std::vector<fs::path>& paths) {
   std::vector<int> parents(paths.size(), 0);
   std::vector<std::string> names(paths.size());
-  for (bool changed = true; changed;) {
-    changed = false;
-    std::map<std::string, std::vector<std::size_t>> by_name;
+  for (bool longer = true; longer;) {
+    longer = false;
+    std::map<std::string, std::set<fs::path>> folders;
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      folders[names[i] = name_with_parents(paths[i], parents[i])].insert(paths[i].parent_path());
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      names[i] = name_with_parents(paths[i], parents[i]);
-      by_name[names[i]].push_back(i);
-    }
-    for (const auto& [name, same] : by_name) {
-      // Files of one directory are not told apart by its name.
-      const fs::path parent = paths[same.front()].parent_path();
-      if (!reserved(name) && std::all_of(same.begin(), same.end(), [&](std::size_t i) {
-            return paths[i].parent_path() == parent;
-          }))
+      // Files of one directory are not told apart by its name, nor any files above the root.
+      if ((folders[names[i]].size() < 2 && !reserved(names[i])) ||
+          name_with_parents(paths[i], parents[i] + 1) == names[i])
         continue;
-      for (const std::size_t i : same) {
-        if (name_with_parents(paths[i], parents[i] + 1) == name) continue;  // at the root
-        ++parents[i];
-        changed = true;
-      }
+      ++parents[i];
+      longer = true;
     }
   }
   // What differs in the extension only.
@@ -124,17 +107,14 @@ bool is_part_of_a_deck(const std::string& path) {
   return keyword;
 }
 
-/// Takes the files out of `found` that are includes; see list_decks. `files`: those of the others.
-std::vector<IncludeFile> take_includes(
-    std::vector<std::string>& found, const std::vector<std::string>& named,
-    const std::vector<std::string>& include_paths,
-    std::map<std::string, std::vector<IncludeScan::File>>& files) {
+/// Takes the files out of `found` that are includes; see list_decks.
+std::vector<IncludeFile> take_includes(std::vector<std::string>& found,
+                                       const std::vector<std::string>& named, IncludeScan& scan) {
   std::set<std::string> by_name;
   for (const std::string& path : named) by_name.insert(find_deck(path));
   if (std::all_of(found.begin(), found.end(),
                   [&](const std::string& path) { return by_name.contains(path); }))
     return {};
-  IncludeScan scan(include_paths);
   std::vector<std::vector<IncludeScan::File>> trees;
   std::set<FileIdentity> below;  // files that some deck includes
   for (const std::string& path : found) {
@@ -150,17 +130,15 @@ std::vector<IncludeFile> take_includes(
   std::vector<IncludeFile> includes;
   std::vector<std::string> decks;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const bool needed = !trees[i].empty() && below.contains(trees[i].front().identity) &&
-                        includer.contains(trees[i].front().identity);
-    const bool include = !by_name.contains(found[i]) && (needed || is_part_of_a_deck(found[i]));
-    if (!include) {
-      decks.push_back(found[i]);
-      files.emplace(found[i], std::move(trees[i]));
-    } else if (needed) {
-      includes.push_back({found[i], "included by " + includer.at(trees[i].front().identity)});
-    } else {
+    const auto by = trees[i].empty() || !below.contains(trees[i].front().identity)
+                        ? includer.end()
+                        : includer.find(trees[i].front().identity);
+    if (!by_name.contains(found[i]) && by != includer.end())
+      includes.push_back({found[i], "included by " + by->second});
+    else if (!by_name.contains(found[i]) && is_part_of_a_deck(found[i]))
       includes.push_back({found[i], "has neither '#RADIOSS STARTER' nor /BEGIN"});
-    }
+    else
+      decks.push_back(found[i]);
   }
   found = std::move(decks);
   return includes;
@@ -170,13 +148,12 @@ std::vector<IncludeFile> take_includes(
 
 Result<BatchList> list_decks(const std::vector<std::string>& given, const std::string& manifest,
                              std::string_view ending, const std::string& output,
-                             const std::vector<std::string>& include_paths) {
+                             IncludeScan& scan) {
   std::vector<std::string> named = given;
   if (!manifest.empty()) {
-    const auto text = read_manifest(manifest);
-    if (!text) return text.error();
-    const auto lines = manifest_lines(*text);
-    named.insert(named.end(), lines.begin(), lines.end());
+    const auto lines = manifest_lines(manifest);
+    if (!lines) return lines.error();
+    named.insert(named.end(), lines->begin(), lines->end());
   }
   if (std::find(named.begin(), named.end(), "-") != named.end())
     return Error{Error::Code::config,
@@ -184,32 +161,27 @@ Result<BatchList> list_decks(const std::vector<std::string>& given, const std::s
   auto found = expand_decks(named, ending, output);
   if (!found) return found.error();
   BatchList list;
-  if (ending == deck_ending)
-    list.includes = take_includes(*found, named, include_paths, list.files);
-  std::vector<BatchDeck>& decks = list.decks;
+  if (ending == deck_ending) list.includes = take_includes(*found, named, scan);
   std::vector<fs::path> paths;
-  std::error_code ec;
-  for (const std::string& path : *found) {
-    decks.push_back({path, {}});
-    paths.push_back(absolute_path(path));
-  }
+  for (const std::string& path : *found) paths.push_back(absolute_path(path));
   const auto names = result_names(paths);
-  for (std::size_t i = 0; i < decks.size(); ++i) decks[i].result = names[i] + ".json";
+  for (std::size_t i = 0; i < names.size(); ++i)
+    list.decks.push_back({(*found)[i], names[i] + ".json"});
   return list;
 }
 
-DeckFiles files_of_decks(const std::vector<std::string>& decks,
-                         const std::vector<std::vector<IncludeScan::File>>& trees) {
+DeckFiles files_of_decks(const std::vector<std::string>& decks, IncludeScan& scan) {
   DeckFiles out;
   std::string text;
   const auto add = [&](const std::string& path, std::uint64_t contents) {
     out.paths.push_back(path);
     text += "\n" + path + " " + std::to_string(contents);
   };
-  for (std::size_t d = 0; d < decks.size(); ++d) {
-    if (trees[d].empty()) add(decks[d], file_hash(decks[d]));
-    for (const IncludeScan::File& f : trees[d]) add(f.path, f.contents);
-    std::string name = without_gz(decks[d]);
+  for (const std::string& deck : decks) {
+    const auto tree = scan.files(deck);
+    if (tree.empty()) add(deck, 0);
+    for (const IncludeScan::File& f : tree) add(f.path, f.contents);
+    std::string name = without_gz(deck);
     if (!name.ends_with(deck_ending)) continue;
     name.resize(name.size() - deck_ending.size());
     for (int number = 1;; ++number) {
@@ -221,12 +193,6 @@ DeckFiles files_of_decks(const std::vector<std::string>& decks,
   }
   out.contents = content_hash(text);
   return out;
-}
-
-DeckFiles files_of_decks(const std::vector<std::string>& decks, IncludeScan& scan) {
-  std::vector<std::vector<IncludeScan::File>> trees;
-  for (const std::string& deck : decks) trees.push_back(scan.files(deck));
-  return files_of_decks(decks, trees);
 }
 
 Result<Shard> parse_shard(const std::string& text) {

@@ -3,7 +3,7 @@
 // of a divided batch comes to the same answer.
 #pragma once
 #include <cstddef>
-#include <map>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,8 +27,6 @@ struct IncludeFile {
 struct BatchList {
   std::vector<BatchDeck> decks;
   std::vector<IncludeFile> includes;  ///< not run
-  /// Files of the include trees that were looked at to tell decks from includes, by deck.
-  std::map<std::string, std::vector<IncludeScan::File>> files = {};
 };
 
 /// The decks in the order given: the arguments, then the lines of `manifest` (empty: none, "-":
@@ -44,8 +42,7 @@ struct BatchList {
 /// name of the directory is put before it ("left--car_0000.json"), and of the one above as long as
 /// needed; what is still equal is numbered.
 Result<BatchList> list_decks(const std::vector<std::string>& given, const std::string& manifest,
-                             std::string_view ending, const std::string& output,
-                             const std::vector<std::string>& include_paths);
+                             std::string_view ending, const std::string& output, IncludeScan& scan);
 
 /// The files of decks, as far as they can be found, with Engine files, which some verbs look at.
 struct DeckFiles {
@@ -53,9 +50,6 @@ struct DeckFiles {
   std::uint64_t contents = 0;  ///< hash of paths and contents
 };
 DeckFiles files_of_decks(const std::vector<std::string>& decks, IncludeScan& scan);
-/// The same with the include trees of the decks known; empty: those of documents.
-DeckFiles files_of_decks(const std::vector<std::string>& decks,
-                         const std::vector<std::vector<IncludeScan::File>>& trees);
 
 /// Part `index` (1-based) of `count`: every count-th deck, or group of decks that share files.
 struct Shard {

@@ -1,198 +1,264 @@
-// What a batch leaves at its end: summary, page, loss report; and what goes because nobody needs it
-// any more.
+// The summary for people, worst deck first: the page DIR/index.html and the table in a terminal.
 #include <fmt/format.h>
-#include <signal.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <thread>
+#include <cctype>
+#include <map>
+#include <tuple>
+#include <vector>
 
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
-#include "base/shared/paths.hpp"
-#include "batch/run.hpp"
-#include "deck/text/source.hpp"
-#include "report/shared/json.hpp"
+#include "base/shared/length_text.hpp"
+#include "batch/summary.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck::cli {
-namespace fs = std::filesystem;
-
-Result<void> make_own_directory(const std::string& path) {
-  std::error_code ec;
-  fs::create_directories(path, ec);
-  if (ec) return Error{Error::Code::io, "cannot make " + path + ": " + ec.message()};
-  if (fs::symlink_status(path, ec).type() == fs::file_type::directory) return {};
-  return Error{Error::Code::config,
-               path + " is a link, not a directory, and leads outside of the results; remove it"};
-}
-
-Result<void> write_result(Session& session, const std::string& path, std::string_view bytes,
-                          bool sync) {
-  OutputRules rules;
-  WriteOptions options;
-  rules.follow_links = options.follow_links = false;
-  options.sync = sync;
-  return session.write_outputs({{path, bytes}}, rules, options);
-}
-
-// ---- what killed processes left --------------------------------------------------------------
-
-void remove_strays(const std::string& directory,
-                   const std::optional<std::set<std::string>>& names) {
-  std::map<int, bool> processes;  // those that are gone
-  // Waits a little for one that was killed with its parent.
-  const auto is_gone = [&](int pid) {
-    const auto [it, is_new] = processes.try_emplace(pid, false);
-    for (int waited = 0; is_new && waited < 200 && !it->second; ++waited) {
-      it->second = kill(pid, 0) != 0 && errno == ESRCH;
-      if (!it->second) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return it->second;
-  };
-  std::error_code ec;
-  for (auto it = fs::recursive_directory_iterator(
-           directory, fs::directory_options::skip_permission_denied, ec);
-       !ec && it != fs::recursive_directory_iterator(); it.increment(ec)) {
-    if (names) it.disable_recursion_pending();
-    const std::string name = it->path().filename().string();
-    const auto temporary = temporary_of(name);
-    const bool wanted =
-        temporary && (!names || std::any_of(names->begin(), names->end(), [&](const auto& target) {
-          return is_temporary_of(name, target);
-        }));
-    if (wanted && is_gone(*temporary)) unlink(it->path().c_str());
-  }
-}
-
 namespace {
 
-/// Removes what records name and the summary does not need: results and decks of groups that are
-/// gone or are others now, unless somebody changed them.
-void remove_leftovers(const std::string& directory, const std::map<std::string, Record>& records,
-                      const Summary& summary) {
-  std::set<std::string> entries, decks, current;
-  for (const SummaryEntry& e : summary.entries) {
-    entries.insert(e.json);
-    decks.insert(nlohmann::json::parse(e.json).at("deck").get<std::string>());
-  }
-  const auto is_current = [&](const Record& r) {
-    return std::any_of(r.entries.begin(), r.entries.end(),
-                       [&](const SummaryEntry& e) { return entries.contains(e.json); });
-  };
-  for (const auto& [path, r] : records)
-    if (is_current(r))
-      for (const WrittenFile& f : r.outputs) current.insert(f.path);
-  const auto remove = [&](const WrittenFile& f) {
-    const fs::path relative = fs::path(f.path).lexically_normal();
-    if (current.contains(f.path) || relative.is_absolute() || *relative.begin() == ".." ||
-        !is_as_written(directory, f))
-      return;
-    unlink((fs::path(directory) / relative).c_str());
-    std::error_code ec;  // directories that are empty now
-    for (fs::path up = relative.parent_path();
-         !up.empty() && fs::remove(fs::path(directory) / up, ec); up = up.parent_path()) {
-    }
-  };
-  for (const auto& [path, r] : records) {
-    for (const WrittenFile& f : r.former) remove(f);
-    if (is_current(r)) continue;
-    for (const WrittenFile& f : r.outputs) remove(f);
-    // What was converted in place must not be converted again, whatever this run said of it.
-    const bool listed = std::any_of(r.decks.begin(), r.decks.end(),
-                                    [&](const std::string& d) { return decks.contains(d); });
-    if (r.before == 0 || !listed) unlink(path.c_str());
-  }
+constexpr std::string_view style = R"(
+:root{color-scheme:light dark;--ground:#f5f6f8;--panel:#fff;--ink:#17202b;--muted:#5c6979;--line:#e2e6ec;
+--accent:#1f5fd0;--bad:#b3261e;--warn:#8a5000;--good:#1d7044;--bar:#d9822b}
+@media(prefers-color-scheme:dark){:root{--ground:#10151b;--panel:#171e27;--ink:#e7edf4;--muted:#93a2b4;
+--line:#263140;--accent:#7fb2ff;--bad:#ff8a80;--warn:#ffc069;--good:#7bd3a0}}
+body{margin:0 auto;padding:20px;max-width:1500px;background:var(--ground);color:var(--ink);font:14px/1.5 system-ui,sans-serif}
+h1{font-size:20px;margin:0;overflow-wrap:anywhere}h2{font-size:16px}p{color:var(--muted)}a{color:var(--accent)}
+table{display:block;overflow-x:auto;border-collapse:collapse;background:var(--panel);font-variant-numeric:tabular-nums}
+th,td{border-bottom:1px solid var(--line);padding:.35em .8em;text-align:left;vertical-align:top}
+th{white-space:nowrap;cursor:pointer}.n{text-align:right;white-space:nowrap}td:first-child{overflow-wrap:anywhere;min-width:20em}
+.good,.clean,.passed{color:var(--good)}.warn,.findings,.not-examined{color:var(--warn)}
+.bad,.failed,.unreadable,.skipped{color:var(--bad)}.level{white-space:nowrap;font-weight:600}
+.level::before{content:"";display:inline-block;width:10px;height:10px;border-radius:50%;margin-right:7px;background:currentColor}
+.bar{display:block;height:5px;border-radius:3px;background:var(--line);min-width:70px;overflow:hidden}
+.bar i{display:block;height:100%;background:var(--bar)}.bar .full{background:var(--bad)}
+.filters button{font:inherit;color:inherit;background:var(--panel);border:1px solid var(--line);border-radius:14px;padding:3px 12px;margin:10px 8px 10px 0}
+.filters [aria-pressed=true]{background:var(--accent);border-color:var(--accent);color:var(--panel)}[hidden]{display:none}
+)";
+
+/// A click on a title sorts, by numbers where there are some. A button for each level leaves only
+/// its decks.
+constexpr std::string_view script = R"(
+const body=document.querySelector("tbody"),filters=document.querySelector(".filters");
+document.querySelectorAll("th").forEach((title,column)=>{
+ let down=1;
+ title.onclick=()=>{
+  const text=row=>row.cells[column].textContent;
+  body.append(...[...body.rows].sort((a,b)=>{
+   const x=text(a),y=text(b),order=parseFloat(x)-parseFloat(y);
+   return down*(isNaN(order)?x.localeCompare(y):order)}));
+  down=-down}});
+filters.hidden=false;
+filters.onclick=e=>{
+ const button=e.target.closest("button");if(!button)return;
+ const on=button.getAttribute("aria-pressed")!=="true";
+ for(const b of filters.children)b.setAttribute("aria-pressed",String(on&&b===button));
+ for(const r of body.rows)r.hidden=on&&r.dataset.level!==button.dataset.level}
+)";
+
+/// A path as the address of a file beside the page.
+std::string address_of(std::string_view path) {
+  std::string out = "./";
+  for (const char c : path)
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+        std::string_view("/._-~").find(c) != std::string_view::npos)
+      out += c;
+    else
+      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return out;
 }
 
-// ---- documents -------------------------------------------------------------------------------
+/// How bad a deck is: by its verdict, or because it did not get through.
+struct Level {
+  std::string_view name, words, colour;
+};
+constexpr Level levels[] = {  // worst last
+    {"clean", "clean", "good"},           {"remarks", "remarks", "good"},
+    {"warnings", "warnings", "warn"},     {"not-examined", "not examined", "warn"},
+    {"untied", "untied", "warn"},         {"crossed", "crossed", "warn"},
+    {"penetrates", "penetrates", "warn"}, {"findings", "findings", "warn"},
+    {"stops", "solver stops", "bad"},     {"skipped", "skipped", "bad"},
+    {"unreadable", "unreadable", "bad"},  {"failed", "failed", "bad"}};
 
-/// The loss reports of all groups as one.
-std::string united_losses(const std::map<std::string, Record>& records, const Summary& summary) {
-  std::map<std::string, const std::string*> by_entry;
-  for (const auto& [path, r] : records)
-    if (!r.losses.empty() && !r.entries.empty())
-      by_entry.emplace(r.entries.front().json, &r.losses);
-  std::vector<nlohmann::ordered_json> parts;
-  for (const SummaryEntry& e : summary.entries)
-    if (const auto found = by_entry.find(e.json); found != by_entry.end())
-      parts.push_back(nlohmann::ordered_json::parse(*found->second));
-  std::string text;
-  JsonWriter json(text);
-  json.begin_object();
-  write_json_head(json, "deck/losses", 1);
-  for (const char* kind : {"kept", "approximated", "dropped", "undecided"}) {
-    json.key(kind).begin_array();
-    for (const auto& part : parts)
-      for (const auto& entry : part.at(kind)) json.raw(json_line(entry));
-    json.end_array();
+/// A line of the summary with what people see of it.
+struct Row {
+  explicit Row(const Json& of)
+      : line(&of), deck(text_in(of, "deck")), status(text_in(of, "status")) {
+    const bool through = status == "clean" || status == "findings" || status == "not-examined";
+    const Json verdict = of.value("verdict", Json());
+    std::string name = through ? text_in(verdict, "level") : status;
+    if (name.empty()) name = status;
+    level = std::find_if(std::begin(levels), std::end(levels) - 1,
+                         [&](const Level& l) { return l.name == name; });
+    // The deck stands beside it: "178:81: /INTER/TYPE7/3 ..." is a place in it.
+    what = text_in(of, "error");
+    got_through = status == "clean" || status == "findings";
+    if (what.starts_with(deck + ":"))
+      what = what.substr(what.find_first_not_of(' ', deck.size() + 1));
+    if (what.empty()) what = text_in(verdict, "text");
   }
-  json.end_object();
-  return text;
+  double number(const char* name) const { return counted(*line, name).value_or(0); }
+  /// Penetrating nodes and edges, each once.
+  double penetrations() const { return number("nodes") + number("edges"); }
+
+  const Json* line;
+  std::string deck, status, what;
+  const Level* level;
+  bool got_through = false;
+};
+
+/// Worst first.
+std::vector<Row> rows_of(const Json& summary) {
+  std::vector<Row> rows(summary.at("decks").begin(), summary.at("decks").end());
+  const auto key = [](const Row& r) {
+    return std::tuple(levels - r.level, -r.number("max_ratio"),
+                      -r.penetrations() - r.number("errors") - r.number("warnings"), r.deck);
+  };
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const Row& a, const Row& b) { return key(a) < key(b); });
+  return rows;
 }
 
-/// The results that those of `text` are compared with: the last that were not the same. The summary
-/// that is about to be replaced is kept for that. nullopt: there are none.
-Result<std::optional<Summary>> keep_previous(Session& session, const std::string& directory,
-                                             const std::string& path, const std::string& text) {
-  const std::string kept = directory + "/.batch/previous.json";
-  if (const auto now = Source::open(path, Limits{}); now && (*now)->bytes() != text)
-    if (auto done = write_result(session, kept, (*now)->bytes(), true); !done) return done.error();
-  const auto before = Source::open(kept, Limits{});
-  if (!before) return std::optional<Summary>();
-  auto summary = parse_summary((*before)->bytes());
-  return summary ? std::optional<Summary>(std::move(*summary)) : std::nullopt;
+/// A column that is there if some deck counted (or says) `of`.
+struct Field {
+  const char* of;
+  const char* title;
+  Align align;
+  std::string (*text)(const Row&);
+};
+constexpr Field all_fields[] = {
+    {"pairs", "penetrating", Align::right,
+     [](const Row& r) { return fmt::format("{:.0f}", r.penetrations()); }},
+    {"pairs", "deepest", Align::right,
+     [](const Row& r) {
+       if (!(r.number("pairs") > 0)) return std::string("-");
+       const auto depth = counted(*r.line, "max_depth");
+       return depth ? length_text(*depth) : std::string("unbounded");
+     }},
+    {"pairs", "of gap", Align::right,
+     [](const Row& r) {
+       return r.number("pairs") > 0 ? fmt::format("{:.0f} %", 100 * r.number("max_ratio")) : "-";
+     }},
+    {"gate", "gate", Align::left, [](const Row& r) { return text_in(*r.line, "gate"); }},
+    {"errors", "errors", Align::right,
+     [](const Row& r) { return fmt::format("{:.0f}", r.number("errors")); }},
+    {"errors", "warnings", Align::right,
+     [](const Row& r) { return fmt::format("{:.0f}", r.number("warnings")); }}};
+
+bool has(const Row& row, const Field& field) {
+  return counted(*row.line, field.of) || !text_in(*row.line, field.of).empty();
+}
+std::string text_of(const Row& row, const Field& field) {
+  return has(row, field) ? field.text(row) : "-";
+}
+
+std::vector<Field> fields_of(const std::vector<Row>& rows) {
+  std::vector<Field> fields;
+  for (const Field& f : all_fields)
+    if (std::any_of(rows.begin(), rows.end(), [&](const Row& r) { return has(r, f); }))
+      fields.push_back(f);
+  return fields;
+}
+
+std::string page_row(const Row& r, const std::vector<Field>& fields) {
+  const std::string deck = html_text(r.deck), result = text_in(*r.line, "result");
+  const std::string status = html_text(r.status);
+  std::string row = fmt::format(
+      "<tr data-level=\"{}\"><td>{}</td><td class=\"level {}\">{}</td><td class=\"{}\">{}</td>",
+      r.level->name,
+      result.empty() ? deck : "<a href=\"" + address_of(result) + "\">" + deck + "</a>",
+      r.level->colour, r.level->words, status, status);
+  for (const Field& f : fields) {
+    const std::string text = html_text(text_of(r, f));
+    row += fmt::format("<td class=\"{}\">{}", f.align == Align::right ? "n" : text, text);
+    if (f.title == std::string_view("of gap") && text != "-")
+      row += fmt::format("<span class=\"bar\"><i{} style=\"width:{:.0f}%\"></i></span>",
+                         r.number("max_ratio") >= 1 ? " class=\"full\"" : "",
+                         std::clamp(100 * r.number("max_ratio"), 0.0, 100.0));
+    row += "</td>";
+  }
+  return row + "<td>" + html_text(r.what) + "</td></tr>\n";
 }
 
 }  // namespace
 
-Result<void> write_overview(Session& session, const std::string& directory, const Summary& s) {
-  const std::string suffix = summary_name(s.shard).substr(std::string_view("summary").size());
-  const std::string path = directory + "/" + summary_name(s.shard), text = summary_json(s);
-  const std::map<std::string, Record> records = read_records(directory);
-  if (s.verb == "convert")
-    if (auto done =
-            write_result(session, directory + "/losses" + suffix, united_losses(records, s), true);
-        !done)
-      return done;
-  if (s.shard.whole()) {
-    remove_leftovers(directory, records, s);
-    const auto previous = keep_previous(session, directory, path, text);
-    if (!previous) return previous.error();
-    std::map<std::string, double> seconds;
-    for (const auto& [name, r] : records)
-      for (const SummaryEntry& e : r.entries) seconds.emplace(e.json, r.seconds);
-    const std::string page = summary_page(s, *previous ? &**previous : nullptr, seconds);
-    if (auto done = write_result(session, directory + "/index.html", page, true); !done)
-      return done;
-  }
-  return write_result(session, path, text, true);
+std::string summary_page(const Json& s) {
+  const std::vector<Row> rows = rows_of(s);
+  const std::vector<Field> fields = fields_of(rows);
+  std::string what = text_in(s, "verb"), totals, filters, titles, lines, includes;
+  for (const Json& word : s.at("arguments")) what += " " + word.get<std::string>();
+  what = html_text(what);
+  std::map<const Level*, int, std::greater<>> numbers;
+  std::map<std::string, int> states;
+  for (const Row& r : rows) ++numbers[r.level], ++states[html_text(r.status)];
+  for (const auto& [status, n] : states) totals += fmt::format(", {} {}", n, status);
+  for (const auto& [level, n] : numbers)
+    filters += fmt::format(
+        "<button type=\"button\" aria-pressed=\"false\" data-level=\"{}\">{} {}</button>",
+        level->name, n, level->words);
+  for (const char* title : {"deck", "level", "status"}) titles += fmt::format("<th>{}</th>", title);
+  for (const Field& f : fields)
+    titles += fmt::format("<th{}>{}</th>", f.align == Align::right ? " class=\"n\"" : "", f.title);
+  for (const Row& r : rows) lines += page_row(r, fields);
+  for (const Json& f : s.at("includes"))
+    includes += "<tr><td>" + html_text(text_in(f, "file")) + "</td><td>" +
+                html_text(text_in(f, "why")) + "</td></tr>\n";
+  if (!includes.empty())
+    includes = "<h2>Includes, not run</h2>\n<table><tbody>\n" + includes + "</tbody></table>\n";
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width\">\n<title>deck batch: {0}</title>\n"
+      "<style>{1}</style></head><body>\n<h1>deck {0}</h1>\n"
+      "<p>{2}{3}; <a href=\"./summary.json\">summary.json</a></p>\n"
+      "<div class=\"filters\" role=\"group\" aria-label=\"Only decks of a level\" "
+      "hidden>{4}</div>\n"
+      "<table><thead><tr>{5}<th>what</th></tr></thead><tbody>\n{6}</tbody></table>\n{7}"
+      "<script>{8}</script>\n</body></html>\n",
+      what, style, count(rows.size(), "deck", "decks"), totals, filters, titles, lines, includes,
+      script);
 }
 
-int report_batch(const BatchOptions& o, const Summary& s, std::size_t kept) {
-  if (!o.common.json.empty())
-    if (auto written = o.common.session->write_output(o.common.json, summary_json(s)); !written) {
-      print_error(o.common, written.error().message);
-      return exit_usage;
+std::string summary_table(const Json& s, std::size_t width, bool color) {
+  constexpr std::size_t most_rows = 40, most_includes = 5;
+  std::vector<Row> rows = rows_of(s);
+  const std::size_t all = rows.size();
+  std::erase_if(rows, [](const Row& r) { return r.status == "clean"; });
+  const std::size_t clean = all - rows.size();
+  std::string out;
+  if (!rows.empty()) {
+    const std::vector<Field> fields = fields_of(rows);
+    // Where there are numbers only what did not get through needs words.
+    const auto what = [&](const Row& r) {
+      return fields.empty() || !r.got_through ? r.what : std::string();
+    };
+    std::vector<TextTable::Column> columns = {{"deck"}, {"status"}};
+    for (const Field& f : fields) columns.push_back({f.title, f.align});
+    if (std::any_of(rows.begin(), rows.end(), [&](const Row& r) { return !what(r).empty(); }))
+      columns.push_back({"what"});
+    TextTable table(columns);
+    for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i) {
+      const Row& r = rows[i];
+      std::vector<TextTable::Cell> cells = {r.deck,
+                                            {r.status, r.level->colour == "good"   ? Tone::green
+                                                       : r.level->colour == "warn" ? Tone::yellow
+                                                                                   : Tone::red}};
+      for (const Field& f : fields) cells.emplace_back(text_of(r, f));
+      if (cells.size() < columns.size()) cells.emplace_back(what(r));
+      table.row(std::move(cells));
     }
-  if (o.common.wants_text()) {
-    const std::size_t nothing = s.count("not-examined");
-    const std::string not_examined =
-        nothing > 0 ? fmt::format("{} with nothing examined, ", nothing) : std::string();
-    const std::size_t left_out = s.count("skipped");
-    const std::string skipped = left_out > 0 ? fmt::format("{} skipped, ", left_out) : "";
-    std::string text = summary_table(s, text_width(), o.common.color_on(1));
-    if (!text.empty()) text += "\n";
-    text +=
-        fmt::format("{}: {} clean, {} with findings, {}{} unreadable, {}{} failed",
-                    count(s.entries.size(), "deck", "decks"), s.count("clean"), s.count("findings"),
-                    not_examined, s.count("unreadable"), skipped, s.count("failed"));
-    if (kept > 0) text += fmt::format("; {} were finished before", kept);
-    print_lines(text + "; " + terminal_text(o.directory) + "/" + summary_name(s.shard) + "\n");
+    out = table.fitted(width, color);
+    if (rows.size() > most_rows)
+      out += fmt::format("... and {} more, see index.html\n", rows.size() - most_rows);
+    if (clean > 0)
+      out += fmt::format("{} clean {} not listed\n", clean, clean == 1 ? "deck is" : "decks are");
   }
-  return s.worst();
+  const Json& includes = s.at("includes");
+  for (std::size_t i = 0; i < std::min(includes.size(), most_includes); ++i)
+    out += fmt::format("include, not run: {} ({})\n", terminal_text(text_in(includes[i], "file")),
+                       terminal_text(text_in(includes[i], "why")));
+  if (includes.size() > most_includes)
+    out +=
+        fmt::format("... and {} includes more, see index.html\n", includes.size() - most_includes);
+  return out;
 }
 
 }  // namespace deck::cli

@@ -1,16 +1,15 @@
-// Worker processes of a batch: one for each job, so many at a time, each with a time limit. One
-// that crashes, hangs or runs out of memory costs its own job only.
+// Worker processes of a batch: one a job, so many at a time, each with a time limit. One that
+// crashes, hangs or runs out of memory costs its own job only.
 #pragma once
 #include <cstddef>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "deck/text/result.hpp"
 
 namespace deck::cli {
 
-/// Standard output and standard error of a job, kept in memory.
+/// What a worker prints, kept in files in memory.
 struct Captured {
   int out_file = -1, err_file = -1;
   std::string out() const;
@@ -20,9 +19,8 @@ struct Captured {
 /// How a job ended.
 struct JobReport {
   std::size_t job = 0;
-  bool answered = false;
-  std::string answer;  ///< what the work returned
-  int exit_code = -1;  ///< of a worker that ended without an answer by itself; -1: see `why`
+  std::string answer;  ///< what the work returned; empty: the worker ended before
+  int exit_code = -1;  ///< of a worker that ended by itself without an answer; -1: see `why`
   std::string why;     ///< "killed by signal 11 (Segmentation fault)", "no answer in 5 s"
   std::string err;     ///< standard error of a worker that ended without an answer
 };

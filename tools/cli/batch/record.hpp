@@ -9,15 +9,11 @@
 #include <vector>
 
 #include "batch/summary.hpp"
-#include "deck/text/result.hpp"
 
 namespace deck::cli {
 
-/// A file that was written.
-struct WrittenFile {
-  std::string path;  ///< relative to the output directory if it lies below that, else absolute
-  std::uint64_t hash = 0;
-};
+/// Hashes of files that were written, by path relative to the output directory.
+using WrittenFiles = std::map<std::string, std::uint64_t>;
 
 /// Decks that were done together: several only where decks are written.
 struct Record {
@@ -29,30 +25,25 @@ struct Record {
   bool done = false;
   /// Not 0: `contents` before the decks were converted in place, which must not be done twice.
   std::uint64_t before = 0;
-  double seconds = 0;  ///< of each deck
-  std::vector<SummaryEntry> entries;
-  std::vector<WrittenFile> outputs;
-  std::vector<WrittenFile> former;  ///< outputs of earlier runs that are none any more
-  std::string losses;               ///< the lists of a loss report
+  std::vector<Json> lines = {};  ///< of the decks in the summary
+  WrittenFiles outputs = {};
+  WrittenFiles former = {};  ///< outputs of earlier runs that are none any more
+  Json losses = nullptr;     ///< a loss report
 };
 
 std::string record_text(const Record& record);
 /// nullopt: not a record.
 std::optional<Record> parse_record(std::string_view text);
-/// Where the record of the group is whose first deck has this result.
-std::string record_path(const std::string& directory, const std::string& result);
-/// The records of an output directory, by path.
+/// Where below the output directory the record of the group is whose first deck has this result.
+std::string record_name(const std::string& result);
+/// The records of an output directory, by these names.
 std::map<std::string, Record> read_records(const std::string& directory);
 
+/// What identifies this program: its version and the hashes of its files.
+std::string program_identity();
 /// Hash of a regular file; 0: there is none.
 std::uint64_t file_hash(const std::string& path);
-/// True if the file is as it was written.
-bool is_as_written(const std::string& directory, const WrittenFile& file);
-
-/// `path` as it reads in JSON: bytes that are no UTF-8 are taken for Latin-1.
-std::string as_utf8(std::string_view text);
-
-/// What identifies this program: its version and the hash of its files. Empty: nothing does.
-std::string program_identity();
+/// True if the file of an output directory is as it was written.
+bool is_as_written(const std::string& directory, const WrittenFiles::value_type& file);
 
 }  // namespace deck::cli
