@@ -340,7 +340,7 @@ Result<std::vector<std::string>> Edit::save(const SaveOptions& options) {
       others.insert(std::move(deck));
   }
   const std::set<FileIdentity> touched = set->changed_files();
-  const auto own = identity_of(set->main_path(0));
+  const auto own = identity_of(plan->mains.front());
   IncludeScan scan(state_->original->options().read.include_paths);
   for (const std::string& deck : others) {
     if (identity_of(deck) == own) continue;
@@ -351,7 +351,7 @@ Result<std::vector<std::string>> Edit::save(const SaveOptions& options) {
   }
   WriteOptions write;
   write.backup_suffix = options.backup_suffix;
-  write.note_beside = plan->main;
+  write.note_beside = plan->mains.front();
   if (const auto done = write_files_atomic(plan->files, write); !done) return done.error();
   return paths;
 }

@@ -29,7 +29,7 @@ class EditSet {
     std::vector<OutputFile> files;     ///< by path; the bytes are those that will be on disk
     std::deque<std::string> packed;    ///< bytes of packed files
     std::vector<std::string> outside;  ///< trees: included by an absolute path, left where they are
-    std::string main;                  ///< in place: main file of the first deck
+    std::vector<std::string> mains;    ///< main file of each deck, as it will lie there
   };
 
   /// Takes the files of a deck as they were read, before anything is changed. `name` stands for the
@@ -72,65 +72,65 @@ class EditSet {
 
   /// The files that would change in place, by identity, also where that is refused.
   std::set<FileIdentity> changed_files() const;
-  /// The main file of a deck as it was read, and as tree() names it below its directory.
-  const std::string& main_path(std::size_t deck) const { return decks_[deck].order.front(); }
-  const std::string& main_target(std::size_t deck) const {
-    return decks_[deck].layout.front().first;
-  }
   /// `written` is a deck read from what was planned: what is not as it was proposed; empty:
   /// nothing.
   std::string read_back_difference(std::size_t deck, const Deck& written) const;
 
  private:
-  /// A deck's use of a file.
-  struct Use {
-    std::size_t deck = 0;
-    std::string path;   ///< as this deck opened it
-    std::string place;  ///< "file:line" of the #include; empty: the main file
-    std::size_t text = 0;
-  };
   struct File {
-    std::uint64_t device = 0, inode = 0;  ///< 0: from memory
+    FileIdentity identity;  ///< {0, 0}: from memory, or a copy that is to be made
     /// Where it is on disk, links resolved, and how it was opened: several if hard-linked.
     std::vector<std::pair<std::string, std::string>> places;
     std::deque<std::string> texts;  ///< as it was read, then what is wanted
     std::string on_disk;            ///< of a packed file: what was unpacked
-    std::vector<Use> uses;
-    std::string outsider;  ///< a deck outside the set that includes it
-    bool is_new = false;   ///< a copy that is to be made
+    std::string outsider;           ///< a deck outside the set that includes it
+    bool is_new = false;            ///< a copy that is to be made
   };
-  /// An #include of a deck as it shall be.
+  /// A file of a deck.
+  struct Use {
+    std::string path;                   ///< as this deck opened it
+    std::size_t file = 0;               ///< in `files_`
+    std::string directive = {};         ///< "file:line" of the #include; empty: no file includes it
+    std::size_t text = 0;               ///< of the file's texts
+    std::set<std::string> places = {};  ///< where the directives lead to, absolute
+  };
+  /// An #include of a deck as it shall be, between its uses.
   struct Edge {
-    std::string parent, written, child;  ///< paths as opened
+    std::size_t parent, child;
+    std::string written;
   };
   struct Member {
     std::string name;
-    std::string main;                                         ///< as opened
-    std::map<std::string, std::size_t> file_of;               ///< by path as opened
-    std::vector<std::pair<std::string, std::string>> layout;  ///< relative target, path as opened
-    std::vector<std::string> outside;
-    std::string no_layout;  ///< why there is none
-    std::vector<Edge> edges;
-    std::vector<std::string> order;  ///< the files as the reader opens them, repetitions included
-    std::string units;               ///< "kg, mm, ms", as /BEGIN says
+    std::vector<Use> uses = {};  ///< the main file first
+    std::map<std::string, std::size_t, std::less<>> by_path = {};
+    std::vector<std::size_t> order = {};  ///< of uses, as the reader opens them
+    std::vector<Edge> edges = {};
+    std::vector<std::string> outside = {};  ///< included by an absolute path
+    std::string no_place = {};              ///< why the tree cannot be written elsewhere
+    std::string units = {};                 ///< "kg, mm, ms", as /BEGIN says
+  };
+  /// What one deck wants of a file.
+  struct Claim {
+    std::size_t deck;
+    const Use* use;
   };
 
   Result<std::size_t> enter(const Source& source);
-  Result<std::vector<std::pair<const File*, std::size_t>>> changes() const;
-  Error conflict(const File& file, const Use& a, const Use& b, const std::string& where) const;
-  std::vector<std::string> folders() const;
-  const Use* use_of(std::size_t deck, const std::string& path) const;
-  static std::string_view as_written(Plan& plan, const std::string& text, bool packed);
-  const Use* odd_use(const File& file) const;
-  Result<void> give_copy(std::size_t deck, const std::string& path, const std::string& copy);
+  void lay_out(Member& member, const Deck& now, const std::string& main) const;
+  std::vector<std::vector<Claim>> claims() const;
+  Result<std::vector<std::pair<const File*, Claim>>> changes() const;
+  Error conflict(const Claim& a, const Claim& b, const std::string& where) const;
+  Result<std::vector<std::string>> tops() const;
+  const std::string& text_of(const Use& use) const { return files_[use.file].texts[use.text]; }
+  static std::size_t text_number(File& file, const std::string& text);
+  Result<void> redirect_to(Member& member, std::size_t child, const std::string& name);
   std::string free_name(const std::string& path, const std::string& deck) const;
 
   std::string root_;
   std::deque<File> files_;
   std::vector<Member> decks_;
-  std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> by_identity_;
+  std::map<FileIdentity, std::size_t> by_identity_;
   std::map<std::string, std::size_t> by_place_;
-  std::map<std::string, std::size_t, std::less<>> by_path_;  ///< as opened before
 };
 
 }  // namespace deck

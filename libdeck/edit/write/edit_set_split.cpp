@@ -41,6 +41,7 @@ bool redirect(std::string& text, const std::string& written, const std::string& 
 
 }  // namespace
 
+/// A path beside `path` that is free and of no file of the decks.
 std::string EditSet::free_name(const std::string& path, const std::string& deck) const {
   const fs::path p(without_gz(path));
   std::string stem = fs::path(without_gz(deck)).stem().string();
@@ -51,92 +52,68 @@ std::string EditSet::free_name(const std::string& path, const std::string& deck)
         p.parent_path() /
         (p.stem().string() + "_" + stem + (number == 1 ? "" : "_" + std::to_string(number)) +
          p.extension().string());
-    const bool taken = std::any_of(files_.begin(), files_.end(), [&](const File& f) {
-      return std::any_of(f.uses.begin(), f.uses.end(),
+    const bool taken = std::any_of(decks_.begin(), decks_.end(), [&](const Member& member) {
+      return std::any_of(member.uses.begin(), member.uses.end(),
                          [&](const Use& u) { return u.path == candidate.string(); });
     });
     if (!taken && !fs::exists(candidate, ec)) return candidate.string();
   }
 }
 
-/// From now on the deck includes `copy`, which is in its files already, instead of `path`.
-Result<void> EditSet::give_copy(std::size_t deck, const std::string& path,
-                                const std::string& copy) {
-  Member& member = decks_[deck];
-  const std::string name = fs::path(copy).filename().string();
+/// From now on the directives that lead to `child` name a file beside it.
+Result<void> EditSet::redirect_to(Member& member, std::size_t child, const std::string& name) {
   for (Edge& edge : member.edges) {
-    if (edge.child != path) continue;
-    File& parent = files_[member.file_of.at(edge.parent)];
-    const auto use = std::find_if(parent.uses.begin(), parent.uses.end(), [&](const Use& u) {
-      return u.deck == deck && u.path == edge.parent;
-    });
-    if (use == parent.uses.end()) continue;
-    std::string text = parent.texts[use->text];
+    if (edge.child != child) continue;
+    Use& parent = member.uses[edge.parent];
+    std::string text = text_of(parent);
     // The same file through two directives of one text: the first of them has changed both.
     if (!redirect(text, edge.written, name) && text.find(name) == text.npos)
-      return Error{Error::Code::config, edge.parent + ": the #include of " + edge.written +
+      return Error{Error::Code::config, parent.path + ": the #include of " + edge.written +
                                             " cannot be changed; nothing was written. Write it on "
                                             "one line"};
-    auto same = std::find(parent.texts.begin(), parent.texts.end(), text);
-    if (same == parent.texts.end()) same = parent.texts.insert(parent.texts.end(), text);
-    use->text = static_cast<std::size_t>(same - parent.texts.begin());
+    parent.text = text_number(files_[parent.file], text);
     edge.written = (fs::path(edge.written).parent_path() / name).string();
-    edge.child = copy;
   }
-  for (auto& [target, source] : member.layout)
-    if (source == path) {
-      target = (fs::path(target).parent_path() / name).string();
-      source = copy;
-    }
   return {};
 }
 
 Result<void> EditSet::split_includes() {
   // A copy changes the files that include it, which may be shared themselves: until all agree.
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t f = 0; f < files_.size() && !changed; ++f) {
-      File& file = files_[f];
-      if (file.uses.empty()) continue;
-      const bool kept = !file.outsider.empty();
-      if (!(kept && file.uses.front().text != 0) && odd_use(file) == nullptr) continue;
-      // The file keeps the text that a deck outside of the set, or one without changes, needs.
-      std::size_t stays = kept ? 0 : file.uses.front().text;
-      for (const Use& use : file.uses)
-        if (use.text == 0) stays = 0;
-      const auto odd = std::find_if(file.uses.begin(), file.uses.end(),
-                                    [&](const Use& u) { return u.text != stays; });
-      const Use first = *odd;
-      if (first.place.empty()) return {};  // a main file: the conflict is reported
-      const std::string copy = free_name(first.path, decks_[first.deck].name);
-      File made;
-      made.is_new = true;
-      made.texts = {std::string(), file.texts[first.text]};
-      made.places.emplace_back(detail::canonical_place(copy), copy);
-      std::vector<Use> moved;
-      for (const Use& use : file.uses)
-        if (use.text == first.text) moved.push_back(use);
-      std::erase_if(file.uses, [&](const Use& u) { return u.text == first.text; });
-      for (Use use : moved) {
-        // Beside the file as this deck opens it: the same place by another name, perhaps.
-        const std::string old = use.path;
-        use.path = (fs::path(old).parent_path() / fs::path(copy).filename()).string();
-        use.text = 1;
-        made.uses.push_back(use);
-      }
-      files_.push_back(std::move(made));
-      for (std::size_t i = 0; i < moved.size(); ++i) {
-        Member& member = decks_[moved[i].deck];
-        const std::string now = files_.back().uses[i].path;
-        member.file_of.erase(moved[i].path);
-        member.file_of[now] = files_.size() - 1;
-        std::replace(member.order.begin(), member.order.end(), moved[i].path, now);
-        for (Edge& edge : member.edges)
-          if (edge.parent == moved[i].path) edge.parent = now;
-        if (auto given = give_copy(moved[i].deck, moved[i].path, now); !given) return given;
-      }
-      changed = true;
+  for (std::size_t f = 0; f < files_.size(); ++f) {
+    const std::vector<Claim> all = claims()[f];
+    if (all.empty()) continue;
+    // The file keeps the text that a deck outside of the set, or one without changes, needs.
+    std::size_t stays = files_[f].outsider.empty() ? all.front().use->text : 0;
+    for (const Claim& claim : all)
+      if (claim.use->text == 0) stays = 0;
+    const auto odd =
+        std::find_if(all.begin(), all.end(), [&](const Claim& c) { return c.use->text != stays; });
+    if (odd == all.end()) continue;
+    if (odd->use->directive.empty()) return {};  // a main file: the conflict is reported
+    const std::string copy = free_name(odd->use->path, decks_[odd->deck].name);
+    const std::size_t text = odd->use->text;
+    File& made = files_.emplace_back();
+    made.is_new = true;
+    made.texts = {std::string(), files_[f].texts[text]};
+    made.places.emplace_back(detail::canonical_place(copy), copy);
+    const std::string name = fs::path(copy).filename().string();
+    const auto beside = [&](const std::string& path) {
+      return (fs::path(path).parent_path() / name).string();
+    };
+    for (const Claim& claim : all) {
+      if (claim.use->text != text) continue;
+      Member& member = decks_[claim.deck];
+      const auto number = static_cast<std::size_t>(claim.use - member.uses.data());
+      Use& use = member.uses[number];
+      // Beside the file as this deck opens it: the same place by another name, perhaps.
+      member.by_path.erase(use.path);
+      std::set<std::string> places;
+      for (const std::string& place : use.places) places.insert(beside(place));
+      use = {beside(use.path), files_.size() - 1, use.directive, 1, places};
+      member.by_path.emplace(use.path, number);
+      if (auto given = redirect_to(member, number, name); !given) return given;
     }
+    f = static_cast<std::size_t>(-1);  // from the first file again
   }
   return {};
 }

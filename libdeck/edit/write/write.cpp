@@ -72,49 +72,15 @@ bool same_contents(const std::string& a, const std::string& b) {
   return of_a && of_b && (*of_a)->bytes() == (*of_b)->bytes();
 }
 
-/// Locks on the directories whose files are rewritten, held while that is done: two programs of
-/// this kind never compare and replace at the same time. Where a file system has no locks, or a
-/// directory may not be read, there is none.
-class DirectoryLocks {
- public:
-  DirectoryLocks() = default;
-  DirectoryLocks(const DirectoryLocks&) = delete;
-  DirectoryLocks& operator=(const DirectoryLocks&) = delete;
-  ~DirectoryLocks() {
-    for (const int fd : held_) close(fd);
+/// Takes a lock, waiting for who has it; false: for too long.
+bool wait_for_lock(int fd) {
+  for (int waited = 0; waited < 1000; ++waited) {
+    if (flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
+    if (errno != EWOULDBLOCK && errno != EINTR) return true;  // no locks here
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-
-  /// Always in the same order, so that two programs cannot wait for each other for ever.
-  Result<void> take(const std::set<std::string>& directories) {
-    std::map<std::pair<dev_t, ino_t>, int> by_identity;
-    for (const std::string& d : directories) {
-      const int fd = open(d.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-      struct stat status {};
-      if (fd < 0) continue;
-      held_.push_back(fd);
-      if (fstat(fd, &status) == 0) by_identity.emplace(std::pair{status.st_dev, status.st_ino}, fd);
-    }
-    for (const auto& [identity, fd] : by_identity)
-      if (!wait_for(fd))
-        return Error{
-            Error::Code::config,
-            "another program is writing to " + *directories.begin() +
-                " (or another directory of these decks) and does not finish; nothing was written"};
-    return {};
-  }
-
- private:
-  static bool wait_for(int fd) {
-    constexpr auto step = std::chrono::milliseconds(20);
-    for (int waited = 0; waited < 1000; ++waited) {
-      if (flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
-      if (errno != EWOULDBLOCK && errno != EINTR) return true;  // no locks here
-      std::this_thread::sleep_for(step);
-    }
-    return false;
-  }
-  std::vector<int> held_;
-};
+  return false;
+}
 
 /// A set of files on its way to the disk. Whatever is not committed is taken back by the
 /// destructor.
@@ -140,9 +106,9 @@ class Transaction {
   };
 
   Result<void> make_directories(const std::string& directory);
+  Result<void> lock_directories(const std::set<std::string>& directories);
   Result<void> write_new(Entry& entry);
   Result<void> back_up(const Entry& entry);
-  Result<bool> copy_to(const Entry& entry, const std::string& backup);
   Result<void> lay_note();
   Result<void> place(Entry& entry);
   Result<void> flush_directories() const;
@@ -152,7 +118,7 @@ class Transaction {
   /// (device and inode of the directory, name) -> entry
   std::map<std::tuple<dev_t, ino_t, std::string>, std::size_t> by_target_;
   std::vector<std::string> temporaries_, made_, backups_;
-  DirectoryLocks locks_;
+  std::vector<int> locks_;
   std::string note_;
   int note_file_ = -1;
   bool committed_ = false;
@@ -172,6 +138,7 @@ Transaction::~Transaction() {
   for (const std::string& t : temporaries_) unlink(t.c_str());
   if (!note_.empty()) unlink(note_.c_str());
   if (note_file_ >= 0) close(note_file_);
+  for (const int lock : locks_) close(lock);
   // Of the directories made, deepest first; one that is used in the meantime stays.
   for (auto d = made_.rbegin(); d != made_.rend() && !committed_; ++d) rmdir(d->c_str());
 }
@@ -181,12 +148,31 @@ Result<void> Transaction::make_directories(const std::string& directory) {
   std::vector<std::string> missing;
   for (fs::path p = directory; !p.empty() && !fs::exists(p, ec); p = p.parent_path())
     if (p.has_filename()) missing.push_back(p.string());
-  for (auto p = missing.rbegin(); p != missing.rend(); ++p) {
-    if (mkdir(p->c_str(), 0777) == 0)
-      made_.push_back(*p);
-    else if (errno != EEXIST)
-      return io_error("cannot make the directory", *p, errno);
+  made_.insert(made_.end(), missing.rbegin(), missing.rend());
+  fs::create_directories(directory, ec);
+  if (ec) return io_error("cannot make the directory", directory, ec.value());
+  return {};
+}
+
+/// Locks on the directories whose files are rewritten, held while that is done: two programs of
+/// this kind never compare and replace at the same time. Where a file system has no locks, or a
+/// directory may not be read, there is none.
+Result<void> Transaction::lock_directories(const std::set<std::string>& directories) {
+  // Always in the same order, so that two programs cannot wait for each other for ever.
+  std::map<std::pair<dev_t, ino_t>, int> by_identity;
+  for (const std::string& d : directories) {
+    struct stat status {};
+    const int fd = open(d.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd < 0) continue;
+    locks_.push_back(fd);
+    if (fstat(fd, &status) == 0) by_identity.emplace(std::pair{status.st_dev, status.st_ino}, fd);
   }
+  for (const auto& [identity, fd] : by_identity)
+    if (!wait_for_lock(fd))
+      return Error{
+          Error::Code::config,
+          "another program is writing to " + *directories.begin() +
+              " (or another directory of these decks) and does not finish; nothing was written"};
   return {};
 }
 
@@ -276,42 +262,24 @@ Result<void> Transaction::write_new(Entry& entry) {
   return done;
 }
 
-/// Copies the old file to a name that is free; false: it is not, or not any more.
-Result<bool> Transaction::copy_to(const Entry& entry, const std::string& backup) {
-  std::error_code ec;
-  const auto name = take_temporary(backup, [&](const char* path) {
-    if (fs::copy_file(entry.target, path, ec)) return 0;
-    errno = ec.value();
-    return -1;
-  });
-  if (!name) return io_error("cannot make the backup", backup, errno);
-  temporaries_.push_back(*name);
-  struct stat status {};
-  if (lstat(backup.c_str(), &status) == 0) return false;
-  if (std::rename(name->c_str(), backup.c_str()) != 0)
-    return io_error("cannot make the backup", backup, errno);
-  std::erase(temporaries_, *name);
-  return true;
-}
-
 /// The old file gets a second name; where the file system has no hard links, a copy. A backup that
 /// exists is never replaced: unless it has these very bytes, the next free number is taken.
 Result<void> Transaction::back_up(const Entry& entry) {
-  constexpr int most = 10000;
-  for (int number = 1; number < most; ++number) {
+  for (int number = 1; number < 10000; ++number) {
     const std::string backup =
         entry.target + options_.backup_suffix + (number == 1 ? "" : "." + std::to_string(number));
-    bool made = link(entry.target.c_str(), backup.c_str()) == 0;
-    if (!made && errno != EEXIST) {
-      const auto copied = copy_to(entry, backup);
-      if (!copied) return copied.error();
-      made = *copied;
+    Result<void> made;
+    if (link(entry.target.c_str(), backup.c_str()) != 0) {
+      struct stat status {};
+      if (errno == EEXIST || lstat(backup.c_str(), &status) == 0) {
+        if (same_contents(entry.target, backup)) return {};
+        continue;
+      }
+      const auto old = Source::open(entry.target, Limits{});
+      made = old ? write_file_atomic(backup, (*old)->bytes()) : Result<void>(old.error());
     }
-    if (made) {
-      backups_.push_back(backup);
-      return {};
-    }
-    if (same_contents(entry.target, backup)) return {};
+    if (made) backups_.push_back(backup);
+    return made;
   }
   return io_error("cannot make the backup", entry.target + options_.backup_suffix, EEXIST);
 }
@@ -380,7 +348,7 @@ Result<void> Transaction::commit() {
   std::set<std::string> rewritten;
   for (const Entry& e : entries_)
     if (e.file->read) rewritten.insert(directory_of(e.target));
-  if (auto locked = locks_.take(rewritten); !locked) return locked;
+  if (auto locked = lock_directories(rewritten); !locked) return locked;
   for (const Entry& e : entries_)
     if (e.file->read)
       if (auto same = check_as_read(e.target, *e.file->read, e.file->path); !same) return same;
@@ -407,27 +375,23 @@ Result<void> Transaction::commit() {
   return flush_directories();
 }
 
-Result<void> write_set(const std::vector<OutputFile>& files, const WriteOptions& options) {
-  Transaction transaction(options);
-  for (const OutputFile& f : files)
-    if (auto prepared = transaction.prepare(f); !prepared) return prepared;
-  return transaction.commit();
-}
-
 }  // namespace
 
 Result<void> write_file_atomic(const std::string& path, std::string_view bytes,
                                const WriteOptions& options) {
-  return write_set({{path, bytes}}, options);
+  return write_files_atomic({{path, bytes}}, options);
 }
 
 Result<void> write_file_atomic(const std::string& path, const WritePieces& pieces,
                                const WriteOptions& options) {
-  return write_set({{path, {}, std::nullopt, pieces}}, options);
+  return write_files_atomic({{path, {}, std::nullopt, pieces}}, options);
 }
 
 Result<void> write_files_atomic(const std::vector<OutputFile>& files, const WriteOptions& options) {
-  return write_set(files, options);
+  Transaction transaction(options);
+  for (const OutputFile& f : files)
+    if (auto prepared = transaction.prepare(f); !prepared) return prepared;
+  return transaction.commit();
 }
 
 }  // namespace deck

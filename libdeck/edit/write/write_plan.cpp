@@ -76,11 +76,22 @@ bool lock_file(int fd) {
 }
 
 namespace {
+
 /// A hidden name beside `path`. Names end at 255 bytes.
 std::string beside(const std::string& path, const std::string& ending) {
   const fs::path p(path);
   return (p.parent_path() / ("." + p.filename().string().substr(0, 200) + ending)).string();
 }
+
+/// Two numbers with a dash between: nothing that could lead elsewhere.
+bool is_suffix(std::string_view text) {
+  const auto dash = text.find('-');
+  const auto digits = [](std::string_view s) {
+    return !s.empty() && s.find_first_not_of("0123456789") == s.npos;
+  };
+  return dash != text.npos && digits(text.substr(0, dash)) && digits(text.substr(dash + 1));
+}
+
 }  // namespace
 
 std::string temporary_name(const std::string& path, const std::string& suffix) {
@@ -91,26 +102,17 @@ std::string own_suffix(int number) {
   return std::to_string(getpid()) + "-" + std::to_string(number);
 }
 
-std::string suffix_of(const std::string& temporary) {
-  constexpr std::size_t ending = 4;  // ".tmp"
-  if (temporary.size() < ending) return {};
-  const auto dot = temporary.rfind('.', temporary.size() - ending - 1);
-  return temporary.substr(dot + 1, temporary.size() - ending - dot - 1);
+std::string suffix_of(std::string_view name) {
+  if (!name.ends_with(".tmp")) return {};
+  name.remove_suffix(4);
+  name.remove_prefix(name.rfind('.') + 1);
+  return is_suffix(name) ? std::string(name) : std::string();
 }
 
 namespace {
 
 constexpr std::string_view note_head = "deck unfinished 2", note_end = "end";
 constexpr off_t longest_note = off_t{16} << 20;
-
-/// Two numbers with a dash between: nothing that could lead elsewhere.
-bool is_suffix(std::string_view text) {
-  const auto dash = text.find('-');
-  const auto digits = [](std::string_view s) {
-    return !s.empty() && s.find_first_not_of("0123456789") == s.npos;
-  };
-  return dash != text.npos && digits(text.substr(0, dash)) && digits(text.substr(dash + 1));
-}
 
 bool is_file_of_user(const struct stat& status) {
   return S_ISREG(status.st_mode) && status.st_uid == geteuid();
@@ -150,16 +152,6 @@ std::uint64_t hash_of(const std::string& path) {
   return source ? content_hash((*source)->bytes()) : 1;
 }
 
-enum class StepState { pending, placed, overtaken };
-
-/// Overtaken: another program changed the file since, so the note must not be carried out.
-StepState state_of(const Step& s) {
-  const std::uint64_t now = hash_of(s.target);
-  const bool ready = hash_of(temporary_name(s.target, s.fresh)) == s.new_hash;
-  if (now == s.old_hash && ready) return StepState::pending;
-  return now == s.new_hash ? StepState::placed : StepState::overtaken;
-}
-
 /// What a note says; an error says why it is not believed. `tree` holds canonical places.
 Result<std::vector<Step>> read_note(int fd, const struct stat& status,
                                     const std::set<std::string>& tree) {
@@ -182,12 +174,47 @@ Result<std::vector<Step>> read_note(int fd, const struct stat& status,
   return std::move(*steps);
 }
 
-struct Descriptor {
-  int fd;
-  ~Descriptor() {
-    if (fd >= 0) close(fd);
+/// Puts in place what is not yet. Nothing where another program changed one of the files since.
+Result<std::size_t> carry_out(const std::vector<Step>& steps) {
+  std::vector<const Step*> pending;
+  for (const Step& s : steps) {
+    const std::uint64_t now = hash_of(s.target);
+    if (now == s.old_hash && hash_of(temporary_name(s.target, s.fresh)) == s.new_hash)
+      pending.push_back(&s);
+    else if (now != s.new_hash)
+      return std::size_t{0};
   }
-};
+  std::set<std::string> directories;
+  for (const Step* s : pending) {
+    if (std::rename(temporary_name(s->target, s->fresh).c_str(), s->target.c_str()) != 0)
+      return io_error("cannot finish the interrupted rewriting of", s->target, errno);
+    directories.insert(directory_of(s->target));
+  }
+  for (const std::string& d : directories)
+    if (auto flushed = flush_directory(d); !flushed) return flushed.error();
+  return pending.size();
+}
+
+/// Finishes what the open note says.
+Result<FinishedWrite> finish_note(const std::string& name, int fd,
+                                  const std::vector<std::string>& tree) {
+  struct stat status {};
+  if (fd < 0 || fstat(fd, &status) != 0)
+    return FinishedWrite{0, name + ": " + std::strerror(errno)};
+  std::set<std::string> places;
+  for (const std::string& file : tree)
+    if (const auto place = follow_links(file)) places.insert(canonical_place(*place));
+  const auto steps = read_note(fd, status, places);
+  if (!steps) return FinishedWrite{0, name + ": " + steps.error().message};
+  if (!lock_file(fd)) return FinishedWrite{};  // its writer is at work
+  const auto done = carry_out(*steps);
+  if (!done) return done.error();
+  for (const Step& s : *steps)
+    for (const std::string& suffix : {s.fresh, s.old})
+      if (!suffix.empty()) unlink(temporary_name(s.target, suffix).c_str());
+  if (const auto left = look(name); left && left->st_ino == status.st_ino) unlink(name.c_str());
+  return FinishedWrite{*done, {}};
+}
 
 }  // namespace
 
@@ -216,54 +243,24 @@ std::optional<std::string> unfinished_note(const std::string& main) {
 Result<FinishedWrite> finish_interrupted_write(const std::string& main,
                                                const std::vector<std::string>& tree) {
   const auto target = follow_links(main);
-  if (!target) return FinishedWrite{};
-  const std::string name = note_name(*target);
-  const auto before = look(name);
-  if (!before) return FinishedWrite{};
-  if (!S_ISREG(before->st_mode)) return FinishedWrite{0, name + ": it is not a regular file"};
-  const Descriptor note{open(name.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)};
-  struct stat status {};
-  if (note.fd < 0 || fstat(note.fd, &status) != 0)
-    return FinishedWrite{0, name + ": " + std::strerror(errno)};
-  std::set<std::string> places;
-  for (const std::string& file : tree)
-    if (const auto place = follow_links(file)) places.insert(canonical_place(*place));
-  const auto steps = read_note(note.fd, status, places);
-  if (!steps) return FinishedWrite{0, name + ": " + steps.error().message};
-  if (!lock_file(note.fd)) return FinishedWrite{};  // its writer is at work
-  std::vector<const Step*> pending;
-  bool overtaken = false;
-  for (const Step& s : *steps) {
-    const StepState state = state_of(s);
-    overtaken = overtaken || state == StepState::overtaken;
-    if (state == StepState::pending) pending.push_back(&s);
-  }
-  if (overtaken) pending.clear();
-  std::set<std::string> directories;
-  for (const Step* s : pending) {
-    if (std::rename(temporary_name(s->target, s->fresh).c_str(), s->target.c_str()) != 0)
-      return io_error("cannot finish the interrupted rewriting of", s->target, errno);
-    directories.insert(directory_of(s->target));
-  }
-  for (const std::string& d : directories)
-    if (auto flushed = flush_directory(d); !flushed) return flushed.error();
-  for (const Step& s : *steps)
-    for (const std::string& suffix : {s.fresh, s.old})
-      if (!suffix.empty()) unlink(temporary_name(s.target, suffix).c_str());
-  if (const auto left = look(name); left && left->st_ino == status.st_ino) unlink(name.c_str());
-  return FinishedWrite{pending.size(), {}};
+  const std::string name = target ? note_name(*target) : std::string();
+  const auto there = look(name);
+  if (!there) return FinishedWrite{};
+  if (!S_ISREG(there->st_mode)) return FinishedWrite{0, name + ": it is not a regular file"};
+  const int note = open(name.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  auto done = finish_note(name, note, tree);
+  if (note >= 0) close(note);
+  return done;
 }
 
 std::optional<int> temporary_of(std::string_view name) {
-  if (name.size() < 6 || name[0] != '.' || !name.ends_with(".tmp")) return std::nullopt;
-  const std::string suffix = suffix_of(std::string(name));
-  if (!is_suffix(suffix) || suffix.size() > 20) return std::nullopt;
+  const std::string suffix = suffix_of(name);
+  if (!name.starts_with('.') || suffix.empty() || suffix.size() > 20) return std::nullopt;
   return std::atoi(suffix.c_str());
 }
 
 bool is_temporary_of(std::string_view name, std::string_view target) {
-  const std::string text(name);
-  return temporary_of(name) && temporary_name(std::string(target), suffix_of(text)) == text;
+  return temporary_of(name) && temporary_name(std::string(target), suffix_of(name)) == name;
 }
 
 }  // namespace deck

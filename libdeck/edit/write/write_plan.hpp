@@ -25,14 +25,13 @@ struct Step {
 std::string note_text(const std::vector<Step>& steps);
 /// Name of the note beside a file.
 std::string note_name(const std::string& target);
-
 /// Mode of a note: a file of that name that came with an archive or a checkout has another one.
 inline constexpr unsigned note_mode = 0600;
 
 /// Name of a temporary beside `path`.
 std::string temporary_name(const std::string& path, const std::string& suffix);
-/// "PID-NUMBER" of such a name; "" of "".
-std::string suffix_of(const std::string& temporary);
+/// "PID-NUMBER" of such a name; "" of any other.
+std::string suffix_of(std::string_view temporary);
 /// "PID-NUMBER" of this process.
 std::string own_suffix(int number);
 

@@ -87,26 +87,23 @@ bool holds_includes(const std::string& document) {
   return head.find("\"includes\": []") == head.npos;
 }
 
-/// In place: what a kill left half written is finished, and the decks that depend on the same files
-/// join the list, or their files are outsiders'.
+/// In place: decks that depend on the same files join the list, or their files are outsiders'.
 Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, BatchList& list) {
+  CommonOptions common = o.common;
+  common.rewrites = true;
+  WriteChoice choice;
+  choice.root = task.root;
+  choice.with_dependents = task.with_dependents;
   std::vector<std::string> paths;
   for (const BatchDeck& d : list.decks) paths.push_back(d.path);
-  for (const std::string& deck : paths)
-    (void)finish_interrupted(deck, paths, o.common);  // an error is its group's: the worker says so
-  auto dependents = find_dependents(paths, task.root, o.common.include_paths);
-  if (!dependents) return dependents.error();
-  if (const std::string where = dependents->where(); !where.empty() && !o.common.quiet)
-    print_note(where);
-  if (!task.with_dependents || dependents->decks.empty()) {
-    task.outsiders = std::move(dependents->shared);
-    return {};
-  }
-  paths.insert(paths.end(), dependents->decks.begin(), dependents->decks.end());
+  auto outsiders = look_after(paths, choice, common);
+  if (!outsiders) return outsiders.error();
+  task.outsiders = std::move(*outsiders);
   IncludeScan scan(o.common.include_paths);
   auto more = list_decks(paths, "", task.ending, o.directory, scan);
-  if (more) list.decks = std::move(more->decks);
-  return more ? Result<void>() : more.error();
+  if (!more) return more.error();
+  list.decks = std::move(more->decks);
+  return {};
 }
 
 /// The decks of the list that have to be done together, and where the batch writes them.

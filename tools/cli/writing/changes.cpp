@@ -62,6 +62,10 @@ std::string usage_error(const WriteChoice& choice) {
   return {};
 }
 
+namespace {
+
+/// Finishes what a kill left half written, if there is a note of it beside `main`, one of the
+/// decks, which are to be rewritten. True if files changed. Error: a note that is not believed.
 Result<bool> finish_interrupted(const std::string& main, const std::vector<std::string>& decks,
                                 const CommonOptions& common) {
   if (!unfinished_note(main)) return false;
@@ -81,6 +85,34 @@ Result<bool> finish_interrupted(const std::string& main, const std::vector<std::
     print_messages(fmt::format("deck: note: the interrupted writing of {} was finished: {}\n",
                                terminal_text(main), count(done->files, "file", "files")));
   return done->files > 0;
+}
+
+}  // namespace
+
+Result<std::map<FileIdentity, std::string>> look_after(std::vector<std::string>& decks,
+                                                       const WriteChoice& choice,
+                                                       const CommonOptions& common) {
+  const std::vector<std::string> named = decks;
+  std::map<FileIdentity, std::string> outsiders;
+  std::string where;
+  for (bool again = true; again;) {
+    auto dependents = find_dependents(named, choice.root, common.include_paths);
+    if (!dependents) return dependents.error();
+    where = dependents->where();
+    decks = named;
+    if (choice.with_dependents)
+      decks.insert(decks.end(), dependents->decks.begin(), dependents->decks.end());
+    else
+      outsiders = std::move(dependents->shared);
+    again = false;  // unless other files lie there now
+    for (const std::string& deck : decks) {
+      const auto changed = common.rewrites ? finish_interrupted(deck, decks, common) : false;
+      if (!changed) return changed.error();
+      again = again || *changed;
+    }
+  }
+  if (!where.empty() && !common.quiet) print_note(where);
+  return outsiders;
 }
 
 Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& given,
@@ -106,28 +138,9 @@ Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& 
         files.push_back(deck);
     root_ = common_root(directories, files);
   } else if ((choice_.in_place || choice_.diff) && ending == deck_ending) {
-    const std::vector<std::string> named = *all;
-    const auto look = [&]() -> Result<std::string> {
-      auto dependents = find_dependents(named, choice_.root, common_.include_paths);
-      if (!dependents) return dependents.error();
-      *all = named;
-      if (choice_.with_dependents)
-        all->insert(all->end(), dependents->decks.begin(), dependents->decks.end());
-      else
-        outsiders_ = std::move(dependents->shared);
-      return dependents->where();
-    };
-    auto where = look();
-    if (!where) return where.error();
-    bool finished = false;
-    for (std::size_t d = 0; common_.rewrites && d < all->size(); ++d) {
-      const auto changed = finish_interrupted((*all)[d], *all, common_);
-      if (!changed) return changed.error();
-      finished = finished || *changed;
-    }
-    if (finished)  // other files lie there now
-      if (where = look(); !where) return where.error();
-    if (!where->empty() && !common_.quiet) print_note(*where);
+    auto outsiders = look_after(*all, choice_, common_);
+    if (!outsiders) return outsiders.error();
+    outsiders_ = std::move(*outsiders);
   }
   set_ = EditSet(root_);
   return all;
@@ -145,19 +158,6 @@ void Changes::propose(std::size_t deck, const Deck& now, const ChangedFiles& cha
     frame->decks[names_[deck]].changed = changed.size();
 }
 
-/// Outsiders and copies, before anything is planned.
-Result<void> Changes::add_outsiders() {
-  if (choice_.in_place || choice_.split_includes)
-    for (const auto& [file, deck] : outsiders_) set_.add_outsider(file, deck);
-  if (choice_.split_includes) return set_.split_includes();
-  return {};
-}
-
-Result<void> Changes::announce(const std::vector<OutputFile>& files) {
-  BatchFrame* frame = common_.session->frame;
-  return frame != nullptr && frame->before_writing ? frame->before_writing(files) : Result<void>{};
-}
-
 void Changes::list_files(const std::vector<OutputFile>& files) const {
   if (common_.quiet) return;
   for (const OutputFile& f : files) print_lines(terminal_text(f.path) + "\n");
@@ -165,10 +165,9 @@ void Changes::list_files(const std::vector<OutputFile>& files) const {
 
 /// Every deck read from the files as they will lie: it must consist of the texts that were decided
 /// about, in the same order.
-Result<void> Changes::read_back(const std::vector<OutputFile>& files) const {
-  if (!choice_.read_back) return {};
+Result<void> Changes::read_back(const EditSet::Plan& plan) const {
   Overlay overlay;
-  for (const OutputFile& f : files) {
+  for (const OutputFile& f : plan.files) {
     overlay.insert_or_assign(normal_path(f.path), std::string(f.bytes));
     overlay.insert_or_assign(f.path, std::string(f.bytes));  // a main file is opened as it is named
   }
@@ -176,17 +175,39 @@ Result<void> Changes::read_back(const std::vector<OutputFile>& files) const {
   read.include_paths = common_.include_paths;
   read.overlay = &overlay;
   for (std::size_t d = 0; d < names_.size(); ++d) {
-    const std::string main =
-        choice_.in_place
-            ? set_.main_path(d)
-            : normal_path((fs::path(choice_.directory) / set_.main_target(d)).native());
-    const auto deck = read_deck(main, SchemaSet::built_in(), read);
+    const auto deck = read_deck(plan.mains[d], SchemaSet::built_in(), read);
     if (!deck) return deck.error();
     if (const std::string why = set_.read_back_difference(d, *deck); !why.empty())
-      return Error{Error::Code::internal, main + ": read back, it is not what was converted: " +
-                                              why + "; nothing was written"};
+      return Error{Error::Code::internal, plan.mains[d] +
+                                              ": read back, it is not what was converted: " + why +
+                                              "; nothing was written"};
   }
   return {};
+}
+
+Result<void> Changes::add_outsiders() {
+  if (choice_.in_place || choice_.split_includes)
+    for (const auto& [file, deck] : outsiders_) set_.add_outsider(file, deck);
+  return choice_.split_includes ? set_.split_includes() : Result<void>();
+}
+
+/// What will lie where.
+Result<EditSet::Plan> Changes::plan() {
+  if (auto added = add_outsiders(); !added) return added.error();
+  auto plan = choice_.in_place ? set_.in_place() : set_.tree(choice_.directory);
+  if (plan && choice_.read_back)
+    if (auto same = read_back(*plan); !same) return same.error();
+  if (plan && common_.session->frame != nullptr)  // a batch keeps a record of its own
+    for (OutputFile& f : plan->files) f.origin.clear();
+  return plan;
+}
+
+OutputRules Changes::rules(bool deck_tree) const {
+  OutputRules rules;
+  rules.deck_tree = deck_tree;
+  rules.overwrite = deck_tree && choice_.overwrite;
+  if (const BatchFrame* frame = common_.session->frame) rules.ours = frame->ours;
+  return rules;
 }
 
 Result<std::string> Changes::diff() {
@@ -203,64 +224,53 @@ Result<std::string> Changes::diff() {
 }
 
 Result<void> Changes::check() {
-  if (auto added = add_outsiders(); !added) return added.error();
   if (!choice_.in_place && choice_.directory.empty()) {
-    const auto patch = set_.diff();
+    const auto patch = diff();
     return patch ? Result<void>() : Result<void>(patch.error());
   }
-  const auto plan = choice_.in_place ? set_.in_place() : set_.tree(choice_.directory);
-  if (!plan) return plan.error();
-  if (auto same = read_back(plan->files); !same || choice_.in_place) return same;
-  OutputRules rules;
-  rules.deck_tree = true;
-  rules.overwrite = choice_.overwrite;
-  return common_.session->check_outputs(plan->files, rules);
+  const auto planned = plan();
+  if (!planned) return planned.error();
+  if (choice_.in_place) return {};
+  return common_.session->check_outputs(planned->files, rules(true));
 }
 
 Result<void> Changes::write(bool list) {
+  const auto planned = plan();
+  if (!planned) return planned.error();
   BatchFrame* frame = common_.session->frame;
-  if (auto added = add_outsiders(); !added) return added.error();
-  auto plan = choice_.in_place ? set_.in_place() : set_.tree(choice_.directory);
-  if (!plan) return plan.error();
-  if (frame != nullptr)  // a batch keeps a record of its own
-    for (OutputFile& f : plan->files) f.origin.clear();
-  if (auto same = read_back(plan->files); !same) return same;
-  if (choice_.in_place) {
-    if (auto announced = announce(plan->files); !announced) return announced;
-    WriteOptions options;
-    options.backup_suffix = choice_.backup_suffix;
-    options.note_beside = plan->main;
-    if (auto done = write_files_atomic(plan->files, options); !done) return done;
-    if (!plan->files.empty()) common_.session->remember_written();
-  } else {
-    OutputRules rules;
-    rules.deck_tree = true;
-    rules.overwrite = choice_.overwrite;
-    if (frame != nullptr) rules.ours = frame->ours;
-    if (auto allowed = common_.session->check_outputs(plan->files, rules); !allowed) return allowed;
-    for (std::size_t d = 0; frame != nullptr && d < names_.size(); ++d)
-      frame->decks[names_[d]].target = set_.main_target(d);
-    if (auto announced = announce(plan->files); !announced) return announced;
-    WriteOptions options{"", true, true, frame == nullptr, choice_.directory};
-    if (auto done = common_.session->write_outputs(plan->files, rules, options); !done) return done;
-    common_.session->remember_written();
-    for (const std::string& path : plan->outside)
-      print_note(path + " is included by its absolute path and was not copied");
-  }
-  if (frame != nullptr) frame->written = true;
-  if (list) list_files(plan->files);
+  const std::string below = normal_path(choice_.directory);
+  for (std::size_t d = 0; frame != nullptr && !choice_.in_place && d < names_.size(); ++d)
+    frame->decks[names_[d]].target = fs::path(planned->mains[d]).lexically_relative(below).string();
+  WriteOptions options{choice_.backup_suffix};
+  if (choice_.in_place && !planned->mains.empty()) options.note_beside = planned->mains.front();
+  if (auto done = put(planned->files, options, rules(true)); !done) return done;
+  if (!planned->files.empty()) common_.session->remember_written();
+  for (const std::string& path : planned->outside)
+    print_note(path + " is included by its absolute path and was not copied");
+  if (list) list_files(planned->files);
   return {};
 }
 
 Result<void> Changes::write_documents(const std::vector<OutputFile>& files, bool list) {
-  OutputRules rules;
-  if (BatchFrame* frame = common_.session->frame; frame != nullptr) rules.ours = frame->ours;
-  if (auto allowed = common_.session->check_outputs(files, rules); !allowed) return allowed;
-  if (auto announced = announce(files); !announced) return announced;
-  WriteOptions options{"", true, true, common_.session->frame == nullptr, choice_.directory};
-  if (auto done = common_.session->write_outputs(files, rules, options); !done) return done;
-  if (BatchFrame* frame = common_.session->frame; frame != nullptr) frame->written = true;
-  if (list) list_files(files);
+  auto done = put(files, {}, rules(false));
+  if (done && list) list_files(files);
+  return done;
+}
+
+/// Writes files, all or none.
+Result<void> Changes::put(const std::vector<OutputFile>& files, WriteOptions options,
+                          const OutputRules& rules) {
+  BatchFrame* frame = common_.session->frame;
+  if (!choice_.in_place) {
+    options.make_directories = true;
+    options.below = choice_.directory;
+    options.sync = frame == nullptr;
+    if (auto allowed = common_.session->check_outputs(files, rules); !allowed) return allowed;
+  }
+  if (frame != nullptr && frame->before_writing)
+    if (auto announced = frame->before_writing(files); !announced) return announced;
+  if (auto done = write_files_atomic(files, options); !done) return done;
+  if (frame != nullptr) frame->written = true;
   return {};
 }
 

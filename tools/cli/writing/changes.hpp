@@ -23,10 +23,11 @@ void add_dependent_options(CommandLine& line, WriteChoice& choice);
 /// What is wrong with the combination; empty: nothing.
 std::string usage_error(const WriteChoice& choice);
 
-/// Finishes what a kill left half written, if there is a note of it beside `main`, one of the
-/// decks, which are to be rewritten. True if files changed. Error: a note that is not believed.
-Result<bool> finish_interrupted(const std::string& main, const std::vector<std::string>& decks,
-                                const CommonOptions& common);
+/// Before decks are changed in place: what a kill left half written of them is finished, and those
+/// that depend on the same files join them, or their files are returned, each with such a deck.
+Result<std::map<FileIdentity, std::string>> look_after(std::vector<std::string>& decks,
+                                                       const WriteChoice& choice,
+                                                       const CommonOptions& common);
 
 class Changes {
  public:
@@ -57,8 +58,11 @@ class Changes {
 
  private:
   Result<void> add_outsiders();
-  Result<void> read_back(const std::vector<OutputFile>& files) const;
-  Result<void> announce(const std::vector<OutputFile>& files);
+  Result<EditSet::Plan> plan();
+  Result<void> read_back(const EditSet::Plan& plan) const;
+  OutputRules rules(bool deck_tree) const;
+  Result<void> put(const std::vector<OutputFile>& files, WriteOptions options,
+                   const OutputRules& rules);
   void list_files(const std::vector<OutputFile>& files) const;
 
   const CommonOptions& common_;
