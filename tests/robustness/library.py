@@ -193,6 +193,16 @@ def in_place(c, tmp):
     r = c.run("batch", "-o", out, lib, *verb)
     c.check("edited since: said, not converted twice", r.code == 2 and b"--force" in r.err and tree(lib) == edited, r.text[-200:])
     r = c.run("batch", "-o", out, lib, *verb, "--force")
+    # Decks that are not in the list any more are no results of earlier, though they lie where results go.
+    beside = os.path.join(tmp, "beside")
+    os.makedirs(beside)
+    names = ("too_close_0000.rad", "crash_box_0000.rad")
+    for name in names:
+        shutil.copy(os.path.join(ROOT, "samples", name), beside)
+    for verb in ("convert --renumber node+1000 --in-place", "fix --strategy inacti --in-place"):
+        c.run("batch", "-o", ".", *names, "--verb", verb, "--force", cwd=beside)
+        c.run("batch", "-o", ".", names[0], "--verb", verb, "--force", cwd=beside)
+        c.check("%s: a deck that is not named any more stays" % verb, os.path.exists(os.path.join(beside, names[1])))
     # What a conversion had no effect on may be edited.
     other, plain = os.path.join(tmp, "other"), os.path.join(tmp, "plain", "car_0000.rad")
     os.makedirs(os.path.dirname(plain))

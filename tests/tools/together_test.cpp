@@ -299,11 +299,13 @@ TEST_F(Together, BatchDoesNotFollowLinksInTheDirectoryOfResults) {
   EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(dir_ / "results/a_0000.json")));
   EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(dir_ / "results/summary.json")));
   // A record that somebody laid there removes nothing outside of the results.
-  write(dir_ / "results/.batch/x_0000.record",
-        fmt::format(R"({{"verb":"params","decks":["x"],"settings":0,"contents":0,"done":true,)"
-                    R"("before":0,"lines":[],"outputs":{{"../precious":{}}},"former":{{}},)"
-                    R"("losses":null}})",
-                    deck::content_hash("precious\n")));
+  write(
+      dir_ / "results/.batch/x_0000.record",
+      fmt::format(
+          R"({{"verb":"params","decks":["x"],"settings":0,"contents":0,"done":true,)"
+          R"("in_place":false,"before":0,"lines":[],"outputs":{{"../precious":{}}},"former":{{}},)"
+          R"("losses":null}})",
+          deck::content_hash("precious\n")));
   EXPECT_LE(deck("batch -o results a/a_0000.rad --verb 'params --no-geometry'"), 1) << err();
   EXPECT_TRUE(fs::exists(dir_ / "precious"));
   EXPECT_FALSE(fs::exists(dir_ / "results/.batch/x_0000.record"));

@@ -127,8 +127,11 @@ std::vector<BatchJob> plan_jobs(const BatchOptions& o, BatchTask& task, const Ba
     for (const std::size_t i : group) job.decks.push_back(list.decks[i].path);
     job.result = list.decks[group.front()].result;
     job.positions = std::move(group);
-    if (task.writes) job.files = files_of_decks(job.decks, scan);
-    files.insert(files.end(), job.files.paths.begin(), job.files.paths.end());
+    if (!task.writes) continue;
+    DeckFiles found = files_of_decks(job.decks, scan);
+    files.insert(files.end(), found.paths.begin(), found.paths.end());
+    job.record.contents = found.contents;
+    job.files = std::move(found.paths);
   }
   if (task.writes) task.frame_root = common_root(directories, files);
   return jobs;

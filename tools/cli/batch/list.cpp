@@ -90,21 +90,16 @@ bool is_part_of_a_deck(const std::string& path) {
   const std::string_view text = (*source)->bytes();
   constexpr std::size_t head = 4096;  // as far as the banner is looked for
   if (text.substr(0, head).find("#RADIOSS STARTER") != text.npos) return false;
-  bool keyword = false;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::string_view line = text.substr(at);
-    if (line.starts_with("/BEGIN") || line.starts_with("/RUN/")) return false;
-    if (!keyword && !line.starts_with('#') && line[0] != '$' && line[0] != '\n' &&
-        line[0] != '\r') {
-      if (line[0] != '/' || line.size() < 2 || line[1] < 'A' || line[1] > 'Z') return false;
-      keyword = true;
-    }
-    if (line.starts_with("#include ")) keyword = true;
-    const auto end = text.find('\n', at);
-    if (end == text.npos) break;
-    at = end + 1;
+  for (const std::string line : {"/BEGIN", "/RUN/"})
+    if (text.starts_with(line) || text.find("\n" + line) != text.npos) return false;
+  // The first line that is no comment.
+  for (std::string_view line = text; !line.empty();) {
+    if (line.starts_with("#include ")) return true;
+    if (std::string_view("#$\r\n").find(line[0]) == line.npos)
+      return line[0] == '/' && line.size() > 1 && line[1] >= 'A' && line[1] <= 'Z';
+    line.remove_prefix(std::min(line.find('\n'), line.size() - 1) + 1);
   }
-  return keyword;
+  return false;
 }
 
 /// Takes the files out of `found` that are includes; see list_decks.

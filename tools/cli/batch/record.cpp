@@ -21,6 +21,7 @@ void visit_record(AnyRecord& r, const Each& each) {
   each("settings", r.settings);
   each("contents", r.contents);
   each("done", r.done);
+  each("in_place", r.in_place);
   each("before", r.before);
   each("lines", r.lines);
   each("outputs", r.outputs);

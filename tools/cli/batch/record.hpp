@@ -23,6 +23,7 @@ struct Record {
   std::uint64_t contents = 0;      ///< hash of the files of the decks
   /// False: refused, or about to be written. Whether it then was written, `outputs` tell.
   bool done = false;
+  bool in_place = false;  ///< outputs are the decks themselves, which are never removed
   /// Not 0: `contents` before the decks were converted in place, which must not be done twice.
   std::uint64_t before = 0;
   std::vector<Json> lines = {};  ///< of the decks in the summary

@@ -70,11 +70,14 @@ void remove_leftovers(const std::string& directory, const std::map<std::string, 
   for (const auto& [path, r] : records)
     if (is_current(r))
       for (const auto& [file, hash] : r.outputs) current.insert(file);
-  const auto remove = [&](const WrittenFiles& files) {
+  const auto remove = [&](const Record& r, const WrittenFiles& files) {
     for (const auto& file : files) {
       const fs::path relative = fs::path(file.first).lexically_normal();
-      if (current.contains(file.first) || relative.is_absolute() || *relative.begin() == ".." ||
-          !is_as_written(directory, file))
+      const bool result = std::any_of(r.lines.begin(), r.lines.end(), [&](const Json& line) {
+        return text_in(line, "result") == file.first;
+      });
+      if ((r.in_place && !result) || current.contains(file.first) || relative.is_absolute() ||
+          *relative.begin() == ".." || !is_as_written(directory, file))
         continue;
       unlink((fs::path(directory) / relative).c_str());
       std::error_code ec;  // directories that are empty now
@@ -84,9 +87,9 @@ void remove_leftovers(const std::string& directory, const std::map<std::string, 
     }
   };
   for (const auto& [name, r] : records) {
-    remove(r.former);
+    remove(r, r.former);
     if (is_current(r)) continue;
-    remove(r.outputs);
+    remove(r, r.outputs);
     // What was converted in place must not be converted again, whatever this run said of it.
     const bool listed = std::any_of(r.decks.begin(), r.decks.end(),
                                     [&](const std::string& d) { return decks.contains(d); });

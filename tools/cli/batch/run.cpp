@@ -86,7 +86,7 @@ void remove_temporaries(const BatchRun& run) {
   if (run.shard.whole()) remove_strays(run.o.directory);
   std::map<fs::path, std::set<std::string>> names;  // by directory
   for (const BatchJob& job : run.jobs)
-    for (const fs::path file : job.files.paths)
+    for (const fs::path file : job.files)
       if (run.task.in_place) names[file.parent_path()].insert(file.filename().string());
   for (const auto& [directory, files] : names)
     remove_strays(directory.empty() ? "." : directory.string(), files);
@@ -94,29 +94,28 @@ void remove_temporaries(const BatchRun& run) {
 
 /// What need not be done, and what must not be.
 void take_over(const BatchRun& run, BatchJob& job) {
-  std::vector<std::string> decks;
-  for (const std::string& deck : job.decks) decks.push_back(as_utf8(deck));
+  const Record now = job.record;
   const auto own = run.known.find(record_name(job.result));
   for (const Record* r : job.known) {
-    if (r->settings != job.settings) continue;
+    if (r->settings != now.settings) continue;
     // Documents are named after the first deck, among all of the list.
     const bool named = run.task.converts() || (own != run.known.end() && r == &own->second);
     const bool as_written =
-        named && r->decks == decks &&
+        named && r->decks == now.decks &&
         std::all_of(r->outputs.begin(), r->outputs.end(),
                     [&](const auto& file) { return is_as_written(run.o.directory, file); });
-    if (as_written && (r->done ? r->contents == job.files.contents : r->before != 0)) {
+    if (as_written && (r->done ? r->contents == now.contents : r->before != 0)) {
       job.record = *r;
+      job.done = true;
       if (r->done) continue;
-      job.record->done = true;  // it was announced, and is there
-      job.record->contents = job.files.contents;
+      job.record.done = true;  // it was announced, and is there
+      job.record.contents = now.contents;
       // Else it is looked at once more next time.
-      (void)write_result(run.o, record_name(job.result), record_text(*job.record), false);
-    } else if (r->before != 0 && r->before != job.files.contents) {
+      (void)write_result(run.o, record_name(job.result), record_text(job.record), false);
+    } else if (r->before != 0 && r->before != now.contents) {
       job.overtaken = true;  // converting it again would count twice
     }
   }
-  if (job.record) job.overtaken = false;
 }
 
 Result<void> prepare(BatchRun& run) {
@@ -132,7 +131,7 @@ Result<void> prepare(BatchRun& run) {
                        "'; name another directory, or replace them with --force"};
     for (const std::string& deck : record.decks) by_deck[deck].push_back(&record);
     for (const auto* files : {&record.outputs, &record.former})
-      for (const auto& [file, hash] : *files)
+      for (const auto& [file, hash] : record.in_place ? WrittenFiles() : *files)
         run.written.emplace(absolute_path((fs::path(run.o.directory) / file).string()), hash);
   }
   const std::string settings = settings_of_task(run.task);
@@ -141,13 +140,16 @@ Result<void> prepare(BatchRun& run) {
     std::string text = settings;
     for (const std::string& deck : job.decks) {
       text += settings_of_deck(run.task, deck);
-      for (const Record* record : by_deck[as_utf8(deck)])
+      job.record.decks.push_back(as_utf8(deck));
+      for (const Record* record : by_deck[job.record.decks.back()])
         if (std::find(job.known.begin(), job.known.end(), record) == job.known.end())
           job.known.push_back(record);
     }
-    job.settings = content_hash(text);
+    job.record.verb = run.task.verb.name;
+    job.record.in_place = run.task.in_place;
+    job.record.settings = content_hash(text);
     if (run.o.force || job.known.empty()) continue;
-    if (!run.task.writes) job.files = files_of_decks(job.decks, scan);
+    if (!run.task.writes) job.record.contents = files_of_decks(job.decks, scan).contents;
     take_over(run, job);
   }
   return {};
@@ -155,15 +157,17 @@ Result<void> prepare(BatchRun& run) {
 
 /// What the worker says, or what is to be said of a worker that is gone.
 void take(const BatchRun& run, BatchJob& job, const JobReport& report) {
-  job.record = parse_record(report.answer);
-  if (job.record && job.record->lines.size() == job.decks.size()) return;
-  job.record.emplace();
+  if (auto record = parse_record(report.answer);
+      record && record->lines.size() == job.decks.size()) {
+    job.record = std::move(*record);
+    return;
+  }
   // A file that shrinks while it is read ends the worker in an orderly way.
   const int code = report.exit_code == exit_input ? exit_input : exit_internal;
   std::string why = report.why;
   if (const std::string said = first_line(report.err); !said.empty())
     why = report.exit_code == exit_input ? said : why + ": " + said;
-  for (const std::string& deck : job.decks) job.record->lines.push_back(deck_line(deck, code, why));
+  for (const std::string& deck : job.decks) job.record.lines.push_back(deck_line(deck, code, why));
   // A result of earlier would be taken for this one.
   if (!run.task.converts()) unlink(run.o.in_directory(job.result).c_str());
 }
@@ -173,8 +177,8 @@ Result<int> work(BatchRun& run, std::size_t& kept) {
   std::vector<BatchJob*> todo;
   std::size_t decks = 0;
   for (BatchJob& job : run.jobs) {
-    (job.record ? kept : decks) += job.decks.size();
-    if (!job.record) todo.push_back(&job);
+    (job.done ? kept : decks) += job.decks.size();
+    if (!job.done) todo.push_back(&job);
   }
   if (todo.empty()) return 0;
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -199,11 +203,11 @@ Result<int> work(BatchRun& run, std::size_t& kept) {
     BatchJob& job = *todo[report.job];
     take(run, job, report);
     for (std::size_t k = 0; k < job.decks.size(); ++k) {
-      const int code = job.record->lines[k].at("exit_code").get<int>();
+      const int code = job.record.lines[k].at("exit_code").get<int>();
       ++finished;
       if (code <= exit_findings || run.o.common.quiet) continue;
       progress.clear();
-      const std::string why = text_in(job.record->lines[k], "error");
+      const std::string why = text_in(job.record.lines[k], "error");
       const std::string& path = job.decks[k];  // which most messages begin with
       print_error(run.o.common, why.starts_with(path + ":") ? why : path + ": " + why);
     }
@@ -222,7 +226,7 @@ Json summary_of(const BatchRun& run) {
   std::map<std::size_t, Json> lines;  // in the order of the list
   for (const BatchJob& job : run.jobs)
     for (std::size_t k = 0; k < job.decks.size(); ++k)
-      lines.emplace(job.positions[k], job.record->lines[k]);
+      lines.emplace(job.positions[k], job.record.lines[k]);
   Json words = Json::array(), includes = Json::array();
   for (const std::string& word : run.task.words) words.push_back(as_utf8(word));
   for (const IncludeFile& f : run.list.includes)

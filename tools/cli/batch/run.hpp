@@ -50,11 +50,11 @@ struct BatchJob {
   std::vector<std::size_t> positions = {};  ///< in the list of all decks
   std::vector<std::string> decks = {};      ///< as given
   std::string result = {};                  ///< name of the first one's
-  DeckFiles files = {};                     ///< contents 0: nobody has looked yet
-  std::uint64_t settings = 0;               ///< see Record
-  std::vector<const Record*> known = {};    ///< that have one of the decks
-  std::optional<Record> record = {};        ///< done, now or before
+  std::vector<std::string> files = {};      ///< of the decks; where decks are written
+  Record record = {};                       ///< contents 0: nobody has looked yet
+  bool done = false;                        ///< the record is of an earlier run
   bool overtaken = false;                   ///< was changed after it was converted in place
+  std::vector<const Record*> known = {};    ///< that have one of the decks
 };
 
 /// One process's part of a batch. Nothing is lost when it is killed: results are put in place

@@ -46,7 +46,7 @@ int run_verb(const BatchTask& task, const std::vector<std::string>& decks, Sessi
 class GroupWork {
  public:
   GroupWork(const BatchRun& run, const BatchJob& job)
-      : o_(run.o), task_(run.task), run_(run), job_(job) {}
+      : o_(run.o), task_(run.task), run_(run), job_(job), record_(job.record) {}
   std::string record(const Captured& output);
 
  private:
@@ -91,7 +91,7 @@ Result<void> GroupWork::announce(const std::vector<OutputFile>& files) {
     outputs[name] = content_hash(f.bytes);
   }
   set_outputs(std::move(outputs));
-  if (task_.in_place && task_.converts() && !files.empty()) record_.before = job_.files.contents;
+  if (task_.in_place && task_.converts() && !files.empty()) record_.before = job_.record.contents;
   code_ = exit_clean;
   enter(true);
   code_ = exit_internal;
@@ -105,7 +105,7 @@ void GroupWork::set_outputs(WrittenFiles outputs) {
   for (const Record* known : job_.known)
     for (const auto* files : {&known->outputs, &known->former})
       for (const auto& file : *files)
-        if (!record_.outputs.contains(file.first)) record_.former.insert(file);
+        if (!known->in_place && !record_.outputs.contains(file.first)) record_.former.insert(file);
 }
 
 /// Runs the verb.
@@ -203,11 +203,8 @@ void GroupWork::enter(bool written) {
 }
 
 std::string GroupWork::record(const Captured& output) {
-  record_.verb = task_.verb.name;
-  for (const std::string& deck : job_.decks) record_.decks.push_back(as_utf8(deck));
-  record_.settings = job_.settings;
   // A file that is changed after this is found changed by the next run.
-  record_.contents = job_.files.contents != 0 ? job_.files.contents : contents_now();
+  if (record_.contents == 0) record_.contents = contents_now();
   if (job_.overtaken)
     fail(exit_usage,
          "these decks share files; some were already written in place and then edited, or new "
