@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 #include <random>
 
 #include "accuracy/shared/accuracy.hpp"
+#include "contact/exactness.hpp"
 #include "contact/modern/edge_rule.hpp"
-#include "contact/small_deck.hpp"
+#include "contact/modern/through_rule.hpp"
 
 namespace deck::test {
 namespace {
@@ -32,9 +32,9 @@ void make_free(RuleEdge& e, std::mt19937& random) {
 }
 
 TEST(EdgeRule, HardCasesAreJudgedAsExactArithmeticDoes) {
-  std::size_t families = 0, all = 0, sure = 0, differ = 0;
+  Judged judged;
+  EXPECT_GE(hard_families().size(), 40u);
   for (const HardFamily& family : hard_families()) {
-    ++families;
     std::mt19937 random(static_cast<unsigned>(family.id));
     for (const PairSample& p : hard_cases(family.id, 60)) {
       if (!p.edges || !(p.gap > 0) || !std::isfinite(p.gap)) continue;
@@ -52,21 +52,63 @@ TEST(EdgeRule, HardCasesAreJudgedAsExactArithmeticDoes) {
       for (const EdgeRule& r : {inner, free, moved}) {
         if (!is_finite(r)) continue;
         const EdgeFigures quick = evaluate_edges(r, true);
-        const ExactEdgePair exact = exact_edge_pair(r);
-        ++all;
-        differ += (quick.penetration > 0) != exact.penetrates ? 1 : 0;
-        if (quick.doubtful) continue;
-        ++sure;
-        EXPECT_EQ(quick.penetration > 0, exact.penetrates) << family.name;
+        judged.add(quick.penetration > 0, quick.doubtful, exact_edge_pair(r).penetrates,
+                   family.name);
       }
     }
   }
-  EXPECT_GE(families, 40u);
-  EXPECT_GT(all, 500u);
+  judged.expect(500, 5);
+}
+
+/// A direction of unit length in single precision.
+Vec any_direction(std::mt19937& random) {
+  std::uniform_real_distribution<double> any(-1, 1);
+  const Vec v = unit({any(random), any(random), any(random)});
+  return {single(v.x), single(v.y), single(v.z)};
+}
+
+// Edges and faces of solids on a lattice: many meet sides, lie in planes or are parallel; each
+// seen by the two rules.
+TEST(EdgeRule, EdgesThroughSolidsAreJudgedAsExactArithmeticDoes) {
+  std::mt19937 random(7);
+  std::size_t passes = 0, told = 0, all = 0, differ = 0;
+  const auto place = [&](double step) {
+    const auto number = [&] {
+      return step * static_cast<double>(static_cast<int>(random() % 7) - 3);
+    };
+    return Vec{number(), number(), number()};
+  };
+  for (int i = 0; i < 6000; ++i) {
+    ThroughRule r;
+    const double step = i % 3 == 0 ? 1 : i % 3 == 1 ? 0.1 : 1e3 / 7;
+    for (Vec& v : r.corner) v = place(step);
+    r.triangle = i % 4 == 0;
+    if (r.triangle) r.corner[3] = r.corner[2];
+    r.side = r.triangle ? 0 : static_cast<std::size_t>(i) % 4;
+    r.edge = {place(step), place(step)};
+    r.gap = r.margin = 0.5 * step;
+    r.of_solids = i % 2 == 0;
+    r.beta = any_direction(random);
+    for (auto* pair : {&r.edge_normal, &r.side_normal})
+      for (Vec& v : *pair) v = any_direction(random);
+    std::uint64_t exact = 0;
+    const bool quick = exact_through(r, false, exact).passes;
+    told += exact == 0 ? 1 : 0;
+    const ThroughFigures figures = exact_through(r, true, exact);
+    EXPECT_EQ(quick, figures.passes) << i;
+    const ThroughFigures solver = evaluate_through(r);
+    differ += solver.passes != figures.passes ? 1 : 0;
+    if (solver.passes && figures.passes) {
+      EXPECT_NEAR(solver.depth, figures.depth, 1e-9 * step);
+    }
+    passes += figures.passes ? 1 : 0;
+    ++all;
+  }
+  EXPECT_GT(passes, 30u);
   EXPECT_GT(differ, 0u) << "there are hard cases among them";
-  EXPECT_GT(sure, all / 5) << "the quick way knows something";
-  std::cout << sure << " of " << all << " decided without exact numbers, double wrong in " << differ
-            << "\n";
+  EXPECT_GT(told, all / 2) << "intervals know something";
+  std::cout << told << " of " << all << " told by intervals, " << passes
+            << " pass, double wrong in " << differ << "\n";
 }
 
 /// Inner edges of two folded sheets, 3 apart along (2, -2, 1) / 3, with the sum of their gaps 3.
@@ -88,25 +130,9 @@ SmallDeck crossing_edges(double side) {
 TEST(EdgeRule, ATouchThatOnlyRoundOffTurnsIntoContactIsListed) {
   std::uint64_t differ = 0, decided = 0;
   for (int k = 0; k < 40; ++k) {
-    const SmallDeck d = crossing_edges(9 + 0.1 * k);
-    const Built b(d);
-    decided += b.scene.decisions.exact;
-    const Contact& edges = b.contact(1, ContactRole::edges);
-    std::size_t in_contact = 0;
-    for (const PenetrationRow& r : edges.penetrations) {
-      in_contact += r.in_contact ? 1 : 0;
-      differ += r.in_contact ? 0 : 1;
-    }
-    SceneOptions o;
-    o.accuracy = Accuracy::exact;
-    const Built exact(d, o);
-    EXPECT_EQ(exact.contact(1, ContactRole::edges).penetrations.size(), in_contact) << k;
-    o.accuracy = Accuracy::reference;
-    const Built plain(d, o);
-    std::size_t acts = 0;
-    for (const PenetrationRow& r : edges.penetrations)
-      acts += r.action == PenetrationAction::none ? 0 : 1;
-    EXPECT_EQ(plain.contact(1, ContactRole::edges).penetrations.size(), acts) << k;
+    const DecisionReport r = expect_agreeing(crossing_edges(9 + 0.1 * k), ContactRole::edges);
+    decided += r.exact;
+    differ += r.contact_differs;
   }
   EXPECT_GT(decided, 0u);
   EXPECT_GT(differ, 0u);

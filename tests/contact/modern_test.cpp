@@ -4,9 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "contact/modern/parts.hpp"
+#include "contact/modern/patch_rule.hpp"
 #include "contact/small_deck.hpp"
 
 namespace deck::test {
@@ -157,74 +162,269 @@ SmallDeck sheets(unsigned seed) {
   return d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).group("/SURF/PART/3", {1, 2});
 }
 
-TEST(Type25, SearchFindsWhatAllPairsGive) {
-  using namespace detail::modern;
-  std::size_t found = 0;
-  for (unsigned seed = 1; seed <= 12; ++seed) {
-    SmallDeck d = sheets(seed);
-    d.add(seed % 2 == 0 ? "@/INTER/TYPE25/1 surf_ID1=1 surf_ID2=2 Inacti=5"
-                        : "@/INTER/TYPE25/1 surf_ID1=3 Inacti=5 Ishape=2");
-    const Built b(d);
-    Connectivity connectivity(b.model);
-    Scene scene;
-    scene.coordinates = b.scene.coordinates;
-    Diagnostics diagnostics;
-    const SceneOptions options;
-    detail::SceneContext context{b.model, connectivity, scene, diagnostics, options};
-    const InterBase& inter = *b.interfaces.ordered.front();
-    Sides s;
+/// Two stacks of bricks, the second with its lower corner in the first, and a bent strip of shells
+/// through both.
+SmallDeck blocks(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shift(-0.3, 0.3);
+  SmallDeck d;
+  d.solid_part(1).solid_part(2).shell_part(3, 0.4);
+  const int n = 2;
+  const auto id = [&](int part, int i, int j, int k) {
+    return 1000 * part + ((n + 1) * i + j) * (n + 1) + k;
+  };
+  int element = 0;
+  for (int part = 1; part <= 2; ++part) {
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j)
+        for (int k = 0; k <= n; ++k)
+          d.node(id(part, i, j, k), 2 * i + 1.7 * (part - 1) + shift(random),
+                 2 * j + 1.3 * (part - 1) + shift(random),
+                 2 * k + 3.6 * (part - 1) + shift(random));
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        for (int k = 0; k < n; ++k)
+          d.brick(part, ++element,
+                  {id(part, i, j, k), id(part, i + 1, j, k), id(part, i + 1, j + 1, k),
+                   id(part, i, j + 1, k), id(part, i, j, k + 1), id(part, i + 1, j, k + 1),
+                   id(part, i + 1, j + 1, k + 1), id(part, i, j + 1, k + 1)});
+  }
+  for (int i = 0; i <= 4; ++i)
+    for (int j = 0; j <= 1; ++j)
+      d.node(3000 + 2 * i + j, 3.1 + shift(random), 2.2 + j + shift(random), 1 + 1.5 * i);
+  for (int i = 0; i < 4; ++i)
+    d.shell(3, ++element, 3000 + 2 * i, 3002 + 2 * i, 3003 + 2 * i, 3001 + 2 * i);
+  d.group("/SURF/PART/EXT/1", {1}).group("/SURF/PART/EXT/2", {2, 3});
+  return d.group("/SURF/PART/EXT/3", {1, 2, 3});
+}
+
+/// The two sides of the first interface of a deck, as a search gets them.
+struct Laid {
+  explicit Laid(const SmallDeck& d) : built(d), connectivity(built.model) {
+    using namespace detail::modern;
+    const InterBase& inter = *built.interfaces.ordered.front();
+    scene.coordinates = built.scene.coordinates;
     s.set = settings_of(inter, {});
-    make_sides(context, *b.model.selections, inter, s);
+    make_sides(context, *built.model.selections, inter, s);
     set_gaps(context, s);
     set_stiffness(context, s);
-    const Topology t(scene.coordinates, s, 1);
-    const Found search = find_nodes25(context, s, t);
-    std::size_t at = 0;
-    for (std::uint32_t n = 0; n < s.nodes.size(); ++n) {
-      double nearest = 0, p = 0;
-      bool any = false;
-      for (std::uint32_t f = 0; f < s.count(); ++f) {
-        const Face face = s.face(f);
-        const auto& corners = face.nodes;
-        if (std::find(corners.begin(), corners.end(), s.nodes[n].node) != corners.end()) continue;
-        if (!s.across(s.nodes[n].bits, face.bits)) continue;
-        const double reach = s.nodes[n].gap + face.gap + s.margin;
-        if (!(facet_distance_squared(scene.coordinates, face, s.nodes[n].node) < reach * reach))
-          continue;
-        const PairFigures pair = evaluate_pair(scene.coordinates, s, t, s.nodes[n], f);
-        if (pair.excluded || pair.behind > 0) continue;
-        if (any && pair.distance_squared > nearest) continue;
-        any = true;
-        nearest = pair.distance_squared;
-        p = pair.penetration;
-      }
-      if (p == 0) continue;
-      ASSERT_LT(at, search.penetrations.size()) << seed;
-      EXPECT_EQ(search.penetrations[at].node, n) << seed;
-      EXPECT_EQ(search.penetrations[at].penetration, p) << seed;
-      ++at;
-    }
-    EXPECT_EQ(at, search.penetrations.size()) << seed;
-    found += at;
+    topology.emplace(scene.coordinates, s, 1);
   }
-  EXPECT_GT(found, 300u) << "the scenes penetrate";
+  bool has(const detail::modern::Quad& nodes, NodeIndex n) const {
+    return std::find(nodes.begin(), nodes.end(), n) != nodes.end();
+  }
+  /// The part of the first brick at a node, and whether such a brick has a node of the segment.
+  std::uint32_t solid_at(NodeIndex n, const detail::modern::Quad& segment, bool& shares) {
+    const auto around = connectivity.elements(ElementKind::solid8, n);
+    shares = false;
+    for (const std::uint32_t e : around)
+      for (int k = 0; k < 8; ++k) shares = shares || has(segment, built.model.solid8.of(e)[k]);
+    return around.empty() ? no_index : built.model.solid8.part[around.front()];
+  }
+
+  Built built;
+  Connectivity connectivity;
+  Scene scene;
+  Diagnostics diagnostics;
+  SceneOptions options;
+  detail::SceneContext context{built.model, connectivity, scene, diagnostics, options};
+  detail::modern::Sides s;
+  std::optional<detail::modern::Topology> topology;
+};
+
+/// Nodes with their penetration.
+using Depths = std::vector<std::pair<std::uint32_t, double>>;
+Depths depths(const detail::modern::Found& found) {
+  Depths out;
+  for (const auto& p : found.penetrations) out.emplace_back(p.node, p.penetration);
+  return out;
+}
+
+// The same scenes, with two surfaces and with one.
+const char* const cards[] = {" surf_ID1=1 surf_ID2=2", " surf_ID1=3"};
+
+Depths all_pairs25(Laid& l) {
+  using namespace detail::modern;
+  const Coordinates& x = l.scene.coordinates;
+  const Sides& s = l.s;
+  Depths out;
+  for (std::uint32_t n = 0; n < s.nodes.size(); ++n) {
+    double nearest = 0, p = 0;
+    bool any = false;
+    const NodeIndex node = s.nodes[n].node;
+    for (std::uint32_t f = 0; f < s.count(); ++f) {
+      const Face face = s.face(f);
+      bool shares = false;
+      if (l.has(face.nodes, node) || !s.across(s.nodes[n].bits, face.bits)) continue;
+      const std::uint32_t part = l.solid_at(node, face.nodes, shares);
+      if (face.solid != no_index && part == l.built.model.solid8.part[face.solid]) continue;
+      const double reach = s.nodes[n].gap + face.gap + s.margin;
+      if (!(facet_distance_squared(x, face, node) < reach * reach)) continue;
+      const PairFigures pair = evaluate_pair(x, s, *l.topology, s.nodes[n], f);
+      if (face.sheet() ? pair.excluded || pair.behind > 0
+                       : pair.excluded && face.kind == SegmentKind::coat)
+        continue;
+      if (any && pair.distance_squared > nearest) continue;
+      any = true;
+      nearest = pair.distance_squared;
+      p = pair.penetration;
+    }
+    if (p != 0) out.emplace_back(n, p);
+  }
+  return out;
+}
+
+// Inacti 0: the solver looks no farther behind solids than before sheets.
+TEST(Type25, SearchFindsWhatAllPairsGive) {
+  std::size_t found = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed)
+    for (const bool solid : {false, true}) {
+      SmallDeck d = solid ? blocks(seed) : sheets(seed);
+      const std::string shape = seed % 4 < 2 ? " Ishape=2" : "";
+      d.add("@/INTER/TYPE25/1" + std::string(cards[seed % 2]) + (solid ? "" : " Inacti=5") + shape);
+      Laid l(d);
+      const Depths all = all_pairs25(l);
+      EXPECT_EQ(depths(find_nodes25(l.context, l.s, *l.topology)), all) << seed << solid;
+      found += all.size();
+    }
+  EXPECT_GT(found, 400u) << "the scenes penetrate";
+}
+
+/// Parts of nodes: of the last shell, or else of the last solid segment.
+std::vector<std::uint32_t> part_tags(const Laid& l) {
+  const Model& m = l.built.model;
+  std::vector<std::uint32_t> out(m.nodes.size(), no_index);
+  for (const Elements* family : {&m.shell4, &m.shell3})
+    for (std::uint32_t e = 0; e < family->size(); ++e)
+      for (int k = 0; k < family->width; ++k) out[family->of(e)[k]] = family->part[e];
+  for (const auto& f : l.s.faces)
+    if (f.kind == SegmentKind::solid)
+      for (const NodeIndex n : f.nodes) out[n] = m.solid8.part[f.solid];
+  return out;
+}
+
+/// `accepted`: the deepest penetration that counts.
+Depths all_pairs24(Laid& l, double accepted) {
+  using namespace detail::modern;
+  const Coordinates& x = l.scene.coordinates;
+  const Sides& s = l.s;
+  const std::vector<std::uint32_t> tags = part_tags(l);
+  const bool ignored = s.set.inacti == 0;
+  Depths out;
+  for (std::uint32_t n = 0; n < s.nodes.size(); ++n) {
+    const SideNode& node = s.nodes[n];
+    std::vector<PatchRule> rules;
+    for (std::uint32_t f = 0; f < s.count(); ++f) {
+      const Face face = s.face(f);
+      if (l.has(face.nodes, node.node) || !s.across(node.bits, face.bits)) continue;
+      PatchRule r;
+      r.node = detail::at(x, node.node);
+      Vec low = detail::at(x, face.nodes[0]), high = low;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Vec c = r.corner[k] = detail::at(x, face.nodes[k]);
+        low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
+        high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
+      }
+      const double by = s.margin + node.gap + face.gap;
+      if (r.node.x < low.x - by || r.node.x > high.x + by || r.node.y < low.y - by ||
+          r.node.y > high.y + by || r.node.z < low.z - by || r.node.z > high.z + by)
+        continue;
+      r.solid = face.kind == SegmentKind::solid;
+      r.node_gap = node.gap;
+      r.segment_gap = face.gap;
+      r.accepted = accepted;
+      r.limit = ignored ? face.length : accepted;
+      bool shares = false;
+      l.solid_at(node.node, face.nodes, shares);
+      r.own_solid = r.solid && shares;
+      const std::uint32_t part =
+          r.solid ? l.built.model.solid8.part[face.solid] : tags[face.nodes[0]];
+      r.rejects_part = !ignored && part == tags[node.node];
+      r.never_blocks = ignored || part == tags[node.node];
+      rules.push_back(r);
+    }
+    const PatchChoice chosen = choose_pair(rules, !ignored, false);
+    if (chosen.penetrates) out.emplace_back(n, chosen.figures.result.penetration);
+  }
+  return out;
+}
+
+TEST(Type24, SearchFindsWhatAllPairsGive) {
+  std::size_t found = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed)
+    for (const bool solid : {false, true}) {
+      SmallDeck d = solid ? blocks(seed) : sheets(seed);
+      d.add("@/INTER/TYPE24/1" + std::string(cards[seed % 2]) + (solid ? "" : " Inacti=5"));
+      Laid l(d);
+      const auto search = find_nodes24(l.context, l.s);
+      const Depths all = all_pairs24(l, search.largest_accepted);
+      EXPECT_EQ(depths(search), all) << seed << solid;
+      found += all.size();
+    }
+  EXPECT_GT(found, 200u) << "the scenes penetrate";
+}
+
+TEST(Type25, SearchOfEdgesFindsWhatAllPairsGive) {
+  using namespace detail::modern;
+  std::size_t found = 0, through = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed)
+    for (const bool solid : {false, true}) {
+      SmallDeck d = solid ? blocks(seed) : sheets(seed);
+      d.add("@/INTER/TYPE25/1" + std::string(cards[seed % 2]) + " Inacti=5 Iedge=22" +
+            (seed % 4 < 2 ? " Igap0=1" : "") + (seed % 3 == 0 ? " Igap=3" : ""));
+      Laid l(d);
+      const Coordinates& x = l.scene.coordinates;
+      const std::vector<SideEdge> edges = make_edges(l.context, l.s, *l.topology);
+      std::vector<std::array<std::uint32_t, 2>> all, got;
+      const auto ids = [&](const SideEdge& e) {
+        return std::pair(l.built.model.node_id(e.nodes[0]), l.built.model.node_id(e.nodes[1]));
+      };
+      for (std::uint32_t a = 0; a < edges.size(); ++a)
+        for (std::uint32_t b = 0; b < edges.size(); ++b) {
+          const SideEdge &s = edges[a], &m = edges[b];
+          const bool common = s.nodes[0] == m.nodes[0] || s.nodes[0] == m.nodes[1] ||
+                              s.nodes[1] == m.nodes[0] || s.nodes[1] == m.nodes[1];
+          if (common || m.kind < 2 || s.kind < 1 || !l.s.across(s.bits, m.bits)) continue;
+          if (s.kind >= 2 && !(ids(m) > ids(s))) continue;
+          if (evaluate_edges(edge_rule(x, l.s, *l.topology, s, m), false).penetration > 0)
+            all.push_back({a, b});
+        }
+      std::vector<EdgePenetration> penetrations;
+      DecisionReport decisions;
+      EXPECT_TRUE(find_edges25(l.context, l.s, *l.topology, edges, penetrations, decisions));
+      for (const EdgePenetration& p : penetrations) got.push_back({p.secondary, p.main});
+      EXPECT_EQ(got, all) << seed << solid;
+      found += all.size();
+
+      std::vector<std::array<std::uint32_t, 3>> all_through, got_through;
+      for (std::uint32_t e = 0; e < edges.size(); ++e)
+        for (std::uint32_t f = 0; f < l.s.faces.size(); ++f) {
+          const Face& face = l.s.faces[f];
+          if (face.kind != SegmentKind::solid || face.interior || edges[e].kind < 1) continue;
+          if (!l.s.across(edges[e].bits, face.bits) || l.has(face.nodes, edges[e].nodes[0]) ||
+              l.has(face.nodes, edges[e].nodes[1]))
+            continue;
+          for (std::uint32_t k = 0; k < (face.triangle() ? 1u : 4u); ++k)
+            if (evaluate_through(through_rule(x, l.s, *l.topology, edges[e], f, k)).passes)
+              all_through.push_back({e, f, k + 1});
+        }
+      for (const EdgeThroughSegment& t :
+           edges_through_solids(l.context, l.s, *l.topology, edges, decisions))
+        got_through.push_back({t.edge, t.main, static_cast<std::uint32_t>(t.side)});
+      EXPECT_EQ(got_through, all_through) << seed << solid;
+      through += all_through.size();
+    }
+  EXPECT_GT(found, 200u) << "edges of sheets penetrate";
+  EXPECT_GT(through, 20u) << "edges pass through solids";
 }
 
 TEST(Type25, NeighboursAreMutualAndBordersFree) {
   SmallDeck d = sheets(5);
   d.add("@/INTER/TYPE25/1 surf_ID1=3");
-  const Built b(d);
+  const Laid l(d);
   using namespace detail::modern;
-  Connectivity connectivity(b.model);
-  Scene scene;
-  scene.coordinates = b.scene.coordinates;
-  Diagnostics diagnostics;
-  const SceneOptions options;
-  detail::SceneContext context{b.model, connectivity, scene, diagnostics, options};
-  Sides s;
-  s.set = settings_of(*b.interfaces.ordered.front(), {});
-  make_sides(context, *b.model.selections, *b.interfaces.ordered.front(), s);
-  const Topology t(scene.coordinates, s, 1);
+  const Sides& s = l.s;
+  const Topology& t = *l.topology;
   std::size_t free = 0;
   for (std::uint32_t i = 0; i < s.count(); ++i)
     for (std::uint32_t k = 0; k < 4; ++k) {

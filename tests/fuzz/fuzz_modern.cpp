@@ -114,15 +114,19 @@ void check(const Contact& c) {
   }
 }
 
-/// The nodes, or pairs of edges, in contact. Where several segments are equally near any may be
-/// named.
-std::vector<std::array<std::uint32_t, 3>> in_contact(const Scene& scene) {
-  std::vector<std::array<std::uint32_t, 3>> out;
-  for (std::uint32_t i = 0; i < scene.contacts.size(); ++i)
-    for (const PenetrationRow& r : scene.contacts[i].penetrations)
-      if (is_modern(scene.contacts[i].type) && r.in_contact)
-        out.push_back(
-            {i, r.secondary, scene.contacts[i].kind == ContactKind::edge_edge ? r.main : 0});
+/// The nodes, pairs of edges, and edges through faces, in contact. Where several segments are
+/// equally near any may be named.
+std::vector<std::array<std::uint32_t, 4>> in_contact(const Scene& scene) {
+  std::vector<std::array<std::uint32_t, 4>> out;
+  for (std::uint32_t i = 0; i < scene.contacts.size(); ++i) {
+    const Contact& c = scene.contacts[i];
+    if (!is_modern(c.type)) continue;
+    for (const PenetrationRow& r : c.penetrations)
+      if (r.in_contact)
+        out.push_back({i, r.secondary, c.kind == ContactKind::edge_edge ? r.main : 0, 0});
+    for (const EdgeThroughSegment& e : c.edges_through_segments)
+      out.push_back({i, e.edge, e.main, static_cast<std::uint32_t>(e.side)});
+  }
   return out;
 }
 

@@ -191,14 +191,14 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
       if (settle(context.options.accuracy, judge, p, row)) out.penetrations.push_back(row);
     }
   }
-  add_decisions(decisions, context.scene.contacts.size(), context.scene.decisions);
   if (evaluated && s.set.solid_edges() != 0) {
     if (s.set.igap == 2)  // which of them are left out as near along the mesh is not established
       not_evaluated(context, out, "Igap = 2 and Iedge = " + std::to_string(s.set.iedge),
                     "edges against faces of solids were not evaluated");
     else
-      out.edges_through_segments = edges_through_solids(context, s, topology, edges);
+      out.edges_through_segments = edges_through_solids(context, s, topology, edges, decisions);
   }
+  add_decisions(decisions, context.scene.contacts.size(), context.scene.decisions);
   context.scene.contacts.push_back(std::move(out));
 }
 

@@ -1,11 +1,14 @@
-// The rule of TYPE25 for edges of sheets in CGAL's exact numbers: the solver's formulas without
-// their round-off. Roots that move an end are cut off after 300 binary digits.
+// The rules of TYPE25 for edges, of sheets and through faces of solids, in CGAL's exact numbers:
+// the solver's formulas without their round-off. Roots are cut off after 300 binary digits.
 #include "contact/modern/edge_rule.hpp"
 
+#include <CGAL/Interval_nt.h>
 #include <CGAL/number_utils.h>
 
 #include <limits>
+#include <optional>
 
+#include "contact/modern/through_rule.hpp"
 #include "contact/shared/exact_number.hpp"
 
 namespace deck::detail::modern {
@@ -40,6 +43,38 @@ ExactEdgePair exact_edge_pair(const EdgeRule& r) {
   const Q distance = CGAL::is_positive(c.distance_squared) ? root(c.distance_squared) : Q(0);
   const double depth = rounded_towards_zero(Q(gap - distance).exact());
   out.depth = depth > 0 ? depth : std::numeric_limits<double>::denorm_min();
+  return out;
+}
+
+namespace {
+
+/// nullopt: round-off is in the way.
+std::optional<bool> told_by_intervals(const ThroughRule& r) {
+  using Range = CGAL::Interval_nt<false>;
+  try {
+    const Range::Protector rounding;
+    const auto root = [](const Range& square) { return CGAL::sqrt(CGAL::max(Range(0), square)); };
+    Range depth(0);
+    return ThroughSide<Range, decltype(root)>(r, root).passes(depth);
+  } catch (const CGAL::Uncertain_conversion_exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+ThroughFigures exact_through(const ThroughRule& r, bool figures, std::uint64_t& exact) {
+  if (!figures)
+    if (const std::optional<bool> told = told_by_intervals(r)) return {*told, 0};
+  ++exact;
+  using Q = LazyRational;
+  const auto root = [](const Q& square) {
+    return CGAL::is_positive(square) ? Q(long_square_root(square.exact())) : Q(0);
+  };
+  ThroughFigures out;
+  Q depth(0);
+  out.passes = ThroughSide<Q, decltype(root)>(r, root).passes(depth);
+  if (out.passes) out.depth = rounded_towards_zero(depth.exact());
   return out;
 }
 

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "contact/modern/edge_rule.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/shared/filtered.hpp"
 #include "deck/contact/search.hpp"
@@ -188,59 +187,31 @@ class NearAlongMesh {
   NearPairs out_;
 };
 
-/// Two edges of sheets.
-class EdgePairs {
- public:
-  EdgePairs(const Coordinates& x, const Sides& s, const Topology& t,
-            const std::vector<SideEdge>& edges, const std::vector<std::int64_t>& ids)
-      : x_(x), s_(s), t_(t), edges_(edges), ids_(ids) {}
+/// Whether two edges are a pair. Where each could be the main one, that with the larger ids is.
+bool are_wanted(const Sides& sides, const std::vector<std::int64_t>& ids, const SideEdge& s,
+                const SideEdge& m) {
+  if (m.kind < 2 || s.kind < 1 || !sides.across(s.bits, m.bits)) return false;
+  const auto key = [&](const SideEdge& e) { return std::pair(ids[e.nodes[0]], ids[e.nodes[1]]); };
+  return s.kind == 1 || key(m) > key(s);
+}
 
-  bool wanted(std::uint32_t s, std::uint32_t m) const {
-    const SideEdge &a = edges_[s], &b = edges_[m];
-    if (b.kind < 2 || a.kind < 1 || !s_.across(a.bits, b.bits)) return false;
-    if (a.kind == 1) return true;
-    return key(b) > key(a);
+RuleEdge rule_edge(const Coordinates& x, const Sides& s, const Topology& t, const SideEdge& e,
+                   double inward, bool recessed) {
+  RuleEdge out;
+  out.end = {at(x, e.nodes[0]), at(x, e.nodes[1])};
+  out.gap = e.gap;
+  out.recessed = recessed;
+  out.inward = inward;
+  if (!e.free()) return out;
+  out.beta = t.direction(e.face, e.side);
+  for (std::size_t k = 0; k < 2 && recessed; ++k) {
+    const std::uint32_t corner =
+        s.nodes_of(e.face)[e.side] == e.nodes[k] ? e.side : (e.side + 1) % 4;
+    const Topology::Vertex v = t.vertex(e.face, corner);
+    out.border[k] = sum_single(v.first, v.second);
   }
-
-  EdgeRule rule(std::uint32_t s, std::uint32_t m) const {
-    const SideEdge &a = edges_[s], &b = edges_[m];
-    const bool local = s_.set.local();
-    EdgeRule r;
-    r.secondary = edge(a, a.gap, a.free() && s_.set.igap0 != 0);
-    r.main = edge(b, local ? std::min(b.gap, b.length) : b.gap, b.free());
-    r.secondary.one_sided = a.free() && a.kind != 1;
-    r.main.one_sided = b.free();
-    if (local) r.most_gap = a.length + b.length;
-    return r;
-  }
-
- private:
-  std::pair<std::int64_t, std::int64_t> key(const SideEdge& e) const {
-    return {ids_[e.nodes[0]], ids_[e.nodes[1]]};
-  }
-  RuleEdge edge(const SideEdge& e, double inward, bool recessed) const {
-    RuleEdge out;
-    out.end = {at(x_, e.nodes[0]), at(x_, e.nodes[1])};
-    out.gap = e.gap;
-    out.recessed = recessed;
-    out.inward = inward;
-    if (!e.free()) return out;
-    out.beta = t_.direction(e.face, e.side);
-    for (std::size_t k = 0; k < 2 && recessed; ++k) {
-      const std::uint32_t corner =
-          s_.nodes_of(e.face)[e.side] == e.nodes[k] ? e.side : (e.side + 1) % 4;
-      const Topology::Vertex v = t_.vertex(e.face, corner);
-      out.border[k] = sum_single(v.first, v.second);
-    }
-    return out;
-  }
-
-  const Coordinates& x_;
-  const Sides& s_;
-  const Topology& t_;
-  const std::vector<SideEdge>& edges_;
-  const std::vector<std::int64_t>& ids_;
-};
+  return out;
+}
 
 std::array<Vec, 2> ends_of(const RuleEdge& e) {
   std::array<Vec, 2> out = e.end;
@@ -365,6 +336,18 @@ std::vector<SideEdge> make_edges(SceneContext& c, const Sides& s, const Topology
   return edges;
 }
 
+EdgeRule edge_rule(const Coordinates& x, const Sides& sides, const Topology& t, const SideEdge& s,
+                   const SideEdge& m) {
+  const bool local = sides.set.local();
+  EdgeRule r;
+  r.secondary = rule_edge(x, sides, t, s, s.gap, s.free() && sides.set.igap0 != 0);
+  r.main = rule_edge(x, sides, t, m, local ? std::min(m.gap, m.length) : m.gap, m.free());
+  r.secondary.one_sided = s.free() && s.kind != 1;
+  r.main.one_sided = m.free();
+  if (local) r.most_gap = s.length + m.length;
+  return r;
+}
+
 EdgeFigures evaluate_edges(const EdgeRule& r, bool weigh) {
   EdgeFigures out;
   const auto s = ends_of(r.secondary), m = ends_of(r.main);
@@ -401,14 +384,14 @@ bool find_edges25(SceneContext& c, const Sides& s, const Topology& t,
   if (s.set.igap == 2) near = NearAlongMesh(x, edges, s.set.igap0 != 0).find();
   const SearchResult found = search_edges(c, s, edges);
   if (!found.complete) return false;
-  const EdgePairs pairs(x, s, t, edges, c.model.nodes.id);
   const Accuracy accuracy = c.all_placed ? c.options.accuracy : Accuracy::reference;
   for (const CandidatePair& pair : found.pairs) {
-    if (!pairs.wanted(pair.secondary, pair.main)) continue;
+    const SideEdge &secondary = edges[pair.secondary], &main = edges[pair.main];
+    if (!are_wanted(s, c.model.nodes.id, secondary, main)) continue;
     const std::pair both(std::min(pair.secondary, pair.main), std::max(pair.secondary, pair.main));
     if (std::binary_search(near.begin(), near.end(), both)) continue;
-    const EdgePenetration p =
-        decided(pair, pairs.rule(pair.secondary, pair.main), accuracy, decisions);
+    const EdgeRule rule = edge_rule(x, s, t, secondary, main);
+    const EdgePenetration p = decided(pair, rule, accuracy, decisions);
     if (p.in_contact || p.solver_acts) out.push_back(p);
   }
   return true;

@@ -5,6 +5,7 @@
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -29,7 +30,10 @@ class ExactRule {
   }
 
   const Q& distance_squared() const { return f_.distance_squared; }
+  const Q& penetration() const { return depth_; }
   bool penetrates() const { return CGAL::is_positive(depth_); }
+  /// With adhesion half of the gap is no penetration.
+  void take_adhesion_off() { depth_ = std::max(Q(0), Q(depth_ - Q(0.5) * f_.gap)); }
   double gap() const { return rounded_towards_zero(f_.gap.exact()); }
   double depth() const {
     if (!penetrates()) return 0;
@@ -37,7 +41,7 @@ class ExactRule {
     return depth > 0 ? depth : std::numeric_limits<double>::denorm_min();
   }
   /// False: the pair is left out.
-  bool counts() {
+  bool counts(bool adhesion) {
     choose_facet();
     const bool sheet = r_.kind == FacetRule::Kind::sheet;
     if (sheet && CGAL::is_positive(f_.behind)) return false;
@@ -46,9 +50,9 @@ class ExactRule {
     depth_ = raw();
     const bool out = excluded();
     if (out) depth_ = Q(0);
-    if (out && r_.kind != FacetRule::Kind::solid) return false;
+    if (out && (adhesion || r_.kind != FacetRule::Kind::solid)) return false;
     if (thin() && penetrates()) at_border();
-    return true;
+    return !(adhesion && sheet) || penetrates();
   }
 
  private:
@@ -246,21 +250,97 @@ class ExactRule {
 
 }  // namespace
 
-std::optional<ExactChoice> exact_choice(std::span<const FacetRule> pairs, bool solver_penetrates) {
+std::optional<ExactChoice> exact_choice(std::span<const FacetRule> pairs, bool solver_penetrates,
+                                        bool adhesion) {
   std::optional<ExactChoice> best;
-  Q least(0);
+  Q distance(0), most(0);  // of the one that counts; what another may have
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     ExactRule rule(pairs[i]);
-    if (!rule.counts()) continue;
-    if (best && rule.distance_squared() > least) continue;
-    if (best && rule.distance_squared() == least && best->penetrates == solver_penetrates &&
-        rule.penetrates() != solver_penetrates)
+    if (!rule.counts(adhesion)) continue;
+    if (best && rule.distance_squared() > most) continue;
+    if (adhesion) rule.take_adhesion_off();
+    if (!adhesion && best && rule.distance_squared() == most &&
+        best->penetrates == solver_penetrates && rule.penetrates() != solver_penetrates)
       continue;
-    least = rule.distance_squared();
+    distance = rule.distance_squared();
+    most = adhesion ? rule.penetration() : distance;
     best = ExactChoice{i, rule.penetrates(), 0, rule.gap(), rule.depth()};
   }
-  if (best) best->distance = rounded_square_root(least.exact());
+  if (best) best->distance = rounded_square_root(distance.exact());
   return best;
+}
+
+namespace {
+
+Q sum_of(const std::array<double, 3>& v) { return Q(v[0]) + Q(v[1]) + Q(v[2]); }
+
+/// The solver's cell of a coordinate.
+Q cell_of(const SearchGrid& grid, std::size_t k, const Q& v) {
+  Q share(0);
+  if (grid.size[k] > 0)
+    share =
+        std::min(Q(grid.cells[k]), Q(Q(grid.cells[k]) * (v - Q(grid.low[k])) / Q(grid.size[k])));
+  // Cut off at whole numbers, below 0 upwards.
+  if (CGAL::is_negative(share)) return share > Q(-1) ? Q(2) : Q(1);
+  // No whole number of cells has more digits than a double holds.
+  Q whole(std::floor(CGAL::to_double(share)));
+  while (whole > share) whole -= Q(1);
+  while (whole + Q(1) <= share) whole += Q(1);
+  return std::max(Q(1), Q(Q(2) + whole));
+}
+
+Q least_distance_squared(const LookRule& r) {
+  std::array<V, 4> p;
+  for (std::size_t k = 0; k < 4; ++k) p[k] = lift(r.corner[k]);
+  const V q = lift(r.node);
+  if (r.triangle)
+    return closest_detail::reference_sub_triangle(q, p[2], p[0], p[1]).distance_squared;
+  const V o = Q(0.25) * ((p[0] + p[1]) + (p[2] + p[3]));
+  Q least = closest_detail::reference_sub_triangle(q, o, p[0], p[1]).distance_squared;
+  for (std::size_t k = 1; k < 4; ++k)
+    least = std::min(
+        least, closest_detail::reference_sub_triangle(q, o, p[k], p[(k + 1) % 4]).distance_squared);
+  return least;
+}
+
+struct Span {
+  Q low, high;
+  bool holds(const Q& v) const { return v >= low && v <= high; }
+};
+double component(const Vec& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+/// Of the corners along an axis, and farther on both sides.
+Span span_of(const std::array<Vec, 4>& corner, std::size_t axis, const Q& reach) {
+  double low = component(corner[0], axis), high = low;
+  for (const Vec& c : corner) {
+    low = std::min(low, component(c, axis));
+    high = std::max(high, component(c, axis));
+  }
+  return {Q(low) - reach, Q(high) + reach};
+}
+
+}  // namespace
+
+bool is_in_box(const Vec& node, const std::array<Vec, 4>& corner,
+               const std::array<double, 3>& reach) {
+  const Q sum = sum_of(reach);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!span_of(corner, k, sum).holds(Q(component(node, k)))) return false;
+  return true;
+}
+
+bool is_looked_at(const LookRule& r, const SearchGrid& grid) {
+  if (!is_in_box(r.node, r.corner, r.box)) return false;
+  const Q in_cells = sum_of(r.cells);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Span covered = span_of(r.corner, k, in_cells);
+    const Span cells{cell_of(grid, k, covered.low), cell_of(grid, k, covered.high)};
+    if (!cells.holds(cell_of(grid, k, Q(component(r.node, k))))) return false;
+  }
+  Q gap = Q(r.box[0]) + Q(r.box[1]);
+  if (gap > Q(r.most_gap)) gap = Q(r.most_gap);
+  const Q far = gap + Q(r.box[2]);
+  return CGAL::is_positive(far) && least_distance_squared(r) < far * far;
 }
 
 }  // namespace deck::detail::modern

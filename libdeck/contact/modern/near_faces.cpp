@@ -1,33 +1,125 @@
-// The search that TYPE24 and TYPE25 share: from nodes and segments with their gaps to pairs.
+// The searches of TYPE24 and TYPE25: the segments near each node, by distance or by their boxes.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
+#include "contact/search/sweep.hpp"
 
 namespace deck::detail::modern {
 namespace {
 
-/// Whether a node that comes from `node` is looked at where those of the surface `side` are.
-bool belongs(std::uint8_t node, std::uint8_t side, bool group_meets_all) {
-  return (node & side) != 0 || (group_meets_all && (node & from_group) != 0);
+double largest_coordinate(const SceneContext& context) {
+  const Coordinates& x = context.scene.coordinates;
+  double out = 0;
+  if (!context.all_placed) return out;
+  for (const std::vector<double>* axis : {&x.x, &x.y, &x.z})
+    for (const double v : *axis) out = std::max(out, std::fabs(v));
+  return out;
 }
 
 /// Pairs of nodes of one surface and segments of the other. `on`, `searched`: room for who takes
 /// part.
 SearchResult from_surface(const Sides& sides, const SearchLists& lists, NodeSegmentInput in,
                           const SearchOptions& options, std::uint8_t from, std::uint8_t to,
-                          bool group_meets_all, std::vector<double>& on,
-                          std::vector<double>& searched) {
+                          std::vector<double>& on, std::vector<double>& searched) {
   on.resize(sides.nodes.size());
   searched.resize(sides.faces.size());
-  for (std::size_t i = 0; i < on.size(); ++i)
-    on[i] = belongs(sides.nodes[i].bits, from, group_meets_all) ? 1 : 0;
+  for (std::size_t i = 0; i < on.size(); ++i) on[i] = (sides.nodes[i].bits & from) != 0 ? 1 : 0;
   for (std::size_t i = 0; i < searched.size(); ++i)
     searched[i] = (sides.faces[i].bits & to) == 0 ? 0 : lists.searched[i];
   in.secondary_stiffness = on;
   in.segment_stiffness = searched;
   return find_node_segment_pairs(in, options);
+}
+
+/// Pairs in the order of their segments, brought into the order of nodes.
+std::vector<CandidatePair> by_node(const std::vector<CandidatePair>& pairs, std::size_t nodes) {
+  std::vector<std::size_t> next(nodes + 1, 0);
+  for (const CandidatePair& p : pairs) ++next[p.secondary + 1];
+  for (std::size_t i = 0; i < nodes; ++i) next[i + 1] += next[i];
+  std::vector<CandidatePair> out(pairs.size());
+  for (const CandidatePair& p : pairs) out[next[p.secondary]++] = p;
+  return out;
+}
+
+/// Nodes in a tree of their places, each as a box that its gap fills.
+class NodeTree {
+ public:
+  NodeTree(const NodeArrays& x, const Sides& sides, std::vector<std::uint32_t> some, int threads)
+      : order_(std::move(some)) {
+    const auto box_of = [&](std::uint32_t i) {
+      return sweep::box_of_nodes(x, std::array{sides.nodes[i].node}, sides.nodes[i].gap);
+    };
+    sweep::put_in_order(order_, box_of, threads);
+    std::vector<BoxBlock> blocks;
+    make_room(blocks, (order_.size() + BoxBlock::width - 1) / BoxBlock::width, threads);
+    blocks.resize((order_.size() + BoxBlock::width - 1) / BoxBlock::width);
+    for (std::size_t i = 0; i < order_.size(); ++i)
+      blocks[i / BoxBlock::width].set(i % BoxBlock::width, box_of(order_[i]));
+    tree_ = BoxTree(std::move(blocks), threads);
+  }
+  const BoxTree& tree() const { return tree_; }
+  std::uint32_t node(std::uint32_t leaf) const { return order_[leaf]; }
+
+ private:
+  std::vector<std::uint32_t> order_;
+  BoxTree tree_;
+};
+
+/// Of the nodes that `takes_node` wants and the segments that `takes_face` wants.
+template <class TakesNode, class TakesFace>
+SearchResult in_boxes(const SceneContext& context, const Sides& sides,
+                      const std::function<double(const Face&)>& margin, const TakesNode& takes_node,
+                      const TakesFace& takes_face) {
+  const Coordinates& c = context.scene.coordinates;
+  const NodeArrays x{c.x, c.y, c.z};
+  const int threads = effective_threads(context.options.threads);
+  std::vector<std::uint32_t> nodes, faces;
+  for (std::uint32_t i = 0; i < sides.nodes.size(); ++i)
+    if (takes_node(sides.nodes[i])) nodes.push_back(i);
+  for (std::uint32_t i = 0; i < sides.faces.size(); ++i)
+    if (takes_face(sides.faces[i])) faces.push_back(i);
+  const NodeTree tree(x, sides, std::move(nodes), threads);
+  struct Piece {
+    std::vector<deck::Box> boxes;
+    std::vector<sweep::Meeting> near;
+    std::vector<CandidatePair> found;
+  };
+  constexpr std::size_t at_once = 512;
+  const std::size_t most = SearchOptions().max_pairs;
+  std::vector<CandidatePair> all;
+  SearchResult out;
+  run_in_order<Piece>(
+      (faces.size() + at_once - 1) / at_once, threads,
+      [&](std::size_t piece, Piece& p) {
+        p.boxes.clear();
+        p.near.clear();
+        p.found.clear();
+        const std::size_t first = piece * at_once;
+        for (std::size_t i = first; i < std::min(faces.size(), first + at_once); ++i) {
+          const Face& f = sides.faces[faces[i]];
+          p.boxes.push_back(sweep::segment_box(x, f.nodes, f.gap + margin(f)));
+        }
+        sweep::kernels().meetings(tree.tree(), p.boxes, p.near);
+        for (const sweep::Meeting& m : p.near) {
+          const std::uint32_t face = faces[first + m.box], node = tree.node(m.leaf);
+          const Quad& corners = sides.faces[face].nodes;
+          if (std::find(corners.begin(), corners.end(), sides.nodes[node].node) == corners.end())
+            p.found.push_back({node, face});
+        }
+      },
+      [&](std::size_t, const Piece& p) {
+        out.complete = out.complete && all.size() + p.found.size() <= most;
+        if (out.complete) all.insert(all.end(), p.found.begin(), p.found.end());
+      });
+  if (out.complete) out.pairs = by_node(all, sides.nodes.size());
+  return out;
 }
 
 }  // namespace
@@ -62,24 +154,37 @@ NodeSegmentInput input_of(const Coordinates& x, const SearchLists& lists) {
   return in;
 }
 
-PairsByNode near_faces(const SceneContext& context, const Sides& sides, const SearchLists& lists,
-                       bool group_meets_all) {
+PairsByNode near_faces(const SceneContext& context, const Sides& sides, const SearchLists& lists) {
   const NodeSegmentInput in = input_of(context.scene.coordinates, lists);
   SearchOptions options;
   options.gap = PairGap::from_igap(1, 0);
-  // Rounding of the sum of gaps and margin must not lose a pair.
-  options.margin = sides.margin * (1 + 1e-12);
+  // Rounding of the sum of gaps and margin, and of the distance, must not lose a pair.
+  options.margin = sides.margin * (1 + 1e-12) + 0x1p-44 * largest_coordinate(context);
   options.threads = context.options.threads;
   if (sides.set.level != 2) return {find_node_segment_pairs(in, options), {}};
   // A surface lies on itself everywhere: looking at all would find much that is not wanted.
   std::vector<double> on, searched;
   const auto find = [&](std::uint8_t from, std::uint8_t to) {
-    return from_surface(sides, lists, in, options, from, to, group_meets_all, on, searched);
+    return from_surface(sides, lists, in, options, from, to, on, searched);
   };
   PairsByNode out;
   out.one = find(from_first, from_second);
   out.two = find(from_second, from_first);
   return out;
+}
+
+PairsByNode nodes_in_boxes(const SceneContext& context, const Sides& sides,
+                           const std::function<double(const Face&)>& margin) {
+  const auto find = [&](std::uint8_t from, std::uint8_t to) {
+    return in_boxes(
+        context, sides, margin,
+        [&](const SideNode& n) { return from == 0 || (n.bits & (from | from_group)) != 0; },
+        [&](const Face& f) {
+          return (to == 0 || (f.bits & to) != 0) && (f.stiffness != 0 || f.back_stiffness != 0);
+        });
+  };
+  if (sides.set.level != 2) return {find(0, 0), {}};
+  return {find(from_first, from_second), find(from_second, from_first)};
 }
 
 }  // namespace deck::detail::modern

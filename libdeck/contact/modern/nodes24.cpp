@@ -251,30 +251,32 @@ class Rules24 {
   std::vector<Vec> normals_;
 };
 
-PairsByNode search24(SceneContext& c, const Sides& s, const Limits24& limits) {
-  SearchLists lists = search_lists(s, effective_threads(c.options.threads));
-  for (double& gap : lists.node_gaps) gap *= std::sqrt(3.0);
-  for (std::size_t i = 0; i < s.faces.size(); ++i) {
-    // The node is within a box around the segment: farther at its corners than from its faces.
-    const Face& f = s.faces[i];
-    const double margin = f.solid_like() ? limits.solid_margin : s.margin;
-    lists.gaps[i] = f.gap + (std::sqrt(3.0) - 1) * (f.gap + margin) + margin - s.margin;
-  }
-  return near_faces(c, s, lists, true);
-}
-
-bool in_box(const Coordinates& x, const Face& f, NodeIndex node, double by) {
+/// Whether a node lies in the box of a segment that reaches so far, in sum: as the solver finds,
+/// and without round-off if that is asked for.
+Looked in_box(const Coordinates& x, const Face& f, NodeIndex node,
+              const std::array<double, 3>& reach, bool decides) {
   const std::vector<double>* const axes[] = {&x.x, &x.y, &x.z};
+  const double by = reach[0] + reach[1] + reach[2];
+  Looked out{true, true};
+  bool sure = true;
   for (const std::vector<double>* axis : axes) {
     double low = (*axis)[f.nodes[0]], high = low;
     for (const NodeIndex n : f.nodes) {
       low = std::min(low, (*axis)[n]);
       high = std::max(high, (*axis)[n]);
     }
-    const double v = (*axis)[node];
-    if (!(v >= low - by && v <= high + by)) return false;
+    const double v = (*axis)[node], inside = std::min(v - (low - by), (high + by) - v);
+    out.solver = out.solver && v >= low - by && v <= high + by;
+    const double off = 0x1p-48 * (std::fabs(v) + std::fabs(low) + std::fabs(high) + by);
+    if (inside < -off) return {};
+    sure = sure && inside > off;
   }
-  return true;
+  out.exact = out.solver;
+  if (sure || !decides) return out;
+  std::array<Vec, 4> corner;
+  for (std::size_t k = 0; k < 4; ++k) corner[k] = at(x, f.nodes[k]);
+  out.exact = is_in_box(at(x, node), corner, reach);
+  return out;
 }
 
 /// What is in doubt about a node.
@@ -328,12 +330,13 @@ class NodeByNode24 {
   void look(std::span<const CandidatePair> near, Found& out) {
     numbers_.clear();
     pairs_.clear();
+    differs_ = false;
     at_node_ = near.front().secondary;
     for (const CandidatePair& pair : near) take(pair.main);
     for (const CandidatePair& pair : near)
       if (const std::uint32_t o = s_.faces[pair.main].opposite; o != no_index) take(o);
     out.candidates += pairs_.size();
-    if (pairs_.empty()) return;
+    if (pairs_.empty() && !differs_) return;
     const PatchChoice chosen = choose_pair(pairs_, nearest_, decides_);
     const PatchFigures& f = chosen.figures;
     NodePenetration best;
@@ -344,7 +347,8 @@ class NodeByNode24 {
     }
     if (decides_) {
       out.decisions.pairs += pairs_.size();
-      if (accuracy_ == Accuracy::exact || chosen.doubtful) decide(chosen, best, out.decisions);
+      if (accuracy_ == Accuracy::exact || chosen.doubtful || differs_)
+        decide(chosen, best, out.decisions);
     }
     if (best.in_contact || best.solver_acts) out.penetrations.push_back(best);
   }
@@ -356,26 +360,40 @@ class NodeByNode24 {
     const bool across =
         s_.set.level != 2 || (node.bits & from_group) != 0 || s_.across(node.bits, f.bits);
     const double margin = f.solid_like() ? limits_.solid_margin : s_.margin;
-    if (f.stiffness == 0 || !across || !in_box(x_, f, node.node, margin + node.gap + f.gap)) return;
-    numbers_.push_back(number);
-    pairs_.push_back(rules_.rule(node, f));
+    if (f.stiffness == 0 || !across) return;
+    const Looked looked = in_box(x_, f, node.node, {margin, node.gap, f.gap}, decides_);
+    if (!looked.solver && !looked.exact) return;
+    if (looked.differs() && !std::exchange(differs_, true)) {
+      exact_numbers_ = numbers_;
+      exact_pairs_ = pairs_;
+    }
+    const PatchRule rule = rules_.rule(node, f);
+    if (looked.solver) {
+      numbers_.push_back(number);
+      pairs_.push_back(rule);
+    }
+    if (looked.exact && differs_) {
+      exact_numbers_.push_back(number);
+      exact_pairs_.push_back(rule);
+    }
   }
 
   /// In exact arithmetic. The segment the solver takes stays where it finds a penetration, too.
   void decide(const PatchChoice& chosen, NodePenetration& best, DecisionReport& decisions) const {
-    for (const PatchRule& r : pairs_)
+    const std::vector<PatchRule>& pairs = differs_ ? exact_pairs_ : pairs_;
+    for (const PatchRule& r : pairs)
       if (!is_finite(r)) return;
-    decisions.fallback += pairs_.size();
-    decisions.exact += pairs_.size();
-    const ExactNode exact = exact_node(pairs_, nearest_, chosen.pair);
+    decisions.fallback += pairs.size();
+    decisions.exact += pairs.size();
+    const ExactNode exact = exact_node(pairs, nearest_, differs_ ? 0 : chosen.pair);
     best.in_contact = exact.penetrates;
     best.solver_distance = best.distance;
     best.exact_distance = exact.distance;
     if (!exact.penetrates || (best.solver_acts && accuracy_ != Accuracy::exact)) return;
-    const PatchFigures f = evaluate_patch(pairs_[exact.pair], false);
+    const PatchFigures f = evaluate_patch(pairs[exact.pair], false);
     if (!best.solver_acts) best.solver_distance = f.height;
     best.node = at_node_;
-    best.face = numbers_[exact.pair];
+    best.face = (differs_ ? exact_numbers_ : numbers_)[exact.pair];
     best.penetration = exact.depth;
     best.gap = exact.gap;
     best.distance = exact.distance;
@@ -391,6 +409,9 @@ class NodeByNode24 {
   std::uint32_t at_node_ = 0;
   std::vector<std::uint32_t> numbers_;
   std::vector<PatchRule> pairs_;
+  bool differs_ = false;  ///< without round-off these are the pairs:
+  std::vector<std::uint32_t> exact_numbers_;
+  std::vector<PatchRule> exact_pairs_;
 };
 
 }  // namespace
@@ -456,7 +477,8 @@ Found find_nodes24(SceneContext& c, Sides& s) {
   const Limits24 limits = limits_of(s);
   Found out;
   out.largest_accepted = limits.accepted;
-  const PairsByNode near = search24(c, s, limits);
+  const PairsByNode near = nodes_in_boxes(
+      c, s, [&](const Face& f) { return f.solid_like() ? limits.solid_margin : s.margin; });
   out.complete = near.complete();
   if (!out.complete) return out;
   c.connectivity.prepare(ElementKind::solid8);

@@ -33,12 +33,16 @@ class Grid {
     main.widen(s.margin + s.largest);
     all = main;
     for (const SideNode& n : s.nodes) all.add(at(x, n.node));
-    low_ = all.low;
-    for (std::size_t k = 0; k < 3; ++k) size_[k] = all.high[k] - all.low[k];
-    const double area = size_[0] * size_[1] + size_[1] * size_[2] + size_[2] * size_[0];
+    n_.low = all.low;
+    auto& size = n_.size;
+    for (std::size_t k = 0; k < 3; ++k) size[k] = all.high[k] - all.low[k];
+    const double area = size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
     const double density = area > 0 ? 0.75 * std::sqrt(static_cast<double>(count) / area) : 0;
-    for (std::size_t k = 0; k < 3; ++k) cells_[k] = std::max(1.0, std::round(size_[k] * density));
+    for (std::size_t k = 0; k < 3; ++k) n_.cells[k] = std::max(1.0, std::round(size[k] * density));
   }
+  const SearchGrid& numbers() const { return n_; }
+  /// What round-off may make of a coordinate on its way to a cell.
+  double blur() const { return 0x1p-48 * std::max({n_.size[0], n_.size[1], n_.size[2]}); }
 
   struct Box {
     std::array<double, 3> low, high;
@@ -67,21 +71,22 @@ class Grid {
     }
   };
 
-  bool covers(const Box& box, const Vec& p) const {
+  /// Or would if the place were nearer by `by`.
+  bool covers(const Box& box, const Vec& p, double by = 0) const {
     const double v[] = {p.x, p.y, p.z};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double c = cell(k, v[k]);
-      if (c < cell(k, box.low[k]) || c > cell(k, box.high[k])) return false;
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+      if (cell(k, v[k] + by) < cell(k, box.low[k]) || cell(k, v[k] - by) > cell(k, box.high[k]))
+        return false;
     return true;
   }
 
  private:
   double cell(std::size_t k, double v) const {
-    const double share = size_[k] > 0 ? std::trunc(cells_[k] * (v - low_[k]) / size_[k]) : 0;
-    return std::max(1.0, 2 + std::min(cells_[k], share));
+    const double share =
+        n_.size[k] > 0 ? std::trunc(n_.cells[k] * (v - n_.low[k]) / n_.size[k]) : 0;
+    return std::max(1.0, 2 + std::min(n_.cells[k], share));
   }
-  std::array<double, 3> low_{}, size_{}, cells_{};
+  SearchGrid n_;
 };
 
 Grid::Box box_of(const Coordinates& x, const Face& f) {
@@ -174,6 +179,7 @@ struct Candidate {
   unsigned facets = all_facets;
   double least = 0;  ///< the distance is no less
   double slack = 0;  ///< what round-off may make of lengths
+  Looked looked;
 };
 
 /// What is in doubt about the pair of a node that counts.
@@ -212,7 +218,7 @@ class Chooser {
   Chooser(SceneContext& c, const Sides& s, const Topology& t, const Reach& reach,
           const RemovalLists& removed, const SearchLists& lists)
       : accuracy_(c.options.accuracy),
-        placed_(c.all_placed),
+        decides_(accuracy_ >= Accuracy::robust && c.all_placed),
         x_(c.scene.coordinates),
         model_(c.model),
         connectivity_(c.connectivity),
@@ -226,39 +232,25 @@ class Chooser {
 
   /// Whether the solver pairs a node and a segment or its opposite. `open`: whether it may be a
   /// penetration. `both`: the same holds for the opposite, by all but its stiffness.
-  bool candidate(std::uint32_t node, std::uint32_t face, const sweep::NearDistance& near,
-                 bool& open, bool& both) const {
+  Looked candidate(std::uint32_t node, std::uint32_t face, const sweep::NearDistance& near,
+                   bool& open, bool& both) const {
     const SideNode& n = s_.nodes[node];
     const bool mirror = s_.is_mirror(face);
     const Face& f = s_.faces[s_.base(face)];
-    if (f.interior || (mirror ? f.back_stiffness : f.stiffness) == 0) return false;
+    if (f.interior || (mirror ? f.back_stiffness : f.stiffness) == 0) return {};
     const bool solid = f.solid_like();
-    if (mirror && solid) return false;  // the inside of a coat
-    if (!s_.across(n.bits, f.bits)) return false;
-    double gap = n.gap + f.gap;
+    if (mirror && solid) return {};  // the inside of a coat
+    if (!s_.across(n.bits, f.bits)) return {};
+    const double gap = n.gap + f.gap;
     if (!solid && !s_.set.local() && near.distance + near.slack < gap + s_.margin) {
       // Within the reach from all sides, and within that of the grid, which takes the largest gap.
       both = true;
       open = open || !(near.distance - near.slack > gap);
-      return true;
+      return {true, true};
     }
-    if (!solid && near.distance - near.slack >= gap + s_.margin) return false;
-    if (solid && same_part(n.node, f)) return false;
-    const double far = solid ? std::max(s_.margin, reach_.of_node[node]) : s_.margin;
-    const Vec q = at(x_, n.node);
-    Grid::Box box = box_of(x_, f);
-    box.widen(gap + far);
-    if (!box.holds(q)) return false;
-    const Face own = s_.face(face);
-    if (s_.set.local()) gap = std::min(gap, n.length + own.length);
-    const double r = gap + far, d = facet_distance_squared(x_, own, n.node);
-    if (!(d < r * r)) return false;
-    // The gap of a place on the segment is the largest of its corners' at most, but for rounding.
-    constexpr double rounding = 1 + 1e-12;
-    open = open || solid || !(near.slack < never) || !(d >= gap * gap * rounding);
-    Grid::Box covered = box_of(x_, f);
-    covered.widen(gap_s_ + f.gap + (solid ? std::max(s_.margin, reach_.grid) : s_.margin));
-    return grid_.covers(covered, q);
+    if (!solid && near.distance - near.slack >= gap + s_.margin) return {};
+    if (solid && same_part(n.node, f)) return {};
+    return looked_at(node, s_.face(face), near, open);
   }
   bool removed(const CandidatePair& pair) const { return is_removed(removed_, pair); }
 
@@ -267,25 +259,28 @@ class Chooser {
   NodePenetration choose(std::uint32_t node, std::span<const Candidate> pairs,
                          DoubtfulPairs& doubts, DecisionReport& decisions) const {
     const bool adhesion = s_.set.ivis2 == -1;
-    const bool decides = accuracy_ >= Accuracy::robust && !adhesion && placed_;
     NodePenetration best;
     double best_d = 0, best_slack = 0;
-    bool found = false;
+    bool found = false, unsure = false;
     doubts.clear();
     for (const Candidate& pair : pairs) {
+      unsure = unsure || pair.looked.differs();
+      if (!pair.looked.solver) continue;
       if (found && !adhesion && pair.least > best.distance) continue;
       ++decisions.pairs;
       const SideNode& n = s_.nodes[node];
       const PairFigures p =
-          evaluate_pair(x_, s_, t_, n, pair.face, pair.facets, decides ? pair.slack : -1);
+          evaluate_pair(x_, s_, t_, n, pair.face, pair.facets, decides_ ? pair.slack : -1);
       const SegmentKind kind = kind_of(pair.face);
       const bool sheet = kind == SegmentKind::shell;
       const bool out = (p.excluded && (adhesion || kind != SegmentKind::solid)) ||
                        (sheet && (p.behind > 0 || (adhesion && p.penetration == 0)));
-      if (decides) doubts.add(p, pair.slack, !out);
-      if (out) continue;
       const double limit = adhesion ? best.penetration : best_d;
-      if (found && p.distance_squared > limit) continue;
+      if (adhesion)
+        unsure = unsure || is_unsure(p, pair.slack, found, limit, best_slack);
+      else if (decides_)
+        doubts.add(p, pair.slack, !out);
+      if (out || (found && p.distance_squared > limit)) continue;
       found = true;
       best_d = p.distance_squared;
       best_slack = pair.slack;
@@ -296,9 +291,10 @@ class Chooser {
       best.distance = std::sqrt(p.distance_squared);
       best.normal = p.normal;
     }
-    if (!decides) return best;
+    if (!decides_) return best;
     const bool penetrates = best.penetration > 0;
-    if (accuracy_ == Accuracy::exact || doubts.any(found, best.distance, best_slack, penetrates))
+    if (accuracy_ == Accuracy::exact || unsure ||
+        doubts.any(found, best.distance, best_slack, penetrates))
       decide(node, pairs, best, decisions);
     return best;
   }
@@ -306,24 +302,79 @@ class Chooser {
   SegmentKind kind_of(std::uint32_t face) const { return s_.faces[s_.base(face)].kind; }
 
  private:
+  /// By the reach of the pair, the box of the segment and the grid.
+  Looked looked_at(std::uint32_t node, const Face& f, const sweep::NearDistance& near,
+                   bool& open) const {
+    const SideNode& n = s_.nodes[node];
+    const bool solid = f.solid_like();
+    const double far = solid ? std::max(s_.margin, reach_.of_node[node]) : s_.margin;
+    const double in_cells = solid ? std::max(s_.margin, reach_.grid) : s_.margin;
+    const double by = near.slack;
+    const Vec q = at(x_, n.node);
+    Grid::Box box = box_of(x_, f), covered = box;
+    box.widen(n.gap + f.gap + far);
+    covered.widen(gap_s_ + f.gap + in_cells);
+    if (!wider(box, by).holds(q)) return {};
+    const double most = s_.set.local() ? n.length + f.length : never,
+                 gap = std::min(n.gap + f.gap, most), r = gap + far,
+                 d = facet_distance_squared(x_, f, n.node);
+    Looked out;
+    out.solver = out.exact = box.holds(q) && d < r * r && grid_.covers(covered, q);
+    const double blur = by + grid_.blur();
+    const bool sure =
+        by < never && (near.distance - by > r || !grid_.covers(wider(covered, blur), q, blur) ||
+                       (near.distance + by < r && wider(box, -by).holds(q) &&
+                        grid_.covers(wider(covered, -blur), q, -blur)));
+    if (decides_ && !sure) {
+      LookRule rule{q, {}, f.triangle(), {n.gap, f.gap, far}, {gap_s_, f.gap, in_cells}, most};
+      for (std::size_t k = 0; k < 4; ++k) rule.corner[k] = at(x_, f.nodes[k]);
+      out.exact = is_looked_at(rule, grid_.numbers());
+    }
+    // The gap of a place on the segment is the largest of its corners' at most, but for rounding.
+    constexpr double rounding = 1 + 1e-12;
+    if (out.solver || out.exact)
+      open = open || solid || !(by < never) || !(d >= gap * gap * rounding);
+    return out;
+  }
+  static Grid::Box wider(Grid::Box box, double by) {
+    box.widen(by);
+    return box;
+  }
+
+  /// IVIS2 -1: whether round-off may change what becomes of a node where it comes to a pair.
+  /// `most`: squared distance that takes the place of the pair before, if there is one.
+  bool is_unsure(const PairFigures& p, double slack, bool found, double most,
+                 double slack_before) const {
+    if (p.doubtful || p.other_facets) return true;
+    const double by = 8 * std::max(slack, slack_before);
+    return std::fabs(p.penetration - 0.5 * p.gap) <= by ||
+           (found &&
+            std::fabs(p.distance_squared - most) <= by * (1 + by + std::sqrt(p.distance_squared)));
+  }
+
   /// In exact arithmetic. The segment the solver takes stays where it finds a penetration, too.
   void decide(std::uint32_t node, std::span<const Candidate> pairs, NodePenetration& best,
               DecisionReport& decisions) const {
     std::vector<FacetRule> rules;
-    for (const Candidate& pair : pairs)
+    std::vector<std::uint32_t> faces;
+    for (const Candidate& pair : pairs) {
+      if (!pair.looked.exact) continue;
       rules.push_back(facet_rule(x_, s_, t_, s_.nodes[node], pair.face));
+      faces.push_back(pair.face);
+    }
     if (!std::all_of(rules.begin(), rules.end(), [](const FacetRule& r) { return is_finite(r); }))
       return;
-    decisions.fallback += pairs.size();
-    decisions.exact += pairs.size();
+    decisions.fallback += rules.size();
+    decisions.exact += rules.size();
     best.solver_acts = best.penetration > 0;
-    const std::optional<ExactChoice> exact = exact_choice(rules, best.solver_acts);
+    const std::optional<ExactChoice> exact =
+        exact_choice(rules, best.solver_acts, s_.set.ivis2 == -1);
     best.in_contact = exact && exact->penetrates;
     best.solver_distance = best.distance;
     best.exact_distance = exact ? exact->distance : best.distance;
     if (best.in_contact && (!best.solver_acts || accuracy_ == Accuracy::exact)) {
       best.node = node;
-      best.face = pairs[exact->pair].face;
+      best.face = faces[exact->pair];
       best.penetration = exact->depth;
       best.gap = exact->gap;
       best.distance = exact->distance;
@@ -341,7 +392,7 @@ class Chooser {
   }
 
   Accuracy accuracy_;
-  bool placed_;
+  bool decides_;
   const Coordinates& x_;
   const Model& model_;
   Connectivity& connectivity_;
@@ -385,22 +436,25 @@ class NodeByNode {
             std::uint8_t& both) {
     bool open = false, same = false;
     const bool mirror = s_.is_mirror(face);
-    if (both != 0 ? s_.faces[pair.main].back_stiffness == 0
-                  : !chooser_.candidate(pair.secondary, face, near, open, same))
+    Looked looked{true, true};
+    if (both == 0)
+      looked = chooser_.candidate(pair.secondary, face, near, open, same);
+    else if (s_.faces[pair.main].back_stiffness == 0)
       return;
+    if (!looked.solver && !looked.exact) return;
     both = same ? 1 : 0;
     any_open_ = any_open_ || open;
     if (chooser_.removed({pair.secondary, face})) {
-      ++dropped;
+      dropped += looked.solver ? 1 : 0;
       return;
     }
-    ++counted_;
+    counted_ += looked.solver ? 1 : 0;
     // Sheets see what is in front of them.
     const int side = mirror ? -near.side : near.side;
     if (side < 0 && chooser_.kind_of(face) == SegmentKind::shell) return;
     unsigned facets = near.nearest;
     if (mirror) facets = (facets & 5U) | (facets >> 2 & 2U) | (facets << 2 & 8U);
-    pairs_.push_back({face, facets, near.distance - near.slack, near.slack});
+    pairs_.push_back({face, facets, near.distance - near.slack, near.slack, looked});
   }
 
   const Chooser& chooser_;
@@ -424,7 +478,7 @@ Found find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
   if (!out.complete) return out;
   const int threads = effective_threads(c.options.threads);
   const SearchLists lists = lists_of(s, reach, threads);
-  const PairsByNode near = near_faces(c, s, lists, false);
+  const PairsByNode near = near_faces(c, s, lists);
   out.complete = near.complete();
   if (!out.complete) return out;
   c.connectivity.prepare(ElementKind::solid8);

@@ -105,6 +105,7 @@ class Pair {
           doubtful_ || left_out(o) != left_out(out) || (o.penetration > 0) != (out.penetration > 0);
     }
     f_ = chosen;
+    out.other_facets = others_ > 0;
     out.doubtful = doubtful_ || !(slack_ < never);
     return out;
   }

@@ -10,7 +10,9 @@
 #include <span>
 #include <vector>
 
+#include "contact/modern/edge_rule.hpp"
 #include "contact/modern/facet_rule.hpp"
+#include "contact/modern/through_rule.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "deck/contact/search.hpp"
 
@@ -203,7 +205,8 @@ struct PairFigures {
   double distance_squared = 0, behind = 0;  ///< behind > 0: the node is behind the facet
   Vec normal;                               ///< of the facet
   bool beside = false, excluded = false;
-  bool doubtful = false;  ///< whether it counts, or penetrates, may be round-off
+  bool doubtful = false;      ///< whether it counts, or penetrates, may be round-off
+  bool other_facets = false;  ///< another facet may be the one that counts
 };
 // pair25.cpp
 constexpr unsigned all_facets = 0xf;
@@ -218,6 +221,12 @@ PairFigures evaluate_pair(const Coordinates& x, const Sides& sides, const Topolo
                           double slack = -1);
 FacetRule facet_rule(const Coordinates& x, const Sides& sides, const Topology& topology,
                      const SideNode& node, std::uint32_t face);
+
+/// Whether the solver looks at a pair: by its own arithmetic, and without round-off.
+struct Looked {
+  bool solver = false, exact = false;
+  bool differs() const { return solver != exact; }
+};
 
 /// What a node was found to penetrate.
 struct NodePenetration {
@@ -264,11 +273,18 @@ bool find_edges25(SceneContext& context, const Sides& sides, const Topology& top
                   const std::vector<SideEdge>& edges, std::vector<EdgePenetration>& out,
                   DecisionReport& decisions);
 
+/// Of a secondary and a main edge.
+EdgeRule edge_rule(const Coordinates& x, const Sides& sides, const Topology& topology,
+                   const SideEdge& secondary, const SideEdge& main);
+
 // edges_solid25.cpp
+ThroughRule through_rule(const Coordinates& x, const Sides& sides, const Topology& topology,
+                         const SideEdge& edge, std::uint32_t face, std::uint32_t side);
 /// Ascending by edge, segment and side.
 std::vector<EdgeThroughSegment> edges_through_solids(const SceneContext& context,
                                                      const Sides& sides, const Topology& topology,
-                                                     const std::vector<SideEdge>& edges);
+                                                     const std::vector<SideEdge>& edges,
+                                                     DecisionReport& decisions);
 
 // near_faces.cpp
 /// What the search needs of a contact: of the nodes, and of segments that are no mirrored ones.
@@ -318,11 +334,14 @@ struct PairsByNode {
     }
   }
 };
-/// The project's own search: the segments that a node may touch across the surfaces, by gaps of
-/// nodes and segments (summed) and the margin of the sides. It gives a little more than the rule of
-/// the type, which decides about each pair. `group_meets_all`: nodes of the group meet both.
-PairsByNode near_faces(const SceneContext& context, const Sides& sides, const SearchLists& lists,
-                       bool group_meets_all);
+/// TYPE25: the segments that a node may touch across the surfaces, by gaps of nodes and segments
+/// (summed) and the margin of the sides. It gives a little more than the rule of the type, which
+/// decides about each pair.
+PairsByNode near_faces(const SceneContext& context, const Sides& sides, const SearchLists& lists);
+/// TYPE24: the same of segments in whose box a node lies, which reaches beyond the segment by both
+/// gaps and the margin; nodes of the group meet both surfaces.
+PairsByNode nodes_in_boxes(const SceneContext& context, const Sides& sides,
+                           const std::function<double(const Face&)>& margin);
 
 // ties.cpp
 /// Which of the penetrations a tie (/INTER/TYPE2) of the deck holds already.
