@@ -114,8 +114,7 @@ void say_forces(const VerdictInput& in, Sentences& out) {
             {{"removed_by_dtmin", sums.by_step}});
   if (sums.open > 0 && (!in.contacts || sums.open > in.contacts->not_evaluated))
     out.add("forces_not_evaluated",
-            fmt::format("Forces not evaluated: {}, see below.",
-                        count(sums.open, "contact", "contacts")),
+            fmt::format("Forces of {} are not evaluated.", count(sums.open, "contact", "contacts")),
             {{"forces_not_evaluated", sums.open}});
   if (sums.pairs > 0 && sums.worst != nullptr && sums.worst->acceleration_node != no_index)
     out.add("acceleration",

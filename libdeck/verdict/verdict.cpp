@@ -69,10 +69,14 @@ void say_obstacles(const ContactFacts& f, Sentences& out) {
        {Obstacle::no_element});
 }
 
-/// One figure for the deepest pair; the share of a gap is another pair's, as a rule.
+/// Figures of the deepest pair, and the largest share of a gap, which is another pair's, as a rule.
+/// Behind faces of solids there may be a depth without a gap.
 std::string deepest_text(const ContactFacts& f) {
-  if (f.deepest_gap == 0) return {};
-  return fmt::format(", deepest {:.6g} of a gap of {:.6g}", f.deepest, f.deepest_gap);
+  std::string out;
+  if (f.deepest > 0) out += fmt::format(", deepest {:.6g}", f.deepest);
+  if (f.deepest_gap > 0) out += fmt::format(" of a gap of {:.6g}", f.deepest_gap);
+  const double worst = f.total.max_ratio;
+  return out + (worst > 0 ? fmt::format("; worst depth/gap {:.1f} %.", 100 * worst) : ".");
 }
 
 void say_penetrations(const ContactFacts& f, Sentences& out) {
@@ -87,10 +91,9 @@ void say_penetrations(const ContactFacts& f, Sentences& out) {
             counts);
   else
     out.add("penetrations",
-            fmt::format("{} on {}{}; worst depth/gap {:.1f} %.",
+            fmt::format("{} on {}{}",
                         count(t.count.pairs, "initial penetration", "initial penetrations"),
-                        nodes_and_edges(t.count.nodes, t.count.edges), deepest_text(f),
-                        100 * t.max_ratio),
+                        nodes_and_edges(t.count.nodes, t.count.edges), deepest_text(f)),
             counts);
   if (f.unbounded > 0)
     out.add("unbounded",
@@ -328,7 +331,7 @@ ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
     const PenetrationRow& row = scene.contacts[p.contact].penetrations[p.row];
     if (!(row.gap <= largest)) {
       ++out.unbounded;
-    } else if (out.deepest_gap == 0) {
+    } else if (out.deepest == 0) {
       out.deepest = row.depth;
       out.deepest_gap = row.gap;
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
 #include "tools/command_line.hpp"
@@ -220,6 +221,14 @@ TEST_F(FixCommand, TYPE25IsTreatedAndItsForcesAreNoReasonToFail) {
   EXPECT_EQ(deck("gaps modern_0000.rad"), 0) << err();
   EXPECT_EQ(deck("cycle modern_0000.rad"), 0) << err();
   EXPECT_NE(out().find("forces of TYPE25 are not computed"), std::string::npos) << out();
+  EXPECT_NE(out().find("contact    not evaluated"), std::string::npos) << out();
+  // Nodes and edges of an interface say it once; there is no Gapmin that could be 0.
+  copy_sample("airbag_fold");
+  EXPECT_EQ(deck("cycle airbag_fold_0000.rad"), 0) << err();
+  const std::string note = "interface 1 TYPE25: forces of TYPE25 are not computed";
+  EXPECT_EQ(out().find(note), out().rfind(note)) << out();
+  EXPECT_EQ(deck("gaps airbag_fold_0000.rad"), 0) << err();
+  EXPECT_TRUE(std::regex_search(out(), std::regex("force from the start +- +60"))) << out();
 }
 
 TEST_F(FixCommand, TieWritesDsearchAndNamesWhatItLeaves) {

@@ -38,6 +38,17 @@ TEST(Verdict, PenetrationsThatAreNoTies) {
   EXPECT_EQ(v.count("tied_pairs"), 0u);
 }
 
+// Behind faces of solids there is a depth, and no gap that it could be a share of.
+TEST(Verdict, ADepthWithoutAGapIsNoShareOfOne) {
+  SmallDeck d;
+  const double x[4] = {0, 10, 10, 0}, y[4] = {0, 0, 10, 10};
+  for (int i = 0; i < 4; ++i) d.node(1 + i, x[i], y[i], 0).node(5 + i, x[i], y[i], 10);
+  d.node(101, 5, 5, 9.5).solid_part(1).brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8});
+  d.group("/SURF/PART/EXT/1", {1}).group("/GRNOD/NODE/2", {101});
+  const Verdict v = of(d.add("@/INTER/TYPE25/1 surf_ID2=1 grnd_IDs=2 Inacti=5").text());
+  EXPECT_EQ(v.text, "1 initial penetration on 1 node, deepest 0.5.");
+}
+
 TEST(Verdict, NothingFoundIsClean) {
   Plates p;
   p.card = "Gapmin=0.1";

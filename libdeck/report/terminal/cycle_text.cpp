@@ -308,6 +308,15 @@ const char* element_name(ElementKind kind) {
   }
 }
 
+/// What it means that no contact gives a step.
+const char* no_limit_text(const cycle::SceneOutcome& o) {
+  const auto open = std::count_if(o.contacts.begin(), o.contacts.end(),
+                                  [](const cycle::ContactOutcome& c) { return !c.complete; });
+  if (open == 0) return "no limit at this state";
+  return static_cast<std::size_t>(open) == o.contacts.size() ? "not evaluated"
+                                                             : "no limit of those evaluated";
+}
+
 std::string step_lines(const CycleInput& input) {
   const cycle::SceneOutcome& o = *input.outcome;
   const Model& model = *input.scene->model;
@@ -320,7 +329,7 @@ std::string step_lines(const CycleInput& input) {
                        model.family(o.structure.kind).id[o.structure.element], cycle::step_scale,
                        o.structure.dt);
   out += "  contact    ";
-  if (o.contact_dt >= 1e30) return out + "no limit at this state\n";
+  if (o.contact_dt >= 1e30) return out + no_limit_text(o) + "\n";
   const char* why = o.contact_dt_source == cycle::StepLimit::Source::nodal
                         ? "contact stiffness against nodal mass"
                     : o.contact_dt_source == cycle::StepLimit::Source::kinematic
@@ -382,9 +391,12 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
   for (const std::string& text : input.state->not_evaluated)
     left_out += "  " + terminal_text(text) + "\n";
   for (const cycle::ContactOutcome& o : input.outcome->contacts)
-    for (const std::string& text : o.notes)
-      left_out += fmt::format("  interface {} {}: {}\n", o.contact->inter->id,
-                              kind_name(*o.contact), terminal_text(text));
+    for (const std::string& text : o.notes) {
+      const std::string line = fmt::format("  interface {} {}: {}\n", o.contact->inter->id,
+                                           kind_name(*o.contact), terminal_text(text));
+      // Nodes and edges of a TYPE25 say the same.
+      if (left_out.find(line) == std::string::npos) left_out += line;
+    }
   if (!left_out.empty()) out += fmt::format("\n{}Not evaluated{}\n{}", bold, plain, left_out);
   if (const std::string text =
           decisions_text(*input.scene, 3, options.verbose, options.color, options.width);

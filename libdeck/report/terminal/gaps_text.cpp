@@ -100,6 +100,11 @@ ContactTotals sum_of(const std::vector<ContactTotals>& all) {
   return sum;
 }
 
+/// Of a gap; where there is none there is no share.
+std::string share_text(double ratio) {
+  return ratio > 0 ? fmt::format("{:.0f} %", 100 * ratio) : "-";
+}
+
 /// One row per interface; those without penetrations in one line. With `verbose` all of them, every
 /// contact of a TYPE19 in a row of its own below, and what their sides and gaps are.
 class InterfaceTable {
@@ -151,12 +156,12 @@ class InterfaceTable {
     add(part ? kind_name(c) : fmt::format("TYPE{}", c.inter->type));
     add(part ? "" : c.inter->title);
     if (options_.verbose) add(fmt::format("{}", c.igap));
-    add(length_text(c.gapmin, 6, largest_));
+    add(is_modern(c.type) ? "-" : length_text(c.gapmin, 6, largest_));  // they have none
     if (options_.verbose) {
       const bool one = contacts.size() == 1, edges = c.kind == ContactKind::edge_edge;
       std::uint64_t reach = 0;
       for (const Contact* x : contacts) reach += x->candidates;
-      add(to_string(c.gapmin_origin));
+      add(is_modern(c.type) ? "-" : to_string(c.gapmin_origin));
       add(one ? number(edges ? c.secondary_edges.size() : c.secondary.size()) : "");
       add(one ? number(edges ? c.main_edges.size() : c.main.size()) : "");
       add(number(reach));
@@ -171,7 +176,7 @@ class InterfaceTable {
     add(has(ContactKind::node_segment) ? number(t.count.nodes) : "-");
     add(has(ContactKind::edge_edge) ? number(t.count.edges) : "-");
     add(t.count.pairs ? length_text(t.max_depth, 6, largest_) : "-");
-    add(t.count.pairs ? fmt::format("{:.0f} %", 100 * t.max_ratio) : "-");
+    add(share_text(t.max_ratio));
     const bool stops = std::any_of(contacts.begin(), contacts.end(), [](const Contact* x) {
       return on_surface_error(*x) != 0 &&
              std::any_of(x->penetrations.begin(), x->penetrations.end(),
@@ -211,7 +216,7 @@ std::string part_pairs_text(const Scene& scene, const SceneView& view,
                fmt::format("{}", p.count.pairs), fmt::format("{}", p.count.nodes),
                fmt::format("{}", p.count.edges), length_text(p.max_depth, 6, largest),
                length_text(p.mean_depth, 4, largest), length_text(p.p95_depth, 4, largest),
-               fmt::format("{:.0f} %", 100 * p.max_ratio)});
+               share_text(p.max_ratio)});
   }
   std::string out = pairs.fitted(options.width, options.color, 2, 2);
   if (shown < view.part_pairs.size())
