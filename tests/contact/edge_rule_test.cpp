@@ -9,6 +9,7 @@
 #include "contact/exactness.hpp"
 #include "contact/modern/edge_rule.hpp"
 #include "contact/modern/through_rule.hpp"
+#include "contact/shared/exact_number.hpp"
 
 namespace deck::test {
 namespace {
@@ -72,6 +73,9 @@ Vec any_direction(std::mt19937& random) {
 TEST(EdgeRule, EdgesThroughSolidsAreJudgedAsExactArithmeticDoes) {
   std::mt19937 random(7);
   std::size_t passes = 0, told = 0, all = 0, differ = 0;
+  const auto root = [](const LazyRational& square) {
+    return square > 0 ? LazyRational(long_square_root(square.exact())) : LazyRational(0);
+  };
   const auto place = [&](double step) {
     const auto number = [&] {
       return step * static_cast<double>(static_cast<int>(random() % 7) - 3);
@@ -94,14 +98,16 @@ TEST(EdgeRule, EdgesThroughSolidsAreJudgedAsExactArithmeticDoes) {
     std::uint64_t exact = 0;
     const bool quick = exact_through(r, false, exact).passes;
     told += exact == 0 ? 1 : 0;
-    const ThroughFigures figures = exact_through(r, true, exact);
-    EXPECT_EQ(quick, figures.passes) << i;
-    const ThroughFigures solver = evaluate_through(r);
-    differ += solver.passes != figures.passes ? 1 : 0;
-    if (solver.passes && figures.passes) {
+    LazyRational depth(0);
+    const bool truth = ThroughSide<LazyRational, decltype(root)>(r, root).passes(depth);
+    EXPECT_EQ(quick, truth) << i;
+    const ThroughFigures solver = evaluate_through(r), figures = exact_through(r, true, exact);
+    EXPECT_EQ(figures.passes, truth) << i;
+    differ += solver.passes != truth ? 1 : 0;
+    if (solver.passes && truth) {
       EXPECT_NEAR(solver.depth, figures.depth, 1e-9 * step);
     }
-    passes += figures.passes ? 1 : 0;
+    passes += truth ? 1 : 0;
     ++all;
   }
   EXPECT_GT(passes, 30u);

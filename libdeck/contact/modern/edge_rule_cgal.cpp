@@ -64,8 +64,8 @@ std::optional<bool> told_by_intervals(const ThroughRule& r) {
 }  // namespace
 
 ThroughFigures exact_through(const ThroughRule& r, bool figures, std::uint64_t& exact) {
-  if (!figures)
-    if (const std::optional<bool> told = told_by_intervals(r)) return {*told, 0};
+  const std::optional<bool> told = told_by_intervals(r);
+  if (told && (!*told || !figures)) return {*told, 0};
   ++exact;
   using Q = LazyRational;
   const auto root = [](const Q& square) {

@@ -84,9 +84,11 @@ class ThroughSolids {
     const ThroughFigures solver = evaluate_through(r);
     if (accuracy_ < Accuracy::robust || !is_finite(r)) return solver;
     ++decisions_.pairs;
-    ++decisions_.fallback;
     const bool figures = accuracy_ == Accuracy::exact || !solver.passes;
-    const ThroughFigures exact = exact_through(r, figures, decisions_.exact);
+    std::uint64_t beyond_double = 0;
+    const ThroughFigures exact = exact_through(r, figures, beyond_double);
+    decisions_.fallback += beyond_double;
+    decisions_.exact += beyond_double;
     if (exact.passes != solver.passes) ++decisions_.contact_differs;
     return exact.passes && !figures ? solver : exact;
   }
