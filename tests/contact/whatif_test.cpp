@@ -1,6 +1,7 @@
 // What-if evaluation: other values for one interface give what a deck with them would give.
 #include <gtest/gtest.h>
 
+#include "contact/shared/what_if_text.hpp"
 #include "contact/small_deck.hpp"
 
 namespace deck::test {
@@ -109,6 +110,39 @@ TEST(WhatIf, FieldsThatATypeDoesNotHaveChangeNothing) {
   asked.build(options);
   expect_same(asked.contact(1), plain.contact(1));
   expect_same(asked.contact(2), plain.contact(2));
+}
+
+// Their cards have a largest gap for each side, and TYPE25 Gap_scale.
+TEST(WhatIf, GapsOfType24AndType25AreTriedUnderTheNamesOfTheirCards) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0).node(11, 5, 5, 1.4);
+  d.node(12, 6, 5, 200).node(13, 5, 6, 200).shell_part(1, 2).shell_part(2, 1.5);
+  d.shell(1, 1, 1, 2, 3, 4).shell3(2, 2, 11, 12, 13);
+  d.group("/SURF/PART/2", {1}).group("/GRNOD/NODE/1", {11});
+  d.add("@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
+  d.add("@/INTER/TYPE24/2 surf_ID2=2 grnd_IDs=1 Inacti=5");
+  Built b(d);
+  const auto depth = [&](const std::string& text) {
+    const auto w = parse_what_if(text);
+    EXPECT_TRUE(w.ok()) << text;
+    for (const InterBase* inter : b.interfaces.ordered) {
+      if (inter->id == w->interface_id) {
+        EXPECT_TRUE(check_what_if(*w, *inter).ok()) << text;
+      }
+    }
+    SceneOptions options;
+    options.what_if = {*w};
+    b.build(options);
+    const PenetrationRow* row = b.row(b.contact(w->interface_id), 11);
+    return row == nullptr ? 0 : row->depth;
+  };
+  EXPECT_NEAR(depth("1:Inacti=5"), 0.35, 1e-12);
+  EXPECT_NEAR(depth("1:Gap_scale=0.9"), 0.175, 1e-12);
+  EXPECT_NEAR(depth("1:Gapmax=0.72"), 0.04, 1e-12);
+  EXPECT_NEAR(depth("2:Gapmax=0.72"), 0.04, 1e-12);
+  const auto refused = check_what_if(*parse_what_if("2:Gap_scale=0.9"), *b.interfaces.ordered[1]);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("TYPE24 has no field Gap_scale"), std::string::npos);
 }
 
 TEST(WhatIf, AnotherIgapFindsTheFactorThatTheCardHolds) {

@@ -16,8 +16,8 @@ Result<WhatIf> parse_what_if(const std::string& text) {
     return Error{Error::Code::config,
                  "--what-if " + text + ": " + why +
                      "; expected ID:FIELD=VALUE[,FIELD=VALUE...] with FIELD one "
-                     "of Gapmin Fscalegap Gapmax Fpenmax %mesh_size Igap Inacti "
-                     "Irem_gap"};
+                     "of Gapmin Fscalegap (or Gap_scale) Gapmax Fpenmax %mesh_size Igap "
+                     "Inacti Irem_gap"};
   };
   WhatIf w;
   const auto colon = text.find(':');
@@ -43,7 +43,7 @@ Result<WhatIf> parse_what_if(const std::string& text) {
     const int flag = static_cast<int>(whole.value);
     if (name == "Gapmin")
       w.Gapmin = v.value;
-    else if (name == "Fscalegap")
+    else if (name == "Fscalegap" || name == "Gap_scale")
       w.Fscalegap = v.value;
     else if (name == "Gapmax")
       w.Gapmax = v.value;
@@ -63,6 +63,19 @@ Result<WhatIf> parse_what_if(const std::string& text) {
   return w;
 }
 
+namespace {
+
+/// What the card calls it: TYPE24 and TYPE25 have a largest gap for each side, TYPE25 its own
+/// scale.
+std::string_view name_on_card(std::string_view name, const InterBase& inter) {
+  if (name == "Gapmin" && !is_modern(inter.type)) return traits_of(inter).gap;
+  if (is_modern(inter.type) && name == "Fscalegap") return "Gap_scale";
+  if (is_modern(inter.type) && name == "Gapmax") return "Gap_max_s";
+  return name;
+}
+
+}  // namespace
+
 Result<void> check_what_if(const WhatIf& w, const InterBase& inter) {
   const Schema* schema = inter.block->schema;
   if (schema == nullptr) return {};
@@ -71,11 +84,13 @@ Result<void> check_what_if(const WhatIf& w, const InterBase& inter) {
       return Error{Error::Code::config, "--what-if " + std::to_string(w.interface_id) + ":" +
                                             std::string(name) + "=" + shortest(value) + ": " + why};
     };
-    const Field* field = schema->find_field(name == "Gapmin" ? traits_of(inter).gap : name);
+    const std::string_view on_card = name_on_card(name, inter);
+    const Field* field = schema->find_field(on_card);
     // The node parts of a TYPE19 have it, though its card does not.
     if (field == nullptr && inter.type == 19 && name == "Fpenmax") return {};
     if (field == nullptr)
-      return refuse("TYPE" + std::to_string(inter.type) + " has no field " + std::string(name));
+      return refuse("TYPE" + std::to_string(inter.type) + " has no field " +
+                    std::string(is_modern(inter.type) ? on_card : name));
     if (!std::isfinite(value)) return refuse("the value is not finite");
     if (!field->values.empty() &&
         std::none_of(field->values.begin(), field->values.end(),

@@ -635,7 +635,7 @@ class Deck:
     def what_if(self, interface: int, all: bool = False, **values: Union[int, float]) -> Gaps:
         """``gaps`` with other values for one interface, without changing the deck: ``d.what_if(3, Gapmin=1.5)``.
 
-        Fields: Gapmin Fscalegap Gapmax Fpenmax mesh_size Igap Inacti Irem_gap. ValueError for what the field cannot
+        Fields: Gapmin Fscalegap (Gap_scale) Gapmax Fpenmax mesh_size Igap Inacti Irem_gap. ValueError for what the field cannot
         hold.
         """
         self._complete()
