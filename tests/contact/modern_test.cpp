@@ -303,6 +303,16 @@ std::vector<std::uint32_t> part_tags(const Laid& l) {
   return out;
 }
 
+// Ipen_max so large that every node lies in the box of every segment.
+TEST(Type24, MorePairsThanThereIsRoomForAreNotEvaluated) {
+  SmallDeck d = blocks(1);
+  d.add("@/INTER/TYPE24/1 surf_ID1=1 surf_ID2=2 Inacti=5 Ipen_max=1000");
+  SceneOptions o;
+  EXPECT_TRUE(Built(d, o).contact().evaluated);
+  o.limits.pair_bytes = 1000;
+  EXPECT_FALSE(Built(d, o).contact().evaluated);
+}
+
 /// `accepted`: the deepest penetration that counts.
 Depths all_pairs24(Laid& l, double accepted) {
   using namespace detail::modern;

@@ -1,6 +1,7 @@
 // The searches of TYPE24 and TYPE25: the segments near each node, by distance or by their boxes.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -91,16 +92,18 @@ SearchResult in_boxes(const SceneContext& context, const Sides& sides,
     std::vector<sweep::Meeting> near;
     std::vector<CandidatePair> found;
   };
-  constexpr std::size_t at_once = 512;
-  const std::size_t most = SearchOptions().max_pairs;
+  constexpr std::size_t at_once = 64;  // where boxes hold everything, no more than that at a time
+  // They are held twice while they are brought into order.
+  const std::size_t most = context.options.limits.pair_bytes / (2 * sizeof(CandidatePair));
   std::vector<CandidatePair> all;
-  SearchResult out;
+  std::atomic<bool> full{false};
   run_in_order<Piece>(
       (faces.size() + at_once - 1) / at_once, threads,
       [&](std::size_t piece, Piece& p) {
         p.boxes.clear();
         p.near.clear();
         p.found.clear();
+        if (full) return;
         const std::size_t first = piece * at_once;
         for (std::size_t i = first; i < std::min(faces.size(), first + at_once); ++i) {
           const Face& f = sides.faces[faces[i]];
@@ -115,9 +118,11 @@ SearchResult in_boxes(const SceneContext& context, const Sides& sides,
         }
       },
       [&](std::size_t, const Piece& p) {
-        out.complete = out.complete && all.size() + p.found.size() <= most;
-        if (out.complete) all.insert(all.end(), p.found.begin(), p.found.end());
+        full = full || all.size() + p.found.size() > most;
+        if (!full) all.insert(all.end(), p.found.begin(), p.found.end());
       });
+  SearchResult out;
+  out.complete = !full;
   if (out.complete) out.pairs = by_node(all, sides.nodes.size());
   return out;
 }
