@@ -61,7 +61,7 @@ TOUR = {
         "cycle samples/clean_plates_0000.rad samples/too_close_0000.rad",
     ],
     "lint": [
-        "lint samples/every_mistake_0000.rad --select DK171,DK242,DK201,DK240",
+        "lint samples/every_mistake_0000.rad --select DK171,DK242,DK201:Istf,DK240",
         "lint samples/every_mistake_0000.rad --select DK171 --ruler",
         "lint samples/clean_plates_0000.rad samples/too_close_0000.rad samples/absent_0000.rad",
         "lint samples/every_mistake_0000.rad --select DK20,DK21,DK24 --statistics",
