@@ -97,6 +97,20 @@ std::string treatment(const Contact& c, const std::vector<const PenetrationRow*>
   return out;
 }
 
+/// The warning with which the solver counts the pairs of a contact.
+int counting_warning(const GeometryRun& run, const Contact& c) {
+  if (c.inter->type == 24) return c.inacti == 0 ? 1184 : c.inacti == 5 ? 1186 : 1185;
+  if (c.kind != ContactKind::edge_edge) return 343;
+  // Where nodes of a TYPE25 penetrate too, their warning stands for both.
+  const bool nodes_too =
+      c.inter->type == 25 &&
+      std::any_of(run.scene.contacts.begin(), run.scene.contacts.end(), [&](const Contact& other) {
+        return other.inter == c.inter && other.kind == ContactKind::node_segment &&
+               !other.penetrations.empty();
+      });
+  return nodes_too ? 343 : 499;
+}
+
 /// One finding per contact and pair of parts, with its deepest places.
 void check_depths(const GeometryRun& run) {
   struct Group {
@@ -128,7 +142,7 @@ void check_depths(const GeometryRun& run) {
                     length_text(r.depth), length_text(r.gap), secondary_text(worst),
                     main_text(worst), treatment(c, rows)));
     if (d == nullptr) continue;
-    if (edges) d->reference = rule_of(RuleId::DK301).message(499);
+    d->reference = rule_of(RuleId::DK301).message(counting_warning(run, c));
     std::set<std::uint32_t> named;
     for (const std::uint32_t i : group.rows) {
       const PenetrationRow& row = row_of(run, run.view.penetrations[i]);
