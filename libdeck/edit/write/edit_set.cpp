@@ -19,29 +19,24 @@ Error refuse(std::string why) { return {Error::Code::config, std::move(why)}; }
 
 /// First line in which two texts differ, 1-based, and that line of both.
 struct Difference {
-  std::size_t line = 1;
-  std::string a, b;
+  std::size_t line = 0;
+  std::string_view a, b;
 };
 Difference first_difference(std::string_view a, std::string_view b) {
-  const std::size_t common = static_cast<std::size_t>(
-      std::mismatch(a.begin(),
-                    a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())),
-                    b.begin())
-          .first -
-      a.begin());
-  const auto line_of = [&](std::string_view text) {
-    const auto before = common == 0 ? text.npos : text.rfind('\n', common - 1);
-    const std::size_t begin = before == text.npos ? 0 : before + 1;
-    constexpr std::size_t longest = 100;
-    std::string line(text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin));
-    return line.size() > longest ? line.substr(0, longest) + "..." : line;
+  const auto next_line = [](std::string_view& text) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    return line;
   };
   Difference d;
-  d.line += static_cast<std::size_t>(
-      std::count(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(common), '\n'));
-  d.a = line_of(a);
-  d.b = line_of(b);
+  do {
+    d = {d.line + 1, next_line(a), next_line(b)};
+  } while (d.a == d.b && !(a.empty() && b.empty()));
   return d;
+}
+std::string quoted(std::string_view line) {
+  constexpr std::size_t longest = 100;
+  return "'" + std::string(line.substr(0, longest)) + (line.size() > longest ? "...'" : "'");
 }
 
 /// The directory above `path` that a git work tree begins with; empty: none.
@@ -160,11 +155,11 @@ std::vector<std::vector<EditSet::Claim>> EditSet::claims() const {
 
 Error EditSet::conflict(const Claim& a, const Claim& b, const std::string& where) const {
   const Difference d = first_difference(text_of(*a.use), text_of(*b.use));
-  const auto wants = [&](const Claim& claim, const std::string& line) {
+  const auto wants = [&](const Claim& claim, std::string_view line) {
     std::string text = decks_[claim.deck].name;
     if (!claim.use->directive.empty())
       text += " (which includes it in " + claim.use->directive + ")";
-    return text + (claim.use->text == 0 ? " leaves it as it is: '" : " makes it '") + line + "'";
+    return text + (claim.use->text == 0 ? " leaves it as it is: " : " makes it ") + quoted(line);
   };
   const Member &of_a = decks_[a.deck], &of_b = decks_[b.deck];
   std::string units;

@@ -47,16 +47,163 @@ class GroupWork {
  public:
   GroupWork(const BatchRun& run, const BatchJob& job)
       : o_(run.o), task_(run.task), run_(run), job_(job), record_(job.record) {}
-  std::string record(const Captured& output);
+
+  std::string record(const Captured& output) {
+    // A file that is changed after this is found changed by the next run.
+    if (record_.contents == 0) record_.contents = contents_now();
+    if (job_.overtaken)
+      fail(exit_usage,
+           "these decks share files; some were already written in place and then edited, or new "
+           "decks share the files; --force converts their present texts");
+    else
+      call(output);
+    keep_document();
+    enter(frame_.written);
+    const bool converted_before = std::any_of(job_.known.begin(), job_.known.end(),
+                                              [](const Record* r) { return r->before != 0; });
+    // What failed is tried again next time; what is converted in place by now must stay known.
+    if (worst_code(record_.lines) > exit_findings || (converted_before && !frame_.written))
+      return record_text(record_);
+    // Refused, perhaps for a reason that is gone next time: a file that could not be read just now.
+    record_.done = frame_.written || !task_.converts();
+    WrittenFiles outputs = frame_.written ? std::move(record_.outputs) : WrittenFiles();
+    if (head_) outputs[job_.result] = content_hash(document_);
+    set_outputs(std::move(outputs));
+    if (task_.in_place) record_.contents = contents_now();
+    if (auto written = write_record(false); !written) {
+      fail(exit_usage, written.error().message);
+      enter(frame_.written);
+    }
+    return record_text(record_);
+  }
 
  private:
-  void call(const Captured& output);
-  Result<void> announce(const std::vector<OutputFile>& files);
-  void keep_document();
-  void fail(int code, const std::string& why);
-  void enter(bool written);
-  Json line_of(const std::string& path, bool refused, const std::string& first_failed);
-  void set_outputs(WrittenFiles outputs);
+  /// Before decks are written: looks at what will be, and writes a record that says so.
+  Result<void> announce(const std::vector<OutputFile>& files) {
+    const std::string directory = absolute_path(o_.directory);
+    WrittenFiles outputs;
+    for (const OutputFile& f : files) {
+      const std::string name =
+          fs::path(absolute_path(f.path)).lexically_relative(directory).string();
+      if (!task_.in_place &&
+          (name == "index.html" || name == "summary.json" || name == "losses.json"))
+        return Error{Error::Code::config,
+                     f.path + " is a file of the batch itself; give the deck another name"};
+      outputs[name] = content_hash(f.bytes);
+    }
+    set_outputs(std::move(outputs));
+    if (task_.in_place && task_.converts() && !files.empty()) record_.before = job_.record.contents;
+    code_ = exit_clean;
+    enter(true);
+    code_ = exit_internal;
+    return write_record(task_.in_place);
+  }
+
+  /// Files of earlier runs that are none of these any more are remembered until they are removed.
+  void set_outputs(WrittenFiles outputs) {
+    record_.outputs = std::move(outputs);
+    record_.former.clear();
+    for (const Record* known : job_.known)
+      for (const auto* files : {&known->outputs, &known->former})
+        for (const auto& file : *files)
+          if (!known->in_place && !record_.outputs.contains(file.first))
+            record_.former.insert(file);
+  }
+
+  /// Runs the verb.
+  void call(const Captured& output) {
+    Session session = *o_.common.session;
+    if (task_.writes) {
+      frame_.root = task_.frame_root;
+      frame_.outsiders = task_.outsiders;
+      frame_.ours = [this](const std::string& path) {
+        return run_.written.contains({absolute_path(path), file_hash(path)});
+      };
+      frame_.before_writing = [this](const std::vector<OutputFile>& files) {
+        return announce(files);
+      };
+      session.frame = &frame_;
+    }
+    try {
+      code_ = run_verb(task_, job_.decks, session);
+      document_ = output.out();
+    } catch (const std::bad_alloc&) {
+      broken_ = "out of memory";
+    } catch (const std::exception& e) {
+      broken_ = e.what();
+    }
+    err_ = output.err();
+  }
+
+  void fail(int code, const std::string& why) {
+    code_ = code;
+    broken_ = why;
+    head_.reset();
+  }
+
+  /// Puts the document of the call in place.
+  void keep_document() {
+    if (!document_.empty() && code_ != exit_internal) {
+      head_ = head_of(document_);
+      if (!head_) {
+        if (!task_.writes) fail(exit_internal, "the result is not JSON");
+      } else if (auto written =
+                     write_result(o_, job_.result, document_, false);  // flushed at the end
+                 !written) {
+        fail(exit_usage, written.error().message);
+      }
+    } else if (!task_.writes && code_ <= exit_findings) {
+      fail(exit_internal, "there is no result");
+    }
+    // A result of earlier would be taken for this one.
+    if (!head_ && !task_.converts()) unlink(o_.in_directory(job_.result).c_str());
+  }
+
+  /// The line of a deck. `refused`: nothing was written of the group; `first_failed` is to blame.
+  Json line_of(const std::string& path, bool refused, const std::string& first_failed) {
+    const BatchFrame::Deck& deck = frame_.decks[path];
+    int code = task_.writes ? deck.code : code_;
+    std::string error = task_.writes ? deck.error : first_line(err_), status;
+    if (!broken_.empty()) {
+      code = std::max<int>(code_, exit_usage);
+      error = broken_;
+    } else if (refused && code == exit_clean) {
+      code = code_;
+      error = frame_.error.empty() ? first_line(err_) : frame_.error;
+      if (!first_failed.empty()) {
+        status = "skipped";
+        error = "not written: " + first_failed + ", which shares files with it, was not";
+      }
+    }
+    if (code == exit_clean || (!task_.writes && code == exit_findings)) error.clear();
+    if (!task_.writes && head_) status = status_in(task_, code, *head_);
+    Json line = deck_line(path, code, error, status);
+    if (const std::string& target = head_ ? job_.result : deck.target; !refused && !target.empty())
+      line["result"] = as_utf8(target);
+    for (const char* member : {"verdict", "gate", "counts"})
+      if (head_) line[member] = head_->at(member);
+    if (task_.writes)
+      line["counts"] = {{"changed_files", deck.changed},
+                        {"kept", deck.losses[0]},
+                        {"approximated", deck.losses[1]},
+                        {"dropped", deck.losses[2]},
+                        {"undecided", deck.losses[3]}};
+    return line;
+  }
+
+  /// Enters the lines of the decks. `written`: they were, or will be.
+  void enter(bool written) {
+    const bool refused = task_.writes && !written &&
+                         (code_ > exit_findings || (code_ != exit_clean && task_.converts()));
+    std::string first_failed;
+    for (const std::string& path : job_.decks)
+      if (frame_.decks[path].code != exit_clean && first_failed.empty()) first_failed = path;
+    record_.lines.clear();
+    for (const std::string& path : job_.decks)
+      record_.lines.push_back(line_of(path, refused, first_failed));
+    if (task_.converts()) record_.losses = Json::parse(losses_json(frame_.losses));
+  }
+
   Result<void> write_record(bool sync) const {
     return write_result(o_, record_name(job_.result), record_text(record_), sync);
   }
@@ -77,159 +224,6 @@ class GroupWork {
   std::string document_, err_;
   std::optional<Json> head_;  ///< of the document
 };
-
-/// Before decks are written: looks at what will be, and writes a record that says so.
-Result<void> GroupWork::announce(const std::vector<OutputFile>& files) {
-  const std::string directory = absolute_path(o_.directory);
-  WrittenFiles outputs;
-  for (const OutputFile& f : files) {
-    const std::string name = fs::path(absolute_path(f.path)).lexically_relative(directory).string();
-    if (!task_.in_place &&
-        (name == "index.html" || name == "summary.json" || name == "losses.json"))
-      return Error{Error::Code::config,
-                   f.path + " is a file of the batch itself; give the deck another name"};
-    outputs[name] = content_hash(f.bytes);
-  }
-  set_outputs(std::move(outputs));
-  if (task_.in_place && task_.converts() && !files.empty()) record_.before = job_.record.contents;
-  code_ = exit_clean;
-  enter(true);
-  code_ = exit_internal;
-  return write_record(task_.in_place);
-}
-
-/// Files of earlier runs that are none of these any more are remembered until they are removed.
-void GroupWork::set_outputs(WrittenFiles outputs) {
-  record_.outputs = std::move(outputs);
-  record_.former.clear();
-  for (const Record* known : job_.known)
-    for (const auto* files : {&known->outputs, &known->former})
-      for (const auto& file : *files)
-        if (!known->in_place && !record_.outputs.contains(file.first)) record_.former.insert(file);
-}
-
-/// Runs the verb.
-void GroupWork::call(const Captured& output) {
-  Session session = *o_.common.session;
-  if (task_.writes) {
-    frame_.root = task_.frame_root;
-    frame_.outsiders = task_.outsiders;
-    frame_.ours = [this](const std::string& path) {
-      return run_.written.contains({absolute_path(path), file_hash(path)});
-    };
-    frame_.before_writing = [this](const std::vector<OutputFile>& files) {
-      return announce(files);
-    };
-    session.frame = &frame_;
-  }
-  try {
-    code_ = run_verb(task_, job_.decks, session);
-    document_ = output.out();
-  } catch (const std::bad_alloc&) {
-    broken_ = "out of memory";
-  } catch (const std::exception& e) {
-    broken_ = e.what();
-  }
-  err_ = output.err();
-}
-
-void GroupWork::fail(int code, const std::string& why) {
-  code_ = code;
-  broken_ = why;
-  head_.reset();
-}
-
-/// Puts the document of the call in place.
-void GroupWork::keep_document() {
-  if (!document_.empty() && code_ != exit_internal) {
-    head_ = head_of(document_);
-    if (!head_) {
-      if (!task_.writes) fail(exit_internal, "the result is not JSON");
-    } else if (auto written =
-                   write_result(o_, job_.result, document_, false);  // flushed at the end
-               !written) {
-      fail(exit_usage, written.error().message);
-    }
-  } else if (!task_.writes && code_ <= exit_findings) {
-    fail(exit_internal, "there is no result");
-  }
-  // A result of earlier would be taken for this one.
-  if (!head_ && !task_.converts()) unlink(o_.in_directory(job_.result).c_str());
-}
-
-/// The line of a deck. `refused`: nothing was written of the group; `first_failed` is to blame.
-Json GroupWork::line_of(const std::string& path, bool refused, const std::string& first_failed) {
-  const BatchFrame::Deck& deck = frame_.decks[path];
-  int code = task_.writes ? deck.code : code_;
-  std::string error = task_.writes ? deck.error : first_line(err_), status;
-  if (!broken_.empty()) {
-    code = std::max<int>(code_, exit_usage);
-    error = broken_;
-  } else if (refused && code == exit_clean) {
-    code = code_;
-    error = frame_.error.empty() ? first_line(err_) : frame_.error;
-    if (!first_failed.empty()) {
-      status = "skipped";
-      error = "not written: " + first_failed + ", which shares files with it, was not";
-    }
-  }
-  if (code == exit_clean || (!task_.writes && code == exit_findings)) error.clear();
-  if (!task_.writes && head_) status = status_in(task_, code, *head_);
-  Json line = deck_line(path, code, error, status);
-  if (const std::string& target = head_ ? job_.result : deck.target; !refused && !target.empty())
-    line["result"] = as_utf8(target);
-  for (const char* member : {"verdict", "gate", "counts"})
-    if (head_) line[member] = head_->at(member);
-  if (task_.writes)
-    line["counts"] = {{"changed_files", deck.changed},
-                      {"kept", deck.losses[0]},
-                      {"approximated", deck.losses[1]},
-                      {"dropped", deck.losses[2]},
-                      {"undecided", deck.losses[3]}};
-  return line;
-}
-
-/// Enters the lines of the decks. `written`: they were, or will be.
-void GroupWork::enter(bool written) {
-  const bool refused = task_.writes && !written &&
-                       (code_ > exit_findings || (code_ != exit_clean && task_.converts()));
-  std::string first_failed;
-  for (const std::string& path : job_.decks)
-    if (frame_.decks[path].code != exit_clean && first_failed.empty()) first_failed = path;
-  record_.lines.clear();
-  for (const std::string& path : job_.decks)
-    record_.lines.push_back(line_of(path, refused, first_failed));
-  if (task_.converts()) record_.losses = Json::parse(losses_json(frame_.losses));
-}
-
-std::string GroupWork::record(const Captured& output) {
-  // A file that is changed after this is found changed by the next run.
-  if (record_.contents == 0) record_.contents = contents_now();
-  if (job_.overtaken)
-    fail(exit_usage,
-         "these decks share files; some were already written in place and then edited, or new "
-         "decks share the files; --force converts their present texts");
-  else
-    call(output);
-  keep_document();
-  enter(frame_.written);
-  const bool converted_before = std::any_of(job_.known.begin(), job_.known.end(),
-                                            [](const Record* r) { return r->before != 0; });
-  // What failed is tried again next time; what is converted in place by now must stay known.
-  if (worst_code(record_.lines) > exit_findings || (converted_before && !frame_.written))
-    return record_text(record_);
-  // Refused, perhaps for a reason that is gone next time: a file that could not be read just now.
-  record_.done = frame_.written || !task_.converts();
-  WrittenFiles outputs = frame_.written ? std::move(record_.outputs) : WrittenFiles();
-  if (head_) outputs[job_.result] = content_hash(document_);
-  set_outputs(std::move(outputs));
-  if (task_.in_place) record_.contents = contents_now();
-  if (auto written = write_record(false); !written) {
-    fail(exit_usage, written.error().message);
-    enter(frame_.written);
-  }
-  return record_text(record_);
-}
 
 }  // namespace
 
