@@ -25,7 +25,8 @@ body{margin:0 auto;padding:20px;max-width:1500px;background:var(--ground);color:
 h1{font-size:20px;margin:0;overflow-wrap:anywhere}h2{font-size:16px}p{color:var(--muted)}a{color:var(--accent)}
 table{display:block;overflow-x:auto;border-collapse:collapse;background:var(--panel);font-variant-numeric:tabular-nums}
 th,td{border-bottom:1px solid var(--line);padding:.35em .8em;text-align:left;vertical-align:top}
-th{white-space:nowrap;cursor:pointer}.n{text-align:right;white-space:nowrap}td:first-child{overflow-wrap:anywhere;min-width:20em}
+th{white-space:nowrap}th button{font:inherit;color:inherit;background:none;border:0;padding:0;cursor:pointer}
+.n{text-align:right;white-space:nowrap}td:first-child{overflow-wrap:anywhere;min-width:20em}
 .good,.clean,.passed{color:var(--good)}.warn,.findings,.not-examined{color:var(--warn)}
 .bad,.failed,.unreadable,.skipped{color:var(--bad)}.level{white-space:nowrap;font-weight:600}
 .level::before{content:"";display:inline-block;width:10px;height:10px;border-radius:50%;margin-right:7px;background:currentColor}
@@ -40,8 +41,10 @@ th{white-space:nowrap;cursor:pointer}.n{text-align:right;white-space:nowrap}td:f
 constexpr std::string_view script = R"(
 const body=document.querySelector("tbody"),filters=document.querySelector(".filters");
 document.querySelectorAll("th").forEach((title,column)=>{
+ const button=document.createElement("button");
+ button.textContent=title.textContent;title.replaceChildren(button);
  let down=1;
- title.onclick=()=>{
+ button.onclick=()=>{
   const text=row=>row.cells[column].textContent;
   body.append(...[...body.rows].sort((a,b)=>{
    const x=text(a),y=text(b),order=parseFloat(x)-parseFloat(y);
@@ -92,8 +95,7 @@ struct Row {
     // The deck stands beside it: "178:81: /INTER/TYPE7/3 ..." is a place in it.
     what = text_in(of, "error");
     got_through = status == "clean" || status == "findings";
-    if (what.starts_with(deck + ":"))
-      what = what.substr(what.find_first_not_of(' ', deck.size() + 1));
+    if (what.starts_with(deck + ":")) what.erase(0, what.find_first_not_of(' ', deck.size() + 1));
     if (what.empty()) what = text_in(verdict, "text");
   }
   double number(const char* name) const { return counted(*line, name).value_or(0); }
