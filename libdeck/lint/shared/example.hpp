@@ -32,9 +32,9 @@ struct ExampleDeck {
 ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas);
 /// The example as people see it: cards laid out, no surrounding model.
 std::string example_text(std::string_view example, const SchemaSet& schemas);
-/// The card of the example that fires, as far as `width` columns (0: all) show it, and a caret under the
-/// cell that the finding is about. Empty: the finding needs geometry, or has no place in the
-/// example.
+/// The card of the example that fires, as far as `width` columns (0: all) show it, and a caret
+/// under the cell that the finding is about. Empty: the finding needs geometry, or has no place in
+/// the example.
 std::string marked_example(const Rule& rule, const SchemaSet& schemas, std::size_t width);
 
 }  // namespace deck
