@@ -11,21 +11,14 @@
 #include "deck/base/limits.hpp"
 #include "deck/contact/pair_gap.hpp"
 #include "deck/contact/penetration.hpp"
-#include "deck/contact/scene.hpp"
 #include "deck/contact/search.hpp"
 #include "deck/contact/ties.hpp"
+#include "deck/contact/what_if.hpp"
 #include "deck/model/coverage.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
 
 namespace deck {
-
-/// Other values for one interface, to see what they would do; the deck is not read again.
-struct WhatIf {
-  std::int64_t interface_id = 0;
-  std::optional<double> Gapmin, Fscalegap, Gapmax, Fpenmax, mesh_size;
-  std::optional<int> Igap, Inacti, Irem_gap;
-};
 
 enum class ContactKind : std::uint8_t { node_segment, edge_edge };
 /// Which part of its interface a contact is. TYPE19 gives up to three.
