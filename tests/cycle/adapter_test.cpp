@@ -129,6 +129,39 @@ TEST(CyclePairs, PairsDoNotDependOnThreads) {
   EXPECT_EQ(one.k0, four.k0);
 }
 
+/// The pairs that start-up has judged against those of a search, for which a copy of all places
+/// will do.
+void expect_searched_pairs(const Built& b, const std::string& what) {
+  const Coordinates copy = b.scene.coordinates;
+  PairSearch search;
+  search.at = &copy;
+  for (const deck::Contact& contact : b.scene.contacts) {
+    const ContactCard c = make_card(b.scene, contact);
+    EXPECT_EQ(make_pairs(b.scene, contact, c, Model::reference).at,
+              make_pairs(b.scene, contact, c, Model::reference, 1, search).at)
+        << what << ", " << to_string(contact.role);
+  }
+}
+
+TEST(CyclePairs, WhatStartUpHasJudgedIsWhatASearchFinds) {
+  for (const char* card :
+       {"", "Inacti=1", "Inacti=2", "Inacti=3", "Inacti=5", "Igap=2", "Fpenmax=0.3"})
+    for (const double distance : {0.0, 0.5, 1.0, 1.5})
+      expect_searched_pairs(*scene_of(card, distance), card + std::to_string(distance));
+  for (const Accuracy accuracy :
+       {Accuracy::fast, Accuracy::reference, Accuracy::robust, Accuracy::exact}) {
+    SmallDeck strip = deck::test::bent_strip();
+    strip.add("@/INTER/TYPE7/1 Gapmin=1.2").add("@/INTER/TYPE7/2 Gapmin=1.2 Irem_gap=2");
+    SmallDeck edges = plates(0.5);
+    edges.group("/SURF/PART/3", {2});
+    edges.add("@/INTER/TYPE19/1 surf_IDs=3 surf_IDm=2 Gapmin=4");
+    SceneOptions o = with_stiffness();
+    o.accuracy = accuracy;
+    expect_searched_pairs(Built(strip, o), "strip");
+    expect_searched_pairs(Built(edges, o), "edges");
+  }
+}
+
 TEST(CyclePairs, WhatIremGapKeepsApartMakesNoForce) {
   // A strip bent over, in contact with itself: as many pairs as start-up counts penetrations.
   SmallDeck d = deck::test::bent_strip();

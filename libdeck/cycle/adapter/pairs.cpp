@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "contact/shared/removal.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
 #include "cycle/adapter/parts.hpp"
+#include "deck/contact/closest.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/kernel.hpp"
 
@@ -103,6 +105,39 @@ bool remove_pairs(const Scene& scene, const Contact& contact, const SearchSides&
   return true;
 }
 
+/// Whether a penetration is one by the formula of the search, too.
+bool by_formula(const Coordinates& x, const Contact& contact, const PenetrationRow& row) {
+  const NodeIndex n = contact.secondary[row.secondary].node;
+  const std::array<NodeIndex, 4>& m = contact.main[row.main].nodes;
+  const std::array<Point3<double>, 4> corners{at(x, m[0]), at(x, m[1]), at(x, m[2]), at(x, m[3])};
+  return closest_on_segment<Form::reference>(at(x, n), corners, m[2] == m[3]).distance() < row.gap;
+}
+
+/// The pairs that the search would find, where start-up has judged them all with the formula of the
+/// search and nothing has moved since: they are its penetrations, without what it switched off.
+std::optional<std::vector<CandidatePair>> judged_pairs(const Scene& scene, const Contact& contact,
+                                                       const Coordinates& x,
+                                                       const SearchOptions& search) {
+  const DecisionReport& judged = scene.decisions;
+  const bool moved = std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                                 [](const Contact& c) { return c.inacti == 3; });
+  if ((judged.mode != Accuracy::robust && judged.mode != Accuracy::reference) || moved ||
+      !contact.evaluated || &x != &scene.coordinates || search.drad > 0 || search.margin > 0)
+    return std::nullopt;
+  const bool differs = judged.contact_differs > 0;
+  const bool edges = contact.kind == deck::ContactKind::edge_edge;
+  // The search compares squares of the distances of edges: all that it found has to penetrate.
+  if (edges && (differs || contact.candidates != contact.penetrations.size())) return std::nullopt;
+  std::vector<CandidatePair> out;
+  for (const PenetrationRow& row : contact.penetrations) {
+    const bool off =
+        edges ? contact.secondary_edges[row.secondary].off || contact.main_edges[row.main].off
+              : contact.secondary[row.secondary].off || contact.main[row.main].off;
+    if (!off && (!differs || by_formula(x, contact, row))) out.push_back({row.secondary, row.main});
+  }
+  return out;
+}
+
 void node_values(const Contact& contact, const ContactCard& card, Model model, ContactPairs& out) {
   auto row = contact.penetrations.begin();
   const bool reduced = card.inacti == 5 || card.inacti == 6;
@@ -159,7 +194,10 @@ ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const 
   search.margin = curvature_reach(x, contact, card) + where.margin;
   search.threads = threads;
   search.max_pairs = scene.limits.pair_bytes / bytes_of_a_pair;
-  {
+  if (auto known = judged_pairs(scene, contact, x, search)) {
+    out.complete = known->size() <= search.max_pairs;
+    if (out.complete) out.at = std::move(*known);
+  } else {
     const SearchSides sides(contact, SearchSides::Off::left_out, threads);
     SearchResult found = sides.find(x, search);
     out.complete = found.complete;
