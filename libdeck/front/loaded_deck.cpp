@@ -44,6 +44,8 @@ struct LoadedDeck::Parts {
   Scene build(const SceneOptions& wanted, Diagnostics& to) {
     return build_scene(the_model(), cards(), to, wanted);
   }
+  /// The same for `scene`, which takes ties that were found before it.
+  Scene build_whole(Diagnostics& to);
   /// The first contacts of all interfaces are in it, with the values of the deck.
   bool holds_values() const {
     return scene && scene_options.only.empty() && scene_options.what_if.empty();
@@ -63,6 +65,7 @@ struct LoadedDeck::Parts {
   SceneOptions scene_options;
   std::optional<Scene> mesh, scene, cycle_scene;  ///< the last only where `scene` will not do
   std::optional<std::vector<Tie>> ties;           ///< where `scene` was made without
+  std::optional<std::vector<Tie>> early;          ///< of all interfaces, found before `scene`
   std::optional<std::vector<TiedNodes>> tied;     ///< of all interfaces
   std::optional<FirstCycle> cycle;
   std::optional<Mesh> elements;
@@ -101,10 +104,24 @@ const Scene& LoadedDeck::Parts::the_scene() {
     cards();
     begin(Stage::scene);
     mesh.reset();
-    scene = build(scene_options, found.of(Stage::scene));
+    scene = build_whole(found.of(Stage::scene));
     scene_options.progress = nullptr;  // who asked for it may be gone when another is made
   }
   return *scene;
+}
+
+Scene LoadedDeck::Parts::build_whole(Diagnostics& to) {
+  SceneOptions wanted = scene_options;
+  // Ties do not depend on contacts that move no nodes.
+  const bool takes_ties = early && wanted.ties && wanted.only.empty() && wanted.what_if.empty() &&
+                          !moves_nodes(cards());
+  wanted.ties = wanted.ties && !takes_ties;
+  Scene out = build(wanted, to);
+  if (!takes_ties) return out;
+  out.ties = std::move(*early);
+  out.examined = Examined::contacts_and_ties;
+  early.reset();
+  return out;
 }
 
 const Scene& LoadedDeck::Parts::mesh_values(const Progress& progress) {
@@ -149,6 +166,13 @@ const std::vector<TiedNodes>& LoadedDeck::Parts::tied_nodes() {
   if (tied) return *tied;
   tied.emplace();
   if (cards().type2.empty()) return *tied;
+  const auto take = [&](const std::vector<Tie>& list) {
+    for (const Tie& tie : list) tied->push_back(tied_nodes_of(tie));
+  };
+  if (scene && scene_options.ties && scene_options.only.empty()) {
+    take(scene->ties);
+    return *tied;
+  }
   SceneOptions all = scene_options;
   all.only.clear();
   all.progress = nullptr;
@@ -161,7 +185,9 @@ const std::vector<TiedNodes>& LoadedDeck::Parts::tied_nodes() {
     places.interfaces = &cards();
     places.coordinates = {the_model().nodes.x, the_model().nodes.y, the_model().nodes.z};
   }
-  for (const Tie& tie : detail::ties_of(*of, all)) tied->push_back(tied_nodes_of(tie));
+  std::vector<Tie> list = detail::ties_of(*of, all);
+  take(list);
+  if (!scene) early = std::move(list);
   return *tied;
 }
 
@@ -283,6 +309,7 @@ void LoadedDeck::drop_scene() {
   p.cycle.reset();
   p.cycle_scene.reset();
   p.ties.reset();
+  p.early.reset();
   p.scene.reset();
   p.found.forget_scene();
   p.joined = false;
@@ -316,8 +343,10 @@ Diagnostics LoadedDeck::findings_with(const Diagnostics& of_scene) const {
 }
 
 const Diagnostics& LoadedDeck::found_by(Stage stage) const {
-  if (stage >= Stage::scene) parts_->the_scene();
-  parts_->find(stage);
+  if (stage >= Stage::scene)
+    parts_->the_scene();
+  else
+    parts_->find(stage);
   return parts_->found.of(stage);
 }
 

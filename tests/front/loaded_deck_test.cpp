@@ -165,6 +165,28 @@ TEST(SceneOptions, AnotherWayMakesTheSceneAnew) {
   EXPECT_TRUE(loaded.scene().contacts.front().penetrations.empty());
 }
 
+TEST(SceneOptions, TiesFoundBeforeTheContactsAreTheirs) {
+  std::string text = plates();
+  text.insert(text.rfind("/END"), "/INTER/TYPE2/9\nt\n         2         1\n");
+  LoadedDeck early = in_memory(text), late = in_memory(text);
+  SceneOptions options = early.scene_options();
+  options.ties = true;
+  for (LoadedDeck* loaded : {&early, &late}) loaded->set_scene_options(options);
+  static_cast<void>(early.kinematics());
+  static_cast<void>(late.scene());
+  static_cast<void>(late.kinematics());
+  ASSERT_EQ(late.scene().ties.size(), 1u);
+  ASSERT_EQ(early.scene().ties.size(), 1u);
+  const Tie &a = early.scene().ties.front(), &b = late.scene().ties.front();
+  EXPECT_EQ(early.scene().examined, late.scene().examined);
+  ASSERT_EQ(a.nodes.size(), 4u);
+  for (std::size_t i = 0; i < a.nodes.size(); ++i) {
+    EXPECT_EQ(a.nodes[i].node, b.nodes[i].node);
+    EXPECT_EQ(a.nodes[i].tied, b.nodes[i].tied);
+    EXPECT_EQ(a.nodes[i].segment, b.nodes[i].segment);
+  }
+}
+
 TEST(Cycle, HasForcesWhateverTheSceneWasMadeWithout) {
   LoadedDeck whole = in_memory(plates("Gapmin=0.7 Istf=4")),
              lean = in_memory(plates("Gapmin=0.7 Istf=4"));
