@@ -1,5 +1,6 @@
 // Findings about main segments and edges that cannot work as meant, and crossed elements.
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <set>
 
@@ -82,19 +83,25 @@ void check_shape(const GeometryRun& run, const Contact& c) {
 }
 
 void check_duplicates(const GeometryRun& run, const Contact& c) {
-  std::vector<std::pair<std::array<NodeIndex, 4>, std::uint32_t>> sorted;
-  for (std::uint32_t i = 0; i < c.main.size(); ++i) {
+  const auto corners_of = [&](std::uint32_t i) {
     std::array<NodeIndex, 4> n = c.main[i].nodes;
     // A triangle repeats one of its nodes, whichever comes last.
     if (n[2] == n[3]) n[3] = no_index;
     std::sort(n.begin(), n.end());
-    sorted.emplace_back(n, i);
-  }
-  std::sort(sorted.begin(), sorted.end());
+    return n;
+  };
+  // Positions in `main`, each in the first free place from that of its corners on.
+  std::vector<std::uint32_t> places(std::bit_ceil(2 * c.main.size() + 1), no_index);
   std::vector<std::uint32_t> twice;
-  for (std::size_t i = 1; i < sorted.size(); ++i)
-    if (sorted[i].first == sorted[i - 1].first) twice.push_back(sorted[i].second);
-  std::sort(twice.begin(), twice.end());
+  for (std::uint32_t i = 0; i < c.main.size(); ++i) {
+    const std::array<NodeIndex, 4> own = corners_of(i);
+    std::uint64_t mixed = 0;
+    for (const NodeIndex n : own) mixed = (mixed ^ n) * 0x9e3779b97f4a7c15U, mixed ^= mixed >> 32;
+    std::size_t at = mixed & (places.size() - 1);
+    while (places[at] != no_index && corners_of(places[at]) != own)
+      at = (at + 1) & (places.size() - 1);
+    places[at] == no_index ? void(places[at] = i) : twice.push_back(i);
+  }
   Diagnostic* d = about_segments(run, RuleId::DK326, c, twice, "repeat another one");
   const auto of_solids = [&](std::uint32_t i) { return c.main[i].carrier == Carrier::solid; };
   if (d != nullptr && std::all_of(twice.begin(), twice.end(), of_solids))
