@@ -226,7 +226,9 @@ const SetGeneral* Selections::Impl::set(std::int64_t id) {
   const Block& block = *definition("set", id)->block;
   LastGroup last;
   s.nodes = set_node_list(*state, block, last);
-  s.segments = set_segment_list(*state, block, last);
+  const auto view = set_surfaces.find(id);
+  s.segments =
+      view != set_surfaces.end() ? view->second.segments : set_segment_list(*state, block, last);
   s.edges = set_edge_list(*state, block, last);
   s.parts = state->parts;
   keep(s.nodes, block);
