@@ -12,15 +12,14 @@ namespace deck::detail {
 
 void ByteStream::f64(std::span<const double> values) {
   // Planes are written one after the other, each in pieces.
-  constexpr std::size_t piece = 4096;
   for (std::size_t plane = 0; plane < 8; ++plane)
-    for (std::size_t from = 0; from < values.size(); from += piece) {
-      const std::size_t size = std::min(piece, values.size() - from), have = bytes_.size();
-      bytes_.resize(have + size);
-      for (std::size_t i = 0; i < size; ++i)
-        bytes_[have + i] =
-            static_cast<char>(bit_cast<std::uint64_t>(values[from + i]) >> (8 * plane) & 0xff);
-      if (bytes_.size() >= enough) pack();
+    for (std::size_t from = 0; from < values.size(); from += at_once) {
+      const std::size_t end = std::min(from + at_once, values.size());
+      char* to = bytes_.data() + size_;
+      for (std::size_t i = from; i < end; ++i)
+        *to++ = static_cast<char>(bit_cast<std::uint64_t>(values[i]) >> (8 * plane) & 0xff);
+      size_ += end - from;
+      if (size_ >= enough) pack();
     }
 }
 
@@ -102,14 +101,17 @@ void PackedText::encode(bool last) {
   std::string& text = state_->text;
   const std::size_t size = packed.size() - state_->zip.avail_out;
   if (!last && size < packed.size()) return;
+  const std::size_t have = text.size();
+  text.resize(have + (size + 2) / 3 * 4);
+  char* to = text.data() + have;
   for (std::size_t i = 0; i < size; i += 3) {
     const unsigned a = packed[i], b = i + 1 < size ? packed[i + 1] : 0u,
                    c = i + 2 < size ? packed[i + 2] : 0u;
     const unsigned v = a << 16 | b << 8 | c;
-    text += digits[v >> 18];
-    text += digits[v >> 12 & 63];
-    text += i + 1 < size ? digits[v >> 6 & 63] : '=';
-    text += i + 2 < size ? digits[v & 63] : '=';
+    *to++ = digits[v >> 18];
+    *to++ = digits[v >> 12 & 63];
+    *to++ = i + 1 < size ? digits[v >> 6 & 63] : '=';
+    *to++ = i + 2 < size ? digits[v & 63] : '=';
   }
   state_->zip.next_out = state_->packed.data();
   state_->zip.avail_out = static_cast<uInt>(packed.size());

@@ -36,12 +36,8 @@ class ByteStream {
  public:
   /// Unsigned, seven bits per byte, lowest first.
   void u(std::uint64_t v) {
-    while (v >= 0x80) {
-      bytes_ += static_cast<char>(v | 0x80);
-      v >>= 7;
-    }
-    bytes_ += static_cast<char>(v);
-    if (bytes_.size() >= enough) pack();
+    for (; v >= 0x80; v >>= 7) bytes_[size_++] = static_cast<char>(v | 0x80);
+    byte(static_cast<unsigned>(v));
   }
   /// Signed: sign in the lowest bit.
   void s(std::int64_t v) {
@@ -49,8 +45,8 @@ class ByteStream {
   }
   /// One byte as it is.
   void byte(unsigned v) {
-    bytes_ += static_cast<char>(v);
-    if (bytes_.size() >= enough) pack();
+    bytes_[size_++] = static_cast<char>(v);
+    if (size_ >= enough) pack();
   }
   /// Doubles as eight planes of bytes: first all lowest bytes, last all highest ones.
   void f64(std::span<const double> values);
@@ -88,13 +84,14 @@ class ByteStream {
   }
 
  private:
-  static constexpr std::size_t enough = std::size_t{1} << 18;
+  static constexpr std::size_t enough = std::size_t{1} << 18, at_once = 4096;
   void pack() {
-    packed_.add(bytes_);
-    bytes_.clear();
+    packed_.add({bytes_.data(), size_});
+    size_ = 0;
   }
   PackedText packed_;
-  std::string bytes_;  // not packed yet
+  std::vector<char> bytes_ = std::vector<char>(enough + at_once);  // that much is added beyond
+  std::size_t size_ = 0;                                           // not packed yet
 };
 
 /// Running difference for ByteStream::s.
