@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <random>
 
+#include "edit/fix/nodes/depenetrate_bounds.hpp"
+
 namespace deck::detail {
 namespace {
 
@@ -81,6 +83,21 @@ TEST(Wishes, TheSweepsEndAtTheLeastMovesOfTheQuadraticProgram) {
     // many times that as the passes gain slowly.
     EXPECT_LT((swept - exact).cwiseAbs().maxCoeff(), 1e-4) << "scene " << scene;
   }
+}
+
+TEST(DepthBounds, PairsWithoutADirectionLetANodeMoveNowhere) {
+  DepthBounds bounds;
+  PairState state;
+  state.nodes = {0, 1};
+  state.count = 2;
+  for (int i = 0; i < 3; ++i) bounds.add({}, state, {}, 5);
+  const NodeMoves wanted{{0, {1, 2, 3}}};
+  EXPECT_EQ(norm(bounds.allowed(wanted, 1).at(0).by), 0);
+  EXPECT_EQ(bounds.pairs_of(0).size(), 3u);
+  bounds.add({}, state, {0, 0, 1}, 5);
+  bounds.add({}, state, {}, 5);
+  EXPECT_EQ(bounds.allowed(wanted, 1).at(0).by.z, 3);
+  EXPECT_EQ(bounds.allowed(wanted, 1).at(0).by.x, 0);
 }
 
 }  // namespace

@@ -119,8 +119,11 @@ void DepthBounds::add(const PairKey& key, const PairState& state, const Vec& nor
     bound.reach = std::max(bound.reach, reach);
     bound.pairs.push_back(key);
     const Vec way = i < state.secondary_count ? normal : -1.0 * normal;
-    if (std::none_of(bound.directions.begin(), bound.directions.end(),
-                     [&](const Vec& known) { return dot(known, way) > same_way; }))
+    // Nodes at one place are in many pairs without a direction: one stands for them all.
+    const bool none = !(dot(way, way) > 0);
+    if (std::none_of(bound.directions.begin(), bound.directions.end(), [&](const Vec& known) {
+          return none ? !(dot(known, known) > 0) : dot(known, way) > same_way;
+        }))
       bound.directions.push_back(way);
   }
 }
