@@ -2,7 +2,11 @@
 // where and what.
 #include <gtest/gtest.h>
 
+#include <set>
+#include <utility>
+
 #include "lint/support.hpp"
+#include "where.hpp"
 
 namespace deck::test {
 namespace {
@@ -87,6 +91,30 @@ TEST(GapWithoutBounds, LeavesTheContactUnevaluatedWithAFinding) {
   EXPECT_NE(run.find(RuleId::DK380)->message.find("the gap is not a finite number"),
             std::string::npos);
   EXPECT_EQ(run.count(RuleId::DK301), 0u) << run.list();
+}
+
+TEST(InitialPenetrations, NameTheWarningWithWhichTheirTypeIsCounted) {
+  // Inacti 5 everywhere. Of a TYPE25 whose nodes penetrate too, edges have the warning of the
+  // nodes.
+  const std::vector<std::pair<std::string, int>> types = {{"/INTER/TYPE24 ", 1186},
+                                                          {"/INTER/TYPE25 ", 343}};
+  std::set<std::string> seen;
+  for (const char* name : {"coated_block", "airbag_fold"}) {
+    auto deck = read_deck((source_dir() / "samples" / (std::string(name) + "_0000.rad")).string(),
+                          SchemaSet::built_in());
+    ASSERT_TRUE(deck);
+    for (const Diagnostic& d : lint_geometry_of(std::move(*deck)).result.diagnostics) {
+      if (d.rule != RuleId::DK301) continue;
+      for (const auto& [type, warning] : types) {
+        if (!d.message.starts_with(type)) continue;
+        ASSERT_TRUE(d.reference) << d.message;
+        EXPECT_EQ(d.reference->number, warning) << d.message;
+        seen.insert(type + (d.message.find("(edges)") != std::string::npos ? "edges" : "nodes"));
+      }
+    }
+  }
+  EXPECT_EQ(seen.size(), 3u);
+  EXPECT_EQ(lint_geometry("@/INTER/TYPE11/1 Gapmin=4").find(RuleId::DK301)->reference->number, 499);
 }
 
 TEST(InitialPenetrations, OneFindingPerPairOfPartsWithTheDeepestNodes) {

@@ -437,8 +437,7 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics&
   scene.interfaces = &interfaces;
   scene.limits = options.limits;
   copy_coordinates(model.nodes, scene.coordinates, effective_threads(options.threads));
-  // Nothing is decided then by the solver's formula, see DecisionReport.
-  if (!options.penetrations) scene.decisions.mode = Accuracy::fast;
+  scene.judged = options.penetrations;
   if (model.selections == nullptr) return scene;
   Connectivity connectivity(model);
   SceneContext context{model, connectivity, scene, diagnostics, options};

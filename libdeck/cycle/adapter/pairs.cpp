@@ -121,8 +121,9 @@ std::optional<std::vector<CandidatePair>> judged_pairs(const Scene& scene, const
   const DecisionReport& judged = scene.decisions;
   const bool moved = std::any_of(scene.contacts.begin(), scene.contacts.end(),
                                  [](const Contact& c) { return c.inacti == 3; });
-  if ((judged.mode != Accuracy::robust && judged.mode != Accuracy::reference) || moved ||
-      !contact.evaluated || &x != &scene.coordinates || search.drad > 0 || search.margin > 0)
+  const bool by_solver = judged.mode == Accuracy::robust || judged.mode == Accuracy::reference;
+  if (!scene.judged || !by_solver || moved || !contact.evaluated || &x != &scene.coordinates ||
+      search.drad > 0 || search.margin > 0)
     return std::nullopt;
   const bool differs = judged.contact_differs > 0;
   const bool edges = contact.kind == deck::ContactKind::edge_edge;

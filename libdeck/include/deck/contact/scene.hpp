@@ -159,8 +159,9 @@ struct Scene {
   std::vector<Contact> contacts;  ///< in the solver's processing order
   std::vector<Tie> ties;          ///< of /INTER/TYPE2, where SceneOptions::ties asks for them
   Examined examined = Examined::contacts;  ///< with ties: they were asked for
-  DecisionReport decisions;                ///< of the penetrations
-  Limits limits;                           ///< of SceneOptions, for what is made of the scene
+  bool judged = false;       ///< penetrations were looked for (SceneOptions::penetrations)
+  DecisionReport decisions;  ///< of the penetrations
+  Limits limits;             ///< of SceneOptions, for what is made of the scene
 };
 
 struct SceneOptions {
