@@ -36,7 +36,7 @@ async function give(p, paths, input = "#files") {
 }
 const findings = (p) => p.$$eval(".finding", (all) => all.map((e) => [e.querySelector("b").textContent.replace(/.* /, ""), e.querySelector(".muted").textContent.trim(), e.querySelector(".finding-text").textContent]));
 const sorted = (rows) => rows.map((r) => JSON.stringify(r)).sort();
-const asRows = (found) => found.map((f) => [f.rule, `${f.file}:${f.line}:${f.column}`, f.message]);
+const asRows = (found) => found.map((f) => [f.field ? `${f.rule}:${f.field}` : f.rule, `${f.file}:${f.line}:${f.column}`, f.message]);
 const quiet = (name, p) => check(`${name}: no console error and no request`, p.trouble.length === 0, p.trouble.join("; "));
 const shot = (p, name) => p.screenshot({ path: join(DECK_ARTEFACTS, `web-${name}.png`) });
 async function saved(p, label) {
