@@ -123,7 +123,8 @@ TEST_F(LintLines, TakeAFolderInTheOrderOfItsNames) {
 
 TEST_F(LintLines, AnEmptyFolderIsRefusedByEveryVerbWithTheSameWords) {
   write(dir_ / "empty/readme.txt", "nothing\n");
-  for (const char* verb : {"lint", "gaps", "cycle", "fix", "convert --flatten -o out"}) {
+  for (const char* verb :
+       {"lint", "gaps", "cycle", "fix", "convert --flatten -o out", "batch -o results"}) {
     EXPECT_EQ(deck(std::string(verb) + " empty"), 3) << verb;
     EXPECT_TRUE(complains("empty: no *_0000.rad in this directory")) << verb << err();
   }

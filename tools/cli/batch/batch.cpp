@@ -8,6 +8,7 @@
 
 #include "batch/list.hpp"
 #include "batch/run.hpp"
+#include "library.hpp"
 #include "writing/changes.hpp"
 
 namespace deck::cli::verb_batch {
@@ -171,6 +172,10 @@ int run(const BatchOptions& o) {
   auto list = list_decks(o.common.decks, o.manifest, task->ending, o.directory, scan);
   if (!list) return usage(o, list.error().message);
   o.common.session->remember_read(o.manifest);
+  if (list->decks.empty() && list->includes.empty() && !first.empty()) {
+    print_error(o.common, no_deck_in(first, task->ending).message);
+    return exit_input;
+  }
   if (list->decks.empty())
     return usage(o, list->includes.empty()
                         ? "no decks: name some, or a directory, or a --manifest"

@@ -100,7 +100,10 @@ void check_duplicates(const GeometryRun& run, const Contact& c) {
     std::size_t at = mixed & (places.size() - 1);
     while (places[at] != no_index && corners_of(places[at]) != own)
       at = (at + 1) & (places.size() - 1);
-    places[at] == no_index ? void(places[at] = i) : twice.push_back(i);
+    if (places[at] == no_index)
+      places[at] = i;
+    else
+      twice.push_back(i);
   }
   Diagnostic* d = about_segments(run, RuleId::DK326, c, twice, "repeat another one");
   const auto of_solids = [&](std::uint32_t i) { return c.main[i].carrier == Carrier::solid; };
