@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <tuple>
 
 #include "deck/text/number.hpp"
 #include "text/shared/columns.hpp"
@@ -12,6 +13,10 @@ namespace deck {
 SetClause set_clause(std::string_view cell) {
   const std::size_t cut = std::min(cell.find('_'), cell.size());
   return {cell.substr(0, cut), cell.substr(cut)};
+}
+
+bool set_may_stand_for(std::string_view kind) {
+  return kind == "grnod" || kind == "surf" || kind == "line" || kind == "grpart";
 }
 
 std::string_view kind_of_clause(std::string_view clause) {
@@ -40,11 +45,115 @@ std::string_view header_reference(const Block& b) {
   return element ? "part" : std::string_view();
 }
 
+std::string_view kind_of_id(const DecodedBlock& decoded, const Cell& cell) {
+  // From 2026 on a smoothed surface may stand in the place of the node group.
+  const std::string_view kind = cell.field->ref;
+  const bool smoothed =
+      kind == "grnod" && decoded.block->schema->kind == "inter" && decoded.integer("Ists") != 0;
+  return smoothed ? "surf" : kind;
+}
+
 std::int64_t id_of(const Deck& deck, const Block& block) {
   return block.id.value + (block.schema == nullptr ? 0 : deck.offset_of(block, block.schema->kind));
 }
 
 namespace {
+
+class IdCells {
+ public:
+  explicit IdCells(const DecodedBlock& d) : d_(d) {}
+
+  std::vector<IdCell> read() {
+    const Schema& s = *d_.block->schema;
+    if (s.kind == "set")
+      clauses();
+    else if (s.keyword.ends_with("/GENE"))
+      pairs();
+    else if (s.keyword.ends_with("/GEN_INCR"))
+      triples();
+    else
+      single_ids();
+    return std::move(out_);
+  }
+
+ private:
+  void single_ids() {
+    for (const DecodedCard& card : d_.cards)
+      for (const Cell& c : card.cells)
+        if (c.field->type == FieldType::id && c.integer != 0)
+          add(card, c, kind_of_id(d_, c), c.field->name);
+  }
+
+  void pairs() {
+    for (const DecodedCard& card : d_.cards)
+      for (const Cell& c : card.cells)
+        if (c.field->type == FieldType::id && c.integer != 0) waiting_.emplace_back(&card, &c);
+    ranges(2);
+  }
+
+  /// One a line.
+  void triples() {
+    for (const DecodedCard& card : d_.cards)
+      if (card.cells.size() == 3 && card.cells[0].integer != 0 && card.cells[1].integer != 0)
+        for (const Cell& c : card.cells) waiting_.emplace_back(&card, &c);
+    ranges(3);
+  }
+
+  void clauses() {
+    std::string_view clause;
+    bool triplets = false;
+    int rows = 0;  // of the clause so far
+    const auto flush = [&] {
+      if (triplets) ranges(3, kind_of_clause(clause), clause);
+      waiting_.clear();
+    };
+    for (const DecodedCard& card : d_.cards) {
+      if (card.cells.empty()) continue;
+      if (!card.cells[0].blank()) {
+        flush();
+        const SetClause word = set_clause(card.cells[0].text);
+        clause = word.name;
+        triplets = word.ranges();
+        rows = 0;
+      }
+      ++rows;
+      if (clause == "ELLIPS" && rows == 1 && card.cells.size() > 7 && card.cells[7].integer != 0)
+        add(card, card.cells[7], "skew", clause);
+      const std::string_view kind = kind_of_clause(clause);
+      if (kind.empty() && clause != "RBODY") continue;
+      // The first number of a segment row is its own id.
+      for (std::size_t i = clause == "SEG" ? 2 : 1; i < card.cells.size(); ++i) {
+        if (card.cells[i].integer == 0) continue;
+        if (triplets)
+          waiting_.emplace_back(&card, &card.cells[i]);
+        else
+          add(card, card.cells[i], kind, clause);
+      }
+    }
+    flush();
+  }
+
+  void add(const DecodedCard& card, const Cell& c, std::string_view kind, std::string_view field) {
+    out_.push_back({.kind = kind, .field = field, .card = &card, .cell = &c});
+  }
+
+  /// (first, last) or (first, last, increment) of the cells that wait.
+  void ranges(std::size_t group, std::string_view kind, std::string_view field) {
+    for (std::size_t i = 0; i + group <= waiting_.size(); i += group) {
+      add(*waiting_[i].first, *waiting_[i].second, kind, field);
+      IdCell& c = out_.back();
+      std::tie(c.last_card, c.last) = waiting_[i + 1];
+      c.step = group == 3 ? std::max<std::int64_t>(waiting_[i + 2].second->integer, 1) : 1;
+    }
+  }
+  void ranges(std::size_t group) {
+    if (!waiting_.empty()) ranges(group, waiting_[0].second->field->ref, "range");
+  }
+
+  const DecodedBlock& d_;
+  std::vector<std::pair<const DecodedCard*, const Cell*>> waiting_;
+  std::vector<IdCell> out_;
+};
 
 class References {
  public:
@@ -61,24 +170,12 @@ class References {
   }
 
   void cells(const DecodedBlock& d) {
-    const std::string& keyword = block_.schema->keyword;
-    if (block_.schema->kind == "set") return clauses(d);
-    const bool rows = keyword.ends_with("/GEN_INCR");
-    std::vector<const Cell*> list;
-    for (const DecodedCard& card : d.cards) {
-      const bool range = rows && card.cells.size() == 3 && card.cells[0].integer != 0 &&
-                         card.cells[1].integer != 0;
-      for (const Cell& c : card.cells)
-        if (rows ? range : c.field->type == FieldType::id && c.integer != 0) list.push_back(&c);
-    }
-    if (rows || keyword.ends_with("/GENE"))
-      return ranges(list, list.empty() ? "" : list[0]->field->ref, rows ? 3 : 2, "range");
-    for (const Cell* c : list) {
-      std::string_view kind = c->field->ref;
-      // From 2026 on a smoothed surface may stand in the place of the node group.
-      if (block_.schema->kind == "inter" && kind == "grnod" && d.integer("Ists") != 0)
-        kind = "surf";
-      add(kind, c->integer, c->field->name, c->span);
+    for (const IdCell& c : id_cells(d)) {
+      if (c.kind.empty()) continue;
+      add(c.kind, c.cell->integer, c.field, c.cell->span);
+      if (!c.range()) continue;
+      out_.back().last = c.last->integer + deck_.offset_of(block_, c.kind);
+      out_.back().step = c.step;
     }
   }
 
@@ -96,52 +193,6 @@ class References {
     out_.push_back(r);
   }
 
-  /// (first, last) or (first, last, increment).
-  void ranges(const std::vector<const Cell*>& list, std::string_view kind, std::size_t group,
-              std::string_view field) {
-    for (std::size_t i = 0; i + group <= list.size(); i += group) {
-      add(kind, list[i]->integer, field, list[i]->span);
-      if (kind.empty()) continue;
-      out_.back().last = list[i + 1]->integer + deck_.offset_of(block_, kind);
-      out_.back().step = group == 3 ? std::max<std::int64_t>(list[i + 2]->integer, 1) : 1;
-    }
-  }
-
-  void clauses(const DecodedBlock& d) {
-    std::string_view clause;
-    bool triplets = false;
-    int rows = 0;  // of the clause so far
-    std::vector<const Cell*> list;
-    const auto flush = [&] {
-      if (triplets) ranges(list, kind_of_clause(clause), 3, clause);
-      list.clear();
-    };
-    for (const DecodedCard& card : d.cards) {
-      if (card.cells.empty()) continue;
-      if (!card.cells[0].blank()) {
-        flush();
-        const SetClause word = set_clause(card.cells[0].text);
-        clause = word.name;
-        triplets = word.ranges();
-        rows = 0;
-      }
-      ++rows;
-      if (clause == "ELLIPS" && rows == 1 && card.cells.size() > 7 && card.cells[7].integer != 0)
-        add("skew", card.cells[7].integer, clause, card.cells[7].span);
-      const std::string_view kind = kind_of_clause(clause);
-      if (kind.empty()) continue;
-      // The first number of a segment row is its own id.
-      for (std::size_t i = clause == "SEG" ? 2 : 1; i < card.cells.size(); ++i) {
-        if (card.cells[i].integer == 0) continue;
-        if (triplets)
-          list.push_back(&card.cells[i]);
-        else
-          add(kind, card.cells[i].integer, clause, card.cells[i].span);
-      }
-    }
-    flush();
-  }
-
   const Deck& deck_;
   const Block& block_;
   std::vector<Reference> out_;
@@ -155,6 +206,8 @@ bool names_ids(const Schema& s) {
 }
 
 }  // namespace
+
+std::vector<IdCell> id_cells(const DecodedBlock& decoded) { return IdCells(decoded).read(); }
 
 std::vector<Reference> references_of(const Deck& deck, const DecodedBlock& decoded) {
   References r(deck, *decoded.block);
@@ -179,9 +232,7 @@ Definitions::Definitions(const Deck& deck) {
 
 const Block* Definitions::find(std::string_view kind, std::int64_t id) const {
   auto it = blocks_.find(std::pair{std::string(kind), id});
-  constexpr std::string_view may_be_sets[] = {"grnod", "surf", "line", "grpart"};
-  if (it == blocks_.end() &&
-      std::find(std::begin(may_be_sets), std::end(may_be_sets), kind) != std::end(may_be_sets))
+  if (it == blocks_.end() && set_may_stand_for(kind))
     it = blocks_.find(std::pair{std::string("set"), id});
   return it == blocks_.end() ? nullptr : it->second;
 }

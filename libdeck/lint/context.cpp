@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "base/shared/length_text.hpp"
+#include "keyword/shared/references.hpp"
 #include "lint/targets.hpp"
 
 namespace deck {
@@ -173,7 +174,7 @@ void collect_references(LintContext& context, const DecodedBlock& block) {
     for (const Cell& cell : card.cells) {
       if (cell.field->type != FieldType::id || cell.integer == 0) continue;
       // Long lists of nodes and elements are of no interest here.
-      const std::string_view kind = cell.field->ref;
+      const std::string_view kind = kind_of_id(block, cell);
       if (kind != "grnod" && kind != "surf" && kind != "line" && kind != "friction") continue;
       const std::int64_t id = std::abs(cell.integer);
       context.referenced[kind].insert(context.resolved(*block.block, kind, id));

@@ -8,6 +8,7 @@
 #include "deck/edit/convert.hpp"
 #include "deck/model/selection.hpp"
 #include "edit/extract_support.hpp"
+#include "edit/version_support.hpp"
 
 namespace deck {
 namespace {
@@ -191,6 +192,18 @@ TEST(Renumber, ClausesOfSetsFollow) {
                       "/SET/GENERAL/1052\nt\nSET             1051\n"))
       << after->main_text();
   EXPECT_EQ(after->interfaces.type7.at(0).grnd_IDs.value, 1052);
+}
+
+TEST(Renumber, SmoothedSurfaceInThePlaceOfTheNodeGroupFollowsAsASurface) {
+  const auto w = Whole::text(test::deck_of_version(
+      2026,
+      "/SURF/PART/1\ns\n         1\n/SURF/PART/2\ns\n         2\n/GRNOD/PART/2\ng\n"
+      "         2\n" +
+          test::card("/INTER/TYPE7", 1, 2026,
+                     {{"grnd_IDs", "2"}, {"surf_IDm", "1"}, {"Ists", "1"}})));
+  const auto after = w->after(numbered(*w, {"surf+100", "grnod+5000"}));
+  EXPECT_EQ(after->interfaces.type7.at(0).grnd_IDs.value, 102) << after->main_text();
+  EXPECT_EQ(after->interfaces.type7.at(0).surf_IDm.value, 101);
 }
 
 TEST(Renumber, GroupThatWouldHideASetIsRefused) {

@@ -5,7 +5,6 @@
 
 #include "edit/convert/extract_state.hpp"
 #include "keyword/shared/reader.hpp"
-#include "keyword/shared/references.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {
@@ -119,9 +118,7 @@ void Extraction::keep_block(std::size_t index, Level level) {
 
 void Extraction::keep_block(std::string_view kind, std::int64_t id, Level level) {
   auto it = definitions_.find(std::pair{std::string(kind), id});
-  constexpr std::string_view may_be_sets[] = {"grnod", "surf", "line", "grpart"};
-  if (it == definitions_.end() &&
-      std::find(std::begin(may_be_sets), std::end(may_be_sets), kind) != std::end(may_be_sets))
+  if (it == definitions_.end() && set_may_stand_for(kind))
     it = definitions_.find(std::pair{std::string("set"), id});
   if (it != definitions_.end()) keep_block(it->second, level);
 }
@@ -204,22 +201,16 @@ void Extraction::process(const Task& task) {
   const std::string& kind = b.schema->kind;
   const bool touch = task.level == touching;
   const DecodedBlock d = decode(deck_, b);
-  if (kind == "set") {
-    set_clauses(b, d, touch);
-  } else {
-    // A subset that a selection names selects its children; one that a part names does not.
-    const bool selects = is_selection(kind) || (kind == "subset" && task.level >= selected);
-    for (const DecodedCard& card : d.cards)
-      for (const Cell& cell : card.cells)
-        if (cell.field->type == FieldType::id && cell.integer != 0) {
-          const std::string& ref = cell.field->ref;
-          const std::int64_t id = std::abs(cell.integer) + deck_.offset_of(b, ref);
-          reference(ref, id, selects || kind == "inter", touch);
-          // From 2026 on a smoothed surface may stand in the place of the node group.
-          if (kind == "inter" && ref == "grnod" && d.integer("Ists") != 0)
-            reference("surf", id, true, touch);
-        }
+  // A subset that a selection names selects its children; one that a part names does not.
+  const bool selects =
+      kind == "inter" || is_selection(kind) || (kind == "subset" && task.level >= selected);
+  for (const Reference& r : references_of(deck_, d)) {
+    if (r.step == 0)
+      reference(r.kind, r.id, selects, touch);
+    else
+      range(r, selects, touch);
   }
+  if (kind == "set") clauses_without_ids(b, d);
   if (is_selection(kind)) {
     resolved(b, touch);
     if ((kind == "surf" || kind == "line") && is_box_selection(b)) everything();
@@ -266,60 +257,32 @@ void Extraction::resolved(const Block& b, bool touch) {
 
 // ---- sets ---------------------------------------------------------------------------------------
 
-void Extraction::set_clauses(const Block& b, const DecodedBlock& d, bool touch) {
-  std::string_view kind, options;
-  std::vector<std::int64_t> ids;
-  const auto flush = [&] {
-    if (!kind.empty()) clause_ids(b, kind, options, ids, touch);
-    ids.clear();
-  };
+void Extraction::clauses_without_ids(const Block& b, const DecodedBlock& d) {
   for (const DecodedCard& card : d.cards) {
-    if (card.cells.empty()) continue;
-    if (!card.cells[0].blank()) {
-      flush();
-      const SetClause word = set_clause(card.cells[0].text);
-      kind = word.name;
-      options = word.options;
-    }
-    // The first number of a segment row is its own id.
-    for (std::size_t i = kind == "SEG" ? 2 : 1; i < card.cells.size(); ++i)
-      if (card.cells[i].integer != 0) ids.push_back(card.cells[i].integer);
+    if (card.cells.empty() || card.cells[0].blank()) continue;
+    const SetClause clause = set_clause(card.cells[0].text);
+    if (clause.name == "ALL" || clause.name == "BOX" || clause.name == "BOX2" ||
+        clause.options.find('B') != clause.options.npos)
+      everything();
+    if (clause.name == "RBODY")
+      open_questions.push_back("/SET " + std::to_string(b.id.value) +
+                               " selects rigid bodies, which were not carried");
   }
-  flush();
 }
 
-void Extraction::clause_ids(const Block& b, std::string_view kind, std::string_view options,
-                            const std::vector<std::int64_t>& ids, bool touch) {
-  if (kind == "ALL" || kind == "BOX" || kind == "BOX2" || options.find('B') != options.npos)
-    everything();
-  if (kind == "RBODY")
-    open_questions.push_back("/SET " + std::to_string(b.id.value) +
-                             " selects rigid bodies, which were not carried");
-  const std::string_view ref = kind_of_clause(kind);
-  if (ref.empty()) return;
-  const std::int64_t offset = deck_.offset_of(b, ref);
-  if (options.find('G') == options.npos) {
-    for (const std::int64_t id : ids) reference(ref, std::abs(id) + offset, true, touch);
-    return;
-  }
-  // (first, last, increment): whatever exists there.
-  const auto in_range = [&](std::int64_t id) {
-    for (std::size_t i = 0; i + 3 <= ids.size(); i += 3)
-      if (id >= ids[i] + offset && id <= ids[i + 1] + offset && ids[i + 2] > 0 &&
-          (id - ids[i] - offset) % ids[i + 2] == 0)
-        return true;
-    return false;
-  };
-  if (ref == "node") {
+/// Whatever exists there.
+void Extraction::range(const Reference& r, bool selects, bool touch) {
+  if (r.kind == "node") {
     for (NodeIndex n = 0; n < model_.nodes.size(); ++n)
-      if (in_range(model_.nodes.id[n])) keep_node(n, touch);
-  } else if (const auto family = family_of_kind(ref)) {
+      if (r.covers(model_.nodes.id[n])) keep_node(n, touch);
+  } else if (const auto family = family_of_kind(r.kind)) {
     const Elements& all = model_.family(*family);
     for (std::uint32_t e = 0; e < all.size(); ++e)
-      if (in_range(all.id[e])) keep_element(*family, e, touch);
+      if (r.covers(all.id[e])) keep_element(*family, e, touch);
   } else {
     for (const auto& [key, index] : definitions_)
-      if (key.first == ref && in_range(key.second)) reference(ref, key.second, true, touch);
+      if (key.first == r.kind && r.covers(key.second))
+        reference(r.kind, key.second, selects, touch);
   }
 }
 
@@ -440,7 +403,7 @@ void Extraction::transforms() {
 void Extraction::functions() {
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
     const Block& b = deck_.blocks[i];
-    if (!detail::is_below(b.header, "/MOVE_FUNCT")) continue;
+    if (header_reference(b) != "funct") continue;
     const auto it =
         definitions_.find(std::pair{std::string("funct"), own_id(b) + deck_.offset_of(b, "funct")});
     if (it != definitions_.end() && block_kept[it->second] != 0) keep_block(i);
@@ -449,16 +412,11 @@ void Extraction::functions() {
 
 /// What belongs to a material under the material's own id.
 void Extraction::materials() {
-  constexpr std::string_view by_material[] = {"/HEAT/MAT", "/EOS",          "/THERM_STRESS/MAT",
-                                              "/VISC",     "/FAIL",         "/LEAK/MAT",
-                                              "/ALE/MAT",  "/NONLOCAL/MAT", "/EULER/MAT"};
   bool thermal = false;
   std::size_t first_thermal = deck_.blocks.size();
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
     const Block& b = deck_.blocks[i];
-    if (!std::any_of(std::begin(by_material), std::end(by_material),
-                     [&](std::string_view k) { return detail::is_below(b.header, k); }))
-      continue;
+    if (header_reference(b) != "mat") continue;
     const auto it =
         definitions_.find(std::pair{std::string("mat"), own_id(b) + deck_.offset_of(b, "mat")});
     const bool kept = it != definitions_.end() && block_kept[it->second] != 0;

@@ -12,6 +12,7 @@
 
 #include "deck/edit/convert.hpp"
 #include "deck/model/selection.hpp"
+#include "keyword/shared/references.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {
@@ -76,9 +77,8 @@ class Extraction {
   void keep_block(std::size_t index, Level level = defined);
   void process(const Task& task);
   void reference(std::string_view kind, std::int64_t id, bool selects, bool touch);
-  void set_clauses(const Block& b, const DecodedBlock& d, bool touch);
-  void clause_ids(const Block& b, std::string_view kind, std::string_view options,
-                  const std::vector<std::int64_t>& ids, bool touch);
+  void range(const Reference& r, bool selects, bool touch);
+  void clauses_without_ids(const Block& b, const DecodedBlock& d);
   void resolved(const Block& b, bool touch);
   void tokens(const Block& b, const DecodedBlock& d);
   void keep_node(NodeIndex n, bool touch);

@@ -87,11 +87,9 @@ class Renumbering {
     if (written == 0) return {};
     const std::int64_t sign = written < 0 ? -1 : 1;
     const std::int64_t id = sign * written + deck_.offset_of(b, kind);
-    constexpr std::string_view may_be_sets[] = {"grnod", "surf", "line", "grpart"};
     const IdSpace* sets = space("set");
     if (!definition && (target == nullptr || !target->defined(id)) && sets != nullptr &&
-        std::find(std::begin(may_be_sets), std::end(may_be_sets), kind) != std::end(may_be_sets) &&
-        sets->defined(id)) {
+        set_may_stand_for(kind) && sets->defined(id)) {
       const auto mapped = sets->mapped(id);
       if (target != nullptr && mapped && target->taken(*mapped))
         return {true, 0,
@@ -195,21 +193,28 @@ class Renumbering {
         });
     if (!references && s.layout_known() && s.kind != "set") return;
     const DecodedBlock d = decode(deck_, b);
-    if (s.kind == "set")
-      clauses(b, d);
-    else if (s.keyword.ends_with("/GENE") || s.keyword.ends_with("/GEN_INCR"))
-      ranges(b, d, s.keyword.ends_with("/GENE") ? 2 : 3);
-    else
-      for (const DecodedCard& card : d.cards) ids(b, card);
+    ids(b, d);
     if (!s.layout_known()) tokens(b, d);
   }
 
-  /// The ids of a line. One of them that cannot change keeps the others as they are.
-  void ids(const Block& b, const DecodedCard& card) {
-    const std::size_t edits = out_.edits.size(), open = out_.losses.size();
-    for (const Cell& c : card.cells)
-      if (c.field->type == FieldType::id) cell(b, card, c, c.field->ref, false);
-    if (out_.losses.size() > open) out_.edits.resize(edits);
+  /// One id of a line that cannot change keeps the others as they are.
+  void ids(const Block& b, const DecodedBlock& d) {
+    const std::vector<IdCell> all = id_cells(d);
+    for (std::size_t i = 0; i < all.size();) {
+      const std::size_t edits = out_.edits.size(), open = out_.losses.size();
+      const DecodedCard* line = all[i].card;
+      for (; i < all.size() && all[i].card == line; ++i) id(b, all[i]);
+      if (out_.losses.size() > open) out_.edits.resize(edits);
+    }
+  }
+
+  void id(const Block& b, const IdCell& c) {
+    if (c.kind.empty())
+      number(b, c.cell->span, c.cell->integer);
+    else if (c.range())
+      range(b, c);
+    else
+      cell(b, *c.card, *c.cell, c.kind, false);
   }
 
   /// Nodes and elements: many lines, few kinds of cells.
@@ -268,33 +273,28 @@ class Renumbering {
 
   // ---- ranges and sets ------------------------------------------------------------------------
 
-  using Place = std::pair<const DecodedCard*, const Cell*>;
-
-  /// (first, last) or (first, last, increment).
-  void range(const Block& b, std::string_view kind, const Place& first, const Place& last,
-             std::int64_t increment) {
-    const IdSpace* target = space(kind);
+  void range(const Block& b, const IdCell& c) {
+    const IdSpace* target = space(c.kind);
     if (target == nullptr || !target->changes) return;
-    const std::int64_t offset = deck_.offset_of(b, kind);
-    const std::int64_t from = first.second->integer + offset, to = last.second->integer + offset;
+    const std::int64_t offset = deck_.offset_of(b, c.kind);
+    const std::int64_t from = c.cell->integer + offset, to = c.last->integer + offset;
     const auto refuse = [&](const std::string& why) {
-      undecided(b, first.second->span, first.second->field->name, why);
+      undecided(b, c.cell->span, c.cell->field->name, why);
     };
-    if (first.second->integer <= 0 || last.second->integer <= 0)
-      return refuse("a range with a negative id");
+    if (c.cell->integer <= 0 || c.last->integer <= 0) return refuse("a range with a negative id");
     std::int64_t new_from = from + target->value, new_to = to + target->value;
     if (target->only != 0) {
       // The same members under their new ids, with the ends as they are or moved with the id.
       const bool ends = from == target->only || to == target->only;
       new_from = from == target->only ? target->value : from;
       new_to = to == target->only ? target->value : to;
-      std::vector<std::int64_t> before = target->members(from, to, increment);
+      std::vector<std::int64_t> before = target->members(from, to, c.step);
       const bool inside = std::binary_search(before.begin(), before.end(), target->only);
-      std::vector<std::int64_t> after = target->members(new_from, new_to, increment);
+      std::vector<std::int64_t> after = target->members(new_from, new_to, c.step);
       std::erase(before, target->only);
       std::erase(after, target->only);
       const bool reaches = target->value >= new_from && target->value <= new_to &&
-                           (target->value - new_from) % std::max<std::int64_t>(increment, 1) == 0;
+                           (target->value - new_from) % c.step == 0;
       if (before != after || inside != reaches)
         return refuse("the range does not stay the same with the new id");
       if (!ends) return;
@@ -302,81 +302,14 @@ class Renumbering {
       const auto lower = std::lower_bound(target->ids.begin(), target->ids.end(), from);
       const auto upper = std::upper_bound(target->ids.begin(), target->ids.end(), to);
       if (lower >= upper) return refuse("the range holds no id and has no new place");
-      if (increment != 1) return refuse("a range with an increment does not stay one");
+      if (c.step != 1) return refuse("a range with an increment does not stay one");
       new_from = *target->mapped(*lower);
       new_to = *target->mapped(*(upper - 1));
     }
     if (new_from - offset < 1 || new_to > detail::largest_id)
       return refuse("the new range is not legal");
-    if (new_from != from) set_id(b, *first.first, *first.second, {true, new_from - offset, {}});
-    if (new_to != to) set_id(b, *last.first, *last.second, {true, new_to - offset, {}});
-  }
-
-  void grouped(const Block& b, std::string_view kind, const std::vector<Place>& places,
-               std::size_t group) {
-    for (std::size_t i = 0; i + group <= places.size(); i += group)
-      range(b, kind, places[i], places[i + 1], group == 3 ? places[i + 2].second->integer : 1);
-  }
-
-  void ranges(const Block& b, const DecodedBlock& d, std::size_t group) {
-    std::vector<Place> places;
-    std::string_view kind;
-    for (const DecodedCard& card : d.cards) {
-      // One triple a line.
-      const bool range = group == 3 && card.cells.size() == 3 && card.cells[0].integer != 0 &&
-                         card.cells[1].integer != 0;
-      for (const Cell& c : card.cells)
-        if (group == 3 ? range : c.field->type == FieldType::id && c.integer != 0) {
-          places.emplace_back(&card, &c);
-          if (c.field->type == FieldType::id) kind = c.field->ref;
-        }
-    }
-    grouped(b, kind, places, group);
-  }
-
-  void clauses(const Block& b, const DecodedBlock& d) {
-    std::string_view clause;
-    bool triplets = false;
-    int rows = 0;  // of the clause so far
-    std::vector<Place> places;
-    const auto flush = [&] {
-      if (triplets) grouped(b, kind_of_clause(clause), places, 3);
-      places.clear();
-    };
-    for (const DecodedCard& card : d.cards) {
-      if (card.cells.empty()) continue;
-      if (!card.cells[0].blank()) {
-        flush();
-        const SetClause word = set_clause(card.cells[0].text);
-        clause = word.name;
-        triplets = word.ranges();
-        rows = 0;
-      }
-      ++rows;
-      if (clause == "RBODY") {
-        unknown_numbers(b, card);
-        continue;
-      }
-      if (clause == "ELLIPS" && rows == 1 && card.cells.size() > 7)
-        cell(b, card, card.cells[7], "skew", false);
-      const std::string_view kind = kind_of_clause(clause);
-      if (kind.empty()) continue;
-      // The first number of a segment row is its own id.
-      for (std::size_t i = clause == "SEG" ? 2 : 1; i < card.cells.size(); ++i) {
-        if (card.cells[i].integer == 0) continue;
-        if (triplets)
-          places.emplace_back(&card, &card.cells[i]);
-        else
-          cell(b, card, card.cells[i], kind, false);
-      }
-    }
-    flush();
-  }
-
-  void unknown_numbers(const Block& b, const DecodedCard& card) {
-    for (std::size_t i = 1; i < card.cells.size(); ++i)
-      if (card.cells[i].integer != 0 && number(b, card.cells[i].span, card.cells[i].integer))
-        return;
+    if (new_from != from) set_id(b, *c.card, *c.cell, {true, new_from - offset, {}});
+    if (new_to != to) set_id(b, *c.last_card, *c.last, {true, new_to - offset, {}});
   }
 
   // ---- text that no schema describes ----------------------------------------------------------

@@ -32,6 +32,24 @@ std::vector<Reference> references_of(const Deck& deck, const Block& block);
 /// The same for a block that was decoded already.
 std::vector<Reference> references_of(const Deck& deck, const DecodedBlock& decoded);
 
+/// What the id in a cell is of: the kind that its field says, but for cells that another cell
+/// gives a second meaning.
+std::string_view kind_of_id(const DecodedBlock& decoded, const Cell& cell);
+/// A cell of a block that holds an id, or the two that hold the ends of a range of ids.
+struct IdCell {
+  std::string_view kind;   ///< of the target; "": not known (clause RBODY of /SET)
+  std::string_view field;  ///< name of the cell, clause of the set, "range"
+  const DecodedCard* card = nullptr;
+  const Cell* cell = nullptr;
+  const DecodedCard* last_card = nullptr;  ///< of the last id of a range
+  const Cell* last = nullptr;              ///< of a range; nullptr: one id
+  std::int64_t step = 0;                   ///< of the range
+  bool range() const { return last != nullptr; }
+};
+/// Those of a decoded block, in line order (those of a range when it is complete); cells that are
+/// blank or 0 are left out. They point into `decoded`.
+std::vector<IdCell> id_cells(const DecodedBlock& decoded);
+
 /// First cell of a clause of /SET: "SHELL_G" is the clause SHELL with the options "_G".
 struct SetClause {
   std::string_view name, options;
@@ -39,6 +57,8 @@ struct SetClause {
   bool ranges() const { return options.find('G') != options.npos; }
 };
 SetClause set_clause(std::string_view cell);
+/// An id of this kind may be that of a /SET, where no group, surface or line has it.
+bool set_may_stand_for(std::string_view kind);
 /// Kind of the ids in a clause of /SET ("PART" -> "part"); empty: no ids.
 std::string_view kind_of_clause(std::string_view clause);
 /// Entity kind that a header id or header number refers to besides the schema's kind: materials in
