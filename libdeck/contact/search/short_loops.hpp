@@ -8,9 +8,6 @@ namespace deck {
 // Threads for a loop that does little for each of `count` things. A thread takes as long to start
 // as some thousand of them, and to wait for it where other programs have the processors much
 // longer.
-inline int threads_for(std::size_t count, int threads) {
-  constexpr std::size_t worth_a_thread = 32768;
-  return count < worth_a_thread ? 1 : threads;
-}
+inline int threads_for(std::size_t count, int threads) { return count < 32768 ? 1 : threads; }
 
 }  // namespace deck
