@@ -240,6 +240,12 @@ Answer answer_of(const SegmentClosest<T>& c, const Hull<T>& v, const P& largest,
   return Answer::no;
 }
 
+// Distances and gaps this small beside the pair are no more than double-double's own round-off: it
+// would decide nothing.
+inline bool beyond_double_double(double length, double largest) {
+  return length < safety<DoubleDouble> * largest;
+}
+
 // Two cheap directions that often prove the distance without any closest point: the normal of the
 // diagonals, and from the middle to the node.
 inline bool clearly_apart(const SegmentPair& pair, double gap) {

@@ -16,6 +16,17 @@ struct PartGuess {
   bool o = false, a = false, b = false;
 };
 
+// A plane, line or corner of a segment: through the corner `base`, along up to two directions. Each
+// is the sum of the vectors from there to the corners whose bits are set; none: no direction.
+struct SegmentPiece {
+  std::uint8_t base = 0;
+  std::array<std::uint8_t, 2> corners{};
+};
+
+// Whether the node points[4] is nearer to the piece than the gap, exactly. All points are finite.
+bool is_closer_to_piece(const std::array<Point3<double>, 5>& points, const SegmentPiece& piece,
+                        double gap);
+
 // "distance < gap" proved exactly, or nothing if the guess does not prove it. A gap of 0 asks
 // whether the distance is exactly 0. `points`:
 // four corners, then the node; a triangle uses guess[0] only, with o, a, b = corners 3, 1, 2.

@@ -81,6 +81,23 @@ Region part_of(const PartGuess& guess, const V& o, const V& a, const V& b, const
 
 }  // namespace
 
+bool is_closer_to_piece(const std::array<Point3<double>, 5>& points, const SegmentPiece& piece,
+                        double gap) {
+  if (!std::isfinite(gap)) return true;
+  const V base = vector_of(points[piece.base]);
+  const V p = base - vector_of(points[4]);
+  const Z limit(gap);
+  std::array<V, 2> along;
+  for (std::size_t d = 0; d < 2; ++d)
+    for (std::size_t k = 0; k < 4; ++k)
+      if ((piece.corners[d] >> k & 1U) != 0) along[d] = along[d] + (vector_of(points[k]) - base);
+  if (piece.corners[0] == 0) return is_nearer(dot(p, p), Z(1), limit);
+  const V n = cross(along[0], piece.corners[1] == 0 ? p : along[1]);
+  if (piece.corners[1] == 0) return is_nearer(dot(n, n), dot(along[0], along[0]), limit);
+  const Z height = dot(n, p);
+  return is_nearer(height * height, dot(n, n), limit);
+}
+
 std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bool triangle,
                                  int best, const std::array<PartGuess, 4>& guess, double gap) {
   if (!finite_points(points) || !std::isfinite(gap)) return std::nullopt;

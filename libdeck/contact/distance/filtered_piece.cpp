@@ -3,6 +3,7 @@
 #include "contact/distance/filtered_piece.hpp"
 
 #include <cmath>
+#include <initializer_list>
 
 #include "contact/distance/fused.hpp"
 
@@ -31,8 +32,11 @@ struct Piece {
   std::array<Q, 2> direction;
   std::array<double, 2> weight{};
   unsigned free = 0;
+  SegmentPiece of;
 
-  void add(const Q& along, double by) {
+  /// `corners`: what the direction is the sum of, in a segment.
+  void add(const Q& along, double by, std::initializer_list<std::size_t> corners = {}) {
+    for (const std::size_t c : corners) of.corners[free] |= static_cast<std::uint8_t>(1U << c);
     direction[free] = along;
     weight[free] = by;
     ++free;
@@ -51,6 +55,7 @@ struct Foot {
 
   explicit Foot(const Piece& piece) {
     point = piece.base;
+    distance.piece = piece.of;
     double sizes = sum_of_sizes(head_of(piece.base));
     for (unsigned k = 0; k < piece.free; ++k) {
       point = point + D(piece.weight[k]) * piece.direction[k];
@@ -154,8 +159,9 @@ struct SegmentWork {
     const std::size_t base = has_o ? 0 : (has_a ? 1 : 2);
     Piece piece;
     piece.base = difference(x[corner[base]], x[4]);
+    piece.of.base = static_cast<std::uint8_t>(corner[base]);
     for (std::size_t k = base + 1; k < 3; ++k)
-      if (has[k]) piece.add(difference(x[corner[k]], x[corner[base]]), weight[k]);
+      if (has[k]) piece.add(difference(x[corner[k]], x[corner[base]]), weight[k], {corner[k]});
     const Foot foot(piece);
     if (!foot.usable || !stays(foot, piece)) return std::nullopt;
     PieceDistance out = foot.distance;
@@ -180,21 +186,22 @@ struct SegmentWork {
     const Q to_v = difference(x[v], x[u]);
     Piece piece;
     piece.base = difference(x[u], x[4]);
+    piece.of.base = static_cast<std::uint8_t>(u);
     if (has_o) {
       // The centre is u + (v-u + m-u + n-u)/4: in the plane of u, v and the centre both others
       // weigh the same.
       const Q others = difference(x[m], x[u]) + difference(x[n], x[u]);
       const double quarter = 0.25 * best.weight_o;
       if (has_a && has_b) {
-        piece.add(to_v, best.weight_b + quarter);
-        piece.add(others, quarter);
+        piece.add(to_v, best.weight_b + quarter, {v});
+        piece.add(others, quarter, {m, n});
       } else if (has_a || has_b) {
-        piece.add(to_v + others, quarter);
+        piece.add(to_v + others, quarter, {v, m, n});
       } else {
         return std::nullopt;  // the centre, a mean, has no corners beyond it on all sides
       }
     } else if (has_a && has_b) {
-      piece.add(to_v, best.weight_b);
+      piece.add(to_v, best.weight_b, {v});
     }
     const Foot foot(piece);
     if (!foot.usable || !stays(foot, piece)) return std::nullopt;

@@ -21,6 +21,7 @@ struct PieceDistance {
   double error = 0.0;              // the exact square is within this of `squared`
   std::array<double, 2> weight{};  // edges, if asked for: of the first nodes, s and m, rounded once
   bool one_part = true;  // no other part of the pair is as close: the feature is certain too
+  SegmentPiece piece;    // what it is the distance of; not of edges
   // The double nearest to the root, at the original scale, if the bracket tells.
   std::optional<double> rounded(int shift) const;
   Answer closer_than(double gap) const;
