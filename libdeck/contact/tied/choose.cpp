@@ -84,11 +84,11 @@ class Reach {
 struct SegmentBox {
   Vec low, high;
   double distance_from(const Vec& p) const {
-    const auto beyond = [](double v, double least, double most) {
+    const auto outside = [](double v, double least, double most) {
       return std::max(std::max(least - v, v - most), 0.0);
     };
     return norm(
-        {beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y), beyond(p.z, low.z, high.z)});
+        {outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)});
   }
   bool holds(const Vec& p, double wider) const {
     return p.x >= low.x - wider && p.x <= high.x + wider && p.y >= low.y - wider &&
