@@ -20,8 +20,8 @@
 #include "edit/block_edit.hpp"
 #include "edit/fix/nodes/depenetrate_cells.hpp"
 #include "edit/shared/edit_set.hpp"
-#include "edit/shared/include_scan.hpp"
 #include "edit/shared/write.hpp"
+#include "keyword/shared/include_scan.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck {
@@ -333,13 +333,14 @@ Result<std::vector<std::string>> Edit::save(const SaveOptions& options) {
   const auto plan = set->in_place();
   if (!plan) return plan.error();
   std::set<std::string> others(options.others.begin(), options.others.end());
+  std::set<FileIdentity> touched;
   std::vector<std::string> paths;
   for (const OutputFile& f : plan->files) {
+    touched.emplace(f.read->device, f.read->inode);
     paths.push_back(f.path);
     for (std::string& deck : decks_in(std::string(parent_path(f.path))))
       others.insert(std::move(deck));
   }
-  const std::set<FileIdentity> touched = set->changed_files();
   const auto own = identity_of(plan->mains.front());
   IncludeScan scan(state_->original->options().read.include_paths);
   for (const std::string& deck : others) {
@@ -374,7 +375,7 @@ Result<std::vector<std::string>> Edit::save_to(const std::string& directory, boo
       return config(f.path +
                     " is a file of the deck itself; nothing was written. Name another "
                     "directory, or save in place");
-    if (overwrite || is_unchanged_output(f.path, f.origin)) continue;
+    if (overwrite) continue;
     const auto old = Source::open(f.path, state_->original->options().read.limits);
     if (!old || (*old)->on_disk() != f.bytes)
       return config(f.path + " is there already, with other contents; nothing was written");

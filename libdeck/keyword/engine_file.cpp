@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "keyword/shared/include_scan.hpp"
 #include "keyword/shared/reader.hpp"
 
 namespace deck {
@@ -61,22 +62,32 @@ std::string_view EngineBlock::part(std::size_t n) const {
   return keyword.substr(begin, keyword.find('/', begin) - begin);
 }
 
-EngineFiles read_engine_files(Deck& deck, const Limits& limits) {
-  EngineFiles out;
-  std::string_view path = deck.sources[0].path();
-  const bool packed = path.ends_with(packed_ending);
-  if (packed) path = without(path, packed_ending);
-  if (!path.ends_with(starter_ending)) return out;
-  const std::string stem(without(path, starter_ending));
-  out.run = std::filesystem::path(stem).filename().string();
-  if (out.run.empty()) return out;
-  Limits small = limits;
-  small.total_bytes = std::min(limits.total_bytes, limits.map_threshold);
-  for (int number = 1; number <= std::min(most_runs, limits.files); ++number) {
-    std::string name = fmt::format("{}_{:04}.rad", stem, number);
+std::vector<std::string> engine_files_beside(std::string_view deck) {
+  std::vector<std::string> out;
+  const bool packed = deck.ends_with(packed_ending);
+  if (packed) deck = without(deck, packed_ending);
+  for (int number = 1; number <= most_runs && deck.ends_with(starter_ending); ++number) {
+    std::string name = fmt::format("{}_{:04}.rad", without(deck, starter_ending), number);
     std::error_code ec;
     if (packed && !std::filesystem::exists(name, ec)) name += packed_ending;
     if (!std::filesystem::exists(name, ec)) break;
+    out.push_back(std::move(name));
+  }
+  return out;
+}
+
+EngineFiles read_engine_files(Deck& deck, const Limits& limits) {
+  EngineFiles out;
+  std::string_view path = deck.sources[0].path();
+  if (path.ends_with(packed_ending)) path = without(path, packed_ending);
+  if (!path.ends_with(starter_ending)) return out;
+  out.run = std::filesystem::path(without(path, starter_ending)).filename().string();
+  if (out.run.empty()) return out;
+  Limits small = limits;
+  small.total_bytes = std::min(limits.total_bytes, limits.map_threshold);
+  int number = 0;
+  for (const std::string& name : engine_files_beside(deck.sources[0].path())) {
+    if (++number > limits.files) break;
     auto source = Source::open_text(name, small);
     if (!source) {
       std::string why = source.error().message;

@@ -155,18 +155,6 @@ def case(c, r, number, tmp, counts):
             (call[0], "nothing" if now == before else "done", run.code), 0) + 1
 
 
-def as_read(files, name, above=()):
-    """The text of a file of a tree with its includes in place; they lie below their includer or beside it."""
-    lines = []
-    for line in files[name].decode().split("\n"):
-        if not line.startswith("#include "):
-            lines.append(line)
-            continue
-        target = os.path.normpath(os.path.join(os.path.dirname(name), line[9:].strip()))
-        lines += ["include of " + target] if target in above else as_read(files, target, above + (name,)).split("\n")
-    return "\n".join(lines)
-
-
 def sharing(library, deck):
     """The decks that share files with this one, directly or by way of others."""
     found, files = [deck], set(library.trees[deck])
@@ -180,11 +168,11 @@ def sharing(library, deck):
 
 
 def other_ways(c, r, number, tmp, counts):
-    """The same decks named by their directory, by one of them with its dependents, or each with a copy of what they share."""
+    """The same decks named by their directory, or by one of them with its dependents."""
     library, call = Library(r), random_call(r)
     decks = library.decks()
     place = r.choice(("in place", "out")) if call[0] != "lint" else "in place"
-    ways = ["directory"] + (["split"] if call[0] != "lint" else []) + (["dependents"] if place == "in place" else [])
+    ways = ["directory"] + (["dependents"] if place == "in place" else [])
     way = r.choice(ways)
     where = {"lint": []}.get(call[0], ["--in-place"] if place == "in place" else ["-o", "../out"])
 
@@ -196,29 +184,14 @@ def other_ways(c, r, number, tmp, counts):
         after = tree(work) if place == "in place" or not os.path.isdir(os.path.join(tmp, "out")) else tree(os.path.join(tmp, "out"))
         return one, after
     name = "%d: %s of %s, %s, %s" % (number, " ".join(call), " ".join(decks), place, way)
-    if way == "split":
-        both, now = run("--split-includes", *decks)
-        why = ""
-        for d in decks:
-            one, after = run(d, *([] if place == "out" else ["--root", os.path.dirname(d)]))
-            failed = one.code > 1 or (one.code == 1 and call[0] == "convert")
-            if failed != (both.code > 1 or (both.code == 1 and call[0] == "convert")) and failed:
-                why = "%s alone is refused, all together are not" % d
-            elif not failed and both.code <= 1:
-                there, here = (next(k for k in t if os.path.basename(k) == os.path.basename(d)) for t in (now, after))
-                if as_read(now, there) != as_read(after, here):
-                    why = "%s reads otherwise than alone" % d
-        c.check(name, not why, "%s; %s" % (why, both.text[-300:].strip()))
-        changed = both.code <= 1
-    else:
-        group = sharing(library, decks[0]) if way == "dependents" else decks
-        expected, wanted = run(*group)
-        got, now = run(*([decks[0], "--with-dependents", "--root", "."] if way == "dependents" else ["."]))
-        # Below a directory decks keep their place, also where nothing but their place joins them.
-        same = now == wanted or (place == "out" and sorted(now.values()) == sorted(wanted.values()))
-        c.check(name, got.code == expected.code and same, "%s, expected %s; %s; %s" % (
-            got.code, expected.code, [k for k in set(now) | set(wanted) if now.get(k) != wanted.get(k)][:5], got.text[-300:].strip()))
-        changed = expected.code <= 1
+    group = sharing(library, decks[0]) if way == "dependents" else decks
+    expected, wanted = run(*group)
+    got, now = run(*([decks[0], "--with-dependents", "--root", "."] if way == "dependents" else ["."]))
+    # Below a directory decks keep their place, also where nothing but their place joins them.
+    same = now == wanted or (place == "out" and sorted(now.values()) == sorted(wanted.values()))
+    c.check(name, got.code == expected.code and same, "%s, expected %s; %s; %s" % (
+        got.code, expected.code, [k for k in set(now) | set(wanted) if now.get(k) != wanted.get(k)][:5], got.text[-300:].strip()))
+    changed = expected.code <= 1
     counts[(way, changed)] = counts.get((way, changed), 0) + 1
 
 
@@ -281,7 +254,7 @@ def main():
         ways, draw = {}, random.Random(21)
         for number in range(300 if c.options.all else 40):
             other_ways(c, draw, number, os.path.join(tmp, "ways"), ways)
-        for way in ("directory", "dependents", "split"):
+        for way in ("directory", "dependents"):
             c.check("%s: decks were written in some cases" % way, ways.get((way, True), 0) > 3, str(ways))
         at_the_same_time(c, os.path.join(tmp, "race"))
         other_folders(c, os.path.join(tmp, "folders"))

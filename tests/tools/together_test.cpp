@@ -1,8 +1,6 @@
 // Several decks of one call, files that others work on, and outputs over decks: nobody's bytes are
 // lost.
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <sys/xattr.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -216,42 +214,6 @@ TEST_F(Together, ADeckInAnotherFolderThatIncludesTheFileIsFoundWithoutGit) {
   EXPECT_NE(shared(), contact);
 }
 
-/// Whether the file system keeps what an output was made from.
-bool has_attributes(const fs::path& directory) {
-  const std::string path = (directory / "probe").string();
-  write(path, "x");
-  return setxattr(path.c_str(), "user.libdeck.probe", "x", 1, 0) == 0;
-}
-
-TEST_F(Together, AResultThatNobodyChangedIsMadeAnew) {
-  const int again = has_attributes(dir_) ? 0 : 2;
-  ASSERT_EQ(deck("convert a/a_0000.rad -o out"), 0) << err();
-  write(dir_ / "a/a_0000.rad", main_deck("/TITLE\nnewer\n"));
-  EXPECT_EQ(deck("convert a/a_0000.rad -o out"), again) << err();
-  EXPECT_EQ(read(dir_ / "out/a/a_0000.rad"), main_deck(again == 0 ? "/TITLE\nnewer\n" : ""));
-}
-
-TEST_F(Together, AResultThatSomebodyChangedIsNotReplaced) {
-  ASSERT_EQ(deck("convert a/a_0000.rad -o out"), 0) << err();
-  const std::string edited = main_deck("/TITLE\nby hand\n");
-  // Written into the file, as some editors do: its attributes stay.
-  std::fstream(dir_ / "out/a/a_0000.rad", std::ios::in | std::ios::out) << edited;
-  fs::resize_file(dir_ / "out/a/a_0000.rad", edited.size());
-  write(dir_ / "a/a_0000.rad", main_deck("/TITLE\nnewer\n"));
-  EXPECT_EQ(deck("convert a/a_0000.rad -o out"), 2);
-  EXPECT_NE(err().find("--overwrite"), std::string::npos) << err();
-  EXPECT_EQ(read(dir_ / "out/a/a_0000.rad"), edited);
-}
-
-TEST_F(Together, TheResultOfAnotherDeckIsNotReplaced) {
-  ASSERT_EQ(deck("convert a/a_0000.rad -o out"), 0) << err();
-  const std::string made = read(dir_ / "out/a/a_0000.rad");
-  write(dir_ / "x/a/a_0000.rad", main_deck("/TITLE\nanother\n"));
-  write(dir_ / "x/common/x.inc", contact);
-  EXPECT_EQ(deck("convert x/a/a_0000.rad -o out"), 2);
-  EXPECT_EQ(read(dir_ / "out/a/a_0000.rad"), made);
-}
-
 TEST_F(Together, AResultThatIsReadIsNotReplaced) {
   ASSERT_EQ(deck("convert a/a_0000.rad -o out"), 0) << err();
   EXPECT_EQ(deck("convert a/a_0000.rad out/a/a_0000.rad -o out --units kg,m,s"), 2);
@@ -269,7 +231,7 @@ TEST_F(Together, AReadingVerbLeavesAnInterruptedRewritingAlone) {
   const std::string temporary = (dir_ / "common/.x.inc.1-0.tmp").string();
   write(temporary, "/TITLE\nnew\n");
   const fs::path note = dir_ / "a/.a_0000.rad.unfinished";
-  write(note, fmt::format("deck unfinished 2\n1-0\t-\t{:016x}\t{:016x}\t{}\nend\n",
+  write(note, fmt::format("deck unfinished 3\n1-0\t{:016x}\t{:016x}\t{}\nend\n",
                           deck::content_hash(contact), deck::content_hash("/TITLE\nnew\n"),
                           (dir_ / "common/x.inc").string()));
   fs::permissions(note, fs::perms::owner_read | fs::perms::owner_write);
@@ -288,6 +250,20 @@ TEST_F(Together, AReadingVerbLeavesAnInterruptedRewritingAlone) {
   EXPECT_FALSE(fs::exists(note) || fs::exists(temporary));
 }
 
+TEST_F(Together, AnInterruptedRewritingOfAnEngineFileIsFinished) {
+  write(dir_ / "a/a_0001.rad", "/RUN/a/1\n1.0\n");
+  write(dir_ / "a/.a_0001.rad.1-0.tmp", "/RUN/a/1\n2.0\n");
+  const fs::path note = dir_ / "a/.a_0000.rad.unfinished";
+  write(note, fmt::format("deck unfinished 3\n1-0\t{:016x}\t{:016x}\t{}\nend\n",
+                          deck::content_hash("/RUN/a/1\n1.0\n"),
+                          deck::content_hash("/RUN/a/1\n2.0\n"), (dir_ / "a/a_0001.rad").string()));
+  fs::permissions(note, fs::perms::owner_read | fs::perms::owner_write);
+  deck("lint a/a_0000.rad --root a --no-config --select DK093 --fix");
+  EXPECT_NE(err().find("was finished: 1 file"), std::string::npos) << err();
+  EXPECT_EQ(read(dir_ / "a/a_0001.rad"), "/RUN/a/1\n2.0\n");
+  EXPECT_FALSE(fs::exists(note));
+}
+
 TEST_F(Together, BatchDoesNotFollowLinksInTheDirectoryOfResults) {
   write(dir_ / "precious", "precious\n");
   write(dir_ / "home/thesis", "precious\n");
@@ -298,17 +274,6 @@ TEST_F(Together, BatchDoesNotFollowLinksInTheDirectoryOfResults) {
   EXPECT_EQ(read(dir_ / "precious"), "precious\n");
   EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(dir_ / "results/a_0000.json")));
   EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(dir_ / "results/summary.json")));
-  // A record that somebody laid there removes nothing outside of the results.
-  write(
-      dir_ / "results/.batch/x_0000.record",
-      fmt::format(
-          R"({{"verb":"params","decks":["x"],"settings":0,"contents":0,"done":true,)"
-          R"("in_place":false,"before":0,"lines":[],"outputs":{{"../precious":{}}},"former":{{}},)"
-          R"("losses":null}})",
-          deck::content_hash("precious\n")));
-  EXPECT_LE(deck("batch -o results a/a_0000.rad --verb 'params --no-geometry'"), 1) << err();
-  EXPECT_TRUE(fs::exists(dir_ / "precious"));
-  EXPECT_FALSE(fs::exists(dir_ / "results/.batch/x_0000.record"));
   // A link in place of the directory of its own notes is refused, and one in place of the lock.
   fs::remove_all(dir_ / "results");
   fs::create_directories(dir_ / "results");

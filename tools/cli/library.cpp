@@ -117,11 +117,13 @@ Result<std::vector<std::string>> decks_in_directories(const std::vector<std::str
   return decks;
 }
 
-std::string common_root(const std::vector<std::string>& directories,
+std::string common_root(const std::vector<std::string>& given,
                         const std::vector<std::string>& files) {
   std::optional<fs::path> root;
   const auto take = [&](const fs::path& path) { root = root ? shared_part(*root, path) : path; };
-  for (const std::string& d : directories) take(absolute_of(d));
+  std::error_code ec;
+  for (const std::string& d : given)
+    if (fs::is_directory(d, ec)) take(absolute_of(d));
   for (const std::string& f : files) take(absolute_of(f).parent_path());
   return root ? root->string() : std::string();
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "deck/text/result.hpp"
-#include "edit/shared/include_scan.hpp"
+#include "keyword/shared/include_scan.hpp"
 
 namespace deck::cli {
 
@@ -39,8 +39,8 @@ Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& gi
 Result<std::vector<std::string>> decks_in_directories(const std::vector<std::string>& given);
 bool names_directory(const std::vector<std::string>& given);
 
-/// The deepest directory that holds all of these files and directories, absolute.
-std::string common_root(const std::vector<std::string>& directories,
+/// The deepest directory that holds these files, and what of `given` is a directory; absolute.
+std::string common_root(const std::vector<std::string>& given,
                         const std::vector<std::string>& files);
 
 /// The git work tree that holds a file, else its folder.

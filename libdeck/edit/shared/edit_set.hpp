@@ -1,6 +1,6 @@
 // EditSet: the include trees of all decks of a call as one set of files. Every file is in it once,
-// by what it is and not by how it was named, with every deck that includes it; what each deck wants
-// its files to become is put together and written once, or refused where two decks disagree.
+// by where it is and not by how it was named, with every deck that includes it; what each deck
+// wants its files to become is put together and written once, or refused where two decks disagree.
 #pragma once
 #include <cstdint>
 #include <deque>
@@ -13,8 +13,8 @@
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/deck.hpp"
-#include "edit/shared/include_scan.hpp"
 #include "edit/shared/write.hpp"
+#include "keyword/shared/include_scan.hpp"
 
 namespace deck {
 
@@ -63,28 +63,21 @@ class EditSet {
   Result<std::string> diff() const;
 
   /// A deck that is not in the set and includes a file of it, too: the file cannot be changed in
-  /// place any more (an error that names the deck), only split.
+  /// place any more (an error that names the deck).
   void add_outsider(const FileIdentity& file, const std::string& deck);
-  /// Gives decks that want another text for a file than the others do, or than decks outside the
-  /// set need, a copy of their own beside it ("mesh_car.inc") and makes their #include lead there.
-  /// Error: an #include cannot be changed.
-  Result<void> split_includes();
 
-  /// The files that would change in place, by identity, also where that is refused.
-  std::set<FileIdentity> changed_files() const;
   /// `written` is a deck read from what was planned: what is not as it was proposed; empty:
   /// nothing.
   std::string read_back_difference(std::size_t deck, const Deck& written) const;
 
  private:
   struct File {
-    FileIdentity identity;  ///< {0, 0}: from memory, or a copy that is to be made
-    /// Where it is on disk, links resolved, and how it was opened: several if hard-linked.
-    std::vector<std::pair<std::string, std::string>> places;
-    std::deque<std::string> texts;  ///< as it was read, then what is wanted
-    std::string on_disk;            ///< of a packed file: what was unpacked
-    std::string outsider;           ///< a deck outside the set that includes it
-    bool is_new = false;            ///< a copy that is to be made
+    FileIdentity identity;               ///< inode 0: from memory
+    std::string place;                   ///< on disk, links resolved; empty: from memory
+    std::string path;                    ///< as it was opened first
+    std::deque<std::string> texts = {};  ///< as it was read, then what is wanted
+    std::string on_disk = {};            ///< of a packed file: what was unpacked
+    std::string outsider = {};           ///< a deck outside the set that includes it
   };
   /// A file of a deck.
   struct Use {
@@ -94,17 +87,11 @@ class EditSet {
     std::size_t text = 0;               ///< of the file's texts
     std::set<std::string> places = {};  ///< where the directives lead to, absolute
   };
-  /// An #include of a deck as it shall be, between its uses.
-  struct Edge {
-    std::size_t parent, child;
-    std::string written;
-  };
   struct Member {
     std::string name;
     std::vector<Use> uses = {};  ///< the main file first
     std::map<std::string, std::size_t, std::less<>> by_path = {};
-    std::vector<std::size_t> order = {};  ///< of uses, as the reader opens them
-    std::vector<Edge> edges = {};
+    std::vector<std::size_t> order = {};    ///< of uses, as the reader opens them
     std::vector<std::string> outside = {};  ///< included by an absolute path
     std::string no_place = {};              ///< why the tree cannot be written elsewhere
     std::string units = {};                 ///< "kg, mm, ms", as /BEGIN says
@@ -117,19 +104,14 @@ class EditSet {
 
   Result<std::size_t> enter(const Source& source);
   void lay_out(Member& member, const Deck& now, const std::string& main) const;
-  std::vector<std::vector<Claim>> claims() const;
   Result<std::vector<std::pair<const File*, Claim>>> changes() const;
   Error conflict(const Claim& a, const Claim& b, const std::string& where) const;
   Result<std::vector<std::string>> tops() const;
   const std::string& text_of(const Use& use) const { return files_[use.file].texts[use.text]; }
-  static std::size_t text_number(File& file, const std::string& text);
-  Result<void> redirect_to(Member& member, std::size_t child, const std::string& name);
-  std::string free_name(const std::string& path, const std::string& deck) const;
 
   std::string root_;
   std::deque<File> files_;
   std::vector<Member> decks_;
-  std::map<FileIdentity, std::size_t> by_identity_;
   std::map<std::string, std::size_t> by_place_;
 };
 

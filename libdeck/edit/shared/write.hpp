@@ -31,9 +31,7 @@ struct OutputFile {
   /// Given: the file is replaced only if it still is the one that was read, byte for byte.
   std::optional<FileRead> read = std::nullopt;
   WritePieces pieces = nullptr;  ///< given: called once for the contents, instead of `bytes`
-  /// Not empty: what the contents were made from; kept with the file, see is_unchanged_output.
-  std::string origin = {};
-  bool is_main = false;  ///< of a deck: put in place after the others of the set
+  bool is_main = false;          ///< of a deck: put in place after the others of the set
 };
 
 struct WriteOptions {
@@ -70,8 +68,7 @@ Result<void> write_file_atomic(const std::string& path, const WritePieces& piece
 /// The same for several files: all of them are written and flushed beside their places before the
 /// first is renamed; main files are the last. If a rename fails, those made before are taken back.
 /// A kill between two renames leaves some files old and some new, each of them whole, and, if files
-/// have `read`, a note of what is missing; see finish_interrupted_write. Two entries that lead to
-/// the same file must have the same bytes.
+/// have `read`, a note of what is missing; see finish_interrupted_write.
 ///
 /// Files with `read` are compared with what was read, under a lock that others who write this way
 /// wait for, before any file is replaced and again just before each is. What remains: an edit saved
@@ -80,28 +77,17 @@ Result<void> write_file_atomic(const std::string& path, const WritePieces& piece
 Result<void> write_files_atomic(const std::vector<OutputFile>& files,
                                 const WriteOptions& options = {"", true, true, true});
 
-/// True if the file consists of the very bytes that were written to it with this `origin`: nobody
-/// has changed it since, and writing it again from the same origin loses nothing. Known from an
-/// extended attribute of the file (user.libdeck.origin); where the file system has none, or a copy
-/// lost it, false. Links are not followed.
-bool is_unchanged_output(const std::string& path, std::string_view origin);
-
-struct FinishedWrite {
-  std::size_t files = 0;  ///< put in place
-  std::string refused;  ///< "note: why": there is a note that cannot be ours, and it was left alone
-};
 /// Finishes a set of files whose writing was killed between two renames: puts the remaining new
-/// files in place and removes the note (".NAME.unfinished" beside the main file) that said so. No
-/// file is put in place where nothing was left to do, where the writer is still at work, and where
-/// somebody changed a file of the set since: then only the note is removed, and the new files
-/// beside the old ones.
+/// files in place, whose number it returns, and removes the note (".NAME.unfinished" beside the
+/// main file) that said so. No file is put in place where nothing was left to do, where the writer
+/// is still at work, and where somebody changed a file of the set since: then only the note is
+/// removed, and the new files beside the old ones.
 ///
-/// The note is believed only if it is a regular file (not a link) of the user with the mode that
-/// notes get, not too long, and if all it does is to rename temporaries of the user to the files
-/// beside them, which are in `tree`, the files of the decks that are to be rewritten. Error: a file
-/// cannot be put in place.
-Result<FinishedWrite> finish_interrupted_write(const std::string& main,
-                                               const std::vector<std::string>& tree);
+/// It is a note only if it is a regular file (not a link) of the user with the mode that notes get.
+/// Error: it is not whole, or would change other files than `tree`, those of the decks that are to
+/// be rewritten: then it is left alone; or a file cannot be put in place.
+Result<std::size_t> finish_interrupted_write(const std::string& main,
+                                             const std::vector<std::string>& tree);
 
 /// The note beside `main` that finish_interrupted_write would read; changes and opens nothing.
 std::optional<std::string> unfinished_note(const std::string& main);
@@ -110,6 +96,6 @@ std::optional<std::string> unfinished_note(const std::string& main);
 /// write leaves behind: ".TARGET.PID-NUMBER.tmp".
 std::optional<int> temporary_of(std::string_view name);
 /// True if it is one of the file `target`.
-bool is_temporary_of(std::string_view name, std::string_view target);
+bool is_temporary_of(std::string_view name, const std::string& target);
 
 }  // namespace deck

@@ -1,33 +1,23 @@
-// Extended attributes of written files: those of the file that is replaced are kept, and a result
-// has a note of what it was made from.
+// Extended attributes of the file that is replaced.
 #if __has_include(<sys/xattr.h>) && defined(__linux__)
 #include <sys/xattr.h>
 #define DECK_FILE_ATTRIBUTES 1
 #endif
 
-#include <fmt/format.h>
-
 #include <cerrno>
 #include <cstring>
 #include <optional>
 
-#include "base/shared/hash.hpp"
-#include "deck/text/source.hpp"
-#include "edit/shared/write.hpp"
 #include "edit/write/write_plan.hpp"
 
 namespace deck {
-namespace {
-
-std::string note_of(std::string_view origin, std::string_view bytes) {
-  return fmt::format("{:016x} {}", content_hash(bytes), origin);
-}
 
 #ifdef DECK_FILE_ATTRIBUTES
-constexpr const char* attribute = "user.libdeck.origin";
+namespace {
+
 constexpr const char* access_list = "system.posix_acl_access";
 
-/// A value of `get(buffer, size)`, which gives its size where there is no buffer; nullopt: none.
+/// A value of `get(buffer, size)`, which gives its size; nullopt: there is none.
 template <class Get>
 std::optional<std::string> attribute_of(const Get& get) {
   std::string value(65536, '\0');  // the most that Linux keeps
@@ -36,13 +26,10 @@ std::optional<std::string> attribute_of(const Get& get) {
   value.resize(static_cast<std::size_t>(size));
   return value;
 }
-#endif
 
 }  // namespace
 
-Result<void> detail::keep_attributes([[maybe_unused]] const std::string& from,
-                                     [[maybe_unused]] int to) {
-#ifdef DECK_FILE_ATTRIBUTES
+Result<void> detail::keep_attributes(const std::string& from, int to) {
   const auto names =
       attribute_of([&](char* b, std::size_t n) { return llistxattr(from.c_str(), b, n); });
   if (!names) return {};  // this file system has none
@@ -60,32 +47,10 @@ Result<void> detail::keep_attributes([[maybe_unused]] const std::string& from,
   // The directory may have given the new file one.
   if (!listed && fremovexattr(to, access_list) != 0 && errno != ENODATA && errno != ENOTSUP)
     return io_error("cannot keep the permissions of", from, errno);
-#endif
   return {};
 }
-
-void detail::note_origin([[maybe_unused]] int fd, std::string_view origin, std::string_view bytes) {
-  if (origin.empty()) return;
-  const std::string note = note_of(origin, bytes);
-#ifdef DECK_FILE_ATTRIBUTES
-  // Without it the file is like any other: that is all that can be lost.
-  if (fsetxattr(fd, attribute, note.data(), note.size(), 0) != 0) return;
-#endif
-}
-
-bool is_unchanged_output([[maybe_unused]] const std::string& path, std::string_view origin) {
-  if (origin.empty()) return false;
-#ifdef DECK_FILE_ATTRIBUTES
-  std::string note(17 + origin.size() + 1, '\0');  // a longer one is another
-  const ssize_t size = lgetxattr(path.c_str(), attribute, note.data(), note.size());
-  if (size != static_cast<ssize_t>(17 + origin.size())) return false;
-  note.pop_back();
-  if (!note.ends_with(origin)) return false;
-  const auto source = Source::open(path, Limits{});
-  return source && note == note_of(origin, (*source)->bytes());
 #else
-  return false;
+Result<void> detail::keep_attributes(const std::string&, int) { return {}; }
 #endif
-}
 
 }  // namespace deck

@@ -49,16 +49,11 @@ fs::path work_tree_of(const fs::path& path) {
   return {};
 }
 
-bool is_below(const fs::path& path, const fs::path& directory) {
-  const fs::path relative = path.lexically_relative(directory);
-  return !relative.empty() && *relative.begin() != "..";
-}
-
 /// What the paths of a patch are relative to.
 fs::path patch_root(const std::vector<fs::path>& files) {
   const auto holds = [&](const fs::path& directory) {
     return !directory.empty() && std::all_of(files.begin(), files.end(), [&](const fs::path& f) {
-      return is_below(f, directory);
+      return detail::lies_below(f, directory);
     });
   };
   if (files.empty()) return {};
@@ -73,32 +68,22 @@ fs::path patch_root(const std::vector<fs::path>& files) {
 }  // namespace
 
 Result<std::size_t> EditSet::enter(const Source& source) {
-  const FileIdentity identity{source.device(), source.inode()};
-  std::string place = source.path();
+  File file{{source.device(), source.inode()}, {}, source.path()};
   if (source.inode() != 0) {
     std::error_code ec;
-    if (const fs::path real = fs::canonical(place, ec); !ec) place = real.string();
-    const auto by_place = by_place_.find(place);
-    const auto found = by_identity_.find(identity);
-    if (found != by_identity_.end() || by_place != by_place_.end()) {
-      File& file = files_[found != by_identity_.end() ? found->second : by_place->second];
-      const bool same = by_place == by_place_.end() ||
-                        (found != by_identity_.end() && by_place->second == found->second);
-      if (!same || file.texts.front() != source.bytes())
-        return refuse(source.path() + " was changed while the decks were read (it is also " +
-                      file.places.front().second + "); nothing was written. Run the command again");
-      if (by_place_.emplace(place, found->second).second)
-        file.places.emplace_back(place, source.path());
-      return found->second;
+    const fs::path real = fs::canonical(source.path(), ec);
+    file.place = ec ? source.path() : real.string();
+    if (const auto [it, is_new] = by_place_.try_emplace(file.place, files_.size()); !is_new) {
+      const File& known = files_[it->second];
+      if (known.identity == file.identity && known.texts.front() == source.bytes())
+        return it->second;
+      return refuse(source.path() + " was changed while the decks were read (it is also " +
+                    known.path + "); nothing was written. Run the command again");
     }
-    by_identity_.emplace(identity, files_.size());
-    by_place_.emplace(place, files_.size());
   }
-  File& file = files_.emplace_back();
-  if (source.inode() != 0) file.identity = identity;
-  file.places.emplace_back(source.inode() != 0 ? place : std::string(), source.path());
   file.texts.emplace_back(source.bytes());
   if (source.packed()) file.on_disk = source.on_disk();
+  files_.push_back(std::move(file));
   return files_.size() - 1;
 }
 
@@ -124,19 +109,15 @@ Result<std::size_t> EditSet::add(const Deck& deck, std::string name) {
   return decks_.size() - 1;
 }
 
-/// The number of a text that is wanted for the file.
-std::size_t EditSet::text_number(File& file, const std::string& text) {
-  auto same = std::find(file.texts.begin(), file.texts.end(), text);
-  if (same == file.texts.end()) same = file.texts.insert(file.texts.end(), text);
-  return static_cast<std::size_t>(same - file.texts.begin());
-}
-
 void EditSet::propose(std::size_t deck, const Deck& now, const ChangedFiles& changed) {
   Member& member = decks_[deck];
   for (const auto& [path, text] : changed)
     if (const auto found = member.by_path.find(path); found != member.by_path.end()) {
       Use& use = member.uses[found->second];
-      use.text = text_number(files_[use.file], text);
+      auto& texts = files_[use.file].texts;
+      auto same = std::find(texts.begin(), texts.end(), text);
+      if (same == texts.end()) same = texts.insert(texts.end(), text);
+      use.text = static_cast<std::size_t>(same - texts.begin());
     }
   // A deck from memory stands where its document does.
   const std::string& main = now.sources[0].path();
@@ -144,13 +125,6 @@ void EditSet::propose(std::size_t deck, const Deck& now, const ChangedFiles& cha
           root_.empty() || now.sources[0].inode() != 0 || changed.empty()
               ? main
               : (fs::path(parent_path(member.name)) / fs::path(main).filename()).string());
-}
-
-std::vector<std::vector<EditSet::Claim>> EditSet::claims() const {
-  std::vector<std::vector<Claim>> out(files_.size());
-  for (std::size_t d = 0; d < decks_.size(); ++d)
-    for (const Use& use : decks_[d].uses) out[use.file].push_back({d, &use});
-  return out;
 }
 
 Error EditSet::conflict(const Claim& a, const Claim& b, const std::string& where) const {
@@ -175,24 +149,25 @@ Error EditSet::conflict(const Claim& a, const Claim& b, const std::string& where
 
 /// The files that change, by path, each with one of those who want that.
 Result<std::vector<std::pair<const EditSet::File*, EditSet::Claim>>> EditSet::changes() const {
+  std::map<std::size_t, Claim> claims;  // the first of each file
+  for (std::size_t d = 0; d < decks_.size(); ++d)
+    for (const Use& use : decks_[d].uses) {
+      const Claim& first = claims.try_emplace(use.file, Claim{d, &use}).first->second;
+      if (use.text != first.use->text) return conflict(first, {d, &use}, first.use->path);
+    }
   std::vector<std::pair<const File*, Claim>> out;
-  for (const std::vector<Claim>& all : claims()) {
-    if (all.empty()) continue;
-    const Claim& first = all.front();
-    const File& file = files_[first.use->file];
-    for (const Claim& claim : all)
-      if (claim.use->text != first.use->text) return conflict(first, claim, first.use->path);
+  for (const auto& [number, first] : claims) {
+    const File& file = files_[number];
     if (first.use->text == 0) continue;
     if (!file.outsider.empty())
       return refuse(first.use->path + " would change for " + decks_[first.deck].name + ", and " +
                     file.outsider +
-                    " includes it too; nothing was written. --with-dependents changes all decks "
-                    "that include it, --split-includes gives the deck its own copy");
+                    " includes it too; nothing was written. Change all decks that include it with "
+                    "--with-dependents, or give this deck a file of its own");
     out.emplace_back(&file, first);
   }
-  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
-    return a.first->places.front().second < b.first->places.front().second;
-  });
+  std::sort(out.begin(), out.end(),
+            [](const auto& a, const auto& b) { return a.first->path < b.first->path; });
   return out;
 }
 
@@ -207,18 +182,13 @@ Result<EditSet::Plan> EditSet::in_place() const {
   }
   for (const auto& [file, claim] : *changed) {
     const std::string& text = text_of(*claim.use);
-    if (file->is_new) {
-      plan.files.push_back({claim.use->path, text});
-      continue;
-    }
     if (file->identity == FileIdentity())
       return refuse(claim.use->path + " was not read from a file and cannot be rewritten");
     const bool packed = !file->on_disk.empty();
     const std::string_view bytes = packed ? plan.packed.emplace_back(gzip(text)) : text;
     const FileRead read{file->identity.first, file->identity.second,
                         packed ? std::string_view(file->on_disk) : file->texts.front()};
-    for (const auto& [place, path] : file->places)
-      plan.files.push_back({path, bytes, read, nullptr, {}, mains.contains(claim.use->file)});
+    plan.files.push_back({file->path, bytes, read, nullptr, mains.contains(claim.use->file)});
   }
   return plan;
 }
@@ -228,25 +198,20 @@ Result<std::string> EditSet::diff() const {
   if (!changed) return changed.error();
   std::vector<fs::path> places;
   for (const auto& [file, claim] : *changed)
-    for (const auto& [place, path] : file->places)
-      if (!place.empty()) places.emplace_back(place);
+    if (!file->place.empty()) places.emplace_back(file->place);
   const fs::path root = patch_root(places);
   // Paths of a patch with this line count from the top of the work tree, wherever git is called.
   std::error_code ec;
   const bool elsewhere = !root.empty() && root != fs::canonical(".", ec);
   std::string out;
-  for (const auto& [file, claim] : *changed)
-    for (const auto& [place, path] : file->places) {
-      std::string shown = place.empty() ? path : fs::path(place).lexically_relative(root).string();
-      if (!file->on_disk.empty()) shown = without_gz(shown);
-      const std::string hunks = unified_diff(shown, file->texts.front(), text_of(*claim.use));
-      if (!hunks.empty() && (elsewhere || file->is_new))
-        out += "diff --git a/" + shown + " b/" + shown + "\n";
-      if (file->is_new)
-        out += "new file mode 100644\n--- /dev/null\n" + hunks.substr(hunks.find('\n') + 1);
-      else
-        out += hunks;
-    }
+  for (const auto& [file, claim] : *changed) {
+    std::string shown =
+        file->place.empty() ? file->path : fs::path(file->place).lexically_relative(root).string();
+    if (!file->on_disk.empty()) shown = without_gz(shown);
+    const std::string hunks = unified_diff(shown, file->texts.front(), text_of(*claim.use));
+    if (!hunks.empty() && elsewhere) out += "diff --git a/" + shown + " b/" + shown + "\n";
+    out += hunks;
+  }
   return out;
 }
 
@@ -262,18 +227,8 @@ std::string EditSet::read_back_difference(std::size_t deck, const Deck& written)
 }
 
 void EditSet::add_outsider(const FileIdentity& file, const std::string& deck) {
-  const auto found = by_identity_.find(file);
-  if (found != by_identity_.end() && files_[found->second].outsider.empty())
-    files_[found->second].outsider = deck;
-}
-
-std::set<FileIdentity> EditSet::changed_files() const {
-  std::set<FileIdentity> out;
-  for (const Member& member : decks_)
-    for (const Use& use : member.uses)
-      if (use.text != 0 && files_[use.file].identity != FileIdentity())
-        out.insert(files_[use.file].identity);
-  return out;
+  for (File& known : files_)
+    if (known.identity == file && known.outsider.empty()) known.outsider = deck;
 }
 
 }  // namespace deck

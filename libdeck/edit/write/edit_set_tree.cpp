@@ -5,6 +5,7 @@
 
 #include "base/shared/paths.hpp"
 #include "edit/shared/edit_set.hpp"
+#include "edit/write/write_plan.hpp"
 #include "text/shared/gzip.hpp"
 
 namespace deck {
@@ -12,19 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using detail::lies_below;
 Error no_tree(std::string why) { return {Error::Code::config, std::move(why)}; }
-
-bool lies_below(const fs::path& path, const fs::path& directory) {
-  const fs::path relative = path.lexically_relative(directory);
-  return !relative.empty() && *relative.begin() != "..";
-}
 
 }  // namespace
 
-/// Order, directives and places of the files: where the directives lead from `main`, where the main
+/// Order and places of the files: where the directives lead from `main`, where the main
 /// file is taken to lie. What no directive names lies beside it and belongs to it: Engine files.
 void EditSet::lay_out(Member& member, const Deck& now, const std::string& main) const {
-  member.edges.clear();
   member.order.clear();
   member.outside.clear();
   std::vector<std::size_t> use(now.sources.size(), 0);  // of its files
@@ -41,7 +37,6 @@ void EditSet::lay_out(Member& member, const Deck& now, const std::string& main) 
   place[0] = top / fs::path(main).filename();
   for (const IncludeEdge& e : now.includes) {
     included[e.file] = true;
-    member.edges.push_back({use[e.parent], use[e.file], e.written});
     const Source& opened = now.sources[e.file];
     if (fs::path(e.written).is_absolute() || place[e.parent].empty()) {
       // Its directive leads to the original, and so do those of the files it includes.
@@ -143,9 +138,7 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
     const std::string& text = text_of(*claim.use);
     const std::string_view bytes =
         has_gz_name(target) ? plan.packed.emplace_back(gzip(text)) : text;
-    const std::string origin = claim.use->path == "-" ? "" : absolute_path(claim.use->path);
-    plan.files.push_back(
-        {target, bytes, std::nullopt, nullptr, origin, claim.use->directive.empty()});
+    plan.files.push_back({target, bytes, std::nullopt, nullptr, claim.use->directive.empty()});
   }
   plan.outside.assign(outside.begin(), outside.end());
   return plan;

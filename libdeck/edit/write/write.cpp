@@ -11,11 +11,8 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <set>
 #include <thread>
-#include <tuple>
 
 #include "base/shared/hash.hpp"
 #include "base/shared/paths.hpp"
@@ -82,6 +79,18 @@ bool wait_for_lock(int fd) {
   return false;
 }
 
+/// Makes a file beside `path` and says what it is called; -1: see errno.
+int make_temporary(const std::string& path, mode_t mode, std::string& name) {
+  int fd = -1;
+  // A name is taken by another thread, or by what a killed process of the same number left.
+  for (int number = 0; number < 10000; ++number) {
+    name = temporary_name(path, std::to_string(getpid()) + "-" + std::to_string(number));
+    fd = open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (fd >= 0 || errno != EEXIST) break;
+  }
+  return fd;
+}
+
 /// A set of files on its way to the disk. Whatever is not committed is taken back by the
 /// destructor.
 class Transaction {
@@ -99,8 +108,9 @@ class Transaction {
  private:
   struct Entry {
     const OutputFile* file = nullptr;
-    std::string target, temporary;
-    std::string former = {};  ///< another name of the old file
+    std::string target;          ///< links resolved, unless they are to be replaced
+    std::string temporary = {};  ///< the new file until it is in place
+    std::string former = {};     ///< another name of the old file
     struct stat old {};
     bool exists = false, special = false, placed = false;
   };
@@ -115,9 +125,7 @@ class Transaction {
 
   const WriteOptions& options_;
   std::vector<Entry> entries_;
-  /// (device and inode of the directory, name) -> entry
-  std::map<std::tuple<dev_t, ino_t, std::string>, std::size_t> by_target_;
-  std::vector<std::string> temporaries_, made_, backups_;
+  std::vector<std::string> made_, backups_;
   std::vector<int> locks_;
   std::string note_;
   int note_file_ = -1;
@@ -125,17 +133,18 @@ class Transaction {
 };
 
 Transaction::~Transaction() {
-  for (auto e = entries_.rbegin(); e != entries_.rend() && !committed_; ++e) {
-    if (e->placed && !e->exists) unlink(e->target.c_str());
-    // Where that fails the old file stays under its other name: it is the only one left.
-    if (e->placed && !e->former.empty()) {
+  for (auto e = entries_.rbegin(); e != entries_.rend(); ++e) {
+    if (!committed_ && e->placed && !e->exists) unlink(e->target.c_str());
+    if (!committed_ && e->placed && !e->former.empty()) {
+      // Where that fails the old file stays under its other name: it is the only one left.
       (void)std::rename(e->former.c_str(), e->target.c_str());
-      std::erase(temporaries_, e->former);
+      e->former.clear();
     }
+    for (const std::string& name : {e->temporary, e->former})
+      if (!name.empty()) unlink(name.c_str());
   }
   for (const std::string& b : backups_)
     if (!committed_) unlink(b.c_str());
-  for (const std::string& t : temporaries_) unlink(t.c_str());
   if (!note_.empty()) unlink(note_.c_str());
   if (note_file_ >= 0) close(note_file_);
   for (const int lock : locks_) close(lock);
@@ -156,23 +165,17 @@ Result<void> Transaction::make_directories(const std::string& directory) {
 
 /// Locks on the directories whose files are rewritten, held while that is done: two programs of
 /// this kind never compare and replace at the same time. Where a file system has no locks, or a
-/// directory may not be read, there is none.
+/// directory may not be read, there is none. The order of a set is the same for all programs, so
+/// that two of them cannot wait for each other for ever.
 Result<void> Transaction::lock_directories(const std::set<std::string>& directories) {
-  // Always in the same order, so that two programs cannot wait for each other for ever.
-  std::map<std::pair<dev_t, ino_t>, int> by_identity;
   for (const std::string& d : directories) {
-    struct stat status {};
     const int fd = open(d.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd < 0) continue;
     locks_.push_back(fd);
-    if (fstat(fd, &status) == 0) by_identity.emplace(std::pair{status.st_dev, status.st_ino}, fd);
-  }
-  for (const auto& [identity, fd] : by_identity)
     if (!wait_for_lock(fd))
-      return Error{
-          Error::Code::config,
-          "another program is writing to " + *directories.begin() +
-              " (or another directory of these decks) and does not finish; nothing was written"};
+      return Error{Error::Code::config, "another program is writing to " + d +
+                                            " and does not finish; nothing was written"};
+  }
   return {};
 }
 
@@ -193,28 +196,23 @@ Result<void> check_way(const std::string& directory, const std::string& path) {
 }
 
 Result<void> Transaction::prepare(const OutputFile& file) {
-  Entry entry;
-  entry.file = &file;
   if (!options_.below.empty())
     if (auto clear = check_way(options_.below, file.path); !clear) return clear;
+  Entry entry{&file, file.path};
   // Before links are followed: those of /proc (/dev/stdout) lead to no path.
   entry.special = options_.follow_links && stat(file.path.c_str(), &entry.old) == 0 &&
                   !S_ISREG(entry.old.st_mode) && !S_ISDIR(entry.old.st_mode);
-  auto target = entry.special || !options_.follow_links ? Result<std::string>(file.path)
-                                                        : follow_links(file.path);
-  if (!target) return target.error();
-  entry.target = std::move(*target);
+  if (!entry.special && options_.follow_links) {
+    auto target = follow_links(file.path);
+    if (!target) return target.error();
+    entry.target = std::move(*target);
+  }
   const std::string directory = directory_of(entry.target);
   if (options_.make_directories)
     if (auto made = make_directories(directory); !made) return made;
-  struct stat status {};
-  if (stat(directory.c_str(), &status) != 0) return io_error("cannot write", file.path, errno);
-  const auto [it, is_new] = by_target_.try_emplace(
-      {status.st_dev, status.st_ino, fs::path(entry.target).filename().string()}, entries_.size());
-  if (!is_new) {
-    if (entries_[it->second].file->bytes == file.bytes) return {};
-    return Error{Error::Code::config, "two different contents would be written to " + entry.target};
-  }
+  std::error_code ec;
+  entry.target = (fs::canonical(directory, ec) / fs::path(entry.target).filename()).string();
+  if (ec) return io_error("cannot write", file.path, ec.value());
   // A link that is not to be followed, or a pipe in its place, is replaced like no file at all.
   if (lstat(entry.target.c_str(), &entry.old) == 0 &&
       (entry.special || !S_ISLNK(entry.old.st_mode))) {
@@ -224,23 +222,17 @@ Result<void> Transaction::prepare(const OutputFile& file) {
     if (faccessat(AT_FDCWD, entry.target.c_str(), W_OK, AT_EACCESS) != 0)
       return io_error("cannot write", file.path, errno);
   }
-  if (!entry.special)
-    if (auto written = write_new(entry); !written) return written;
   entries_.push_back(std::move(entry));
-  return {};
+  return entries_.back().special ? Result<void>() : write_new(entries_.back());
 }
 
 Result<void> Transaction::write_new(Entry& entry) {
   const OutputFile& file = *entry.file;
-  int fd = -1;
   // The mode of a file that is replaced is set before it has contents that others must not see.
-  const mode_t mode = entry.exists ? 0600 : 0666;
-  const auto name = take_temporary(entry.target, [&](const char* path) {
-    return fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-  });
-  if (!name) return io_error("cannot create a file beside", file.path, errno);
-  temporaries_.push_back(*name);
-  entry.temporary = *name;
+  std::string name;
+  const int fd = make_temporary(entry.target, entry.exists ? 0600 : 0666, name);
+  if (fd < 0) return io_error("cannot create a file beside", file.path, errno);
+  entry.temporary = name;
   const auto fill = [&]() -> Result<void> {
     if (entry.exists) {
       // Only root may give files away; for others a changed owner is what replacing means.
@@ -253,7 +245,6 @@ Result<void> Transaction::write_new(Entry& entry) {
       if (auto kept = keep_attributes(entry.target, fd); !kept) return kept;
     }
     if (auto written = write_contents(fd, file); !written) return written;
-    if (!file.pieces) note_origin(fd, file.origin, file.bytes);
     if (options_.sync && !flush(fd)) return io_error("cannot flush", file.path, errno);
     return {};
   };
@@ -290,31 +281,29 @@ Result<void> Transaction::back_up(const Entry& entry) {
 Result<void> Transaction::lay_note() {
   std::vector<Step> steps;
   for (const Entry& e : entries_) {
-    if (e.special || e.file->pieces) return {};
-    std::error_code ec;
-    Step s{fs::absolute(e.target, ec).string(), suffix_of(e.temporary), suffix_of(e.former), 0,
-           content_hash(e.file->bytes)};
-    if (e.file->read) s.old_hash = content_hash(e.file->read->bytes);
-    if (e.exists && !e.file->read) return {};
-    if (s.target.find_first_of("\t\n") != std::string::npos) return {};
-    steps.push_back(std::move(s));
+    if (!e.file->read || e.target.find_first_of("\t\n") != std::string::npos) return {};
+    steps.push_back({e.target, suffix_of(e.temporary), content_hash(e.file->read->bytes),
+                     content_hash(e.file->bytes)});
   }
   const auto main = follow_links(options_.note_beside.empty() ? entries_.back().file->path
                                                               : options_.note_beside);
   if (!main) return main.error();
-  const auto name = take_temporary(*main, [&](const char* path) {
-    return note_file_ = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, note_mode);
-  });
-  if (!name) return io_error("cannot create a file beside", *main, errno);
-  temporaries_.push_back(*name);
-  if (auto written = write_all(note_file_, note_text(steps), *main); !written) return written;
-  if (options_.sync && !flush(note_file_)) return io_error("cannot flush", *name, errno);
+  const std::string note = note_name(*main);
+  std::string name;
+  note_file_ = make_temporary(*main, note_mode, name);
+  if (note_file_ < 0) return io_error("cannot create a file beside", *main, errno);
+  Result<void> done = write_all(note_file_, note_text(steps), *main);
+  if (done && options_.sync && !flush(note_file_)) done = io_error("cannot flush", name, errno);
   // Without locks an abandoned note could not be told from one of a writer that is at work.
-  if (!lock_file(note_file_)) return {};
-  note_ = note_name(*main);
-  if (std::rename(name->c_str(), note_.c_str()) != 0) return io_error("cannot make", note_, errno);
-  std::erase(temporaries_, *name);
-  return {};
+  if (done && lock_note(note_file_)) {
+    if (std::rename(name.c_str(), note.c_str()) == 0) {
+      note_ = note;
+      return {};
+    }
+    done = io_error("cannot make", note, errno);
+  }
+  unlink(name.c_str());
+  return done;
 }
 
 Result<void> Transaction::place(Entry& entry) {
@@ -322,7 +311,7 @@ Result<void> Transaction::place(Entry& entry) {
     if (auto same = check_as_read(entry.target, *read, entry.file->path); !same) return same;
   if (std::rename(entry.temporary.c_str(), entry.target.c_str()) != 0)
     return io_error("cannot put in place", entry.file->path, errno);
-  std::erase(temporaries_, entry.temporary);  // the name is free for others now
+  entry.temporary.clear();  // the name is free for others now
   entry.placed = true;
   return {};
 }
@@ -355,18 +344,16 @@ Result<void> Transaction::commit() {
   for (const Entry& e : entries_)
     if (!options_.backup_suffix.empty() && e.exists && !e.special)
       if (auto done = back_up(e); !done) return done;
-  for (Entry& e : entries_) {
-    if (!e.exists || e.special || entries_.size() < 2) continue;
-    // To be able to go back. Without hard links that is not possible, and not needed for one file.
-    const auto former =
-        take_temporary(e.target, [&](const char* path) { return link(e.target.c_str(), path); });
-    if (!former) continue;
-    temporaries_.push_back(*former);
-    e.former = *former;
-  }
-  if (!rewritten.empty() && entries_.size() > 1) {
-    if (auto done = lay_note(); !done) return done;
-    if (auto done = flush_directories(); !done) return done;
+  if (entries_.size() > 1) {
+    if (!rewritten.empty())
+      if (auto done = lay_note(); !done) return done;
+    // To be able to go back. Without hard links that is not possible.
+    for (Entry& e : entries_)
+      if (const std::string name = former_name(e.target, suffix_of(e.temporary));
+          e.exists && !e.special && link(e.target.c_str(), name.c_str()) == 0)
+        e.former = name;
+    if (!rewritten.empty())
+      if (auto done = flush_directories(); !done) return done;
   }
   for (Entry& e : entries_)
     if (!e.special)

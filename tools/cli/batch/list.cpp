@@ -15,7 +15,7 @@
 #include "batch/record.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/source.hpp"
-#include "edit/shared/include_scan.hpp"
+#include "keyword/shared/include_scan.hpp"
 #include "library.hpp"
 #include "text/shared/gzip.hpp"
 

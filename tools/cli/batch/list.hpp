@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "deck/text/result.hpp"
-#include "edit/shared/include_scan.hpp"
+#include "keyword/shared/include_scan.hpp"
 
 namespace deck::cli {
 

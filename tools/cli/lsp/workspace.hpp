@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "edit/shared/include_scan.hpp"
+#include "keyword/shared/include_scan.hpp"
 #include "lsp/analysis.hpp"
 #include "lsp/rpc.hpp"
 

@@ -17,7 +17,7 @@
 
 #include "base/shared/paths.hpp"
 #include "deck/report/gaps.hpp"
-#include "edit/shared/include_scan.hpp"
+#include "keyword/shared/include_scan.hpp"
 #include "library.hpp"
 #include "report/shared/json.hpp"
 

@@ -21,8 +21,7 @@ void add_write_options(CommandLine& line, WriteChoice& choice) {
               "Directory to write to; made if missing. The include tree keeps its relative names")
       .value("DIR");
   line.flag("--overwrite", choice.overwrite,
-            "With -o: replace decks and includes in DIR that differ (earlier results of the same "
-            "files, if unchanged since, are replaced without it)");
+            "With -o: replace decks and includes in DIR that differ");
   line.flag("--in-place", choice.in_place, "Change the files of the deck");
   line.flag("--backup{.orig}", choice.backup_suffix,
             "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX); a "
@@ -41,9 +40,6 @@ void add_dependent_options(CommandLine& line, WriteChoice& choice) {
       .value("DIR");
   group.flag("--with-dependents", choice.with_dependents,
              "Also change all other decks that include a file of these decks");
-  group.flag("--split-includes", choice.split_includes,
-             "Give the deck its own copy of a file that others need unchanged (also with -o: if "
-             "decks of the call need different texts)");
 }
 
 std::string usage_error(const WriteChoice& choice) {
@@ -54,8 +50,6 @@ std::string usage_error(const WriteChoice& choice) {
   if (!choice.backup_suffix.empty() && !choice.in_place) return "--backup goes with --in-place";
   if (choice.with_dependents && !changes) return "--with-dependents goes with --in-place or --diff";
   if (!choice.root.empty() && !changes) return "--root goes with --in-place or --diff";
-  if (choice.with_dependents && choice.split_includes)
-    return "--with-dependents and --split-includes exclude each other";
   std::error_code ec;
   if (!choice.root.empty() && !fs::is_directory(choice.root, ec))
     return "--root " + choice.root + ": there is no such directory";
@@ -65,26 +59,28 @@ std::string usage_error(const WriteChoice& choice) {
 namespace {
 
 /// Finishes what a kill left half written, if there is a note of it beside `main`, one of the
-/// decks, which are to be rewritten. True if files changed. Error: a note that is not believed.
-Result<bool> finish_interrupted(const std::string& main, const std::vector<std::string>& decks,
-                                const CommonOptions& common) {
-  if (!unfinished_note(main)) return false;
+/// decks, which are to be rewritten. Returns how many files changed.
+Result<std::size_t> finish_interrupted(const std::string& main,
+                                       const std::vector<std::string>& decks,
+                                       const CommonOptions& common) {
+  if (!unfinished_note(main)) return std::size_t{0};
   std::vector<std::string> tree;
   IncludeScan scan(common.include_paths);
-  for (const std::string& deck : decks)
+  for (const std::string& deck : decks) {
     for (const IncludeScan::File& f : scan.files(deck)) tree.push_back(f.path);
+    for (std::string& engine : engine_files_beside(deck)) tree.push_back(std::move(engine));
+  }
   const auto done = finish_interrupted_write(main, tree);
-  if (!done) return done.error();
-  if (!done->refused.empty())
-    return Error{Error::Code::config,
+  if (!done)
+    return Error{done.error().code,
                  "a rewriting of " + main +
-                     " was interrupted and cannot be finished: " + done->refused +
+                     " was interrupted and cannot be finished: " + done.error().message +
                      "; nothing was written. Give all decks of that call again, or remove the "
                      "note if it is not wanted"};
-  if (done->files > 0 && !common.quiet)
+  if (*done > 0 && !common.quiet)
     print_messages(fmt::format("deck: note: the interrupted writing of {} was finished: {}\n",
-                               terminal_text(main), count(done->files, "file", "files")));
-  return done->files > 0;
+                               terminal_text(main), count(*done, "file", "files")));
+  return done;
 }
 
 }  // namespace
@@ -93,26 +89,24 @@ Result<std::map<FileIdentity, std::string>> look_after(std::vector<std::string>&
                                                        const WriteChoice& choice,
                                                        const CommonOptions& common) {
   const std::vector<std::string> named = decks;
-  std::map<FileIdentity, std::string> outsiders;
-  std::string where;
-  for (bool again = true; again;) {
+  while (true) {
     auto dependents = find_dependents(named, choice.root, common.include_paths);
     if (!dependents) return dependents.error();
-    where = dependents->where();
     decks = named;
     if (choice.with_dependents)
       decks.insert(decks.end(), dependents->decks.begin(), dependents->decks.end());
-    else
-      outsiders = std::move(dependents->shared);
-    again = false;  // unless other files lie there now
+    std::size_t changed = 0;
     for (const std::string& deck : decks) {
-      const auto changed = common.rewrites ? finish_interrupted(deck, decks, common) : false;
-      if (!changed) return changed.error();
-      again = again || *changed;
+      const auto done = common.rewrites ? finish_interrupted(deck, decks, common) : 0;
+      if (!done) return done.error();
+      changed += *done;
     }
+    if (changed > 0) continue;  // other files lie there now
+    if (const std::string where = dependents->where(); !where.empty() && !common.quiet)
+      print_note(where);
+    if (choice.with_dependents) dependents->shared.clear();
+    return std::move(dependents->shared);
   }
-  if (!where.empty() && !common.quiet) print_note(where);
-  return outsiders;
 }
 
 Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& given,
@@ -126,18 +120,12 @@ Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& 
     root_ = frame->root;
     outsiders_ = frame->outsiders;
   } else if (!choice_.directory.empty() && names_directory(given)) {
-    std::vector<std::string> directories, files;
-    std::error_code ec;
-    for (const std::string& path : given)
-      if (fs::is_directory(path, ec)) directories.push_back(path);
+    std::vector<std::string> files = *all;
     IncludeScan scan(common_.include_paths);
-    for (const std::string& deck : *all)
-      if (ending == deck_ending)
-        for (const IncludeScan::File& f : scan.files(deck)) files.push_back(f.path);
-      else
-        files.push_back(deck);
-    root_ = common_root(directories, files);
-  } else if ((choice_.in_place || choice_.diff) && ending == deck_ending) {
+    for (std::size_t d = 0; d < all->size() && ending == deck_ending; ++d)
+      for (const IncludeScan::File& f : scan.files((*all)[d])) files.push_back(f.path);
+    root_ = common_root(given, files);
+  } else if ((choice_.in_place || choice_.with_dependents) && ending == deck_ending) {
     auto outsiders = look_after(*all, choice_, common_);
     if (!outsiders) return outsiders.error();
     outsiders_ = std::move(*outsiders);
@@ -185,20 +173,13 @@ Result<void> Changes::read_back(const EditSet::Plan& plan) const {
   return {};
 }
 
-Result<void> Changes::add_outsiders() {
-  if (choice_.in_place || choice_.split_includes)
-    for (const auto& [file, deck] : outsiders_) set_.add_outsider(file, deck);
-  return choice_.split_includes ? set_.split_includes() : Result<void>();
-}
-
 /// What will lie where.
 Result<EditSet::Plan> Changes::plan() {
-  if (auto added = add_outsiders(); !added) return added.error();
+  if (choice_.in_place)
+    for (const auto& [file, deck] : outsiders_) set_.add_outsider(file, deck);
   auto plan = choice_.in_place ? set_.in_place() : set_.tree(choice_.directory);
   if (plan && choice_.read_back)
     if (auto same = read_back(*plan); !same) return same.error();
-  if (plan && common_.session->frame != nullptr)  // a batch keeps a record of its own
-    for (OutputFile& f : plan->files) f.origin.clear();
   return plan;
 }
 
@@ -208,19 +189,6 @@ OutputRules Changes::rules(bool deck_tree) const {
   rules.overwrite = deck_tree && choice_.overwrite;
   if (const BatchFrame* frame = common_.session->frame) rules.ours = frame->ours;
   return rules;
-}
-
-Result<std::string> Changes::diff() {
-  if (auto added = add_outsiders(); !added) return added.error();
-  for (const FileIdentity& file : set_.changed_files())
-    if (const auto other = outsiders_.find(file); other != outsiders_.end()) {
-      if (!common_.quiet && !choice_.split_includes)
-        print_note(other->second +
-                   " also includes a file that would change: --in-place refuses this " +
-                   "without --with-dependents or --split-includes");
-      break;
-    }
-  return set_.diff();
 }
 
 Result<void> Changes::check() {

@@ -14,10 +14,10 @@ namespace deck::cli {
 struct WriteChoice {
   std::string directory, backup_suffix, root;
   bool in_place = false, diff = false, overwrite = false;
-  bool with_dependents = false, split_includes = false;
+  bool with_dependents = false;
   bool read_back = false;  ///< what was planned is read as it will lie there before it is written
 };
-/// Options that fill a choice, and of them --root, --with-dependents, --split-includes alone.
+/// Options that fill a choice, and of them --root and --with-dependents alone.
 void add_write_options(CommandLine& line, WriteChoice& choice);
 void add_dependent_options(CommandLine& line, WriteChoice& choice);
 /// What is wrong with the combination; empty: nothing.
@@ -52,12 +52,11 @@ class Changes {
   /// What write() would refuse, or diff() where there is no place to write to.
   Result<void> check();
   /// The patch.
-  Result<std::string> diff();
+  Result<std::string> diff() const { return set_.diff(); }
   /// Writes results that are no decks the same way.
   Result<void> write_documents(const std::vector<OutputFile>& files, bool list);
 
  private:
-  Result<void> add_outsiders();
   Result<EditSet::Plan> plan();
   Result<void> read_back(const EditSet::Plan& plan) const;
   OutputRules rules(bool deck_tree) const;

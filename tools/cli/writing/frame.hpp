@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "deck/edit/rewrite.hpp"
-#include "edit/shared/include_scan.hpp"
 #include "edit/shared/write.hpp"
+#include "keyword/shared/include_scan.hpp"
 
 namespace deck::cli {
 

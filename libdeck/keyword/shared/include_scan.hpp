@@ -14,6 +14,10 @@ namespace deck {
 /// backslash.
 std::vector<std::string> included_names(std::string_view text);
 
+/// The Engine files beside a Starter deck, NAME_0000.rad: number 1 and on, up to the first that is
+/// not there. Of a packed deck also packed ones.
+std::vector<std::string> engine_files_beside(std::string_view deck);
+
 /// A file by what it is: device and inode.
 using FileIdentity = std::pair<std::uint64_t, std::uint64_t>;
 
