@@ -161,14 +161,29 @@ def together_or_not(c, tmp):
     text = json.dumps(entry)
     c.check("an include in two unit systems: both decks are named, with their units", r.code == 2 and "car00_0000.rad" in text and "car01_0000.rad" in text and
             "Mg, mm, s" in text and "kg, mm, ms" in text and entry["status"] == "failed", text)
-    r = c.run("batch", "-o", out, lib, "--verb", "convert --units kg,m,ms --split-includes")
-    c.check("--split-includes gives it a copy of its own", r.code == 0 and any("mat_" in k for k in results(out)), r.text[-300:] + str(list(results(out))))
     open(bad, "w").write(good)
     r = c.run("batch", "-o", out, lib, *verb)
-    c.check("mended: converted, and the copy of before is gone", r.code == 0 and not any("mat_" in k for k in results(out)), r.text[-200:])
+    c.check("mended: converted", r.code == 0 and any(k.startswith("family000") for k in results(out)), r.text[-200:])
+    # Refused after it was written: its files are still the batch's own, and are replaced when it is mended.
+    open(bad, "w").write(other)
+    refused = c.run("batch", "-o", out, lib, *verb)
+    open(bad, "w").write(good.replace("/END", "/TITLE\nnewer\n/END"))
+    r = c.run("batch", "-o", out, lib, *verb)
+    with open(os.path.join(out, "family000", "deck01", "car01_0000.rad")) as f:
+        c.check("refused and mended again: replaced", refused.code == 2 and r.code == 0 and "newer" in f.read(), "%s; %s" % (refused.code, r.text[-200:]))
+    # A file that somebody edited is not the batch's own any more.
+    edited = os.path.join(out, "family000", "deck01", "car01_0000.rad")
+    with open(edited, "a") as f:
+        f.write("# edited\n")
+    by_hand = open(edited).read()
+    open(bad, "w").write(good)
+    r = c.run("batch", "-o", out, lib, *verb)
+    c.check("a result that somebody edited is not replaced", r.code == 2 and "--overwrite" in r.text and open(edited).read() == by_hand, r.text[-300:])
+    os.remove(edited)
     shutil.rmtree(os.path.join(lib, "family001"))
     r = c.run("batch", "-o", out, lib, *verb)
-    c.check("decks that are gone take their results along", r.code == 0 and not any(k.startswith("family001") for k in results(out)), str(list(results(out))))
+    c.check("decks that are gone leave the summary; no deck is deleted", r.code == 0 and len(entries(out)) == 3 and any(
+        k.startswith("family001") for k in results(out)), str(list(results(out))))
 
 
 def in_place(c, tmp):

@@ -106,6 +106,39 @@ Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& gi
   return out;
 }
 
+std::vector<std::string> take_includes(std::vector<std::string>& found,
+                                       const std::vector<std::string>& given, IncludeScan& scan) {
+  std::set<std::string> named;
+  for (const std::string& path : given) named.insert(find_deck(path));
+  if (std::all_of(found.begin(), found.end(),
+                  [&](const std::string& path) { return named.contains(path); }))
+    return {};
+  std::vector<std::vector<IncludeScan::File>> trees;
+  std::set<FileIdentity> below;  // files that some deck includes
+  for (const std::string& path : found) {
+    trees.push_back(scan.files(path));
+    for (const IncludeScan::File& f : trees.back())
+      if (f.identity != trees.back().front().identity) below.insert(f.identity);
+  }
+  // Decks that include each other are decks: reading them says what is wrong.
+  std::map<FileIdentity, std::string> includer;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (const IncludeScan::File& f : trees[i])
+      if (!below.contains(trees[i].front().identity)) includer.emplace(f.identity, found[i]);
+  std::vector<std::string> notes, decks;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto by = trees[i].empty() || !below.contains(trees[i].front().identity)
+                        ? includer.end()
+                        : includer.find(trees[i].front().identity);
+    if (by == includer.end() || named.contains(found[i]))
+      decks.push_back(found[i]);
+    else
+      notes.push_back(found[i] + " is included by " + by->second + " and is not run by itself");
+  }
+  found = std::move(decks);
+  return notes;
+}
+
 Error no_deck_in(const std::string& directory, std::string_view ending) {
   return {Error::Code::io, directory + ": no *" + std::string(ending) + " in this directory"};
 }

@@ -38,6 +38,10 @@ Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& gi
 /// Error: a directory without a deck.
 Result<std::vector<std::string>> decks_in_directories(const std::vector<std::string>& given);
 bool names_directory(const std::vector<std::string>& given);
+/// Takes the files out of `found`, what `given` stands for, that other decks among them include,
+/// and returns a note of each. What is named itself is taken for a deck.
+std::vector<std::string> take_includes(std::vector<std::string>& found,
+                                       const std::vector<std::string>& given, IncludeScan& scan);
 
 /// The deepest directory that holds these files, and what of `given` is a directory; absolute.
 std::string common_root(const std::vector<std::string>& given,

@@ -47,15 +47,17 @@ void parse_writing(BatchTask& task, const CommandLine& line) {
   task.root = value_among(task.words, "--root");
 }
 
+Error config_error(std::string why) { return {Error::Code::config, std::move(why)}; }
+
 /// Error: no such verb, or options that it does not take.
-Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all) {
+Result<BatchTask> parse_task(const BatchOptions& o) {
   const auto refuse = [&](const std::string& why) {
-    return Error{Error::Code::config, "--verb '" + o.verb + "': " + why};
+    return config_error("--verb '" + o.verb + "': " + why);
   };
   BatchTask task;
   const std::vector<std::string> words = split_words(o.verb);
   if (words.empty()) return refuse("name a verb");
-  for (const Verb& v : all)
+  for (const Verb& v : verbs())
     if (v.name == words.front() && is_verb_of_a_batch(v.name)) task.verb = v;
   if (task.verb.setup == nullptr)
     return refuse("expected lint, params, gaps, cycle, convert or fix");
@@ -119,10 +121,7 @@ std::vector<BatchJob> plan_jobs(const BatchOptions& o, BatchTask& task, const Ba
       trees[d] = scan.files(deck);
   }
   std::vector<BatchJob> jobs;
-  std::vector<std::string> directories, files;
-  std::error_code ec;
-  for (const std::string& path : o.common.decks)
-    if (std::filesystem::is_directory(path, ec)) directories.push_back(path);
+  std::vector<std::string> files;
   for (std::vector<std::size_t>& group : sharing_groups(trees)) {
     BatchJob& job = jobs.emplace_back();
     for (const std::size_t i : group) job.decks.push_back(list.decks[i].path);
@@ -134,63 +133,63 @@ std::vector<BatchJob> plan_jobs(const BatchOptions& o, BatchTask& task, const Ba
     job.record.contents = found.contents;
     job.files = std::move(found.paths);
   }
-  if (task.writes) task.frame_root = common_root(directories, files);
+  if (task.writes) task.frame_root = common_root(o.common.decks, files);
   return jobs;
-}
-
-int usage(const BatchOptions& o, const std::string& message) {
-  print_error(o.common, message);
-  return exit_usage;
 }
 
 /// --merge: the whole from the summaries of all shards.
 int merge(const BatchOptions& o) {
+  auto merged = merge_shards(o.directory);
   if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
-    return usage(o, "--merge takes no decks: it merges the summaries in DIR");
-  const auto merged = merge_shards(o.directory);
-  if (!merged) return usage(o, merged.error().message);
+    merged = config_error("--merge takes no decks: it merges the summaries in DIR");
+  if (!merged) {
+    print_error(o.common, merged.error().message);
+    return exit_usage;
+  }
   remove_strays(o.directory);
   return write_overview(o, {}, *merged, 0);
+}
+
+/// The run that is asked for. Error: io where there is nothing to read.
+Result<BatchRun> plan(const BatchOptions& o) {
+  const auto shard = parse_shard(o.shard);
+  if (!shard) return shard.error();
+  auto task = parse_task(o);
+  if (!task) return task.error();
+  // Other verbs are the first word behind the program.
+  const std::string first = o.common.decks.empty() ? "" : o.common.decks.front();
+  std::error_code ec;
+  if (is_verb_of_a_batch(first) && !std::filesystem::exists(first, ec))
+    return config_error("'" + first + "' is read as the name of a deck, which does not exist; " +
+                        "name the verb with --verb " + first);
+  IncludeScan scan(o.common.include_paths);
+  auto list = list_decks(o.common.decks, o.manifest, task->ending, o.directory, scan);
+  if (!list) return list.error();
+  o.common.session->remember_read(o.manifest);
+  if (list->decks.empty() && !first.empty()) return no_deck_in(first, task->ending);
+  if (list->decks.empty())
+    return config_error("no decks: name some, or a directory, or a --manifest");
+  for (const std::string& note : list->notes)
+    if (!o.common.quiet) print_note(note);
+  if (const auto schemas = load_schemas(o.common); !schemas)
+    return config_error(schemas.error().message);
+  if (task->in_place)
+    if (auto prepared = prepare_in_place(o, *task, *list); !prepared)
+      return config_error(prepared.error().message);
+  std::vector<BatchJob> jobs;
+  std::vector<BatchJob> all = plan_jobs(o, *task, *list);
+  for (std::size_t g = 0; g < all.size(); ++g)
+    if (shard->has(g)) jobs.push_back(std::move(all[g]));
+  return BatchRun{o, std::move(*task), std::move(*list), *shard, std::move(jobs)};
 }
 
 int run(const BatchOptions& o) {
   if (const int bad = check_outputs(o.common, {o.common.json}); bad != exit_clean) return bad;
   if (o.merge) return merge(o);
-  const auto shard = parse_shard(o.shard);
-  if (!shard) return usage(o, shard.error().message);
-  auto task = parse_task(o, verbs());
-  if (!task) return usage(o, task.error().message);
-  // Other verbs are the first word behind the program.
-  const std::string first = o.common.decks.empty() ? "" : o.common.decks.front();
-  std::error_code ec;
-  if (is_verb_of_a_batch(first) && !std::filesystem::exists(first, ec))
-    return usage(o, "'" + first +
-                        "' is read as the name of a deck, which does not exist; name the verb "
-                        "with --verb " +
-                        first);
-  IncludeScan scan(o.common.include_paths);
-  auto list = list_decks(o.common.decks, o.manifest, task->ending, o.directory, scan);
-  if (!list) return usage(o, list.error().message);
-  o.common.session->remember_read(o.manifest);
-  if (list->decks.empty() && list->includes.empty() && !first.empty()) {
-    print_error(o.common, no_deck_in(first, task->ending).message);
-    return exit_input;
-  }
-  if (list->decks.empty())
-    return usage(o, list->includes.empty()
-                        ? "no decks: name some, or a directory, or a --manifest"
-                        : "no decks among the files found: " + list->includes.front().path + " " +
-                              list->includes.front().why);
-  if (const auto schemas = load_schemas(o.common); !schemas)
-    return usage(o, schemas.error().message);
-  if (task->in_place)
-    if (auto prepared = prepare_in_place(o, *task, *list); !prepared)
-      return usage(o, prepared.error().message);
-  std::vector<BatchJob> jobs;
-  std::vector<BatchJob> all = plan_jobs(o, *task, *list);
-  for (std::size_t g = 0; g < all.size(); ++g)
-    if (shard->has(g)) jobs.push_back(std::move(all[g]));
-  return run_batch({o, std::move(*task), std::move(*list), *shard, std::move(jobs)});
+  auto run = plan(o);
+  if (run) return run_batch(std::move(*run));
+  print_error(o.common, run.error().message);
+  return run.error().code == Error::Code::io ? exit_input : exit_usage;
 }
 
 Action setup(CommandLine& line) {

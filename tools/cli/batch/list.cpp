@@ -1,8 +1,6 @@
 // Walks directories and manifests and names the results.
 #include "batch/list.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -14,8 +12,6 @@
 #include "base/shared/paths.hpp"
 #include "batch/record.hpp"
 #include "deck/text/number.hpp"
-#include "deck/text/source.hpp"
-#include "keyword/shared/include_scan.hpp"
 #include "library.hpp"
 #include "text/shared/gzip.hpp"
 
@@ -82,81 +78,23 @@ std::vector<std::string> result_names(const std::vector<fs::path>& paths) {
   return names;
 }
 
-/// True for a text with keywords that no deck can be: without head and /BEGIN. An Engine file, a
-/// page, binary data or nothing at all are decks that cannot be read.
-bool is_part_of_a_deck(const std::string& path) {
-  const auto source = Source::open_text(path, Limits{});
-  if (!source) return false;
-  const std::string_view text = (*source)->bytes();
-  constexpr std::size_t head = 4096;  // as far as the banner is looked for
-  if (text.substr(0, head).find("#RADIOSS STARTER") != text.npos) return false;
-  for (const std::string line : {"/BEGIN", "/RUN/"})
-    if (text.starts_with(line) || text.find("\n" + line) != text.npos) return false;
-  // The first line that is no comment.
-  for (std::string_view line = text; !line.empty();) {
-    if (line.starts_with("#include ")) return true;
-    if (std::string_view("#$\r\n").find(line[0]) == line.npos)
-      return line[0] == '/' && line.size() > 1 && line[1] >= 'A' && line[1] <= 'Z';
-    line.remove_prefix(std::min(line.find('\n'), line.size() - 1) + 1);
-  }
-  return false;
-}
-
-/// Takes the files out of `found` that are includes; see list_decks.
-std::vector<IncludeFile> take_includes(std::vector<std::string>& found,
-                                       const std::vector<std::string>& named, IncludeScan& scan) {
-  std::set<std::string> by_name;
-  for (const std::string& path : named) by_name.insert(find_deck(path));
-  if (std::all_of(found.begin(), found.end(),
-                  [&](const std::string& path) { return by_name.contains(path); }))
-    return {};
-  std::vector<std::vector<IncludeScan::File>> trees;
-  std::set<FileIdentity> below;  // files that some deck includes
-  for (const std::string& path : found) {
-    trees.push_back(scan.files(path));
-    for (const IncludeScan::File& f : trees.back())
-      if (f.identity != trees.back().front().identity) below.insert(f.identity);
-  }
-  // Decks that include each other are decks: reading them says what is wrong.
-  std::map<FileIdentity, std::string> includer;
-  for (std::size_t i = 0; i < found.size(); ++i)
-    for (const IncludeScan::File& f : trees[i])
-      if (!below.contains(trees[i].front().identity)) includer.emplace(f.identity, found[i]);
-  std::vector<IncludeFile> includes;
-  std::vector<std::string> decks;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const auto by = trees[i].empty() || !below.contains(trees[i].front().identity)
-                        ? includer.end()
-                        : includer.find(trees[i].front().identity);
-    if (!by_name.contains(found[i]) && by != includer.end())
-      includes.push_back({found[i], "included by " + by->second});
-    else if (!by_name.contains(found[i]) && is_part_of_a_deck(found[i]))
-      includes.push_back({found[i], "has neither '#RADIOSS STARTER' nor /BEGIN"});
-    else
-      decks.push_back(found[i]);
-  }
-  found = std::move(decks);
-  return includes;
-}
-
 }  // namespace
 
-Result<BatchList> list_decks(const std::vector<std::string>& given, const std::string& manifest,
+Result<BatchList> list_decks(std::vector<std::string> given, const std::string& manifest,
                              std::string_view ending, const std::string& output,
                              IncludeScan& scan) {
-  std::vector<std::string> named = given;
   if (!manifest.empty()) {
     const auto lines = manifest_lines(manifest);
     if (!lines) return lines.error();
-    named.insert(named.end(), lines->begin(), lines->end());
+    given.insert(given.end(), lines->begin(), lines->end());
   }
-  if (std::find(named.begin(), named.end(), "-") != named.end())
+  if (std::find(given.begin(), given.end(), "-") != given.end())
     return Error{Error::Code::config,
                  "standard input cannot be one of many decks; --manifest - reads the list from it"};
-  auto found = expand_decks(named, ending, output);
+  auto found = expand_decks(given, ending, output);
   if (!found) return found.error();
   BatchList list;
-  if (ending == deck_ending) list.includes = take_includes(*found, named, scan);
+  if (ending == deck_ending) list.notes = take_includes(*found, given, scan);
   std::vector<fs::path> paths;
   for (const std::string& path : *found) paths.push_back(absolute_path(path));
   const auto names = result_names(paths);
@@ -176,15 +114,7 @@ DeckFiles files_of_decks(const std::vector<std::string>& decks, IncludeScan& sca
     const auto tree = scan.files(deck);
     if (tree.empty()) add(deck, 0);
     for (const IncludeScan::File& f : tree) add(f.path, f.contents);
-    std::string name = without_gz(deck);
-    if (!name.ends_with(deck_ending)) continue;
-    name.resize(name.size() - deck_ending.size());
-    for (int number = 1;; ++number) {
-      const std::string engine = fmt::format("{}_{:04}.rad", name, number);
-      const std::uint64_t plain = file_hash(engine), packed = file_hash(engine + ".gz");
-      if (plain == 0 && packed == 0) break;
-      add(engine, plain == 0 ? packed : plain);
-    }
+    for (const std::string& engine : engine_files_beside(deck)) add(engine, file_hash(engine));
   }
   out.contents = content_hash(text);
   return out;

@@ -18,15 +18,9 @@ struct BatchDeck {
   std::string result;  ///< file name in the output directory, "car_0000.json"
 };
 
-/// A file that was found but is no deck of its own.
-struct IncludeFile {
-  std::string path;
-  std::string why;  ///< "included by a_0000.rad"
-};
-
 struct BatchList {
   std::vector<BatchDeck> decks;
-  std::vector<IncludeFile> includes;  ///< not run
+  std::vector<std::string> notes;  ///< of files that were found, but are includes and not run
 };
 
 /// The decks in the order given: the arguments, then the lines of `manifest` (empty: none, "-":
@@ -35,13 +29,12 @@ struct BatchList {
 /// manifest or directory that cannot be read, a pattern that matches nothing, "-" as a deck.
 ///
 /// Of what directories and patterns stand for, a file that another deck of the list includes is an
-/// include, and so is one that has keywords, but neither the head of a deck nor /BEGIN. What is
-/// named itself is taken for a deck.
+/// include. What is named itself is taken for a deck.
 ///
 /// A result is named after the deck's file name without extension. Where that is not unique, the
 /// name of the directory is put before it ("left--car_0000.json"), and of the one above as long as
 /// needed; what is still equal is numbered.
-Result<BatchList> list_decks(const std::vector<std::string>& given, const std::string& manifest,
+Result<BatchList> list_decks(std::vector<std::string> given, const std::string& manifest,
                              std::string_view ending, const std::string& output, IncludeScan& scan);
 
 /// The files of decks, as far as they can be found, with Engine files, which some verbs look at.

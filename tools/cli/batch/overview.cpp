@@ -22,7 +22,7 @@ constexpr std::string_view style = R"(
 @media(prefers-color-scheme:dark){:root{--ground:#10151b;--panel:#171e27;--ink:#e7edf4;--muted:#93a2b4;
 --line:#263140;--accent:#7fb2ff;--bad:#ff8a80;--warn:#ffc069;--good:#7bd3a0}}
 body{margin:0 auto;padding:20px;max-width:1500px;background:var(--ground);color:var(--ink);font:14px/1.5 system-ui,sans-serif}
-h1{font-size:20px;margin:0;overflow-wrap:anywhere}h2{font-size:16px}p{color:var(--muted)}a{color:var(--accent)}
+h1{font-size:20px;margin:0;overflow-wrap:anywhere}p{color:var(--muted)}a{color:var(--accent)}
 table{display:block;overflow-x:auto;border-collapse:collapse;background:var(--panel);font-variant-numeric:tabular-nums}
 th,td{border-bottom:1px solid var(--line);padding:.35em .8em;text-align:left;vertical-align:top}
 th{white-space:nowrap}th button{font:inherit;color:inherit;background:none;border:0;padding:0;cursor:pointer}
@@ -186,7 +186,7 @@ std::string page_row(const Row& r, const std::vector<Field>& fields) {
 std::string summary_page(const Json& s) {
   const std::vector<Row> rows = rows_of(s);
   const std::vector<Field> fields = fields_of(rows);
-  std::string what = text_in(s, "verb"), totals, filters, titles, lines, includes;
+  std::string what = text_in(s, "verb"), totals, filters, titles, lines;
   for (const Json& word : s.at("arguments")) what += " " + word.get<std::string>();
   what = html_text(what);
   std::map<const Level*, int, std::greater<>> numbers;
@@ -201,11 +201,6 @@ std::string summary_page(const Json& s) {
   for (const Field& f : fields)
     titles += fmt::format("<th{}>{}</th>", f.align == Align::right ? " class=\"n\"" : "", f.title);
   for (const Row& r : rows) lines += page_row(r, fields);
-  for (const Json& f : s.at("includes"))
-    includes += "<tr><td>" + html_text(text_in(f, "file")) + "</td><td>" +
-                html_text(text_in(f, "why")) + "</td></tr>\n";
-  if (!includes.empty())
-    includes = "<h2>Includes, not run</h2>\n<table><tbody>\n" + includes + "</tbody></table>\n";
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>deck batch: {0}</title>\n"
@@ -213,14 +208,13 @@ std::string summary_page(const Json& s) {
       "<p>{2}{3}; <a href=\"./summary.json\">summary.json</a></p>\n"
       "<div class=\"filters\" role=\"group\" aria-label=\"Only decks of a level\" "
       "hidden>{4}</div>\n"
-      "<table><thead><tr>{5}<th>what</th></tr></thead><tbody>\n{6}</tbody></table>\n{7}"
-      "<script>{8}</script>\n</body></html>\n",
-      what, style, count(rows.size(), "deck", "decks"), totals, filters, titles, lines, includes,
-      script);
+      "<table><thead><tr>{5}<th>what</th></tr></thead><tbody>\n{6}</tbody></table>\n"
+      "<script>{7}</script>\n</body></html>\n",
+      what, style, count(rows.size(), "deck", "decks"), totals, filters, titles, lines, script);
 }
 
 std::string summary_table(const Json& s, std::size_t width, bool color) {
-  constexpr std::size_t most_rows = 40, most_includes = 5;
+  constexpr std::size_t most_rows = 40;
   std::vector<Row> rows = rows_of(s);
   const std::size_t all = rows.size();
   std::erase_if(rows, [](const Row& r) { return r.status == "clean"; });
@@ -253,13 +247,6 @@ std::string summary_table(const Json& s, std::size_t width, bool color) {
     if (clean > 0)
       out += fmt::format("{} clean {} not listed\n", clean, clean == 1 ? "deck is" : "decks are");
   }
-  const Json& includes = s.at("includes");
-  for (std::size_t i = 0; i < std::min(includes.size(), most_includes); ++i)
-    out += fmt::format("include, not run: {} ({})\n", terminal_text(text_in(includes[i], "file")),
-                       terminal_text(text_in(includes[i], "why")));
-  if (includes.size() > most_includes)
-    out +=
-        fmt::format("... and {} includes more, see index.html\n", includes.size() - most_includes);
   return out;
 }
 

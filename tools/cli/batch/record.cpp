@@ -1,8 +1,6 @@
 // Keeps records as JSON.
 #include "batch/record.hpp"
 
-#include <dlfcn.h>
-
 #include <filesystem>
 
 #include "base/shared/hash.hpp"
@@ -25,28 +23,18 @@ void visit_record(AnyRecord& r, const Each& each) {
   each("before", r.before);
   each("lines", r.lines);
   each("outputs", r.outputs);
-  each("former", r.former);
   each("losses", r.losses);
 }
 
 }  // namespace
 
 std::string program_identity() {
-  std::string text =
-      std::string(library_version()) + " " + std::to_string(file_hash("/proc/self/exe"));
-  Dl_info library{};  // in a program that is linked statically that is the program itself
-  if (dladdr(reinterpret_cast<const void*>(&library_version), &library) != 0)
-    text += " " + std::to_string(file_hash(library.dli_fname));
-  return text;
+  return std::string(library_version()) + " " + std::to_string(file_hash("/proc/self/exe"));
 }
 
 std::uint64_t file_hash(const std::string& path) {
   const auto source = Source::open(path, Limits{});
   return source ? content_hash((*source)->bytes()) : 0;
-}
-
-bool is_as_written(const std::string& directory, const WrittenFiles::value_type& file) {
-  return file_hash((fs::path(directory) / file.first).string()) == file.second;
 }
 
 std::string record_text(const Record& r) {

@@ -23,13 +23,12 @@ struct Record {
   std::uint64_t contents = 0;      ///< hash of the files of the decks
   /// False: refused, or about to be written. Whether it then was written, `outputs` tell.
   bool done = false;
-  bool in_place = false;  ///< outputs are the decks themselves, which are never removed
+  bool in_place = false;  ///< outputs are the decks themselves
   /// Not 0: `contents` before the decks were converted in place, which must not be done twice.
   std::uint64_t before = 0;
   std::vector<Json> lines = {};  ///< of the decks in the summary
   WrittenFiles outputs = {};
-  WrittenFiles former = {};  ///< outputs of earlier runs that are none any more
-  Json losses = nullptr;     ///< a loss report
+  Json losses = nullptr;  ///< a loss report
 };
 
 std::string record_text(const Record& record);
@@ -40,11 +39,9 @@ std::string record_name(const std::string& result);
 /// The records of an output directory, by these names.
 std::map<std::string, Record> read_records(const std::string& directory);
 
-/// What identifies this program: its version and the hashes of its files.
+/// What identifies this program: its version and the hash of its file.
 std::string program_identity();
 /// Hash of a regular file; 0: there is none.
 std::uint64_t file_hash(const std::string& path);
-/// True if the file of an output directory is as it was written.
-bool is_as_written(const std::string& directory, const WrittenFiles::value_type& file);
 
 }  // namespace deck::cli

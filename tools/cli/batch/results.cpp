@@ -1,5 +1,4 @@
-// What a batch leaves at its end: summary, page, loss report; and what goes because nobody needs it
-// any more.
+// What a batch leaves at its end: summary, page, loss report; and no temporary files.
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
@@ -26,8 +25,11 @@ Result<void> write_result(const BatchOptions& o, const std::string& name, std::s
   return o.common.session->write_outputs({{o.in_directory(name), bytes}}, rules, options);
 }
 
-void remove_strays(const std::string& directory,
-                   const std::optional<std::set<std::string>>& names) {
+void remove_result(const BatchRun& run, const BatchJob& job) {
+  if (!run.task.converts()) unlink(run.o.in_directory(job.result).c_str());
+}
+
+void remove_strays(const fs::path& directory, const std::set<std::string>& names) {
   std::map<int, bool> processes;  // those that are gone
   // Waits a little for one that was killed with its parent.
   const auto is_gone = [&](int pid) {
@@ -40,13 +42,13 @@ void remove_strays(const std::string& directory,
   };
   std::error_code ec;
   for (auto it = fs::recursive_directory_iterator(
-           directory, fs::directory_options::skip_permission_denied, ec);
+           directory.empty() ? "." : directory, fs::directory_options::skip_permission_denied, ec);
        !ec && it != fs::recursive_directory_iterator(); it.increment(ec)) {
-    if (names) it.disable_recursion_pending();
+    if (!names.empty()) it.disable_recursion_pending();
     const std::string name = it->path().filename().string();
-    const auto of_ours = [&](const std::string& target) { return is_temporary_of(name, target); };
+    const auto is_of = [&](const std::string& target) { return is_temporary_of(name, target); };
     if (const auto process = temporary_of(name);
-        process && (!names || std::any_of(names->begin(), names->end(), of_ours)) &&
+        process && (names.empty() || std::any_of(names.begin(), names.end(), is_of)) &&
         is_gone(*process))
       unlink(it->path().c_str());
   }
@@ -54,46 +56,24 @@ void remove_strays(const std::string& directory,
 
 namespace {
 
-/// Removes what records name and the summary does not need: results and decks of groups that are
-/// gone or are others now, unless somebody changed them.
-void remove_leftovers(const std::string& directory, const std::map<std::string, Record>& records,
+/// Removes the documents of decks that are not in the list any more, or in another group, unless
+/// somebody changed them. Decks that were written stay.
+void remove_leftovers(const BatchOptions& o, const std::map<std::string, Record>& records,
                       const Json& summary) {
-  std::set<std::string> lines, decks, current;
+  std::set<std::string> results, decks;
   for (const Json& line : summary.at("decks")) {
-    lines.insert(line.dump());
+    results.insert(text_in(line, "result"));
     decks.insert(text_in(line, "deck"));
   }
-  const auto is_current = [&](const Record& r) {
-    return std::any_of(r.lines.begin(), r.lines.end(),
-                       [&](const Json& line) { return lines.contains(line.dump()); });
-  };
-  for (const auto& [path, r] : records)
-    if (is_current(r))
-      for (const auto& [file, hash] : r.outputs) current.insert(file);
-  const auto remove = [&](const Record& r, const WrittenFiles& files) {
-    for (const auto& file : files) {
-      const fs::path relative = fs::path(file.first).lexically_normal();
-      const bool result = std::any_of(r.lines.begin(), r.lines.end(), [&](const Json& line) {
-        return text_in(line, "result") == file.first;
-      });
-      if ((r.in_place && !result) || current.contains(file.first) || relative.is_absolute() ||
-          *relative.begin() == ".." || !is_as_written(directory, file))
-        continue;
-      unlink((fs::path(directory) / relative).c_str());
-      std::error_code ec;  // directories that are empty now
-      for (fs::path up = relative.parent_path();
-           !up.empty() && fs::remove(fs::path(directory) / up, ec); up = up.parent_path()) {
-      }
-    }
-  };
   for (const auto& [name, r] : records) {
-    remove(r, r.former);
-    if (is_current(r)) continue;
-    remove(r, r.outputs);
-    // What was converted in place must not be converted again, whatever this run said of it.
-    const bool listed = std::any_of(r.decks.begin(), r.decks.end(),
-                                    [&](const std::string& d) { return decks.contains(d); });
-    if (r.before == 0 || !listed) unlink((directory + "/" + name).c_str());
+    const std::string result = fs::path(name).stem().string() + ".json";
+    const auto written = r.outputs.find(result);
+    if (written != r.outputs.end() && !results.contains(result) &&
+        file_hash(o.in_directory(result)) == written->second)
+      unlink(o.in_directory(result).c_str());
+    if (std::none_of(r.decks.begin(), r.decks.end(),
+                     [&](const std::string& d) { return decks.contains(d); }))
+      unlink(o.in_directory(name).c_str());
   }
 }
 
@@ -112,26 +92,22 @@ std::string united_losses(const std::map<std::string, Record>& records, const Js
   return json_text(all);
 }
 
-Result<void> write_documents(const BatchOptions& o, const Shard& shard, const Json& summary) {
-  const std::string name = summary_name(shard);
-  const std::map<std::string, Record> records = read_records(o.directory);
-  std::map<std::string, std::string> documents = {{name, json_text(summary)}};
-  if (text_in(summary, "verb") == "convert")
-    documents["losses" + name.substr(std::string_view("summary").size())] =
-        united_losses(records, summary);
-  if (shard.whole()) documents["index.html"] = summary_page(summary);
-  if (shard.whole()) remove_leftovers(o.directory, records, summary);
-  for (const auto& [file, text] : documents)  // the summary is the last
-    if (auto done = write_result(o, file, text, true); !done) return done;
-  return {};
-}
-
 }  // namespace
 
 int write_overview(const BatchOptions& o, const Shard& shard, const Json& s, std::size_t kept) {
-  Result<void> written = write_documents(o, shard, s);
+  const std::string name = summary_name(shard);
+  const std::map<std::string, Record> records = read_records(o.directory);
+  std::map<std::string, std::string> documents = {{name, json_text(s)}};
+  if (text_in(s, "verb") == "convert")
+    documents["losses" + name.substr(std::string_view("summary").size())] =
+        united_losses(records, s);
+  if (shard.whole()) documents["index.html"] = summary_page(s);
+  if (shard.whole()) remove_leftovers(o, records, s);
+  Result<void> written;
+  for (const auto& [file, text] : documents)  // the summary is the last
+    if (written) written = write_result(o, file, text, true);
   if (written && !o.common.json.empty())
-    written = o.common.session->write_output(o.common.json, json_text(s));
+    written = o.common.session->write_output(o.common.json, documents[name]);
   if (!written) {
     print_error(o.common, written.error().message);
     return exit_usage;

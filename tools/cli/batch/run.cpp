@@ -21,9 +21,18 @@ namespace deck::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// The path of a file with what it contains.
+/// A path with what the file contains; with the JSON files (schemas) of a directory.
 std::string with_contents(const std::string& path) {
-  return "\n = " + path + " " + std::to_string(file_hash(path));
+  std::string text = "\n" + path;
+  std::set<std::string> files;
+  std::error_code ec;
+  if (fs::is_regular_file(path, ec)) files.insert(path);
+  if (fs::is_directory(path, ec))
+    for (auto it = fs::directory_iterator(path, ec); !ec && it != fs::directory_iterator();
+         it.increment(ec))
+      if (it->path().extension() == ".json") files.insert(it->path().string());
+  for (const std::string& file : files) text += " " + file + " " + std::to_string(file_hash(file));
+  return text;
 }
 
 /// Everything but the deck that decides about a result: program, verb, place and options. Files and
@@ -31,28 +40,17 @@ std::string with_contents(const std::string& path) {
 std::string settings_of_task(const BatchTask& task) {
   std::string text = program_identity() + "\n" + std::string(task.verb.name) + "\n" +
                      (task.in_place ? "" : task.frame_root);
-  std::error_code ec;
-  for (const std::string& word : task.options) {
-    text += "\n" + word;
-    if (fs::is_regular_file(word, ec)) text += with_contents(word);
-    if (!fs::is_directory(word, ec)) continue;
-    std::set<std::string> schemas;
-    for (auto it = fs::directory_iterator(word, ec); !ec && it != fs::directory_iterator();
-         it.increment(ec))
-      if (it->path().extension() == ".json") schemas.insert(it->path().string());
-    for (const std::string& s : schemas) text += with_contents(s);
-  }
+  for (const std::string& word : task.options) text += with_contents(word);
   return text;
 }
 
 /// Settings that a verb finds by itself, with their contents.
 std::string settings_of_deck(const BatchTask& task, const std::string& deck) {
-  if (task.verb.name != "lint" && task.verb.name != "gaps" && task.verb.name != "cycle") return {};
-  const auto config = find_lint_config(deck);
   std::string text;
-  if (config)
-    for (const std::string& path : {config->path, config->baseline, config->compare})
-      if (!path.empty()) text += with_contents(path);
+  if (task.verb.name == "lint" || task.verb.name == "gaps" || task.verb.name == "cycle")
+    if (const auto config = find_lint_config(deck))
+      for (const std::string& path : {config->path, config->baseline, config->compare})
+        text += with_contents(path);
   return text;
 }
 
@@ -88,33 +86,32 @@ void remove_temporaries(const BatchRun& run) {
   for (const BatchJob& job : run.jobs)
     for (const fs::path file : job.files)
       if (run.task.in_place) names[file.parent_path()].insert(file.filename().string());
-  for (const auto& [directory, files] : names)
-    remove_strays(directory.empty() ? "." : directory.string(), files);
+  for (const auto& [directory, files] : names) remove_strays(directory, files);
 }
 
-/// What need not be done, and what must not be.
-void take_over(const BatchRun& run, BatchJob& job) {
-  const Record now = job.record;
+/// What an earlier run says of the job: it need not be done, or must not be.
+void take_over(const BatchRun& run, BatchJob& job, const Record& r) {
+  const Record& now = job.record;
+  if (r.settings != now.settings) return;
+  // Documents are named after the first deck, among all of the list.
   const auto own = run.known.find(record_name(job.result));
-  for (const Record* r : job.known) {
-    if (r->settings != now.settings) continue;
-    // Documents are named after the first deck, among all of the list.
-    const bool named = run.task.converts() || (own != run.known.end() && r == &own->second);
-    const bool as_written =
-        named && r->decks == now.decks &&
-        std::all_of(r->outputs.begin(), r->outputs.end(),
-                    [&](const auto& file) { return is_as_written(run.o.directory, file); });
-    if (as_written && (r->done ? r->contents == now.contents : r->before != 0)) {
-      job.record = *r;
-      job.done = true;
-      if (r->done) continue;
-      job.record.done = true;  // it was announced, and is there
-      job.record.contents = now.contents;
-      // Else it is looked at once more next time.
-      (void)write_result(run.o, record_name(job.result), record_text(job.record), false);
-    } else if (r->before != 0 && r->before != now.contents) {
-      job.overtaken = true;  // converting it again would count twice
-    }
+  const bool as_written =
+      (run.task.converts() || (own != run.known.end() && &r == &own->second)) &&
+      r.decks == now.decks &&
+      std::all_of(r.outputs.begin(), r.outputs.end(), [&](const auto& file) {
+        return file_hash((fs::path(run.o.directory) / file.first).string()) == file.second;
+      });
+  if (as_written && (r.done ? r.contents == now.contents : r.before != 0)) {
+    const std::uint64_t contents = now.contents;
+    job.record = r;
+    job.done = true;
+    if (r.done) return;
+    job.record.done = true;  // it was announced, and is there
+    job.record.contents = contents;
+    // Else it is looked at once more next time.
+    (void)write_result(run.o, record_name(job.result), record_text(job.record), false);
+  } else if (r.before != 0 && r.before != now.contents) {
+    job.overtaken = true;  // converting it again would count twice
   }
 }
 
@@ -122,35 +119,34 @@ Result<void> prepare(BatchRun& run) {
   if (auto locked = lock_shard(run); !locked) return locked;
   remove_temporaries(run);
   run.known = read_records(run.o.directory);
-  std::map<std::string, std::vector<const Record*>> by_deck;
+  std::map<std::string, std::set<const Record*>> by_deck;
   for (const auto& [name, record] : run.known) {
     // The results of two verbs in one directory could not be told apart.
     if (record.verb != run.task.verb.name && !run.o.force)
       return Error{Error::Code::config,
                    run.o.directory + " holds the results of 'deck " + record.verb +
                        "'; name another directory, or replace them with --force"};
-    for (const std::string& deck : record.decks) by_deck[deck].push_back(&record);
-    for (const auto* files : {&record.outputs, &record.former})
-      for (const auto& [file, hash] : record.in_place ? WrittenFiles() : *files)
-        run.written.emplace(absolute_path((fs::path(run.o.directory) / file).string()), hash);
+    for (const std::string& deck : record.decks) by_deck[deck].insert(&record);
+    for (const auto& [file, hash] : record.in_place ? WrittenFiles() : record.outputs)
+      run.written.emplace(absolute_path((fs::path(run.o.directory) / file).string()), hash);
   }
   const std::string settings = settings_of_task(run.task);
   IncludeScan scan(run.o.common.include_paths);
   for (BatchJob& job : run.jobs) {
     std::string text = settings;
+    std::set<const Record*> known;
     for (const std::string& deck : job.decks) {
       text += settings_of_deck(run.task, deck);
       job.record.decks.push_back(as_utf8(deck));
-      for (const Record* record : by_deck[job.record.decks.back()])
-        if (std::find(job.known.begin(), job.known.end(), record) == job.known.end())
-          job.known.push_back(record);
+      known.merge(std::set(by_deck[job.record.decks.back()]));
     }
     job.record.verb = run.task.verb.name;
     job.record.in_place = run.task.in_place;
     job.record.settings = content_hash(text);
-    if (run.o.force || job.known.empty()) continue;
+    for (const Record* r : known) job.converted = job.converted || r->before != 0;
+    if (run.o.force || known.empty()) continue;
     if (!run.task.writes) job.record.contents = files_of_decks(job.decks, scan).contents;
-    take_over(run, job);
+    for (const Record* r : known) take_over(run, job, *r);
   }
   return {};
 }
@@ -168,8 +164,7 @@ void take(const BatchRun& run, BatchJob& job, const JobReport& report) {
   if (const std::string said = first_line(report.err); !said.empty())
     why = report.exit_code == exit_input ? said : why + ": " + said;
   for (const std::string& deck : job.decks) job.record.lines.push_back(deck_line(deck, code, why));
-  // A result of earlier would be taken for this one.
-  if (!run.task.converts()) unlink(run.o.in_directory(job.result).c_str());
+  remove_result(run, job);
 }
 
 /// Number of the signal that ended it, or 0. `kept`: decks that need not be done.
@@ -221,17 +216,14 @@ Result<int> work(BatchRun& run, std::size_t& kept) {
   });
 }
 
-/// Puts the parts together.
 Json summary_of(const BatchRun& run) {
   std::map<std::size_t, Json> lines;  // in the order of the list
   for (const BatchJob& job : run.jobs)
     for (std::size_t k = 0; k < job.decks.size(); ++k)
       lines.emplace(job.positions[k], job.record.lines[k]);
-  Json words = Json::array(), includes = Json::array();
+  Json words = Json::array();
   for (const std::string& word : run.task.words) words.push_back(as_utf8(word));
-  for (const IncludeFile& f : run.list.includes)
-    includes.push_back({{"file", as_utf8(f.path)}, {"why", as_utf8(f.why)}});
-  return make_summary(run.task.verb.name, words, includes, lines, run.shard, run.list.decks.size());
+  return make_summary(run.task.verb.name, words, lines, run.shard, run.list.decks.size());
 }
 
 }  // namespace

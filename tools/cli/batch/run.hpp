@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -53,13 +54,14 @@ struct BatchJob {
   std::vector<std::string> files = {};      ///< of the decks; where decks are written
   Record record = {};                       ///< contents 0: nobody has looked yet
   bool done = false;                        ///< the record is of an earlier run
-  bool overtaken = false;                   ///< was changed after it was converted in place
-  std::vector<const Record*> known = {};    ///< that have one of the decks
+  bool converted = false;                   ///< in place, by an earlier run
+  bool overtaken = false;                   ///< and was changed since
 };
 
 /// One process's part of a batch. Nothing is lost when it is killed: results are put in place
 /// whole, each group has a record that is written after them, and a run begins with what the
-/// records say and what still holds. Where decks are written, the record says before what will be.
+/// records say and what still holds. Where decks are converted in place, the record says before
+/// what will be.
 struct BatchRun {
   const BatchOptions& o;
   BatchTask task;
@@ -79,18 +81,19 @@ std::string work_on(const BatchRun& run, const BatchJob& job, const Captured& ou
 std::string first_line(std::string_view text);
 
 /// Puts a file of the results in place. A link or pipe of its name, which somebody who may write to
-/// the directory can lay there, is replaced, never followed.
+/// the directory can lay there, is replaced, never followed. `sync`: see WriteOptions.
 Result<void> write_result(const BatchOptions& o, const std::string& name, std::string_view bytes,
                           bool sync);
 
-/// Removes temporary files that a killed process left, of these names in one directory or of all
-/// names below it.
-void remove_strays(const std::string& directory,
-                   const std::optional<std::set<std::string>>& names = std::nullopt);
+/// Removes the document of a job that has none: one of earlier would be taken for it.
+void remove_result(const BatchRun& run, const BatchJob& job);
+/// Removes temporary files that a killed process left: of the files of these names in a directory,
+/// or (without names) of all files below it.
+void remove_strays(const std::filesystem::path& directory, const std::set<std::string>& names = {});
 
-/// Writes the summary. Of the whole also the overview, and what earlier runs wrote and this summary
-/// does not have is removed; of decks that were converted their loss report. Then prints the totals
-/// and writes the document for --json; the exit code. `kept`: decks that were done before.
+/// Writes the summary, of the whole also the overview, of decks that were converted their loss
+/// report. Then prints the totals and writes the document for --json; the exit code. `kept`: decks
+/// that were done before.
 int write_overview(const BatchOptions& o, const Shard& shard, const Json& summary,
                    std::size_t kept);
 

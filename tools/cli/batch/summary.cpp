@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include "common.hpp"
 #include "deck/text/source.hpp"
@@ -12,31 +11,6 @@
 namespace deck::cli {
 namespace fs = std::filesystem;
 namespace {
-
-/// On one line, but the document itself and its lists of objects: to these `depth` is 0 and 1.
-void spell(JsonWriter& json, const Json& v, int depth) {
-  if (v.is_object()) {
-    json.begin_object(depth > 0);
-    for (const auto& [name, member] : v.items()) spell(json.key(name), member, depth + 1);
-    json.end_object();
-  } else if (v.is_array()) {
-    json.begin_array(depth > 1 || v.empty() || !v.front().is_object());
-    for (const auto& item : v) spell(json, item, depth + 1);
-    json.end_array();
-  } else if (v.is_string()) {
-    json.value(v.get_ref<const std::string&>());
-  } else if (v.is_boolean()) {
-    json.value(v.get<bool>());
-  } else if (v.is_number_unsigned()) {
-    json.value(v.get<std::uint64_t>());
-  } else if (v.is_number_integer()) {
-    json.value(v.get<std::int64_t>());
-  } else if (v.is_number()) {
-    json.value(v.get<double>());
-  } else {
-    json.null();
-  }
-}
 
 Error refuse(std::string why) { return {Error::Code::config, std::move(why)}; }
 
@@ -110,12 +84,23 @@ int worst_code(const Json& decks) {
 std::string json_text(const Json& document) {
   std::string text;
   JsonWriter json(text);
-  spell(json, document, 0);
+  json.begin_object();
+  for (const auto& [name, member] : document.items()) {
+    json.key(name);
+    if (!member.is_array() || member.empty() || !member.front().is_object()) {
+      json.raw(member.dump());
+      continue;
+    }
+    json.begin_array();
+    for (const Json& item : member) json.raw(item.dump());
+    json.end_array();
+  }
+  json.end_object();
   return text;
 }
 
-Json make_summary(const Json& verb, const Json& arguments, const Json& includes,
-                  const std::map<std::size_t, Json>& decks, const Shard& shard, std::size_t all) {
+Json make_summary(const Json& verb, const Json& arguments, const std::map<std::size_t, Json>& decks,
+                  const Shard& shard, std::size_t all) {
   std::string head;
   JsonWriter json(head);
   json.begin_object();
@@ -143,7 +128,6 @@ Json make_summary(const Json& verb, const Json& arguments, const Json& includes,
                     {"positions", std::move(positions)}};
   out["totals"] = std::move(totals);
   out["decks"] = std::move(lines);
-  out["includes"] = includes;
   return out;
 }
 
@@ -152,10 +136,7 @@ std::string summary_name(const Shard& shard) {
   return "summary-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) + ".json";
 }
 
-namespace {
-
-/// The summaries of all shards, by name.
-Result<std::map<std::string, Json>> read_parts(const std::string& directory) {
+Result<Json> merge_shards(const std::string& directory) try {
   std::map<std::string, Json> parts;
   std::error_code ec;
   for (auto it = fs::directory_iterator(directory, ec); !ec && it != fs::directory_iterator();
@@ -163,60 +144,45 @@ Result<std::map<std::string, Json>> read_parts(const std::string& directory) {
     const std::string name = it->path().filename().string();
     if (!name.starts_with("summary-") || !name.ends_with(".json")) continue;
     const auto source = Source::open(it->path().string(), Limits{});
-    if (!source) return refuse(source.error().message);
-    parts[name] = Json::parse((*source)->bytes(), nullptr, false);
+    if (!source) return source.error();
+    parts[name] = Json::parse((*source)->bytes());
   }
-  if (ec) return refuse("cannot read " + directory + ": " + ec.message());
   if (parts.empty()) return refuse("there is no summary-i-of-n.json in " + directory);
-  return parts;
-}
-
-/// Throws where a part is no summary of a shard.
-Result<Json> merge_parts(const std::map<std::string, Json>& parts, const std::string& directory) {
-  const Json& first = parts.begin()->second;
+  const Json first = parts.begin()->second;
   const auto shards = first.at("shard").at("count").get<std::size_t>();
-  std::string missing;
-  std::set<std::string> wanted;
-  for (std::size_t i = 1; i <= shards; ++i)
-    if (!parts.contains(*wanted.insert(summary_name({i, shards})).first))
-      missing += " " + std::to_string(i) + "/" + std::to_string(shards);
-  if (!missing.empty()) return refuse("these shards are not finished:" + missing);
+  const Json& all = first.at("shard").at("decks_of_all");
   std::map<std::size_t, Json> whole;
-  for (const auto& [name, part] : parts) {
-    if (!wanted.contains(name))
-      return refuse(directory + " has summaries of " + std::to_string(shards) +
-                    " shards and others (" + name +
-                    "); remove those that do not belong to this run");
+  std::string missing;
+  for (std::size_t i = 1; i <= shards; ++i) {
+    const auto found = parts.extract(summary_name({i, shards}));
+    if (found.empty()) {
+      missing += " " + std::to_string(i) + "/" + std::to_string(shards);
+      continue;
+    }
+    const Json& part = found.mapped();
     const Json &shard = part.at("shard"), &decks = part.at("decks");
     (void)worst_code(decks);
     for (const char* same : {"schema", "tool", "verb", "arguments"})
-      if (part.at(same) != first.at(same) ||
-          shard.at("decks_of_all") != first.at("shard").at("decks_of_all"))
-        return refuse(name +
+      if (part.at(same) != first.at(same) || shard.at("decks_of_all") != all)
+        return refuse(found.key() +
                       " has another list of decks, verb, options or version of the program than "
                       "the other shards");
     for (std::size_t k = 0; k < decks.size(); ++k)
       whole.emplace(shard.at("positions").at(k).get<std::size_t>(), decks.at(k));
   }
-  if (whole.size() != first.at("shard").at("decks_of_all").get<std::size_t>())
+  if (!missing.empty()) return refuse("these shards are not finished:" + missing);
+  if (!parts.empty())
+    return refuse(directory + " has summaries of " + std::to_string(shards) +
+                  " shards and others (" + parts.begin()->first +
+                  "); remove those that do not belong to this run");
+  if (whole.size() != all.get<std::size_t>())
     return refuse(
         "the shards do not have all decks: the list, or files that the decks share, changed "
         "between the runs; run them again");
-  return make_summary(first.at("verb"), first.at("arguments"), first.at("includes"), whole, {},
-                      whole.size());
-}
-
-}  // namespace
-
-Result<Json> merge_shards(const std::string& directory) {
-  const auto parts = read_parts(directory);
-  if (!parts) return parts.error();
-  try {
-    return merge_parts(*parts, directory);
-  } catch (const std::exception& e) {
-    return refuse(directory +
-                  " has a summary-i-of-n.json that deck batch did not write: " + e.what());
-  }
+  return make_summary(first.at("verb"), first.at("arguments"), whole, {}, whole.size());
+} catch (const std::exception& e) {
+  return refuse(directory +
+                " has a summary-i-of-n.json that deck batch did not write: " + e.what());
 }
 
 }  // namespace deck::cli

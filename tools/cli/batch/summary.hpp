@@ -30,9 +30,9 @@ std::string text_in(const Json& object, const char* name);
 std::optional<double> counted(const Json& line, const char* name);
 
 /// `shard` has the decks at these places in the list of `all`.
-Json make_summary(const Json& verb, const Json& arguments, const Json& includes,
-                  const std::map<std::size_t, Json>& decks, const Shard& shard, std::size_t all);
-/// A document in the spelling of the library: lists of objects have a line an object.
+Json make_summary(const Json& verb, const Json& arguments, const std::map<std::size_t, Json>& decks,
+                  const Shard& shard, std::size_t all);
+/// A document as a text: lists of objects have a line an object.
 std::string json_text(const Json& document);
 /// Worst exit code of the decks.
 int worst_code(const Json& decks);

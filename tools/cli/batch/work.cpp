@@ -59,16 +59,16 @@ class GroupWork {
       call(output);
     keep_document();
     enter(frame_.written);
-    const bool converted_before = std::any_of(job_.known.begin(), job_.known.end(),
-                                              [](const Record* r) { return r->before != 0; });
     // What failed is tried again next time; what is converted in place by now must stay known.
-    if (worst_code(record_.lines) > exit_findings || (converted_before && !frame_.written))
+    if (worst_code(record_.lines) > exit_findings || (job_.converted && !frame_.written))
       return record_text(record_);
     // Refused, perhaps for a reason that is gone next time: a file that could not be read just now.
     record_.done = frame_.written || !task_.converts();
-    WrittenFiles outputs = frame_.written ? std::move(record_.outputs) : WrittenFiles();
-    if (head_) outputs[job_.result] = content_hash(document_);
-    set_outputs(std::move(outputs));
+    // What earlier runs wrote is still there.
+    if (const auto own = run_.known.find(record_name(job_.result));
+        task_.writes && !frame_.written && own != run_.known.end())
+      record_.outputs = own->second.outputs;
+    if (head_) record_.outputs[job_.result] = content_hash(document_);
     if (task_.in_place) record_.contents = contents_now();
     if (auto written = write_record(false); !written) {
       fail(exit_usage, written.error().message);
@@ -78,10 +78,10 @@ class GroupWork {
   }
 
  private:
-  /// Before decks are written: looks at what will be, and writes a record that says so.
+  /// Before decks are written: looks at what will be. Conversions in place must not be done twice:
+  /// for them a record says before what will be.
   Result<void> announce(const std::vector<OutputFile>& files) {
     const std::string directory = absolute_path(o_.directory);
-    WrittenFiles outputs;
     for (const OutputFile& f : files) {
       const std::string name =
           fs::path(absolute_path(f.path)).lexically_relative(directory).string();
@@ -89,41 +89,28 @@ class GroupWork {
           (name == "index.html" || name == "summary.json" || name == "losses.json"))
         return Error{Error::Code::config,
                      f.path + " is a file of the batch itself; give the deck another name"};
-      outputs[name] = content_hash(f.bytes);
+      record_.outputs[name] = content_hash(f.bytes);
     }
-    set_outputs(std::move(outputs));
-    if (task_.in_place && task_.converts() && !files.empty()) record_.before = job_.record.contents;
+    if (!task_.in_place || !task_.converts() || files.empty()) return {};
+    record_.before = record_.contents;
     code_ = exit_clean;
     enter(true);
     code_ = exit_internal;
-    return write_record(task_.in_place);
-  }
-
-  /// Files of earlier runs that are none of these any more are remembered until they are removed.
-  void set_outputs(WrittenFiles outputs) {
-    record_.outputs = std::move(outputs);
-    record_.former.clear();
-    for (const Record* known : job_.known)
-      for (const auto* files : {&known->outputs, &known->former})
-        for (const auto& file : *files)
-          if (!known->in_place && !record_.outputs.contains(file.first))
-            record_.former.insert(file);
+    return write_record(true);
   }
 
   /// Runs the verb.
   void call(const Captured& output) {
     Session session = *o_.common.session;
-    if (task_.writes) {
-      frame_.root = task_.frame_root;
-      frame_.outsiders = task_.outsiders;
-      frame_.ours = [this](const std::string& path) {
-        return run_.written.contains({absolute_path(path), file_hash(path)});
-      };
-      frame_.before_writing = [this](const std::vector<OutputFile>& files) {
-        return announce(files);
-      };
-      session.frame = &frame_;
-    }
+    frame_.root = task_.frame_root;
+    frame_.outsiders = task_.outsiders;
+    frame_.ours = [this](const std::string& path) {
+      return run_.written.contains({absolute_path(path), file_hash(path)});
+    };
+    frame_.before_writing = [this](const std::vector<OutputFile>& files) {
+      return announce(files);
+    };
+    if (task_.writes) session.frame = &frame_;
     try {
       code_ = run_verb(task_, job_.decks, session);
       document_ = output.out();
@@ -143,20 +130,13 @@ class GroupWork {
 
   /// Puts the document of the call in place.
   void keep_document() {
-    if (!document_.empty() && code_ != exit_internal) {
-      head_ = head_of(document_);
-      if (!head_) {
-        if (!task_.writes) fail(exit_internal, "the result is not JSON");
-      } else if (auto written =
-                     write_result(o_, job_.result, document_, false);  // flushed at the end
-                 !written) {
+    if (code_ != exit_internal) head_ = head_of(document_);
+    if (!head_ && !task_.writes && code_ <= exit_findings)
+      fail(exit_internal, document_.empty() ? "there is no result" : "the result is not JSON");
+    if (head_)  // flushed at the end
+      if (auto written = write_result(o_, job_.result, document_, false); !written)
         fail(exit_usage, written.error().message);
-      }
-    } else if (!task_.writes && code_ <= exit_findings) {
-      fail(exit_internal, "there is no result");
-    }
-    // A result of earlier would be taken for this one.
-    if (!head_ && !task_.converts()) unlink(o_.in_directory(job_.result).c_str());
+    if (!head_) remove_result(run_, job_);
   }
 
   /// The line of a deck. `refused`: nothing was written of the group; `first_failed` is to blame.
