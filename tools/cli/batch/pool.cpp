@@ -114,25 +114,23 @@ class Worker {
     int status = 0;
     if (recv(line_[0], &done, 1, MSG_DONTWAIT) == 1) {
       report.answer = whole(answer_.file);
-    } else if (waitpid(pid_, &status, WNOHANG) == pid_) {
-      pid_ = -1;
-    } else if (busy() && pool_.timeout > 0 &&
-               Clock::now() - start_ > std::chrono::duration<double>(pool_.timeout)) {
-      kill(pid_, SIGKILL);
-      waitpid(pid_, &status, 0);
-      pid_ = -1;
-      report.why = fmt::format("no answer in {} s", pool_.timeout);
     } else {
-      return std::nullopt;
+      const bool late = busy() && pool_.timeout > 0 &&
+                        Clock::now() - start_ > std::chrono::duration<double>(pool_.timeout);
+      if (late) kill(pid_, SIGKILL);
+      if (waitpid(pid_, &status, late ? 0 : WNOHANG) != pid_) return std::nullopt;
+      pid_ = -1;
+      report.err = whole(err_.file);
+      if (late) {
+        report.why = fmt::format("no answer in {} s", pool_.timeout);
+      } else if (WIFSIGNALED(status)) {
+        report.why =
+            fmt::format("killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+      } else {
+        report.exit_code = WEXITSTATUS(status);
+        report.why = fmt::format("ended with exit code {}", report.exit_code);
+      }
     }
-    if (!alive() && report.why.empty() && WIFSIGNALED(status)) {
-      report.why =
-          fmt::format("killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-    } else if (!alive() && report.why.empty()) {
-      report.exit_code = WEXITSTATUS(status);
-      report.why = fmt::format("ended with exit code {}", report.exit_code);
-    }
-    if (!alive()) report.err = whole(err_.file);
     const bool had_one = busy();
     job_.reset();
     return had_one ? std::optional(std::move(report)) : std::nullopt;
