@@ -218,6 +218,17 @@ def in_place(c, tmp):
         c.run("batch", "-o", ".", *names, "--verb", verb, "--force", cwd=beside)
         c.run("batch", "-o", ".", names[0], "--verb", verb, "--force", cwd=beside)
         c.check("%s: a deck that is not named any more stays" % verb, os.path.exists(os.path.join(beside, names[1])))
+    # Who shares a file that cannot be read is not known.
+    broken = os.path.join(tmp, "broken")
+    library(broken, 1, 2)
+    shared = os.path.join(broken, "family000", "common", "mat.inc")
+    os.remove(shared)
+    with open(shared + ".gz", "wb") as f:
+        f.write(b"\x1f\x8b cut off")
+    before = tree(broken)
+    p = c.run("batch", "-o", os.path.join(tmp, "bout"), broken, "--verb", "convert --renumber node+1000 --in-place")
+    c.check("in place, a file that cannot be read: said, nothing is written", p.code == 2 and b"mat.inc.gz" in p.err and b"nothing was written" in p.err and
+            tree(broken) == before, p.text[-300:])
     # What a conversion had no effect on may be edited.
     other, plain = os.path.join(tmp, "other"), os.path.join(tmp, "plain", "car_0000.rad")
     os.makedirs(os.path.dirname(plain))

@@ -109,8 +109,10 @@ Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, BatchList&
   return {};
 }
 
-/// The decks of the list that have to be done together, and where the batch writes them.
-std::vector<BatchJob> plan_jobs(const BatchOptions& o, BatchTask& task, const BatchList& list) {
+/// The decks of the list that have to be done together, and where the batch writes them. Error: in
+/// place a file of a deck that cannot be read, which other decks may share.
+Result<std::vector<BatchJob>> plan_jobs(const BatchOptions& o, BatchTask& task,
+                                        const BatchList& list) {
   IncludeScan scan(o.common.include_paths);
   std::vector<std::vector<IncludeScan::File>> trees(list.decks.size());
   for (std::size_t d = 0; d < trees.size() && task.writes; ++d) {
@@ -119,6 +121,10 @@ std::vector<BatchJob> plan_jobs(const BatchOptions& o, BatchTask& task, const Ba
       trees[d] = {{deck, FileIdentity()}};
     if (!task.from_json && !task.to_json)  // a document holds all files of its deck
       trees[d] = scan.files(deck);
+    for (const IncludeScan::File& f : trees[d])
+      if (task.in_place && f.contents == 0)
+        return config_error("cannot read " + f.path + ", a file of " + deck +
+                            ": whether other decks share it is not known; nothing was written");
   }
   std::vector<BatchJob> jobs;
   std::vector<std::string> files;
@@ -177,9 +183,10 @@ Result<BatchRun> plan(const BatchOptions& o) {
     if (auto prepared = prepare_in_place(o, *task, *list); !prepared)
       return config_error(prepared.error().message);
   std::vector<BatchJob> jobs;
-  std::vector<BatchJob> all = plan_jobs(o, *task, *list);
-  for (std::size_t g = 0; g < all.size(); ++g)
-    if (shard->has(g)) jobs.push_back(std::move(all[g]));
+  auto all = plan_jobs(o, *task, *list);
+  if (!all) return all.error();
+  for (std::size_t g = 0; g < all->size(); ++g)
+    if (shard->has(g)) jobs.push_back(std::move((*all)[g]));
   return BatchRun{o, std::move(*task), std::move(*list), *shard, std::move(jobs)};
 }
 

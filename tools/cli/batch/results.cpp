@@ -79,16 +79,19 @@ void remove_leftovers(const BatchOptions& o, const std::map<std::string, Record>
 
 /// The loss reports of all groups as one, in the order of the summary.
 std::string united_losses(const std::map<std::string, Record>& records, const Json& summary) {
-  std::map<std::string, const Json*> by_line;
+  std::map<std::string, const Record*> by_line;
   for (const auto& [path, r] : records)
-    if (r.losses.is_object() && !r.lines.empty())
-      by_line.emplace(r.lines.front().dump(), &r.losses);
+    if (r.losses.is_object() && !r.lines.empty()) by_line.emplace(r.lines.front().dump(), &r);
   Json all = Json::parse(losses_json({}));
-  for (const Json& line : summary.at("decks"))
-    if (const auto found = by_line.find(line.dump()); found != by_line.end())
-      for (const char* kind : {"kept", "approximated", "dropped", "undecided"})
-        for (const Json& loss : found->second->value(kind, Json::array()))
-          all[kind].push_back(loss);
+  std::set<std::string> done;  // decks: one may have a record of its own, of an earlier run
+  for (const Json& line : summary.at("decks")) {
+    const auto found = by_line.find(line.dump());
+    if (found == by_line.end() || done.contains(text_in(line, "deck"))) continue;
+    done.insert(found->second->decks.begin(), found->second->decks.end());
+    for (const char* kind : {"kept", "approximated", "dropped", "undecided"})
+      for (const Json& loss : found->second->losses.value(kind, Json::array()))
+        all[kind].push_back(loss);
+  }
   return json_text(all);
 }
 
