@@ -153,7 +153,16 @@ TEST(PageContacts, HoldPairsSidesAndExactCoordinates) {
              z = in.decimals(exact.size());
   EXPECT_EQ((std::vector{x.back(), y.back(), z.back()}), (std::vector{3.0, 4.0, 0.5}));
   EXPECT_EQ(x[1], 10.0);
-  // Pairs and their distances in 255ths of the reach.
+  // The segments of all contacts: corners, then kinds, ids and parts of their elements; no edges.
+  ASSERT_EQ(in.u(), 2u);
+  Ids corners;
+  for (const std::int64_t n : in.deltas(8)) corners.push_back(p.id(n));
+  EXPECT_EQ(corners, (Ids{1, 2, 3, 4, 2, 5, 6, 3}));
+  EXPECT_EQ(in.byte(), static_cast<unsigned>(ElementKind::shell4) + 1);
+  EXPECT_EQ(in.byte(), static_cast<unsigned>(ElementKind::shell4) + 1);
+  EXPECT_EQ(in.deltas(2), (Ids{1, 2}));
+  EXPECT_EQ(in.deltas(2), (Ids{1, 1}));
+  ASSERT_EQ(in.u(), 0u);
   const std::size_t pairs = in.u();
   ASSERT_EQ(pairs, wide.pairs.size());
   const Ids secondary = in.deltas(pairs), main = in.deltas(pairs);
@@ -161,9 +170,7 @@ TEST(PageContacts, HoldPairsSidesAndExactCoordinates) {
     EXPECT_EQ(secondary[k], wide.pairs[k].secondary);
     EXPECT_EQ(main[k], wide.pairs[k].main);
   }
-  EXPECT_EQ(in.byte(), static_cast<unsigned>(255 * (0.5 / wide.reach)));
-  for (std::size_t k = 1; k < pairs; ++k) EXPECT_GT(in.byte(), 0u);
-  // The secondary side: nodes and gaps; the main side: corners and thicknesses.
+  // The secondary side: nodes and gaps; the main side: numbers of segments and thicknesses.
   const Contact& c = p.b.scene.contacts[0];
   const detail::PlainSides& plain = wide.plain;
   ASSERT_EQ(in.u(), 2u);
@@ -172,12 +179,10 @@ TEST(PageContacts, HoldPairsSidesAndExactCoordinates) {
     EXPECT_EQ(p.id(side[k]), p.b.model.node_id(c.secondary[k].node));
   EXPECT_EQ(in.palette(2), plain.half_thickness);
   ASSERT_EQ(in.u(), 2u);
-  Ids corners;
-  for (const std::int64_t n : in.deltas(8)) corners.push_back(p.id(n));
-  EXPECT_EQ(corners, (Ids{1, 2, 3, 4, 2, 5, 6, 3}));
+  EXPECT_EQ(in.deltas(2), (Ids{0, 1}));
   EXPECT_EQ(in.palette(2), (std::vector{2.0, 2.0}));
-  // Owners of the segments (kind, id, part), of the node that has pairs, its place, lengths.
-  for (int k = 0; k < 2 * 3 + 3 + 2; ++k) in.u();
+  // Kind, id and part of an element of the node that has pairs, its place, lengths.
+  for (int k = 0; k < 3 + 2; ++k) in.u();
   EXPECT_EQ(in.reals(1),
             (std::vector{plain.secondary_length[static_cast<std::size_t>(secondary.front())]}));
   std::vector<double> lengths;
@@ -185,6 +190,31 @@ TEST(PageContacts, HoldPairsSidesAndExactCoordinates) {
     lengths.push_back(plain.main_length[static_cast<std::size_t>(m)]);
   EXPECT_EQ(in.reals(lengths.size()), lengths);
   EXPECT_TRUE(in.done());
+}
+
+/// Two sheets of one quad each, 0.5 apart, half thicknesses 0.5 and 0.25: 0.25 inside the gap.
+SmallDeck near_sheets(const std::string& interface) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(11, 3, 3, 0.5).node(12, 7, 3, 0.5).node(13, 7, 7, 0.5).node(14, 3, 7, 0.5);
+  d.shell_part(1, 1).shell_part(2, 0.5).shell(1, 1, 1, 2, 3, 4).shell(2, 2, 11, 12, 13, 14);
+  return d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).add(interface);
+}
+
+TEST(PageContacts, NameTheSegmentsThatTheyShare) {
+  Page p(near_sheets("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1")
+             .group("/GRNOD/NODE/2", {11, 12, 13, 14})
+             .add("@/INTER/TYPE7/2 grnd_IDs=2 surf_IDm=2 Gapmin=1")
+             .add("@/INTER/TYPE7/3 grnd_IDs=2 surf_IDm=1 Gapmin=2"));
+  p.collect();
+  ASSERT_EQ(p.page.contacts.size(), 3u);
+  PageBlock in(detail::contacts_block(p.input, p.page, p.nodes));
+  const std::size_t exact = in.deltas(in.u()).size();
+  for (int axis = 0; axis < 3; ++axis) in.decimals(exact);
+  EXPECT_EQ(in.u(), 2u) << "three contacts, two surfaces of a segment each";
+  Ids corners;
+  for (const std::int64_t n : in.deltas(8)) corners.push_back(p.id(n));
+  EXPECT_EQ(corners, (Ids{1, 2, 3, 4, 11, 12, 13, 14}));
 }
 
 TEST(PageContacts, OfATooLargeGapAreWhatPenetrates) {
@@ -325,15 +355,6 @@ TEST(PageStream, FewValuesAreNumberedInTheirOrder) {
   for (std::size_t i = 0; i < list.size(); ++i)
     EXPECT_EQ(std::bit_cast<std::uint64_t>(back[i]), std::bit_cast<std::uint64_t>(list[i])) << i;
   EXPECT_TRUE(in.done());
-}
-
-/// Two sheets of one quad each, 0.5 apart, half thicknesses 0.5 and 0.25: 0.25 inside the gap.
-SmallDeck near_sheets(const std::string& interface) {
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
-  d.node(11, 3, 3, 0.5).node(12, 7, 3, 0.5).node(13, 7, 7, 0.5).node(14, 3, 7, 0.5);
-  d.shell_part(1, 1).shell_part(2, 0.5).shell(1, 1, 1, 2, 3, 4).shell(2, 2, 11, 12, 13, 14);
-  return d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).add(interface);
 }
 
 TEST(PageContacts, OfType25AreTheRowsAsTheyWereFound) {

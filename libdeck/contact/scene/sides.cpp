@@ -1,16 +1,12 @@
 // Copies what the pair search reads out of the items of a contact.
 #include "contact/shared/sides.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <limits>
-#include <span>
 
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/search/margin.hpp"
 #include "contact/search/short_loops.hpp"
-#include "deck/contact/closest.hpp"
 
 namespace deck::detail {
 
@@ -90,37 +86,6 @@ sweep::BothForms SearchSides::find_both_forms(const Coordinates& x, const Search
                                               double robust_margin) const {
   return edge_pairs() ? sweep::find_both_forms(edges(x), options, robust_margin)
                       : sweep::find_both_forms(nodes(x), options, robust_margin);
-}
-
-std::vector<double> SearchSides::least_distances(const Coordinates& x,
-                                                 const std::vector<CandidatePair>& pairs) const {
-  std::vector<double> least(pairs.size());
-  const auto at = [&](NodeIndex n) { return Point3<double>{x.x[n], x.y[n], x.z[n]}; };
-  const auto of_edges = [&](const CandidatePair& p) {
-    const auto &s = edges_[0][p.secondary], &m = edges_[1][p.main];
-    return closest_between_edges<Form::reference>(at(s[0]), at(s[1]), at(m[0]), at(m[1])).distance;
-  };
-  const auto of_node = [&](const CandidatePair& p, const sweep::NearDistance& near) {
-    if (near.slack < std::numeric_limits<double>::infinity())
-      return std::max(0.0, near.distance - near.slack);
-    const auto& m = segments_[p.main];
-    return closest_on_segment<Form::reference>(
-               at(nodes_[p.secondary]), {at(m[0]), at(m[1]), at(m[2]), at(m[3])}, m[2] == m[3])
-        .distance();
-  };
-  parallel_parts(threads_, pairs.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    if (edge_pairs()) {
-      for (std::size_t i = begin; i < end; ++i) least[i] = of_edges(pairs[i]);
-      return;
-    }
-    std::array<sweep::NearDistance, 256> near;
-    for (std::size_t from = begin; from < end; from += near.size()) {
-      const std::size_t count = std::min(near.size(), end - from);
-      sweep::kernels().distances(nodes(x), std::span(pairs).subspan(from, count), near.data());
-      for (std::size_t i = 0; i < count; ++i) least[from + i] = of_node(pairs[from + i], near[i]);
-    }
-  });
-  return least;
 }
 
 double SearchSides::margin(const Coordinates& x) const {

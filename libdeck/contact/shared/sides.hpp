@@ -27,10 +27,6 @@ class SearchSides {
   /// Besides, those that only the robust form finds, with a margin of its own.
   sweep::BothForms find_both_forms(const Coordinates& x, const SearchOptions& options,
                                    double robust_margin) const;
-  /// For each pair a distance that the reference's is not below, and mostly equal to it but for
-  /// round-off.
-  std::vector<double> least_distances(const Coordinates& x,
-                                      const std::vector<CandidatePair>& pairs) const;
   /// The solver's margin beyond the gap, from the mean edge length of the searched sides.
   double margin(const Coordinates& x) const;
 

@@ -58,16 +58,6 @@ std::vector<std::uint32_t> deepest_rows(const Contact& contact, bool& all) {
   return rows;
 }
 
-/// Distances in 255ths of the reach, rounded down, so that the page need not look at pairs that are
-/// too far for a gap.
-std::vector<std::uint8_t> shares(const std::vector<double>& distances, double reach) {
-  std::vector<std::uint8_t> out(distances.size(), 0);
-  if (!(reach > 0)) return out;
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = static_cast<std::uint8_t>(std::min(255.0, 255 * (distances[i] / reach)));
-  return out;
-}
-
 /// Sides of a contact whose gaps are formed already.
 PlainSides formed_sides(const Contact& contact) {
   PlainSides out;
@@ -90,7 +80,6 @@ PageContact wide_pairs(const Contact& contact, PlainSides plain, const Coordinat
     page.given = deepest_rows(contact, page.complete);
     for (const std::uint32_t r : page.given)
       page.pairs.push_back({contact.penetrations[r].secondary, contact.penetrations[r].main});
-    page.shares.assign(page.pairs.size(), 0);
     return page;
   }
   const SearchSides sides(contact, SearchSides::Off::included, threads);
@@ -109,7 +98,6 @@ PageContact wide_pairs(const Contact& contact, PlainSides plain, const Coordinat
     SearchResult found = sides.find(x, search);
     if (!found.complete) continue;
     page.pairs = std::move(found.pairs);
-    page.shares = shares(sides.least_distances(x, page.pairs), page.reach);
     return page;
   }
   // Too many: what penetrates, deepest first if even that is too much.
@@ -119,15 +107,14 @@ PageContact wide_pairs(const Contact& contact, PlainSides plain, const Coordinat
   for (const std::uint32_t r : deepest_rows(contact, all))
     page.pairs.push_back({contact.penetrations[r].secondary, contact.penetrations[r].main});
   std::sort(page.pairs.begin(), page.pairs.end());
-  page.shares.assign(page.pairs.size(), 0);
   return page;
 }
 
 /// Sorted distinct positions of one side of the pairs; the side has `count` items.
 std::vector<std::uint32_t> distinct(const std::vector<CandidatePair>& pairs,
                                     std::uint32_t CandidatePair::*side, std::size_t count) {
-  std::vector<bool> marks(count);
-  for (const CandidatePair& p : pairs) marks[p.*side] = true;
+  std::vector<std::uint8_t> marks(count, 0);
+  for (const CandidatePair& p : pairs) marks[p.*side] = 1;
   std::vector<std::uint32_t> out;
   for (std::uint32_t i = 0; i < count; ++i)
     if (marks[i]) out.push_back(i);
@@ -203,6 +190,44 @@ Owner owner_of_node(const Model& model, Connectivity& connectivity, NodeIndex no
   return {};
 }
 
+/// The segments or edges of all contacts, numbered as they come, those alike once: contacts share
+/// surfaces.
+template <class Item>
+class Shared {
+ public:
+  explicit Shared(std::size_t nodes) : newest_(nodes, no_index) {}
+
+  std::vector<std::uint32_t> numbers(const std::vector<Item>& items) {
+    std::vector<std::uint32_t> out;
+    out.reserve(items.size());
+    for (const Item& item : items) out.push_back(number({item.nodes, item.carrier, item.element}));
+    return out;
+  }
+  struct Key {
+    decltype(Item::nodes) nodes;
+    Carrier carrier;
+    std::uint32_t element;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  const std::vector<Key>& all() const { return all_; }
+
+ private:
+  std::uint32_t number(const Key& key) {
+    if (next_ < all_.size() && all_[next_] == key) return next_++;
+    std::uint32_t& newest = newest_[key.nodes[0]];
+    int few = 16;  // where a node has more, some are repeated
+    for (std::uint32_t i = newest; i != no_index && few-- > 0; i = older_[i])
+      if (all_[i] == key) return next_ = i + 1, i;
+    older_.push_back(newest);
+    newest = static_cast<std::uint32_t>(all_.size());
+    all_.push_back(key);
+    return newest;
+  }
+  std::vector<Key> all_;
+  std::vector<std::uint32_t> newest_, older_;  // by first node; before one with the same first node
+  std::uint32_t next_ = 0;                     // mostly the same follows as before
+};
+
 class Writer {
  public:
   Writer(const HtmlInput& input, const PageContacts& page, const PageNodes& nodes)
@@ -213,35 +238,40 @@ class Writer {
         connectivity_(model_) {}
 
   std::string run() {
+    for (std::size_t i = 0; i < page_.contacts.size(); ++i)
+      chosen_.push_back(choose_items(input_.scene->contacts[i], page_.contacts[i]));
     exact_coordinates();
     find_places();
+    shared_items();
     for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
       const Contact& c = input_.scene->contacts[i];
       const PageContact& wide = page_.contacts[i];
-      choose_items(c, wide);
       pairs(wide);
       if (c.kind == ContactKind::node_segment)
-        node_segment(c, wide.plain);
+        node_segment(c, i);
       else
-        edges(c, wide.plain);
+        edges(c, i);
+      places(c, chosen_[i].secondary);
+      selected(chosen_[i].secondary, wide.plain.secondary_length);
+      selected(chosen_[i].main, wide.plain.main_length);
       if (is_modern(c.type)) given(c, wide.given);
     }
     return std::move(out_).text();
   }
 
  private:
-  /// The items of which the page needs more than their nodes.
-  void choose_items(const Contact& c, const PageContact& wide) {
+  /// The items of a contact of which the page needs more than their nodes.
+  struct Chosen {
+    std::vector<std::uint32_t> secondary, main;
+  };
+  static Chosen choose_items(const Contact& c, const PageContact& wide) {
     const bool edge_pairs = c.kind == ContactKind::edge_edge;
     const std::size_t s = edge_pairs ? c.secondary_edges.size() : c.secondary.size();
     const std::size_t m = edge_pairs ? c.main_edges.size() : c.main.size();
-    if (c.irem_gap == 2) {  // removal along the mesh looks at all items
-      secondary_ = everything(s);
-      main_ = everything(m);
-    } else {
-      secondary_ = distinct(wide.pairs, &CandidatePair::secondary, s);
-      main_ = distinct(wide.pairs, &CandidatePair::main, m);
-    }
+    // Removal along the mesh looks at all items.
+    if (c.irem_gap == 2) return {everything(s), everything(m)};
+    return {distinct(wide.pairs, &CandidatePair::secondary, s),
+            distinct(wide.pairs, &CandidatePair::main, m)};
   }
 
   /// The node by which a chosen item of the secondary side is found in the deck.
@@ -255,8 +285,7 @@ class Writer {
     std::vector<std::uint8_t> wanted(model_.nodes.size(), 0);
     for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
       const Contact& c = input_.scene->contacts[i];
-      choose_items(c, page_.contacts[i]);
-      for (const std::uint32_t s : secondary_) wanted[named_by(c, s)] = 1;
+      for (const std::uint32_t s : chosen_[i].secondary) wanted[named_by(c, s)] = 1;
     }
     for (NodeIndex n = 0; n < wanted.size(); ++n)
       if (wanted[n]) named_.push_back(n);
@@ -282,14 +311,16 @@ class Writer {
     std::vector<std::uint8_t> movable(model_.nodes.size(), 0);
     for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
       const Contact& c = input_.scene->contacts[i];
-      for (const CandidatePair& p : page_.contacts[i].pairs) {
-        if (c.kind == ContactKind::node_segment) {
-          use(c.secondary[p.secondary].node);
-          for (const NodeIndex n : c.main[p.main].nodes) use(n);
-        } else {
-          for (const NodeIndex n : c.secondary_edges[p.secondary].nodes) use(n);
-          for (const NodeIndex n : c.main_edges[p.main].nodes) use(n);
-        }
+      const auto use_items = [&](const auto& items, const std::vector<std::uint32_t>& positions) {
+        for (const std::uint32_t k : positions)
+          for (const NodeIndex n : items[k].nodes) use(n);
+      };
+      if (c.kind == ContactKind::node_segment) {
+        for (const std::uint32_t s : chosen_[i].secondary) use(c.secondary[s].node);
+        use_items(c.main, chosen_[i].main);
+      } else {
+        use_items(c.secondary_edges, chosen_[i].secondary);
+        use_items(c.main_edges, chosen_[i].main);
       }
       const bool measured = c.irem_gap == 2 || can_be_moved(c, movable);
       for (const SecondaryNode& n : c.secondary) movable[n.node] = 1;
@@ -322,21 +353,45 @@ class Writer {
     out_.f64(values);
   }
 
-  /// `owner_at(item)` for each of the items.
-  template <class Items, class OwnerAt>
-  void owners(const Items& items, const OwnerAt& owner_at) {
+  void owners(const std::vector<Owner>& all) {
     Delta part, id;
-    for (const auto& item : items) {
-      const Owner o = owner_at(item);
-      out_.u(static_cast<std::uint64_t>(o.kind));
-      out_.s(id(o.id));
-      out_.s(part(o.part == no_index ? 0 : std::int64_t{o.part} + 1));
-    }
+    for (const Owner& o : all) out_.byte(static_cast<unsigned>(o.kind));
+    for (const Owner& o : all) out_.s(id(o.id));
+    for (const Owner& o : all) out_.s(part(o.part == no_index ? 0 : std::int64_t{o.part} + 1));
   }
 
-  void places(const Contact& c) {
+  /// All segments and all edges of contacts with their elements; contacts name them by number.
+  void shared_items() {
+    Shared<MainSegment> segments(model_.nodes.size());
+    Shared<ContactEdge> edges(model_.nodes.size());
+    for (const Contact& c : input_.scene->contacts) {
+      main_.push_back(c.kind == ContactKind::node_segment ? segments.numbers(c.main)
+                                                          : edges.numbers(c.main_edges));
+      secondary_.push_back(edges.numbers(c.secondary_edges));
+    }
+    const auto write = [&](const auto& all) {
+      Delta corner;
+      std::vector<Owner> of;
+      out_.u(all.size());
+      for (const auto& item : all) {
+        for (const NodeIndex n : item.nodes) out_.s(corner(nodes_[n]));
+        of.push_back(owner(model_, item.carrier, item.element));
+      }
+      owners(of);
+    };
+    write(segments.all());
+    write(edges.all());
+  }
+
+  void numbers(const std::vector<std::uint32_t>& all) {
+    Delta number;
+    out_.u(all.size());
+    for (const std::uint32_t n : all) out_.s(number(n));
+  }
+
+  void places(const Contact& c, const std::vector<std::uint32_t>& secondary) {
     Delta file, line;
-    for (const std::uint32_t s : secondary_) {
+    for (const std::uint32_t s : secondary) {
       const auto at = std::lower_bound(named_.begin(), named_.end(), named_by(c, s));
       const NodeLine& p = lines_[static_cast<std::size_t>(at - named_.begin())];
       out_.s(file(p.file == Span::no_file ? -1 : std::int64_t{p.file}));
@@ -344,44 +399,29 @@ class Writer {
     }
   }
 
-  void node_segment(const Contact& c, const PlainSides& plain) {
+  void node_segment(const Contact& c, std::size_t i) {
     Delta n;
     out_.u(c.secondary.size());
     for (const SecondaryNode& s : c.secondary) out_.s(n(nodes_[s.node]));
     const bool formed = is_modern(c.type);  // the gaps stand in place of thicknesses
-    out_.palette(plain.half_thickness,
+    out_.palette(page_.contacts[i].plain.half_thickness,
                  [&](double half) { return formed ? half : node_gap(half, 1); });
-    Delta corner;
-    out_.u(c.main.size());
-    for (const MainSegment& m : c.main)
-      for (const NodeIndex i : m.nodes) out_.s(corner(nodes_[i]));
+    numbers(main_[i]);
     out_.palette(c.main, [&](const MainSegment& m) { return formed ? m.gap : thickness_of(m); });
-    owners(c.main, [&](const MainSegment& m) { return owner(model_, m.carrier, m.element); });
-    owners(secondary_, [&](std::uint32_t s) {
-      return owner_of_node(model_, connectivity_, c.secondary[s].node);
-    });
-    places(c);
-    selected(secondary_, plain.secondary_length);
-    selected(main_, plain.main_length);
+    std::vector<Owner> of;
+    for (const std::uint32_t s : chosen_[i].secondary)
+      of.push_back(owner_of_node(model_, connectivity_, c.secondary[s].node));
+    owners(of);
   }
 
-  void edges(const Contact& c, const PlainSides& plain) {
-    const auto side = [&](const std::vector<ContactEdge>& edges) {
-      Delta n;
-      out_.u(edges.size());
-      for (const ContactEdge& e : edges)
-        for (const NodeIndex i : e.nodes) out_.s(n(nodes_[i]));
-      out_.palette(
-          edges, [&](const ContactEdge& e) { return is_modern(c.type) ? e.gap : thickness_of(e); });
+  void edges(const Contact& c, std::size_t i) {
+    const auto thickness = [&](const ContactEdge& e) {
+      return is_modern(c.type) ? e.gap : thickness_of(e);
     };
-    side(c.secondary_edges);
-    side(c.main_edges);
-    const auto of_edge = [&](const ContactEdge& e) { return owner(model_, e.carrier, e.element); };
-    owners(c.main_edges, of_edge);
-    owners(secondary_, [&](std::uint32_t s) { return of_edge(c.secondary_edges[s]); });
-    places(c);
-    selected(secondary_, plain.secondary_length);
-    selected(main_, plain.main_length);
+    numbers(secondary_[i]);
+    out_.palette(c.secondary_edges, thickness);
+    numbers(main_[i]);
+    out_.palette(c.main_edges, thickness);
   }
 
   void pairs(const PageContact& wide) {
@@ -389,7 +429,6 @@ class Writer {
     out_.u(wide.pairs.size());
     for (const CandidatePair& p : wide.pairs) out_.s(s(p.secondary));
     for (const CandidatePair& p : wide.pairs) out_.s(m(p.main));
-    for (const std::uint8_t share : wide.shares) out_.byte(share);
   }
 
   /// What was found of a contact for which the page has no rules, one number after the other.
@@ -415,9 +454,10 @@ class Writer {
   const Model& model_;
   Connectivity connectivity_;
   ByteStream out_;
-  std::vector<std::uint32_t> secondary_, main_;  // of the contact that is written
-  std::vector<NodeIndex> named_;                 // ascending
-  std::vector<NodeLine> lines_;                  // of these
+  std::vector<Chosen> chosen_;                                // by contact
+  std::vector<std::vector<std::uint32_t>> secondary_, main_;  // by contact: numbers of shared items
+  std::vector<NodeIndex> named_;                              // ascending
+  std::vector<NodeLine> lines_;                               // of these
 };
 
 }  // namespace

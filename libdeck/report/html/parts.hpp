@@ -73,7 +73,6 @@ struct PageContact {
   /// All pairs nearer than `reach`, sorted. TYPE24 and TYPE25: what penetrates, parallel to
   /// `given`.
   std::vector<CandidatePair> pairs;
-  std::vector<std::uint8_t> shares;  ///< of the pairs: at most their distance in 255ths of `reach`
   std::vector<std::uint32_t> given;  ///< rows that the page shows as they are
   double reach = 0;                  ///< largest gap for which the pairs are complete
   double margin = 0;                 ///< of the solver's search beyond the gap

@@ -241,7 +241,7 @@ export class Core {
     const samples = ([count, sum, smallest, largest, shortest]: Samples) => [count, sum, smallest ?? Infinity, largest ?? -Infinity, shortest];
     const lengths = [d.secondaryListed, d.mainListed].map((list) => this.wasm.room(8 * list.length));
     this.send([
-      Number(edges), c.type, interfaceType, c.shortest_side, c.longest_main, c.longest_node, c.reach, c.margin,
+      Number(edges), c.type, interfaceType, c.shortest_side, c.longest_main, c.longest_node, c.margin,
       card.Gapmin, card.Igap, card.Inacti, card.Irem_gap, card.Fscalegap, card.Gapmax, card.Fpenmax,
       Number(card.thermal), card.Drad, card.Edge_scale_gap,
       ...samples(c.default[0]), ...samples(c.default[1] ?? none),
@@ -249,7 +249,7 @@ export class Core {
       position(d.secondaryNode), position(d.mainNode),
       this.put(d.secondaryThickness), this.put(d.mainThickness),
       ...lengths,
-      this.put(d.pairSecondary), this.put(d.pairMain), this.put(d.pairClass),
+      this.put(d.pairSecondary), this.put(d.pairMain),
     ]);
     this.wasm.contact();
     this.missing.push(() => {

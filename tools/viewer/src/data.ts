@@ -16,16 +16,38 @@ export interface Owners {
 }
 
 function owners(r: Reader, n: number): Owners {
-  const out = { kind: new Uint8Array(n), id: new Float64Array(n), part: new Int32Array(n) };
-  let id = 0;
-  let part = 0;
-  for (let i = 0; i < n; i++) {
-    out.kind[i] = r.u();
-    out.id[i] = id += r.small();
-    part += r.small();
-    out.part[i] = part - 1;
-  }
+  const out = { kind: r.bytes(n), id: r.deltas(n), part: new Int32Array(n) };
+  const part = r.deltas(n);
+  for (let i = 0; i < n; i++) out.part[i] = part[i] - 1;
   return out;
+}
+
+/** Segments or edges of all contacts, which name them by number. */
+class Items {
+  private readonly node: Uint32Array;
+  private readonly owner: Owners;
+  constructor(r: Reader, private readonly nodes: number) {
+    const n = r.u();
+    this.node = r.deltas32(nodes * n);
+    this.owner = owners(r, n);
+  }
+  nodesOf(numbers: Uint32Array): Uint32Array {
+    const { node, nodes } = this;
+    const out = new Uint32Array(nodes * numbers.length);
+    for (let i = 0, o = 0; i < numbers.length; i++) for (let at = nodes * numbers[i], k = 0; k < nodes; k++) out[o++] = node[at++];
+    return out;
+  }
+  ownersOf(numbers: Uint32Array): Owners {
+    const { kind, id, part } = this.owner;
+    const n = numbers.length;
+    const out = { kind: new Uint8Array(n), id: new Float64Array(n), part: new Int32Array(n) };
+    for (let i = 0; i < n; i++) {
+      out.kind[i] = kind[numbers[i]];
+      out.id[i] = id[numbers[i]];
+      out.part[i] = part[numbers[i]];
+    }
+    return out;
+  }
 }
 
 export interface MeshPart {
@@ -60,7 +82,6 @@ export interface ContactData {
   mainLength: Uint8Array;
   pairSecondary: Uint32Array;
   pairMain: Uint32Array;
-  pairClass: Uint8Array; // distance in 255ths of the reach, rounded down
   /** ContactMeta.given: the rows, in the order of the pairs and with the numbers of ../wasm/what_if.cpp; thicknesses are gaps then. */
   given: Float64Array | null;
 }
@@ -171,26 +192,28 @@ function listPositions(pairs: Uint32Array, items: number, all: boolean): [Int32A
   return [out, n];
 }
 
-function readContact(r: Reader, meta: ContactMeta): ContactData {
+function readContact(r: Reader, meta: ContactMeta, segments: Items, allEdges: Items): ContactData {
   const edges = meta.kind === "edge_edge";
   const d = {} as ContactData;
   const pairs = r.u();
   d.pairSecondary = r.deltas32(pairs);
   d.pairMain = r.deltas32(pairs);
-  d.pairClass = r.bytes(pairs);
   const secondaries = r.u();
-  d.secondaryNode = r.deltas32(secondaries * (edges ? 2 : 1));
+  const secondary = r.deltas32(secondaries);
+  d.secondaryNode = edges ? allEdges.nodesOf(secondary) : secondary;
   d.secondaryThickness = r.palette(secondaries);
   const mains = r.u();
-  d.mainNode = r.deltas32(mains * (edges ? 2 : 4));
+  const main = r.deltas32(mains);
+  const items = edges ? allEdges : segments;
+  d.mainNode = items.nodesOf(main);
   d.mainThickness = r.palette(mains);
-  d.mainOwner = owners(r, mains);
+  d.mainOwner = items.ownersOf(main);
   const all = meta.irem_gap === 2;
   const [sl, sn] = listPositions(d.pairSecondary, secondaries, all);
   const [ml, mn] = listPositions(d.pairMain, mains, all);
   d.secondaryListed = sl;
   d.mainListed = ml;
-  d.secondaryOwner = owners(r, sn);
+  d.secondaryOwner = edges ? allEdges.ownersOf(secondary.filter((_, i) => sl[i] >= 0)) : owners(r, sn);
   d.file = new Int32Array(sn);
   d.line = new Float64Array(sn);
   let file = 0;
@@ -225,7 +248,8 @@ export function readContacts(bytes: Uint8Array, meta: Meta, nodes: number): Cont
   const exactOf = new Int32Array(nodes).fill(-1);
   for (let i = 0; i < count; i++) exactOf[exactNode[i]] = i;
   const [x, y, z] = [r.decimals(count), r.decimals(count), r.decimals(count)];
-  return { exactNode, exactOf, x, y, z, contacts: meta.contacts.map((c) => readContact(r, c)) };
+  const [segments, edges] = [new Items(r, 4), new Items(r, 2)];
+  return { exactNode, exactOf, x, y, z, contacts: meta.contacts.map((c) => readContact(r, c, segments, edges)) };
 }
 
 const unpacked = new Map<string, Uint8Array>();

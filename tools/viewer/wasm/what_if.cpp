@@ -29,15 +29,14 @@ struct SamplesInput {
 
 /// One contact. Addresses are doubles too; arrays of nodes hold positions among the exact ones.
 struct ContactInput {
-  double edges, type, interface_type, shortest_side, longest_main, longest_secondary, reach;
-  double margin;
+  double edges, type, interface_type, shortest_side, longest_main, longest_secondary, margin;
   double gapmin, igap, inacti, irem_gap, fscalegap, gapmax, fpenmax, thermal, drad, edge_scale_gap;
   SamplesInput main_samples, secondary_samples;  // of node-segment contacts only the first
   double secondaries, mains, pairs;
   double secondary_node, main_node;            // uint32: 1 or 2 and 4 or 2 an item
   double secondary_thickness, main_thickness;  // nodes: half, all others whole
   double secondary_length, main_length;
-  double pair_secondary, pair_main, pair_class;  // uint32, uint32, byte
+  double pair_secondary, pair_main;  // uint32
 };
 
 /// Other settings; what is no number is as on the card.
@@ -72,7 +71,6 @@ struct Contact {
         edges(in.edges != 0),
         pair_secondary(list<std::uint32_t>(in.pair_secondary, in.pairs)),
         pair_main(list<std::uint32_t>(in.pair_main, in.pairs)),
-        pair_class(list<std::uint8_t>(in.pair_class, in.pairs)),
         length_s(list<double>(in.secondary_length, in.secondaries)),
         length_m(list<double>(in.main_length, in.mains)) {
     const auto s = in.secondary_node, m = in.main_node;
@@ -87,7 +85,6 @@ struct Contact {
   ContactInput input;
   bool edges;
   std::span<const std::uint32_t> pair_secondary, pair_main;
-  std::span<const std::uint8_t> pair_class;
   std::span<const double> length_s, length_m;
   std::span<const std::uint32_t> nodes;
   std::span<const Segment4> segments;
@@ -97,6 +94,7 @@ struct Contact {
 struct Module {
   std::size_t node_count = 0;
   std::vector<double> start, now;  // x of all nodes, then y, then z
+  double largest = 0;              // coordinate of `start`
   std::vector<Contact> contacts;
   std::vector<PenetrationRow> rows;
   std::vector<RowOutput> output;
@@ -239,7 +237,7 @@ Settings settings_of(const Contact& c, const ChangeInput& change, double moved) 
 class Pairs {
  public:
   Pairs(const Contact& contact, const Settings& settings, double moved)
-      : c_(contact), s_(settings), moved_(moved), unit_(contact.input.reach / 255 * (1 - 1e-12)) {}
+      : c_(contact), s_(settings), largest_(module.largest + moved) {}
 
   void run() {
     module.rows.clear();
@@ -253,7 +251,7 @@ class Pairs {
     std::optional<PenetrationRow> out;
     for (std::size_t p = 0; p < c_.pair_main.size(); ++p) {
       const double g = gap(p);
-      if (out && lower_bound(p) - g >= out->distance - out->gap) continue;
+      if (out && apart(p, g + (out->distance - out->gap))) continue;
       if (is_out(p)) continue;
       PenetrationRow row = measured(p, g);
       if (!c_.edges) row.distance = node_distance(p);
@@ -268,8 +266,30 @@ class Pairs {
   }
 
  private:
-  /// Never more than its distance, whatever has moved so far.
-  double lower_bound(std::size_t p) const { return c_.pair_class[p] * unit_ - 2 * moved_; }
+  /// Whether a pair is at least this far apart for sure: a look at the boxes round its two sides.
+  /// Round-off makes distances shorter by a few units in the last place of the coordinates.
+  bool apart(std::size_t p, double distance) const {
+    const auto s = c_.pair_secondary[p], m = c_.pair_main[p];
+    const double squared = c_.edges ? between_boxes(c_.edges_s[s], c_.edges_m[m])
+                                    : between_boxes(std::array{c_.nodes[s]}, c_.segments[m]);
+    const double limit = distance * (1 + 0x1p-40) + (largest_ * 0x1p-42 + 0x1p-500);
+    return !(limit > 0) || squared >= limit * limit;
+  }
+  /// Squared distance of the boxes round two lists of nodes.
+  template <std::size_t S, std::size_t M>
+  static double between_boxes(const std::array<std::uint32_t, S>& s,
+                              const std::array<std::uint32_t, M>& m) {
+    double squared = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double* const x = module.now.data() + k * module.node_count;
+      double low_s = x[s[0]], high_s = low_s, low_m = x[m[0]], high_m = low_m;
+      for (const std::uint32_t n : s) low_s = std::min(low_s, x[n]), high_s = std::max(high_s, x[n]);
+      for (const std::uint32_t n : m) low_m = std::min(low_m, x[n]), high_m = std::max(high_m, x[n]);
+      const double d = std::max(0.0, std::max(low_s - high_m, low_m - high_s));
+      squared += d * d;
+    }
+    return squared;
+  }
 
   void find_removed() {
     const RemovalGaps gaps{s_.rule, s_.card.igap, s_.drad, s_.largest, s_.measures.shortest_side};
@@ -321,7 +341,7 @@ class Pairs {
     std::vector<std::uint8_t> out(c_.pair_main.size(), 0);
     for (std::size_t p = 0; p < out.size(); ++p) {
       const double limit = std::max(s_.drad, gap(p)) + s_.measures.margin;
-      if (lower_bound(p) >= limit) continue;
+      if (apart(p, limit)) continue;
       out[p] = node_distance(p) < limit;
     }
     return out;
@@ -342,7 +362,7 @@ class Pairs {
     };
     for (std::size_t p = 0; p < c_.pair_main.size(); ++p) {
       const double g = gap(p);
-      if (moves ? found[p] == 0 : lower_bound(p) >= g) continue;
+      if (moves ? found[p] == 0 : apart(p, g)) continue;
       if (is_out(p)) continue;
       if (moves && group.begins_another()) act();
       const PenetrationRow row = measured(p, g);
@@ -355,7 +375,7 @@ class Pairs {
     std::vector<double> store_s(c_.edges_s.size(), 0), store_m(c_.edges_m.size(), 0);
     for (std::size_t p = 0; p < c_.pair_main.size(); ++p) {
       const double g = gap(p);
-      if (lower_bound(p) >= g) continue;
+      if (apart(p, g)) continue;
       PenetrationRow row = measured(p, g);
       if (!(row.depth > 0) || is_out(p)) continue;
       act_on_edges(s_.card.inacti, row, store_s[row.secondary], store_m[row.main]);
@@ -367,7 +387,7 @@ class Pairs {
 
   const Contact& c_;
   const Settings& s_;
-  double moved_, unit_;
+  double largest_;  // coordinate
   RemovalLists removed_;
 };
 
@@ -426,6 +446,8 @@ EXPORT(nodes) void set_nodes(std::size_t count, const double* xyz) {
   module.node_count = count;
   module.start.assign(xyz, xyz + 3 * count);
   module.now = module.start;
+  module.largest = 0;
+  for (const double x : module.start) module.largest = std::max(module.largest, std::abs(x));
 }
 
 /// Adds the contact whose ContactInput has been exchanged.
