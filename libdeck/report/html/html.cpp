@@ -251,7 +251,11 @@ Result<std::string> gaps_html(const HtmlInput& in) {
             detail::script_safe(meta_json(in, page, touches)));
   add_block(out, "deck-touches", "application/octet-stream",
             detail::packed_text(detail::touches_drawing(in, touches)));
-  for (Packed& block : packed_blocks(in, mesh, nodes, page)) {
+  std::vector<Packed> blocks = packed_blocks(in, mesh, nodes, page);
+  std::size_t size = out.size() + bundle.script.size();
+  for (const Packed& block : blocks) size += block.text.size();
+  out.reserve(size + size / 16);  // the rest is short
+  for (Packed& block : blocks) {
     add_block(out, block.id, "application/octet-stream", block.text);
     block.text = {};
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/shared/escape.hpp"
 #include "contact/shared/element_names.hpp"
@@ -178,7 +179,8 @@ std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContac
     // Parts of items, each looked up once.
     std::vector<int> of_secondary(edges ? c.secondary_edges.size() : c.secondary.size(), -2),
         of_main(edges ? c.main_edges.size() : c.main.size(), -2);
-    std::map<std::pair<int, int>, bool> seen;
+    std::set<std::pair<int, int>> seen;
+    std::pair<int, int> last{-2, -2};  // neighbours mostly have the same parts
     for (const CandidatePair& p : page.contacts[i].pairs) {
       int& s = of_secondary[p.secondary];
       int& m = of_main[p.main];
@@ -192,7 +194,8 @@ std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContac
             edges ? carrier_name(model, c.main_edges[p.main].carrier, c.main_edges[p.main].element)
                         .part
                   : carrier_name(model, c.main[p.main].carrier, c.main[p.main].element).part);
-      if (seen.emplace(std::pair{s, m}, true).second) at(s, m, *in.scene->contacts[i].inter);
+      if (const std::pair parts{s, m}; parts != last && seen.insert(last = parts).second)
+        at(s, m, *in.scene->contacts[i].inter);
     }
   }
   for (const NamedPenetration& p : in.view->penetrations) {
