@@ -16,6 +16,7 @@ constexpr double never = 1e30;  // as long as it gets
 
 /// Length of the shortest truss, beam or spring at a node; infinity if there is none.
 double shortest_line_element(const Surroundings& c, NodeIndex node) {
+  if (c.shortest_lines != nullptr) return (*c.shortest_lines)[node];
   double shortest = std::numeric_limits<double>::infinity();
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = c.model.family(kind);
@@ -227,6 +228,20 @@ void set_edge_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   contact.gap_rule =
       PairGap::from_igap(contact.igap, contact.gapmin, std::numeric_limits<double>::infinity());
   contact.max_gap = largest_edge_gap(contact.gapmin, extremes);
+}
+
+std::vector<double> shortest_line_elements(const Model& model, const Coordinates& x) {
+  std::vector<double> out(model.nodes.size(), std::numeric_limits<double>::infinity());
+  for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
+    const Elements& family = model.family(kind);
+    for (std::uint32_t e = 0; e < family.size(); ++e) {
+      const NodeIndex* n = family.of(e);
+      if (n[0] == no_index || n[1] == no_index) continue;
+      const double l = distance(x, n[0], n[1]);
+      for (int k = 0; k < 2 && l > 0; ++k) out[n[k]] = std::min(out[n[k]], l);
+    }
+  }
+  return out;
 }
 
 PlainSides plain_sides(const Surroundings& around, const Contact& contact) {

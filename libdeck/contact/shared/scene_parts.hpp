@@ -40,6 +40,8 @@ struct Surroundings {
   ShellsAtNodes& shells;
   const Coordinates& coordinates;
   int threads = 1;
+  /// shortest_line_elements() of them, for many contacts while no node moves; may be nullptr.
+  const std::vector<double>* shortest_lines = nullptr;
 };
 
 inline Vec at(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
@@ -116,6 +118,8 @@ struct PlainSides {
   double shortest_side = 0;  ///< as Contact::shortest_side, with the nodes where `around` has them
 };
 PlainSides plain_sides(const Surroundings& around, const Contact& contact);
+/// By node: length of the shortest truss, beam or spring, infinity if there is none.
+std::vector<double> shortest_line_elements(const Model& model, const Coordinates& x);
 /// Half thickness of the thickest shell at each node, 0: none.
 const std::vector<double>& shell_half_thickness(const Surroundings& around);
 /// Half thickness of the thickest truss, beam or spring at a node, 0: none.

@@ -474,10 +474,10 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
   {
     Connectivity connectivity(*scene.model);
     ShellsAtNodes shells;
+    const std::vector<double> lines = shortest_line_elements(*scene.model, start);
+    const Surroundings around{*scene.model, connectivity, shells, start, input.threads, &lines};
     for (const Contact& c : scene.contacts)
-      plain.push_back(is_modern(c.type)
-                          ? formed_sides(c)
-                          : plain_sides({*scene.model, connectivity, shells, start}, c));
+      plain.push_back(is_modern(c.type) ? formed_sides(c) : plain_sides(around, c));
   }
   std::size_t left = pairs_per_page;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
