@@ -163,11 +163,14 @@ TEST(PageContacts, HoldPairsSidesAndExactCoordinates) {
   EXPECT_EQ(in.deltas(2), (Ids{1, 2}));
   EXPECT_EQ(in.deltas(2), (Ids{1, 1}));
   ASSERT_EQ(in.u(), 0u);
+  // Of its pairs the secondary, how often, and the mains.
   const std::size_t pairs = in.u();
   ASSERT_EQ(pairs, wide.pairs.size());
-  const Ids secondary = in.deltas(pairs), main = in.deltas(pairs);
+  const Ids secondary = in.deltas(1);
+  EXPECT_EQ(in.u(), pairs);
+  const Ids main = in.deltas(pairs);
   for (std::size_t k = 0; k < pairs; ++k) {
-    EXPECT_EQ(secondary[k], wide.pairs[k].secondary);
+    EXPECT_EQ(secondary[0], wide.pairs[k].secondary);
     EXPECT_EQ(main[k], wide.pairs[k].main);
   }
   // The secondary side: nodes and gaps; the main side: numbers of segments and thicknesses.

@@ -424,11 +424,18 @@ class Writer {
     out_.palette(c.main_edges, thickness);
   }
 
+  /// How many pairs, then each secondary with the number of its pairs, then all mains.
   void pairs(const PageContact& wide) {
-    Delta s, m;
-    out_.u(wide.pairs.size());
-    for (const CandidatePair& p : wide.pairs) out_.s(s(p.secondary));
-    for (const CandidatePair& p : wide.pairs) out_.s(m(p.main));
+    const auto& all = wide.pairs;
+    Delta secondary, main;
+    out_.u(all.size());
+    for (auto p = all.begin(), next = p; p != all.end(); p = next) {
+      next = std::find_if(p, all.end(),
+                          [&](const CandidatePair& q) { return q.secondary != p->secondary; });
+      out_.s(secondary(p->secondary));
+      out_.u(static_cast<std::uint64_t>(next - p));
+    }
+    for (const CandidatePair& p : all) out_.s(main(p.main));
   }
 
   /// What was found of a contact for which the page has no rules, one number after the other.

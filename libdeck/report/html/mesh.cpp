@@ -49,13 +49,22 @@ std::vector<SolidFace> outer_faces(const Elements& family,
     for (int k = 0; k < 6; ++k)
       if (const SolidFace f = solid_face_of(slots, k, e); f.corners >= 3) all.push_back(f);
   }
-  std::vector<std::uint32_t> order(all.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return all[a].key < all[b].key; });
+  struct Sorted {
+    std::uint64_t first, last;  // two nodes of the key each
+    std::uint32_t face;
+    auto operator<=>(const Sorted&) const = default;
+  };
+  std::vector<Sorted> order;
+  order.reserve(all.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    const auto& k = all[i].key;
+    order.push_back({std::uint64_t{k[0]} << 32 | k[1], std::uint64_t{k[2]} << 32 | k[3], i});
+  }
+  std::sort(order.begin(), order.end());
   std::vector<std::uint8_t> outer(all.size(), 1);
   for (std::size_t i = 1; i < order.size(); ++i)
-    if (all[order[i]].key == all[order[i - 1]].key) outer[order[i]] = outer[order[i - 1]] = 0;
+    if (order[i].first == order[i - 1].first && order[i].last == order[i - 1].last)
+      outer[order[i].face] = outer[order[i - 1].face] = 0;
   std::vector<SolidFace> out;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (outer[i]) out.push_back(all[i]);

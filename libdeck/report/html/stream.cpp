@@ -96,22 +96,22 @@ void PackedText::run(std::string_view bytes, bool last) {
 void PackedText::encode(bool last) {
   static constexpr char digits[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto& packed = state_->packed;
+  auto& packed = state_->packed;
   std::string& text = state_->text;
   const std::size_t size = packed.size() - state_->zip.avail_out;
   if (!last && size < packed.size()) return;
   const std::size_t have = text.size();
   text.resize(have + (size + 2) / 3 * 4);
   char* to = text.data() + have;
+  std::fill(packed.begin() + static_cast<std::ptrdiff_t>(size), packed.end(), Bytef{0});
   for (std::size_t i = 0; i < size; i += 3) {
-    const unsigned a = packed[i], b = i + 1 < size ? packed[i + 1] : 0u,
-                   c = i + 2 < size ? packed[i + 2] : 0u;
-    const unsigned v = a << 16 | b << 8 | c;
+    const unsigned v = unsigned{packed[i]} << 16 | unsigned{packed[i + 1]} << 8 | packed[i + 2];
     *to++ = digits[v >> 18];
     *to++ = digits[v >> 12 & 63];
-    *to++ = i + 1 < size ? digits[v >> 6 & 63] : '=';
-    *to++ = i + 2 < size ? digits[v & 63] : '=';
+    *to++ = digits[v >> 6 & 63];
+    *to++ = digits[v & 63];
   }
+  std::fill(text.end() - static_cast<std::ptrdiff_t>((3 - size % 3) % 3), text.end(), '=');
   state_->zip.next_out = state_->packed.data();
   state_->zip.avail_out = static_cast<uInt>(packed.size());
 }

@@ -196,7 +196,11 @@ function readContact(r: Reader, meta: ContactMeta, segments: Items, allEdges: It
   const edges = meta.kind === "edge_edge";
   const d = {} as ContactData;
   const pairs = r.u();
-  d.pairSecondary = r.deltas32(pairs);
+  d.pairSecondary = new Uint32Array(pairs);
+  for (let at = 0, secondary = 0; at < pairs; ) {
+    secondary += r.small();
+    d.pairSecondary.fill(secondary, at, (at += r.u()));
+  }
   d.pairMain = r.deltas32(pairs);
   const secondaries = r.u();
   const secondary = r.deltas32(secondaries);
