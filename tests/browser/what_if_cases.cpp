@@ -248,7 +248,8 @@ int write_case(unsigned seed) {
     return 1;
   }
   json out{{"seed", seed}, {"type", random.type()}, {"trials", json::array()}};
-  for (const char* id : {"deck-meta", "deck-contacts", "deck-mesh"}) out[id] = block(*page, id);
+  for (const char* id : {"deck-meta", "deck-shared", "deck-contacts", "deck-mesh"})
+    out[id] = block(*page, id);
   out["trials"].push_back({{"fields", json::object()}, {"expected", expected(b)}});
   for (int trial = 0; trial < 3; ++trial) {
     const Fields fields = random.setting();

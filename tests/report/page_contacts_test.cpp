@@ -137,32 +137,34 @@ TEST(PageContacts, HoldPairsSidesAndExactCoordinates) {
   Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"));
   p.collect();
   ASSERT_EQ(p.page.contacts.size(), 1u);
-  const auto& wide = p.page.contacts[0];
+  const detail::PageContact wide = p.page.contacts[0];
   EXPECT_TRUE(wide.complete);
   EXPECT_GT(wide.margin, 0);
   // Three times the largest gap there could be: that of the card, or both half thicknesses.
   EXPECT_DOUBLE_EQ(wide.reach, 3 * 1 + wide.margin);
   ASSERT_FALSE(wide.pairs.empty());
-  PageBlock in(detail::contacts_block(p.input, p.page, p.nodes));
+  const detail::ContactBlocks blocks = detail::contact_blocks(p.input, p.page, p.nodes);
+  PageBlock shared(blocks.shared()), in(blocks.contacts());
   // Coordinates of the nodes of pairs: node 8 has none.
   Ids exact;
-  for (const std::int64_t n : in.deltas(in.u())) exact.push_back(p.id(n));
+  for (const std::int64_t n : shared.deltas(shared.u())) exact.push_back(p.id(n));
   const bool both = wide.pairs.size() == 2;
   EXPECT_EQ(exact, both ? (Ids{1, 2, 3, 4, 5, 6, 9}) : (Ids{1, 2, 3, 4, 9}));
-  const auto x = in.decimals(exact.size()), y = in.decimals(exact.size()),
-             z = in.decimals(exact.size());
+  const auto x = shared.decimals(exact.size()), y = shared.decimals(exact.size()),
+             z = shared.decimals(exact.size());
   EXPECT_EQ((std::vector{x.back(), y.back(), z.back()}), (std::vector{3.0, 4.0, 0.5}));
   EXPECT_EQ(x[1], 10.0);
   // The segments of all contacts: corners, then kinds, ids and parts of their elements; no edges.
-  ASSERT_EQ(in.u(), 2u);
+  ASSERT_EQ(shared.u(), 2u);
   Ids corners;
-  for (const std::int64_t n : in.deltas(8)) corners.push_back(p.id(n));
+  for (const std::int64_t n : shared.deltas(8)) corners.push_back(p.id(n));
   EXPECT_EQ(corners, (Ids{1, 2, 3, 4, 2, 5, 6, 3}));
-  EXPECT_EQ(in.byte(), static_cast<unsigned>(ElementKind::shell4) + 1);
-  EXPECT_EQ(in.byte(), static_cast<unsigned>(ElementKind::shell4) + 1);
-  EXPECT_EQ(in.deltas(2), (Ids{1, 2}));
-  EXPECT_EQ(in.deltas(2), (Ids{1, 1}));
-  ASSERT_EQ(in.u(), 0u);
+  EXPECT_EQ(shared.byte(), static_cast<unsigned>(ElementKind::shell4) + 1);
+  EXPECT_EQ(shared.byte(), static_cast<unsigned>(ElementKind::shell4) + 1);
+  EXPECT_EQ(shared.deltas(2), (Ids{1, 2}));
+  EXPECT_EQ(shared.deltas(2), (Ids{1, 1}));
+  EXPECT_EQ(shared.u(), 0u);
+  EXPECT_TRUE(shared.done());
   // Of its pairs the secondary, how often, and the mains.
   const std::size_t pairs = in.u();
   ASSERT_EQ(pairs, wide.pairs.size());
@@ -211,7 +213,7 @@ TEST(PageContacts, NameTheSegmentsThatTheyShare) {
              .add("@/INTER/TYPE7/3 grnd_IDs=2 surf_IDm=1 Gapmin=2"));
   p.collect();
   ASSERT_EQ(p.page.contacts.size(), 3u);
-  PageBlock in(detail::contacts_block(p.input, p.page, p.nodes));
+  PageBlock in(detail::contact_blocks(p.input, p.page, p.nodes).shared());
   const std::size_t exact = in.deltas(in.u()).size();
   for (int axis = 0; axis < 3; ++axis) in.decimals(exact);
   EXPECT_EQ(in.u(), 2u) << "three contacts, two surfaces of a segment each";
@@ -365,7 +367,7 @@ TEST(PageContacts, OfType25AreTheRowsAsTheyWereFound) {
   p.collect();
   const Contact& c = p.b.scene.contacts[0];
   ASSERT_EQ(c.penetrations.size(), 4u);
-  const detail::PageContact& own = p.page.contacts[0];
+  const detail::PageContact own = p.page.contacts[0];
   ASSERT_EQ(own.given.size(), c.penetrations.size());
   ASSERT_EQ(own.pairs.size(), c.penetrations.size());
   EXPECT_TRUE(own.complete);
@@ -377,7 +379,8 @@ TEST(PageContacts, OfType25AreTheRowsAsTheyWereFound) {
   EXPECT_EQ(said["given"], true);
   EXPECT_EQ(said["evaluated"], true);
   // The last numbers of the block: eight columns and a byte a row.
-  const std::string bytes = PageBlock(detail::contacts_block(p.input, p.page, p.nodes)).bytes();
+  const std::string bytes =
+      PageBlock(detail::contact_blocks(p.input, p.page, p.nodes).contacts()).bytes();
   EXPECT_EQ(bytes.back(), static_cast<char>(PenetrationAction::offset_stored));
   EXPECT_GT(bytes.size(), 65 * own.given.size());
 }

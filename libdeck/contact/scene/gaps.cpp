@@ -254,8 +254,9 @@ PlainSides plain_sides(const Surroundings& around, const Contact& contact) {
     for (const auto& [edges, lengths] : {std::pair{&contact.secondary_edges, &out.secondary_length},
                                          std::pair{&contact.main_edges, &out.main_length}})
       for (const ContactEdge& e : *edges) lengths->push_back(edge_limit(around, e, fraction));
-    out.shortest_side =
-        shortest_of_both(edge_side(x, contact.main_edges), edge_side(x, contact.secondary_edges));
+    out.secondary_side = edge_side(x, contact.secondary_edges);
+    out.main_side = edge_side(x, contact.main_edges);
+    out.shortest_side = shortest_of_both(out.main_side, out.secondary_side);
     return out;
   }
   double shortest = std::numeric_limits<double>::infinity();

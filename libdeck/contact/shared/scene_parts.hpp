@@ -116,6 +116,7 @@ struct PlainSides {
   std::vector<double> half_thickness;  ///< of secondary nodes; edges have theirs themselves
   std::vector<double> secondary_length, main_length;
   double shortest_side = 0;  ///< as Contact::shortest_side, with the nodes where `around` has them
+  EdgeSide secondary_side, main_side;  ///< of edges: what their default gap is formed of
 };
 PlainSides plain_sides(const Surroundings& around, const Contact& contact);
 /// By node: length of the shortest truss, beam or spring, infinity if there is none.

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
+#include "base/shared/parallel.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
 #include "deck/contact/search.hpp"
@@ -59,7 +61,7 @@ std::vector<std::uint32_t> deepest_rows(const Contact& contact, bool& all) {
 }
 
 /// Sides of a contact whose gaps are formed already.
-PlainSides formed_sides(const Contact& contact) {
+PlainSides formed_sides(const Contact& contact, const Coordinates& x) {
   PlainSides out;
   for (const SecondaryNode& s : contact.secondary) {
     out.half_thickness.push_back(s.gap);
@@ -69,6 +71,8 @@ PlainSides formed_sides(const Contact& contact) {
   for (const ContactEdge& e : contact.secondary_edges) out.secondary_length.push_back(e.length);
   for (const ContactEdge& e : contact.main_edges) out.main_length.push_back(e.length);
   out.shortest_side = contact.shortest_side;
+  out.secondary_side = edge_side(x, contact.secondary_edges);
+  out.main_side = edge_side(x, contact.main_edges);
   return out;
 }
 
@@ -217,7 +221,10 @@ class Shared {
     std::uint32_t& newest = newest_[key.nodes[0]];
     int few = 16;  // where a node has more, some are repeated
     for (std::uint32_t i = newest; i != no_index && few-- > 0; i = older_[i])
-      if (all_[i] == key) return next_ = i + 1, i;
+      if (all_[i] == key) {
+        next_ = i + 1;
+        return i;
+      }
     older_.push_back(newest);
     newest = static_cast<std::uint32_t>(all_.size());
     all_.push_back(key);
@@ -230,19 +237,36 @@ class Shared {
 
 class Writer {
  public:
-  Writer(const HtmlInput& input, const PageContacts& page, const PageNodes& nodes)
+  Writer(const HtmlInput& input, PageContacts& page, const PageNodes& nodes)
       : input_(input),
         page_(page),
         nodes_(nodes),
         model_(*input.scene->model),
-        connectivity_(model_) {}
+        connectivity_(model_),
+        of_ties_(std::move(page.of_ties)),
+        segments_(model_.nodes.size()),
+        edges_(model_.nodes.size()) {
+    for (std::size_t i = 0; i < page.contacts.size(); ++i) {
+      const Contact& c = input.scene->contacts[i];
+      chosen_.push_back(choose_items(c, page.contacts[i]));
+      main_.push_back(c.kind == ContactKind::node_segment ? segments_.numbers(c.main)
+                                                          : edges_.numbers(c.main_edges));
+      secondary_.push_back(edges_.numbers(c.secondary_edges));
+    }
+  }
 
-  std::string run() {
-    for (std::size_t i = 0; i < page_.contacts.size(); ++i)
-      chosen_.push_back(choose_items(input_.scene->contacts[i], page_.contacts[i]));
-    exact_coordinates();
+  /// Nodes to the last bit, segments and edges.
+  std::string shared() const {
+    ByteStream out;
+    exact_coordinates(out);
+    shared_items(out, segments_.all());
+    shared_items(out, edges_.all());
+    return std::move(out).text();
+  }
+
+  /// All contacts; the last that is done with `page`.
+  std::string contacts() {
     find_places();
-    shared_items();
     for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
       const Contact& c = input_.scene->contacts[i];
       const PageContact& wide = page_.contacts[i];
@@ -256,6 +280,7 @@ class Writer {
       selected(chosen_[i].main, wide.plain.main_length);
       if (is_modern(c.type)) given(c, wide.given);
     }
+    page_ = {};  // meshes are large, too
     return std::move(out_).text();
   }
 
@@ -305,11 +330,11 @@ class Writer {
 
   /// Page nodes whose coordinates are given to the last bit: those of all pairs, and of all items
   /// whose sides are measured: for removal along the mesh, or again once nodes have moved.
-  void exact_coordinates() {
+  void exact_coordinates(ByteStream& out) const {
     std::vector<std::uint8_t> wanted(nodes_.list().size(), 0);
     const auto use = [&](NodeIndex n) { wanted[nodes_[n]] = 1; };
     std::vector<std::uint8_t> movable(model_.nodes.size(), 0);
-    for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
+    for (std::size_t i = 0; i < chosen_.size(); ++i) {
       const Contact& c = input_.scene->contacts[i];
       const auto use_items = [&](const auto& items, const std::vector<std::uint32_t>& positions) {
         for (const std::uint32_t k : positions)
@@ -332,17 +357,17 @@ class Writer {
       for (const ContactEdge& e : c.secondary_edges)
         for (const NodeIndex n : e.nodes) use(n);
     }
-    for (const NodeIndex n : page_.of_ties) use(n);
+    for (const NodeIndex n : of_ties_) use(n);
     std::vector<double> values;
-    out_.u(static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), 1)));
+    out.u(static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), 1)));
     Delta d;
     for (std::uint32_t n = 0; n < wanted.size(); ++n)
-      if (wanted[n]) out_.s(d(n));
+      if (wanted[n]) out.s(d(n));
     for (const std::vector<double>* axis : {&model_.nodes.x, &model_.nodes.y, &model_.nodes.z}) {
       values.clear();
       for (std::uint32_t n = 0; n < wanted.size(); ++n)
         if (wanted[n]) values.push_back((*axis)[nodes_.list()[n]]);
-      out_.decimals(values);
+      out.decimals(values);
     }
   }
 
@@ -353,34 +378,24 @@ class Writer {
     out_.f64(values);
   }
 
-  void owners(const std::vector<Owner>& all) {
+  static void owners(ByteStream& out, const std::vector<Owner>& all) {
     Delta part, id;
-    for (const Owner& o : all) out_.byte(static_cast<unsigned>(o.kind));
-    for (const Owner& o : all) out_.s(id(o.id));
-    for (const Owner& o : all) out_.s(part(o.part == no_index ? 0 : std::int64_t{o.part} + 1));
+    for (const Owner& o : all) out.byte(static_cast<unsigned>(o.kind));
+    for (const Owner& o : all) out.s(id(o.id));
+    for (const Owner& o : all) out.s(part(o.part == no_index ? 0 : std::int64_t{o.part} + 1));
   }
 
-  /// All segments and all edges of contacts with their elements; contacts name them by number.
-  void shared_items() {
-    Shared<MainSegment> segments(model_.nodes.size());
-    Shared<ContactEdge> edges(model_.nodes.size());
-    for (const Contact& c : input_.scene->contacts) {
-      main_.push_back(c.kind == ContactKind::node_segment ? segments.numbers(c.main)
-                                                          : edges.numbers(c.main_edges));
-      secondary_.push_back(edges.numbers(c.secondary_edges));
+  /// Segments or edges with their elements; contacts name them by number.
+  template <class Keys>
+  void shared_items(ByteStream& out, const Keys& all) const {
+    Delta corner;
+    std::vector<Owner> of;
+    out.u(all.size());
+    for (const auto& item : all) {
+      for (const NodeIndex n : item.nodes) out.s(corner(nodes_[n]));
+      of.push_back(owner(model_, item.carrier, item.element));
     }
-    const auto write = [&](const auto& all) {
-      Delta corner;
-      std::vector<Owner> of;
-      out_.u(all.size());
-      for (const auto& item : all) {
-        for (const NodeIndex n : item.nodes) out_.s(corner(nodes_[n]));
-        of.push_back(owner(model_, item.carrier, item.element));
-      }
-      owners(of);
-    };
-    write(segments.all());
-    write(edges.all());
+    owners(out, of);
   }
 
   void numbers(const std::vector<std::uint32_t>& all) {
@@ -411,7 +426,7 @@ class Writer {
     std::vector<Owner> of;
     for (const std::uint32_t s : chosen_[i].secondary)
       of.push_back(owner_of_node(model_, connectivity_, c.secondary[s].node));
-    owners(of);
+    owners(out_, of);
   }
 
   void edges(const Contact& c, std::size_t i) {
@@ -456,11 +471,14 @@ class Writer {
   }
 
   const HtmlInput& input_;
-  const PageContacts& page_;
+  PageContacts& page_;
   const PageNodes& nodes_;
   const Model& model_;
   Connectivity connectivity_;
-  ByteStream out_;
+  std::vector<NodeIndex> of_ties_;
+  Shared<MainSegment> segments_;
+  Shared<ContactEdge> edges_;
+  ByteStream out_;                                            // of contacts()
   std::vector<Chosen> chosen_;                                // by contact
   std::vector<std::vector<std::uint32_t>> secondary_, main_;  // by contact: numbers of shared items
   std::vector<NodeIndex> named_;                              // ascending
@@ -477,14 +495,21 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
       scene.coordinates.z != nodes_of_deck.z)
     page.before_moves = {nodes_of_deck.x, nodes_of_deck.y, nodes_of_deck.z};
   const Coordinates& start = page.start(scene);
-  std::vector<PlainSides> plain;
+  std::vector<PlainSides> plain(scene.contacts.size());
   {
+    const int threads = effective_threads(input.threads);
     Connectivity connectivity(*scene.model);
     ShellsAtNodes shells;
     const std::vector<double> lines = shortest_line_elements(*scene.model, start);
-    const Surroundings around{*scene.model, connectivity, shells, start, input.threads, &lines};
-    for (const Contact& c : scene.contacts)
-      plain.push_back(is_modern(c.type) ? formed_sides(c) : plain_sides(around, c));
+    const Surroundings around{*scene.model, connectivity, shells, start, threads, &lines};
+    // Formed before several threads read it.
+    for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring})
+      connectivity.prepare(kind);
+    shell_half_thickness(around);
+    parallel_items(threads, plain.size(), [&](std::size_t i) {
+      const Contact& c = scene.contacts[i];
+      plain[i] = is_modern(c.type) ? formed_sides(c, start) : plain_sides(around, c);
+    });
   }
   std::size_t left = pairs_per_page;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
@@ -503,15 +528,14 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
   return page;
 }
 
-std::string contacts_block(const HtmlInput& input, const PageContacts& page,
-                           const PageNodes& nodes) {
-  return Writer(input, page, nodes).run();
+ContactBlocks contact_blocks(const HtmlInput& input, PageContacts& page, const PageNodes& nodes) {
+  const auto writer = std::make_shared<Writer>(input, page, nodes);
+  return {[writer] { return writer->shared(); }, [writer] { return writer->contacts(); }};
 }
 
 namespace {
 
-void write_default_gap(JsonWriter& j, const Contact& c, const PlainSides& plain,
-                       const Coordinates& x) {
+void write_default_gap(JsonWriter& j, const Contact& c, const PlainSides& plain) {
   const auto side = [&](const ThicknessSamples& t, double shortest) {
     j.begin_array(true).value(t.count).value(t.sum).value(t.smallest).value(t.largest);
     j.value(shortest).end_array();
@@ -520,10 +544,8 @@ void write_default_gap(JsonWriter& j, const Contact& c, const PlainSides& plain,
   if (c.kind == ContactKind::node_segment) {
     side(shell_thickness(c), plain.shortest_side);
   } else {
-    for (const auto* edges : {&c.main_edges, &c.secondary_edges}) {
-      const EdgeSide s = edge_side(x, *edges);
-      side(s.thickness, s.shortest);
-    }
+    side(plain.main_side.thickness, plain.main_side.shortest);
+    side(plain.secondary_side.thickness, plain.secondary_side.shortest);
   }
   j.end_array();
 }
@@ -584,7 +606,7 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     write_totals(j, input.view->contacts[i]);
     j.end_object();
     write_card(j, *c.inter, input.what_if);
-    write_default_gap(j, c, plain, page.start(scene));
+    write_default_gap(j, c, plain);
     j.end_object();
   }
   j.end_array();

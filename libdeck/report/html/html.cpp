@@ -175,17 +175,17 @@ struct Packed {
 
 /// All of them in their order, made side by side. Takes `page`.
 std::vector<Packed> packed_blocks(const HtmlInput& in, const std::vector<detail::MeshPart>& mesh,
+                                  const std::vector<detail::Touch>& touches,
                                   const detail::PageNodes& nodes, detail::PageContacts& page) {
   const Model& model = *in.scene->model;
   std::vector<Packed> blocks;
   const auto packed = [&](const char* id, std::function<std::string()> make) {
     blocks.push_back({id, std::move(make)});
   };
-  packed("deck-contacts", [&] {
-    std::string text = detail::contacts_block(in, page, nodes);
-    page = {};  // meshes are large, too
-    return text;
-  });
+  packed("deck-touches", [&] { return detail::packed_text(detail::touches_drawing(in, touches)); });
+  const detail::ContactBlocks contacts = detail::contact_blocks(in, page, nodes);
+  packed("deck-shared", contacts.shared);
+  packed("deck-contacts", contacts.contacts);
   if (!in.scene->ties.empty()) packed("deck-ties", [&] { return detail::ties_block(in, nodes); });
   packed("deck-mesh", [&] { return detail::mesh_block(model, mesh, nodes); });
   packed("deck-elements", [&] { return detail::elements_block(model, mesh); });
@@ -249,9 +249,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   const std::vector<detail::Touch> touches = detail::collect_touches(in, page);
   add_block(out, "deck-meta", "application/json",
             detail::script_safe(meta_json(in, page, touches)));
-  add_block(out, "deck-touches", "application/octet-stream",
-            detail::packed_text(detail::touches_drawing(in, touches)));
-  std::vector<Packed> blocks = packed_blocks(in, mesh, nodes, page);
+  std::vector<Packed> blocks = packed_blocks(in, mesh, touches, nodes, page);
   std::size_t size = out.size() + bundle.script.size();
   for (const Packed& block : blocks) size += block.text.size();
   out.reserve(size + size / 16);  // the rest is short

@@ -1,6 +1,7 @@
 // The steps that write the HTML report, one per file. Private to the stage.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -89,8 +90,12 @@ struct PageContacts {
   }
 };
 PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes);
-std::string contacts_block(const HtmlInput& input, const PageContacts& page,
-                           const PageNodes& nodes);
+/// Two blocks that can be made side by side: the nodes, segments and edges of all contacts, and the
+/// contacts one by one, after which `page` is empty.
+struct ContactBlocks {
+  std::function<std::string()> shared, contacts;
+};
+ContactBlocks contact_blocks(const HtmlInput& input, PageContacts& page, const PageNodes& nodes);
 /// The member "contacts": options, totals, default gaps.
 void write_contacts(JsonWriter& json, const HtmlInput& input, const PageContacts& page);
 

@@ -245,14 +245,16 @@ function readGiven(r: Reader, d: ContactData): Float64Array {
   return out;
 }
 
-export function readContacts(bytes: Uint8Array, meta: Meta, nodes: number): Contacts {
-  const r = new Reader(bytes);
-  const count = r.u();
-  const exactNode = r.deltas32(count);
+/** `shared`: what all contacts have in common. */
+export function readContacts(shared: Uint8Array, bytes: Uint8Array, meta: Meta, nodes: number): Contacts {
+  const s = new Reader(shared);
+  const count = s.u();
+  const exactNode = s.deltas32(count);
   const exactOf = new Int32Array(nodes).fill(-1);
   for (let i = 0; i < count; i++) exactOf[exactNode[i]] = i;
-  const [x, y, z] = [r.decimals(count), r.decimals(count), r.decimals(count)];
-  const [segments, edges] = [new Items(r, 4), new Items(r, 2)];
+  const [x, y, z] = [s.decimals(count), s.decimals(count), s.decimals(count)];
+  const [segments, edges] = [new Items(s, 4), new Items(s, 2)];
+  const r = new Reader(bytes);
   return { exactNode, exactOf, x, y, z, contacts: meta.contacts.map((c) => readContact(r, c, segments, edges)) };
 }
 
@@ -296,7 +298,7 @@ export function loadMesh(): Mesh {
 }
 
 export function loadContacts(meta: Meta, mesh: Mesh): Contacts {
-  return readContacts(inflate("deck-contacts")!, meta, mesh.nodeId.length);
+  return readContacts(inflate("deck-shared")!, inflate("deck-contacts")!, meta, mesh.nodeId.length);
 }
 
 const text = (id: string): string | null => {

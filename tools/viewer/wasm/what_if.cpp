@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "contact/rules/actions.hpp"
@@ -273,22 +274,29 @@ class Pairs {
     const double squared = c_.edges ? between_boxes(c_.edges_s[s], c_.edges_m[m])
                                     : between_boxes(std::array{c_.nodes[s]}, c_.segments[m]);
     const double limit = distance * (1 + 0x1p-40) + (largest_ * 0x1p-42 + 0x1p-500);
-    return !(limit > 0) || squared >= limit * limit;
+    return limit <= 0 || squared >= limit * limit;
   }
   /// Squared distance of the boxes round two lists of nodes.
-  template <std::size_t S, std::size_t M>
-  static double between_boxes(const std::array<std::uint32_t, S>& s,
-                              const std::array<std::uint32_t, M>& m) {
+  template <class Nodes, class OtherNodes>
+  static double between_boxes(const Nodes& nodes, const OtherNodes& others) {
     double squared = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double* const x = module.now.data() + k * module.node_count;
-      double low_s = x[s[0]], high_s = low_s, low_m = x[m[0]], high_m = low_m;
-      for (const std::uint32_t n : s) low_s = std::min(low_s, x[n]), high_s = std::max(high_s, x[n]);
-      for (const std::uint32_t n : m) low_m = std::min(low_m, x[n]), high_m = std::max(high_m, x[n]);
-      const double d = std::max(0.0, std::max(low_s - high_m, low_m - high_s));
+      const auto [low, high] = range(x, nodes);
+      const auto [other_low, other_high] = range(x, others);
+      const double d = std::max(0.0, std::max(low - other_high, other_low - high));
       squared += d * d;
     }
     return squared;
+  }
+  template <class Nodes>
+  static std::pair<double, double> range(const double* x, const Nodes& nodes) {
+    double low = x[nodes[0]], high = low;
+    for (const std::uint32_t n : nodes) {
+      low = std::min(low, x[n]);
+      high = std::max(high, x[n]);
+    }
+    return {low, high};
   }
 
   void find_removed() {

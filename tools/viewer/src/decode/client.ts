@@ -39,7 +39,7 @@ class Thread {
   }
 }
 
-const blocks = (): Blocks => ({ meta: blockText("deck-meta")!, mesh: blockText("deck-mesh")!, contacts: blockText("deck-contacts")! });
+const blocks = (): Blocks => ({ meta: blockText("deck-meta")!, mesh: blockText("deck-mesh")!, shared: blockText("deck-shared")!, contacts: blockText("deck-contacts")! });
 
 /** Begins to decode; null: the browser gives the page no thread. */
 export function begin(): Thread | null {

@@ -9,6 +9,7 @@ import { shapesOf, type Shape } from "./shape";
 export interface Blocks {
   meta: string;
   mesh: string;
+  shared: string;
   contacts: string;
 }
 
@@ -24,7 +25,7 @@ export async function decode(blocks: Blocks, coarse: () => boolean | Promise<boo
   const meta = JSON.parse(blocks.meta) as Meta;
   const mesh = readMesh(await inflateText(blocks.mesh));
   say(0.3, "Reading the contacts …");
-  const contacts = readContacts(await inflateText(blocks.contacts), meta, mesh.nodeId.length);
+  const contacts = readContacts(await inflateText(blocks.shared), await inflateText(blocks.contacts), meta, mesh.nodeId.length);
   say(0.5, "Evaluating the contacts …");
   const base = new Evaluator(meta, contacts).rawBase();
   say(0.75, "Preparing the picture …");
