@@ -22,6 +22,9 @@ function owners(r: Reader, n: number): Owners {
   return out;
 }
 
+/** Whether each number is the one before plus 1: the only contact of a surface needs no copy of it. */
+const inARow = (numbers: Uint32Array): boolean => numbers.length > 0 && numbers.every((n, i) => n === numbers[0] + i);
+
 /** Segments or edges of all contacts, which name them by number. */
 class Items {
   private readonly node: Uint32Array;
@@ -33,6 +36,7 @@ class Items {
   }
   nodesOf(numbers: Uint32Array): Uint32Array {
     const { node, nodes } = this;
+    if (inARow(numbers)) return node.subarray(nodes * numbers[0], nodes * (numbers[0] + numbers.length));
     const out = new Uint32Array(nodes * numbers.length);
     for (let i = 0, o = 0; i < numbers.length; i++) for (let at = nodes * numbers[i], k = 0; k < nodes; k++) out[o++] = node[at++];
     return out;
@@ -40,6 +44,8 @@ class Items {
   ownersOf(numbers: Uint32Array): Owners {
     const { kind, id, part } = this.owner;
     const n = numbers.length;
+    const [from, to] = [numbers[0], numbers[0] + n];
+    if (inARow(numbers)) return { kind: kind.subarray(from, to), id: id.subarray(from, to), part: part.subarray(from, to) };
     const out = { kind: new Uint8Array(n), id: new Float64Array(n), part: new Int32Array(n) };
     for (let i = 0; i < n; i++) {
       out.kind[i] = kind[numbers[i]];

@@ -270,15 +270,13 @@ class Pairs {
   /// Whether a pair is at least this far apart for sure: a look at the boxes round its two sides.
   /// Round-off makes distances shorter by a few units in the last place of the coordinates.
   bool apart(std::size_t p, double distance) const {
-    const auto s = c_.pair_secondary[p], m = c_.pair_main[p];
-    const double squared = c_.edges ? between_boxes(c_.edges_s[s], c_.edges_m[m])
-                                    : between_boxes(std::array{c_.nodes[s]}, c_.segments[m]);
     const double limit = distance * (1 + 0x1p-40) + (largest_ * 0x1p-42 + 0x1p-500);
-    return limit <= 0 || squared >= limit * limit;
+    const auto s = c_.pair_secondary[p], m = c_.pair_main[p];
+    return c_.edges ? boxes_apart(c_.edges_s[s], c_.edges_m[m], limit)
+                    : boxes_apart(std::array{c_.nodes[s]}, c_.segments[m], limit);
   }
-  /// Squared distance of the boxes round two lists of nodes.
   template <class Nodes, class OtherNodes>
-  static double between_boxes(const Nodes& nodes, const OtherNodes& others) {
+  static bool boxes_apart(const Nodes& nodes, const OtherNodes& others, double limit) {
     double squared = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double* const x = module.now.data() + k * module.node_count;
@@ -286,8 +284,9 @@ class Pairs {
       const auto [other_low, other_high] = range(x, others);
       const double d = std::max(0.0, std::max(low - other_high, other_low - high));
       squared += d * d;
+      if (squared >= limit * limit) return true;  // mostly the first axis tells
     }
-    return squared;
+    return limit <= 0;
   }
   template <class Nodes>
   static std::pair<double, double> range(const double* x, const Nodes& nodes) {
