@@ -395,8 +395,10 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bea
   const auto segment_of = [&](std::uint32_t i) { return contact.main[i].nodes; };
   const MainSides main(contact);
   Box around;  // the secondary nodes
-  for (const SecondaryNode& s : contact.secondary)
-    around.add(sweep::box_of_nodes(nodes, std::array{s.node}, 0));
+  for (const SecondaryNode& s : contact.secondary) {
+    const std::array at{nodes.x[s.node], nodes.y[s.node], nodes.z[s.node]};
+    around.add({at, at});
+  }
   std::vector<std::uint32_t> near = all_of(main.count);
   const Box box = sweep::keep_inside(
       near, [&](std::uint32_t i) { return segment_box(nodes, segment_of(i)); }, around, threads);

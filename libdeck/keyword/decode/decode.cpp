@@ -163,7 +163,8 @@ Cell read_cell(const Deck& deck, Findings& findings, const Field& field, std::st
     cell.integer = cell.text == "1" ? 1 : 0;
     return cell;
   }
-  if (cell.text.starts_with('&') || cell.text.starts_with("-&")) {
+  const std::size_t sign = cell.text.starts_with('-') ? 1 : 0;
+  if (sign < cell.text.size() && cell.text[sign] == '&') {
     apply_parameter(deck, findings, cell);
     return cell;
   }

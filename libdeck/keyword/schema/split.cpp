@@ -4,6 +4,24 @@
 #include "keyword/schema/json.hpp"
 
 namespace deck::detail {
+namespace {
+
+/// Where the quote is that ends the string of JSON that begins at `first`.
+std::size_t end_of_string(std::string_view text, std::size_t first) {
+  for (std::size_t end = first;; ++end) {
+    end = std::min(text.find('"', end), text.size());
+    std::size_t unescaped = end;
+    while (unescaped > first && text[unescaped - 1] == '\\') --unescaped;
+    if ((end - unescaped) % 2 == 0 || end == text.size()) return end;
+  }
+}
+
+std::size_t after_blanks(std::string_view text, std::size_t at) {
+  while (at < text.size() && static_cast<unsigned char>(text[at]) <= ' ') ++at;
+  return at;
+}
+
+}  // namespace
 
 std::vector<SchemaText> split_schemas(std::string_view text) {
   std::vector<SchemaText> found;
@@ -24,11 +42,10 @@ std::vector<SchemaText> split_schemas(std::string_view text) {
       if (--depth <= level) key = {};
     } else if (c == '"') {
       const std::size_t first = i + 1;
-      while (++i < text.size() && text[i] != '"')
-        if (text[i] == '\\') ++i;
-      const auto string = text.substr(std::min(first, text.size()), i - first);
-      const auto next = text.find_first_not_of(" \t\r\n", i + 1);
-      const bool is_key = next != std::string_view::npos && text[next] == ':';
+      i = end_of_string(text, first);
+      const auto string = text.substr(first, i - first);
+      const std::size_t next = after_blanks(text, i + 1);
+      const bool is_key = next < text.size() && text[next] == ':';
       if (level == 0 && is_key && string != "$schema") {
         level = string == "schemas" ? 3 : 1;
         if (level == 1) found.emplace_back();

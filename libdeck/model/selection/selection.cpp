@@ -110,6 +110,7 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s, const Limits& l)
 }
 
 void Selections::Impl::sort_nodes(std::vector<NodeIndex>& nodes) const {
+  if (ranks.empty() && std::is_sorted(nodes.begin(), nodes.end())) return;
   // Much of the model, and in the order of its nodes: they are found in order by walking over all.
   constexpr std::size_t share = 16;
   const std::size_t all = model->nodes.size();

@@ -201,6 +201,8 @@ struct Selections::Impl {
   /// Appends the nodes that are not yet marked in this generation.
   void start_marks();
   void mark(NodeIndex n, std::vector<NodeIndex>& out);
+  /// Puts the nodes of this generation into ascending order: `nodes` are all of them.
+  void sort_marked(std::vector<NodeIndex>& nodes) const;
   const NodeSet* node_group(std::int64_t id);
   std::vector<NodeIndex> resolve_nodes(const detail::Definition& def, const DecodedBlock& d);
   std::vector<NodeIndex> nodes_by_id(const detail::Definition& def, const DecodedBlock& d);

@@ -28,6 +28,18 @@ void Selections::Impl::mark(NodeIndex n, std::vector<NodeIndex>& out) {
   out.push_back(n);
 }
 
+void Selections::Impl::sort_marked(std::vector<NodeIndex>& nodes) const {
+  if (nodes.empty()) return;
+  const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end());
+  constexpr std::size_t steps = 16;  // a walk over so many nodes takes as long as to sort one
+  if (*high - *low > steps * nodes.size()) return std::sort(nodes.begin(), nodes.end());
+  NodeIndex n = *low;
+  for (NodeIndex& out : nodes) {
+    while (stamp[n] != generation) ++n;
+    out = n++;
+  }
+}
+
 const NodeSet* Selections::Impl::node_group(std::int64_t id) {
   if (const auto it = node_groups.find(id); it != node_groups.end()) return &it->second;
   const Definition* def = definition("grnod", id);

@@ -94,27 +94,32 @@ Indices Selections::Impl::group_nodes(const SetGroup& group, LastGroup& last) {
   for (const Edge& e : group.row_edges)
     for (const NodeIndex n : e.nodes) mark(n, nodes);
   for (const NodeIndex n : group.named) mark(n, nodes);
-  std::sort(nodes.begin(), nodes.end());
+  sort_marked(nodes);
   return nodes;
 }
 
 void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
   // Plain segments are compared by their ascending nodes, a triangle starting with 0; others by
   // their nodes as they stand.
-  const auto key = [&](const Segment& s) {
+  const auto plain_key = [&](const Segment& s) {
     std::array<std::uint32_t, 4> k;
     for (std::size_t n = 0; n < 4; ++n) k[n] = rank(s.nodes[n]) + 1;
-    if (s.carrier == Carrier::none) {
-      if (s.nodes[2] == s.nodes[3]) k[3] = 0;
-      std::sort(k.begin(), k.end());
-    }
+    if (s.nodes[2] == s.nodes[3]) k[3] = 0;
+    std::sort(k.begin(), k.end());
     return k;
   };
   const auto before = [&](const Segment& a, const Segment& b) {
     if (a.carrier != b.carrier) return a.carrier < b.carrier;
     if (a.element != b.element)
       return element_id(a.carrier, a.element) < element_id(b.carrier, b.element);
-    return key(a) < key(b);
+    if (a.carrier == Carrier::none) return plain_key(a) < plain_key(b);
+    const auto [x, y] =
+        std::mismatch(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end());
+    return x != a.nodes.end() && rank(*x) + 1 < rank(*y) + 1;
+  };
+  const auto same = [&](const Segment& a, const Segment& b) {
+    if (a.carrier != b.carrier || a.element != b.element) return false;
+    return a.carrier == Carrier::none ? plain_key(a) == plain_key(b) : a.nodes == b.nodes;
   };
   const auto sort_each_element = [&] {
     for (std::size_t i = 0; i < segments.size();) {
@@ -128,7 +133,7 @@ void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
       if (end - i > few)
         std::stable_sort(first, last, before);
       else
-        for (auto it = first; it != last; ++it)
+        for (auto it = first + 1; it != last; ++it)
           std::rotate(std::upper_bound(first, it, *it, before), it, it + 1);
       i = end;
     }
@@ -139,12 +144,7 @@ void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
     sort_segments(segments);
     sort_each_element();
   }
-  segments.erase(std::unique(segments.begin(), segments.end(),
-                             [&](const Segment& a, const Segment& b) {
-                               return a.carrier == b.carrier && a.element == b.element &&
-                                      key(a) == key(b);
-                             }),
-                 segments.end());
+  segments.erase(std::unique(segments.begin(), segments.end(), same), segments.end());
 }
 
 void Selections::Impl::merge_edges(std::vector<Edge>& edges) const {
