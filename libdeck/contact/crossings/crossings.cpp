@@ -80,20 +80,14 @@ class SegmentTree {
     const std::size_t count = order_.size();
     sweep::put_in_order(
         order_, [&](std::uint32_t i) { return segment_box(nodes, segment_of(i)); }, threads);
-    std::vector<BoxBlock> blocks;
-    make_room(blocks, (count + width - 1) / width, threads);
-    blocks.resize((count + width - 1) / width);
-    make_room(corners_, blocks.size(), threads);
-    corners_.resize(blocks.size());
-    parallel_pieces(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin * width; i < std::min(count, end * width); ++i) {
-        const std::array<std::uint32_t, 4> own = segment_of(order_[i]);
-        for (std::size_t k = 0; k < 4; ++k) corners_[i / width].node[k][i % width] = own[k];
-        // Else the place in the block stays as those that are not used: nothing meets it.
-        if (all_placed(nodes, own)) blocks[i / width].set(i % width, segment_box(nodes, own));
-      }
-    });
-    tree_ = BoxTree(std::move(blocks), threads);
+    make_room(corners_, (count + width - 1) / width, threads);
+    corners_.resize((count + width - 1) / width);
+    const auto pack = [&](std::size_t i) {
+      const std::array<std::uint32_t, 4> own = segment_of(order_[i]);
+      for (std::size_t k = 0; k < 4; ++k) corners_[i / width].node[k][i % width] = own[k];
+      return all_placed(nodes, own) ? segment_box(nodes, own) : Box::nowhere();
+    };
+    tree_ = BoxTree(count, pack, threads);
   }
 
   /// The leaves that edges with these boxes may pass through, box after box: none that have a node

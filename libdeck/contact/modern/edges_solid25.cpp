@@ -141,10 +141,9 @@ std::vector<EdgeThroughSegment> edges_through_solids(const SceneContext& c, cons
       order.push_back(i);
   if (order.empty()) return out;
   sweep::put_in_order(order, box_of, threads);
-  constexpr std::size_t width = BoxBlock::width, at_once = 512;
-  std::vector<BoxBlock> blocks((order.size() + width - 1) / width);
-  for (std::size_t i = 0; i < order.size(); ++i) blocks[i / width].set(i % width, box_of(order[i]));
-  const BoxTree tree(std::move(blocks), threads);
+  constexpr std::size_t at_once = 512;
+  const auto box_at = [&](std::size_t i) { return box_of(order[i]); };
+  const BoxTree tree(order.size(), box_at, threads);
   const Accuracy accuracy = c.all_placed ? c.options.accuracy : Accuracy::reference;
   const ThroughSolids rule(x, s, t, edges, accuracy, decisions);
   std::vector<Box> boxes;

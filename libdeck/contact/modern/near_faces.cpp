@@ -49,21 +49,19 @@ std::vector<CandidatePair> by_node(const std::vector<CandidatePair>& pairs, std:
   return out;
 }
 
+deck::Box box_of_node(const NodeArrays& x, const SideNode& node) {
+  return sweep::box_of_nodes(x, std::array{node.node}, node.gap);
+}
+
 /// Nodes in a tree of their places, each as a box that its gap fills.
 class NodeTree {
  public:
   NodeTree(const NodeArrays& x, const Sides& sides, std::vector<std::uint32_t> some, int threads)
       : order_(std::move(some)) {
-    const auto box_of = [&](std::uint32_t i) {
-      return sweep::box_of_nodes(x, std::array{sides.nodes[i].node}, sides.nodes[i].gap);
-    };
+    const auto box_of = [&](std::uint32_t i) { return box_of_node(x, sides.nodes[i]); };
     sweep::put_in_order(order_, box_of, threads);
-    std::vector<BoxBlock> blocks;
-    make_room(blocks, (order_.size() + BoxBlock::width - 1) / BoxBlock::width, threads);
-    blocks.resize((order_.size() + BoxBlock::width - 1) / BoxBlock::width);
-    for (std::size_t i = 0; i < order_.size(); ++i)
-      blocks[i / BoxBlock::width].set(i % BoxBlock::width, box_of(order_[i]));
-    tree_ = BoxTree(std::move(blocks), threads);
+    const auto box_at = [&](std::size_t i) { return box_of(order_[i]); };
+    tree_ = BoxTree(order_.size(), box_at, threads);
   }
   const BoxTree& tree() const { return tree_; }
   std::uint32_t node(std::uint32_t leaf) const { return order_[leaf]; }
@@ -112,6 +110,7 @@ SearchResult in_boxes(const SceneContext& context, const Sides& sides,
         sweep::kernels().meetings(tree.tree(), p.boxes, p.near);
         for (const sweep::Meeting& m : p.near) {
           const std::uint32_t face = faces[first + m.box], node = tree.node(m.leaf);
+          if (!box_of_node(x, sides.nodes[node]).overlaps(p.boxes[m.box])) continue;
           const Quad& corners = sides.faces[face].nodes;
           if (std::find(corners.begin(), corners.end(), sides.nodes[node].node) == corners.end())
             p.found.push_back({node, face});

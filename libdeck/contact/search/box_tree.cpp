@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/shared/parallel.hpp"
-
 namespace deck {
 
-BoxTree::BoxTree(std::vector<BoxBlock> leaves, int threads) {
-  if (leaves.empty()) return;
+void BoxTree::set_origin(const Box& box) {
+  for (std::size_t k = 0; k < 3; ++k) origin_[k] = std::isfinite(box.low[k]) ? box.low[k] : 0.0;
+}
+
+void BoxTree::add_levels(std::vector<BoxBlock> leaves, int threads) {
   levels_.push_back(std::move(leaves));
   while (levels_.back().size() > 1) {
     const std::vector<BoxBlock>& below = levels_.back();

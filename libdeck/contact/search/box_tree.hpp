@@ -2,11 +2,17 @@
 // spatial order. Blocks hold the children's boxes side by side so that one test covers all eight.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
+
+#include "base/shared/pages.hpp"
+#include "base/shared/parallel.hpp"
 
 namespace deck {
 
@@ -27,31 +33,71 @@ struct Box {
            (high[1] >= b.low[1]) & (low[2] <= b.high[2]) & (high[2] >= b.low[2]);
   }
   double size() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
+
+  // Holds no number at all: overlaps nothing, not even a box without bounds.
+  static Box nowhere() {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return {{none, none, none}, {none, none, none}};
+  }
+};
+
+// A box in single precision, rounded outwards, from an origin on: what overlaps the box overlaps
+// this one, too. Half the memory, and twice as many in one test.
+struct FloatBox {
+  static constexpr float infinity = std::numeric_limits<float>::infinity();
+  std::array<float, 3> low{infinity, infinity, infinity};
+  std::array<float, 3> high{-infinity, -infinity, -infinity};
+
+  FloatBox() = default;
+  FloatBox(const Box& b, const std::array<double, 3>& origin) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = below(b.low[k] - origin[k]);
+      high[k] = -below(origin[k] - b.high[k]);
+    }
+  }
+  void add(const FloatBox& b) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = b.low[k] < low[k] ? b.low[k] : low[k];
+      high[k] = b.high[k] > high[k] ? b.high[k] : high[k];
+    }
+  }
+  float size() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
+
+ private:
+  // One or two units in the last place below the nearest number, which is infinite below the least.
+  static float below(double v) {
+    constexpr double most = std::numeric_limits<float>::max();
+    const double not_above = v > most ? most : v;
+    const auto nearest = static_cast<float>(not_above < -most ? -most : not_above);
+    return nearest - (std::fabs(nearest) * 0x1p-23F + std::numeric_limits<float>::min());
+  }
 };
 
 // Eight boxes. Unused places hold no number at all: no comparison with them is true, so that they
-// overlap nothing, not even a box without bounds, and add nothing to the bounds of the block.
+// overlap nothing and add nothing to the bounds of the block.
 struct alignas(64) BoxBlock {
   static constexpr std::size_t width = 8;
-  std::array<std::array<double, width>, 3> low;
-  std::array<std::array<double, width>, 3> high;
+  std::array<std::array<float, width>, 3> low;
+  std::array<std::array<float, width>, 3> high;
 
   BoxBlock() {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
     for (auto& axis : low) axis.fill(none);
     for (auto& axis : high) axis.fill(none);
   }
-  void set(std::size_t child, const Box& b) {
+  void set(std::size_t child, const FloatBox& b) {
     for (std::size_t k = 0; k < 3; ++k) {
       low[k][child] = b.low[k];
       high[k][child] = b.high[k];
     }
   }
-  Box bounds() const {
-    Box all;
-    for (std::size_t c = 0; c < width; ++c) {
-      all.add({{low[0][c], low[1][c], low[2][c]}, {high[0][c], high[1][c], high[2][c]}});
-    }
+  FloatBox bounds() const {
+    FloatBox all;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t c = 0; c < width; ++c) {
+        all.low[k] = low[k][c] < all.low[k] ? low[k][c] : all.low[k];
+        all.high[k] = high[k][c] > all.high[k] ? high[k][c] : all.high[k];
+      }
     return all;
   }
 };
@@ -61,13 +107,34 @@ struct alignas(64) BoxBlock {
 class BoxTree {
  public:
   BoxTree() = default;
-  explicit BoxTree(std::vector<BoxBlock> leaves, int threads);
+  // Of the boxes box_of(0) ... box_of(count-1), which are asked for on several threads.
+  template <class BoxOf>
+  BoxTree(std::size_t count, const BoxOf& box_of, int threads) {
+    if (count == 0) return;
+    // Near most of the boxes, wherever the model lies and however far away a stray node is.
+    set_origin(box_of(count / 2));
+    constexpr std::size_t width = BoxBlock::width;
+    std::vector<BoxBlock> leaves;
+    make_room(leaves, (count + width - 1) / width, threads);
+    leaves.resize((count + width - 1) / width);
+    parallel_pieces(threads, leaves.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin * width; i < std::min(count, end * width); ++i)
+        leaves[i / width].set(i % width, rounded(box_of(i)));
+    });
+    add_levels(std::move(leaves), threads);
+  }
 
   std::size_t levels() const { return levels_.size(); }
   const std::vector<BoxBlock>& level(std::size_t i) const { return levels_[i]; }
+  // The box as the blocks hold theirs.
+  FloatBox rounded(const Box& b) const { return {b, origin_}; }
   std::size_t bytes() const;
 
  private:
+  void set_origin(const Box& box);
+  void add_levels(std::vector<BoxBlock> leaves, int threads);
+
+  std::array<double, 3> origin_{};
   std::vector<std::vector<BoxBlock>> levels_;
 };
 

@@ -16,7 +16,6 @@ namespace sweep {
 
 EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads, double robust)
     : input(&in), options(&o), robust_margin(robust) {
-  constexpr std::size_t width = BoxBlock::width;
   const auto secondary_box = [&](std::uint32_t i) {
     return edge_box(in.nodes, in.secondary[i], secondary_reach(o, at(in.secondary_gap, i, 0.0)));
   };
@@ -27,13 +26,7 @@ EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int thread
   mains = active(in.main.size(), in.main_stiffness);
   drop_distant(items, secondary_box, mains, main_box, threads);
   sort_in_space(items, secondary_box, threads);
-  std::vector<BoxBlock> blocks((items.size() + width - 1) / width);
-  parallel_pieces(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin * width; k < std::min(items.size(), end * width); ++k) {
-      blocks[k / width].set(k % width, secondary_box(items[k]));
-    }
-  });
-  tree = BoxTree(std::move(blocks), threads);
+  tree = BoxTree(items.size(), [&](std::size_t i) { return secondary_box(items[i]); }, threads);
   put_in_order(mains, main_box, threads);
 }
 

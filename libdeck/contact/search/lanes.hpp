@@ -15,17 +15,21 @@ inline void store(double* to, Lanes v) { __builtin_memcpy(to, &v, sizeof v); }
 inline Lanes all(double value) { return value - Lanes{}; }
 inline Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
 
+typedef float Floats __attribute__((vector_size(8 * DECK_LANES)));
+
 // Which of eight boxes overlap box `b`, as bit mask.
-inline unsigned overlaps(const BoxBlock& block, const Box& b) {
+inline unsigned overlaps(const BoxBlock& block, const FloatBox& b) {
   unsigned bits = 0;
-  for (unsigned c = 0; c < BoxBlock::width; c += DECK_LANES) {
-    LaneMask in = (load(&block.low[0][c]) <= all(b.high[0]));
-    in &= (load(&block.high[0][c]) >= all(b.low[0]));
-    in &= (load(&block.low[1][c]) <= all(b.high[1]));
-    in &= (load(&block.high[1][c]) >= all(b.low[1]));
-    in &= (load(&block.low[2][c]) <= all(b.high[2]));
-    in &= (load(&block.high[2][c]) >= all(b.low[2]));
-    bits |= DECK_LANE_BITS(in) << c;
+  for (unsigned c = 0; c < BoxBlock::width; c += 2 * DECK_LANES) {
+    const auto floats = [c](const std::array<float, BoxBlock::width>& from) {
+      Floats v;
+      __builtin_memcpy(&v, &from[c], sizeof v);
+      return v;
+    };
+    auto in = (floats(block.low[0]) <= b.high[0]) & (floats(block.high[0]) >= b.low[0]);
+    in &= (floats(block.low[1]) <= b.high[1]) & (floats(block.high[1]) >= b.low[1]);
+    in &= (floats(block.low[2]) <= b.high[2]) & (floats(block.high[2]) >= b.low[2]);
+    bits |= DECK_ID_BITS(in) << c;
   }
   return bits;
 }
@@ -46,14 +50,14 @@ struct Walk {
   std::vector<Hit> near;  // those of some things of the group
   std::array<Step, most_steps> steps;
 
-  void keep_near(const std::vector<BoxBlock>& leaves, const Box& b) {
+  void keep_near(const std::vector<BoxBlock>& leaves, const FloatBox& b) {
     near.clear();
     for (const Hit& hit : hits)
       if (const unsigned mask = overlaps(leaves[hit.block], b) & hit.mask; mask != 0)
         near.push_back({hit.block, mask});
   }
 
-  void find(const BoxTree& tree, const Box& b) {
+  void find(const BoxTree& tree, const FloatBox& b) {
     hits.clear();
     std::size_t waiting = 1;
     steps[0] = {static_cast<std::uint32_t>(tree.levels() - 1), 0};
@@ -356,9 +360,9 @@ struct SegmentTest {
 
 // The part of a group's walk that belongs to one segment. Masks of eight blocks, then of eight
 // leaves, are put together into words of 64 bits: few long loops are predicted better than many
-// short ones.
+// short ones. `box`: the wide one of the shape.
 inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, const Shape& s,
-                          std::uint32_t segment, Found& found) {
+                          const FloatBox& box, std::uint32_t segment, Found& found) {
   const std::vector<BoxBlock>& blocks = w.tree.level(0);
   const auto last_leaf = static_cast<std::uint32_t>(w.points.size() - 1);
   const unsigned last_bits = (2U << ((w.items.size() - 1) % 8)) - 1U;
@@ -381,7 +385,7 @@ inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, cons
     std::uint64_t masks = 0;
     for (std::size_t k = 0; k < count; ++k) {
       const Hit& hit = hits[first + k];
-      masks |= std::uint64_t{overlaps(blocks[hit.block], s.wide) & hit.mask} << (8 * k);
+      masks |= std::uint64_t{overlaps(blocks[hit.block], box) & hit.mask} << (8 * k);
     }
     for (; masks != 0; masks &= masks - 1) {
       const auto bit = static_cast<unsigned>(__builtin_ctzll(masks));
@@ -403,16 +407,18 @@ inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, 
   const NodeSegmentInput& in = *w.input;
   Walk walk;
   std::array<Shape, items_at_once> shapes;
+  std::array<FloatBox, items_at_once> boxes;
   for (std::size_t first = begin; first < end; first += items_at_once) {
     const std::size_t count = std::min(items_at_once, end - first);
-    Box group;
+    FloatBox group;
     double sizes = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t segment = w.segments[first + i];
       shapes[i].set(in.nodes, in.segments[segment],
                     main_reach(*w.options, w.robust_margin, at(in.segment_gap, segment, 0.0)));
-      group.add(shapes[i].wide);
-      sizes += shapes[i].wide.size();
+      boxes[i] = w.tree.rounded(shapes[i].wide);
+      group.add(boxes[i]);
+      sizes += boxes[i].size();
     }
     const bool shared = worth_sharing(group.size(), sizes);
     if (shared) {
@@ -429,8 +435,8 @@ inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, 
     }
     for (std::size_t i = 0; i < count; ++i) {
       if (found.full()) return;
-      if (!shared) walk.find(w.tree, shapes[i].wide);
-      sweep_segment(w, walk.hits, shapes[i], w.segments[first + i], found);
+      if (!shared) walk.find(w.tree, boxes[i]);
+      sweep_segment(w, walk.hits, shapes[i], boxes[i], w.segments[first + i], found);
     }
   }
 }
@@ -506,37 +512,36 @@ inline unsigned with_node(const CornerBlock& corners, const EdgeNodes& edge) {
   return bits;
 }
 
-// Boxes first ... last-1 of a list against a tree: as one if they lie together, else by halves.
+// Boxes first, first+1, ... of a list against a tree: as one if they lie together, else by halves.
 // dropped(block, box): bit mask of leaves that are not wanted.
 template <class Dropped>
-inline void meet_some(const BoxTree& tree, std::span<const Box> boxes, std::size_t first,
-                      std::size_t last, const Dropped& dropped, Walk& walk,
-                      std::vector<Meeting>& out) {
-  Box group;
+inline void meet_some(const BoxTree& tree, std::span<const FloatBox> boxes, std::size_t first,
+                      const Dropped& dropped, Walk& walk, std::vector<Meeting>& out) {
+  FloatBox group;
   double sizes = 0.0;
-  for (std::size_t i = first; i < last; ++i) {
-    group.add(boxes[i]);
-    sizes += boxes[i].size();
+  for (const FloatBox& b : boxes) {
+    group.add(b);
+    sizes += b.size();
   }
-  if (last - first > 1 && !worth_sharing(group.size(), sizes)) {
-    const std::size_t middle = first + (last - first) / 2;
-    meet_some(tree, boxes, first, middle, dropped, walk, out);
-    meet_some(tree, boxes, middle, last, dropped, walk, out);
+  if (boxes.size() > 1 && !worth_sharing(group.size(), sizes)) {
+    const std::size_t half = boxes.size() / 2;
+    meet_some(tree, boxes.first(half), first, dropped, walk, out);
+    meet_some(tree, boxes.subspan(half), first + half, dropped, walk, out);
     return;
   }
   const std::vector<BoxBlock>& leaves = tree.level(0);
   walk.find(tree, group);
-  for (std::size_t i = first; i < last;) {
-    const std::size_t end = std::min(last, i + items_at_once);
-    Box some;
+  for (std::size_t i = 0; i < boxes.size();) {
+    const std::size_t end = std::min(boxes.size(), i + items_at_once);
+    FloatBox some;
     for (std::size_t k = i; k < end; ++k) some.add(boxes[k]);
     walk.keep_near(leaves, some);
     for (; i < end; ++i)
       for (const Hit& hit : walk.near) {
         unsigned mask = overlaps(leaves[hit.block], boxes[i]) & hit.mask;
         if (mask == 0) continue;
-        for (mask &= ~dropped(hit.block, i); mask != 0; mask &= mask - 1)
-          out.push_back({static_cast<std::uint32_t>(i),
+        for (mask &= ~dropped(hit.block, first + i); mask != 0; mask &= mask - 1)
+          out.push_back({static_cast<std::uint32_t>(first + i),
                          hit.block * 8 + static_cast<std::uint32_t>(__builtin_ctz(mask))});
       }
   }
@@ -547,10 +552,13 @@ inline void meet(const BoxTree& tree, std::span<const Box> boxes, const Dropped&
                  std::vector<Meeting>& out) {
   if (tree.levels() == 0) return;
   Walk walk;
-  constexpr std::size_t at_once =
-      4 * items_at_once;  // a walk costs more than tests of some boxes more
-  for (std::size_t first = 0; first < boxes.size(); first += at_once)
-    meet_some(tree, boxes, first, std::min(boxes.size(), first + at_once), dropped, walk, out);
+  // A walk costs more than tests of some boxes more.
+  std::array<FloatBox, 4 * items_at_once> some;
+  for (std::size_t first = 0; first < boxes.size(); first += some.size()) {
+    const std::size_t count = std::min(some.size(), boxes.size() - first);
+    for (std::size_t i = 0; i < count; ++i) some[i] = tree.rounded(boxes[first + i]);
+    meet_some(tree, std::span(some).first(count), first, dropped, walk, out);
+  }
 }
 
 inline void meet_boxes(const BoxTree& tree, std::span<const Box> boxes, std::vector<Meeting>& out) {

@@ -133,7 +133,7 @@ struct EdgeTest {
 };
 
 // The part of a group's walk that belongs to one main edge.
-inline void sweep_edge(const EdgeSweep& w, const std::vector<Hit>& hits, const Box& box,
+inline void sweep_edge(const EdgeSweep& w, const std::vector<Hit>& hits, const FloatBox& box,
                        std::uint32_t edge, Found& found) {
   const std::vector<BoxBlock>& leaves = w.tree.level(0);
   EdgeTest test(w, edge);
@@ -150,15 +150,15 @@ inline void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, 
   if (w.tree.levels() == 0) return;
   const EdgeEdgeInput& in = *w.input;
   Walk walk;
-  std::array<Box, items_at_once> boxes;
+  std::array<FloatBox, items_at_once> boxes;
   for (std::size_t first = begin; first < end; first += items_at_once) {
     const std::size_t count = std::min(items_at_once, end - first);
-    Box group;
+    FloatBox group;
     double sizes = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t edge = w.mains[first + i];
-      boxes[i] = edge_box(in.nodes, in.main[edge],
-                          main_reach(*w.options, w.robust_margin, at(in.main_gap, edge, 0.0)));
+      const double own = main_reach(*w.options, w.robust_margin, at(in.main_gap, edge, 0.0));
+      boxes[i] = w.tree.rounded(edge_box(in.nodes, in.main[edge], own));
       group.add(boxes[i]);
       sizes += boxes[i].size();
     }

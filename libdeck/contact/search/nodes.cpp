@@ -87,30 +87,24 @@ void NodeSweep::pack(int threads) {
   points.resize(leaf_count);
   reach.resize(leaf_count);
   nodes.assign(leaf_count * width, no_node);
-  std::vector<BoxBlock> blocks;
-  make_room(blocks, (leaf_count + width - 1) / width, threads);
-  blocks.resize((leaf_count + width - 1) / width);
-  parallel_pieces(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    const std::size_t last = std::min(leaf_count, end * width);
-    for (std::size_t i = begin * width; i < last; ++i) {
-      PointBlock& leaf = points[i];
-      Box box;
-      for (std::size_t rank = i * width; rank < std::min(items.size(), (i + 1) * width); ++rank) {
-        const std::size_t k = rank % width;
-        nodes[rank] = in.secondary[items[rank]];
-        const Point3<double> p = point(in.nodes, nodes[rank]);
-        leaf.x[k] = p.x;
-        leaf.y[k] = p.y;
-        leaf.z[k] = p.z;
-        leaf.gap[k] = at(in.secondary_gap, items[rank], 0.0);
-        const double own = secondary_reach(*options, leaf.gap[k]);
-        reach[i] = k == 0 ? own : std::max(reach[i], own);
-        box.add(reach_of_node(in, *options, items[rank]));
-      }
-      blocks[i / width].set(i % width, box);
+  const auto pack_leaf = [&](std::size_t i) {
+    PointBlock& leaf = points[i];
+    Box box;
+    for (std::size_t rank = i * width; rank < std::min(items.size(), (i + 1) * width); ++rank) {
+      const std::size_t k = rank % width;
+      nodes[rank] = in.secondary[items[rank]];
+      const Point3<double> p = point(in.nodes, nodes[rank]);
+      leaf.x[k] = p.x;
+      leaf.y[k] = p.y;
+      leaf.z[k] = p.z;
+      leaf.gap[k] = at(in.secondary_gap, items[rank], 0.0);
+      const double own = secondary_reach(*options, leaf.gap[k]);
+      reach[i] = k == 0 ? own : std::max(reach[i], own);
+      box.add(reach_of_node(in, *options, items[rank]));
     }
-  });
-  tree = BoxTree(std::move(blocks), threads);
+    return box;
+  };
+  tree = BoxTree(leaf_count, pack_leaf, threads);
 }
 
 // Whether walks through the tree meet little else than what they look for, tried with some of the
@@ -124,8 +118,9 @@ bool NodeSweep::serves_well() const {
   std::vector<std::pair<std::size_t, std::size_t>> stack;  // level, block
   for (std::size_t i = stride / 2; i < segments.size(); i += stride) {
     const Box b = reach_of_segment(*input, *options, robust_margin, segments[i]);
-    const auto apart = [&b](std::size_t axis, double low, double high) {
-      return !(low <= b.high[axis] && high >= b.low[axis]);  // unused places are apart
+    const FloatBox rounded = tree.rounded(b);
+    const auto near = [](const auto& box, std::size_t axis, auto low, auto high) {
+      return low <= box.high[axis] && high >= box.low[axis];  // unused places are not
     };
     allowed += per_level * tree.levels();
     stack.emplace_back(tree.levels() - 1, 0);
@@ -135,9 +130,9 @@ bool NodeSweep::serves_well() const {
       stack.pop_back();
       const BoxBlock& boxes = tree.level(level)[block];
       for (std::size_t c = 0; c < BoxBlock::width; ++c) {
-        if (apart(0, boxes.low[0][c], boxes.high[0][c]) ||
-            apart(1, boxes.low[1][c], boxes.high[1][c]) ||
-            apart(2, boxes.low[2][c], boxes.high[2][c]))
+        if (!near(rounded, 0, boxes.low[0][c], boxes.high[0][c]) ||
+            !near(rounded, 1, boxes.low[1][c], boxes.high[1][c]) ||
+            !near(rounded, 2, boxes.low[2][c], boxes.high[2][c]))
           continue;
         const std::size_t child = block * BoxBlock::width + c;
         if (level > 0) {
@@ -148,8 +143,8 @@ bool NodeSweep::serves_well() const {
         const PointBlock& leaf = points[child];
         const double r = reach[child];
         for (std::size_t k = 0; k < PointBlock::width; ++k) {
-          if (!apart(0, leaf.x[k] - r, leaf.x[k] + r) && !apart(1, leaf.y[k] - r, leaf.y[k] + r) &&
-              !apart(2, leaf.z[k] - r, leaf.z[k] + r))
+          if (near(b, 0, leaf.x[k] - r, leaf.x[k] + r) &&
+              near(b, 1, leaf.y[k] - r, leaf.y[k] + r) && near(b, 2, leaf.z[k] - r, leaf.z[k] + r))
             ++allowed;
         }
       }

@@ -164,7 +164,8 @@ inline double pair_limit(const SearchOptions& o, double gap_s, double gap_m, dou
   return std::max(o.drad, o.gap(gap_s, gap_m, length_s, length_m));
 }
 
-// A box that overlaps a leaf of a tree: position in the list of boxes, number of the leaf.
+// A box that overlaps a leaf of a tree, both rounded: position in the list of boxes, number of the
+// leaf.
 struct Meeting {
   std::uint32_t box = 0, leaf = 0;
 };

@@ -100,32 +100,32 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s, const Limits& l)
   }
   const auto& id = m.nodes.id;
   if (!std::is_sorted(id.begin(), id.end())) {
-    std::vector<NodeIndex> by_id(id.size());
-    for (NodeIndex n = 0; n < by_id.size(); ++n) by_id[n] = n;
-    std::stable_sort(by_id.begin(), by_id.end(),
+    by_rank.resize(id.size());
+    std::iota(by_rank.begin(), by_rank.end(), NodeIndex{0});
+    std::stable_sort(by_rank.begin(), by_rank.end(),
                      [&](NodeIndex a, NodeIndex b) { return id[a] < id[b]; });
     ranks.resize(id.size());
-    for (std::uint32_t r = 0; r < by_id.size(); ++r) ranks[by_id[r]] = r;
+    for (std::uint32_t r = 0; r < by_rank.size(); ++r) ranks[by_rank[r]] = r;
   }
 }
 
 void Selections::Impl::sort_nodes(std::vector<NodeIndex>& nodes) const {
-  if (ranks.empty() && std::is_sorted(nodes.begin(), nodes.end())) return;
-  // Much of the model, and in the order of its nodes: they are found in order by walking over all.
-  constexpr std::size_t share = 16;
-  const std::size_t all = model->nodes.size();
-  if (ranks.empty() && nodes.size() > all / share) {
-    std::vector<bool> in(all, false);
-    for (const NodeIndex n : nodes) in[n] = true;
-    if (static_cast<std::size_t>(std::count(in.begin(), in.end(), true)) == nodes.size()) {
-      auto next = nodes.begin();
-      for (NodeIndex n = 0; next != nodes.end(); ++n)
-        if (in[n]) *next++ = n;
-      return;
-    }
+  const auto before = [&](NodeIndex a, NodeIndex b) { return rank(a) < rank(b); };
+  if (std::is_sorted(nodes.begin(), nodes.end(), before)) return;
+  const auto [first, last] = std::minmax_element(nodes.begin(), nodes.end(), before);
+  const std::size_t low = rank(*first), range = rank(*last) - low + 1;
+  // Nodes that lie close are found in order by walking over all between the first and the last.
+  constexpr std::size_t steps = 16;  // so many take as long as to sort one
+  std::vector<bool> in(range / steps <= nodes.size() ? range : 0, false);
+  bool repeated = in.empty();
+  for (std::size_t i = 0; i < nodes.size() && !repeated; ++i) {
+    repeated = in[rank(nodes[i]) - low];
+    in[rank(nodes[i]) - low] = true;
   }
-  std::sort(nodes.begin(), nodes.end(),
-            [&](NodeIndex a, NodeIndex b) { return rank(a) < rank(b); });
+  if (repeated) return std::sort(nodes.begin(), nodes.end(), before);
+  auto next = nodes.begin();
+  for (std::size_t r = 0; r < range; ++r)
+    if (in[r]) *next++ = by_rank.empty() ? static_cast<NodeIndex>(low + r) : by_rank[low + r];
 }
 
 const Definition* Selections::Impl::definition(std::string_view kind, std::int64_t id) const {
