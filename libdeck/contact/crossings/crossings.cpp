@@ -22,8 +22,15 @@ namespace {
 constexpr std::size_t width = BoxBlock::width;
 constexpr std::size_t at_once = 512;  // edges, or elements with theirs
 
-Box segment_box(const NodeArrays& nodes, const std::array<std::uint32_t, 4>& segment) {
-  return sweep::segment_box(nodes, segment, 0);
+/// Of those of its nodes that have a place.
+template <std::size_t N>
+Box hull_of(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of) {
+  Box hull;
+  for (const std::uint32_t n : of) {
+    const std::array at{nodes.x[n], nodes.y[n], nodes.z[n]};
+    hull.add({at, at});
+  }
+  return hull;
 }
 
 std::vector<std::uint32_t> all_of(std::size_t count) {
@@ -79,13 +86,13 @@ class SegmentTree {
       : order_(std::move(some)) {
     const std::size_t count = order_.size();
     sweep::put_in_order(
-        order_, [&](std::uint32_t i) { return segment_box(nodes, segment_of(i)); }, threads);
+        order_, [&](std::uint32_t i) { return hull_of(nodes, segment_of(i)); }, threads);
     make_room(corners_, (count + width - 1) / width, threads);
     corners_.resize((count + width - 1) / width);
     const auto pack = [&](std::size_t i) {
       const std::array<std::uint32_t, 4> own = segment_of(order_[i]);
       for (std::size_t k = 0; k < 4; ++k) corners_[i / width].node[k][i % width] = own[k];
-      return all_placed(nodes, own) ? segment_box(nodes, own) : Box::nowhere();
+      return all_placed(nodes, own) ? hull_of(nodes, own) : Box::nowhere();
     };
     tree_ = BoxTree(count, pack, threads);
   }
@@ -130,7 +137,7 @@ std::vector<CandidatePair> find_crossing_pairs(
         out.boxes.clear();
         out.found.clear();
         const auto some = edges.subspan(first, std::min(at_once, edges.size() - first));
-        for (const auto& edge : some) out.boxes.push_back(sweep::edge_box(nodes, edge, 0));
+        for (const auto& edge : some) out.boxes.push_back(hull_of(nodes, edge));
         tree.near(some, out.boxes, out.near);
         for (const sweep::Meeting& m : out.near) {
           const auto& edge = edges[first + m.box];
@@ -243,13 +250,18 @@ std::vector<std::uint32_t> bearers_of(const Bearers& bearers, const Contact& con
   // One bit for the first node, one for another, and the sides that they are all beyond.
   constexpr std::uint8_t one = 0x40, more = 0x80;
   std::vector<std::uint8_t> found(bearers.elements.size());
+  std::uint32_t low = no_index, high = 0;  // of those that have one
   for (const SecondaryNode& s : contact.secondary) {
     const std::uint8_t beyond = marks[s.node] & outside_box;
-    for (const std::uint32_t i : bearers.at_node.row(s.node))
+    const std::span<const std::uint32_t> row = bearers.at_node.row(s.node);
+    for (const std::uint32_t i : row)
       found[i] = found[i] == 0 ? one | beyond : more | (found[i] & beyond);
+    if (row.empty()) continue;
+    low = std::min(low, row.front());
+    high = std::max(high, row.back() + 1);
   }
   std::vector<std::uint32_t> out;
-  for (std::size_t i = 0; i < found.size(); ++i)
+  for (std::size_t i = low; i < high; ++i)
     if (found[i] == more) out.push_back(bearers.elements[i]);
   return out;
 }
@@ -355,7 +367,7 @@ void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const
         if (!p.recent.add(edge)) return;
         p.edges.push_back(edge);
         p.elements.push_back(elements[i]);
-        p.boxes.push_back(sweep::edge_box(nodes, edge, 0));
+        p.boxes.push_back(hull_of(nodes, edge));
       });
     tree.near(p.edges, p.boxes, p.near);
     for (const sweep::Meeting& m : p.near) {
@@ -389,13 +401,10 @@ std::vector<Crossing> crossings_of(const Contact& contact, const std::vector<Bea
   const auto segment_of = [&](std::uint32_t i) { return contact.main[i].nodes; };
   const MainSides main(contact);
   Box around;  // the secondary nodes
-  for (const SecondaryNode& s : contact.secondary) {
-    const std::array at{nodes.x[s.node], nodes.y[s.node], nodes.z[s.node]};
-    around.add({at, at});
-  }
+  for (const SecondaryNode& s : contact.secondary) around.add(hull_of(nodes, std::array{s.node}));
   std::vector<std::uint32_t> near = all_of(main.count);
   const Box box = sweep::keep_inside(
-      near, [&](std::uint32_t i) { return segment_box(nodes, segment_of(i)); }, around, threads);
+      near, [&](std::uint32_t i) { return hull_of(nodes, segment_of(i)); }, around, threads);
   if (near.empty()) return found;
   unsigned beyond = outside_box;  // sides of the box that all nodes are beyond
   for (const SecondaryNode& s : contact.secondary)
