@@ -41,30 +41,41 @@ template <class Item, class Out, class Active, class As>
 void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<Out>& out,
                        const Active& active, const As& as) const {
   const std::size_t count = items.size();
-  const auto each = [&](const auto& f) {
-    const int threads = threads_for(count, threads_);
-    parallel_pieces(threads, count, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) f(i);
-    });
+  const auto each_piece = [&](const auto& f) {
+    parallel_pieces(threads_for(count, threads_), count,
+                    [&](std::size_t, std::size_t begin, std::size_t end) { f(begin, end); });
   };
   const auto size = [&](auto& array) {
     make_room(array, count, threads_);
     array.resize(count);
   };
   size(out);
-  size(side.gap);
   if (lengths_) size(side.length);
+  std::atomic<bool> some_gap{lengths_};  // removal along the mesh reads those, too
   std::atomic<bool> some_off{false};
-  each([&](std::size_t i) {
-    out[i] = as(items[i]);
-    side.gap[i] = items[i].gap;
-    if (lengths_) side.length[i] = items[i].length;
-    if (active(items[i]) == 0.0) some_off.store(true, std::memory_order_relaxed);
+  each_piece([&](std::size_t begin, std::size_t end) {
+    bool gap = false, off = false;
+    for (std::size_t i = begin; i < end; ++i) {
+      out[i] = as(items[i]);
+      if (lengths_) side.length[i] = items[i].length;
+      gap |= items[i].gap != 0.0;
+      off |= active(items[i]) == 0.0;
+    }
+    if (gap) some_gap.store(true, std::memory_order_relaxed);
+    if (off) some_off.store(true, std::memory_order_relaxed);
   });
+  if (some_gap) {
+    size(side.gap);
+    each_piece([&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) side.gap[i] = items[i].gap;
+    });
+  }
   // Stiffness only says who takes part; mostly all do.
   if (!some_off) return;
   size(side.stiffness);
-  each([&](std::size_t i) { side.stiffness[i] = active(items[i]); });
+  each_piece([&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) side.stiffness[i] = active(items[i]);
+  });
 }
 
 NodeSegmentInput SearchSides::nodes(const Coordinates& x) const {

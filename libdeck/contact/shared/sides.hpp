@@ -33,7 +33,7 @@ class SearchSides {
  private:
   struct Side {
     std::vector<double> gap, length,
-        stiffness;  ///< length, stiffness: empty where they say nothing
+        stiffness;  ///< empty where they say nothing
   };
   /// Fills the arrays of a side: active(item) says that it takes part, as(item) what stands in
   /// `out`.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "base/shared/parallel.hpp"
@@ -134,14 +133,18 @@ void DepthBounds::follow(NodeIndex n, double reach) {
 }
 
 std::vector<DepthBounds::Place> DepthBounds::allowed(const NodeMoves& wanted, int threads) const {
-  std::vector<std::uint32_t> order(wanted.size());
-  std::iota(order.begin(), order.end(), 0U);
   const auto directions = [&](std::uint32_t i) -> const std::vector<Vec>& {
     return nodes_.at(wanted[i].first).directions;
   };
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return directions(a).size() < directions(b).size();
-  });
+  std::vector<std::vector<std::uint32_t>> by_count;  // nodes of as many directions, in their order
+  for (std::uint32_t i = 0; i < wanted.size(); ++i) {
+    const std::size_t count = directions(i).size();
+    if (count >= by_count.size()) by_count.resize(count + 1);
+    by_count[count].push_back(i);
+  }
+  std::vector<std::uint32_t> order;
+  order.reserve(wanted.size());
+  for (const auto& nodes : by_count) order.insert(order.end(), nodes.begin(), nodes.end());
   std::vector<Place> out(wanted.size());
   parallel_pieces(threads, order.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     Cones cones;
