@@ -341,7 +341,8 @@ TEST(SearchKernels, EveryInstructionSetFindsTheSameMeetingsOfBoxes) {
   for (const auto& edge : mesh.edges) boxes.push_back(sweep::edge_box(mesh.nodes(), edge, gap));
   boxes.push_back({{-Box::infinity, -Box::infinity, -Box::infinity},
                    {Box::infinity, Box::infinity, Box::infinity}});
-  const BoxTree tree(boxes.size(), [&](std::size_t i) { return boxes[i]; }, 1);
+  const BoxTree tree(
+      boxes.size(), [&](std::size_t i) { return boxes[i]; }, 1);
   // The last box is no edge's.
   std::vector<sweep::EdgeNodes> edges(mesh.edges.begin(), mesh.edges.end());
   edges.push_back({sweep::no_node - 1, sweep::no_node - 1});
@@ -358,8 +359,7 @@ TEST(SearchKernels, EveryInstructionSetFindsTheSameMeetingsOfBoxes) {
     for (std::uint32_t j = 0; j < boxes.size(); ++j) {
       const FloatBox a = tree.rounded(boxes[i]), b = tree.rounded(boxes[j]);
       bool meet = true;
-      for (std::size_t k = 0; k < 3; ++k)
-        meet &= a.low[k] <= b.high[k] && b.low[k] <= a.high[k];
+      for (std::size_t k = 0; k < 3; ++k) meet &= a.low[k] <= b.high[k] && b.low[k] <= a.high[k];
       EXPECT_TRUE(meet || !boxes[i].overlaps(boxes[j])) << "what overlaps does so when rounded";
       if (meet) expected.emplace_back(i, j);
       if (meet && !share(i, j)) expected_apart.emplace_back(i, j);

@@ -26,7 +26,8 @@ EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int thread
   mains = active(in.main.size(), in.main_stiffness);
   drop_distant(items, secondary_box, mains, main_box, threads);
   sort_in_space(items, secondary_box, threads);
-  tree = BoxTree(items.size(), [&](std::size_t i) { return secondary_box(items[i]); }, threads);
+  tree = BoxTree(
+      items.size(), [&](std::size_t i) { return secondary_box(items[i]); }, threads);
   put_in_order(mains, main_box, threads);
 }
 
