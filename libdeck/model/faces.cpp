@@ -46,9 +46,9 @@ Face solid_face(const NodeIndex* slots, int face) {
   std::size_t n = 0;
   for (const int s : face_slots[face]) {
     const NodeIndex node = slots[s];
-    if (std::find(out.nodes.begin(), out.nodes.begin() + static_cast<std::ptrdiff_t>(n), node) ==
-        out.nodes.begin() + static_cast<std::ptrdiff_t>(n))
-      out.nodes[n++] = node;
+    bool repeated = false;
+    for (std::size_t k = 0; k < n; ++k) repeated |= out.nodes[k] == node;
+    if (!repeated) out.nodes[n++] = node;
   }
   if (n == 3) out.nodes[3] = out.nodes[2];
   out.corners = n >= 3 ? static_cast<int>(n) : 0;

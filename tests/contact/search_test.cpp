@@ -380,6 +380,37 @@ TEST(SearchKernels, EveryInstructionSetFindsTheSameMeetingsOfBoxes) {
   }
 }
 
+TEST(SearchBoxes, RoundedBoxesOverlapWhereBoxesDo) {
+  Dice dice(815);
+  for (const int exponent : {-1060, -300, -149, -126, 0, 24, 100, 127, 128, 300, 1020}) {
+    std::vector<Box> boxes;
+    for (int i = 0; i < 64; ++i) {
+      Box b;
+      for (std::size_t k = 0; k < 3; ++k) {
+        b.low[k] = std::ldexp(dice.uniform(-1, 1), exponent);
+        b.high[k] = b.low[k] + std::ldexp(dice.uniform(0, 0.5), exponent);
+        // Neighbours that touch.
+        if (i % 2 != 0) b.low[k] = boxes.back().high[k], b.high[k] = std::max(b.high[k], b.low[k]);
+      }
+      boxes.push_back(b);
+    }
+    for (const double far : {0x1p-200, 1e9, 0x1p130, 0x1p1023})
+      boxes.push_back({{far, -far, far}, {far, far, Box::infinity}});
+    boxes.push_back(Box::nowhere());
+    const BoxTree tree(
+        boxes.size(), [&](std::size_t i) { return boxes[i]; }, 1);
+    for (const Box& a : boxes)
+      for (const Box& b : boxes) {
+        const FloatBox p = tree.rounded(a), q = tree.rounded(b);
+        bool meet = true;
+        for (std::size_t k = 0; k < 3; ++k) meet &= p.low[k] <= q.high[k] && q.low[k] <= p.high[k];
+        EXPECT_TRUE(meet || !a.overlaps(b)) << "2^" << exponent;
+      }
+    const FloatBox none = tree.rounded(Box::nowhere());
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_FALSE(none.low[k] <= FloatBox::infinity);
+  }
+}
+
 TEST(SearchInvariance, PowerOfTwoScalingAndAxisPermutation) {
   const Mesh mesh = two_sheets(20);
   SearchOptions o;

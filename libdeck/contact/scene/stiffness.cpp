@@ -85,16 +85,7 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
     double k = 0;
     edge.shell = edge.section = 0;
     edge.carrier = Carrier::none;
-    // Later rules override earlier ones: solid, shell, one-dimensional element.
-    std::uint32_t solid = no_index;
-    for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, a))
-      if (solid_holds(model.solid8, e, b) &&
-          (solid == no_index || model.solid8.id[e] > model.solid8.id[solid]))
-        solid = e;
-    if (solid != no_index) {
-      edge.carrier = Carrier::solid;
-      edge.element = solid;
-    }
+    // One-dimensional elements override shells, shells override solids.
     // The thickest shell, of equally thick ones the stiffest; a 3-node shell goes before any 4-node
     // shell (as measured on the reference solver).
     double thickness = 0, young = 0;
@@ -136,9 +127,19 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
         edge.section = s;
       }
     }
-    if (edge.carrier == Carrier::solid && !constant) {
-      const double l = distance(x, a, b);
-      k = l > 0 ? f * solid_volume(x, model.solid8.of(solid)) * bulk_of(model, solid) / (l * l) : 0;
+    if (edge.carrier == Carrier::none) {
+      std::uint32_t solid = no_index;
+      for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, a))
+        if (solid_holds(model.solid8, e, b) &&
+            (solid == no_index || model.solid8.id[e] > model.solid8.id[solid]))
+          solid = e;
+      if (solid != no_index) {
+        edge.carrier = Carrier::solid;
+        edge.element = solid;
+        const double l = distance(x, a, b);
+        k = l > 0 ? f * solid_volume(x, model.solid8.of(solid)) * bulk_of(model, solid) / (l * l)
+                  : 0;
+      }
     }
     edge.stiffness = constant && edge.carrier != Carrier::none ? std::fabs(f) : k;
   }
