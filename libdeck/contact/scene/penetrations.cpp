@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/shared/filtered_decisions.hpp"
@@ -64,6 +65,21 @@ void give_up(SceneContext& c, Contact& contact) {
 /// True while the penetrations found fit into the room there is for them.
 bool rows_fit(const SceneContext& c, const Contact& contact) {
   return contact.penetrations.size() <= c.options.limits.pair_bytes / sizeof(PenetrationRow);
+}
+
+/// Room for `more` rows, and for as many in all as the first `looked_at` of `pairs` let expect: to
+/// double it again and again would take several times the memory of a long list.
+void reserve_rows(std::vector<PenetrationRow>& rows, std::size_t more, std::uint64_t looked_at,
+                  std::size_t pairs) {
+  const std::size_t after = rows.size() + more;
+  if (after <= rows.capacity()) return;
+  const double share = std::max(1.0, static_cast<double>(looked_at)) / static_cast<double>(pairs);
+  const double expected = 1.05 * static_cast<double>(after) / share;
+  const std::size_t least = after + after / 2, most = 4 * after;
+  rows.reserve(expected < static_cast<double>(most)
+                   ? std::max(least, static_cast<std::size_t>(expected))
+                   : most);
+  prefer_large_pages(rows);
 }
 
 /// Irem_gap 2. False: there is no room for the lists.
@@ -228,6 +244,7 @@ void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisi
   const MovableNodes movable{moved.x, moved.y, moved.z};
   const auto act_on_group = [&] {
     group.start();
+    reserve_rows(contact.penetrations, verdicts.size(), contact.candidates, found.pairs.size());
     for (PairVerdict& verdict : verdicts) {
       if (verdict.solver_acts) {
         SecondaryNode& s = contact.secondary[verdict.row.secondary];
