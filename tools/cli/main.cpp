@@ -62,12 +62,11 @@ void gmp_free(void* p, std::size_t) { std::free(p); }
 #endif
 
 #ifdef __GLIBC__
-/// Has the heap begin with large pages, and all threads allocate in it: the system takes up to a
-/// fifth of the time of a run to provide small ones. Only a hint: beyond it the heap grows as ever.
+/// Has the heap begin with large pages: the system takes up to a fifth of the time of a run to
+/// provide small ones. Only a hint: beyond it the heap grows as ever.
 void begin_heap_with_large_pages() {
   constexpr int mebi = 1 << 20, own_mapping = 32 * mebi, kept = 128 * mebi;
   constexpr std::size_t block = own_mapping - mebi;
-  mallopt(M_ARENA_MAX, 1);
   mallopt(M_MMAP_THRESHOLD, own_mapping);  // what the C library comes to choose by itself
   mallopt(M_TRIM_THRESHOLD, kept);
   void* blocks[3];
