@@ -58,6 +58,7 @@ TEST(Broken, BreaksBehindABlankElseBehindASignElseAnywhere) {
     EXPECT_EQ(broken("abc" + sign + "defgh", 6, 6), (Pieces{"abc" + sign, "defgh"}));
   EXPECT_EQ(broken("ab_cdefg", 5, 5), (Pieces{"ab_", "cdefg"}));
   EXPECT_EQ(broken("abcdefgh", 4, 4), (Pieces{"abcd", "efgh"}));
+  EXPECT_EQ(broken("   abcdefgh", 6, 6), (Pieces{"   abc", "defgh"})) << "not behind an indent";
 }
 
 TEST(Folded, NoLineIsWiderAndShortOnesStayAsTheyAre) {

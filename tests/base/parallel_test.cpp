@@ -15,6 +15,10 @@
 namespace deck {
 namespace {
 
+TEST(Processors, AreThoseOfTheMachineAndAtLeastOne) {
+  EXPECT_EQ(processors(), static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+}
+
 TEST(ParallelItems, EveryItemRunsOnceOnAnyNumberOfThreads) {
   for (const int threads : {1, 2, 7, 64}) {
     std::vector<std::atomic<int>> ran(1000);

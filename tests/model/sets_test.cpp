@@ -206,6 +206,12 @@ TEST(Set, MissingIdIsWarning1902AndIgnored) {
   EXPECT_EQ(b.message(RuleId::DK161), 1902);
 }
 
+TEST(Set, MissingSetIsWarning1902AndTheOthersCount) {
+  Built b(model() + set(1, clause("SET", {2, 77})) + set(2, clause("NODE", {1})));
+  EXPECT_EQ(b.group(1), (Ids{1}));
+  EXPECT_EQ(b.message(RuleId::DK161), 1902);
+}
+
 TEST(Set, MissingNodeOfASegmentIsMessage1903) {
   Built b(model() + set(1, clause("SEG", {1, 9, 8, 77})));
   EXPECT_TRUE(b.surface(1).empty());

@@ -63,6 +63,14 @@ TEST(CellWriter, GoOnBehindACellThatTheEndOfTheLineCuts) {
   EXPECT_EQ(l.after(cells), "01234    5    9\r\nnext\n");
 }
 
+TEST(CellWriter, HandItsEditsOutOnce) {
+  const Lines l("0123456789\n1,2,3\n");
+  CellWriter cells(l.sources);
+  cells.set({0, 0, 0}, 1, 5, "1");
+  EXPECT_EQ(cells.finish().size(), 1u);
+  EXPECT_TRUE(cells.finish().empty());
+}
+
 TEST(CellWriter, KeepTheLastTextOfACell) {
   const Lines l("0123456789\n");
   CellWriter cells(l.sources);
