@@ -4,6 +4,7 @@
 #include "contact/distance/exact.hpp"
 #include "contact/distance/filtered_bounds.hpp"
 #include "contact/distance/filtered_piece.hpp"
+#include "contact/distance/fused.hpp"
 
 namespace deck {
 
@@ -33,6 +34,30 @@ std::optional<FilteredDepth> rescaled(FilteredDepth out, int shift, FilterStage 
   if (!std::isnormal(out.depth) || !std::isnormal(out.distance)) return std::nullopt;
   return out;
 }
+// The closest points in double-double, and their distance rounded once where the bracket tells.
+struct RoundedSegment {
+  SegmentClosest<DoubleDouble> closest;
+  std::optional<double> distance;
+
+  static RoundedSegment run(const SegmentPair& pair, const SegmentClosest<double>& c, bool guided,
+                            int shift) {
+    const auto v = wide_hull<DoubleDouble>(pair);
+    const auto w = wide_closest(pair, c, v, guided);
+    return {w, rounded(lower_bound(w, v, largest_magnitudes(v), pair.triangle),
+                       upper_bound(w.weights, v), shift)};
+  }
+};
+struct RoundedEdges {
+  EdgeClosest<DoubleDouble> closest;
+  std::optional<double> distance;
+
+  static RoundedEdges run(const EdgePair& pair, int shift) {
+    const auto v = pair.hull_of<DoubleDouble>();
+    const auto w = wide_closest(pair);
+    return {w, rounded(lower_bound(w, v, largest_magnitudes(v)), upper_bound(hull_weights(w), v),
+                       shift)};
+  }
+};
 FilteredDepth in_exact_numbers(const ExactDepth& d) {
   return {d.depth, d.distance, FilterStage::exact};
 }
@@ -135,19 +160,11 @@ FilteredSegment filtered_closest_on_segment(const P& p, const std::array<P, 4>& 
       count(counters, out.stage);
       return out;
     }
-    const auto v = wide_hull<DoubleDouble>(pair);
-    const auto largest = largest_magnitudes(v);
-    const auto round_once = [&](const SegmentClosest<DoubleDouble>& w) {
-      return rounded(lower_bound(w, v, largest, triangle), upper_bound(w.weights, v), scaled.shift);
-    };
-    auto w = wide_closest(pair, c, v, true);
-    auto value = round_once(w);
-    if (!value) {
-      w = wide_closest(pair, c, v, false);
-      value = round_once(w);
-    }
-    if (value) {
-      out.distance = *value;
+    auto wide = fused<RoundedSegment>(pair, c, true, scaled.shift);
+    if (!wide.distance) wide = fused<RoundedSegment>(pair, c, false, scaled.shift);
+    const auto& w = wide.closest;
+    if (wide.distance) {
+      out.distance = *wide.distance;
       out.feature = w.feature;
       out.feature_index = w.feature_index;
       for (std::size_t k = 0; k < 4; ++k) out.weights[k] = w.weights[k].hi();
@@ -188,13 +205,11 @@ FilteredEdges filtered_closest_between_edges(const P& s1, const P& s2, const P& 
       count(counters, out.stage);
       return out;
     }
-    const auto v = pair.hull_of<DoubleDouble>();
-    const auto w = wide_closest(pair);
-    const auto value = rounded(lower_bound(w, v, largest_magnitudes(v)),
-                               upper_bound(hull_weights(w), v), scaled.shift);
-    if (value) {
-      out = {*value,      w.weight_s.hi(), w.weight_m.hi(),
-             w.feature_s, w.feature_m,     FilterStage::double_double};
+    const auto wide = fused<RoundedEdges>(pair, scaled.shift);
+    const auto& w = wide.closest;
+    if (wide.distance) {
+      out = {*wide.distance, w.weight_s.hi(), w.weight_m.hi(),
+             w.feature_s,    w.feature_m,     FilterStage::double_double};
       count(counters, out.stage);
       return out;
     }
