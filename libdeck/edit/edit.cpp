@@ -375,7 +375,7 @@ Result<std::vector<std::string>> Edit::save_to(const std::string& directory, boo
       return config(f.path +
                     " is a file of the deck itself; nothing was written. Name another "
                     "directory, or save in place");
-    if (overwrite) continue;
+    if (overwrite || is_unchanged_output(f.path, f.origin)) continue;
     const auto old = Source::open(f.path, state_->original->options().read.limits);
     if (!old || (*old)->on_disk() != f.bytes)
       return config(f.path + " is there already, with other contents; nothing was written");

@@ -334,6 +334,18 @@ TEST_F(AtomicWriting, FailingRenameTakesTheEarlierOnesBack) {
   EXPECT_EQ(entries(), 3u);
 }
 
+TEST_F(AtomicWriting, AResultKnowsWhatItWasMadeFromUntilSomebodyChangesIt) {
+  OutputFile file{at("out.rad"), "made"};
+  file.origin = "/decks/car_0000.rad";
+  ASSERT_TRUE(write_files_atomic({file}));
+  if (!is_unchanged_output(file.path, file.origin)) GTEST_SKIP() << "no notes on this file system";
+  EXPECT_FALSE(is_unchanged_output(file.path, "/decks/bus_0000.rad"));
+  EXPECT_FALSE(is_unchanged_output(file.path, "car_0000.rad"));
+  EXPECT_FALSE(is_unchanged_output(file.path, ""));
+  put("out.rad", "MADE");
+  EXPECT_FALSE(is_unchanged_output(file.path, file.origin));
+}
+
 TEST_F(AtomicWriting, PiecesBecomeOneFile) {
   put("a", "old");
   ASSERT_TRUE(write_file_atomic(at("a"), [](const WritePiece& write) -> Result<void> {

@@ -87,7 +87,8 @@ void Session::remember_read(const std::string& path) {
 }
 
 Result<void> Session::check_output(const std::string& path, const OutputRules& rules,
-                                   std::optional<std::string_view> bytes) const {
+                                   std::optional<std::string_view> bytes,
+                                   std::string_view origin) const {
   struct stat status {};
   if (path.empty() || path == "-") return {};
   const auto look = rules.follow_links ? stat : lstat;
@@ -103,6 +104,7 @@ Result<void> Session::check_output(const std::string& path, const OutputRules& r
                                               : "this call reads it, as " + read->second);
   }
   if (rules.overwrite || (rules.ours && rules.ours(path))) return {};
+  if (rules.deck_tree && is_unchanged_output(path, origin)) return {};
   if (!rules.deck_tree && !file_looks_like_deck(path)) return {};
   if (bytes && holds(path, static_cast<std::uint64_t>(status.st_size), *bytes)) return {};
   if (rules.deck_tree)
@@ -141,7 +143,7 @@ Result<void> Session::write_outputs(const std::vector<OutputFile>& files, const 
 Result<void> Session::check_outputs(const std::vector<OutputFile>& files,
                                     const OutputRules& rules) const {
   for (const OutputFile& f : files)
-    if (auto allowed = check_output(f.path, rules, f.bytes); !allowed) return allowed;
+    if (auto allowed = check_output(f.path, rules, f.bytes, f.origin); !allowed) return allowed;
   return {};
 }
 

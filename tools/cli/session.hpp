@@ -44,9 +44,11 @@ class Session {
   void remember_read(const std::string& path);
 
   /// Error: the path is an existing file that the rules protect. Without `bytes` what will be
-  /// written is not known yet; a file that holds it already is no obstacle.
+  /// written is not known yet; a file that holds it already is no obstacle, nor, in a tree of
+  /// decks, one that was made from the same `origin` and is unchanged since.
   Result<void> check_output(const std::string& path, const OutputRules& rules = {},
-                            std::optional<std::string_view> bytes = std::nullopt) const;
+                            std::optional<std::string_view> bytes = std::nullopt,
+                            std::string_view origin = {}) const;
   /// The same for files with their contents.
   Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRules& rules) const;
   /// Writes bytes to standard output ("-") or atomically to a file.

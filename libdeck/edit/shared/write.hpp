@@ -32,6 +32,8 @@ struct OutputFile {
   std::optional<FileRead> read = std::nullopt;
   WritePieces pieces = nullptr;  ///< given: called once for the contents, instead of `bytes`
   bool is_main = false;          ///< of a deck: put in place after the others of the set
+  /// Not empty: what the contents were made from; kept with the file, see is_unchanged_output.
+  std::string origin = {};
 };
 
 struct WriteOptions {
@@ -76,6 +78,12 @@ Result<void> write_file_atomic(const std::string& path, const WritePieces& piece
 /// file open and writes into it later writes into a file that has no name any more.
 Result<void> write_files_atomic(const std::vector<OutputFile>& files,
                                 const WriteOptions& options = {"", true, true, true});
+
+/// True if the file consists of the very bytes that were written to it with this `origin`: nobody
+/// has changed it since, and writing it again from the same origin loses nothing. Known from an
+/// extended attribute of the file (user.libdeck.origin); where the file system has none, or a copy
+/// lost it, false. Links are not followed.
+bool is_unchanged_output(const std::string& path, std::string_view origin);
 
 /// Finishes a set of files whose writing was killed between two renames: puts the remaining new
 /// files in place, whose number it returns, and removes the note (".NAME.unfinished" beside the

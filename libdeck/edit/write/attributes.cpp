@@ -1,13 +1,19 @@
-// Extended attributes of the file that is replaced.
+// Extended attributes of written files: those of the file that is replaced are kept, and a result
+// has a note of what it was made from.
 #if __has_include(<sys/xattr.h>) && defined(__linux__)
 #include <sys/xattr.h>
 #define DECK_FILE_ATTRIBUTES 1
 #endif
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstring>
 #include <optional>
 
+#include "base/shared/hash.hpp"
+#include "deck/text/source.hpp"
+#include "edit/shared/write.hpp"
 #include "edit/write/write_plan.hpp"
 
 namespace deck {
@@ -15,6 +21,7 @@ namespace deck {
 #ifdef DECK_FILE_ATTRIBUTES
 namespace {
 
+constexpr const char* origin_note = "user.libdeck.origin";
 constexpr const char* access_list = "system.posix_acl_access";
 
 /// A value of `get(buffer, size)`, which gives its size; nullopt: there is none.
@@ -25,6 +32,10 @@ std::optional<std::string> attribute_of(const Get& get) {
   if (size < 0) return std::nullopt;
   value.resize(static_cast<std::size_t>(size));
   return value;
+}
+
+std::string note_of(std::string_view origin, std::string_view bytes) {
+  return fmt::format("{:016x} {}", content_hash(bytes), origin);
 }
 
 }  // namespace
@@ -49,8 +60,24 @@ Result<void> detail::keep_attributes(const std::string& from, int to) {
     return io_error("cannot keep the permissions of", from, errno);
   return {};
 }
+
+void detail::note_origin(int fd, std::string_view origin, std::string_view bytes) {
+  const std::string note = note_of(origin, bytes);
+  // Without it the file is like any other: that is all that can be lost.
+  if (!origin.empty() && fsetxattr(fd, origin_note, note.data(), note.size(), 0) != 0) return;
+}
+
+bool is_unchanged_output(const std::string& path, std::string_view origin) {
+  const auto note = attribute_of(
+      [&](char* b, std::size_t n) { return lgetxattr(path.c_str(), origin_note, b, n); });
+  if (origin.empty() || !note || !note->ends_with(origin)) return false;
+  const auto source = Source::open(path, Limits{});
+  return source && *note == note_of(origin, (*source)->bytes());
+}
 #else
 Result<void> detail::keep_attributes(const std::string&, int) { return {}; }
+void detail::note_origin(int, std::string_view, std::string_view) {}
+bool is_unchanged_output(const std::string&, std::string_view) { return false; }
 #endif
 
 }  // namespace deck

@@ -138,7 +138,9 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
     const std::string& text = text_of(*claim.use);
     const std::string_view bytes =
         has_gz_name(target) ? plan.packed.emplace_back(gzip(text)) : text;
-    plan.files.push_back({target, bytes, std::nullopt, nullptr, claim.use->directive.empty()});
+    const std::string origin = claim.use->path == "-" ? "" : absolute_path(claim.use->path);
+    plan.files.push_back(
+        {target, bytes, std::nullopt, nullptr, claim.use->directive.empty(), origin});
   }
   plan.outside.assign(outside.begin(), outside.end());
   return plan;

@@ -245,6 +245,7 @@ Result<void> Transaction::write_new(Entry& entry) {
       if (auto kept = keep_attributes(entry.target, fd); !kept) return kept;
     }
     if (auto written = write_contents(fd, file); !written) return written;
+    if (!file.pieces) note_origin(fd, file.origin, file.bytes);
     if (options_.sync && !flush(fd)) return io_error("cannot flush", file.path, errno);
     return {};
   };

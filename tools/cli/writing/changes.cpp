@@ -180,6 +180,8 @@ Result<EditSet::Plan> Changes::plan() {
   auto plan = choice_.in_place ? set_.in_place() : set_.tree(choice_.directory);
   if (plan && choice_.read_back)
     if (auto same = read_back(*plan); !same) return same.error();
+  if (plan && common_.session->frame != nullptr)  // a batch keeps a record of its own
+    for (OutputFile& f : plan->files) f.origin.clear();
   return plan;
 }
 
