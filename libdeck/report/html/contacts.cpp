@@ -12,7 +12,6 @@
 #include "contact/shared/sides.hpp"
 #include "deck/contact/search.hpp"
 #include "model/shared/families.hpp"
-#include "report/gaps_names.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck::detail {
@@ -531,85 +530,6 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
 ContactBlocks contact_blocks(const HtmlInput& input, PageContacts& page, const PageNodes& nodes) {
   const auto writer = std::make_shared<Writer>(input, page, nodes);
   return {[writer] { return writer->shared(); }, [writer] { return writer->contacts(); }};
-}
-
-namespace {
-
-void write_default_gap(JsonWriter& j, const Contact& c, const PlainSides& plain) {
-  const auto side = [&](const ThicknessSamples& t, double shortest) {
-    j.begin_array(true).value(t.count).value(t.sum).value(t.smallest).value(t.largest);
-    j.value(shortest).end_array();
-  };
-  j.key("default").begin_array();
-  if (c.kind == ContactKind::node_segment) {
-    side(shell_thickness(c), plain.shortest_side);
-  } else {
-    side(plain.main_side.thickness, plain.main_side.shortest);
-    side(plain.secondary_side.thickness, plain.secondary_side.shortest);
-  }
-  j.end_array();
-}
-
-/// What the card and the defaults say before the rules of the contact's kind apply.
-void write_card(JsonWriter& j, const InterBase& inter, const std::vector<WhatIf>& what_if) {
-  CardSettings card = card_settings(inter);
-  for (const WhatIf& w : what_if)
-    if (w.interface_id == inter.id && w.Irem_gap) card.irem_gap = *w.Irem_gap;
-  double edge_scale_gap = 0;
-  visit_interface(inter, [&](const auto& i) {
-    if constexpr (requires { i.Edge_scale_gap; }) edge_scale_gap = i.Edge_scale_gap.value;
-  });
-  j.key("card").begin_object(true);
-  j.field("Gapmin", card.gapmin).field("Igap", card.igap).field("Inacti", card.inacti);
-  j.field("Irem_gap", card.irem_gap).field("thermal", card.thermal).field("Drad", card.drad);
-  j.field("Fscalegap", card.gap_scale).field("Gapmax", card.gapmax).field("Fpenmax", card.fpenmax);
-  j.field("Edge_scale_gap", edge_scale_gap).end_object();
-}
-
-}  // namespace
-
-void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& page) {
-  const Scene& scene = *input.scene;
-  const auto& order = scene.interfaces->ordered;
-  j.key("contacts").begin_array();
-  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const Contact& c = scene.contacts[i];
-    const PageContact& wide = page.contacts[i];
-    const PlainSides& plain = wide.plain;
-    const bool edges = c.kind == ContactKind::edge_edge;
-    double longest_main = 0, longest_node = 0;
-    if (!edges) {
-      for (const double l : plain.main_length) longest_main = std::max(longest_main, l);
-      for (const double l : plain.secondary_length) longest_node = std::max(longest_node, l);
-    }
-    j.begin_object();
-    j.field("interface", static_cast<std::int64_t>(std::find(order.begin(), order.end(), c.inter) -
-                                                   order.begin()));
-    j.field("kind", to_string(c.kind)).field("role", to_string(c.role)).field("type", c.type);
-    j.field("ties", c.ties()).field("dropped", c.dropped).field("igap", c.igap);
-    j.field("inacti", c.inacti).field("evaluated", c.evaluated);
-    j.field("given", is_modern(c.type));
-    j.field("istf", c.istf).field("irem_gap", c.irem_gap).field("itied", c.itied);
-    j.field("fpenmax", c.fpenmax).field("gap_scale", c.gap_scale);
-    j.field("gapmin", c.gapmin).field("gapmin_from", to_string(c.gapmin_origin));
-    j.field("gapmax", c.gapmax).field("drad", c.drad).field("max_gap", c.max_gap);
-    j.field("shortest_side", plain.shortest_side).field("mesh_fraction", c.mesh_fraction);
-    j.field("longest_main", longest_main).field("longest_node", longest_node);
-    j.field("secondary", edges ? c.secondary_edges.size() : c.secondary.size());
-    j.field("main", edges ? c.main_edges.size() : c.main.size());
-    j.field("candidates", c.candidates).field("removed_pairs", c.removed_pairs);
-    j.field("repaired", c.repaired_segments).field("degenerate", c.degenerate_segments);
-    j.field("reoriented", c.reoriented_segments).field("no_carrier", c.no_carrier.size());
-    j.field("reach", wide.reach).field("margin", wide.margin).field("complete", wide.complete);
-    j.field("pairs", wide.pairs.size());
-    j.key("totals").begin_object(true);
-    write_totals(j, input.view->contacts[i]);
-    j.end_object();
-    write_card(j, *c.inter, input.what_if);
-    write_default_gap(j, c, plain);
-    j.end_object();
-  }
-  j.end_array();
 }
 
 }  // namespace deck::detail

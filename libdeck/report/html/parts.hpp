@@ -96,6 +96,8 @@ struct ContactBlocks {
   std::function<std::string()> shared, contacts;
 };
 ContactBlocks contact_blocks(const HtmlInput& input, PageContacts& page, const PageNodes& nodes);
+
+// contact_facts.cpp
 /// The member "contacts": options, totals, default gaps.
 void write_contacts(JsonWriter& json, const HtmlInput& input, const PageContacts& page);
 

@@ -21,7 +21,8 @@ void add_write_options(CommandLine& line, WriteChoice& choice) {
               "Directory to write to; made if missing. The include tree keeps its relative names")
       .value("DIR");
   line.flag("--overwrite", choice.overwrite,
-            "With -o: replace decks and includes in DIR that differ");
+            "With -o: replace decks and includes in DIR that differ (earlier results of the same "
+            "files, if unchanged since, are replaced without it)");
   line.flag("--in-place", choice.in_place, "Change the files of the deck");
   line.flag("--backup{.orig}", choice.backup_suffix,
             "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX); a "
