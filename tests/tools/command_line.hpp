@@ -54,8 +54,13 @@ class CommandLine : public testing::Test {
   static fs::path binary() { return test::binary_dir() / "tools" / "deck"; }
   /// Exit code; what it prints is in out() and err().
   int deck(const std::string& arguments) const {
-    const std::string command = "cd '" + dir_.string() + "' && '" + binary().string() + "' " +
-                                arguments + " > '" + (dir_ / "stdout").string() + "' 2> '" +
+    return shell("'" + binary().string() + "' " + arguments);
+  }
+  /// The same of any command; `deck` is this build's.
+  int shell(const std::string& what) const {
+    const std::string command = "cd '" + dir_.string() + "' && PATH='" +
+                                binary().parent_path().string() + "':\"$PATH\"; ( " + what +
+                                " ) > '" + (dir_ / "stdout").string() + "' 2> '" +
                                 (dir_ / "stderr").string() + "'";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

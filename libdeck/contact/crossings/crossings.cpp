@@ -124,15 +124,15 @@ std::vector<CandidatePair> find_crossing_pairs(
   threads = effective_threads(threads);
   const auto segment_of = [&](std::uint32_t i) { return segments[i]; };
   const SegmentTree tree(nodes, all_of(segments.size()), segment_of, threads);
-  struct Piece {
+  struct Batch {
     std::vector<Box> boxes;
     std::vector<sweep::Meeting> near;
     std::vector<CandidatePair> found;
   };
   std::vector<CandidatePair> all;
-  run_in_order<Piece>(
+  run_in_order<Batch>(
       (edges.size() + at_once - 1) / at_once, threads,
-      [&](std::size_t piece, Piece& out) {
+      [&](std::size_t piece, Batch& out) {
         const std::size_t first = piece * at_once;
         out.boxes.clear();
         out.found.clear();
@@ -145,7 +145,7 @@ std::vector<CandidatePair> find_crossing_pairs(
             out.found.push_back({static_cast<std::uint32_t>(first + m.box), tree.segment(m.leaf)});
         }
       },
-      [&](std::size_t, const Piece& in) {
+      [&](std::size_t, const Batch& in) {
         all.insert(all.end(), in.found.begin(), in.found.end());
       });
   std::sort(all.begin(), all.end());
@@ -348,7 +348,7 @@ void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const
            std::vector<Crossing>& out) {
   const std::vector<std::uint32_t> elements = bearers_of(bearers, contact, marks);
   if (elements.empty()) return;
-  struct Piece {
+  struct Batch {
     RecentEdges recent;  // also of pieces before this one: their elements come first
     std::vector<sweep::EdgeNodes> edges;
     std::vector<std::uint32_t> elements;  // that have these
@@ -356,7 +356,7 @@ void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const
     std::vector<sweep::Meeting> near;
     std::vector<Crossing> found;
   };
-  const auto work = [&](std::size_t piece, Piece& p) {
+  const auto work = [&](std::size_t piece, Batch& p) {
     p.edges.clear();
     p.elements.clear();
     p.boxes.clear();
@@ -377,8 +377,8 @@ void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const
         p.found.push_back({0, edge, bearers.family->kind, p.elements[m.box], met});
     }
   };
-  run_in_order<Piece>((elements.size() + at_once - 1) / at_once, threads, work,
-                      [&](std::size_t, const Piece& in) {
+  run_in_order<Batch>((elements.size() + at_once - 1) / at_once, threads, work,
+                      [&](std::size_t, const Batch& in) {
                         out.insert(out.end(), in.found.begin(), in.found.end());
                       });
 }
