@@ -135,6 +135,17 @@ TEST_F(Together, AnOutputThatIsReadUnderAnotherNameIsRefused) {
   EXPECT_EQ(shared(), "# nothing that looks like a deck\n");
 }
 
+TEST_F(Together, TwoOutputsOfOneFileAreRefusedUnderAnyOfItsNames) {
+  fs::create_directory(dir_ / "out");
+  fs::create_directory_symlink("out", dir_ / "link");
+  for (const char* second : {"out/x", "out/../out/x", "link/x"}) {
+    EXPECT_EQ(deck("lint a/a_0000.rad -o json=out/x -o junit=" + std::string(second)), 2) << second;
+    EXPECT_NE(err().find("two outputs go to"), std::string::npos) << err();
+    EXPECT_FALSE(fs::exists(dir_ / "out/x")) << second;
+  }
+  EXPECT_LE(deck("lint a/a_0000.rad -o json=out/x -o junit=link/y"), 1) << err();
+}
+
 TEST_F(Together, SettingsThatTheCallReadsAreNoOutput) {
   ASSERT_LE(deck("lint a/a_0000.rad --no-config --write-baseline base.json"), 1);
   const std::string baseline = read(dir_ / "base.json");
