@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace deck {
@@ -66,9 +67,49 @@ TEST(CellWriter, GoOnBehindACellThatTheEndOfTheLineCuts) {
 TEST(CellWriter, HandItsEditsOutOnce) {
   const Lines l("0123456789\n1,2,3\n");
   CellWriter cells(l.sources);
+  EXPECT_TRUE(cells.empty());
   cells.set({0, 0, 0}, 1, 5, "1");
-  EXPECT_EQ(cells.finish().size(), 1u);
+  EXPECT_FALSE(cells.empty());
+  cells.replace({0, 1, 13}, "7");
+  const std::vector<TextEdit> edits = cells.finish();
+  ASSERT_EQ(edits.size(), 2u) << "cells of columns, then those of free lines";
+  EXPECT_EQ(edits[0].text, "    1");
+  EXPECT_EQ(edits[1].text, "7");
+  EXPECT_EQ(edits[1].span.offset, 13u);
+  EXPECT_EQ(edits[1].span.length, 1u);
+  EXPECT_TRUE(cells.empty());
   EXPECT_TRUE(cells.finish().empty());
+}
+
+TEST(CellWriter, PutATextAtTheRightOfItsColumns) {
+  const auto put = [](std::string line, int first, int last, std::string_view text) {
+    CellWriter::put(line, first, last, text);
+    return line;
+  };
+  EXPECT_EQ(put("0123456789", 3, 6, "x"), "01   x6789");
+  EXPECT_EQ(put("0123456789", 3, 6, "abcd"), "01abcd6789");
+  EXPECT_EQ(put("0123", 3, 6, "x"), "01   x");
+  EXPECT_EQ(put("0", 3, 6, "x"), "0    x");
+  EXPECT_EQ(put("", 1, 3, "x"), "  x");
+  EXPECT_EQ(put("0123456789", 3, 6, ""), "01    6789");
+  EXPECT_EQ(put("0123", 3, 6, ""), "01  ") << "what is not there need not be blanked";
+  EXPECT_EQ(put("01", 3, 6, ""), "01");
+  EXPECT_EQ(put("0123", 4, 4, "x"), "012x");
+}
+
+TEST(CellWriter, EditInPlaceEndsWhereTheTextBeforeEnded) {
+  const auto edited = [](const std::string& text, int first, int last, std::string_view cell) {
+    const Lines l(text);
+    return *apply_edits(l.sources[0],
+                        {CellWriter::edit_in_place(l.sources, {0, 0, 0}, first, last, cell)});
+  };
+  EXPECT_EQ(edited("ab 12  89\n", 3, 7, "7"), "ab  7  89\n");
+  EXPECT_EQ(edited("ab 12  89\n", 3, 7, "777"), "ab777  89\n");
+  EXPECT_EQ(edited("ab 12  89\n", 3, 7, "7777"), "ab7777 89\n") << "longer: further right";
+  EXPECT_EQ(edited("ab     89\n", 3, 7, "7"), "ab    789\n") << "blank: at the right";
+  for (const std::string end : {"", "\n", "\r\n", "\r"})
+    EXPECT_EQ(edited("ab 1" + end, 3, 7, "7"), "ab 7" + end) << "the line ends in the cell";
+  EXPECT_EQ(edited("ab 1\r2\n", 3, 6, "7"), "ab   7\n") << "no end of a line";
 }
 
 TEST(CellWriter, KeepTheLastTextOfACell) {
@@ -116,6 +157,32 @@ TEST(UnifiedDiff, OfOneLineMoreHoldsThatLineAloneWhereverItIs) {
       EXPECT_EQ(changed, 1u) << diff;
     }
   }
+}
+
+TEST(UnifiedDiff, HasThreeLinesOfContextAndJoinsWhatIsNear) {
+  const auto lines = [](int n, const std::vector<int>& changed) {
+    std::string text;
+    for (int i = 1; i <= n; ++i) {
+      const bool other = std::find(changed.begin(), changed.end(), i) != changed.end();
+      text += (other ? "x" : "") + std::to_string(i) + "\n";
+    }
+    return text;
+  };
+  EXPECT_EQ(unified_diff("./d/f", lines(9, {}), lines(9, {5})),
+            "--- a/d/f\n+++ b/d/f\n@@ -2,7 +2,7 @@\n 2\n 3\n 4\n-5\n+x5\n 6\n 7\n 8\n");
+  EXPECT_EQ(unified_diff("/f", "1\n", "1\n2"),
+            "--- a/f\n+++ b/f\n@@ -1 +1,2 @@\n 1\n+2\n\\ No newline at end of file\n");
+  EXPECT_EQ(unified_diff("f", "", "1\n"), "--- a/f\n+++ b/f\n@@ -0,0 +1 @@\n+1\n");
+  EXPECT_EQ(unified_diff("f", "1\n", ""), "--- a/f\n+++ b/f\n@@ -1 +0,0 @@\n-1\n");
+  EXPECT_EQ(unified_diff("f", "1\n", "1\n"), "");
+  const auto pieces = [&](int second) {
+    const std::string diff = unified_diff("f", lines(20, {}), lines(20, {5, second}));
+    std::size_t n = 0;
+    for (std::size_t at = 0; (at = diff.find("\n@@", at)) != diff.npos; ++at) ++n;
+    return n;
+  };
+  EXPECT_EQ(pieces(12), 1u) << "six lines between: their contexts touch";
+  EXPECT_EQ(pieces(13), 2u);
 }
 
 TEST(UnifiedDiff, ANameThatCannotBeShownIsQuotedInOctalAsGitDoes) {
