@@ -1,13 +1,12 @@
 // Times the pair loop of each contact with and without each effect. A loop is compared with itself
 // chosen in another way (flags instead of a composition) before it is timed, and with its first
 // answer afterwards.
-#include "accuracy/shared/effect_cost.hpp"
+#include "accuracy/effect_cards.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <optional>
 
 #include "accuracy/tiers.hpp"
 #include "cycle/shared/contact_run.hpp"
@@ -15,15 +14,10 @@
 namespace deck {
 namespace {
 
+using accuracy::OtherCard;
 using cycle::KernelPlan;
 using cycle::PacketResult;
 using cycle::PacketView;
-
-/// A card that differs in one effect, and in which words.
-struct Other {
-  cycle::ContactCard card;
-  std::string says;
-};
 
 void no_friction(cycle::ContactCard& c) {
   c.fric = 0.0;
@@ -166,55 +160,59 @@ std::string outside_the_loop(const std::string& name) {
   return "acts outside the loop over pairs";
 }
 
-/// The card to hold against, or why there is none.
-std::optional<Other> other_card(const cycle::ContactCard& card, const cycle::EffectState& e,
-                                bool friction, std::string& why_not) {
+const Switch* switch_of(const std::string& effect) {
   const auto* s = std::find_if(std::begin(switches), std::end(switches),
-                               [&](const Switch& w) { return e.name == w.name; });
-  if (s == std::end(switches)) {
-    why_not = outside_the_loop(e.name);
-    return std::nullopt;
-  }
-  Other out{card, e.on ? s->off : s->on == nullptr ? "" : s->on};
-  if (e.on) {
-    s->take(out.card);
-    return out;
-  }
+                               [&](const Switch& w) { return effect == w.name; });
+  return s == std::end(switches) ? nullptr : s;
+}
+
+/// Why the card cannot have an effect that it does not ask for; empty: it can.
+std::string why_not_given(const cycle::ContactCard& card, const Switch& s) {
+  const std::string_view name = s.name;
   if (card.kind == cycle::ContactKind::tied ||
-      (card.kind == cycle::ContactKind::edge_edge && !s->edges))
-    why_not = "contacts of this type do not have this effect";
-  else if (s->give == nullptr)
-    why_not = "needs a /FRICTION, which the deck does not name here";
-  else if (friction && e.name.rfind("friction-", 0) == 0 &&
-           (e.name == "friction-viscous" || e.name == "friction-incremental"))
-    why_not = "the other friction formulation is used";
-  else if (e.name == "time-step-deletion" && card.itied != 0)
-    why_not = "ITIED ties instead";
-  else
-    s->give(out.card);
+      (card.kind == cycle::ContactKind::edge_edge && !s.edges))
+    return "contacts of this type do not have this effect";
+  if (s.give == nullptr) return "needs a /FRICTION, which the deck does not name here";
+  if ((name == "friction-viscous" || name == "friction-incremental") &&
+      rubs(cycle::effect_plan(card)))
+    return "the other friction formulation is used";
+  if (name == "time-step-deletion" && card.itied != 0) return "ITIED ties instead";
+  return {};
+}
+
+}  // namespace
+
+namespace accuracy {
+
+std::optional<OtherCard> other_card(const cycle::ContactCard& card, const cycle::EffectState& e,
+                                    std::string& why_not) {
+  const Switch* s = switch_of(e.name);
+  why_not = s == nullptr ? outside_the_loop(e.name) : e.on ? "" : why_not_given(card, *s);
   if (!why_not.empty()) return std::nullopt;
+  OtherCard out{card, e.on ? s->off : s->on};
+  (e.on ? s->take : s->give)(out.card);
   return out;
 }
 
-/// Everything that can run together. Deletion and a tie exclude each other; the tie is more work.
-Other everything(const cycle::ContactCard& card) {
-  Other out{card, {}};
-  const std::vector<cycle::EffectState> account = cycle::effect_plan(card);
-  const bool friction = rubs(account);
-  for (const cycle::EffectState& e : account) {
+OtherCard everything(const cycle::ContactCard& card) {
+  OtherCard out{card, {}};
+  for (const cycle::EffectState& e : cycle::effect_plan(card)) {
     if (e.on || e.name == "time-step-deletion" || e.name == "friction-temperature" ||
         e.name == "fixed-stiffness" || e.name == "friction-incremental")
       continue;
     std::string why_not;
+    const std::optional<OtherCard> other = other_card(card, e, why_not);
+    if (!other) continue;
     // On the card as it has become: each adds to the ones before.
-    if (!other_card(card, e, friction, why_not)) continue;
-    const auto* s = std::find_if(std::begin(switches), std::end(switches),
-                                 [&](const Switch& w) { return e.name == w.name; });
-    s->give(out.card);
-    out.says += (out.says.empty() ? "" : "; ") + std::string(s->on);
+    switch_of(e.name)->give(out.card);
+    out.says += (out.says.empty() ? "" : "; ") + other->says;
   }
   return out;
 }
+
+}  // namespace accuracy
+
+namespace {
 
 /// The packet of one contact with all arrays that any loop could ask for.
 class Packet {
@@ -390,17 +388,15 @@ class Measure {
     const Race own = race(*base, flags, how_);
     out.loop_ns = quantile(own.a, 0.5) * per_pair_;
     out.flags_ns = quantile(own.b, 0.5) * per_pair_;
-    Other all = everything(card);
+    OtherCard all = accuracy::everything(card);
     std::string why_not;
     if (std::optional<Loop> loop = proven(all.card, options_, view_, why_not)) {
       out.all_ns = quantile(race(*base, *loop, how_).b, 0.5) * per_pair_;
       out.all = std::move(all.says);
     }
-    const std::vector<cycle::EffectState> account = cycle::effect_plan(card);
-    const bool friction = rubs(account);
-    for (const cycle::EffectState& e : account) {
+    for (const cycle::EffectState& e : cycle::effect_plan(card)) {
       out.effects.push_back({e.name, e.on, {}, {}});
-      effect(card, e, friction, *base, out.effects.back());
+      effect(card, e, *base, out.effects.back());
     }
     if (!same_answers(first, base->result()))
       out.problem = "the loop does not repeat its own result";
@@ -409,7 +405,7 @@ class Measure {
  private:
   /// The loop as it is and the one with everything, in turn.
   void loops(const cycle::ContactCard& card, Loop& base, ContactCost& out) {
-    Other all = everything(card);
+    OtherCard all = accuracy::everything(card);
     std::string why_not;
     std::optional<Loop> loop = proven(all.card, options_, view_, why_not);
     const Race both = race(base, loop ? *loop : base, how_);
@@ -418,9 +414,9 @@ class Measure {
     out.all_ns = quantile(both.b, 0.5) * per_pair_;
     out.all = std::move(all.says);
   }
-  void effect(const cycle::ContactCard& card, const cycle::EffectState& e, bool friction,
-              Loop& base, EffectCost& out) {
-    const std::optional<Other> other = other_card(card, e, friction, out.why_not);
+  void effect(const cycle::ContactCard& card, const cycle::EffectState& e, Loop& base,
+              EffectCost& out) {
+    const std::optional<OtherCard> other = accuracy::other_card(card, e, out.why_not);
     if (!other) return;
     std::optional<Loop> loop = proven(other->card, options_, view_, out.why_not);
     if (!loop) return;

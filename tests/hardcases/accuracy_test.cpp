@@ -1,7 +1,9 @@
 // The measurement behind `deck accuracy` and its reports.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <tuple>
@@ -9,6 +11,7 @@
 #include "accuracy/shared/motion.hpp"
 #include "accuracy/shared/store.hpp"
 #include "accuracy/tiers.hpp"
+#include "base/shared/hash.hpp"
 #include "contact/shared/filtered.hpp"
 #include "report/shared/accuracy.hpp"
 
@@ -284,6 +287,76 @@ TEST(AccuracyStore, IsReadBackBitForBitOrNotAtAll) {
   std::string other = text;
   other[text.size() / 2] ^= 1;
   EXPECT_FALSE(read_stored_accuracy(other, "key").has_value());
+}
+
+TEST(AccuracyStore, EveryMemberHasItsOwnPlace) {
+  AccuracyReport r;
+  r.scene = "deck";
+  r.tiers.push_back(
+      {"a", "b", 3, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 10, 11, 12, 13, 14, 15, 16.5, 17.5, true});
+  r.tiers.push_back({"c", "d"});
+  FamilyResult f{21, "e", "f", "g", 22, 23.5, 24.5, 25, 26, true, {}, 27.5, -0.0, true};
+  for (std::size_t k = 0; k < 5; ++k) {
+    const double v = 30 + 3 * static_cast<double>(k);
+    f.example.x[k] = {v, v + 1, v + 2};
+  }
+  f.example.edges = true;
+  f.example.gap = 50.5;
+  f.example.family = 51;
+  r.families.push_back(f);
+  f.example.edges = f.has_example = f.exact_closer = false;
+  f.example.triangle = true;
+  r.kinds = {f, f};
+  r.stages = {{"h", 61, 62.5}, {"i", 63, 64.5}, {"j", 65, 66.5}};
+  const auto back = read_stored_accuracy(stored_accuracy(r, "key"), "key");
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(back->scene, "deck");
+  ASSERT_EQ(back->tiers.size(), 2u);
+  const auto members = [](const TierResult& t) {
+    return std::tuple(t.name, t.what, t.samples, t.ns_per_pair, t.spread, t.seconds,
+                      t.max_relative_error, t.max_ulp, t.max_scaled_error, t.decision_errors,
+                      t.feature_errors, t.non_finite, t.rewritten, t.invariance_violations, t.jumps,
+                      t.fallback_share, t.exact_share, t.dominated);
+  };
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(members(back->tiers[k]), members(r.tiers[k]));
+  const auto of_family = [](const FamilyResult& m) {
+    std::vector<double> x;
+    for (const auto& p : m.example.x) x.insert(x.end(), {p.x, p.y, p.z});
+    return std::tuple(m.id, m.name, m.expected, m.tier, m.samples, m.max_relative_error, m.max_ulp,
+                      m.decision_errors, m.non_finite, m.has_example, m.got, std::signbit(m.exact),
+                      m.exact_closer, m.example.edges, m.example.triangle, m.example.gap,
+                      m.example.family, x);
+  };
+  ASSERT_EQ(back->families.size(), 1u);
+  ASSERT_EQ(back->kinds.size(), 2u);
+  EXPECT_EQ(of_family(back->families[0]), of_family(r.families[0]));
+  EXPECT_EQ(of_family(back->kinds[1]), of_family(r.kinds[1]));
+  ASSERT_EQ(back->stages.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(back->stages[k].name, r.stages[k].name);
+    EXPECT_EQ(back->stages[k].pairs, r.stages[k].pairs);
+    EXPECT_EQ(back->stages[k].ns_per_pair, r.stages[k].ns_per_pair);
+  }
+}
+
+/// The text with the mark at its end that says that it is whole.
+std::string sealed(const std::string& text) {
+  return text + fmt::format("end {:016x}\n", content_hash(text));
+}
+
+TEST(AccuracyStore, RowsThatAreNotItsOwnAreRefused) {
+  const auto read = [](const std::string& rows) {
+    return read_stored_accuracy(sealed("key\ndeck\n" + rows), "key");
+  };
+  ASSERT_TRUE(read("").has_value());
+  EXPECT_EQ(read("")->scene, "deck");
+  ASSERT_TRUE(read("stage\tfilter\t3\t0\n").has_value());
+  EXPECT_EQ(read("stage\tfilter\t3\t0\n")->stages.at(0).pairs, 3u);
+  for (const char* rows :
+       {"\n", "page\tfilter\t3\t0\n", "stage\tfilter\t3\t0\t0\n", "stage\tfilter\t3x\t0\n",
+        "stage\tfilter\tx\t0\n", "stage\tfilter\t3\n", "stage\tfilter\t3\tx\n",
+        "stage\tfilter\tx\t0\nstage\tfilter\t3\t0\n", "tier\tfilter\t3\t0\n"})
+    EXPECT_FALSE(read(rows).has_value()) << rows;
 }
 
 TEST(AccuracyReports, DecisionsAloneGiveTheSameChoices) {
