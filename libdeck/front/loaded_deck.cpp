@@ -153,8 +153,7 @@ TiedNodes tied_nodes_of(const Tie& tie) {
   TiedNodes out;
   out.block = tie.inter->block;
   out.spotflag = tie.spotflag;
-  const bool by_moments = tie.spotflag == 1 || tie.spotflag == 28 || tie.spotflag == 30;
-  out.rim = tie.inter->Iproj.value == 1 && !by_moments;
+  out.rim = tie.inter->Iproj.value == 1;
   out.evaluated = tie.not_evaluated.empty();
   for (const TiedNode& n : tie.nodes)
     if (n.tied) out.rows.push_back({n.node, tie.main[n.segment], n.s, n.t, n.penalty});
