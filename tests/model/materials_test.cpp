@@ -11,7 +11,7 @@ struct Moduli {
   bool known;
 };
 Moduli moduli(const std::string& law, const std::string& lines, const std::string& more = "") {
-  Built b("/MAT/" + law + "/1\nm\n" + lines + more);
+  BuiltModel b("/MAT/" + law + "/1\nm\n" + lines + more);
   const Material& m = b.model().materials.at(0);
   return {m.young, m.bulk, m.stiffness_known};
 }
@@ -108,18 +108,19 @@ TEST(Material, EquationOfStateOverridesTheBulkModulus) {
 }
 
 TEST(Material, EquationOfStateWithoutMaterialIsReported) {
-  Built b("/EOS/POLYNOMIAL/3\ne\n" + reals({0, 150, 0}));
+  BuiltModel b("/EOS/POLYNOMIAL/3\ne\n" + reals({0, 150, 0}));
   EXPECT_EQ(b.findings(RuleId::DK118), 1u);
 }
 
 TEST(Material, HeatDataMakeItThermal) {
-  Built b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/HEAT/MAT/1\n" + reals({1, 2}));
+  BuiltModel b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/HEAT/MAT/1\n" +
+               reals({1, 2}));
   EXPECT_TRUE(b.model().materials[0].thermal);
   EXPECT_TRUE(b.model().has_thermal_material);
 }
 
 TEST(Material, ValuesAreInWorkingUnits) {
-  Built b("/MAT/ELAST/1\nm\n" + reals({7800}) + reals({210e9, 0.3}), "kg m s");
+  BuiltModel b("/MAT/ELAST/1\nm\n" + reals({7800}) + reals({210e9, 0.3}), "kg m s");
   EXPECT_NEAR(b.model().materials[0].density / 7.8e-6, 1, 1e-14);
   EXPECT_NEAR(b.model().materials[0].young / 210, 1, 1e-14);
 }

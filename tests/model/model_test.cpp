@@ -14,7 +14,7 @@ namespace {
 std::string quad() { return grid_nodes() + "/SHELL/1\n" + cells({7, 1, 2, 5, 4}); }
 
 TEST(Part, KnowsPropertyAndMaterial) {
-  Built b(parts() + quad());
+  BuiltModel b(parts() + quad());
   const Part& p = b.model().parts.at(b.model().part_of_id.at(4));
   EXPECT_EQ(b.model().properties.at(p.prop).id, 2);
   EXPECT_EQ(b.model().materials.at(p.mat).id, 1);
@@ -22,37 +22,37 @@ TEST(Part, KnowsPropertyAndMaterial) {
 }
 
 TEST(Part, MissingPropertyIsMessage178) {
-  Built b(quad() + "/PART/1\np\n" + cells({9, 9}));
+  BuiltModel b(quad() + "/PART/1\np\n" + cells({9, 9}));
   EXPECT_EQ(b.message(RuleId::DK102), 178);
 }
 
 TEST(Part, MissingMaterialIsMessage179IfThereAreElementsOrAPropertyOfShells) {
   const std::string prop = "/PROP/VOID/1\np\n" + reals({1});
   for (const int material : {9, 0}) {
-    Built used(quad() + prop + "/PART/1\np\n" + cells({1, material}));
+    BuiltModel used(quad() + prop + "/PART/1\np\n" + cells({1, material}));
     EXPECT_EQ(used.message(RuleId::DK103), 179) << material;
   }
-  Built empty(grid_nodes() + prop + "/PART/1\np\n" + cells({1, 9}));
+  BuiltModel empty(grid_nodes() + prop + "/PART/1\np\n" + cells({1, 9}));
   EXPECT_EQ(empty.findings(RuleId::DK103), 0u);
-  Built shells(parts() + grid_nodes() + "/PART/7\np\n" + cells({1, 9}));
+  BuiltModel shells(parts() + grid_nodes() + "/PART/7\np\n" + cells({1, 9}));
   EXPECT_EQ(shells.message(RuleId::DK103), 179);
 }
 
 TEST(Part, SpringsNeedNoMaterial) {
-  Built b(grid_nodes() + "/PROP/SPRING/1\np\n" + reals({1}) + reals({5}) + "/PART/1\np\n" +
-          cells({1, 0}) + "/SPRING/1\n" + cells({1, 1, 2}));
+  BuiltModel b(grid_nodes() + "/PROP/SPRING/1\np\n" + reals({1}) + reals({5}) + "/PART/1\np\n" +
+               cells({1, 0}) + "/SPRING/1\n" + cells({1, 1, 2}));
   EXPECT_EQ(b.findings(RuleId::DK103), 0u);
 }
 
 TEST(Part, ElementsOfAMissingPartAreOneFindingPerPart) {
-  Built b(parts() + grid_nodes() + "/SHELL/8\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
-          "/SHELL/9\n" + cells({3, 4, 5, 8, 7}));
+  BuiltModel b(parts() + grid_nodes() + "/SHELL/8\n" + cells({1, 1, 2, 5, 4}) +
+               cells({2, 2, 3, 6, 5}) + "/SHELL/9\n" + cells({3, 4, 5, 8, 7}));
   EXPECT_EQ(b.findings(RuleId::DK104), 2u);
   EXPECT_EQ(b.message(RuleId::DK104), 402);
 }
 
 TEST(Part, AMissingOneCountsItsElementsFromTheFirstOn) {
-  Built b(parts() + grid_nodes() + "/SHELL/8\n" + cells({1, 1, 2, 5, 4}));
+  BuiltModel b(parts() + grid_nodes() + "/SHELL/8\n" + cells({1, 1, 2, 5, 4}));
   ASSERT_EQ(b.findings(RuleId::DK104), 1u);
   for (const Diagnostic& d : b.diagnostics().all())
     if (d.rule == RuleId::DK104) {
@@ -62,8 +62,8 @@ TEST(Part, AMissingOneCountsItsElementsFromTheFirstOn) {
 
 TEST(Part, ASpringPropertyExcusesAMaterialThatIsNotNamedNotOneThatIsMissing) {
   const auto findings = [](std::int64_t mat) {
-    Built b(quad() + "/PROP/SPRING/1\np\n" + reals({1}) + reals({5}) + "/PART/1\np\n" +
-            cells({1, mat}));
+    BuiltModel b(quad() + "/PROP/SPRING/1\np\n" + reals({1}) + reals({5}) + "/PART/1\np\n" +
+                 cells({1, mat}));
     return b.findings(RuleId::DK103);
   };
   EXPECT_EQ(findings(0), 0u);
@@ -71,13 +71,13 @@ TEST(Part, ASpringPropertyExcusesAMaterialThatIsNotNamedNotOneThatIsMissing) {
 }
 
 TEST(Part, SecondDefinitionIsReported) {
-  Built b(parts() + "/PART/1\np\n" + cells({1, 1}));
+  BuiltModel b(parts() + "/PART/1\np\n" + cells({1, 1}));
   EXPECT_EQ(b.findings(RuleId::DK100), 1u);
 }
 
 TEST(Element, ThatNamesANodeTwiceIsMessage22Or681) {
   const auto message = [](const std::string& element) {
-    Built b(parts() + grid_nodes() + element);
+    BuiltModel b(parts() + grid_nodes() + element);
     return b.message(RuleId::DK136);
   };
   EXPECT_EQ(message("/SHELL/1\n" + cells({1, 1, 1, 2, 4})), 22);
@@ -88,7 +88,7 @@ TEST(Element, ThatNamesANodeTwiceIsMessage22Or681) {
 }
 
 TEST(ModelFindings, CarryKeywordAndIdOfTheirBlock) {
-  Built b(parts() + quad() + "/PROP/SHELL/7/5\np\n\n\n" + reals({3, 1}));
+  BuiltModel b(parts() + quad() + "/PROP/SHELL/7/5\np\n\n\n" + reals({3, 1}));
   for (const Diagnostic& d : b.diagnostics().all())
     if (d.rule == RuleId::DK109) {
       EXPECT_EQ(d.keyword, "/PROP/SHELL");
@@ -98,14 +98,14 @@ TEST(ModelFindings, CarryKeywordAndIdOfTheirBlock) {
 }
 
 TEST(Shell, WithoutAnyThicknessIsMessage495) {
-  Built b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
-          "/PART/1\np\n" + cells({1, 1}) + quad());
+  BuiltModel b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
+               "/PART/1\np\n" + cells({1, 1}) + quad());
   EXPECT_EQ(b.message(RuleId::DK106), 495);
 }
 
 TEST(Shell, OfAStackHasTheThicknessOfItsPlies) {
-  Built b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/TYPE17/1\np\n\n\n\n\n" +
-          "/PART/1\np\n" + cells({1, 1}) + quad());
+  BuiltModel b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/TYPE17/1\np\n\n\n\n\n" +
+               "/PART/1\np\n" + cells({1, 1}) + quad());
   EXPECT_EQ(b.findings(RuleId::DK106), 0u);
 }
 
@@ -113,23 +113,23 @@ TEST(Shell, OwnThicknessIsEnough) {
   std::string line = cells({7, 1, 2, 5, 4});
   line.pop_back();
   line.resize(80, ' ');
-  Built b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
-          "/PART/1\np\n" + cells({1, 1}) + grid_nodes() + "/SHELL/1\n" + line + reals({1.5}));
+  BuiltModel b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
+               "/PART/1\np\n" + cells({1, 1}) + grid_nodes() + "/SHELL/1\n" + line + reals({1.5}));
   EXPECT_EQ(b.findings(RuleId::DK106), 0u);
 }
 
 TEST(Shell, CollapsedQuadrangleIsWarning430) {
-  Built b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 5}));
+  BuiltModel b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 5}));
   EXPECT_EQ(b.message(RuleId::DK107), 430);
 }
 
 TEST(Element, SecondUseOfAnIdIsMessage79) {
-  Built b(parts() + quad() + "/SHELL/2\n" + cells({7, 2, 3, 6, 5}));
+  BuiltModel b(parts() + quad() + "/SHELL/2\n" + cells({7, 2, 3, 6, 5}));
   EXPECT_EQ(b.message(RuleId::DK105), 79);
 }
 
 TEST(Node, SecondUseOfAnIdTellsWhetherTheCoordinatesAgree) {
-  Built b("/NODE\n" + node(1, 0, 0, 0) + node(1, 0, 0, 0));
+  BuiltModel b("/NODE\n" + node(1, 0, 0, 0) + node(1, 0, 0, 0));
   ASSERT_EQ(b.findings(RuleId::DK105), 1u);
   std::string message;
   for (const Diagnostic& d : b.diagnostics().all())
@@ -138,31 +138,32 @@ TEST(Node, SecondUseOfAnIdTellsWhetherTheCoordinatesAgree) {
 }
 
 TEST(Property, ThicknessAndAreaAreInWorkingUnits) {
-  Built b("/PROP/VOID/1\np\n" + reals({0.002}) + "/PROP/TRUSS/2\np\n" + reals({3e-6}), "kg m s");
+  BuiltModel b("/PROP/VOID/1\np\n" + reals({0.002}) + "/PROP/TRUSS/2\np\n" + reals({3e-6}),
+               "kg m s");
   EXPECT_NEAR(b.model().properties[0].thickness, 2, 1e-14);
   EXPECT_NEAR(b.model().properties[1].area, 3, 1e-14);
 }
 
 TEST(Property, SpringStiffnessIsDividedByItsScale) {
-  Built b("/PROP/SPRING/1\np\n" + reals({1}) + reals({5, 0, 2}));
+  BuiltModel b("/PROP/SPRING/1\np\n" + reals({1}) + reals({5, 0, 2}));
   EXPECT_EQ(b.model().properties[0].stiffness[0], 2.5);
 }
 
 TEST(Property, OfAnAxisymmetricSpringHasTensionAndShear) {
-  Built b("/PROP/SPR_AXI/1\np\n" + reals({1}) + reals({6, 0, 2}) + "\n\n" + reals({8, 0, 4}));
+  BuiltModel b("/PROP/SPR_AXI/1\np\n" + reals({1}) + reals({6, 0, 2}) + "\n\n" + reals({8, 0, 4}));
   EXPECT_EQ(b.model().properties.at(0).stiffness[0], 3);
   EXPECT_EQ(b.model().properties.at(0).stiffness[1], 2);
 }
 
 TEST(Property, NumberFollowsFromNameOrType) {
-  Built b("/PROP/SH_ORTH/1\np\n\n\n\n\n/PROP/TYPE9/2\np\n\n\n\n\n");
+  BuiltModel b("/PROP/SH_ORTH/1\np\n\n\n\n\n/PROP/TYPE9/2\np\n\n\n\n\n");
   EXPECT_EQ(b.model().properties[0].number, 9);
   EXPECT_EQ(b.model().properties[1].number, 9);
 }
 
 TEST(Run, OptionsOfTheWholeRun) {
-  Built b(grid_nodes() + "/INTTHICK/V5\n/RANDOM\n" + reals({0.25}) +
-          "/MONVOL/AIRBAG1/1\nm\n\n/ALE/MAT/1\n\n");
+  BuiltModel b(grid_nodes() + "/INTTHICK/V5\n/RANDOM\n" + reals({0.25}) +
+               "/MONVOL/AIRBAG1/1\nm\n\n/ALE/MAT/1\n\n");
   EXPECT_TRUE(b.model().intthick_v5);
   EXPECT_TRUE(b.model().has_random);
   EXPECT_EQ(b.model().random_noise, 0.25);
@@ -172,21 +173,22 @@ TEST(Run, OptionsOfTheWholeRun) {
 }
 
 TEST(Run, SecondIntthickIsMessage725) {
-  Built b("/INTTHICK/V5\n/INTTHICK/V5\n");
+  BuiltModel b("/INTTHICK/V5\n/INTTHICK/V5\n");
   EXPECT_EQ(b.message(RuleId::DK112), 725);
 }
 
 TEST(Curve, PointsAndScaling) {
-  Built b("/FUNCT/4\nf\n" + reals({0, 1}) + reals({2, 5}) + "/MOVE_FUNCT/4\nm\n" +
-          reals({10, 0, 1, 0}));
+  BuiltModel b("/FUNCT/4\nf\n" + reals({0, 1}) + reals({2, 5}) + "/MOVE_FUNCT/4\nm\n" +
+               reals({10, 0, 1, 0}));
   const Curve& c = b.model().curves.at(4);
   EXPECT_EQ(c.x, (std::vector<double>{1, 21}));
   EXPECT_EQ(c.y, (std::vector<double>{1, 5}));
 }
 
 TEST(ConnectionNode, WithinTheToleranceIsTheOtherNode) {
-  Built b(parts() + grid_nodes() + "/CNODE/0.1\n" + node(50, 10.05, 10, 0) + node(51, 10.2, 10, 0) +
-          "/SHELL/1\n" + cells({1, 1, 2, 50, 4}) + "/GRNOD/NODE/1\ng\n" + cells({50, 51}));
+  BuiltModel b(parts() + grid_nodes() + "/CNODE/0.1\n" + node(50, 10.05, 10, 0) +
+               node(51, 10.2, 10, 0) + "/SHELL/1\n" + cells({1, 1, 2, 50, 4}) +
+               "/GRNOD/NODE/1\ng\n" + cells({50, 51}));
   const Model& m = b.model();
   EXPECT_EQ(m.node_id(m.shell4.of(0)[2]), 5);
   EXPECT_EQ(b.group(1), (Ids{5, 51}));
@@ -194,16 +196,16 @@ TEST(ConnectionNode, WithinTheToleranceIsTheOtherNode) {
 }
 
 TEST(Unit, UnknownUnitSystemIsOneFindingMessage643ForNodesAnd659Elsewhere) {
-  Built b("/NODE/5\n" + node(1, 0, 0, 0));
+  BuiltModel b("/NODE/5\n" + node(1, 0, 0, 0));
   EXPECT_EQ(b.message(RuleId::DK109), 643);
   EXPECT_EQ(b.findings(RuleId::DK040), 0u) << "the keyword is known";
-  Built g(grid_nodes() + "/SKEW/FIX/1/5\ns\n");
+  BuiltModel g(grid_nodes() + "/SKEW/FIX/1/5\ns\n");
   EXPECT_EQ(g.message(RuleId::DK109), 659);
 }
 
 TEST(Unit, UnknownUnitSystemIsAnErrorWhereTheSolverLooksItUp) {
   const auto severity = [](const std::string& deck) {
-    Built b(grid_nodes() + deck);
+    BuiltModel b(grid_nodes() + deck);
     for (const Diagnostic& d : b.diagnostics().all())
       if (d.rule == RuleId::DK109) return d.severity;
     return Severity::info;
@@ -217,8 +219,8 @@ TEST(Unit, UnknownUnitSystemIsAnErrorWhereTheSolverLooksItUp) {
 }
 
 TEST(Place, OfANodeAndAnElementIsItsLine) {
-  Built b(parts() + grid_nodes() + "# a comment\n" + node(50, 1, 2, 3) + "/SHELL/1\n" +
-          cells({7, 1, 2, 5, 4}) + cells({8, 2, 3, 6, 5}));
+  BuiltModel b(parts() + grid_nodes() + "# a comment\n" + node(50, 1, 2, 3) + "/SHELL/1\n" +
+               cells({7, 1, 2, 5, 4}) + cells({8, 2, 3, 6, 5}));
   const Model& m = b.model();
   const auto text = [&](Span s) { return std::string(m.deck->sources.text(s).substr(0, 10)); };
   EXPECT_EQ(text(m.node_span(m.nodes.map.find(50))), "        50");
@@ -238,8 +240,8 @@ TEST(Place, OfRepeatedIdsIsFoundByOneWalkOfEachBlock) {
     shells_again += shell;
   }
   const std::uint64_t before = deck::detail::items_walked();
-  Built b(parts() + "/NODE\n" + nodes + "/SHELL/1\n" + shells + "/NODE\n" + again + "/SHELL/1\n" +
-          shells_again);
+  BuiltModel b(parts() + "/NODE\n" + nodes + "/SHELL/1\n" + shells + "/NODE\n" + again +
+               "/SHELL/1\n" + shells_again);
   EXPECT_EQ(b.findings(RuleId::DK105), 2u * repeated);
   EXPECT_LE(deck::detail::items_walked() - before, 2u * (many + repeated));
   for (const Diagnostic& d : b.diagnostics().all()) {
@@ -253,8 +255,8 @@ TEST(Place, OfRepeatedIdsIsFoundByOneWalkOfEachBlock) {
 }
 
 TEST(Connectivity, RowsListElementsOnce) {
-  Built b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
-          "/SHELL/2\n" + cells({3, 4, 5, 5, 7}));
+  BuiltModel b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) +
+               cells({2, 2, 3, 6, 5}) + "/SHELL/2\n" + cells({3, 4, 5, 5, 7}));
   const Model& m = b.model();
   const NodeElements rows = connect_nodes(m.shell4, m.nodes.size());
   const auto row = rows.row(m.nodes.map.find(5));
@@ -263,9 +265,9 @@ TEST(Connectivity, RowsListElementsOnce) {
 }
 
 TEST(Connectivity, ElementsOfAPartAreRuns) {
-  Built b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
-          "/SHELL/2\n" + cells({3, 4, 5, 8, 7}) + "/SHELL/9\n" + cells({5, 4, 5, 8, 7}) +
-          "/SHELL/1\n" + cells({4, 5, 6, 9, 8}));
+  BuiltModel b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) +
+               cells({2, 2, 3, 6, 5}) + "/SHELL/2\n" + cells({3, 4, 5, 8, 7}) + "/SHELL/9\n" +
+               cells({5, 4, 5, 8, 7}) + "/SHELL/1\n" + cells({4, 5, 6, 9, 8}));
   const Model& m = b.model();
   const PartElements parts = connect_parts(m.shell4, m.parts.size());
   const auto runs = [&](std::size_t part) {

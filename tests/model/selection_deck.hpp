@@ -63,10 +63,10 @@ inline std::string deck_text(const std::string& blocks, const char* input_units 
 }
 
 /// A deck read and built. Stays at its address.
-class Built {
+class BuiltModel {
  public:
-  explicit Built(const std::string& blocks, const char* input_units = "kg mm ms",
-                 int version = 2024)
+  explicit BuiltModel(const std::string& blocks, const char* input_units = "kg mm ms",
+                      int version = 2024)
       : deck_(std::make_unique<Result<Deck>>(read_deck_text(
             "test_0000.rad", deck_text(blocks, input_units, version), SchemaSet::built_in()))),
         model_(build_model(**deck_, SchemaSet::built_in(), diagnostics_)) {}

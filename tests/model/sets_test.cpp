@@ -26,12 +26,12 @@ std::string model() {
 }
 
 TEST(Set, NodesContinueOnLinesWithBlankKeyword) {
-  Built b(model() + set(1, clause("NODE", {9, 1, 2, 3, 4, 5, 6, 7, 8, 101, 102})));
+  BuiltModel b(model() + set(1, clause("NODE", {9, 1, 2, 3, 4, 5, 6, 7, 8, 101, 102})));
   EXPECT_EQ(b.group(1), (Ids{1, 2, 3, 4, 5, 6, 7, 8, 9, 101, 102}));
 }
 
 TEST(Set, NamesNodesSurfaceAndLineOfOneSelection) {
-  Built b(model() + set(1, clause("PART", {1})));
+  BuiltModel b(model() + set(1, clause("PART", {1})));
   EXPECT_EQ(b.group(1), (Ids{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(b.surface(1), (std::vector<Ids>{{1, 2, 5, 4}, {2, 3, 6, 5}}));
   // Edges of sets are sorted by their earlier node.
@@ -39,20 +39,20 @@ TEST(Set, NamesNodesSurfaceAndLineOfOneSelection) {
 }
 
 TEST(Set, PlainGroupOfTheSameIdComesFirst) {
-  Built b(model() + set(1, clause("PART", {1})) + "/GRNOD/NODE/1\ng\n" + cells({9}));
+  BuiltModel b(model() + set(1, clause("PART", {1})) + "/GRNOD/NODE/1\ng\n" + cells({9}));
   EXPECT_EQ(b.group(1), (Ids{9}));
   EXPECT_TRUE(b.selections().is_plain("grnod", 1));
   EXPECT_FALSE(b.selections().is_plain("surf", 1));
 }
 
 TEST(Set, SolidsGiveExteriorFacesAndAllOfThemWithOptionA) {
-  Built b(model() + set(1, clause("PART", {4, 5})) + set(2, clause("PART_A", {4, 5})));
+  BuiltModel b(model() + set(1, clause("PART", {4, 5})) + set(2, clause("PART_A", {4, 5})));
   EXPECT_EQ(b.surface(1).size(), 10u);
   EXPECT_EQ(b.surface(2).size(), 12u);
 }
 
 TEST(Set, ClausesOfPartsAreSeenTogether) {
-  Built b(model() + set(1, clause("PART", {4}) + clause("PART", {5})));
+  BuiltModel b(model() + set(1, clause("PART", {4}) + clause("PART", {5})));
   EXPECT_EQ(b.surface(1).size(), 10u);
 }
 
@@ -61,8 +61,8 @@ TEST(Set, OnlyPartsAndSolidsAreAmongThemselvesOtherClausesSeeTheWholeModel) {
   // neighbour outside the set counts.
   const std::string box =
       "/BOX/RECTA/1\nbox\n         0\n" + reals({-0.5, -0.5, -0.5}) + reals({1.5, 1.5, 1.5});
-  Built b(model() + box + set(1, clause("PART", {4})) + set(2, clause("SOLID", {1})) +
-          set(3, clause("BOX", {1})) + set(4, clause("SUBS", {2})));
+  BuiltModel b(model() + box + set(1, clause("PART", {4})) + set(2, clause("SOLID", {1})) +
+               set(3, clause("BOX", {1})) + set(4, clause("SUBS", {2})));
   const auto solids = [&](std::int64_t id) {
     const auto& all = b.selections().surface(id)->segments;
     return std::count_if(all.begin(), all.end(),
@@ -76,8 +76,8 @@ TEST(Set, OnlyPartsAndSolidsAreAmongThemselvesOtherClausesSeeTheWholeModel) {
 
 TEST(Set, AShellOnAFaceOfASolidReplacesTheFace) {
   const std::string skin = "/SHELL/1\n" + cells({11, 101, 102, 105, 104});
-  Built b(parts() + cube_nodes() + cubes() + skin + set(1, clause("PART", {4, 1})) +
-          set(2, clause("PART", {4})));
+  BuiltModel b(parts() + cube_nodes() + cubes() + skin + set(1, clause("PART", {4, 1})) +
+               set(2, clause("PART", {4})));
   EXPECT_EQ(b.surface(1).size(), 6u);
   const auto& segments = b.selections().surface(1)->segments;
   EXPECT_EQ(std::count_if(segments.begin(), segments.end(),
@@ -87,66 +87,67 @@ TEST(Set, AShellOnAFaceOfASolidReplacesTheFace) {
 }
 
 TEST(Set, EdgesOfDifferentClausesAreNotMerged) {
-  Built b(model() + "/SH3N/3\n" + cells({1, 1, 2, 8}) +
-          set(1, clause("SH3N", {1}) + clause("SHELL", {1})));
+  BuiltModel b(model() + "/SH3N/3\n" + cells({1, 1, 2, 8}) +
+               set(1, clause("SH3N", {1}) + clause("SHELL", {1})));
   EXPECT_EQ(b.line(1), (std::vector<Ids>{{1, 2}, {1, 2}, {1, 4}, {1, 8}, {2, 5}, {2, 8}, {4, 5}}));
 }
 
 TEST(Set, SegmentsAreSortedByTheirAscendingNodesTrianglesFirst) {
-  Built b(model() + set(1, clause("SEG", {1, 9, 8, 5, 6}) + clause("", {2, 2, 1, 4, 5}) +
-                               clause("", {3, 8, 7, 4})));
+  BuiltModel b(model() + set(1, clause("SEG", {1, 9, 8, 5, 6}) + clause("", {2, 2, 1, 4, 5}) +
+                                    clause("", {3, 8, 7, 4})));
   EXPECT_EQ(b.surface(1), (std::vector<Ids>{{8, 7, 4, 4}, {2, 1, 4, 5}, {9, 8, 5, 6}}));
 }
 
 TEST(Set, SegmentRowWithTwoNodesIsALine) {
-  Built b(model() + set(1, clause("SEG", {1, 9, 8})));
+  BuiltModel b(model() + set(1, clause("SEG", {1, 9, 8})));
   EXPECT_TRUE(b.surface(1).empty());
   EXPECT_EQ(b.line(1), (std::vector<Ids>{{9, 8}}));
 }
 
 TEST(Set, OptionDeletesFromWhatPrecedes) {
-  Built b(model() + set(1, clause("PART", {1, 2}) + clause("SHELL_D", {1, 4})));
+  BuiltModel b(model() + set(1, clause("PART", {1, 2}) + clause("SHELL_D", {1, 4})));
   EXPECT_EQ(b.surface(1), (std::vector<Ids>{{2, 3, 6, 5}, {4, 5, 8, 7}}));
   EXPECT_EQ(b.group(1), (Ids{2, 3, 4, 5, 6, 7, 8}));
 }
 
 TEST(Set, OptionIntersects) {
-  Built b(model() + set(1, clause("PART", {1}) + clause("PART_I", {2})) +
-          set(2, clause("PART", {1, 2}) + clause("SHELL_I", {2, 3})));
+  BuiltModel b(model() + set(1, clause("PART", {1}) + clause("PART_I", {2})) +
+               set(2, clause("PART", {1, 2}) + clause("SHELL_I", {2, 3})));
   EXPECT_EQ(b.group(1), (Ids{4, 5, 6}));
   EXPECT_TRUE(b.surface(1).empty());
   EXPECT_EQ(b.surface(2).size(), 2u);
 }
 
 TEST(Set, OptionReversesNormals) {
-  Built b(model() + set(1, clause("SHELL_O", {1})));
+  BuiltModel b(model() + set(1, clause("SHELL_O", {1})));
   EXPECT_EQ(b.surface(1), (std::vector<Ids>{{4, 5, 2, 1}}));
 }
 
 TEST(Set, OptionGeneratesIdsWithIncrement) {
-  Built b(model() + set(1, clause("NODE_G", {1, 9, 4, 101, 102, 1})));
+  BuiltModel b(model() + set(1, clause("NODE_G", {1, 9, 4, 101, 102, 1})));
   EXPECT_EQ(b.group(1), (Ids{1, 5, 9, 101, 102}));
 }
 
 TEST(Set, OptionExternalKeepsFreeEdges) {
-  Built b(model() + set(1, clause("PART_E", {1})));
+  BuiltModel b(model() + set(1, clause("PART_E", {1})));
   EXPECT_EQ(b.line(1).size(), 6u);
 }
 
 TEST(Set, OptionExternalLeavesTheNodesOfTheSurface) {
-  Built b(model() + set(1, clause("PART_E", {1})));
+  BuiltModel b(model() + set(1, clause("PART_E", {1})));
   EXPECT_EQ(b.group(1), (Ids{1, 2, 3, 4, 5, 6}));
 }
 
 TEST(Set, SubsetAndWholeModel) {
-  Built b(model() + set(1, clause("SUBS", {2})) + set(2, clause("ALL", {})));
+  BuiltModel b(model() + set(1, clause("SUBS", {2})) + set(2, clause("ALL", {})));
   EXPECT_EQ(b.group(1).size(), 12u);
   EXPECT_EQ(b.group(2).size(), 21u);
 }
 
 TEST(Set, SetsOfSetsAndTheirCircles) {
-  Built b(model() + set(1, clause("SET", {2}) + clause("NODE", {9})) + set(2, clause("NODE", {1})) +
-          set(3, clause("SET", {4})) + set(4, clause("SET", {3})));
+  BuiltModel b(model() + set(1, clause("SET", {2}) + clause("NODE", {9})) +
+               set(2, clause("NODE", {1})) + set(3, clause("SET", {4})) +
+               set(4, clause("SET", {3})));
   EXPECT_EQ(b.group(1), (Ids{1, 9}));
   b.group(3);
   EXPECT_GE(b.findings(RuleId::DK152), 1u);
@@ -160,7 +161,7 @@ TEST(Set, IsHeldOnceHoweverManyWaysLeadToIt) {
     text += set(3 * k - 1, clause("SET", {3 * k - 2}));
     text += set(3 * k + 1, clause("SET", {3 * k, 3 * k - 1}));
   }
-  Built b(text);
+  BuiltModel b(text);
   EXPECT_EQ(b.group(121), (Ids{1, 2, 4, 5}));
   EXPECT_EQ(b.surface(121), (std::vector<Ids>{{1, 2, 5, 4}}));
   EXPECT_EQ(b.findings(RuleId::DK332), 0u);
@@ -170,7 +171,7 @@ TEST(Set, AChainOfSetsTakesRoomOnlyForWhatTheyHold) {
   std::string text = model() + set(1, clause("NODE", {9}));
   for (int k = 2; k <= 240; ++k)
     text += set(k, clause("SET", {k - 1}) + clause("NODE", {k % 9 + 1}));
-  Built b(text);
+  BuiltModel b(text);
   EXPECT_EQ(b.group(240), (Ids{1, 2, 3, 4, 5, 6, 7, 8, 9}));
 }
 
@@ -181,7 +182,7 @@ TEST(SelectionBounds, WhatExceedsTheMemoryIsLeftOutWithOneFinding) {
   for (int k = 1; k <= 60; ++k)
     text += "/SURF/SURF/" + std::to_string(k + 100) + "\ns\n" + cells({k + 1});
   text += "/SURF/PART/61\ns\n" + cells({1});
-  Built b(text);
+  BuiltModel b(text);
   Limits limits;
   limits.selection_bytes = 1 << 20;
   Selections bounded(b.model(), SchemaSet::built_in(), limits);
@@ -194,44 +195,44 @@ TEST(SelectionBounds, WhatExceedsTheMemoryIsLeftOutWithOneFinding) {
 }
 
 TEST(Set, CollectGathersAllDefinitionsOfTheId) {
-  Built b(model() + "/SET/COLLECT/1\na\n" + clause("NODE", {1}) + "/SET/COLLECT/1\nb\n" +
-          clause("NODE", {2}));
+  BuiltModel b(model() + "/SET/COLLECT/1\na\n" + clause("NODE", {1}) + "/SET/COLLECT/1\nb\n" +
+               clause("NODE", {2}));
   EXPECT_EQ(b.group(1), (Ids{1, 2}));
   EXPECT_EQ(b.findings(RuleId::DK167), 0u);
 }
 
 TEST(Set, MissingIdIsWarning1902AndIgnored) {
-  Built b(model() + set(1, clause("NODE", {1, 77})));
+  BuiltModel b(model() + set(1, clause("NODE", {1, 77})));
   EXPECT_EQ(b.group(1), (Ids{1}));
   EXPECT_EQ(b.message(RuleId::DK161), 1902);
 }
 
 TEST(Set, MissingSetIsWarning1902AndTheOthersCount) {
-  Built b(model() + set(1, clause("SET", {2, 77})) + set(2, clause("NODE", {1})));
+  BuiltModel b(model() + set(1, clause("SET", {2, 77})) + set(2, clause("NODE", {1})));
   EXPECT_EQ(b.group(1), (Ids{1}));
   EXPECT_EQ(b.message(RuleId::DK161), 1902);
 }
 
 TEST(Set, MissingNodeOfASegmentIsMessage1903) {
-  Built b(model() + set(1, clause("SEG", {1, 9, 8, 77})));
+  BuiltModel b(model() + set(1, clause("SEG", {1, 9, 8, 77})));
   EXPECT_TRUE(b.surface(1).empty());
   EXPECT_EQ(b.message(RuleId::DK162), 1903);
 }
 
 TEST(Set, UnknownClauseIsMessage1906) {
-  Built b(model() + set(1, clause("NOODE", {1})));
+  BuiltModel b(model() + set(1, clause("NOODE", {1})));
   b.group(1);
   EXPECT_EQ(b.message(RuleId::DK160), 1906);
 }
 
 TEST(Set, ClauseOfAKindTheModelLacksIsWarning2007) {
-  Built b(model() + set(1, clause("BEAM", {1})));
+  BuiltModel b(model() + set(1, clause("BEAM", {1})));
   b.group(1);
   EXPECT_EQ(b.message(RuleId::DK163), 2007);
 }
 
 TEST(Set, WhatIsNotEvaluatedIsSaid) {
-  Built b(model() + set(1, clause("PART_B", {1}) + clause("RBODY", {1})));
+  BuiltModel b(model() + set(1, clause("PART_B", {1}) + clause("RBODY", {1})));
   b.group(1);
   EXPECT_EQ(b.findings(RuleId::DK164), 2u);
 }

@@ -16,7 +16,7 @@ std::string head(std::int64_t group, const std::vector<double>& xyz, const Ids& 
 }
 std::string all_nodes() { return "/GRNOD/GENE/1\nall\n" + cells({1, 1000}); }
 
-void expect_at(Built& b, std::int64_t id, double x, double y, double z) {
+void expect_at(BuiltModel& b, std::int64_t id, double x, double y, double z) {
   const NodeIndex n = b.model().nodes.map.find(id);
   ASSERT_NE(n, no_index);
   EXPECT_NEAR(b.model().nodes.x[n], x, 1e-12);
@@ -25,71 +25,72 @@ void expect_at(Built& b, std::int64_t id, double x, double y, double z) {
 }
 
 TEST(Transform, Translation) {
-  Built b(grid_nodes() + all_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(1, {1, 2, 3}, {}));
+  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(1, {1, 2, 3}, {}));
   expect_at(b, 9, 21, 22, 3);
 }
 
 TEST(Transform, TranslationByTwoNodes) {
-  Built b(grid_nodes() + all_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(1, {1, 2, 3}, {1, 5}));
+  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(1, {1, 2, 3}, {1, 5}));
   expect_at(b, 9, 30, 30, 0);
 }
 
 TEST(Transform, RotationIsRightHanded) {
-  Built b(grid_nodes() + all_nodes() + "/TRANSFORM/ROT/1\nt\n" + head(1, {10, 0, 0}, {}) +
-          "          " + reals({10, 0, 5, 90}));
+  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/ROT/1\nt\n" + head(1, {10, 0, 0}, {}) +
+               "          " + reals({10, 0, 5, 90}));
   expect_at(b, 3, 10, 10, 0);
 }
 
 TEST(Transform, MirrorImage) {
-  Built b(grid_nodes() + all_nodes() + "/TRANSFORM/SYM/1\nt\n" + head(1, {20, 0, 0}, {}) +
-          "          " + reals({25, 0, 0}));
+  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/SYM/1\nt\n" + head(1, {20, 0, 0}, {}) +
+               "          " + reals({25, 0, 0}));
   expect_at(b, 1, 40, 0, 0);
   expect_at(b, 3, 20, 0, 0);
 }
 
 TEST(Transform, ScalingAboutANodeTakesZeroForOne) {
-  Built b(grid_nodes() + all_nodes() + "/TRANSFORM/SCA/1\nt\n" + head(1, {2, 0, 3}, {5}));
+  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/SCA/1\nt\n" + head(1, {2, 0, 3}, {5}));
   expect_at(b, 9, 30, 20, 0);
   expect_at(b, 1, -10, 0, 0);
 }
 
 TEST(Transform, Matrix) {
-  Built b(grid_nodes() + all_nodes() + "/TRANSFORM/MATRIX/1\nt\n" + head(1, {0, 1, 0}, {}) +
-          "          " + reals({1, 0, 0, 7}) + "          " + reals({0, 0, 1}));
+  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/MATRIX/1\nt\n" + head(1, {0, 1, 0}, {}) +
+               "          " + reals({1, 0, 0, 7}) + "          " + reals({0, 0, 1}));
   expect_at(b, 3, 0, 27, 0);
 }
 
 TEST(Transform, OrderOfTheDeckCounts) {
   const std::string move = "/TRANSFORM/TRA/1\nt\n" + head(1, {10, 0, 0}, {});
   const std::string scale = "/TRANSFORM/SCA/2\nt\n" + head(1, {2, 2, 2}, {});
-  Built first(grid_nodes() + all_nodes() + move + scale);
+  BuiltModel first(grid_nodes() + all_nodes() + move + scale);
   expect_at(first, 1, 20, 0, 0);
-  Built second(grid_nodes() + all_nodes() + scale + move);
+  BuiltModel second(grid_nodes() + all_nodes() + scale + move);
   expect_at(second, 1, 10, 0, 0);
 }
 
 TEST(Transform, BoxesSeeTheCoordinatesBeforeIt) {
-  Built b(grid_nodes() + all_nodes() + "/BOX/RECTA/1\nb\n" + cells({0, 0, 0}) +
-          reals({-1, -1, -1}) + reals({1, 1, 1}) + "/GRNOD/BOX/2\ng\n" + cells({1}) +
-          "/TRANSFORM/TRA/1\nt\n" + head(1, {100, 0, 0}, {}));
+  BuiltModel b(grid_nodes() + all_nodes() + "/BOX/RECTA/1\nb\n" + cells({0, 0, 0}) +
+               reals({-1, -1, -1}) + reals({1, 1, 1}) + "/GRNOD/BOX/2\ng\n" + cells({1}) +
+               "/TRANSFORM/TRA/1\nt\n" + head(1, {100, 0, 0}, {}));
   expect_at(b, 1, 100, 0, 0);
   EXPECT_EQ(b.group(2), (Ids{1}));
 }
 
 TEST(Transform, SubmodelMovesOnlyItsNodesAndBoxesFollow) {
-  Built b(grid_nodes() + "//SUBMODEL/4\nsub\n" + cells({0, 100}) + "/NODE\n" + node(1, 0, 0, 0) +
-          "/BOX/RECTA/1\nb\n" + cells({0, 0, 0}) + reals({-1, -1, -1}) + reals({1, 1, 1}) +
-          "//ENDSUB\n" + "/GRNOD/BOX/2\ng\n" + cells({1}) + "/TRANSFORM/TRA/1\nt\n" +
-          head(0, {10, 10, 0}, {0, 0, 4}));
+  BuiltModel b(grid_nodes() + "//SUBMODEL/4\nsub\n" + cells({0, 100}) + "/NODE\n" +
+               node(1, 0, 0, 0) + "/BOX/RECTA/1\nb\n" + cells({0, 0, 0}) + reals({-1, -1, -1}) +
+               reals({1, 1, 1}) + "//ENDSUB\n" + "/GRNOD/BOX/2\ng\n" + cells({1}) +
+               "/TRANSFORM/TRA/1\nt\n" + head(0, {10, 10, 0}, {0, 0, 4}));
   expect_at(b, 101, 10, 10, 0);
   expect_at(b, 1, 0, 0, 0);
   EXPECT_EQ(b.group(2), (Ids{5, 101}));
 }
 
 TEST(Transform, MissingGroupAndNodeAreReported) {
-  Built group(grid_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(9, {1, 2, 3}, {}));
+  BuiltModel group(grid_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(9, {1, 2, 3}, {}));
   EXPECT_EQ(group.message(RuleId::DK110), 1865);
-  Built missing(grid_nodes() + all_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(1, {1, 2, 3}, {1, 77}));
+  BuiltModel missing(grid_nodes() + all_nodes() + "/TRANSFORM/TRA/1\nt\n" +
+                     head(1, {1, 2, 3}, {1, 77}));
   EXPECT_EQ(missing.message(RuleId::DK110), 694);
 }
 
@@ -105,33 +106,34 @@ TEST(Transform, ScaleAndMirrorImageOfASubmodelExistFrom2026On) {
       "/TRANSFORM/SYM/1\nt\n" + head(0, {20, 0, 0}, {0, 0, 4}) + "          " + reals({25, 0, 0});
   const std::string move = "/TRANSFORM/TRA/1\nt\n" + head(0, {1, 0, 0}, {0, 0, 4});
   for (const std::string& transform : {scale, mirror}) {
-    Built now(submodel_and(transform), "kg mm ms", 2026);
+    BuiltModel now(submodel_and(transform), "kg mm ms", 2026);
     EXPECT_EQ(now.findings(RuleId::DK110), 0u);
     EXPECT_NE(now.model().nodes.x[now.model().nodes.map.find(101)], 1);
-    Built before(submodel_and(transform), "kg mm ms", 2025);
+    BuiltModel before(submodel_and(transform), "kg mm ms", 2025);
     expect_at(before, 101, 1, 0, 0);
     EXPECT_EQ(before.message(RuleId::DK110), 1865);
   }
-  Built moved(submodel_and(move), "kg mm ms", 100);
+  BuiltModel moved(submodel_and(move), "kg mm ms", 100);
   expect_at(moved, 101, 2, 0, 0);
-  Built ignored(submodel_and(move), "kg mm ms", 90);
+  BuiltModel ignored(submodel_and(move), "kg mm ms", 90);
   expect_at(ignored, 101, 1, 0, 0);
 }
 
 TEST(Transform, WhereTheVersionHasNoSubmodelTheGroupMoves) {
-  Built b(submodel_and(all_nodes() + "/TRANSFORM/SCA/1\nt\n" + head(1, {2, 2, 2}, {0, 0, 4})),
-          "kg mm ms", 2025);
+  BuiltModel b(submodel_and(all_nodes() + "/TRANSFORM/SCA/1\nt\n" + head(1, {2, 2, 2}, {0, 0, 4})),
+               "kg mm ms", 2025);
   expect_at(b, 9, 40, 40, 0);
   EXPECT_EQ(b.findings(RuleId::DK062), 0u);
 }
 
 TEST(Transform, OfAGroupAndASubmodelIsMessage914) {
-  Built b(submodel_and(all_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(1, {1, 0, 0}, {0, 0, 4})));
+  BuiltModel b(submodel_and(all_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(1, {1, 0, 0}, {0, 0, 4})));
   EXPECT_EQ(b.message(RuleId::DK062), 914);
 }
 
 TEST(Transform, TypeThatIsNotEvaluatedSaysSo) {
-  Built b(grid_nodes() + all_nodes() + "/TRANSFORM/POSITION/1\nt\n" + cells({1, 1, 2, 3, 4, 5, 6}));
+  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/POSITION/1\nt\n" +
+               cells({1, 1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(b.findings(RuleId::DK110), 1u);
   expect_at(b, 1, 0, 0, 0);
 }
