@@ -124,6 +124,22 @@ class BuiltModel {
   Model model_;
 };
 
+/// A clause of a /SET, its ids over as many lines as they need.
+inline std::string clause(const std::string& name, const Ids& ids) {
+  std::string out = name;
+  out.resize(10, ' ');
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (i > 0 && i % 9 == 0) out += "\n          ";
+    char text[32];
+    std::snprintf(text, sizeof text, "%10lld", static_cast<long long>(ids[i]));
+    out += text;
+  }
+  return out + "\n";
+}
+inline std::string set(std::int64_t id, const std::string& clauses) {
+  return "/SET/GENERAL/" + std::to_string(id) + "\nset\n" + clauses;
+}
+
 /// Parts 1, 2, 3 with shell property 1 (thickness 2), parts 4 and 5 with solid property 2, part 6
 /// with truss property 3, material 1.
 inline std::string parts() {

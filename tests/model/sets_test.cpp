@@ -6,20 +6,6 @@
 namespace deck::test {
 namespace {
 
-std::string clause(const std::string& name, const Ids& ids) {
-  std::string out = name;
-  out.resize(10, ' ');
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (i > 0 && i % 9 == 0) out += "\n          ";
-    char text[32];
-    std::snprintf(text, sizeof text, "%10lld", static_cast<long long>(ids[i]));
-    out += text;
-  }
-  return out + "\n";
-}
-std::string set(std::int64_t id, const std::string& clauses) {
-  return "/SET/GENERAL/" + std::to_string(id) + "\nset\n" + clauses;
-}
 std::string model() {
   return parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
          "/SHELL/2\n" + cells({3, 4, 5, 8, 7}) + cells({4, 5, 6, 9, 8}) + cube_nodes() + cubes();

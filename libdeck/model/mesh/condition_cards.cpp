@@ -27,8 +27,13 @@ class Reader {
       : model_(model), deck_(*model.deck), ties_(ties) {}
 
   ConditionCards run() {
-    for (const Block& b : deck_.blocks)
-      if (b.schema != nullptr && !b.opaque) block(b);
+    for (const Block& b : deck_.blocks) {
+      if (b.opaque) continue;
+      if (b.schema != nullptr)
+        block(b);
+      else if (b.header.starts_with("/NBCS"))
+        not_booked(b);
+    }
     bodies();
     condensed_nodes();
     return std::move(out_);
@@ -58,11 +63,14 @@ class Reader {
     else if (k == "/CYL_JOINT")
       cylinder(b);
     else if (k == "/GJOINT" || k == "/INTER/TYPE1" || k == "/INTER/TYPE9" || k == "/BCS/CYCLIC" ||
-             k == "/IMPDISP/FGEO" || k == "/IMPVEL/FGEO" || b.header.starts_with("/NBCS") ||
-             b.header.starts_with("/GJOINT"))
-      out_.left_out.push_back({"conditions of " + std::string(b.header) + " (" +
-                                   deck_.sources.where(b.header_span) + ")",
-                               "this option is not booked", 1});
+             k == "/IMPDISP/FGEO" || k == "/IMPVEL/FGEO" || b.header.starts_with("/GJOINT"))
+      not_booked(b);
+  }
+
+  void not_booked(const Block& b) {
+    out_.left_out.push_back(
+        {"conditions of " + std::string(b.header) + " (" + deck_.sources.where(b.header_span) + ")",
+         "this option is not booked", 1});
   }
 
   std::int64_t shifted(const Block& b, std::string_view kind, std::int64_t id) const {

@@ -225,7 +225,6 @@ class MaterialFiller {
     if (block->schema->keyword == "/EOS/POLYNOMIAL" && c.real("C1") != 0 &&
         (c.real("E0") == 0 || (c.real("C4") == 0 && c.real("C5") == 0)))
       return std::abs(c.real("C1"));
-    if (block->schema->keyword == "/EOS/LINEAR" && c.real("Bulk") != 0) return c.real("Bulk");
     return not_known;
   }
 
@@ -284,6 +283,7 @@ class MaterialFiller {
       case 15:
       case 25:
         c = m_.stored_speed;
+        if (std::isnan(c)) b = not_known;
         break;
       case 11:
         m_.fixed_step = 1000;
