@@ -1,0 +1,392 @@
+// .decklint.toml and baselines, key by key: what is read, and what is said of what cannot be.
+#include "lint/shared/config.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "lint/support.hpp"
+
+namespace deck::test {
+namespace {
+
+using Lines = std::map<std::string, std::uint64_t>;
+
+/// The error of a text, without "c.toml:"; "": it is read.
+std::string refused(const std::string& text) {
+  const auto config = parse_lint_config(text, "c.toml");
+  if (config) return "";
+  EXPECT_TRUE(config.error().message.starts_with("c.toml:")) << config.error().message;
+  EXPECT_EQ(config.error().code, Error::Code::config);
+  return config.error().message.substr(7);
+}
+
+TEST(ConfigErrors, NameTheLineAndWhatWouldBeRight) {
+  const std::pair<std::string, std::string> rows[] = {
+      {"select = []\n", ""},
+      {"\nselect = \"DK1\"", "2: 'select' is not a list of strings"},
+      {"ignore = [\n 5]", "2: 'ignore' holds something that is not a string"},
+      {"ignore = [\"DK777\"]", "1: no rule is called 'DK777'"},
+      {"fail-on = 5", "1: 'fail-on' is \"error\", \"warning\" or \"never\""},
+      {"fail-on = \"info\"", "1: 'fail-on' is \"error\", \"warning\" or \"never\""},
+      {"baseline = 5", "1: 'baseline' is not a path"},
+      {"geometry = 1", "1: 'geometry' is true or false"},
+      {"severity = 1", "1: 'severity' is not a table"},
+      {"[severity]\n\nDK2 = 1", "3: a severity is \"error\", \"warning\" or \"info\""},
+      {"[severity]\nDK2 = \"loud\"", "2: a severity is \"error\", \"warning\" or \"info\""},
+      {"[severity]\nDK777 = \"info\"", "2: no rule is called 'DK777'"},
+      {"per-file-ignores = 1", "1: 'per-file-ignores' is not a table"},
+      {"[per-file-ignores]\n\"*.x\" = 1", "2: '*.x' is not a list of strings"},
+      {"gate = 1", "1: 'gate' is not a table"},
+      {"[gate]\nmax-count = 1.5", "2: 'max-count' is a whole number, 0 or more"},
+      {"[gate]\nmax-count = -1", "2: 'max-count' is a whole number, 0 or more"},
+      {"[gate]\nmax-untied = \"x\"", "2: 'max-untied' is a whole number, 0 or more"},
+      {"[gate]\nmax-count = 0\nmax-untied = 0\nmax-depth = 0\nmax-ratio = 0", ""},
+      {"[gate]\nmax-depth = \"x\"", "2: 'max-depth' is a number, 0 or more"},
+      {"[gate]\nmax-depth = -0.1", "2: 'max-depth' is a number, 0 or more"},
+      {"[gate]\nmax-depth = nan", "2: 'max-depth' is a number, 0 or more"},
+      {"[gate]\nmax-depth = 1.5\nmax-ratio = 1\nmax-dt-loss = 1.0", ""},
+      {"[gate]\nmax-ratio = 1.01", "2: 'max-ratio' is a share from 0 to 1"},
+      {"[gate]\nmax-dt-loss = 30", "2: 'max-dt-loss' is a share from 0 to 1"},
+      {"[gate]\nfail-on = \"new\"", "2: 'fail-on' of the gate is a list of \"new\" and \"worse\""},
+      {"[gate]\nfail-on = [\"new\", 5]",
+       "2: 'fail-on' of the gate is a list of \"new\" and \"worse\""},
+      {"[gate]\nfail-on = [\"old\", \"new\"]",
+       "2: 'fail-on' of the gate is a list of \"new\" and \"worse\""},
+      {"[gate]\nfail-on = []", ""},
+      {"[gate]\ncompare = 5", "2: 'compare' is not a path"},
+      {"[gate]\nbaseline = 5", "2: 'baseline' is not a path"},
+      {"[gate]\nfoo = 5",
+       "2: unknown key 'foo'; known: max-depth, max-ratio, max-count, max-untied, max-dt-loss, "
+       "compare, fail-on, baseline, interface, part-pair"},
+      {"[gate.interface]\nmatch = \"x\"", "1: expected [[gate.interface]], a list of tables"},
+      {"[gate.part-pair]\nmatch = \"x\"", "1: expected [[gate.part-pair]], a list of tables"},
+      {"[gate]\ninterface = [5]", "2: this is not a table with 'match' and bounds"},
+      {"[[gate.interface]]\nmax-depth = 1",
+       "1: 'match' is missing: a pattern of the id or title of an interface"},
+      {"[[gate.interface]]\nmatch = [\"a\", \"b\"]",
+       "2: 'match' is a pattern of the id or title of an interface"},
+      {"[[gate.interface]]\nmatch = 5",
+       "2: 'match' is a pattern of the id or title of an interface"},
+      {"[[gate.interface]]\nmatch = [\"a\"]", ""},
+      {"[[gate.part-pair]]\nmatch = \"a\"",
+       "2: 'match' is a list of two patterns of ids or titles of parts"},
+      {"[[gate.part-pair]]\nmatch = [\"a\", 5]",
+       "2: 'match' is a list of two patterns of ids or titles of parts"},
+      {"[[gate.part-pair]]\nmatch = [\"a\", \"b\"]\nmax-dt-loss = 0.1",
+       "3: unknown key 'max-dt-loss'; known: match, max-depth, max-ratio, max-count"},
+      {"[[gate.interface]]\nmatch = \"a\"\nmax-depth = -1",
+       "3: 'max-depth' is a number, 0 or more"},
+      {"[[gate.interface]]\nmatch = \"a\"\nfoo = 1",
+       "3: unknown key 'foo'; known: match, max-depth, max-ratio, max-count, max-untied, "
+       "max-dt-loss"},
+      {"slect = 1",
+       "1: unknown key 'slect'; known: select, ignore, fail-on, baseline, geometry, severity, "
+       "per-file-ignores, gate"},
+      {"x = \"\n", "1: "},
+  };
+  for (const auto& [text, wanted] : rows) {
+    const std::string found = refused(text);
+    if (wanted.ends_with("'DK777'") || wanted == "1: ")
+      EXPECT_TRUE(found.starts_with(wanted)) << text << ": " << found;
+    else
+      EXPECT_EQ(found, wanted) << text;
+  }
+}
+
+TEST(ConfigErrors, SuggestTheRuleThatWasMeant) {
+  EXPECT_EQ(unknown_selector("DK301x"), "no rule is called 'DK301x'; did you mean 'DK301'?");
+  EXPECT_EQ(unknown_selector("DK201:Itsf"),
+            "no rule is called 'DK201:Itsf'; did you mean 'DK201:Istf'?");
+  EXPECT_EQ(unknown_selector("nonsense"), "no rule is called 'nonsense'; see 'deck rules'");
+}
+
+TEST(ConfigKeys, HaveTheirValuesAndLines) {
+  const auto c = parse_lint_config(
+      "select = [\"DK1\", \"DK2\"]\n"
+      "ignore = [\"DK188\"]\n"
+      "fail-on = \"never\"\n"
+      "baseline = \"b.json\"\n"
+      "geometry = false\n"
+      "[severity]\n"
+      "DK1 = \"info\"\n"
+      "DK2 = \"error\"\n"
+      "[per-file-ignores]\n"
+      "\"*.inc\" = [\"DK0\", \"DK9\"]\n"
+      "[gate]\n"
+      "max-depth = 1.5\n"
+      "max-ratio = 0.25\n"
+      "max-count = 7\n"
+      "max-untied = 11\n"
+      "max-dt-loss = 0.5\n"
+      "compare = \"old.json\"\n"
+      "fail-on = [\"worse\"]\n"
+      "baseline = \"accepted.json\"\n"
+      "[[gate.interface]]\n"
+      "match = \"rail*\"\n"
+      "max-depth = 3\n"
+      "max-count = 5\n"
+      "[[gate.interface]]\n"
+      "match = \"7\"\n"
+      "max-ratio = 0.5\n"
+      "max-untied = 2\n"
+      "max-dt-loss = 0.125\n"
+      "[[gate.part-pair]]\n"
+      "match = [\"a\", \"b\"]\n"
+      "max-depth = 9\n",
+      "/some/where/.decklint.toml");
+  ASSERT_TRUE(c) << c.error().message;
+  EXPECT_EQ(c->path, "/some/where/.decklint.toml");
+  EXPECT_EQ(c->select, (std::vector<std::string>{"DK1", "DK2"}));
+  EXPECT_EQ(c->ignore, (std::vector<std::string>{"DK188"}));
+  EXPECT_EQ(c->fail_on, "never");
+  EXPECT_EQ(c->baseline, "/some/where/b.json");
+  EXPECT_EQ(c->geometry, std::optional(false));
+  EXPECT_EQ(c->severity,
+            (std::map<std::string, Severity>{{"DK1", Severity::info}, {"DK2", Severity::error}}));
+  ASSERT_EQ(c->per_file_ignores.size(), 1u);
+  EXPECT_EQ(c->per_file_ignores[0].second, (std::vector<std::string>{"DK0", "DK9"}));
+  EXPECT_EQ(c->compare, "/some/where/old.json");
+  EXPECT_EQ(c->accepted, "/some/where/accepted.json");
+  const Gate& g = c->gate;
+  EXPECT_FALSE(g.on_fresh);
+  EXPECT_TRUE(g.on_worse);
+  EXPECT_EQ(g.general.max_depth, 1.5);
+  EXPECT_EQ(g.general.max_ratio, 0.25);
+  EXPECT_EQ(g.general.max_count, 7u);
+  EXPECT_EQ(g.general.max_untied, 11u);
+  EXPECT_EQ(g.general.max_dt_loss, 0.5);
+  ASSERT_EQ(g.interfaces.size(), 2u);
+  EXPECT_EQ(g.interfaces[0].match, std::vector<std::string>{"rail*"});
+  EXPECT_EQ(g.interfaces[0].limits.max_depth, 3.0);
+  EXPECT_EQ(g.interfaces[0].limits.max_count, 5u);
+  EXPECT_FALSE(g.interfaces[0].limits.max_ratio);
+  EXPECT_EQ(g.interfaces[1].limits.max_ratio, 0.5);
+  EXPECT_EQ(g.interfaces[1].limits.max_untied, 2u);
+  EXPECT_EQ(g.interfaces[1].limits.max_dt_loss, 0.125);
+  ASSERT_EQ(g.part_pairs.size(), 1u);
+  EXPECT_EQ(g.part_pairs[0].match, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(g.part_pairs[0].limits.max_depth, 9.0);
+  EXPECT_EQ(c->lines, (Lines{{"select", 1},
+                             {"ignore", 2},
+                             {"fail-on", 3},
+                             {"baseline", 4},
+                             {"geometry", 5},
+                             {"severity", 6},
+                             {"severity.DK1", 7},
+                             {"severity.DK2", 8},
+                             {"per-file-ignores", 9},
+                             {"per-file-ignores.*.inc", 10},
+                             {"gate", 11},
+                             {"gate.max-depth", 12},
+                             {"gate.max-ratio", 13},
+                             {"gate.max-count", 14},
+                             {"gate.max-untied", 15},
+                             {"gate.max-dt-loss", 16},
+                             {"gate.compare", 17},
+                             {"gate.fail-on", 18},
+                             {"gate.baseline", 19},
+                             {"gate.interface[0]", 20},
+                             {"gate.interface[1]", 24},
+                             {"gate.part-pair[0]", 29}}));
+}
+
+TEST(ConfigKeys, OfTheGateKnowRevisionsAndAbsolutePaths) {
+  const auto of = [](const std::string& text) {
+    const auto c = parse_lint_config("[gate]\n" + text, "/dir/c.toml");
+    EXPECT_TRUE(c);
+    return std::pair(c->compare, c->accepted);
+  };
+  using Paths = std::pair<std::string, std::string>;
+  EXPECT_EQ(of("compare = \"git:HEAD~1\""), Paths("git:HEAD~1", ""));
+  EXPECT_EQ(of("baseline = \"git:HEAD\""), Paths("", "/dir/git:HEAD"));
+  EXPECT_EQ(of("compare = \"/abs/x.json\"\nbaseline = \"../y.json\""),
+            Paths("/abs/x.json", "/dir/../y.json"));
+  const auto fresh = parse_lint_config("[gate]\nfail-on = [\"new\"]", "c.toml");
+  EXPECT_TRUE(fresh->gate.on_fresh);
+  EXPECT_FALSE(fresh->gate.on_worse);
+  EXPECT_TRUE(fresh->gate.any());
+  EXPECT_FALSE(parse_lint_config("", "c.toml")->gate.any());
+}
+
+TEST(ConfigKeys, AreInTheTemplateAndCanBeRead) {
+  // Every line that is a comment with a value becomes one.
+  std::string text, line;
+  const std::string all = config_template();
+  for (const char ch : all) {
+    line += ch;
+    if (ch != '\n') continue;
+    if (line.starts_with("# ") && (line.find(" = ") != line.npos || line[2] == '['))
+      text += line.substr(2);
+    line.clear();
+  }
+  const auto c = parse_lint_config(text, "c.toml");
+  ASSERT_TRUE(c) << c.error().message << "\n" << text;
+  EXPECT_EQ(c->select, (std::vector<std::string>{"DK0", "DK1", "DK2"}));
+  EXPECT_EQ(c->ignore, (std::vector<std::string>{"DK9"}));
+  EXPECT_EQ(c->severity.at("DK9"), Severity::warning);
+  EXPECT_EQ(c->gate.general.max_count, 0u);
+  EXPECT_TRUE(c->gate.on_fresh && c->gate.on_worse);
+  ASSERT_EQ(c->gate.interfaces.size(), 1u);
+  EXPECT_EQ(c->gate.interfaces[0].limits.max_dt_loss, 0.2);
+  ASSERT_EQ(c->gate.part_pairs.size(), 1u);
+  for (const ConfigKey& k : config_keys()) {
+    EXPECT_NE(all.find("## " + std::string(k.meaning)), all.npos) << k.key;
+    EXPECT_NE(all.find("\n# " + std::string(k.key) + " = " + std::string(k.example) + "\n"),
+              all.npos);
+    if (!k.fallback.empty()) {
+      EXPECT_NE(all.find(" (default: " + std::string(k.fallback) + ")"), all.npos) << k.key;
+    }
+  }
+  EXPECT_NE(all.find("\n# [severity]\n"), all.npos);
+  EXPECT_NE(all.find("\n# [[gate.interface]]\n"), all.npos);
+  EXPECT_EQ(all.find("\n# [gate]\n"), all.rfind("\n# [gate]\n")) << "once";
+}
+
+TEST(ConfigText, QuotesEndWhereTheyEnd) {
+  const std::string letter = "\xC3\xA9";
+  const std::string wrong = ": a character that is not ASCII is outside of quotes";
+  // What follows a string is outside of it again.
+  EXPECT_EQ(refused("\"a\" = 1 # x\n" + letter), "2" + wrong);
+  EXPECT_EQ(refused("'a' = 1\n\n" + letter), "3" + wrong);
+  EXPECT_EQ(refused("x = \"\"\"a\nb\n\"\"\"\n" + letter), "4" + wrong);
+  EXPECT_EQ(refused("x = '''a\nb\n'''" + letter), "3" + wrong);
+  EXPECT_EQ(refused("x = \"a\\\"b\"\n" + letter), "2" + wrong);
+  EXPECT_EQ(refused("x = 'a\\'\n" + letter), "2" + wrong) << "no escape in these";
+  EXPECT_EQ(refused("x = \"a\n" + letter), "2" + wrong) << "a string without an end";
+  EXPECT_EQ(refused("x = \"\"\n" + letter), "2" + wrong) << "an empty one";
+  EXPECT_EQ(refused("# " + letter + "\n" + letter), "2" + wrong);
+  EXPECT_EQ(refused(letter), "1" + wrong);
+  // Within they are what they are.
+  for (const std::string& text :
+       {"\"\"\"\n" + letter + "\"\n" + letter + "\"\"\"", "\"" + letter + "\"", "'" + letter + "'",
+        "'''" + letter + "''" + letter + "'''"})
+    EXPECT_EQ(refused("baseline = " + text + "\n"), "");
+}
+
+TEST(ConfigText, KeysHaveAtMostSixteenParts) {
+  const auto key = [](int parts) {
+    std::string out = "a";
+    for (int i = 1; i < parts; ++i) out += ".a";
+    return out;
+  };
+  const std::string many = "dotted parts";
+  EXPECT_EQ(refused(key(16) + " = 1").find(many), std::string::npos);
+  EXPECT_NE(refused(key(17) + " = 1").find(many), std::string::npos);
+  EXPECT_TRUE(refused("\n" + key(17) + " = 1").starts_with("2: "));
+  // They are counted anew behind each of these.
+  for (const char* between : {"\n", " = 1\n", "[", "{", ","})
+    EXPECT_EQ(refused(key(10) + between + key(10)).find(many), std::string::npos) << between;
+}
+
+TEST(FindConfig, TakesTheNearestAndNoneAtAll) {
+  const Folder folder;
+  const auto ignored = [&](const std::string& deck) {
+    const auto c = find_lint_config(deck);
+    EXPECT_TRUE(c);
+    return std::pair(c->ignore, c->path);
+  };
+  const std::string deck = folder.write("a/b/x_0000.rad", "");
+  const std::string outer = folder.write("a/.decklint.toml", "ignore = [\"DK2\"]\n");
+  EXPECT_EQ(ignored(deck), std::pair(std::vector<std::string>{"DK2"}, outer));
+  const std::string inner = folder.write("a/b/.decklint.toml", "ignore = [\"DK3\"]\n");
+  EXPECT_EQ(ignored(deck), std::pair(std::vector<std::string>{"DK3"}, inner));
+  EXPECT_EQ(find_lint_config("/x_0000.rad")->path, "");
+  folder.write("a/b/.decklint.toml", "ignore = 1\n");
+  EXPECT_FALSE(find_lint_config(deck));
+}
+
+// ---- baselines ---------------------------------------------------------------------------------
+
+TEST(BaselineFile, AreWrittenRelativeAndReadAbsolute) {
+  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=7 Gapmin=-0.5\n@/INTER/TYPE7/2 Istf=7\n");
+  LintResult& result = const_cast<LintResult&>(run.result);
+  ASSERT_GE(result.diagnostics.size(), 2u);
+  const std::string text = write_baseline({{"/home/x/m/deck_0000.rad", run.deck, &run.result},
+                                           {"/home/x/m/deck_0000.rad", run.deck, &run.result}},
+                                          "/home/x/lists/base.json");
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json["schema"], "deck.baseline/2");
+  ASSERT_EQ(json["decks"].size(), 1u);
+  ASSERT_TRUE(json["decks"].contains("../m/deck_0000.rad")) << text;
+  std::uint64_t entries = 0;
+  std::map<std::string, std::string> entities;
+  for (const auto& e : json["decks"]["../m/deck_0000.rad"]) {
+    entries += e["count"].get<std::uint64_t>();
+    entities[e["rule"].get<std::string>()] += e["entity"].get<std::string>() + " ";
+    EXPECT_EQ(e.size(), 5u);
+  }
+  EXPECT_EQ(entries, result.diagnostics.size()) << "a deck given twice has its findings once";
+  EXPECT_EQ(entities["DK221:Gapmin"], "/INTER/TYPE7/1 ");
+  EXPECT_EQ(entities["DK201:Istf"].size(), 2 * std::string("/INTER/TYPE7/1 ").size());
+  const auto read = parse_baseline(text, "/home/x/lists/base.json");
+  ASSERT_TRUE(read) << read.error().message;
+  const auto* of_deck = read->find("/home/x/m/deck_0000.rad");
+  ASSERT_NE(of_deck, nullptr);
+  EXPECT_EQ(read->find("/home/x/m/other_0000.rad"), nullptr);
+  std::uint64_t known = 0;
+  for (const auto& [key, e] : *of_deck) known += e.count;
+  EXPECT_EQ(known, entries);
+}
+
+TEST(BaselineFile, AddUpEntriesOfOneFinding) {
+  const auto entry = [](const std::string& count) {
+    return R"({"file":"a.rad","fingerprint":"ff","rule":"DK1","entity":"/X/1","count":)" + count +
+           "}";
+  };
+  const auto of = [&](const std::string& entries) {
+    return parse_baseline(R"({"schema":"deck.baseline/2","decks":{"a.rad":[)" + entries + "]}}",
+                          "/d/b.json");
+  };
+  const auto both = of(entry("2") + "," + entry("3"));
+  ASSERT_TRUE(both);
+  const auto* found = both->find("/d/a.rad");
+  ASSERT_NE(found, nullptr);
+  ASSERT_EQ(found->size(), 1u);
+  EXPECT_EQ(found->begin()->first, (FindingKey{"/d/a.rad", "ff"}));
+  EXPECT_EQ(found->begin()->second.count, 5u);
+  EXPECT_EQ(found->begin()->second.rule, "DK1");
+  EXPECT_EQ(found->begin()->second.entity, "/X/1");
+  EXPECT_TRUE(of(""));
+}
+
+TEST(BaselineFile, OfAnotherFormAreRefused) {
+  const std::string none =
+      "b.json: not a baseline: expected JSON with \"schema\": \"deck.baseline/2\" and \"decks\"";
+  const std::string entry =
+      "b.json: entry 1 of a needs file, fingerprint, rule, and a count above 0";
+  const auto of = [](const std::string& entries) {
+    return R"({"schema":"deck.baseline/2","decks":{"a":)" + entries + "}}";
+  };
+  const std::string good = R"({"file":"a","fingerprint":"f","rule":"r","count":1})";
+  const std::pair<std::string, std::string> rows[] = {
+      {"", none},
+      {"[]", none},
+      {"{}", none},
+      {R"({"schema":"deck.baseline/2"})", none},
+      {R"({"schema":"deck.baseline/2","decks":[]})", none},
+      {R"({"schema":"deck.baseline/3","decks":{}})", none},
+      {R"({"schema":"deck.baseline/1","decks":{}})",
+       "b.json: a baseline of an older version, which does not name the deck of a finding; write "
+       "it again with --write-baseline"},
+      {of("5"), "b.json: the entry of a is not a list"},
+      {of("[" + good + "]"), ""},
+      {of("[5]"), entry},
+      {of("[" + good + ",5]"),
+       "b.json: entry 2 of a needs file, fingerprint, rule, and a count above 0"},
+      {of(R"([{"fingerprint":"f","rule":"r","count":1}])"), entry},
+      {of(R"([{"file":"a","rule":"r","count":1}])"), entry},
+      {of(R"([{"file":"a","fingerprint":"f","count":1}])"), entry},
+      {of(R"([{"file":"a","fingerprint":"f","rule":"r"}])"), entry},
+      {of(R"([{"file":"a","fingerprint":"f","rule":"r","count":0}])"), entry},
+      {of(R"([{"file":"a","fingerprint":"f","rule":"r","count":-1}])"), entry},
+      {of(R"([{"file":1,"fingerprint":"f","rule":"r","count":1}])"), entry},
+  };
+  for (const auto& [text, message] : rows) {
+    const auto read = parse_baseline(text, "b.json");
+    EXPECT_EQ(read ? "" : read.error().message, message) << text;
+  }
+}
+
+}  // namespace
+}  // namespace deck::test
