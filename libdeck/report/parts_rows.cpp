@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <span>
 
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
@@ -152,16 +153,17 @@ class Interfaces2Parts {
     return std::find(std::begin(ties), std::end(ties), block.schema->keyword) != std::end(ties);
   }
 
-  /// A segment that is only nodes: the parts with an element that has them all.
-  void loose(PartBits& side, const Segment& segment) {
-    if (segment.nodes[0] == no_index) return;
+  /// A segment or edge that is only nodes: the parts with an element that has them all.
+  void loose(PartBits& side, std::span<const NodeIndex> nodes) {
+    if (nodes[0] == no_index) return;
     for (std::size_t k = 0; k < of_nodes_.size(); ++k) {
       const Elements& f = model_.family(static_cast<ElementKind>(k));
       if (of_nodes_[k].first.empty()) of_nodes_[k] = connect_nodes(f, model_.nodes.size());
-      for (const std::uint32_t e : of_nodes_[k].row(segment.nodes[0])) {
+      const int width = own_nodes(f.kind, f.width);
+      for (const std::uint32_t e : of_nodes_[k].row(nodes[0])) {
         const NodeIndex* n = f.of(e);
-        const bool has = std::all_of(segment.nodes.begin(), segment.nodes.end(), [&](NodeIndex m) {
-          return std::find(n, n + f.width, m) != n + f.width;
+        const bool has = std::all_of(nodes.begin(), nodes.end(), [&](NodeIndex m) {
+          return std::find(n, n + width, m) != n + width;
         });
         if (has && f.part[e] != no_index) side.set(f.part[e]);
       }
@@ -187,13 +189,16 @@ class Interfaces2Parts {
         if (const auto outline = model_.selections->outline(s))
           outline->segments.each([&](const Segment& g) {
             see(side, g.carrier, g.element);
-            if (g.carrier == Carrier::none || g.element == no_index) loose(side, g);
+            if (g.carrier == Carrier::none || g.element == no_index) loose(side, g.nodes);
           });
     };
     const auto lines = [&](PartBits& side, const char* name) {
       if (const std::int64_t s = field(name, "line"); s != 0)
         if (const LineSet* line = model_.selections->line(s))
-          for (const Edge& e : line->edges) see(side, e.carrier, e.element);
+          for (const Edge& e : line->edges) {
+            see(side, e.carrier, e.element);
+            if (e.carrier == Carrier::none || e.element == no_index) loose(side, e.nodes);
+          }
     };
     for (const char* name : {"surf_IDs", "surf_ID1", "line_IDs", "grnd_IDs"})
       sides.names_secondary = sides.names_secondary || d.integer(name) > 0;
@@ -224,24 +229,28 @@ class Interfaces2Parts {
     }
   }
 
+  /// How many pairs of a part of one set and a part of another there are, whichever comes first.
+  static std::uint64_t pairs_of(const PartBits& one, const PartBits& other) {
+    const std::uint64_t both = (one & other).count();
+    return one.count() * other.count() - both * (both - 1) / 2;
+  }
+
   /// Pairs of parts that two contacts have, whichever of them is the main side.
   void compare(const PartSides& a, const PartSides& b) {
     if (a.tie || b.tie) return;
-    RepeatedContacts out{a.id, b.id};
-    const auto add = [&](const PartBits& one, const PartBits& other) {
-      const std::uint64_t found = one.count() * other.count();
-      if (found == 0) return;
-      if (out.pairs == 0) {
-        out.part = model_.parts[one.first()].id;
-        out.other = model_.parts[other.first()].id;
-      }
-      out.pairs += found;
-    };
     const PartBits secondary = a.secondary & b.secondary, main = a.main & b.main;
-    add(secondary, main);
     const PartBits crossed = a.secondary & b.main, back = a.main & b.secondary;
-    if (!(crossed == secondary && back == main)) add(crossed, back);
-    if (out.pairs > 0) view_.repeated.push_back(out);
+    const bool same_sides = !secondary.none() && !main.none();
+    if (!same_sides && (crossed.none() || back.none())) return;
+    RepeatedContacts out{a.id, b.id};
+    out.part = model_.parts[(same_sides ? secondary : crossed).first()].id;
+    out.other = model_.parts[(same_sides ? main : back).first()].id;
+    // What the contacts have both ways counts once.
+    const PartBits everywhere = secondary & main;
+    out.pairs = pairs_of(secondary, main) + pairs_of(crossed, back) +
+                pairs_of(everywhere, everywhere) - pairs_of(secondary & crossed, main & back) -
+                pairs_of(secondary & back, main & crossed);
+    view_.repeated.push_back(out);
   }
 
   const Deck& deck_;
