@@ -164,6 +164,12 @@ std::vector<Pair> node_pairs() {
   for (std::size_t k = 0; k < many; ++k) {
     pairs[k].triangle = k % 4 == 1;
     if (pairs[k].triangle) pairs[k].x[4] = pairs[k].x[3];
+    // At the mid-surface of its segment.
+    if (k == 9) {
+      pairs[k].triangle = false;
+      pairs[k].x = {Vec{1, 1, 1e-13}, Vec{-5, -5, 0}, Vec{5, -5, 0}, Vec{5, 5, 0}, Vec{-5, 5, 0}};
+      pairs[k].p0 = 0;
+    }
     // Some ties that live: force, weights, depth and side.
     if (k % 2 == 0)
       pairs[k].tie = {-30.0 - static_cast<double>(k), 4, 5, 0.25, 0.375, 0.125, 0.1, 1};
@@ -289,6 +295,7 @@ TEST(ReplayOfNodes, NodesShowTheirExtremesOfTheCycleSoFar) {
     });
     return out;
   });
+  EXPECT_EQ(got.at("stfs_out")[9], -1);
   expect_column(got, "stfs_out", [&](std::size_t row) {
     double out = 1;
     over(row, same(row), [&](const PacketResult& p) {
@@ -528,6 +535,15 @@ TEST(ReplayOfEdgeHeat, TakesWhatTheSolverUsedOrItsOwn) {
   card.ithe_form = 0;
   card.tint = 500;
   check(card, used, {});
+  // One term of a conductivity alone is none.
+  for (EdgeHeatState& state : used) state.conductivity.fill(0);
+  for (const char* const gone : {"lam_s_b", "lam_s_a"}) {
+    ReplayOptions options;
+    options.csv = true;
+    const ReplayReport some = replay(card, s.text(gone), options);
+    EXPECT_EQ(some.error, "");
+    EXPECT_NE(some.csv, "");
+  }
 }
 
 // --- what a table must have
@@ -718,6 +734,15 @@ TEST(ReplayFigures, ErrorsAreThoseOfVectors) {
   EXPECT_NEAR(r.max, 500 / std::sqrt(500.0 * 500 + 750 * 750), 1e-12);
   EXPECT_EQ(r.median, r.max);
   EXPECT_EQ(r.p99, r.max);
+}
+
+TEST(ReplayFigures, OfThousandsOfRowsListTheWorstTen) {
+  std::vector<Vec> recorded;
+  for (int k = 0; k < 4500; ++k) recorded.push_back({0, 0, -750 / (1 + 1e-5 * ((k * 7) % 4500))});
+  const ReplayReport r = replay(spring(), forces(recorded, Column(4500, 3125)).text());
+  ASSERT_EQ(r.worst.size(), 10u);
+  for (std::size_t k = 0; k < 10; ++k)
+    EXPECT_NEAR(r.worst[k].relative_error, 1e-5 * (4499 - static_cast<double>(k)), 1e-12) << k;
 }
 
 TEST(ReplayStates, MustHaveOneDtmin) {
