@@ -125,7 +125,7 @@ TEST(HardCaseSweeps, HugeOffsetsLeaveTheNodeAThousandthFromTheMiddle) {
 
 TEST(HardCaseGaps, AreTheDistanceOrOneStepOrAShareBesideItOrOfAnySize) {
   std::size_t same = 0, above = 0, below = 0, close = 0, beside = 0, any = 0;
-  double largest = 0, smallest = 1e300;
+  double largest = 0, smallest = 1e300, most_close = 0, least_beside = 1;
   const auto samples = hard_cases(34, 6000);  // ordinary edges, never touching
   for (const PairSample& s : samples) {
     const double d = plain_distance(s), off = s.gap / d - 1;
@@ -134,6 +134,8 @@ TEST(HardCaseGaps, AreTheDistanceOrOneStepOrAShareBesideItOrOfAnySize) {
     above += s.gap == std::nextafter(d, 1e300);
     below += s.gap == std::nextafter(d, 0.0);
     close += std::abs(off) > 1e-14 && std::abs(off) < 1e-10;
+    if (std::abs(off) < 1.01e-10) most_close = std::max(most_close, std::abs(off));
+    if (std::abs(off) > 1.01e-10) least_beside = std::min(least_beside, std::abs(off));
     if (std::abs(off) > 2e-10 && std::abs(off) < std::pow(10.0, -0.5)) ++beside;
     if (std::abs(off) > std::pow(10.0, -0.5) * (1 + 1e-12)) {
       ++any;
@@ -149,6 +151,8 @@ TEST(HardCaseGaps, AreTheDistanceOrOneStepOrAShareBesideItOrOfAnySize) {
   EXPECT_NEAR(static_cast<double>(close), 1000 * 4.0 / 7.0, 100);
   EXPECT_NEAR(static_cast<double>(beside), 1000, 150);
   EXPECT_NEAR(static_cast<double>(any), 900, 150);
+  EXPECT_GT(most_close, 0.9e-10);
+  EXPECT_LT(least_beside, 1.2e-10);
   EXPECT_GE(smallest, 1e-6 * (1 - 1e-12));
   EXPECT_LT(smallest, 1.1e-6);
   EXPECT_LE(largest, 1 + 1e-12);
