@@ -410,6 +410,35 @@ TEST(WhatIfText, NamesEveryFieldOnce) {
   EXPECT_EQ(parse_what_if("3:Igap=-1000")->Igap, -1000);
 }
 
+TEST(WhatIfText, IsHeldAgainstTheCardOfTheInterface) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.shell_part(1, 2).shell(1, 1, 1, 2, 3, 4).group("/SURF/PART/1", {1});
+  d.segments("/LINE/SEG/1", {{1, 2}}).group("/GRNOD/NODE/1", {3});
+  d.add("@/INTER/TYPE7/1 surf_IDm=1 grnd_IDs=1 Gapmin=1");
+  d.add("@/INTER/TYPE11/2 line_IDs=1 line_IDm=1 Gapmin=1");
+  d.add("@/INTER/TYPE19/3 surf_IDs=1 surf_IDm=1 Gapmin=1");
+  const Built b(d);
+  const auto verdict = [&](const std::string& text) -> std::string {
+    const auto w = parse_what_if(text);
+    EXPECT_TRUE(w.ok()) << text;
+    for (const InterBase* inter : b.interfaces.ordered)
+      if (inter->id == w->interface_id) {
+        const auto fits = check_what_if(*w, *inter);
+        return fits.ok() ? "" : fits.error().message;
+      }
+    return "no interface";
+  };
+  for (const char* good : {"1:Gapmin=0.5,Inacti=6,Igap=3", "1:Fpenmax=0.5", "1:Irem_gap=2",
+                           "1:Inacti=1000", "2:Gapmin=0.5", "3:Fpenmax=0.5", "3:Inacti=5"})
+    EXPECT_EQ(verdict(good), "") << good;
+  EXPECT_EQ(verdict("2:Fpenmax=0.5"), "--what-if 2:Fpenmax=0.5: TYPE11 has no field Fpenmax");
+  EXPECT_EQ(verdict("2:Gapmin=0.5,Gapmax=2"), "--what-if 2:Gapmax=2.0: TYPE11 has no field Gapmax");
+  EXPECT_EQ(verdict("1:Inacti=7").find("--what-if 1:Inacti=7.0: the field takes "), 0u);
+  EXPECT_NE(verdict("1:Inacti=7").find("5, 6"), std::string::npos);
+  EXPECT_EQ(verdict("3:Igap=9").find("--what-if 3:Igap=9.0: the field takes "), 0u);
+}
+
 TEST(WhatIfText, SaysWhatIsWrong) {
   const std::pair<const char*, const char*> cases[] = {
       {"Gapmin=1", "there is no ':'"},
