@@ -564,6 +564,77 @@ TEST(EdgesGiveBackTheirGap, ByHalfOfTheDepthOfEachCycle) {
   EXPECT_NEAR(wanted[4], 0.45, 1e-12);
 }
 
+// --- limits of single pairs, and ties
+
+TEST(PairStepLimit, IsThatOfTheLightestNodeOfThePairAlone) {
+  ContactCard card = testing::elastic_card();
+  card.step_factor = 0.5;
+  Pair p = testing::quad_pair({4, 3, 0.6});
+  for (std::size_t light = 0; light < 5; ++light) {
+    p.m = {1, 1, 1, 1, 1};
+    p.m[light] = 1e-4;
+    card.dtmin = 0;
+    const testing::Outcome free = testing::run(card, p);
+    double least = 1e30;
+    for (std::size_t r = 0; r < 5; ++r) {
+      const double share = r == 0 ? 1 : free.weights()[r - 1];
+      least = std::min(least, std::sqrt(2 * p.m[r] / (share * free.all.k_nodal[0])));
+    }
+    const auto deleted = [&](double dtmin) {
+      card.dtmin = dtmin;
+      return (testing::run(card, p).all.status[0] & status_step_deleted) != 0;
+    };
+    EXPECT_TRUE(deleted(0.5 * least * (1 + 1e-12))) << light;
+    EXPECT_FALSE(deleted(0.5 * least * (1 - 1e-12))) << light;
+  }
+}
+
+TEST(PairStepLimit, OfEdgesIsThatOfTheLighterMeanMass) {
+  ContactCard card = testing::elastic_card();
+  card.kind = ContactKind::edge_edge;
+  card.step_factor = 0.5;
+  Pair p;
+  // The first at a quarter of its length, the second at five eighths.
+  p.x = {Vec{-2, 0, 0.6}, Vec{6, 0, 0.6}, Vec{0, -5, 0}, Vec{0, 3, 0}, Vec{}};
+  p.k0 = 1e5;
+  for (const std::array<double, 4>& m :
+       {std::array<double, 4>{2, 3, 50, 70}, std::array<double, 4>{20, 30, 5, 7}}) {
+    for (std::size_t r = 0; r < 4; ++r) p.m[r] = m[r];
+    card.dtmin = 0;
+    const double k = testing::run(card, p).all.k_nodal[0];
+    const double mass = std::min(0.75 * m[0] + 0.25 * m[1], 0.375 * m[2] + 0.625 * m[3]);
+    const double limit = 0.5 * std::sqrt(2 * mass / k);
+    const auto deleted = [&](double dtmin) {
+      card.dtmin = dtmin;
+      return (testing::run(card, p).all.status[0] & status_step_deleted) != 0;
+    };
+    EXPECT_TRUE(deleted(limit * (1 + 1e-12)));
+    EXPECT_FALSE(deleted(limit * (1 - 1e-12)));
+  }
+}
+
+TEST(TiesByTimeStep, BeginWithTheElasticForceOfTheirSideAndPlace) {
+  ContactCard card = testing::elastic_card();
+  card.itied = 1;
+  card.dtmin = 1e3;
+  for (const Model model : {Model::reference, Model::robust})
+    for (const double side : {1.0, -1.0})
+      for (const int istf : {0, 1}) {
+        card.istf = istf;
+        card.stfac = 3e4;
+        Pair p = testing::quad_pair({4, 3, side * 0.6});
+        const testing::Outcome r = testing::run(card, p, 0, 0, model);
+        const double kappa = istf == 1 ? 3e4 : 0.5 * p.k0;
+        EXPECT_NE(r.all.status[0] & status_tied, 0);
+        EXPECT_NEAR(r.all.tie[0][0], -side * kappa * 0.4 / 0.6, 1e-6) << istf;
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(r.all.tie[c + 3][0], r.weights()[c]);
+        EXPECT_NEAR(r.all.tie[6][0], 0.4, 1e-12);
+        // Where the weights point to the node is as far as the height.
+        EXPECT_NEAR(r.all.tie[7][0], side * 0.6, 1e-12);
+        EXPECT_EQ(r.all.dt_kinematic[0], 1e30);
+      }
+}
+
 // --- friction by directions
 
 TEST(DirectedCoefficients, TakeTheConstantsOfTheirPair) {

@@ -760,6 +760,63 @@ TEST(ReplayStates, MustHaveOneDtmin) {
             "the states lack columns that the interface's effects need");
 }
 
+TEST(ReplayStates, TakeTheDtminOfTheirColumn) {
+  for (const auto& [dtmin, stiffness] : {std::pair(1e3, -1.0), std::pair(1e-30, 1.0)}) {
+    Sheet s = forces({{0, 0, -750}}, {3125});
+    s.add("node", {9}).add("n1", {1}).add("n2", {2}).add("n3", {3}).add("n4", {4});
+    s.add("m1", {1}).add("m2", {1}).add("m3", {1}).add("m4", {1});
+    s.add("dtmin", {dtmin}).zeros({"stfs_out"});
+    EXPECT_EQ(computed(spring(), s).at("stfs_out"), Column{stiffness}) << dtmin;
+  }
+}
+
+TEST(ReplayStates, RubByDirectionWhereARowHasASecondCoefficient) {
+  std::vector<Pair> pairs = testing::random_pairs(many, 51);
+  for (Pair& p : pairs) p.triangle = false;
+  const Vec along{0.6, 0.8, 0}, across{-0.8, 0.6, 0};
+  const std::array<double, 6> first{0.01, 0.02, 0.03, 0.04, 0.05, 0.06}, second{0.5, 0.1, 0.4, 0.2};
+  Sheet s = first_columns(false);
+  s.add("n4", Column(many, 99));
+  add_states(s, pairs, {"s", "1", "2", "3", "4"}, "m");
+  s.add("P0_in", numbers(pairs, [](const Pair& p) { return p.p0; }));
+  Column mu2;
+  for (std::size_t k = 0; k < many; ++k) mu2.push_back(k % 3 == 0 ? 0.0 : k % 3 == 1 ? 0.1 : 1.0);
+  s.add("mu0", Column(many, 0.3)).add("mu0_2", mu2);
+  for (std::size_t k = 0; k < 6; ++k) {
+    s.add("c" + std::to_string(k + 1), Column(many, first[k]));
+    s.add("c" + std::to_string(k + 1) + "_2", Column(many, second[k]));
+  }
+  s.triple("d1", std::vector<Vec>(many, along)).triple("d2", std::vector<Vec>(many, across));
+  s.zeros({"F_x", "F_y", "F_z", "ft_out_x", "ft_out_y", "ft_out_z"});
+  ContactCard card = spring();
+  card.iform = 2;
+  card.ifric = 4;
+  const auto got = computed(card, s);
+  card.fric_id = card.fric_orthotropic = true;
+  std::vector<PacketResult> r(many);
+  for (std::size_t k = 0; k < many; ++k) {
+    const testing::Packet packet({pairs[k]});
+    PacketView view = packet.view(dt1_of(k), dt12_of(k));
+    const double mu = 0.3, directed = mu2[k] != 0.0 ? 1 : 0, visf2 = 1;
+    view.fric = &mu;
+    view.visf2 = &visf2;
+    view.directed = &directed;
+    view.ortho_mu = {&mu, &mu2[k]};
+    for (std::size_t c = 0; c < 6; ++c) view.c[c] = &first[c], view.c2[c] = &second[c];
+    for (std::size_t c = 0; c < 3; ++c) {
+      view.ortho_axis[0][c] = &along[c];
+      view.ortho_axis[1][c] = &across[c];
+    }
+    evaluate(make_plan(card, Model::reference), view, r[k]);
+  }
+  const char* const axes[] = {"_x", "_y", "_z"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    expect_column(got, std::string("F") + axes[c], [&](std::size_t k) { return r[k].force[c][0]; });
+    expect_column(got, std::string("ft_out") + axes[c],
+                  [&](std::size_t k) { return r[k].ft[c][0]; });
+  }
+}
+
 // --- the deck beside a record
 
 TEST(RecordedPlace, IsThatOfTheNodesAndCandidatesFollowTheIdsOfElements) {
