@@ -72,6 +72,78 @@ TEST(Type25, PlacesAroundASheet) {
   EXPECT_DOUBLE_EQ(below->gap, 1.75);
 }
 
+/// The penetration of a node with gap `gs` at (x, y, z) into a lone square sheet of 10 by 10 in
+/// z = 0 with gap `gm`: specification A11 for four free sides, in closed form.
+double into_lone_square(double x, double y, double z, double gs, double gm, int shape) {
+  const double g = gs + gm, up = std::abs(z);
+  const auto clamped = [](double v) { return std::clamp(v, 0.0, 10.0); };
+  const double beside = std::hypot(x - clamped(x), y - clamped(y));
+  const double raw = std::max(0.0, g - std::hypot(beside, up));
+  // The side of the facet around the middle in which the foot lies, and how far it is beyond it.
+  const bool by_x = std::abs(x - 5) > std::abs(y - 5);
+  double over = std::abs(by_x ? x - 5 : y - 5) - 5;
+  if (over >= gs || raw == 0) return 0;
+  if (shape == 2) {
+    over -= gs;
+    if (!(over < 0 && g + over > 0)) return raw;
+    // A cylinder of radius g about a line g + over inside of the foot.
+    return std::max(0.0, g - std::hypot(g + over, up));
+  }
+  if (over > 0 && up > gm) return std::max(0.0, gs - std::hypot(beside, up - gm));
+  over -= gs;
+  if (g + over <= 0) return raw;
+  return up < g + over ? -over : std::max(0.0, g - up);
+}
+
+TEST(Type25, RandomPlacesAroundASheetAreThoseOfTheClosedForm) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> along(-1.2, 11.2), up(-1.9, 1.9);
+  std::vector<Place> list;
+  for (int k = 0; k < 400; ++k) {
+    Place p{along(random), along(random), up(random)};
+    // Most of them near a side.
+    if (k % 4 == 1) p.x = 10 + 0.5 * up(random);
+    if (k % 4 == 3) p.y = 0.5 * up(random);
+    list.push_back(p);
+  }
+  SmallDeck d = places(list);
+  d.add("@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
+  d.add("@/INTER/TYPE25/2 surf_ID2=2 grnd_IDs=1 Inacti=5 Ishape=2");
+  const Built b(d);
+  for (const int shape : {1, 2}) {
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const Place& p = list[k];
+      const double wanted = into_lone_square(p.x, p.y, p.z, 0.75, 1, shape);
+      EXPECT_NEAR(depth(b, 101 + static_cast<int>(k), shape), wanted, 1e-9)
+          << shape << ": " << p.x << ' ' << p.y << ' ' << p.z;
+      found += wanted > 0;
+    }
+    EXPECT_GT(found, 150u);
+  }
+}
+
+TEST(Type25, RandomPlacesInACubeAreAsDeepAsTheNearestFaceIsFarWithinReach) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> in(-2, 12);
+  std::vector<Place> list;
+  for (int k = 0; k < 200; ++k) list.push_back({30 + in(random), in(random), in(random)});
+  SmallDeck d = places(list, true);
+  d.add("@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
+  const Built b(d);
+  std::size_t inside = 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const Place& p = list[k];
+    const double far = std::min({p.x - 30, 40 - p.x, p.y, 10 - p.y, p.z, 10 - p.z});
+    // Looked for as far as the gap and a fifth of the mean side.
+    const bool found = far > 0 && far < 0.75 + 2;
+    EXPECT_NEAR(depth(b, 101 + static_cast<int>(k)), found ? 0.75 + far : 0, 1e-9)
+        << p.x << ' ' << p.y << ' ' << p.z;
+    inside += found;
+  }
+  EXPECT_GT(inside, 40u);
+}
+
 TEST(Type24, PlacesAroundASheet) {
   SmallDeck d = places(over_shell);
   d.add("@/INTER/TYPE24/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
