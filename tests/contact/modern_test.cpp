@@ -153,6 +153,34 @@ TEST(Type24, PlacesAroundASheet) {
   EXPECT_DOUBLE_EQ(b.contact().largest_accepted, 0.875);
 }
 
+TEST(Type24, RandomPlacesAroundASheetAreThoseOfTheClosedForm) {
+  // Specification B6 for a flat square: the gap less the height within the square, nothing beside
+  // it; with Inacti up to half of the largest gaps of both sides.
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> along(-1, 11), up(-2, 2);
+  std::vector<Place> list;
+  for (int k = 0; k < 200; ++k) list.push_back({along(random), along(random), up(random)});
+  SmallDeck d = places(list);
+  d.add("@/INTER/TYPE24/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
+  d.add("@/INTER/TYPE24/2 surf_ID2=2 grnd_IDs=1 Inacti=0");
+  d.add("@/INTER/TYPE24/3 surf_ID2=2 grnd_IDs=1 Inacti=5 Ipen_max=1.25");
+  const Built b(d);
+  const double accepted[] = {0.875, 1e30, 1.25};
+  for (int id = 1; id <= 3; ++id) {
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const Place& p = list[k];
+      const bool within = p.x > 0 && p.x < 10 && p.y > 0 && p.y < 10;
+      const double deep = std::max(0.0, 1.75 - std::abs(p.z));
+      const double wanted = within && deep <= accepted[id - 1] ? deep : 0;
+      EXPECT_NEAR(depth(b, 101 + static_cast<int>(k), id), wanted, 1e-9)
+          << id << ": " << p.x << ' ' << p.y << ' ' << p.z;
+      found += wanted > 0;
+    }
+    EXPECT_GT(found, 40u);
+  }
+}
+
 TEST(Modern, PlacesAroundACube) {
   SmallDeck d = places({{35, 5, 9.5}, {35, 5, 10.5}, {41, 5, 9.5}, {39.8, 5, 9.5}}, true);
   d.add("@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
