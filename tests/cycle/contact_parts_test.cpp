@@ -392,9 +392,11 @@ TEST(NearPairs, AreCountedBelowTheShareAndTheTwentyNearestListed) {
 TEST(NearPairs, BeyondTheGapAreInReachOnlyWithinAMargin) {
   const auto b = nodes_at({0.5, 1.0, 1.25, 3.0});
   CycleOptions options;
+  options.keep_pairs = true;
   const auto counts = [&] {
     const SceneOutcome r = run_cycle(b->scene, make_state(b->scene), options);
     const ContactOutcome& c = r.contacts.at(0);
+    EXPECT_EQ(c.pairs.size(), 1u) << "others have neither force nor penetration";
     return std::tuple(c.pairs_in_reach, c.pairs_with_force, c.pairs_switched_off);
   };
   EXPECT_EQ(counts(), std::tuple(1u, 1u, 0u));

@@ -72,6 +72,15 @@ TEST(StepLines, HaveTheFiguresOfTheirEvaluation) {
   EXPECT_EQ(h.outcome.coordinates.z[h.built->model.nodes.map.find(11)], 0.5);
 }
 
+TEST(StepLines, SayWhetherTheInterfaceActs) {
+  const Heights h("@/INTER/TYPE7/1 Tstart=20 Tstop=30", {0.6, 0.6, 0.6, 0.6}, false);  // 7 to 37
+  const bool acts[] = {false, false, true, false};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(h.outcome.lines[k].contacts[0].active, acts[k]) << k;
+    EXPECT_EQ(h.outcome.lines[k].contacts[0].force_sum > 0, acts[k]) << k;
+  }
+}
+
 TEST(StepEvents, OfTiesNameThePairWhenItTiesAndWhenItLetsGo) {
   // From outside the gap down by 0.12 and 0.1, up by 0.15 and 0.15: there the force turns.
   const Heights h("@/INTER/TYPE10/1 VISs=0", {1.02, 0.9, 0.8, 0.95, 1.1});

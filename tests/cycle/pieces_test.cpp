@@ -564,6 +564,17 @@ TEST(EdgesGiveBackTheirGap, ByHalfOfTheDepthOfEachCycle) {
   EXPECT_NEAR(wanted[4], 0.45, 1e-12);
 }
 
+TEST(MissingArrays, OfResidualPenetrationAreNamedWhereTheGapIsReduced) {
+  ContactCard card = testing::elastic_card();
+  const testing::Packet packet({testing::quad_pair({4, 3, 0.6})});
+  PacketView view = packet.view();
+  view.p0 = nullptr;
+  EXPECT_EQ(missing_fields(make_plan(card, Model::reference), view), Field::none);
+  card.inacti = 5;
+  EXPECT_EQ(missing_fields(make_plan(card, Model::reference), view), Field::residual_penetration);
+  EXPECT_EQ(missing_fields(make_plan(card, Model::reference), packet.view()), Field::none);
+}
+
 // --- limits of single pairs, and ties
 
 TEST(PairStepLimit, IsThatOfTheLightestNodeOfThePairAlone) {
@@ -571,6 +582,7 @@ TEST(PairStepLimit, IsThatOfTheLightestNodeOfThePairAlone) {
   card.step_factor = 0.5;
   Pair p = testing::quad_pair({4, 3, 0.6});
   for (std::size_t light = 0; light < 5; ++light) {
+    p.k0 = light == 0 ? 0.25 : 1e5;  // a soft pair has a step, too
     p.m = {1, 1, 1, 1, 1};
     p.m[light] = 1e-4;
     card.dtmin = 0;

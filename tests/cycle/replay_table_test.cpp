@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cycle/plates.hpp"
+#include "cycle/replay/results.hpp"
 #include "cycle/replay/states.hpp"
 #include "cycle/replay/table.hpp"
 #include "cycle/shared/heat.hpp"
@@ -624,6 +625,74 @@ TEST(ReplayColumns, ThatAreNeededAreNamed) {
   }
 }
 
+TEST(ReplayColumns, OfResultsAreComparedInGroups) {
+  using Group = std::pair<std::string, bool>;  // true: a force
+  const std::pair<const char*, std::vector<Group>> kinds[] = {
+      {"heat", {{"Q", false}, {"conductance", false}}},
+      {"heat_edges", {{"Q", false}, {"cond", false}}},
+      {"edge_edge",
+       {{"f3", true},
+        {"f1", true},
+        {"f2", true},
+        {"f4", true},
+        {"h", false},
+        {"K_nodal", false},
+        {"ft_out", true}}},
+      {"tied",
+       {{"F", true},
+        {"H", false},
+        {"K_nodal", false},
+        {"P0_out", false},
+        {"ft_out", true},
+        {"tie force", true},
+        {"tie weights", false}}},
+      {"node_segment",
+       {{"F", true},
+        {"H", false},
+        {"K_nodal", false},
+        {"P0_out", false},
+        {"ft_out", true},
+        {"tie force", true},
+        {"tie weights", false},
+        {"tie_out_pen", false},
+        {"tie_out_side", false},
+        {"R_seg", false},
+        {"A_ind", false},
+        {"R_s", false},
+        {"R_1", false},
+        {"R_2", false},
+        {"R_3", false},
+        {"R_4", false},
+        {"P_s", false},
+        {"A_s", false},
+        {"bc_out", false},
+        {"stfs_out", false}}}};
+  // A table with all columns of all kinds; and without one of a group the group is left out.
+  Sheet s;
+  s.add("row", {1});
+  for (const char* stem : {"f1", "f2", "f3", "f4", "ft_out", "F"}) s.triple(stem, {Vec{}});
+  s.zeros({"Q_s",         "Q_1",          "Q_2",         "Q_3",        "Q_4",        "conductance",
+           "Q_s1",        "Q_s2",         "Q_m1",        "Q_m2",       "cond_s1",    "cond_s2",
+           "cond_m1",     "cond_m2",      "hs1",         "hs2",        "hm1",        "hm2",
+           "K_nodal",     "H1",           "H2",          "H3",         "H4",         "P0_out",
+           "Fn_out",      "Ft1_out",      "Ft2_out",     "H1_out",     "H2_out",     "H3_out",
+           "tie_out_Fn",  "tie_out_Ft1",  "tie_out_Ft2", "tie_out_H1", "tie_out_H2", "tie_out_H3",
+           "tie_out_pen", "tie_out_side", "R_seg",       "A_ind",      "R_s",        "R_1",
+           "R_2",         "R_3",          "R_4",         "P_s",        "A_s",        "bc_out",
+           "stfs_out"});
+  const auto groups = [&](const std::string& without, const char* kind) {
+    detail::Table t;
+    std::string error;
+    EXPECT_TRUE(t.read(s.text(without), error));
+    std::vector<Group> out;
+    for (const auto& g : detail::column_groups(t, kind)) out.emplace_back(g.name, g.force);
+    return out;
+  };
+  for (const auto& [kind, wanted] : kinds) EXPECT_EQ(groups("", kind), wanted) << kind;
+  EXPECT_EQ(groups("Q_m2", "heat_edges"), (std::vector<Group>{{"cond", false}}));
+  EXPECT_EQ(groups("conductance", "heat"), (std::vector<Group>{{"Q", false}}));
+}
+
 TEST(ReplayTable, ReadsLinesAndSaysWhichDoesNotFit) {
   const auto read = [](const std::string& text) {
     detail::Table t;
@@ -758,6 +827,14 @@ TEST(ReplayStates, MustHaveOneDtmin) {
   heavy.icurv = 3;
   EXPECT_EQ(replay(heavy, forces({{0, 0, -750}}, {3125}).text()).error,
             "the states lack columns that the interface's effects need");
+}
+
+TEST(ReplayStates, WithFrictionByPartsNeedTheirValuesOrTheDeck) {
+  ContactCard card = spring();
+  card.fric_id = true;
+  EXPECT_EQ(replay(card, forces({{0, 0, -750}}, {3125}).text()).error,
+            "row 1 has no friction values of its own (mu0, visf, c1 ...), and the deck has no such "
+            "pair");
 }
 
 TEST(ReplayStates, TakeTheDtminOfTheirColumn) {
