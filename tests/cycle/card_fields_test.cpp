@@ -157,6 +157,39 @@ TEST(SeveralContacts, LimitTheStepTogether) {
               r.contacts[0].largest.k_nodal + r.contacts[1].largest.k_nodal, 1e-9);
 }
 
+TEST(SeveralContacts, LimitTheStepAtTheFirstNodeToo) {
+  const auto b = twice("", "");
+  State state = make_state(b->scene);
+  state.mass[0] = 1e-12;
+  const SceneOutcome r = run_cycle(b->scene, state, {});
+  EXPECT_EQ(r.limiting_node, 0u);
+  EXPECT_DOUBLE_EQ(r.contact_dt, 0.9 * std::sqrt(2e-12 / r.nodes.stiffness[0]));
+}
+
+TEST(SeveralContacts, AddTheirHeatAtTheNodes) {
+  const std::string card = " grnd_IDs=1 surf_IDm=2 Gapmin=1 Ithe=1 Ithe_form=1 Kthe=";
+  const auto b = with("@/INTER/TYPE7/1" + card + "2\n@/INTER/TYPE7/2" + card + "3", warm);
+  State state = make_state(b->scene);
+  state.heated = true;
+  state.temperature.assign(b->model.nodes.size(), 50);
+  std::vector<NodeIndex> upper;
+  for (const std::int64_t id : {11, 12, 13, 14}) upper.push_back(b->model.nodes.map.find(id));
+  for (const NodeIndex n : upper) state.temperature[n] = 150;
+  CycleOptions options;
+  options.dt1 = options.dt12 = 0.5;
+  const SceneOutcome r = run_cycle(b->scene, state, options);
+  // Each node has a quarter of its shell of 32: Q = A (50 - 150) dt Kthe.
+  for (const NodeIndex n : upper) EXPECT_NEAR(r.nodes.heat[n], 8 * -100 * 0.5 * (2 + 3), 1e-9);
+  EXPECT_NEAR(r.contacts[0].heat_secondary, 4 * 8 * -100 * 0.5 * 2, 1e-9);
+  EXPECT_NEAR(r.contacts[1].heat_main, 4 * 8 * 100 * 0.5 * 3, 1e-9);
+  double all = 0;
+  for (const double q : r.nodes.heat) all += q;
+  EXPECT_NEAR(all, 0, 1e-9);
+  double conducts = 0;
+  for (const double c : r.nodes.conductance) conducts += c;
+  EXPECT_NEAR(conducts, 2 * 4 * 8 * (2 + 3), 1e-9);
+}
+
 TEST(SeveralContacts, AnApproachLimitsByTheContactWithTheSmallerGap) {
   const auto b = with(
       "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=0.5\n"

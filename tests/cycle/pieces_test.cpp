@@ -647,6 +647,31 @@ TEST(TiesByTimeStep, BeginWithTheElasticForceOfTheirSideAndPlace) {
       }
 }
 
+TEST(TiesByTimeStep, KeepTheirWeightsAndTheDepthTheyBeganWith) {
+  ContactCard card = testing::elastic_card();
+  card.itied = 2;
+  card.dtmin = 1e-9;
+  for (const Model model : {Model::reference, Model::robust}) {
+    Pair p = testing::quad_pair({4, 3, 1.2});
+    p.gap = 2;
+    p.tie = {-30, 4, 5, 0.25, 0.375, 0.125, 0.5, 1};
+    const testing::Outcome r = testing::run(card, p, 0, 0, model);
+    EXPECT_EQ(r.weights(), (std::array<double, 4>{0.25, 0.375, 0.125, 0.25}));
+    EXPECT_NEAR(r.all.penetration[0], 0.8, 1e-12);
+    // Room for 2 less the smaller of both depths: K/2 (2 / 1.5)^2.
+    EXPECT_NEAR(r.all.k_nodal[0], 0.5 * p.k0 * 16 / 9, 1e-9 * p.k0);
+    // At rest the tie pulls as before.
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(r.all.tie[c][0], p.tie[c]);
+    EXPECT_EQ(r.all.normal_force[0], -30);
+    // A depth of all of the gap: the robust model leaves a hundred-millionth of it.
+    p.x[0] = {4, 3, 1e-13};
+    p.tie[6] = 2;
+    const double room = model == Model::robust ? 2e-8 : 1e-10;
+    EXPECT_NEAR(testing::run(card, p, 0, 0, model).all.k_nodal[0] * room * room / (2 * p.k0), 1,
+                1e-3);
+  }
+}
+
 // --- friction by directions
 
 TEST(DirectedCoefficients, TakeTheConstantsOfTheirPair) {
