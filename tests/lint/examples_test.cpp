@@ -1,11 +1,13 @@
-// What lint finds in the bad examples of the rules: rule, severity, place, text and fix, as
-// example_findings.tsv has them. What a run found instead is written into the folder of the build,
-// to be read and, where it is right, put in place of the record.
+// What lint finds in the bad examples of the rules and in cases of its own: rule, severity, message
+// of the solver, place, text, notes and fix, as example_findings.tsv and case_findings.tsv have
+// them. What a run found instead is written into the folder of the build, to be read and, where it
+// is right, put in place of the record.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "lint/support.hpp"
@@ -16,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string head = "# example\tfound\tseverity\tline:column\tat\tmessage\tfix\n";
+const std::string head =
+    "# example\tfound\tseverity\tsolver\tline:column\tat\tmessage\tnotes\tfix\n";
 
 /// One line of a table: what would break it is written as an escape.
 std::string cell(std::string_view text) {
@@ -47,53 +50,107 @@ std::string fix_text(const Linted& run, const Diagnostic& d) {
 /// What is found in nearly every example: it is about the model around them.
 constexpr RuleId of_the_model[] = {RuleId::DK188, RuleId::DK601, RuleId::DK916, RuleId::DK918};
 
-/// The findings of one example, a line each. Names of temporary folders are left out.
-std::string lines_of(const Rule& rule) {
-  const Linted run =
-      rule.stage == RuleStage::extra ? lint_geometry(rule.bad) : lint_example(rule.bad);
+std::string place_text(const Linted& run, const Span& span) {
+  if (!span.valid()) return "-";
+  const auto at = run.deck->sources[span.file].position(span.offset);
+  return std::to_string(at.line) + ":" + std::to_string(at.column);
+}
+
+/// The findings of a deck, a line each. Names of temporary folders are left out.
+std::string lines_of(const std::string& name, const Linted& run, std::optional<RuleId> own = {}) {
   const std::string folder = fs::path(run.deck->sources[0].path()).parent_path().string();
   std::string out;
   for (const Diagnostic& d : run.result.diagnostics) {
     const bool known = std::find(std::begin(of_the_model), std::end(of_the_model), d.rule) !=
                        std::end(of_the_model);
-    if (known && d.rule != rule.id) continue;
-    const bool placed = d.span.valid();
-    const auto at =
-        run.deck->sources[placed ? d.span.file : 0].position(placed ? d.span.offset : 0);
-    std::string message = d.message;
+    if (known && d.rule != own) continue;
+    std::string message = d.message, notes, solver = "-";
     if (const auto found = folder.empty() ? message.npos : message.find(folder);
         found != message.npos)
       message.replace(found, folder.size(), "DIR");
+    for (const auto& [span, note] : d.notes)
+      notes += (notes.empty() ? "" : "; ") + place_text(run, span) + " " + note;
+    if (d.reference)
+      solver =
+          std::string(to_string(d.reference->severity)) + " " + std::to_string(d.reference->number);
     std::ostringstream line;
-    line << id_text(rule.id) << '\t' << finding_name(d) << '\t' << to_string(d.severity) << '\t'
-         << at.line << ':' << at.column << '\t'
-         << cell(placed ? run.deck->sources.text(d.span).substr(0, 60) : "-") << '\t'
-         << cell(message) << '\t' << cell(fix_text(run, d)) << '\n';
+    line << name << '\t' << finding_name(d) << '\t' << to_string(d.severity) << '\t' << solver
+         << '\t' << place_text(run, d.span) << '\t'
+         << cell(d.span.valid() ? run.deck->sources.text(d.span).substr(0, 60) : "-") << '\t'
+         << cell(message) << '\t' << cell(notes.empty() ? "-" : notes) << '\t'
+         << cell(fix_text(run, d)) << '\n';
     out += line.str();
   }
   return out;
 }
 
-std::map<std::string, std::string> recorded() {
-  std::map<std::string, std::string> out;
-  std::ifstream in(source_dir() / "tests/lint/example_findings.tsv");
-  for (std::string line; std::getline(in, line);)
-    if (!line.starts_with('#')) out[line.substr(0, line.find('\t'))] += line + "\n";
+/// A file of findings by the name of their deck.
+class Record {
+ public:
+  explicit Record(std::string file) : file_(std::move(file)) {
+    std::ifstream in(source_dir() / "tests/lint" / file_);
+    for (std::string line; std::getline(in, line);)
+      if (!line.starts_with('#')) wanted_[line.substr(0, line.find('\t'))] += line + "\n";
+  }
+  void expect(const std::string& name, const std::string& found) {
+    const std::string& wanted = wanted_[name];
+    EXPECT_EQ(found, wanted);
+    same_ = same_ && found == wanted;
+    all_ += found;
+  }
+  ~Record() {
+    if (!same_) std::ofstream(binary_dir() / file_) << head << all_;
+  }
+
+ private:
+  std::string file_, all_;
+  std::map<std::string, std::string> wanted_;
+  bool same_ = true;
+};
+
+TEST(ExampleFindings, AreThoseOfTheRecord) {
+  Record record("example_findings.tsv");
+  for (const Rule& rule : all_rules()) {
+    if (rule.bad.empty() || rule.stage == RuleStage::gate) continue;
+    const std::string name(id_text(rule.id));
+    record.expect(name, lines_of(name,
+                                 rule.stage == RuleStage::extra ? lint_geometry(rule.bad)
+                                                                : lint_example(rule.bad),
+                                 rule.id));
+  }
+}
+
+/// "@move Z" puts the upper plate at that distance from the lower one.
+std::string with_moves(std::string text) {
+  for (auto at = text.find("@move "); at != text.npos; at = text.find("@move ")) {
+    const auto end = std::min(text.find('\n', at), text.size());
+    const double z = std::stod(text.substr(at + 6, end - at - 6));
+    std::ostringstream card;
+    card << "@/TRANSFORM/TRA/1 GR_NODE=2 TZ=" << z - 3;
+    text.replace(at, end - at, card.str());
+  }
+  return text;
+}
+
+/// The cases of cases.txt: "== name" and the lines of an example.
+std::vector<std::pair<std::string, std::string>> cases() {
+  std::vector<std::pair<std::string, std::string>> out;
+  std::ifstream in(source_dir() / "tests/lint/cases.txt");
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("== "))
+      out.emplace_back(line.substr(3), "");
+    else if (!out.empty() && !line.starts_with("=="))
+      out.back().second += line + "\n";
+  }
   return out;
 }
 
-TEST(ExampleFindings, AreThoseOfTheRecord) {
-  auto record = recorded();
-  std::string all = head;
-  bool same = true;
-  for (const Rule& rule : all_rules()) {
-    if (rule.bad.empty() || rule.stage == RuleStage::gate) continue;
-    const std::string found = lines_of(rule), wanted = record[std::string(id_text(rule.id))];
-    EXPECT_EQ(found, wanted);
-    same = same && found == wanted;
-    all += found;
-  }
-  if (!same) std::ofstream(binary_dir() / "example_findings.tsv") << all;
+TEST(CaseFindings, AreThoseOfTheRecord) {
+  Record record("case_findings.tsv");
+  const auto all = cases();
+  EXPECT_GT(all.size(), 50u);
+  for (const auto& [name, text] : all)
+    record.expect(name, lines_of(name, lint_geometry(with_moves(text))));
 }
 
 }  // namespace
