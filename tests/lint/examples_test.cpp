@@ -1,7 +1,7 @@
 // What lint finds in the bad examples of the rules and in cases of its own: rule, severity, message
-// of the solver, place, text, notes and fix, as example_findings.tsv and case_findings.tsv have
-// them. What a run found instead is written into the folder of the build, to be read and, where it
-// is right, put in place of the record.
+// of the solver, place, text, notes and fix, as the files *_findings.tsv have them. What a run
+// found instead is written into the folder of the build, to be read and, where it is right, put in
+// place of the record.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,16 +108,22 @@ class Record {
   bool same_ = true;
 };
 
-TEST(ExampleFindings, AreThoseOfTheRecord) {
-  Record record("example_findings.tsv");
+/// The bad examples of rules that need geometry, or of the others.
+void expect_examples(const std::string& file, bool geometry) {
+  Record record(file);
   for (const Rule& rule : all_rules()) {
-    if (rule.bad.empty() || rule.stage == RuleStage::gate) continue;
+    if (rule.bad.empty() || rule.stage == RuleStage::gate ||
+        (rule.stage == RuleStage::extra) != geometry)
+      continue;
     const std::string name(id_text(rule.id));
-    record.expect(name, lines_of(name,
-                                 rule.stage == RuleStage::extra ? lint_geometry(rule.bad)
-                                                                : lint_example(rule.bad),
-                                 rule.id));
+    record.expect(
+        name, lines_of(name, geometry ? lint_geometry(rule.bad) : lint_example(rule.bad), rule.id));
   }
+}
+
+TEST(ExampleFindings, AreThoseOfTheRecord) { expect_examples("example_findings.tsv", false); }
+TEST(ExampleFindings, OfGeometryAreThoseOfTheRecord) {
+  expect_examples("geometry_findings.tsv", true);
 }
 
 /// "@move Z" puts the upper plate at that distance from the lower one.

@@ -225,7 +225,7 @@ void check_outputs(const LintContext& c, const Rule& rule, Reporter& r) {
         r.report(rule, b.lines[0],
                  fmt::format("{} begins at {}, the run ends at {}", clipped(b.keyword),
                              number_text(n[*first]), number_text(*end)));
-      else if (interval > *end - begin) {
+      else if (*end > begin && interval > *end - begin) {
         Diagnostic* d =
             r.report(rule, b.lines[0],
                      fmt::format("{} writes every {}, the run takes {}", clipped(b.keyword),
