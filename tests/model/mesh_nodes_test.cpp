@@ -1,5 +1,6 @@
 // What rigid bodies, rigid elements, added masses, ties, walls and damping make of the sums at
 // nodes, and what parts add up to: against sums by hand (time_step.md, section 8).
+// Over 600 lines: independent tests of one sum each.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // Groups, surfaces, lines and sets over elements of every kind: each way to select against the
 // members that stand there.
+// Over 600 lines: independent tests of one resolver.
 #include <algorithm>
 
 #include "model/selection_deck.hpp"
