@@ -719,5 +719,149 @@ TEST(DeckFromJson, ValuesOfEveryTypeInEveryPlaceNeverCrash) {
   }
 }
 
+/// What a document answers that `change` made wrong.
+std::string answer(const std::function<void(Json&)>& change, const std::string& text = small) {
+  Json doc = Json::parse(json_of(text));
+  change(doc);
+  return error_of(doc.dump());
+}
+Json& contact_of(Json& doc) { return block_of(doc, "/INTER/TYPE7"); }
+Json& first_file(Json& doc) { return doc["files"][0]; }
+
+TEST(DeckFromJson, EveryWrongMemberHasItsReason) {
+  using Change = std::function<void(Json&)>;
+  const std::pair<Change, const char*> wrong[] = {
+      {[](Json& d) { first_file(d)["line_end"] = "x"; }, "expected \"\\n\" or \"\\r\\n\""},
+      {[](Json& d) { first_file(d)["encoding"] = "x"; }, "expected \"utf-8\" or \"latin-1\""},
+      {[](Json& d) { first_file(d)["final_newline"] = 1; }, "expected true or false, found number"},
+      {[](Json& d) { first_file(d)["items"] = 1; }, "expected a list, found number"},
+      {[](Json& d) { first_file(d).erase("items"); }, "\"items\" is missing"},
+      {[](Json& d) { first_file(d)["path"] = 7; }, "expected a string, found number"},
+      {[](Json& d) { first_file(d)["path"] = ""; }, "expected the name of a file"},
+      {[](Json& d) { first_file(d)["path"] = "a/."; }, "expected the name of a file"},
+      {[](Json& d) { first_file(d)["path"] = "a/../../b"; },
+       "not be written under the output directory"},
+      {[](Json& d) { first_file(d)["path"] = "/b"; }, "not be written under the output directory"},
+      {[](Json& d) { first_file(d)["items"][0]["kind"] = "x"; },
+       "expected \"text\", \"include\", \"block\""},
+      {[](Json& d) { first_file(d)["items"][0]["lines"][0] = "a\nb"; },
+       "a line cannot hold a line feed"},
+      {[](Json& d) { contact_of(d)["version"] = 7; }, ": no input version"},
+      {[](Json& d) { contact_of(d)["version"] = -1; }, ": no input version"},
+      {[](Json& d) { contact_of(d)["version"] = "x"; }, "expected an integer, found string"},
+      {[](Json& d) { contact_of(d)["header"] = "INTER"; }, "a keyword line starts with '/'"},
+      {[](Json& d) {
+         contact_of(d).erase("header");
+         contact_of(d)["keyword"] = "INTER";
+       },
+       "a keyword starts with '/'"},
+      {[](Json& d) {
+         contact_of(d)["header_sum"] = "0";
+         contact_of(d)["id"] = 4;
+       },
+       "4, but the header says 3; the text was changed by hand"},
+      {[](Json& d) { block_of(d, "/NODE")["id"] = 4; },
+       "the keyword line has no id; write it there"},
+      {[](Json& d) { contact_of(d)["unit_id"] = 5; }, "5, but the keyword line says nothing"},
+      {[](Json& d) { contact_of(d)["keyword"] = "/INTER/TYPE10"; },
+       "\"/INTER/TYPE10\", but the keyword line reads as /INTER/TYPE7"},
+      {[](Json& d) { line_with(d, "Gapmin")["card"] = "x"; },
+       "this keyword has no card \"x\" in version 2022"},
+      {[](Json& d) { line_with(d, "Gapmin")["fields"] = 1; }, "expected an object, found number"},
+      {[](Json& d) { line_with(d, "Gapmin")["fields"]["Gapmax"] = 1.0; },
+       "has no field \"Gapmax\" in version 2022"},
+      {[](Json& d) { line_with(d, "Gapmin")["fields"].erase("Gapmin"); },
+       "missing, but the line holds 0.75; write null to blank it"},
+      {[](Json& d) { line_with(d, "Gapmin")["fields"]["Gapmin"] = true; },
+       "expected a number, found boolean"},
+      {[](Json& d) {
+         line_with(d, "Gapmin")["fields"]["Gapmin"] = "&toolongtobeanameofaparameter";
+       },
+       "does not fit 20 columns"},
+      {[](Json& d) { line_with(d, "Gapmin")["columns"] = 1; }, "expected an object"},
+      {[](Json& d) {
+         line_with(d, "Gapmin")["columns"] = {{"Nothing", {1, 2}}};
+       },
+       "the line has no such cell"},
+      {[](Json& d) {
+         line_with(d, "Gapmin")["columns"] = {{"Gapmin", {1, 2}}};
+       },
+       "[1,2], but the cell has the columns 41 to 60"},
+      {[](Json& d) {
+         line_with(d, "Gapmin")["text_sum"] = "0";
+         line_with(d, "Gapmin")["fields"]["Gapmin"] = 0.5;
+       },
+       "0.5, but the text says 0.75; the text was changed by hand"},
+      {[](Json& d) { contact_of(d)["missing"] = {"x"}; },
+       "\"x\", but the cards that the block ends without are"},
+      {[](Json& d) { contact_of(d)["card"] = "x"; }, "\"x\", but the card of the rows is none"},
+      {[](Json& d) {
+         contact_of(d)["rows"] = {Json::array({nullptr, 1})};
+       },
+       "this keyword is no list of equal lines"},
+      {[](Json& d) { block_of(d, "/NODE")["card"] = "x"; },
+       "\"x\", but the card of the rows is \""},
+      {[](Json& d) { block_of(d, "/NODE")["fields"] = {"x"}; }, "the values of a row are "},
+      {[](Json& d) { block_of(d, "/NODE")["rows"][1] = Json::array(); },
+       "a row starts with its text, or null"},
+      {[](Json& d) { block_of(d, "/NODE")["rows"][1] = {nullptr, 1, 2.0, 3.0, 4.0, 5.0}; },
+       "5 values, but a line has 4 cells"},
+      {[](Json& d) { block_of(d, "/NODE")["rows"][1].erase(4); },
+       "the text says Z = 2., which is not among the values; write null to blank it"},
+      {[](Json& d) { block_of(d, "/NODE")["rows"][1] = "/KEYWORD"; },
+       "the line is a keyword; write it as an item of its own"},
+      {[](Json& d) { d["deck"]["version"] = 7; },
+       "7, but /BEGIN says 2022; convert the deck with --version"},
+      {[](Json& d) { d["deck"]["title"] = "x"; },
+       "\"x\", but /BEGIN says 'run'; change the run name there"},
+      {[](Json& d) { d["deck"]["counts"]["nodes"] = 77; }, "only tells what the deck was"},
+      {[](Json& d) { contact_of(d)["effective"]["Gapmin"]["value"] = 5.0; },
+       "\"value\" says 5, which the cards do not give"},
+      {[](Json& d) { contact_of(d)["effective"]["Gapmin"]["input"] = 5.0; },
+       "\"input\" says 5, which"},
+      {[](Json& d) { contact_of(d)["effective"]["Gapmin"]["origin"] = "x"; },
+       "\"origin\" says \"x\", which"},
+      {[](Json& d) { contact_of(d)["effective"]["Nothing"] = Json::object(); },
+       "the interface has no such parameter"},
+      {[](Json& d) { block_of(d, "/NODE")["effective"] = Json::object(); },
+       "no interface with effective values"}};
+  for (const auto& [change, reason] : wrong) EXPECT_THAT(answer(change), HasSubstr(reason));
+}
+
+TEST(DeckFromJson, PlacesNameFileBlockCardAndValue) {
+  const auto place = [](const std::function<void(Json&)>& change) { return answer(change); };
+  EXPECT_THAT(
+      place([](Json& d) { line_with(d, "Gapmin")["fields"]["Gapmin"] = true; }),
+      HasSubstr("main_0000.rad, /INTER/TYPE7/3, card \"stiffness, friction, gap, times\", Gapmin"));
+  EXPECT_THAT(place([](Json& d) { block_of(d, "/NODE")["rows"][1][2] = true; }),
+              HasSubstr("main_0000.rad, /NODE, row 1, X"));
+  EXPECT_THAT(place([](Json& d) { contact_of(d)["effective"]["Gapmin"]["value"] = 5.0; }),
+              HasSubstr("main_0000.rad, /INTER/TYPE7/3, Gapmin"));
+}
+
+TEST(DeckFromJson, RoundingOnRequestIsReportedWithItsLine) {
+  Json doc = Json::parse(json_of(small));
+  line_with(doc, "Gapmin")["fields"]["Gapmin"] = -0.12345678901234567e-200;
+  FromJsonOptions options;
+  options.round = true;
+  std::vector<LossEntry> losses;
+  const auto files = deck_from_json(doc.dump(), SchemaSet::built_in(), options, &losses);
+  ASSERT_TRUE(files.ok()) << files.error().message;
+  ASSERT_EQ(losses.size(), 1u);
+  const LossEntry& l = losses[0];
+  EXPECT_EQ(l.loss, Loss::approximated);
+  EXPECT_EQ(l.file, "main_0000.rad");
+  EXPECT_EQ(l.keyword, "/INTER/TYPE7");
+  EXPECT_EQ(l.id, 3);
+  EXPECT_EQ(l.field, "Gapmin");
+  EXPECT_EQ(l.old_text, "-1.2345678901234568e-201");
+  EXPECT_EQ(l.note, "rounded to 20 columns");
+  const std::string& text = (*files)[0].text;
+  const auto at = text.find(l.new_text);
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_EQ(l.line, 1u + static_cast<std::size_t>(std::count(
+                             text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')));
+}
+
 }  // namespace
 }  // namespace deck::test
