@@ -233,6 +233,15 @@ struct RoundedNumber {
     read_real_text(text.data(), text.data() + text.size(), out);
     return out;
   }
+  /// The next one of as many digits, `least` being the smallest mantissa with them: 9.9 is next
+  /// below 10.
+  void step(int direction, std::int64_t least) {
+    if (direction < 0 && mantissa == least) {
+      mantissa *= 10;
+      --exponent;
+    }
+    mantissa += direction;
+  }
 };
 
 /// The decimal of that many digits nearest to `value` > 0.
@@ -258,8 +267,10 @@ std::optional<RoundedText> search(double bound, int digits, int width, int direc
   if (!(bound > 0)) return std::nullopt;
   for (int d = std::min(digits, 17); d >= 1; --d) {
     RoundedNumber number = nearest(bound, d);
+    std::int64_t least = 1;
+    for (int k = 1; k < d; ++k) least *= 10;
     // The nearest decimal is off by at most one; ties with `below` cost a few more.
-    for (int tries = 0; tries < 4 && number.mantissa > 0; ++tries, number.mantissa += direction) {
+    for (int tries = 0; tries < 4; ++tries, number.step(direction, least)) {
       const double value = number.value();
       if (!accept(value)) continue;
       const auto text = format_real(value, width);
