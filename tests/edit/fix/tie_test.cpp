@@ -81,6 +81,25 @@ TEST(TieFix, SmallLengthsKeepTheirDigits) {
   EXPECT_THAT(tied_after(b, fix), ElementsAre(101));
 }
 
+/// The tie is in metres, the deck in millimetres: the cell is written in metres, the figures are in
+/// millimetres.
+TEST(TieFix, TheCellIsWrittenInTheUnitsOfItsBlock) {
+  TieCard in_metres{.dsearch = 0.002};
+  std::string card = tie_card(in_metres);
+  card.insert(card.find('\n'), "/3");
+  const Built b(sheet({{5, 5, 3.21}})
+                    .add("/UNIT/3\nm\n                  kg                   m                   s")
+                    .add(card));
+  const PenetrationFix fix = tied(b);
+  ASSERT_EQ(fix.ties.size(), 1u);
+  EXPECT_DOUBLE_EQ(fix.ties[0].needed, 3.21);
+  EXPECT_DOUBLE_EQ(fix.ties[0].changes.at(0).old_value, 2);
+  EXPECT_DOUBLE_EQ(new_dsearch(fix), 3.3);
+  EXPECT_EQ(fix.rewrite.edits.size(), 1u);
+  EXPECT_THAT(text_after(b, fix), HasSubstr("              0.0033\n"));
+  EXPECT_THAT(tied_after(b, fix), ElementsAre(101));
+}
+
 TEST(TieFix, NodesOutOfReachStayAndAreNamed) {
   const Built b(sheet({{5, 5, 3}, {15, 15, 8}, {15, 15, 30}}).add(tie_card({.dsearch = 2})));
   const PenetrationFix near = tied(b, 5.0);
