@@ -1,0 +1,198 @@
+// Engine files beside a deck that gets other units: each time of each keyword, what stays, and what
+// is said about it; and the notes of the conversion.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "deck/edit/convert.hpp"
+#include "deck/keyword/engine_file.hpp"
+#include "edit/units_support.hpp"
+
+namespace deck {
+namespace {
+
+using edit_test::Whole;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string kg_mm_ms = "                  kg                  mm                  ms\n";
+std::string deck_text(const std::string& body, const std::string& work = kg_mm_ms) {
+  return "#RADIOSS STARTER\n/BEGIN\nrun\n      2024         0\n" + kg_mm_ms + work + body +
+         "/END\n";
+}
+
+class EngineUnits : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "deck-units-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    dir_ = name;
+    write("car_0000.rad", deck_text(""));
+  }
+  void TearDown() override { std::filesystem::remove_all(dir_); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(dir_ / name, std::ios::binary) << text;
+  }
+
+  /// What becomes of the Engine file, or the refusals, of the file.
+  std::string after(const std::string& engine, const char* target = "kg,mm,s",
+                    bool accept = false) {
+    write("car_0001.rad", engine);
+    auto deck = read_deck((dir_ / "car_0000.rad").string(), SchemaSet::built_in());
+    EXPECT_TRUE(deck.ok());
+    const EngineFiles files = read_engine_files(*deck);
+    out_ = {};
+    engine_to_units(*deck, files, parse_unit_system(target).value(), options_, accept, out_);
+    if (!out_.refusals.empty()) return "refused";
+    auto changed = apply_rewrite(deck->sources, out_);
+    EXPECT_TRUE(changed.ok());
+    for (const auto& [path, text] : *changed)
+      if (path.ends_with("car_0001.rad")) return text;
+    return engine;
+  }
+  std::vector<std::string> notes(Loss loss) const {
+    std::vector<std::string> out;
+    for (const LossEntry& e : out_.losses)
+      if (e.loss == loss)
+        out.push_back(e.file.substr(e.file.rfind('/') + 1) + ":" + std::to_string(e.line) + " " +
+                      e.keyword + ": " + e.note);
+    return out;
+  }
+
+  std::filesystem::path dir_;
+  UnitsOptions options_;
+  Rewrite out_;
+};
+
+TEST_F(EngineUnits, EveryTimeOfEveryKeyword) {
+  EXPECT_EQ(after("/RUN/car/1\n 10.0\n"), "/RUN/car/1\n 0.01\n");
+  for (const auto& [keyword, before, now] : {std::tuple{"/TFILE", "2.5", "0.0025"},
+                                             {"/RFILE", "5000", "5000"},
+                                             {"/ANIM/DT", "0. 2.5 4.5", "0. 0.0025 0.0045"},
+                                             {"/ANIM/DT", "1.5, 2.5", "0.0015, 0.0025"},
+                                             {"/ANIM/VECT/CONT", "12 13", "12 13"},
+                                             {"/H3D/DT", "1.5 2.5 4.5", "0.0015 0.0025 0.0045"},
+                                             {"/H3D/PART", "1 2", "1 2"},
+                                             {"/OUTP/DT", "1.5 2.5", "0.0015 0.0025"},
+                                             {"/STATE/DT", "1.5 2.5", "0.0015 0.0025"},
+                                             {"/DYNAIN/DT", "1.5 2.5", "0.0015 0.0025"},
+                                             {"/DT/NODA/CST", "0.67 2.5", "0.67 0.0025"},
+                                             {"/DTIX", "1.5 2.5", "0.0015 0.0025"},
+                                             {"/PRINT/-100", "3.0", "3.0"},
+                                             {"/STOP", "1.5 2.5 3.5 1 1", "1.5 2.5 3.5 1 1"},
+                                             {"/DEL/SHELL", "1 2 3", "1 2 3"},
+                                             {"/RBODY/ON", "1 2 3", "1 2 3"},
+                                             {"/BCS/TRA/XYZ", "1 2 3", "1 2 3"}}) {
+    SCOPED_TRACE(keyword);
+    const std::string head = std::string(keyword) + "\n";
+    EXPECT_EQ(after(head + before + "\n"), head + now + "\n");
+    EXPECT_THAT(out_.refusals, IsEmpty());
+    EXPECT_THAT(notes(Loss::undecided), IsEmpty());
+  }
+}
+
+TEST_F(EngineUnits, OneEntryForEveryFileCountsItsTimes) {
+  const auto counted = [&](const std::string& engine) {
+    after(engine);
+    return notes(Loss::kept);
+  };
+  EXPECT_THAT(counted("/TFILE\n0.0\n/STOP\n1.\n"),
+              ElementsAre("car_0001.rad:1 : Engine file: no times to convert"));
+  EXPECT_THAT(counted("/TFILE\n1.0\n"),
+              ElementsAre("car_0001.rad:1 : Engine file: 1 time converted"));
+  write("car_0002.rad", "/RUN/car/2\n20.\n");
+  EXPECT_THAT(counted("/RUN/car/1\n10.0\n/ANIM/DT\n0. 2.5 4.5\n"),
+              ElementsAre("car_0001.rad:1 : Engine file: 3 times converted",
+                          "car_0002.rad:1 : Engine file: 1 time converted"));
+}
+
+TEST_F(EngineUnits, UnknownLinesRefuseOrStay) {
+  const std::string text = "/TFILE\n1.0\n/NEWTHING\n3.0\n/DTIX\n1.5 2.5 3.5\n/STOP\n1.\n2.\n";
+  EXPECT_EQ(after(text), "refused");
+  EXPECT_THAT(out_.edits, IsEmpty());
+  EXPECT_THAT(
+      out_.refusals,
+      ElementsAre(HasSubstr("car_0001.rad:3:1: /NEWTHING: the cells of this keyword are not "
+                            "known, so it cannot be brought to other units"),
+                  HasSubstr("car_0001.rad:6:9: /DTIX: this value of the keyword is not "
+                            "known, so it cannot be brought to other units"),
+                  HasSubstr("car_0001.rad:9:1: /STOP: this value of the keyword is not "
+                            "known, so it cannot be brought to other units")));
+  EXPECT_EQ(after(text, "kg,mm,s", true),
+            "/TFILE\n0.001\n/NEWTHING\n3.0\n/DTIX\n0.0015 0.0025 3.5\n/STOP\n1.\n2.\n");
+  const std::string rest = ", so it keeps its old units; convert it by hand";
+  EXPECT_THAT(
+      notes(Loss::undecided),
+      ElementsAre("car_0001.rad:3 /NEWTHING: the cells of this keyword are not known" + rest,
+                  "car_0001.rad:6 /DTIX: this value of the keyword is not known" + rest,
+                  "car_0001.rad:9 /STOP: this value of the keyword is not known" + rest));
+}
+
+TEST_F(EngineUnits, AWordInThePlaceOfATimeIsLeft) {
+  EXPECT_EQ(after("/TFILE\nsoon\n"), "refused");
+  EXPECT_THAT(out_.refusals, ElementsAre(HasSubstr("car_0001.rad:2:1: /TFILE: this is not a plain "
+                                                   "number, so it cannot be brought")));
+}
+
+TEST_F(EngineUnits, DigitsThatAreLostAreSaid) {
+  const auto lost = [&] {
+    std::vector<std::string> out;
+    for (const LossEntry& e : out_.losses)
+      if (e.loss == Loss::approximated)
+        out.push_back(e.keyword + " " + e.old_text + " " + e.new_text + " " + e.note);
+    return out;
+  };
+  // Most numbers come back from thirds of a second as they were; not all do.
+  std::string old;
+  for (int i = 1; i < 2000 && lost().empty(); ++i) {
+    old = "1." + std::to_string(1000000000000000 + 7 * i);
+    after("/TFILE\n" + old + "\n", "kg,mm,0.3");
+  }
+  ASSERT_EQ(lost().size(), 1u);
+  EXPECT_THAT(lost()[0], testing::MatchesRegex("/TFILE " + old +
+                                               " 0.00[0-9]+ no double holds the "
+                                               "converted value exactly"));
+  EXPECT_EQ(out_.edits.size(), 1u);
+  EXPECT_THAT(lost()[0], HasSubstr(" " + out_.edits.at(0).text + " "));
+  after("/TFILE\n1.0\n");
+  EXPECT_THAT(lost(), IsEmpty());
+}
+
+TEST_F(EngineUnits, TimesStayWhereTheWorkingUnitsStay) {
+  options_.keep_working = true;
+  EXPECT_EQ(after("/TFILE\n1.0\n/NEWTHING\n3.0\n"), "/TFILE\n1.0\n/NEWTHING\n3.0\n");
+  EXPECT_THAT(out_.losses, IsEmpty());
+  options_.keep_working = false;
+  write("car_0000.rad",
+        deck_text("", "                  Mg                  mm                   s\n"));
+  EXPECT_EQ(after("/TFILE\n1.0\n"), "/TFILE\n1.0\n");
+}
+
+TEST(UnitNotes, NameEveryFactorAndWhatWasConverted) {
+  const auto w = Whole::text(
+      deck_text("/UNIT/7\nm\n                  kg                   m                   s\n"
+                "/NODE/7\n         1                12.5                 0.0                 0.0\n"
+                "/NODE\n         2                12.5                 1.0                 0.0\n"));
+  const auto notes = [&](const char* target, const UnitsOptions& options = {}) {
+    return to_units(w->context(), parse_unit_system(target).value(), options).notes;
+  };
+  EXPECT_THAT(
+      notes("Mg,m,s"),
+      ElementsAre("mass kg -> Mg: factor 1e-3", "length mm -> m: factor 1e-3",
+                  "time ms -> s: factor 1e-3", "2 values converted", testing::_, testing::_));
+  EXPECT_THAT(notes("Mg,m,s"),
+              Contains("the working units change with the input units: the times of Engine files "
+                       "and all results are in the new units"));
+  EXPECT_THAT(notes("Mg,m,s"), Contains(HasSubstr("blocks have units of their own and keep")));
+  UnitsOptions keep;
+  keep.keep_working = true;
+  EXPECT_THAT(notes("Mg,m,s", keep),
+              Contains("the working units stay: results and Engine files keep their units"));
+  EXPECT_THAT(notes("kg,0.0254,ms"),
+              Contains(HasSubstr("length mm -> 0.0254: factor 0.03937007874")));
+}
+
+}  // namespace
+}  // namespace deck
