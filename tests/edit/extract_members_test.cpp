@@ -223,6 +223,24 @@ TEST(ExtractWords, MoversThatComeFirstAreNamedOnce) {
   EXPECT_THAT(inactis("5", "3"), IsEmpty());
 }
 
+TEST(ExtractWords, WhatIsLeftOutIsNamedInItsOwnFile) {
+  std::string text = touching().text();
+  const auto end = text.rfind("/END");
+  text.insert(end, "#include more.inc\n");
+  const auto w = Whole::read("main_0000.rad", {{"main_0000.rad", text},
+                                               {"more.inc",
+                                                "# groups\n/GRNOD/PART/8\ng\n         3\n"
+                                                "/GRNOD/PART/9\ng\n         3\n"}});
+  const Rewrite r = extract_contacts(w->context(), std::vector<std::int64_t>{1});
+  ASSERT_THAT(r.refusals, IsEmpty());
+  std::vector<std::string> places;
+  for (const LossEntry& e : r.losses)
+    if (e.keyword == "/GRNOD/PART")
+      places.push_back(e.file + ":" + std::to_string(e.line) + " " + std::to_string(e.id));
+  EXPECT_THAT(places, ElementsAre("more.inc:2 8"));
+  EXPECT_THAT(r.notes, ElementsAre("8 of 12 nodes and 2 of 3 elements are needed"));
+}
+
 TEST(ExtractLines, KeepTheEndsOfTheFile) {
   std::string text = touching().text();
   for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += 2) text.insert(at, "\r");
