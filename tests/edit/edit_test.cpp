@@ -459,6 +459,17 @@ TEST_F(EditValues, ACellThatAFlagWithholdsSaysWhich) {
       << no_law << why;
 }
 
+TEST_F(EditValues, ConditionsOfCellsInWords) {
+  const std::string only = ": the card has this cell only if ";
+  for (const auto& [field, condition] : {std::pair{"node_ID1", "Icurv is 1 or 2"},
+                                         {"C1", "Ifric is at least 1"},
+                                         {"C6", "Ifric is at least 2"},
+                                         {"Kthe", "Ithe is 1"},
+                                         {"Drad", "Ithe is 1"}})
+    EXPECT_EQ(answer("/INTER", 3, field, 1.0),
+              std::string("/INTER/TYPE7/3 ") + field + only + condition);
+}
+
 TEST_F(EditValues, TheFirstErrorStays) {
   const LoadedDeck deck = open(all(mesh + contact + more));
   Edit edit(deck);
