@@ -2,6 +2,7 @@
 // Over 600 lines: independent tests of one conversion.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <random>
@@ -326,6 +327,42 @@ TEST(ToUnits, StiffnessThatTheCardDoesNotNameFollowsTheWorkingUnits) {
   const auto kept = w->after(convert(*w, "Mg,m,s", {.partial = false, .keep_working = true}));
   EXPECT_EQ(kept->interfaces.type7.at(0).Stfac.value, 100);
   EXPECT_EQ(kept->interfaces.type7.at(1).Stfac.value, -3);
+}
+
+/// A block with units of its own keeps its cells, but not what the solver takes in working units.
+TEST(ToUnits, WorkingUnitsOfABlockWithItsOwnUnitsFollowToo) {
+  std::string text =
+      test::SmallDeck()
+          .add("/UNIT/3\nm\n                  kg                   m                   s")
+          .add("@/INTER/TYPE7/1 Istf=1 Stfac=0 Gapmin=0.5")
+          .add("@/INTER/TYPE7/2 Istf=4 Stfac=-3")
+          .add("@/INTER/TYPE7/4 Istf=4 Stfac=3")
+          .text();
+  for (const char* id : {"1", "2", "4"}) {
+    const std::string header = std::string("/INTER/TYPE7/") + id + "\n";
+    text.replace(text.find(header), header.size(), std::string("/INTER/TYPE7/") + id + "/3\n");
+  }
+  const auto w = Whole::text(text);
+  ASSERT_DOUBLE_EQ(w->interfaces.type7.at(0).Gapmin.value, 500);
+  const auto stiffness = [](const Whole& deck, std::size_t i) {
+    return deck.interfaces.type7.at(i).Stfac.value;
+  };
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_EQ(real(*after, "/INTER/TYPE7/1/3", "Gapmin"), 0.5);
+  EXPECT_DOUBLE_EQ(after->interfaces.type7.at(0).Gapmin.value, 0.5);
+  // One kg/ms^2 is 1e6 kg/s^2 and 1e3 Mg/s^2.
+  EXPECT_DOUBLE_EQ(stiffness(*w, 0), 1);
+  EXPECT_DOUBLE_EQ(real(*after, "/INTER/TYPE7/1/3", "Stfac"), 1e6);
+  EXPECT_DOUBLE_EQ(stiffness(*after, 0), 1e3);
+  EXPECT_DOUBLE_EQ(stiffness(*after, 1), 1e3 * stiffness(*w, 1));
+  EXPECT_DOUBLE_EQ(stiffness(*after, 2), 3);
+  const Rewrite kept = convert(*w, "Mg,m,s", {.partial = false, .keep_working = true});
+  const auto same = w->after(kept);
+  EXPECT_EQ(real(*same, "/INTER/TYPE7/1/3", "Stfac"), 0);
+  for (const std::size_t i : {0u, 1u, 2u}) EXPECT_DOUBLE_EQ(stiffness(*same, i), stiffness(*w, i));
+  EXPECT_EQ(std::count(kept.notes.begin(), kept.notes.end(),
+                       "3 blocks have units of their own and keep their values"),
+            1);
 }
 
 /// The solver brings these numbers to working units by a power that is not their own: without mass,
