@@ -123,6 +123,59 @@ TEST(Type25, RandomPlacesAroundASheetAreThoseOfTheClosedForm) {
   }
 }
 
+TEST(Type25, RandomPlacesAroundATriangleAreThoseOfTheClosedForm) {
+  // With three free sides a node beyond one of them by its own gap is left out; elsewhere it is the
+  // gap less the distance: the side that is farthest away corrects nothing.
+  const double corner[][2] = {{0, 0}, {10, 0}, {2, 9}};
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> x(-1.5, 11), y(-1.5, 10), up(-1.9, 1.9);
+  std::vector<Place> list;
+  for (int k = 0; k < 400; ++k) list.push_back({x(random), y(random), up(random)});
+  SmallDeck d = places(list);
+  d.node(21, 0, 0, 0).node(22, 10, 0, 0).node(23, 2, 9, 0).shell_part(9, 2);
+  d.shell3(9, 9, 21, 22, 23).group("/SURF/PART/9", {9});
+  d.add("@/INTER/TYPE25/1 surf_ID2=9 grnd_IDs=1 Inacti=5");
+  d.add("@/INTER/TYPE25/2 surf_ID2=9 grnd_IDs=1 Inacti=5 Ishape=2");
+  const Built b(d);
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const Place& p = list[k];
+    double most_over = -1e30, flat = 1e30;
+    for (int side = 0; side < 3; ++side) {
+      const double *a = corner[side], *c = corner[(side + 1) % 3];
+      const double ex = c[0] - a[0], ey = c[1] - a[1], length = std::hypot(ex, ey);
+      const double px = p.x - a[0], py = p.y - a[1];
+      most_over = std::max(most_over, (px * ey - py * ex) / length);
+      const double u = std::clamp((px * ex + py * ey) / (length * length), 0.0, 1.0);
+      flat = std::min(flat, std::hypot(px - u * ex, py - u * ey));
+    }
+    if (most_over <= 0) flat = 0;
+    const double raw = std::max(0.0, 1.75 - std::hypot(flat, p.z));
+    const double wanted = most_over >= 0.75 ? 0 : raw;
+    for (const int shape : {1, 2})
+      EXPECT_NEAR(depth(b, 101 + static_cast<int>(k), shape), wanted, 1e-9)
+          << shape << ": " << p.x << ' ' << p.y << ' ' << p.z;
+    found += wanted > 0;
+  }
+  EXPECT_GT(found, 100u);
+}
+
+TEST(Modern, OptionsOfTheCardAreThoseOfTheContact) {
+  SmallDeck d = places({{5, 5, 1.4}});
+  d.add(
+      "@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5 Igap=3 %mesh_size=0.25 Istf=4 Stmin=3 "
+      "Stmax=70 "
+      "Gap_scale=0.5");
+  d.add("@/INTER/TYPE24/2 surf_ID2=2 grnd_IDs=1 Inacti=-1 Istf=2");
+  const Built b(d);
+  const Contact &first = b.contact(1), &second = b.contact(2);
+  EXPECT_EQ(std::tuple(first.type, first.igap, first.inacti, first.istf), std::tuple(25, 3, 5, 4));
+  EXPECT_EQ(std::tuple(first.gap_scale, first.mesh_fraction), std::tuple(0.5, 0.25));
+  EXPECT_EQ(std::tuple(second.type, second.inacti, second.istf), std::tuple(24, -1, 2));
+  EXPECT_EQ(first.kind, ContactKind::node_segment);
+  EXPECT_EQ(first.role, ContactRole::primary);
+}
+
 TEST(Type25, RandomPlacesInACubeAreAsDeepAsTheNearestFaceIsFarWithinReach) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> in(-2, 12);
