@@ -163,8 +163,7 @@ TEST(Type25, RandomPlacesAroundATriangleAreThoseOfTheClosedForm) {
 TEST(Modern, OptionsOfTheCardAreThoseOfTheContact) {
   SmallDeck d = places({{5, 5, 1.4}});
   d.add(
-      "@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5 Igap=3 %mesh_size=0.25 Istf=4 Stmin=3 "
-      "Stmax=70 "
+      "@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5 Igap=3 %mesh_size=0.25 Istf=4 "
       "Gap_scale=0.5");
   d.add("@/INTER/TYPE24/2 surf_ID2=2 grnd_IDs=1 Inacti=-1 Istf=2");
   const Built b(d);
