@@ -61,6 +61,26 @@ TEST(Verification, NewIdsAreTheSameModel) {
   EXPECT_EQ(difference(*deck, *after, relation), std::nullopt);
 }
 
+TEST(Verification, EveryNewIdIsTheSameModelAndEveryOtherValueIsNot) {
+  const auto deck = sample();
+  RenumberOptions options;
+  options.rules = {*parse_renumber_rule("all+1000")};
+  const auto after = deck->after(renumber(deck->context(), options));
+  VerifyRelation relation;
+  relation.new_ids = true;
+  EXPECT_EQ(difference(*deck, *after, relation), std::nullopt);
+  // Another Inacti is no id.
+  const auto& cell = *decode(after->deck, *after->interfaces.type7.at(0).block).find("Inacti");
+  std::string text = after->main_text();
+  text.replace(cell.span.offset + cell.span.length - 1, 1, "6");
+  const std::string& path = deck->deck.sources[0].path();
+  const auto other = Whole::read(path, {{path, text}});
+  ASSERT_EQ(other->interfaces.type7.at(0).Inacti.value, 6);
+  EXPECT_NE(difference(*after, *other, relation), std::nullopt);
+  EXPECT_EQ(difference(*deck, *other, relation).value_or(""),
+            difference(*after, *other, relation).value_or("none"));
+}
+
 TEST(Verification, AnExtractAndAnExpandedTYPE19AreTheSameContacts) {
   const auto deck = sample("crash_box_0000.rad");
   const std::int64_t wanted[] = {2};

@@ -81,6 +81,32 @@ TEST(ReduceGap, FindsTheLargestConstantGap) {
     }
 }
 
+/// Edges of a TYPE19 have Gapmin times Edge_scale_gap: with a large one they decide, with a small
+/// one the nodes do.
+TEST(ReduceGap, EdgesOfType19HaveTheirScale) {
+  for (const char* scale : {"1.6", "0.3"})
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE(std::string(scale) + " seed " + std::to_string(seed));
+      std::string text =
+          two_plates(seed, 0.4 + 0.1 * seed, "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=2 Gapmin=1.0")
+              .text();
+      text.replace(text.find("      2022"), 10, "      2024");
+      const auto line = text.find('\n', text.find("Fscalegap")) + 1;
+      text.insert(line, std::string(57, ' ') + scale);
+      const Built before(text);
+      ASSERT_EQ(before.interfaces.type19.at(0).Edge_scale_gap.value, std::stod(scale));
+      ASSERT_EQ(before.interfaces.type19.at(0).Gapmin.value, 1.0);
+      const PenetrationFix fix = reduced(before);
+      EXPECT_TRUE(fix.complete);
+      const std::string now = text_after(before, fix);
+      EXPECT_TRUE(oracle_penetrations(Built(now)).empty());
+      const FieldChange* c = change(fix, "Gapmin");
+      ASSERT_NE(c, nullptr);
+      EXPECT_FALSE(oracle_penetrations(Built(with_next_larger(now, *c, 6))).empty())
+          << "a larger gap would have done";
+    }
+}
+
 TEST(ReduceGap, LeavesTiesAlone) {
   const Built before(two_plates(1, 0.6,
                                 "@/INTER/TYPE10/1 grnd_IDs=1 surf_IDm=1 Gap=1.0\n"

@@ -40,6 +40,29 @@ TEST(Translations, AreTheShortestThatFreeAll) {
   EXPECT_LE(norm(bounded[0].by), 0.45);
 }
 
+TEST(Translations, AreNoMoreThanAsked) {
+  const std::vector<WayOut> walls = {
+      {{1, 0, 0}, 0.3, true}, {{0, 1, 0}, 0.4, true}, {{0, 0, 1}, 0.5, true}};
+  const auto all = translations_for(walls, 1, 50);
+  ASSERT_GT(all.size(), 3u);
+  for (const std::size_t most : {1u, 2u, 3u}) {
+    const auto some = translations_for(walls, 1, most);
+    ASSERT_EQ(some.size(), most);
+    for (std::size_t i = 0; i < most; ++i) EXPECT_EQ(norm(some[i].by - all[i].by), 0);
+  }
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    EXPECT_GE(all[i - 1].frees, all[i].frees);
+    if (all[i - 1].frees == all[i].frees) {
+      EXPECT_LE(norm(all[i - 1].by), norm(all[i].by) * (1 + 1e-9));
+    }
+  }
+}
+
+TEST(MovePart, HasItsName) {
+  const Built before(two_plates(1, 0.45, "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
+  EXPECT_EQ(moved(before).strategy, "move-part");
+}
+
 TEST(Translations, NeverGoAgainstANormal) {
   EXPECT_TRUE(translations_for({{{0, 0, 1}, 0.3, true}, {{0, 0, -1}, 0.1, true}}, 1, 5).empty());
   EXPECT_TRUE(translations_for({{{0, 0, 1}, 0.3, true}, {{0, 0, -1}, 0.1, false}}, 1, 5).empty());
