@@ -391,9 +391,11 @@ class Reader {
     const bool keyword_behind_mark = text.offset == 0 && bytes.starts_with(byte_order_mark) &&
                                      trim(bytes.substr(byte_order_mark.size(), 1)).starts_with('/');
     std::string message = std::to_string(lines) + (lines == 1 ? " line" : " lines") +
-                          " of this included file precede its first keyword and are ignored";
+                          " of this included file " +
+                          (lines == 1 ? "precedes its first keyword and is ignored"
+                                      : "precede its first keyword and are ignored");
     if (open_block_ >= 0 && !keyword_behind_mark)
-      message += ": they do not continue " +
+      message += (lines == 1 ? ": it does not continue " : ": they do not continue ") +
                  std::string(deck_.blocks[static_cast<std::size_t>(open_block_)].header) +
                  " of the including file";
     if (keyword_behind_mark) message += ": a byte order mark hides the keyword of the first line";

@@ -139,8 +139,8 @@ void check_orphans(BuildContext& c, const Elements& family, const char* what) {
   }
   for (const auto& [id, entry] : missing)
     report(c.diagnostics, {RuleId::DK104, entry.second->header_span,
-                           plural(entry.first, what) + " belong to part " + std::to_string(id) +
-                               ", which does not exist",
+                           plural(entry.first, what) + (entry.first == 1 ? " belongs" : " belong") +
+                               " to part " + std::to_string(id) + ", which does not exist",
                            std::string(entry.second->keyword), id});
 }
 

@@ -434,9 +434,9 @@ TEST(WhatIfText, IsHeldAgainstTheCardOfTheInterface) {
     EXPECT_EQ(verdict(good), "") << good;
   EXPECT_EQ(verdict("2:Fpenmax=0.5"), "--what-if 2:Fpenmax=0.5: TYPE11 has no field Fpenmax");
   EXPECT_EQ(verdict("2:Gapmin=0.5,Gapmax=2"), "--what-if 2:Gapmax=2.0: TYPE11 has no field Gapmax");
-  EXPECT_EQ(verdict("1:Inacti=7").find("--what-if 1:Inacti=7.0: the field takes "), 0u);
+  EXPECT_EQ(verdict("1:Inacti=7").find("--what-if 1:Inacti=7: the field takes "), 0u);
   EXPECT_NE(verdict("1:Inacti=7").find("5, 6"), std::string::npos);
-  EXPECT_EQ(verdict("3:Igap=9").find("--what-if 3:Igap=9.0: the field takes "), 0u);
+  EXPECT_EQ(verdict("3:Igap=9").find("--what-if 3:Igap=9: the field takes "), 0u);
 }
 
 TEST(WhatIfText, SaysWhatIsWrong) {

@@ -10,6 +10,13 @@
 #include "deck/text/number.hpp"
 
 namespace deck {
+namespace {
+
+bool is_flag(std::string_view name) {
+  return name == "Igap" || name == "Inacti" || name == "Irem_gap";
+}
+
+}  // namespace
 
 Result<WhatIf> parse_what_if(const std::string& text) {
   const auto bad = [&](const std::string& why) {
@@ -34,11 +41,10 @@ Result<WhatIf> parse_what_if(const std::string& text) {
     const std::string name = item.substr(0, equal);
     const RealCell v = read_real(std::string_view(item).substr(equal + 1));
     if (v.status != NumberStatus::ok) return bad("the value of '" + name + "' is not a number");
-    const bool is_flag = name == "Igap" || name == "Inacti" || name == "Irem_gap";
     const IntegerCell whole = read_integer(std::string_view(item).substr(equal + 1));
-    if (is_flag && (whole.status != NumberStatus::ok || std::abs(whole.value) > 1000))
+    if (is_flag(name) && (whole.status != NumberStatus::ok || std::abs(whole.value) > 1000))
       return bad("'" + name + "' is a flag, a whole number of at most 1000");
-    if (!is_flag && !(std::abs(v.value) <= 1e30))
+    if (!is_flag(name) && !(std::abs(v.value) <= 1e30))
       return bad("the value of '" + name + "' is out of range");
     const int flag = static_cast<int>(whole.value);
     if (name == "Gapmin")
@@ -81,8 +87,10 @@ Result<void> check_what_if(const WhatIf& w, const InterBase& inter) {
   if (schema == nullptr) return {};
   const auto check = [&](std::string_view name, double value) -> Result<void> {
     const auto refuse = [&](const std::string& why) {
-      return Error{Error::Code::config, "--what-if " + std::to_string(w.interface_id) + ":" +
-                                            std::string(name) + "=" + shortest(value) + ": " + why};
+      return Error{Error::Code::config,
+                   "--what-if " + std::to_string(w.interface_id) + ":" + std::string(name) + "=" +
+                       (is_flag(name) ? std::to_string(static_cast<int>(value)) : shortest(value)) +
+                       ": " + why};
     };
     const std::string_view on_card = name_on_card(name, inter);
     const Field* field = schema->find_field(on_card);

@@ -58,11 +58,11 @@ void check_no_mesh_limit(const GeometryRun& run, const Contact& c) {
       std::count_if(c.secondary.begin(), c.secondary.end(),
                     [](const SecondaryNode& s) { return s.length >= no_limit && s.gap > 0; }));
   if (unlimited == 0) return;
-  run.report(
-      RuleId::DK318, c, "Igap",
-      fmt::format("{}: Igap = 3 does not limit the gap of {} of {}, which belong to no main "
-                  "segment",
-                  name_of(run, c), count_text(unlimited, "secondary node"), c.secondary.size()));
+  run.report(RuleId::DK318, c, "Igap",
+             fmt::format("{}: Igap = 3 does not limit the gap of {} of {}, which {} to no main "
+                         "segment",
+                         name_of(run, c), count_text(unlimited, "secondary node"),
+                         c.secondary.size(), unlimited == 1 ? "belongs" : "belong"));
 }
 
 /// Segments of solids that a shell with the same nodes covers.
@@ -112,11 +112,13 @@ void check_solid_segments(const GeometryRun& run, const Contact& c, Covered& cov
                fmt::format("{}: {} of solids store up to {:.6g}; half of it acts", name_of(run, c),
                            count_text(solids, "main segment"), largest));
   if (first != nullptr)
-    run.report(RuleId::DK319, c, "surf_IDm",
-               fmt::format("{}: {} of {} lie under shells and keep the stiffness of the solids, "
-                           "because the surface was made from the solids; the first is {}",
-                           name_of(run, c), count_text(under_shells, "main segment"), c.main.size(),
-                           nodes_text(run.model(), *first)));
+    run.report(
+        RuleId::DK319, c, "surf_IDm",
+        fmt::format("{}: {} of {} {} the stiffness of the solids, "
+                    "because the surface was made from the solids; the first is {}",
+                    name_of(run, c), count_text(under_shells, "main segment"), c.main.size(),
+                    under_shells == 1 ? "lies under shells and keeps" : "lie under shells and keep",
+                    nodes_text(run.model(), *first)));
 }
 
 }  // namespace

@@ -13,16 +13,18 @@ namespace {
 
 std::string_view main_field(const Contact& c) { return traits_of(*c.inter).main.field; }
 
-/// Reports a rule about some main segments, naming the first.
+/// Reports a rule about some main segments, naming the first; `one` is said of a single segment.
 Diagnostic* about_segments(const GeometryRun& run, RuleId rule, const Contact& c,
-                           const std::vector<std::uint32_t>& which, std::string_view what) {
+                           const std::vector<std::uint32_t>& which, std::string_view one,
+                           std::string_view many) {
   if (which.empty()) return nullptr;
   const MainSegment& m = c.main[which.front()];
   const ElementName e = carrier_name(run.model(), m.carrier, m.element);
-  Diagnostic* d = run.report(rule, c, main_field(c),
-                             fmt::format("{}: {} of {} {}, for example {} ({})", name_of(run, c),
-                                         count_text(which.size(), "segment"), c.main.size(), what,
-                                         nodes_text(run.model(), m), element_text(e)));
+  Diagnostic* d = run.report(
+      rule, c, main_field(c),
+      fmt::format("{}: {} of {} {}, for example {} ({})", name_of(run, c),
+                  count_text(which.size(), "segment"), c.main.size(),
+                  which.size() == 1 ? one : many, nodes_text(run.model(), m), element_text(e)));
   if (d != nullptr)
     d->notes.emplace_back(run.model().node_span(m.nodes[0]), "first node of that segment");
   return d;
@@ -45,9 +47,12 @@ void check_stiffness(const GeometryRun& run, const Contact& c) {
     else if (m.stiffness == 0)
       weak.push_back(i);
   }
-  about_segments(run, RuleId::DK320, c, weak, "have no stiffness and are left out");
-  about_segments(run, RuleId::DK321, c, no_material, "belong to elements without material");
-  about_segments(run, RuleId::DK322, c, c.no_carrier, "belong to no element");
+  about_segments(run, RuleId::DK320, c, weak, "has no stiffness and is left out",
+                 "have no stiffness and are left out");
+  about_segments(run, RuleId::DK321, c, no_material, "belongs to an element without material",
+                 "belong to elements without material");
+  about_segments(run, RuleId::DK322, c, c.no_carrier, "belongs to no element",
+                 "belong to no element");
   for (const bool main : {true, false}) {
     const auto& edges = main ? c.main_edges : c.secondary_edges;
     std::size_t count = 0;
@@ -60,17 +65,18 @@ void check_stiffness(const GeometryRun& run, const Contact& c) {
     if (first == nullptr) continue;
     Diagnostic* d = run.report(
         RuleId::DK322, c, main ? main_field(c) : traits_of(*c.inter).secondary.field,
-        fmt::format("{}: {} of {} on the {} side belong to no element, for example {} {}",
+        fmt::format("{}: {} of {} on the {} side {} to no element, for example {} {}",
                     name_of(run, c), count_text(count, "edge"), edges.size(),
-                    main ? "main" : "secondary", run.model().node_id(first->nodes[0]),
-                    run.model().node_id(first->nodes[1])));
+                    main ? "main" : "secondary", count == 1 ? "belongs" : "belong",
+                    run.model().node_id(first->nodes[0]), run.model().node_id(first->nodes[1])));
     // The texts of the two messages are swapped for lines.
     if (d != nullptr && main) d->reference = rule_of(RuleId::DK322).message(481);
   }
 }
 
 void check_shape(const GeometryRun& run, const Contact& c) {
-  about_segments(run, RuleId::DK323, c, c.degenerate, "have no area or cross themselves");
+  about_segments(run, RuleId::DK323, c, c.degenerate, "has no area or crosses itself",
+                 "have no area or cross themselves");
   if (c.repaired_segments > 0)
     run.report(RuleId::DK324, c, main_field(c),
                fmt::format("{}: {} with a node given twice, taken for triangles", name_of(run, c),
@@ -105,7 +111,8 @@ void check_duplicates(const GeometryRun& run, const Contact& c) {
     else
       twice.push_back(i);
   }
-  Diagnostic* d = about_segments(run, RuleId::DK326, c, twice, "repeat another one");
+  Diagnostic* d =
+      about_segments(run, RuleId::DK326, c, twice, "repeats another one", "repeat another one");
   const auto of_solids = [&](std::uint32_t i) { return c.main[i].carrier == Carrier::solid; };
   if (d != nullptr && std::all_of(twice.begin(), twice.end(), of_solids))
     d->help =
@@ -121,8 +128,10 @@ void check_dropped(const GeometryRun& run, const Contact& c) {
 }
 
 void check_solids(const GeometryRun& run, const Contact& c) {
-  about_segments(run, RuleId::DK329, c, c.crowded, "belong to more than two solids");
-  about_segments(run, RuleId::DK330, c, c.inside_solids, "lie inside another solid");
+  about_segments(run, RuleId::DK329, c, c.crowded, "belongs to more than two solids",
+                 "belong to more than two solids");
+  about_segments(run, RuleId::DK330, c, c.inside_solids, "lies inside another solid",
+                 "lie inside another solid");
   const Deck& deck = run.context.deck;
   const auto fill = std::find_if(deck.blocks.begin(), deck.blocks.end(), [](const Block& b) {
     return b.header.starts_with("/INIBRI/FILL");
@@ -131,7 +140,9 @@ void check_solids(const GeometryRun& run, const Contact& c) {
   std::vector<std::uint32_t> solid;
   for (std::uint32_t i = 0; i < c.main.size(); ++i)
     if (c.main[i].carrier == Carrier::solid) solid.push_back(i);
-  if (Diagnostic* d = about_segments(run, RuleId::DK331, c, solid, "are on solids"); d != nullptr)
+  if (Diagnostic* d =
+          about_segments(run, RuleId::DK331, c, solid, "is on a solid", "are on solids");
+      d != nullptr)
     d->notes.emplace_back(fill->header_span, "the fill fractions");
 }
 
