@@ -65,6 +65,22 @@ TEST_F(Hostile, NumbersBeyondThirtyTwoBitsKeepTheirSignAndAreReported) {
   EXPECT_EQ(count(deck->diagnostics, RuleId::DK335), 1u);
 }
 
+TEST_F(Hostile, AnIdOfAParameterIsReportedOnlyBeyondThirtyTwoBits) {
+  for (const auto& [value, findings] :
+       {std::pair{"         9", 0u}, {"2147483647", 0u}, {"2147483648", 1u}, {"9999999999", 1u}}) {
+    const auto deck = read_deck(
+        file("p_0000.rad", deck_of("/PARAMETER/GLOBAL/INTEGER/1\nt\nbig       " +
+                                   std::string(value) + "\n/SURF/PART/&big\nt\n         1\n")),
+        SchemaSet::built_in());
+    ASSERT_TRUE(deck.ok());
+    EXPECT_EQ(count(deck->diagnostics, RuleId::DK335), findings) << value;
+    EXPECT_EQ(count(deck->diagnostics, RuleId::DK018), 0u) << value;
+    const Block* surf = block(*deck, "/SURF/PART/&big");
+    ASSERT_NE(surf, nullptr);
+    EXPECT_EQ(surf->id.value, std::min<std::int64_t>(std::stoll(value), 2147483647));
+  }
+}
+
 TEST_F(Hostile, OffsetsOfSubmodelsDoNotAddUpBeyondThirtyTwoBits) {
   std::string text =
       "#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"

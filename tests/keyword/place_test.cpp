@@ -68,9 +68,38 @@ TEST(PlacedLine, KnowsCellsOfListsAndOfNodes) {
   EXPECT_EQ(node.cell_at(50)->real, 2.0);
 }
 
+TEST(PlacedLine, KnowsWhichLineOfAnElementItIs) {
+  const Deck deck =
+      read(deck_of("/NODE\n/TETRA10/1\n\n       101\n         1         2         3         4\n"
+                   "       102\n         5         6         7         8\n"));
+  for (const auto& [text, column, field] : {std::tuple{"       101", 10, "tetra10_ID"},
+                                            {"         1         2", 20, "N2"},
+                                            {"       102", 10, "tetra10_ID"},
+                                            {"         5         6", 10, "N1"}}) {
+    const PlacedLine line = at(deck, text);
+    EXPECT_EQ(line.what, What::card) << text;
+    ASSERT_NE(line.cell_at(column), nullptr) << text;
+    EXPECT_EQ(line.cell_at(column)->field->name, field) << text;
+  }
+}
+
 TEST(PlacedLine, TakesADirectiveForWhatItIs) {
   const Deck deck = read(deck_of("#include nowhere.inc\n/NODE\n"));
   EXPECT_EQ(at(deck, "#include").what, What::directive);
+}
+
+using PlacedLineOnDisk = testing_support::Folder;
+
+TEST_F(PlacedLineOnDisk, ADirectiveGoesOnOverItsLines) {
+  file("a_longname.inc", "/GRNOD/NODE/1\ng\n         7\n");
+  const Deck deck = read_file(file("d_0000.rad", deck_of("/NODE\n#include a_long +\n  name.inc\n"
+                                                         "/GRNOD/NODE/2\ng\n         5\n")));
+  ASSERT_EQ(deck.includes.size(), 1u);
+  EXPECT_EQ(at(deck, "/NODE").what, What::header);
+  EXPECT_EQ(at(deck, "#include a_long").what, What::directive);
+  EXPECT_EQ(at(deck, "  name.inc").what, What::directive);
+  EXPECT_EQ(at(deck, "/GRNOD/NODE/2").what, What::header);
+  EXPECT_EQ(at(deck, "         5").what, What::card);
 }
 
 TEST(PlacedLine, FindsSomethingAtEveryPlaceOfADamagedDeck) {

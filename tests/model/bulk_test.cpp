@@ -571,6 +571,42 @@ TEST(BulkThreads, GiveTheSameArraysAndFindings) {
   }
 }
 
+TEST(BulkChunks, MidNodesStayWithTheirElementsOverManyChunks) {
+  // Some megabytes: tetrahedra of ten nodes between hexahedra, which have none.
+  std::string text = nodes(20);
+  const auto tetras = [&](int from, int count) {
+    text += "/TETRA10/1\n";
+    for (int e = from; e < from + count; ++e)
+      text += ids({e}) + ids({1, 2, 3, 4, 5 + e % 7, 6, 7, 8, 9, 10 + e % 5});
+  };
+  const auto bricks = [&](int from, int count) {
+    text += "/BRICK/1\n";
+    for (int e = from; e < from + count; ++e) text += ids({e, 1, 2, 3, 4, 5, 6, 7, 8});
+  };
+  bricks(1, 5000);
+  tetras(5001, 6000);
+  bricks(11001, 5000);
+  tetras(16001, 4000);
+  for (const int threads : {1, 3}) {
+    const Bulk b(read(deck_of(text)), threads);
+    const Elements& solids = b.model.solid8;
+    ASSERT_EQ(solids.size(), 20000u);
+    std::uint32_t wrong = 0, place = 0;
+    for (std::uint32_t e = 0; e < solids.size(); ++e) {
+      const auto id = static_cast<std::int64_t>(e) + 1;
+      const bool tetra = solids.shape[e] == SolidShape::tetra10;
+      wrong += solids.id[e] != id || solids.extra[e] != (tetra ? place : no_index) ? 1 : 0;
+      if (!tetra) continue;
+      const NodeIndex* mid = solids.extra_nodes.data() + solids.extra[e];
+      wrong += b.model.node_id(mid[0]) != 5 + id % 7 || b.model.node_id(mid[5]) != 10 + id % 5;
+      place += 6;
+    }
+    EXPECT_EQ(wrong, 0u);
+    EXPECT_EQ(place, 60000u);
+    EXPECT_EQ(solids.extra_nodes.size(), 60000u);
+  }
+}
+
 TEST(BulkChunks, CutsNeverSplitALineOrAnItem) {
   const Deck deck = read(deck_of(random_deck(9, 300, false)));
   const auto blocks = element_blocks(deck);

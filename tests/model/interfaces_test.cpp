@@ -271,9 +271,13 @@ TEST(InterfaceStiffness, BoundsCountForIstf2To5Only) {
   text.bounds = with(at(20, "5.0"), 40, "9.0");
   EXPECT_EQ(Read(text.str()).all.type7.at(0).Stmin.value, 0.0);
   EXPECT_EQ(Read(text.str()).all.type7.at(0).Stmax.value, 1e30);
-  text.flags = with(text.flags, 30, "4");
-  EXPECT_EQ(Read(text.str()).all.type7.at(0).Stmin.value, 5.0);
-  EXPECT_EQ(Read(text.str()).all.type7.at(0).Stmax.value, 9.0);
+  for (const char* istf : {"1", "2", "3", "4", "5", "1000"}) {
+    text.flags = with(text.flags, 30, "     " + std::string(istf));
+    const InterType7 t = Read(text.str()).all.type7.at(0);
+    const bool count = std::string(istf) >= "2";
+    EXPECT_EQ(t.Stmin.value, count ? 5.0 : 0.0) << istf;
+    EXPECT_EQ(t.Stmax.value, count ? 9.0 : 1e30) << istf;
+  }
 }
 
 TEST(InterfaceStiffness, SortingFactorGrowsWithTheModel) {

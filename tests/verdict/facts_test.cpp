@@ -284,6 +284,7 @@ TEST(VerdictLevels, EachFactAloneHasItsLevel) {
       {[](Facts& f) { f.contacts().total.solver_errors = 1; }, VerdictLevel::stops},
       {[](Facts& f) { f.ties().main_and_tied = 1; }, VerdictLevel::stops},
       {[](Facts& f) { f.ties().solver_errors = 1; }, VerdictLevel::stops},
+      {[](Facts& f) { f.ties().solver_errors = f.ties().main_and_tied = 3; }, VerdictLevel::stops},
       {[](Facts& f) { f.ties().tied = 1; }, VerdictLevel::clean},
       {[](Facts& f) { f.error(RuleId::DK100); }, VerdictLevel::stops},
       {[](Facts& f) { f.error(RuleId::DK100, Severity::warning); }, VerdictLevel::clean},
