@@ -231,6 +231,15 @@ TEST(Gzip, EveryTruncationIsAnErrorThatSaysHowFarTheTextGoes) {
   }
 }
 
+TEST(Gzip, OfATextWhoseChecksumIsCutOffEverythingIsThere) {
+  std::string text;  // much of it is still to come when the last byte has been read
+  for (int i = 0; i < 1'000'000; ++i) text += "x\n";
+  const std::string packed = gzip(text);
+  const auto r = gunzip(std::string_view(packed).substr(0, packed.size() - 8), text.size());
+  ASSERT_FALSE(r.ok());
+  EXPECT_NE(r.error().message.find("in line 1000001"), std::string::npos) << r.error().message;
+}
+
 TEST(Gzip, NoChangedBytePassesUnnoticed) {
   const std::string text = numbered_lines(40), packed = gzip(text);
   for (std::size_t i = 10; i < packed.size(); ++i) {  // behind the header, which holds no check
