@@ -27,12 +27,15 @@ Dimension plus(Dimension a, const Dimension& b, int sign = 1) {
 struct FunctionUses::Quantity {
   double value = 1;
   Dimension dimension;
+  bool scaled = false;  ///< by a cell; else it is 1 in the working units of each deck
 
   void times(const Quantity& q) {
+    scaled = true;
     value *= q.value;
     dimension = plus(dimension, q.dimension);
   }
   void over(const Quantity& q) {
+    scaled = true;
     value /= q.value;
     dimension = plus(dimension, q.dimension, -1);
   }
@@ -65,7 +68,7 @@ struct FunctionUses::Named {
     if (one.real == 0) one.real = 1;
     Dimension d = dimension_of(f, decoded, card);
     d.temperature = 0;
-    return {working_value(deck, decoded, one, card), d};
+    return {working_value(deck, decoded, one, card), d, true};
   }
   using Place = std::pair<const DecodedCard*, const Cell*>;
   double number(std::map<CellKey, Place>::const_iterator it) const {
@@ -127,11 +130,9 @@ FunctionUses::Quantity FunctionUses::axis_of(const Named& n, const DecodedCard& 
     q.dimension.temperature = 0;
     return q;
   }
-  bool scaled = false;
   for (const std::string& name : axis.scales) {
     const AxisScale scale = axis_scale(n.decoded, card, cell, name);
     if (!scale.counts()) continue;
-    scaled = true;
     const Field* f =
         scale.cell != nullptr ? scale.cell->field : n.decoded.block->schema->find_field(name);
     const CellKey key = scale.cell != nullptr ? n.keys.at(scale.cell) : CellKey{name, 0, 0};
@@ -140,7 +141,7 @@ FunctionUses::Quantity FunctionUses::axis_of(const Named& n, const DecodedCard& 
     scales.push_back(key);
   }
   // This version has no cell for the scale: it is 1, and the points have its dimension.
-  if (!scaled)
+  if (!q.scaled)
     if (const Field* f = n.decoded.block->schema->find_field(axis.scales.front()))
       q.dimension = dimension_of(*f, n.decoded, &card);
   q.dimension.temperature = 0;
@@ -259,7 +260,9 @@ void FunctionUses::compare_springs(const Named& na, const Named& nb,
 void FunctionUses::compare(const Block& block_a, const Block& block_b) {
   const Named na(a_.loaded.deck(), block_a), nb(b_.loaded.deck(), block_b);
   const std::vector<Use> uses_a = uses_of(na), uses_b = uses_of(nb);
-  const auto same_number = [&](double x, double y) { return equal_(x, y, 0, true); };
+  const auto same_scale = [&](const Quantity& x, const Quantity& y) {
+    return (!x.scaled && !y.scaled) || equal_(x.value, in_first(y), 0, true);
+  };
   std::map<CellKey, bool> scales;  // all curves that it scales are the same
   for (const Use& use : uses_a) {
     const auto other =
@@ -269,8 +272,7 @@ void FunctionUses::compare(const Block& block_a, const Block& block_b) {
       continue;
     }
     const bool same = same_curve(use, *other);
-    const bool scales_same = same_number(use.x.value, in_first(other->x)) &&
-                             same_number(use.y.value, in_first(other->y));
+    const bool scales_same = same_scale(use.x, other->x) && same_scale(use.y, other->y);
     for (State* state : {&states_a_[use.id], &states_b_[other->id]}) {
       state->used = true;
       state->all_equal = state->all_equal && same;
