@@ -183,6 +183,68 @@ TEST(ShowFacts, OfAnInterfaceAreItsSidesAndValues) {
   EXPECT_EQ(v.refers_to[1].kind, "surf");
 }
 
+TEST(ShowFacts, OfANodeNameEveryFamilyOfItsElements) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 1, 0, 0).node(3, 1, 1, 0).node(4, 0, 1, 0);
+  d.node(5, 0, 0, 1).node(6, 1, 0, 1).node(7, 1, 1, 1).node(8, 0, 1, 1);
+  d.shell_part(1, 1).truss_part(2, 1).beam_part(3, 1).spring_part(4, 5).solid_part(5);
+  d.shell(1, 11, 1, 2, 3, 4).shell3(1, 12, 1, 2, 3).brick(5, 13, {1, 2, 3, 4, 5, 6, 7, 8});
+  d.bar("TRUSS", 2, 16, 1, 2).bar("BEAM", 3, 17, 1, 2, 3).bar("SPRING", 4, 18, 1, 2);
+  const Inspected in(d.text());
+  std::vector<std::string> kinds;
+  for (const Link& l : in.look("node:1").used_by)
+    kinds.push_back(l.keyword + " " + l.kind + " " + std::to_string(l.id));
+  EXPECT_THAT(kinds, ElementsAre("/SHELL shell 11", "/SH3N sh3n 12", "/BRICK brick 13",
+                                 "/TRUSS truss 16", "/BEAM beam 17", "/SPRING spring 18"));
+  EXPECT_THAT(facts_of(in.look("node:1")).back(), "parts 1 part, 2 part, 3 part, 4 part, 5 part");
+}
+
+TEST(ShowFacts, OfANodeThatMovedOrMergedSayWhereItWas) {
+  SmallDeck d;
+  d.node(1, 5, 6, 7).node(2, 20, 0, 0).group("/GRNOD/NODE/3", {1});
+  d.add("@/TRANSFORM/TRA/4 GR_NODE=3 TX=1 TY=0 TZ=-3");
+  d.add("/CNODE/0.1\n        70               20.05                 0.0                 0.0");
+  const Inspected in(d.text());
+  EXPECT_THAT(facts_of(in.look("node:1")),
+              ElementsAre("X 6.0", "Y 6.0", "Z 4.0", "X before /TRANSFORM 5.0",
+                          "Y before /TRANSFORM 6.0", "Z before /TRANSFORM 7.0"));
+  EXPECT_THAT(facts_of(in.look("node:2")), ElementsAre("X 20.0", "Y 0.0", "Z 0.0"));
+  EXPECT_THAT(facts_of(in.look("node:70")), ::testing::Contains("merged into node 2"));
+}
+
+/// The rows of /TETRA10 have two lines.
+TEST(ShowFacts, OfWhatHasSeveralLinesShowAllOfThem) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 1, 0, 0).node(3, 0, 1, 0).node(4, 0, 0, 1).solid_part(5);
+  d.add("/TETRA10/5\n        91\n         1         2         3         4");
+  d.add("        92\n         2         1         4         3");
+  const Inspected in(d.text());
+  const auto lines = [&](const char* what) {
+    std::vector<std::string> out;
+    for (const ShownCard& card : in.look(what).cards) out.emplace_back(card.line.text);
+    return out;
+  };
+  EXPECT_THAT(lines("element:92"),
+              ElementsAre("        92", "         2         1         4         3"));
+  EXPECT_THAT(lines("part:5"), ElementsAre("part", ::testing::StartsWith("         5         1")));
+}
+
+TEST(ShowFacts, OfASetAreItsListsAndOfARangeItsEnd) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 1, 0, 0).node(3, 1, 1, 0).node(4, 0, 1, 0).node(5, 2, 0, 0);
+  d.shell_part(1, 1).shell(1, 11, 1, 2, 3, 4).shell3(1, 12, 2, 5, 3);
+  d.add("/SET/GENERAL/61\nplate\nPART               1");
+  d.group("/GRNOD/GENE/62", {2, 4});
+  const Inspected in(d.text());
+  EXPECT_THAT(facts_of(in.look("set:61")),
+              ElementsAre("nodes 5", "segments 2", "edges 6", "parts 1"))
+      << "of 4 and 3 sides two are one";
+  EXPECT_THAT(facts_of(in.look("grnod:62")), ElementsAre("nodes 3"));
+  EXPECT_THAT(links_of(in, in.look("grnod:62").refers_to), ElementsAre("range /NODE/2 to 4"));
+  EXPECT_THAT(links_of(in, in.look("node:3").used_by),
+              ElementsAre("range /GRNOD/GENE/62", "node /SHELL/11", "node /SH3N/12"));
+}
+
 TEST(ShowFind, KindsHaveTheNamesThatPeopleUse) {
   const Shown s;
   const std::pair<const char*, const char*> names[] = {{"interface:40", "/INTER/TYPE7"},
