@@ -1,6 +1,10 @@
 // Pages of `deck explain` word for word, of a rule and of keywords that exist in these tests only.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <regex>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -286,6 +290,87 @@ TEST(RulePageText, CardsAreContinuedInWholeCells) {
   const std::string narrow = explain_rule(r, own(), 10);
   EXPECT_NE(narrow.find("  |          1\n  …          3         4\n  …          5\n"), narrow.npos)
       << narrow;
+}
+
+// ---- lists ----------------------------------------------------------------------------------
+
+TEST(TopicLists, OfAFamilyHaveEveryRuleOfIt) {
+  for (const std::string prefix : {"DK", "DK1", "DK20", "DK37"}) {
+    std::string list;
+    std::size_t count = 0;
+    RuleId first = RuleId::none;
+    for (const Rule& r : all_rules()) {
+      if (!id_text(r.id).starts_with(prefix)) continue;
+      if (count++ == 0) first = r.id;
+      list += fmt::format("  {:<7}{:<8}{}\n", id_text(r.id), to_string(r.severity()), r.title);
+    }
+    EXPECT_EQ(explain_topic(prefix, own(), 400),
+              fmt::format("{}: {} rules ({})\n\n{}\nShow one of them: deck explain {}\n", prefix,
+                          count, prefix == "DK" ? "all" : family_of(first), list, id_text(first)));
+  }
+  EXPECT_EQ(explain_topic("DK9", own()), "");
+}
+
+TEST(TopicLists, OfAMessagesWordsHaveItsLine) {
+  const auto& all = solver_messages();
+  for (std::size_t i = 0; i < all.size(); i += 7) {
+    const SolverMessage& m = all[i];
+    const std::string page = messages_about(m.title, 400);
+    EXPECT_TRUE(page.starts_with("Messages of the reference solver with these words\n\n  "))
+        << m.title;
+    EXPECT_NE(
+        page.find(fmt::format("\n  {:<8} {:<7} {}\n", m.number, to_string(m.severity), m.title)),
+        page.npos)
+        << page;
+  }
+  const Rule& rule = rule_of(RuleId::DK254);
+  EXPECT_NE(messages_about(rule.title, 400)
+                .find(fmt::format("Rules with these words\n\n  {:<8} {:<7} {}\n", id_text(rule.id),
+                                  to_string(rule.severity()), rule.title)),
+            std::string::npos);
+  EXPECT_EQ(messages_about("there is the error of an id 12", 400), "") << "small words only";
+}
+
+/// A rule is on the page of a message that it reports, or that its text names as one.
+TEST(MessagePage, ListsTheRulesThatNameIt) {
+  const auto named = [](const std::string& text, int number) {
+    const std::regex mention("(errors? |warnings? |messages? |\\()" + std::to_string(number) +
+                             "(?![0-9A-Za-z])(?!\\.[0-9])");
+    return std::regex_search(text, mention);
+  };
+  for (const int number : {1, 2, 5, 6, 21, 79, 94, 95, 178, 343, 499, 611, 612, 760}) {
+    const std::string page = "\n" + explain_message(number, own(), 92);
+    for (const Rule& r : all_rules()) {
+      const bool own_message =
+          std::any_of(r.messages.begin(), r.messages.end(),
+                      [&](const ReferenceMessage& m) { return m.number == number; });
+      EXPECT_EQ(page.find("\n" + std::string(id_text(r.id)) + ": ") != page.npos,
+                own_message || named(r.solver, number) || named(r.title, number))
+          << number << " " << id_text(r.id);
+      EXPECT_EQ(page.find(" of the solver as " + std::string(id_text(r.id)) + "\n") != page.npos,
+                own_message)
+          << number << " " << id_text(r.id);
+    }
+  }
+}
+
+TEST(TopicLists, NearWordsAreThoseWithinAThird) {
+  EXPECT_EQ(similar_topics("/MADE/UB", own()), std::vector<std::string>{"/MADE/UP"});
+  EXPECT_EQ(similar_topics("/MADE/XY", own()), std::vector<std::string>{"/MADE/UP"});
+  EXPECT_TRUE(similar_topics("/MAD/XYZ", own()).empty());
+  std::vector<std::string> rules;
+  for (const Rule& r : all_rules()) rules.emplace_back(id_text(r.id));
+  EXPECT_EQ(common_topics(own()), rules) << "no contacts";
+}
+
+TEST(TopicLists, ContactsComeFirstAndEveryKeywordOnce) {
+  const SchemaSet& built_in = SchemaSet::built_in();
+  const std::vector<const Schema*> all = contacts_first(built_in);
+  ASSERT_EQ(all.size(), built_in.all().size());
+  EXPECT_EQ(std::set<const Schema*>(all.begin(), all.end()).size(), all.size());
+  const char* const first[] = {"/INTER/TYPE7", "/INTER/TYPE10", "/INTER/TYPE11", "/INTER/TYPE19"};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(all[i]->keyword, first[i]);
+  for (std::size_t i = 5; i < all.size(); ++i) EXPECT_LT(all[i - 1]->keyword, all[i]->keyword);
 }
 
 }  // namespace

@@ -231,5 +231,162 @@ TEST(DiffFunctions, PointsWithoutAScaleHaveTheDimensionOfTheirAxis) {
   EXPECT_THAT(said(deck("mm", "5.0", "2022"), deck(" m", "5.0", "2022")), IsEmpty());
 }
 
+std::vector<std::string> said_of(const std::string& a, const std::string& b,
+                                 MatchBy match = MatchBy::id) {
+  const Inspected x(a), y(b);
+  std::vector<std::string> out;
+  for (const Change& c : diff_decks(x.side(), y.side(), match).changes) {
+    std::string text = fmt::format("{}/{} {}: {} -> {}", c.keyword, c.id, c.field,
+                                   value_text(c.old_value), value_text(c.new_value));
+    for (const std::int64_t id : c.gained) text += fmt::format(" +({})", id);
+    for (const std::int64_t id : c.lost) text += fmt::format(" -({})", id);
+    out.push_back(text);
+  }
+  return out;
+}
+
+struct Spring {
+  const char *k = "", *a = "2.0", *b = "4.0", *e = "6.0", *scale = "";
+  std::string f = "1.0 3.0";  ///< ordinates of function 5
+  const char* second = "6";   ///< the function that E1 scales
+  bool last_line = true;      ///< the line of E1 and AScale1
+};
+
+std::string function(int id, const std::string& y) {
+  return fmt::format("/FUNCT/{}\nf\n{:>20}{:>20}\n{:>20}{:>20}\n", id, "0.0",
+                     y.substr(0, y.find(' ')), "5.0", y.substr(y.find(' ') + 1));
+}
+
+std::string deck_of(const Spring& s) {
+  std::string text =
+      fmt::format("/PROP/SPRING/7\ns\n{:>20}\n{:>20}{:>20}{:>20}{:>20}\n{:>10}{:>20}\n", "0.1", s.k,
+                  "", s.a, s.b, "5", s.second);
+  if (s.last_line) text += fmt::format("{:>20}{:>20}{:>20}\n", "", s.e, s.scale);
+  return example_deck("@bare\n" + text + function(5, s.f) + function(6, "1.0 2.0"),
+                      SchemaSet::built_in())
+      .main;
+}
+
+/// The force is f(x) (A + B ln + E g): A may go over into f if B and E follow it.
+TEST(DiffSprings, CoefficientsCountByWhatTheyAreToTheFirst) {
+  const std::string base = deck_of({});
+  const char* const doubled = "2.0 6.0";
+  const std::vector<std::string> first = {"/PROP/SPRING/7 A: 2.0 -> 1.0"};
+  EXPECT_THAT(said_of(base, deck_of({.a = "1.0", .b = "2.0", .e = "3.0", .f = doubled})),
+              IsEmpty());
+  EXPECT_EQ(said_of(base, deck_of({.a = "1.0", .b = "4.0", .e = "3.0", .f = doubled})), first);
+  EXPECT_EQ(said_of(base, deck_of({.a = "1.0", .b = "2.0", .e = "6.0", .f = doubled})), first);
+  EXPECT_EQ(said_of(base, deck_of({.a = "1.0", .b = "2.0", .e = "3.0"})), first);
+  EXPECT_THAT(said_of(base, deck_of({.f = "1.0 4.0"})), ElementsAre("/FUNCT/5 Y [2]: 3.0 -> 4.0"));
+  EXPECT_THAT(said_of(base, deck_of({.b = "5.0"})), ElementsAre("/PROP/SPRING/7 B: 4.0 -> 5.0"));
+  // K / A is a stiffness of contacts.
+  EXPECT_EQ(said_of(deck_of({.k = "3.0"}),
+                    deck_of({.k = "3.0", .a = "1.0", .b = "2.0", .e = "3.0", .f = doubled})),
+            first);
+  // Without a second function E scales nothing.
+  const auto alone = [&](const char* e) {
+    return said_of(deck_of({.second = ""}),
+                   deck_of({.a = "1.0", .b = "2.0", .e = e, .f = doubled, .second = ""}));
+  };
+  EXPECT_THAT(alone("3.0"), IsEmpty());
+  EXPECT_THAT(alone("6.0"), IsEmpty());
+  EXPECT_THAT(alone("5.0"), ElementsAre("/PROP/SPRING/7 E1: 6.0 -> 5.0"));
+}
+
+TEST(DiffSprings, AScaleWhoseLineIsMissingIsOne) {
+  const Spring without{.e = "", .last_line = false};
+  EXPECT_THAT(said_of(deck_of(without), deck_of({.e = "1.0", .scale = "1.0"})), IsEmpty());
+  EXPECT_THAT(said_of(deck_of(without), deck_of({.e = "1.0", .scale = "2.0"})),
+              ElementsAre("/PROP/SPRING/7 AScale1: 1.0 -> 2.0"));
+  EXPECT_THAT(said_of(deck_of({.e = "3.0"}), deck_of(without)),
+              ElementsAre("/PROP/SPRING/7 E1: 3.0 -> 1.0"));
+}
+
+/// Six rows of coefficients: the third one is that of the functions with a 3 at their end.
+TEST(DiffSprings, EachRowHasItsOwnFunctions) {
+  const auto deck = [](const std::string& cells, const char* y) {
+    return example_deck("@bare\n@/PROP/SPR_BEAM/7 Mass=0.1 Inertia=0.1 fct_ID13=5 fct_ID23=6 " +
+                            cells + "\n" + function(5, y) + function(6, "1.0 2.0"),
+                        SchemaSet::built_in())
+        .main;
+  };
+  const std::string base = deck("A1=2.0 A3=2.0 B3=4.0 E3=6.0", "1.0 3.0");
+  EXPECT_THAT(said_of(base, deck("A1=2.0 A3=1.0 B3=2.0 E3=3.0", "2.0 6.0")), IsEmpty());
+  EXPECT_THAT(said_of(base, deck("A1=1.0 A3=1.0 B3=2.0 E3=3.0", "2.0 6.0")),
+              ElementsAre("/PROP/SPR_BEAM/7 A1: 2.0 -> 1.0"));
+  EXPECT_THAT(said_of(base, deck("A1=2.0 A3=1.0 B3=3.0 E3=3.0", "2.0 6.0")),
+              ElementsAre("/PROP/SPR_BEAM/7 A3: 2.0 -> 1.0", "/PROP/SPR_BEAM/7 B3: 4.0 -> 3.0"));
+  EXPECT_THAT(said_of(deck("K3=5.0 A3=2.0", "1.0 3.0"), deck("K3=5.0 A3=1.0", "2.0 6.0")),
+              ElementsAre("/PROP/SPR_BEAM/7 A3: 2.0 -> 1.0"));
+  EXPECT_THAT(said_of(deck("K1=5.0 A3=2.0", "1.0 3.0"), deck("K1=5.0 A3=1.0", "2.0 6.0")),
+              ElementsAre("/PROP/SPR_BEAM/7 A3: 2.0 -> 1.0"))
+      << "the second function counts by A3 as well";
+}
+
+/// Two shells and a triangle around node 3, and a group of them.
+std::string sheet(const std::string& group, int first = 0) {
+  SmallDeck d;
+  const auto id = [&](int n) { return first + n; };
+  d.node(id(1), 0, 0, 0).node(id(2), 4, 0, 0).node(id(3), 4, 3, 0).node(id(4), 0, 3, 0);
+  d.node(id(5), 9, 0, 0).node(id(6), 9, 3, 0).shell_part(1, 1).shell_part(2, 1);
+  d.shell(1, id(11), id(1), id(2), id(3), id(4)).shell(2, id(12), id(2), id(5), id(6), id(3));
+  d.shell3(2, id(13), id(3), id(4), id(6));
+  return d.add(group).text();
+}
+
+TEST(DiffMembers, ASetHasFourLists) {
+  const auto set = [](int part) {
+    return fmt::format("/SET/GENERAL/9\ns\nPART      {:>10}", part);
+  };
+  EXPECT_THAT(said_of(sheet(set(1)), sheet(set(1))), IsEmpty());
+  // Part 1 is shell 11; part 2 shell 12 and triangle 13, of which sides 2-3 and 3-4 are in both.
+  EXPECT_THAT(said_of(sheet(set(1)), sheet(set(2))),
+              ElementsAre("/SET/GENERAL/9 nodes: 4 -> 5 +(5) +(6) -(1)",
+                          "/SET/GENERAL/9 segments: 1 -> 2 +(12) +(13) -(11)",
+                          ::testing::StartsWith("/SET/GENERAL/9 edges: 4 -> 6 "),
+                          "/SET/GENERAL/9 parts: 1 -> 1 +(2) -(1)"));
+}
+
+TEST(DiffMembers, SegmentsMayBeginAnywhereButNotRunBackwards) {
+  const auto seg = [](std::initializer_list<int> n, int first = 0) {
+    std::string text = "/SURF/SEG/9\ns\n         1";
+    for (const int i : n) text += fmt::format("{:>10}", i == 0 ? 0 : first + i);
+    return text;
+  };
+  const std::string base = sheet(seg({1, 2, 3, 4}));
+  EXPECT_THAT(said_of(base, sheet(seg({3, 4, 1, 2}))), IsEmpty());
+  EXPECT_THAT(said_of(base, sheet(seg({4, 3, 2, 1}))),
+              ElementsAre(::testing::StartsWith("/SURF/SEG/9 segments: 1 -> 1 +")));
+  EXPECT_THAT(said_of(base, sheet(seg({1, 2, 3, 0}))),
+              ElementsAre(::testing::StartsWith("/SURF/SEG/9 segments: 1 -> 1 +")));
+  const std::string three = sheet(seg({1, 2, 3, 3}));
+  EXPECT_THAT(said_of(three, sheet(seg({2, 3, 1, 1}))), IsEmpty());
+  EXPECT_THAT(said_of(base, sheet(seg({2, 3, 4, 1}, 100), 100), MatchBy::position), IsEmpty());
+}
+
+TEST(DiffMembers, LinesAndGroupsFollowTheirNodesAndElements) {
+  const auto line = [](int a, int b) {
+    return fmt::format("/LINE/SEG/9\ns\n{:>10}{:>10}{:>10}", 1, a, b);
+  };
+  EXPECT_THAT(said_of(sheet(line(1, 2)), sheet(line(2, 1))), IsEmpty());
+  EXPECT_THAT(said_of(sheet(line(1, 2)), sheet(line(1, 3))),
+              ElementsAre(::testing::StartsWith("/LINE/SEG/9 edges: 1 -> 1 +")));
+  EXPECT_THAT(said_of(sheet(line(1, 2)), sheet(line(102, 101), 100), MatchBy::position), IsEmpty());
+  const auto shells = [](int a, int b) {
+    return fmt::format("/GRSHEL/SHEL/9\ng\n{:>10}{:>10}", a, b);
+  };
+  EXPECT_THAT(said_of(sheet(shells(11, 12)), sheet(shells(112, 111), 100), MatchBy::position),
+              IsEmpty());
+  EXPECT_THAT(said_of(sheet(shells(11, 12)), sheet(shells(112, 0), 100), MatchBy::position),
+              ElementsAre("/GRSHEL/SHEL/9 elements: 2 -> 1 -(11)"));
+  const auto nodes = [](int a, int b) {
+    return fmt::format("/GRNOD/NODE/9\ng\n{:>10}{:>10}", a, b);
+  };
+  EXPECT_THAT(said_of(sheet(nodes(1, 5)), sheet(nodes(105, 101), 100), MatchBy::position),
+              IsEmpty());
+  EXPECT_THAT(said_of(sheet(nodes(1, 5)), sheet(nodes(106, 101), 100), MatchBy::position),
+              ElementsAre("/GRNOD/NODE/9 nodes: 2 -> 2 +(106) -(5)"));
+}
+
 }  // namespace
 }  // namespace deck::test
