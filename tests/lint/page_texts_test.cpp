@@ -9,6 +9,7 @@
 #include <string>
 
 #include "deck/lint/rule.hpp"
+#include "lint/shared/example.hpp"
 #include "lint/shared/messages.hpp"
 #include "lint/shared/topics.hpp"
 
@@ -305,10 +306,11 @@ TEST(TopicLists, OfAFamilyHaveEveryRuleOfIt) {
       list += fmt::format("  {:<7}{:<8}{}\n", id_text(r.id), to_string(r.severity()), r.title);
     }
     EXPECT_EQ(explain_topic(prefix, own(), 400),
-              fmt::format("{}: {} rules ({})\n\n{}\nShow one of them: deck explain {}\n", prefix,
-                          count, prefix == "DK" ? "all" : family_of(first), list, id_text(first)));
+              fmt::format("{}: {} {} ({})\n\n{}\nShow one of them: deck explain {}\n", prefix,
+                          count, count == 1 ? "rule" : "rules",
+                          prefix == "DK" ? "all" : family_of(first), list, id_text(first)));
   }
-  EXPECT_EQ(explain_topic("DK9", own()), "");
+  EXPECT_EQ(explain_topic("DK99", own()), "");
 }
 
 TEST(TopicLists, OfAMessagesWordsHaveItsLine) {
@@ -333,19 +335,17 @@ TEST(TopicLists, OfAMessagesWordsHaveItsLine) {
 
 /// A rule is on the page of a message that it reports, or that its text names as one.
 TEST(MessagePage, ListsTheRulesThatNameIt) {
-  const auto named = [](const std::string& text, int number) {
+  for (const int number : {1, 2, 5, 6, 21, 79, 94, 95, 178, 343, 499, 611, 612, 760}) {
     const std::regex mention("(errors? |warnings? |messages? |\\()" + std::to_string(number) +
                              "(?![0-9A-Za-z])(?!\\.[0-9])");
-    return std::regex_search(text, mention);
-  };
-  for (const int number : {1, 2, 5, 6, 21, 79, 94, 95, 178, 343, 499, 611, 612, 760}) {
     const std::string page = "\n" + explain_message(number, own(), 92);
     for (const Rule& r : all_rules()) {
       const bool own_message =
           std::any_of(r.messages.begin(), r.messages.end(),
                       [&](const ReferenceMessage& m) { return m.number == number; });
       EXPECT_EQ(page.find("\n" + std::string(id_text(r.id)) + ": ") != page.npos,
-                own_message || named(r.solver, number) || named(r.title, number))
+                own_message || std::regex_search(r.solver, mention) ||
+                    std::regex_search(r.title, mention))
           << number << " " << id_text(r.id);
       EXPECT_EQ(page.find(" of the solver as " + std::string(id_text(r.id)) + "\n") != page.npos,
                 own_message)
@@ -371,6 +371,39 @@ TEST(TopicLists, ContactsComeFirstAndEveryKeywordOnce) {
   const char* const first[] = {"/INTER/TYPE7", "/INTER/TYPE10", "/INTER/TYPE11", "/INTER/TYPE19"};
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(all[i]->keyword, first[i]);
   for (std::size_t i = 5; i < all.size(); ++i) EXPECT_LT(all[i - 1]->keyword, all[i]->keyword);
+}
+
+// ---- examples -------------------------------------------------------------------------------
+
+TEST(ExampleNotation, ShowsWhatTheTextDoesNot) {
+  EXPECT_EQ(example_text("@version 44\n@limit include_depth 3\nfirst\n@file sub/a.inc\nx", own()),
+            "--- input version 44\n--- include_depth at most 3\nfirst\n--- sub/a.inc\nx\n");
+  EXPECT_EQ(example_text("@version 2022\n@bare\nfirst\n", own()), "first\n");
+  EXPECT_EQ(example_text("@/NOBODY/1 A=2\n", own()), "# no schema for /NOBODY/1\n");
+  EXPECT_EQ(example_text("@file\n@limit x\n@gzip\n", own()), "@file\n@limit x\n@gzip\n")
+      << "a name is missing: taken as it is";
+}
+
+TEST(ExampleNotation, MakesTheFilesOfADeck) {
+  const std::string units = "                  kg                  mm                  ms\n";
+  const auto head = [&](const char* version) {
+    return "#RADIOSS STARTER\n/BEGIN\nexample\n" + std::string(version) + "         0\n" + units +
+           units;
+  };
+  EXPECT_EQ(example_deck("@bare\n@version 44\nbody", own()).main,
+            head("        44") + "body\n/END\n");
+  EXPECT_EQ(example_deck("@deck\nbody", own()).main, "body");
+  const std::string whole = example_deck("body\n", own()).main;
+  EXPECT_TRUE(whole.starts_with(head("      2022") + "/MAT/ELAST/1\nsteel\n")) << whole;
+  EXPECT_TRUE(whole.ends_with("                 5.0\nbody\n/END\n")) << whole;
+  const ExampleDeck deck =
+      example_deck("@limit depth 7\na\n@file one\nb\n@gzip two\nc\n@file three\nd", own());
+  EXPECT_EQ(deck.limits, (std::vector<std::pair<std::string, int>>{{"depth", 7}}));
+  ASSERT_EQ(deck.files.size(), 3u);
+  EXPECT_EQ(deck.files[0], std::pair(std::string("one"), std::string("b\n")));
+  EXPECT_EQ(deck.files[1].first, "two");
+  EXPECT_TRUE(deck.files[1].second.starts_with("\x1f\x8b")) << "packed";
+  EXPECT_EQ(deck.files[2], std::pair(std::string("three"), std::string("d")));
 }
 
 }  // namespace
