@@ -126,8 +126,9 @@ int check_outputs(const CommonOptions& options, const std::vector<std::string>& 
     const bool device = path != "-" && stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
     if (path.empty() || device) continue;
     std::error_code ec;  // one folder may have several names
-    const std::string real = std::filesystem::weakly_canonical(path, ec).string();
-    if (named.insert(path == "-" || ec ? absolute_path(path) : real).second) continue;
+    const std::string name = absolute_path(path);
+    const std::string real = std::filesystem::weakly_canonical(name, ec).string();
+    if (named.insert(path == "-" || ec ? name : real).second) continue;
     print_error(options, "two outputs go to " +
                              (path == "-" ? std::string("standard output") : path) +
                              "; name another file for one of them");
