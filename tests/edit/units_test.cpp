@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <set>
+#include <sstream>
 
 #include "../contact/small_deck.hpp"
 #include "deck/edit/convert.hpp"
@@ -261,6 +263,105 @@ TEST(ToUnits, UndescribedZerosAreNoReasonToRefuse) {
       1u);
 }
 
+/// Cells of twenty columns from column 11 on, the numbers at their left ends.
+std::string clause_row(std::string clause, std::vector<std::string> cells) {
+  clause.resize(10, ' ');
+  for (std::string& cell : cells) {
+    cell.resize(20, ' ');
+    clause += cell;
+  }
+  return clause;
+}
+
+TEST(ToUnits, PlanesAndEllipsesOfASetAreLengthsOnTwoLines) {
+  const std::string behind = std::string(17, ' ') + "9.0\n";  // no cell of the clause
+  const std::string title = clause_row("PLANE", {"7.0", "8.0", "9.0"}) + "\n";
+  const std::string set =
+      title + "PART               1         2\n" + clause_row("PLANE", {"5.0", "6.0", "7.0"}) +
+      behind + clause_row("", {"15.0", "25.0", "0.0"}) + behind +
+      "NODE               3         4\n" + clause_row("ELLIPS", {"50.0", "", "70.0"}) + "\n" +
+      clause_row("", {"1.5", "2.5", "3.5"}) + "\nNODE               5         6\n";
+  const auto w = Whole::text(deck_of("/SET/GENERAL/9\n" + set));
+  const Rewrite r = convert(*w, "Mg,m,s");
+  const auto after = w->after(r);
+  std::vector<std::vector<double>> numbers;
+  std::istringstream in(after->main_text().substr(after->main_text().find(title)));
+  for (std::string line; std::getline(in, line) && line != "/END";) {
+    std::istringstream cells(line.substr(std::min<std::size_t>(10, line.size())));
+    numbers.emplace_back(std::istream_iterator<double>(cells), std::istream_iterator<double>());
+  }
+  EXPECT_EQ(numbers, (std::vector<std::vector<double>>{{7, 8, 9},
+                                                       {1, 2},
+                                                       {0.005, 0.006, 0.007, 9},
+                                                       {0.015, 0.025, 0, 9},
+                                                       {3, 4},
+                                                       {0.05, 0.07},
+                                                       {0.0015, 0.0025, 0.0035},
+                                                       {5, 6}}));
+  EXPECT_EQ(std::count_if(r.losses.begin(), r.losses.end(),
+                          [](const LossEntry& e) { return e.note == "10 values converted"; }),
+            1);
+  EXPECT_TRUE(std::any_of(r.notes.begin(), r.notes.end(),
+                          [](const std::string& note) { return note.starts_with("length"); }));
+  // A set with units of its own stays.
+  const auto own = Whole::text(
+      deck_of("/UNIT/5\nm\n                  kg                   m                   s\n"
+              "/SET/GENERAL/9/5\n" +
+              set));
+  EXPECT_TRUE(own->after(convert(*own, "Mg,m,s"))->contains(set));
+}
+
+TEST(ToUnits, ClausesOfASetWithCommasOrParametersAreRefusedLineByLine) {
+  const auto refusals = [](const std::string& rows) {
+    return convert(*Whole::text(deck_of("/SET/GENERAL/9\nset\n" + rows)), "Mg,m,s").refusals;
+  };
+  const std::string plain = clause_row("", {"1.0", "2.0", "3.0"}) + "\n";
+  const auto commas = refusals("PLANE     1.0,2.0,3.0\n          1.0,2.0,4.0\n");
+  ASSERT_EQ(commas.size(), 2u);
+  EXPECT_NE(commas[0].find(":9:1: /SET/GENERAL/9 PLANE: coordinates in free format or by "
+                           "parameters are not converted"),
+            std::string::npos)
+      << commas[0];
+  EXPECT_NE(commas[1].find(":10:1: "), std::string::npos) << commas[1];
+  EXPECT_EQ(refusals(clause_row("ELLIPS", {"&a"}) + "\n" + plain).size(), 1u);
+  EXPECT_EQ(refusals(clause_row("PLANE", {"1.0"}) + "\n" + plain).size(), 0u);
+  EXPECT_EQ(refusals(clause_row("PLANE", {"1.0"}) + "\n").size(), 0u)
+      << "its second line is absent";
+}
+
+TEST(ToUnits, TheToleranceOfACnodeIsALength) {
+  const std::string node =
+      "\n        20                 1.5                 0.0                 0.0\n";
+  const auto after = [&](const std::string& header) {
+    const auto w = Whole::text(deck_of(header + node));
+    return w->after(convert(*w, "Mg,m,s"))->main_text();
+  };
+  const auto contains = [](const std::string& text, const char* what) {
+    return text.find(what) != std::string::npos;
+  };
+  EXPECT_TRUE(contains(after("/CNODE/2.5"), "/CNODE/0.0025\n")) << after("/CNODE/2.5");
+  EXPECT_TRUE(contains(after("/CNODE/2.5"), " 0.0015 "));
+  EXPECT_TRUE(contains(after("/CNODE/0"), "/CNODE/0\n"));
+  EXPECT_TRUE(contains(after("/CNODE"), "/CNODE\n"));
+  const Rewrite r = convert(*Whole::text(deck_of("/CNODE/x1" + node)), "Mg,m,s");
+  ASSERT_FALSE(r.refusals.empty());
+  EXPECT_TRUE(contains(r.refusals[0], ":7:8: ")) << r.refusals[0];
+  EXPECT_TRUE(contains(r.refusals[0], "tolerance: 'x1' is not a plain number")) << r.refusals[0];
+}
+
+TEST(ToUnits, KeywordsOfIdsFlagsAndNamesNeedNoConversion) {
+  for (const char* header :
+       {"/ANALY", "/DEF_SHELL", "/DEF_SOLID", "/IOFLAG", "/MEMORY", "/SPMD", "/BCS/1", "/TH/NODE/1",
+        "/ATH/NODE/1", "/RBE2/1", "/SHFRA/1", "/CAA", "/UPWIND", "/RLINK/1", "/DUMMY_START", "/AMS",
+        "/FUNCT_PYTHON/1", "/ALE/GRID/ZERO", "/ALE/BCS/1"}) {
+    const std::string block = std::string(header) + "\nname 3.7\n                 3.7       5.5\n";
+    const auto w = Whole::text(deck_of(block));
+    const Rewrite r = convert(*w, "Mg,m,s");
+    EXPECT_TRUE(r.refusals.empty()) << r.refusals[0];
+    EXPECT_TRUE(w->after(r)->contains(block)) << header;
+  }
+}
+
 TEST(ToUnits, FieldOfUnknownDimensionIsRefusedUnlessZero) {
   const auto spring = [](const std::string& size) {
     return deck_of("/PROP/SPR_MAT/1\ns\n" + std::string(40 - size.size(), ' ') + size + "\n");
@@ -447,6 +548,46 @@ TEST(ToUnits, ParameterWithTwoMeaningsGivesWayToItsNumber) {
     bool said = false;
     for (const LossEntry& e : r.losses) said |= e.loss == Loss::kept && e.old_text == "&a";
     EXPECT_TRUE(said) << other;
+  }
+}
+
+TEST(ToUnits, AParameterThatCannotChangeSaysWhy) {
+  const std::string uses =
+      "/SENSOR/TIME/7\ns\n                  &a\n/SENSOR/TIME/8\ns\n                 -&a\n";
+  const std::string plain = "/PARAMETER/GLOBAL/REAL/1\np\na                          2.5\n";
+  struct Case {
+    std::string definition, more;
+    const char* why;  // empty: the definition is changed
+  };
+  const Case cases[] = {
+      {plain, "", ""},
+      {plain, "# &a\n$ &a\n", ""},
+      {plain,
+       "/SENSOR/TIME/9\ns\n                 &ab\n/PARAMETER/GLOBAL/REAL/3\np\nab         "
+       "                1.5\n",
+       ""},
+      {plain, "/PARAMETER/GLOBAL/REAL_EXPR/2\np\nb         2*a\n",
+       "is used in other places too, where its value must not change"},
+      {plain, "/NODE\n         1                  &a\n", "is used with several dimensions"},
+      {"/PARAMETER/GLOBAL/REAL_EXPR/1\np\na         5/2\n", "", "is not a plain real number"},
+      {"/PARAMETER/GLOBAL/REAL/1\np\na,2.5\n", "", "stands in a line in free format"}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.definition + c.more);
+    const auto w = Whole::text(deck_of(c.definition + uses + c.more));
+    const Rewrite r = convert(*w, "Mg,m,s");
+    const auto after = w->after(r);
+    EXPECT_EQ(real(*after, "/SENSOR/TIME/7", "Tdelay"), 0.0025);
+    EXPECT_EQ(real(*after, "/SENSOR/TIME/8", "Tdelay"), -0.0025);
+    const bool changes = *c.why == '\0';
+    EXPECT_EQ(after->contains(c.definition), !changes);
+    EXPECT_EQ(after->contains(uses), changes);
+    std::vector<std::string> notes;
+    for (const LossEntry& e : r.losses)
+      if (e.old_text.ends_with("&a")) notes.push_back(e.note);
+    const std::string note =
+        std::string("parameter &a ") + c.why + "; the number was written instead";
+    const std::size_t written = changes ? 0 : c.more.starts_with("/NODE") ? 3 : 2;
+    EXPECT_EQ(notes, std::vector<std::string>(written, note));
   }
 }
 

@@ -484,7 +484,9 @@ class BlockConverter {
     length.length = 1;
     const UnitFactor factor = c_.factors.of(length);
     const std::string_view text = detail::trim(b.header.substr(7));
-    if (text.empty() || factor.one() || read_real(text).value == 0) return;
+    const RealCell value = read_real(text);
+    if (text.empty() || factor.one()) return;
+    if (value.status == NumberStatus::ok && value.value == 0) return;
     const auto offset = static_cast<std::uint64_t>(text.data() - b.header.data());
     const Span place{b.header_span.file, static_cast<std::uint32_t>(text.size()),
                      b.header_span.offset + offset};
