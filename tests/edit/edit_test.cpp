@@ -418,6 +418,29 @@ TEST_F(EditValues, EveryWrongValueHasItsReason) {
             "/SENSOR/TIME/7 nothingofthekind: /SENSOR/TIME has no such field");
 }
 
+TEST_F(EditValues, TheLargestThatFitsIsTakenAndTheNextIsNot) {
+  const std::string gap = "/INTER/TYPE7/3 Gapmin: ", igap = "/INTER/TYPE7/3 Igap: ";
+  const auto taken = [&](const char* field, const CellValue& value, const std::string& text) {
+    const std::string lines = answer("/INTER", 3, field, value);
+    EXPECT_NE(lines.find(text), std::string::npos) << lines;
+    EXPECT_NE(lines.find("\n+"), std::string::npos) << lines;
+  };
+  taken("Igap", 2147483647.0, "2147483647");
+  EXPECT_EQ(answer("/INTER", 3, "Igap", 2147483648.0),
+            igap + "expected a whole number of 32 bits, not 2147483648.0");
+  taken("Igap", -999999999.0, "-999999999");
+  EXPECT_EQ(answer("/INTER", 3, "Igap", -2147483647.0),
+            igap + "'-2147483647' is longer than the 10 columns");
+  EXPECT_EQ(answer("/INTER", 3, "Igap", -2147483648.0),
+            igap + "expected a whole number of 32 bits, not -2147483648.0");
+  taken("Igap", "0000000002", "0000000002");
+  taken("Gapmin", "1.234567890123456789", "1.234567890123456789");
+  EXPECT_EQ(answer("/INTER", 3, "Gapmin", "1.2345678901234567890"),
+            gap + "'1.2345678901234567890' is longer than the 20 columns");
+  taken("IBCX", 1.0, "");
+  EXPECT_EQ(answer("/INTER", 3, "IBCX", 0.5), "/INTER/TYPE7/3 IBCX: expected 0 or 1");
+}
+
 TEST_F(EditValues, ValuesAreWrittenInTheirColumns) {
   EXPECT_EQ(answer("/SENSOR/TIME", 7, "Tdelay", 0.125),
             "-                 5.0\n+               0.125\n");

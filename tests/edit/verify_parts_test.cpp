@@ -217,5 +217,76 @@ TEST(VerifiedFigures, ARelationFollowsFromTheLosses) {
   EXPECT_FALSE(relation_of({loss(Loss::kept, "/DEFAULT/INTER/TYPE7", 0)}).lossy_defaults);
 }
 
+/// The first difference in the values of interfaces, from the deck of two contacts to one with
+/// these cards.
+std::string value_difference(const std::string& cards, const VerifyRelation& relation = {}) {
+  const auto with = [](const std::string& text) {
+    SmallDeck d;
+    d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0).node(9, 5, 5, 0.5);
+    d.shell_part(1, 2).shell(1, 21, 1, 2, 3, 4);
+    d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {9}).group("/GRNOD/NODE/3", {9});
+    return d.add(text);
+  };
+  const Built was(
+      with("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1.5 Stfac=3 Inacti=3\n"
+           "@/INTER/TYPE10/2 grnd_IDs=2 surf_IDm=1 Gap=0.25")),
+      now(with(cards));
+  const Behaviour before(was.loaded), after(now.loaded);
+  return DeckComparison(before.parts(), after.parts(), relation).values().value_or("");
+}
+
+TEST(VerifiedValues, AreComparedInterfaceByInterface) {
+  const std::string first = "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1.5 Stfac=3 Inacti=3";
+  const std::string second = "@/INTER/TYPE10/2 grnd_IDs=2 surf_IDm=1 Gap=0.25";
+  EXPECT_EQ(value_difference(first + "\n" + second), "");
+  EXPECT_THAT(value_difference(first), HasSubstr("the deck has 1 interfaces of "));
+  EXPECT_THAT(value_difference(first), HasSubstr(", expected 2"));
+  EXPECT_EQ(value_difference(first + "\n@/INTER/TYPE10/3 grnd_IDs=2 surf_IDm=1 Gap=0.25"),
+            "interface 3 is a TYPE10, expected TYPE10 and id 2");
+  EXPECT_EQ(value_difference(first + "\n@/INTER/TYPE7/2 grnd_IDs=2 surf_IDm=1 Gapmin=0.25"),
+            "interface 2 is a TYPE7, expected TYPE10 and id 2");
+  EXPECT_THAT(value_difference(
+                  "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1.5 Stfac=4 Inacti=3\n" + second),
+              HasSubstr("interface 1 Stfac is 4, expected 3"));
+  EXPECT_EQ(value_difference("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1.5 Stfac=3 Inacti=6\n" +
+                             second),
+            "interface 1 Inacti is 6, expected 3");
+  EXPECT_EQ(value_difference(first + "\n@/INTER/TYPE10/2 grnd_IDs=3 surf_IDm=1 Gap=0.25"),
+            "interface 2 grnd_IDs is 3, expected 2");
+}
+
+TEST(VerifiedValues, OfAnotherKindOfDeckAreThoseOfItsRelation) {
+  const std::string first = "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1.5 Stfac=3 Inacti=3";
+  const std::string new_ids = "\n@/INTER/TYPE10/30 grnd_IDs=3 surf_IDm=1 Gap=0.25";
+  VerifyRelation renumbered;
+  renumbered.new_ids = true;
+  EXPECT_EQ(value_difference(first + new_ids, renumbered), "");
+  EXPECT_THAT(value_difference(
+                  "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1.5 Stfac=3 Inacti=5" + new_ids,
+                  renumbered),
+              HasSubstr("interface 1 Inacti is 5"));
+  VerifyRelation extract;
+  extract.extract = true;
+  EXPECT_EQ(value_difference("@/INTER/TYPE10/2 grnd_IDs=2 surf_IDm=1 Gap=0.25", extract), "");
+  EXPECT_THAT(value_difference("@/INTER/TYPE10/2 grnd_IDs=2 surf_IDm=1 Gap=0.5", extract),
+              HasSubstr("interface 2 Gap is 0.5, expected 0.25"));
+  EXPECT_EQ(value_difference("@/INTER/TYPE7/2 grnd_IDs=2 surf_IDm=1 Gapmin=0.25", extract),
+            "there was no interface 2");
+  VerifyRelation expanded;
+  expanded.expanded = true;
+  EXPECT_EQ(
+      value_difference("@/INTER/TYPE7/2 grnd_IDs=2 surf_IDm=1 Gapmin=0.25\n" + first, expanded),
+      "");
+  VerifyRelation lossy;
+  lossy.lossy = {1};
+  const std::string other = "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=9\n";
+  EXPECT_EQ(value_difference(other + "@/INTER/TYPE10/2 grnd_IDs=2 surf_IDm=1 Gap=0.25", lossy), "");
+  EXPECT_THAT(value_difference(other + "@/INTER/TYPE10/2 grnd_IDs=2 surf_IDm=1 Gap=0.5", lossy),
+              HasSubstr("interface 2 Gap is 0.5"));
+  lossy = {};
+  lossy.lossy_defaults = true;
+  EXPECT_EQ(value_difference(other + "@/INTER/TYPE10/2 grnd_IDs=2 surf_IDm=1 Gap=0.5", lossy), "");
+}
+
 }  // namespace
 }  // namespace deck::test

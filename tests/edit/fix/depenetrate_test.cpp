@@ -1,6 +1,8 @@
 // Tests of moving nodes out of gaps. Over 600 lines: independent tests of one strategy.
 #include "edit/shared/depenetrate.hpp"
 
+#include <functional>
+
 #include "edit/fix/support.hpp"
 
 namespace deck::test {
@@ -268,6 +270,151 @@ TEST(MoveNodes, EverythingLockedLeavesTheDeckAloneAndSaysWhy) {
     EXPECT_THAT(r.reason, ::testing::HasSubstr("locked part"));
 }
 
+/// A plate of one shell at `height` over the middle of a large segment at 0, gap 1.
+SmallDeck one_over_one(double height, const std::string& cards = "") {
+  SmallDeck d;
+  d.shell_part(1, 1.0).shell_part(2, 1.0);
+  add_sheet(d, 1, 1, 2, 2, [](int i, int j) { return P{4.0 * i, 4.0 * j, 0}; });
+  add_sheet(d, 2, 101, 1, 1, [&](int i, int j) {
+    return P{1.25 + 1.5 * i, 1.375 + 1.25 * j, height};
+  });
+  if (!cards.empty()) d.add(cards);
+  return d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1}).add(plain);
+}
+
+/// Each iteration takes its share of what is lacking, at most 0.45 of the gap, until the nodes are
+/// out of the gap; depth and clearance together are lacking.
+TEST(MoveNodes, EachIterationTakesItsShareOfWhatIsLacking) {
+  struct Case {
+    double height, share, clearance;
+    int iterations;
+    double left;  // of what was lacking, at the end
+  };
+  const Case cases[] = {{0.6, 0.7, 0.001, 5, 0.401 * std::pow(0.3, 5)},
+                        {0.6, 0.5, 0.05, 4, 0.45 * std::pow(0.5, 4)},
+                        {0.75, 1, 0.01, 1, 0},
+                        {0.1, 0.7, 0.001, 7, 0.451 * std::pow(0.3, 6)}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.height);
+    const Built before(one_over_one(c.height));
+    MoveNodesOptions o = all_may_move();
+    o.secondary_only = true;
+    o.share = c.share;
+    o.clearance = c.clearance;
+    const PenetrationFix fix = moved(before, o);
+    EXPECT_EQ(fix.strategy, "move-nodes");
+    EXPECT_EQ(fix.iterations, c.iterations);
+    EXPECT_TRUE(fix.complete);
+    EXPECT_TRUE(fix.refused.empty());
+    EXPECT_EQ(fix.crossings_before + fix.crossings_after, 0u);
+    ASSERT_EQ(fix.moved.size(), 4u);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const MovedNode& m = fix.moved[k];
+      EXPECT_EQ(m.id, 101 + static_cast<std::int64_t>(k));
+      EXPECT_EQ(m.part, 2);
+      EXPECT_EQ(m.by[0], 0.0);
+      EXPECT_EQ(m.by[1], 0.0);
+      EXPECT_NEAR(m.by[2], 1 - c.height + c.clearance - c.left, 1e-5);
+      EXPECT_NEAR(m.distance, m.by[2], 1e-12);
+    }
+    ASSERT_EQ(fix.interfaces.size(), 1u);
+    const FixCount &was = fix.interfaces[0].before, &is = fix.interfaces[0].after;
+    EXPECT_EQ(std::tuple(was.pairs, was.nodes, was.untreated, was.on_surface),
+              std::tuple(4u, 4u, 4u, 0u));
+    EXPECT_NEAR(was.deepest, 1 - c.height, 1e-12);
+    EXPECT_EQ(std::tuple(is.pairs, is.nodes, is.untreated, is.on_surface, is.deepest),
+              std::tuple(0u, 0u, 0u, 0u, 0.0));
+    expect_harmless(before, fix);
+  }
+}
+
+TEST(MoveNodes, ARefusalSaysWhatHoldsEitherSide) {
+  const std::string held =
+      "/GRNOD/NODE/9\nheld\n       101       102       103       104\n"
+      "/RBODY/1\nbody\n       101         0         0         0                 0.0         9\n"
+      "/BCS/1\nfixed\n   111 111         0         9";
+  using Set = std::function<void(MoveNodesOptions&)>;
+  const std::pair<Set, const char*> cases[] = {
+      {[](auto& o) {
+         o.lock = {1, 2};
+       },
+       "both sides: locked part"},
+      {[](auto& o) { o.lock = {2}, o.secondary_only = true; },
+       "secondary: locked part; main: main sides do not give way"},
+      {[](auto& o) { o.lock = o.move = {1}; },
+       "secondary: not of the parts that may move; main: locked part"},
+      {[](auto& o) { o.lock = {1}, o.lock_rigid_bodies = true; },
+       "secondary: node of a rigid body; main: locked part"},
+      {[](auto& o) { o.lock = {1}, o.lock_boundary_conditions = true; },
+       "secondary: node of a boundary condition; main: locked part"},
+      {[](auto& o) { o.lock = {1}, o.most_displacement = 0.125; },
+       "secondary: moved as far as it may (--max-displacement); main: locked part"},
+      {[](auto& o) { o.lock = {1}, o.most_moved = 0.75; },
+       "secondary: stopped by --max-moved 75 %: needs 100 % of part 2 (4 of 4 nodes); nothing "
+       "done; main: locked part"}};
+  for (const auto& [set, reason] : cases) {
+    SCOPED_TRACE(reason);
+    const Built before(one_over_one(0.6, held));
+    MoveNodesOptions o = all_may_move();
+    set(o);
+    const PenetrationFix fix = moved(before, o);
+    EXPECT_FALSE(fix.complete);
+    EXPECT_TRUE(fix.rewrite.edits.empty());
+    ASSERT_EQ(fix.refused.size(), 4u);
+    std::set<std::int64_t> nodes;
+    for (const FixRefusal& r : fix.refused) {
+      EXPECT_EQ(r.interface_id, 1);
+      EXPECT_EQ(r.reason, reason);
+      EXPECT_NEAR(r.depth, 0.4, 1e-12);
+      ASSERT_EQ(r.nodes.size(), 1u);
+      nodes.insert(r.nodes[0]);
+    }
+    EXPECT_EQ(nodes, (std::set<std::int64_t>{101, 102, 103, 104}));
+  }
+}
+
+TEST(MoveNodes, ANodeInsideASolidIsNotPushedThroughItsFace) {
+  for (const double z : {9.5, 10.5}) {
+    SmallDeck d;
+    d.solid_part(1);
+    for (int k = 0; k < 8; ++k)
+      d.node(k + 1, k % 4 == 1 || k % 4 == 2 ? 10 : 0, k % 4 >= 2 ? 10 : 0, k < 4 ? 0 : 10);
+    d.brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8}).node(100, 5.5, 4.25, z);
+    d.group("/GRNOD/NODE/1", {100}).group("/SURF/PART/EXT/1", {1}).add(plain);
+    const Built before(d);
+    MoveNodesOptions o = all_may_move();
+    o.secondary_only = true;
+    const PenetrationFix fix = moved(before, o);
+    EXPECT_EQ(fix.complete, z > 10);
+    if (z > 10) {
+      ASSERT_EQ(fix.moved.size(), 1u);
+      EXPECT_NEAR(fix.moved[0].by[2], 0.5, 0.001);
+    } else {
+      ASSERT_EQ(fix.refused.size(), 1u);
+      EXPECT_EQ(fix.refused[0].reason,
+                "the node is inside a solid: the way out is not the way to its surface; separate "
+                "the parts first");
+    }
+  }
+}
+
+TEST(MoveNodes, CardsThatNameNodesInAnotherWayCannotBeLocked) {
+  for (const char* line : {"111 111,0,9", "   111 111         0    &group"}) {
+    const Built before(
+        one_over_one(0.6, std::string("/PARAMETER/GLOBAL/INTEGER/1\np\ngroup              9\n"
+                                      "/GRNOD/NODE/9\nheld\n       101\n/BCS/1\nfixed\n") +
+                              line));
+    MoveNodesOptions o = all_may_move();
+    EXPECT_TRUE(move_nodes(context_of(before), o).ok());
+    o.lock_boundary_conditions = true;
+    const auto fix = move_nodes(context_of(before), o);
+    ASSERT_FALSE(fix.ok());
+    EXPECT_THAT(
+        fix.error().message,
+        ::testing::EndsWith(": commas and parameters are not understood here; lock parts instead"));
+  }
+}
+
 TEST(MoveNodes, AnUnknownPartIsAnError) {
   const Built before(two_plates(1, 0.6, plain));
   MoveNodesOptions o;
@@ -522,6 +669,32 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
+}
+
+/// A plate over a tilted one: it moves along the normal, whose component along x is the slope.
+TEST(MoveNodes, ComponentsThatHardlyCountStayAsWritten) {
+  for (const double slope : {5e-4, 5e-3}) {
+    SmallDeck d;
+    d.shell_part(1, 1.0).shell_part(2, 1.0);
+    add_sheet(d, 1, 1, 4, 4, [&](int i, int j) { return P{2.0 * i, 2.0 * j, slope * 2 * i}; });
+    add_sheet(d, 2, 1001, 1, 1, [&](int i, int j) {
+      return P{3.3 + i, 3.4 + j, 0.6 + slope * (3.3 + i)};
+    });
+    d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1});
+    const Built before(d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
+    MoveNodesOptions options = all_may_move();
+    options.secondary_only = true;
+    const PenetrationFix fix = moved(before, options);
+    EXPECT_TRUE(fix.complete);
+    ASSERT_EQ(fix.moved.size(), 4U);
+    for (const MovedNode& m : fix.moved) {
+      EXPECT_LE(m.by[0], 0.0);
+      EXPECT_EQ(m.by[0] == 0.0, slope < 1e-3) << m.by[0];
+      EXPECT_EQ(m.by[1], 0.0);
+      EXPECT_GE(m.by[2], 0.4 - 1e-3);
+    }
+    expect_harmless(before, fix);
+  }
 }
 
 TEST(MoveNodes, KeepsCarriageReturns) {

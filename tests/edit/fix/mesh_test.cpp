@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <map>
+#include <vector>
 
 #include "contact/small_deck.hpp"
 
@@ -90,6 +93,50 @@ TEST(InvertedElements, ABrickWithAFlatCornerIsOne) {
   EXPECT_THAT(turned(cube(), {{7, {7, 7, 7}}}), IsEmpty());
   // Node 7 in the plane of its neighbours 3, 6 and 8.
   EXPECT_THAT(turned(cube(), {{7, {8, 8, 0}}}), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+}
+
+/// Moves each corner of an element along a straight line: up to a share of it the element keeps its
+/// side, beyond it is turned.
+TEST(InvertedElements, AreFoundAtEveryCorner) {
+  using Place = std::array<double, 3>;
+  const auto check = [](const SmallDeck& d, const std::vector<Place>& corners, double share,
+                        const std::function<Place(std::size_t)>& target) {
+    std::vector<std::int64_t> all;
+    for (std::size_t k = 0; k < corners.size(); ++k) all.push_back(static_cast<int>(k) + 1);
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      for (const double off : {-0.01, 0.01}) {
+        SCOPED_TRACE(k);
+        const Place to = target(k);
+        Place now = corners[k];
+        for (std::size_t a = 0; a < 3; ++a) now[a] += (share + off) * (to[a] - now[a]);
+        const auto found = turned(d, {{static_cast<std::int64_t>(k) + 1, now}});
+        EXPECT_EQ(found, off < 0 ? std::vector<std::int64_t>() : all);
+      }
+  };
+  const std::vector<Place> quad{{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}};
+  check(square(), quad, 0.5, [&](std::size_t k) { return quad[(k + 2) % 4]; });
+  SmallDeck triangle;
+  triangle.node(1, 0, 0, 0).node(2, 8, 0, 0).node(3, 2, 6, 0).shell_part(1, 1.0);
+  triangle.shell3(1, 1, 1, 2, 3);
+  const std::vector<Place> three{{0, 0, 0}, {8, 0, 0}, {2, 6, 0}};
+  check(triangle, three, 1, [&](std::size_t k) {
+    const Place &a = three[(k + 1) % 3], &b = three[(k + 2) % 3];
+    return Place{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, 0};
+  });
+  std::vector<Place> brick;
+  for (int i = 0; i < 8; ++i)
+    brick.push_back({i % 4 == 1 || i % 4 == 2 ? 8.0 : 0, i % 4 > 1 ? 8.0 : 0, i > 3 ? 8.0 : 0});
+  // The neighbours of a corner are in a plane that cuts off a third of the diagonal.
+  const auto opposite = [&](std::size_t k) {
+    return Place{8 - brick[k][0], 8 - brick[k][1], 8 - brick[k][2]};
+  };
+  check(cube(), brick, 1.0 / 3, opposite);
+  const std::vector<Place> four{{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 8}};
+  check(tetra(), four, 1, [&](std::size_t k) {
+    Place middle{8.0 / 3, 8.0 / 3, 8.0 / 3};
+    for (std::size_t a = 0; a < 3; ++a) middle[a] -= four[k][a] / 3;
+    return middle;
+  });
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 // moves.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "contact/small_deck.hpp"
@@ -244,6 +246,36 @@ TEST(PairStates, OfEdgesHaveSharesOfBothEnds) {
   EXPECT_EQ(key.main[2], 0u);
 }
 
+/// Of one secondary node, a pair whose closest point lies on nodes of its nearest pair says nothing
+/// new; what is two gaps away or farther says nothing at all.
+TEST(PairStates, TheStrictestComeFirst) {
+  const auto pair = [](std::uint32_t contact, std::uint32_t secondary, std::uint32_t main,
+                       double distance, int secondaries, std::array<NodeIndex, 6> nodes) {
+    detail::PairNow out;
+    out.at = {contact, secondary, main};
+    out.state.gap = 4;
+    out.state.distance = distance;
+    out.state.secondary_count = secondaries;
+    out.state.count = secondaries == 1 ? 5 : 4;
+    out.state.nodes = nodes;
+    out.state.weights = {1, -0.5, -0.5, 0, 0, 0};
+    return out;
+  };
+  const std::vector<detail::PairNow> pairs{
+      pair(0, 0, 0, 2, 1, {9, 2, 1, 5, 6}),      // follows the next one
+      pair(0, 0, 1, 1, 1, {9, 1, 2, 3, 4}),      //
+      pair(0, 0, 2, 2.5, 1, {9, 2, 5, 7, 8}),    // node 5 is not of it
+      pair(0, 1, 1, 8, 1, {10, 1, 2, 3, 4}),     // two gaps away
+      pair(0, 2, 1, 7.75, 1, {11, 1, 2, 3, 4}),  //
+      pair(1, 2, 1, 0.5, 1, {11, 1, 2, 3, 4}),   // of another contact
+      pair(2, 0, 0, 1.25, 2, {20, 21, 1, 2}),    // edges: none follows
+      pair(2, 0, 1, 1.75, 2, {20, 21, 2, 1})};
+  std::vector<std::size_t> order;
+  for (const detail::PairNow* p : strictest(pairs))
+    order.push_back(static_cast<std::size_t>(p - pairs.data()));
+  EXPECT_EQ(order, (std::vector<std::size_t>{5, 1, 6, 7, 2, 4}));
+}
+
 TEST(PartGroupsOf, JoinElementsBodiesAndTies) {
   SmallDeck d;
   const auto sheet = [&](int part, double z) {
@@ -318,6 +350,52 @@ TEST(BoundsOfMoves, AreSharesOfNormalsWithinTheReach) {
   EXPECT_EQ(place(4, {0, 0, -2}).by.z, 0);
   EXPECT_EQ(place(7, {0, 0, -2}).by.z, -2);
   EXPECT_EQ(place(7, {0, 0, 2}).by.z, 0);
+}
+
+/// Of directions at right angles each gives its own share; what is left is made as short as
+/// allowed: along each direction the reach, and in a corner of several the root of 3 times as much.
+TEST(BoundsOfMoves, OfManyNodesAtOnceAreThoseOfEach) {
+  detail::DepthBounds bounds;
+  detail::NodeMoves wanted;
+  std::vector<std::array<double, 3>> expected;
+  std::vector<bool> at_bound;
+  for (NodeIndex n = 0; n < 37; ++n) {
+    const std::size_t axes = n % 4;
+    const double sign = n % 2 == 0 ? 1 : -1, reach = 2 + n % 3;
+    const std::array<double, 3> asked{3.0 * (n % 5) - 6, 2.0 * (n % 7) - 6, 4.0 * (n % 3) - 3};
+    wanted.emplace_back(n, detail::Vec{asked[0], asked[1], asked[2]});
+    if (axes == 0) bounds.follow(n, reach);
+    std::array<double, 3> by = asked;
+    double farthest = 0;
+    for (std::size_t k = 0; k < 3 && axes > 0; ++k) {
+      by[k] = k < axes ? sign * std::max(0.0, sign * asked[k]) : 0;
+      farthest = std::max(farthest, std::abs(by[k]));
+      if (k >= axes) continue;
+      detail::PairState state;
+      state.nodes[0] = n;
+      state.count = state.secondary_count = 1;
+      bounds.add({}, state, {k == 0 ? sign : 0, k == 1 ? sign : 0, k == 2 ? sign : 0}, reach);
+    }
+    const double length = std::sqrt(by[0] * by[0] + by[1] * by[1] + by[2] * by[2]);
+    farthest = std::max(farthest, length / (axes > 1 ? std::sqrt(3.0) : 1));
+    if (farthest > reach)
+      for (double& v : by) v *= reach / farthest;
+    expected.push_back(by);
+    at_bound.push_back(farthest >= reach);
+  }
+  EXPECT_GT(std::count(at_bound.begin(), at_bound.end(), true), 9);
+  EXPECT_GT(std::count(at_bound.begin(), at_bound.end(), false), 9);
+  for (const int threads : {1, 3}) {
+    const auto places = bounds.allowed(wanted, threads);
+    ASSERT_EQ(places.size(), expected.size());
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      SCOPED_TRACE(n);
+      EXPECT_NEAR(places[n].by.x, expected[n][0], 1e-12);
+      EXPECT_NEAR(places[n].by.y, expected[n][1], 1e-12);
+      EXPECT_NEAR(places[n].by.z, expected[n][2], 1e-12);
+      EXPECT_EQ(places[n].at_bound, at_bound[n]);
+    }
+  }
 }
 
 }  // namespace
