@@ -156,6 +156,200 @@ TEST(HumanReport, ShowsBytesThatAreNoUtf8AsReplacementCharacters) {
   EXPECT_NE(lint_human(one(run), {}).find("         1\xef\xbf\xbd\n"), std::string::npos);
 }
 
+/// Findings written out here about the third line of a deck.
+struct Written {
+  explicit Written(const std::string& line)
+      : deck(std::move(*read_deck_text("a_0000.rad", "#RADIOSS STARTER\n/TITLE\n" + line + "\n",
+                                       SchemaSet::built_in()))) {
+    at = deck.sources[0].bytes().find(line, 20);
+  }
+  Diagnostic& find(std::size_t first, std::size_t length, Severity severity = Severity::warning) {
+    Diagnostic d;
+    d.rule = RuleId::DK201;
+    d.severity = severity;
+    d.message = "m" + std::to_string(result.diagnostics.size());
+    d.span = {0, static_cast<std::uint32_t>(length), at + first};
+    result.diagnostics.push_back(d);
+    return result.diagnostics.back();
+  }
+  std::string text(HumanOptions options = {}) const {
+    options.quiet = true;
+    return lint_human({{"a_0000.rad", &deck, &result, ""}}, options);
+  }
+  Deck deck;
+  std::size_t at = 0;
+  LintResult result;
+};
+
+std::string title_of(RuleId rule) { return std::string(rule_of(rule).title); }
+
+/// A card is shown in the columns behind "3 | ": if it is longer, with marks for what is cut and
+/// with ten characters behind the caret.
+TEST(HumanReport, LongLinesAreCutAroundTheCaret) {
+  std::string line;
+  for (int k = 0; k < 6000; ++k) line += static_cast<char>('a' + k % 26 - (k % 7 == 0 ? 32 : 0));
+  struct Case {
+    std::size_t size, first, length, width;  // of the line, the finding and the terminal
+    std::size_t begin, shown, carets;        // of the line
+  };
+  const Case cases[] = {
+      {300, 100, 3, 60, 59, 54, 3},      // both ends cut: 54 characters and two marks
+      {300, 5, 3, 60, 0, 55, 3},         // only the end
+      {300, 297, 3, 60, 246, 54, 3},     // only the begin
+      {56, 50, 2, 60, 0, 56, 2},         // just fits
+      {57, 2, 1, 60, 0, 55, 1},          // just does not
+      {57, 44, 1, 60, 1, 54, 1},         // one behind what has to be shown
+      {57, 45, 1, 60, 2, 55, 1},         // with the last character the end fits
+      {300, 100, 100, 60, 100, 54, 54},  // more carets than fit
+      {300, 100, 3, 0, 5, 108, 3},       // no terminal: 110 columns
+      {300, 100, 3, 10, 95, 18, 3},      // 20 columns at least
+      {6000, 3000, 3, 60, 2959, 54, 3},  // of a very long line 2000 before it are looked at
+      {6000, 5999, 1, 60, 5946, 54, 1}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(std::to_string(c.size) + " " + std::to_string(c.first));
+    Written w(line.substr(0, c.size));
+    w.find(c.first, c.length);
+    const bool before = c.begin > 0, behind = c.begin + c.shown < c.size;
+    EXPECT_EQ(w.text({.width = c.width}),
+              "warning[DK201]: m0\n --> a_0000.rad:3:" + std::to_string(c.first + 1) +
+                  "\n  |\n3 | " + (before ? "…" : "") + line.substr(c.begin, c.shown) +
+                  (behind ? "…" : "") + "\n  | " +
+                  std::string((before ? 1 : 0) + c.first - c.begin, ' ') +
+                  std::string(c.carets, '^') + "\n  |\n\n");
+  }
+}
+
+TEST(HumanReport, TheRulerCountsTheColumnsOfTheFile) {
+  std::string line(300, 'x'), marks;
+  Written w(line);
+  w.find(100, 3);
+  for (std::size_t column = 60; column < 114; ++column) marks += ruler_mark(column);
+  EXPECT_NE(w.text({.ruler = true, .width = 60}).find("\n  |\n  |  " + marks + "\n3 | …xx"),
+            std::string::npos)
+      << w.text({.ruler = true, .width = 60});
+  Written narrow("abc");
+  narrow.find(1, 1);
+  marks.clear();
+  for (std::size_t column = 1; column <= 10; ++column) marks += ruler_mark(column);
+  EXPECT_NE(narrow.text({.ruler = true}).find("\n  | " + marks + "\n3 | abc\n  |  ^\n"),
+            std::string::npos)
+      << narrow.text({.ruler = true});
+}
+
+TEST(HumanReport, TheCaretLeavesOutTheBlanksOfACell) {
+  const std::string line = "     ab   cd     e";
+  const std::tuple<std::size_t, std::size_t, std::size_t, std::size_t> cases[] = {
+      {0, 10, 5, 2}, {5, 2, 5, 2},   {6, 4, 6, 1},  {0, 3, 0, 3},
+      {7, 3, 7, 3},  {0, 18, 5, 13}, {18, 5, 18, 1}};
+  for (const auto& [first, length, caret, carets] : cases) {
+    Written w(line);
+    w.find(first, length);
+    EXPECT_NE(w.text().find("\n3 | " + line + "\n  | " + std::string(caret, ' ') +
+                            std::string(carets, '^') + "\n  |\n"),
+              std::string::npos)
+        << w.text();
+  }
+}
+
+TEST(HumanReport, FindingsOfAKindAreTogetherWithThoseThatWereNotKept) {
+  Written w("abc");
+  for (int k = 0; k < 4; ++k) w.find(static_cast<std::size_t>(k % 3), 1);
+  w.result.dropped = {{RuleId::DK201, 5}};
+  const auto full = [](int k) {
+    return "warning[DK201]: m" + std::to_string(k) +
+           "\n --> a_0000.rad:3:" + std::to_string(k % 3 + 1) + "\n  |\n3 | abc\n  | " +
+           std::string(static_cast<std::size_t>(k % 3), ' ') + "^\n  |\n";
+  };
+  const auto line = [](int k) {
+    return "  a_0000.rad:3:" + std::to_string(k % 3 + 1) + ": m" + std::to_string(k) + "\n";
+  };
+  const std::string more = "8 more of DK201: " + title_of(RuleId::DK201) + "\n";
+  EXPECT_EQ(w.text(), full(0) + more + line(1) + line(2) + line(3) +
+                          "  … and 5 more (-v shows all that are kept, in full)\n\n");
+  EXPECT_EQ(w.text({.per_rule = 3}),
+            full(0) + more + line(1) + line(2) +
+                "  … and 6 more (-v shows all that are kept, in full)\n\n");
+  EXPECT_EQ(w.text({.per_rule = 0}), w.text());
+  EXPECT_EQ(w.text({.per_rule = 2, .group = false}),
+            full(0) + "\n" + full(1) +
+                "\n... 7 more findings of DK201: " + title_of(RuleId::DK201) + "\n\n");
+  w.result.dropped.clear();
+  EXPECT_EQ(w.text({.per_rule = 0}), full(0) + "3 more of DK201: " + title_of(RuleId::DK201) +
+                                         "\n" + line(1) + line(2) + line(3) + "\n");
+  EXPECT_EQ(w.text({.per_rule = 4, .group = false}),
+            full(0) + "\n" + full(1) + "\n" + full(2) + "\n" + full(3) + "\n");
+  w.result.diagnostics.pop_back();
+  EXPECT_EQ(w.text(), full(0) + "\n" + full(1) + "\n" + full(2) + "\n") << "three are not many";
+}
+
+TEST(HumanReport, ManyRemarksOfAKindAreOneLine) {
+  Written w("abc");
+  for (int k = 0; k < 4; ++k) w.find(1, 1, Severity::info);
+  w.result.diagnostics[0].reference = ReferenceMessage{77, Severity::warning};
+  w.result.dropped = {{RuleId::DK201, 5}};
+  EXPECT_EQ(w.text(), "info[DK201]: 9 places: " + title_of(RuleId::DK201) +
+                          " (solver: warning 77)\n --> a_0000.rad:3:2, the first of them; -v shows "
+                          "all\n\n");
+  w.result.dropped.clear();
+  w.result.diagnostics.pop_back();
+  EXPECT_EQ(count_of(w.text(), "info[DK201]: m"), 3u);
+  // What nearly every deck has can be left out, where it is a remark.
+  for (Diagnostic& d : w.result.diagnostics) d.rule = RuleId::DK295;
+  EXPECT_EQ(w.text({.remarks_of_every_deck = false}), "");
+  w.result.diagnostics[1].severity = Severity::warning;
+  EXPECT_EQ(count_of(w.text({.remarks_of_every_deck = false}), "[DK295]"), 1u);
+}
+
+TEST(HumanReport, TheSummaryCountsWhatWasLeftOutAndWhatCanBeRepaired) {
+  Written w("abc");
+  LintedDeck deck{"a_0000.rad", &w.deck, &w.result, ""};
+  deck.verdict = Verdict();
+  deck.verdict->sentences = {{"a", "One thing.", {}}, {"b", "Second.", {}}, {"c", "Third.", {}}};
+  const auto summary = [&] { return lint_human({deck}, {}); };
+  EXPECT_EQ(summary(), "a_0000.rad: One thing\nSecond. Third.\n");
+  w.result.suppressed = 2;
+  w.result.baselined = 3;
+  const auto add = [&](bool safe) { w.find(0, 1).fix = Fix{"f", safe, {}}; };
+  add(false);
+  EXPECT_TRUE(
+      summary().ends_with("\na_0000.rad: One thing, 2 suppressed, 3 in the baseline; "
+                          "--unsafe-fixes 1 more\nSecond. Third.\n"))
+      << summary();
+  add(true);
+  add(true);
+  EXPECT_TRUE(summary().ends_with("; --fix repairs 2, --unsafe-fixes 1 more\nSecond. Third.\n"))
+      << summary();
+  w.result.diagnostics.erase(w.result.diagnostics.begin());
+  EXPECT_TRUE(summary().ends_with("in the baseline; --fix repairs 2\nSecond. Third.\n"))
+      << summary();
+}
+
+TEST(HumanReport, WhatWasNotCheckedNamesTheDecksUnlessItIsAll) {
+  const Written w("abc");
+  LintResult some = w.result, others = w.result;
+  some.not_checked = {{"a", "why a"}, {"b", "why b"}};
+  others.not_checked = {{"b", "why b"}};
+  std::vector<LintedDeck> decks;
+  const auto add = [&](const char* path, const LintResult& result) {
+    decks.push_back({path, &w.deck, &result, ""});
+    decks.back().verdict = Verdict();
+  };
+  add("p", some);
+  add("q", others);
+  add("r", some);
+  const auto list = [&] {
+    const std::string text = lint_human(decks, {});
+    const auto begin = text.find("not checked:\n"), end = text.find(" decks: ");
+    return begin == text.npos ? "" : text.substr(begin, text.rfind('\n', end) + 1 - begin);
+  };
+  EXPECT_EQ(list(), "not checked:\n  - a: why a [p, r]\n  - b: why b\n");
+  add("s", some);
+  EXPECT_EQ(list(), "not checked:\n  - a: why a [p, r, s]\n  - b: why b\n");
+  add("t", some);
+  add("u", some);
+  EXPECT_EQ(list(), "not checked:\n  - a: why a [p, r, s, … and 2 more decks]\n  - b: why b\n");
+}
+
 TEST(JsonReport, HoldsWhatTheContractPromises) {
   const Linted run = lint_example("@/INTER/TYPE10/1 Inacti=5\n", only("DK254"));
   const auto json = nlohmann::json::parse(lint_json(one(run)));

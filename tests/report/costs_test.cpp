@@ -161,6 +161,74 @@ TEST(Costs, OfATerminalAreATableOfContactsAndOneOfEffects) {
   EXPECT_EQ(cost_text(t.input, {}), "");
 }
 
+TEST(Costs, OfAPageAreARowForEveryEffectThatRuns) {
+  Timed t;
+  const auto& ordered = t.b.scene.interfaces->ordered;
+  const auto because = [&](std::size_t i) {
+    return effect_lines(t.b.deck, t.outcome, *ordered.at(i)).at(0).because;
+  };
+  const std::string head =
+      "<table><thead><tr><th>Interface</th><th>Effect</th><th>Because of</th><th>Adds ns per "
+      "pair</th></tr></thead><tbody>\n";
+  const auto row = [&](int id, const std::string& why, const std::string& added) {
+    return "<tr><td>" + std::to_string(id) + "</td><td>friction-viscous</td><td>" + why +
+           "</td><td>" + added + "</td></tr>\n";
+  };
+  const std::string end = "</tbody></table>\n";
+  const std::string all = "<h2>Effects</h2>\n<p>" + cost_sentence(t.input) + "</p>\n" + head;
+  const std::string first = because(0), second = because(1);
+  EXPECT_EQ(cost_html(t.input), all + row(1, first, "2.5") + row(2, second, "under 2.0") + end);
+  t.costs[0].effects[0].why_not = "not with it";
+  t.costs[1].effects[0].on = false;
+  EXPECT_EQ(cost_html(t.input), all + row(1, first, "") + row(2, second, "") + end);
+  // Two contacts of one interface, as those of a TYPE19, are in one row.
+  t.costs[0].effects[0].why_not.clear();
+  t.costs[1].effects[0].on = true;
+  t.outcome.contacts[1].contact = t.outcome.contacts[0].contact;
+  EXPECT_EQ(cost_html(t.input), all + row(1, first, "2.5, under 2.0") + end);
+  t.input.costs = nullptr;
+  EXPECT_EQ(cost_html(t.input), "<h2>Effects</h2>\n" + head + row(1, first, "") + end);
+}
+
+TEST(Costs, OfAContactAreOneObject) {
+  Timed t;
+  t.costs[1].all = "Ifric=3";
+  t.costs[1].measured = 4;
+  EXPECT_EQ(t.written()["contacts"][1]["cost"],
+            Json({{"pairs", 1},
+                  {"measured", 4},
+                  {"margin", 1.0},
+                  {"problem", ""},
+                  {"loop_ns", 50.0},
+                  {"flags_ns", 20.0},
+                  {"all_ns", 70.0},
+                  {"all", "Ifric=3"},
+                  {"effects",
+                   {{{"name", "friction-viscous"},
+                     {"on", true},
+                     {"against", "no friction"},
+                     {"ns", 0.5},
+                     {"low", -1.0},
+                     {"high", 2.0},
+                     {"change", 1e-5}},
+                    {{"name", "tie"}, {"on", false}, {"why_not", "TYPE10 only"}}}}}));
+  t.costs.pop_back();
+  EXPECT_TRUE(t.written()["contacts"][1]["cost"].is_null()) << "nothing was measured of it";
+}
+
+TEST(Costs, RangesWithZeroInThemGiveTheirFartherEnd) {
+  Timed t;
+  const std::tuple<double, double, double, const char*> cases[] = {
+      {3.0, 1.0, 4.0, "3.0"},       {-3.0, -4.0, -1.0, "-3.0"},    {1.0, -5.0, 4.0, "under 5.0"},
+      {1.0, 0.0, 4.0, "under 4.0"}, {1.0, -4.0, 0.0, "under 4.0"}, {12.4, 11.0, 13.0, "12"},
+      {9.99, 9.0, 11.0, "10.0"},    {10.0, 9.0, 11.0, "10"}};
+  for (const auto& [ns, low, high, text] : cases) {
+    t.costs[0].effects[0] = Timed::effect("friction-viscous", ns, low, high, 0.5);
+    EXPECT_THAT(cost_html(t.input), HasSubstr(std::string("<td>") + text + "</td></tr>\n<tr><td>2"))
+        << text;
+  }
+}
+
 TEST(Costs, TheShortSentenceIsAlwaysSaid) {
   Timed t;
   EXPECT_EQ(short_cost_sentence(t.input), "1 of 2 effects run; too few pairs to time.");

@@ -1,6 +1,7 @@
 // A listing beside its deck in JSON and in words, from a comparison that is written out here.
 #include <gmock/gmock.h>
 
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -336,8 +337,11 @@ TEST(ListingTexts, ListTheDeepestPairsAndThoseOfTheListingOnly) {
   // What deck alone has is shown with -v whatever the bound.
   EXPECT_THAT(l.text(true, 1), ContainsRegex("\n +1 +5 .*\n +1 +7 .* no +nothing\n +1 +8 .* no "
                                              "+nothing\n +1 +81 .*\n +1 +82 83"));
+  EXPECT_THAT(l.text(true, 1), Not(ContainsRegex("\n +1 +6 +1 2 3 4"))) << "it is listed";
+  EXPECT_THAT(l.text(true, 2), ContainsRegex("\n +1 +6 +1 2 3 4"));
   l.report.contacts[0].by_pair = false;
   EXPECT_THAT(l.text(), HasSubstr("not shown"));
+  EXPECT_THAT(l.text(true, 1), Not(ContainsRegex("\n +1 +7 +1 2 3 4"))) << "no pairs are listed";
 }
 
 TEST(ListingTexts, CompareTimeSteps) {
@@ -445,6 +449,55 @@ TEST(CompareListings, FromLevelSixOnOnlyWhatHasADepthPenetrates) {
   EXPECT_TRUE(counted.contacts.at(0).agrees());
   Listing quiet = listing_with(pairs, 0);
   EXPECT_FALSE(compare_listing(quiet, d.loaded).contacts.at(0).by_pair);
+}
+
+TEST(CompareListings, PlacesAreTheHeadersOfWhatIsNamed) {
+  Inspected d(plates(
+      {.before =
+           "/FUNCT/3\nf\n                 0.0                 1.0\n"
+           "                 1.0                 2.0\n/FUNCT_SMOOTH/13\nf\n"
+           "                 0.0                 1.0\n/SENSOR/TIME/4\ns\n                 5.0\n"
+           "/SKEW/FIX/5\ns\n\n\n/RBODY/6\nr\n         1\n/RWALL/PLANE/7\nw\n"
+           "/MONVOL/PRES/8\nm\n/SECT/9\ns\n/RBE2/10\nr\n/RBE3/11\nr"}));
+  const std::tuple<const char*, std::int64_t, const char*> named[] = {
+      {"FUNCTION", 3, "/FUNCT/3"},
+      {"FUNCTION", 13, "/FUNCT_SMOOTH/13"},
+      {"SENSOR", 4, "/SENSOR/TIME/4"},
+      {"SKEW", 5, "/SKEW/FIX/5"},
+      {"RIGID BODY", 6, "/RBODY/6"},
+      {"RIGID WALL", 7, "/RWALL/PLANE/7"},
+      {"SECTION", 9, "/SECT/9"},
+      {"RBE2", 10, "/RBE2/10"},
+      {"RBE3", 11, "/RBE3/11"},
+      {"PART", 2, "/PART/2"},
+      {"MATERIAL", 1, "/MAT/ELAST/1"},
+      {"MAIN SURFACE", 1, "/SURF/PART/1"},
+      {"NODE GROUP", 2, "/GRNOD/PART/2"},
+      {"INTERFACE", 1, "/INTER/TYPE7/1"},
+      {"MONITORED VOLUME", 8, "/MONVOL/PRES/8"},
+      {"MONITORED VOLUME", 7, ""},
+      {"GAUGE", 3, ""},
+      {"SURFACES", 1, ""}};
+  Listing listing;
+  for (const auto& [kind, id, header] : named) {
+    ListedMessage m;
+    m.number = 5;
+    m.severity = Severity::error;
+    m.ids = {{kind, id, ""}};
+    listing.messages.push_back(m);
+  }
+  const ListingReport report = compare_listing(listing, d.loaded);
+  ASSERT_EQ(report.messages.size(), 1u);
+  ASSERT_EQ(report.messages[0].places.size(), std::size(named));
+  for (std::size_t i = 0; i < std::size(named); ++i) {
+    const auto& [kind, id, header] = named[i];
+    const MessagePlace& place = report.messages[0].places[i];
+    std::string words = kind;
+    for (char& c : words) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    EXPECT_EQ(place.name, words + " " + std::to_string(id));
+    EXPECT_EQ(place.id, id);
+    EXPECT_EQ(place.span.valid() ? d.deck.sources.text(place.span) : "", header) << kind;
+  }
 }
 
 TEST(CompareListings, StepsAreEqualWithinAMillionth) {

@@ -2,10 +2,12 @@
 // document, the table and the CSV file.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
@@ -122,6 +124,39 @@ TEST(PartsView, NodesOfAnEdgeOrOfLessThanAnElementAreNoPart) {
   SmallDeck d = ten_parts().group("/GRNOD/NODE/80", {41, 42, 11, 12, 21, 52, 58});
   const Parted p(d.add("@/INTER/TYPE7/1 grnd_IDs=80 surf_IDm=3 Gapmin=1"));
   EXPECT_EQ(p.seen_by(1), (Ids{3}));
+}
+
+/// All groups of four nodes of a brick: four that have a coordinate in common are a face.
+TEST(PartsView, ABrickIsSeenByItsSixFacesOnly) {
+  SmallDeck d;
+  const auto corner = [](int k) {
+    return std::array{k % 4 == 1 || k % 4 == 2 ? 5 : 0, k % 4 >= 2 ? 7 : 0, k < 4 ? 0 : 9};
+  };
+  for (int k = 0; k < 8; ++k) d.node(k + 1, corner(k)[0], corner(k)[1], corner(k)[2]);
+  d.node(11, 0, 0, 20).node(12, 5, 0, 20).node(13, 5, 5, 20).node(14, 0, 5, 20);
+  d.solid_part(1).brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8});
+  d.shell_part(2, 1).shell(2, 2, 11, 12, 13, 14).group("/SURF/PART/1", {2});
+  Ids faces;
+  int id = 0;
+  for (int bits = 0; bits < 256; ++bits) {
+    std::vector<int> nodes;
+    std::array<std::set<int>, 3> places;
+    for (int k = 0; k < 8; ++k) {
+      if ((bits >> k & 1) == 0) continue;
+      nodes.push_back(k + 1);
+      for (std::size_t a = 0; a < 3; ++a) places[a].insert(corner(k)[a]);
+    }
+    if (nodes.size() != 4) continue;
+    ++id;
+    if (places[0].size() == 1 || places[1].size() == 1 || places[2].size() == 1)
+      faces.push_back(id);
+    d.group(("/GRNOD/NODE/" + std::to_string(100 + id)).c_str(), nodes);
+    d.add("@/INTER/TYPE7/" + std::to_string(id) + " grnd_IDs=" + std::to_string(100 + id) +
+          " surf_IDm=1 Gapmin=1");
+  }
+  ASSERT_EQ(id, 70);
+  ASSERT_EQ(faces.size(), 6u);
+  EXPECT_EQ(Parted(d).part(1).interfaces, faces);
 }
 
 TEST(PartsView, MoreThanSixtyFourGroupsAreAllLookedAt) {
