@@ -4,15 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <random>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "contact/modern/parts.hpp"
 #include "contact/modern/patch_rule.hpp"
 #include "contact/small_deck.hpp"
+#include "deck/contact/closest.hpp"
 
 namespace deck::test {
 namespace {
@@ -728,6 +731,408 @@ TEST(Type25, GapZeroOnBordersTakesTheLastSideOfTrianglesForOne) {
   EXPECT_EQ(gap(2, 1), 0.5);
   EXPECT_EQ(gap(2, 2), 0) << "the second triangle has its last side from 2 3 to 2 2";
   EXPECT_EQ(gap(2, 3), 0);
+}
+
+/// A node of no mesh that is put where a test wants it, over the segments of a scene.
+class Probe {
+ public:
+  static constexpr double slack = 1e-11;  ///< far above the round-off of places up to 20
+
+  explicit Probe(Laid& l) : l_(l) {
+    for (auto* axis : {&l.scene.coordinates.x, &l.scene.coordinates.y, &l.scene.coordinates.z})
+      axis->push_back(0);
+    node.node = static_cast<NodeIndex>(l.scene.coordinates.x.size() - 1);
+  }
+  void put(const Vec& p) {
+    Coordinates& x = l_.scene.coordinates;
+    std::tie(x.x[node.node], x.y[node.node], x.z[node.node]) = std::tie(p.x, p.y, p.z);
+  }
+  Vec corner(std::uint32_t face, std::size_t k) const {
+    return detail::at(l_.scene.coordinates, l_.s.nodes_of(face)[k % 4]);
+  }
+  /// A place near a segment: over it, beside its sides and corners.
+  Vec near(std::uint32_t face, std::mt19937& random) const {
+    std::uniform_real_distribution<double> along(-0.25, 1.25), up(-1.6, 1.6);
+    const double r = along(random), s = along(random);
+    const Vec low = (1 - r) * corner(face, 0) + r * corner(face, 1);
+    const Vec high = (1 - r) * corner(face, 3) + r * corner(face, 2);
+    const Vec normal =
+        unit(cross(corner(face, 2) - corner(face, 0), corner(face, 3) - corner(face, 1)));
+    return (1 - s) * low + s * high + up(random) * normal;
+  }
+  detail::modern::PairFigures figures(std::uint32_t face, double by = -1,
+                                      unsigned facets = detail::modern::all_facets) const {
+    return evaluate_pair(l_.scene.coordinates, l_.s, *l_.topology, node, face, facets, by);
+  }
+  bool left_out(std::uint32_t face, const detail::modern::PairFigures& p) const {
+    const detail::modern::Face f = l_.s.face(face);
+    return (f.sheet() && p.behind > 0) || (p.excluded && f.kind != SegmentKind::solid);
+  }
+  /// Holds what is not in doubt against exact arithmetic. True: it is in doubt.
+  bool expect_exact(std::uint32_t face, bool depth_too) {
+    const auto p = figures(face, slack);
+    if (p.doubtful) return true;
+    const std::array rules{facet_rule(l_.scene.coordinates, l_.s, *l_.topology, node, face)};
+    const auto exact = detail::modern::exact_choice(rules, p.penetration > 0);
+    EXPECT_EQ(!exact, left_out(face, p)) << face;
+    if (!exact || left_out(face, p)) return false;
+    EXPECT_EQ(exact->penetrates, p.penetration > 0) << face;
+    if (p.other_facets) return false;
+    EXPECT_NEAR(exact->distance, std::sqrt(p.distance_squared), 1e-9);
+    EXPECT_NEAR(exact->gap, p.gap, 1e-9);
+    if (depth_too) {
+      EXPECT_NEAR(exact->depth, p.penetration, 1e-9);
+    }
+    return false;
+  }
+
+  detail::modern::SideNode node;
+
+ private:
+  Laid& l_;
+};
+
+/// Sheets and blocks, every other one with coats, uneven gaps and gaps limited by lengths; both
+/// shapes of borders.
+struct ProbedScene {
+  explicit ProbedScene(unsigned seed)
+      : random(seed), l(deck_of(seed)), probe(l), solid(seed % 2 == 1) {
+    std::uniform_real_distribution<double> gap(0.3, 0.9);
+    if (seed % 4 < 2)
+      for (double& g : l.s.main_gap) g = gap(random);
+    for (std::uint32_t i = 0; solid && i < l.s.faces.size(); i += 3)
+      if (l.s.faces[i].kind == SegmentKind::solid) l.s.faces[i].kind = SegmentKind::coat;
+  }
+  static SmallDeck deck_of(unsigned seed) {
+    SmallDeck d = seed % 2 == 1 ? blocks(seed) : sheets(seed);
+    return d.add("@/INTER/TYPE25/1 surf_ID1=3" + std::string(seed % 3 == 0 ? "" : " Ishape=2") +
+                 (seed % 5 == 0 ? " Igap=3 %mesh_size=0.3" : ""));
+  }
+  void next_node() {
+    const double gaps[] = {0.05, 0.3, 0.6, 0};
+    probe.node.gap = gaps[random() % 4];
+    probe.node.length = l.s.set.local() ? 0.4 : detail::modern::never;
+  }
+  std::uint32_t any_face() { return static_cast<std::uint32_t>(random() % l.s.count()); }
+
+  std::mt19937 random;
+  Laid l;
+  Probe probe;
+  bool solid;
+};
+
+TEST(Type25, PairsThatAreNotInDoubtAreThoseOfExactArithmetic) {
+  std::size_t all = 0, doubtful = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    ProbedScene scene(seed);
+    for (int k = 0; k < 150; ++k, ++all) {
+      scene.next_node();
+      const std::uint32_t face = scene.any_face();
+      scene.probe.put(scene.probe.near(face, scene.random));
+      doubtful += scene.probe.expect_exact(face, true);
+      EXPECT_TRUE(scene.probe.figures(face, detail::modern::never).doubtful);
+    }
+  }
+  EXPECT_LT(doubtful, all / 100) << "places at random are in no doubt";
+}
+
+// Between two places of which one counts, or penetrates, or is over another facet: where that
+// changes, to the last digit.
+TEST(Type25, PairsAreInDoubtWhereRoundOffDecides) {
+  std::size_t met = 0, doubtful = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    ProbedScene scene(seed);
+    for (int k = 0; k < 100; ++k) {
+      scene.next_node();
+      const std::uint32_t face = scene.any_face();
+      const auto seen = [&](const Vec& p) {
+        scene.probe.put(p);
+        const auto f = scene.probe.figures(face);
+        return std::tuple(scene.probe.left_out(face, f), f.penetration > 0, f.normal.x);
+      };
+      Vec a = scene.probe.near(face, scene.random), b = scene.probe.near(face, scene.random);
+      const auto of_a = seen(a);
+      if (seen(b) == of_a) continue;
+      for (int step = 0; step < 60; ++step) {
+        const Vec middle = 0.5 * (a + b);
+        (seen(middle) == of_a ? a : b) = middle;
+      }
+      for (const Vec& p : {a, b}) {
+        scene.probe.put(p);
+        doubtful += scene.probe.expect_exact(face, false);
+        ++met;
+      }
+    }
+  }
+  EXPECT_GT(met, 1000u);
+  EXPECT_GT(doubtful, met / 4);
+}
+
+TEST(Type25, TheNearestOfSomeFacetsIsTheNearestOfEach) {
+  using namespace detail::modern;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    ProbedScene scene(seed);
+    const Coordinates& x = scene.l.scene.coordinates;
+    for (int k = 0; k < 100; ++k) {
+      const std::uint32_t face = scene.any_face();
+      const Face f = scene.l.s.face(face);
+      scene.probe.put(scene.probe.near(face, scene.random));
+      const Vec q = detail::at(x, scene.probe.node.node);
+      const auto corner = [&](std::size_t c) { return scene.probe.corner(face, c); };
+      const Vec centre =
+          f.triangle() ? corner(2) : 0.25 * (corner(0) + corner(1) + corner(2) + corner(3));
+      std::array<double, 4> each{};
+      for (std::size_t side = 0; side < (f.triangle() ? 1u : 4u); ++side) {
+        // A triangle of its own.
+        const std::array<Point3<double>, 4> p{corner(side), corner(side + 1), centre, centre};
+        const double d = closest_on_segment<Form::robust>(q, p, true).distance();
+        const PairFigures one = scene.probe.figures(face, -1, 1U << side);
+        each[side] = one.distance_squared;
+        EXPECT_NEAR(std::sqrt(one.distance_squared), d, 1e-9);
+        const Vec normal = unit(cross(corner(side) - centre, corner(side + 1) - centre));
+        EXPECT_NEAR(norm(one.normal - normal), 0, 1e-12);
+        EXPECT_NEAR(one.behind, dot(normal, centre - q), 1e-12);
+      }
+      for (unsigned mask = 1; mask < (f.triangle() ? 2u : 16u); ++mask) {
+        double least = 1e30;
+        for (std::size_t side = 0; side < 4; ++side)
+          if ((mask >> side & 1U) != 0) least = std::min(least, each[side]);
+        EXPECT_EQ(facet_distance_squared(x, f, scene.probe.node.node, mask), least) << mask;
+        const double chosen = scene.probe.figures(face, -1, mask).distance_squared;
+        EXPECT_GE(chosen, least);
+        EXPECT_LE(chosen, 1.03 * least * (1 + 1e-12));
+      }
+    }
+  }
+}
+
+// A sheet of 4 by 4 squares of 10: the middle of an inner one, and of one at the border.
+TEST(Type25, NodesOnASegmentOrExactlyAtTheGapAreInNoDoubt) {
+  SmallDeck d;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j) d.node(1 + 5 * i + j, 10 * i, 10 * j, 0);
+  d.shell_part(1, 2);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const int a = 1 + 5 * i + j;
+      d.shell(1, 1 + 4 * i + j, a, a + 5, a + 6, a + 1);
+    }
+  d.group("/SURF/PART/1", {1}).add("@/INTER/TYPE25/1 surf_ID1=1");
+  Laid l(d);
+  Probe probe(l);
+  const auto doubtful = [&](double x, double y, double z, double node_gap, double corner_gap) {
+    l.s.main_gap.assign(l.s.main_gap.size(), corner_gap);
+    probe.node.gap = node_gap;
+    probe.put({x, y, z});
+    for (std::uint32_t face = 0; face < l.s.faces.size(); ++face)
+      if (const Vec low = probe.corner(face, 0), high = probe.corner(face, 2);
+          std::min(low.x, high.x) < x && x < std::max(low.x, high.x) &&
+          std::min(low.y, high.y) < y && y < std::max(low.y, high.y)) {
+        const double up = probe.figures(face).behind > 0 ? 1 : 0;
+        const std::uint32_t seen = up == 0 ? face : l.s.faces[face].opposite;
+        return probe.figures(seen, Probe::slack).doubtful;
+      }
+    ADD_FAILURE() << "no segment there";
+    return true;
+  };
+  for (const double y : {11.0, 15.5, 13.0}) {
+    EXPECT_FALSE(doubtful(12, y, 0, 0.75, 1)) << "on it";
+    EXPECT_TRUE(doubtful(12, y, 1e-13, 0.75, 1)) << "hardly above it";
+    EXPECT_FALSE(doubtful(12, y, 1e-10, 0.75, 1));
+    EXPECT_FALSE(doubtful(12, y, 1.75, 0.75, 1)) << "at the gap";
+    EXPECT_FALSE(doubtful(12, y, -1.75, 0.75, 1));
+    EXPECT_FALSE(doubtful(12, y, std::nextafter(1.75, 2), 0.75, 1));
+    EXPECT_FALSE(doubtful(12, y, std::nextafter(1.75, 0), 0.75, 1));
+  }
+  // 0.1 + 0.2 is less than the double 0.30000000000000004 and more than 0.3.
+  EXPECT_TRUE(doubtful(12, 13, 0.3, 0.1, 0.2));
+  EXPECT_FALSE(doubtful(12, 13, std::nextafter(0.3, 0), 0.1, 0.2));
+  EXPECT_FALSE(doubtful(12, 13, 0.1 + 0.2, 0.1, 0.2));
+  EXPECT_TRUE(doubtful(2, 15, 1.75, 0.75, 1)) << "beside a border";
+  EXPECT_FALSE(doubtful(2, 15, 1.5, 0.75, 1));
+  // Uneven gaps, and those that lengths limit.
+  l.s.set.igap = 3;
+  EXPECT_TRUE(doubtful(12, 13, 1.75, 0.75, 1));
+}
+
+// --- edges
+
+std::vector<detail::modern::SideEdge> edges_of(Laid& l) {
+  return make_edges(l.context, l.s, *l.topology);
+}
+
+TEST(Type25, EdgesOfSheetsAreListedOnceWithWhatTheirSegmentsHave) {
+  using namespace detail::modern;
+  SmallDeck d = sheets(4);
+  d.add("@/INTER/TYPE25/1 surf_ID1=3 Inacti=5 Iedge=2");
+  Laid l(d);
+  std::mt19937 random(2);
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> segments;
+  for (std::uint32_t f = 0; f < l.s.faces.size(); ++f) {
+    Face& face = l.s.faces[f];
+    face.stiffness = face.back_stiffness = static_cast<double>(random() % 4);
+    face.gap = 0.25 + 0.125 * static_cast<double>(random() % 4);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::int64_t a = l.built.model.node_id(face.nodes[k]),
+                         b = l.built.model.node_id(face.nodes[(k + 1) % 4]);
+      if (a != b) segments[std::minmax(a, b)].push_back(f);
+    }
+  }
+  const std::vector<SideEdge> edges = edges_of(l);
+  ASSERT_EQ(edges.size(), segments.size());
+  auto it = segments.begin();
+  for (const SideEdge& e : edges) {
+    const auto& [ids, of] = *it++;
+    EXPECT_EQ(std::pair(l.built.model.node_id(e.nodes[0]), l.built.model.node_id(e.nodes[1])), ids);
+    const Face &a = l.s.faces[of.front()], &b = l.s.faces[of.back()];
+    EXPECT_EQ(e.free(), of.size() == 1);
+    EXPECT_EQ(e.gap, std::max(a.gap, b.gap));
+    const double both = a.stiffness * b.stiffness;
+    EXPECT_DOUBLE_EQ(e.stiffness, both == 0 ? std::max(a.stiffness, b.stiffness)
+                                            : 2 / (1 / a.stiffness + 1 / b.stiffness));
+    EXPECT_EQ(e.kind, 2);
+    EXPECT_EQ(e.length, never);
+    const Quad nodes = l.s.nodes_of(e.face);
+    EXPECT_EQ(std::minmax(nodes[e.side], nodes[(e.side + 1) % 4]),
+              std::minmax(e.nodes[0], e.nodes[1]));
+  }
+  for (const int iedge : {0, 10, 20}) {
+    l.s.set.iedge = iedge;
+    EXPECT_EQ(edges_of(l).size(), 0u) << "edges of solids alone";
+  }
+}
+
+TEST(Type25, EdgesOfSolidsAreThoseThatTheTensOfIedgeWant) {
+  using namespace detail::modern;
+  // Two cubes in a row: 16 edges of a right angle, 4 flat ones between.
+  SmallDeck d;
+  const double y[4] = {0, 2, 2, 0}, z[4] = {0, 0, 2, 2};
+  for (int level = 0; level < 3; ++level)
+    for (int k = 0; k < 4; ++k) d.node(1 + 4 * level + k, 2 * level, y[k], z[k]);
+  d.solid_part(1).brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8}).brick(1, 2, {5, 6, 7, 8, 9, 10, 11, 12});
+  d.group("/SURF/PART/EXT/1", {1}).add("@/INTER/TYPE25/1 surf_ID1=1 Inacti=5 Iedge=11");
+  Laid l(d);
+  const auto counted = [&](int tens, double cos_edge) {
+    l.s.set.iedge = 10 * tens + 1;
+    l.s.set.cos_edge = cos_edge;
+    std::pair<std::size_t, std::size_t> sharp_and_flat;
+    for (const SideEdge& e : edges_of(l))
+      ++(e.kind == 1 ? sharp_and_flat.first : sharp_and_flat.second);
+    return sharp_and_flat;
+  };
+  using Counts = std::pair<std::size_t, std::size_t>;
+  EXPECT_EQ(counted(0, 0.5), (Counts{0, 0}));
+  EXPECT_EQ(counted(1, 0.5), (Counts{16, 4}));
+  EXPECT_EQ(counted(2, 0.5), (Counts{20, 0}));
+  EXPECT_EQ(counted(3, 0.5), (Counts{16, 0}));
+  EXPECT_EQ(counted(4, 0.5), (Counts{0, 0}));
+  EXPECT_EQ(counted(1, 0), (Counts{0, 20})) << "the cosine of a right angle itself";
+  EXPECT_EQ(counted(1, 1e-9), (Counts{16, 4}));
+  EXPECT_EQ(counted(1, 1), (Counts{16, 4}));
+  EXPECT_EQ(counted(1, 1.01), (Counts{20, 0}));
+  EXPECT_EQ(counted(3, -0.5), (Counts{0, 0}));
+}
+
+/// A strip of 2 by 20 quads around a circle that is open by twice `half_open`.
+SmallDeck open_ring(double half_open, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shift(-0.1, 0.1);
+  SmallDeck d;
+  d.shell_part(1, 0.9);
+  const int n = 20;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const double turn = half_open + (6.283185307179586 - 2 * half_open) * i / n;
+      const double radius = 3 + shift(random);
+      d.node(1 + 3 * i + j, radius * std::cos(turn), 1.2 * j + shift(random),
+             radius * std::sin(turn));
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const int a = 1 + 3 * i + j;
+      d.shell(1, 1 + 2 * i + j, a, a + 3, a + 4, a + 1);
+    }
+  return d.group("/SURF/PART/1", {1});
+}
+
+/// Whether two edges are near along the mesh, seen from the first: straight or along edges they are
+/// within `limit`, and a chain of such edges leads from one to the other.
+std::vector<bool> near_along_edges(const Coordinates& x,
+                                   const std::vector<detail::modern::SideEdge>& edges,
+                                   std::size_t from, double limit) {
+  const auto share = [&](std::size_t a, std::size_t b) {
+    const auto &m = edges[a].nodes, &n = edges[b].nodes;
+    return m[0] == n[0] || m[0] == n[1] || m[1] == n[0] || m[1] == n[1];
+  };
+  // Shortest ways along edges, relaxed until nothing changes.
+  std::vector<double> way(x.x.size(), 1e300);
+  for (const NodeIndex n : edges[from].nodes) way[n] = 0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& e : edges)
+      for (const std::size_t k : {0U, 1U}) {
+        const double on = way[e.nodes[k]] + detail::distance(x, e.nodes[0], e.nodes[1]);
+        if (on >= way[e.nodes[1 - k]]) continue;
+        way[e.nodes[1 - k]] = on;
+        changed = true;
+      }
+  }
+  std::vector<bool> within(edges.size()), reached(edges.size()), out(edges.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto p = [&](std::size_t edge, std::size_t k) {
+      return detail::at(x, edges[edge].nodes[k]);
+    };
+    const double straight =
+        closest_between_edges<Form::robust>(p(from, 0), p(from, 1), p(e, 0), p(e, 1)).distance;
+    within[e] =
+        std::min(way[edges[e].nodes[0]], way[edges[e].nodes[1]]) <= limit || straight < limit;
+  }
+  reached[from] = true;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t a = 0; a < edges.size(); ++a)
+      for (std::size_t b = 0; reached[a] && within[a] && b < edges.size(); ++b)
+        if (!reached[b] && share(a, b)) changed = reached[b] = true;
+  }
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    out[e] = reached[e] && within[e] && !share(from, e);
+  return out;
+}
+
+TEST(Type25, EdgesNearAlongTheMeshAreNoPairsWithIgap2) {
+  using namespace detail::modern;
+  std::size_t left = 0, removed = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    SmallDeck plain = open_ring(0.04 + 0.02 * seed, seed), near = plain;
+    plain.add("@/INTER/TYPE25/1 surf_ID1=1 Inacti=5 Iedge=2 Igap=1");
+    near.add("@/INTER/TYPE25/1 surf_ID1=1 Inacti=5 Iedge=2 Igap=2");
+    const auto found = [&](Laid& l, const std::vector<SideEdge>& edges) {
+      std::vector<EdgePenetration> penetrations;
+      DecisionReport decisions;
+      EXPECT_TRUE(find_edges25(l.context, l.s, *l.topology, edges, penetrations, decisions));
+      std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+      for (const EdgePenetration& p : penetrations) out.emplace_back(p.secondary, p.main);
+      return out;
+    };
+    Laid all(plain), some(near);
+    const std::vector<SideEdge> edges = edges_of(some);
+    ASSERT_EQ(edges_of(all).size(), edges.size());
+    std::vector<std::vector<bool>> is_near;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      EXPECT_EQ(edges[e].gap, 0.45);
+      // Root of 2 times the gap of one and twice that of the other.
+      is_near.push_back(
+          near_along_edges(some.scene.coordinates, edges, e, std::sqrt(2.0) * 3 * 0.45));
+    }
+    auto wanted = found(all, edges);
+    removed += std::erase_if(wanted, [&](const auto& pair) {
+      return is_near[pair.first][pair.second] || is_near[pair.second][pair.first];
+    });
+    left += wanted.size();
+    EXPECT_EQ(found(some, edges), wanted) << seed;
+  }
+  EXPECT_GT(left, 10u) << "where the ends of the ring meet";
+  EXPECT_GT(removed, 10u);
 }
 
 }  // namespace

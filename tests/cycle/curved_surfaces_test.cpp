@@ -302,6 +302,21 @@ TEST(CurvedSides, KeepThePenetrationOfTheFacetWhereItIsSmaller) {
 
 // --- adaptive meshing
 
+TEST(AdaptivityCriteria, DivideTheRadiusAcrossByAnyNradmAboveZero) {
+  ContactCard card = testing::elastic_card();
+  card.iadm = 1;
+  Pair p;
+  p.x = {Vec{4, 2, 0.6}, Vec{0, 0, 0}, Vec{10, 0, 0}, Vec{10, 6, 0}, Vec{0, 6, 0}};
+  p.k0 = 1e5;
+  const Vec below = unit(Vec{0, -.15, 1}), above = unit(Vec{0, .25, 1});
+  p.normal = {below, below, above, above};  // no turn along the first side
+  const double radius = 6 / (above[1] - below[1]);
+  for (const double nradm : {-0.5, 0.0, 0.25, 1.0, 3.0}) {
+    card.nradm = nradm;
+    testing::expect_digits(run(card, p).all.criteria[0][0], nradm > 0 ? radius / nradm : radius);
+  }
+}
+
 TEST(AdaptivityCriteria, TakeTheSharperOfBothDirections) {
   ContactCard card = testing::elastic_card();
   card.iadm = 2;
@@ -321,8 +336,10 @@ TEST(AdaptivityCriteria, TakeTheSharperOfBothDirections) {
     return run(card, p).all.criteria[static_cast<std::size_t>(k)][0];
   };
   testing::expect_digits(criteria(0), std::min(along_x, along_y / 4));
-  card.nradm = 0;
-  testing::expect_digits(criteria(0), std::min(along_x, along_y));
+  for (const double none : {0.0, -0.5}) {
+    card.nradm = none;
+    testing::expect_digits(criteria(0), std::min(along_x, along_y));
+  }
   EXPECT_LT(along_x, along_y);
   card.nradm = 4;
   EXPECT_LT(along_y / 4, along_x);

@@ -188,7 +188,8 @@ class ExactRule {
     v = s_;
     for (const std::size_t side : {0U, 1U, 3U}) {
       if (!r_.free[side]) continue;
-      const V b = lift(r_.beta[side]);
+      // As in double: the direction of the last side has its length taken out once more.
+      const V b = lift(side == 3 ? unit(r_.beta[side]) : r_.beta[side]);
       const Q here = dot(foot_ - (side == 3 ? centre_ : p_[side]), b);
       if (here >= v) continue;
       v = here;
