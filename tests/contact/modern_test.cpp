@@ -955,6 +955,42 @@ TEST(Type25, NodesOnASegmentOrExactlyAtTheGapAreInNoDoubt) {
   EXPECT_TRUE(doubtful(12, 13, 1.75, 0.75, 1));
 }
 
+// An L of squares of 10 around (20, 20): what a node hardly beyond its inner corner makes of the
+// square behind. Its overhang is along the mean of both directions there.
+TEST(Type25, AnInnerCornerTakesTheMeanOfTheDirectionsOfItsBorder) {
+  SmallDeck d;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j) d.node(1 + 5 * i + j, 10 * i, 10 * j, 0);
+  d.shell_part(1, 2);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      if (const int a = 1 + 5 * i + j; i < 2 || j < 2)
+        d.shell(1, 1 + 4 * i + j, a, a + 5, a + 6, a + 1);
+  d.group("/SURF/PART/1", {1}).add("@/INTER/TYPE25/1 surf_ID1=1");
+  Laid l(d);
+  Probe probe(l);
+  l.s.main_gap.assign(l.s.main_gap.size(), 1.4);
+  probe.node.gap = 0.01;
+  const auto figures = [&](double by, double up) {
+    probe.put({20 + by, 20 + by, up});
+    for (std::uint32_t face = 0; face < l.s.count(); ++face) {
+      const auto p = probe.figures(face);
+      const Vec middle = 0.5 * (probe.corner(face, 0) + probe.corner(face, 2));
+      if (middle.x != 15 || middle.y != 15 || p.behind > 0) continue;
+      probe.expect_exact(face, true);
+      return p;
+    }
+    ADD_FAILURE() << "no segment there";
+    return detail::modern::PairFigures{};
+  };
+  for (const double up : {1.2, -1.2}) {
+    EXPECT_NEAR(figures(0.006, up).penetration, 0.01 - 0.006 * std::sqrt(2.0), 1e-8);
+    EXPECT_EQ(figures(0.009, up).penetration, 0) << "along the mean it is 0.0127 beyond";
+    EXPECT_FALSE(figures(0.009, up).excluded);
+    EXPECT_TRUE(figures(0.0101, up).excluded) << "by its gap over both";
+  }
+}
+
 // --- edges
 
 std::vector<detail::modern::SideEdge> edges_of(Laid& l) {
@@ -1034,16 +1070,16 @@ TEST(Type25, EdgesOfSolidsAreThoseThatTheTensOfIedgeWant) {
 }
 
 /// A strip of 2 by 20 quads around a circle that is open by twice `half_open`.
-SmallDeck open_ring(double half_open, unsigned seed) {
+SmallDeck open_ring(double mean_radius, double half_open, unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> shift(-0.1, 0.1);
+  std::uniform_real_distribution<double> shift(-0.03 * mean_radius, 0.03 * mean_radius);
   SmallDeck d;
   d.shell_part(1, 0.9);
   const int n = 20;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j < 3; ++j) {
       const double turn = half_open + (6.283185307179586 - 2 * half_open) * i / n;
-      const double radius = 3 + shift(random);
+      const double radius = mean_radius + shift(random);
       d.node(1 + 3 * i + j, radius * std::cos(turn), 1.2 * j + shift(random),
              radius * std::sin(turn));
     }
@@ -1102,8 +1138,10 @@ std::vector<bool> near_along_edges(const Coordinates& x,
 TEST(Type25, EdgesNearAlongTheMeshAreNoPairsWithIgap2) {
   using namespace detail::modern;
   std::size_t left = 0, removed = 0;
-  for (unsigned seed = 1; seed <= 6; ++seed) {
-    SmallDeck plain = open_ring(0.04 + 0.02 * seed, seed), near = plain;
+  // Across the smallest ring all is near; the next ones end a little beyond.
+  for (const double radius : {0.9, 1.05, 1.2, 3.0}) {
+    const auto seed = static_cast<unsigned>(100 * radius);
+    SmallDeck plain = open_ring(radius, 0.2 / radius, seed), near = plain;
     plain.add("@/INTER/TYPE25/1 surf_ID1=1 Inacti=5 Iedge=2 Igap=1");
     near.add("@/INTER/TYPE25/1 surf_ID1=1 Inacti=5 Iedge=2 Igap=2");
     const auto found = [&](Laid& l, const std::vector<SideEdge>& edges) {
@@ -1129,7 +1167,8 @@ TEST(Type25, EdgesNearAlongTheMeshAreNoPairsWithIgap2) {
       return is_near[pair.first][pair.second] || is_near[pair.second][pair.first];
     });
     left += wanted.size();
-    EXPECT_EQ(found(some, edges), wanted) << seed;
+    EXPECT_EQ(found(some, edges), wanted) << radius;
+    EXPECT_EQ(wanted.empty(), radius == 0.9);
   }
   EXPECT_GT(left, 10u) << "where the ends of the ring meet";
   EXPECT_GT(removed, 10u);

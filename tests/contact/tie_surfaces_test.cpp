@@ -195,6 +195,7 @@ TEST(SurfacesOfATie, KeepTheNearestOfSegmentsAndThoseATenthOfTheReachBehindIt) {
       {{-1, 1.3, -1.5}, {0, 1}},
       {{3.9, 3, 2}, {2}},
       {{2, 1.7, 1.4}, {0, 1, 2}},  // each is hardly nearer than the one before
+      {{2, 2, 1}, {1, 2}},         // of two equal ones the first was found
       {{1.4, 2, 1.7}, {0, 2}}};
   for (const auto& [heights, kept] : cases) {
     TwoSurfaces s;

@@ -169,10 +169,10 @@ TEST(CyclePairs, OfContactsThatTheSolverMissesAreNoneOfTheSearch) {
   d.node(1, -2, 1, 0).node(2, -15, -11, 0).node(3, 11, 13, 0).node(101, 3, -16, 0);
   d.node(11, 1000, 0, 0).node(12, 1100, 0, 0).node(13, 1100, 100, 0).node(14, 1000, 100, 0);
   d.node(21, 2000, 0, 0).node(22, 2100, 0, 0).node(23, 2000, 100, 0);
-  d.node(102, 1003, 95, 5).node(103, 2040, 40, 7).node(104, 2040, 40, 21);
+  d.node(102, 1003, 95, 5).node(103, 2040, 40, 7).node(104, 2040, 40, 22);
   d.shell_part(1, 2).shell3(1, 1, 1, 2, 3).shell(1, 2, 11, 12, 13, 14).shell3(1, 3, 21, 22, 23);
   d.segments("/SURF/SEG/1", {{1, 2, 3, 3}, {11, 12, 13, 14}, {21, 22, 23, 23}});
-  d.group("/GRNOD/NODE/2", {101, 102, 103, 104}).add("@/INTER/TYPE7/1 Gapmin=20");
+  d.group("/GRNOD/NODE/2", {101, 102, 103, 104}).add("@/INTER/TYPE7/1 Gapmin=21");
   const Built b(d, with_stiffness());
   EXPECT_EQ(b.contact().penetrations.size(), 3u);
   EXPECT_EQ(b.scene.decisions.contact_differs, 1u);
