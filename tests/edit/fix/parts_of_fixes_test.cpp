@@ -363,7 +363,7 @@ TEST(BoundsOfMoves, OfManyNodesAtOnceAreThoseOfEach) {
     const std::size_t axes = n % 4;
     const double sign = n % 2 == 0 ? 1 : -1, reach = 2 + n % 3;
     const std::array<double, 3> asked{3.0 * (n % 5) - 6, 2.0 * (n % 7) - 6, 4.0 * (n % 3) - 3};
-    wanted.emplace_back(n, detail::Vec{asked[0], asked[1], asked[2]});
+    wanted.emplace_back(n, Vec{asked[0], asked[1], asked[2]});
     if (axes == 0) bounds.follow(n, reach);
     std::array<double, 3> by = asked;
     double farthest = 0;
