@@ -56,6 +56,8 @@ TEST(Broken, BreaksBehindABlankElseBehindASignElseAnywhere) {
   EXPECT_EQ(broken("aaa bbbb", 6, 6), (Pieces{"aaa", "bbbb"}));
   for (const std::string sign : {",", "/", ":"})
     EXPECT_EQ(broken("abc" + sign + "defgh", 6, 6), (Pieces{"abc" + sign, "defgh"}));
+  EXPECT_EQ(broken("ab c/defghi", 6, 9), (Pieces{"ab", "c/defghi"})) << "half of the line";
+  EXPECT_EQ(broken("ab c/defghi", 7, 9), (Pieces{"ab c/", "defghi"})) << "less than half";
   EXPECT_EQ(broken("ab_cdefg", 5, 5), (Pieces{"ab_", "cdefg"}));
   EXPECT_EQ(broken("abcdefgh", 4, 4), (Pieces{"abcd", "efgh"}));
   EXPECT_EQ(broken("   abcdefgh", 6, 6), (Pieces{"   abc", "defgh"})) << "not behind an indent";

@@ -99,6 +99,16 @@ TEST(Escape, AllCodePointsAreWellFormedOrSpelled) {
   }
 }
 
+TEST(Escape, NoTextInJsonBeginsACommandOfALog) {
+  for (const std::string text : {"##[error]x", "a ##vso[task]", "#", "##", "###["}) {
+    std::string json;
+    append_json_string(json, text);
+    EXPECT_EQ(json.find("##["), json.npos) << json;
+    EXPECT_EQ(json.find("##vso["), json.npos) << json;
+    EXPECT_EQ(nlohmann::json::parse(json).get<std::string>(), text);
+  }
+}
+
 TEST(Escape, OverlongAndImpossibleSequencesAreBytes) {
   for (const char* text :
        {"\xc0\xaf", "\xc1\xbf", "\xe0\x80\xaf", "\xf0\x80\x80\xaf", "\xf4\x90\x80\x80",

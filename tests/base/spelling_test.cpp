@@ -44,5 +44,16 @@ TEST(ClosestWord, IsTheNearestOneWhateverItsLetters) {
   EXPECT_EQ(closest_word("", known), "");
 }
 
+TEST(ClosestWord, MayDifferInOneTwoOrThreeLettersByItsLength) {
+  const std::pair<std::string, std::size_t> words[] = {
+      {"ab", 1}, {"abc", 2}, {"abcde", 2}, {"abcdef", 3}, {"abcdefghi", 3}};
+  for (const auto& [word, most] : words)
+    for (std::size_t wrong = 1; wrong <= std::min<std::size_t>(word.size(), 4); ++wrong) {
+      std::string other = word;
+      for (std::size_t i = 0; i < wrong; ++i) other[i] = 'X';
+      EXPECT_EQ(closest_word(word, {other}), wrong <= most ? other : "") << word << " " << wrong;
+    }
+}
+
 }  // namespace
 }  // namespace deck

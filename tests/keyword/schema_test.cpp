@@ -316,6 +316,10 @@ TEST(SchemaLoader, RefusesWrongFields) {
   EXPECT_THAT(field(R"("cols":[1,9],"type":"int","dim":[0,1,0])"), HasSubstr("only real fields"));
   EXPECT_THAT(field(R"("cols":[1,9],"type":"real","dim":[0,1])"), HasSubstr("exponents"));
   EXPECT_THAT(field(R"("cols":[1,9],"type":"real","values":[1])"), HasSubstr("only integer"));
+  EXPECT_THAT(field(R"("cols":[1,9],"type":"text","values":[1])"), HasSubstr("only integer"));
+  EXPECT_EQ(field(R"("cols":[1,9],"type":"int","values":[1])"), "accepted");
+  EXPECT_EQ(field(R"("cols":[1,1],"type":"flag","values":[1])"), "accepted");
+  EXPECT_EQ(field(R"("cols":[1,9],"type":"id","ref":"node","values":[1])"), "accepted");
   EXPECT_THAT(field(R"("cols":[1,9],"type":"real","min":2,"max":1)"), HasSubstr("above max"));
   EXPECT_THAT(field(R"("cols":[1,9],"type":"real","min_open":true)"), HasSubstr("open bound"));
   EXPECT_THAT(field(R"("cols":[1,9],"type":"int","versions":[90])"), HasSubstr("from, until"));
@@ -357,6 +361,8 @@ TEST(SchemaLoader, RefusesConditionsOnUnknownOrLaterFields) {
   EXPECT_THAT(error_of(with_cards(real + "," + late)), HasSubstr("integer field \"f\""));
   const std::string nothing = R"({"name":"b","when":[{"field":"f"}],"blank":true})";
   EXPECT_THAT(error_of(with_cards(flag + "," + nothing)), HasSubstr("tests nothing"));
+  const std::string more = R"({"name":"b","when":[{"field":"f","in":[1],"on":[2]}],"blank":true})";
+  EXPECT_THAT(error_of(with_cards(flag + "," + more)), HasSubstr("/cards/1/when/0"));
 }
 
 TEST(SchemaLoader, RefusesAmbiguousNamesAndMisplacedRepetition) {

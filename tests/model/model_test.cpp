@@ -195,6 +195,15 @@ TEST(ConnectionNode, WithinTheToleranceIsTheOtherNode) {
   EXPECT_EQ(b.findings(RuleId::DK041), 0u) << "they are merged, and the keyword is in upper case";
 }
 
+TEST(ConnectionNode, HasItsToleranceInTheUnitsOfTheDeck) {
+  BuiltModel b("/NODE\n" + node(1, 0, 0, 0) + node(2, 10, 0, 0) + "/CNODE/0.001\n" +
+                   node(50, 0.0009, 0, 0) + node(51, 10.0011, 0, 0) + "/GRNOD/NODE/1\ng\n" +
+                   cells({50, 51}),
+               "kg m s");
+  EXPECT_EQ(b.model().nodes.x.at(1), 10'000.0);
+  EXPECT_EQ(b.group(1), (Ids{1, 51})) << "a tolerance of 1 mm";
+}
+
 TEST(Unit, UnknownUnitSystemIsOneFindingMessage643ForNodesAnd659Elsewhere) {
   BuiltModel b("/NODE/5\n" + node(1, 0, 0, 0));
   EXPECT_EQ(b.message(RuleId::DK109), 643);

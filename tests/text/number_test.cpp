@@ -112,6 +112,10 @@ TEST(ReadReal, TellsHugeFromTinyByTheWholeNumberNotByTheExponentSign) {
   EXPECT_EQ(read_real("1" + zeros + "e-400").value, 1);
   EXPECT_EQ(read_real("0." + zeros + "1").status, NumberStatus::underflow);
   EXPECT_EQ(read_real("1" + zeros).status, NumberStatus::overflow);
+  for (const char* nothing : {"0e99999", "-0.000e+99999", "0.0e-99999", ".0e99999"}) {
+    EXPECT_EQ(read_real(nothing).status, NumberStatus::ok) << nothing;
+    EXPECT_EQ(read_real(nothing).value, 0) << nothing;
+  }
 }
 
 /// Reads the same text with std::from_chars after spelling it the C++ way.
@@ -417,6 +421,9 @@ TEST(FormatReal, GivesUpOnlyWhereNothingFits) {
   EXPECT_FALSE(format_real(std::nan(""), 20));
   EXPECT_FALSE(format_real(largest * 10, 20));
   EXPECT_FALSE(format_real(1, 0));
+  EXPECT_FALSE(format_real(0, 1));
+  EXPECT_EQ(format_real(0, 2)->text, "0.");
+  EXPECT_EQ(format_real(-0.0, 3)->text, "0.0");
   EXPECT_FALSE(format_real(1e-300, 5));
   EXPECT_EQ(format_real(1e-300, 6)->text, "1e-300");
   EXPECT_EQ(format_real(123456, 3)->text, "1e5");
