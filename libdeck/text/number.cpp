@@ -216,11 +216,10 @@ std::string text_of(const Decimal& d, std::size_t room) {
 
 std::optional<FormattedReal> format_real(double value, int width) {
   if (!std::isfinite(value) || width < 1) return std::nullopt;
-  if (value == 0) value = 0;  // a deck has no use for -0
   const auto room = static_cast<std::size_t>(width);
   char buffer[32];
   const Decimal shortest = to_decimal(value, 0, buffer);
-  if (value == 0) {
+  if (value == 0) {  // a deck has no use for -0
     if (room < 2) return std::nullopt;
     return FormattedReal{room > 2 ? "0.0" : "0.", true};
   }
