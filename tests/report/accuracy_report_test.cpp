@@ -107,16 +107,20 @@ Json points(std::size_t count) {
   return out;
 }
 
-TEST(AccuracyJson, HasEveryFigureOfTiersFamiliesAndStages) {
-  AccuracyReport r = hard_report();
-  TierResult t = tier_of("float", "distance", 3.5, 9, 0.125);
-  t.seconds = 1.25;
+void count_failures(TierResult& t) {
   t.feature_errors = 10;
   t.non_finite = 11;
   t.rewritten = 12;
   t.invariance_violations = 13;
   t.jumps = 14;
   t.fallback_share = 0.375;
+}
+
+TEST(AccuracyJson, HasEveryFigureOfTiersFamiliesAndStages) {
+  AccuracyReport r = hard_report();
+  TierResult t = tier_of("float", "distance", 3.5, 9, 0.125);
+  t.seconds = 1.25;
+  count_failures(t);
   t.exact_share = 0.625;
   t.dominated = true;
   r.tiers = {t};
@@ -275,12 +279,7 @@ TEST(AccuracyText, SaysWhereThereIsNothingToMeasure) {
 TEST(AccuracyText, OfExpertsHasEveryTierAndWhatFails) {
   AccuracyReport r = hard_report();
   TierResult t = tier_of("float", "distance", 30, 9, 0.125);
-  t.feature_errors = 10;
-  t.non_finite = 11;
-  t.rewritten = 12;
-  t.invariance_violations = 13;
-  t.jumps = 14;
-  t.fallback_share = 0.375;
+  count_failures(t);
   t.exact_share = 0.0005;
   t.dominated = true;
   TierResult plain = tier_of("double", "distance", 20, 0, 2e-7);

@@ -6,6 +6,7 @@
 
 #include "deck/cycle/scene_cycle.hpp"
 #include "model/shared/mesh.hpp"
+#include "report/inspected.hpp"
 #include "report/page.hpp"
 
 namespace deck::test {
@@ -312,14 +313,7 @@ TEST(PageContacts, EveryMemberIsThatOfTheContact) {
   wide.plain.main_length = {3.5, 9.5, 4.5};
   wide.plain.secondary_length = {2.5, 6.5, 1.5};
   ContactTotals& t = p.view.contacts[0];
-  t.count = {51, 52, 53};
-  t.tied = {54, 55, 0};
-  t.on_segment = {56, 57, 58};
-  t.crossed_elements = 59;
-  t.solver_errors = 60;
-  t.acted = 61;
-  t.max_depth = 0.1875;
-  t.max_ratio = 0.3125;
+  t = distinct_totals();
   const Json expected{{"interface", 0},
                       {"kind", "node_segment"},
                       {"role", "primary"},
