@@ -174,8 +174,9 @@ void write_deck(const fs::path& folder, const Lines& deck) {
 std::string full_command(const std::string& command, bool has_deck) {
   std::smatch verb;
   if (!has_deck || !std::regex_search(command, verb, std::regex("^deck (\\w+)"))) return command;
-  std::string more = command.find(".rad") == command.npos ? " deck_0000.rad" : "";
-  if (verb[1] == "lint" && command.find("--format") == command.npos) more += " --format concise";
+  const std::string own = command.substr(0, command.find_first_of(";|&"));
+  std::string more = own.find(".rad") == own.npos ? " deck_0000.rad" : "";
+  if (verb[1] == "lint" && own.find("--format") == own.npos) more += " --format concise";
   return verb.str() + more + verb.suffix().str();
 }
 
