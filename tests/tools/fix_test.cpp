@@ -1,4 +1,5 @@
-// deck fix from the command line: no strategy makes a pair worse, and strategies act in their order.
+// deck fix from the command line: no strategy makes a pair worse, and strategies act in their
+// order.
 #include <algorithm>
 #include <cmath>
 #include <map>
