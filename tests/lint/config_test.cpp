@@ -10,8 +10,6 @@
 namespace deck::test {
 namespace {
 
-using Lines = std::map<std::string, std::uint64_t>;
-
 /// The error of a text, without "c.toml:"; "": it is read.
 std::string refused(const std::string& text) {
   const auto config = parse_lint_config(text, "c.toml");
@@ -99,6 +97,23 @@ TEST(ConfigErrors, SuggestTheRuleThatWasMeant) {
   EXPECT_EQ(unknown_selector("DK201:Itsf"),
             "no rule is called 'DK201:Itsf'; did you mean 'DK201:Istf'?");
   EXPECT_EQ(unknown_selector("nonsense"), "no rule is called 'nonsense'; see 'deck rules'");
+}
+
+TEST(ConfigKeys, OfTheGateMatchPairsOfPartsByTwoPatterns) {
+  const auto config = parse_lint_config(
+      "[[gate.part-pair]]\nmatch = [\"bumper*\", \"12\"]\nmax-depth = 0\nmax-ratio = 0.5\n"
+      "max-count = 3\n[[gate.interface]]\nmatch = \"door*\"\nmax-dt-loss = 0.25\n",
+      "c.toml");
+  ASSERT_TRUE(config) << config.error().message;
+  ASSERT_EQ(config->gate.part_pairs.size(), 1u);
+  const GateScope& pair = config->gate.part_pairs[0];
+  EXPECT_EQ(pair.match, (std::vector<std::string>{"bumper*", "12"}));
+  EXPECT_EQ(pair.limits.max_depth, 0.0);
+  EXPECT_EQ(pair.limits.max_ratio, 0.5);
+  EXPECT_EQ(pair.limits.max_count, 3u);
+  ASSERT_EQ(config->gate.interfaces.size(), 1u);
+  EXPECT_EQ(config->gate.interfaces[0].match, (std::vector<std::string>{"door*"}));
+  EXPECT_EQ(config->gate.interfaces[0].limits.max_dt_loss, 0.25);
 }
 
 TEST(ConfigKeys, OfTheGateKnowRevisionsAndAbsolutePaths) {
