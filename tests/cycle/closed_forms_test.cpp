@@ -1,5 +1,4 @@
-// The small steps around the pairs of a contact: its nodes, how far sides have moved, limits of
-// velocities, values that nobody can compute with, lists that are kept short.
+// Closed forms: limits of velocities and steps, curves, laws of friction, pairs that are near.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,32 +13,7 @@
 namespace deck::cycle {
 namespace {
 
-using detail::LocalNodes;
-using detail::sane;
-using detail::SearchedAt;
 using detail::velocity_limit;
-const double infinity = std::numeric_limits<double>::infinity();
-
-// --- nodes of a contact
-
-TEST(NodesOfAContact, AreNumberedInTheirOrderAcrossWordsOf64) {
-  PairList pairs;
-  pairs.node = {std::vector<std::uint32_t>{300, 127}, {64, 65}, {127, 128}, {191, 192}, {64, 700}};
-  std::vector<double> mass(701);
-  for (std::size_t n = 0; n < mass.size(); ++n) mass[n] = 1000 + static_cast<double>(n);
-  const LocalNodes nodes(pairs, mass);
-  const std::vector<NodeIndex> order{64, 65, 127, 128, 191, 192, 300, 700};
-  ASSERT_EQ(nodes.size(), order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    EXPECT_EQ(nodes.global(k), order[k]);
-    EXPECT_EQ(nodes.mass()[k], 1000.0 + order[k]);
-  }
-  nodes.localise(pairs);
-  const std::array<std::vector<std::uint32_t>, 5> local{
-      std::vector<std::uint32_t>{6, 2}, {0, 1}, {2, 3}, {4, 5}, {0, 7}};
-  EXPECT_EQ(pairs.node, local);
-  EXPECT_EQ(LocalNodes(PairList{}, mass).size(), 0u);
-}
 
 // --- how far the sides have come nearer
 
@@ -67,45 +41,6 @@ Contact two_sides(bool edges) {
   m.gap = 0.25;
   c.main = {m};
   return c;
-}
-Coordinates places(double x0, double y1, double z2) {
-  Coordinates c;
-  c.x = {x0, 2, 3, 4, 5, 6};
-  c.y = {1, y1, 3, 4, 5, 6};
-  c.z = {1, 2, z2, 4, 5, 6};
-  return c;
-}
-
-TEST(Approach, IsTheLargestRelativeMoveOfBothSidesByAxis) {
-  for (const bool edges : {false, true}) {
-    SearchedAt at;
-    at.take(two_sides(edges), places(1, 2, 3));
-    EXPECT_EQ(at.approach(places(1, 2, 3)), 0) << edges;
-    // Away or nearer: by axis the sides know no direction.
-    EXPECT_EQ(at.approach(places(4, 2, 3)), 3) << edges;
-    EXPECT_EQ(at.approach(places(-3, 2, 3)), 4) << edges;
-    EXPECT_EQ(at.approach(places(1, 2, 8)), 5) << edges;
-    EXPECT_EQ(at.approach(places(4, -2, 3)), 5) << edges;  // 3 and 4
-    EXPECT_EQ(at.approach(places(3, 5, -3)), 7) << edges;  // 2, 3 and 6
-    EXPECT_EQ(at.approach(places(infinity, 2, 3)), infinity) << edges;
-    EXPECT_EQ(at.approach(places(1, 2, -infinity)), infinity) << edges;
-    EXPECT_EQ(at.approach(places(1, std::nan(""), 3)), infinity) << edges;
-    // Node 5 belongs to no side.
-    Coordinates other = places(1, 2, 3);
-    other.x[5] = 99;
-    EXPECT_EQ(at.approach(other), 0) << edges;
-    // Both sides together: nothing has come nearer.
-    Coordinates moved = places(1, 2, 3);
-    for (double& x : moved.x) x += 7;
-    EXPECT_EQ(at.approach(moved), 0) << edges;
-    at.take(two_sides(edges), moved);
-    EXPECT_EQ(at.approach(moved), 0) << edges;
-  }
-  SearchedAt alone;
-  Contact none = two_sides(false);
-  none.main.clear();
-  alone.take(none, places(1, 2, 3));
-  EXPECT_EQ(alone.approach(places(9, 9, 9)), 0);
 }
 
 // --- the limit of velocities
@@ -137,13 +72,6 @@ TEST(VelocityLimit, IsNineTenthsOfTheGapOverTheRangesOfBothSides) {
   EXPECT_EQ(velocity_limit(two_sides(false), card, state), 1e30);
 }
 
-TEST(VelocityStep, CountsOnlyWhatBringsTheSidesTogether) {
-  const std::array<double, 3> none{0, 0, 0};
-  EXPECT_DOUBLE_EQ(velocity_step(7, {1, 2, 3}, {3, 5, 9}, {1, 2, 3}, {1, 2, 3}), 0.9);
-  EXPECT_DOUBLE_EQ(velocity_step(7, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {3, 5, 9}), 0.9);
-  EXPECT_EQ(velocity_step(7, none, none, none, none), 1e30);
-}
-
 TEST(StepLimits, AreTheSmallestOfPairsNodesAndVelocities) {
   Totals t;
   t.dt_kinematic = 4e-3;
@@ -167,27 +95,6 @@ TEST(StepLimits, AreTheSmallestOfPairsNodesAndVelocities) {
 
 // --- values
 
-TEST(SaneCards, HoldNoValueOf1e30AndNoNan) {
-  const Contact contact = two_sides(false);
-  EXPECT_TRUE(sane(ContactCard(), contact));
-  const double below = std::nextafter(1e30, 0.0);
-  for (double ContactCard::*value : {&ContactCard::gapmin, &ContactCard::stfac, &ContactCard::viss,
-                                     &ContactCard::visf, &ContactCard::fric, &ContactCard::drad}) {
-    ContactCard card;
-    for (const double bad : {1e30, -1e30, std::nan(""), infinity}) {
-      card.*value = bad;
-      EXPECT_FALSE(sane(card, contact)) << bad;
-    }
-    for (const double good : {below, -below}) {
-      card.*value = good;
-      EXPECT_TRUE(sane(card, contact));
-    }
-  }
-  Contact wide = contact;
-  wide.max_gap = 1e30;
-  EXPECT_FALSE(sane(ContactCard(), wide));
-}
-
 TEST(Curves, ContinueTheirEndSegmentsAndStepOverTheSmallestSpacing) {
   const Curve c{{1, 3, 7}, {2, 6, 4}};
   const std::pair<double, double> points[] = {{0, 0}, {1, 2}, {2, 4}, {3, 6},
@@ -202,80 +109,6 @@ TEST(Curves, ContinueTheirEndSegmentsAndStepOverTheSmallestSpacing) {
   const Curve ends_in_a_step{{0, 1, 1}, {0, 2, 5}};
   EXPECT_EQ(ends_in_a_step(1), 2);
   EXPECT_DOUBLE_EQ(ends_in_a_step(1 + 0x1p-40), 2 + 3 / 1e-16 * 0x1p-40);
-}
-
-TEST(ActivityWindow, HoldsItsEnds) {
-  ContactCard card;
-  card.tstart = 1;
-  card.tstop = 2;
-  for (const auto& [t, on] : {std::pair(std::nextafter(1.0, 0.0), false), std::pair(1.0, true),
-                              std::pair(2.0, true), std::pair(std::nextafter(2.0, 3.0), false)})
-    EXPECT_EQ(is_active(card, t), on) << t;
-  card.sensor_time = 1.5;
-  EXPECT_TRUE(is_active(card, 1.5));
-  EXPECT_FALSE(is_active(card, std::nextafter(1.5, 0.0)));
-}
-
-TEST(ElementLossByIdel, KnowsEachSignAndCount) {
-  for (const int idel : {1, -1}) {
-    EXPECT_TRUE(segment_stays(idel, 1, true));
-    EXPECT_FALSE(segment_stays(idel, 0, true));
-  }
-  for (const int idel : {2, -2}) {
-    EXPECT_TRUE(segment_stays(idel, 0, true));
-    EXPECT_FALSE(segment_stays(idel, 1, false));
-  }
-  EXPECT_TRUE(segment_stays(3, 0, false));
-  for (const int idel : {1, 2}) {
-    EXPECT_FALSE(secondary_stays(idel, 0));
-    EXPECT_TRUE(secondary_stays(idel, 1));
-  }
-  for (const int idel : {0, -1, -2, 3}) EXPECT_TRUE(secondary_stays(idel, 0)) << idel;
-}
-
-TEST(PairStiffnessOf, NodesEdgesAndTies) {
-  ContactCard card;
-  card.stmin = 10;
-  card.stmax = 100;
-  card.stfac = -7;
-  struct Row {
-    int istf;
-    double nodes, edges;  // of 60 main and 20 secondary, Stfac -7
-  };
-  const Row rows[] = {{0, 1200, 15}, {1, 1200, 3.5}, {2, 40, 40},
-                      {3, 60, 60},   {4, 20, 20},    {5, 15, 15}};
-  for (const Row& row : rows) {
-    card.istf = row.istf;
-    card.kind = ContactKind::node_segment;
-    EXPECT_EQ(pair_stiffness(card, 60, 20, Model::reference), row.nodes) << row.istf;
-    if (row.istf < 2) {
-      EXPECT_EQ(pair_stiffness(card, 60, -20, Model::robust), 1200) << row.istf;
-    }
-    card.kind = ContactKind::edge_edge;
-    EXPECT_EQ(pair_stiffness(card, 60, 20, Model::robust), row.edges) << row.istf;
-    card.kind = ContactKind::tied;
-    EXPECT_EQ(pair_stiffness(card, 60, 20, Model::robust), 60) << row.istf;
-  }
-  // Nothing on both sides: no stiffness in series; the solver's guard is for sums below it alone.
-  card.kind = ContactKind::edge_edge;
-  card.istf = 5;
-  card.stmin = 0;
-  for (const Model model : {Model::reference, Model::robust})
-    EXPECT_EQ(pair_stiffness(card, 0, 0, model), 0);
-  EXPECT_DOUBLE_EQ(pair_stiffness(card, 1e-21, 1e-21, Model::reference), 1e-22);
-  EXPECT_DOUBLE_EQ(pair_stiffness(card, 1e-21, 1e-21, Model::robust), 0.5e-21);
-  card.kind = ContactKind::node_segment;
-  EXPECT_DOUBLE_EQ(pair_stiffness(card, 1e-21, 1e-21, Model::reference), 0.5e-21);
-  EXPECT_DOUBLE_EQ(pair_stiffness(card, 1e-31, 1e-31, Model::reference), 1e-32);
-}
-
-TEST(EdgeResidual, IsHalfOfTheDepthAndWithInactiSixFivePercentOfTheRestMore) {
-  ContactCard card;
-  for (const auto& [inacti, wanted] :
-       {std::pair(0, 0.0), std::pair(3, 0.0), std::pair(5, 0.25), std::pair(6, 0.25 + 0.0375)}) {
-    card.inacti = inacti;
-    EXPECT_DOUBLE_EQ(edge_residual(card, 0.5, 2.0), wanted) << inacti;
-  }
 }
 
 // --- laws of friction, by hand
@@ -387,57 +220,6 @@ TEST(NearPairs, AreCountedBelowTheShareAndTheTwentyNearestListed) {
     sum += std::abs(p.force[2]);
   }
   EXPECT_NEAR(c.totals.total_abs, sum, 1e-9 * sum);
-}
-
-TEST(NearPairs, BeyondTheGapAreInReachOnlyWithinAMargin) {
-  const auto b = nodes_at({0.5, 1.0, 1.25, 3.0});
-  CycleOptions options;
-  options.keep_pairs = true;
-  const auto counts = [&] {
-    const SceneOutcome r = run_cycle(b->scene, make_state(b->scene), options);
-    const ContactOutcome& c = r.contacts.at(0);
-    EXPECT_EQ(c.pairs.size(), 1u) << "others have neither force nor penetration";
-    return std::tuple(c.pairs_in_reach, c.pairs_with_force, c.pairs_switched_off);
-  };
-  EXPECT_EQ(counts(), std::tuple(1u, 1u, 0u));
-  options.margin = 0.5;  // found, and not in reach
-  EXPECT_EQ(counts(), std::tuple(1u, 1u, 0u));
-}
-
-TEST(NearPairs, SwitchedOffAtTheStartAreCountedApart) {
-  const auto b = nodes_at({0.25, 0.5, 0.75}, "Inacti=1");
-  const SceneOutcome r = run_cycle(b->scene, make_state(b->scene), {});
-  EXPECT_EQ(r.contacts.at(0).pairs_with_force, 0u);
-  EXPECT_EQ(r.largest_nodal_force, 0.0);
-  EXPECT_EQ(r.force_node, no_index);
-}
-
-TEST(MidSurface, TakesTheNodeAway) {
-  const auto b = nodes_at({1e-12, 0.5});
-  const SceneOutcome r = run_cycle(b->scene, make_state(b->scene), {});
-  const ContactOutcome& c = r.contacts.at(0);
-  EXPECT_EQ(c.gap_closed, 1u);
-  EXPECT_EQ(c.pairs_with_force, 1u);
-  EXPECT_EQ(c.pairs_switched_off, 1u);
-  ASSERT_EQ(c.removed.size(), 1u);
-  EXPECT_EQ(c.removed[0].secondary, 0u);
-  EXPECT_EQ(c.removed[0].because, Removal::Because::mid_surface);
-}
-
-TEST(Accelerations, AreForceOverMassAtTheNodeThatIsPushedMost) {
-  const auto b = testing::plates_in_contact("@/INTER/TYPE7/1", 0.6);
-  State state = make_state(b->scene);
-  const auto find = [&](std::int64_t id) { return b->model.nodes.map.find(id); };
-  state.mass[find(12)] = 1e-9;
-  state.mass[find(13)] = 0;
-  const SceneOutcome r = run_cycle(b->scene, state, {});
-  const ContactOutcome& c = r.contacts.at(0);
-  const double f = c.largest_force;
-  EXPECT_NEAR(c.largest_acceleration, f / 1e-9, 1e-6 * f / 1e-9);
-  EXPECT_EQ(c.acceleration_node, find(12));
-  EXPECT_EQ(c.massless_nodes, 1u);
-  // Of the corners below each has a share of all four forces; the nodes above have one each.
-  EXPECT_NEAR(r.largest_nodal_force, f, 1e-9 * f);
 }
 
 }  // namespace
