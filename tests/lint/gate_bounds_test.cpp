@@ -151,31 +151,5 @@ TEST(GateBounds, OfTimeStepsAreSharesOfTheMeshsStep) {
   EXPECT_EQ(found(0.5, 1), Lines{});
 }
 
-TEST(Gate, KnowsWhetherAnythingWasAskedFor) {
-  EXPECT_FALSE(Gate{}.any());
-  const std::function<void(GateLimits&)> bounds[] = {
-      [](GateLimits& l) { l.max_depth = 0; }, [](GateLimits& l) { l.max_ratio = 0; },
-      [](GateLimits& l) { l.max_count = 0; }, [](GateLimits& l) { l.max_untied = 0; },
-      [](GateLimits& l) { l.max_dt_loss = 0; }};
-  for (std::size_t i = 0; i < std::size(bounds); ++i) {
-    Gate general, interface, pair;
-    interface.interfaces.resize(2);
-    pair.part_pairs.resize(2);
-    EXPECT_FALSE(interface.any());
-    bounds[i](general.general);
-    bounds[i](interface.interfaces[1].limits);
-    bounds[i](pair.part_pairs[1].limits);
-    for (const Gate* g : {&general, &interface, &pair}) {
-      EXPECT_TRUE(g->any());
-      EXPECT_EQ(g->needs_forces(), i == 4);
-    }
-  }
-  Gate fresh, worse;
-  fresh.on_fresh = true;
-  worse.on_worse = true;
-  EXPECT_TRUE(fresh.any() && worse.any());
-  EXPECT_FALSE(fresh.needs_forces() || worse.needs_forces());
-}
-
 }  // namespace
 }  // namespace deck::test
