@@ -234,20 +234,18 @@ std::string Differ::field_name(const CellKey& key) {
   return out;
 }
 
-bool Differ::has_no_cell(const CellValue& v, const Block& other) {
-  return v.field != nullptr && !has_field(other, v.field->name);
-}
-
 bool Differ::is_default(const CellValue& v) {
-  const auto number = ordinary_default(*v.field);
+  const Field& f = *v.field;
+  if (f.default_varies != DefaultVaries::no) return false;
+  if (const auto* text = std::get_if<std::string>(&v.value))
+    return !text->empty() && *text == f.default_text;
   const auto* i = std::get_if<std::int64_t>(&v.value);
   const auto* x = std::get_if<double>(&v.value);
-  return number &&
-         ((i != nullptr && static_cast<double>(*i) == *number) || (x != nullptr && *x == *number));
+  return f.default_value && ((i != nullptr && static_cast<double>(*i) == *f.default_value) ||
+                             (x != nullptr && *x == *f.default_value));
 }
 
-bool Differ::same_cell(const CellValue& x, const CellValue& y, const Block& in_a,
-                       const Block& in_b) {
+bool Differ::same_cell(const CellValue& x, const CellValue& y) {
   const bool rounded = x.rounded || y.rounded;
   const std::string& ref = x.ref.empty() ? y.ref : x.ref;
   const double size = std::max(x.size, y.size);
@@ -255,8 +253,7 @@ bool Differ::same_cell(const CellValue& x, const CellValue& y, const Block& in_a
   if (same_value(x.value, y.value, ref, size, rounded)) return true;
   const bool ignored = x.field != nullptr ? x.field->ignored : y.field->ignored;
   if (ignored) ++ignored_;
-  return ignored || (y.field == nullptr && has_no_cell(x, in_b) && is_default(x)) ||
-         (x.field == nullptr && has_no_cell(y, in_a) && is_default(y));
+  return ignored || (y.field == nullptr && is_default(x)) || (x.field == nullptr && is_default(y));
 }
 
 void Differ::cells(const Item& a, const Item& b) {
@@ -270,7 +267,7 @@ void Differ::cells(const Item& a, const Item& b) {
     const CellValue none;
     const CellValue& va = x == ca.cells.end() ? none : x->second;
     const CellValue& vb = y == cb.cells.end() ? none : y->second;
-    if (same_cell(va, vb, *a.block, *b.block) || functions_.same_cell(*a.block, key)) return;
+    if (same_cell(va, vb) || functions_.same_cell(*a.block, key)) return;
     Change& c = add(ChangeKind::changed, a, &b, field_name(key));
     const bool shown_alike = va.value == vb.value && va.product && vb.product;
     c.old_value = shown_alike ? DiffValue(*va.product) : va.value;

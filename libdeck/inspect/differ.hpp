@@ -120,13 +120,10 @@ class Differ {
 
   static std::string field_name(const CellKey& key);
 
-  /// The version of the block has no such cell.
-  static bool has_no_cell(const CellValue& v, const Block& other);
-
-  /// The number that the solver uses where nothing is written.
+  /// What the solver uses where nothing is written.
   static bool is_default(const CellValue& v);
 
-  bool same_cell(const CellValue& x, const CellValue& y, const Block& in_a, const Block& in_b);
+  bool same_cell(const CellValue& x, const CellValue& y);
 
   void cells(const Item& a, const Item& b);
 
