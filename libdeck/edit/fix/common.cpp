@@ -25,8 +25,26 @@ Result<LoadedDeck> read_again(const LoadedDeck& context, const Rewrite& rewrite)
 
 Scene fix_scene(const LoadedDeck& loaded, const FixOptions& options, bool as_written,
                 std::vector<WhatIf> what_if, std::vector<std::int64_t> only) {
+  // Whoever asked for the same scene has it already, and it may cost seconds.
+  const SceneOptions& known = loaded.scene_options();
+  if (as_written && what_if.empty() && only.empty() && known.ties && known.penetrations &&
+      known.what_if.empty() && known.only.empty())
+    return loaded.scene();
   return fix_scene(loaded.model(), loaded.interfaces(), loaded.options().read.limits, options,
                    as_written, std::move(what_if), std::move(only));
+}
+
+Result<AfterRewrite> AfterRewrite::read(const LoadedDeck& context, const Rewrite& rewrite,
+                                        const FixOptions& options, bool as_written,
+                                        const Scene& before) {
+  AfterRewrite out;
+  out.before_ = &before;
+  if (rewrite.edits.empty()) return out;
+  auto again = read_again(context, rewrite);
+  if (!again) return again.error();
+  out.deck_.emplace(std::move(*again));
+  out.own_.emplace(fix_scene(*out.deck_, options, as_written));
+  return out;
 }
 
 Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& limits,
@@ -74,7 +92,8 @@ void note_unevaluated(PenetrationFix& fix, const Scene& scene, const FixOptions&
          contact.kind == ContactKind::edge_edge
              ? "a part of what its edges touch is not evaluated ('deck gaps' says which)"
              : "its penetrations are not evaluated ('deck gaps' says why)",
-         0});
+         0,
+         "deck gaps DECK"});
     fix.complete = false;
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,20 @@ Scene fix_scene(const LoadedDeck& loaded, const FixOptions& options, bool as_wri
 Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& limits,
                 const FixOptions& options, bool as_written, std::vector<WhatIf> what_if = {},
                 std::vector<std::int64_t> only = {});
+
+/// The scene of a deck with a rewrite: that of before where it changes nothing.
+class AfterRewrite {
+ public:
+  /// `before` must outlive it. Error: the deck cannot be read whole any more.
+  static Result<AfterRewrite> read(const LoadedDeck& context, const Rewrite& rewrite,
+                                   const FixOptions& options, bool as_written, const Scene& before);
+  const Scene& scene() const { return own_ ? *own_ : *before_; }
+
+ private:
+  std::optional<LoadedDeck> deck_;
+  std::optional<Scene> own_;
+  const Scene* before_ = nullptr;
+};
 
 /// Why nothing can be said about a wanted interface; nothing: all were evaluated. TYPE24 and TYPE25
 /// are told by note_unevaluated: what is known of them is treated.

@@ -16,8 +16,16 @@ using namespace detail;
 
 constexpr double inflation = 1 + 1e-8;  // the solver compares the depth times this with Fpenmax
 
-void refuse(PenetrationFix& fix, const InterBase& inter, std::string reason) {
-  fix.refused.push_back({inter.id, {}, 0, std::move(reason), 0});
+const std::string next_inacti = "deck fix DECK --strategy inacti";
+
+void refuse(PenetrationFix& fix, const InterBase& inter, std::string reason,
+            std::string next = {}) {
+  fix.refused.push_back({inter.id, {}, 0, std::move(reason), 0, std::move(next)});
+}
+
+/// What keeps the solver from stopping at nodes on a segment: they leave the interface.
+std::string next_without_nodes(int type) {
+  return rules_of(type).fpenmax ? "deck fix DECK --strategy fpenmax" : next_inacti + " --inacti 1";
 }
 
 std::string count_of(std::uint64_t n, const char* what) {
@@ -38,19 +46,20 @@ std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
   if (nothing > 0)
     text = "the solver still does nothing about " + count_of(nothing, "pair") + ": Inacti is 0";
   if (stops > 0)
-    text += (text.empty() ? "the solver" : "; it") + std::string(" stops at ") +
-            count_of(stops, "pair") +
-            " whose nodes lie exactly on a segment (error 611/612): move the nodes, or switch them "
-            "off with --inacti 1";
+    text +=
+        (text.empty() ? "the solver" : "; it") + std::string(" stops at ") +
+        count_of(stops, "pair") +
+        " whose nodes lie exactly on a segment (error 611/612): move the nodes, or take them out "
+        "of the interface for the whole run";
   return text;
 }
 
 /// Reads the deck again and fills in what became of every penetration.
 Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixOptions& options,
                       const Scene& before) {
-  auto again = read_again(context, fix.rewrite);
+  const auto again = AfterRewrite::read(context, fix.rewrite, options, true, before);
   if (!again) return again.error();
-  const Scene after = fix_scene(*again, options, true);
+  const Scene& after = again->scene();
   set_interfaces(fix, context.interfaces(), options, before, after);
 
   using Key = std::tuple<std::int64_t, int, std::vector<std::int64_t>, std::vector<std::int64_t>>;
@@ -69,11 +78,11 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
       if (!is_penetration(r)) continue;
       FixAction action;
       action.interface_id = c.inter->id;
-      action.secondary = secondary_ids(again->model(), c, r);
-      action.main = main_ids(again->model(), c, r);
+      action.secondary = secondary_ids(*after.model, c, r);
+      action.main = main_ids(*after.model, c, r);
       action.depth = r.depth;
       action.gap = r.gap;
-      const auto it = earlier.find(key(again->model(), c, r));
+      const auto it = earlier.find(key(*after.model, c, r));
       if (it != earlier.end()) action.before = it->second;
       action.after = r.action;
       action.stops = r.on_surface && on_surface_error(c) != 0;
@@ -91,7 +100,16 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
     fix.complete = false;
     const bool said = std::any_of(fix.refused.begin(), fix.refused.end(),
                                   [&](const FixRefusal& r) { return r.interface_id == i.id; });
-    if (!said) fix.refused.push_back({i.id, {}, i.after.deepest, left_over(fix, i.id), 0});
+    if (said) continue;
+    const bool stops = std::any_of(fix.actions.begin(), fix.actions.end(), [&](const FixAction& a) {
+      return a.interface_id == i.id && a.stops;
+    });
+    fix.refused.push_back({i.id,
+                           {},
+                           i.before.deepest,
+                           left_over(fix, i.id),
+                           0,
+                           stops ? next_without_nodes(i.type) : next_inacti});
   }
   note_unevaluated(fix, after, options);
   std::stable_sort(
@@ -103,9 +121,15 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
 
 /// Pairs at which the solver would stop, by interface, with these values.
 std::map<std::int64_t, std::uint64_t> stops_with(const LoadedDeck& context,
-                                                 const FixOptions& options,
+                                                 const FixOptions& options, const Scene& before,
                                                  const std::vector<WhatIf>& planned) {
   std::map<std::int64_t, std::uint64_t> out;
+  // A node on a segment is there with every Inacti, unless Inacti 3 has moved it.
+  if (std::none_of(before.contacts.begin(), before.contacts.end(), [](const Contact& c) {
+        return c.inacti == 3 || std::any_of(c.penetrations.begin(), c.penetrations.end(),
+                                            [](const PenetrationRow& r) { return r.on_surface; });
+      }))
+    return out;
   const Scene scene = fix_scene(context, options, true, planned);
   for (const Contact& c : scene.contacts)
     for (const PenetrationRow& r : c.penetrations)
@@ -169,7 +193,7 @@ Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions
     w.Inacti = effective;
     planned.push_back(w);
   }
-  const auto stops = stops_with(context, options, planned);
+  const auto stops = stops_with(context, options, before, planned);
   CellWriter edits(context.deck().sources);
   for (const InterBase* inter : chosen) {
     const int effective = effective_for(*inter);
@@ -178,8 +202,8 @@ Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions
              count_of(it->second, "pair") +
                  " at distance 0, at which the solver stops with Inacti " +
                  std::to_string(effective) + " (error " + (effective == 0 ? "612" : "611") +
-                 "): move these nodes, switch them off with Inacti 1, or set Fpenmax first "
-                 "(--strategy fpenmax)");
+                 "): move these nodes, or take them out of the interface for the whole run",
+             next_without_nodes(inter->type));
       continue;
     }
     const auto place = find_field(context.deck(), *inter->block, "Inacti");
@@ -216,9 +240,8 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
     if (!rules_of(inter.type).fpenmax) {
       if (contact.role == ContactRole::primary || contact.kind == ContactKind::edge_edge)
         if (fix.refused.empty() || fix.refused.back().interface_id != inter.id)
-          refuse(fix, inter,
-                 "TYPE" + std::to_string(inter.type) + " has no Fpenmax" +
-                     (inter.type == 10 ? "" : "; use --strategy inacti"));
+          refuse(fix, inter, "TYPE" + std::to_string(inter.type) + " has no Fpenmax",
+                 inter.type == 10 ? "" : next_inacti);
       continue;
     }
     double deepest = 0;  // share of the gap, of pairs that are not at distance 0
@@ -237,8 +260,8 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
       continue;  // the solver does not stop: nothing to drop
     } else if (deepest >= 1) {
       refuse(fix, inter,
-             "a pair is so close to distance 0 that no Fpenmax drops only the pairs at 0; give a "
-             "ratio (--fpenmax)");
+             "a pair is so close to distance 0 that no Fpenmax drops only the pairs at 0",
+             "deck fix DECK --strategy fpenmax --fpenmax 99%");
       continue;
     } else {
       wanted = deepest > 0 ? deepest : 0.9;

@@ -1,4 +1,6 @@
 // The strategy reduce-gap: the largest gap without a penetration, written with few digits.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -175,7 +177,7 @@ class GapReduction {
   }
 
   static std::string percent(double share) {
-    return format_real(std::floor(share * 1000) / 10, 6)->text + " %";
+    return fmt::format("{:.6g} %", std::floor(share * 1000) / 10);
   }
 
   bool needs_igap_2() const {
@@ -328,12 +330,17 @@ Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOpt
     if (reduction.solve(before))
       reduction.write(fix, edits);
     else
-      fix.refused.push_back({inter->id, {}, it->second.deepest, reduction.why, 0});
+      fix.refused.push_back({inter->id,
+                             {},
+                             it->second.deepest,
+                             reduction.why,
+                             0,
+                             "deck fix DECK --strategy move-nodes"});
   }
   fix.rewrite.edits = edits.finish();
-  auto again = read_again(context, fix.rewrite);
+  const auto again = AfterRewrite::read(context, fix.rewrite, options, false, before);
   if (!again) return again.error();
-  const Scene after = fix_scene(*again, options, false);
+  const Scene& after = again->scene();
   set_interfaces(fix, context.interfaces(), options, before, after);
   fix.complete = true;
   for (const FixedInterface& i : fix.interfaces) fix.complete &= i.after.pairs == 0;

@@ -135,7 +135,8 @@ void verify_harmless(PenetrationFix& fix, const Interfaces& interfaces, const Fi
                          {},
                          0,
                          "nothing done: with the change " + *why,
-                         0});
+                         0,
+                         "deck fix DECK --strategy move-nodes"});
   fix.complete = false;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <tuple>
 
 #include "contact/shared/scene_parts.hpp"
@@ -212,16 +213,28 @@ void MovableDeck::place(NodeIndex n, const Vec& p) {
 
 void MovableDeck::report(const Scene& before, const Scene& after,
                          const std::vector<NodeIndex>& moved,
-                         const std::function<std::string(const Scene&, const PairAt&)>& reason_of) {
+                         const std::function<Reason(const Scene&, const PairAt&)>& reason_of) {
   fix_.crossings_after = find_crossings(after, options_.threads).size();
   set_interfaces(fix_, context_.interfaces(), options_, before, after);
   fix_.moved = moved_list(model_, *mesh_, moved, start_, now_);
+  // Every strategy names the depth that a node has in the deck as it was read.
+  std::map<std::pair<std::int64_t, std::vector<std::int64_t>>, double> depth;
+  for (const Contact& contact : before.contacts)
+    for (const auto& [secondary, row] : deepest_rows(contact)) {
+      double& deepest = depth[{contact.inter->id, secondary_ids(*before.model, contact, *row)}];
+      deepest = std::max(deepest, row->depth);
+    }
   for (std::uint32_t c = 0; c < after.contacts.size(); ++c) {
     const Contact& contact = after.contacts[c];
     if (!is_wanted(options_, contact)) continue;
-    for (const auto& [secondary, row] : deepest_rows(contact))
-      fix_.refused.push_back({contact.inter->id, secondary_ids(*after.model, contact, *row),
-                              row->depth, reason_of(after, {c, row->secondary, row->main})});
+    for (const auto& [secondary, row] : deepest_rows(contact)) {
+      std::vector<std::int64_t> ids = secondary_ids(*after.model, contact, *row);
+      const auto was = depth.find({contact.inter->id, ids});
+      auto [reason, next] = reason_of(after, {c, row->secondary, row->main});
+      fix_.refused.push_back({contact.inter->id, std::move(ids),
+                              was != depth.end() ? was->second : row->depth, std::move(reason), 0,
+                              std::move(next)});
+    }
   }
   std::stable_sort(
       fix_.refused.begin(), fix_.refused.end(), [](const FixRefusal& a, const FixRefusal& b) {

@@ -17,6 +17,11 @@
 
 namespace deck::detail {
 
+/// Why a pair was not treated, and FixRefusal::next.
+struct Reason {
+  std::string text, next = {};
+};
+
 /// A deck with a model of its own, whose nodes move; the deck itself stays as it is.
 class MovableDeck {
  protected:
@@ -39,7 +44,7 @@ class MovableDeck {
   /// Fills in what the repair leaves behind: counts, moved nodes, and one line per secondary node
   /// or edge that still penetrates, with the reason of its deepest pair.
   void report(const Scene& before, const Scene& after, const std::vector<NodeIndex>& moved,
-              const std::function<std::string(const Scene&, const PairAt&)>& reason_of);
+              const std::function<Reason(const Scene&, const PairAt&)>& reason_of);
 
   const LoadedDeck& context_;
   const MoveNodesOptions& options_;

@@ -196,13 +196,14 @@ class PartMover : MovableDeck {
 
   Result<PenetrationFix> finish(const Scene& before) {
     fix_.rewrite.edits = cells_.edits(texts_);
-    auto again = read_again(context_, fix_.rewrite);
+    const auto again = AfterRewrite::read(context_, fix_.rewrite, options_, false, before);
     if (!again) return again.error();
-    const Scene after = fix_scene(*again, options_, false);
+    const Scene& after = again->scene();
     if (const auto why = harm_text(model_, after, baseline_.harm(after)))
       return Error{Error::Code::internal, "the deck read again differs: " + *why};
-    report(before, after, moved_,
-           [this](const Scene& scene, const PairAt& at) { return reason_of(key_of(scene, at)); });
+    report(before, after, moved_, [this](const Scene& scene, const PairAt& at) {
+      return Reason{reason_of(key_of(scene, at)), "deck fix DECK --strategy move-nodes"};
+    });
     fix_.complete = fix_.refused.empty();
     return std::move(fix_);
   }

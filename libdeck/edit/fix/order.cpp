@@ -40,6 +40,7 @@ FixScore score_of(const PenetrationFix& fix) {
     const bool refused = std::any_of(fix.refused.begin(), fix.refused.end(),
                                      [&](const FixRefusal& r) { return r.interface_id == i.id; });
     out.solved += before - std::min(before, after);
+    out.treated_already += i.before.pairs - before;
     (refused ? out.not_treated : out.left) += after;
   }
   return out;
@@ -51,7 +52,7 @@ const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals) {
   for (const PenetrationFix& fix : proposals) {
     const FixScore s = score_of(fix);
     if (s.solved == 0 || fix.strategy == "tie") continue;
-    if (best != nullptr && s.all() - s.solved >= score.all() - score.solved) continue;
+    if (best != nullptr && s.open() >= score.open()) continue;
     best = &fix;
     score = s;
   }

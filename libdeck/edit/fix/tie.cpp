@@ -381,9 +381,9 @@ class TieFix {
     CellWriter edits(context_.deck().sources);
     for (const Plan& plan : plans_) plan.place.write(edits, plan.text.text);
     fix_.rewrite.edits = edits.finish();
-    auto again = read_again(context_, fix_.rewrite);
+    const auto again = AfterRewrite::read(context_, fix_.rewrite, options_, true, before_);
     if (!again) return again.error();
-    Scene after = fix_scene(*again, options_, true);
+    Scene after = again->scene();
     std::size_t where = 0;
     if (const std::string why = harm(after.ties, where); !why.empty()) {
       // The text does not say what it was meant to: nothing is changed.

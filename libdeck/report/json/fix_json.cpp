@@ -93,7 +93,8 @@ void write_step(JsonWriter& j, const PenetrationFix& step) {
   j.field("not_treated", step.refused.size());
   const FixScore score = score_of(step);
   j.key("score").begin_object(true).field("solved", score.solved).field("left", score.left);
-  j.field("not_treated", score.not_treated).end_object().end_object();
+  j.field("not_treated", score.not_treated).field("treated_already", score.treated_already);
+  j.end_object().end_object();
 }
 
 void write_refused(JsonWriter& j, const PenetrationFix& fix) {
@@ -103,21 +104,26 @@ void write_refused(JsonWriter& j, const PenetrationFix& fix) {
     write_ids(j, "nodes", r.nodes);
     j.field("depth", r.depth).key("distance");
     r.distance > 0 ? j.value(r.distance) : j.null();
-    j.field("reason", r.reason).end_object();
+    j.field("reason", r.reason).key("next");
+    r.next.empty() ? j.null() : j.value(r.next);
+    j.end_object();
   }
   j.end_array();
 }
 
 }  // namespace
 
-std::string repair_json(const PenetrationFix& fix, const std::vector<NextCommand>& next,
-                        std::string_view patch) {
+std::string repair_json(const PenetrationFix& fix, std::string_view deck,
+                        const std::vector<NextCommand>& next, std::string_view patch) {
   std::string out;
   JsonWriter j(out);
   j.begin_object().field("strategy", fix.strategy);
   write_crossings(j, fix);
   write_refused(j, fix);
-  j.key("next").begin_array();
+  j.key("groups").begin_array();
+  for (const RefusedGroup& g : refused_groups({fix}, deck))
+    j.begin_object(true).field("text", g.text).field("command", g.command).end_object();
+  j.end_array().key("next").begin_array();
   for (const NextCommand& n : next)
     j.begin_object(true).field("does", n.does).field("command", n.command).end_object();
   j.end_array().field("patch", patch).end_object();

@@ -7,19 +7,35 @@
 
 #include "deck/edit/fix.hpp"
 #include "deck/model/coverage.hpp"
+#include "deck/verdict.hpp"
 
 namespace deck {
 
 struct FixTextOptions {
   std::size_t rows = 10;  ///< of the lists of moved nodes and of what was not treated
   bool color = false;
-  std::size_t width = 0;  ///< columns of a line of a table; 0: any
+  std::size_t width = 0;      ///< columns of a line of a table; 0: any
+  std::string deck = "DECK";  ///< in commands, as a word of the shell
+  bool examined = true;       ///< something was: without penetrations there is nothing to fix
 };
 
 /// One sentence: what was done, what is left.
 std::string fix_verdict(const PenetrationFix& fix);
 /// Verdict, interface table, changed fields, moved nodes, what was not treated and why.
 std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options = {});
+
+/// What was not treated, put together by strategy and reason, and what to call next.
+struct RefusedGroup {
+  std::string text, command;
+};
+/// The largest groups first, at most eight of them; `more`: how many are left out. `deck`: a word
+/// of the shell.
+std::vector<RefusedGroup> refused_groups(const std::vector<PenetrationFix>& fixes,
+                                         std::string_view deck, std::size_t* more = nullptr);
+
+/// What the Starter does with a deck: "The Starter will still stop: 4 nodes on a segment of
+/// interface 2, error 611." `fixed`: something was changed before.
+std::string starter_text(const Verdict& verdict, const Scene& scene, bool fixed);
 
 /// What each strategy would do, as a table, what each leaves and why, and `command` with the
 /// strategy that leaves least, to be copied. Without penetrations and crossed elements one
@@ -40,7 +56,7 @@ struct NextCommand {
 };
 /// What the page of `deck fix --html` says beside the moved nodes (HtmlInput::repair): what was not
 /// treated, what to call next, and the patch.
-std::string repair_json(const PenetrationFix& fix, const std::vector<NextCommand>& next,
-                        std::string_view patch);
+std::string repair_json(const PenetrationFix& fix, std::string_view deck,
+                        const std::vector<NextCommand>& next, std::string_view patch);
 
 }  // namespace deck

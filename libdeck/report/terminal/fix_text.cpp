@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
+#include "deck/contact/view.hpp"
 #include "report/shared/fix.hpp"
 #include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
@@ -125,59 +127,81 @@ std::string moved_text(const PenetrationFix& fix, const FixTextOptions& options)
   return text;
 }
 
-/// Lines of what was not treated, each behind `lead`.
-std::string refused_lines(const PenetrationFix& fix, const FixTextOptions& options,
-                          const std::string& lead) {
-  struct Group {
-    std::int64_t interface_id;
-    std::string reason;
-    std::size_t count = 0;
-    double deepest = 0, farthest = 0;
-    std::vector<std::string> examples;
-  };
-  std::vector<Group> groups;
-  for (const FixRefusal& r : fix.refused) {
-    auto g = std::find_if(groups.begin(), groups.end(), [&](const Group& x) {
-      return x.interface_id == r.interface_id && x.reason == r.reason;
-    });
-    if (g == groups.end()) {
-      groups.push_back({r.interface_id, r.reason, 0, 0, 0, {}});
-      g = groups.end() - 1;
+/// A group of refusals on its way to a RefusedGroup.
+struct Gathered {
+  std::string strategy, alike;  ///< the reason without its numbers
+  std::string reason, next;     ///< of the first
+  std::set<std::int64_t> interfaces;
+  std::size_t count = 0;
+  double deepest = 0, farthest = 0;
+  std::vector<std::string> examples;
+};
+
+std::string without_numbers(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    if (c < '0' || c > '9') out += c;
+  return out;
+}
+
+std::vector<Gathered> gathered(const std::vector<PenetrationFix>& fixes) {
+  std::vector<Gathered> groups;
+  std::map<std::pair<std::string, std::string>, std::size_t> places;
+  for (const PenetrationFix& fix : fixes)
+    for (const FixRefusal& r : fix.refused) {
+      std::string alike = without_numbers(r.reason);
+      const auto [at, fresh] = places.try_emplace({fix.strategy, alike}, groups.size());
+      if (fresh)
+        groups.push_back({fix.strategy, std::move(alike), r.reason, r.next, {}, 0, 0, 0, {}});
+      Gathered& g = groups[at->second];
+      g.interfaces.insert(r.interface_id);
+      g.deepest = std::max(g.deepest, r.depth);
+      g.farthest = std::max(g.farthest, r.distance);
+      if (r.nodes.empty()) continue;
+      ++g.count;
+      if (g.examples.size() < 5) g.examples.push_back(names(r.nodes));
     }
-    g->deepest = std::max(g->deepest, r.depth);
-    g->farthest = std::max(g->farthest, r.distance);
-    if (r.nodes.empty()) continue;
-    ++g->count;
-    if (g->examples.size() < 5) g->examples.push_back(names(r.nodes));
-  }
-  std::string text;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (i == options.rows) {
-      text += fmt::format("  ... and {} (--json lists all)\n",
-                          count(groups.size() - i, "more group", "more groups"));
+  std::stable_sort(groups.begin(), groups.end(),
+                   [](const Gathered& a, const Gathered& b) { return a.count > b.count; });
+  return groups;
+}
+
+std::string text_of(const Gathered& g, bool with_strategy) {
+  std::string text = with_strategy ? g.strategy + ", " : std::string();
+  text += g.interfaces.size() == 1 ? "interface " : "interfaces ";
+  std::size_t shown = 0;
+  for (const std::int64_t id : g.interfaces) {
+    if (shown == 5) {
+      text += fmt::format(" and {} more", g.interfaces.size() - shown);
       break;
     }
-    const Group& g = groups[i];
-    text += fmt::format("  {}interface {}", lead, g.interface_id);
-    if (g.count > 0)
-      text += ", " + (g.farthest > 0 ? count(g.count, "node", "nodes")
-                                     : count(g.count, "node or edge", "nodes or edges"));
-    if (g.farthest > 0) text += fmt::format(", up to {:.6g} away", g.farthest);
-    if (g.deepest > 0) text += fmt::format(", up to {:.4g} deep", g.deepest);
-    text += ": " + terminal_text(g.reason);
-    if (g.count > 0) {
-      text += " (";
-      for (std::size_t k = 0; k < g.examples.size(); ++k)
-        text += (k == 0 ? "" : ", ") + g.examples[k];
-      text += g.count > g.examples.size() ? ", ...)" : ")";
-    }
-    text += "\n";
+    text += fmt::format("{}{}", shown++ == 0 ? "" : ", ", id);
+  }
+  if (g.count > 0)
+    text += ", " + (g.farthest > 0 ? count(g.count, "node", "nodes")
+                                   : count(g.count, "node or edge", "nodes or edges"));
+  if (g.farthest > 0) text += fmt::format(", up to {:.6g} away", g.farthest);
+  if (g.deepest > 0) text += fmt::format(", up to {:.4g} deep", g.deepest);
+  text += ": " + terminal_text(g.reason);
+  if (g.count > 0) {
+    text += " (";
+    for (std::size_t k = 0; k < g.examples.size(); ++k)
+      text += (k == 0 ? "" : ", ") + g.examples[k];
+    text += g.count > g.examples.size() ? ", ...)" : ")";
   }
   return text;
 }
 
-std::string refused_text(const PenetrationFix& fix, const FixTextOptions& options) {
-  return fix.refused.empty() ? "" : "\nnot treated:\n" + refused_lines(fix, options, "");
+/// "not treated:", its bullets and their commands; nothing if all was treated.
+std::string refused_text(const std::vector<PenetrationFix>& fixes, const FixTextOptions& options) {
+  std::size_t more = 0;
+  std::string text;
+  for (const RefusedGroup& g : refused_groups(fixes, options.deck, &more))
+    text += fmt::format("  {}\n      {}\n", g.text, terminal_text(g.command));
+  if (more > 0)
+    text +=
+        fmt::format("  ... and {} (--json lists all)\n", count(more, "more group", "more groups"));
+  return text.empty() ? text : "\nnot treated:\n" + text;
 }
 
 /// "64 pairs tied (28 nodes)"; nothing without ties.
@@ -270,6 +294,80 @@ std::string tie_table(const PenetrationFix& fix, const FixTextOptions& options) 
 
 }  // namespace
 
+std::vector<RefusedGroup> refused_groups(const std::vector<PenetrationFix>& fixes,
+                                         std::string_view deck, std::size_t* more) {
+  constexpr std::size_t most = 8;
+  const std::vector<Gathered> groups = gathered(fixes);
+  std::vector<RefusedGroup> out;
+  for (const Gathered& g : groups) {
+    if (out.size() == most) break;
+    std::string command = g.next.empty() ? "deck gaps DECK" : g.next;
+    command.replace(command.find("DECK"), 4, deck);
+    out.push_back({text_of(g, fixes.size() > 1),
+                   fmt::format("{} --interface {}", command, fmt::join(g.interfaces, ","))});
+  }
+  if (more != nullptr) *more = groups.size() - out.size();
+  return out;
+}
+
+std::string starter_text(const Verdict& verdict, const Scene& scene, bool fixed) {
+  if (verdict.level != VerdictLevel::stops)
+    return verdict.undecided || verdict.level == VerdictLevel::not_examined
+               ? "Not every contact was examined: what the Starter does with them is open."
+               : "Nothing in the contacts stops the Starter.";
+  std::map<std::pair<std::int64_t, int>, std::set<NodeIndex>> nodes;
+  for (const Contact& c : scene.contacts)
+    if (const int error = on_surface_error(c); error != 0)
+      for (const PenetrationRow& row : c.penetrations)
+        if (row.on_surface) nodes[{c.inter->id, error}].insert(c.secondary[row.secondary].node);
+  std::string text = fixed ? "The Starter will still stop" : "The Starter will stop";
+  std::size_t shown = 0;
+  for (const auto& [where, of] : nodes) {
+    if (shown == 3) {
+      text += fmt::format("; and at {} more interfaces", nodes.size() - shown);
+      break;
+    }
+    text += fmt::format("{}{} on a segment of interface {}, error {}", shown++ == 0 ? ": " : "; ",
+                        count(of.size(), "node", "nodes"), where.first, where.second);
+  }
+  text += ".";
+  static constexpr std::string_view others[] = {"errors",       "empty_sides",     "without_gap",
+                                                "without_area", "without_element", "ties_stop",
+                                                "main_and_tied"};
+  for (const VerdictSentence& s : verdict.sentences)
+    if (std::find(std::begin(others), std::end(others), s.what) != std::end(others))
+      text += " " + s.text;
+  return text;
+}
+
+namespace {
+
+/// What Inacti 1, Inacti 2 and Fpenmax cost: "28 nodes lose the contact for the whole run".
+std::string price_text(const PenetrationFix& fix) {
+  std::set<std::pair<std::int64_t, std::vector<std::int64_t>>> nodes, segments, edges;
+  for (const FixAction& a : fix.actions) {
+    if (a.after == a.before) continue;
+    if (a.after == PenetrationAction::node_stiffness_zero)
+      nodes.insert({a.interface_id, a.secondary});
+    if (a.after == PenetrationAction::segment_stiffness_zero)
+      segments.insert({a.interface_id, a.main});
+    if (a.after == PenetrationAction::edge_stiffness_zero)
+      edges.insert({a.interface_id, a.secondary});
+  }
+  std::string text;
+  const auto add = [&](std::size_t n, std::string_view one, std::string_view many) {
+    if (n > 0) text += (text.empty() ? "" : " and ") + count(n, one, many);
+  };
+  add(nodes.size(), "node", "nodes");
+  add(segments.size(), "segment", "segments");
+  add(edges.size(), "edge", "edges");
+  if (text.empty()) return text;
+  return text + (nodes.size() + segments.size() + edges.size() == 1 ? " loses" : " lose") +
+         " the contact for the whole run";
+}
+
+}  // namespace
+
 std::string fix_verdict(const PenetrationFix& fix) {
   const FixCount before = total(fix, &FixedInterface::before),
                  after = total(fix, &FixedInterface::after);
@@ -281,6 +379,7 @@ std::string fix_verdict(const PenetrationFix& fix) {
     text = fmt::format("{}: {}, {} without treatment before, {} after", fix.strategy,
                        count(before.pairs, "penetration", "penetrations"), before.untreated,
                        after.untreated);
+    if (const std::string price = price_text(fix); !price.empty()) text += "; " + price;
   } else {
     text = fmt::format("{}: {} before (deepest {:.4g}), {} after", fix.strategy,
                        count(before.pairs, "penetration", "penetrations"), before.deepest,
@@ -300,25 +399,28 @@ std::string fix_verdict(const PenetrationFix& fix) {
 
 namespace {
 
-std::string crossings_text(std::uint64_t crossings) {
+std::string crossings_text(std::uint64_t crossings, const FixTextOptions& options) {
   if (crossings == 0) return {};
   return "\n" + count(crossings, "crossed element stays", "crossed elements stay") +
-         ": no fix separates crossed elements. deck gaps --crossings lists them; separate their "
-         "parts in the mesh\n";
+         ": no fix separates crossed elements; separate their parts in the mesh. This lists them:\n"
+         "  deck gaps " +
+         terminal_text(options.deck) + " --crossings\n";
 }
 
 }  // namespace
 
 std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
-  const Tone tone = fix.complete ? Tone::green : Tone::yellow;
-  std::string text = toned(fix_verdict(fix), tone, options.color) + "\n";
+  const Tone tone = fix.complete && price_text(fix).empty() ? Tone::green : Tone::yellow;
+  const bool nothing = !options.examined && fix.interfaces.empty() && fix.ties.empty();
+  std::string text =
+      toned(nothing ? nothing_evaluated : fix_verdict(fix), tone, options.color) + "\n";
   if (!fix.interfaces.empty()) text += "\n" + interface_table(fix, options);
   if (!fix.ties.empty()) text += "\n" + tie_table(fix, options);
   if (fix.tied_pairs > 0) text += "\n" + tied_text(fix) + ", as before\n";
   text += moved_text(fix, options);
   text += actions_text(fix, options);
-  text += refused_text(fix, options);
-  text += crossings_text(fix.crossings_after);
+  text += refused_text({fix}, options);
+  text += crossings_text(fix.crossings_after, options);
   return text;
 }
 
@@ -334,6 +436,8 @@ std::string changes_of(const PenetrationFix& fix) {
     first = change_text(i.changes);
   }
   if (interfaces > 1) first += fmt::format(", ... of {} interfaces", interfaces);
+  if (const std::string price = price_text(fix); !price.empty())
+    first += (first.empty() ? "" : "; ") + price;
   if (!fix.moved.empty()) {
     double far = 0;
     for (const MovedNode& m : fix.moved) far = std::max(far, m.distance);
@@ -352,7 +456,7 @@ std::string tie_proposal(const std::vector<PenetrationFix>& proposals,
     text += "\n" +
             toned(untied_text(fix, &FixedTie::before) + " of TYPE2 are not tied", Tone::yellow,
                   options.color) +
-            "\n" + tie_table(fix, options) + refused_text(fix, options);
+            "\n" + tie_table(fix, options) + refused_text({fix}, options);
     if (score_of(fix).solved > 0)
       text += fmt::format("\nto tie them:\n  {}\n", terminal_text(command("tie")));
   }
@@ -367,7 +471,8 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
   const PenetrationFix now = unchanged(proposals);
   const FixCount found = total(now, &FixedInterface::before);
   if (now.complete)
-    return nothing_to_fix + (now.tied_pairs > 0 ? "; " + tied_text(now) : std::string()) + "\n";
+    return (options.examined ? nothing_to_fix : nothing_evaluated) +
+           (now.tied_pairs > 0 ? "; " + tied_text(now) : std::string()) + "\n";
   if (now.interfaces.empty() && now.crossings_before == 0) {
     const auto it = std::find_if(proposals.begin(), proposals.end(), [](const PenetrationFix& fix) {
       return fix.strategy != "tie" && !fix.refused.empty();
@@ -375,9 +480,9 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
     if (it == proposals.end())
       return tie_proposal(proposals, command, options,
                           toned(nothing_to_fix, Tone::green, options.color));
-    return tie_proposal(
-        proposals, command, options,
-        toned(nothing_evaluated, Tone::yellow, options.color) + "\n" + refused_text(*it, options));
+    return tie_proposal(proposals, command, options,
+                        toned(nothing_evaluated, Tone::yellow, options.color) + "\n" +
+                            refused_text({*it}, options));
   }
   std::string text = count(found.pairs, "penetration", "penetrations");
   if (found.pairs > 0) text += fmt::format(" (deepest {:.4g})", found.deepest);
@@ -385,24 +490,24 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
     text += ", " + count(now.crossings_before, "crossed element", "crossed elements");
   if (now.tied_pairs > 0) text += "; " + tied_text(now) + ", left alone";
   text = toned(text, Tone::yellow, options.color) + "\n\nwhat each strategy would do:\n";
-  TextTable table(make_table({"strategy", ">solved", ">left", ">not treated", "changes"}));
-  std::string reasons;
-  FixTextOptions few = options;
-  few.rows = std::min<std::size_t>(options.rows, 3);
+  TextTable table(
+      make_table({"strategy", ">solved", ">left", ">not treated", ">treated already", "changes"}));
+  std::vector<PenetrationFix> of_contacts;
   for (const PenetrationFix& fix : proposals) {
     if (fix.strategy == "tie") continue;
     const FixScore s = score_of(fix);
-    const Tone tone = s.all() > s.solved ? Tone::yellow : Tone::green;
+    const Tone tone = s.open() > 0 ? Tone::yellow : Tone::green;
     table.row({fix.strategy,
                fmt::format("{}", s.solved),
                fmt::format("{}", s.left),
                {fmt::format("{}", s.not_treated), tone},
+               fmt::format("{}", s.treated_already),
                changes_of(fix)});
-    reasons += refused_lines(fix, few, fix.strategy + ", ");
+    of_contacts.push_back(fix);
   }
   text += table.fitted(options.width, options.color, 2);
-  if (!reasons.empty()) text += "\nnot treated:\n" + reasons;
-  text += crossings_text(now.crossings_before);
+  text += refused_text(of_contacts, options);
+  text += crossings_text(now.crossings_before, options);
   const PenetrationFix* best = best_of(proposals);
   text += best == nullptr
               ? "\nno strategy solves any of them\n"

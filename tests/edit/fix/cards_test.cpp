@@ -483,8 +483,8 @@ TEST(SetFpenmax, IsJustAboveTheDeepestPairThatIsNotAtDistanceZero) {
   EXPECT_TRUE(closest.rewrite.edits.empty());
   ASSERT_FALSE(closest.refused.empty());
   EXPECT_EQ(closest.refused[0].reason,
-            "a pair is so close to distance 0 that no Fpenmax drops only the pairs at 0; give a "
-            "ratio (--fpenmax)");
+            "a pair is so close to distance 0 that no Fpenmax drops only the pairs at 0");
+  EXPECT_EQ(closest.refused[0].next, "deck fix DECK --strategy fpenmax --fpenmax 99%");
   EXPECT_TRUE(fix({0.5, 1.5}).rewrite.edits.empty()) << "nothing stops the solver";
 }
 

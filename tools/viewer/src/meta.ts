@@ -212,6 +212,8 @@ export interface Repair {
   strategy: string;
   crossings: { before: number; after: number };
   not_treated: { interface: number; nodes: number[]; depth: number; distance: number | null; reason: string }[];
+  /** The same by reason, at most eight, with the command that goes on from there. */
+  groups: { text: string; command: string }[];
   next: { does: string; command: string }[];
   patch: string;
 }

@@ -485,9 +485,9 @@ class Depenetrator : MovableDeck {
   Result<PenetrationFix> finish(const Scene& before) {
     for (;;) {
       fix_.rewrite.edits = cells_.edits(texts_);
-      auto again = read_again(context_, fix_.rewrite);
+      const auto again = AfterRewrite::read(context_, fix_.rewrite, options_, false, before);
       if (!again) return again.error();
-      const Scene after = fix_scene(*again, options_, false);
+      const Scene& after = again->scene();
       std::map<NodeIndex, Hold> bad;
       blame(after, bad);
       std::size_t taken = 0;
@@ -508,9 +508,18 @@ class Depenetrator : MovableDeck {
     }
   }
 
-  std::string reason_of(const Scene& scene, const PairAt& at) {
+  Reason reason_of(const Scene& scene, const PairAt& at) {
     const auto it = skipped_.find(key_of(scene, at));
-    return it != skipped_.end() ? it->second : what_holds(scene, at);
+    std::string text = it != skipped_.end() ? it->second : what_holds(scene, at);
+    const auto says = [&](Hold hold) { return text.find(to_string(hold)) != text.npos; };
+    std::string next = "deck fix DECK --strategy inacti";  // leaves the mesh as it is
+    if (says(Hold::crossed))
+      next = "deck gaps DECK --crossings";
+    else if (says(Hold::share))
+      next = "deck fix DECK --strategy move-nodes --max-moved 100%";
+    else if (it != skipped_.end())
+      next = "deck fix DECK --strategy move-part";
+    return {std::move(text), std::move(next)};
   }
 
   std::string what_holds(const Scene& scene, const PairAt& place) {

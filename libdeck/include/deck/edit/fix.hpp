@@ -22,8 +22,8 @@ namespace deck {
 struct FixOptions {
   int threads = 1;
   std::vector<std::int64_t> interfaces;  ///< ids to treat; empty: all
-  /// TYPE10, and TYPE7 with ITIED, tie what lies within their gap: that is no penetration, and
-  /// untreated unless this is set. No other fix may loosen a tie, or make one.
+  /// TYPE10 ties what lies within its gap: that is no penetration, and untreated unless this is
+  /// set. No other fix may loosen a tie, or make one.
   bool ties = false;
   /// Called with what is being done and (done, total); total 0: unknown. May be empty.
   std::function<void(std::string_view step, std::size_t done, std::size_t total)> progress;
@@ -65,9 +65,12 @@ struct MovedNode {
 struct FixRefusal {
   std::int64_t interface_id = 0;
   std::vector<std::int64_t> nodes;  ///< the secondary node, or the two of an edge
-  double depth = 0;                 ///< as it is now
+  double depth = 0;                 ///< in the deck as it was read
   std::string reason;
   double distance = 0;  ///< of a node that is not tied, from its nearest segment; 0: there is none
+  /// The command that goes on from here, without --interface; "DECK" stands for the deck. Empty:
+  /// none in particular.
+  std::string next = {};
 };
 
 /// A node that a fix ties.
@@ -162,11 +165,12 @@ struct FixSequence {
 /// Each step acts on the deck with what the steps before have changed.
 Result<FixSequence> fix_in_order(const LoadedDeck& context, const std::vector<FixStep>& steps);
 /// What a fix comes to, in pairs: those that it solves, those that it leaves though it changes
-/// something for them, and those that it does not treat (PenetrationFix::refused says why). For
-/// inacti and fpenmax only pairs without treatment by the solver count; for tie nodes.
+/// something for them, those that it does not treat (PenetrationFix::refused says why), and for
+/// inacti and fpenmax those that the solver treats already. Together they are all penetrations. For
+/// tie: nodes.
 struct FixScore {
-  std::uint64_t solved = 0, left = 0, not_treated = 0;
-  std::uint64_t all() const { return solved + left + not_treated; }
+  std::uint64_t solved = 0, left = 0, not_treated = 0, treated_already = 0;
+  std::uint64_t open() const { return left + not_treated; }
 };
 FixScore score_of(const PenetrationFix& fix);
 /// The one that leaves least, of equals the first.

@@ -139,7 +139,7 @@ Action setup(CommandLine& line) {
   line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
   line.flag(
       "--ties", o.ties,
-      "Treat ties (TYPE10, TYPE7 with ITIED) like other contacts: nodes that are moved out of "
+      "Treat ties (TYPE10) like other contacts: nodes that are moved out of "
       "their gap are no longer tied. By default ties are not changed; those of a TYPE2 never are");
   add_write_options(line, o.write);
   line.option("--html", o.html,
@@ -195,8 +195,9 @@ const VerbRegistration registration{
      "Several decks are fixed together: a file that they share is written once, and if they want\n"
      "different texts for it nothing is written (exit code 2).\n"
      "\n"
-     "Exit code: 0 all treated or nothing to treat, 1 something remains, or nothing was examined, "
-     "2 wrong usage, 3 unreadable input.\n",
+     "Exit code: 0 all treated or nothing to treat, 1 something remains, the solver stops with "
+     "the\n"
+     "result, or nothing was examined, 2 wrong usage, 3 unreadable input.\n",
      setup}};
 
 }  // namespace

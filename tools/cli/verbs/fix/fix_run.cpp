@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
+#include "deck/contact/view.hpp"
 #include "deck/model/coverage.hpp"
 #include "deck/text/number.hpp"
 #include "edit/shared/move_part.hpp"
@@ -44,6 +46,7 @@ class FixRun {
     if (!member) return fail(member.error());
     SceneOptions scene = loaded.scene_options();
     scene.ties = true;
+    scene.candidates = false;
     loaded.set_scene_options(scene);
     const Coverage coverage =
         coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties);
@@ -52,9 +55,9 @@ class FixRun {
       if (!o_.strategies.empty()) changes_.propose(*member, loaded.deck(), {});
       return exit_findings;
     }
-    if (o_.strategies.empty()) return propose(loaded, coverage, errors);
+    if (o_.strategies.empty()) return propose(loaded, *member, coverage, errors);
     auto fixed = make(loaded, o_.strategies);
-    if (!fixed) return fail(fixed.error());
+    if (!fixed) return not_made(loaded, *member, fixed.error());
     const ChangedFiles& changed = fixed->changed;
     const PenetrationFix whole =
         fixed->fixes.size() == 1 ? fixed->fixes.front() : combined(fixed->fixes);
@@ -63,7 +66,8 @@ class FixRun {
       const auto patch = changes_.diff();
       if (!patch) return fail(patch.error());
       auto page = fix_page(loaded, changed,
-                           repair_json(whole, next(loaded.path(), whole, !changed.empty()), *patch),
+                           repair_json(whole, shell_word(loaded.path()),
+                                       next(loaded.path(), whole, !changed.empty()), *patch),
                            o_.common);
       if (!page) return fail(page.error());
       page_ = std::move(*page);
@@ -73,9 +77,12 @@ class FixRun {
                                 : o_.write.diff               ? "diff"
                                                               : "no";
     if (json_.wanted()) documents_.push_back(fix_json(loaded, whole, written, fixed->fixes));
-    texts_ += report(whole, fixed->fixes, changed, loaded.path(), coverage_tail(coverage));
+    const auto starter = starter_of(loaded, changed);
+    if (!starter) return fail(starter.error());
+    texts_ += report(whole, fixed->fixes, changed, loaded.path(), coverage_tail(coverage),
+                     starter->text, examined(loaded));
     // A deck that the solver does not take is not repaired, whatever was done about its contacts.
-    return whole.complete && !errors ? exit_clean : exit_findings;
+    return whole.complete && !errors && starter->goes_on ? exit_clean : exit_findings;
   }
 
   /// Writes what the decks want together, and says what was done.
@@ -92,7 +99,8 @@ class FixRun {
       print_contents(*patch);
     }
     if (o_.write.in_place || !o_.write.directory.empty())
-      if (auto done = changes_.write(false); !done) return std::max(code, usage(done.error()));
+      if (auto done = changes_.write(!o_.write.in_place && o_.common.json != "-"); !done)
+        return std::max(code, usage(done.error()));
     if (!page_.empty())
       if (auto done = o_.common.session->write_output(o_.html, page_); !done)
         return std::max(code, usage(done.error()));
@@ -121,6 +129,46 @@ class FixRun {
     }
   }
 
+  /// What the Starter does with a deck.
+  struct Starter {
+    std::string text;
+    bool stops = false;
+    bool goes_on = false;  ///< it does not stop, and something was examined
+  };
+  Result<Starter> starter_of(const LoadedDeck& loaded, const ChangedFiles& changed) const {
+    std::optional<LoadedDeck> result;
+    if (!changed.empty()) {
+      auto again = loaded.with({changed.begin(), changed.end()});
+      if (!again) return again.error();
+      result.emplace(std::move(*again));
+      result->set_scene_options(loaded.scene_options());
+    }
+    const LoadedDeck& deck = result ? *result : loaded;
+    const Verdict verdict = verdict_of(deck);
+    Starter out{starter_text(verdict, deck.scene(), !changed.empty()),
+                verdict.level == VerdictLevel::stops, false};
+    out.goes_on = !out.stops && examined(deck);
+    return out;
+  }
+
+  /// False if no contact and no tie could be looked at.
+  static bool examined(const LoadedDeck& loaded) {
+    const auto& contacts = loaded.scene().contacts;
+    return !loaded.ties().empty() ||
+           std::any_of(contacts.begin(), contacts.end(), [](const Contact& c) {
+             return c.evaluated && obstacle_of(c) == Obstacle::none;
+           });
+  }
+
+  /// A contact that cannot be evaluated is no bad input: the deck stays as it is.
+  int not_made(const LoadedDeck& loaded, std::size_t member, const Error& error) {
+    if (error.code != Error::Code::limit) return fail(error);
+    print_error(o_.common, error.message);
+    if (json_.wanted()) documents_.push_back(fix_json(loaded, {}, "no"));
+    changes_.propose(member, loaded.deck(), {});
+    return exit_findings;
+  }
+
   /// Nothing was looked at: no verdict, and nothing that could be fixed.
   void report_nothing(const LoadedDeck& loaded, const Coverage& coverage) {
     PenetrationFix nothing;
@@ -131,14 +179,24 @@ class FixRun {
   }
 
   /// What each strategy would do, and the command for the best one.
-  int propose(const LoadedDeck& loaded, const Coverage& coverage, bool errors) {
+  int propose(const LoadedDeck& loaded, std::size_t member, const Coverage& coverage, bool errors) {
     std::vector<PenetrationFix> proposals;
+    std::vector<ChangedFiles> changed;
     for (const char* strategy :
          {"move-nodes", "reduce-gap", "inacti", "fpenmax", "tie", "move-part"}) {
       auto made = make(loaded, {strategy});
-      if (!made) return fail(made.error());
+      if (!made) return not_made(loaded, member, made.error());
       proposals.push_back(std::move(made->fixes.front()));
+      changed.push_back(std::move(made->changed));
     }
+    const PenetrationFix* best = best_of(proposals);
+    const auto now_starts = starter_of(loaded, {});
+    const auto then =
+        best == nullptr
+            ? now_starts
+            : starter_of(loaded, changed[static_cast<std::size_t>(best - proposals.data())]);
+    if (!now_starts) return fail(now_starts.error());
+    if (!then) return fail(then.error());
     const PenetrationFix now = unchanged(proposals);
     if (json_.wanted()) documents_.push_back(fix_json(loaded, now, "no", proposals));
     if (!o_.common.quiet) {
@@ -146,21 +204,44 @@ class FixRun {
       text.rows = o_.rows;
       text.width = text_width();
       text.color = o_.common.color_on(o_.common.json == "-" ? 2 : 1);
+      text.deck = shell_word(loaded.path());
+      text.examined = examined(loaded);
       texts_ += heading(loaded.path());
       texts_ += fix_proposals_text(
-          proposals, [&](std::string_view s) { return command(loaded.path(), s); }, text);
+          proposals,
+          [&](std::string_view s) {
+            const auto made =
+                std::find_if(proposals.begin(), proposals.end(),
+                             [&](const PenetrationFix& f) { return f.strategy == s; });
+            return command(loaded.path(), s, changed_interfaces(*made));
+          },
+          text);
       if (const std::string tail = coverage_tail(coverage); !tail.empty())
         texts_ += "\n" + tail.substr(1) + "\n";
+      if (best != nullptr || now_starts->stops)
+        texts_ += (best != nullptr ? "\nwith it: " : "\n") + then->text + "\n";
     }
-    return now.complete && !errors ? exit_clean : exit_findings;
+    return now.complete && !errors && now_starts->goes_on ? exit_clean : exit_findings;
   }
 
   std::string heading(const std::string& path) const {
     return o_.common.decks.size() > 1 ? terminal_text(path) + "\n" : std::string();
   }
 
-  /// The call that makes the fix of one strategy, with the options of this one.
-  std::string command(const std::string& path, std::string_view strategy) const {
+  /// Interfaces whose cards or ties a fix changes.
+  static std::vector<std::int64_t> changed_interfaces(const PenetrationFix& fix) {
+    std::vector<std::int64_t> out;
+    for (const FixedInterface& i : fix.interfaces)
+      if (!i.changes.empty()) out.push_back(i.id);
+    for (const FixedTie& tie : fix.ties)
+      if (!tie.changes.empty()) out.push_back(tie.id);
+    return out;
+  }
+
+  /// The call that makes the fix of one strategy, with the options of this one; without
+  /// --interface for `interfaces`.
+  std::string command(const std::string& path, std::string_view strategy,
+                      const std::vector<std::int64_t>& interfaces = {}) const {
     const Options plain;
     std::string text = fmt::format("deck fix {} --strategy {}", shell_word(path), strategy);
     const auto add = [&](std::string_view option, const std::string& value,
@@ -170,7 +251,7 @@ class FixRun {
     const auto ids = [](const std::vector<std::int64_t>& list) {
       return fmt::format("{}", fmt::join(list, ","));
     };
-    add("--interface", ids(o_.interfaces), "");
+    add("--interface", ids(o_.interfaces.empty() ? interfaces : o_.interfaces), "");
     if (o_.ties) text += " --ties";
     if (strategy == "reduce-gap") {
       add("--min-gap", o_.min_gap, plain.min_gap);
@@ -276,11 +357,14 @@ class FixRun {
 
   std::string report(const PenetrationFix& fix, const std::vector<PenetrationFix>& steps,
                      const ChangedFiles& changed, const std::string& path,
-                     const std::string& not_examined) const {
+                     const std::string& not_examined, const std::string& starter,
+                     bool was_examined) const {
     if (o_.common.quiet) return {};
     FixTextOptions text;
     text.rows = o_.rows;
     text.width = text_width();
+    text.deck = shell_word(path);
+    text.examined = was_examined;
     const bool to_stderr = o_.write.diff || o_.common.json == "-";
     text.color = o_.common.color_on(to_stderr ? 2 : 1);
     std::string out = heading(path);
@@ -295,15 +379,18 @@ class FixRun {
     if (!not_examined.empty()) out += "\n" + not_examined.substr(1) + "\n";
     if (!changed.empty()) {
       const bool written = o_.write.in_place || !o_.write.directory.empty();
-      out += "\n";
-      for (const auto& [file, bytes] : changed)
-        out += fmt::format("{} {}\n", written ? "changed:" : "would change:", terminal_text(file));
+      if (o_.write.directory.empty()) {  // else the files that were written are listed
+        out += "\n";
+        for (const auto& [file, bytes] : changed)
+          out +=
+              fmt::format("{} {}\n", written ? "changed:" : "would change:", terminal_text(file));
+      }
       if (!written && !o_.write.diff)
         out += "nothing was written: --diff shows the patch, --in-place or -o DIR writes it\n";
     } else if (!fix.interfaces.empty() || !fix.ties.empty()) {
       out += "\nno file changes\n";
     }
-    return out;
+    return out + "\n" + starter + "\n";
   }
 
   const Options& o_;

@@ -18,7 +18,7 @@ export function repairSection(report: Report, fly: (node: number) => void): HTML
   const section = h("section", { id: "repair" },
     sectionHead(h("h2", null, "Not treated", h("span", { class: "muted count" }, plural(left.length, "pair", "pairs"))), patch));
   if (left.length === 0) section.append(h("p", { class: "note" }, repair.crossings.after > 0 ? "Every penetration that was looked at was treated; crossed elements stay." : "Everything was treated."));
-  else section.append(refusals(report, left, fly));
+  else section.append(refusals(report, repair, fly));
   if (repair.next.length > 0)
     section.append(h("h3", null, "Next"), h("dl", { class: "next" }, ...repair.next.flatMap((n) => {
       const copy = button("", "copy", async () => copy.classList.toggle("done", await copyText(n.command)), { "aria-label": `Copy: ${n.command}`, title: "Copy", class: "tool" });
@@ -27,7 +27,7 @@ export function repairSection(report: Report, fly: (node: number) => void): HTML
   return section;
 }
 
-function refusals(report: Report, left: Refusal[], fly: (node: number) => void): HTMLElement {
+function refusals(report: Report, repair: Repair, fly: (node: number) => void): HTMLElement {
   const interfaceName = (r: Refusal) => String(r.interface);
   const nodes = (r: Refusal) => r.nodes.join("–") || "–";
   const table = new VirtualTable<Refusal>(
@@ -43,10 +43,8 @@ function refusals(report: Report, left: Refusal[], fly: (node: number) => void):
     } },
   );
   table.element.classList.add("refused-table");
-  table.setRows(left);
-  table.element.style.setProperty("--rows", String(Math.min(left.length, 8)));
-  const reasons = new Map<string, number>();
-  for (const r of left) reasons.set(r.reason, (reasons.get(r.reason) ?? 0) + 1);
+  table.setRows(repair.not_treated);
+  table.element.style.setProperty("--rows", String(Math.min(repair.not_treated.length, 8)));
   return h("div", null,
-    h("ul", { class: "reasons" }, ...[...reasons].sort((a, b) => b[1] - a[1]).map(([reason, n]) => h("li", null, h("b", null, String(n)), ` ${reason}`))), table.element);
+    h("ul", { class: "reasons" }, ...repair.groups.map((g) => h("li", null, `${g.text}: `, h("code", null, g.command)))), table.element);
 }
