@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "cycle/shared/contact_run.hpp"
@@ -13,6 +14,37 @@ namespace {
 
 using detail::NodeStiffness;
 using detail::step_factor;
+
+/// Nodes that several contacts of one interface stiffen, as those of a TYPE19 do, allow less than
+/// each of these contacts by itself: that is the step of the one that stiffens the node most.
+void limit_interfaces(const State& state, const std::vector<NodeStiffness>& by_contact,
+                      SceneOutcome& out) {
+  struct Sum {
+    double all = 0.0, most = 0.0;
+    std::size_t contact = 0;  ///< that gives most
+  };
+  std::map<const InterBase*, std::vector<std::size_t>> interfaces;
+  for (std::size_t i = 0; i < out.contacts.size(); ++i)
+    interfaces[out.contacts[i].contact->inter].push_back(i);
+  for (const auto& [inter, members] : interfaces) {
+    if (members.size() == 1) continue;
+    std::map<NodeIndex, Sum> sums;
+    for (const std::size_t i : members)
+      for (const auto& [n, s] : by_contact[i]) {
+        Sum& sum = sums[n];
+        sum.all += s;
+        if (s > sum.most) sum = {sum.all, s, i};
+      }
+    for (const auto& [n, sum] : sums) {
+      if (!(sum.most > 0.0 && state.mass[n] > 0.0)) continue;
+      ContactOutcome& c = out.contacts[sum.contact];
+      const double dt = step_factor * std::sqrt(2.0 * state.mass[n] / sum.all);
+      if (!(dt < c.step.dt)) continue;
+      c.step = {StepLimit::Source::nodal, dt, n};
+      c.step_node = n;
+    }
+  }
+}
 
 /// The step of all contacts together: nodes add up what every contact gives them.
 void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,
@@ -123,6 +155,7 @@ SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
       out.force_node = n;
     }
   }
+  limit_interfaces(state, stiffness, out);
   limit_all(state, stiffness, out);
   out.structure = state.structure;
   return out;

@@ -454,7 +454,6 @@ class Reader {
     if (notes_.begin_count == 0 && !header.starts_with("/PARAMETER"))
       notes_.before_begin.push_back(deck_.blocks.size());
     detail::parse_header(schemas_, block);
-    check_ids(block);
     deck_.blocks.push_back(std::move(block));
     open_block_ = static_cast<std::int64_t>(deck_.blocks.size()) - 1;
     return true;
@@ -480,19 +479,6 @@ class Reader {
     version = outer_versions_.back();
     submodel_stack_.pop_back();
     outer_versions_.pop_back();
-  }
-
-  void check_ids(const Block& block) {
-    for (const HeaderId* id : {&block.id, &block.unit_id}) {
-      const std::string_view text = deck_.sources.text(id->span);
-      if (text.empty() || text[0] == '&') continue;
-      if (const IntegerCell n = read_integer(text);
-          n.status != NumberStatus::overflow && n.value <= detail::largest_id)
-        continue;
-      report(RuleId::DK054, id->span,
-             "id " + std::string(text.substr(0, 30)) + " is larger than " +
-                 std::to_string(detail::largest_id));
-    }
   }
 
   /// /BEGIN is needed before anything else can be read: its four lines are read on the spot.

@@ -13,14 +13,22 @@ constexpr std::size_t most_ids = 10;  // in a sentence; JSON has all
 constexpr std::size_t most_files = 3;
 
 std::string keyword_of(const Block& block) {
-  return block.schema != nullptr && !block.schema->cards.empty() ? block.schema->keyword
-                                                                 : std::string(block.keyword);
+  if (block.schema != nullptr && !block.schema->cards.empty()) return block.schema->keyword;
+  // A schema of no cards may be of many types: "/INTER/LAGMUL/TYPE16/12" without its ids.
+  std::string_view keyword = block.header;
+  while (true) {
+    const auto slash = keyword.rfind('/');
+    if (slash == 0 || slash == keyword.npos) break;
+    if (keyword.find_first_not_of("0123456789-&", slash + 1) == slash + 1) break;
+    keyword = keyword.substr(0, slash);
+  }
+  return std::string(keyword);
 }
 
-/// "/INTER/TYPE25" as "TYPE25"; "/INTER", where no type stands, as it is.
+/// "/INTER/TYPE25" as "TYPE25"; what names no type alone as it is.
 std::string type_of(const std::string& keyword) {
   constexpr std::string_view front = "/INTER/";
-  return keyword.starts_with(front) ? keyword.substr(front.size()) : keyword;
+  return keyword.starts_with("/INTER/TYPE") ? keyword.substr(front.size()) : keyword;
 }
 
 std::string ids_text(const std::vector<std::int64_t>& ids) {

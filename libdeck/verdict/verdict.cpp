@@ -213,13 +213,13 @@ void say_errors(const DeckErrors& errors, Sentences& out) {
 }
 
 /// What lint found, in front of all else.
-VerdictSentence lint_sentence(const LintFacts& lint, VerdictLevel level) {
+VerdictSentence lint_sentence(const LintFacts& lint, VerdictLevel level, bool examined) {
   VerdictSentence out{
       "lint",
       {},
       {{"errors", lint.errors}, {"warnings", lint.warnings}, {"remarks", lint.remarks}}};
   const std::string remarks = count(lint.remarks, "remark", "remarks");
-  if (level == VerdictLevel::clean || level == VerdictLevel::remarks)
+  if (examined && (level == VerdictLevel::clean || level == VerdictLevel::remarks))
     out.text = lint.remarks > 0 ? "clean (" + remarks + ": -v)." : "clean.";
   else
     out.text = count(lint.errors, "error", "errors") + ", " +
@@ -406,7 +406,7 @@ Verdict make_verdict(const VerdictInput& in) {
                      v.stops_before_pairs || (contacts_decide && stop_at_nodes(*in.contacts)));
   v.warns = in.lint ? in.lint->warnings > 0
                     : v.count("pairs") + v.count("crossed_elements") + v.count("untied_nodes") > 0;
-  if (in.lint) say.all.insert(say.all.begin(), lint_sentence(*in.lint, v.level));
+  if (in.lint) say.all.insert(say.all.begin(), lint_sentence(*in.lint, v.level, lead.empty()));
   v.sentences = std::move(say.all);
   for (const VerdictSentence& s : v.sentences) v.text += (v.text.empty() ? "" : " ") + s.text;
   return v;

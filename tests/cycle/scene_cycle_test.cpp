@@ -217,6 +217,20 @@ TEST(FirstCycle, AShellWithAMissingNodeExchangesNoHeat) {
   EXPECT_NEAR(run(b, options).contacts[0].heat_secondary, -0.5 * 32 * 100 * 1e-3, 1e-12);
 }
 
+TEST(FirstCycle, TheContactsOfAType19AllowOneStep) {
+  SmallDeck d = plates(0.6);
+  d.group("/SURF/PART/3", {2});
+  d.add("@/INTER/TYPE19/1 surf_IDs=3 surf_IDm=2 Gapmin=1");
+  SceneOptions o;
+  o.nodal_stiffness = true;
+  const Built b(d, o);
+  const SceneOutcome r = run(b);
+  const auto all = summarize(b.scene, r);
+  ASSERT_EQ(all.size(), 1u);
+  // Nodes that are secondary in one of them and main in another are stiffened by both.
+  EXPECT_EQ(all[0].contact_dt, r.contact_dt);
+}
+
 TEST(FirstCycle, HeatGoesFromTheHotSideToTheCold) {
   SmallDeck d = plates(0.6);
   exchange_heat(d);

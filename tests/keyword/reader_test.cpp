@@ -331,7 +331,7 @@ TEST(ReaderHeader, IdsBeyondTheLimitAreErrors) {
   const Deck d =
       read(deck_of("/INTER/TYPE7/2147483648\nt\n/INTER/TYPE7/2147483647\nt\n"
                    "/INTER/TYPE7/99999999999999999999999\nt\n"));
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK054), 2u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK335), 2u);
 }
 
 TEST(ReaderHeader, WithoutANumberAMaterialBecomesNumberOneAndAGroupHasNone) {

@@ -149,9 +149,15 @@ void not_evaluated(SceneContext& context, Contact& contact, const std::string& w
                    const char* what = "the contact was not evaluated") {
   contact.evaluated = false;
   const std::string keyword = "/INTER/TYPE" + std::to_string(contact.type);
+  Case particular;
+  particular.severity = Severity::warning;
+  particular.solver = "It evaluates them.";
+  particular.fix =
+      "The deck needs no change. The listing of the Starter shows what deck leaves out.";
   Diagnostic d =
       finding_of(RuleId::DK380, contact.inter->span,
-                 keyword + " " + std::to_string(contact.inter->id) + ": " + why + "; " + what);
+                 keyword + " " + std::to_string(contact.inter->id) + ": " + why + "; " + what,
+                 std::move(particular));
   d.keyword = keyword;
   d.id = contact.inter->id;
   context.diagnostics.report(std::move(d));

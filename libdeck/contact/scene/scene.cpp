@@ -348,10 +348,15 @@ class Builder {
     const auto& [why, severity, of_interface] = obstacle;
     if (why.empty() || (of_interface && !reported_.insert(contact.inter).second)) return;
     const std::string keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
+    Case particular{.severity = severity};
+    if (severity == Severity::warning) {
+      particular.solver = "It evaluates the contact.";
+      particular.fix = "Write the group, side or transform in a form that deck evaluates.";
+    }
     Diagnostic d = finding_of(RuleId::DK380, contact.inter->span,
                               keyword + " " + std::to_string(contact.inter->id) + ": " + why +
-                                  "; the contact was not evaluated");
-    d.severity = severity;
+                                  "; the contact was not evaluated",
+                              std::move(particular));
     d.keyword = keyword;
     d.id = contact.inter->id;
     c_.diagnostics.report(std::move(d));

@@ -90,7 +90,7 @@ void take_common_fields(const Scene& scene, const Inter& i, const Contact& conta
   c.viss = i.VISs.value;
   c.visf = i.VISF.value;
   c.fric = i.Fric.value;
-  c.iform = i.Iform.value == 2 ? 2 : 1;
+  c.iform = static_cast<int>(i.Iform.value);
   c.ithe = static_cast<int>(i.Ithe.value);
   c.ithe_form = static_cast<int>(i.Ithe_form.value);
   c.kthe = i.Kthe.value;

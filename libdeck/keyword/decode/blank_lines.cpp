@@ -38,8 +38,9 @@ class BlankLines {
     const Reading& meant = all.front();
     int lines = 0;
     for (const auto& [before, n] : meant.left_out) lines += n;
+    const Line& first = lines_[meant.left_out.begin()->first];  // what stands in place of a blank
     Diagnostic* d = findings.keep(
-        RuleId::DK511, block_.header_span,
+        RuleId::DK511, first.whole(),
         fmt::format("{} lacks {} that must be blank, so its values are lost: {}",
                     block_.schema->keyword, lines == 1 ? "a line" : fmt::format("{} lines", lines),
                     lost(meant.block)));

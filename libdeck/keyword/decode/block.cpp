@@ -49,6 +49,7 @@ class BlockDecoder {
         break;
       }
     }
+    report_missing();
     read_extra(*schema);
     return std::move(out_);
   }
@@ -128,7 +129,7 @@ class BlockDecoder {
     if (card.repeat == Repeat::once) {
       const Line line = cursor_.next();
       if (!line.valid() && card.optional) return true;
-      if (!line.valid()) report_missing(card);
+      if (!line.valid()) note_missing(card);
       add(card, line, once, once);
       return true;
     }
@@ -147,7 +148,7 @@ class BlockDecoder {
       for (std::int64_t done = 0; done < count; done += card.per_line) {
         const Line line = cursor_.next();
         if (!line.valid()) {
-          if (!card.optional) report_missing(card);
+          if (!card.optional) note_missing(card);
           return true;
         }
         add(card, line, once, once, ++number,
@@ -169,31 +170,34 @@ class BlockDecoder {
     return number.status == NumberStatus::ok ? number.value : value_of(card.count, once, once);
   }
 
-  /// `round`: the first card of what repeats and is cut short. Lines at the end of a property, a
-  /// load or another block without a list mean the same whether they are blank or not there: one
-  /// remark for all of them.
-  void report_missing(const CardSchema& card, const DecodedCard* round = nullptr) {
+  /// `round`: the first card of what repeats and is cut short.
+  void note_missing(const CardSchema& card, const DecodedCard* round = nullptr) {
     missing_.push_back(&card);
-    const bool remark = round == nullptr && block_.schema->opaque_tail;
-    if (remark && missing_.size() > 1) return;
-    if (!findings_.wants(RuleId::DK029)) return;
-    std::string why;
+    if (round != nullptr) broken_round_ = round->line;
+  }
+
+  /// One finding for all of them. It is a remark where the missing lines are the last ones of a
+  /// property, a load or another block without a list: blank lines would mean the same there.
+  void report_missing() {
+    if (missing_.empty() || !findings_.wants(RuleId::DK029)) return;
+    const CardSchema& card = *missing_.front();
+    std::string text = std::string(block_.keyword) + " ends before its line '" + card.name + "'";
     for (const Condition& c : card.when) {
       const Cell* cause = out_.find(c.field);
-      why +=
+      text +=
           " (present because " + c.field + " = " + std::to_string(cause ? cause->integer : 0) + ")";
     }
+    if (const std::size_t more = missing_.size() - 1; more > 0)
+      text += " and " + std::to_string(more) + (more == 1 ? " more line" : " more lines");
     Case particular;
-    if (remark) particular.severity = Severity::info;
-    Diagnostic* d = findings_.keep(
-        RuleId::DK029, block_.header_span,
-        std::string(block_.keyword) + " ends before its line '" + card.name + "'" + why,
-        std::move(particular));
+    if (!broken_round_ && block_.schema->opaque_tail) particular.severity = Severity::info;
+    Diagnostic* d =
+        findings_.keep(RuleId::DK029, block_.header_span, std::move(text), std::move(particular));
     for (const Condition& c : card.when)
       if (const Cell* cause = out_.find(c.field))
         d->notes.emplace_back(cause->span, c.field + " asks for the line");
-    if (round != nullptr)
-      d->notes.emplace_back(round->line.whole(), "the incomplete part begins here");
+    if (broken_round_)
+      d->notes.emplace_back(broken_round_->whole(), "the incomplete part begins here");
   }
 
   /// True if a round has a line with text: blank lines at the end of a block begin none.
@@ -217,7 +221,7 @@ class BlockDecoder {
         const Line line = cursor_.next();
         if (!line.valid()) {
           if ((counted || says_something(round)) && !card.optional)
-            report_missing(card, out_.cards.size() > round ? &out_.cards[round] : nullptr);
+            note_missing(card, out_.cards.size() > round ? &out_.cards[round] : nullptr);
           return true;
         }
         add(card, line, once, round, static_cast<int>(std::min<std::int64_t>(number, 1 << 30)));
@@ -253,6 +257,7 @@ class BlockDecoder {
   LineCursor cursor_;
   DecodedBlock out_;
   std::vector<const CardSchema*> missing_;
+  std::optional<Line> broken_round_;
   std::int64_t lines_ = -1;  ///< data lines of the block, once they are counted
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/shared/count.hpp"
 #include "base/shared/length3.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
@@ -200,11 +201,12 @@ void check_formulation(const LintContext& c, const Rule& rule, Reporter& r) {
     ++interfaces;
   });
   if (first == nullptr) return;
-  report_at(
-      r, rule, *first, "Iform",
-      fmt::format("{}{} {} friction with Iform 1, the viscous formulation", name_of(*first),
-                  interfaces == 1 ? "" : fmt::format(" and {} more interfaces", interfaces - 1),
-                  interfaces == 1 ? "has" : "have"));
+  report_at(r, rule, *first, "Iform",
+            fmt::format("{}{} {} friction with Iform {}, the viscous formulation", name_of(*first),
+                        interfaces == 1 ? ""
+                                        : " and " + deck::count(interfaces - 1, "more interface",
+                                                                "more interfaces"),
+                        interfaces == 1 ? "has" : "have", first->flag("Iform")));
 }
 
 /// Nodes that follow a rigid body.

@@ -180,13 +180,14 @@ std::string field_page(const Schema& schema, std::string_view field, std::size_t
   return out;
 }
 
-/// "run error 79; manual /RBODY" in words, the kind once where it repeats.
+/// "run error 79; manual /RBODY" in words, the kind once where it repeats. Sections of a
+/// specification are not named: no reader has it.
 std::string sources_text(std::string_view sources) {
   constexpr std::pair<std::string_view, std::string_view> words[] = {
       {"run ", "run of the solver: "},
       {"record ", "recorded values of the solver: "},
       {"listing ", "listing of a public deck: "},
-      {"specification ", "notes on the solver: "},
+      {"specification ", "observed behaviour of the solver"},
       {"manual ", "manual: "}};
   std::string out;
   std::string_view before;
@@ -196,11 +197,12 @@ std::string sources_text(std::string_view sources) {
     const std::string_view text = item.substr(std::min(item.find_first_not_of(' '), item.size()));
     for (const auto& [kind, word] : words) {
       if (!text.starts_with(kind)) continue;
-      if (kind == before)
-        out += ", ";
-      else
+      const bool named = kind != "specification ";
+      if (kind != before)
         out += (out.empty() ? "" : "; ") + std::string(word);
-      out += text.substr(kind.size());
+      else if (named)
+        out += ", ";
+      if (named) out += text.substr(kind.size());
       before = kind;
     }
   }

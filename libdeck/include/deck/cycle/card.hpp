@@ -52,7 +52,7 @@ struct ContactCard {
   double fric = 0.0;
   int ifric = 0;  ///< 0 Coulomb, 1 viscous, 2 Darmstad, 3 Renard, 4 exponential decay
   std::array<double, 6> c{};
-  int iform = 1;   ///< 1 viscous (total), 2 stiffness (incremental)
+  int iform = 1;   ///< 2 stiffness (incremental), any other viscous (total)
   int ifiltr = 0;  ///< 0 none, 1 numerical, 2 period, 3 cutting frequency
   double xfreq = 0.0;
   std::optional<Curve> fct_idf;  ///< friction against temperature; needs ithe

@@ -100,7 +100,9 @@ struct ContactOutcome {
   std::vector<NodeCriteria> criteria;  ///< with Iadm only, by node
   Totals totals;                       ///< totals.dt_kinematic_pair is a position in the search
   double heat_secondary = 0.0, heat_main = 0.0;  ///< energy given to each side in this cycle
-  StepLimit step;  ///< its own; index is a node index of the model (kinematic: of that pair)
+  /// Its own; index is a node index of the model (kinematic: of that pair). Of the contacts of a
+  /// TYPE19 that stiffen one node, the one that does so most has the step of them together.
+  StepLimit step;
   NodeIndex step_node = no_index;
   double largest_force = 0.0;  ///< of one pair
   PairOutcome largest;

@@ -139,12 +139,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
           detail::too_many_pairs(fmt::format("{} {}", d.keyword, d.id), "penetrations and forces"));
       continue;
     }
-    if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message)) {
-      out->severity = d.severity;
-      out->keyword = d.keyword;
-      out->id = d.id;
-      out->notes = d.notes;
-    }
+    if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message)) *out = d;
   }
   const int threads = context.loaded->options().threads;
   const std::vector<Crossing> crossings = find_crossings(scene, threads);
