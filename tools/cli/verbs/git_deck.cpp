@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -33,32 +34,52 @@ struct Answer {
 };
 
 #ifdef __EMSCRIPTEN__
-Result<Answer> run_git(const std::vector<std::string>&) {
+Result<Answer> run_git(const std::vector<std::string>&, const std::string& = {}) {
   return Error{Error::Code::config, "git cannot be run here"};
 }
 #else
-/// Standard output of a git command; what it says on standard error is not shown.
-Result<Answer> run_git(const std::vector<std::string>& words) {
+/// The one place that calls git: nothing that a repository names as a command is run, and nothing
+/// is fetched. Filters, which only comparing the work tree runs, are switched off by
+/// without_filters().
+constexpr const char* harmless[] = {"--no-optional-locks",      "-c", "core.fsmonitor=false", "-c",
+                                    "core.hooksPath=/dev/null", "-c", "protocol.allow=never"};
+
+/// Standard output of a git command; what it says on standard error is not shown. It reads `input`,
+/// a line or less.
+Result<Answer> run_git(const std::vector<std::string>& words, const std::string& input = {}) {
   const auto failed = [](int number) {
     return Error{Error::Code::config, std::string("git cannot be run: ") + std::strerror(number)};
   };
-  int ends[2];
+  int ends[2], in[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return failed(errno);
+  if (pipe2(in, O_CLOEXEC) != 0) {
+    const int number = errno;
+    close(ends[0]);
+    close(ends[1]);
+    return failed(number);
+  }
+  // A pipe takes so little at once.
+  const bool told = input.size() <= PIPE_BUF && ::write(in[1], input.data(), input.size()) ==
+                                                    static_cast<ssize_t>(input.size());
+  close(in[1]);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, in[0], 0);
   posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
   std::string program = "git";
-  std::vector<std::string> texts = words;
+  std::vector<std::string> texts(std::begin(harmless), std::end(harmless));
+  texts.insert(texts.end(), words.begin(), words.end());
   std::vector<char*> arguments = {program.data()};
   for (std::string& text : texts) arguments.push_back(text.data());
   arguments.push_back(nullptr);
   pid_t pid = 0;
   const int wrong =
-      posix_spawnp(&pid, program.c_str(), &actions, nullptr, arguments.data(), environ);
+      told ? posix_spawnp(&pid, program.c_str(), &actions, nullptr, arguments.data(), environ)
+           : ENAMETOOLONG;
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
+  close(in[0]);
   if (wrong != 0) {
     close(ends[0]);
     return failed(wrong);
@@ -97,12 +118,21 @@ class Revision {
     return {};
   }
 
-  /// nullopt: git does not have it.
+  /// nullopt: git does not have it. Links are followed as long as they stay in the tree.
   Result<std::optional<std::string>> file(const std::string& path) const {
-    auto answer = run_git({"-C", root_, "cat-file", "blob", name_ + ":" + path});
+    if (path.find('\n') != path.npos) return std::optional<std::string>();
+    auto answer = run_git({"-C", root_, "cat-file", "--batch", "--follow-symlinks"},
+                          name_ + ":" + path + "\n");
     if (!answer) return answer.error();
-    if (answer->code != 0) return std::optional<std::string>();
-    return std::optional(std::move(answer->out));
+    // "<name> blob <size>", the bytes, a line end; other words where it is no file.
+    const std::size_t head = answer->out.find('\n');
+    const std::size_t name = answer->out.find_first_not_of("0123456789abcdef");
+    if (answer->code != 0 || head == answer->out.npos ||
+        answer->out.compare(name, 6, " blob ") != 0)
+      return std::optional<std::string>();
+    std::string bytes = answer->out.substr(head + 1);
+    if (!bytes.empty()) bytes.pop_back();
+    return std::optional(std::move(bytes));
   }
 
   std::string shown(const std::string& path) const {
@@ -141,6 +171,23 @@ std::vector<std::string> words_of(std::string_view text) {
     out.emplace_back(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
+  return out;
+}
+
+/// The same words of git with all filters that its settings name switched off.
+Result<std::vector<std::string>> without_filters(const std::string& root,
+                                                 const std::vector<std::string>& words) {
+  const auto keys =
+      run_git({"-C", root, "config", "-z", "--name-only", "--get-regexp", "^filter[.]"});
+  if (!keys) return keys.error();
+  std::vector<std::string> out;
+  for (const std::string& key : words_of(keys->out)) {
+    if (key.find('=') != key.npos)
+      return Error{Error::Code::config, "git has a filter whose name holds '=' (" + key +
+                                            "), which cannot be switched off; rename it"};
+    out.insert(out.end(), {"-c", key + (key.ends_with(".required") ? "=false" : "=")});
+  }
+  out.insert(out.end(), words.begin(), words.end());
   return out;
 }
 
@@ -185,9 +232,10 @@ Result<ChangedLines> changed_lines(const std::string& name, const LoadedDeck& lo
   const auto base = fork_point(root, name);
   if (!base) return base.error();
   // No setting of git changes what these print.
-  const std::vector<std::string> diff = {
-      "-C", root, "diff", "--no-color", "--no-ext-diff", "--no-textconv", "--no-renames"};
-  std::vector<std::string> words = diff;
+  const auto diff = without_filters(root, {"-C", root, "diff", "--no-color", "--no-ext-diff",
+                                           "--no-textconv", "--no-renames", "--ignore-submodules"});
+  if (!diff) return diff.error();
+  std::vector<std::string> words = *diff;
   words.insert(words.end(), {"--name-only", "-z", "--no-relative", *base});
   const auto names = run_git(words);
   if (!names) return names.error();
@@ -195,7 +243,7 @@ Result<ChangedLines> changed_lines(const std::string& name, const LoadedDeck& lo
   ChangedLines out;
   for (const std::string& file : files_in_tree(loaded, root)) {
     if (std::find(touched.begin(), touched.end(), file) == touched.end()) continue;
-    words = diff;
+    words = *diff;
     words.insert(words.end(), {"--unified=0", *base, "--", ":(top,literal)" + file});
     const auto patch = run_git(words);
     if (!patch) return patch.error();
@@ -265,6 +313,11 @@ Result<std::string> gaps_at_revision(const std::string& revision, const std::str
   if (!schemas) return schemas.error();
   auto loaded = load(old->path, *schemas, options, Stage::interfaces, &old->files);
   if (!loaded) return loaded.error();
+  if (loaded->incomplete())
+    return Error{Error::Code::io,
+                 old->path +
+                     ": a file that it includes is not in git, or lies outside of the work "
+                     "tree; nothing can be compared with it"};
   SceneOptions wanted = loaded->scene_options();
   wanted.candidates = false;
   wanted.ties = true;
