@@ -33,7 +33,6 @@ struct ParserLost {};
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "base/shared/spelling.hpp"
 
@@ -331,6 +330,9 @@ Result<LintConfig> parse_lint_config(std::string_view text, const std::string& p
   config.path = path;
   for (const auto& [key, node] : parsed.table())
     if (auto done = read_key(key.str(), node, config); !done) return done.error();
+  if (config.geometry == false && config.gated())
+    return config_error(path, config.lines["geometry"],
+                        "'geometry = false' would switch off the gate of [gate]");
   return config;
 } catch (const ParserLost&) {
   return config_error(
@@ -351,7 +353,9 @@ Result<LintConfig> find_lint_config(const std::string& deck_path) {
       deck_path == "-" ? fs::current_path(ec) : fs::absolute(fs::path(deck_path), ec).parent_path();
   while (!dir.empty()) {
     const fs::path file = dir / ".decklint.toml";
-    if (fs::is_regular_file(file, ec)) {
+    // A dangling link, a folder or a pipe of that name is refused: with it the gate would be lost.
+    const fs::file_type type = fs::symlink_status(file, ec).type();
+    if (type != fs::file_type::not_found && type != fs::file_type::none) {
       const auto text = read_config_file(file.string(), most_config_bytes);
       if (!text) return text.error();
       return parse_lint_config(*text, file.string());
@@ -360,99 +364,6 @@ Result<LintConfig> find_lint_config(const std::string& deck_path) {
     dir = dir.parent_path();
   }
   return LintConfig{};
-}
-
-const std::map<FindingKey, Baseline::Entry>* Baseline::find(const std::string& deck_path) const {
-  const auto found = decks.find(finding_file(deck_path));
-  return found == decks.end() ? nullptr : &found->second;
-}
-
-namespace {
-
-Error bad_baseline(const std::string& path, const std::string& why) {
-  return {Error::Code::config, path + ": " + why};
-}
-
-/// One entry of a deck; false: not of the form that write_baseline gives it.
-bool read_entry(const nlohmann::json& json, const fs::path& directory,
-                std::map<FindingKey, Baseline::Entry>& out) {
-  const auto text = [&](const char* key) -> const std::string* {
-    const auto it = json.find(key);
-    return it == json.end() ? nullptr : it->get_ptr<const std::string*>();
-  };
-  if (!json.is_object()) return false;
-  const std::string *file = text("file"), *print = text("fingerprint"), *rule = text("rule"),
-                    *entity = text("entity");
-  const auto count = json.find("count");
-  if (file == nullptr || print == nullptr || rule == nullptr || count == json.end() ||
-      !count->is_number_unsigned() || count->get<std::uint64_t>() == 0)
-    return false;
-  Baseline::Entry& entry = out[{finding_file((directory / *file).string()), *print}];
-  entry.rule = *rule;
-  if (entity != nullptr) entry.entity = *entity;
-  entry.count += count->get<std::uint64_t>();
-  return true;
-}
-
-}  // namespace
-
-Result<Baseline> parse_baseline(std::string_view text, const std::string& path) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_object() && json.contains("schema") && json["schema"] == "deck.baseline/1")
-    return bad_baseline(path,
-                        "a baseline of an older version, which does not name the deck of a "
-                        "finding; write it again with --write-baseline");
-  if (!json.is_object() || !json.contains("schema") || json["schema"] != "deck.baseline/2" ||
-      !json.contains("decks") || !json["decks"].is_object())
-    return bad_baseline(path,
-                        "not a baseline: expected JSON with \"schema\": \"deck.baseline/2\" and "
-                        "\"decks\"");
-  const fs::path directory = fs::path(path).parent_path();
-  Baseline baseline;
-  for (const auto& [deck, entries] : json["decks"].items()) {
-    auto& of_deck = baseline.decks[finding_file((directory / deck).string())];
-    if (!entries.is_array()) return bad_baseline(path, "the entry of " + deck + " is not a list");
-    for (std::size_t i = 0; i < entries.size(); ++i)
-      if (!read_entry(entries[i], directory, of_deck))
-        return bad_baseline(path, "entry " + std::to_string(i + 1) + " of " + deck +
-                                      " needs file, fingerprint, rule, and a count above 0");
-  }
-  return baseline;
-}
-
-std::string write_baseline(const std::vector<BaselinedDeck>& decks, const std::string& path) {
-  const fs::path directory = fs::path(finding_file(path)).parent_path();
-  const auto relative = [&](const std::string& file) {
-    return fs::path(finding_file(file)).lexically_relative(directory).generic_string();
-  };
-  std::map<std::string, std::map<FindingKey, Baseline::Entry>> all;
-  for (const BaselinedDeck& b : decks) {
-    // A deck given twice has its findings once.
-    std::map<FindingKey, Baseline::Entry> entries;
-    for (std::size_t i = 0; i < b.result->diagnostics.size(); ++i) {
-      const Diagnostic& d = b.result->diagnostics[i];
-      const std::uint32_t file = d.span.valid() ? d.span.file : 0;
-      Baseline::Entry& e =
-          entries[{relative(b.deck->sources[file].path()), b.result->fingerprints[i]}];
-      e.rule = finding_name(d);
-      e.entity = d.keyword.empty() ? std::string() : d.keyword + "/" + std::to_string(d.id);
-      ++e.count;
-    }
-    all[relative(b.path)] = std::move(entries);
-  }
-  nlohmann::ordered_json json;
-  json["schema"] = "deck.baseline/2";
-  json["decks"] = nlohmann::ordered_json::object();
-  for (const auto& [deck, entries] : all) {
-    auto& list = json["decks"][deck] = nlohmann::ordered_json::array();
-    for (const auto& [key, e] : entries)
-      list.push_back({{"file", key.first},
-                      {"fingerprint", key.second},
-                      {"rule", e.rule},
-                      {"entity", e.entity},
-                      {"count", e.count}});
-  }
-  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace deck

@@ -15,10 +15,11 @@ const std::vector<ConfigKey>& config_keys() {
       {"", "fail-on", R"("warning")", "\"error\"",
        "exit code 1 at or above: \"error\", \"warning\" or \"never\""},
       {"", "baseline", R"("lint-baseline.json")", "none",
-       "findings that are known and accepted: a file of 'deck lint --write-baseline', relative to "
-       "this one"},
-      {"", "geometry", "false", "as far as it is quick",
-       "check geometry (rules DK3, DK4): true for decks of any size, false never"},
+       "findings that are known and accepted: a file of 'deck lint --write-baseline' or 'deck gate "
+       "--accept', relative to this one"},
+      {"", "geometry", "true", "as far as it is quick",
+       "check geometry (rules DK3, DK4): true for decks of any size, false never (not with "
+       "[gate])"},
       {"severity", "DK9", R"("warning")", "that of the rule",
        "severity of rules: \"error\", \"warning\" or \"info\"; the longest matching selector wins"},
       {"per-file-ignores", R"("legacy/**/*.inc")", R"(["DK2"])", "none",
@@ -35,8 +36,8 @@ const std::vector<ConfigKey>& config_keys() {
       {"gate", "fail-on", R"(["new", "worse"])", "none",
        "errors for penetrations that the earlier run did not have, or that are deeper now"},
       {"gate", "baseline", R"("gaps-baseline.json")", "none",
-       "accepted penetrations, a file of 'deck gaps --write-baseline', relative to this file: only "
-       "new and worse ones are errors"},
+       "accepted penetrations, a file of 'deck gaps --write-baseline' or 'deck gate --accept', "
+       "relative to this file: only new and worse ones are errors"},
       {"gate.interface", "match", R"("bumper*")", "", "id or title of an interface"},
       {"gate.interface", "max-depth", "1.0", "that of [gate]", "bound for these interfaces"},
       {"gate.interface", "max-ratio", "0.8", "that of [gate]", "bound for these interfaces"},

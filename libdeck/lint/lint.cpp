@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <tuple>
@@ -25,7 +26,9 @@ bool any_selects(const std::vector<std::string>& selectors, RuleId rule, std::st
                      [&](const std::string& s) { return selects(s, rule, field); });
 }
 
+/// The findings of a gate are out of reach of every selection.
 bool enabled(const LintOptions& options, RuleId rule, std::string_view field) {
+  if (is_gate_rule(rule)) return true;
   if (!options.select.empty() && !any_selects(options.select, rule, field)) return false;
   return !any_selects(options.ignore, rule, field);
 }
@@ -67,6 +70,7 @@ void soften(const Deck& deck, Diagnostic& d) {
 /// The severity override with the longest matching selector; an id that means a field of the rule
 /// is longer than that of the rule.
 void override_severity(const LintOptions& options, Diagnostic& d) {
+  if (is_gate_rule(d.rule)) return;
   std::size_t best = 0;
   for (const auto& [selector, severity] : options.severity) {
     if (!selects(selector, d.rule, d.field)) continue;
@@ -187,6 +191,42 @@ struct Pool {
   }
 };
 
+/// The baseline of the deck, from which what is found is taken out.
+class KnownFindings {
+ public:
+  explicit KnownFindings(const AcceptedFindings& accepted) {
+    for (const auto& [key, amounts] : accepted)
+      all_[key] = {{amounts.begin(), amounts.end()}, amounts.size()};
+  }
+
+  /// True if the finding is accepted: the least of those that it does not exceed is used up.
+  bool take(const Deck& deck, const Diagnostic& d) {
+    if (all_.empty() || is_gate_rule(d.rule)) return false;
+    const auto it = all_.find(finding_key(deck, d));
+    if (it == all_.end()) return false;
+    auto& [free, not_found] = it->second;
+    if (not_found > 0) --not_found;
+    constexpr double same = 1e-6;  // as of depths: what another order of sums changes lies below
+    const double amount = d.amount.value_or(0);
+    const auto enough = free.lower_bound(amount - same * std::abs(amount));
+    if (enough == free.end()) return false;
+    free.erase(enough);
+    return true;
+  }
+
+  /// Those of which there were less findings than entries; one that got worse is still there.
+  std::map<FindingKey, std::uint64_t> stale() const {
+    std::map<FindingKey, std::uint64_t> out;
+    for (const auto& [key, known] : all_)
+      if (known.second > 0) out.emplace(key, known.second);
+    return out;
+  }
+
+ private:
+  /// Amounts that are left, and how many entries nothing was found of.
+  std::map<FindingKey, std::pair<std::multiset<double>, std::size_t>> all_;
+};
+
 void report_unused(const std::vector<detail::Suppression>& suppressions, const LintOptions& options,
                    Reporter& reporter) {
   const Rule& rule = rule_of(RuleId::DK091);
@@ -195,7 +235,7 @@ void report_unused(const std::vector<detail::Suppression>& suppressions, const L
     // A rule that is switched off cannot fire; its suppression is then not known to be useless.
     const bool active = std::any_of(s.rules.begin(), s.rules.end(), [&](const std::string& r) {
       return std::any_of(all_rules().begin(), all_rules().end(), [&](const Rule& known) {
-        return detail::any_name(known, [&](std::string_view field) {
+        return !is_gate_rule(known.id) && detail::any_name(known, [&](std::string_view field) {
           return selects(r, known.id, field) && enabled(options, known.id, field);
         });
       });
@@ -301,7 +341,11 @@ Diagnostic* Reporter::report(const Rule& rule, std::string_view field, const Blo
   return &d;
 }
 
-std::string finding_file(const std::string& path) { return absolute_path(path); }
+FindingKey finding_key(const Deck& deck, const Diagnostic& d) {
+  return {std::string(id_text(d.rule)),
+          absolute_path(deck.sources[d.span.valid() ? d.span.file : 0].path()),
+          d.keyword.empty() ? std::string() : d.keyword + "/" + std::to_string(d.id), d.field};
+}
 
 std::string fingerprint(const Deck& deck, const Diagnostic& d) {
   // A field keeps the fingerprints that it had as a rule of its own.
@@ -344,11 +388,13 @@ std::vector<NotChecked> run_extra_checks(const std::vector<ExtraCheck>& extra,
                                          const LintOptions& options, const LintContext& context,
                                          Reporter& reporter) {
   const bool wanted = std::any_of(all_rules().begin(), all_rules().end(), [&](const Rule& r) {
-    return (r.stage == RuleStage::extra || r.stage == RuleStage::gate) && enabled(options, r.id);
+    return r.stage == RuleStage::extra && enabled(options, r.id);
   });
   std::vector<NotChecked> out;
-  if (!wanted) return out;
-  if (extra.empty()) out.push_back({std::string(geometry_rules), "switched off (--no-geometry)"});
+  if (!wanted && !options.gated) return out;
+  if (extra.empty())
+    out.push_back({std::string(geometry_rules),
+                   "switched off (--no-geometry, or geometry = false in the configuration)"});
   for (const ExtraCheck& check : extra)
     for (NotChecked& n : check(context, reporter)) out.push_back(std::move(n));
   return out;
@@ -391,6 +437,7 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options,
                                   "it may be in a file that could not be read"});
   FileIgnores file_ignores(deck, options);
   const auto hidden = [&](const Diagnostic& d) {
+    if (is_gate_rule(d.rule)) return false;
     if (file_ignores.ignore(d)) return true;
     if (detail::Suppression* s = detail::covering(suppressions, index, d)) {
       s->used = true;
@@ -406,18 +453,13 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options,
   pool.take(late, options);
   pool.sort_and_unite();
 
-  std::map<FindingKey, std::uint64_t> known = options.baseline;
-  std::map<std::uint32_t, std::string> file_names;
+  KnownFindings known(options.baseline);
   for (Diagnostic& d : pool.kept) {
-    std::string print = fingerprint(deck, d);
-    const std::uint32_t file = d.span.valid() ? d.span.file : 0;
-    std::string& name = file_names[file];
-    if (name.empty() && !known.empty()) name = finding_file(deck.sources[file].path());
-    if (const auto it = known.find({name, print}); it != known.end()) {
-      if (--it->second == 0) known.erase(it);
+    if (known.take(deck, d)) {
       ++result.baselined;
       continue;
     }
+    std::string print = fingerprint(deck, d);
     soften(deck, d);
     override_severity(options, d);
     detail::attach_fix(context, d);
@@ -428,7 +470,7 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options,
     result.diagnostics.push_back(std::move(d));
     result.fingerprints.push_back(std::move(print));
   }
-  result.stale = std::move(known);
+  result.stale = known.stale();
   // Findings beyond the bound were counted but not kept; they weigh as the rule's kept ones do.
   for (const auto& [rule, count] : pool.dropped) {
     const auto kept = std::find_if(result.diagnostics.begin(), result.diagnostics.end(),

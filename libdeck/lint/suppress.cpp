@@ -66,8 +66,12 @@ std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& i
         continue;
       }
       for (const std::string& rule : s.rules) {
+        const Rule* const known = find_rule(rule);
         if (!known_selector(rule))
           reporter.report(unknown, s.span, "no rule is called '" + rule + "'");
+        else if (known != nullptr && is_gate_rule(known->id))
+          reporter.report(unknown, s.span,
+                          "no comment switches off '" + rule + "', a rule of the gate");
         else if (std::string now = renamed_selector(rule); !now.empty())
           if (Diagnostic* d = reporter.report(unknown, s.span, std::move(now)); d != nullptr)
             d->severity = Severity::info;

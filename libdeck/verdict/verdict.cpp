@@ -401,7 +401,7 @@ Verdict make_verdict(const VerdictInput& in) {
   v.counts = all_counts(in, coverage, all_errors, say);
   const bool contacts_decide = !in.lint && in.contacts;  // else lint has said it in its errors
   v.stops_before_pairs = all_errors > 0 || (contacts_decide && stop_before_pairs(*in.contacts));
-  v.undecided = contacts_decide && in.contacts->not_evaluated > 0;
+  v.undecided = in.contacts && in.contacts->not_evaluated > in.contacts->left_out;
   v.level = level_of(in, coverage, v,
                      v.stops_before_pairs || (contacts_decide && stop_at_nodes(*in.contacts)));
   v.warns = in.lint ? in.lint->warnings > 0

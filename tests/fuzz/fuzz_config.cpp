@@ -2,6 +2,7 @@
 // plain table of "this much of the pattern fits this much of the path" says.
 #include <vector>
 
+#include "lint/shared/baseline.hpp"
 #include "lint/shared/config.hpp"
 #include "support.hpp"
 
@@ -53,8 +54,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(config.ok() || !config.error().message.empty(), "a refusal says why");
   if (config)
     for (const auto& [glob, rules] : config->per_file_ignores) glob_match(glob, "a/b/c_0000.rad");
-  const auto baseline = parse_baseline(text, "baseline.json");
-  require(baseline.ok() || !baseline.error().message.empty(), "a refusal says why");
+  for (const auto kind : {Baseline::Kind::lint, Baseline::Kind::gaps}) {
+    const auto baseline = Baseline::parse(text, "baseline.json", kind);
+    require(baseline.ok() || !baseline.error().message.empty(), "a refusal says why");
+    if (baseline && kind == Baseline::Kind::lint) baseline->findings_of("a_0000.rad");
+    if (baseline && kind == Baseline::Kind::gaps) baseline->gaps_of("a_0000.rad");
+  }
   const auto line = text.find('\n');
   if (line == std::string::npos || size > 400) return 0;
   const std::string_view pattern = std::string_view(text).substr(0, line);

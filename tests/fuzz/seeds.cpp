@@ -114,8 +114,9 @@ void others(Seeds& seeds) {
       "[severity]\nDK104 = \"error\"\n[per-file-ignores]\n\"legacy/**/*.rad\" = [\"DK1\"]\n");
   seeds.put(
       "fuzz_config", "baseline",
-      R"({"schema":"deck.baseline/2","decks":{"a_0000.rad":[{"file":"a_0000.rad","fingerprint":)"
-      R"("0123456789abcdef","rule":"DK104","entity":"","count":2}]}})");
+      R"({"deck":"a_0000.rad","rule":"DK104","file":"a_0000.rad","entity":"","field":"","value":2})"
+      "\n"
+      R"({"deck":"a_0000.rad","interface":1,"kind":"edges","ids":[3,4],"depth":0.5,"gap":1})");
   int n = 0;
   for (const char* glob :
        {"*.rad\na/b_0000.rad", "a/**/b?.rad\na/x/y/b1.rad", "**\n", "**/x\nx", "a*b*c\naabbcc"})

@@ -1,9 +1,8 @@
-// .decklint.toml and baselines, key by key: what is read, and what is said of what cannot be.
+// .decklint.toml, key by key: what is read, and what is said of what cannot be.
 #include "lint/shared/config.hpp"
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 
 #include "lint/support.hpp"
 
@@ -116,6 +115,12 @@ TEST(ConfigKeys, OfTheGateMatchPairsOfPartsByTwoPatterns) {
   EXPECT_EQ(config->gate.interfaces[0].limits.max_dt_loss, 0.25);
 }
 
+TEST(ConfigKeys, GeometryIsNotSwitchedOffBesideAGate) {
+  for (const char* gate : {"max-depth = 1", "compare = \"git:main\"", "baseline = \"b.json\""})
+    EXPECT_FALSE(parse_lint_config(std::string("geometry = false\n[gate]\n") + gate, "c.toml"));
+  EXPECT_TRUE(parse_lint_config("geometry = false\n[gate]\n", "c.toml"));
+}
+
 TEST(ConfigKeys, OfTheGateKnowRevisionsAndAbsolutePaths) {
   const auto of = [](const std::string& text) {
     const auto c = parse_lint_config("[gate]\n" + text, "/dir/c.toml");
@@ -219,98 +224,6 @@ TEST(FindConfig, TakesTheNearestAndNoneAtAll) {
   EXPECT_EQ(find_lint_config("/x_0000.rad")->path, "");
   folder.write("a/b/.decklint.toml", "ignore = 1\n");
   EXPECT_FALSE(find_lint_config(deck));
-}
-
-// ---- baselines ---------------------------------------------------------------------------------
-
-TEST(BaselineFile, AreWrittenRelativeAndReadAbsolute) {
-  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=7 Gapmin=-0.5\n@/INTER/TYPE7/2 Istf=7\n");
-  LintResult& result = const_cast<LintResult&>(run.result);
-  ASSERT_GE(result.diagnostics.size(), 2u);
-  const std::string text = write_baseline({{"/home/x/m/deck_0000.rad", run.deck, &run.result},
-                                           {"/home/x/m/deck_0000.rad", run.deck, &run.result}},
-                                          "/home/x/lists/base.json");
-  const auto json = nlohmann::json::parse(text);
-  EXPECT_EQ(json["schema"], "deck.baseline/2");
-  ASSERT_EQ(json["decks"].size(), 1u);
-  ASSERT_TRUE(json["decks"].contains("../m/deck_0000.rad")) << text;
-  std::uint64_t entries = 0;
-  std::map<std::string, std::string> entities;
-  for (const auto& e : json["decks"]["../m/deck_0000.rad"]) {
-    entries += e["count"].get<std::uint64_t>();
-    entities[e["rule"].get<std::string>()] += e["entity"].get<std::string>() + " ";
-    EXPECT_EQ(e.size(), 5u);
-  }
-  EXPECT_EQ(entries, result.diagnostics.size()) << "a deck given twice has its findings once";
-  EXPECT_EQ(entities["DK221:Gapmin"], "/INTER/TYPE7/1 ");
-  EXPECT_EQ(entities["DK201:Istf"].size(), 2 * std::string("/INTER/TYPE7/1 ").size());
-  const auto read = parse_baseline(text, "/home/x/lists/base.json");
-  ASSERT_TRUE(read) << read.error().message;
-  const auto* of_deck = read->find("/home/x/m/deck_0000.rad");
-  ASSERT_NE(of_deck, nullptr);
-  EXPECT_EQ(read->find("/home/x/m/other_0000.rad"), nullptr);
-  std::uint64_t known = 0;
-  for (const auto& [key, e] : *of_deck) known += e.count;
-  EXPECT_EQ(known, entries);
-}
-
-TEST(BaselineFile, AddUpEntriesOfOneFinding) {
-  const auto entry = [](const std::string& count) {
-    return R"({"file":"a.rad","fingerprint":"ff","rule":"DK1","entity":"/X/1","count":)" + count +
-           "}";
-  };
-  const auto of = [&](const std::string& entries) {
-    return parse_baseline(R"({"schema":"deck.baseline/2","decks":{"a.rad":[)" + entries + "]}}",
-                          "/d/b.json");
-  };
-  const auto both = of(entry("2") + "," + entry("3"));
-  ASSERT_TRUE(both);
-  const auto* found = both->find("/d/a.rad");
-  ASSERT_NE(found, nullptr);
-  ASSERT_EQ(found->size(), 1u);
-  EXPECT_EQ(found->begin()->first, (FindingKey{"/d/a.rad", "ff"}));
-  EXPECT_EQ(found->begin()->second.count, 5u);
-  EXPECT_EQ(found->begin()->second.rule, "DK1");
-  EXPECT_EQ(found->begin()->second.entity, "/X/1");
-  EXPECT_TRUE(of(""));
-}
-
-TEST(BaselineFile, OfAnotherFormAreRefused) {
-  const std::string none =
-      "b.json: not a baseline: expected JSON with \"schema\": \"deck.baseline/2\" and \"decks\"";
-  const std::string entry =
-      "b.json: entry 1 of a needs file, fingerprint, rule, and a count above 0";
-  const auto of = [](const std::string& entries) {
-    return R"({"schema":"deck.baseline/2","decks":{"a":)" + entries + "}}";
-  };
-  const std::string good = R"({"file":"a","fingerprint":"f","rule":"r","count":1})";
-  const std::pair<std::string, std::string> rows[] = {
-      {"", none},
-      {"[]", none},
-      {"{}", none},
-      {R"({"schema":"deck.baseline/2"})", none},
-      {R"({"schema":"deck.baseline/2","decks":[]})", none},
-      {R"({"schema":"deck.baseline/3","decks":{}})", none},
-      {R"({"schema":"deck.baseline/1","decks":{}})",
-       "b.json: a baseline of an older version, which does not name the deck of a finding; write "
-       "it again with --write-baseline"},
-      {of("5"), "b.json: the entry of a is not a list"},
-      {of("[" + good + "]"), ""},
-      {of("[5]"), entry},
-      {of("[" + good + ",5]"),
-       "b.json: entry 2 of a needs file, fingerprint, rule, and a count above 0"},
-      {of(R"([{"fingerprint":"f","rule":"r","count":1}])"), entry},
-      {of(R"([{"file":"a","rule":"r","count":1}])"), entry},
-      {of(R"([{"file":"a","fingerprint":"f","count":1}])"), entry},
-      {of(R"([{"file":"a","fingerprint":"f","rule":"r"}])"), entry},
-      {of(R"([{"file":"a","fingerprint":"f","rule":"r","count":0}])"), entry},
-      {of(R"([{"file":"a","fingerprint":"f","rule":"r","count":-1}])"), entry},
-      {of(R"([{"file":1,"fingerprint":"f","rule":"r","count":1}])"), entry},
-  };
-  for (const auto& [text, message] : rows) {
-    const auto read = parse_baseline(text, "b.json");
-    EXPECT_EQ(read ? "" : read.error().message, message) << text;
-  }
 }
 
 }  // namespace

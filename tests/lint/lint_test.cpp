@@ -1,4 +1,4 @@
-// The engine: suppressions, baseline, selection, order, bounds, what was not checked.
+// The engine: suppressions, selection, order, bounds, what was not checked.
 #include <gtest/gtest.h>
 
 #include "lint/shared/config.hpp"
@@ -172,92 +172,6 @@ TEST(FormerIds, KeepTheirFingerprints) {
   EXPECT_EQ(print("@/INTER/TYPE7/1 Igap=9\n"), "b164de3499dcbf3e");
   EXPECT_EQ(print(negative), "b9e13d04dd7fdf4b");
   EXPECT_EQ(print("@/INTER/TYPE7/1 Igap=2 %mesh_size=0.4\n"), "de43601330fefe7c");
-}
-
-/// A deck whose only finding is a negative Stfac, in a folder of its own.
-class Baselines : public testing::Test {
- protected:
-  std::string deck(const std::string& name, std::string_view example) const {
-    return folder_.write(name, example_deck(example, SchemaSet::built_in()).main);
-  }
-  Linted lint(const std::string& path, const std::string& baseline = {}) const {
-    LintOptions options;
-    options.select = {"DK221"};
-    if (!baseline.empty()) {
-      const auto parsed = parse_baseline(baseline, file_);
-      EXPECT_TRUE(parsed) << parsed.error().message;
-      if (const auto* entries = parsed->find(path))
-        for (const auto& [key, entry] : *entries) options.baseline.emplace(key, entry.count);
-    }
-    return lint_file(path, options);
-  }
-  std::string baseline_of(const std::vector<std::string>& paths) const {
-    std::vector<Linted> linted;
-    std::vector<BaselinedDeck> decks;
-    for (const std::string& path : paths) linted.push_back(lint(path));
-    for (std::size_t i = 0; i < paths.size(); ++i)
-      decks.push_back({paths[i], linted[i].deck, &linted[i].result});
-    return write_baseline(decks, file_);
-  }
-  Folder folder_;
-  std::string file_ = folder_.path() + "/settings/baseline.json";
-};
-
-TEST_F(Baselines, HideTheFindingsOfTheirDeckWhereverTheCardMoves) {
-  const std::string path = deck("old_0000.rad", negative);
-  const std::string baseline = baseline_of({path});
-  EXPECT_NE(baseline.find("../old_0000.rad"), std::string::npos) << baseline;
-  EXPECT_EQ(baseline.find(folder_.path()), std::string::npos) << "paths are relative";
-  const Linted again = lint(path, baseline);
-  EXPECT_TRUE(again.result.diagnostics.empty()) << again.list();
-  EXPECT_EQ(again.result.baselined, 1u);
-  EXPECT_TRUE(again.result.stale.empty());
-  // Lines above move the card, but not its fingerprint; a changed value is a new finding.
-  deck("old_0000.rad", std::string("# a comment\n/TITLE\nx\n") + negative);
-  EXPECT_FALSE(lint(path, baseline).fires(RuleId::DK221));
-  deck("old_0000.rad", "@/INTER/TYPE7/1 Stfac=-2.0\n");
-  EXPECT_TRUE(lint(path, baseline).fires(RuleId::DK221));
-}
-
-TEST_F(Baselines, HideNothingInADeckThatWasNeverInThem) {
-  const std::string baseline = baseline_of({deck("old_0000.rad", negative)});
-  EXPECT_TRUE(lint(deck("new_0000.rad", negative), baseline).fires(RuleId::DK221));
-}
-
-TEST_F(Baselines, CountPerDeck) {
-  const std::string a = deck("a_0000.rad", negative), b = deck("b_0000.rad", negative);
-  const std::string baseline = baseline_of({a, b});
-  EXPECT_FALSE(lint(a, baseline).fires(RuleId::DK221));
-  EXPECT_FALSE(lint(b, baseline).fires(RuleId::DK221));
-  // The same card once more: one finding more than this deck may have.
-  deck("a_0000.rad", std::string(negative) + negative);
-  EXPECT_EQ(lint(a, baseline).count(RuleId::DK221), 1u);
-}
-
-TEST_F(Baselines, ListWhatDoesNotOccurAnyMore) {
-  const std::string path = deck("old_0000.rad", negative);
-  const std::string baseline = baseline_of({path});
-  deck("old_0000.rad", "@/INTER/TYPE7/1 Stfac=1.0\n");
-  const Linted run = lint(path, baseline);
-  ASSERT_EQ(run.result.stale.size(), 1u);
-  EXPECT_EQ(run.result.stale.begin()->first.first, path);
-  EXPECT_EQ(run.result.stale.begin()->second, 1u);
-}
-
-TEST_F(Baselines, AreRefusedWhereTheyAreNone) {
-  const auto refused = [](std::string_view text) {
-    const auto parsed = parse_baseline(text, "b.json");
-    return parsed ? std::string() : parsed.error().message;
-  };
-  EXPECT_NE(refused("{}"), "");
-  EXPECT_NE(refused("not json"), "");
-  EXPECT_NE(refused(R"({"schema":5,"decks":{}})"), "");
-  EXPECT_NE(refused(R"({"schema":"deck.baseline/1","findings":{}})").find("older version"),
-            std::string::npos);
-  EXPECT_NE(
-      refused(R"({"schema":"deck.baseline/2","decks":{"a":[{"count":-1}]}})").find("entry 1 of a"),
-      std::string::npos);
-  EXPECT_EQ(refused(R"({"schema":"deck.baseline/2","decks":{}})"), "");
 }
 
 TEST(Order, FollowsFileLineColumnRule) {
@@ -591,7 +505,6 @@ TEST(Config, OnlyRegularFilesOfBoundedSizeAreRead) {
   const std::string file = folder.write("c.toml", std::string(1001, '#'));
   EXPECT_FALSE(read_config_file(file, 1000));
   EXPECT_TRUE(read_config_file(file, 1001));
-  EXPECT_FALSE(parse_baseline(R"({"schema":5,"decks":{}})", "b.json"));
 }
 
 }  // namespace

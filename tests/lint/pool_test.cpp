@@ -1,5 +1,4 @@
-// What becomes of findings after the rules: which are left out, softened, counted or known, and
-// what a baseline knows them by.
+// What becomes of findings after the rules: which are left out, softened or counted.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -63,27 +62,6 @@ TEST(Floods, WeighWithTheSeverityOfTheOnesThatAreKept) {
   const Linted info = lint_example(cards, options);
   EXPECT_EQ(info.result.warnings, 0u);
   EXPECT_EQ(info.result.infos, 4u);
-}
-
-TEST(KnownFindings, AreTakenOutAsOftenAsTheBaselineHasThem) {
-  const std::string cards = "@/INTER/TYPE7/1 Tstart=5 Tstop=2\n@/INTER/TYPE7/1 Tstart=5 Tstop=2\n";
-  LintOptions options;
-  options.select = {"DK252"};
-  const Linted plain = lint_example(cards, options);
-  ASSERT_EQ(plain.result.fingerprints.size(), 2u);
-  ASSERT_EQ(plain.result.fingerprints[0], plain.result.fingerprints[1]);
-  const FindingKey key{finding_file("deck_0000.rad"), plain.result.fingerprints[0]},
-      gone{finding_file("deck_0000.rad"), "0123456789abcdef"};
-  for (std::uint64_t known = 1; known <= 3; ++known) {
-    options.baseline = {{key, known}, {gone, 5}};
-    const Linted run = lint_example(cards, options);
-    EXPECT_EQ(run.result.baselined, std::min<std::uint64_t>(known, 2));
-    EXPECT_EQ(run.result.diagnostics.size(), 2 - run.result.baselined);
-    EXPECT_EQ(run.result.warnings, run.result.diagnostics.size());
-    std::map<FindingKey, std::uint64_t> stale{{gone, 5}};
-    if (known == 3) stale[key] = 1;
-    EXPECT_EQ(run.result.stale, stale);
-  }
 }
 
 TEST(ZerosBehindTheLine, AreNoFinding) {

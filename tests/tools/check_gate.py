@@ -67,6 +67,17 @@ class Gate:
 
     def undecided(self):
         """What could not be evaluated has not passed, whatever else is asked for."""
+        self.run("gaps", DECK, "--json", "old.json")
+        group = re.search(r"/GRNOD/PART/(\d+)", self.text).group(1)
+        places = "".join("%10d%20d%20d%20d\n" % (0, *xyz) for xyz in ((0, 0, 0), (1, 0, 0), (0, 1, 0)) * 2)
+        write(self.deck, self.text.replace("\n/END", "\n/TRANSFORM/POSITION/1\nunknown to deck\n%10s\n%s/END" % (group, places), 1))
+        codes = {verb: self.run(verb, DECK, *more).code for verb, *more in (("lint",), ("gaps",), ("cycle",), ("gate", "--compare", "old.json"))}
+        self.c.check("every verb ends with 1 where a contact could not be evaluated", set(codes.values()) == {1}, codes)
+        r = self.run("gate", DECK, "--max-depth", "1", "--compare", "old.json", "--json", "-")
+        found = json.loads(r.out)
+        self.c.check("nothing is solved in it", not found["passed"] and found["undecided"] == 1 and found["compared"]["solved"] == 0, str(found)[:400])
+        write(self.deck, self.text)
+
         for verb in ("gaps", "cycle"):
             r = self.run(verb, DECK, "--max-memory", "1b", "--max-depth", "100", "--fail-on", "never", "--json", "-")
             gate = json.loads(r.out)["gate"]
@@ -230,6 +241,67 @@ class Gate:
                              "exit %s: %s" % (r.code, r.err.decode()))
 
 
+# What could be thought to switch a gate off, by name: keys of .decklint.toml, and those that are no such key.
+TRIES = {"select": 'select = ["DK0"]\n', "ignore": 'ignore = ["DK3", "DK370"]\n', "fail-on": 'fail-on = "never"\n', "geometry": "geometry = true\n",
+         "baseline": 'baseline = "lint-baseline.json"\n', "severity": '[severity]\nDK37 = "info"\nDK370 = "info"\n',
+         "per-file-ignores": '[per-file-ignores]\n"*.rad" = ["DK3"]\n', "comment": "", "nearest": ""}
+
+
+def nothing_disarms_a_gate(c):
+    """All combinations of what could be thought to do so, a deck each: every verb says of every deck that it has not passed."""
+    with open(os.path.join(ROOT, "samples", DECK)) as f:
+        text = f.read()
+    with tempfile.TemporaryDirectory(prefix="deck-gate-") as folder:
+        decks = {}
+        for number in range(1 << len(TRIES)):
+            chosen = [name for k, name in enumerate(TRIES) if number >> k & 1]
+            path = os.path.join(folder, "d%03d" % number, "deep" if "nearest" in chosen else "")
+            os.makedirs(path)
+            deck = os.path.join(path, "car_0000.rad")
+            comment = "# decklint: ignore-file[DK370,DK3] reason=known\n" if "comment" in chosen else ""
+            write(deck, text.replace("\n", "\n" + comment, 1))
+            top = os.path.join(folder, "d%03d" % number)
+            write(os.path.join(top, ".decklint.toml"), "".join(TRIES[n] for n in chosen if not TRIES[n].startswith("[")) +
+                  "".join(TRIES[n] for n in chosen if TRIES[n].startswith("[")) + "[gate]\nmax-depth = 0.1\n")
+            if "baseline" in chosen:
+                name = os.path.relpath(deck, top)
+                write(os.path.join(top, "lint-baseline.json"), "".join(
+                    json.dumps({"deck": name, "rule": rule, "file": name, "entity": "/INTER/TYPE7/1", "field": field, "value": None}, separators=(",", ":")) + "\n"
+                    for rule, field in (("DK301", "Inacti"), ("DK370", ""))))
+            decks[os.path.relpath(deck, folder)] = ", ".join(chosen) or "nothing"
+        failed = set()
+        for verb, passed in (("gate", lambda d: d["passed"]), ("gaps", lambda d: d["gate"]["passed"]), ("cycle", lambda d: d["gate"]["passed"]),
+                             ("lint", lambda d: not any(f["rule"] == "DK370" and f["severity"] == "error" for f in d["diagnostics"]))):
+            r = c.run(verb, ".", "--json", "all.json", "-q", cwd=folder)
+            with open(os.path.join(folder, "all.json")) as f:
+                documents = json.load(f)["decks"]
+            c.check("%s looks at all of them and ends with 1" % verb, r.code == 1 and len(documents) == len(decks), "exit %s, %d" % (r.code, len(documents)))
+            failed |= {"%s: %s" % (verb, decks[os.path.normpath(d["deck"]["path"])]) for d in documents if passed(d)}
+        for verb in ("gaps", "cycle", "lint"):
+            c.run("batch", "-o", "results-" + verb, "--verb", verb, "-q", *sorted(decks), cwd=folder)
+            with open(os.path.join(folder, "results-" + verb, "summary.json")) as f:
+                lines = json.load(f)["decks"]
+            c.check("batch of %s does all of them" % verb, len(lines) == len(decks), len(lines))
+            failed |= {"batch %s: %s" % (verb, decks[os.path.normpath(d["path"])]) for d in lines if d["exit_code"] != 1}
+        c.check("nothing switches a gate off", not failed, "; ".join(sorted(failed)[:20]))
+
+
+def settings_that_cannot_be_read(c):
+    """The gate is never lost because nobody looked."""
+    with tempfile.TemporaryDirectory(prefix="deck-gate-") as folder:
+        shutil.copy(os.path.join(ROOT, "samples", DECK), folder)
+        config = os.path.join(folder, ".decklint.toml")
+        for name, make, undo in (("a dangling link", lambda: os.symlink("gone.toml", config), os.remove), ("a folder", lambda: os.mkdir(config), os.rmdir),
+                                 ("a pipe", lambda: os.mkfifo(config), os.remove),
+                                 ("geometry = false beside [gate]", lambda: write(config, "geometry = false\n[gate]\nmax-depth = 0.1\n"), os.remove)):
+            make()
+            codes = {verb: c.run(verb, DECK, cwd=folder).code for verb in ("lint", "gaps", "cycle", "gate")}
+            c.check("%s: refused by every verb" % name, set(codes.values()) == {2}, codes)
+            undo(config)
+        write(config, "[gate]\nmax-depth = 0.1\n")
+        c.check("--no-geometry in spite of a gate is refused", c.run("lint", DECK, "--no-geometry", cwd=folder).code == 2)
+
+
 def samples_as_a_repository(c):
     """Whatever the decks are like today, the gate that is made of them lets them pass."""
     with tempfile.TemporaryDirectory(prefix="deck-gate-") as folder:
@@ -246,6 +318,8 @@ def samples_as_a_repository(c):
 def main():
     c = Checks()
     samples_as_a_repository(c)
+    nothing_disarms_a_gate(c)
+    settings_that_cannot_be_read(c)
     with tempfile.TemporaryDirectory(prefix="deck-gate-") as folder:
         gate = Gate(c, folder)
         gate.bounds()

@@ -54,9 +54,8 @@ def init(c, tmp):
     c.check("what --init writes changes nothing", r.code == c.run("lint", SAMPLE, "--no-config").code, r.text)
     keys = keys_of(template)
     write(re.sub(r"(?m)^# (?=[\[\w\"])", "", template.split("where they come from.\n")[1]), tmp, "all.toml")
-    r = c.run("lint", SAMPLE, "--config", "all.toml", "--write-baseline", "b.json", cwd=tmp)
-    c.check("every example of --init is legal", r.code in (0, 1), r.text[-300:])
     r = c.run("lint", "--show-config", "--config", "all.toml", cwd=tmp)
+    c.check("every example of --init is legal", r.code == 0, r.text[-300:])
     for table, names in keys.items():
         for name in names:
             shown = table if "." in table else (table + "." if table else "") + name

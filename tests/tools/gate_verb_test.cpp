@@ -1,6 +1,9 @@
 // deck gate: a repository is set up, a change is held against it, and what it says stands on the
 // lines that changed.
+#include <sys/stat.h>
+
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tools/git_repository.hpp"
 
@@ -11,6 +14,9 @@ using nlohmann::json;
 
 class GateVerb : public GitRepository {
  protected:
+  static std::string sample() {
+    return read(deck::test::source_dir() / "samples" / "too_close_0000.rad");
+  }
   /// The place of the annotation of a rule: "file=models/x,line=12".
   std::string place(const std::string& rule) const {
     std::string text = out();
@@ -70,23 +76,134 @@ TEST_F(GateVerb, NeverReplacesWhatIsThereUnlessToldTo) {
   EXPECT_EQ(deck("gate models --commits 3"), 2);
 }
 
-TEST_F(GateVerb, WhatIsAcceptedOfOtherDecksIsNotLost) {
+TEST_F(GateVerb, AcceptsTheChangeOfOneDeckAndKeepsTheOthers) {
   write(dir_ / "models/bus_0000.rad", read(dir_ / "models/car_0000.rad"));
   ASSERT_EQ(deck("gate models --init --commits 0"), 0) << err();
   const std::string lint = read(dir_ / "lint-baseline.json"),
                     gaps = read(dir_ / "gaps-baseline.json");
-  for (const char* call : {"gate models/car_0000.rad --init --overwrite",
-                           "gaps models/car_0000.rad -q --write-baseline gaps-baseline.json",
-                           "lint models/car_0000.rad -q --write-baseline lint-baseline.json"}) {
-    EXPECT_EQ(deck(call), 2) << call;
-    EXPECT_TRUE(complains("also holds models/bus_0000.rad")) << call << err();
-    EXPECT_EQ(read(dir_ / "lint-baseline.json"), lint) << call;
-    EXPECT_EQ(read(dir_ / "gaps-baseline.json"), gaps) << call;
+  lift("105", "0.8");  // of both decks
+  ASSERT_EQ(deck("gate models"), 1);
+  EXPECT_TRUE(has("deck gate --accept")) << out();
+  ASSERT_EQ(deck("gate --accept models/car_0000.rad"), 0) << err();
+  EXPECT_EQ(deck("gate models/car_0000.rad"), 0) << out();
+  EXPECT_EQ(deck("gate models/bus_0000.rad"), 1) << out();
+  // One of many decks is one of many lines.
+  std::istringstream old(gaps), now(read(dir_ / "gaps-baseline.json"));
+  std::size_t differing = 0;
+  for (std::string a, b; std::getline(old, a) && std::getline(now, b);) differing += a != b;
+  EXPECT_EQ(differing, 1u);
+  for (const char* call : {"gaps models/bus_0000.rad -q --write-baseline gaps-baseline.json",
+                           "lint models/bus_0000.rad -q --write-baseline lint-baseline.json"})
+    EXPECT_EQ(deck(call), 0) << call;
+  EXPECT_EQ(deck("gate models"), 0) << out();
+  lift("105", "0.9");
+  EXPECT_EQ(deck("gate --accept"), 0) << err();
+  lift("105", "0.89");
+  EXPECT_EQ(deck("gate models"), 1) << "a little deeper";
+}
+
+TEST_F(GateVerb, NeverPassesWhatOnlyABaselineOfLintHolds) {
+  ASSERT_EQ(deck("gate models --init --commits 0"), 0) << err();
+  lift("105", "0.8");
+  deck("lint models --write-baseline lint-baseline.json -q");
+  EXPECT_EQ(read(dir_ / "lint-baseline.json").find("DK37"), std::string::npos);
+  EXPECT_EQ(deck("gate models"), 1) << out();
+  EXPECT_EQ(deck("lint models"), 1) << out();
+  EXPECT_TRUE(has("1 finding of the gate")) << out();
+  EXPECT_FALSE(complains("no longer occurs")) << err();
+}
+
+TEST_F(GateVerb, RefusesABaselineOfAnEarlierFormUntilItIsAccepted) {
+  ASSERT_EQ(deck("gate models --init --commits 0"), 0) << err();
+  deck("gaps models/car_0000.rad --no-config --json gaps-baseline.json -q");
+  write(dir_ / "lint-baseline.json", "{\n \"schema\": \"deck.baseline/2\",\n \"decks\": {}\n}\n");
+  for (const char* verb : {"gate models", "lint models", "gaps models", "cycle models"}) {
+    EXPECT_EQ(deck(verb), 2) << verb;
+    EXPECT_TRUE(complains("--write-baseline")) << err();
   }
-  // All of them, or what is left when a deck is gone.
-  EXPECT_EQ(deck("gate models --init --overwrite --commits 0"), 0) << err();
-  fs::remove(dir_ / "models/bus_0000.rad");
-  EXPECT_EQ(deck("gate models/car_0000.rad --init --overwrite --commits 0"), 0) << err();
+  ASSERT_EQ(deck("gate --accept models"), 0) << err();
+  EXPECT_EQ(deck("gate models"), 0) << out();
+}
+
+TEST_F(GateVerb, IsNotWrittenThroughLinksNorIntoPipes) {
+  write(dir_ / "outside/keep", "precious\n");
+  const fs::path work = dir_ / "work";
+  fs::create_directories(work);
+  write(work / "car_0000.rad", sample());
+  git("init -q work");
+  const auto refused = [&](const char* name) {
+    EXPECT_EQ(deck("gate work --init --overwrite --forge github --commits 0"), 2) << name;
+    EXPECT_EQ(read(dir_ / "outside/keep"), "precious\n");
+    EXPECT_FALSE(fs::is_regular_file(fs::symlink_status(work / "lint-baseline.json")));
+    fs::remove(work / name);
+  };
+  for (const char* name : {".decklint.toml", "lint-baseline.json", "gaps-baseline.json"}) {
+    fs::create_symlink("../outside/keep", work / name);
+    refused(name);
+    fs::create_symlink("../outside/gone", work / name);
+    refused(name);
+    ASSERT_EQ(mkfifo((work / name).c_str(), 0600), 0);
+    refused(name);
+  }
+  fs::create_directory_symlink("../outside", work / ".github");
+  refused(".github");
+}
+
+TEST_F(GateVerb, QuotesNamesOrRefusesThem) {
+  const auto init = [&](const std::string& name) {
+    write(dir_ / name / "x_0000.rad", sample());
+    return deck("gate '" + name + "' --init --overwrite --forge github --commits 0");
+  };
+  const auto workflow = [&] { return read(dir_ / ".github/workflows/deck-gate.yml"); };
+  EXPECT_EQ(init("./-models"), 0) << err();
+  EXPECT_NE(workflow().find("deck gate ./-models --since"), std::string::npos) << workflow();
+  EXPECT_EQ(init("a b"), 0) << err();
+  EXPECT_NE(workflow().find("deck gate 'a b' --since"), std::string::npos) << workflow();
+  for (const char* name : {"x\n      - run: id", "${{ secrets }}", "\x1b[31mx",
+                           "a\xe2\x80\xa8"
+                           "b"}) {
+    EXPECT_EQ(init(name), 2) << name;
+    EXPECT_TRUE(complains("a workflow cannot hold this name")) << err();
+  }
+}
+
+TEST_F(GateVerb, SaysWhichDecksItDoesNotReach) {
+  write(dir_ / "models/old/.decklint.toml", "ignore = [\"DK9\"]\n");
+  write(dir_ / "models/old/x_0000.rad", sample());
+  ASSERT_EQ(deck("gate models --init --commits 0"), 0) << err();
+  EXPECT_TRUE(has("does not reach 1 deck, because models/old/.decklint.toml")) << out();
+}
+
+TEST_F(GateVerb, RunsNothingThatTheRepositoryNames) {
+  git("config core.fsmonitor 'touch " + (dir_ / "owned").string() + "; false'");
+  git("config filter.own.clean 'touch " + (dir_ / "owned").string() + "; cat'");
+  write(dir_ / ".gitattributes", "*.inc filter=own\n");
+  lift("105", "0.8");
+  for (const char* call :
+       {"gaps models/car_0000.rad --compare git:v1", "lint models/car_0000.rad --since v1",
+        "gate models --max-depth 0.1 --since v1", "diff --git v1 models/car_0000.rad"}) {
+    deck(call);
+    EXPECT_FALSE(fs::exists(dir_ / "owned")) << call;
+  }
+  ASSERT_EQ(deck("lint models --max-depth 0.1 --since v1 --format github"), 1);
+  EXPECT_EQ(place("DK370").substr(0, 25), "file=models/inc/nodes.inc") << out();
+}
+
+TEST_F(GateVerb, ComparesWithAWholeBaseOrNotAtAll) {
+  fs::rename(dir_ / "models/inc", dir_ / "models/real");
+  fs::create_directory_symlink("real", dir_ / "models/inc");
+  commit("a folder behind a link");
+  EXPECT_EQ(deck("gaps models/car_0000.rad --compare git:HEAD --fail-on new,worse"), 0) << out();
+  EXPECT_EQ(deck("diff --git HEAD models/car_0000.rad"), 0) << out();
+  fs::rename(dir_ / "models/real", dir_ / "real");
+  fs::remove(dir_ / "models/inc");
+  fs::create_directory_symlink(dir_ / "real", dir_ / "models/inc");  // out of the tree, for git
+  git("add -A models");
+  git("commit -q -m outside");
+  EXPECT_EQ(deck("gaps models/car_0000.rad --compare git:HEAD --fail-on new,worse"), 3) << out();
+  write(dir_ / "x/car_0000.rad", read(dir_ / "models/car_0000.rad"));
+  deck("gaps x/car_0000.rad --json old.json -q");  // without its include
+  EXPECT_EQ(deck("gaps models/car_0000.rad --compare old.json"), 3) << out();
 }
 
 TEST_F(GateVerb, AnErrorIsNotFollowedByAVerdict) {

@@ -150,17 +150,19 @@ TEST(VerdictLevels, WhatWarnsAndWhatIsOpen) {
             (Flags{false, false, true}));
   EXPECT_EQ(flags([](Facts& f) { f.error(RuleId::DK100); }), (Flags{true, false, false}));
   EXPECT_EQ(flags([](Facts& f) { f.contacts().obstacles[3] = 1; }), (Flags{true, false, false}));
-  const auto lint = [](const LintFacts& facts) {
-    return [facts](Facts& f) {
+  const auto lint = [](const LintFacts& facts, std::size_t left_out = 0) {
+    return [facts, left_out](Facts& f) {
       f.in.lint = facts;
       f.contacts().not_evaluated = 1;
+      f.contacts().left_out = left_out;
       f.contacts().total.count.pairs = 1;
       f.contacts().obstacles[3] = 1;
     };
   };
-  EXPECT_EQ(flags(lint({0, 0, 1, false})), (Flags{false, false, false}));
-  EXPECT_EQ(flags(lint({0, 1, 0, false})), (Flags{false, false, true}));
-  EXPECT_EQ(flags(lint({1, 0, 0, false})), (Flags{true, false, false}));
+  EXPECT_EQ(flags(lint({0, 0, 1, false})), (Flags{false, true, false}));
+  EXPECT_EQ(flags(lint({0, 0, 1, false}, 1)), (Flags{false, false, false})) << "a quick look";
+  EXPECT_EQ(flags(lint({0, 1, 0, false})), (Flags{false, true, true}));
+  EXPECT_EQ(flags(lint({1, 0, 0, false})), (Flags{true, true, false}));
 }
 
 TEST(VerdictLevels, HaveTheirNames) {

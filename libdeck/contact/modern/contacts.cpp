@@ -144,18 +144,22 @@ void list_penetrations(SceneContext& context, const Sides& s, const Found& found
   add_decisions(decisions, context.scene.contacts.size(), context.scene.decisions);
 }
 
+constexpr const char* what_is_left = "the contact was not evaluated";
+
 /// What is left open is said, and the contact is no clean one.
 void not_evaluated(SceneContext& context, Contact& contact, const std::string& why,
-                   const char* what = "the contact was not evaluated") {
+                   const char* what = what_is_left, RuleId rule = RuleId::DK380) {
   contact.evaluated = false;
   const std::string keyword = "/INTER/TYPE" + std::to_string(contact.type);
   Case particular;
-  particular.severity = Severity::warning;
-  particular.solver = "It evaluates them.";
-  particular.fix =
-      "The deck needs no change. The listing of the Starter shows what deck leaves out.";
+  if (rule == RuleId::DK380) {  // too many pairs are told by the page of their rule
+    particular.severity = Severity::warning;
+    particular.solver = "It evaluates them.";
+    particular.fix =
+        "The deck needs no change. The listing of the Starter shows what deck leaves out.";
+  }
   Diagnostic d =
-      finding_of(RuleId::DK380, contact.inter->span,
+      finding_of(rule, contact.inter->span,
                  keyword + " " + std::to_string(contact.inter->id) + ": " + why + "; " + what,
                  std::move(particular));
   d.keyword = keyword;
@@ -186,7 +190,7 @@ void edges_of(SceneContext& context, const Sides& s, const Topology& topology,
   std::vector<EdgePenetration> found;
   DecisionReport decisions;
   if (evaluated && !find_edges25(context, s, topology, edges, found, decisions)) {
-    not_evaluated(context, out, "too many pairs of edges");
+    not_evaluated(context, out, "too many pairs of edges", what_is_left, RuleId::DK390);
   }
   {
     PairJudge judge(context.options.accuracy, decisions);
@@ -237,7 +241,7 @@ void build_contacts(SceneContext& context, Selections& selections, const InterBa
     if (found.complete)
       list_penetrations(context, s, found, out);
     else
-      not_evaluated(context, out, "too many pairs");
+      not_evaluated(context, out, "too many pairs", what_is_left, RuleId::DK390);
   }
   context.scene.contacts.push_back(std::move(out));
   if (ready25 && s.set.iedge != 0) edges_of(context, s, *topology, inter, ready);

@@ -121,28 +121,45 @@ std::uint64_t GapsComparison::count(Trend trend) const {
       std::count_if(rows.begin(), rows.end(), [&](const Row& r) { return r.trend == trend; }));
 }
 
+std::map<const InterBase*, std::vector<std::int64_t>> untied_nodes(const Scene& scene) {
+  std::map<const InterBase*, std::vector<std::int64_t>> out;
+  for (const Contact& c : scene.contacts) {
+    if (!c.ties() || !c.evaluated) continue;
+    std::vector<bool> tied(c.secondary.size(), false);
+    for (const PenetrationRow& row : c.penetrations) tied[row.secondary] = true;
+    for (std::size_t i = 0; i < c.secondary.size(); ++i)
+      if (!tied[i]) out[c.inter].push_back(scene.model->node_id(c.secondary[i].node));
+  }
+  for (const Tie& tie : scene.ties)
+    for (const TiedNode& n : tie.nodes)
+      if (n.lost()) out[tie.inter].push_back(scene.model->node_id(n.node));
+  return out;
+}
+
 namespace {
 
 /// Nodes are the same if they have the same id.
 void find_lost_ties(const EarlierGaps& earlier, const Scene& scene, GapsComparison& out) {
-  for (const Contact& c : scene.contacts) {
-    const auto before = earlier.tied.find(c.inter->id);
-    if (!c.ties() || before == earlier.tied.end()) continue;
-    std::vector<bool> tied(c.secondary.size(), false);
-    for (const PenetrationRow& row : c.penetrations) tied[row.secondary] = true;
-    for (std::size_t i = 0; i < c.secondary.size(); ++i) {
-      const std::int64_t id = scene.model->node_id(c.secondary[i].node);
-      if (!tied[i] && before->second.contains(id)) out.lost_ties[c.inter].push_back(id);
-    }
+  static const std::set<std::int64_t> none;
+  const auto of = [](const auto& all, std::int64_t id) -> const std::set<std::int64_t>& {
+    const auto it = all.find(id);
+    return it == all.end() ? none : it->second;
+  };
+  for (const auto& [inter, nodes] : untied_nodes(scene)) {
+    const bool listed = earlier.accepts || earlier.untied.contains(inter->id);
+    for (const std::int64_t node : nodes)
+      if (of(earlier.tied, inter->id).contains(node) ||
+          (listed && !of(earlier.untied, inter->id).contains(node)))
+        out.lost_ties[inter].push_back(node);
   }
-  for (const Tie& tie : scene.ties) {
-    const auto before = earlier.untied.find(tie.inter->id);
-    if (before == earlier.untied.end()) continue;
-    for (const TiedNode& n : tie.nodes) {
-      const std::int64_t id = scene.model->node_id(n.node);
-      if (n.lost() && !before->second.contains(id)) out.lost_ties[tie.inter].push_back(id);
-    }
-  }
+}
+
+/// Ids of interfaces of which nobody knows now whether something penetrates there.
+std::set<std::int64_t> undecided_interfaces(const Scene& scene) {
+  std::set<std::int64_t> out;
+  for (const Contact& c : scene.contacts)
+    if (!c.evaluated) out.insert(c.inter->id);
+  return out;
 }
 
 }  // namespace
@@ -167,8 +184,10 @@ GapsComparison compare_gaps(const EarlierGaps& earlier, const Scene& scene, cons
     }
     out.rows.push_back(row);
   }
+  const std::set<std::int64_t> undecided = undecided_interfaces(scene);
   for (std::uint32_t i = 0; i < earlier.rows.size(); ++i)
-    if (!matcher.taken()[i]) out.solved.push_back(i);
+    if (!matcher.taken()[i] && !undecided.contains(earlier.rows[i].interface_id))
+      out.solved.push_back(i);
   find_lost_ties(earlier, scene, out);
   return out;
 }

@@ -72,6 +72,8 @@ struct TieFacts {
 /// What contacts and their penetrations say; the scene is not needed afterwards.
 struct ContactFacts {
   std::size_t contacts = 0, not_evaluated = 0;
+  std::size_t left_out =
+      0;  ///< of not_evaluated: too large for a quick look of lint, and only that
   std::array<std::size_t, 7> obstacles{};  ///< evaluated contacts by Obstacle
   ContactTotals total;
   double deepest = 0, deepest_gap = 0;  ///< of the deepest pair: its depth, and its gap

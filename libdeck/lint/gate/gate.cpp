@@ -182,9 +182,10 @@ class Check {
       if (const auto it = comparison.lost_ties.find(inter);
           gate_.on_fresh && it != comparison.lost_ties.end())
         report(RuleId::DK374, inter,
-               fmt::format("{}: {} tied in {} and {} not any more; first is node {}",
-                           name_of(inter), count(it->second.size(), "node was", "nodes were"),
-                           earlier.path, it->second.size() == 1 ? "is" : "are", it->second.front()),
+               fmt::format("{}: {} not tied {} {}; first is node {}", name_of(inter),
+                           count(it->second.size(), "node is", "nodes are"),
+                           earlier.accepts ? "and not accepted in" : "now that was tied in",
+                           earlier.path, it->second.front()),
                places_.of_nodes(inter, it->second));
     for (const InterBase* inter : scene_.interfaces->ordered) {
       if (const auto it = fresh.find(inter); gate_.on_fresh && it != fresh.end())

@@ -1,5 +1,4 @@
-// Settings of a lint run that live in files: .decklint.toml beside or above the deck, and the
-// baseline of findings that are known and accepted.
+// Settings of a lint run that live in a file: .decklint.toml beside or above the deck.
 #pragma once
 #include <map>
 #include <optional>
@@ -45,44 +44,19 @@ struct LintConfig {
   Gate gate;
   std::string compare;   ///< [gate] compare: an earlier `deck gaps --json`
   std::string accepted;  ///< [gate] baseline: of `deck gaps --write-baseline`
+
+  /// Contacts are to be held against something.
+  bool gated() const { return gate.any() || !compare.empty() || !accepted.empty(); }
 };
 
 /// Parses the text of a configuration; unknown keys and unknown rules are errors.
 Result<LintConfig> parse_lint_config(std::string_view text, const std::string& path);
 inline constexpr std::uint64_t most_config_bytes = std::uint64_t{1} << 20;
-inline constexpr std::uint64_t most_baseline_bytes = std::uint64_t{256} << 20;
 
 /// The bytes of a regular file of at most `most` bytes, or of standard input ("-").
 Result<std::string> read_config_file(const std::string& path, std::uint64_t most);
 /// Looks for .decklint.toml in the directory of `deck_path` and above. No file: an empty config.
 Result<LintConfig> find_lint_config(const std::string& deck_path);
-
-/// Findings that are known and accepted, by deck: an error in a deck that is not in the baseline is
-/// never hidden. Paths are absolute here, and relative to the baseline in its file.
-struct Baseline {
-  struct Entry {
-    std::string rule, entity;
-    std::uint64_t count = 0;
-  };
-  /// Absolute path of the deck -> findings of that deck.
-  std::map<std::string, std::map<FindingKey, Entry>> decks;
-
-  /// For LintOptions::baseline; nullptr: the deck is not in the baseline.
-  const std::map<FindingKey, Entry>* find(const std::string& deck_path) const;
-};
-
-/// Reads a baseline: JSON {"schema":"deck.baseline/2","decks":{"<deck>":[{"file":..,
-/// "fingerprint":..,"rule":..,"entity":..,"count":..}]}}, deck and file relative to `path`.
-Result<Baseline> parse_baseline(std::string_view text, const std::string& path);
-
-/// A deck for write_baseline.
-struct BaselinedDeck {
-  std::string path;
-  const Deck* deck = nullptr;
-  const LintResult* result = nullptr;
-};
-/// The findings of decks as a baseline that is to lie at `path`, ordered by deck and file.
-std::string write_baseline(const std::vector<BaselinedDeck>& decks, const std::string& path);
 
 /// `path` against a glob with * (no slash), ** and ?; also matches the last path component alone.
 bool glob_match(std::string_view pattern, std::string_view path);

@@ -94,8 +94,10 @@ void write_document(JsonWriter& json, const LintedDeck& deck) {
   json.key("baseline_stale").begin_array();
   for (const auto& [key, count] : r.stale)
     json.begin_object(true)
-        .field("file", key.first)
-        .field("fingerprint", key.second)
+        .field("rule", key.rule)
+        .field("file", key.file)
+        .field("entity", key.entity)
+        .field("field", key.field)
         .field("count", count)
         .end_object();
   json.end_array();

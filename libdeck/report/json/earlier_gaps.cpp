@@ -46,9 +46,9 @@ std::int64_t whole(const Json& v) { return v.is_number_integer() ? v.get<std::in
 /// A document of `gaps --all` is large, and little of it is compared: the rest is not kept.
 bool is_compared(int, Json::parse_event_t event, Json& parsed) {
   static const std::set<std::string, std::less<>> keys = {
-      "at",           "contacts", "deck", "decks",      "edge", "edge_penetrations",
-      "gap",          "id",       "node", "interfaces", "path", "penetration",
-      "penetrations", "role",     "tie",  "tied",       "ties", "nodes"};
+      "at",  "contacts", "deck",       "decks", "edge",        "edge_penetrations", "gap",
+      "id",  "node",     "interfaces", "path",  "penetration", "penetrations",      "role",
+      "tie", "tied",     "ties",       "nodes", "sentences",   "verdict",           "what"};
   return event != Json::parse_event_t::key || keys.contains(parsed.get_ref<std::string&>());
 }
 
@@ -108,10 +108,21 @@ void add_untied(const Json& document, EarlierGaps& out) {
   }
 }
 
+/// Without one of its includes nobody knows what the deck had.
+bool was_incomplete(const Json& document) {
+  const auto verdict = document.find("verdict");
+  if (verdict == document.end() || !verdict->is_object() || !verdict->contains("sentences"))
+    return false;
+  const Json& sentences = (*verdict)["sentences"];
+  return std::any_of(sentences.begin(), sentences.end(), [](const Json& sentence) {
+    return sentence.is_object() && text(sentence, "what") == "no_verdict";
+  });
+}
+
 }  // namespace
 
 Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
-                                      std::string_view deck_path, bool strict) {
+                                      std::string_view deck_path) {
   const Json all = Json::parse(json.begin(), json.end(), is_compared, false);
   if (all.is_discarded()) return wrong(path, "this is not JSON");
   EarlierGaps out;
@@ -127,7 +138,9 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
   }
   if (document == nullptr) return wrong(path, "there is no list \"interfaces\"");
   out.path = std::move(path);
-  if (strict && deck_path_of(*document) != deck_path) return out;
+  if (was_incomplete(*document))
+    return Error{Error::Code::io,
+                 out.path + ": an include was missing when this was written; write it again"};
   out.deck_path = deck_path_of(*document);
   for (const Json& inter : (*document)["interfaces"]) {
     if (!inter.is_object() || !inter.contains("contacts") || !inter["contacts"].is_array())

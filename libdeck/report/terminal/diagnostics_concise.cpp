@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/shared/escape.hpp"
 #include "report/diagnostics_common.hpp"
@@ -16,6 +17,14 @@ namespace {
 /// Findings of a rule in all decks.
 struct RuleNumbers {
   std::uint64_t findings = 0, safe = 0, unsafe = 0;
+  std::set<Severity> severities = {};  ///< with which they are shown
+
+  std::string severity_text() const {
+    std::string out;
+    for (const Severity s : severities)
+      out += (out.empty() ? "" : ", ") + std::string(to_string(s));
+    return out;
+  }
 };
 
 std::string fixable_text(const RuleNumbers& n) {
@@ -51,6 +60,7 @@ std::string lint_statistics(const std::vector<LintedDeck>& decks, bool color, st
     for (const Diagnostic& d : deck.result->diagnostics) {
       concise_findings::RuleNumbers& n = rules[d.rule];
       ++n.findings;
+      n.severities.insert(d.severity);
       if (d.fix) ++(d.fix->safe ? n.safe : n.unsafe);
     }
     for (const auto& [rule, n] : deck.result->dropped) rules[rule].findings += n;
@@ -66,7 +76,7 @@ std::string lint_statistics(const std::vector<LintedDeck>& decks, bool color, st
     const Rule& rule = rule_of(id);
     all += n.findings;
     table.row({std::string(id_text(id)), std::to_string(n.findings),
-               concise_findings::fixable_text(n), to_string(rule.severity()), rule.title});
+               concise_findings::fixable_text(n), n.severity_text(), rule.title});
   }
   if (table.size() == 0) return "no findings\n";
   return table.fitted(width, color) + fmt::format("{} {} of {} {}\n", all,

@@ -116,6 +116,9 @@ class Human {
       else
         rest += (rest.empty() ? "" : " ") + s.text;
     }
+    std::uint64_t of_gate = 0;  // which is not counted among the errors of the deck
+    for (const auto& [rule, n] : r.counts) of_gate += is_gate_rule(rule) ? n : 0;
+    if (of_gate > 0) out += ", " + count(of_gate, "finding", "findings") + " of the gate";
     if (r.suppressed > 0) out += fmt::format(", {} suppressed", r.suppressed);
     if (r.baselined > 0) out += fmt::format(", {} in the baseline", r.baselined);
     std::size_t safe = 0, unsafe = 0;

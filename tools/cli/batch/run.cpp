@@ -49,7 +49,8 @@ std::string settings_of_deck(const BatchTask& task, const std::string& deck) {
   std::string text;
   if (task.verb.name == "lint" || task.verb.name == "gaps" || task.verb.name == "cycle")
     if (const auto config = find_lint_config(deck))
-      for (const std::string& path : {config->path, config->baseline, config->compare})
+      for (const std::string& path :
+           {config->path, config->baseline, config->compare, config->accepted})
         text += with_contents(path);
   return text;
 }

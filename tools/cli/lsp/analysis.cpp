@@ -7,6 +7,7 @@
 #include "deck/text/number.hpp"
 #include "deck/text/rule.hpp"
 #include "keyword/shared/recognise.hpp"
+#include "lint/shared/baseline.hpp"
 #include "lint/shared/geometry.hpp"
 
 namespace deck::lsp {
@@ -43,10 +44,11 @@ Result<LintOptions> lint_options(const LintConfig& config, const std::string& pa
   if (config.baseline.empty()) return out;
   const auto text = read_config_file(config.baseline, most_baseline_bytes);
   if (!text) return text.error();
-  const auto parsed = parse_baseline(*text, config.baseline);
-  if (!parsed) return parsed.error();
-  if (const auto* entries = parsed->find(path))
-    for (const auto& [key, entry] : *entries) out.baseline.emplace(key, entry.count);
+  const auto baseline = Baseline::parse(*text, config.baseline, Baseline::Kind::lint);
+  if (!baseline) return baseline.error();
+  auto accepted = baseline->findings_of(path);
+  if (!accepted) return accepted.error();
+  out.baseline = std::move(*accepted);
   return out;
 }
 

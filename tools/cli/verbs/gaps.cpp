@@ -91,11 +91,9 @@ class GapsRun {
   explicit GapsRun(const Options& options)
       : o_(options),
         json_(options.common, "deck/gaps", 1),
-        to_baseline_(options.common),
-        baseline_(to_baseline_, "deck/gaps", 1),
+        accepted_(options.write_baseline, Baseline::Kind::gaps),
         gate_(options.gate) {
-    to_baseline_.json = o_.write_baseline;
-    if (!baseline_.wanted()) return;  // which replaces the old one
+    if (!writes_baseline()) return;  // which replaces what was accepted
     gate_.baseline.clear();
     gate_.no_config = true;
   }
@@ -106,14 +104,20 @@ class GapsRun {
             o_.common, {o_.common.json, o_.csv, o_.ties_csv, o_.html, o_.svg, o_.write_baseline});
         bad != exit_clean)
       return bad;
-    if (baseline_.wanted())
-      if (auto kept = keeps_other_decks(o_.write_baseline, o_.common.decks); !kept)
-        return usage(kept.error());
-    const int code = for_each_deck(o_.common, [&](LoadedDeck& loaded) { return one(loaded); });
-    return baseline_.finish(json_.finish(code));
+    if (writes_baseline()) {
+      auto kept = baseline_to_change(o_.write_baseline, Baseline::Kind::gaps);
+      if (!kept) return usage(kept.error());
+      accepted_ = std::move(*kept);
+    }
+    const int code =
+        json_.finish(for_each_deck(o_.common, [&](LoadedDeck& loaded) { return one(loaded); }));
+    if (!accepted_any_) return code;
+    const auto written = o_.common.session->write_output(o_.write_baseline, accepted_.text());
+    return written ? code : std::max(code, usage(written.error()));
   }
 
  private:
+  bool writes_baseline() const { return !o_.write_baseline.empty(); }
   int usage(const Error& error) const {
     print_error(o_.common, error.message);
     return exit_usage;
@@ -146,7 +150,7 @@ class GapsRun {
   int one(LoadedDeck& loaded) {
     if (auto fits = check_options(o_, loaded, scene_.what_if); !fits) return usage(fits.error());
     auto gate = gate_of(gate_, loaded, o_.common);
-    if (!gate) return usage(gate.error());
+    if (!gate) return std::max(usage(gate.error()), gate_error_code(gate.error()));
     {
       Progress progress(!o_.common.quiet);
       progress.step("contacts");
@@ -159,13 +163,14 @@ class GapsRun {
     const Scene& scene = loaded.scene();
     const std::vector<Crossing> crossings = find_crossings(scene, scene_.threads);
     const SceneView view = make_view(scene, &crossings, scene_.threads);
-    const GateReport report = gate->look(
-        loaded, scene, view, gate->gate.needs_forces() ? &loaded.cycle().outcome : nullptr);
+    const GateReport report =
+        gate->look(loaded, scene, view,
+                   gate->gate.needs_forces() ? &loaded.cycle().outcome : nullptr, o_.common);
     print_findings(loaded, o_.common);
     if (auto written = write(loaded, view, crossings, report); !written)
       return usage(written.error());
     print(loaded, view, crossings, report);
-    const bool accepted = baseline_.wanted() || (gate->baseline && o_.gate.level().empty());
+    const bool accepted = writes_baseline() || (gate->baseline && o_.gate.level().empty());
     const int decided =
         verdict_code(verdict_of(loaded.deck(), scene, view), o_.gate, o_.common, o_.fail, accepted);
     return report.passed() ? decided : static_cast<int>(exit_findings);
@@ -182,9 +187,10 @@ class GapsRun {
         return gaps_json(loaded.path(), deck, scene, view, o_.all,
                          o_.crossings ? &crossings : nullptr, &report, drain);
       });
-    if (baseline_.wanted())
-      baseline_.add(
-          gaps_json(name_in_baseline(loaded.path(), o_.write_baseline), deck, scene, view, false));
+    if (writes_baseline()) {
+      accepted_.accept(loaded.path(), scene, view);
+      accepted_any_ = true;
+    }
     const std::pair<const std::string&, std::function<Result<void>()>> outputs[] = {
         {o_.csv,
          [&] {
@@ -226,8 +232,8 @@ class GapsRun {
 
   const Options& o_;
   JsonOutput json_;
-  CommonOptions to_baseline_;
-  JsonOutput baseline_;
+  Baseline accepted_;  ///< to be written
+  bool accepted_any_ = false;
   GateOptions gate_;
   SceneOptions scene_;
   bool first_ = true;
@@ -276,7 +282,7 @@ Action setup(CommandLine& line) {
               "exit with 1")
       .value("FILE");
   line.option("--write-baseline", options->write_baseline,
-              "Write all penetrations to FILE as a baseline")
+              "Write all penetrations to FILE as a baseline; entries of other decks stay")
       .value("FILE");
   return [options] {
     const int wrong = open_directories(options->common);

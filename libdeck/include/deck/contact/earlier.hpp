@@ -27,7 +27,11 @@ struct EarlierGaps {
   std::vector<Row> rows;           ///< deepest row of every secondary node or edge
   /// Ids of nodes by interface: those that a TYPE10 ties, and those that a TYPE2 does not tie.
   std::map<std::int64_t, std::set<std::int64_t>> tied, untied;
+  bool accepts = false;  ///< a baseline: what it does not list is new, nodes that are not tied too
 };
+
+/// Ids of nodes that a TYPE10 or TYPE2 should hold and does not, of the ties that were evaluated.
+std::map<const InterBase*, std::vector<std::int64_t>> untied_nodes(const Scene& scene);
 
 /// Depths that differ by less than this share of them are the same: what another order of the same
 /// sums changes lies ten decades below, what a person changes above.
@@ -43,8 +47,9 @@ struct GapsComparison {
     Trend trend = Trend::fresh;
     std::uint32_t earlier = no_index;  ///< EarlierGaps::rows; no_index: it is new
   };
-  std::vector<Row> rows;              ///< parallel to SceneView::deepest_per_node
-  std::vector<std::uint32_t> solved;  ///< EarlierGaps::rows that penetrate no more, in their order
+  std::vector<Row> rows;  ///< parallel to SceneView::deepest_per_node
+  /// EarlierGaps::rows that penetrate no more, in their order; of contacts that were evaluated.
+  std::vector<std::uint32_t> solved;
   /// Nodes, by id, that an interface tied in the earlier run and does not tie now.
   std::map<const InterBase*, std::vector<std::int64_t>> lost_ties;
 

@@ -108,17 +108,24 @@ class Reporter {
   const LintOptions* options_;
 };
 
-/// What a baseline knows a finding by: its file (absolute path) and its fingerprint.
-using FindingKey = std::pair<std::string, std::string>;
-/// A path as FindingKey holds it.
-std::string finding_file(const std::string& path);
+/// What a baseline knows a finding by: neither its words nor its line.
+struct FindingKey {
+  std::string rule, file, entity, field;  ///< "DK201", absolute path, "/INTER/TYPE7/3", "Istf"
+  friend auto operator<=>(const FindingKey&, const FindingKey&) = default;
+};
+FindingKey finding_key(const Deck& deck, const Diagnostic& diagnostic);
+/// Accepted findings: of each as often as there are numbers, up to which Diagnostic::amount may be.
+using AcceptedFindings = std::map<FindingKey, std::vector<double>>;
 
+/// None of the settings reaches the findings of a gate (is_gate_rule): what a team has agreed on is
+/// switched off in [gate] alone.
 struct LintOptions {
   std::vector<std::string> select;  ///< selectors (deck/lint/rule.hpp); empty: all
   std::vector<std::string> ignore;
   std::map<std::string, Severity> severity;                                        ///< per selector
   std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;  ///< glob, rules
-  std::map<FindingKey, std::uint64_t> baseline;  ///< of this deck: accepted findings and how many
+  AcceptedFindings baseline;                                                       ///< of this deck
+  bool gated = false;  ///< `extra` also holds a gate: it runs whatever is selected
   int diagnostics_per_rule = Limits{}.diagnostics_per_rule;
 };
 

@@ -46,10 +46,10 @@ std::string crossings_text(const Scene& scene, const std::vector<Crossing>& cros
                            const GapsTextOptions& options = {});
 
 /// Reads the document that `deck gaps --json` wrote; of a list of decks the one called `deck_path`,
-/// else the first (`strict`: then there is nothing to compare with, and every penetration is new).
-/// Error: no such document, with what was expected.
+/// else the first. Error: no such document, with what was expected; or one of a deck of which an
+/// include was missing (Error::Code::io).
 Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
-                                      std::string_view deck_path, bool strict = false);
+                                      std::string_view deck_path);
 
 /// One line per penetration, ties left out, deepest first, RFC 4180.
 std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view,

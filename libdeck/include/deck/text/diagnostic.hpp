@@ -56,6 +56,9 @@ struct Diagnostic {
   std::optional<ReferenceMessage> reference;
   std::string keyword;  ///< entity the finding is about, e.g. "/INTER/TYPE7"; may be empty
   std::int64_t id = 0;
+  /// How bad it is, where a number says so: larger is worse. A baseline accepts no more than it
+  /// has.
+  std::optional<double> amount = {};
   std::vector<std::pair<Span, std::string>> notes;  ///< related places
   std::optional<Fix> fix;
 };

@@ -45,7 +45,7 @@ void report_force(const GeometryRun& run, const Contact& contact, const Interfac
     message += fmt::format("; node {} starts with an acceleration of {:.4g}",
                            node_name(run.model(), s.acceleration_node), s.largest_acceleration);
   if (s.elastic_energy > 0) message += fmt::format("; stored energy {:.4g}", s.elastic_energy);
-  Diagnostic* d = run.report(RuleId::DK401, contact, "Inacti", std::move(message));
+  Diagnostic* d = run.report(RuleId::DK401, contact, "Inacti", std::move(message), s.force_sum);
   if (d != nullptr && s.acceleration_node != no_index)
     d->notes.emplace_back(run.model().node_span(s.acceleration_node), "the node pushed most");
 }
@@ -70,7 +70,8 @@ void report_step(const GeometryRun& run, const Contact& contact, const Interface
           ? std::string()
           : fmt::format(" at node {}", node_name(run.model(), s.contact_dt_node)),
       s.structure_dt, s.structure_dt / s.contact_dt);
-  Diagnostic* d = run.report(RuleId::DK402, contact, "Stfac", std::move(message));
+  Diagnostic* d = run.report(RuleId::DK402, contact, "Stfac", std::move(message),
+                             s.structure_dt / s.contact_dt);
   if (d != nullptr && s.contact_dt_node != no_index)
     d->notes.emplace_back(run.model().node_span(s.contact_dt_node), "the node that limits it");
 }
@@ -110,7 +111,8 @@ void report_singular(const GeometryRun& run, const Contact& contact, const Inter
   if (s.gap_closed > 0)
     message += fmt::format("{} {} already at the end of the gap, without a force",
                            worst != nullptr ? ";" : "", count_text(s.gap_closed, "pair"));
-  run.report(RuleId::DK403, contact, gap_field(contact), std::move(message));
+  run.report(RuleId::DK403, contact, gap_field(contact), std::move(message),
+             static_cast<double>(s.near_singular + s.gap_closed));
 }
 
 /// Time step of /DT/INTER/DEL at the start, with the nodes where the deck has them.

@@ -56,7 +56,8 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
                   "{} of {}",
                   name_of(run, c), gap_text(c, worst.gap), where.empty() ? "edge" : "side",
                   model.node_id(worst.a), model.node_id(worst.b), where, element_text(element),
-                  worst.length, count_text(worst.count, item), items));
+                  worst.length, count_text(worst.count, item), items),
+      worst.gap / worst.length);
   if (d == nullptr) return;
   if (c.igap != 0 && where.size() > 0) d->reference = rule_of(RuleId::DK310).message(477);
   d->notes.emplace_back(model.node_span(worst.a), "one end of it");
@@ -70,7 +71,8 @@ void report_apart(const GeometryRun& run, const Contact& c) {
   Diagnostic* d = run.report(RuleId::DK310, c, gap_field(c),
                              fmt::format("{}: the largest gap {:.6g} is more than half of the "
                                          "shortest main side {:.6g}, but at another place",
-                                         name_of(run, c), c.max_gap, c.shortest_side));
+                                         name_of(run, c), c.max_gap, c.shortest_side),
+                             c.max_gap / c.shortest_side);
   if (d == nullptr) return;
   d->severity = Severity::info;
   d->reference = rule_of(RuleId::DK310).message(477);
@@ -132,7 +134,8 @@ void check_thickness(const GeometryRun& run, const Contact& c) {
   if (thickest == 0 || !(c.gapmin > thickest)) return;
   run.report(RuleId::DK312, c, gap_field(c),
              fmt::format("{}: {} is more than the thickest main shell ({:.6g})", name_of(run, c),
-                         gap_text(c, c.gapmin), thickest));
+                         gap_text(c, c.gapmin), thickest),
+             c.gapmin / thickest);
 }
 
 void check_radiation(const GeometryRun& run, const Contact& c) {
@@ -140,7 +143,8 @@ void check_radiation(const GeometryRun& run, const Contact& c) {
   run.report(RuleId::DK313, c, "Drad",
              fmt::format("{}: the radiation distance {:.6g} is longer than the shortest main side "
                          "({:.6g})",
-                         name_of(run, c), c.drad, c.shortest_side));
+                         name_of(run, c), c.drad, c.shortest_side),
+             c.drad / c.shortest_side);
 }
 
 void check_no_gap(const GeometryRun& run, const Contact& c) {

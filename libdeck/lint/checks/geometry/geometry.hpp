@@ -25,8 +25,9 @@ struct GeometryRun {
   /// The card of a contact; nullptr never happens for contacts of this deck.
   const ContactCard* card(const Contact& contact) const;
   /// Reports at a field of the contact's card; nullptr: enough of the rule was kept already.
+  /// `amount`: as Diagnostic::amount.
   Diagnostic* report(RuleId rule, const Contact& contact, std::string_view field,
-                     std::string message) const;
+                     std::string message, std::optional<double> amount = {}) const;
 };
 
 /// "/INTER/TYPE19 3 (reversed)"

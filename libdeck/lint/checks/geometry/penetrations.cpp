@@ -140,7 +140,8 @@ void check_depths(const GeometryRun& run) {
                     name_of(run, c), count_text(group.distinct.size(), edges ? "edge" : "node"),
                     part_text(from), part_text(to), count_text(group.rows.size(), "pair"),
                     length_text(r.depth), length_text(r.gap), secondary_text(worst),
-                    main_text(worst), treatment(c, rows)));
+                    main_text(worst), treatment(c, rows)),
+        r.depth);
     if (d == nullptr) continue;
     d->reference = rule_of(RuleId::DK301).message(counting_warning(run, c));
     std::set<std::uint32_t> named;
@@ -174,7 +175,8 @@ void check_untied(const GeometryRun& run, std::uint32_t contact) {
                  fmt::format("{}: {} of {} not tied at the start, no segment is within the gap of "
                              "{:.6g}: {}",
                              name_of(run, c), count_text(free.size(), "node"), tied.size(),
-                             c.gapmin, list_text(free)));
+                             c.gapmin, list_text(free)),
+                 static_cast<double>(free.size()));
   if (d != nullptr) d->notes.emplace_back(run.model().node_span(first), "one of the nodes");
 }
 
@@ -185,7 +187,8 @@ void check_on_surface(const GeometryRun& run, const Contact& c) {
   const int error = on_surface_error(c);
   Diagnostic* d = run.report(error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
                              fmt::format("{}: {} exactly on a main segment: {}", name_of(run, c),
-                                         count_text(nodes.size(), "node"), list_text(nodes)));
+                                         count_text(nodes.size(), "node"), list_text(nodes)),
+                             static_cast<double>(nodes.size()));
   if (d != nullptr && error != 0) d->reference = rule_of(RuleId::DK302).message(error);
 }
 
@@ -197,7 +200,8 @@ void check_switched_off(const GeometryRun& run, const Contact& c) {
   if (nodes.empty()) return;
   run.report(RuleId::DK304, c, "Fpenmax",
              fmt::format("{}: Fpenmax = {:.6g} takes {} out of the contact: {}", name_of(run, c),
-                         c.fpenmax, count_text(nodes.size(), "node"), list_text(nodes)));
+                         c.fpenmax, count_text(nodes.size(), "node"), list_text(nodes)),
+             static_cast<double>(nodes.size()));
 }
 
 void check_moved_springs(const GeometryRun& run, const Contact& c) {
@@ -211,7 +215,8 @@ void check_moved_springs(const GeometryRun& run, const Contact& c) {
   if (nodes.empty()) return;
   run.report(RuleId::DK305, c, "Inacti",
              fmt::format("{}: Inacti = 3 moves {} of springs: {}", name_of(run, c),
-                         count_text(nodes.size(), "node"), list_text(nodes)));
+                         count_text(nodes.size(), "node"), list_text(nodes)),
+             static_cast<double>(nodes.size()));
 }
 
 void check_deep_edges(const GeometryRun& run, const Contact& c) {
@@ -231,7 +236,8 @@ void check_deep_edges(const GeometryRun& run, const Contact& c) {
              fmt::format("{}: {} out of the contact, more than 99.5 % of the gap used up; edge {} "
                          "{} is {:.6g} from edge {} {}, gap {:.6g}",
                          name_of(run, c), count_text(edges, "secondary edge"), id(s[0]), id(s[1]),
-                         worst->distance, id(m[0]), id(m[1]), worst->gap));
+                         worst->distance, id(m[0]), id(m[1]), worst->gap),
+             static_cast<double>(edges));
 }
 
 }  // namespace

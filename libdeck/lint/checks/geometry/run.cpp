@@ -15,11 +15,13 @@ const ContactCard* GeometryRun::card(const Contact& contact) const {
 }
 
 Diagnostic* GeometryRun::report(RuleId id, const Contact& contact, std::string_view field,
-                                std::string message) const {
+                                std::string message, std::optional<double> amount) const {
   const ContactCard* c = card(contact);
   const Rule& rule = rule_of(id);
-  if (c == nullptr) return reporter.report(rule, contact.inter->span, std::move(message));
-  return report_at(reporter, rule, *c, field, std::move(message));
+  Diagnostic* d = c == nullptr ? reporter.report(rule, contact.inter->span, std::move(message))
+                               : report_at(reporter, rule, *c, field, std::move(message));
+  if (d != nullptr) d->amount = amount;
+  return d;
 }
 
 std::string name_of(const GeometryRun&, const Contact& contact) {
@@ -141,6 +143,9 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
     }
     if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message)) *out = d;
   }
+  if (const auto large = found.counts().find(RuleId::DK390);
+      chosen.quick && chosen.too_large != nullptr && large != found.counts().end())
+    *chosen.too_large = large->second;
   const int threads = context.loaded->options().threads;
   const std::vector<Crossing> crossings = find_crossings(scene, threads);
   const SceneView view = make_view(scene, &crossings, threads);

@@ -15,9 +15,9 @@ namespace {
 
 std::string tie_name(const Tie& tie) { return fmt::format("/INTER/TYPE2 {}", tie.inter->id); }
 
-/// Reports at a field of the card of a tie.
+/// Reports at a field of the card of a tie. `amount`: nodes or ties that it is about.
 Diagnostic* report(const GeometryRun& run, RuleId id, const Tie& tie, std::string_view field,
-                   std::string message) {
+                   std::string message, std::size_t amount) {
   const Rule& rule = rule_of(id);
   Diagnostic* d = nullptr;
   const auto card = std::find_if(run.context.contacts.begin(), run.context.contacts.end(),
@@ -26,6 +26,7 @@ Diagnostic* report(const GeometryRun& run, RuleId id, const Tie& tie, std::strin
     d = run.reporter.report(rule, tie.inter->span, std::move(message));
   else
     d = report_at(run.reporter, rule, *card, field, std::move(message));
+  if (d != nullptr) d->amount = static_cast<double>(amount);
   return d;
 }
 
@@ -54,7 +55,8 @@ void check_message(const GeometryRun& run, const Tie& tie, RuleId rule, int mess
   Diagnostic* d =
       report(run, rule, tie, field,
              fmt::format("{}: {} of {} {}: {}", tie_name(tie), count_text(nodes.all.size(), "node"),
-                         tie.nodes.size(), what, nodes.text(run.model())));
+                         tie.nodes.size(), what, nodes.text(run.model())),
+             nodes.all.size());
   if (d == nullptr) return;
   d->reference = rule_of(rule).message(message);
   constexpr std::size_t most = 3;
@@ -75,7 +77,8 @@ void check_messages(const GeometryRun& run, const Tie& tie) {
   for (const RepeatedTies& r : tie.repeated)
     report(run, RuleId::DK344, tie, "grnd_IDs",
            fmt::format("{}: /INTER/TYPE2 {} already makes {} of its ties", tie_name(tie),
-                       r.interface_id, r.count));
+                       r.interface_id, r.count),
+           static_cast<std::size_t>(r.count));
 }
 
 void check_conditions(const GeometryRun& run, const Tie& tie) {
@@ -85,21 +88,23 @@ void check_conditions(const GeometryRun& run, const Tie& tie) {
     if (!nodes.all.empty())
       report(run, RuleId::DK345, tie, "Spotflag",
              fmt::format("{}: {} tied by penalty, because something else holds or moves them: {}",
-                         tie_name(tie), count_text(nodes.all.size(), "node"), nodes.text(model)));
+                         tie_name(tie), count_text(nodes.all.size(), "node"), nodes.text(model)),
+             nodes.all.size());
   }
   const Nodes mid = nodes_where(tie, [](const TiedNode& n) { return n.removed_by == 1209; });
   if (!mid.all.empty())
     report(run, RuleId::DK346, tie, "grnd_IDs",
            fmt::format("{}: {} left out, condensed mid nodes of 10-node tetrahedra: {}",
-                       tie_name(tie), count_text(mid.all.size(), "node"), mid.text(model)));
+                       tie_name(tie), count_text(mid.all.size(), "node"), mid.text(model)),
+           mid.all.size());
   if (tie.main_and_tied.empty()) return;
   std::vector<std::int64_t> ids;
   for (const NodeIndex n : tie.main_and_tied) ids.push_back(model.node_id(n));
   std::sort(ids.begin(), ids.end());
-  Diagnostic* d =
-      report(run, RuleId::DK347, tie, "surf_IDm",
-             fmt::format("{}: {} of segments in use tied as secondary nodes: {}", tie_name(tie),
-                         count_text(ids.size(), "node"), list_text(ids)));
+  Diagnostic* d = report(run, RuleId::DK347, tie, "surf_IDm",
+                         fmt::format("{}: {} of segments in use tied as secondary nodes: {}",
+                                     tie_name(tie), count_text(ids.size(), "node"), list_text(ids)),
+                         ids.size());
   if (d != nullptr)
     d->notes.emplace_back(model.node_span(tie.main_and_tied.front()), "one of the nodes");
 }
@@ -141,7 +146,8 @@ void check_in_line(const GeometryRun& run, const Tie& tie) {
          fmt::format(
              "{}: {} tied to the rim of a segment without lying over it, up to {:.6g} away: {}",
              tie_name(tie), count_text(nodes.all.size(), "node"), (*farthest)->distance,
-             nodes.text(run.model())));
+             nodes.text(run.model())),
+         nodes.all.size());
 }
 
 /// The distance is 0 for the solver where a sub-triangle has no area, wherever the node is.
@@ -173,7 +179,8 @@ void check_collapsed(const GeometryRun& run, const Tie& tie) {
   report(run, RuleId::DK349, tie, "surf_IDm",
          fmt::format("{}: {} tied at distance 0 to {} without area; the first one is {}",
                      tie_name(tie), count_text(nodes, "node"), count_text(caught.size(), "segment"),
-                     fmt::format("{}", fmt::join(first, " "))));
+                     fmt::format("{}", fmt::join(first, " "))),
+         nodes);
 }
 
 /// What hangs on the numbering of elements, or on a wrong place in the solver's tables.
@@ -191,13 +198,15 @@ void check_thickness(const GeometryRun& run, const Tie& tie) {
                        tie_name(tie),
                        nodes.all.size() == 1 ? std::string("1 node is")
                                              : fmt::format("{} nodes are", nodes.all.size()),
-                       nodes.text(run.model())));
+                       nodes.text(run.model())),
+           nodes.all.size());
   const Nodes missed = nodes_where(tie, [](const TiedNode& n) { return n.missed; });
   if (!missed.all.empty())
-    report(run, RuleId::DK351, tie, "dsearch",
-           fmt::format("{}: {} not tied, although a segment is within the search distance: {}",
-                       tie_name(tie), count_text(missed.all.size(), "node"),
-                       missed.text(run.model())));
+    report(
+        run, RuleId::DK351, tie, "dsearch",
+        fmt::format("{}: {} not tied, although a segment is within the search distance: {}",
+                    tie_name(tie), count_text(missed.all.size(), "node"), missed.text(run.model())),
+        missed.all.size());
 }
 
 }  // namespace

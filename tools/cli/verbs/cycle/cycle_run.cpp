@@ -156,7 +156,7 @@ class CycleRun {
 
   int one(LoadedDeck& loaded) {
     auto gate = ask(loaded);
-    if (!gate) return usage(gate.error());
+    if (!gate) return std::max(usage(gate.error()), gate_error_code(gate.error()));
     Evaluation e;
     Result<void> written = evaluate(loaded, e);
     if (!written && e.input.outcome == nullptr) return usage(written.error());
@@ -164,7 +164,7 @@ class CycleRun {
     const Scene& scene = loaded.scene();
     e.crossings = find_crossings(scene, options_.threads);
     e.view = make_view(scene, &e.crossings, options_.threads);
-    e.report = gate->look(loaded, scene, e.view, &e.steps.last);
+    e.report = gate->look(loaded, scene, e.view, &e.steps.last, o_.common);
     e.input.view = &e.view;
     e.input.gate = &e.report;
     measure(scene, e);

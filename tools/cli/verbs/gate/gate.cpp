@@ -24,7 +24,7 @@ struct Options {
 std::vector<const Diagnostic*> stops_of(const LintJob& job) {
   std::vector<const Diagnostic*> out;
   for (const Diagnostic& d : job.result.diagnostics)
-    if (is_of_gate(d.rule) || d.severity == Severity::error ||
+    if (is_gate_rule(d.rule) || d.severity == Severity::error ||
         (d.severity == Severity::warning && job.fail_on == "warning"))
       out.push_back(&d);
   return out;
@@ -74,10 +74,11 @@ std::string table(const LintJobs& jobs, const CommonOptions& common) {
                    {"same", Align::right},
                    {"solved", Align::right}});
   for (const auto& job : jobs) {
-    const TextTable::Cell verdict = !job->loaded ? TextTable::Cell("not read", Tone::red)
-                                    : job->code != exit_clean
-                                        ? TextTable::Cell("stopped", Tone::red)
-                                        : TextTable::Cell("passed", Tone::green);
+    const TextTable::Cell verdict =
+        !job->loaded                ? TextTable::Cell("not read", Tone::red)
+        : job->report.undecided > 0 ? TextTable::Cell("undecided", Tone::red)
+        : job->code != exit_clean   ? TextTable::Cell("stopped", Tone::red)
+                                    : TextTable::Cell("passed", Tone::green);
     std::vector<TextTable::Cell> row = {job->path, verdict};
     if (job->loaded) {
       const auto beyond = job->report.findings.size();
@@ -133,8 +134,7 @@ Result<void> check_gates(const LintChoice& lint) {
   for (const std::string& deck : lint.common.decks) {
     const auto config = config_of(lint.gate, deck);
     if (!config) return config.error();
-    if (!lint.gate.given() && !config->gate.any() && config->compare.empty() &&
-        config->accepted.empty())
+    if (!lint.gate.given() && !config->gated())
       return Error{Error::Code::config,
                    deck + ": no gate is set: run 'deck gate --init', put bounds into [gate] of " +
                        (config->path.empty() ? ".decklint.toml" : config->path) +
@@ -146,16 +146,22 @@ Result<void> check_gates(const LintChoice& lint) {
 int run(Options& o) {
   CommonOptions& common = o.lint.common;
   if (common.decks.empty()) common.decks = {"."};
+  if (o.writes && o.lint.accept)
+    return wrong_usage("gate", "--init accepts everything already; leave out --accept");
   if (o.writes) {
     if (o.commits >= 0) o.init.commits = static_cast<std::size_t>(o.commits);
     return init_gate(common, o.init);
   }
   if (o.commits >= 0 || !o.init.forge.empty() || o.init.overwrite)
     return wrong_usage("gate", "--commits, --forge and --overwrite go with --init");
+  if (o.lint.accept && o.lint.gate.given())
+    return wrong_usage("gate",
+                       "--accept writes the baselines; it takes no bounds and nothing to "
+                       "compare with");
   if (const int wrong = open_directories(common); wrong != exit_clean) return wrong;
   for (std::string& deck : common.decks)  // without the default directory "." in front
     if (deck.starts_with("./")) deck.erase(0, 2);
-  if (auto set = check_gates(o.lint); !set) {
+  if (auto set = o.lint.accept ? Result<void>() : check_gates(o.lint); !set) {
     print_error(common, set.error().message);
     return exit_usage;
   }
@@ -183,6 +189,9 @@ Action setup(CommandLine& line) {
   add_require_examined(line, o.common);
   add_gate_with_config(line, o.gate, "an error", "an error or a warning");
   add_verbose(line, o.common, "Show every finding in full, without grouping");
+  line.flag("--accept", o.accept,
+            "Accept what there is: write the findings and penetrations of these decks into the "
+            "baselines that .decklint.toml names, in place of what was accepted of them");
   CommandLine init = line.group("Setting a repository up");
   init.flag(
       "--init", options->writes,
@@ -210,6 +219,7 @@ const VerbRegistration registration{
      "  deck gate models/ --since origin/main --format github -o sarif=deck.sarif\n"
      "  deck gate car_0000.rad --compare git:main --fail-on new,worse\n"
      "  deck gate models/ --init           sets the repository up\n"
+     "  deck gate --accept car_0000.rad    a change of this deck is meant\n"
      "\n"
      "Exit code 1: an error of lint, a contact beyond a bound, or one that is new or worse than "
      "in\n"

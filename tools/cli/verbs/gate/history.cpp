@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/shared/count.hpp"
+#include "base/shared/escape.hpp"
 #include "deck/report/gaps.hpp"
 #include "library.hpp"
 #include "report/shared/text_table.hpp"
@@ -70,7 +71,7 @@ class Past {
     State now;
     for (std::size_t i = 0; i < result.diagnostics.size(); ++i)
       if (const Diagnostic& d = result.diagnostics[i];
-          d.severity == Severity::error && !is_of_gate(d.rule))
+          d.severity == Severity::error && !is_gate_rule(d.rule))
         ++now.errors[{d.rule, result.fingerprints[i]}];
     if (!document.empty())
       if (auto gaps = read_earlier_gaps(loaded->path(), document, loaded->path()))
@@ -106,8 +107,9 @@ class Past {
     }
     for (const auto& [rule, n] : fresh)
       words.push_back(std::string(id_text(rule)) + (n > 1 ? fmt::format(" {} times", n) : ""));
-    row.stopped = !fresh.empty() || std::any_of(result.counts.begin(), result.counts.end(),
-                                                [](const auto& c) { return is_of_gate(c.first); });
+    row.stopped =
+        !fresh.empty() || std::any_of(result.counts.begin(), result.counts.end(),
+                                      [](const auto& c) { return is_gate_rule(c.first); });
     row.why = joined(words);
   }
 
@@ -130,11 +132,11 @@ std::string table(const std::string& deck, const std::vector<Row>& rows,
     table.row({row.commit.name, row.commit.date, verdict, row.why, row.commit.subject});
   }
   const std::string verdict =
-      known == 0 ? fmt::format("The gate cannot look back at {}:\n", deck)
+      known == 0 ? fmt::format("The gate cannot look back at {}:\n", terminal_text(deck))
                  : fmt::format(
                        "The gate would have stopped {} of the last {} of {}, compared with the "
                        "one before:\n",
-                       stopped, count(known, "commit", "commits"), deck);
+                       stopped, count(known, "commit", "commits"), terminal_text(deck));
   return verdict + table.fitted(text_width(), common.color_on(1), 2);
 }
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
+#include <map>
 #include <vector>
 
 #include "base/shared/count.hpp"
@@ -31,12 +31,11 @@ std::string config_text() {
   std::string out =
       "# The gate of the decks below this directory: 'deck gate' stops at what is not in the two\n"
       "# baselines. 'deck lint --init' elsewhere shows every key that may stand here.\n"
-      "# Accepted findings; written by 'deck lint --write-baseline':\n"
+      "# Accepted findings of lint; 'deck gate --accept DECK' writes both baselines again:\n"
       "baseline = \"" +
       std::string(lint_name) +
       "\"\n\n[gate]\n"
-      "# Accepted penetrations, written by 'deck gaps --write-baseline': new and deeper ones "
-      "stop.\n"
+      "# Accepted penetrations: new and deeper ones stop.\n"
       "baseline = \"" +
       std::string(gaps_name) + "\"\n";
   for (const ConfigKey& k : config_keys())
@@ -112,20 +111,14 @@ std::string forge_of(const std::string& root) {
 
 /// The decks with what is accepted of them.
 struct Today {
-  struct One {
-    std::string path;
-    LoadedDeck loaded;
-    LintResult result;
-  };
-  std::vector<std::unique_ptr<One>> decks;
-  std::string gaps;
+  std::vector<LoadedDeck> decks;
+  Baseline lint, gaps;
+  std::uint64_t errors = 0;
   std::size_t penetrating = 0;
 };
 
 /// Reads and lints all decks. Returns exit_clean, or what is wrong, said.
-int look(const CommonOptions& common, const SchemaSet& schemas, const std::string& gaps_path,
-         Today& out) {
-  JsonOutput gaps(common, "deck/gaps", 1);
+int look(const CommonOptions& common, const SchemaSet& schemas, Today& out) {
   for (const std::string& path : common.decks) {
     auto loaded = load(path, schemas, common);
     if (!loaded || loaded->incomplete()) {
@@ -134,24 +127,15 @@ int look(const CommonOptions& common, const SchemaSet& schemas, const std::strin
                               "; nothing was written");
       return exit_input;
     }
-    auto one = std::make_unique<Today::One>(Today::One{path, std::move(*loaded), {}});
-    std::string document;
-    one->result = lint_loaded(
-        one->loaded, {}, Geometry::all, {}, [&](const Scene& scene, const SceneView& view) {
-          document =
-              gaps_json(name_in_baseline(path, gaps_path), one->loaded.deck(), scene, view, false);
+    const LintResult result =
+        lint_loaded(*loaded, {}, Geometry::all, {}, [&](const Scene& scene, const SceneView& view) {
+          out.gaps.accept(path, scene, view);
           out.penetrating += view.deepest_per_node.size();
         });
-    if (document.empty()) {  // without interfaces nothing is looked at
-      const Scene& scene = one->loaded.scene();
-      document = gaps_json(name_in_baseline(path, gaps_path), one->loaded.deck(), scene,
-                           make_view(scene), false);
-      one->loaded.drop_scene();
-    }
-    gaps.add(std::move(document));
-    out.decks.push_back(std::move(one));
+    out.lint.accept(path, loaded->deck(), result);
+    out.errors += result.errors;
+    out.decks.push_back(std::move(*loaded));
   }
-  out.gaps = gaps.text();
   return exit_clean;
 }
 
@@ -162,26 +146,69 @@ struct NewFile {
 
 std::vector<NewFile> files_of(const Today& today, const fs::path& root, const std::string& forge,
                               const std::string& decks) {
-  std::vector<BaselinedDeck> baselined;
-  for (const auto& one : today.decks)
-    baselined.push_back({one->path, &one->loaded.deck(), &one->result});
-  const std::string lint = (root / lint_name).string();
   const bool github = forge == "github";
   return {{(root / config_name).string(), config_text()},
-          {lint, write_baseline(baselined, lint)},
-          {(root / gaps_name).string(), today.gaps},
+          {today.lint.path(), today.lint.text()},
+          {today.gaps.path(), today.gaps.text()},
           {(root / (github ? ".github/workflows/deck-gate.yml" : ".gitlab/deck-gate.yml")).string(),
            github ? github_text(decks) : gitlab_text(decks)}};
 }
 
-/// The arguments as they are called from the top of the work tree.
-std::string decks_in_tree(const std::vector<std::string>& given, const std::string& root) {
+/// The arguments as words of a shell, as they are called from the top of the work tree. Error: a
+/// name that a workflow cannot hold, or that a forge would take for an expression.
+Result<std::string> decks_in_tree(const std::vector<std::string>& given, const std::string& root) {
   std::string out;
   for (const std::string& path : given) {
-    const std::string inside =
-        fs::path(absolute_path(path)).lexically_relative(root).generic_string();
-    if (inside != ".") out += " " + shell_word(inside);
+    std::string inside = fs::path(absolute_path(path)).lexically_relative(root).generic_string();
+    if (inside == ".") continue;
+    if (terminal_text(inside) != inside || inside.find("${{") != inside.npos ||
+        inside.find("$[[") != inside.npos)
+      return Error{Error::Code::config, path +
+                                            ": a workflow cannot hold this name; rename it, or "
+                                            "give the folder above it"};
+    if (inside.starts_with('-')) inside.insert(0, "./");
+    out += " " + shell_word(inside);
   }
+  return out;
+}
+
+/// Nothing is written through a link that leads out of the work tree, nor into what is no file.
+Result<void> check_places(const std::vector<NewFile>& files, const fs::path& root, bool overwrite) {
+  for (const NewFile& f : files) {
+    std::error_code ec;
+    const fs::file_type own = fs::symlink_status(f.path, ec).type(),
+                        behind = fs::status(f.path, ec).type();
+    const fs::path real =
+        fs::weakly_canonical(f.path, ec).lexically_relative(fs::weakly_canonical(root, ec));
+    if (real.empty() || *real.begin() == ".." ||
+        (own == fs::file_type::symlink && behind == fs::file_type::not_found))
+      return Error{Error::Code::config, f.path +
+                                            " is a link that leads out of the work tree, or "
+                                            "nowhere; nothing was written"};
+    if (behind != fs::file_type::regular && behind != fs::file_type::not_found)
+      return Error{Error::Code::config, f.path + " is no regular file; nothing was written"};
+    if (!overwrite && own != fs::file_type::not_found)
+      return Error{Error::Code::config,
+                   f.path +
+                       " is there already; nothing was written (--overwrite replaces it, with "
+                       "all that --init writes)"};
+  }
+  return {};
+}
+
+/// Says which decks the settings at the top of the work tree do not reach.
+std::string unreached_text(const std::vector<std::string>& decks, const fs::path& root) {
+  std::map<std::string, std::size_t> nearer;
+  for (const std::string& deck : decks)
+    if (const auto config = find_lint_config(deck);
+        !config || fs::path(config->path).parent_path() != root)
+      ++nearer[config ? config->path : config.error().message];
+  std::string out;
+  for (const auto& [path, n] : nearer)
+    if (!path.empty())
+      out += fmt::format("This gate does not reach {}, because {} is nearer: write [gate] there.\n",
+                         count(n, "deck", "decks"),
+                         terminal_text(fs::path(path).lexically_relative(root).generic_string()));
   return out;
 }
 
@@ -191,12 +218,10 @@ void tell(const Today& today, const std::vector<NewFile>& files, const fs::path&
   for (const NewFile& f : files)
     out +=
         "wrote " + terminal_text(fs::path(f.path).lexically_relative(root).generic_string()) + "\n";
-  std::uint64_t errors = 0;
-  for (const auto& one : today.decks) errors += one->result.errors;
   out += fmt::format(
       "Accepted as it is today: {} of lint, {} in {}. Commit these files; 'deck gate{}' runs the "
       "gate. The workflow needs {}.\n",
-      count(errors, "error", "errors"),
+      count(today.errors, "error", "errors"),
       count(today.penetrating, "penetrating node or edge", "penetrating nodes and edges"),
       count(today.decks.size(), "deck", "decks"), terminal_text(decks),
       package() + (files.back().path.ends_with("workflows/deck-gate.yml")
@@ -225,23 +250,25 @@ int init_gate(const CommonOptions& given, const GateInit& init) {
   for (const std::string& path : common.decks)
     if (library_root(path) != root) return fail(path + " is in another git work tree than " + root);
   const std::string forge = init.forge.empty() ? forge_of(root) : init.forge;
-  const std::string words = decks_in_tree(given.decks, root);
+  const auto words = decks_in_tree(given.decks, root);
+  if (!words) return fail(words.error().message);
+  const auto accepted = [&](std::string_view name, Baseline::Kind kind) -> Baseline {
+    const std::string path = (fs::path(root) / name).string();
+    const auto text = fs::is_regular_file(path, ec) ? read_config_file(path, most_baseline_bytes)
+                                                    : Error{Error::Code::config, ""};
+    // Of other decks it keeps what is accepted; what is no baseline is replaced.
+    auto kept = text ? Baseline::parse(*text, path, kind) : text.error();
+    return kept ? std::move(*kept) : Baseline(path, kind);
+  };
+  Today today{
+      {}, accepted(lint_name, Baseline::Kind::lint), accepted(gaps_name, Baseline::Kind::gaps)};
   // Before the decks are looked at, which takes time.
-  if (!init.overwrite)
-    for (const NewFile& f : files_of({}, root, forge, words))
-      if (fs::symlink_status(f.path, ec).type() != fs::file_type::not_found)
-        return fail(f.path +
-                    " is there already; nothing was written (--overwrite replaces it, with all "
-                    "that --init writes)");
-  for (const std::string_view name : {lint_name, gaps_name})
-    if (auto kept = keeps_other_decks((fs::path(root) / name).string(), common.decks); !kept)
-      return fail(kept.error().message);
+  if (auto legal = check_places(files_of(today, root, forge, *words), root, init.overwrite); !legal)
+    return fail(legal.error().message);
   const auto schemas = load_schemas(common);
   if (!schemas) return fail(schemas.error().message);
-  Today today;
-  const std::string gaps_path = (fs::path(root) / gaps_name).string();
-  if (const int code = look(common, *schemas, gaps_path, today); code != exit_clean) return code;
-  const std::vector<NewFile> files = files_of(today, root, forge, words);
+  if (const int code = look(common, *schemas, today); code != exit_clean) return code;
+  const std::vector<NewFile> files = files_of(today, root, forge, *words);
   std::vector<OutputFile> written_files;
   for (const NewFile& f : files) written_files.push_back({f.path, f.text});
   OutputRules rules;
@@ -249,11 +276,12 @@ int init_gate(const CommonOptions& given, const GateInit& init) {
   if (auto written = common.session->write_outputs(written_files, rules); !written)
     return fail(written.error().message);
   if (common.quiet) return exit_clean;
-  tell(today, files, root, words);
+  tell(today, files, root, *words);
+  print_lines(unreached_text(common.decks, root));
   std::size_t young = 0;
-  for (const auto& one : today.decks) {
+  for (const LoadedDeck& deck : today.decks) {
     if (init.commits == 0) break;
-    const auto past = gate_history(one->loaded, init.commits, common);
+    const auto past = gate_history(deck, init.commits, common);
     if (!past) return fail(past.error().message);
     if (past->empty())
       ++young;

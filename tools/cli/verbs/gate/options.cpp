@@ -17,24 +17,18 @@
 namespace deck::cli {
 namespace {
 
+constexpr std::uint64_t most_compared_bytes = std::uint64_t{256} << 20;
+
 void set(std::optional<double>& bound, double given) {
   if (given >= 0) bound = given;
 }
 
-/// A path from a configuration, which is absolute, as it is called in the git work tree.
-std::string name_in_tree(const std::string& path) {
-  namespace fs = std::filesystem;
-  if (!path.starts_with('/')) return path;
-  const fs::path inside = fs::path(normal_path(path)).lexically_relative(library_root(path));
-  return inside.empty() || *inside.begin() == ".." ? path : inside.generic_string();
-}
-
 Result<EarlierGaps> read_earlier(Session& session, const std::string& path,
-                                 const std::string& deck_path, bool strict, bool given) {
-  const auto text = read_config_file(path, most_baseline_bytes);
+                                 const std::string& deck_path, bool given) {
+  const auto text = read_config_file(path, most_compared_bytes);
   if (!text) return text.error();
   session.remember_read(path);
-  return read_earlier_gaps(given ? path : name_in_tree(path), *text, deck_path, strict);
+  return read_earlier_gaps(given ? path : name_in_tree(path), *text, deck_path);
 }
 
 /// The deck itself at a git revision.
@@ -42,17 +36,38 @@ Result<EarlierGaps> earlier_revision(const std::string& compare, const std::stri
                                      const CommonOptions& common) {
   const auto text = gaps_at_revision(compare.substr(git_prefix.size()), deck_path, common);
   if (!text) return text.error();
-  return read_earlier_gaps(compare, *text, deck_path, false);
+  return read_earlier_gaps(compare, *text, deck_path);
 }
 
 }  // namespace
 
-std::string name_in_baseline(const std::string& deck_path, const std::string& path) {
+Result<const Baseline*> baseline_at(const GateOptions& o, const std::string& path,
+                                    Baseline::Kind kind) {
+  if (const auto known = o.baselines->find(path); known != o.baselines->end())
+    return &known->second;
+  const auto text = read_config_file(path, most_baseline_bytes);
+  if (!text) return text.error();
+  o.session->remember_read(path);
+  auto parsed = Baseline::parse(*text, path, kind);
+  if (!parsed) return parsed.error();
+  return &o.baselines->emplace(path, std::move(*parsed)).first->second;
+}
+
+Result<Baseline> baseline_to_change(const std::string& path, Baseline::Kind kind) {
+  std::error_code ec;
+  if (path == "-" || !std::filesystem::is_regular_file(path, ec)) return Baseline(path, kind);
+  const auto text = read_config_file(path, most_baseline_bytes);
+  if (!text) return text.error();
+  if (!Baseline::is_of_earlier_form(*text)) return Baseline::parse(*text, path, kind);
+  print_note(path + " has an earlier form: only what is accepted now will be in it");
+  return Baseline(path, kind);
+}
+
+std::string name_in_tree(const std::string& path) {
   namespace fs = std::filesystem;
-  if (deck_path == "-") return deck_path;
-  return fs::path(absolute_path(deck_path))
-      .lexically_relative(parent_path(absolute_path(path)))
-      .generic_string();
+  if (!path.starts_with('/')) return path;
+  const fs::path inside = fs::path(normal_path(path)).lexically_relative(library_root(path));
+  return inside.empty() || *inside.begin() == ".." ? path : inside.generic_string();
 }
 
 bool GateOptions::fails_on(std::string_view word) const {
@@ -167,15 +182,17 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
                  "a baseline and an earlier run to compare with exclude each other: " + accepted +
                      " and " + compare};
   if (!accepted.empty()) {
-    auto read =
-        read_earlier(*o.session, accepted, name_in_baseline(deck_path, accepted), true, given);
+    const auto known = baseline_at(o, accepted, Baseline::Kind::gaps);
+    if (!known) return known.error();
+    auto read = (*known)->gaps_of(deck_path);
     if (!read) return read.error();
+    if (!given) read->path = name_in_tree(accepted);
     out.earlier = std::move(*read);
     out.baseline = out.gate.on_fresh = out.gate.on_worse = true;
   } else if (!compare.empty()) {
     auto read = compare.starts_with(git_prefix)
                     ? earlier_revision(compare, deck_path, common)
-                    : read_earlier(*o.session, compare, deck_path, false, given);
+                    : read_earlier(*o.session, compare, deck_path, given);
     if (!read) return read.error();
     out.earlier = std::move(*read);
   } else if (out.gate.on_fresh || out.gate.on_worse) {
@@ -192,37 +209,8 @@ Result<DeckGate> gate_of(const GateOptions& o, const LoadedDeck& loaded,
   if (!config) return config.error();
   auto gate = gate_of(o, *config, loaded.path(), common);
   if (!gate) return gate;
-  gate->note_baseline(common, loaded.path());
   if (auto known = gate->find_changes(loaded); !known) return known.error();
   return gate;
-}
-
-Result<void> keeps_other_decks(const std::string& path, const std::vector<std::string>& decks) {
-  namespace fs = std::filesystem;
-  std::error_code ec;
-  if (!fs::exists(path, ec)) return {};
-  const auto text = read_config_file(path, most_baseline_bytes);
-  if (!text) return {};  // what is no baseline is somebody else's to complain about
-  const fs::path base = parent_path(absolute_path(path));
-  std::vector<std::string> held;  // absolute
-  if (const auto lint = parse_baseline(*text, path)) {
-    for (const auto& [deck, findings] : lint->decks) held.push_back(deck);
-  } else if (const auto gaps = read_earlier_gaps(path, *text, "", true)) {
-    for (const std::string& deck : gaps->decks)
-      held.push_back((base / deck).lexically_normal().generic_string());
-  }
-  std::vector<std::string> lost;
-  for (const std::string& deck : held)
-    if (fs::exists(deck, ec) && std::none_of(decks.begin(), decks.end(), [&](const std::string& d) {
-          return fs::path(absolute_path(d)).lexically_normal().generic_string() == deck;
-        }))
-      lost.push_back(fs::path(deck).lexically_relative(base).generic_string());
-  if (lost.empty()) return {};
-  const std::string also = lost.size() > 1 ? fmt::format(" and {} more", lost.size() - 1) : "";
-  return Error{Error::Code::config,
-               fmt::format("{} also holds {}{}: what is accepted of {} would be lost. Give all "
-                           "decks, or delete the file first",
-                           path, lost.front(), also, lost.size() > 1 ? "them" : "it")};
 }
 
 void note_not_in_baseline(const CommonOptions& options, const std::string& deck_path,
@@ -233,14 +221,17 @@ void note_not_in_baseline(const CommonOptions& options, const std::string& deck_
   for (std::size_t i = 0; i < std::min(held.size(), most); ++i)
     names += (i == 0 ? "" : ", ") + held[i];
   if (held.size() > most) names += " and " + std::to_string(held.size() - most) + " more";
-  print_messages(terminal_text(deck_path + ": note: " + baseline + " has no entry for this deck" +
+  print_messages(terminal_text(deck_path + ": note: " + name_in_tree(baseline) +
+                               " has no entry for this deck" +
                                (held.empty() ? "" : ", but of " + names) +
                                ": everything counts as new") +
                  "\n");
 }
 
-void DeckGate::note_baseline(const CommonOptions& options, const std::string& deck_path) const {
-  if (baseline && earlier && earlier->deck_path.empty())
+void DeckGate::note_baseline(const CommonOptions& options, const std::string& deck_path,
+                             const GapsComparison& found) const {
+  if (baseline && earlier && earlier->deck_path.empty() &&
+      found.count(Trend::fresh) + found.lost_ties.size() > 0)
     note_not_in_baseline(options, deck_path, earlier->path, earlier->decks);
 }
 
@@ -252,17 +243,18 @@ Result<void> DeckGate::find_changes(const LoadedDeck& loaded) {
   return {};
 }
 
-bool is_of_gate(RuleId rule) {
-  return std::find(std::begin(gate_rules), std::end(gate_rules), rule) != std::end(gate_rules);
-}
-
 GateReport DeckGate::look(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
-                          const cycle::SceneOutcome* forces) const {
+                          const cycle::SceneOutcome* forces, const CommonOptions& common) const {
   GateReport report =
       gate_report(gate, scene, view, forces, earlier ? &*earlier : nullptr, &changed);
   stand_at_changes(report.findings, loaded.deck().sources, changed);
   for (const Diagnostic& d : report.findings) loaded.report(d);
+  note_baseline(common, loaded.path(), report.comparison);
   return report;
+}
+
+int gate_error_code(const Error& error) {
+  return error.code == Error::Code::io ? exit_input : exit_usage;
 }
 
 int verdict_code(const Verdict& verdict, const GateOptions& options, const CommonOptions& common,

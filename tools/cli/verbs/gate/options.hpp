@@ -1,6 +1,8 @@
 // The gate on the command line: bounds for contacts, from options and from [gate] of the
 // configuration, and the earlier run to compare with.
 #pragma once
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "deck/contact/scene.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/verdict.hpp"
+#include "lint/shared/baseline.hpp"
 #include "lint/shared/changed_lines.hpp"
 #include "lint/shared/config.hpp"
 #include "lint/shared/gate.hpp"
@@ -27,6 +30,9 @@ struct GateOptions {
   std::string config;
   bool no_config = false;
   Session* session = nullptr;  ///< of the command line that they were added to
+  /// Those that were read, by path.
+  std::shared_ptr<std::map<std::string, Baseline>> baselines =
+      std::make_shared<std::map<std::string, Baseline>>();
 
   bool fails_on(std::string_view word) const;
   /// error, warning or never; "" if none was given.
@@ -62,21 +68,26 @@ struct DeckGate {
 
   /// Asks git for the lines of the deck that changed. Error: it knows no such revision.
   Result<void> find_changes(const LoadedDeck& loaded);
-  /// Says so where the baseline is one of other decks.
-  void note_baseline(const CommonOptions& options, const std::string& deck_path) const;
+  /// Says so where something is new because the baseline is one of other decks.
+  void note_baseline(const CommonOptions& options, const std::string& deck_path,
+                     const GapsComparison& found) const;
   /// Looks, and adds what it finds to the deck's findings. `forces` may be nullptr.
   GateReport look(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
-                  const cycle::SceneOutcome* forces) const;
+                  const cycle::SceneOutcome* forces, const CommonOptions& common) const;
 };
-bool is_of_gate(RuleId rule);
+/// The exit code of a gate that cannot be formed: 3 if the base could not be read, else 2.
+int gate_error_code(const Error& error);
+/// An absolute path, such as one of a configuration, as it is called in the git work tree.
+std::string name_in_tree(const std::string& path);
 /// Says that a baseline holds nothing of a deck, but of `held`, so that everything counts as new.
 void note_not_in_baseline(const CommonOptions& options, const std::string& deck_path,
                           const std::string& baseline, const std::vector<std::string>& held);
-/// What is accepted of a deck stays when the baseline is written for others: an error if `path` is
-/// a baseline of gaps, or of lint, that holds decks beside `decks` which are still there.
-Result<void> keeps_other_decks(const std::string& path, const std::vector<std::string>& decks);
-/// How a deck is called in a baseline that lies at `path`: relative to it.
-std::string name_in_baseline(const std::string& deck_path, const std::string& path);
+/// A baseline, read once for all decks of a call.
+Result<const Baseline*> baseline_at(const GateOptions& options, const std::string& path,
+                                    Baseline::Kind kind);
+/// A baseline whose entries of some decks are to be replaced: without any where there is no file,
+/// or one of an earlier form, which is said.
+Result<Baseline> baseline_to_change(const std::string& path, Baseline::Kind kind);
 Result<DeckGate> gate_of(const GateOptions& options, const LintConfig& config,
                          const std::string& deck_path, const CommonOptions& common);
 /// The same by the configuration of the deck, with the lines that changed; what is to be noted is.

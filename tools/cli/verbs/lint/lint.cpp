@@ -76,7 +76,8 @@ Action setup(CommandLine& line) {
   line.option("--baseline", o.baseline,
               "Leave out the findings listed in FILE, of the decks listed there")
       .value("FILE");
-  line.option("--write-baseline", o.write_baseline, "Write all findings to FILE as a baseline")
+  line.option("--write-baseline", o.write_baseline,
+              "Write all findings to FILE as a baseline; entries of other decks stay")
       .value("FILE");
   line.existing("decks").required(false).describe(
       "Starter decks, or directories: all *_0000.rad below them; '-' is standard input. With "

@@ -23,8 +23,7 @@ Geometry geometry_of(const LintChoice& options, const LintConfig& config) {
   if (options.no_geometry) return Geometry::none;
   if (options.geometry || options.gate.given()) return Geometry::all;
   if (config.geometry) return *config.geometry ? Geometry::all : Geometry::none;
-  const bool gate = config.gate.any() || !config.compare.empty() || !config.accepted.empty();
-  return gate ? Geometry::all : Geometry::quick;
+  return config.gated() ? Geometry::all : Geometry::quick;
 }
 
 /// What the command line says, over what the configuration says.
@@ -42,22 +41,15 @@ Result<LintOptions> lint_options(const LintChoice& options, const LintConfig& co
       if (!known_selector(s)) return Error{Error::Code::config, unknown_selector(s)};
   const std::string baseline = options.baseline.empty() ? config.baseline : options.baseline;
   // A baseline that is about to be written replaces the old one.
-  if (baseline.empty() || !options.write_baseline.empty()) return out;
-  const auto text = read_config_file(baseline, most_baseline_bytes);
-  if (!text) return text.error();
-  options.common.session->remember_read(baseline);
-  const auto parsed = parse_baseline(*text, baseline);
-  if (!parsed) return parsed.error();
-  const auto* entries = parsed->find(job.path);
-  if (entries == nullptr) {
-    std::vector<std::string> held;
-    for (const auto& [deck, unused] : parsed->decks) held.push_back(deck);
-    note_not_in_baseline(options.common, job.path, baseline, held);
-    return out;
-  }
-  for (const auto& [key, entry] : *entries) {
-    out.baseline.emplace(key, entry.count);
-    job.baseline_names.emplace(key, std::pair(entry.rule, entry.entity));
+  if (baseline.empty() || !options.write_baseline.empty() || options.accept) return out;
+  const auto read = baseline_at(options.gate, baseline, Baseline::Kind::lint);
+  if (!read) return read.error();
+  auto entries = (*read)->findings_of(job.path);
+  if (!entries) return entries.error();
+  out.baseline = std::move(*entries);
+  if (!(*read)->has(job.path)) {
+    job.without_entries = baseline;
+    job.decks_with_entries = (*read)->decks();
   }
   return out;
 }
@@ -96,16 +88,11 @@ void note_renamed(const LintOptions& options, std::set<std::string>& told) {
       print_note(now);
 }
 
-bool passes_a_gate(const LintResult& r) {
-  return std::any_of(std::begin(gate_rules), std::end(gate_rules),
-                     [&](RuleId rule) { return r.counts.contains(rule); });
-}
-
 }  // namespace
 }  // namespace linting
 
 LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry geometry,
-                       const DeckGate& gate, const SeenContacts& seen) {
+                       const DeckGate& gate, const SeenContacts& seen, std::size_t* too_large) {
   SceneOptions wanted = loaded.scene_options();
   wanted.candidates = false;
   wanted.ties = geometry != Geometry::none;
@@ -119,9 +106,12 @@ LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry 
       look.earlier = gate.earlier ? &*gate.earlier : nullptr;
       look.changed = &gate.changed;
       look.seen = seen;
+      look.too_large = too_large;
       return check_geometry(context, reporter, look);
     });
-  LintResult result = run_lint(loaded, options, extra);
+  LintOptions how = options;
+  how.gated = gate.gate.any() || gate.earlier;
+  LintResult result = run_lint(loaded, how, extra);
   loaded.drop_scene();
   linting::stand_at_changes(result, loaded.deck().sources, gate.changed);
   return result;
@@ -157,7 +147,7 @@ int LintRun::run() {
     if (code != exit_clean) worst = std::max(worst, code);
   }
   if (worst >= exit_internal) return worst;
-  return std::max(worst, write());
+  return options_.accept ? accept(worst) : std::max(worst, write());
 }
 
 int LintRun::usage(const std::string& message) {
@@ -201,11 +191,15 @@ int LintRun::lint_one(const std::string& path) {
   const auto config = config_of(options_.gate, path);
   if (!config) return usage(config.error().message);
   const Geometry geometry = linting::geometry_of(options_, *config);
-  // Without geometry nothing is held against the gate.
-  auto gate =
-      geometry == Geometry::none ? DeckGate{} : gate_of(options_.gate, *config, path, common_);
-  if (!gate) return usage(gate.error().message);
-  gate->note_baseline(common_, path);
+  if (geometry == Geometry::none && config->gated())
+    return usage("the gate of " + config->path +
+                 " needs geometry; leave out --no-geometry, or add --no-config");
+  if (options_.accept && config->baseline.empty() && config->accepted.empty())
+    return usage(path + ": " + (config->path.empty() ? "no .decklint.toml" : config->path) +
+                 " names no baseline to accept it in: run 'deck gate --init'");
+  // What is accepted is not held against what was.
+  auto gate = options_.accept ? DeckGate{} : gate_of(options_.gate, *config, path, common_);
+  if (!gate) return std::max(usage(gate.error().message), gate_error_code(gate.error()));
   const auto lint = linting::lint_options(options_, *config, *job);
   if (!lint) return usage(lint.error().message);
   if (!common_.quiet) linting::note_renamed(*lint, renamed_);
@@ -218,6 +212,10 @@ int LintRun::lint_one(const std::string& path) {
     job->loaded.emplace(std::move(*loaded));
     if (auto known = gate->find_changes(*job->loaded); !known) return usage(known.error().message);
     job->gate = std::move(*gate);
+    if (options_.accept) {
+      job->lint_baseline = config->baseline;
+      if (!config->accepted.empty()) job->gaps.emplace(config->accepted, Baseline::Kind::gaps);
+    }
     look(*job, *lint, geometry);
     const std::string given = options_.gate.level();
     job->fail_on = !given.empty() ? given : !config->fail_on.empty() ? config->fail_on : "error";
@@ -231,17 +229,25 @@ int LintRun::lint_one(const std::string& path) {
 /// Findings, verdict and what the gate says.
 void LintRun::look(LintJob& job, const LintOptions& lint, Geometry geometry) {
   std::optional<ContactFacts> contacts;
+  std::size_t too_large = 0;
   job.report.asked = job.gate.gate.any();
-  job.result = lint_loaded(*job.loaded, lint, geometry, job.gate,
-                           [&](const Scene& scene, const SceneView& view) {
-                             contacts = contact_facts(scene, view);
-                             job.report.undecided = undecided_contacts(scene);
-                             if (!job.gate.earlier) return;
-                             job.report.earlier = &*job.gate.earlier;
-                             job.report.comparison = compare_gaps(*job.gate.earlier, scene, view);
-                           });
+  job.result = lint_loaded(
+      *job.loaded, lint, geometry, job.gate,
+      [&](const Scene& scene, const SceneView& view) {
+        contacts = contact_facts(scene, view);
+        if (job.gaps) job.gaps->accept(job.path, scene, view);
+        job.report.undecided = undecided_contacts(scene);
+        if (!job.gate.earlier) return;
+        job.report.earlier = &*job.gate.earlier;
+        job.report.comparison = compare_gaps(*job.gate.earlier, scene, view);
+      },
+      &too_large);
+  if (contacts) contacts->left_out = too_large;
   for (const Diagnostic& d : job.result.diagnostics)
-    if (is_of_gate(d.rule)) job.report.findings.push_back(d);
+    if (is_gate_rule(d.rule)) job.report.findings.push_back(d);
+  job.gate.note_baseline(common_, job.path, job.report.comparison);
+  if (!job.without_entries.empty() && !job.result.diagnostics.empty())
+    note_not_in_baseline(common_, job.path, job.without_entries, job.decks_with_entries);
   const auto& skipped = job.result.not_checked;
   const bool left_out = geometry != Geometry::none &&
                         std::any_of(skipped.begin(), skipped.end(),
@@ -252,7 +258,8 @@ void LintRun::look(LintJob& job, const LintOptions& lint, Geometry geometry) {
 int LintRun::code_of(const LintJob& job) const {
   const ExitRules rules{job.fail_on == "warning", job.fail_on == "never", common_.require_examined};
   int code = exit_clean;
-  if (exit_code_of(*job.verdict, rules) != 0 || linting::passes_a_gate(job.result))
+  // The gate stops whatever the level is.
+  if (exit_code_of(*job.verdict, rules) != 0 || (job.report.asked && !job.report.passed()))
     code = exit_findings;
   code = std::max(code, examined_code(*job.loaded, common_));
   return job.loaded->incomplete() ? static_cast<int>(exit_input) : code;

@@ -29,6 +29,7 @@ struct LintChoice {
   bool geometry = false, no_geometry = false, fix = false, unsafe_fixes = false, diff = false,
        ruler = false;
   bool changed = false, init = false, show_config = false, statistics = false;
+  bool accept = false;  ///< write what is there into the baselines of the configuration
   WriteChoice write;
   int per_rule = -1;  ///< not given: 10, or all with -v
 };
@@ -43,9 +44,11 @@ enum class Geometry : std::uint8_t { none, quick, all };
 /// Called with the contacts while they are there.
 using SeenContacts = std::function<void(const Scene&, const SceneView&)>;
 
-/// Lints one deck, holds it against the gate, and frees its scene.
+/// Lints one deck, holds it against the gate, and frees its scene. `too_large`: as in
+/// GeometryOptions.
 LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry geometry,
-                       const DeckGate& gate, const SeenContacts& seen);
+                       const DeckGate& gate, const SeenContacts& seen,
+                       std::size_t* too_large = nullptr);
 
 /// One deck of the run, kept until everything is written.
 struct LintJob {
@@ -53,8 +56,11 @@ struct LintJob {
   std::optional<LoadedDeck> loaded;
   LintResult result;
   std::optional<Verdict> verdict;
-  /// Rule and entity of the entries of the baseline, for those that do not occur any more.
-  std::map<FindingKey, std::pair<std::string, std::string>> baseline_names;
+  /// A baseline of lint that has nothing of this deck, and of which decks it has.
+  std::string without_entries;
+  std::vector<std::string> decks_with_entries;
+  std::string lint_baseline;     ///< to accept the findings in; empty: none
+  std::optional<Baseline> gaps;  ///< what is to be accepted of the contacts
   DeckGate gate;
   GateReport report;    ///< what the gate said; refers to `gate`
   std::string fail_on;  ///< error, warning or never
@@ -97,6 +103,7 @@ class LintRun {
   Result<std::size_t> collect_fixes(Changes& set, std::vector<FixResult>& results);
   int fixes();
   void report_stale() const;
+  int accept(int worst);
   std::vector<LintedDeck> linted() const;
   int write();
   void print(const std::vector<LintedDeck>& decks) const;

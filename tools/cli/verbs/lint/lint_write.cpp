@@ -48,10 +48,10 @@ void LintRun::report_stale() const {
     std::size_t shown = 0;
     for (const auto& [key, n] : job->result.stale) {
       if (shown++ == most) break;
-      const auto& [rule, entity] = job->baseline_names.at(key);
-      print_messages(fmt::format("  {} {}{}{}: {}\n", terminal_text(key.first), terminal_text(rule),
-                                 entity.empty() ? "" : " ", terminal_text(entity),
-                                 deck::count(n, "time", "times")));
+      const std::string rule = key.rule + (key.field.empty() ? "" : ":" + key.field);
+      print_messages(fmt::format("  {} {}{}{}: {}\n", terminal_text(name_in_tree(key.file)),
+                                 terminal_text(rule), key.entity.empty() ? "" : " ",
+                                 terminal_text(key.entity), deck::count(n, "time", "times")));
     }
   }
 }
@@ -74,6 +74,58 @@ LintedDeck LintJob::linted() const {
           verdict};
 }
 
+/// `deck gate --accept`: what there is replaces the entries of these decks in their baselines, in
+/// all of them or in none. `worst` is the code of reading and linting.
+int LintRun::accept(int worst) {
+  std::map<std::string, Baseline> files;
+  const auto file = [&](const std::string& path, Baseline::Kind kind) -> Result<Baseline*> {
+    if (const auto it = files.find(path); it != files.end()) return &it->second;
+    auto read = baseline_to_change(path, kind);
+    if (!read) return read.error();
+    return &files.emplace(path, std::move(*read)).first->second;
+  };
+  std::uint64_t findings = 0;
+  bool whole = worst < exit_usage;
+  for (const auto& job : jobs_) {
+    if (!job->loaded) continue;
+    if (!job->lint_baseline.empty()) {
+      const auto lint = file(job->lint_baseline, Baseline::Kind::lint);
+      if (!lint) return usage(lint.error().message);
+      (*lint)->accept(job->path, job->loaded->deck(), job->result);
+      findings += job->result.diagnostics.size();
+    }
+    if (!job->gaps) continue;
+    const auto gaps = file(job->gaps->path(), Baseline::Kind::gaps);
+    if (!gaps) return usage(gaps.error().message);
+    (*gaps)->take(job->path, *job->gaps);
+  }
+  if (!whole) {
+    print_error(common_, "nothing was accepted, because not every deck could be read");
+    return worst;
+  }
+  std::vector<OutputFile> outputs;
+  std::map<std::string, std::string> texts;
+  std::string names;
+  for (const auto& [path, baseline] : files) {
+    outputs.push_back({path, texts[path] = baseline.text()});
+    names += (names.empty() ? "" : ", ") + name_in_tree(path);
+  }
+  if (auto written = common_.session->write_outputs(outputs); !written)
+    return usage(written.error().message);
+  std::size_t undecided = 0;
+  for (const auto& job : jobs_) undecided += job->report.undecided;
+  if (!common_.quiet)
+    print_lines(
+        terminal_text(fmt::format(
+            "Accepted as they are: {} ({}); wrote {}.{}", count(jobs_.size(), "deck", "decks"),
+            count(findings, "finding of lint", "findings of lint"), names,
+            undecided == 0 ? ""
+                           : fmt::format(" {} could not be evaluated.",
+                                         count(undecided, "contact", "contacts")))) +
+        "\n");
+  return undecided == 0 ? exit_clean : exit_findings;
+}
+
 int LintRun::write() {
   const auto decks = linted();
   int code = exit_clean;
@@ -88,15 +140,17 @@ int LintRun::write() {
   }
   if (!common_.json.empty() && !print_) put(common_.json, lint_json(decks));
   if (!options_.write_baseline.empty()) {
-    std::vector<BaselinedDeck> baselined;
+    auto baseline = baseline_to_change(options_.write_baseline, Baseline::Kind::lint);
+    bool any = false;
     for (const auto& job : jobs_)
-      if (job->loaded) baselined.push_back({job->path, &job->loaded->deck(), &job->result});
-    std::vector<std::string> paths;
-    for (const BaselinedDeck& d : baselined) paths.push_back(d.path);
-    if (auto kept = keeps_other_decks(options_.write_baseline, paths); !kept)
-      code = std::max(code, usage(kept.error().message));
-    else
-      put(options_.write_baseline, deck::write_baseline(baselined, options_.write_baseline));
+      if (baseline && job->loaded) {
+        baseline->accept(job->path, job->loaded->deck(), job->result);
+        any = true;
+      }
+    if (!baseline)
+      code = std::max(code, usage(baseline.error().message));
+    else if (any)
+      put(options_.write_baseline, baseline->text());
   }
   report_stale();
   if (print_) return std::max(code, print_(jobs_, schemas_));
