@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "lint/support.hpp"
 
 namespace deck::test {
