@@ -137,6 +137,15 @@ TEST(VerifiedFigures, APairWithinRoundingOfItsGapMayComeAndGo) {
   EXPECT_THAT(p.difference(), HasSubstr("the penetration of "));
 }
 
+TEST(VerifiedFigures, APairMayTakeAnotherSegmentThatIsAsNear) {
+  Pair p;
+  PenetrationRow& row = p.now.contact(1).penetrations[0];
+  row.main += 1;
+  EXPECT_EQ(p.difference(), "");
+  row.depth += 1e-3;
+  EXPECT_THAT(p.difference(), HasSubstr("no longer penetrates"));
+}
+
 TEST(VerifiedFigures, OfNegativeStiffnessOnlyTheSignCounts) {
   Pair p;
   p.was.contact(0).main[0].stiffness = -5;
