@@ -98,8 +98,10 @@ void Differ::contact(const Item& a, const Item& b, const InterBase& ia, const In
     if (same_value(fa[i].effective, effective, fa[i].ref, size_of(fa[i].dimension), true)) continue;
     if (functions_.same_cell(*a.block, {fa[i].name, 0, 0})) continue;
     // A built-in value has no unit: 1e30 for "no bound" and 1 for an unused scale are the same
-    // numbers in every unit system.
-    const bool on_card = fa[i].why == "card" || fb[i].why == "card";
+    // numbers in every unit system; the bound also where a card has it.
+    constexpr double no_bound = 1e30;
+    const bool on_card =
+        (fa[i].why == "card" || fb[i].why == "card") && fa[i].effective != DiffValue(no_bound);
     const bool counts = fa[i].counts || fb[i].counts;
     if (!on_card && !counts && fa[i].effective == fb[i].effective) continue;
     Change& c = add(ChangeKind::changed, a, &b, fa[i].name);

@@ -367,8 +367,12 @@ TEST(ToUnits, StiffnessThatTheCardDoesNotNameFollowsTheWorkingUnits) {
                                  .add("@/INTER/TYPE7/1 Stfac=100")
                                  .add("@/INTER/TYPE7/2 Istf=4 Stfac=-3")
                                  .add("@/INTER/TYPE7/3 Istf=4 Stfac=3")
+                                 .add("@/INTER/TYPE7/4")
+                                 .add("@/INTER/TYPE7/5 Istf=4")
                                  .text());
   const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_EQ(after->interfaces.type7.at(3).Stfac.value, 1e3) << "blank is a stiffness of 1";
+  EXPECT_EQ(after->interfaces.type7.at(4).Stfac.value, 1) << "blank is a factor of 1";
   EXPECT_EQ(after->interfaces.type7.at(0).Stfac.value, 1e5);
   EXPECT_EQ(after->interfaces.type7.at(1).Stfac.value, -3e3);
   EXPECT_EQ(after->interfaces.type7.at(2).Stfac.value, 3);

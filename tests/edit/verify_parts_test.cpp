@@ -11,6 +11,7 @@
 namespace deck::test {
 namespace {
 
+using detail::Behaviour;
 using detail::DeckComparison;
 using ::testing::HasSubstr;
 
@@ -28,16 +29,20 @@ SmallDeck two_contacts() {
 
 /// What was made of a deck, to be changed.
 struct Copy {
-  Copy(const LoadedDeck& deck, const Behaviour::Parts& p)
-      : scene(p.scene), state(p.state), cycle(p.cycle), parts{deck,    scene,       state,   cycle,
-                                                              p.steps, p.part_mass, p.extent} {}
+  explicit Copy(const Behaviour& p)
+      : scene(p.scene),
+        state(p.state),
+        cycle(p.cycle),
+        beam_factors(p.beam_factors),
+        parts{p.context, scene, state, cycle, p.steps, beam_factors, p.part_mass, p.extent} {}
   Copy(const Copy&) = delete;
   Copy& operator=(const Copy&) = delete;
   Contact& contact(std::size_t i) { return scene.contacts.at(i); }
   Scene scene;
   cycle::State state;
   cycle::SceneOutcome cycle;
-  Behaviour::Parts parts;
+  std::vector<double> beam_factors;
+  Behaviour parts;
 };
 
 /// A deck before and after.
@@ -51,8 +56,7 @@ struct Pair {
     return c.time_steps().value_or("");
   }
   Built b{two_contacts()};
-  Behaviour behaviour{b.loaded};
-  Copy was{b.loaded, behaviour.parts()}, now{b.loaded, behaviour.parts()};
+  Copy was{detail::behaviour_of(b.loaded)}, now{detail::behaviour_of(b.loaded)};
 };
 
 TEST(VerifiedFigures, AreEachNoticed) {
@@ -133,6 +137,15 @@ TEST(VerifiedFigures, APairWithinRoundingOfItsGapMayComeAndGo) {
   EXPECT_THAT(p.difference(), HasSubstr("the penetration of "));
 }
 
+TEST(VerifiedFigures, APairMayTakeAnotherSegmentThatIsAsNear) {
+  Pair p;
+  PenetrationRow& row = p.now.contact(1).penetrations[0];
+  row.main += 1;
+  EXPECT_EQ(p.difference(), "");
+  row.depth += 1e-3;
+  EXPECT_THAT(p.difference(), HasSubstr("no longer penetrates"));
+}
+
 TEST(VerifiedFigures, OfNegativeStiffnessOnlyTheSignCounts) {
   Pair p;
   p.was.contact(0).main[0].stiffness = -5;
@@ -140,6 +153,39 @@ TEST(VerifiedFigures, OfNegativeStiffnessOnlyTheSignCounts) {
   EXPECT_EQ(p.difference(), "");
   p.now.contact(0).main[0].stiffness = 5;
   EXPECT_THAT(p.difference(), HasSubstr("a stiffness of "));
+}
+
+TEST(VerifiedFigures, ARelationFollowsFromTheStep) {
+  EXPECT_TRUE(relation_of("--renumber", {}).new_ids);
+  EXPECT_TRUE(relation_of("--extract-contacts", {}).extract);
+  EXPECT_TRUE(relation_of("--expand-type19", {}).expanded);
+  EXPECT_TRUE(relation_of("--version", {}).cells);
+  LossEntry dropped;
+  dropped.loss = Loss::dropped;
+  EXPECT_FALSE(relation_of("--version", {dropped}).cells) << "the rest of the deck differs";
+}
+
+TEST(VerifiedFigures, TheSolversOwnFormulaOfBeamsIsNamedAndAcceptedAndNothingElse) {
+  SmallDeck d = two_contacts();
+  d.beam_part(3, 0.01).bar("BEAM", 3, 31, 11, 12, 1);
+  const Built b(d);
+  Copy was(detail::behaviour_of(b.loaded)), now(detail::behaviour_of(b.loaded));
+  ASSERT_GT(was.beam_factors.at(0), 1) << "length / (a + s) of a beam of 10";
+  now.beam_factors[0] *= 4;
+  now.parts.steps[4][0] /= 2;
+  const VerifyRelation relation;
+  const auto difference = [&](std::vector<LossEntry>* accepted) {
+    return DeckComparison(was.parts, now.parts, relation, accepted).time_steps().value_or("");
+  };
+  EXPECT_THAT(difference(nullptr), HasSubstr("the time step of element 31 is "));
+  EXPECT_THAT(difference(nullptr), HasSubstr("length / (a + s)"));
+  std::vector<LossEntry> accepted;
+  EXPECT_EQ(difference(&accepted), "");
+  ASSERT_EQ(accepted.size(), 1u);
+  EXPECT_EQ(accepted[0].id, 31);
+  now.parts.steps[4][0] *= 1.01;
+  EXPECT_THAT(difference(&accepted), HasSubstr("the time step of element 31 is "));
+  EXPECT_EQ(accepted.size(), 1u);
 }
 
 }  // namespace

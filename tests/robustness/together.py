@@ -223,6 +223,30 @@ def at_the_same_time(c, tmp):
     c.check("at the same time: nothing is left behind", sorted(tree(work)) == ["car_0000.rad", "mesh.inc"], str(sorted(tree(work))))
 
 
+def into_one_folder(c, tmp):
+    """Two programs write one deck into one folder, each in other units: the deck that lies there is of one of them, and
+    who has not written says so."""
+    head, nodes, groups, contact = pieces()
+    put(tmp, {"car_0000.rad": head + "#include mesh.inc\n" + groups + contact + "/END\n", "mesh.inc": nodes})
+    calls = [[c.program, "convert", "car_0000.rad", "--units", units, "--no-verify", "-q", "-o"] for units in ("kg,m,s", "Mg,mm,s")]
+    alone = []
+    for k, call in enumerate(calls):
+        subprocess.run(call + ["alone%d" % k], cwd=tmp, check=True)
+        alone.append(tree(os.path.join(tmp, "alone%d" % k)))
+    refused = 0
+    for _ in range(60):
+        shutil.rmtree(os.path.join(tmp, "out"), ignore_errors=True)
+        running = [subprocess.Popen(call + ["out"], cwd=tmp, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) for call in calls]
+        texts = [process.communicate(timeout=120)[1] for process in running]
+        codes = [process.returncode for process in running]
+        now = tree(os.path.join(tmp, "out"))
+        c.check("one folder: one deck, whole", now in alone, "codes %s" % codes)
+        c.check("one folder: who is refused says so", codes == [0, 0] or (sorted(codes) == [0, 2] and now == alone[codes.index(0)] and
+                b"at the same time" in texts[codes.index(2)]), "%s %s" % (codes, texts))
+        refused += 2 in codes
+    c.check("one folder: some calls met (%d)" % refused, refused > 0)
+
+
 def other_folders(c, work):
     """A shared file that lies in another folder than the deck, by a link or by its path: the decks beside it are found."""
     head, nodes, groups, contact = pieces()
@@ -257,6 +281,7 @@ def main():
         for way in ("directory", "dependents"):
             c.check("%s: decks were written in some cases" % way, ways.get((way, True), 0) > 3, str(ways))
         at_the_same_time(c, os.path.join(tmp, "race"))
+        into_one_folder(c, os.path.join(tmp, "one"))
         other_folders(c, os.path.join(tmp, "folders"))
     finally:
         shutil.rmtree(tmp, ignore_errors=True)

@@ -532,11 +532,11 @@ class VersionRewriter {
     for (const auto& [key, unknown] : unknown_) {
       const Block& block = *unknown.first;
       const std::string blocks =
-          unknown.count == 1 ? "its block" : "its " + number(unknown.count) + " blocks";
+          unknown.count == 1 ? "its block means" : "its " + number(unknown.count) + " blocks mean";
       const std::string why =
           block.opaque ? "is encrypted" : "has columns that no schema describes in full";
       undecided(block, block.header_span, "", "",
-                why + ": whether " + blocks + " mean the same in version " + number(target_) +
+                why + ": whether " + blocks + " the same in version " + number(target_) +
                     " as in version " + number(block.version) +
                     " is not known; compare the manuals of both versions and convert by hand");
     }

@@ -66,6 +66,8 @@ class EditSet {
   /// place any more (an error that names the deck).
   void add_outsider(const FileIdentity& file, const std::string& deck);
 
+  /// Further paths by which decks of the set open a file, each with the path that plans name it by.
+  std::vector<std::pair<std::string, std::string>> other_paths() const;
   /// `written` is a deck read from what was planned: what is not as it was proposed; empty:
   /// nothing.
   std::string read_back_difference(std::size_t deck, const Deck& written) const;

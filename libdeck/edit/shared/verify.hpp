@@ -1,30 +1,14 @@
 // Verification of a conversion: the deck that came out starts as the deck that went in — the same
 // effective values, gaps, penetrations, actions, forces, masses and time steps, in its own units.
 #pragma once
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "deck/edit/rewrite.hpp"
 
 namespace deck {
-
-/// What a deck is at its start: effective values, contacts, forces of the first cycle, nodal
-/// masses, time steps of the elements. Points into the deck it was made of.
-class Behaviour {
- public:
-  explicit Behaviour(const LoadedDeck& deck);
-  ~Behaviour();
-  Behaviour(const Behaviour&) = delete;
-  Behaviour& operator=(const Behaviour&) = delete;
-
-  struct Parts;
-  const Parts& parts() const { return *parts_; }
-
- private:
-  std::unique_ptr<Parts> parts_;
-};
 
 /// How the two decks are related.
 struct VerifyRelation {
@@ -37,16 +21,22 @@ struct VerifyRelation {
   bool cells =
       false;  ///< the same deck in other units or columns: all other cells are compared, too
 };
-/// Of one conversion, by what it reports.
-VerifyRelation relation_of(const std::vector<LossEntry>& losses);
+/// Of one conversion by its name ("--units") and what it reports.
+VerifyRelation relation_of(std::string_view step, const std::vector<LossEntry>& losses);
 
-/// The first thing that is not the same, with both values; nullopt: nothing. Values of the first
-/// deck are taken in the working units of the second. A pair that is within rounding of its gap may
-/// penetrate in one deck only.
+/// The first thing that is not the same, with both values; nullopt: nothing. Compared are effective
+/// values, contacts, forces of the first cycle, masses, time steps of the elements; what of them
+/// was not made before is made and stays with its deck. Values of the first deck are taken in the
+/// working units of the second. A pair that is within rounding of its gap may penetrate in one deck
+/// only.
 ///
-///     Behaviour before(deck), after(result);
-///     if (auto why = first_difference(before, after, relation_of(rewrite.losses))) refuse(*why);
-std::optional<std::string> first_difference(const Behaviour& before, const Behaviour& after,
-                                            const VerifyRelation& relation);
+/// A few formulas of the solver depend on the unit of length. With `accepted` what differs only by
+/// them is no difference; it is entered there.
+///
+///     if (auto why = first_difference(deck, result, relation_of("--units", rewrite.losses)))
+///       refuse(*why);
+std::optional<std::string> first_difference(const LoadedDeck& before, const LoadedDeck& after,
+                                            const VerifyRelation& relation,
+                                            std::vector<LossEntry>* accepted = nullptr);
 
 }  // namespace deck

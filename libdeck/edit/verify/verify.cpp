@@ -18,27 +18,16 @@ double known(double v) { return std::isfinite(v) && v < 1e15 ? v : 0.0; }
 
 }  // namespace
 
-Behaviour::Behaviour(const LoadedDeck& deck)
-    : parts_(new Parts{deck, deck.scene(), deck.cycle().state, deck.cycle().outcome, {}, {}, 0}) {
-  Parts& p = *parts_;
-  const LoadedDeck& context = p.context;
-  const Mesh& mesh = deck.mesh();
-  for (std::size_t k = 0; k < detail::verified_kinds.size(); ++k)
-    for (const double dt : mesh.of(detail::verified_kinds[k]).dt) p.steps[k].push_back(known(dt));
-  for (const PartFigures& part : mesh.parts) p.part_mass.push_back(known(part.mass));
-  const Nodes& nodes = context.model().nodes;
-  for (const auto* axis : {&nodes.x, &nodes.y, &nodes.z})
-    for (const double x : *axis)
-      if (std::isfinite(x)) p.extent = std::max(p.extent, std::abs(x));
-}
-
-Behaviour::~Behaviour() = default;
-
-VerifyRelation relation_of(const std::vector<LossEntry>& losses) {
+VerifyRelation relation_of(std::string_view step, const std::vector<LossEntry>& losses) {
   VerifyRelation r;
+  r.new_ids = step == "--renumber";
+  r.extract = step == "--extract-contacts";
+  r.expanded = step == "--expand-type19";
+  r.cells = step == "--units" || step == "--version";
   for (const LossEntry& e : losses) {
     r.rounded = r.rounded || e.loss == Loss::approximated;
     if ((e.loss != Loss::dropped && e.loss != Loss::undecided) || e.without_effect) continue;
+    r.cells = false;
     if (e.keyword.starts_with("/INTER/")) r.lossy.insert(e.id);
     r.lossy_defaults = r.lossy_defaults || e.keyword.starts_with("/DEFAULT/INTER");
   }
@@ -47,11 +36,27 @@ VerifyRelation relation_of(const std::vector<LossEntry>& losses) {
 
 namespace detail {
 
-DeckComparison::DeckComparison(const Behaviour::Parts& a, const Behaviour::Parts& b,
-                               const VerifyRelation& r)
+Behaviour behaviour_of(const LoadedDeck& deck) {
+  const Scene& scene = deck.scene();
+  const FirstCycle& cycle = deck.cycle();
+  const Mesh& mesh = deck.mesh();
+  Behaviour out{deck, scene, cycle.state, cycle.outcome, {}, mesh.beam_factors, {}, 0};
+  for (std::size_t k = 0; k < verified_kinds.size(); ++k)
+    for (const double dt : mesh.of(verified_kinds[k]).dt) out.steps[k].push_back(known(dt));
+  for (const PartFigures& part : mesh.parts) out.part_mass.push_back(known(part.mass));
+  const Nodes& nodes = deck.model().nodes;
+  for (const auto* axis : {&nodes.x, &nodes.y, &nodes.z})
+    for (const double x : *axis)
+      if (std::isfinite(x)) out.extent = std::max(out.extent, std::abs(x));
+  return out;
+}
+
+DeckComparison::DeckComparison(const Behaviour& a, const Behaviour& b, const VerifyRelation& r,
+                               std::vector<LossEntry>* accept)
     : before(a),
       after(b),
       relation(r),
+      accepted(accept),
       from(a.context.deck().begin.working),
       to(b.context.deck().begin.working),
       // What a cell of ten columns holds, or one of twenty.
@@ -141,12 +146,42 @@ DeckComparison::Difference DeckComparison::time_steps() const {
                          was.size());
     for (std::size_t e = 0; e < now.size(); ++e) {
       if (same(was[e], now[e], unit)) continue;
-      return number(fmt::format("the time step of element {}", family.id[e]), was[e], now[e], unit);
+      auto d =
+          number(fmt::format("the time step of element {}", family.id[e]), was[e], now[e], unit);
+      if (verified_kinds[k] == ElementKind::beam)
+        d = beam_step(static_cast<std::uint32_t>(e), std::move(d));
+      if (d) return d;
     }
   }
   if (!relation.lossy.empty() || relation.lossy_defaults) return {};
   return number("the time step of the contacts", before.cycle.contact_dt, after.cycle.contact_dt,
                 unit);
+}
+
+/// The solver multiplies the stiffness of a beam by length / (a + s) where that is above 1, and a
+/// and s have no unit. A step that differs by this alone is no fault of a conversion.
+DeckComparison::Difference DeckComparison::beam_step(std::uint32_t beam,
+                                                     Difference difference) const {
+  const auto without = [&](const Behaviour& of) {
+    return of.steps.back()[beam] * std::sqrt(of.beam_factors[beam]);
+  };
+  if (!same(without(before), without(after), factor(0, 0, 1))) return difference;
+  constexpr std::string_view why =
+      "the solver's own formula of a beam's stiffness, length / (a + s), depends on the unit of "
+      "length";
+  if (accepted == nullptr)
+    return *difference + "; " + std::string(why) +
+           " (--keep-working-units keeps it, --allow-loss accepts it)";
+  const Model& model = after.context.model();
+  const Block& block = *model.element_blocks[model.beam.block[beam]].block;
+  LossEntry entry = loss_entry(after.context.deck(), Loss::approximated, block, {});
+  entry.id = model.beam.id[beam];
+  entry.field = "time step";
+  entry.old_text = fmt::format("{:.6g}", before.steps.back()[beam] * factor(0, 0, 1));
+  entry.new_text = fmt::format("{:.6g}", after.steps.back()[beam]);
+  entry.note = why;
+  accepted->push_back(std::move(entry));
+  return {};
 }
 
 /// Every cell, function and member of a group, as `deck diff` compares them.
@@ -165,9 +200,11 @@ DeckComparison::Difference DeckComparison::cells() const {
 
 }  // namespace detail
 
-std::optional<std::string> first_difference(const Behaviour& before, const Behaviour& after,
-                                            const VerifyRelation& relation) {
-  const detail::DeckComparison c(before.parts(), after.parts(), relation);
+std::optional<std::string> first_difference(const LoadedDeck& before, const LoadedDeck& after,
+                                            const VerifyRelation& relation,
+                                            std::vector<LossEntry>* accepted) {
+  const detail::Behaviour was = detail::behaviour_of(before), now = detail::behaviour_of(after);
+  const detail::DeckComparison c(was, now, relation, accepted);
   if (auto d = c.values()) return d;
   if (auto d = c.contacts()) {
     const auto cause = c.springs();

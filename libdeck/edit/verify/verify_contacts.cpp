@@ -169,22 +169,39 @@ class ContactComparison {
 
   DeckComparison::Difference penetrations() const {
     const Rows was = sorted(was_.penetrations), now = sorted(now_.penetrations);
+    Rows gone, come;
     for (auto a = was.begin(), b = now.begin(); a != was.end() || b != now.end();) {
       if (b == now.end() || (a != was.end() && pair_of(*a) < pair_of(*b))) {
-        const PenetrationRow& row = **a++;
-        if (row.depth * length_ > slack(row.gap * length_))
-          return fmt::format("{}: a pair that penetrated by {:.9g} no longer penetrates", name_,
-                             row.depth);
+        const PenetrationRow* row = *a++;
+        if (row->depth * length_ > slack(row->gap * length_)) gone.push_back(row);
       } else if (a == was.end() || pair_of(*b) < pair_of(*a)) {
-        const PenetrationRow& row = **b++;
-        if (row.depth > slack(row.gap))
-          return fmt::format("{} penetrates by {:.9g}; it did not before", pair_name(row),
-                             row.depth);
+        const PenetrationRow* row = *b++;
+        if (row->depth > slack(row->gap)) come.push_back(row);
       } else if (auto d = penetration(**a++, **b++)) {
         return d;
       }
     }
+    leave_out_equally_near(gone, come);
+    if (!gone.empty())
+      return fmt::format("{}: a pair that penetrated by {:.9g} no longer penetrates", name_,
+                         gone.front()->depth);
+    if (!come.empty())
+      return fmt::format("{} penetrates by {:.9g}; it did not before", pair_name(*come.front()),
+                         come.front()->depth);
     return {};
+  }
+
+  /// Contacts that take the nearest segment of a node choose by rounding where two are equally
+  /// near: the same penetration with another of them.
+  void leave_out_equally_near(Rows& gone, Rows& come) const {
+    std::erase_if(gone, [&](const PenetrationRow* old) {
+      const auto other = std::find_if(come.begin(), come.end(), [&](const PenetrationRow* row) {
+        return row->secondary == old->secondary && !penetration(*old, *row);
+      });
+      if (other == come.end()) return false;
+      come.erase(other);
+      return true;
+    });
   }
 
   const DeckComparison& c_;

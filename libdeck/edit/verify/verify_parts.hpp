@@ -10,19 +10,20 @@
 #include "deck/cycle/scene_cycle.hpp"
 #include "edit/shared/verify.hpp"
 
-namespace deck {
+namespace deck::detail {
 
-struct Behaviour::Parts {
+/// What a deck is at its start. Points into the deck: for one comparison.
+struct Behaviour {
   const LoadedDeck& context;
   const Scene& scene;
   const cycle::State& state;
   const cycle::SceneOutcome& cycle;
   std::array<std::vector<double>, 5> steps;  ///< of shell4, shell3, solid8, truss, beam
+  const std::vector<double>& beam_factors;   ///< Mesh::beam_factors
   std::vector<double> part_mass;             ///< of the elements of each part
   double extent = 0;                         ///< largest coordinate
 };
-
-namespace detail {
+Behaviour behaviour_of(const LoadedDeck& deck);
 
 inline constexpr std::array verified_kinds = {ElementKind::shell4, ElementKind::shell3,
                                               ElementKind::solid8, ElementKind::truss,
@@ -30,12 +31,14 @@ inline constexpr std::array verified_kinds = {ElementKind::shell4, ElementKind::
 
 /// Two decks, and how values and nodes of the first are found in the second.
 struct DeckComparison {
-  DeckComparison(const Behaviour::Parts& a, const Behaviour::Parts& b, const VerifyRelation& r);
+  DeckComparison(const Behaviour& a, const Behaviour& b, const VerifyRelation& r,
+                 std::vector<LossEntry>* accept = nullptr);
 
   using Difference = std::optional<std::string>;
-  const Behaviour::Parts& before;
-  const Behaviour::Parts& after;
+  const Behaviour& before;
+  const Behaviour& after;
   const VerifyRelation& relation;
+  std::vector<LossEntry>* accepted;
   UnitSystem from, to;
   double tolerance = 0;
 
@@ -54,11 +57,11 @@ struct DeckComparison {
   Difference contacts() const;
   Difference masses() const;
   Difference time_steps() const;
+  Difference beam_step(std::uint32_t beam, Difference difference) const;
   Difference cells() const;
 
  private:
   std::vector<NodeIndex> old_nodes_;  ///< empty: the same indices
 };
 
-}  // namespace detail
-}  // namespace deck
+}  // namespace deck::detail

@@ -215,6 +215,14 @@ Result<std::string> EditSet::diff() const {
   return out;
 }
 
+std::vector<std::pair<std::string, std::string>> EditSet::other_paths() const {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const Member& member : decks_)
+    for (const Use& use : member.uses)
+      if (use.path != files_[use.file].path) out.emplace_back(use.path, files_[use.file].path);
+  return out;
+}
+
 std::string EditSet::read_back_difference(std::size_t deck, const Deck& written) const {
   const Member& member = decks_[deck];
   if (written.sources.size() != member.order.size())

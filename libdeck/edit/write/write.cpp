@@ -116,7 +116,8 @@ class Transaction {
   };
 
   Result<void> make_directories(const std::string& directory);
-  Result<void> lock_directories(const std::set<std::string>& directories);
+  Result<void> lock_directories();
+  Result<void> check_as_prepared(const Entry& entry) const;
   Result<void> write_new(Entry& entry);
   Result<void> back_up(const Entry& entry);
   Result<void> lay_note();
@@ -163,11 +164,15 @@ Result<void> Transaction::make_directories(const std::string& directory) {
   return {};
 }
 
-/// Locks on the directories whose files are rewritten, held while that is done: two programs of
-/// this kind never compare and replace at the same time. Where a file system has no locks, or a
-/// directory may not be read, there is none. The order of a set is the same for all programs, so
-/// that two of them cannot wait for each other for ever.
-Result<void> Transaction::lock_directories(const std::set<std::string>& directories) {
+/// Locks on the directories of files that are rewritten, or that go below one directory, held while
+/// that is done: two programs of this kind never compare and replace at the same time. Where a file
+/// system has no locks, or a directory may not be read, there is none. The order of a set is the
+/// same for all programs, so that two of them cannot wait for each other for ever.
+Result<void> Transaction::lock_directories() {
+  std::set<std::string> directories;
+  for (const Entry& e : entries_)
+    if (!e.special && (e.file->read || !options_.below.empty()))
+      directories.insert(directory_of(e.target));
   for (const std::string& d : directories) {
     const int fd = open(d.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd < 0) continue;
@@ -177,6 +182,21 @@ Result<void> Transaction::lock_directories(const std::set<std::string>& director
                                             " and does not finish; nothing was written"};
   }
   return {};
+}
+
+/// Error: since it was looked at, another program has put other contents in the place of a file
+/// that was not read.
+Result<void> Transaction::check_as_prepared(const Entry& entry) const {
+  struct stat now {};
+  if (lstat(entry.target.c_str(), &now) != 0) return {};
+  const struct stat& was = entry.old;  // zero: there was nothing
+  if (now.st_dev == was.st_dev && now.st_ino == was.st_ino &&
+      now.st_mtim.tv_sec == was.st_mtim.tv_sec && now.st_mtim.tv_nsec == was.st_mtim.tv_nsec)
+    return {};
+  if (same_contents(entry.target, entry.temporary)) return {};
+  return Error{Error::Code::config, "another program wrote " + entry.file->path +
+                                        " at the same time; nothing was written. Run the command "
+                                        "again, or name another directory"};
 }
 
 /// A link on the way from `directory` to the file would lead it elsewhere.
@@ -338,10 +358,16 @@ Result<void> Transaction::commit() {
   std::set<std::string> rewritten;
   for (const Entry& e : entries_)
     if (e.file->read) rewritten.insert(directory_of(e.target));
-  if (auto locked = lock_directories(rewritten); !locked) return locked;
-  for (const Entry& e : entries_)
+  if (auto locked = lock_directories(); !locked) return locked;
+  for (const Entry& e : entries_) {
+    if (e.special) continue;
+    Result<void> same;
     if (e.file->read)
-      if (auto same = check_as_read(e.target, *e.file->read, e.file->path); !same) return same;
+      same = check_as_read(e.target, *e.file->read, e.file->path);
+    else if (!options_.below.empty())
+      same = check_as_prepared(e);
+    if (!same) return same;
+  }
   for (const Entry& e : entries_)
     if (!options_.backup_suffix.empty() && e.exists && !e.special)
       if (auto done = back_up(e); !done) return done;

@@ -230,6 +230,8 @@ class Assembly {
                             const auto e = static_cast<std::uint32_t>(k * chunk_size + i);
                             to.dt[e] = in[i].dt;
                             to.mass[e] = in[i].mass;
+                            if (kind == ElementKind::beam)
+                              mesh_.beam_factors.push_back(in[i].beam_factor);
                             take(kind, f, e, in[i]);
                           }
                         });

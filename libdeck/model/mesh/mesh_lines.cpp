@@ -108,7 +108,7 @@ void beam_outcome(const PartRow& row, double length, ElementOutcome& out) {
   }
   const double large = std::max({p.iyy, p.izz, 1e-20}), small = std::min(p.iyy, p.izz);
   const double a = p.area * length * length / (12.0 * large), s = 1.2 * m.young / m.shear;
-  const double f = std::max(1.0, length / (a + s));
+  const double f = out.beam_factor = std::max(1.0, length / (a + s));
   out.dt = damp * length / (m.stored_speed * std::sqrt(f));
   const double phi = small / large * s / a, k_phi = (4.0 + phi) / (1.0 + phi);
   const double half = 0.5 * m.density * length;

@@ -65,6 +65,7 @@ struct ElementOutcome {
   std::array<double, 8> share{};         ///< of the mass, by slot
   /// Of nodes in the middle of sides; of pulleys, of the second node.
   double middle_share = 0, middle_stiffness = 0;
+  double beam_factor = 1;     ///< Mesh::beam_factors
   const char* why = nullptr;  ///< why dt is not known
 };
 

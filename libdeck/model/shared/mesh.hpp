@@ -53,6 +53,9 @@ struct LeftOut {
 
 struct Mesh {
   std::array<ElementFigures, 8> elements;  ///< by ElementKind
+  /// Of beams: by what the solver multiplies their stiffness, 1 or length / (a + s). It depends on
+  /// the unit of length, and so do their steps, which go with 1 / sqrt of it.
+  std::vector<double> beam_factors;
   NodeFigures nodes;
   std::vector<PartFigures> parts;  ///< as Model::parts
   PartFigures total;               ///< of all elements

@@ -160,6 +160,9 @@ Result<void> Changes::read_back(const EditSet::Plan& plan) const {
     overlay.insert_or_assign(normal_path(f.path), std::string(f.bytes));
     overlay.insert_or_assign(f.path, std::string(f.bytes));  // a main file is opened as it is named
   }
+  for (const auto& [path, planned] : set_.other_paths())
+    if (const auto it = overlay.find(planned); it != overlay.end())
+      overlay.insert_or_assign(path, it->second);
   ReadOptions read;
   read.include_paths = common_.include_paths;
   read.overlay = &overlay;

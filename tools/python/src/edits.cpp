@@ -67,19 +67,23 @@ EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& 
                          const std::string& units, bool keep_working,
                          const std::vector<std::string>& ids, bool partial, bool verify) {
   using Step = std::function<Rewrite(const LoadedDeck&)>;
-  std::vector<Step> steps;
+  std::vector<std::pair<const char*, Step>> steps;  // with the option of `deck convert`
   if (!extract.empty())
-    steps.emplace_back([&](const LoadedDeck& c) { return extract_contacts(c, extract); });
-  if (flat) steps.emplace_back([](const LoadedDeck& c) { return flatten(c); });
-  if (expand) steps.emplace_back([](const LoadedDeck& c) { return expand_type19(c); });
+    steps.emplace_back("--extract-contacts",
+                       [&](const LoadedDeck& c) { return extract_contacts(c, extract); });
+  if (flat) steps.emplace_back("--flatten", [](const LoadedDeck& c) { return flatten(c); });
+  if (expand)
+    steps.emplace_back("--expand-type19", [](const LoadedDeck& c) { return expand_type19(c); });
   if (resolve)
-    steps.emplace_back([&](const LoadedDeck& c) { return resolve_defaults(c, {allow_loss}); });
+    steps.emplace_back("--resolve-defaults",
+                       [&](const LoadedDeck& c) { return resolve_defaults(c, {allow_loss}); });
   if (version != 0)
-    steps.emplace_back([&](const LoadedDeck& c) { return to_version(c, version, {allow_loss}); });
+    steps.emplace_back("--version",
+                       [&](const LoadedDeck& c) { return to_version(c, version, {allow_loss}); });
   if (!units.empty()) {
     const auto target = parse_unit_system(units);
     if (!target) throw py::value_error("units: " + target.error().message);
-    steps.emplace_back([&, system = *target](const LoadedDeck& c) {
+    steps.emplace_back("--units", [&, system = *target](const LoadedDeck& c) {
       return to_units(c, system, {partial, keep_working});
     });
   }
@@ -91,12 +95,13 @@ EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& 
       if (!rule) throw py::value_error("renumber: " + rule.error().message);
       options.rules.push_back(std::move(*rule));
     }
-    steps.emplace_back([options](const LoadedDeck& c) { return renumber(c, options); });
+    steps.emplace_back("--renumber",
+                       [options](const LoadedDeck& c) { return renumber(c, options); });
   }
   must_be_whole(*d);
   auto edit = std::make_shared<PyEdit>();
   edit->before = edit->after = d;
-  for (const Step& step : steps) {
+  for (const auto& [name, step] : steps) {
     Rewrite rewrite = [&] {
       const py::gil_scoped_release free;
       const std::lock_guard one(edit->after->mutex);
@@ -108,8 +113,9 @@ EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& 
       const auto why = [&] {
         const py::gil_scoped_release free;
         const std::lock_guard one(edit->after->mutex);
-        const Behaviour before(edit->after->loaded), after(next->loaded);
-        return first_difference(before, after, relation_of(rewrite.losses));
+        return first_difference(edit->after->loaded, next->loaded,
+                                relation_of(name, rewrite.losses),
+                                allow_loss ? &edit->losses : nullptr);
       }();
       if (why) raise_error("the converted deck is not the same: " + *why);
       edit->after = next;

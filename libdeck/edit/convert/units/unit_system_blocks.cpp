@@ -327,7 +327,7 @@ class BlockConverter {
         else if (brought)
           write_one(b, card, cell, dimension);
         else if (c_.working_changes)
-          write_default(b, card, cell, dimension_of(f, d, &card));
+          write_default(b, card, cell, stfac && !own_units_ ? *stfac : dimension_of(f, d, &card));
       } else if (!own_units_ || working || f.solver_dimension) {
         convert_cell(b, card, cell, dimension);
       }
@@ -387,7 +387,7 @@ class BlockConverter {
   /// Istf says whether it is a stiffness. The solver brings it from the units of the block to
   /// working units where the card itself has Istf 1, and takes it as it is elsewhere.
   std::optional<Dimension> stfac_dimension(const DecodedBlock& d, const Cell& cell) const {
-    if (cell.field->name != "Stfac" || cell.real == 0) return std::nullopt;
+    if (cell.field->name != "Stfac") return std::nullopt;
     for (const InterBase* inter : c_.context.interfaces().ordered)
       if (inter->block == d.block) {
         const Dimension stiffness = detail::stiffness_dimension;

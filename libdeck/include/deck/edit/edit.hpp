@@ -37,7 +37,8 @@ struct SaveOptions {
 /// submodels added. Other names of a keyword are the same ("/PROP/TYPE1"). Error: none, or several.
 Result<const Block*> find_block(const Deck& deck, std::string_view keyword, std::int64_t id);
 
-/// Changes of one deck. It points into the deck, which must outlive it and is not changed itself.
+/// Changes of one deck. It points to the deck, which must outlive it, stays where it is and is not
+/// changed itself.
 /// The first change that cannot be made is kept as an error ("file:line:column: /KEYWORD/id field:
 /// what was expected"): diff(), save() and save_to() then give it, and nothing is written.
 ///
@@ -48,6 +49,7 @@ Result<const Block*> find_block(const Deck& deck, std::string_view keyword, std:
 class Edit {
  public:
   explicit Edit(const LoadedDeck& loaded);
+  explicit Edit(LoadedDeck&&) = delete;
   Edit(Edit&&) noexcept;
   Edit& operator=(Edit&&) noexcept;
   ~Edit();

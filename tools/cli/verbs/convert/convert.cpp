@@ -51,6 +51,8 @@ int check(const ConvertOptions& options) {
     return refuse("--to json writes a new file: use -o, or standard output");
   if (options.from != "rad" && (options.write.in_place || options.write.diff))
     return refuse("--from " + options.from + " needs -o DIR");
+  if (options.verify && options.no_verify)
+    return refuse("--verify and --no-verify exclude one another");
   if (options.steps.round && options.from != "json") return refuse("--round goes with --from json");
   return exit_clean;
 }
@@ -134,9 +136,10 @@ Action setup(CommandLine& line) {
               "approximated, dropped or undecided")
       .value("FILE");
   line.flag("--verify", options->verify,
-            "Read the result back and compare: effective values, gaps, penetrations, actions, "
-            "forces of the first cycle, masses, time steps; a result that differs is not written");
-  line.flag("--no-verify", options->no_verify, "In a batch: do not verify");
+            "The default. After every conversion the deck is read again and compared with the deck "
+            "before: effective values, gaps, penetrations, actions, forces of the first cycle, "
+            "masses, time steps; a result that differs is not written");
+  line.flag("--no-verify", options->no_verify, "Do not compare the result with the deck before");
   add_write_options(line, options->write);
   line.existing("--output")
       .describe(

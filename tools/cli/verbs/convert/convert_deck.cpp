@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
+#include <utility>
 
 #include "edit/shared/changed_values.hpp"
 #include "edit/shared/verify.hpp"
@@ -18,7 +18,6 @@ struct Conversion {
   LoadedDeck now;
   Overlay changed;  ///< contents that differ from the files on disk
   std::vector<LossEntry> losses;
-  std::unique_ptr<Behaviour> behaviour;  ///< of `now`, if it is to be verified
   std::vector<std::string> refusals = {};
   bool together = false;  ///< with other decks: what it loses is said with what they lose
 };
@@ -31,34 +30,29 @@ void print_refusals(const CommonOptions& common, const std::vector<std::string>&
     print_error(common, fmt::format("... and {} more", refusals.size() - most));
 }
 
-std::unique_ptr<Behaviour> behaviour_of(LoadedDeck& loaded) {
-  SceneOptions contacts = loaded.scene_options();
-  contacts.candidates = false;
-  loaded.set_scene_options(contacts);
-  return std::make_unique<Behaviour>(loaded);
+/// Pairs that do not penetrate are not counted to verify a deck.
+void without_candidates(LoadedDeck& deck) {
+  SceneOptions contacts = deck.scene_options();
+  if (!std::exchange(contacts.candidates, false)) return;
+  deck.set_scene_options(contacts);
 }
 
-/// Compares the deck with what it was before a step. An exit code if it is another one.
+/// Compares the deck after a step with the deck before it. An exit code if it is another one.
 int verify(Conversion& c, LoadedDeck& again, const ConvertStep& step,
-           const std::vector<LossEntry>& losses, const CommonOptions& common, Progress& progress) {
+           const std::vector<LossEntry>& losses, const ConvertOptions& options,
+           Progress& progress) {
   progress.step(c.now.path() + ": comparing the result of " + step.option + " with the deck");
-  auto after = behaviour_of(again);
-  VerifyRelation relation = relation_of(losses);
-  relation.new_ids = step.option == "--renumber";
-  relation.extract = step.option == "--extract-contacts";
-  relation.expanded = step.option == "--expand-type19";
-  relation.cells =
-      (step.option == "--units" || step.option == "--version") &&
-      std::none_of(losses.begin(), losses.end(), [](const LossEntry& e) {
-        return (e.loss == Loss::dropped || e.loss == Loss::undecided) && !e.without_effect;
-      });
-  const auto difference = first_difference(*c.behaviour, *after, relation);
-  c.behaviour = std::move(after);
+  without_candidates(c.now);
+  without_candidates(again);
+  const auto difference = first_difference(c.now, again, relation_of(step.option, losses),
+                                           options.steps.allow_loss ? &c.losses : nullptr);
   progress.clear();
   if (!difference) return exit_clean;
-  print_error(common, c.now.path() + ": " + step.option +
-                          ": the result is not the same model: " + *difference +
-                          "; nothing was written. --no-verify writes it nevertheless");
+  c.refusals = {step.option + ": the result is not the same model: " + *difference};
+  if (!options.check)
+    print_error(options.common,
+                c.now.path() + ": " + c.refusals.front() +
+                    "; nothing was written. --no-verify writes it without this comparison");
   return exit_findings;
 }
 
@@ -98,7 +92,6 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
     return exit_findings;
   }
   if (files->empty()) return exit_clean;
-  if (options.verifies() && !c.behaviour) c.behaviour = behaviour_of(c.now);
   if (c.now.path() == "-" && !c.changed.contains("-"))  // it cannot be read twice
     c.changed["-"] = std::string(c.now.deck().sources[0].bytes());
   for (auto& [path, text] : *files) c.changed[path] = std::move(text);
@@ -112,7 +105,8 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
     print_error(common, c.now.path() + ": not written, a file could be read before, but not again");
     return exit_input;
   }
-  const int code = c.behaviour ? verify(c, *again, step, losses, common, progress) : exit_clean;
+  const int code =
+      options.verifies() ? verify(c, *again, step, losses, options, progress) : exit_clean;
   c.now = std::move(*again);
   return code;
 }
@@ -169,7 +163,7 @@ int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded, Overlay
     run.refused = true;
     return fail(run, member.error());
   }
-  Conversion c{std::move(loaded), std::move(overlay), losses, nullptr};
+  Conversion c{std::move(loaded), std::move(overlay), losses};
   c.together = run.together;
   int code = exit_clean;
   for (const ConvertStep& step : run.steps) {

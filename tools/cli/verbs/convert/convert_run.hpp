@@ -21,8 +21,8 @@ struct ConvertOptions {
   std::string report;
   bool verify = false, no_verify = false;
   bool check = false;  ///< nothing is written: what would happen
-  /// In a batch it is on unless it is switched off.
-  bool verifies() const { return !no_verify && (verify || common.session->frame != nullptr); }
+  /// Every step is compared with the deck before it.
+  bool verifies() const { return !no_verify; }
 };
 
 /// A deck in JSON; `below_root` is its place where the call mirrors a tree.

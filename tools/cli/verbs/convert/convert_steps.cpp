@@ -31,7 +31,8 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
   group.flag("--allow-loss", steps.allow_loss,
              "With --version: drop values without a cell in the other version. With "
              "--resolve-defaults: leave values without a cell to the default card. With --units: "
-             "leave keywords of Engine files unchanged whose cells are not known");
+             "leave keywords of Engine files unchanged whose cells are not known, and accept other "
+             "time steps of beams where the solver's own formula depends on the unit of length");
   group
       .option("--units", steps.units,
               "Unit system to write, mass,length,time: kg,mm,ms or Mg,mm,s or numbers (factors "
