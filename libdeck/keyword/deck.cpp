@@ -8,6 +8,9 @@
 #include "keyword/shared/header_line.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/reader.hpp"
+#include "keyword/shared/references.hpp"
+#include "keyword/shared/solver_order.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 
@@ -100,6 +103,26 @@ std::uint32_t Deck::parent_of(std::uint32_t file) const {
 }
 
 namespace detail {
+
+void sort_as_solver(const Deck& deck, std::vector<const Block*>& category) {
+  // Files are numbered as they are opened.
+  const auto key = [&](const Block* b) {
+    std::int64_t id = b->id.value;
+    if (b->submodel >= 0 && id > 0 && b->schema != nullptr) {
+      const std::string_view other = header_reference(*b);  // elements: their part
+      id += deck.offset_of(*b, other.empty() ? b->schema->kind : other);
+    }
+    return std::pair(b->header_span.file, id);
+  };
+  const auto before = [&](const Block* a, const Block* b) { return key(a) < key(b); };
+  if (!std::is_sorted(category.begin(), category.end(), before))
+    std::stable_sort(category.begin(), category.end(), before);
+}
+
+std::vector<const Block*> in_solver_order(const Deck& deck, std::string_view category) {
+  return in_solver_order(deck, [&](const Block& b) { return is_below(b.header, category); });
+}
+
 namespace {
 
 bool all_digits(std::string_view s) {

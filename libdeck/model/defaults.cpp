@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "deck/text/rule.hpp"
+#include "keyword/shared/solver_order.hpp"
 #include "model/interfaces_card.hpp"
 
 namespace deck {
@@ -144,7 +145,8 @@ Friction read_friction(const Deck& deck, const Block& block) {
 
 std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnostics) {
   std::vector<DefaultInter> out;
-  for (const Block& block : deck.blocks) {
+  for (const Block* const at : detail::in_solver_order(deck, "/DEFAULT/INTER")) {
+    const Block& block = *at;
     if (block.schema == nullptr || block.schema->kind != "default_inter") continue;
     const std::string& keyword = block.schema->keyword;
     const std::string_view number = std::string_view(keyword).substr(default_prefix.size());
@@ -168,9 +170,9 @@ std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnosti
 
 std::vector<Friction> read_frictions(const Deck& deck) {
   std::vector<Friction> out;
-  for (const Block& block : deck.blocks)
-    if (block.schema != nullptr && block.schema->keyword == "/FRICTION")
-      out.push_back(read_friction(deck, block));
+  for (const Block* const block : detail::in_solver_order(deck, "/FRICTION"))
+    if (block->schema != nullptr && block->schema->keyword == "/FRICTION")
+      out.push_back(read_friction(deck, *block));
   return out;
 }
 

@@ -11,7 +11,7 @@ namespace deck::detail {
 /// wherever it stands. Reports the others.
 std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnostics);
 
-/// All /FRICTION with their effective values, in deck order.
+/// All /FRICTION with their effective values, in the solver's order.
 std::vector<Friction> read_frictions(const Deck& deck);
 
 }  // namespace deck::detail

@@ -194,9 +194,8 @@ CoverShell ShellCover::on(const Face& face) const {
   return best != nullptr ? CoverShell{four, best->element} : CoverShell{};
 }
 
-SolidFaces::SolidFaces(const Elements& solids, const std::vector<std::uint32_t>& ranks)
+SolidFaces::SolidFaces(const Elements& solids)
     : solids_(&solids), ends_(solids.size() * 6, no_index), stamp_(solids.size(), 0) {
-  const auto rank = [&](NodeIndex n) { return ranks.empty() ? n : ranks[n]; };
   KeyTable table(solids.size() * 6);
   owners_.reserve(solids.size() * 6);
   for (std::uint32_t e = 0; e < solids.size(); ++e) {
@@ -207,7 +206,7 @@ SolidFaces::SolidFaces(const Elements& solids, const std::vector<std::uint32_t>&
       const auto n = static_cast<std::size_t>(face.corners);
       std::size_t least = 0;
       for (std::size_t i = 1; i < n; ++i)
-        if (rank(face.nodes[i]) < rank(face.nodes[least])) least = i;
+        if (face.nodes[i] < face.nodes[least]) least = i;
       const auto key = [&](std::size_t other) {
         const std::uint32_t k = table.insert(
             {{face.nodes[least], face.nodes[(least + other) % n], static_cast<NodeIndex>(n)}});

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "deck/text/rule.hpp"
+#include "keyword/shared/solver_order.hpp"
 #include "model/defaults.hpp"
 #include "model/interfaces_card.hpp"
 
@@ -435,7 +436,8 @@ Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& di
   out.defaults = detail::read_defaults(deck, diagnostics);
   out.frictions = detail::read_frictions(deck);
   std::vector<std::pair<int, std::size_t>> order;
-  for (const Block& block : deck.blocks) {
+  for (const Block* const at : detail::in_solver_order(deck, "/INTER")) {
+    const Block& block = *at;
     if (block.schema != nullptr && block.schema->keyword == InterType2::traits.keyword) {
       const InterfaceCard card(deck, block);
       const Rules rules(model, out, out.defaults_of(InterType2::traits.type));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "keyword/shared/solver_order.hpp"
 #include "model/model_build.hpp"
 
 namespace deck::detail {
@@ -258,8 +259,9 @@ void apply_heat(BuildContext& c) {
 
 void read_materials(BuildContext& c) {
   Model& m = c.model;
-  for (const Block& block : c.deck.blocks) {
-    if (!header_starts(block, "/MAT") || block.schema == nullptr) continue;
+  for (const Block* const at : in_solver_order(c.deck, "/MAT")) {
+    const Block& block = *at;
+    if (block.schema == nullptr) continue;
     const DecodedBlock d = decode(c.deck, block);
     Material material;
     material.id = c.own_id(block, "mat");

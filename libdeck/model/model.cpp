@@ -177,7 +177,7 @@ Span Model::node_span(NodeIndex n) const {
 Span Model::element_span(ElementKind kind, std::uint32_t e) const {
   const Elements& f = family(kind);
   if (deck == nullptr || e >= f.size()) return {};
-  return detail::item_spans(*deck, element_blocks[f.block[e]], {&e, 1})[0];
+  return detail::element_spans(*this, kind, {&e, 1})[0];
 }
 
 Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagnostics,
@@ -189,6 +189,7 @@ Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagn
   detail::read_run_options(context);
   detail::read_nodes(deck, detail::node_blocks(deck), model.nodes, model.node_blocks, diagnostics,
                      options.threads);
+  detail::put_nodes_in_order(model.nodes, model.node_blocks);
   detail::apply_submodel_transforms(context);
   detail::merge_connection_nodes(context);
   detail::read_parts(context);
@@ -196,6 +197,7 @@ Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagn
   detail::read_materials(context);
   detail::read_other_entities(context);
   detail::read_elements(deck, detail::element_blocks(deck), model, diagnostics, options.threads);
+  detail::put_elements_in_order(model);
   detail::redirect_elements(context);
   detail::orient_solids(model);
   detail::link_parts(context);

@@ -90,19 +90,22 @@ double tolerance_of(const BuildContext& c, const Block& block) {
 void merge_connection_nodes(BuildContext& c) {
   Model& m = c.model;
   const auto is_connection = [](const BulkBlock& b) { return header_starts(*b.block, "/CNODE"); };
-  for (const BulkBlock& range : m.node_blocks) {
-    if (!is_connection(range) || range.count == 0) continue;
-    NodeGrid grid(m.nodes, tolerance_of(c, *range.block));
+  std::span<const BulkBlock> block;
+  for (std::size_t i = 0; i < m.node_blocks.size(); i += block.size()) {
+    block = runs_of_block(m.node_blocks, i);
+    if (!is_connection(block.front()) || block.front().count == 0) continue;
+    NodeGrid grid(m.nodes, tolerance_of(c, *block.front().block));
     for (const BulkBlock& other : m.node_blocks)
-      if (!is_connection(other) || &other < &range)
+      if (!is_connection(other) || &other < block.data())
         for (NodeIndex n = other.first; n < other.first + other.count; ++n) grid.add(n);
-    for (NodeIndex n = range.first; n < range.first + range.count; ++n) {
-      const NodeIndex target = grid.nearest(n);
-      if (target == no_index)
-        grid.add(n);
-      else
-        m.merged_nodes.emplace_back(n, target);
-    }
+    for (const BulkBlock& run : block)
+      for (NodeIndex n = run.first; n < run.first + run.count; ++n) {
+        const NodeIndex target = grid.nearest(n);
+        if (target == no_index)
+          grid.add(n);
+        else
+          m.merged_nodes.emplace_back(n, target);
+      }
   }
   std::sort(m.merged_nodes.begin(), m.merged_nodes.end());
   // A node merged with one that was merged itself belongs to the last of them.

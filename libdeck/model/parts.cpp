@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "base/shared/parallel.hpp"
+#include "keyword/shared/solver_order.hpp"
 #include "model/model_build.hpp"
 
 namespace deck::detail {
@@ -148,8 +149,8 @@ void check_orphans(BuildContext& c, const Elements& family, const char* what) {
 
 void read_parts(BuildContext& c) {
   Model& m = c.model;
-  for (const Block& block : c.deck.blocks) {
-    if (!header_starts(block, "/PART")) continue;
+  for (const Block* const at : in_solver_order(c.deck, "/PART")) {
+    const Block& block = *at;
     const DecodedBlock d = decode(c.deck, block);
     Part part;
     part.id = c.own_id(block, "part");

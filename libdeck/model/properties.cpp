@@ -1,6 +1,7 @@
 // Properties: thickness, section area and spring stiffness, the cells of /PROP that contact needs.
 #include <cmath>
 
+#include "keyword/shared/solver_order.hpp"
 #include "model/model_build.hpp"
 
 namespace deck::detail {
@@ -71,8 +72,9 @@ void fill(const BuildContext& c, const DecodedBlock& d, Property& p) {
 
 void read_properties(BuildContext& c) {
   Model& m = c.model;
-  for (const Block& block : c.deck.blocks) {
-    if (!header_starts(block, "/PROP") || block.schema == nullptr) continue;
+  for (const Block* const at : in_solver_order(c.deck, "/PROP")) {
+    const Block& block = *at;
+    if (block.schema == nullptr) continue;
     const DecodedBlock d = decode(c.deck, block);
     Property p;
     p.id = c.own_id(block, "prop");

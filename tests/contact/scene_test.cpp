@@ -77,8 +77,8 @@ TEST(Type19, FurtherPartsFollowAllInterfacesOfTheDeck) {
   for (const Contact& c : b.scene.contacts) order.emplace_back(c.inter->id, c.role);
   using R = ContactRole;
   const std::vector<std::pair<std::int64_t, ContactRole>> expected = {
-      {5, R::primary},  {3, R::primary}, {4, R::primary},  {1, R::primary},
-      {5, R::reversed}, {5, R::edges},   {4, R::reversed}, {4, R::edges}};
+      {1, R::primary},  {3, R::primary}, {4, R::primary},  {5, R::primary},
+      {4, R::reversed}, {4, R::edges},   {5, R::reversed}, {5, R::edges}};
   EXPECT_EQ(order, expected);
 }
 

@@ -55,6 +55,16 @@ TEST_P(GoldenGaps, EveryContactAgreesWithTheReferenceSolver) {
 
 INSTANTIATE_TEST_SUITE_P(Oracle, GoldenGaps, testing::Values("params", "gaps"));
 
+TEST(GoldenOrder, BlocksAreTakenInTheSolversOrder) {
+  const fs::path script = corpus() / "check" / "compare_order.py";
+  if (!fs::exists(script)) GTEST_SKIP() << "no reference results under " << corpus();
+  if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
+  const Scratch scratch;
+  const fs::path report = scratch / "report.txt";
+  EXPECT_EQ(shell("python3 " + quote(script) + " " + quote(binary()) + " > " + quote(report)), 0)
+      << text_of(report);
+}
+
 constexpr const char* compare_messages = R"(
 import gzip, json, sys
 wanted = {94, 106, 343, 477, 482, 499, 558, 611, 612, 785, 786, 918, 1577, 3025}

@@ -553,16 +553,16 @@ TEST(Type19, Igap4RemovesNearNodes) {
   EXPECT_EQ(r.all.type19.at(0).Irem_gap.value, 2);
 }
 
-TEST(Interfaces, AreKeptInDeckOrder) {
+TEST(Interfaces, AreTakenById) {
   const Read r("/INTER/TYPE19/3\nt\n         1\n\n\n\n\n\n" + Type7Text{}.str() +
                "/INTER/TYPE10/1\nt\n         1         2\n\n\n" +
                "/INTER/LAGMUL/TYPE7/8\nt\n         1         2\n\n\n\n\n\n");
   ASSERT_EQ(r.all.ordered.size(), 3u);
-  EXPECT_EQ(r.all.ordered[0]->type, 19);
-  EXPECT_EQ(r.all.ordered[1]->type, 7);
-  EXPECT_EQ(r.all.ordered[1]->id, 5);
-  EXPECT_EQ(r.all.ordered[1]->title, "title");
-  EXPECT_EQ(r.all.ordered[2]->type, 10);
+  EXPECT_EQ(r.all.ordered[0]->type, 10);
+  EXPECT_EQ(r.all.ordered[1]->type, 19);
+  EXPECT_EQ(r.all.ordered[2]->type, 7);
+  EXPECT_EQ(r.all.ordered[2]->id, 5);
+  EXPECT_EQ(r.all.ordered[2]->title, "title");
 }
 
 // ---- structs and schemas say the same ----------------------------------------------------------

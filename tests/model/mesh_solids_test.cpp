@@ -250,6 +250,19 @@ TEST(Penta, HasItsVolumeOverItsLargestFaceWithOneThatIsTwisted) {
   expect_near(solid(part(36, 14), flat, SolidShape::penta6).length, 0.75, 1e-11);
 }
 
+TEST(Penta, NumberedInsideOutHasTheSameMassAndStep) {
+  const Vec a{0, 0, 0}, b{2, 0, 0}, c{0, 1, 0}, up{0, 0, 3};
+  const auto penta = [&](const Vec& low, const Vec& high) {
+    return solid(part(36, 14),
+                 {low + a, low + b, low + c, low + a, high + a, high + b, high + c, high + a},
+                 SolidShape::penta6);
+  };
+  const ElementOutcome right = penta({}, up), turned = penta(up, {});
+  EXPECT_GT(right.mass, 0);
+  EXPECT_EQ(turned.mass, right.mass);
+  EXPECT_EQ(turned.dt, right.dt);
+}
+
 TEST(Penta, WhoseFirstFaceGovernsIsGivenOfThickShellsOnly) {
   // The first face is the largest one: legs 8 and 1, its corners 5 and 4 exchange their local y.
   const std::array<Vec, 6> p{Vec{0, 0, 0}, Vec{8, 0, 0}, Vec{4, 1, 0},

@@ -195,6 +195,22 @@ TEST(Place, OfANodeAndAnElementIsItsLine) {
   EXPECT_EQ(text(m.element_span(ElementKind::shell4, m.shell4.map.find(8))), "         8");
 }
 
+TEST(Order, IsByFileIdAndRowAndPlacesAreStillThoseOfTheText) {
+  BuiltModel b("/NODE\n" + node(9, 9, 0, 0) + node(2, 2, 0, 0) + "/NODE\n" + node(5, 5, 0, 0) +
+               node(1, 1, 1, 0) + node(3, 3, 1, 0) + "/SHELL/2\n" + cells({8, 1, 2, 3, 5}) +
+               "/SHELL/1\n" + cells({7, 2, 5, 9, 3}) + cells({4, 1, 2, 3, 5}) + parts());
+  const Model& m = b.model();
+  EXPECT_EQ(m.nodes.id, (std::vector<std::int64_t>{1, 2, 3, 5, 9}));
+  EXPECT_EQ(m.nodes.x, (std::vector<double>{1, 2, 3, 5, 9}));
+  EXPECT_EQ(m.shell4.id, (std::vector<std::int64_t>{4, 7, 8}));
+  const auto id = [&](Span s) { return std::stoll(std::string(m.deck->sources.text(s))); };
+  for (NodeIndex n = 0; n < m.nodes.size(); ++n) EXPECT_EQ(id(m.node_span(n)), m.nodes.id[n]);
+  for (std::uint32_t e = 0; e < m.shell4.size(); ++e) {
+    EXPECT_EQ(id(m.element_span(ElementKind::shell4, e)), m.shell4.id[e]);
+    EXPECT_EQ(m.element_blocks[m.shell4.block[e]].block->id.value, m.parts[m.shell4.part[e]].id);
+  }
+}
+
 TEST(Place, OfRepeatedIdsIsFoundByOneWalkOfEachBlock) {
   constexpr int many = 400, repeated = 50;
   std::string nodes, again, shells, shells_again;
@@ -244,8 +260,8 @@ TEST(Connectivity, ElementsOfAPartAreRuns) {
     return out;
   };
   using Runs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-  EXPECT_EQ(runs(0), (Runs{{0, 2}, {4, 5}}));
-  EXPECT_EQ(runs(1), (Runs{{2, 3}}));
+  EXPECT_EQ(runs(0), (Runs{{0, 3}}));
+  EXPECT_EQ(runs(1), (Runs{{3, 4}}));
   EXPECT_TRUE(runs(2).empty());
 }
 

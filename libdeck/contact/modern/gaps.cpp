@@ -48,9 +48,8 @@ std::vector<std::uint8_t> border_nodes(const Sides& s, std::size_t nodes) {
 
 /// TYPE24 looks at one surface at a time, with the two habits of the solver's scan: of three equal
 /// sides the third counts as a border, and after a side without length comparing begins anew.
-void add_border24(const Sides& s, std::uint8_t bits, const Model& model,
-                  std::vector<std::uint8_t>& border) {
-  std::vector<std::pair<std::int64_t, std::int64_t>> sides;
+void add_border24(const Sides& s, std::uint8_t bits, std::vector<std::uint8_t>& border) {
+  std::vector<std::pair<NodeIndex, NodeIndex>> sides;
   for (const Face& f : s.faces) {
     if ((f.bits & bits) == 0) continue;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -58,11 +57,7 @@ void add_border24(const Sides& s, std::uint8_t bits, const Model& model,
       sides.emplace_back(std::min(a, b), std::max(a, b));
     }
   }
-  std::sort(sides.begin(), sides.end(), [&](const auto& a, const auto& b) {
-    const auto id = [&](std::int64_t n) { return model.nodes.id[static_cast<std::size_t>(n)]; };
-    return std::pair(std::min(id(a.first), id(a.second)), std::max(id(a.first), id(a.second))) <
-           std::pair(std::min(id(b.first), id(b.second)), std::max(id(b.first), id(b.second)));
-  });
+  std::sort(sides.begin(), sides.end());
   for (std::size_t i = 0; i < sides.size();) {
     if (sides[i].first == sides[i].second) {
       ++i;
@@ -72,8 +67,8 @@ void add_border24(const Sides& s, std::uint8_t bits, const Model& model,
       i += 2;
       continue;
     }
-    border[static_cast<std::size_t>(sides[i].first)] = 1;
-    border[static_cast<std::size_t>(sides[i].second)] = 1;
+    border[sides[i].first] = 1;
+    border[sides[i].second] = 1;
     ++i;
   }
 }
@@ -117,8 +112,8 @@ void set_secondary_gaps(const Surroundings& around, const std::vector<double>& h
     border = border_nodes(s, half.size());
   } else {
     border.assign(half.size(), 0);
-    add_border24(s, from_second, around.model, border);
-    add_border24(s, from_first, around.model, border);
+    add_border24(s, from_second, border);
+    add_border24(s, from_first, border);
   }
   for (SideNode& n : s.nodes)
     if (border[n.node] != 0) n.gap = set.type == 25 ? 0 : 1e-20;

@@ -107,10 +107,10 @@ class Maker {
     out_.reoriented += orient_outward(c_, f.solid, f.nodes);
   }
 
-  std::int64_t id(NodeIndex n) const { return c_.model.nodes.id[n]; }
-  std::array<std::int64_t, 4> key(const Face& f) const {
-    std::array<std::int64_t, 4> k{};
-    for (std::size_t i = 0; i < 4; ++i) k[i] = id(f.nodes[i]);
+  /// Counted from 1: a triangle's fourth is 0.
+  static std::array<std::uint64_t, 4> key(const Face& f) {
+    std::array<std::uint64_t, 4> k{};
+    for (std::size_t i = 0; i < 4; ++i) k[i] = std::uint64_t{f.nodes[i]} + 1;
     if (f.kind != SegmentKind::solid) return k;
     const auto end = k.begin() + (f.triangle() ? 3 : 4);
     std::sort(k.begin(), end);
@@ -119,7 +119,7 @@ class Maker {
   }
 
   struct Keyed {
-    std::array<std::int64_t, 4> key;
+    std::array<std::uint64_t, 4> key;
     int kind;
     std::uint32_t face;
     bool same(const Keyed& other) const { return key == other.key && kind == other.kind; }
@@ -132,13 +132,13 @@ class Maker {
     return {key(out_.faces[i]),
             static_cast<int>(carrier == Carrier::none ? Carrier::solid : carrier), i};
   }
-  /// Mostly they stand in the file as the solver sorts them, each once.
+  /// Mostly they are in order, each once.
   bool merged_already() const {
     const auto first = [&](const Face& f) {
-      return f.kind == SegmentKind::solid ? key(f)[0] : id(f.nodes[0]);
+      return f.kind == SegmentKind::solid ? key(f)[0] : std::uint64_t{f.nodes[0]} + 1;
     };
     for (std::uint32_t i = 1; i < out_.faces.size(); ++i) {
-      const std::int64_t a = first(out_.faces[i - 1]), b = first(out_.faces[i]);
+      const std::uint64_t a = first(out_.faces[i - 1]), b = first(out_.faces[i]);
       if (a < b) continue;
       if (a > b) return false;
       const Keyed before = keyed(i - 1), here = keyed(i);
@@ -178,9 +178,9 @@ class Maker {
 };
 
 /// Nodes with the union of their bits.
-class NodesById {
+class NodeBits {
  public:
-  explicit NodesById(std::size_t nodes) : bits_(nodes, 0) {}
+  explicit NodeBits(std::size_t nodes) : bits_(nodes, 0) {}
   void add(NodeIndex n, std::uint8_t bits) {
     if (n != no_index) bits_[n] |= bits;
   }
@@ -189,18 +189,13 @@ class NodesById {
     for (const NodeIndex n : group)
       if (n != no_index && bits_[n] == 0) bits_[n] = from_group;
   }
-  /// Ascending by their numbers in the file.
-  std::vector<SideNode> list(const std::vector<std::int64_t>& ids, int threads) const {
+  std::vector<SideNode> list(int threads) const {
     std::vector<SideNode> out;
     make_room(out,
               bits_.size() - static_cast<std::size_t>(std::count(bits_.begin(), bits_.end(), 0)),
               threads);
     for (NodeIndex n = 0; n < bits_.size(); ++n)
       if (bits_[n] != 0) out.push_back({n, bits_[n], 0, never});
-    const auto before = [&](const SideNode& a, const SideNode& b) {
-      return ids[a.node] < ids[b.node];
-    };
-    if (!std::is_sorted(out.begin(), out.end(), before)) std::sort(out.begin(), out.end(), before);
     return out;
   }
 
@@ -263,11 +258,11 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
   };
   const NodeSet* const grnod = group != 0 ? selections.node_group(group) : nullptr;
   if (inter.type == 25) {
-    NodesById nodes(c.model.nodes.size());
+    NodeBits nodes(c.model.nodes.size());
     nodes_of(one, [&](NodeIndex n) { nodes.add(n, from_first); });
     nodes_of(two, [&](NodeIndex n) { nodes.add(n, from_second); });
     if (grnod != nullptr) nodes.add_others(grnod->nodes);
-    out.nodes = nodes.list(c.model.nodes.id, threads);
+    out.nodes = nodes.list(threads);
   } else {
     NodesByMention nodes(c.model.nodes.size());
     nodes_of(two, [&](NodeIndex n) { nodes.add(n, from_second); });

@@ -92,7 +92,7 @@ void search_ties(SceneContext& context, TieThickness& thickness, Tie& tie);
 
 // old_search.cpp
 /// The same for Isearch 1: the segment around the nearest main node, at any distance.
-void search_ties_by_nearest_node(const Model& model, const Coordinates& x, Tie& tie);
+void search_ties_by_nearest_node(const Coordinates& x, Tie& tie);
 
 // conditions.cpp
 /// What the ties and other conditions of the deck do to one another: repeated ties, main nodes
@@ -103,7 +103,7 @@ void resolve_tie_conflicts(SceneContext& context, std::vector<Tie>& ties);
 /// Root of the mean square of all sides, as far as the solver looks by itself; a triangle has a
 /// fourth side of length 0.
 double mean_side(const Coordinates& x, const std::vector<Corners>& segments);
-/// The ties of all /INTER/TYPE2, in deck order, with the nodes where they are; found once.
+/// The ties of all /INTER/TYPE2, in the solver's order, with the nodes where they are; found once.
 const std::vector<Tie>& ties_of(SceneContext& context);
 /// Those of the interfaces that SceneOptions::only names. The others have their effect on them.
 std::vector<Tie> wanted_ties(SceneContext& context);

@@ -10,19 +10,19 @@
 namespace deck::detail {
 namespace {
 
-using Key = std::tuple<int, int, std::int64_t, std::int64_t>;
+using Key = std::tuple<int, int, std::uint32_t, std::uint32_t>;
 
-/// What the solver sorts shells by, as far as it is known here: law, property type, ids.
+/// What the solver sorts shells by, as far as it is known here: law, property type, then the places
+/// of material and property among all.
 Key sort_key(const Model& model, const Elements& family, std::uint32_t e) {
   const std::uint32_t p = family.part[e];
   if (p == no_index) return {};
   const Part& part = model.parts[p];
   return {part.mat == no_index ? 0 : model.materials[part.mat].law,
-          part.prop == no_index ? 0 : model.properties[part.prop].number, part.mat_id,
-          part.prop_id};
+          part.prop == no_index ? 0 : model.properties[part.prop].number, part.mat, part.prop};
 }
 
-/// Elements in groups of equal keys, each in file order.
+/// Elements in groups of equal keys, each in the order of the model.
 std::vector<std::uint32_t> sorted_elements(const Model& model, const Elements& family) {
   std::vector<std::uint32_t> out(family.size());
   std::iota(out.begin(), out.end(), 0U);

@@ -11,20 +11,18 @@
 namespace deck::detail {
 namespace {
 
-/// Main nodes by id, and the segments around each.
+/// Main nodes, and the segments around each.
 struct MainNodes {
-  std::vector<NodeIndex> nodes;  ///< ascending, as the solver orders them
+  std::vector<NodeIndex> nodes;  ///< ascending
   std::map<NodeIndex, std::vector<std::uint32_t>> segments;
 };
 
-MainNodes main_nodes(const Model& model, const Tie& tie) {
+MainNodes main_nodes(const Tie& tie) {
   MainNodes out;
   for (std::uint32_t m = 0; m < tie.main.size(); ++m)
     for (std::size_t k = 0; k < (is_triangle(tie.main[m]) ? 3U : 4U); ++k)
       out.segments[tie.main[m][k]].push_back(m);
   for (const auto& [node, unused] : out.segments) out.nodes.push_back(node);
-  std::sort(out.nodes.begin(), out.nodes.end(),
-            [&](NodeIndex a, NodeIndex b) { return model.nodes.id[a] < model.nodes.id[b]; });
   return out;
 }
 
@@ -35,7 +33,7 @@ class NearestNodes {
     for (std::uint32_t i = 0; i < nodes.size(); ++i) along_.push_back({x.x[nodes[i]], i, nodes[i]});
     std::sort(along_.begin(), along_.end());
   }
-  /// Of equally near ones that of the highest id.
+  /// Of equally near ones the last.
   std::pair<NodeIndex, double> of(const Vec& p) const {
     const Entry* best = nullptr;
     double least = std::numeric_limits<double>::infinity();
@@ -61,7 +59,7 @@ class NearestNodes {
  private:
   struct Entry {
     double x;
-    std::uint32_t order;  ///< by id
+    std::uint32_t order;  ///< among all
     NodeIndex node;
     auto operator<=>(const Entry&) const = default;
   };
@@ -122,8 +120,8 @@ void set_place(const Coordinates& x, const Corners& c, const Vec& p, TiedNode& o
 
 }  // namespace
 
-void search_ties_by_nearest_node(const Model& model, const Coordinates& x, Tie& tie) {
-  const MainNodes main = main_nodes(model, tie);
+void search_ties_by_nearest_node(const Coordinates& x, Tie& tie) {
+  const MainNodes main = main_nodes(tie);
   if (main.nodes.empty()) return;
   const NearestNodes all(x, main.nodes);
   for (TiedNode& n : tie.nodes) {

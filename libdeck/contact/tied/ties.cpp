@@ -37,10 +37,8 @@ void set_sides(SceneContext& c, Tie& tie) {
   if (group == nullptr) return;
   for (const NodeIndex n : group->nodes)
     if (n != no_index) tie.nodes.push_back({n});
-  const auto& ids = c.model.nodes.id;
-  const auto id = [&](const TiedNode& n) { return ids[n.node]; };
   std::sort(tie.nodes.begin(), tie.nodes.end(),
-            [&](const TiedNode& a, const TiedNode& b) { return id(a) < id(b); });
+            [](const TiedNode& a, const TiedNode& b) { return a.node < b.node; });
   tie.nodes.erase(
       std::unique(tie.nodes.begin(), tie.nodes.end(),
                   [](const TiedNode& a, const TiedNode& b) { return a.node == b.node; }),
@@ -75,7 +73,7 @@ Tie find_tie(SceneContext& c, TieThickness& thickness, const InterType2& inter) 
   tie.not_evaluated = hindrance(c, tie);
   if (!tie.not_evaluated.empty()) return tie;
   if (inter.Isearch.value == 1) {
-    search_ties_by_nearest_node(c.model, c.scene.coordinates, tie);
+    search_ties_by_nearest_node(c.scene.coordinates, tie);
   } else {
     const double d = inter.dsearch.value;
     const bool of_pairs = tie.ignore >= 4 || (tie.ignore >= 2 && d == 0);

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
 
 #include "edit/verify/verify_parts.hpp"
 #include "inspect/shared/diff.hpp"
@@ -35,6 +38,56 @@ VerifyRelation relation_of(std::string_view step, const std::vector<LossEntry>& 
 }
 
 namespace detail {
+namespace {
+
+/// Items in the order in which the deck has them; `key`: the block of an item, or where it begins.
+template <class Key>
+std::vector<std::uint32_t> as_written(std::size_t size, const Key& key) {
+  std::vector<std::uint32_t> out(size);
+  std::iota(out.begin(), out.end(), 0U);
+  std::stable_sort(out.begin(), out.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  return out;
+}
+
+std::vector<std::uint32_t> written_items(std::vector<BulkBlock> runs) {
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const BulkBlock& a, const BulkBlock& b) { return a.block < b.block; });
+  std::vector<std::uint32_t> out;
+  for (const BulkBlock& run : runs)
+    for (std::uint32_t i = 0; i < run.count; ++i) out.push_back(run.first + i);
+  return out;
+}
+
+std::vector<std::uint32_t> written_elements(const Model& model, const Elements& family) {
+  std::vector<BulkBlock> runs;
+  for (std::uint32_t r = 0; r < model.element_blocks.size(); ++r) {
+    const BulkBlock& run = model.element_blocks[r];
+    if (run.count > 0 && run.first < family.size() && family.block[run.first] == r)
+      runs.push_back(run);
+  }
+  return written_items(std::move(runs));
+}
+
+std::vector<std::uint32_t> written_parts(const LoadedDeck& loaded) {
+  std::map<std::pair<std::uint32_t, std::uint64_t>, const Block*> block_at;
+  for (const Block& b : loaded.deck().blocks)
+    block_at.emplace(std::pair(b.header_span.file, b.header_span.offset), &b);
+  const std::vector<Part>& parts = loaded.model().parts;
+  return as_written(parts.size(), [&](std::uint32_t p) {
+    return block_at.at({parts[p].span.file, parts[p].span.offset});
+  });
+}
+
+Partners partners(const std::vector<std::uint32_t>& was, const std::vector<std::uint32_t>& now) {
+  Partners out;
+  if (was == now || was.size() != now.size()) return out;
+  out.old.resize(now.size());
+  for (std::size_t k = 0; k < now.size(); ++k) out.old[now[k]] = was[k];
+  return out;
+}
+
+}  // namespace
 
 Behaviour behaviour_of(const LoadedDeck& deck) {
   const Scene& scene = deck.scene();
@@ -61,19 +114,25 @@ DeckComparison::DeckComparison(const Behaviour& a, const Behaviour& b, const Ver
       to(b.context.deck().begin.working),
       // What a cell of ten columns holds, or one of twenty.
       tolerance(r.rounded ? 1e-4 : 1e-7) {
-  const Nodes &was = before.context.model().nodes, &now = after.context.model().nodes;
-  if (!relation.extract || was.size() == now.size()) return;
-  for (const std::int64_t id : now.id) old_nodes_.push_back(was.map.find(id));
+  const Model &was = before.context.model(), &now = after.context.model();
+  nodes_ = partners(written_items(was.node_blocks), written_items(now.node_blocks));
+  if (relation.extract && was.nodes.size() != now.nodes.size())
+    for (const std::int64_t id : now.nodes.id) nodes_.old.push_back(was.nodes.map.find(id));
+  const auto by_block = [](const auto& list) {
+    return as_written(list.size(), [&](std::uint32_t i) { return list[i]->block; });
+  };
+  interfaces_ =
+      partners(by_block(before.context.interfaces().all), by_block(after.context.interfaces().all));
+  const auto by_interface = [](const std::vector<Contact>& list) {
+    return as_written(list.size(), [&](std::uint32_t i) { return list[i].inter->block; });
+  };
+  contacts_ = partners(by_interface(before.scene.contacts), by_interface(after.scene.contacts));
 }
 
 double DeckComparison::factor(int mass, int length, int time) const {
   return conversion_factor(from, to,
                            {static_cast<std::int8_t>(mass), static_cast<std::int8_t>(length),
                             static_cast<std::int8_t>(time), 0});
-}
-
-NodeIndex DeckComparison::old_node(NodeIndex node) const {
-  return node == no_index || old_nodes_.empty() ? node : old_nodes_[node];
 }
 
 std::string DeckComparison::node_name(NodeIndex node) const {
@@ -103,12 +162,16 @@ DeckComparison::Difference DeckComparison::springs() const {
   if (was.size() != now.size())
     return fmt::format("the deck has {} properties, expected {}", now.size(), was.size());
   const double unit = factor(1, 0, -2);
+  const auto written = [](const std::vector<Property>& list) {
+    return as_written(list.size(), [&](std::uint32_t i) { return list[i].block; });
+  };
+  const Partners partner = partners(written(was), written(now));
   for (std::size_t i = 0; i < now.size(); ++i)
     for (std::size_t k = 0; k < now[i].stiffness.size(); ++k)
-      if (!same(was[i].stiffness[k], now[i].stiffness[k], unit))
+      if (!same(was[partner[i]].stiffness[k], now[i].stiffness[k], unit))
         return *number(fmt::format("the stiffness with which springs of {}/{} count in contacts",
                                    now[i].type, now[i].id),
-                       was[i].stiffness[k], now[i].stiffness[k], unit) +
+                       was[partner[i]].stiffness[k], now[i].stiffness[k], unit) +
                "; the solver takes K / A for it, and one of the two is a force here, so that it "
                "depends on the units (--keep-working-units keeps it)";
   return {};
@@ -123,14 +186,15 @@ DeckComparison::Difference DeckComparison::masses() const {
   const double unit = factor(1, 0, 0);
   const double slack = tolerance * heaviest * unit;
   for (NodeIndex n = 0; n < now.size(); ++n)
-    if (!same(was[n], now[n], unit, slack))
-      return number("the mass of " + node_name(n), was[n], now[n], unit, slack);
+    if (const double old = was[old_node(n)]; !same(old, now[n], unit, slack))
+      return number("the mass of " + node_name(n), old, now[n], unit, slack);
   const auto &parts = before.part_mass, &parts_now = after.part_mass;
   if (parts.size() != parts_now.size())
     return fmt::format("the deck has {} parts, expected {}", parts_now.size(), parts.size());
+  const Partners partner = partners(written_parts(before.context), written_parts(after.context));
   for (std::size_t p = 0; p < parts_now.size(); ++p)
-    if (!same(parts[p], parts_now[p], unit, slack))
-      return number(fmt::format("the mass of part {}", after.context.model().parts[p].id), parts[p],
+    if (const double old = parts[partner[p]]; !same(old, parts_now[p], unit, slack))
+      return number(fmt::format("the mass of part {}", after.context.model().parts[p].id), old,
                     parts_now[p], unit, slack);
   return {};
 }
@@ -144,12 +208,16 @@ DeckComparison::Difference DeckComparison::time_steps() const {
     if (was.size() != now.size())
       return fmt::format("the deck has {} elements of one kind, expected {}", now.size(),
                          was.size());
+    const Model& model = before.context.model();
+    const Partners partner = partners(written_elements(model, model.family(verified_kinds[k])),
+                                      written_elements(after.context.model(), family));
     for (std::size_t e = 0; e < now.size(); ++e) {
-      if (same(was[e], now[e], unit)) continue;
+      const auto old = partner[e];
+      if (same(was[old], now[e], unit)) continue;
       auto d =
-          number(fmt::format("the time step of element {}", family.id[e]), was[e], now[e], unit);
+          number(fmt::format("the time step of element {}", family.id[e]), was[old], now[e], unit);
       if (verified_kinds[k] == ElementKind::beam)
-        d = beam_step(static_cast<std::uint32_t>(e), std::move(d));
+        d = beam_step(old, static_cast<std::uint32_t>(e), std::move(d));
       if (d) return d;
     }
   }
@@ -160,12 +228,12 @@ DeckComparison::Difference DeckComparison::time_steps() const {
 
 /// The solver multiplies the stiffness of a beam by length / (a + s) where that is above 1, and a
 /// and s have no unit. A step that differs by this alone is no fault of a conversion.
-DeckComparison::Difference DeckComparison::beam_step(std::uint32_t beam,
+DeckComparison::Difference DeckComparison::beam_step(std::uint32_t old, std::uint32_t beam,
                                                      Difference difference) const {
-  const auto without = [&](const Behaviour& of) {
-    return of.steps.back()[beam] * std::sqrt(of.beam_factors[beam]);
+  const auto without = [&](const Behaviour& of, std::uint32_t at) {
+    return of.steps.back()[at] * std::sqrt(of.beam_factors[at]);
   };
-  if (!same(without(before), without(after), factor(0, 0, 1))) return difference;
+  if (!same(without(before, old), without(after, beam), factor(0, 0, 1))) return difference;
   constexpr std::string_view why =
       "the solver's own formula of a beam's stiffness, length / (a + s), depends on the unit of "
       "length";
@@ -177,7 +245,7 @@ DeckComparison::Difference DeckComparison::beam_step(std::uint32_t beam,
   LossEntry entry = loss_entry(after.context.deck(), Loss::approximated, block, {});
   entry.id = model.beam.id[beam];
   entry.field = "time step";
-  entry.old_text = fmt::format("{:.6g}", before.steps.back()[beam] * factor(0, 0, 1));
+  entry.old_text = fmt::format("{:.6g}", before.steps.back()[old] * factor(0, 0, 1));
   entry.new_text = fmt::format("{:.6g}", after.steps.back()[beam]);
   entry.note = why;
   accepted->push_back(std::move(entry));

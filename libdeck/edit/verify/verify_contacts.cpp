@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "edit/verify/verify_parts.hpp"
 
@@ -35,7 +37,7 @@ std::vector<std::uint32_t> partners(const DeckComparison& c) {
   std::vector<bool> taken(was.size());
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (by_place) {
-      if (i < was.size()) out[i] = static_cast<std::uint32_t>(i);
+      if (was.size() == now.size()) out[i] = c.old_contact(i);
       continue;
     }
     for (std::uint32_t k = 0; k < was.size(); ++k) {
@@ -64,7 +66,7 @@ class ContactComparison {
         stiffness_(c.factor(1, 0, -2)),
         name_(contact_name(now)) {}
 
-  DeckComparison::Difference run() const {
+  DeckComparison::Difference run() {
     if (was_.evaluated != now_.evaluated || was_.dropped != now_.dropped)
       return name_ + " is examined in one of the decks only";
     for (const bool main : {false, true})
@@ -75,30 +77,54 @@ class ContactComparison {
   }
 
  private:
-  DeckComparison::Difference side(bool main) const {
+  DeckComparison::Difference side(bool main) {
     const auto a = side_nodes(was_, main), b = side_nodes(now_, main);
     const char* which = main ? "main" : "secondary";
     if (a.size() != b.size())
       return fmt::format("the {} side of {} has {} entries, expected {}", which, name_, b.size(),
                          a.size());
-    for (std::size_t i = 0; i < a.size(); ++i)
-      if (c_.old_node(b[i]) != a[i])
+    std::vector<NodeIndex> old(b.size());
+    for (std::size_t i = 0; i < b.size(); ++i) old[i] = c_.old_node(b[i]);
+    if (old == a) return {};
+    // The same entries in another order of the solver.
+    const std::size_t width = now_.kind == ContactKind::edge_edge ? 2 : main ? 4 : 1;
+    const auto was = by_nodes(a, width), now = by_nodes(old, width);
+    Partners& partner = main ? main_ : secondary_;
+    partner.old.resize(now.size());
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      if (was[k].first != now[k].first)
         return fmt::format("the {} side of {}: {} is in the place of another one", which, name_,
-                           c_.node_name(b[i]));
+                           c_.node_name(b[now[k].second * width]));
+      partner.old[now[k].second] = was[k].second;
+    }
     return {};
+  }
+
+  /// Entries of a side by their nodes in any sense, with their positions; ascending.
+  static std::vector<std::pair<std::array<NodeIndex, 4>, std::uint32_t>> by_nodes(
+      const std::vector<NodeIndex>& side, std::size_t width) {
+    std::vector<std::pair<std::array<NodeIndex, 4>, std::uint32_t>> out(side.size() / width);
+    for (std::uint32_t i = 0; i < out.size(); ++i) {
+      auto& [nodes, at] = out[i];
+      std::copy_n(side.begin() + static_cast<std::ptrdiff_t>(i * width), width, nodes.begin());
+      std::sort(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(width));
+      at = i;
+    }
+    std::sort(out.begin(), out.end());
+    return out;
   }
 
   /// Gaps and stiffness of the entries of one list.
   template <class Entry>
   DeckComparison::Difference list(const std::vector<Entry>& was, const std::vector<Entry>& now,
-                                  double Entry::*stiffness) const {
+                                  double Entry::*stiffness, const Partners& partner) const {
     // A segment without area has what the solver's floor of its area leaves, the same number in
     // all units: nothing beside the others.
     constexpr double nothing = 1e-12;
     double stiffest = 0;
     for (const Entry& e : now) stiffest = std::max(stiffest, std::abs(e.*stiffness));
     for (std::size_t i = 0; i < now.size(); ++i) {
-      const Entry &a = was[i], &b = now[i];
+      const Entry &a = was[partner[i]], &b = now[i];
       if (!c_.same(a.gap, b.gap, length_))
         return c_.number("a gap of " + name_, a.gap, b.gap, length_);
       // Of a negative one only the sign counts: the contact has a constant stiffness, its factor.
@@ -114,10 +140,12 @@ class ContactComparison {
     if (auto d = c_.number("the factor of the stiffness of " + name_, was_.factor, now_.factor,
                            was_.factor < 0 ? stiffness_ : 1))
       return d;
-    if (auto d = list(was_.main, now_.main, &MainSegment::stiffness)) return d;
-    if (auto d = list(was_.secondary, now_.secondary, &SecondaryNode::nodal_stiffness)) return d;
-    if (auto d = list(was_.main_edges, now_.main_edges, &ContactEdge::stiffness)) return d;
-    return list(was_.secondary_edges, now_.secondary_edges, &ContactEdge::stiffness);
+    if (now_.kind != ContactKind::edge_edge) {
+      if (auto d = list(was_.main, now_.main, &MainSegment::stiffness, main_)) return d;
+      return list(was_.secondary, now_.secondary, &SecondaryNode::nodal_stiffness, secondary_);
+    }
+    if (auto d = list(was_.main_edges, now_.main_edges, &ContactEdge::stiffness, main_)) return d;
+    return list(was_.secondary_edges, now_.secondary_edges, &ContactEdge::stiffness, secondary_);
   }
 
   std::string pair_name(const PenetrationRow& row) const {
@@ -133,19 +161,22 @@ class ContactComparison {
     return c_.tolerance * gap + digits * c_.after.extent;
   }
 
-  using Rows = std::vector<const PenetrationRow*>;
-  static std::pair<std::uint32_t, std::uint32_t> pair_of(const PenetrationRow* row) {
-    return {row->secondary, row->main};
-  }
+  /// A penetration and its pair in the first deck.
+  struct Row {
+    std::pair<std::uint32_t, std::uint32_t> pair;
+    const PenetrationRow* row;
+    bool operator<(const Row& o) const { return pair < o.pair; }
+    const PenetrationRow* operator->() const { return row; }
+  };
+  using Rows = std::vector<Row>;
   /// By their pairs.
-  static Rows sorted(const std::vector<PenetrationRow>& rows) {
+  static Rows sorted(const std::vector<PenetrationRow>& rows, const Partners& secondary,
+                                 const Partners& main) {
     Rows out;
     out.reserve(rows.size());
-    for (const PenetrationRow& row : rows) out.push_back(&row);
-    const auto less = [](const PenetrationRow* a, const PenetrationRow* b) {
-      return pair_of(a) < pair_of(b);
-    };
-    if (!std::is_sorted(out.begin(), out.end(), less)) std::sort(out.begin(), out.end(), less);
+    for (const PenetrationRow& row : rows)
+      out.push_back({{secondary[row.secondary], main[row.main]}, &row});
+    if (!std::is_sorted(out.begin(), out.end())) std::sort(out.begin(), out.end());
     return out;
   }
 
@@ -168,16 +199,17 @@ class ContactComparison {
   }
 
   DeckComparison::Difference penetrations() const {
-    const Rows was = sorted(was_.penetrations), now = sorted(now_.penetrations);
+    const Rows was = sorted(was_.penetrations, {}, {}),
+               now = sorted(now_.penetrations, secondary_, main_);
     Rows gone, come;
     for (auto a = was.begin(), b = now.begin(); a != was.end() || b != now.end();) {
-      if (b == now.end() || (a != was.end() && pair_of(*a) < pair_of(*b))) {
-        const PenetrationRow* row = *a++;
+      if (b == now.end() || (a != was.end() && *a < *b)) {
+        const Row& row = *a++;
         if (row->depth * length_ > slack(row->gap * length_)) gone.push_back(row);
-      } else if (a == was.end() || pair_of(*b) < pair_of(*a)) {
-        const PenetrationRow* row = *b++;
+      } else if (a == was.end() || *b < *a) {
+        const Row& row = *b++;
         if (row->depth > slack(row->gap)) come.push_back(row);
-      } else if (auto d = penetration(**a++, **b++)) {
+      } else if (auto d = penetration(*(a++)->row, *(b++)->row)) {
         return d;
       }
     }
@@ -186,7 +218,7 @@ class ContactComparison {
       return fmt::format("{}: a pair that penetrated by {:.9g} no longer penetrates", name_,
                          gone.front()->depth);
     if (!come.empty())
-      return fmt::format("{} penetrates by {:.9g}; it did not before", pair_name(*come.front()),
+      return fmt::format("{} penetrates by {:.9g}; it did not before", pair_name(*come.front().row),
                          come.front()->depth);
     return {};
   }
@@ -194,9 +226,9 @@ class ContactComparison {
   /// Contacts that take the nearest segment of a node choose by rounding where two are equally
   /// near: the same penetration with another of them.
   void leave_out_equally_near(Rows& gone, Rows& come) const {
-    std::erase_if(gone, [&](const PenetrationRow* old) {
-      const auto other = std::find_if(come.begin(), come.end(), [&](const PenetrationRow* row) {
-        return row->secondary == old->secondary && !penetration(*old, *row);
+    std::erase_if(gone, [&](const Row& old) {
+      const auto other = std::find_if(come.begin(), come.end(), [&](const Row& row) {
+        return row.pair.first == old.pair.first && !penetration(*old.row, *row.row);
       });
       if (other == come.end()) return false;
       come.erase(other);
@@ -208,6 +240,7 @@ class ContactComparison {
   const Contact &was_, &now_;
   double length_, stiffness_;
   std::string name_;
+  Partners main_, secondary_;  ///< of the entries of the sides
 };
 
 }  // namespace
@@ -245,8 +278,9 @@ DeckComparison::Difference DeckComparison::contacts() const {
     const auto &a = before.cycle.nodes.force[k], &b = after.cycle.nodes.force[k];
     const double slack = tolerance * before.cycle.largest_nodal_force * force;
     for (NodeIndex n = 0; n < std::min(a.size(), b.size()); ++n) {
-      if (!same(a[n], b[n], force, slack))
-        return number("the contact force at " + node_name(n), a[n], b[n], force, slack);
+      const double was_here = a[old_node(n)];
+      if (!same(was_here, b[n], force, slack))
+        return number("the contact force at " + node_name(n), was_here, b[n], force, slack);
     }
   }
   return {};

@@ -29,6 +29,15 @@ inline constexpr std::array verified_kinds = {ElementKind::shell4, ElementKind::
                                               ElementKind::solid8, ElementKind::truss,
                                               ElementKind::beam};
 
+/// Which items of the first deck those of the second are. Both have them in the same order as they
+/// are written; the solver's order changes with their ids and files.
+struct Partners {
+  std::vector<std::uint32_t> old;  ///< empty: the same indices
+  std::uint32_t operator[](std::size_t now) const {
+    return old.empty() ? static_cast<std::uint32_t>(now) : old[now];
+  }
+};
+
 /// Two decks, and how values and nodes of the first are found in the second.
 struct DeckComparison {
   DeckComparison(const Behaviour& a, const Behaviour& b, const VerifyRelation& r,
@@ -44,7 +53,9 @@ struct DeckComparison {
 
   double factor(int mass, int length, int time) const;
   /// Node of the first deck that `node` of the second is.
-  NodeIndex old_node(NodeIndex node) const;
+  NodeIndex old_node(NodeIndex node) const { return node == no_index ? node : nodes_[node]; }
+  /// Contact of the first deck that is written where contact `i` of the second is.
+  std::uint32_t old_contact(std::size_t i) const { return contacts_[i]; }
   std::string node_name(NodeIndex node) const;
   /// True if `now` is `was` in the other units, or within `slack` of it.
   bool same(double was, double now, double unit, double slack = 0) const;
@@ -57,11 +68,11 @@ struct DeckComparison {
   Difference contacts() const;
   Difference masses() const;
   Difference time_steps() const;
-  Difference beam_step(std::uint32_t beam, Difference difference) const;
+  Difference beam_step(std::uint32_t old, std::uint32_t beam, Difference difference) const;
   Difference cells() const;
 
  private:
-  std::vector<NodeIndex> old_nodes_;  ///< empty: the same indices
+  Partners nodes_, interfaces_, contacts_;
 };
 
 }  // namespace deck::detail

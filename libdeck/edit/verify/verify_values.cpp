@@ -78,7 +78,7 @@ DeckComparison::Difference DeckComparison::values() const {
                        examined_types(Examined::contacts_and_ties), was.size());
   std::vector<NamedValue> a, b;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    const InterBase* old = by_place ? was[i] : nullptr;
+    const InterBase* old = by_place ? was[interfaces_[i]] : nullptr;
     if (!by_place)
       for (const InterBase* candidate : was)
         if (candidate->id == now[i]->id && candidate->type == now[i]->type) old = candidate;

@@ -1,5 +1,6 @@
 // Elements without area, volume or length, elements with the property of another kind of element,
 // and functions whose points are not in order.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -8,10 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/shared/count.hpp"
 #include "base/shared/length3.hpp"
 #include "deck/base/point3.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
+#include "model/shared/item_spans.hpp"
 
 namespace deck::detail {
 namespace {
@@ -213,6 +216,59 @@ void check_table(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
+/// A shell's row, with what the solver leaves in its place when it sorts ids and nodes.
+struct ShellRow {
+  std::int64_t id = 0;
+  double angle = 0, thickness = 0;
+  Line line;
+  bool same_cells(const ShellRow& o) const { return angle == o.angle && thickness == o.thickness; }
+};
+
+std::vector<ShellRow> shell_rows(const DecodedBlock& d) {
+  std::vector<ShellRow> out;
+  for (const DecodedCard& card : d.cards) {
+    if (card.missing() || card.cells.empty() || card.cells[0].blank()) continue;
+    ShellRow row{card.cells[0].integer, 0, 0, card.line};
+    for (const Cell& cell : card.cells) {
+      if (cell.field->name == "Phi") row.angle = cell.real;
+      if (cell.field->name == "Thick") row.thickness = cell.real;
+    }
+    out.push_back(row);
+  }
+  return out;
+}
+
+void check_row_order(const LintContext& c, const Rule& rule, Reporter& r) {
+  const std::vector<BulkBlock>& runs = c.model->element_blocks;
+  for (std::size_t i = 0, next = 0; i < runs.size(); i = next) {
+    next = i + runs_of_block(runs, i).size();
+    const Block& block = *runs[i].block;
+    // A block whose rows ascend is one run.
+    if (next == i + 1 || (block.schema->kind != "shell" && block.schema->kind != "sh3n")) continue;
+    const std::vector<ShellRow> rows = shell_rows(decode(c.deck, block));
+    std::vector<const ShellRow*> sorted;
+    for (const ShellRow& row : rows) sorted.push_back(&row);
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const ShellRow* a, const ShellRow* b) { return a->id < b->id; });
+    std::size_t wrong = 0;
+    const ShellRow* first = nullptr;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (!sorted[k]->same_cells(rows[k]) && wrong++ == 0) first = sorted[k];
+    if (first == nullptr) continue;
+    Diagnostic* d = r.report(
+        rule, block, first->line.whole(),
+        fmt::format("rows of {} {} do not ascend by id, and {} the thickness or angle of another "
+                    "row; first is element {}",
+                    block.schema->keyword, block.id.value,
+                    count(wrong, "element gets", "elements get"), first->id));
+    if (d == nullptr) continue;
+    d->fix = Fix{"sort the rows by id", false, {}};
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (sorted[k]->line.text != rows[k].line.text)
+        d->fix->edits.push_back({rows[k].line.whole(), std::string(sorted[k]->line.text)});
+  }
+}
+
 }  // namespace
 
 std::span<const Checked> element_checks() {
@@ -220,6 +276,7 @@ std::span<const Checked> element_checks() {
       {RuleId::DK129, check_property_kind}, {RuleId::DK130, check_area},
       {RuleId::DK131, check_volume},        {RuleId::DK132, check_length},
       {RuleId::DK133, check_curves},        {RuleId::DK140, check_table},
+      {RuleId::DK141, check_row_order},
   };
   return all;
 }

@@ -2,12 +2,17 @@
 #include "model/bulk/bulk.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
+#include <span>
 #include <string>
 
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "deck/text/rule.hpp"
+#include "keyword/shared/solver_order.hpp"
 #include "model/bulk/bulk_plan.hpp"
 #include "model/bulk/bulk_read.hpp"
 
@@ -402,20 +407,72 @@ Elements& family_of(Model& model, ElementKind kind) {
   return *families[static_cast<std::size_t>(kind)];
 }
 
+/// Ranges of blocks of one file as one.
+std::vector<BulkBlock> ranges_of_files(std::span<const BulkBlock> blocks) {
+  std::vector<BulkBlock> out;
+  for (const BulkBlock& b : blocks)
+    if (!out.empty() && out.back().block->header_span.file == b.block->header_span.file)
+      out.back().count = b.first + b.count - out.back().first;
+    else
+      out.push_back(b);
+  return out;
+}
+
+/// The solver's order of items that were read as `ids`: each of the ranges by id. Place in `ids` of
+/// every item; empty: they are in order.
+std::vector<std::uint32_t> order_by_id(const std::vector<std::int64_t>& ids,
+                                       const std::vector<BulkBlock>& ranges) {
+  std::vector<std::uint32_t> out;
+  for (const BulkBlock& b : ranges) {
+    const auto at = [&](auto& list) { return list.begin() + static_cast<std::ptrdiff_t>(b.first); };
+    if (std::is_sorted(at(ids), at(ids) + b.count)) continue;
+    if (out.empty()) {
+      out.resize(ids.size());
+      std::iota(out.begin(), out.end(), 0U);
+    }
+    std::stable_sort(at(out), at(out) + b.count,
+                     [&](std::uint32_t i, std::uint32_t k) { return ids[i] < ids[k]; });
+  }
+  return out;
+}
+
+/// Arrays with `width` values per item; one without any stays empty.
+template <class... T>
+void put_in_order(const std::vector<std::uint32_t>& places, std::size_t width,
+                  std::vector<T>&... arrays) {
+  const auto put = [&](auto& array) {
+    if (array.empty() || places.empty()) return;
+    const auto read = array;
+    auto to = array.begin();
+    for (const std::uint32_t place : places)
+      to = std::copy_n(read.begin() + static_cast<std::ptrdiff_t>(place * width), width, to);
+  };
+  (put(arrays), ...);
+}
+
+/// A block whose items were put in order, as runs of items that still follow one another.
+void add_runs(const BulkBlock& block, const std::vector<std::uint32_t>& places,
+              std::vector<std::uint32_t>& items, std::vector<BulkBlock>& out) {
+  if (items.empty()) {
+    items.resize(places.size());
+    for (std::uint32_t i = 0; i < places.size(); ++i) items[places[i]] = i;
+  }
+  out.push_back({block.block, items.empty() ? block.first : items[block.first], 0});
+  for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
+    const std::uint32_t item = items.empty() ? i : items[i];
+    if (item != out.back().first + out.back().count) out.push_back({block.block, item, 0});
+    ++out.back().count;
+  }
+}
+
 }  // namespace
 
 std::vector<const Block*> node_blocks(const Deck& deck) {
-  std::vector<const Block*> blocks;
-  for (const Block& b : deck.blocks)
-    if (is_node_block(b)) blocks.push_back(&b);
-  return blocks;
+  return in_solver_order(deck, [](const Block& b) { return is_node_block(b); });
 }
 
 std::vector<const Block*> element_blocks(const Deck& deck) {
-  std::vector<const Block*> blocks;
-  for (const Block& b : deck.blocks)
-    if (element_format(b)) blocks.push_back(&b);
-  return blocks;
+  return in_solver_order(deck, [](const Block& b) { return element_format(b).has_value(); });
 }
 
 std::optional<ElementFormat> element_format(const Block& block) {
@@ -517,6 +574,48 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
       });
   for (const ElementKind kind : all_kinds)
     family_of(model, kind).map.build(family_of(model, kind).id);
+}
+
+void put_nodes_in_order(Nodes& nodes, std::vector<BulkBlock>& ranges) {
+  const std::vector<std::uint32_t> places = order_by_id(nodes.id, ranges_of_files(ranges));
+  if (places.empty()) return;
+  put_in_order(places, 1, nodes.id, nodes.x, nodes.y, nodes.z);
+  std::vector<std::uint32_t> items;
+  std::vector<BulkBlock> runs;
+  for (const BulkBlock& b : ranges) add_runs(b, places, items, runs);
+  ranges = std::move(runs);
+  nodes.map.build(nodes.id);
+}
+
+void put_elements_in_order(Model& model) {
+  std::array<std::vector<std::uint32_t>, std::size(all_kinds)> places, items;
+  const auto kind_of = [](const BulkBlock& b) { return element_format(*b.block)->kind; };
+  for (const ElementKind kind : all_kinds) {
+    Elements& family = family_of(model, kind);
+    std::vector<BulkBlock> blocks;
+    std::copy_if(model.element_blocks.begin(), model.element_blocks.end(),
+                 std::back_inserter(blocks),
+                 [&](const BulkBlock& b) { return kind_of(b) == kind; });
+    std::vector<std::uint32_t>& order = places[static_cast<std::size_t>(kind)];
+    order = order_by_id(family.id, blocks);
+    put_in_order(order, 1, family.id, family.thickness, family.shape, family.extra);
+    put_in_order(order, static_cast<std::size_t>(family.width), family.nodes);
+  }
+  if (std::all_of(places.begin(), places.end(), [](const auto& p) { return p.empty(); })) return;
+  std::vector<BulkBlock> runs;
+  for (const BulkBlock& b : model.element_blocks) {
+    const auto kind = static_cast<std::size_t>(kind_of(b));
+    std::size_t r = runs.size();
+    add_runs(b, places[kind], items[kind], runs);
+    for (; r < runs.size(); ++r)
+      std::fill_n(
+          family_of(model, kind_of(b)).block.begin() + static_cast<std::ptrdiff_t>(runs[r].first),
+          runs[r].count, static_cast<std::uint32_t>(r));
+  }
+  model.element_blocks = std::move(runs);
+  for (const ElementKind kind : all_kinds)
+    if (!places[static_cast<std::size_t>(kind)].empty())
+      family_of(model, kind).map.build(family_of(model, kind).id);
 }
 
 }  // namespace deck::detail

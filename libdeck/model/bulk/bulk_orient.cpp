@@ -43,10 +43,7 @@ void turn(SolidShape shape, NodeIndex* n, NodeIndex* mid) {
       n[4] = n[7] = second;
       break;
     }
-    case SolidShape::penta6:
-      // Slots hold 1 2 3 1 4 5 6 4; the solver leaves slots 4 and 8 as they are, which spoils two
-      // of the faces.
-      std::swap_ranges(n, n + 3, n + 4);
+    case SolidShape::penta6:  // stays as it is written
       break;
     case SolidShape::brick8:
     case SolidShape::brick20:
@@ -63,6 +60,8 @@ std::size_t orient_solids(Model& model) {
   std::size_t turned = 0;
   for (std::size_t e = 0; e < solids.size(); ++e) {
     NodeIndex* const n = solids.nodes.data() + 8 * e;
+    // In runs of the solver the faces of a penta follow its card; contacts turn them outward later.
+    if (solids.shape[e] == SolidShape::penta6) continue;
     if (std::find(n, n + 8, no_index) != n + 8 || !(centre_jacobian(model.nodes, n) < 0)) continue;
     NodeIndex* const mid =
         solids.extra[e] == no_index ? nullptr : solids.extra_nodes.data() + solids.extra[e];

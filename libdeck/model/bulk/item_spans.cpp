@@ -2,8 +2,9 @@
 #include "model/shared/item_spans.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
-#include <utility>
+#include <tuple>
 
 namespace deck::detail {
 namespace {
@@ -18,41 +19,59 @@ std::size_t lines_per_item(const Block& block) {
 
 thread_local std::uint64_t walked = 0;
 
-/// Calls `take(index, line)` for the items of a block in order, until it returns false.
+std::size_t first_run(std::span<const BulkBlock> blocks, std::size_t run) {
+  while (run > 0 && blocks[run - 1].block == blocks[run].block) --run;
+  return run;
+}
+
+/// Calls `take(item, line)` for the items of a block as they stand in it, until it returns false.
 template <class Take>
-void walk_items(const Deck& deck, const BulkBlock& range, const Take& take) {
-  LineCursor cursor(deck.sources, *range.block);
-  const std::size_t lines = lines_per_item(*range.block);
-  for (std::uint32_t i = range.first;; ++i) {
-    Line line = cursor.next();
-    while (line.valid() && line.text.empty()) line = cursor.next();
-    if (!line.valid()) break;
-    ++walked;
-    if (!take(i, line)) break;
-    for (std::size_t k = 1; k < lines; ++k) cursor.next();
-  }
+void walk_items(const Deck& deck, std::span<const BulkBlock> runs, const Take& take) {
+  if (runs.empty()) return;
+  LineCursor cursor(deck.sources, *runs.front().block);
+  const std::size_t lines = lines_per_item(*runs.front().block);
+  for (const BulkBlock& run : runs)
+    for (std::uint32_t i = 0; i < run.count; ++i) {
+      Line line = cursor.next();
+      while (line.valid() && line.text.empty()) line = cursor.next();
+      if (!line.valid()) return;
+      ++walked;
+      if (!take(run.first + i, line)) return;
+      for (std::size_t k = 1; k < lines; ++k) cursor.next();
+    }
 }
 
 /// Lines of items of any blocks, in any order and with repetitions, by one walk of a block for all
-/// its items. `block_of` an item, all blocks at `blocks`.
-template <class BlockOf>
+/// its items. `run_of` an item, all runs at `blocks`. An item that is not there gets the header.
+template <class RunOf>
 std::vector<Span> spans_by_block(const Deck& deck, std::span<const BulkBlock> blocks,
-                                 std::span<const std::uint32_t> items, const BlockOf& block_of) {
+                                 std::span<const std::uint32_t> items, const RunOf& run_of) {
+  struct Wanted {
+    std::size_t block;  ///< its first run
+    std::uint32_t item;
+    std::size_t at;
+  };
   std::vector<Span> out(items.size());
-  std::vector<std::size_t> order(items.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair{block_of(items[a]), items[a]} < std::pair{block_of(items[b]), items[b]};
+  std::vector<Wanted> wanted;
+  for (std::size_t at = 0; at < items.size(); ++at)
+    if (const std::size_t run = run_of(items[at]); run < blocks.size())
+      wanted.push_back({first_run(blocks, run), items[at], at});
+  std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) {
+    return std::tie(a.block, a.item) < std::tie(b.block, b.item);
   });
-  std::vector<std::uint32_t> inside;
-  for (std::size_t at = 0; at < order.size();) {
-    const std::size_t begin = at, block = block_of(items[order[at]]);
-    inside.clear();
-    for (; at < order.size() && block_of(items[order[at]]) == block; ++at)
-      inside.push_back(items[order[at]]);
-    if (block >= blocks.size()) continue;
-    const std::vector<Span> spans = item_spans(deck, blocks[block], inside);
-    for (std::size_t i = 0; i < spans.size(); ++i) out[order[begin + i]] = spans[i];
+  for (auto begin = wanted.begin(), end = begin; begin != wanted.end(); begin = end) {
+    const auto runs = runs_of_block(blocks, begin->block);
+    for (end = begin; end != wanted.end() && end->block == begin->block; ++end)
+      out[end->at] = runs.front().block->header_span;
+    auto next = begin;
+    std::size_t left = static_cast<std::size_t>(end - begin);
+    walk_items(deck, runs, [&](std::uint32_t item, const Line& line) {
+      if (next == end || next->item != item)
+        next = std::lower_bound(begin, end, item,
+                                [](const Wanted& w, std::uint32_t i) { return w.item < i; });
+      for (; next != end && next->item == item; ++next, --left) out[next->at] = line.whole();
+      return left > 0;
+    });
   }
   return out;
 }
@@ -61,40 +80,44 @@ std::vector<Span> spans_by_block(const Deck& deck, std::span<const BulkBlock> bl
 
 std::uint64_t items_walked() { return walked; }
 
-std::vector<Span> item_spans(const Deck& deck, const BulkBlock& range,
-                             std::span<const std::uint32_t> indices) {
-  std::vector<Span> out(indices.size(), range.block->header_span);
-  std::size_t next = 0;
-  if (!indices.empty())
-    walk_items(deck, range, [&](std::uint32_t i, const Line& line) {
-      for (; next < indices.size() && indices[next] <= i; ++next)
-        if (indices[next] == i) out[next] = line.whole();
-      return next < indices.size();
-    });
-  return out;
+std::span<const BulkBlock> runs_of_block(std::span<const BulkBlock> blocks, std::size_t first) {
+  std::size_t end = first;
+  while (end < blocks.size() && blocks[end].block == blocks[first].block) ++end;
+  return blocks.subspan(first, end - first);
 }
 
-void each_item_span(const Deck& deck, const BulkBlock& range,
+void each_item_span(const Deck& deck, std::span<const BulkBlock> runs,
                     const std::function<void(std::uint32_t, const Span&)>& take) {
-  std::uint32_t left = range.count;
-  if (left > 0)
-    walk_items(deck, range, [&](std::uint32_t i, const Line& line) {
-      take(i, line.whole());
-      return --left > 0;
-    });
+  walk_items(deck, runs, [&](std::uint32_t item, const Line& line) {
+    take(item, line.whole());
+    return true;
+  });
+}
+
+NodeBlocks::NodeBlocks(const Model& model) : runs_(model.node_blocks), order_(runs_.size()) {
+  std::iota(order_.begin(), order_.end(), 0U);
+  std::erase_if(order_, [&](std::uint32_t r) { return runs_[r].count == 0; });
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    return runs_[a].first < runs_[b].first;
+  };
+  if (!std::is_sorted(order_.begin(), order_.end(), before))
+    std::sort(order_.begin(), order_.end(), before);
+}
+
+std::size_t NodeBlocks::run_of(NodeIndex n) const {
+  const auto it =
+      std::upper_bound(order_.begin(), order_.end(), n,
+                       [&](NodeIndex node, std::uint32_t r) { return node < runs_[r].first; });
+  if (it == order_.begin()) return runs_.size();
+  const BulkBlock& run = runs_[*std::prev(it)];
+  return n - run.first < run.count ? *std::prev(it) : runs_.size();
 }
 
 std::vector<Span> node_spans(const Model& model, std::span<const NodeIndex> nodes) {
   if (model.deck == nullptr) return std::vector<Span>(nodes.size());
-  const std::vector<BulkBlock>& blocks = model.node_blocks;
-  // Ranges ascend; empty blocks share their `first` with the next one.
-  return spans_by_block(*model.deck, blocks, nodes, [&](NodeIndex n) {
-    auto it = std::upper_bound(blocks.begin(), blocks.end(), n,
-                               [](NodeIndex index, const BulkBlock& b) { return index < b.first; });
-    while (it != blocks.begin())
-      if (--it; n < it->first + it->count) return static_cast<std::size_t>(it - blocks.begin());
-    return blocks.size();
-  });
+  const NodeBlocks blocks(model);
+  return spans_by_block(*model.deck, model.node_blocks, nodes,
+                        [&](NodeIndex n) { return blocks.run_of(n); });
 }
 
 std::vector<Span> element_spans(const Model& model, ElementKind kind,

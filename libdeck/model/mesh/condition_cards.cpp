@@ -8,6 +8,7 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
+#include "keyword/shared/solver_order.hpp"
 #include "model/mesh/mesh_parts.hpp"
 #include "model/mesh/rigid_bodies.hpp"
 
@@ -27,7 +28,8 @@ class Reader {
       : model_(model), deck_(*model.deck), ties_(ties) {}
 
   ConditionCards run() {
-    for (const Block& b : deck_.blocks) {
+    for (const Block* const at : in_solver_order(deck_, [](const Block&) { return true; })) {
+      const Block& b = *at;
       if (b.opaque) continue;
       if (b.schema != nullptr)
         block(b);

@@ -6,7 +6,7 @@
 
 namespace deck::detail {
 
-/// When the solver books a condition; within a turn by kind, then in the order of the deck.
+/// When the solver books a condition; within a turn by kind, then by file and id.
 enum class Turn : std::uint8_t { before_ties, walls_and_bodies, ties, joints, late_ties };
 
 struct ConditionCard {

@@ -221,8 +221,6 @@ class Booking {
     for (std::size_t n = 0; n < size; ++n)
       if (noted_[n] != 0 || (out_.types[n] & (out_.types[n] - 1)) != 0)
         out_.several.push_back(static_cast<NodeIndex>(n));
-    std::sort(out_.several.begin(), out_.several.end(),
-              [&](NodeIndex a, NodeIndex b) { return model_.nodes.id[a] < model_.nodes.id[b]; });
     out_.first.assign(size + 1, 0);
     for (const Entry& e : entries_) ++out_.first[e.node + 1];
     for (std::size_t n = 0; n < size; ++n) out_.first[n + 1] += out_.first[n];

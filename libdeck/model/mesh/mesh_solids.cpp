@@ -347,9 +347,13 @@ void solid_outcome(const PartRow& row, SolidShape shape, const std::array<Vec, 8
     case SolidShape::tetra10:
       tetra(row, x, middle, out);
       break;
-    case SolidShape::penta6:
-      penta(row, x, out);
+    case SolidShape::penta6: {
+      Corners turned = x;  // pentas numbered inside out are kept as they are written
+      if (middle_volume(x) < 0)
+        std::swap_ranges(turned.begin(), turned.begin() + 4, turned.begin() + 4);
+      penta(row, turned, out);
       break;
+    }
     case SolidShape::brick8:
       hexa(row, x, out);
       break;

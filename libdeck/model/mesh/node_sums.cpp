@@ -11,6 +11,7 @@
 #include "deck/keyword/engine_file.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
+#include "keyword/shared/solver_order.hpp"
 
 namespace deck::detail {
 namespace {
@@ -91,7 +92,8 @@ void NodeSums::finish(const Places& places) {
 /// /ADMAS 0 gives the mass to every node of the group, 1 spreads it evenly, 5 names nodes.
 void NodeSums::added_masses() {
   const Deck& deck = *model_.deck;
-  for (const Block& block : deck.blocks) {
+  for (const Block* const at : in_solver_order(deck, "/ADMAS")) {
+    const Block& block = *at;
     if (!block.header.starts_with("/ADMAS/") || block.schema == nullptr || block.opaque) continue;
     const char type = block.header.size() > 7 ? block.header[7] : '?';
     const auto left = [&](const char* why) {

@@ -5,6 +5,7 @@
 
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
+#include "keyword/shared/solver_order.hpp"
 #include "model/mesh/node_sums.hpp"
 
 namespace deck::detail {
@@ -165,7 +166,8 @@ void NodeSums::forget_tie(const Block& block, std::uint64_t& count) {
 
 void NodeSums::ties(const std::vector<TiedNodes>* ties, const Places& places) {
   TieCounts counts;
-  for (const Block& block : model_.deck->blocks) {
+  for (const Block* const at : in_solver_order(*model_.deck, "/INTER")) {
+    const Block& block = *at;
     if (block.schema == nullptr || block.schema->keyword != "/INTER/TYPE2") continue;
     const TiedNodes* found = nullptr;
     if (ties != nullptr)

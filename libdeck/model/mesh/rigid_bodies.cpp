@@ -7,6 +7,7 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
+#include "keyword/shared/solver_order.hpp"
 
 namespace deck::detail {
 namespace {
@@ -33,7 +34,8 @@ void take_nodes(const Model& model, std::int64_t group, Body& body) {
 std::vector<RigidBody> rigid_bodies(const Model& model) {
   std::vector<RigidBody> out;
   const Deck& deck = *model.deck;
-  for (const Block& block : deck.blocks) {
+  for (const Block* const at : in_solver_order(deck, "/RBODY")) {
+    const Block& block = *at;
     if (block.schema == nullptr || block.opaque) continue;
     RigidBody body;
     body.lagrange = block.schema->keyword == "/RBODY/LAGMUL";

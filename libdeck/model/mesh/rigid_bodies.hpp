@@ -32,7 +32,7 @@ struct RigidElement {
   std::int64_t skew = 0;
 };
 
-/// In the order of the deck.
+/// In the solver's order.
 std::vector<RigidBody> rigid_bodies(const Model& model);
 std::optional<RigidElement> rigid_element(const Model& model, const Block& block);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "keyword/shared/solver_order.hpp"
 #include "model/selection/selection_impl.hpp"
 
 namespace deck {
@@ -75,10 +76,13 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s, const Limits& l)
   static constexpr std::string_view kinds[] = {"grnod",  "surf",   "line",   "set",    "box",
                                                "skew",   "grshel", "grsh3n", "grbric", "grquad",
                                                "grtria", "grtrus", "grbeam", "grspri", "grpart"};
-  for (const Block& block : m.deck->blocks) {
-    if (block.schema == nullptr) continue;
+  const auto is_group = [](const Block& b) {
+    return b.schema != nullptr &&
+           std::find(std::begin(kinds), std::end(kinds), b.schema->kind) != std::end(kinds);
+  };
+  for (const Block* const at : detail::in_solver_order(*m.deck, is_group)) {
+    const Block& block = *at;
     const std::string& kind = block.schema->kind;
-    if (std::find(std::begin(kinds), std::end(kinds), kind) == std::end(kinds)) continue;
     const auto fields = detail::header_fields(block);
     Definition def{&block, fields.size() > 1 ? fields[1] : std::string_view(),
                    fields.size() > 2 ? fields[2] : std::string_view()};
@@ -98,34 +102,24 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s, const Limits& l)
     }
     list.push_back(def);
   }
-  const auto& id = m.nodes.id;
-  if (!std::is_sorted(id.begin(), id.end())) {
-    by_rank.resize(id.size());
-    std::iota(by_rank.begin(), by_rank.end(), NodeIndex{0});
-    std::stable_sort(by_rank.begin(), by_rank.end(),
-                     [&](NodeIndex a, NodeIndex b) { return id[a] < id[b]; });
-    ranks.resize(id.size());
-    for (std::uint32_t r = 0; r < by_rank.size(); ++r) ranks[by_rank[r]] = r;
-  }
 }
 
 void Selections::Impl::sort_nodes(std::vector<NodeIndex>& nodes) const {
-  const auto before = [&](NodeIndex a, NodeIndex b) { return rank(a) < rank(b); };
-  if (std::is_sorted(nodes.begin(), nodes.end(), before)) return;
-  const auto [first, last] = std::minmax_element(nodes.begin(), nodes.end(), before);
-  const std::size_t low = rank(*first), range = rank(*last) - low + 1;
+  if (std::is_sorted(nodes.begin(), nodes.end())) return;
+  const auto [first, last] = std::minmax_element(nodes.begin(), nodes.end());
+  const std::size_t low = *first, range = *last - low + 1;
   // Nodes that lie close are found in order by walking over all between the first and the last.
   constexpr std::size_t steps = 16;  // so many take as long as to sort one
   std::vector<bool> in(range / steps <= nodes.size() ? range : 0, false);
   bool repeated = in.empty();
   for (std::size_t i = 0; i < nodes.size() && !repeated; ++i) {
-    repeated = in[rank(nodes[i]) - low];
-    in[rank(nodes[i]) - low] = true;
+    repeated = in[nodes[i] - low];
+    in[nodes[i] - low] = true;
   }
-  if (repeated) return std::sort(nodes.begin(), nodes.end(), before);
+  if (repeated) return std::sort(nodes.begin(), nodes.end());
   auto next = nodes.begin();
-  for (std::size_t r = 0; r < range; ++r)
-    if (in[r]) *next++ = by_rank.empty() ? static_cast<NodeIndex>(low + r) : by_rank[low + r];
+  for (std::size_t n = 0; n < range; ++n)
+    if (in[n]) *next++ = static_cast<NodeIndex>(low + n);
 }
 
 const Definition* Selections::Impl::definition(std::string_view kind, std::int64_t id) const {

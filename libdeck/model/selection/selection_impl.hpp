@@ -155,11 +155,6 @@ struct Selections::Impl {
   std::vector<std::uint8_t> stamp;                           ///< per node, see mark()
   std::uint8_t generation = 0;
 
-  /// Position of each node in the reference solver's internal order, which is that of the ids;
-  /// empty if nodes are written in that order.
-  std::vector<std::uint32_t> ranks;
-  std::vector<NodeIndex> by_rank;  ///< the nodes in that order; empty as well
-  std::uint32_t rank(NodeIndex n) const { return ranks.empty() ? n : ranks[n]; }
   void sort_nodes(std::vector<NodeIndex>& nodes) const;
 
   Limits limits;

@@ -143,9 +143,8 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
 std::vector<Edge> Selections::Impl::edges_of(const std::vector<Segment>& segments,
                                              bool free_only) const {
   struct Side {
-    std::uint32_t late = 0, early = 0;  // ranks
+    NodeIndex late = 0, early = 0;
     std::uint32_t segment = 0;
-    NodeIndex first = 0, second = 0;
     bool same(const Side& o) const { return late == o.late && early == o.early; }
   };
   std::vector<Side> sides;
@@ -155,8 +154,8 @@ std::vector<Edge> Selections::Impl::edges_of(const std::vector<Segment>& segment
     for (std::size_t k = 0; k < 4; ++k) {
       NodeIndex a = n[k], b = n[(k + 1) % 4];
       if (a == b) continue;
-      if (rank(b) < rank(a)) std::swap(a, b);
-      sides.push_back({rank(b), rank(a), i, a, b});
+      if (b < a) std::swap(a, b);
+      sides.push_back({b, a, i});
     }
   }
   // Stable, so that the first segment of an edge stays in front.
@@ -169,7 +168,7 @@ std::vector<Edge> Selections::Impl::edges_of(const std::vector<Segment>& segment
     while (end < sides.size() && sides[end].same(sides[i])) ++end;
     if (!free_only || end == i + 1) {
       const Segment& s = segments[sides[i].segment];
-      out.push_back({{sides[i].first, sides[i].second}, s.carrier, s.element});
+      out.push_back({{sides[i].early, sides[i].late}, s.carrier, s.element});
     }
     i = end;
   }

@@ -103,7 +103,7 @@ void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
   // their nodes as they stand.
   const auto plain_key = [&](const Segment& s) {
     std::array<std::uint32_t, 4> k;
-    for (std::size_t n = 0; n < 4; ++n) k[n] = rank(s.nodes[n]) + 1;
+    for (std::size_t n = 0; n < 4; ++n) k[n] = s.nodes[n] + 1;
     if (s.nodes[2] == s.nodes[3]) k[3] = 0;
     std::sort(k.begin(), k.end());
     return k;
@@ -115,7 +115,7 @@ void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
     if (a.carrier == Carrier::none) return plain_key(a) < plain_key(b);
     const auto [x, y] =
         std::mismatch(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end());
-    return x != a.nodes.end() && rank(*x) + 1 < rank(*y) + 1;
+    return x != a.nodes.end() && *x + 1 < *y + 1;
   };
   const auto same = [&](const Segment& a, const Segment& b) {
     if (a.carrier != b.carrier || a.element != b.element) return false;
@@ -148,8 +148,8 @@ void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
 }
 
 void Selections::Impl::merge_edges(std::vector<Edge>& edges) const {
-  const auto early = [&](const Edge& e) { return std::min(rank(e.nodes[0]), rank(e.nodes[1])); };
-  const auto late = [&](const Edge& e) { return std::max(rank(e.nodes[0]), rank(e.nodes[1])); };
+  const auto early = [&](const Edge& e) { return std::min(e.nodes[0], e.nodes[1]); };
+  const auto late = [&](const Edge& e) { return std::max(e.nodes[0], e.nodes[1]); };
   detail::sort_by_bucket(edges, early, [&](const Edge& a, const Edge& b) {
     if (late(a) != late(b)) return late(a) < late(b);
     return a.carrier != b.carrier ? a.carrier < b.carrier : a.element < b.element;

@@ -25,12 +25,11 @@ Segment turned(Segment s) {
 }
 
 /// Starts at the smallest node, keeping the sense; triangles repeat the last node again.
-template <class Rank>
-std::array<NodeIndex, 4> from_smallest(const std::array<NodeIndex, 4>& n, Rank rank) {
+std::array<NodeIndex, 4> from_smallest(const std::array<NodeIndex, 4>& n) {
   const std::size_t corners = n[2] == n[3] ? 3 : 4;
   std::size_t least = 0;
   for (std::size_t i = 1; i < corners; ++i)
-    if (rank(n[i]) < rank(n[least])) least = i;
+    if (n[i] < n[least]) least = i;
   std::array<NodeIndex, 4> out{};
   for (std::size_t i = 0; i < corners; ++i) out[i] = n[(least + i) % corners];
   if (corners == 3) out[3] = out[2];
@@ -212,8 +211,7 @@ detail::ShellCover& Selections::Impl::cover() {
 }
 
 detail::SolidFaces& Selections::Impl::solid_faces() {
-  if (!all_solid_faces)
-    all_solid_faces = std::make_unique<detail::SolidFaces>(model->solid8, ranks);
+  if (!all_solid_faces) all_solid_faces = std::make_unique<detail::SolidFaces>(model->solid8);
   return *all_solid_faces;
 }
 
@@ -435,15 +433,11 @@ std::vector<Segment> Selections::Impl::difference_of_surfaces(const Block& block
       if (const auto* segments = listed_surface(block, ref, missing);
           segments != nullptr && fits(into.size() + segments->size(), sizeof(Segment), block))
         for (Segment s : *segments) {
-          s.nodes = from_smallest(s.nodes, [&](NodeIndex n) { return rank(n); });
+          s.nodes = from_smallest(s.nodes);
           into.push_back(s);
         }
   };
-  const auto before = [&](const Segment& a, const Segment& b) {
-    return std::lexicographical_compare(
-        a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
-        [&](NodeIndex p, NodeIndex q) { return rank(p) < rank(q); });
-  };
+  const auto before = [](const Segment& a, const Segment& b) { return a.nodes < b.nodes; };
   collect(list.positive, out);
   collect(list.negative, gone);
   report_missing(RuleId::DK151, block, "surface", missing, 188);

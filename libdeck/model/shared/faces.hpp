@@ -140,8 +140,7 @@ struct FaceQuery {
 /// alike for both.
 class SolidFaces {
  public:
-  /// `ranks`: position of each node in the solver's internal order; empty: nodes are in that order.
-  explicit SolidFaces(const Elements& solids, const std::vector<std::uint32_t>& ranks = {});
+  explicit SolidFaces(const Elements& solids);
   /// Segments of the faces, solid after solid, face after face. Solids with missing nodes have
   /// none; 10-node tetrahedra are cut into their small triangles.
   std::vector<Segment> segments(const FaceQuery& query);

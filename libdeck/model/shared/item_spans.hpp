@@ -10,14 +10,30 @@
 
 namespace deck::detail {
 
-/// The lines of items of one bulk block; `indices` ascending. Blank lines between items are no
-/// items. The block is walked once, up to the last index; an item that is not there gets the
-/// header.
-std::vector<Span> item_spans(const Deck& deck, const BulkBlock& range,
-                             std::span<const std::uint32_t> indices);
-/// The same for every item that is there, ascending, none of them kept.
-void each_item_span(const Deck& deck, const BulkBlock& range,
+/// Model::node_blocks and element_blocks hold a block as one run of items or, where its rows do not
+/// ascend by id, as several that follow each other. Those of the block that begins at `first`.
+std::span<const BulkBlock> runs_of_block(std::span<const BulkBlock> blocks, std::size_t first);
+
+/// Calls take(item, line) for the items of a block, as they stand in the deck. Blank lines between
+/// items are no items.
+void each_item_span(const Deck& deck, std::span<const BulkBlock> runs,
                     const std::function<void(std::uint32_t, const Span&)>& take);
+
+/// Finds the blocks of nodes.
+class NodeBlocks {
+ public:
+  explicit NodeBlocks(const Model& model);
+  /// Position in Model::node_blocks; their number: none.
+  std::size_t run_of(NodeIndex n) const;
+  const Block* operator[](NodeIndex n) const {
+    const std::size_t run = run_of(n);
+    return run < runs_.size() ? runs_[run].block : nullptr;
+  }
+
+ private:
+  std::span<const BulkBlock> runs_;
+  std::vector<std::uint32_t> order_;  ///< runs that are not empty, by their first item
+};
 
 /// Model::node_span for many nodes, in any order and with repetitions: every block is walked once.
 std::vector<Span> node_spans(const Model& model, std::span<const NodeIndex> nodes);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "base/shared/parallel.hpp"
@@ -12,6 +13,7 @@
 #include "contact/shared/sides.hpp"
 #include "deck/contact/search.hpp"
 #include "model/shared/families.hpp"
+#include "model/shared/item_spans.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck::detail {
@@ -133,20 +135,27 @@ struct NodeLine {
 std::vector<NodeLine> node_places(const Model& model, const Deck& deck,
                                   const std::vector<NodeIndex>& nodes) {
   std::vector<NodeLine> places(nodes.size());
-  auto wanted = nodes.begin();
-  for (const BulkBlock& range : model.node_blocks) {
-    LineCursor cursor(deck.sources, *range.block);
+  std::span<const BulkBlock> runs;
+  for (std::size_t b = 0; b < model.node_blocks.size(); b += runs.size()) {
+    runs = runs_of_block(model.node_blocks, b);
+    LineCursor cursor(deck.sources, *runs.front().block);
     std::uint32_t file = Span::no_file;
     std::uint64_t at = 0, line_number = 1, given_back = 0;
-    NodeIndex node = range.first;
-    while (wanted != nodes.end() && *wanted < node) ++wanted;
-    for (Line line = cursor.next();
-         line.valid() && node < range.first + range.count && wanted != nodes.end();
-         line = cursor.next()) {
+    auto run = runs.begin();
+    NodeIndex node = run->first;
+    auto wanted = std::lower_bound(nodes.begin(), nodes.end(), node);
+    for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
+      while (run != runs.end() && node == run->first + run->count)
+        if (++run != runs.end()) {
+          node = run->first;
+          wanted = std::lower_bound(nodes.begin(), nodes.end(), node);
+        }
+      if (run == runs.end() || (runs.size() == 1 && wanted == nodes.end())) break;
       if (line.text.find_first_not_of(' ') == std::string_view::npos) continue;
       const NodeIndex here = node++;
       const bool another = line.file != file || line.offset < at;
-      if (*wanted != here && !another && line.offset - at < given_back_at_once) continue;
+      const bool is_wanted = wanted != nodes.end() && *wanted == here;
+      if (!is_wanted && !another && line.offset - at < given_back_at_once) continue;
       if (another) {
         file = line.file;
         line_number = deck.sources[file].position(line.offset).line;
@@ -160,7 +169,7 @@ std::vector<NodeLine> node_places(const Model& model, const Deck& deck,
         deck.sources[file].release(given_back, at);
         given_back = at;
       }
-      if (wanted != nodes.end() && *wanted == here)
+      if (is_wanted)
         places[static_cast<std::size_t>(wanted++ - nodes.begin())] = {file, line_number};
     }
   }

@@ -21,12 +21,14 @@ std::vector<ElementPlace> element_places(const Model& model, const Elements& fam
   std::vector<std::uint8_t> wanted(model.element_blocks.size(), 0);
   for (const std::uint32_t block : family.block)
     if (block < wanted.size()) wanted[block] = 1;
-  for (std::size_t b = 0; b < wanted.size(); ++b) {
+  std::span<const BulkBlock> runs;
+  for (std::size_t b = 0; b < wanted.size(); b += runs.size()) {
+    runs = runs_of_block(model.element_blocks, b);
     if (wanted[b] == 0) continue;
     Span last;
     std::uint64_t line = 0, given_back = 0;
-    each_item_span(*model.deck, model.element_blocks[b], [&](std::uint32_t e, const Span& s) {
-      if (e >= out.size() || family.block[e] != b) return;
+    each_item_span(*model.deck, runs, [&](std::uint32_t e, const Span& s) {
+      if (e >= out.size() || family.block[e] < b || family.block[e] >= b + runs.size()) return;
       const auto& source = model.deck->sources[s.file];
       if (line == 0 || s.file != last.file || s.offset < last.offset) {
         line = source.position(s.offset).line;

@@ -124,7 +124,8 @@ void write_touches(JsonWriter& json, const std::vector<Touch>& touches);
 std::string touches_drawing(const HtmlInput& input, const std::vector<Touch>& touches);
 
 // cards.cpp — the members "interfaces" and "what_if"
-/// What the page calls interfaces, by position: contacts in deck order, then the ties of the scene.
+/// What the page calls interfaces, by position: contacts in the solver's order, then the ties of
+/// the scene.
 std::vector<const InterBase*> page_interfaces(const Scene& scene);
 void write_interfaces(JsonWriter& json, const HtmlInput& input);
 void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);

@@ -47,21 +47,12 @@ void NodeCells::look_up(std::span<const NodeIndex> nodes) {
   unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
   if (unknown.empty()) return;
   const std::vector<Span> spans = node_spans(context_.model(), unknown);
-  const auto& blocks = context_.model().node_blocks;
-  const auto block_of = [&](NodeIndex node) -> const Block& {
-    auto block = std::upper_bound(blocks.begin(), blocks.end(), node,
-                                  [](NodeIndex n, const BulkBlock& b) { return n < b.first; });
-    while (block != blocks.begin()) {
-      --block;
-      if (node < block->first + block->count) break;
-    }
-    return *block->block;
-  };
+  const NodeBlocks blocks(context_.model());
   std::vector<Cells> found(unknown.size());
   parallel_pieces(effective_threads(context_.options().threads), unknown.size(),
                   [&](std::size_t, std::size_t begin, std::size_t end) {
                     for (std::size_t i = begin; i < end; ++i)
-                      found[i] = read(unknown[i], block_of(unknown[i]), spans[i]);
+                      found[i] = read(unknown[i], *blocks[unknown[i]], spans[i]);
                   });
   for (std::size_t i = 0; i < unknown.size(); ++i) known_.emplace(unknown[i], std::move(found[i]));
 }

@@ -185,7 +185,7 @@ struct InterfaceSummary {
 /// Of these contacts, which are of one interface; the one sum that every message and table shows.
 [[nodiscard]] InterfaceSummary summarize(const std::vector<const ContactOutcome*>& contacts,
                                          const StructureStep& structure);
-/// Of every interface, in deck order; interfaces that the scene does not hold are left out.
+/// Of every interface, in the solver's order; interfaces that the scene does not hold are left out.
 [[nodiscard]] std::vector<InterfaceSummary> summarize(const Scene& scene,
                                                       const SceneOutcome& outcome);
 

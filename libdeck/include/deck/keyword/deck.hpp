@@ -148,7 +148,7 @@ struct Deck {
   SourceSet sources;
   std::vector<LintMarkers> lint_markers;  ///< by file
   std::vector<IncludeEdge> includes;
-  std::vector<Block> blocks;  ///< in reading order, main deck only up to /END
+  std::vector<Block> blocks;  ///< as they are written, main deck only up to /END
   std::vector<Submodel> submodels;
   std::multimap<std::string, Parameter, std::less<>> parameters;
   std::map<std::int64_t, UnitSystem> units;  ///< /UNIT/id, submodel offsets applied

@@ -125,10 +125,10 @@ struct Interfaces {
   std::vector<InterType19> type19;
   std::vector<InterType24> type24;
   std::vector<InterType25> type25;
-  std::vector<InterType2> type2;       ///< ties, in deck order; not in `ordered`
+  std::vector<InterType2> type2;       ///< ties; not in `ordered`
   std::vector<DefaultInter> defaults;  ///< honoured ones only, at most one of a type
   std::vector<Friction> frictions;
-  /// All contacts in deck order.
+  /// All contacts in the solver's order (file by file, then by id), as in the lists above.
   std::vector<const InterBase*> ordered;
   /// The same with ties: all whose cards are read as values.
   std::vector<const InterBase*> all;

@@ -1,6 +1,6 @@
-// Model: the deck as arrays. Nodes and elements are structures of arrays with 32-bit indices in
-// order of appearance (the reference solver orders nodes by id); ids are 64-bit; all values in
-// working units.
+// Model: the deck as arrays. Nodes and elements are structures of arrays with 32-bit indices in the
+// order of the reference solver: file by file, nodes by id, elements by part and id; so are parts,
+// properties and materials (by id). Ids are 64-bit; all values in working units.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -201,7 +201,8 @@ struct Curve {
   Span span;
 };
 
-/// A block of elements or nodes, to get from an index back to the line in the file.
+/// A block of elements or nodes, to get from an index back to the line in the file. One whose rows
+/// do not ascend by id is given as several runs, which follow each other as the rows do.
 struct BulkBlock {
   const Block* block = nullptr;
   std::uint32_t first = 0, count = 0;  ///< index range in the family

@@ -54,7 +54,7 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
 /// One line per penetration, ties left out, deepest first, RFC 4180.
 std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view,
                      const TextDrain& drain = {});
-/// One line per secondary node of every tie of the scene, in deck order, RFC 4180.
+/// One line per secondary node of every tie of the scene, in its order, RFC 4180.
 std::string ties_csv(const Deck& deck, const Scene& scene, const TextDrain& drain = {});
 
 }  // namespace deck
