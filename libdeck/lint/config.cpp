@@ -33,9 +33,9 @@ struct ParserLost {};
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "base/shared/spelling.hpp"
+#include "text/shared/read_json.hpp"
 
 namespace deck {
 namespace fs = std::filesystem;
@@ -397,7 +397,7 @@ bool read_entry(const nlohmann::json& json, const fs::path& directory,
 }  // namespace
 
 Result<Baseline> parse_baseline(std::string_view text, const std::string& path) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
+  const auto json = read_json<nlohmann::json>(text);
   if (json.is_object() && json.contains("schema") && json["schema"] == "deck.baseline/1")
     return bad_baseline(path,
                         "a baseline of an older version, which does not name the deck of a "
