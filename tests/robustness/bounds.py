@@ -87,8 +87,6 @@ def cases():
     yield "48000 conditions on one group", again + b"".join(b"/BCS/%d\nb\n   111 111         0         5\n" % k for k in range(1, 48001)), (), []
     yield "24000 sub-interfaces", again + type7(1, 2, 1, 1.0) + b"".join(b"/INTER/SUB/%d\ns\n         1         2         1\n" % k
                                                                      for k in range(2, 24002)), (), []
-    yield "2000 interfaces of one id", small + type7(1, 2, 1, 1.0) * 2000, (), ["DK179"]
-    yield "4000 interfaces between two parts", small + b"".join(type7(k, 2, 1, 1.0) for k in range(1, 4001)), (), []
     on_it = b"/SHELL/1\n" + b"".join(b"%10d%10d%10d%10d%10d\n" % (k, 1, 2, 7, 6) for k in range(10000, 58000))
     yield "48000 shells on one another", small + on_it + type7(1, 2, 1, 1.0), ("--geometry",), []
     for value in ("NaN", "inf", "-inf"):

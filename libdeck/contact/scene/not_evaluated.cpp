@@ -33,7 +33,7 @@ std::string unusable_cell(const Deck& deck, const InterBase& inter) {
     if constexpr (std::is_same_v<T, double>)
       if (out.empty() && e.has_input && !std::isfinite(e.input))
         out = std::string(name) + " is '" + std::string(trim(deck.sources.text(e.span))) +
-              "', which is not a finite number";
+              "', which is not a finite number in working units";
   });
   return out;
 }

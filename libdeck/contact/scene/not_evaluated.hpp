@@ -10,7 +10,8 @@
 
 namespace deck::detail {
 
-/// "Gapmin is 'NaN', which is not a finite number": a cell of the card; empty: all can be used.
+/// "Gapmin is 'NaN', which is not a finite number in working units": a cell of the card; empty: all
+/// can be used.
 std::string unusable_cell(const Deck& deck, const InterBase& inter);
 
 class NotEvaluated {
