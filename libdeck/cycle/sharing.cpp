@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
+#include <map>
 
 namespace deck::cycle {
 namespace {
@@ -22,6 +24,8 @@ struct Nodes {
     return std::find(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(count), n) !=
            id.begin() + static_cast<std::ptrdiff_t>(count);
   }
+  void sort() { std::sort(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(count)); }
+  friend auto operator<=>(const Nodes&, const Nodes&) = default;
   [[nodiscard]] bool contains(const Nodes& other) const {
     return std::all_of(other.id.begin(),
                        other.id.begin() + static_cast<std::ptrdiff_t>(other.count),
@@ -79,26 +83,35 @@ std::vector<double> pair_shares(const PairList& pairs, const PacketResult& r) {
   std::vector<double> share(r.size, 1.0);
   const auto list = by_secondary(pairs, r);
   const Features features(pairs, r);
+  // Distances of the pairs that contain an edge or corner, ascending. Pairs that meet in the same
+  // one, as those of segments that lie on one another, look at them once.
+  std::map<std::array<Nodes, 2>, std::vector<double>> met;
   for (std::size_t i = 0; i < r.size; ++i) {
-    if ((r.status[i] & status_contact) == 0) continue;
-    const Feature own = features.of(i);
+    if ((r.status[i] & status_contact) == 0 || std::isnan(r.distance[i])) continue;
+    Feature own = features.of(i);
     if (own.inside() || own.carrying[0].count == 0) continue;
-    const std::uint32_t key = own.carrying[0].id[0];
-    std::size_t meeting = 1;
-    for (auto it = std::lower_bound(list.begin(), list.end(), std::pair{key, std::size_t{0}});
-         it != list.end() && it->first == key; ++it) {
-      const std::size_t j = it->second;
-      if (j == i) continue;
-      const Feature other = features.of(j);
-      if (!other.all[0].contains(own.carrying[0]) || !other.all[1].contains(own.carrying[1]))
-        continue;
-      if (r.distance[j] < (1.0 - nothing) * r.distance[i]) {
-        meeting = 0;
-        break;
+    for (Nodes& side : own.carrying) side.sort();
+    const auto [at, is_new] = met.try_emplace({own.carrying[0], own.carrying[1]});
+    std::vector<double>& distances = at->second;
+    if (is_new) {
+      const std::uint32_t key = own.carrying[0].id[0];
+      for (auto it = std::lower_bound(list.begin(), list.end(), std::pair{key, std::size_t{0}});
+           it != list.end() && it->first == key; ++it) {
+        const Feature other = features.of(it->second);
+        if (!std::isnan(r.distance[it->second]) && other.all[0].contains(own.carrying[0]) &&
+            other.all[1].contains(own.carrying[1]))
+          distances.push_back(r.distance[it->second]);
       }
-      meeting += r.distance[j] <= (1.0 + nothing) * r.distance[i];
+      std::sort(distances.begin(), distances.end());
     }
-    share[i] = meeting == 0 ? 0.0 : 1.0 / static_cast<double>(meeting);
+    if (distances.front() < (1.0 - nothing) * r.distance[i]) {
+      share[i] = 0.0;
+      continue;
+    }
+    const auto meeting =
+        std::upper_bound(distances.begin(), distances.end(), (1.0 + nothing) * r.distance[i]) -
+        distances.begin();
+    share[i] = 1.0 / static_cast<double>(meeting);
   }
   return share;
 }

@@ -14,7 +14,7 @@ class EqualNumbers {
 
   /// `rounded`: one of them was multiplied by a factor of units, which rounds in itself.
   bool operator()(double x, double y, double size, bool rounded) {
-    if (x == y) return true;
+    if (x == y || (std::isnan(x) && std::isnan(y))) return true;
     const double apart = std::abs(x - y), larger = std::max(std::abs(x), std::abs(y));
     const bool by_rounding = rounded && apart <= unit_rounding * larger;
     if (by_rounding) return true;

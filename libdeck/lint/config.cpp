@@ -35,6 +35,7 @@ struct ParserLost {};
 #include <filesystem>
 
 #include "base/shared/spelling.hpp"
+#include "text/shared/read_json.hpp"
 
 namespace deck {
 namespace fs = std::filesystem;

@@ -485,4 +485,17 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options,
   return result;
 }
 
+void report_solver_errors(LoadedDeck& loaded) {
+  if (loaded.incomplete()) return;
+  const auto is_error = [](const ReferenceMessage& m) { return m.severity == Severity::error; };
+  LintOptions options;
+  for (const Rule& rule : all_rules())
+    if (rule.stage <= RuleStage::check &&
+        std::any_of(rule.messages.begin(), rule.messages.end(), is_error))
+      options.select.emplace_back(id_text(rule.id));
+  for (Diagnostic& d : run_lint(loaded, options).diagnostics)
+    if (d.severity == Severity::error && d.reference && is_error(*d.reference))
+      loaded.report(std::move(d));
+}
+
 }  // namespace deck

@@ -99,25 +99,28 @@ class Comparison {
                                                        {}});
     }
     ++group->times;
-    // A message of several entities, as of the properties of a material, is about each of them.
-    std::vector<ListedMessage> parts = split(m);
-    for (const ListedMessage& part : parts) place(*group, part);
-  }
-
-  /// One message an entity of the kind that it names first.
-  static std::vector<ListedMessage> split(const ListedMessage& m) {
-    std::vector<ListedMessage> out;
+    // A message of several entities, as of the properties of a material, is about each of them. Of
+    // a damaged listing it may name so many that each with all nodes would be too much.
+    constexpr std::size_t most_pairs = 100'000;
+    const auto entities =
+        static_cast<std::size_t>(std::count_if(m.ids.begin(), m.ids.end(), [&](const ListedId& id) {
+          return id.kind == m.ids.front().kind;
+        }));
+    ListedMessage part = m;
+    if (entities <= 1 || entities * m.nodes.size() > most_pairs) {
+      if (entities > 1) part.ids = {m.ids.front()};
+      const std::string name = name_of(part);
+      return place(*group, part,
+                   entities > 1 ? fmt::format("{} and {} more", name, entities - 1) : name);
+    }
     for (const ListedId& id : m.ids)
       if (id.kind == m.ids.front().kind) {
-        out.push_back(m);
-        out.back().ids = {id};
+        part.ids = {id};
+        place(*group, part, name_of(part));
       }
-    if (out.empty()) out.push_back(m);
-    return out;
   }
 
-  void place(MessageGroup& group, const ListedMessage& m) {
-    const std::string name = name_of(m);
+  void place(MessageGroup& group, const ListedMessage& m, const std::string& name) {
     const auto [known, is_new] =
         place_of_.try_emplace(std::tuple(m.severity, m.number, name), group.places.size());
     if (is_new) {

@@ -16,12 +16,9 @@ std::string because_of(const Deck& deck, const InterBase& inter, const cycle::Ef
   if (!place) return e.reason;
   span = place->span;
   std::string where;
-  if (place->span.valid()) {
-    const Position p = deck.sources.position(place->span);
-    const bool other_file = place->span.file != inter.span.file;
-    where = other_file ? fmt::format("{} line {}", deck.sources[place->span.file].path(), p.line)
-                       : fmt::format("line {}", p.line);
-  }
+  if (place->span.valid())
+    where = fmt::format("{}:{}", deck.sources[place->span.file].path(),
+                        deck.sources.position(place->span).line);
   if (place->origin != Origin::card) {
     if (!where.empty()) where += ", ";
     where += place->origin == Origin::built_in        ? "default"

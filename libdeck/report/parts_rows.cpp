@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <compare>
+#include <map>
 #include <span>
+#include <utility>
 
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
@@ -101,7 +104,7 @@ class PartBits {
     for (std::size_t i = 0; i < a.words_.size(); ++i) a.words_[i] &= b.words_[i];
     return a;
   }
-  friend bool operator==(const PartBits&, const PartBits&) = default;
+  friend auto operator<=>(const PartBits&, const PartBits&) = default;
 
  private:
   std::vector<std::uint64_t> words_;
@@ -124,7 +127,7 @@ class Interfaces2Parts {
 
   void run() {
     for (const Block& b : deck_.blocks)
-      if (b.schema != nullptr && !b.opaque && b.header.starts_with("/INTER/")) interface(b);
+      if (b.schema != nullptr && !b.opaque && b.schema->kind == "inter") interface(b);
     groups();
     for (PartSides& s : sides_) {
       for (std::size_t p = 0; p < view_.parts.size(); ++p)
@@ -133,8 +136,7 @@ class Interfaces2Parts {
       if (!s.names_main) s.main = s.secondary;
       if (!s.names_secondary) s.secondary = s.main;
     }
-    for (std::size_t i = 0; i < sides_.size(); ++i)
-      for (std::size_t k = i + 1; k < sides_.size(); ++k) compare(sides_[i], sides_[k]);
+    find_repeated();
     for (PartView& p : view_.parts) {
       std::sort(p.interfaces.begin(), p.interfaces.end());
       p.interfaces.erase(std::unique(p.interfaces.begin(), p.interfaces.end()), p.interfaces.end());
@@ -235,14 +237,46 @@ class Interfaces2Parts {
     return one.count() * other.count() - both * (both - 1) / 2;
   }
 
-  /// Pairs of parts that two contacts have, whichever of them is the main side.
-  void compare(const PartSides& a, const PartSides& b) {
-    if (a.tie || b.tie) return;
+  /// Contacts of the same parts are looked at together, and others only beside those with which
+  /// they share a part: many interfaces between the same parts cost no pair of them each.
+  void find_repeated() {
+    std::vector<std::vector<std::size_t>> alike;  // of sides_
+    std::map<std::pair<PartBits, PartBits>, std::size_t> known;
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      const PartSides& s = sides_[i];
+      if (s.tie || s.secondary.none() || s.main.none()) continue;
+      const auto [at, is_new] = known.try_emplace({s.secondary, s.main}, alike.size());
+      if (is_new) alike.emplace_back();
+      alike[at->second].push_back(i);
+    }
+    std::vector<std::vector<std::size_t>> of_part(model_.parts.size());  // kinds before
+    std::vector<std::size_t> last(alike.size(), SIZE_MAX);  // the last that each was beside
+    for (std::size_t k = 0; k < alike.size(); ++k) {
+      if (alike[k].size() > 1) compare(alike[k], {});
+      const PartSides& s = sides_[alike[k].front()];
+      for (std::size_t p = 0; p < of_part.size(); ++p) {
+        if (!s.secondary.has(p) && !s.main.has(p)) continue;
+        for (const std::size_t other : of_part[p])
+          if (std::exchange(last[other], k) != k) compare(alike[other], alike[k]);
+        of_part[p].push_back(k);
+      }
+      if (view_.repeated.size() >= most_repeated_contacts) return;
+    }
+  }
+
+  /// Pairs of parts that contacts of two kinds (or of one) have, whichever is the main side.
+  void compare(const std::vector<std::size_t>& one, const std::vector<std::size_t>& other) {
+    if (view_.repeated.size() >= most_repeated_contacts) return;
+    const PartSides &a = sides_[one.front()], &b = sides_[(other.empty() ? one : other).front()];
     const PartBits secondary = a.secondary & b.secondary, main = a.main & b.main;
     const PartBits crossed = a.secondary & b.main, back = a.main & b.secondary;
     const bool same_sides = !secondary.none() && !main.none();
     if (!same_sides && (crossed.none() || back.none())) return;
-    RepeatedContacts out{a.id, b.id};
+    RepeatedContacts out;
+    std::vector<std::size_t> all = one;
+    all.insert(all.end(), other.begin(), other.end());
+    std::sort(all.begin(), all.end());
+    for (const std::size_t i : all) out.interfaces.push_back(sides_[i].id);
     out.part = model_.parts[(same_sides ? secondary : crossed).first()].id;
     out.other = model_.parts[(same_sides ? main : back).first()].id;
     // What the contacts have both ways counts once.
@@ -250,7 +284,7 @@ class Interfaces2Parts {
     out.pairs = pairs_of(secondary, main) + pairs_of(crossed, back) +
                 pairs_of(everywhere, everywhere) - pairs_of(secondary & crossed, main & back) -
                 pairs_of(secondary & back, main & crossed);
-    view_.repeated.push_back(out);
+    view_.repeated.push_back(std::move(out));
   }
 
   const Deck& deck_;

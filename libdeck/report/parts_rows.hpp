@@ -24,19 +24,21 @@ struct PartView {
   }
 };
 
-/// Two contacts that both let the same parts touch.
+/// Contacts that all let the same parts touch: those of the same parts on both sides, or two kinds
+/// of them that share parts.
 struct RepeatedContacts {
-  std::int64_t first = 0, second = 0;  ///< interface ids
-  std::uint64_t pairs = 0;             ///< of parts
-  std::int64_t part = 0, other = 0;    ///< ids of the first pair
+  std::vector<std::int64_t> interfaces;  ///< ids, two or more, in the order of the deck
+  std::uint64_t pairs = 0;               ///< of parts
+  std::int64_t part = 0, other = 0;      ///< ids of the first pair
 };
+inline constexpr std::size_t most_repeated_contacts = 1000;
 
 struct PartsView {
   std::vector<PartView> parts;
   std::uint64_t unconnected_nodes = 0;     ///< that no element has
   std::vector<std::int64_t> empty_parts;   ///< ids of parts without elements
   std::vector<std::int64_t> unseen_parts;  ///< with elements that no contact or tie sees
-  std::vector<RepeatedContacts> repeated;
+  std::vector<RepeatedContacts> repeated;  ///< not more than most_repeated_contacts
 };
 
 PartsView view_parts(const LoadedDeck& loaded);

@@ -39,15 +39,19 @@ RealCell read_hexadecimal(std::string_view s) {
   return {value, NumberStatus::trailing_text};  // not the number that a deck's author has in mind
 }
 
-/// What a text without a digit is: "nan", "inf" and what begins so, or no number at all.
-NumberStatus status_of_word(std::string_view text) {
+/// A text without a digit: "nan", "inf" and what begins so have that value, which spoils whatever
+/// is computed from it as it does in the solver; all else is no number.
+RealCell read_word(std::string_view text, bool negative) {
   const auto starts = [&](std::string_view word) {
     if (text.size() < word.size()) return false;
     for (std::size_t k = 0; k < word.size(); ++k)
       if ((text[k] | 0x20) != word[k]) return false;
     return true;
   };
-  return starts("nan") || starts("inf") ? NumberStatus::not_finite : NumberStatus::not_a_number;
+  using Limits = std::numeric_limits<double>;
+  if (starts("nan")) return {Limits::quiet_NaN(), NumberStatus::not_finite};
+  if (!starts("inf")) return {0, NumberStatus::not_a_number};
+  return {negative ? -Limits::infinity() : Limits::infinity(), NumberStatus::not_finite};
 }
 
 /// Reads "mantissa e exponent" that scan_real() found too long or too large for exact arithmetic,
@@ -68,7 +72,7 @@ RealCell convert(std::string_view s) {
       break;
     }
   }
-  if (digits == 0) return {0, status_of_word(s.substr(digits_begin))};
+  if (digits == 0) return read_word(s.substr(digits_begin), negative);
   if (i < s.size() && (s[i] | 0x20) == 'x' && s.substr(digits_begin, i - digits_begin) == "0")
     if (const auto hex = read_hexadecimal(s.substr(i + 1)); hex.status != NumberStatus::blank)
       return {negative ? -hex.value : hex.value, hex.status};

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/shared/count.hpp"
+#include "base/shared/length_text.hpp"
 #include "verdict/parts.hpp"
 
 namespace deck {
@@ -83,8 +84,9 @@ void say_pairs(const VerdictInput& in, const Sums& sums, Sentences& out) {
     out.add("forces", fmt::format("No contact force {}.", when), {{"pairs_with_force", 0}});
   else
     out.add("forces",
-            fmt::format("{} {}; largest nodal force {:.4g} at {}.",
-                        count(sums.pairs, "pair pushes", "pairs push"), when, o.largest_nodal_force,
+            fmt::format("{} {}; largest nodal force {} at {}.",
+                        count(sums.pairs, "pair pushes", "pairs push"), when,
+                        figure_text(o.largest_nodal_force),
                         o.force_node == no_index
                             ? std::string("no node")
                             : fmt::format("node {}", in.model->node_id(o.force_node))),
@@ -118,8 +120,8 @@ void say_forces(const VerdictInput& in, Sentences& out) {
             {{"forces_not_evaluated", sums.open}});
   if (sums.pairs > 0 && sums.worst != nullptr && sums.worst->acceleration_node != no_index)
     out.add("acceleration",
-            fmt::format("Largest acceleration {:.4g}: node {}, interface {}.",
-                        sums.worst->largest_acceleration,
+            fmt::format("Largest acceleration {}: node {}, interface {}.",
+                        figure_text(sums.worst->largest_acceleration),
                         in.model->node_id(sums.worst->acceleration_node),
                         sums.worst->contact->inter->id),
             {});

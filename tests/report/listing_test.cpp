@@ -133,6 +133,16 @@ TEST(CompareListing, NamesWhatDeckExpectsAndTheListingDoesNotHave) {
                           [&](std::size_t f) { return report.findings[f].rule == RuleId::DK301; }));
 }
 
+TEST(ExplainListing, BoundsWhatOneDamagedMessageTakes) {
+  std::string text = head(5) + "ERROR ID : 611\n** X\nDESCRIPTION :\n";
+  for (int i = 1; i <= 1000; ++i)
+    text += fmt::format("   -- NODE ID : {}\n   -- INTERFACE ID : {}\n", i, i);
+  const ListingReport report = explain_listing(*read_listing_text("a.out", text));
+  ASSERT_EQ(report.messages.size(), 1u);
+  ASSERT_EQ(report.messages[0].places.size(), 1u) << "not a thousand, each with a thousand nodes";
+  EXPECT_EQ(report.messages[0].places[0].name, "interface 1 and 999 more");
+}
+
 TEST(ExplainListing, NeedsNoDeck) {
   const Listing listing = read(listing_of_plates());
   const ListingReport report = explain_listing(listing);

@@ -169,16 +169,14 @@ TEST(PartsView, NamesContactsThatLetTheSamePartsTouch) {
   d.add("@/INTER/TYPE2/5 grnd_IDs=3 surf_IDm=1 dsearch=9");   // a tie
   d.add("@/INTER/TYPE7/6 grnd_IDs=23 surf_IDm=12 Gapmin=1");  // as 1
   const Parted p(d);
-  std::vector<Ids> all;
+  std::vector<std::pair<Ids, Ids>> all;
   for (const detail::RepeatedContacts& c : p.view.repeated)
-    all.push_back({c.first, c.second, static_cast<std::int64_t>(c.pairs), c.part, c.other});
-  // 1 and 6: 2-1 2-2 3-1 3-2; 2-2 is the same turned.
-  EXPECT_EQ(all, (std::vector<Ids>{{1, 2, 1, 3, 1},
-                                   {1, 3, 1, 3, 1},
-                                   {1, 6, 4, 2, 1},
-                                   {2, 3, 1, 3, 1},
-                                   {2, 6, 1, 3, 1},
-                                   {3, 6, 1, 1, 3}}));
+    all.push_back({c.interfaces, {static_cast<std::int64_t>(c.pairs), c.part, c.other}});
+  // 1 and 6: 2-1 2-2 3-1 3-2; 2-2 is the same turned. They are named together beside others.
+  EXPECT_EQ(all, (std::vector<std::pair<Ids, Ids>>{{{1, 6}, {4, 2, 1}},
+                                                   {{1, 2, 6}, {1, 3, 1}},
+                                                   {{1, 3, 6}, {1, 3, 1}},
+                                                   {{2, 3}, {1, 3, 1}}}));
 }
 
 TEST(PartsView, AContactWithOneSideIsOneWithItself) {

@@ -83,6 +83,14 @@ def cases():
     yield "1024 segments, 116000 nodes, Gapmin 1000", wide + type7(1, 2, 1, 1000.0), ("--geometry",), ["DK390", "/INTER/TYPE7 1"]
     offsets = b"".join(b"//SUBMODEL/%d\nsub\n2147483647%10d\n" % (k, 2147483647) for k in range(1, 200)) + b"//ENDSUB\n" * 199
     yield "offsets of submodels that add up beyond 32 bits", small + offsets, (), ["DK335"]
+    again = small + b"/GRNOD/NODE/5\nfew\n         1         2         3\n"
+    yield "48000 conditions on one group", again + b"".join(b"/BCS/%d\nb\n   111 111         0         5\n" % k for k in range(1, 48001)), (), []
+    yield "24000 sub-interfaces", again + type7(1, 2, 1, 1.0) + b"".join(b"/INTER/SUB/%d\ns\n         1         2         1\n" % k
+                                                                     for k in range(2, 24002)), (), []
+    on_it = b"/SHELL/1\n" + b"".join(b"%10d%10d%10d%10d%10d\n" % (k, 1, 2, 7, 6) for k in range(10000, 58000))
+    yield "48000 shells on one another", small + on_it + type7(1, 2, 1, 1.0), ("--geometry",), []
+    for value in ("NaN", "inf", "-inf"):
+        yield "a Gapmin of %s" % value, small + type7(1, 2, 1, value), ("--geometry",), ["DK380"]
     yield "ids beyond 64 bits", small + b"/GRNOD/NODE/%s\nwide\n9999999999\n" % (b"9" * 60), (), ["DK335"]
 
 
@@ -148,7 +156,8 @@ def main():
     c = Checks()
     folder = tempfile.mkdtemp(prefix="deck-bounds-")
     try:
-        verbs = [v for v in (("lint", "--geometry"), ("params",), ("gaps",), ("cycle",), ("fix", "--strategy", "move-nodes"),
+        verbs = [v for v in (("lint", "--geometry"), ("params",), ("parts",), ("gaps",), ("cycle",), ("fix", "--strategy", "move-nodes"),
+                             ("fix", "--strategy", "reduce-gap"),
                              ("accuracy", "--samples", "3")) if c.has(v[0])]
         for name, text, options, texts in cases():
             deck = os.path.join(folder, "d_0000.rad")

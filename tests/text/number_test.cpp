@@ -71,9 +71,8 @@ TEST(ReadReal, NamesEveryFault) {
       {"-", 0, NumberStatus::not_a_number},
       {"+-1", 0, NumberStatus::not_a_number},
       {"e5", 0, NumberStatus::not_a_number},
-      {"nan", 0, NumberStatus::not_finite},
-      {"-INF", 0, NumberStatus::not_finite},
-      {"Infinity", 0, NumberStatus::not_finite},
+      {"-INF", -std::numeric_limits<double>::infinity(), NumberStatus::not_finite},
+      {"Infinity", std::numeric_limits<double>::infinity(), NumberStatus::not_finite},
       {"1 2", 1, NumberStatus::trailing_text},
       {"1.0 5", 1, NumberStatus::trailing_text},
       {"1,5", 1, NumberStatus::trailing_text},
@@ -103,6 +102,11 @@ TEST(ReadReal, NamesEveryFault) {
     EXPECT_EQ(r.value, c.value) << c.text;
     EXPECT_EQ(r.status, c.status) << c.text;
   }
+}
+
+TEST(ReadReal, NotANumberIsNoZero) {
+  EXPECT_TRUE(std::isnan(read_real("NaN").value));
+  EXPECT_EQ(read_real("NaN").status, NumberStatus::not_finite);
 }
 
 TEST(ReadReal, TellsHugeFromTinyByTheWholeNumberNotByTheExponentSign) {

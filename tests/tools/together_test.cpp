@@ -157,6 +157,13 @@ TEST_F(Together, SettingsThatTheCallReadsAreNoOutput) {
   EXPECT_EQ(read(dir_ / "a/.decklint.toml"), "ignore = [\"DK221\"]\n");
 }
 
+TEST_F(Together, ARefusedOutputMeansThatNoOtherWasWritten) {
+  write(dir_ / "common/x.inc", "# nothing that looks like a deck\n");
+  EXPECT_EQ(deck("gaps a/a_0000.rad --json new.json --csv common/x.inc"), 2);
+  EXPECT_NE(err().find("nothing was written"), std::string::npos) << err();
+  EXPECT_FALSE(fs::exists(dir_ / "new.json"));
+}
+
 TEST_F(Together, WhatABaselineHidesNoMoreIsListed) {
   write(dir_ / "common/x.inc", std::string(contact) + "/TITLE\n\tx\n");
   ASSERT_LE(deck("lint a/a_0000.rad --no-config --write-baseline base.json"), 1);

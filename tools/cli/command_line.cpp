@@ -177,7 +177,7 @@ Option CommandLine::bytes(const std::string& names, std::function<void(std::uint
   option->transform(described_by(size, [size](std::string& text) -> std::string {
     const std::string given = text;
     try {
-      if (size(text).empty()) return {};
+      if (!text.starts_with('-') && size(text).empty()) return {};
     } catch (const CLI::ValidationError&) {  // a unit that it does not know
     }
     return "'" + given + "' is not a number of bytes, such as 500MB or 2GB";
@@ -269,19 +269,23 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 /// The parser gives an option the next word, whatever it is: "--json --threads 1" would write into
-/// a file of that name. Says so; empty: no value is the name of an option of the same verb.
-std::string swallowed(const CLI::App& app, const CLI::App& verb) {
+/// a file of that name, and --compare "" (a variable that is not set) would compare with nothing.
+/// Says so; empty: every value is one.
+std::string no_value(const CLI::App& app, const CLI::App& verb) {
   for (const CLI::Option* option : app.get_options()) {
     if (!option->nonpositional()) continue;
     for (const std::string& word : option->results())
-      if (word.size() > 1 && word.starts_with('-') &&
-          verb.get_option_no_throw(word.substr(0, word.find('='))) != nullptr)
+      if (word.empty())
+        return fmt::format("{} needs a value: {}; it is empty", option->get_name(),
+                           value_name(option));
+      else if (word.size() > 1 && word.starts_with('-') &&
+               verb.get_option_no_throw(word.substr(0, word.find('='))) != nullptr)
         return fmt::format("{} needs a value: {}; '{}' is an option (./{} if it is a file's name)",
                            option->get_name(), value_name(option), word, word);
   }
   for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; }))
     if (group->get_name().empty())
-      if (std::string text = swallowed(*group, verb); !text.empty()) return text;
+      if (std::string text = no_value(*group, verb); !text.empty()) return text;
   return {};
 }
 
@@ -301,7 +305,7 @@ Result<void> CommandLine::parse(std::vector<std::string> words) {
   } catch (const CLI::ParseError& e) {
     return Error{Error::Code::config, what_is_wrong(*app_, e)};
   }
-  if (std::string text = swallowed(*app_, *app_); !text.empty())
+  if (std::string text = no_value(*app_, *app_); !text.empty())
     return Error{Error::Code::config, std::move(text)};
   return {};
 }
@@ -536,7 +540,7 @@ int run_program(int argc, char** argv, const std::string& version, Session& sess
     std::fputs(folded_help(app.help(), terminal_width(2)).c_str(), stderr);
     return exit_usage;
   }
-  if (const std::string text = swallowed(*chosen.front(), *chosen.front()); !text.empty())
+  if (const std::string text = no_value(*chosen.front(), *chosen.front()); !text.empty())
     return wrong_usage(chosen.front()->get_name(), text);
   return actions.at(chosen.front())();
 }

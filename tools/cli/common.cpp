@@ -110,6 +110,16 @@ void add_common(CommandLine& line, CommonOptions& options, bool with_json) {
       .one_each();
 }
 
+std::vector<std::string> handed_on(const CommonOptions& options) {
+  std::vector<std::string> words;
+  for (const std::string& dir : options.include_paths)
+    words.insert(words.end(), {"--include-path", dir});
+  for (const std::string& dir : options.schema_dirs) words.insert(words.end(), {"--schemas", dir});
+  if (options.limits.pair_bytes != Limits{}.pair_bytes)
+    words.insert(words.end(), {"--max-memory", std::to_string(options.limits.pair_bytes)});
+  return words;
+}
+
 void allow_directories(CommandLine& line) {
   line.existing("decks").describe(
       "Starter decks, or directories: all *_0000.rad below them; '-' is standard input");
@@ -140,8 +150,13 @@ void add_verbose(CommandLine& line, CommonOptions& options, const std::string& w
 Result<LoadedSchemas> load_schemas(const CommonOptions& options) {
   if (options.schema_dirs.empty()) return LoadedSchemas();
   SchemaSet set = SchemaSet::built_in();
-  for (const std::string& dir : options.schema_dirs)
+  for (const std::string& dir : options.schema_dirs) {
     if (auto added = set.add_directory(dir); !added) return added.error();
+    std::error_code ec;
+    for (auto it = std::filesystem::directory_iterator(dir, ec);
+         !ec && it != std::filesystem::directory_iterator(); it.increment(ec))
+      if (it->path().extension() == ".json") options.session->remember_read(it->path().string());
+  }
   return LoadedSchemas(std::move(set));
 }
 

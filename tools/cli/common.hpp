@@ -51,6 +51,9 @@ struct CommonOptions {
 
 /// Adds the shared options. With `with_json` false the verb has no --json.
 void add_common(CommandLine& line, CommonOptions& options, bool with_json = true);
+/// Those of the shared options that decide about a result, as words: what a verb is called with
+/// that another one runs.
+std::vector<std::string> handed_on(const CommonOptions& options);
 /// The decks may be directories, too: open_directories() has to be called.
 void allow_directories(CommandLine& line);
 /// Replaces directories by the decks below them. Says what is wrong and returns exit_input, or
@@ -144,9 +147,7 @@ std::size_t text_width();
 /// "deck: note: ..." on standard error.
 void print_note(std::string_view note);
 
-/// No output may replace a file that it must not (see Session::check_output): for the files named
-/// on a command line, before the work begins; "" and "-" are none. Nor may two outputs go to one
-/// place. Says what is wrong and returns exit_usage, or exit_clean.
+/// Session::claim_outputs(): says what is wrong and returns exit_usage, or exit_clean.
 int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths);
 
 /// Collects the JSON documents of a run: one deck gives the document itself; several are the list

@@ -14,6 +14,7 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+#include <fcntl.h>
 #include <unistd.h>
 
 #include "base/shared/escape.hpp"
@@ -29,6 +30,21 @@ void on_bus_error(int) {
   constexpr char text[] = "deck: error: a file changed (became shorter) while it was read\n";
   [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
   _exit(exit_input);
+}
+
+/// The reader of a pipe went away: nobody reads what is still to be written. No signal is ignored,
+/// for programs that are called from here would inherit that.
+void on_closed_pipe(int) { _exit(exit_usage); }
+
+/// The system refuses to let a file grow: the write fails, and who writes says so.
+void on_file_size(int) {}
+
+/// A file that is opened must not become standard input, output or error because these are closed.
+/// What is opened in their places can be neither read nor written, so that it is noticed.
+void fill_closed_streams() {
+  for (const int stream : {0, 1, 2})
+    if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY) < 0)
+      _exit(exit_internal);
 }
 
 /// What no handler is left for, such as an exception where none may pass.
@@ -93,7 +109,10 @@ int main(int argc, char** argv) {
 #ifdef __GLIBC__
   begin_heap_with_large_pages();
 #endif
+  fill_closed_streams();
   std::signal(SIGBUS, on_bus_error);
+  std::signal(SIGPIPE, on_closed_pipe);
+  std::signal(SIGXFSZ, on_file_size);
 #ifdef DECK_LONG_NUMBERS_OF_GMP
   mp_set_memory_functions(gmp_allocate, gmp_reallocate, gmp_free);
 #endif

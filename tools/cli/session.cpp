@@ -115,26 +115,52 @@ Result<void> Session::check_output(const std::string& path, const OutputRules& r
   return refused(path, "it begins as a deck");
 }
 
-int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths) {
+namespace {
+
+/// One name of the place that a path leads to; "": it is no file ("-" is standard output).
+std::string place_of(const std::string& path) {
+  if (path.empty() || path == "-") return path;
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return {};
+  std::error_code ec;
+  std::filesystem::path place = absolute_path(path);
+  constexpr int most_links = 40;
+  for (int k = 0; k < most_links && std::filesystem::is_symlink(place, ec); ++k)
+    place = place.parent_path() / std::filesystem::read_symlink(place, ec);
+  const std::string real = std::filesystem::weakly_canonical(place, ec).string();
+  return ec ? place.string() : real;
+}
+
+Error two_outputs(const std::string& path) {
+  return {Error::Code::config, "two outputs go to " +
+                                   (path == "-" ? std::string("standard output") : path) +
+                                   "; nothing was written. Name another file for one of them"};
+}
+
+}  // namespace
+
+Result<void> Session::claim_outputs(const std::vector<std::string>& paths) {
   std::set<std::string> named;
   for (const std::string& path : paths) {
-    if (auto allowed = options.session->check_output(path); !allowed) {
-      print_error(options, allowed.error().message);
-      return exit_usage;
-    }
-    struct stat status {};
-    const bool device = path != "-" && stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
-    if (path.empty() || device) continue;
-    std::error_code ec;  // one folder may have several names
-    const std::string name = absolute_path(path);
-    const std::string real = std::filesystem::weakly_canonical(name, ec).string();
-    if (named.insert(path == "-" || ec ? name : real).second) continue;
-    print_error(options, "two outputs go to " +
-                             (path == "-" ? std::string("standard output") : path) +
-                             "; name another file for one of them");
-    return exit_usage;
+    if (auto allowed = check_output(path); !allowed) return allowed;
+    const std::string place = place_of(path);
+    if (place.empty()) continue;
+    if (!named.insert(place).second) return two_outputs(path);
+    if (place != "-") claimed_.emplace(place, path);
   }
-  return exit_clean;
+  return {};
+}
+
+Result<void> Session::check_claimed() const {
+  for (const auto& [place, path] : claimed_)
+    if (auto allowed = check_output(path); !allowed) return allowed;
+  return {};
+}
+
+int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths) {
+  const auto claimed = options.session->claim_outputs(paths);
+  if (!claimed) print_error(options, claimed.error().message);
+  return claimed ? exit_clean : exit_usage;
 }
 
 Result<void> Session::write_outputs(const std::vector<OutputFile>& files, const OutputRules& rules,
@@ -145,6 +171,9 @@ Result<void> Session::write_outputs(const std::vector<OutputFile>& files, const 
 
 Result<void> Session::check_outputs(const std::vector<OutputFile>& files,
                                     const OutputRules& rules) const {
+  if (auto claimed = check_claimed(); !claimed) return claimed;
+  for (const OutputFile& f : files)
+    if (!claimed_.empty() && claimed_.contains(place_of(f.path))) return two_outputs(f.path);
   for (const OutputFile& f : files)
     if (auto allowed = check_output(f.path, rules, f.bytes, f.origin); !allowed) return allowed;
   return {};
@@ -174,6 +203,7 @@ bool Session::finish_standard_output() {
 
 Result<void> Session::write_output(const std::string& path, std::string_view bytes) {
   if (path == "-") return write_standard_output(bytes);
+  if (auto claimed = check_claimed(); !claimed) return claimed;
   if (auto allowed = check_output(path, {}, bytes); !allowed) return allowed;
   return write_file_atomic(path, bytes);
 }
@@ -190,6 +220,7 @@ Result<void> Session::write_output(const std::string& path, const MakeText& make
   };
   if (path == "-")
     return pieces([this](std::string_view bytes) { return write_standard_output(bytes); });
+  if (auto claimed = check_claimed(); !claimed) return claimed;
   if (auto allowed = check_output(path); !allowed) return allowed;
   return write_file_atomic(path, pieces);
 }

@@ -49,7 +49,12 @@ class Session {
   Result<void> check_output(const std::string& path, const OutputRules& rules = {},
                             std::optional<std::string_view> bytes = std::nullopt,
                             std::string_view origin = {}) const;
-  /// The same for files with their contents.
+  /// The files that a call is told to write, before its work begins: none may be protected, and no
+  /// two be one. "" and "-" are no files. Every write looks at all of them before it begins: what
+  /// was read by then is protected as well, so that a refusal means that nothing was written.
+  Result<void> claim_outputs(const std::vector<std::string>& paths);
+  Result<void> check_claimed() const;
+  /// The same for files with their contents, none of which may be a claimed one.
   Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRules& rules) const;
   /// Writes bytes to standard output ("-") or atomically to a file.
   Result<void> write_output(const std::string& path, std::string_view bytes);
@@ -61,8 +66,7 @@ class Session {
 
   /// Decks were written: what goes wrong with standard output from now on says so.
   void remember_written() { wrote_decks_ = true; }
-  /// To be called last. False, said once, if not everything could be written to standard output. (A
-  /// reader that went away ends the program by SIGPIPE, as it ends others, unless that is ignored.)
+  /// To be called last. False, said once, if not everything could be written to standard output.
   bool finish_standard_output();
 
  private:
@@ -72,6 +76,7 @@ class Session {
   Result<void> write_standard_output(std::string_view bytes);
 
   std::map<Identity, std::string> files_read_;  ///< by device and inode, with a name of each
+  std::map<std::string, std::string> claimed_;  ///< as named, by place
   bool told_of_standard_output_ = false;        ///< it was said that it cannot be written
   bool wrote_decks_ = false;
 };

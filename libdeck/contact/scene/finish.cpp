@@ -34,6 +34,16 @@ NodeIndex last_lost(const Coordinates& x, int threads, const Items& items,
   return last;
 }
 
+/// The largest gap shows none that is not a number.
+bool gaps_are_finite(const Contact& c) {
+  const auto finite = [](const auto& list) {
+    return std::all_of(list.begin(), list.end(),
+                       [](const auto& item) { return std::isfinite(item.gap); });
+  };
+  return std::isfinite(c.max_gap) && std::isfinite(c.gapmin) && finite(c.secondary) &&
+         finite(c.main) && finite(c.secondary_edges) && finite(c.main_edges);
+}
+
 }  // namespace
 
 Obstacle obstacle_to(const SceneContext& c, const NotEvaluated& not_evaluated,
@@ -61,8 +71,9 @@ Obstacle obstacle_to(const SceneContext& c, const NotEvaluated& not_evaluated,
   if (lost != no_index)
     return {"node " + std::to_string(c.model.nodes.id[lost]) +
             " has a coordinate that is not a finite number"};
-  if (!std::isfinite(contact.max_gap) || !std::isfinite(contact.gapmin))
-    return {"the gap is not a finite number"};
+  if (std::string cell = unusable_cell(*c.model.deck, *contact.inter); !cell.empty())
+    return {std::move(cell), Severity::error, true};
+  if (!gaps_are_finite(contact)) return {"the gap is not a finite number"};
   contact.evaluated = complete;
   return {};
 }

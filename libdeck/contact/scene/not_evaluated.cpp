@@ -3,6 +3,7 @@
 #include "contact/scene/not_evaluated.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "deck/text/rule_id.hpp"
@@ -25,6 +26,17 @@ bool is_evaluated(const DecodedBlock& d) {
 }
 
 }  // namespace
+
+std::string unusable_cell(const Deck& deck, const InterBase& inter) {
+  std::string out;
+  for_each_field(inter, [&]<class T>(std::string_view name, const Effective<T>& e) {
+    if constexpr (std::is_same_v<T, double>)
+      if (out.empty() && e.has_input && !std::isfinite(e.input))
+        out = std::string(name) + " is '" + std::string(trim(deck.sources.text(e.span))) +
+              "', which is not a finite number in working units";
+  });
+  return out;
+}
 
 NotEvaluated::NotEvaluated(const Model& model, Selections& selections)
     : model_(model), selections_(selections) {

@@ -10,6 +10,10 @@
 
 namespace deck::detail {
 
+/// "Gapmin is 'NaN', which is not a finite number in working units": a cell of the card; empty: all
+/// can be used.
+std::string unusable_cell(const Deck& deck, const InterBase& inter);
+
 class NotEvaluated {
  public:
   /// Looks for transforms that are not evaluated here (DK110). Both must outlive this.

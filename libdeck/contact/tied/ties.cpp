@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/scene/not_evaluated.hpp"
 #include "contact/shared/tie_parts.hpp"
 #include "deck/text/rule.hpp"
 
@@ -55,6 +56,7 @@ std::string hindrance(SceneContext& c, const Tie& tie) {
   if (c.model.two_dimensional) return "the deck is two-dimensional";
   if (tie.inter->Isearch.value != 1 && tie.inter->Isearch.value != 2)
     return "Isearch is neither 1 nor 2";
+  if (std::string cell = unusable_cell(*c.model.deck, *tie.inter); !cell.empty()) return cell;
   const Coordinates& x = c.scene.coordinates;
   for (const TiedNode& n : tie.nodes)
     if (!finite(x, n.node)) return "a secondary node has a coordinate that is no finite number";

@@ -57,7 +57,9 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& 
   scene.limits = limits;
   scene.only = std::move(only);
   if (!as_written) {
+    std::set<std::int64_t> known;
     for (const InterBase* inter : interfaces.ordered) {
+      if (!known.insert(inter->id).second) continue;
       if (is_modern(inter->type)) continue;  // they move no node, and Inacti is part of the search
       WhatIf still;
       still.interface_id = inter->id;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "base/shared/count.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
 #include "edit/fix/type_rules.hpp"
@@ -321,10 +323,23 @@ Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOpt
   if (auto why = unevaluated(before, options)) return *why;
   const auto counts = count_interfaces(before, options);
   CellWriter edits(context.deck().sources);
+  std::map<std::int64_t, std::size_t> cards;
+  for (const InterBase* inter : context.interfaces().ordered) ++cards[inter->id];
   std::size_t done = 0;
   for (const InterBase* inter : context.interfaces().ordered) {
     const auto it = counts.find(inter->id);
     if (it == counts.end()) continue;
+    std::size_t& same = cards[inter->id];
+    if (same > 1) {
+      fix.refused.push_back({inter->id,
+                             {},
+                             it->second.deepest,
+                             count(same, "interface has", "interfaces have") +
+                                 " this id: the solver stops; give each its own",
+                             0});
+      same = 0;  // said; a search for each of them would evaluate all of them
+    }
+    if (same == 0) continue;
     if (options.progress) options.progress("gaps", done++, counts.size());
     GapReduction reduction(context, options, *inter);
     if (reduction.solve(before))

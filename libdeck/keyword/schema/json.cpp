@@ -12,6 +12,7 @@
 
 #include "deck/keyword/deck.hpp"
 #include "deck/text/number.hpp"
+#include "text/shared/read_json.hpp"
 
 namespace deck::detail {
 namespace {
@@ -555,6 +556,7 @@ class DuplicateKeys {
 Result<std::vector<Schema>> parse_schemas(std::string_view name, std::string_view text,
                                           bool look_for_twins) {
   try {
+    if (look_for_twins && is_nested_too_deep(text)) throw Wrong{"nested too deep for a schema"};
     DuplicateKeys duplicates;
     const auto json =
         look_for_twins ? Json::parse(text, [&](int, Json::parse_event_t event,

@@ -3,6 +3,7 @@
 #include "model/shared/kinematics.hpp"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "model/mesh/condition_cards.hpp"
 #include "model/mesh/mesh_parts.hpp"
@@ -141,17 +142,17 @@ class Booking {
         book_node(card, static_cast<std::uint32_t>(i), n, keep);
   }
 
-  /// A second skew of a boundary condition is refused and not booked.
+  /// A second skew of a boundary condition is refused and not booked: all that are booked on a node
+  /// have the skew of the last one.
   bool refused(const ConditionCard& card, NodeIndex n) {
     if (card.type != ConditionType::bcs || card.lagrange) return false;
-    for (std::uint32_t e = last_[n]; e != no_index; e = entries_[e].before) {
-      const ConditionCard& other = cards_.cards[entries_[e].source];
-      if (other.type != ConditionType::bcs || other.lagrange || other.system == card.system)
-        continue;
-      out_.forbidden.push_back(
-          {148, n, entries_[e].source, static_cast<std::uint32_t>(&card - cards_.cards.data())});
+    const auto own = static_cast<std::uint32_t>(&card - cards_.cards.data());
+    const auto [last, first] = last_condition_.try_emplace(n, own);
+    if (!first && cards_.cards[last->second].system != card.system) {
+      out_.forbidden.push_back({148, n, last->second, own});
       return true;
     }
+    last->second = own;
     return false;
   }
 
@@ -232,8 +233,9 @@ class Booking {
   const Model& model_;
   ConditionCards cards_;
   Kinematics out_;
-  std::vector<Half> halves_;         ///< two a node
-  std::vector<std::uint32_t> last_;  ///< the last entry of each node
+  std::vector<Half> halves_;                                     ///< two a node
+  std::vector<std::uint32_t> last_;                              ///< the last entry of each node
+  std::unordered_map<NodeIndex, std::uint32_t> last_condition_;  ///< card of type bcs, by node
   std::vector<char> noted_;
   std::vector<Entry> entries_;
 };

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "deck/report/gaps.hpp"
+#include "text/shared/read_json.hpp"
 
 namespace deck {
 namespace {
@@ -123,7 +124,7 @@ bool was_incomplete(const Json& document) {
 
 Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
                                       std::string_view deck_path) {
-  const Json all = Json::parse(json.begin(), json.end(), is_compared, false);
+  const Json all = read_json<Json>(json, is_compared);
   if (all.is_discarded()) return wrong(path, "this is not JSON");
   EarlierGaps out;
   const Json* document = is_gaps(all) ? &all : nullptr;

@@ -159,7 +159,8 @@ std::string parts_json(const LoadedDeck& loaded, bool all) {
   json.key("repeated_contacts").begin_array();
   for (const detail::RepeatedContacts& c : view.repeated) {
     json.begin_object(true).key("interfaces").begin_array(true);
-    json.value(c.first).value(c.second).end_array();
+    for (const std::int64_t id : c.interfaces) json.value(id);
+    json.end_array();
     json.field("pairs", c.pairs).key("parts").begin_array(true);
     json.value(c.part).value(c.other).end_array().end_object();
   }

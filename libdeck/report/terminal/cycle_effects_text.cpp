@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
+#include "base/shared/length_text.hpp"
 #include "report/cycle_costs.hpp"
 #include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
@@ -112,6 +114,7 @@ std::string joined_effects(const std::vector<EffectLine>& lines) {
 
 std::string change_of(double with, double without) {
   if (with == without) return "same";
+  if (!std::isfinite(with) || !std::isfinite(without)) return std::string(not_computed);
   if (with == 0.0) return "new";
   return fmt::format("{:+.2g} %", 100.0 * (without - with) / with);
 }
@@ -142,10 +145,9 @@ std::string without_text(const CycleInput& input, const CycleTextOptions& option
   const auto row = [&](const cycle::InterfaceSummary& s, bool first) {
     const double energy = s.elastic_energy + s.friction_energy + s.damping_energy;
     table.row({first ? std::to_string(s.id) : "", first ? fmt::format("TYPE{}", s.inter->type) : "",
-               first ? "with" : "without", fmt::format("{:.4g}", s.force_sum),
-               fmt::format("{:.4g}", energy),
-               s.contact_dt < 1e30 ? fmt::format("{:.4g}", s.contact_dt) : "-",
-               fmt::format("{:.4g}", s.largest_acceleration)});
+               first ? "with" : "without", figure_text(s.force_sum), figure_text(energy),
+               s.contact_dt < 1e30 ? figure_text(s.contact_dt) : "-",
+               figure_text(s.largest_acceleration)});
   };
   std::vector<std::int64_t> same;
   for (std::size_t k = 0; k < with.size(); ++k) {
@@ -165,9 +167,9 @@ std::string without_text(const CycleInput& input, const CycleTextOptions& option
   if (table.size() == 0 && input.options.dt12 == 0.0)
     out += "  (what slides or rubs shows with --dt and --velocity)\n";
   const cycle::SceneOutcome &a = *input.outcome, &b = *input.without;
-  out +=
-      fmt::format("  largest nodal force {:.4g}, without {:.4g} ({})\n", a.largest_nodal_force,
-                  b.largest_nodal_force, change_of(a.largest_nodal_force, b.largest_nodal_force));
+  out += fmt::format("  largest nodal force {}, without {} ({})\n",
+                     figure_text(a.largest_nodal_force), figure_text(b.largest_nodal_force),
+                     change_of(a.largest_nodal_force, b.largest_nodal_force));
   if (a.contact_dt < 1e30 || b.contact_dt < 1e30)
     out += fmt::format("  time step of contact {:.4g}, without {:.4g} ({})\n", a.contact_dt,
                        b.contact_dt, change_of(a.contact_dt, b.contact_dt));

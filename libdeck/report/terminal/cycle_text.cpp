@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "base/shared/escape.hpp"
+#include "base/shared/length_text.hpp"
 #include "cycle/shared/step_scale.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/cycle_costs.hpp"
@@ -32,7 +33,9 @@ std::string node_text(const Model& model, NodeIndex n) {
   return n == no_index ? "-" : fmt::format("{}", model.node_id(n));
 }
 
-std::string step_text(double dt) { return dt < 1e30 ? fmt::format("{:.4g}", dt) : "-"; }
+/// Of a step of 1e30, and of a share of it.
+bool is_no_limit(double dt) { return dt >= 1e29; }
+std::string step_text(double dt) { return is_no_limit(dt) ? "-" : figure_text(dt); }
 
 double size(const std::array<double, 3>& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -116,7 +119,7 @@ std::string criteria_table(const CycleInput& input, const CycleTextOptions& opti
                      [](const auto& a, const auto& b) { return a.radius < b.radius; });
     for (std::size_t i = 0; i < std::min<std::size_t>(10, list.size()); ++i)
       table.row({fmt::format("{}", o.contact->inter->id), node_text(model, list[i].node),
-                 fmt::format("{:.6g}", list[i].radius), fmt::format("{:.4g}", list[i].penetration),
+                 fmt::format("{:.6g}", list[i].radius), figure_text(list[i].penetration),
                  list[i].angle < 1e30 ? fmt::format("{:.6g}", list[i].angle) : "-"});
   }
   return table.size() > 0 ? table.fitted(options.width, options.color, 2) : std::string();
@@ -161,8 +164,8 @@ std::string steps_text(const CycleInput& input, const CycleTextOptions& options)
       sum.elastic_energy += c.elastic_energy;
     }
     table.row({fmt::format("{}", k), fmt::format("{:.6g}", s.lines[k].time),
-               fmt::format("{}", sum.pairs_with_force), fmt::format("{:.4g}", sum.force_sum),
-               fmt::format("{:.4g}", sum.elastic_energy), fmt::format("{}", sum.pairs_tied),
+               fmt::format("{}", sum.pairs_with_force), figure_text(sum.force_sum),
+               figure_text(sum.elastic_energy), fmt::format("{}", sum.pairs_tied),
                fmt::format("{}", sum.removed)});
   }
   std::string out =
@@ -224,15 +227,14 @@ std::string contact_table(const CycleInput& input, const CycleTextOptions& optio
         part ? "" : c.inter->title};
     if (all) cells.emplace_back(fmt::format("{}", s.pairs_in_reach));
     cells.emplace_back(fmt::format("{}", s.pairs_with_force));
-    cells.emplace_back(fmt::format("{:.4g}", s.force_sum));
-    if (all) cells.emplace_back(fmt::format("{:.4g}", s.largest_pair_force));
-    cells.emplace_back(
-        fmt::format("{:.4g}", all ? s.elastic_energy
-                                  : s.elastic_energy + s.friction_energy + s.damping_energy));
+    cells.emplace_back(figure_text(s.force_sum));
+    if (all) cells.emplace_back(figure_text(s.largest_pair_force));
+    cells.emplace_back(figure_text(all ? s.elastic_energy
+                                       : s.elastic_energy + s.friction_energy + s.damping_energy));
     if (all) {
-      cells.emplace_back(fmt::format("{:.4g}", s.friction_energy));
-      cells.emplace_back(fmt::format("{:.4g}", s.damping_energy));
-      cells.emplace_back(fmt::format("{:.4g}", s.largest_acceleration));
+      cells.emplace_back(figure_text(s.friction_energy));
+      cells.emplace_back(figure_text(s.damping_energy));
+      cells.emplace_back(figure_text(s.largest_acceleration));
       cells.emplace_back(node_text(model, s.acceleration_node));
     }
     const bool limits = s.contact_dt < s.structure_dt;
@@ -249,7 +251,7 @@ std::string contact_table(const CycleInput& input, const CycleTextOptions& optio
     std::vector<const cycle::ContactOutcome*> list;
     for (const std::size_t i : places) list.push_back(&input.outcome->contacts[i]);
     const bool idle = std::all_of(list.begin(), list.end(), [](const cycle::ContactOutcome* o) {
-      return o->pairs_in_reach == 0 && o->step.dt >= 1e30 &&
+      return o->pairs_in_reach == 0 && is_no_limit(o->step.dt) &&
              (o->contact->dropped || state_words(*o).empty());
     });
     if (idle && !all) {
@@ -282,8 +284,8 @@ std::string singular_table(const CycleInput& input, const CycleTextOptions& opti
   for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 10); ++i) {
     const auto& [o, p] = all[i];
     table.row({fmt::format("{:.3g} %", 100 * left(*p)), fmt::format("{:.6g}", p->gap),
-               fmt::format("{:.6g}", p->distance), fmt::format("{:.4g}", size(p->force)),
-               fmt::format("{:.4g}", p->k_nodal), fmt::format("{}", o->contact->inter->id),
+               fmt::format("{:.6g}", p->distance), figure_text(size(p->force)),
+               figure_text(p->k_nodal), fmt::format("{}", o->contact->inter->id),
                secondary_text(model, *o->contact, *p), main_text(model, *o->contact, *p)});
   }
   return table.fitted(options.width, options.color, 2);
@@ -329,7 +331,7 @@ std::string step_lines(const CycleInput& input) {
                        model.family(o.structure.kind).id[o.structure.element], cycle::step_scale,
                        o.structure.dt);
   out += "  contact    ";
-  if (o.contact_dt >= 1e30) return out + no_limit_text(o) + "\n";
+  if (is_no_limit(o.contact_dt)) return out + no_limit_text(o) + "\n";
   const char* why = o.contact_dt_source == cycle::StepLimit::Source::nodal
                         ? "contact stiffness against nodal mass"
                     : o.contact_dt_source == cycle::StepLimit::Source::kinematic

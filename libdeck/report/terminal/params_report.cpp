@@ -1,17 +1,20 @@
 // Tables and JSON of `deck params`.
 #include "report/shared/params_report.hpp"
 #include "base/shared/escape.hpp"
+#include "base/shared/length_text.hpp"
 #include "deck/contact/resolve.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "deck/text/number.hpp"
 #include "report/shared/json.hpp"
 #include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {
@@ -29,7 +32,9 @@ std::vector<std::pair<std::string_view, double>> by_role(const ParamsInput& in,
 }
 
 std::string cell_text(std::int64_t v) { return std::to_string(v); }
-std::string cell_text(double v) { return shortest(v); }
+std::string cell_text(double v) {
+  return std::isfinite(v) ? shortest(v) : std::string(not_computed);
+}
 std::string cell_text(const std::string& v) { return v; }
 
 Tone tone_of(Origin origin) {
@@ -86,6 +91,15 @@ bool wanted(const ParamsInput& in, const InterBase& inter, std::string_view name
   return !options.changed_only || changed_on_card(in, inter, name, e);
 }
 
+/// What the card says: a cell without a finite number as it is written.
+template <class T>
+std::string input_text(const Deck& deck, const Effective<T>& e) {
+  if (!e.has_input) return {};
+  if constexpr (std::is_same_v<T, double>)
+    if (!std::isfinite(e.input)) return std::string(detail::trim(deck.sources.text(e.span)));
+  return cell_text(e.input);
+}
+
 void write_value(JsonWriter& json, std::int64_t v) { json.value(v); }
 void write_value(JsonWriter& json, double v) { json.value(v); }
 void write_value(JsonWriter& json, const std::string& v) { json.value(v); }
@@ -94,7 +108,9 @@ template <class T>
 void json_field(JsonWriter& json, const ParamsInput& in, const InterBase& inter,
                 std::string_view name, const Effective<T>& e) {
   json.key(name).begin_object(true).key("input");
-  if (e.has_input)
+  if (e.has_input && !std::isfinite(as_number(e.input)))
+    json.value(input_text(in.loaded.deck(), e));
+  else if (e.has_input)
     write_value(json, e.input);
   else
     json.null();
@@ -175,7 +191,7 @@ TextTable params_table(const ParamsInput& in, const InterBase& inter,
       if (!wanted(in, inter, name, e, options)) return;
       table.row(
           {std::string(name),
-           e.has_input ? cell_text(e.input) : std::string("-"),
+           e.has_input ? input_text(in.loaded.deck(), e) : std::string("-"),
            {effective_text(in, inter, name, e),
             e.origin == Origin::card ? Tone::bold : Tone::plain},
            {to_string(e.origin), tone_of(e.origin)},
@@ -293,8 +309,7 @@ std::string params_csv(const ParamsInput& in, const ParamsTextOptions& options) 
         const Position p = e.span.valid() ? in.loaded.deck().sources.position(e.span) : Position{};
         out += fmt::format(
             "{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_text(in.loaded.path()), inter->id,
-            inter->type, csv_text(inter->title), name,
-            e.has_input ? csv_text(cell_text(e.input)) : "",
+            inter->type, csv_text(inter->title), name, csv_text(input_text(in.loaded.deck(), e)),
             csv_text(effective_text(in, *inter, name, e)), to_string(e.origin),
             e.span.valid() ? csv_text(in.loaded.deck().sources[e.span.file].path()) : "",
             e.span.valid() ? std::to_string(p.line) : "",

@@ -5,6 +5,7 @@
 
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
+#include "base/shared/length_text.hpp"
 #include "deck/text/number.hpp"
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
@@ -15,7 +16,7 @@
 namespace deck {
 namespace {
 
-std::string six_digits(double v) { return fmt::format("{:.6g}", v); }
+std::string six_digits(double v) { return figure_text(v, 6); }
 
 std::string known_number(double v) { return std::isnan(v) ? "?" : v == 0.0 ? "" : six_digits(v); }
 std::string part_step(double dt) { return dt >= 1e29 ? "" : six_digits(dt); }
@@ -69,15 +70,18 @@ void summary(const LoadedDeck& loaded, const detail::PartsView& view, std::strin
   constexpr std::size_t most_repeated = 5;
   for (std::size_t i = 0; i < std::min(most_repeated, view.repeated.size()); ++i) {
     const detail::RepeatedContacts& c = view.repeated[i];
-    out += "Contacts " + std::to_string(c.first) + " and " + std::to_string(c.second) +
-           " cover the same " + count(c.pairs, "pair", "pairs") + " of parts" +
+    const std::string all = c.interfaces.size() == 2 ? std::to_string(c.interfaces[0]) + " and " +
+                                                           std::to_string(c.interfaces[1])
+                                                     : list(c.interfaces, 8);
+    out += "Contacts " + all + " cover the same " + count(c.pairs, "pair", "pairs") + " of parts" +
            (c.pairs > 1 ? ", for example " : ": ") +
            (c.part == c.other ? std::to_string(c.part) + " with itself"
                               : std::to_string(c.part) + " and " + std::to_string(c.other)) +
            "\n";
   }
   if (view.repeated.size() > most_repeated)
-    out += count(view.repeated.size() - most_repeated, "more pair", "more pairs") +
+    out += (view.repeated.size() < detail::most_repeated_contacts ? "" : "At least ") +
+           count(view.repeated.size() - most_repeated, "more set", "more sets") +
            " of contacts that cover the same parts (--json lists them)\n";
   if (k.conflicts > 0)
     out += count(k.conflicts, "conflicting condition", "conflicting conditions") +
@@ -139,7 +143,9 @@ std::string parts_csv(const LoadedDeck& loaded) {
     const Part& part = model.parts[p];
     const detail::PartView& v = view.parts[p];
     const PartFigures& f = mesh.parts[p];
-    const auto add = [&](double x) { out += "," + (std::isnan(x) ? std::string() : shortest(x)); };
+    const auto add = [&](double x) {
+      out += "," + (std::isfinite(x) ? shortest(x) : std::string());
+    };
     out += std::to_string(part.id) + "," + csv_text(part.title) + "," + csv_text(elements_text(v)) +
            "," + std::to_string(part.mat_id) + "," + std::to_string(part.prop_id);
     add(v.thickness);

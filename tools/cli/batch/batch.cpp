@@ -71,10 +71,7 @@ Result<BatchTask> parse_task(const BatchOptions& o) {
     if (line.given(name)) return refuse(name + " is not for a batch");
   if (line.existing("decks").count() != 1) return refuse("decks are named after the options");
   parse_writing(task, line);
-  for (const std::string& dir : o.common.include_paths)
-    task.options.insert(task.options.end(), {"--include-path", dir});
-  for (const std::string& dir : o.common.schema_dirs)
-    task.options.insert(task.options.end(), {"--schemas", dir});
+  task.options = handed_on(o.common);
   if (o.common.require_examined && task.verb.name != "convert")
     task.options.push_back("--require-examined");
   task.options.insert(task.options.end(), task.words.begin(), task.words.end());

@@ -222,9 +222,12 @@ std::string summary_table(const Json& s, std::size_t width, bool color) {
   std::string out;
   if (!rows.empty()) {
     const std::vector<Field> fields = fields_of(rows);
-    // Where there are numbers only what did not get through needs words.
+    // Where numbers say why a deck is listed no words are needed.
     const auto what = [&](const Row& r) {
-      return fields.empty() || !r.got_through ? r.what : std::string();
+      const bool counted =
+          r.level->name == "penetrates" ||
+          (r.level->name != "stops" && r.number("errors") + r.number("warnings") > 0);
+      return !fields.empty() && r.got_through && counted ? std::string() : r.what;
     };
     std::vector<TextTable::Column> columns = {{"deck"}, {"status"}};
     for (const Field& f : fields) columns.push_back({f.title, f.align});

@@ -6,6 +6,7 @@
 #include "base/shared/hash.hpp"
 #include "deck/text/source.hpp"
 #include "report/shared/json.hpp"
+#include "text/shared/read_json.hpp"
 
 namespace deck::cli {
 namespace fs = std::filesystem;
@@ -45,7 +46,7 @@ std::string record_text(const Record& r) {
 
 std::optional<Record> parse_record(std::string_view text) {
   try {
-    const Json json = Json::parse(text);
+    const Json json = read_json<Json>(text);
     Record r;
     visit_record(r, [&](const char* name, auto& value) { json.at(name).get_to(value); });
     (void)worst_code(r.lines);

@@ -22,7 +22,10 @@ Result<void> write_result(const BatchOptions& o, const std::string& name, std::s
   WriteOptions options;
   rules.follow_links = options.follow_links = false;
   options.sync = sync;
-  return o.common.session->write_outputs({{o.in_directory(name), bytes}}, rules, options);
+  const OutputFile file{o.in_directory(name), bytes};
+  if (auto allowed = o.common.session->check_output(file.path, rules, bytes); !allowed)
+    return allowed;
+  return write_files_atomic({file}, options);
 }
 
 void remove_result(const BatchRun& run, const BatchJob& job) {

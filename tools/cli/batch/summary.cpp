@@ -7,6 +7,7 @@
 #include "common.hpp"
 #include "deck/text/source.hpp"
 #include "report/shared/json.hpp"
+#include "text/shared/read_json.hpp"
 
 namespace deck::cli {
 namespace fs = std::filesystem;
@@ -47,7 +48,7 @@ std::optional<Json> head_of(std::string_view text) {
     if (opens && member == "interfaces" && depth == 2) ++*interfaces;
     return depth != 1 || !opens || member == "summary" || member == "verdict" || member == "gate";
   };
-  const Json document = Json::parse(text, keep, false);
+  const Json document = read_json<Json>(text, keep);
   if (!document.is_object()) return std::nullopt;
   Json head = {{"verdict", nullptr}, {"gate", nullptr}, {"counts", Json::object()}};
   for (const auto& [name, value] : document.items()) {
@@ -145,7 +146,8 @@ Result<Json> merge_shards(const std::string& directory) try {
     if (!name.starts_with("summary-") || !name.ends_with(".json")) continue;
     const auto source = Source::open(it->path().string(), Limits{});
     if (!source) return source.error();
-    parts[name] = Json::parse((*source)->bytes());
+    parts[name] = read_json<Json>((*source)->bytes());
+    if (parts[name].is_discarded()) return refuse(it->path().string() + " is not JSON");
   }
   if (parts.empty()) return refuse("there is no summary-i-of-n.json in " + directory);
   const Json first = parts.begin()->second;

@@ -156,6 +156,7 @@ class GroupWork {
       }
     }
     if (code == exit_clean || (!task_.writes && code == exit_findings)) error.clear();
+    if (refused && code == exit_findings) status = "failed";  // the deck was not written
     if (!task_.writes && head_) status = status_in(task_, code, *head_);
     Json line = deck_line(path, code, error, status);
     if (const std::string& target = head_ ? job_.result : deck.target; !refused && !target.empty())
@@ -164,7 +165,7 @@ class GroupWork {
       if (head_) line[member] = head_->at(member);
     if (task_.writes)
       line["counts"] = {{"changed_files", deck.changed},
-                        {"kept", deck.losses[0]},
+                        {"kept", refused ? 0 : deck.losses[0]},
                         {"approximated", deck.losses[1]},
                         {"dropped", deck.losses[2]},
                         {"undecided", deck.losses[3]}};
@@ -181,7 +182,9 @@ class GroupWork {
     record_.lines.clear();
     for (const std::string& path : job_.decks)
       record_.lines.push_back(line_of(path, refused, first_failed));
-    if (task_.converts()) record_.losses = Json::parse(losses_json(frame_.losses));
+    if (!task_.converts()) return;
+    record_.losses = Json::parse(losses_json(frame_.losses));
+    if (refused) record_.losses["kept"] = Json::array();  // of decks that are not there
   }
 
   Result<void> write_record(bool sync) const {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "report/shared/json.hpp"
+#include "text/shared/read_json.hpp"
 
 namespace deck::lsp {
 namespace {
@@ -146,7 +147,7 @@ void Server::read_messages() {
 
 /// Puts a message into the queue; false: it is the last one.
 bool Server::take(const std::string& content) {
-  Json message = Json::parse(content, nullptr, false);
+  Json message = read_json<Json>(content);
   const Json& method = at(message, {"method"});
   if (method == "$/cancelRequest") {
     const std::string id = at(message, {"params", "id"}).dump();

@@ -8,6 +8,7 @@
 #include "common.hpp"
 #include "contact/shared/what_if_text.hpp"
 #include "deck/contact/view.hpp"
+#include "deck/lint/lint.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/html.hpp"
 #include "report/shared/json.hpp"
@@ -158,6 +159,8 @@ class GapsRun {
       scene_.nodal_stiffness = (o_.all && json_.wanted()) || forces;
       scene_.progress = [&](std::size_t done, std::size_t total) { progress.update(done, total); };
       loaded.set_scene_options(scene_);
+      loaded.scene();
+      report_solver_errors(loaded);
       loaded.findings();
     }
     const Scene& scene = loaded.scene();

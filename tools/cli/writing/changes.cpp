@@ -235,6 +235,7 @@ Result<void> Changes::write_documents(const std::vector<OutputFile>& files, bool
 Result<void> Changes::put(const std::vector<OutputFile>& files, WriteOptions options,
                           const OutputRules& rules) {
   BatchFrame* frame = common_.session->frame;
+  if (auto claimed = common_.session->check_claimed(); !claimed) return claimed;
   if (!choice_.in_place) {
     options.make_directories = true;
     options.below = choice_.directory;

@@ -34,7 +34,8 @@ struct PyDeck {
   }
   std::string path;
   LoadedDeck loaded;
-  std::uint32_t files;  ///< how many sources are the deck's own
+  std::uint32_t files;        ///< how many sources are the deck's own
+  bool errors_known = false;  ///< report_solver_errors() was called
   /// Groups are resolved on demand, by one thread at a time. Locked without the interpreter's lock.
   std::mutex mutex;
 };

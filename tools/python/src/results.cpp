@@ -8,6 +8,7 @@
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 #include "deck/cycle/state.hpp"
+#include "deck/lint/lint.hpp"
 #include "deck/model/coverage.hpp"
 #include "deck/report/gaps.hpp"
 #include "native.hpp"
@@ -85,6 +86,7 @@ ScenePointer contacts_of(const DeckPointer& deck, const std::vector<std::int64_t
   out->deck = deck;
   const py::gil_scoped_release free;
   const std::lock_guard one(deck->mutex);
+  if (!std::exchange(deck->errors_known, true)) report_solver_errors(deck->loaded);
   Diagnostics findings;
   out->scene = loaded.scene_with(options, findings);
   out->crossings = find_crossings(out->scene, options.threads);

@@ -154,6 +154,10 @@ struct LintResult {
 /// All that the rules look at without contacts, which `extra` adds (see check_geometry).
 LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options = {},
                     const std::vector<ExtraCheck>& extra = {});
+/// Adds to findings() the errors that only rules find and that stop the solver: whoever gives a
+/// verdict about contacts has to know of them. Best called when the scene is made; nothing where
+/// an include is missing, which may hold what seems to be wrong.
+void report_solver_errors(LoadedDeck& loaded);
 
 /// Rule, entity and the text of the card with runs of blanks made one: stays the same when lines
 /// move. Sixteen hexadecimal digits.

@@ -14,7 +14,7 @@ enum class NumberStatus : std::uint8_t {
   implicit_exponent,  ///< "1.5-3": read as 1.5e-3
   trailing_text,      ///< a number, then something else; value is the leading number
   not_a_number,       ///< no number at all; the reference solver takes 0
-  not_finite,         ///< "nan", "inf"
+  not_finite,         ///< "nan", "inf": so is the value
   overflow,           ///< beyond the type's range
   underflow,          ///< not zero, but rounds to zero
 };

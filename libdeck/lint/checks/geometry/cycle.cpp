@@ -2,6 +2,7 @@
 // steps below that of the mesh, pairs close to the end of their gap.
 #include <algorithm>
 
+#include "base/shared/length_text.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 #include "deck/text/number.hpp"
 #include "lint/checks/geometry/geometry.hpp"
@@ -38,13 +39,16 @@ bool counts(const cycle::SceneOutcome& outcome, const InterfaceSummary& s) {
 
 void report_force(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s) {
   if (s.pairs_with_force == 0) return;
-  std::string message = fmt::format(
-      "{}: {} with a force before anything moves, {:.4g} in all, {:.4g} at most", summary_name(s),
-      count_text(s.pairs_with_force, "pair"), s.force_sum, s.largest_pair_force);
+  std::string message =
+      fmt::format("{}: {} with a force before anything moves, {} in all, {} at most",
+                  summary_name(s), count_text(s.pairs_with_force, "pair"), figure_text(s.force_sum),
+                  figure_text(s.largest_pair_force));
   if (s.acceleration_node != no_index)
-    message += fmt::format("; node {} starts with an acceleration of {:.4g}",
-                           node_name(run.model(), s.acceleration_node), s.largest_acceleration);
-  if (s.elastic_energy > 0) message += fmt::format("; stored energy {:.4g}", s.elastic_energy);
+    message += fmt::format("; node {} starts with an acceleration of {}",
+                           node_name(run.model(), s.acceleration_node),
+                           figure_text(s.largest_acceleration));
+  if (s.elastic_energy > 0)
+    message += fmt::format("; stored energy {}", figure_text(s.elastic_energy));
   Diagnostic* d = run.report(RuleId::DK401, contact, "Inacti", std::move(message), s.force_sum);
   if (d != nullptr && s.acceleration_node != no_index)
     d->notes.emplace_back(run.model().node_span(s.acceleration_node), "the node pushed most");

@@ -11,6 +11,7 @@
 
 #include "accuracy/shared/effect_cost.hpp"
 #include "deck/contact/crossings.hpp"
+#include "deck/lint/lint.hpp"
 #include "deck/report/html.hpp"
 #include "processor.hpp"
 #include "text/shared/gzip.hpp"
@@ -160,6 +161,7 @@ class CycleRun {
     Evaluation e;
     Result<void> written = evaluate(loaded, e);
     if (!written && e.input.outcome == nullptr) return usage(written.error());
+    report_solver_errors(loaded);
     loaded.findings();
     const Scene& scene = loaded.scene();
     e.crossings = find_crossings(scene, options_.threads);

@@ -48,14 +48,14 @@ const element = (dt: Step) => (dt.element ? `${dt.element.kind} ${dt.element.id}
 function notes(report: Report, doc: PartsDocument): HTMLElement[] {
   const { unconnected: u, total } = doc;
   const units = report.meta.deck.units.working;
-  const touching = doc.repeated_contacts.map((c) => `interfaces ${c.interfaces.join(" and ")} on ${plural(c.pairs, "pair", "pairs")} of parts (for example ${c.parts[0]} and ${c.parts[1]})`);
+  const touching = doc.repeated_contacts.map((c) => `interfaces ${ids(c.interfaces)} on ${plural(c.pairs, "pair", "pairs")} of parts (for example ${c.parts[0]} and ${c.parts[1]})`);
   const lines = [
     `Mass of all elements: ${amount(total.mass)}${units && total.mass !== null ? ` ${units.mass}` : ""}.`,
     total.dt.min !== null && `Smallest time step of an element: ${num(total.dt.min)}${units ? ` ${units.time}` : ""} (${element(total.dt)}).`,
     u.unseen_parts.length > 0 && `No contact or tie sees ${u.unseen_parts.length === 1 ? "part" : `${group(u.unseen_parts.length)} parts:`} ${ids(u.unseen_parts)}.`,
     u.parts.length > 0 && `Without elements: ${u.parts.length === 1 ? "part" : "parts"} ${ids(u.parts)}.`,
     u.nodes > 0 && `${plural(u.nodes, "node belongs", "nodes belong")} to no element.`,
-    touching.length > 0 && `Two contacts act between the same parts: ${touching.slice(0, 3).join("; ")}${touching.length > 3 ? `; and ${touching.length - 3} more` : ""}.`,
+    touching.length > 0 && `Several contacts act between the same parts: ${touching.slice(0, 3).join("; ")}${touching.length > 3 ? `; and ${touching.length - 3} more` : ""}.`,
     ...doc.not_computed.map((n) => `Not computed: ${n.what} (${group(n.count)}): ${n.why}.`),
   ];
   return lines.filter((l) => l !== false).map((l) => h("p", { class: "note" }, l));
