@@ -127,12 +127,10 @@ namespace {
 void find_lost_ties(const EarlierGaps& earlier, const Scene& scene, GapsComparison& out) {
   for (const Contact& c : scene.contacts) {
     const auto before = earlier.tied.find(c.inter->id);
-    if (!c.ties() || before == earlier.tied.end()) continue;
-    std::vector<bool> tied(c.secondary.size(), false);
-    for (const PenetrationRow& row : c.penetrations) tied[row.secondary] = true;
-    for (std::size_t i = 0; i < c.secondary.size(); ++i) {
+    if (before == earlier.tied.end()) continue;
+    for (const std::uint32_t i : untied_secondary(c)) {
       const std::int64_t id = scene.model->node_id(c.secondary[i].node);
-      if (!tied[i] && before->second.contains(id)) out.lost_ties[c.inter].push_back(id);
+      if (before->second.contains(id)) out.lost_ties[c.inter].push_back(id);
     }
   }
   for (const Tie& tie : scene.ties) {

@@ -90,9 +90,9 @@ class GapsRun {
  public:
   explicit GapsRun(const Options& options)
       : o_(options),
-        json_(options.common, "deck/gaps", 1),
+        json_(options.common, "deck/gaps", gaps_version),
         to_baseline_(options.common),
-        baseline_(to_baseline_, "deck/gaps", 1),
+        baseline_(to_baseline_, "deck/gaps", gaps_version),
         gate_(options.gate) {
     to_baseline_.json = o_.write_baseline;
     if (!baseline_.wanted()) return;  // which replaces the old one

@@ -139,7 +139,7 @@ Action setup(CommandLine& line) {
   line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
   line.flag(
       "--ties", o.ties,
-      "Treat ties (TYPE10, TYPE7 with ITIED) like other contacts: nodes that are moved out of "
+      "Treat ties (TYPE10) like other contacts: nodes that are moved out of "
       "their gap are no longer tied. By default ties are not changed; those of a TYPE2 never are");
   add_write_options(line, o.write);
   line.option("--html", o.html,

@@ -125,7 +125,7 @@ struct Today {
 /// Reads and lints all decks. Returns exit_clean, or what is wrong, said.
 int look(const CommonOptions& common, const SchemaSet& schemas, const std::string& gaps_path,
          Today& out) {
-  JsonOutput gaps(common, "deck/gaps", 1);
+  JsonOutput gaps(common, "deck/gaps", gaps_version);
   for (const std::string& path : common.decks) {
     auto loaded = load(path, schemas, common);
     if (!loaded || loaded->incomplete()) {
