@@ -222,9 +222,11 @@ std::string summary_table(const Json& s, std::size_t width, bool color) {
   std::string out;
   if (!rows.empty()) {
     const std::vector<Field> fields = fields_of(rows);
-    // Where there are numbers only what did not get through needs words.
+    // Where there are numbers only what they do not show needs words: what did not get through, and
+    // contacts that are not clean although nothing penetrates.
     const auto what = [&](const Row& r) {
-      return fields.empty() || !r.got_through ? r.what : std::string();
+      const bool hidden = counted(*r.line, "pairs") && r.penetrations() == 0;
+      return fields.empty() || !r.got_through || hidden ? r.what : std::string();
     };
     std::vector<TextTable::Column> columns = {{"deck"}, {"status"}};
     for (const Field& f : fields) columns.push_back({f.title, f.align});
