@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "base/shared/escape.hpp"
 #include "report/diagnostics_common.hpp"
@@ -16,6 +17,7 @@ namespace {
 /// Findings of a rule in all decks.
 struct RuleNumbers {
   std::uint64_t findings = 0, safe = 0, unsafe = 0;
+  std::optional<Severity> severity;  ///< the highest among those that are kept
 };
 
 std::string fixable_text(const RuleNumbers& n) {
@@ -51,6 +53,7 @@ std::string lint_statistics(const std::vector<LintedDeck>& decks, bool color, st
     for (const Diagnostic& d : deck.result->diagnostics) {
       concise_findings::RuleNumbers& n = rules[d.rule];
       ++n.findings;
+      n.severity = n.severity ? std::min(*n.severity, d.severity) : d.severity;
       if (d.fix) ++(d.fix->safe ? n.safe : n.unsafe);
     }
     for (const auto& [rule, n] : deck.result->dropped) rules[rule].findings += n;
@@ -66,7 +69,7 @@ std::string lint_statistics(const std::vector<LintedDeck>& decks, bool color, st
     const Rule& rule = rule_of(id);
     all += n.findings;
     table.row({std::string(id_text(id)), std::to_string(n.findings),
-               concise_findings::fixable_text(n), to_string(rule.severity()), rule.title});
+               concise_findings::fixable_text(n), to_string(n.severity.value_or(rule.severity())), rule.title});
   }
   if (table.size() == 0) return "no findings\n";
   return table.fitted(width, color) + fmt::format("{} {} of {} {}\n", all,
