@@ -305,12 +305,10 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
       out += "\n" + text;
     out += "\n";
   }
-  if (!scene.ties.empty()) {
-    out += heading("Ties").substr(1) + detail::tie_table(scene, options);
-    if (const std::string untied = detail::untied_text(deck, scene, options); !untied.empty())
-      out += heading("Nodes that are not tied") + untied;
-    out += "\n";
-  }
+  if (!scene.ties.empty())
+    out += heading("Ties").substr(1) + detail::tie_table(scene, options) + "\n";
+  if (const std::string untied = detail::untied_text(deck, scene, options); !untied.empty())
+    out += heading("Nodes that are not tied").substr(1) + untied + "\n";
   out += verdict_text(verdict_of(deck, scene, view), options.color);
   if (options.gate != nullptr) out += gate_text(*options.gate);
   return out;

@@ -22,8 +22,8 @@ namespace deck {
 struct FixOptions {
   int threads = 1;
   std::vector<std::int64_t> interfaces;  ///< ids to treat; empty: all
-  /// TYPE10, and TYPE7 with ITIED, tie what lies within their gap: that is no penetration, and
-  /// untreated unless this is set. No other fix may loosen a tie, or make one.
+  /// TYPE10 ties what lies within its gap: that is no penetration, and untreated unless this is
+  /// set. No other fix may loosen a tie, or make one.
   bool ties = false;
   /// Called with what is being done and (done, total); total 0: unknown. May be empty.
   std::function<void(std::string_view step, std::size_t done, std::size_t total)> progress;

@@ -94,7 +94,7 @@ export function interfaces(report: Report): HTMLElement {
       count("pairs", "Pairs", "Penetrating pairs"),
       count("nodes", "Nodes", "Distinct secondary nodes", 3),
       count("edges", "Edges", "Distinct secondary edges", 4),
-      { key: "depth", title: "Deepest", kind: "number", value: (r) => (totals(head(r)).unbounded ? Infinity : totals(head(r)).max_depth), text: (r) => deepest(totals(r)),
+      { key: "depth", title: "Deepest", kind: "number", value: (r) => (totals(head(r)).unbounded ? Infinity : totals(head(r)).max_depth || (clean(head(r)) ? 0 : Number.MIN_VALUE)), text: (r) => deepest(totals(r)),
         cell: (r) => changedCell(deepest(totals(r)), deepest(totals(r, "base"))) },
       { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => totals(head(r)).max_ratio, text: (r) => (totals(r).pairs && !totals(r).unbounded ? percent(totals(r).max_ratio) : "–") },
       ...(report.cycle ? [{ key: "step", title: "Step", hint: "Largest stable time step that the contact allows in the first cycle", kind: "number" as const, rank: 8, value: (r: ContactRow) => step(r) ?? Infinity, text: (r: ContactRow) => (step(r) === null ? "–" : num(step(r)!)) }] : []),
