@@ -185,8 +185,8 @@ class InterfaceTable {
       add(known ? number(t.count.pairs) : "-");
     }
     const auto has = [&](ContactKind kind) {
-      return known && std::any_of(contacts.begin(), contacts.end(),
-                                  [&](const Contact* x) { return x->kind == kind; });
+      return std::any_of(contacts.begin(), contacts.end(),
+                         [&](const Contact* x) { return x->kind == kind && x->evaluated; });
     };
     add(has(ContactKind::node_segment) ? number(t.count.nodes) : "-");
     add(has(ContactKind::edge_edge) ? number(t.count.edges) : "-");

@@ -64,12 +64,16 @@ export function interfaces(report: Report): HTMLElement {
     return dt === null || (least !== null && least < dt) ? least : dt;
   }, null);
   // Where nothing was evaluated no figure is known.
-  const known = (r: ContactRow) => r.contacts.some((c) => report.meta.contacts[c].evaluated);
+  const known = (r: ContactRow, key = "pairs") => {
+    const all = r.contacts.map((c) => report.meta.contacts[c]);
+    const own = all.filter((c) => key === "pairs" || (key === "edges") === (c.kind === "edge_edge"));
+    return (own.length > 0 ? own : all).some((c) => c.evaluated);
+  };
   const clean = (r: ContactRow) => totals(r).pairs === 0 && (inter(r).level === "clean" || report.changed(r.inter));
   const kind = (r: ContactRow) => (r.part ? report.roleText(r.contacts[0]) : `TYPE${inter(r).type}`);
   const count = (key: "pairs" | "nodes" | "edges", title: string, hint: string, rank?: number) => ({
-    key, title, hint, kind: "number" as const, rank, value: (r: ContactRow) => totals(head(r))[key], text: (r: ContactRow) => (known(r) ? group(totals(r)[key]) : "–"),
-    cell: (r: ContactRow) => (known(r) ? changedCell(group(totals(r)[key]), group(totals(r, "base")[key])) : "–"),
+    key, title, hint, kind: "number" as const, rank, value: (r: ContactRow) => totals(head(r))[key], text: (r: ContactRow) => (known(r, key) ? group(totals(r)[key]) : "–"),
+    cell: (r: ContactRow) => (known(r, key) ? changedCell(group(totals(r)[key]), group(totals(r, "base")[key])) : "–"),
   });
   const table = new VirtualTable<ContactRow>(
     [
