@@ -432,7 +432,7 @@ export class Report {
     if (!this.forces || this.settingsDiffer(row.contact)) return null;
     return this.forces[row.contact].get(`${row.secondary}/${row.main}`) ?? null;
   }
-  private settingsDiffer(contact: number): boolean {
+  settingsDiffer(contact: number): boolean {
     const inter = this.meta.contacts[contact].interface;
     return JSON.stringify(this.overrides[inter]) !== JSON.stringify(this.started[inter]);
   }

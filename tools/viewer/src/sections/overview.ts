@@ -69,7 +69,7 @@ export function interfaces(report: Report): HTMLElement {
     const own = all.filter((c) => key === "pairs" || (key === "edges") === (c.kind === "edge_edge"));
     return (own.length > 0 ? own : all).some((c) => c.evaluated);
   };
-  const clean = (r: ContactRow) => totals(r).pairs === 0 && (inter(r).level === "clean" || report.changed(r.inter));
+  const clean = (r: ContactRow) => totals(r).pairs === 0 && (inter(r).level === "clean" || report.settingsDiffer(r.contacts[0]));
   const kind = (r: ContactRow) => (r.part ? report.roleText(r.contacts[0]) : `TYPE${inter(r).type}`);
   const count = (key: "pairs" | "nodes" | "edges", title: string, hint: string, rank?: number) => ({
     key, title, hint, kind: "number" as const, rank, value: (r: ContactRow) => totals(head(r))[key], text: (r: ContactRow) => (known(r, key) ? group(totals(r)[key]) : "–"),
