@@ -221,7 +221,7 @@ void Differ::penetrations() {
     else if (n.depth < was - noise)
       out_.better.push_back(p);
     else
-      ++out_.same_penetrations;
+      out_.same.push_back(p);
   }
   for (const auto& [key, n] : now)
     if (!before.contains(key) && n.depth > nothing)

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/shared/paths.hpp"
+#include "text/shared/read_json.hpp"
 
 namespace deck {
 namespace {
@@ -22,7 +23,7 @@ std::string line_text(const Json& entry) {
   return entry.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Json parsed(std::string_view line) { return Json::parse(line.begin(), line.end(), nullptr, false); }
+Json parsed(std::string_view line) { return read_json<Json>(line); }
 
 const std::string* text_of(const Json& entry, const char* key) {
   if (!entry.is_object()) return nullptr;

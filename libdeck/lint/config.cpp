@@ -35,7 +35,6 @@ struct ParserLost {};
 #include <filesystem>
 
 #include "base/shared/spelling.hpp"
-#include "text/shared/read_json.hpp"
 
 namespace deck {
 namespace fs = std::filesystem;

@@ -148,10 +148,10 @@ std::vector<DiffTable> diff_tables(const DiffSide& a, const DiffSide& b, const D
 
 std::string diff_verdict(const DeckDiff& diff) {
   if (diff.equal())
-    return diff.same_penetrations == 0
+    return diff.same.empty()
                ? "Equal in meaning: no initial penetrations in either."
                : fmt::format("Equal in meaning, with the same {} penetrating nodes and edges.",
-                             diff.same_penetrations);
+                             diff.same.size());
   std::vector<std::string> parts;
   const auto say = [&](std::size_t n, const char* one, const char* many) {
     if (n > 0) parts.push_back(deck::count(n, one, many));

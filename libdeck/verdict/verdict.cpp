@@ -79,6 +79,26 @@ std::string deepest_text(const ContactFacts& f) {
   return out + (worst > 0 ? fmt::format("; worst depth/gap {:.1f} %.", 100 * worst) : ".");
 }
 
+/// Nodes that ties of a type lose: "3 of 412 nodes of TYPE2 7 are not tied.", "2 TYPE10 (7, 8) tie
+/// none of their 12 nodes."
+std::string losses_text(const char* type, const std::vector<TieFacts::Losses>& losses) {
+  constexpr std::size_t most = 5;
+  std::uint64_t of = 0, untied = 0;
+  std::string ids;
+  for (const TieFacts::Losses& l : losses) of += l.nodes, untied += l.untied;
+  for (std::size_t i = 0; i < std::min(most, losses.size()); ++i)
+    ids += fmt::format("{}{}", i == 0 ? "" : ", ", losses[i].id);
+  if (losses.size() > most) ids += fmt::format(" and {} more", losses.size() - most);
+  const bool one = losses.size() == 1;
+  const std::string who = one ? fmt::format("{} {}", type, ids)
+                              : fmt::format("{} {} ({})", losses.size(), type, ids);
+  if (untied == of && of > 1)
+    return one ? fmt::format("{} ties none of its {} nodes.", who, of)
+               : fmt::format("{} {} tie none of their {} nodes ({}).", losses.size(), type, of, ids);
+  return fmt::format("{} of {} of {} {} not tied.", untied, count(of, "node", "nodes"), who,
+                     untied == 1 ? "is" : "are");
+}
+
 void say_penetrations(const ContactFacts& f, Sentences& out) {
   const ContactTotals& t = f.total;
   const VerdictCounts counts = {
@@ -100,6 +120,11 @@ void say_penetrations(const ContactFacts& f, Sentences& out) {
             count(f.unbounded, "pair has", "pairs have") +
                 " an unbounded gap, beyond ten times the model's size.",
             {{"unbounded", f.unbounded}});
+  if (t.round_off > 0)
+    out.add("round_off",
+            count(t.round_off, "pair penetrates", "pairs penetrate") +
+                " by the solver's round-off only.",
+            {{"round_off", t.round_off}});
   if (t.solver_errors > 0)
     out.add("on_segment",
             fmt::format("The solver will stop: {} exactly on a segment (error 611/612).",
@@ -116,26 +141,12 @@ void say_penetrations(const ContactFacts& f, Sentences& out) {
                         count(t.tied.nodes, "node", "nodes")),
             {{"tied_pairs", t.tied.pairs}, {"tied_nodes", t.tied.nodes}});
   if (t.untied > 0)
-    out.add("untied",
-            fmt::format("{} not tied: no segment is within reach.",
-                        count(t.untied, "node of a TYPE10 is", "nodes of a TYPE10 are")),
-            {});
+    out.add("untied", losses_text("TYPE10", f.untied), {});
   if (const std::uint64_t n = t.crossed_elements.value_or(0); n > 0)
     out.add("crossed",
             fmt::format("{}: an edge of the secondary side passes through a main segment.",
                         count(n, "crossed element", "crossed elements")),
             {{"crossed_elements", n}});
-}
-
-/// "TYPE2 7", "3 TYPE2 (7, 8, 9)"
-std::string names_of(const std::vector<TieFacts::Losses>& losses) {
-  constexpr std::size_t most = 5;
-  if (losses.size() == 1) return fmt::format("TYPE2 {}", losses.front().id);
-  std::string ids;
-  for (std::size_t i = 0; i < std::min(most, losses.size()); ++i)
-    ids += fmt::format("{}{}", i == 0 ? "" : ", ", losses[i].id);
-  if (losses.size() > most) ids += fmt::format(" and {} more", losses.size() - most);
-  return fmt::format("{} TYPE2 ({})", losses.size(), ids);
 }
 
 void say_ties(const TieFacts& f, Sentences& out) {
@@ -146,12 +157,7 @@ void say_ties(const TieFacts& f, Sentences& out) {
                         count(f.not_evaluated, "TYPE2", "TYPE2")),
             {{"ties_not_evaluated", f.not_evaluated}});
   if (f.untied > 0) {
-    std::uint64_t of = 0;
-    for (const TieFacts::Losses& l : f.losses) of += l.nodes;
-    out.add("untied_type2",
-            fmt::format("{} of {} of {} {} not tied.", f.untied, count(of, "node", "nodes"),
-                        names_of(f.losses), f.untied == 1 ? "is" : "are"),
-            {{"untied_type2_nodes", f.untied}});
+    out.add("untied_type2", losses_text("TYPE2", f.losses), {{"untied_type2_nodes", f.untied}});
   } else if (f.nodes > 0 && f.not_evaluated < f.ties) {
     out.add("tied_type2",
             fmt::format("{} of {} tied.", count(f.tied, "node", "nodes"),
@@ -323,7 +329,11 @@ std::uint64_t Verdict::count(std::string_view name) const {
 ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
   ContactFacts out;
   out.contacts = scene.contacts.size();
-  for (const Contact& c : scene.contacts) add_state(out, c);
+  for (const Contact& c : scene.contacts) {
+    add_state(out, c);
+    if (const std::size_t untied = untied_secondary(c).size(); untied > 0)
+      out.untied.push_back({c.inter->id, c.secondary.size(), untied});
+  }
   out.total = view.total;
   if (scene.examined == Examined::contacts_and_ties) out.ties = tie_facts(scene.ties);
   const double largest = largest_bounded_gap(*scene.model);

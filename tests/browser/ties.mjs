@@ -142,12 +142,47 @@ async function leftOut(browser, scratch) {
   const json = gaps(path);
   same("left out: the verdict is that of the JSON", await p.$eval("#verdict", (e) => e.dataset.verdict), json.verdict.level);
   check("left out: the colour is not green", await p.$eval("#verdict", (e) => e.dataset.level !== "good"));
-  check("left out: the interface says so", (await cells(p, ".interfaces-table")).some((r) => r.action === "not evaluated"));
+  check("left out: the interface says so", (await cells(p, ".interfaces-table")).some((r) => r.action.includes("not evaluated")));
+  await p.close();
+}
+
+/** A TYPE10 that ties nothing is as visible as a TYPE2. */
+async function untied10(browser, scratch) {
+  const nothing = ["--what-if", "1:Gapmin=0.001"];
+  const json = gaps(sample("tied_layer"), ...nothing);
+  const contact = json.interfaces.find((i) => i.id === 1).contacts[0];
+  const file = join(scratch, "untied10.html");
+  deck("gaps", sample("tied_layer"), "--quiet", "--html", file, ...nothing);
+  const p = await open(browser, file);
+  const lost = contact.untied_nodes.length;
+  check("TYPE10: nodes are not tied", lost > 0, JSON.stringify(json.verdict));
+  same("TYPE10: the chip counts them", parseInt((await p.$eval("[data-chip='Not tied']", (e) => e.textContent)).replace(/\D/g, "")), lost);
+  same("TYPE10: the verdict counts them", json.verdict.counts.untied_nodes, lost);
+  same("TYPE10: they are listed", await p.$eval("#ties h3 .count", (e) => parseInt(e.textContent.replace(/\D/g, ""))), lost);
+  check("TYPE10: nothing says that every node is tied", !(await p.evaluate(() => /Every node is tied/.test(document.body.innerText))));
+  check("TYPE10: its row is no clean one", await p.$$eval(".interfaces-table .vt-row", (rows) => rows.some((r) => r.textContent.includes("not tied") && !r.classList.contains("quiet"))));
+  clean("TYPE10", p);
+  await p.close();
+}
+
+/** The page of a comparison counts as its text and JSON do. */
+async function counts(browser, scratch) {
+  const changed = join(scratch, "wider_0000.rad");
+  writeFileSync(changed, readFileSync(sample("too_close"), "utf8").replace("                1.25", "                2.25"));
+  const file = join(scratch, "diff.html");
+  const json = JSON.parse(deck("diff", sample("too_close"), changed, "--json", "-", "--quiet"));
+  deck("diff", sample("too_close"), changed, "--quiet", "--html", file);
+  const p = await open(browser, file);
+  const chips = await p.$$eval(".compare .chip", (c) => Object.fromEntries(c.map((e) => [e.textContent.replace(/^[\d\s]+/, "").trim(), Number(e.textContent.replace(/\D/g, ""))])));
+  const list = json.penetrations;
+  same("diff: the chips are the counts of the JSON", [chips.new, chips.worse, chips.better, chips.same, chips.solved], [list.new.length, list.worse.length, list.better.length, list.same, list.gone.length]);
   await p.close();
 }
 
 export async function tiesAndModern(browser, scratch, shot) {
   await ties(browser, scratch, shot);
+  await untied10(browser, scratch);
+  await counts(browser, scratch);
   await modern(browser, scratch, shot);
   await sideViews(browser, scratch);
   await leftOut(browser, scratch);

@@ -5,7 +5,7 @@ import { check, gapsLater, open, random } from "./support.mjs";
 
 /** Rows of a contact in the JSON, as the page names them. */
 function rowsOf(contact) {
-  return contact.penetrations.map((p) => ({
+  return [...contact.penetrations, ...(contact.tied_pairs ?? [])].map((p) => ({
     secondary: p.edge ?? [p.node],
     main: p.main_edge ?? (p.segment[2] === p.segment[3] ? p.segment.slice(0, 3) : p.segment),
     depth: p.penetration,

@@ -21,9 +21,10 @@ void print_defaults(const deck::LoadedDeck& loaded) {
 void print_gaps(const deck::LoadedDeck& loaded) {
   const deck::Scene& scene = loaded.scene();
   for (const deck::Contact& contact : scene.contacts)
-    std::printf("interface %lld: gaps up to %g, %zu penetrations%s\n",
+    std::printf("interface %lld: gaps up to %g, %zu %s%s\n",
                 static_cast<long long>(contact.inter->id), contact.max_gap,
-                contact.penetrations.size(), contact.evaluated ? "" : " (not evaluated)");
+                contact.penetrations.size(), contact.ties() ? "pairs tied" : "penetrations",
+                contact.evaluated ? "" : " (not evaluated)");
 }
 
 void print_penetrations(const deck::LoadedDeck& loaded) {

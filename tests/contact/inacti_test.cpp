@@ -357,19 +357,19 @@ TEST(OnSurface, EveryAccuracyTellsItFromBeingNear) {
 }
 
 TEST(OnSurface, SolverStopsUnlessTheCardAvoidsIt) {
-  const auto code = [](const std::string& card) {
+  const auto action = [](const std::string& card) {
     const Built b(on_surface(card));
-    return on_surface_error(b.contact());
+    return std::string(to_string(b.row(b.contact(), 101)->action));
   };
-  EXPECT_EQ(code("@/INTER/TYPE7/1 Gapmin=1"), 612);
-  EXPECT_EQ(code("@/INTER/TYPE7/1 Gapmin=1 Inacti=1000"), 612);
-  EXPECT_EQ(code("@/INTER/TYPE7/1 Gapmin=1 Inacti=5"), 611);
-  EXPECT_EQ(code("@/INTER/TYPE7/1 Gapmin=1 Inacti=3"), 611);
-  EXPECT_EQ(code("@/INTER/TYPE7/1 Gapmin=1 Inacti=1"), 0);
-  EXPECT_EQ(code("@/INTER/TYPE7/1 Gapmin=1 Inacti=2"), 0);
-  EXPECT_EQ(code("@/INTER/TYPE7/1 Gapmin=1 Inacti=6 Fpenmax=0.5"), 0);
-  EXPECT_EQ(code("@/INTER/TYPE10/1 Gap=1"), 612);
-  EXPECT_EQ(code("@/INTER/TYPE10/1 Gap=1 ITIED=1"), 0);
+  EXPECT_EQ(action("@/INTER/TYPE7/1 Gapmin=1"), "error-612");
+  EXPECT_EQ(action("@/INTER/TYPE7/1 Gapmin=1 Inacti=1000"), "error-612");
+  EXPECT_EQ(action("@/INTER/TYPE7/1 Gapmin=1 Inacti=5"), "error-611");
+  EXPECT_EQ(action("@/INTER/TYPE7/1 Gapmin=1 Inacti=3"), "error-611");
+  EXPECT_EQ(action("@/INTER/TYPE7/1 Gapmin=1 Inacti=1"), "node-stiffness-zero");
+  EXPECT_EQ(action("@/INTER/TYPE7/1 Gapmin=1 Inacti=2"), "segment-stiffness-zero");
+  EXPECT_EQ(action("@/INTER/TYPE7/1 Gapmin=1 Inacti=6 Fpenmax=0.5"), "node-stiffness-zero");
+  EXPECT_EQ(action("@/INTER/TYPE10/1 Gap=1"), "error-612");
+  EXPECT_EQ(action("@/INTER/TYPE10/1 Gap=1 ITIED=1"), "none");
 }
 
 TEST(OnSurface, GapIsUsedUpByInacti5AndFpenmaxComesFirst) {

@@ -1,6 +1,7 @@
 // Views of a scene: names, one row per node, part pairs, totals.
 #include <gtest/gtest.h>
 
+#include "contact/published.hpp"
 #include "contact/small_deck.hpp"
 
 namespace deck::test {
@@ -42,6 +43,20 @@ TEST(SceneView, OneRowPerNodeIsTheDeepest) {
   std::vector<std::int64_t> nodes;
   for (const std::uint32_t i : v.deepest_per_node) nodes.push_back(v.penetrations[i].secondary[0]);
   EXPECT_EQ(nodes, (std::vector<std::int64_t>{12, 11, 21, 13}));
+}
+
+// A list of edges can have an edge twice, also the other way round.
+TEST(SceneView, AnEdgeThatIsListedTwiceIsOneRow) {
+  Built b(published_edges().add("@/INTER/TYPE11/1 line_IDs=2 line_IDm=1"));
+  const std::size_t once = make_view(b.scene).deepest_per_node.size();
+  Contact& c = b.scene.contacts.at(0);
+  PenetrationRow row = c.penetrations.at(0);
+  ContactEdge edge = c.secondary_edges[row.secondary];
+  std::swap(edge.nodes[0], edge.nodes[1]);
+  row.secondary = static_cast<std::uint32_t>(c.secondary_edges.size());
+  c.secondary_edges.push_back(edge);
+  c.penetrations.push_back(row);
+  EXPECT_EQ(make_view(b.scene).deepest_per_node.size(), once);
 }
 
 TEST(SceneView, PartPairsAndTotals) {

@@ -19,7 +19,7 @@ const Change* change_of(const DeckDiff& diff, const std::string& field) {
 TEST(DeckDiff, ADeckEqualsItself) {
   const DeckDiff diff = compared(plates(), plates());
   EXPECT_TRUE(diff.equal()) << diff_verdict(diff);
-  EXPECT_EQ(diff.same_penetrations, 4u);
+  EXPECT_EQ(diff.same.size(), 4u);
 }
 
 TEST(DeckDiff, TheOrderOfBlocksMakesNoDifference) {
@@ -36,7 +36,7 @@ TEST(DeckDiff, TheOrderOfBlocksMakesNoDifference) {
 TEST(DeckDiff, OtherIdsMakeNoDifferenceByPosition) {
   const DeckDiff diff = compared(plates(), plates({.first = 500}), MatchBy::position);
   EXPECT_TRUE(diff.equal()) << diff_verdict(diff);
-  EXPECT_EQ(diff.same_penetrations, 4u);
+  EXPECT_EQ(diff.same.size(), 4u);
   EXPECT_FALSE(compared(plates(), plates({.first = 500})).equal());
 }
 

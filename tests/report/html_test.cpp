@@ -106,6 +106,16 @@ TEST_F(WholePage, NamesTiesAmongItsInterfacesAndWithoutScripts) {
   EXPECT_FALSE(block(page, "deck-ties").empty());
 }
 
+TEST_F(WholePage, HasTheNodesThatATYPE10DoesNotTie) {
+  const Built b(plate().add("@/INTER/TYPE10/7 grnd_IDs=2 surf_IDm=1 Gap=0.1"));
+  const std::string page = page_of(b);
+  const auto meta = nlohmann::json::parse(block(page, "deck-meta"), nullptr, false);
+  ASSERT_EQ(meta["ties"].size(), 1u);
+  EXPECT_EQ(meta["ties"][0]["lost"], 1);
+  EXPECT_EQ(meta["interfaces"][meta["ties"][0]["interface"].get<std::size_t>()]["level"], "untied");
+  EXPECT_FALSE(block(page, "deck-ties").empty());
+}
+
 TEST_F(WholePage, OfADeckWithoutTiesHasNoBlockOfThem) {
   const Built b(plate().add("@/INTER/TYPE7/1 Gapmin=1"));
   EXPECT_TRUE(block(page_of(b), "deck-ties").empty());

@@ -196,7 +196,6 @@ def recount(document):
             # The edges of a TYPE25 have a list and totals beside.
             for rows, totals in ((contact["penetrations"], contact["totals"]), (contact.get("edge_penetrations") or [], contact.get("edge_totals"))):
                 mine, mine_edges = set(), set()
-                rows = [p for p in rows if not p.get("tie")]
                 for p in rows:
                     pairs += 1
                     if "node" in p:

@@ -66,10 +66,17 @@ TEST(Verdict, PairsOfType10AreTied) {
   EXPECT_EQ(text_of(v, "ties"), "3 pairs tied (3 nodes).");
 }
 
-TEST(Verdict, PairsOfType7WithItiedAreTied) {
-  const Verdict v = of(tie("TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1 ITIED=1"));
-  EXPECT_EQ(v.count("pairs"), 0u) << v.text;
-  EXPECT_EQ(v.count("tied_pairs"), 3u);
+// ITIED acts in the Engine, where a time step gets too small.
+TEST(Verdict, PairsOfType7WithItiedPenetrate) {
+  const Verdict v = of(tie("TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1 ITIED=1 dtmin=1.e-9"));
+  EXPECT_EQ(v.level, VerdictLevel::penetrates) << v.text;
+  EXPECT_EQ(v.count("pairs"), 3u);
+  EXPECT_EQ(v.count("tied_pairs"), 0u);
+}
+
+TEST(Verdict, TiesThatTieNothingAreNamed) {
+  EXPECT_EQ(text_of(of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 1.5, 1.5)), "untied"),
+            "TYPE10 1 ties none of its 3 nodes.");
 }
 
 TEST(Verdict, NodesOfATieThatNothingIsWithinReachOf) {
@@ -77,6 +84,7 @@ TEST(Verdict, NodesOfATieThatNothingIsWithinReachOf) {
   EXPECT_EQ(v.level, VerdictLevel::untied) << v.text;
   EXPECT_EQ(v.count("untied_nodes"), 1u);
   EXPECT_EQ(v.count("tied_nodes"), 2u);
+  EXPECT_EQ(text_of(v, "untied"), "1 of 3 nodes of TYPE10 1 is not tied.");
 }
 
 TEST(Verdict, ANodeOnASegmentStopsTheSolverTiedOrNot) {

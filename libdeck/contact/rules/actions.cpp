@@ -6,45 +6,35 @@
 
 namespace deck {
 
+namespace {
+
+/// What an action is called: in documents, and for people of one pair and of several.
+struct ActionName {
+  const char *code, *one, *many;
+};
+constexpr ActionName action_names[penetration_actions] = {
+    {"none", "nothing", "nothing"},
+    {"node-stiffness-zero", "node switched off", "nodes switched off"},
+    {"segment-stiffness-zero", "segment switched off", "segments switched off"},
+    {"node-moved", "node moved", "nodes moved"},
+    {"gap-reduced", "gap reduced", "gaps reduced"},
+    {"edge-stiffness-zero", "edge switched off", "edges switched off"},
+    {"ignored", "ignored", "ignored"},
+    {"offset-stored", "stored as an offset", "stored as offsets"},
+    {"initial-force", "initial force", "initial forces"},
+    {"removed-tied", "held by a tie", "held by ties"},
+    {"error-611", "stops: error 611", "stop: error 611"},
+    {"error-612", "stops: error 612", "stop: error 612"}};
+
+}  // namespace
+
 const char* action_words(PenetrationAction action, std::size_t pairs) {
-  static constexpr const char* words[penetration_actions][2] = {
-      {"nothing", "nothing"},
-      {"node switched off", "nodes switched off"},
-      {"segment switched off", "segments switched off"},
-      {"node moved", "nodes moved"},
-      {"gap reduced", "gaps reduced"},
-      {"edge switched off", "edges switched off"},
-      {"ignored", "ignored"},
-      {"stored as an offset", "stored as offsets"},
-      {"initial force", "initial forces"},
-      {"held by a tie", "held by ties"}};
-  return words[static_cast<std::size_t>(action)][pairs == 1 ? 0 : 1];
+  const ActionName& name = action_names[static_cast<std::size_t>(action)];
+  return pairs == 1 ? name.one : name.many;
 }
 
 const char* to_string(PenetrationAction action) {
-  switch (action) {
-    case PenetrationAction::none:
-      return "none";
-    case PenetrationAction::node_stiffness_zero:
-      return "node-stiffness-zero";
-    case PenetrationAction::segment_stiffness_zero:
-      return "segment-stiffness-zero";
-    case PenetrationAction::node_moved:
-      return "node-moved";
-    case PenetrationAction::gap_reduced:
-      return "gap-reduced";
-    case PenetrationAction::edge_stiffness_zero:
-      return "edge-stiffness-zero";
-    case PenetrationAction::ignored:
-      return "ignored";
-    case PenetrationAction::offset_stored:
-      return "offset-stored";
-    case PenetrationAction::initial_force:
-      return "initial-force";
-    case PenetrationAction::removed_tied:
-      return "removed-tied";
-  }
-  return "none";
+  return action_names[static_cast<std::size_t>(action)].code;
 }
 
 namespace detail {

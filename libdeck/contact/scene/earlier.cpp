@@ -123,13 +123,9 @@ std::uint64_t GapsComparison::count(Trend trend) const {
 
 std::map<const InterBase*, std::vector<std::int64_t>> untied_nodes(const Scene& scene) {
   std::map<const InterBase*, std::vector<std::int64_t>> out;
-  for (const Contact& c : scene.contacts) {
-    if (!c.ties() || !c.evaluated) continue;
-    std::vector<bool> tied(c.secondary.size(), false);
-    for (const PenetrationRow& row : c.penetrations) tied[row.secondary] = true;
-    for (std::size_t i = 0; i < c.secondary.size(); ++i)
-      if (!tied[i]) out[c.inter].push_back(scene.model->node_id(c.secondary[i].node));
-  }
+  for (const Contact& c : scene.contacts)
+    for (const std::uint32_t i : untied_secondary(c))
+      out[c.inter].push_back(scene.model->node_id(c.secondary[i].node));
   for (const Tie& tie : scene.ties)
     for (const TiedNode& n : tie.nodes)
       if (n.lost()) out[tie.inter].push_back(scene.model->node_id(n.node));

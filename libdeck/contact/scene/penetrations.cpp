@@ -237,6 +237,8 @@ void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisi
   if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
   sides.reset();
   PairJudge judge(c.options.accuracy, decisions);
+  const int error =
+      on_surface_error(contact.type, contact.itied, contact.fpenmax, contact.inacti);
   // The solver measures a whole group of candidates before it acts on any of them.
   CandidateGroup group;
   std::vector<PairVerdict> verdicts;
@@ -253,6 +255,9 @@ void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisi
         contact.main[verdict.row.main].off |=
             verdict.row.action == PenetrationAction::segment_stiffness_zero;
       }
+      if (verdict.row.on_surface && error != 0)
+        verdict.row.action =
+            error == 611 ? PenetrationAction::error_611 : PenetrationAction::error_612;
       if (verdict.differs) note(judge, verdict, verdict.row);
       if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
     }

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
@@ -127,11 +130,13 @@ std::uint64_t distinct_nodes(std::vector<NodeIndex>& nodes) {
 class Tally {
  public:
   void add(const Contact& contact, const PenetrationRow& row) {
-    if (row.on_surface && on_surface_error(contact) != 0) stopped_.add(contact, row);
+    const bool stops = stops_solver(row.action);
+    if (stops) stopped_.add(contact, row);
     if (contact.ties()) return tied_.add(contact, row);
     all_.add(contact, row);
     if (row.on_surface) on_segment_.add(contact, row);
-    totals_.acted += row.action != PenetrationAction::none;
+    totals_.acted += row.action != PenetrationAction::none && !stops;
+    totals_.round_off += !row.in_contact;
     totals_.max_depth = std::max(totals_.max_depth, row.depth);
     totals_.max_ratio = std::max(totals_.max_ratio, ratio(row));
   }
@@ -255,13 +260,20 @@ std::vector<RowPlace> rows_by_depth(const Scene& scene, std::size_t& penetration
 void find_deepest(const Scene& scene, const std::vector<RowPlace>& places, SceneView& view) {
   std::vector<std::vector<std::uint8_t>> seen;  // by contact and secondary item
   for (const Contact& c : scene.contacts)
-    seen.emplace_back(
-        c.penetrations.empty() ? 0 : std::max(c.secondary.size(), c.secondary_edges.size()), 0);
+    seen.emplace_back(c.penetrations.empty() ? 0 : c.secondary.size(), 0);
+  // Lists of edges can have an edge twice.
+  std::set<std::tuple<std::uint32_t, NodeIndex, NodeIndex>> edges;
   for (std::uint32_t i = 0; i < view.penetrations.size(); ++i) {
     const RowPlace& p = places[i];
-    std::uint8_t& known = seen[p.contact][scene.contacts[p.contact].penetrations[p.row].secondary];
-    if (known == 0) view.deepest_per_node.push_back(i);
-    known = 1;
+    const Contact& c = scene.contacts[p.contact];
+    const std::uint32_t secondary = c.penetrations[p.row].secondary;
+    if (c.kind == ContactKind::edge_edge) {
+      const auto& [a, b] = c.secondary_edges[secondary].nodes;
+      if (!edges.emplace(p.contact, std::min(a, b), std::max(a, b)).second) continue;
+    } else if (std::exchange(seen[p.contact][secondary], std::uint8_t{1}) != 0) {
+      continue;
+    }
+    view.deepest_per_node.push_back(i);
   }
 }
 
@@ -290,6 +302,16 @@ double largest_bounded_gap(const Model& model) {
   return square > 0 && square < 1e60 ? 10 * std::sqrt(square) : 1e30;
 }
 
+std::vector<std::uint32_t> untied_secondary(const Contact& contact) {
+  std::vector<std::uint32_t> out;
+  if (!contact.ties() || !contact.evaluated) return out;
+  std::vector<bool> tied(contact.secondary.size(), false);
+  for (const PenetrationRow& row : contact.penetrations) tied[row.secondary] = true;
+  for (std::uint32_t i = 0; i < tied.size(); ++i)
+    if (!tied[i]) out.push_back(i);
+  return out;
+}
+
 SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, int threads) {
   threads = effective_threads(threads);
   SceneView view;
@@ -307,8 +329,7 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
       }
       view.contacts.push_back(tally.totals());
       ContactTotals& own = view.contacts.back();
-      if (contact.type == 10 && contact.ties() && contact.evaluated)
-        own.untied = contact.secondary.size() - own.tied.nodes;
+      own.untied = untied_secondary(contact).size();
       untied += own.untied;
     }
     view.total = all.totals();

@@ -110,9 +110,9 @@ bool is_wanted(const FixOptions& options, const Contact& contact) {
   return asks_for(options, contact.inter->id);
 }
 
-bool is_untreated(const Contact& contact, const PenetrationRow& row) {
+bool is_untreated(const PenetrationRow& row) {
   return row.action == PenetrationAction::none || row.action == PenetrationAction::ignored ||
-         (row.on_surface && on_surface_error(contact) != 0);
+         stops_solver(row.action);
 }
 
 std::map<std::int64_t, FixCount> count_interfaces(const Scene& scene, const FixOptions& options) {
@@ -127,7 +127,7 @@ std::map<std::int64_t, FixCount> count_interfaces(const Scene& scene, const FixO
       if (!is_penetration(row)) continue;
       ++count.pairs;
       nodes.insert(row.secondary);
-      count.untreated += is_untreated(contact, row);
+      count.untreated += is_untreated(row);
       count.on_surface += row.on_surface;
       count.deepest = std::max(count.deepest, row.depth);
     }

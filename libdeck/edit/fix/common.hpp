@@ -51,7 +51,7 @@ bool asks_for(const FixOptions& options, std::int64_t interface_id);
 bool is_wanted(const FixOptions& options, const Contact& contact);
 
 /// True if the solver does nothing about the pair, or stops at it.
-bool is_untreated(const Contact& contact, const PenetrationRow& row);
+bool is_untreated(const PenetrationRow& row);
 
 /// Counts of every interface with penetrations; `wanted` ones only.
 std::map<std::int64_t, FixCount> count_interfaces(const Scene& scene, const FixOptions& options);

@@ -85,7 +85,7 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
       const auto it = earlier.find(key(*after.model, c, r));
       if (it != earlier.end()) action.before = it->second;
       action.after = r.action;
-      action.stops = r.on_surface && on_surface_error(c) != 0;
+      action.stops = stops_solver(r.action);
       if (r.has_gap0) action.gap0 = r.gap0;
       fix.actions.push_back(std::move(action));
     }
@@ -133,7 +133,7 @@ std::map<std::int64_t, std::uint64_t> stops_with(const LoadedDeck& context,
   const Scene scene = fix_scene(context, options, true, planned);
   for (const Contact& c : scene.contacts)
     for (const PenetrationRow& r : c.penetrations)
-      if (r.on_surface && on_surface_error(c) != 0) ++out[c.inter->id];
+      if (stops_solver(r.action)) ++out[c.inter->id];
   return out;
 }
 

@@ -78,7 +78,8 @@ struct ContactFacts {
   ContactTotals total;
   double deepest = 0, deepest_gap = 0;  ///< of the deepest pair: its depth, and its gap
   std::uint64_t unbounded = 0;   ///< pairs that are left out of these: beyond largest_bounded_gap
-  std::optional<TieFacts> ties;  ///< nullopt: not looked for
+  std::vector<TieFacts::Losses> untied;  ///< TYPE10 that do not tie all of their nodes
+  std::optional<TieFacts> ties;          ///< of TYPE2; nullopt: not looked for
 };
 ContactFacts contact_facts(const Scene& scene, const SceneView& view);
 TieFacts tie_facts(const std::vector<Tie>& ties);

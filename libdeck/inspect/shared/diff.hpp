@@ -66,8 +66,7 @@ struct DeckDiff {
   std::vector<Change> changes;
   /// Deepest penetration of each secondary node or edge, deepest first. "Worse" and "better" count
   /// from a billionth of the gap on.
-  std::vector<PenetrationChange> appeared, gone, worse, better;
-  std::uint64_t same_penetrations = 0;
+  std::vector<PenetrationChange> appeared, gone, worse, better, same;
   std::vector<std::string> notes;         ///< for people
   bool stops_a = false, stops_b = false;  ///< the solver stops at this side, by its verdict
   bool equal() const {

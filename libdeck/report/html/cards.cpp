@@ -5,6 +5,7 @@
 #include "deck/contact/resolve.hpp"
 #include "deck/keyword/decode.hpp"
 #include "report/html/parts.hpp"
+#include "verdict/shared/of_interface.hpp"
 
 namespace deck::detail {
 namespace {
@@ -81,6 +82,13 @@ void write_value(JsonWriter& j, std::string_view name, const Effective<T>& e,
   j.end_object();
 }
 
+/// Of a contact or a tie.
+VerdictLevel level_of(const HtmlInput& input, const InterBase& inter) {
+  for (const Tie& tie : input.scene->ties)
+    if (tie.inter == &inter) return level_of_tie(tie);
+  return verdict_of_interface(*input.scene, *input.view, inter).level;
+}
+
 }  // namespace
 
 std::vector<const InterBase*> page_interfaces(const Scene& scene) {
@@ -95,6 +103,7 @@ void write_interfaces(JsonWriter& j, const HtmlInput& input) {
   for (const InterBase* inter : page_interfaces(*input.scene)) {
     j.begin_object();
     j.field("id", inter->id).field("type", inter->type).field("title", inter->title);
+    j.field("level", to_string(level_of(input, *inter)));
     write_card_text(j, deck, *inter);
     const Contact* const contact = first_contact(*input.scene, *inter);
     j.key("values").begin_object();

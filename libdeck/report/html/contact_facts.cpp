@@ -76,6 +76,11 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     j.field("reoriented", c.reoriented_segments).field("no_carrier", c.no_carrier.size());
     j.field("reach", wide.reach).field("margin", wide.margin).field("complete", wide.complete);
     j.field("pairs", wide.pairs.size());
+    j.key("round_off").begin_array(true);  // pairs that only the solver's round-off makes
+    for (const PenetrationRow& row : c.penetrations)
+      if (!row.in_contact)
+        j.begin_array(true).value(row.secondary).value(row.main).end_array();
+    j.end_array();
     j.key("totals").begin_object(true);
     write_totals(j, input.view->contacts[i]);
     j.end_object();

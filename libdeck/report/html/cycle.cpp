@@ -35,7 +35,12 @@ void step_field(JsonWriter& j, std::string_view name, double dt) {
 void write_contact(JsonWriter& j, const cycle::ContactOutcome& c) {
   j.begin_object(true).field("active", c.active).field("complete", c.complete);
   step_field(j, "dt", c.step.dt);
-  j.field("because", because_of(c.step.source)).field("with_force", c.pairs_with_force);
+  std::string why;
+  if (!c.complete)
+    for (const std::string& note : c.notes) why += (why.empty() ? "" : "; ") + note;
+  if (!c.complete && why.empty()) why = "too many pairs";
+  j.field("because", c.complete ? because_of(c.step.source) : why);
+  j.field("with_force", c.pairs_with_force);
   j.field("force", c.totals.total_abs).field("largest", c.largest_force);
   j.field("acceleration", c.largest_acceleration).field("elastic", c.totals.elastic_energy);
   std::vector<const cycle::PairOutcome*> rows;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "base/shared/escape.hpp"
 #include "base/shared/parallel.hpp"
@@ -94,6 +95,13 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   }
   j.end_array();
   j.field("free_group_id", free_group_id(*in.deck));
+  j.key("actions").begin_object();
+  for (std::size_t a = 0; a < penetration_actions; ++a) {
+    const auto action = static_cast<PenetrationAction>(a);
+    j.key(to_string(action)).begin_array(true);
+    j.value(action_words(action, 1)).value(action_words(action, 2)).end_array();
+  }
+  j.end_object();
   detail::write_what_if(j, in.what_if);
   detail::write_interfaces(j, in);
   detail::write_contacts(j, in, page);
@@ -103,22 +111,39 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   return out;
 }
 
-/// The earlier rows under the names that they have now, so that the page finds them by ids.
-std::string earlier_json(const HtmlInput& in) {
-  std::vector<EarlierGaps::Row> rows = in.earlier->rows;
-  for (const GapsComparison::Row& r : compare_gaps(*in.earlier, *in.scene, *in.view).rows) {
-    if (r.earlier == no_index) continue;
+/// What became of the rows of an earlier run: of what penetrates now under the names that it has
+/// now, so that the page finds it by ids.
+std::vector<PageTrend> trends_in(const HtmlInput& in) {
+  if (in.trends != nullptr) return *in.trends;
+  std::vector<PageTrend> out;
+  const GapsComparison compared = compare_gaps(*in.earlier, *in.scene, *in.view);
+  for (const GapsComparison::Row& r : compared.rows) {
     const NamedPenetration& p = in.view->penetrations[r.penetration];
-    rows[r.earlier].interface_id = in.scene->contacts[p.contact].inter->id;
-    rows[r.earlier].secondary = p.secondary;
+    const Contact& c = in.scene->contacts[p.contact];
+    PageTrend t{c.inter->id, to_string(c.role), p.secondary, 0, 0, to_string(r.trend)};
+    if (r.earlier != no_index) {
+      t.depth = in.earlier->rows[r.earlier].depth;
+      t.gap = in.earlier->rows[r.earlier].gap;
+    }
+    out.push_back(std::move(t));
   }
+  for (const std::uint32_t i : compared.solved) {
+    const EarlierGaps::Row& r = in.earlier->rows[i];
+    out.push_back({r.interface_id, r.role, r.secondary, r.depth, r.gap, "solved"});
+  }
+  return out;
+}
+
+std::string earlier_json(const HtmlInput& in) {
   std::string out;
   JsonWriter j(out);
   j.begin_object(true).field("path", in.earlier->path).field("deck", in.earlier->deck_path);
   j.field("same_depth", same_depth).key("rows").begin_array(true);
-  for (const EarlierGaps::Row& r : rows) {
-    j.begin_array(true).value(r.interface_id).value(r.role);
-    j.value(r.secondary[0]).value(r.secondary[1]).value(r.depth).value(r.gap).end_array();
+  for (const PageTrend& t : trends_in(in)) {
+    std::array<std::int64_t, 2> nodes = t.secondary;
+    if (nodes[1] != 0 && nodes[1] < nodes[0]) std::swap(nodes[0], nodes[1]);
+    j.begin_array(true).value(t.interface_id).value(t.role).value(nodes[0]).value(nodes[1]);
+    j.value(t.depth).value(t.gap).value(t.trend).end_array();
   }
   j.end_array().end_object();
   return out;
@@ -140,7 +165,9 @@ std::string static_body(const HtmlInput& in) {
     const ContactTotals& t = in.view->contacts[i];
     out += "<tr><td>" + std::to_string(c.inter->id) + "</td><td>" + html_text(c.inter->title) +
            "</td><td>" + to_string(c.role) + "</td><td>" + shortest(c.gapmin) + "</td><td>" +
-           std::to_string(t.count.pairs) + "</td><td>" + shortest(t.max_depth) + "</td></tr>\n";
+           (c.evaluated ? std::to_string(t.count.pairs) + "</td><td>" + shortest(t.max_depth)
+                        : "not evaluated</td><td>-") +
+           "</td></tr>\n";
   }
   out += "</tbody></table>\n";
   if (!in.scene->ties.empty()) {
@@ -186,7 +213,7 @@ std::vector<Packed> packed_blocks(const HtmlInput& in, const std::vector<detail:
   const detail::ContactBlocks contacts = detail::contact_blocks(in, page, nodes);
   packed("deck-shared", contacts.shared);
   packed("deck-contacts", contacts.contacts);
-  if (!in.scene->ties.empty()) packed("deck-ties", [&] { return detail::ties_block(in, nodes); });
+  if (detail::has_ties(*in.scene)) packed("deck-ties", [&] { return detail::ties_block(in, nodes); });
   packed("deck-mesh", [&] { return detail::mesh_block(model, mesh, nodes); });
   packed("deck-elements", [&] { return detail::elements_block(model, mesh); });
   if (in.earlier != nullptr)

@@ -101,12 +101,14 @@ ContactBlocks contact_blocks(const HtmlInput& input, PageContacts& page, const P
 /// The member "contacts": options, totals, default gaps.
 void write_contacts(JsonWriter& json, const HtmlInput& input, const PageContacts& page);
 
-// ties.cpp — /INTER/TYPE2: lines from nodes to segments, and the nodes that are not tied
+// ties.cpp — /INTER/TYPE2 and TYPE10: lines from nodes to segments, and the nodes that are not tied
 /// Marks the nodes of all ties. Given back are those that the picture does not show by itself (no
 /// element has them) or that a line ends at which is looked at closely: of nodes that are not tied.
 std::vector<NodeIndex> use_nodes(const Scene& scene, PageNodes& nodes);
+bool has_ties(const Scene& scene);
 std::string ties_block(const HtmlInput& input, const PageNodes& nodes);
-/// The member "ties": counts and what is said, one entry a tie, in the order of the block.
+/// The member "ties": counts and what is said, one entry per tie, in the order of the block: first
+/// those of TYPE2.
 void write_page_ties(JsonWriter& json, const HtmlInput& input);
 
 // touches.cpp — who touches whom

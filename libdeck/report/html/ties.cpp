@@ -1,7 +1,10 @@
-// Ties of /INTER/TYPE2 in the page: which node goes to which segment, and of those that are not
-// tied, or tied from beyond the rim of their segment, what `deck gaps` says.
+// Ties of /INTER/TYPE2 and TYPE10 in the page: which node goes to which segment, and of those that
+// are not tied, or tied from beyond the rim of their segment, what `deck gaps` says.
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "base/shared/count.hpp"
 #include "contact/shared/element_names.hpp"
 #include "deck/contact/ties.hpp"
 #include "model/shared/connectivity.hpp"
@@ -54,6 +57,8 @@ class TieWriter {
   void run() {
     j_.begin_array();
     for (const Tie& tie : input_.scene->ties) write(tie);
+    for (const Contact& c : input_.scene->contacts)
+      if (c.ties()) write(c);
     j_.end_array();
   }
 
@@ -77,6 +82,48 @@ class TieWriter {
     j_.end_object();
   }
 
+  /// A TYPE10: each node goes to the segment that is nearest within the gap.
+  void write(const Contact& c) {
+    std::vector<const PenetrationRow*> nearest(c.secondary.size(), nullptr);
+    for (const PenetrationRow& row : c.penetrations)
+      if (const PenetrationRow*& known = nearest[row.secondary];
+          known == nullptr || row.distance < known->distance)
+        known = &row;
+    j_.begin_object(true).key("main").begin_array(true);
+    for (const PenetrationRow* row : nearest)
+      if (row != nullptr)
+        for (const NodeIndex n : c.main[row->main].nodes) j_.value(nodes_[n]);
+    j_.end_array().key("nodes").begin_array(true);
+    for (const SecondaryNode& s : c.secondary) j_.value(nodes_[s.node]);
+    j_.end_array().key("segment").begin_array(true);
+    std::int64_t segments = 0;
+    for (const PenetrationRow* row : nearest)
+      j_.value(row != nullptr ? segments++ : std::int64_t{-1});
+    j_.end_array().key("holds").begin_array(true);
+    for (const PenetrationRow* row : nearest)
+      j_.value(static_cast<int>(row != nullptr || !c.evaluated ? Holds::tied : Holds::lost));
+    j_.end_array();
+    std::vector<std::uint32_t> untied = untied_secondary(c);
+    if (untied.size() > most_tie_rows) untied.resize(most_tie_rows);
+    std::vector<NodeIndex> list;
+    for (const std::uint32_t i : untied) list.push_back(c.secondary[i].node);
+    const std::vector<Span> spans = node_spans(model_, list);
+    j_.key("rows").begin_array(true);
+    for (std::size_t k = 0; k < untied.size(); ++k) {
+      j_.begin_array(true).value(untied[k]).null().value(c.gapmin).value(part_at(list[k]));
+      j_.value("no segment").value(
+          fmt::format("No segment is within the gap of {:.6g}: the node is not tied.", c.gapmin));
+      place(spans[k]);
+      j_.end_array();
+    }
+    j_.end_array().end_object();
+  }
+
+  void place(const Span& span) {
+    j_.value(span.valid() ? std::int64_t{span.file} : std::int64_t{-1});
+    j_.value(span.valid() ? input_.deck->sources.position(span).line : 0);
+  }
+
   void write_rows(const Tie& tie) {
     const std::vector<std::uint32_t> rows = listed(tie);
     std::vector<NodeIndex> nodes;
@@ -92,9 +139,8 @@ class TieWriter {
       number(segment_of(n) != no_index, found ? n.distance : n.nearest_distance);
       number(search != 0, search);
       j_.value(part_at(n.node)).value(short_reason(tie, n)).value(why_text(tie, n));
-      const bool placed = spans[k].valid();
-      j_.value(placed ? std::int64_t{spans[k].file} : std::int64_t{-1});
-      j_.value(placed ? input_.deck->sources.position(spans[k]).line : 0).end_array();
+      place(spans[k]);
+      j_.end_array();
     }
     j_.end_array();
   }
@@ -134,7 +180,15 @@ std::vector<NodeIndex> use_nodes(const Scene& scene, PageNodes& nodes) {
       if (const std::uint32_t s = segment_of(n); s != no_index)
         for (const NodeIndex corner : tie.main[s]) nodes.use(corner);
     }
+  // The sides of a TYPE10 are those of a contact.
+  for (const Contact& c : scene.contacts)
+    for (const std::uint32_t i : untied_secondary(c)) out.push_back(c.secondary[i].node);
   return out;
+}
+
+bool has_ties(const Scene& scene) {
+  return !scene.ties.empty() || std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                                            [](const Contact& c) { return c.ties(); });
 }
 
 std::string ties_block(const HtmlInput& input, const PageNodes& nodes) {
@@ -159,6 +213,28 @@ void write_page_ties(JsonWriter& j, const HtmlInput& input) {
     j.field("evaluated", tie.not_evaluated.empty());
     const bool stops = tie.main_and_tied.size() + (tie.ignore == 0 ? n.not_found : 0) > 0;
     j.field("stops", stops).end_object();
+  }
+  const auto& order = input.scene->interfaces->ordered;
+  for (std::size_t i = 0; i < input.scene->contacts.size(); ++i) {
+    const Contact& c = input.scene->contacts[i];
+    if (!c.ties()) continue;
+    const ContactTotals& t = input.view->contacts[i];
+    double farthest = 0;
+    for (const PenetrationRow& row : c.penetrations) farthest = std::max(farthest, row.distance);
+    const std::size_t nodes = c.secondary.size();
+    j.begin_object(true).field(
+        "interface",
+        static_cast<std::int64_t>(std::find(order.begin(), order.end(), c.inter) - order.begin()));
+    j.field("nodes", nodes).field("tied", t.tied.nodes).field("lost", t.untied);
+    j.field("beyond_rim", 0).field("search_distance", c.gapmin).field("farthest", farthest);
+    j.field("text", !c.evaluated ? std::string("not evaluated")
+                    : t.untied > 0
+                        ? fmt::format("{} of {} {} not tied", t.untied,
+                                      count(nodes, "node", "nodes"), t.untied == 1 ? "is" : "are")
+                        : fmt::format("{} tied", count(nodes, "node is", "nodes are")));
+    j.field("losses", t.untied > 0 ? fmt::format("{} without a segment within the gap", t.untied)
+                                   : std::string("-"));
+    j.field("evaluated", c.evaluated).field("stops", t.solver_errors > 0).end_object();
   }
   j.end_array();
 }

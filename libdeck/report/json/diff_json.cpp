@@ -101,7 +101,7 @@ std::string diff_json(const DiffSide& a, const DiffSide& b, const DeckDiff& diff
   write(json, "gone", diff.gone);
   write(json, "worse", diff.worse);
   write(json, "better", diff.better);
-  json.field("same", diff.same_penetrations).end_object();
+  json.field("same", diff.same.size()).end_object();
   json.end_object();
   return out;
 }

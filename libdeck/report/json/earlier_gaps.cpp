@@ -47,9 +47,10 @@ std::int64_t whole(const Json& v) { return v.is_number_integer() ? v.get<std::in
 /// A document of `gaps --all` is large, and little of it is compared: the rest is not kept.
 bool is_compared(int, Json::parse_event_t event, Json& parsed) {
   static const std::set<std::string, std::less<>> keys = {
-      "at",  "contacts", "deck",       "decks", "edge",        "edge_penetrations", "gap",
-      "id",  "node",     "interfaces", "path",  "penetration", "penetrations",      "role",
-      "tie", "tied",     "ties",       "nodes", "sentences",   "verdict",           "what"};
+      "at",          "contacts",     "deck",       "decks",     "edge",    "edge_penetrations",
+      "gap",         "id",           "interfaces", "node",      "nodes",   "path",
+      "penetration", "penetrations", "role",       "schema",    "sentences", "tied",
+      "tied_pairs",  "ties",         "verdict",    "version",   "what"};
   return event != Json::parse_event_t::key || keys.contains(parsed.get_ref<std::string&>());
 }
 
@@ -58,6 +59,7 @@ EarlierGaps::Row row_of(const Json& p) {
   const auto edge = p.find("edge");
   if (edge != p.end() && edge->is_array() && edge->size() == 2) {
     row.secondary = {whole((*edge)[0]), whole((*edge)[1])};
+    std::sort(row.secondary.begin(), row.secondary.end());
   } else {
     row.secondary = {p.contains("node") ? whole(p["node"]) : 0, 0};
   }
@@ -72,8 +74,7 @@ EarlierGaps::Row row_of(const Json& p) {
   return row;
 }
 
-/// Adds the deepest row of every node or edge, and what is tied; false: the list holds something
-/// else.
+/// Adds the deepest row of every node or edge; false: the list holds something else.
 bool add_rows(const Json& list, std::int64_t interface_id, const std::string& role,
               EarlierGaps& out) {
   std::vector<EarlierGaps::Row>& rows = out.rows;
@@ -81,10 +82,6 @@ bool add_rows(const Json& list, std::int64_t interface_id, const std::string& ro
   for (const Json& p : list) {
     if (!p.is_object()) return false;
     EarlierGaps::Row row = row_of(p);
-    if (const auto tie = p.find("tie"); tie != p.end() && *tie == true) {
-      out.tied[interface_id].insert(row.secondary[0]);
-      continue;
-    }
     row.interface_id = interface_id;
     row.role = role;
     const auto [it, fresh] = deepest.emplace(row.secondary, rows.size());
@@ -142,6 +139,17 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
   if (was_incomplete(*document))
     return Error{Error::Code::io,
                  out.path + ": an include was missing when this was written; write it again"};
+  const Json& schema = all.contains("schema") ? all["schema"] : Json();
+  if (const std::int64_t version = schema.is_object() && schema.contains("version")
+                                       ? whole(schema["version"])
+                                       : gaps_version;
+      version != gaps_version)
+    return Error{Error::Code::syntax,
+                 out.path + ": this is version " + std::to_string(version) +
+                     " of the document, in which ties count as penetrations. Write it again: deck "
+                     "gaps " +
+                     (document->contains("deck") ? deck_path_of(*document) : std::string("DECK")) +
+                     " --json " + out.path};
   out.deck_path = deck_path_of(*document);
   for (const Json& inter : (*document)["interfaces"]) {
     if (!inter.is_object() || !inter.contains("contacts") || !inter["contacts"].is_array())
@@ -155,6 +163,10 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
       // A TYPE25 has its edges in a list beside.
       const auto edges = contact.find("edge_penetrations");
       const bool beside = edges != contact.end() && edges->is_array();
+      const auto ties = contact.find("tied_pairs");
+      if (ties != contact.end() && ties->is_array())
+        for (const Json& p : *ties)
+          if (p.is_object()) out.tied[id].insert(row_of(p).secondary[0]);
       if (!read || (beside && !add_rows(*edges, id, to_string(ContactRole::edges), out)))
         return wrong(out.path, "a penetration is not an object");
     }

@@ -147,7 +147,6 @@ void write_penetrations(const Rows& rows, const Deck& deck, const Scene& scene,
       j.field("penetration", r.gap * r.gap - r.distance).field("gap", r.gap * r.gap).end_object();
     }
     if (is_modern(c.type)) j.field("stored", r.p0);
-    if (c.ties()) j.field("tie", true);
     j.key("normal");
     write_vector(j, r.normal);
     j.field("on_surface", r.on_surface).field("in_contact", r.in_contact);
@@ -245,7 +244,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
   JsonWriter j(out);
   const Rows rows{j, out, drain};
   j.begin_object();
-  write_json_head(j, "deck/gaps", 1);
+  write_json_head(j, "deck/gaps", gaps_version);
   write_json_deck(j, path, deck, scene.model, scene.interfaces);
   write_verdict(j, verdict_of(deck, scene, view));
   j.key("summary").begin_object(true);
@@ -304,7 +303,15 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
           write_modern_sides(rows, *scene.model, c, edges);
         else if (all)
           write_sides(rows, *scene.model, c);
-        write_penetrations(rows, deck, scene, named[i], c);
+        // The pairs of a tie are listed by the solver, but penetrate nothing.
+        write_penetrations(rows, deck, scene, c.ties() ? std::vector<PlacedRow>() : named[i], c);
+        if (c.ties()) {
+          write_penetrations(rows, deck, scene, named[i], c, "tied_pairs");
+          j.key("untied_nodes").begin_array(true);
+          for (const std::uint32_t s : untied_secondary(c))
+            j.value(scene.model->node_id(c.secondary[s].node));
+          j.end_array();
+        }
         if (edges != nullptr) {
           j.field("edges_evaluated", edges->evaluated).key("edge_totals").begin_object(true);
           write_totals(j, view.contacts[i + 1]);

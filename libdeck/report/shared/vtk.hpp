@@ -26,7 +26,8 @@ struct VtkFile {
 ///   it), message, distance, search (how far the solver looks).
 /// * penetrations.vtp, always: one vertex per pair, deepest first. Point data arrow (unit normal
 ///   times depth, from the point the way out), normal, depth, gap, ratio, action (number in the
-///   order of PenetrationAction), on_surface, node, interface.
+///   order of PenetrationAction), on_surface, in_contact (0: only the solver's round-off makes a
+///   penetration of it), node, interface.
 ///
 /// Coordinates are those of the deck in working units. Contacts without any item on a side get no
 /// file for it.

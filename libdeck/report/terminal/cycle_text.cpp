@@ -225,22 +225,30 @@ std::string contact_table(const CycleInput& input, const CycleTextOptions& optio
     std::vector<TextTable::Cell> cells = {
         fmt::format("{}", c.inter->id), part ? kind_name(c) : fmt::format("TYPE{}", c.inter->type),
         part ? "" : c.inter->title};
-    if (all) cells.emplace_back(fmt::format("{}", s.pairs_in_reach));
-    cells.emplace_back(fmt::format("{}", s.pairs_with_force));
-    cells.emplace_back(figure_text(s.force_sum));
-    if (all) cells.emplace_back(figure_text(s.largest_pair_force));
-    cells.emplace_back(figure_text(all ? s.elastic_energy
-                                       : s.elastic_energy + s.friction_energy + s.damping_energy));
+    // Where nothing was evaluated no figure is known.
+    const bool known = std::any_of(list.begin(), list.end(),
+                                   [](const cycle::ContactOutcome* o) { return o->complete; });
+    const auto count = [&](std::size_t n) {
+      cells.emplace_back(known ? fmt::format("{}", n) : "-");
+    };
+    const auto figure = [&](double v) {
+      cells.emplace_back(known ? figure_text(v) : "-");
+    };
+    if (all) count(s.pairs_in_reach);
+    count(s.pairs_with_force);
+    figure(s.force_sum);
+    if (all) figure(s.largest_pair_force);
+    figure(all ? s.elastic_energy : s.elastic_energy + s.friction_energy + s.damping_energy);
     if (all) {
-      cells.emplace_back(figure_text(s.friction_energy));
-      cells.emplace_back(figure_text(s.damping_energy));
-      cells.emplace_back(figure_text(s.largest_acceleration));
+      figure(s.friction_energy);
+      figure(s.damping_energy);
+      figure(s.largest_acceleration);
       cells.emplace_back(node_text(model, s.acceleration_node));
     }
     const bool limits = s.contact_dt < s.structure_dt;
     cells.emplace_back(step_text(s.contact_dt), limits ? Tone::yellow : Tone::plain);
     cells.emplace_back(node_text(model, s.contact_dt_node));
-    if (all) cells.emplace_back(fmt::format("{}", s.near_singular));
+    if (all) count(s.near_singular);
     cells.emplace_back(note_of(list), s.gap_closed > 0 ? Tone::red : Tone::plain);
     table.row(std::move(cells));
   };

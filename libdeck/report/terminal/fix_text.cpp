@@ -231,7 +231,9 @@ std::string actions_text(const PenetrationFix& fix, const FixTextOptions& option
                                             "ignore the penetration",
                                             "take the penetration off from then on",
                                             "start with a force",
-                                            "leave the pair to its tie"};
+                                            "leave the pair to its tie",
+                                            "stop with error 611",
+                                            "stop with error 612"};
     static_assert(std::size(words) == penetration_actions);
     text += fmt::format("  interface {}: {} for {}\n", key.first,
                         words[static_cast<std::size_t>(key.second)], count(n, "pair", "pairs"));

@@ -46,31 +46,42 @@ std::string obstacle(const Contact& c) {
   return {};
 }
 
-/// What the solver does about the penetrations of contacts, in a few words.
+/// What a contact that ties does.
+std::string tied_words(const Contact& c, const ContactTotals& t) {
+  if (t.untied == 0) return count(t.tied.pairs, "pair tied", "pairs tied");
+  return fmt::format("{} of {} not tied", t.untied, count(c.secondary.size(), "node", "nodes"));
+}
+
+/// What the solver does about the penetrations of contacts, in a few words; first what stops it.
 std::string action_words(const std::vector<const Contact*>& contacts) {
-  std::size_t by_action[penetration_actions] = {}, all = 0, tied = 0;
-  std::string why;
+  std::size_t by_action[penetration_actions] = {}, all = 0;
+  std::string why, left_out;
   for (const Contact* c : contacts) {
-    if (!c->evaluated) return "not evaluated";
-    if (why.empty()) why = obstacle(*c);
-    if (c->ties()) {
-      tied += c->penetrations.size();
+    if (!c->evaluated) {
+      if (contacts.size() == 1) return "not evaluated";
+      left_out += fmt::format("{}{} not evaluated", left_out.empty() ? "" : ", ",
+                              c->role == ContactRole::primary ? "nodes" : to_string(c->role));
       continue;
     }
+    if (why.empty()) why = obstacle(*c);
     all += c->penetrations.size();
     for (const PenetrationRow& row : c->penetrations)
       ++by_action[static_cast<std::size_t>(row.action)];
   }
-  if (tied > 0 && all == 0) return count(tied, "pair tied", "pairs tied");
-  if (all == 0) return why.empty() ? "-" : why;
+  if (all == 0) return !left_out.empty() ? left_out : why.empty() ? "-" : why;
   std::string text;
-  for (std::size_t a = 0; a < std::size(by_action); ++a) {
-    if (by_action[a] == 0) continue;
-    const char* const words = action_words(static_cast<PenetrationAction>(a), by_action[a]);
-    if (!text.empty()) text += ", ";
-    text += by_action[a] == all ? words : fmt::format("{} {}", by_action[a], words);
-  }
-  return text;
+  const auto add = [&](bool stops) {
+    for (std::size_t a = 0; a < std::size(by_action); ++a) {
+      const auto action = static_cast<PenetrationAction>(a);
+      if (by_action[a] == 0 || stops_solver(action) != stops) continue;
+      const char* const words = action_words(action, by_action[a]);
+      if (!text.empty()) text += ", ";
+      text += by_action[a] == all ? words : fmt::format("{} {}", by_action[a], words);
+    }
+  };
+  add(true);
+  add(false);
+  return text + (left_out.empty() ? "" : "; " + left_out);
 }
 
 std::string segment_text(const NamedPenetration& p) {
@@ -94,6 +105,7 @@ ContactTotals sum_of(const std::vector<ContactTotals>& all) {
     sum.count.edges += t.count.edges;
     sum.tied.pairs += t.tied.pairs;
     sum.untied += t.untied;
+    sum.solver_errors += t.solver_errors;
     sum.max_depth = std::max(sum.max_depth, t.max_depth);
     sum.max_ratio = std::max(sum.max_ratio, t.max_ratio);
   }
@@ -117,7 +129,7 @@ class InterfaceTable {
                    ? make_table({">id", "type", "title", ">Igap", ">Gapmin", "Gapmin from",
                                  ">nodes", ">segments", ">in reach", ">pairs", ">nodes in",
                                  ">edges in", ">deepest", ">of gap", "action"})
-                   : make_table({">id", "type", "title", ">Gapmin", ">listed", ">nodes", ">edges",
+                   : make_table({">id", "type", "title", ">Gapmin", ">pairs", ">nodes", ">edges",
                                  ">deepest", ">of gap", "action"})) {}
 
   std::string run() {
@@ -152,6 +164,9 @@ class InterfaceTable {
     std::vector<TextTable::Cell> cells;
     const auto add = [&](std::string text) { cells.emplace_back(std::move(text)); };
     const auto number = [](std::uint64_t n) { return fmt::format("{}", n); };
+    // Where nothing was evaluated no figure is known.
+    const bool known = std::any_of(contacts.begin(), contacts.end(),
+                                   [](const Contact* x) { return x->evaluated; });
     add(fmt::format("{}", c.inter->id));
     add(part ? kind_name(c) : fmt::format("TYPE{}", c.inter->type));
     add(part ? "" : c.inter->title);
@@ -164,27 +179,24 @@ class InterfaceTable {
       add(is_modern(c.type) ? "-" : to_string(c.gapmin_origin));
       add(one ? number(edges ? c.secondary_edges.size() : c.secondary.size()) : "");
       add(one ? number(edges ? c.main_edges.size() : c.main.size()) : "");
-      add(number(reach));
-      add(number(t.count.pairs));
+      add(known ? number(reach) : "-");
+      add(known ? number(t.count.pairs) : "-");
     } else {
-      add(number(t.count.pairs + t.tied.pairs));  // as the solver counts in its listing
+      add(known ? number(t.count.pairs) : "-");
     }
     const auto has = [&](ContactKind kind) {
       return std::any_of(contacts.begin(), contacts.end(),
-                         [&](const Contact* x) { return x->kind == kind; });
+                         [&](const Contact* x) { return x->kind == kind && x->evaluated; });
     };
     add(has(ContactKind::node_segment) ? number(t.count.nodes) : "-");
     add(has(ContactKind::edge_edge) ? number(t.count.edges) : "-");
     add(t.count.pairs ? length_text(t.max_depth, 6, largest_) : "-");
     add(share_text(t.max_ratio));
-    const bool stops = std::any_of(contacts.begin(), contacts.end(), [](const Contact* x) {
-      return on_surface_error(*x) != 0 &&
-             std::any_of(x->penetrations.begin(), x->penetrations.end(),
-                         [](const PenetrationRow& r) { return r.on_surface; });
-    });
-    cells.emplace_back(action_words(contacts), stops               ? Tone::red
-                                               : t.count.pairs > 0 ? Tone::yellow
-                                                                   : Tone::plain);
+    const bool tied = c.ties() && known && obstacle(c).empty() && t.solver_errors == 0;
+    cells.emplace_back(tied ? tied_words(c, t) : action_words(contacts),
+                       t.solver_errors > 0                 ? Tone::red
+                       : t.count.pairs + t.untied > 0 ? Tone::yellow
+                                                           : Tone::plain);
     table_.row(std::move(cells));
   }
 
@@ -244,11 +256,11 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
     const NamedPenetration& p = view.penetrations[view.deepest_per_node[i]];
     const Contact& c = scene.contacts[p.contact];
     const PenetrationRow& row = row_of(scene, p);
-    const bool stops = row.on_surface && on_surface_error(c) != 0;
-    std::string action =
-        stops ? fmt::format("error {}", on_surface_error(c)) : action_words(row.action, 1);
-    if (!stops && row.has_gap0 && !is_unbounded(row.gap0))
+    const bool stops = stops_solver(row.action);
+    std::string action = action_words(row.action, 1);
+    if (row.action == PenetrationAction::gap_reduced && !is_unbounded(row.gap0))
       action += fmt::format(" to {:.4g}", row.gap0);
+    if (!row.in_contact) action += " (round-off)";
     const Tone tone = stops                                   ? Tone::red
                       : row.action == PenetrationAction::none ? Tone::plain
                                                               : Tone::yellow;
@@ -293,12 +305,10 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
       out += "\n" + text;
     out += "\n";
   }
-  if (!scene.ties.empty()) {
-    out += heading("Ties").substr(1) + detail::tie_table(scene, options);
-    if (const std::string untied = detail::untied_text(deck, scene, options); !untied.empty())
-      out += heading("Nodes that are not tied") + untied;
-    out += "\n";
-  }
+  if (!scene.ties.empty())
+    out += heading("Ties").substr(1) + detail::tie_table(scene, options) + "\n";
+  if (const std::string untied = detail::untied_text(deck, scene, options); !untied.empty())
+    out += heading("Nodes that are not tied").substr(1) + untied + "\n";
   out += verdict_text(verdict_of(deck, scene, view), options.color);
   if (options.gate != nullptr) out += gate_text(*options.gate);
   return out;
@@ -308,7 +318,7 @@ std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view
                      const TextDrain& drain) {
   std::string out =
       "interface,type,role,kind,secondary_1,secondary_2,main_1,main_2,main_3,main_4,depth,gap,"
-      "distance,ratio,normal_x,normal_y,normal_z,on_surface,action,gap0,p0,x,y,z,"
+      "distance,ratio,normal_x,normal_y,normal_z,on_surface,in_contact,action,gap0,p0,x,y,z,"
       "secondary_element,secondary_part,main_element,main_part,file,line\r\n";
   const std::vector<Span> spans =
       detail::node_spans(*scene.model, first_nodes(scene, view.penetrations));
@@ -325,8 +335,9 @@ std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view
                    length(r.depth), length(r.gap), length(r.distance),
                    r.gap > 0 ? r.depth / r.gap : 0.0);
     fmt::format_to(
-        std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", r.normal[0],
-        r.normal[1], r.normal[2], r.on_surface ? 1 : 0, to_string(r.action),
+        std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n",
+        r.normal[0], r.normal[1], r.normal[2], r.on_surface ? 1 : 0, r.in_contact ? 1 : 0,
+        to_string(r.action),
         r.has_gap0 ? length(r.gap0) : "", r.has_gap0 ? length(r.p0) : "", p.at[0], p.at[1], p.at[2],
         id(p.secondary_element.id), id(p.secondary_element.part), id(p.main_element.id),
         id(p.main_element.part),

@@ -5,6 +5,7 @@
 
 #include "contact/shared/element_names.hpp"
 #include "deck/contact/ties.hpp"
+#include "deck/contact/view.hpp"
 #include "model/shared/connectivity.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/terminal/words.hpp"
@@ -21,16 +22,38 @@ std::string segment_text(const Model& model, const Tie& tie, std::uint32_t segme
   return out;
 }
 
+/// A node that is not tied.
 struct Untied {
-  const Tie* tie;
-  const TiedNode* node;
+  const InterBase* inter = nullptr;
+  NodeIndex node = no_index;
+  std::string segment, distance, search, why;
 };
 
-std::vector<Untied> untied_of(const Scene& scene) {
+Untied untied_of(const Model& model, const Tie& tie, const TiedNode& n) {
+  const bool found = n.segment != no_index;
+  const std::uint32_t segment = found ? n.segment : n.nearest;
+  const double distance = found ? n.distance : n.nearest_distance;
+  const double search = n.search != 0 ? n.search : tie.search_distance;
+  return {tie.inter,
+          n.node,
+          segment_text(model, tie, segment),
+          segment == no_index ? "-" : fmt::format("{:.6g}", distance),
+          search == 0 ? "-" : fmt::format("{:.6g}", search),
+          short_reason(tie, n)};
+}
+
+/// The first `most` of all ties; `all`: how many there are.
+std::vector<Untied> untied_of(const Scene& scene, std::size_t most, std::size_t& all) {
   std::vector<Untied> out;
   for (const Tie& tie : scene.ties)
     for (const TiedNode& n : tie.nodes)
-      if (tie.not_evaluated.empty() && n.lost()) out.push_back({&tie, &n});
+      if (tie.not_evaluated.empty() && n.lost() && ++all <= most)
+        out.push_back(untied_of(*scene.model, tie, n));
+  for (const Contact& c : scene.contacts)
+    for (const std::uint32_t i : untied_secondary(c))
+      if (++all <= most)
+        out.push_back({c.inter, c.secondary[i].node, "-", "-", fmt::format("{:.6g}", c.gapmin),
+                       "no segment"});
   return out;
 }
 
@@ -62,31 +85,24 @@ std::string tie_table(const Scene& scene, const GapsTextOptions& options) {
 
 std::string untied_text(const Deck& deck, const Scene& scene, const GapsTextOptions& options) {
   const Model& model = *scene.model;
-  const std::vector<Untied> all = untied_of(scene);
-  const std::size_t rows = std::min(options.worst, all.size());
+  std::size_t all = 0;
+  const std::vector<Untied> rows = untied_of(scene, options.worst, all);
   TextTable table = make_table({">interface", ">node", ">part", "nearest segment", ">distance",
                                 ">search distance", "why", "=defined at"});
   std::vector<NodeIndex> nodes;
-  for (std::size_t i = 0; i < rows; ++i) nodes.push_back(all[i].node->node);
+  for (const Untied& row : rows) nodes.push_back(row.node);
   const std::vector<Span> spans = node_spans(model, nodes);
   Connectivity connectivity(model);
-  for (std::size_t i = 0; i < rows; ++i) {
-    const Tie& tie = *all[i].tie;
-    const TiedNode& n = *all[i].node;
-    const bool found = n.segment != no_index;
-    const std::uint32_t segment = found ? n.segment : n.nearest;
-    const double distance = found ? n.distance : n.nearest_distance;
-    const double search = n.search != 0 ? n.search : tie.search_distance;
-    const std::int64_t part = element_at(model, connectivity, n.node).part;
-    table.row({fmt::format("{}", tie.inter->id), fmt::format("{}", model.node_id(n.node)),
-               part == 0 ? "-" : fmt::format("{}", part), segment_text(model, tie, segment),
-               segment == no_index ? "-" : fmt::format("{:.6g}", distance),
-               search == 0 ? "-" : fmt::format("{:.6g}", search), short_reason(tie, n),
-               deck.sources.where(spans[i])});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Untied& row = rows[i];
+    const std::int64_t part = element_at(model, connectivity, row.node).part;
+    table.row({fmt::format("{}", row.inter->id), fmt::format("{}", model.node_id(row.node)),
+               part == 0 ? "-" : fmt::format("{}", part), row.segment, row.distance, row.search,
+               row.why, deck.sources.where(spans[i])});
   }
-  std::string out = rows == 0 ? std::string() : table.fitted(options.width, options.color, 2, 1);
-  if (rows < all.size())
-    out += fmt::format("  … and {} more (--worst N, --json)\n", all.size() - rows);
+  std::string out = rows.empty() ? std::string() : table.fitted(options.width, options.color, 2, 1);
+  if (rows.size() < all)
+    out += fmt::format("  … and {} more (--worst N, --json)\n", all - rows.size());
   return out;
 }
 

@@ -135,7 +135,7 @@ std::string edge_side(const Model& model, const Contact& c, bool main) {
 std::string penetrations(const Scene& scene, const SceneView& view) {
   VtkPolyData out(Cells::vertices);
   std::vector<double> arrow, normal, depth, gap, ratio;
-  std::vector<std::int64_t> action, on_surface, node, interface;
+  std::vector<std::int64_t> action, on_surface, in_contact, node, interface;
   for (const NamedPenetration& p : view.penetrations) {
     const Contact& c = scene.contacts[p.contact];
     const PenetrationRow& r = c.penetrations[p.row];
@@ -150,6 +150,7 @@ std::string penetrations(const Scene& scene, const SceneView& view) {
     ratio.push_back(r.gap > 0 ? r.depth / r.gap : 0);
     action.push_back(static_cast<std::int64_t>(r.action));
     on_surface.push_back(r.on_surface);
+    in_contact.push_back(r.in_contact);
     node.push_back(p.secondary[0]);
     interface.push_back(c.inter->id);
   }
@@ -160,6 +161,7 @@ std::string penetrations(const Scene& scene, const SceneView& view) {
   out.point_data("ratio", ratio);
   out.point_data("action", action);
   out.point_data("on_surface", on_surface);
+  out.point_data("in_contact", in_contact);
   out.point_data("node", node);
   out.point_data("interface", interface);
   return out.document();

@@ -77,6 +77,18 @@ Result<Side> read_old(const Options& o, const SchemaSet& schemas) {
   return read_side(o, old->path, schemas, &old->files);
 }
 
+/// The penetrations of a comparison for the page.
+std::vector<PageTrend> trends_of(const DeckDiff& diff) {
+  std::vector<PageTrend> out;
+  const std::pair<const char*, const std::vector<PenetrationChange>&> lists[] = {
+      {"new", diff.appeared}, {"worse", diff.worse}, {"better", diff.better},
+      {"same", diff.same},    {"solved", diff.gone}};
+  for (const auto& [trend, list] : lists)
+    for (const PenetrationChange& p : list)
+      out.push_back({p.interface_id, p.role, p.secondary, p.depth_old, p.gap_old, trend});
+  return out;
+}
+
 int run(const Options& o) {
   const std::size_t wanted = o.git.empty() ? 2 : 1;
   if (o.common.decks.size() != wanted)
@@ -142,7 +154,8 @@ int run(const Options& o) {
   }
   if (!o.html.empty()) {
     const std::string path = b->loaded.path();
-    const auto page = difference_page(a->loaded, b->loaded, "diff", path);
+    const std::vector<PageTrend> trends = trends_of(diff);
+    const auto page = difference_page(a->loaded, b->loaded, "diff", path, {}, &trends);
     const auto written =
         page ? o.common.session->write_output(o.html, *page) : Result<void>(page.error());
     if (!written) {

@@ -10,20 +10,32 @@
 
 namespace deck::cli {
 
+namespace {
+
+Result<EarlierGaps> gaps_before(const LoadedDeck& before, int threads) {
+  SceneOptions options = before.scene_options();
+  options.ties = true;
+  Diagnostics ignored;
+  const Scene scene = before.scene_with(options, ignored);
+  const std::vector<Crossing> crossings = find_crossings(scene, threads);
+  const std::string document =
+      gaps_json(before.path(), before.deck(), scene, make_view(scene, &crossings), false);
+  return read_earlier_gaps("as it was", document, before.path());
+}
+
+}  // namespace
+
 Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after, const char* verb,
-                                    std::string_view path, std::string_view repair) {
-  const int threads = after.options().threads;
-  const std::string was = [&] {
-    SceneOptions options = before.scene_options();
-    options.ties = true;
-    Diagnostics ignored;
-    const Scene scene = before.scene_with(options, ignored);
-    const std::vector<Crossing> crossings = find_crossings(scene, threads);
-    return gaps_json(before.path(), before.deck(), scene, make_view(scene, &crossings), false);
-  }();
-  const auto earlier = read_earlier_gaps("as it was", was, before.path());
+                                    std::string_view path, std::string_view repair,
+                                    const std::vector<PageTrend>* trends) {
+  EarlierGaps named;
+  named.path = "as it was";
+  named.deck_path = before.path();
+  const auto earlier = trends != nullptr ? Result<EarlierGaps>(std::move(named))
+                                         : gaps_before(before, after.options().threads);
   if (!earlier) return earlier.error();
   HtmlInput input;
+  input.trends = trends;
   input.path = path;
   input.verb = verb;
   input.earlier = &*earlier;

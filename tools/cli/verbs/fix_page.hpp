@@ -6,14 +6,16 @@
 
 #include "common.hpp"
 #include "deck/edit/rewrite.hpp"
+#include "deck/report/html.hpp"
 
 namespace deck::cli {
 
 /// The page of `deck diff --html`, and with the verb "fix" of `deck fix --html`: the later deck
 /// with what is new, solved or deeper than in the earlier one. `path`: name of the deck in the
-/// page.
+/// page. `trends`: HtmlInput::trends; nullptr: both decks are compared as --compare does it.
 Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after, const char* verb,
-                                    std::string_view path, std::string_view repair = {});
+                                    std::string_view path, std::string_view repair = {},
+                                    const std::vector<PageTrend>* trends = nullptr);
 
 /// The page of `deck fix --html` of the deck with `changed` texts, against the deck as
 /// it was read. `repair`: HtmlInput::repair. Error: it cannot be read again, or the viewer is not

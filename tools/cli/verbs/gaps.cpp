@@ -91,7 +91,7 @@ class GapsRun {
  public:
   explicit GapsRun(const Options& options)
       : o_(options),
-        json_(options.common, "deck/gaps", 1),
+        json_(options.common, "deck/gaps", gaps_version),
         accepted_(options.write_baseline, Baseline::Kind::gaps),
         gate_(options.gate) {
     if (!writes_baseline()) return;  // which replaces what was accepted

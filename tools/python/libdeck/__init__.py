@@ -300,7 +300,7 @@ class Arrays(_Mapping):
 class Contact:
     """One elementary contact: nodes against segments, or edges against edges. A TYPE19 gives up to three.
 
-    ``secondary``, ``main``, ``penetrations`` and, of ``Forces``, ``pairs`` are arrays by name. Names are those of the
+    ``secondary``, ``main``, ``penetrations``, ``tied_pairs`` and, of ``Forces``, ``pairs`` are arrays by name. Names are those of the
     JSON (ids: ``node``, ``segment``, ``edge``, ``main_edge``); ``..._index`` are positions in the arrays of the nodes.
     """
 
@@ -338,9 +338,14 @@ class Contact:
     @property
     def penetrations(self) -> Arrays:
         """``node``, ``segment`` (or ``edge``, ``main_edge``), ``penetration``, ``gap``, ``distance``, ``normal``,
-        ``on_surface``, ``action``, ``gap0``, ``p0``; ``secondary`` and ``main`` are positions in the lists of the sides.
-        All are lengths, of edges as of nodes. Where ``ties`` of the contact is true its pairs are tied."""
+        ``on_surface``, ``in_contact``, ``action``, ``gap0``, ``p0``; ``secondary`` and ``main`` are positions in the lists
+        of the sides. All are lengths, of edges as of nodes. Without ties."""
         return self._named(self._native.penetrations(self._at))
+
+    @property
+    def tied_pairs(self) -> Arrays:
+        """What a TYPE10 ties, with the same names: the solver lists these pairs, but they are no penetrations."""
+        return self._named(self._native.tied_pairs(self._at))
 
     @property
     def pairs(self) -> Arrays:
@@ -676,7 +681,7 @@ class Deck:
         ``min_gap`` and ``max_moved``: shares, 0 to 1, of the gap and of the nodes of a part; ``max_displacement``: a
         length, working units; ``lock``: ids of parts that stay. ValueError for what a strategy does not take.
 
-        Ties (TYPE10, TYPE7 with ITIED) are left alone unless ``ties`` is set.
+        Ties (TYPE10) are left alone unless ``ties`` is set.
         """
         return Edit(_native.fix(self._native, strategy, [int(i) for i in interfaces], min_gap, inacti, fpenmax,
                                 max_moved, max_displacement, [int(i) for i in lock], ties))

@@ -168,25 +168,33 @@ py::dict main_arrays(const ScenePointer& s, std::size_t k) {
   return out;
 }
 
-py::dict penetration_arrays(const ScenePointer& s, std::size_t k) {
+/// The pairs of a contact that ties, or those of one that does not; else none.
+py::dict pair_arrays(const ScenePointer& s, std::size_t k, bool ties) {
+  static const std::vector<PenetrationRow> none;
   const Contact& c = contact_at(*s, k);
+  const std::vector<PenetrationRow>& rows = c.ties() == ties ? c.penetrations : none;
   const py::object owner = py::cast(s);
   py::dict out;
-  out["secondary"] = member_view(c.penetrations, &PenetrationRow::secondary, owner);
-  out["main"] = member_view(c.penetrations, &PenetrationRow::main, owner);
-  out["penetration"] = member_view(c.penetrations, &PenetrationRow::depth, owner);
-  out["gap"] = member_view(c.penetrations, &PenetrationRow::gap, owner);
-  out["distance"] = member_view(c.penetrations, &PenetrationRow::distance, owner);
-  out["normal"] = member_view(c.penetrations, &PenetrationRow::normal, owner);
-  out["on_surface"] = member_view(c.penetrations, &PenetrationRow::on_surface, owner);
-  out["in_contact"] = member_view(c.penetrations, &PenetrationRow::in_contact, owner);
-  out["gap0"] = member_view(c.penetrations, &PenetrationRow::gap0, owner);
-  out["p0"] = member_view(c.penetrations, &PenetrationRow::p0, owner);
+  out["secondary"] = member_view(rows, &PenetrationRow::secondary, owner);
+  out["main"] = member_view(rows, &PenetrationRow::main, owner);
+  out["penetration"] = member_view(rows, &PenetrationRow::depth, owner);
+  out["gap"] = member_view(rows, &PenetrationRow::gap, owner);
+  out["distance"] = member_view(rows, &PenetrationRow::distance, owner);
+  out["normal"] = member_view(rows, &PenetrationRow::normal, owner);
+  out["on_surface"] = member_view(rows, &PenetrationRow::on_surface, owner);
+  out["in_contact"] = member_view(rows, &PenetrationRow::in_contact, owner);
+  out["gap0"] = member_view(rows, &PenetrationRow::gap0, owner);
+  out["p0"] = member_view(rows, &PenetrationRow::p0, owner);
   py::list action;
-  for (const PenetrationRow& row : c.penetrations) action.append(to_string(row.action));
+  for (const PenetrationRow& row : rows) action.append(to_string(row.action));
   out["action"] = action;
   return out;
 }
+
+py::dict penetration_arrays(const ScenePointer& s, std::size_t k) {
+  return pair_arrays(s, k, false);
+}
+py::dict tied_arrays(const ScenePointer& s, std::size_t k) { return pair_arrays(s, k, true); }
 
 py::dict contact_facts(const PyScene& s, std::size_t k) {
   const Contact& c = contact_at(s, k);
@@ -278,6 +286,7 @@ void bind_results(py::module_& m) {
       .def("secondary", &secondary_arrays)
       .def("main", &main_arrays)
       .def("penetrations", &penetration_arrays)
+      .def("tied_pairs", &tied_arrays)
       .def("verdict", &gaps_verdict_of)
       .def("coordinates", [](const ScenePointer& s) {
         const py::object owner = py::cast(s);

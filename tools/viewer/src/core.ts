@@ -52,7 +52,9 @@ export type Action =
   | "ignored"
   | "offset-stored"
   | "initial-force"
-  | "removed-tied";
+  | "removed-tied"
+  | "error-611"
+  | "error-612";
 
 /** Effective options of one contact. */
 export interface Setting {
@@ -97,7 +99,7 @@ function text(address: number): string {
   return out;
 }
 let names: Action[] | null = null;
-const actionOf = (i: number): Action => (names ??= Array.from({ length: 10 }, (_, k) => k).map((k) => text(rules().action_text(k)) as Action))[i];
+const actionOf = (i: number): Action => (names ??= Array.from({ length: 12 }, (_, k) => k).map((k) => text(rules().action_text(k)) as Action))[i];
 
 /** A row as the rules wrote it: there can be half a million, so nothing is copied. */
 class WrittenRow implements Row {
@@ -107,6 +109,7 @@ class WrittenRow implements Row {
     readonly contact: number,
     private readonly v: Float64Array,
     private readonly at: number,
+    private readonly error = 0, // with which the solver stops at a node on a segment
   ) {
     this.secondary = v[at];
     this.main = v[at + 1];
@@ -127,7 +130,7 @@ class WrittenRow implements Row {
     return this.v[this.at + 8] !== 0;
   }
   get action(): Action {
-    return actionOf(this.v[this.at + 9]);
+    return this.error !== 0 && this.onSurface ? (`error-${this.error}` as Action) : actionOf(this.v[this.at + 9]);
   }
   get gap0(): number | null {
     return this.v[this.at + 10] !== 0 ? this.v[this.at + 11] : null;
@@ -146,14 +149,19 @@ class WrittenRow implements Row {
   }
 }
 
+/** The solver stops at such a penetration. */
+export const stopsSolver = (action: Action): boolean => action.startsWith("error-");
+
 /** What Inacti and Fpenmax would do about a penetration on its own. */
-export function outcomeOf(row: Row, inacti: number, fpenmax: number): Outcome {
+export function outcomeOf(row: Row, meta: ContactMeta, inacti: number, fpenmax: number): Outcome {
   rules().act(inacti, fpenmax, row.depth, row.gap, Number(row.onSurface));
-  return new WrittenRow(row.contact, new Float64Array(rules().memory.buffer, rules().exchange(), rowSize).slice(), 0);
+  const written = new Float64Array(rules().memory.buffer, rules().exchange(), rowSize).slice();
+  written[8] = Number(row.onSurface);
+  return new WrittenRow(row.contact, written, 0, onSurfaceError(meta, fpenmax, inacti));
 }
 
 /** The solver's error for a node exactly on a segment; 0: none. */
-export function onSurfaceError(meta: ContactMeta, fpenmax: number, inacti: number): number {
+function onSurfaceError(meta: ContactMeta, fpenmax: number, inacti: number): number {
   return meta.kind === "edge_edge" ? 0 : rules().on_surface_error(meta.type, meta.itied, fpenmax, inacti);
 }
 
@@ -185,10 +193,11 @@ export interface Raw {
   rows: Float64Array;
 }
 
-export function evaluated(contact: number, { head, rows: out }: Raw): Evaluated {
+export function evaluated(contact: number, meta: ContactMeta, { head, rows: out }: Raw): Evaluated {
   const [igap, inacti, irem, fpenmax, scale, gapmin, from, gapmax, maxGap, drad, reached, uncertain, count, , rule = igap] = head;
   const rows: Row[] = [];
-  for (let i = 0; i < count; i++) rows.push(new WrittenRow(contact, out, i * rowSize));
+  const error = onSurfaceError(meta, fpenmax, inacti);
+  for (let i = 0; i < count; i++) rows.push(new WrittenRow(contact, out, i * rowSize, error));
   return { setting: { igap, rule, inacti, irem, fpenmax, scale, gapmin, gapminFrom: text(rules().origin_text(from)), gapmax, maxGap, drad }, rows, reached, uncertain: uncertain !== 0 };
 }
 

@@ -1,6 +1,6 @@
 // Evaluates all contacts for given card values: the rules are the program's own (core.ts), so the rows
 // are those of `deck gaps --what-if`. Inacti 3 moves nodes, and later contacts see that.
-import { Core, evaluated, largestMove, onSurfaceError, type Raw, type Row, type Setting } from "./core";
+import { Core, evaluated, largestMove, stopsSolver, type Raw, type Row, type Setting } from "./core";
 import type { ContactData, Contacts } from "./data";
 import type { ContactMeta, Meta, Overrides, Totals } from "./meta";
 
@@ -79,7 +79,7 @@ export class Evaluator {
   }
 
   setting(i: number, overrides: Overrides): Setting {
-    return evaluated(i, this.core.evaluate(i, overrides, 0, false)).setting;
+    return evaluated(i, this.meta.contacts[i], this.core.evaluate(i, overrides, 0, false)).setting;
   }
 
   private moves(overrides: Overrides[]): boolean {
@@ -91,7 +91,7 @@ export class Evaluator {
   /** `moved`: how far the contacts before have moved a node. */
   private result(i: number, raw: Raw, moved: number): Result {
     const meta = this.meta.contacts[i];
-    const { setting, rows, reached, uncertain } = evaluated(i, raw);
+    const { setting, rows, reached, uncertain } = evaluated(i, meta, raw);
     const result: Result = { setting, rows, totals: emptyTotals(), reached, complete: true };
     if (meta.given) result.complete = meta.complete;
     else if (searched(meta)) {
@@ -140,10 +140,9 @@ export class Tally {
   }
 
   add(meta: ContactMeta, data: ContactData, result: Result): void {
-    const stops = onSurfaceError(meta, result.setting.fpenmax, result.setting.inacti) !== 0;
     const isEdge = meta.kind === "edge_edge";
     if (meta.ties) { // only what stops the solver counts
-      for (const row of result.rows) if (row.onSurface && stops) this.node(data.secondaryNode[row.secondary], 4);
+      for (const row of result.rows) if (stopsSolver(row.action)) this.node(data.secondaryNode[row.secondary], 4);
       return;
     }
     for (const row of result.rows) {
@@ -155,9 +154,9 @@ export class Tally {
         this.t.on_segment.pairs++;
         if (isEdge) this.onEdges.add(item);
         else this.node(item, 2);
-        if (stops && !isEdge) this.node(item, 4);
       }
-      if (row.action !== "none") this.t.acted++;
+      if (stopsSolver(row.action)) this.node(item, 4);
+      else if (row.action !== "none") this.t.acted++;
       if (row.gap > this.largestGap) {
         this.t.unbounded = (this.t.unbounded ?? 0) + 1;
         continue;

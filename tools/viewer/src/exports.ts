@@ -78,7 +78,7 @@ export function tclMarks(hits: Hit[], title: string): string {
 export function csv(report: Report, hits: Hit[]): string {
   const head =
     "interface,type,role,kind,secondary_1,secondary_2,main_1,main_2,main_3,main_4,depth,gap," +
-    "distance,ratio,normal_x,normal_y,normal_z,on_surface,action,gap0,p0,x,y,z," +
+    "distance,ratio,normal_x,normal_y,normal_z,on_surface,in_contact,action,gap0,p0,x,y,z," +
     "secondary_element,secondary_part,main_element,main_part,file,line";
   const quote = (t: string) => (/[",\r\n]/.test(t) ? `"${t.replace(/"/g, '""')}"` : t);
   const id = (v: number | undefined) => (v ? String(v) : "");
@@ -92,7 +92,7 @@ export function csv(report: Report, hits: Hit[]): string {
     return [
       inter.id, inter.type, c.role, c.kind, x.nodes[0], id(x.nodes[1]),
       id(main[0]), id(main[1]), id(main[2]), id(main[3]), r.depth, r.gap, r.distance, x.ratio,
-      ...r.normal, r.onSurface ? 1 : 0, r.action, r.gap0 ?? "", r.p0 ?? "", ...report.point(r),
+      ...r.normal, r.onSurface ? 1 : 0, report.isRoundOff(r) ? 0 : 1, r.action, r.gap0 ?? "", r.p0 ?? "", ...report.point(r),
       id(report.elementId(r, "secondary")), id(report.partId(x.secondaryPart)),
       id(report.elementId(r, "main")), id(report.partId(x.mainPart)),
       place ? quote(place.file) : "", place ? place.line : "",

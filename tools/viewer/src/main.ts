@@ -25,7 +25,7 @@ import { touchesSection } from "./sections/touches";
 import { verdict } from "./sections/verdict";
 import { tiesSection } from "./sections/ties";
 import { nearestSection } from "./sections/nearest";
-import { Report, type Hit } from "./report";
+import { noFilter, Report, type Hit } from "./report";
 import type { WebGLRenderer } from "three";
 import { drawsInSoftware } from "./scene/machine";
 import { readyToDraw } from "./scene/ready";
@@ -323,7 +323,7 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
     U: redo,
     Escape: () => {
       if (report.selected || report.untied) report.select(null);
-      else report.setFilter({ interface: null, pair: null, depth: null, ratio: null, status: null, text: "" });
+      else report.setFilter(noFilter);
     },
   };
   contours.forEach((c, i) => (run[String(i + 1)] = () => changeLook({ contour: c })));

@@ -36,6 +36,7 @@ export interface InterfaceMeta {
   id: number;
   type: number;
   title: string;
+  level: Verdict["level"]; // with the deck's settings
   card: Card;
   values: Record<string, { value: number | string; origin: string; input: number | string | null }>;
 }
@@ -98,12 +99,13 @@ export interface ContactMeta {
   margin: number;
   complete: boolean;
   pairs: number;
+  round_off: [number, number][]; // secondary and main of pairs that only the solver's round-off makes
   totals: Totals;
   card: CardValues;
   default: Samples[]; // what a default gap is formed of: of the main side; of edges also of the secondary
 }
 
-/** A tie: /INTER/TYPE2. */
+/** A tie: /INTER/TYPE2 or TYPE10. */
 export interface TieMeta {
   interface: number;
   nodes: number;
@@ -148,6 +150,7 @@ export interface Meta {
   files: string[];
   bytes: number; // of all of them
   largest_gap: number; // beyond it a gap is unbounded: shown as that word, left out of scales
+  actions: Record<string, [string, string]>; // what the solver does, in words: about one pair, about several
   parts: { id: number; title: string; prop: number; mat: number; prop_type?: string; thickness?: number }[];
   free_group_id: number;
   what_if: (Overrides & { interface: number; "%mesh_size"?: number; Irem_gap?: number })[];
@@ -161,7 +164,8 @@ export interface Earlier {
   path: string;
   deck: string;
   same_depth: number; // share of a depth below which a difference is none
-  rows: [number, string, number, number, number, number][]; // interface, role, s1, s2, depth, gap
+  /** Interface, role, s1, s2 (ascending), depth and gap then, what became of it. */
+  rows: [number, string, number, number, number, number, "new" | "worse" | "better" | "same" | "solved"][];
 }
 
 /** Forces of the first cycle with the deck's settings; null: nothing limits. */

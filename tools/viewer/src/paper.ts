@@ -15,6 +15,7 @@ export function filterText(report: Report): string {
     f.interface !== null && `interface ${report.interfaceName(f.interface)}`,
     f.pair && `parts ${report.partText(f.pair[0])} and ${report.partText(f.pair[1])}`,
     between("depth", f.depth), between("depth ÷ gap", f.ratio),
+    f.roundOff && "only by the solver's round-off",
     f.status && `${f.status} against ${report.earlier?.path}`,
     f.text.trim() && `"${f.text.trim()}"`,
   ].filter((t) => t).join(", ");
@@ -28,7 +29,7 @@ function table(titles: string[], rows: (string | number)[][]): HTMLElement {
 function worst(report: Report, hits: Hit[]): HTMLElement {
   const id = (x: Hit) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id;
   return table(["Depth", "Gap", "Interface", "Node / edge", "Segment / edge", "Part", "Main part", "Action"],
-    hits.slice(0, 10).map((x) => [lengthText(report, x.depth, 5), lengthText(report, x.row.gap), id(x), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), x.row.action]));
+    hits.slice(0, 10).map((x) => [lengthText(report, x.depth, 5), lengthText(report, x.row.gap), id(x), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), report.fateText(x.row)]));
 }
 
 /** Ties that lose nodes, and how many hold. */
@@ -63,7 +64,7 @@ export function printing(report: Report, viewport: Viewport): void {
       filter !== "" && worst(report, report.filtered),
       h("h2", { class: "second" }, "Interfaces"),
       table(["Id", "Title", "Kind", "Gapmin", "Pairs", "Nodes", "Edges", "Deepest", "Of gap"],
-        all.slice(0, most).map(({ inter, contacts, t }) => [inter.id, inter.title, `TYPE${inter.type}`, lengthText(report, report.results[contacts[0]].setting.gapmin), group(t.pairs), group(t.nodes), group(t.edges), t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth) : "–", t.pairs && !t.unbounded ? percent(t.max_ratio) : "–"])),
+        all.slice(0, most).map(({ inter, contacts, t }) => [inter.id, inter.title, `TYPE${inter.type}`, lengthText(report, report.results[contacts[0]].setting.gapmin), ...[t.pairs, t.nodes, t.edges].map((n) => (contacts.some((c) => meta.contacts[c].evaluated) ? group(n) : "–")), t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth) : "–", t.pairs && !t.unbounded ? percent(t.max_ratio) : "–"])),
       all.length > most && h("p", { class: "note" }, `… and ${group(all.length - most)} with shallower penetrations or none`),
       ...ties(report),
       h("p", { class: "paper-foot" },

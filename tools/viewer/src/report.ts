@@ -1,12 +1,12 @@
 // The state of the page: data, settings under test, results, filters, selection; and who is told
 // when one of them changes.
 import { kindNames, type Contacts, type Mesh, type Steps } from "./data";
-import { onSurfaceError, type Raw, type Row } from "./core";
-import { onceShown } from "./dom";
+import { stopsSolver, type Action, type Raw, type Row } from "./core";
+import { lengthText, onceShown } from "./dom";
 import { Evaluator, ratioOf, Tally, type Result } from "./evaluate";
 import { commonStart } from "./table/names";
 import type { Untied } from "./sections/untied";
-import type { Crossed, Cycle, Earlier, FieldName, Meta, Moved, Overrides, TieData, Totals } from "./meta";
+import type { Crossed, Cycle, Earlier, FieldName, Meta, Moved, Overrides, TieData, TieMeta, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
 
@@ -67,6 +67,12 @@ export function deepestFirst<T extends { depth: number }>(list: T[]): T[] {
   return out;
 }
 
+/** What became of a depth, by settings under test; null: there was none. */
+function trendOf(now: number, was: number | null, same: number): Status {
+  if (was === null) return "new";
+  return now > was * (1 + same) ? "worse" : now < was * (1 - same) ? "better" : "same";
+}
+
 export interface Solved {
   interfaceId: number;
   role: string;
@@ -82,8 +88,12 @@ export interface Filter {
   ratio: [number, number] | null;
   status: Status | null;
   text: string;
+  roundOff: boolean; // only what the solver's round-off makes
   perNode: boolean;
 }
+
+/** Nothing is filtered. */
+export const noFilter: Omit<Filter, "perNode"> = { interface: null, pair: null, depth: null, ratio: null, status: null, text: "", roundOff: false };
 
 export type Topic = "results" | "filter" | "selection" | "look";
 
@@ -97,14 +107,15 @@ export class Report {
   hits: Hit[] = [];
   solved: Solved[] = [];
   filtered: Hit[] = [];
-  filter: Filter = { interface: null, pair: null, depth: null, ratio: null, status: null, text: "", perNode: true };
+  filter: Filter = { ...noFilter, perNode: true };
   selected: Hit | null = null;
   untied: Untied | null = null;
   steps: Steps | null = null; // of the page of deck parts
   moved: Moved | null = null; // of the page of deck fix
   private readonly listeners = new Map<Topic, (() => void)[]>();
   private readonly forces: Map<string, { force: number; stiffness: number }>[] | null;
-  private readonly earlierRows: Map<string, { depth: number; gap: number; row: Earlier["rows"][0] }> | null;
+  private readonly earlierRows: Map<string, Earlier["rows"][0]> | null;
+  private readonly roundOff: Set<string>[]; // by contact: secondary/main
 
   constructor(
     readonly meta: Meta,
@@ -130,9 +141,9 @@ export class Report {
     this.started = this.overrides;
     const none = meta.interfaces.map(() => ({}) as Overrides);
     this.results = this.anyChanged ? this.evaluator.evaluate(this.overrides, { overrides: none, results: this.base }) : this.base;
-    this.earlierRows =
-      earlier &&
-      new Map(earlier.rows.map((r) => [`${r[0]}|${r[1]}|${r[2]}|${r[3]}`, { depth: r[4], gap: r[5], row: r }]));
+    this.roundOff = meta.contacts.map((c) => new Set(c.round_off.map((p) => p.join("/"))));
+    // What is solved may have an id that something else has now.
+    this.earlierRows = earlier && new Map([...earlier.rows].reverse().sort((a, b) => Number(b[6] === "solved") - Number(a[6] === "solved")).map((r) => [`${r[0]}|${r[1]}|${r[2]}|${r[3]}`, r]));
     this.collect();
   }
 
@@ -173,7 +184,7 @@ export class Report {
 
   /** "; 2 contacts were not evaluated", else empty: a contact that was not evaluated is not clean. */
   get leftOut(): string {
-    const n = this.meta.contacts.filter((c) => !c.evaluated).length + this.meta.ties.filter((t) => !t.evaluated).length;
+    const n = this.meta.contacts.filter((c) => !c.evaluated).length + this.welds.filter((t) => !t.evaluated).length;
     const others = this.meta.verdict.counts.interfaces_not_examined ?? 0;
     return [n > 0 && `; ${n === 1 ? "1 contact or tie was" : `${n} contacts or ties were`} not evaluated`, others > 0 && `; ${others === 1 ? "1 interface was" : `${others} interfaces were`} not examined`].filter(Boolean).join("");
   }
@@ -344,7 +355,16 @@ export class Report {
   }
   /** There are ties and no contact: nothing is said of penetrations. */
   get tiesOnly(): boolean {
-    return this.ties.length > 0 && this.meta.interfaces.length === this.meta.ties.length;
+    return this.ties.length > 0 && this.meta.interfaces.length === this.welds.length;
+  }
+  /** Those of TYPE2, which are no contacts. */
+  get welds(): TieMeta[] {
+    return this.meta.ties.filter((t) => this.meta.interfaces[t.interface].type === 2);
+  }
+  /** Nodes that a tie does not hold, of a TYPE10 with the settings under test. */
+  lost(t: TieMeta): number {
+    const contact = this.meta.contacts.findIndex((c) => c.ties && c.evaluated && c.interface === t.interface);
+    return contact < 0 ? t.lost : t.nodes - new Set(this.results[contact].rows.map((r) => r.secondary)).size;
   }
   /** The tie that an interface is; null: it is a contact. */
   tieOf(inter: number): TieData | null {
@@ -372,9 +392,22 @@ export class Report {
     const w = row.weight;
     return [w * x[a] + (1 - w) * x[b], w * y[a] + (1 - w) * y[b], w * z[a] + (1 - w) * z[b]];
   }
-  solverError(row: Row): number {
-    const { fpenmax, inacti } = this.results[row.contact].setting;
-    return row.onSurface ? onSurfaceError(this.meta.contacts[row.contact], fpenmax, inacti) : 0;
+  /** What the solver does, of one pair or of several, in the words of the program. */
+  actionText(action: Action, pairs = 1): string {
+    return this.meta.actions[action][pairs === 1 ? 0 : 1];
+  }
+  /** The same of a row, with the gap that is left. */
+  fateText(row: Row): string {
+    const text = row.action === "gap-reduced" && row.gap0 !== null ? `gap to ${lengthText(this, row.gap0)}` : this.actionText(row.action);
+    return this.isRoundOff(row) ? `${text} (round-off)` : text;
+  }
+  stops(row: Row): boolean {
+    return stopsSolver(row.action);
+  }
+  /** The pair is no nearer than its gap: only the round-off of the solver's formula makes a penetration of it. Known of the
+   * deck's settings. */
+  isRoundOff(row: Row): boolean {
+    return this.roundOff[row.contact].has(`${row.secondary}/${row.main}`) && !this.settingsDiffer(row.contact);
   }
 
   private positions: Float32Array | null = null;
@@ -399,7 +432,7 @@ export class Report {
     if (!this.forces || this.settingsDiffer(row.contact)) return null;
     return this.forces[row.contact].get(`${row.secondary}/${row.main}`) ?? null;
   }
-  private settingsDiffer(contact: number): boolean {
+  settingsDiffer(contact: number): boolean {
     const inter = this.meta.contacts[contact].interface;
     return JSON.stringify(this.overrides[inter]) !== JSON.stringify(this.started[inter]);
   }
@@ -433,18 +466,11 @@ export class Report {
         const pair: [number, number] = [this.nodeId(c.secondaryNode[at]), edges ? this.nodeId(c.secondaryNode[at + 1]) : 0];
         const hit = new Found(row, c.secondaryOwner.part[c.secondaryListed[row.secondary]], c.mainOwner.part[row.main], pair);
         if (this.earlier && this.earlierRows) {
-          const sameDepth = this.earlier.same_depth;
-          const key = `${id}|${meta.role}|${pair[0]}|${pair[1]}`;
+          const key = `${id}|${meta.role}|${[...pair].sort((a, b) => (edges ? a - b : 0)).join("|")}`;
           const old = this.earlierRows.get(key);
           seen.add(key);
-          hit.earlier = old?.depth ?? null;
-          hit.status = !old
-            ? "new"
-            : row.depth > old.depth * (1 + sameDepth)
-              ? "worse"
-              : row.depth < old.depth * (1 - sameDepth)
-                ? "better"
-                : "same";
+          hit.earlier = old && old[6] !== "new" ? old[4] : null;
+          hit.status = this.settingsDiffer(contact) ? trendOf(row.depth, hit.earlier, this.earlier.same_depth) : old && old[6] !== "solved" ? old[6] : null;
         }
         this.hits.push(hit);
       }
@@ -457,7 +483,7 @@ export class Report {
     if (this.earlierRows) {
       const first = new Set<string>();
       for (const x of this.hits) {
-        const k = `${x.contact}/${x.row.secondary}`;
+        const k = this.itemKey(x);
         if (first.has(k)) {
           x.status = null;
           x.earlier = null;
@@ -466,11 +492,12 @@ export class Report {
       }
     }
     this.solved = [];
-    for (const [key, old] of this.earlierRows ?? [])
-      if (!seen.has(key))
-        this.solved.push({
-          interfaceId: old.row[0], role: old.row[1], nodes: [old.row[2], old.row[3]], depth: old.depth, gap: old.gap,
-        });
+    for (const r of this.earlier?.rows ?? []) {
+      const key = `${r[0]}|${r[1]}|${r[2]}|${r[3]}`;
+      const another = r[6] === "solved" && this.earlierRows!.get(key) !== r;
+      if (r[6] !== "new" && (another || !seen.has(key)))
+        this.solved.push({ interfaceId: r[0], role: r[1], nodes: [r[2], r[3]], depth: r[4], gap: r[5] });
+    }
     this.applyFilter();
   }
 
@@ -481,6 +508,7 @@ export class Report {
     const text = (of("text") ?? "").trim().toLowerCase();
     // The first, and so the deepest, row of a node or edge: there can be half a million of them.
     const seen = perNode ? this.data.contacts.map((c) => new Uint8Array(c.secondaryNode.length)) : null;
+    const edges = new Set<string>();
     const out: Hit[] = [];
     for (const x of this.hits) {
       if (inter !== null && this.meta.contacts[x.contact].interface !== inter) continue;
@@ -489,7 +517,12 @@ export class Report {
       if (ratio && !(x.ratio >= ratio[0] && x.ratio <= ratio[1])) continue;
       if (status && x.status !== status) continue;
       if (text && !this.matches(x, text)) continue;
-      if (seen) {
+      if (f.roundOff && except !== "roundOff" && !this.isRoundOff(x.row)) continue;
+      if (seen && this.isEdge(x.row)) { // a list can have an edge twice
+        const key = this.itemKey(x);
+        if (edges.has(key)) continue;
+        edges.add(key);
+      } else if (seen) {
         const done = seen[x.contact];
         if (done[x.row.secondary] === 1) continue;
         done[x.row.secondary] = 1;
@@ -499,9 +532,14 @@ export class Report {
     return out;
   }
 
+  /** The node or edge of a contact. */
+  private itemKey(x: Hit): string {
+    return `${x.contact}/${[...x.nodes].sort((a, b) => a - b).join("/")}`;
+  }
+
   /** Deepest first, of a node or edge only the deepest, whatever the filters are. */
   worst(): Hit[] {
-    return this.passing(null, true, { interface: null, pair: null, depth: null, ratio: null, status: null, text: "", perNode: true });
+    return this.passing(null, true, { ...noFilter, perNode: true });
   }
 
   /** A length that no model of this size can need. */

@@ -95,6 +95,7 @@ export class ViewState {
     set("ratio", f.ratio?.join("-to-"));
     set("status", f.status);
     set("find", f.text);
+    set("roundoff", f.roundOff && "yes");
     set("rows", !f.perNode && "all");
     set("row", report.selected?.key);
     report.overrides.forEach((o, i) => set(`card.${report.meta.interfaces[i].id}`, Object.entries(o).map(([k, v]) => `${k}:${v}`).join(",")));
@@ -133,7 +134,7 @@ export class ViewState {
     report.setOverrides(overrides);
     const filter: Filter = {
       interface: at < 0 ? null : at, pair: pair.length === 2 ? [pair[0], pair[1]] : null, depth: range("depth"), ratio: range("ratio"),
-      status: (given.get("status") as Status | null) ?? null, text: given.get("find") ?? "", perNode: given.get("rows") !== "all",
+      status: (given.get("status") as Status | null) ?? null, text: given.get("find") ?? "", roundOff: given.get("roundoff") === "yes", perNode: given.get("rows") !== "all",
     };
     report.setFilter(filter);
     report.select(report.hits.find((x) => x.key === given.get("row")) ?? null);

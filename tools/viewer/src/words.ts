@@ -35,18 +35,6 @@ export function flagText(field: "Igap" | "Inacti", value: number, modern = false
   return `${value} – ${words[value] ?? "unknown"}`;
 }
 
-export const actionWords: Record<string, string> = {
-  none: "nothing",
-  "node-stiffness-zero": "node off",
-  "segment-stiffness-zero": "segment off",
-  "node-moved": "node moved",
-  "gap-reduced": "gap reduced",
-  "edge-stiffness-zero": "edge off",
-  ignored: "ignored",
-  "offset-stored": "stored as offset",
-  "initial-force": "force from the start",
-  "removed-tied": "held by a tie",
-};
 export const actionLong: Record<string, string> = {
   none: "Nothing is done. The run starts with this overlap: the contact pushes the node out from the first cycle on, with a force that grows with depth.",
   "node-stiffness-zero": "The node's stiffness is set to zero: this interface never acts on the node again.",
@@ -57,5 +45,7 @@ export const actionLong: Record<string, string> = {
   ignored: "The solver ignores it: nothing is stored for the pair. Only what is no deeper than 1e-8 would count.",
   "offset-stored": "The penetration is stored as an offset: the run starts without force, and from then on the contact acts on what goes beyond it.",
   "initial-force": "Nothing is taken off: the contact pushes from the first cycle on.",
+  "error-611": "The node lies exactly on the segment, so no direction exists.",
+  "error-612": "The node lies exactly on the segment, so no direction exists.",
   "removed-tied": "A tie holds the node, so the pair is left out of the contact (Irem_i2) and what was stored for it is taken back.",
 };

@@ -20,8 +20,14 @@ enum class PenetrationAction : std::uint8_t {
   offset_stored,           ///< TYPE24, 25: Inacti 5, taken off the penetration from then on
   initial_force,           ///< TYPE24, 25: Inacti -1, a force from the start
   removed_tied,            ///< TYPE24, 25: a tie holds the node, Irem_i2
+  error_611,               ///< the node is exactly on the segment: the solver stops (Inacti 3, 5, 6)
+  error_612,               ///< the same with Inacti 0
 };
-inline constexpr std::size_t penetration_actions = 10;  ///< how many there are
+inline constexpr std::size_t penetration_actions = 12;  ///< how many there are
+/// The solver stops at this penetration.
+inline bool stops_solver(PenetrationAction action) {
+  return action == PenetrationAction::error_611 || action == PenetrationAction::error_612;
+}
 /// For people, of one or of several: "nothing", "gap reduced", "edges switched off", ...
 const char* action_words(PenetrationAction action, std::size_t pairs = 2);
 const char* to_string(PenetrationAction action);  ///< "none", "node-stiffness-zero", ...

@@ -140,10 +140,11 @@ struct Contact {
   /// quadrangular faces of solids whose nodes all belong to a solid without that face.
   std::vector<std::uint32_t> crowded, inside_solids;
 
-  /// Its pairs are ties, not penetrations: what lies within the gap is tied at the start (TYPE10)
-  /// or as soon as its time step gets too small (TYPE7 with ITIED). They stand in `penetrations`,
-  /// because the solver lists them there, and are counted, repaired, gated and coloured nowhere.
-  bool ties() const { return kind == ContactKind::node_segment && (type == 10 || itied != 0); }
+  /// Its pairs are ties, not penetrations: a TYPE10 ties at the start what lies within the gap.
+  /// They stand in `penetrations`, because the solver lists them there, and are counted, repaired,
+  /// gated and coloured nowhere. ITIED of a TYPE7 ties nothing at the start: it acts in the Engine,
+  /// where a time step falls below dtmin.
+  bool ties() const { return kind == ContactKind::node_segment && type == 10; }
   bool main_empty() const {
     return kind == ContactKind::edge_edge ? main_edges.empty() : main.empty();
   }

@@ -51,7 +51,8 @@ struct ContactTotals {
   ItemCounts on_segment;     ///< what of it lies exactly on a segment
   std::optional<std::uint64_t> crossed_elements;  ///< crossings listed; nullopt: not looked for
   std::uint64_t solver_errors = 0;                ///< nodes for which the solver stops: 611, 612
-  std::uint64_t acted = 0;                        ///< pairs on which Inacti or Fpenmax do something
+  std::uint64_t acted = 0;      ///< pairs on which Inacti or Fpenmax do something
+  std::uint64_t round_off = 0;  ///< pairs with PenetrationRow::in_contact false
   double max_depth = 0, max_ratio = 0;
 };
 
@@ -60,7 +61,8 @@ struct SceneView {
   std::vector<NamedPenetration> penetrations;
   std::vector<NamedPenetration> ties;  ///< rows of contacts that tie, in the same order
   std::vector<std::uint32_t>
-      deepest_per_node;                 ///< indices into penetrations, one per contact side node
+      deepest_per_node;                 ///< indices into penetrations: of each contact one per
+                                        ///< secondary node or edge, also where it is listed twice
   std::vector<PartPair> part_pairs;     ///< deepest first
   std::vector<ContactTotals> contacts;  ///< parallel to Scene::contacts
   ContactTotals total;                  ///< a node or edge in several contacts counts once
@@ -71,6 +73,10 @@ struct SceneView {
 /// model. The same view for any number of threads.
 SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings = nullptr,
                     int threads = 1);
+
+/// Positions in `secondary` of the nodes that a contact that ties does not tie; of all others, and
+/// where it was not evaluated, none.
+std::vector<std::uint32_t> untied_secondary(const Contact& contact);
 
 /// The element behind a segment or edge; not valid for carriers without an element.
 ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t element);

@@ -34,6 +34,9 @@ struct GapsTextOptions {
 std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
                       const GapsTextOptions& options = {});
 
+/// Of the document of `deck gaps --json`: since 2 ties stand apart from penetrations.
+inline constexpr int gaps_version = 2;
+
 /// The document of `deck gaps --json`. With `all`, every secondary node and main segment; with
 /// `crossings`, what find_crossings gave for the scene.
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,

@@ -1,6 +1,8 @@
 // The interactive report of `deck gaps --html`: one self-contained HTML page with the viewer, the
 // outer faces of the model and everything needed to evaluate other gap settings in the page.
 #pragma once
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +21,15 @@ namespace deck {
 struct CycleInput;  // report/shared/cycle.hpp
 class LoadedDeck;   // deck/front/loaded_deck.hpp
 
+/// What became of a penetrating node or edge since an earlier run.
+struct PageTrend {
+  std::int64_t interface_id = 0;            ///< as the page names it; of what is solved, as it was
+  std::string role;                         ///< "primary", "reversed", "edges"
+  std::array<std::int64_t, 2> secondary{};  ///< node (second 0) or the two nodes of an edge
+  double depth = 0, gap = 0;                ///< then; of what is new 0
+  const char* trend = "";                   ///< "new", "worse", "same", "better", "solved"
+};
+
 struct HtmlInput {
   std::string_view path;  ///< of the deck, as given
   const Deck* deck = nullptr;
@@ -27,6 +38,9 @@ struct HtmlInput {
   std::vector<WhatIf> what_if;     ///< what the scene was built with
   std::vector<std::int64_t> only;  ///< what SceneOptions::only was
   const EarlierGaps* earlier = nullptr;
+  /// With `earlier`: its rows beside those of the page, where another comparison than compare_gaps
+  /// has found them; nullptr: that one.
+  const std::vector<PageTrend>* trends = nullptr;
   /// Forces of the first cycle with their pairs (CycleOptions::keep_pairs), sums at nodes are not
   /// looked at; may be nullptr.
   const cycle::SceneOutcome* cycle = nullptr;

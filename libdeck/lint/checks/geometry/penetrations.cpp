@@ -65,6 +65,9 @@ const char* treatment(PenetrationAction action) {
       return "they start with contact forces";
     case PenetrationAction::removed_tied:
       return "ties hold them";
+    case PenetrationAction::error_611:
+    case PenetrationAction::error_612:
+      return "the solver stops";
     case PenetrationAction::none:
       break;
   }
@@ -76,20 +79,18 @@ const char* treatment(PenetrationAction action) {
 std::string treatment(const Contact& c, const std::vector<const PenetrationRow*>& rows) {
   std::array<std::size_t, penetration_actions> by_action{};
   std::size_t stops = 0;
-  const int error = on_surface_error(c);
   for (const PenetrationRow* row : rows) {
-    if (row->on_surface && error != 0)
-      ++stops;
-    else
-      ++by_action[static_cast<std::size_t>(row->action)];
+    stops += stops_solver(row->action);
+    ++by_action[static_cast<std::size_t>(row->action)];
   }
   std::string out;
   if (stops > 0)
     out = fmt::format("{} the solver (error {})",
-                      stops == 1 ? "1 pair stops" : count_text(stops, "pair") + " stop", error);
+                      stops == 1 ? "1 pair stops" : count_text(stops, "pair") + " stop",
+                      on_surface_error(c));
   for (std::size_t a = 0; a < by_action.size(); ++a) {
-    if (by_action[a] == 0) continue;
     const auto action = static_cast<PenetrationAction>(a);
+    if (by_action[a] == 0 || stops_solver(action)) continue;
     if (by_action[a] == rows.size()) return treatment(action);
     out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", count_text(by_action[a], "pair"),
                        action_words(action));
@@ -159,23 +160,19 @@ void check_depths(const GeometryRun& run) {
 /// Nodes of a TYPE10 that are not tied at the start.
 void check_untied(const GeometryRun& run, std::uint32_t contact) {
   const Contact& c = run.scene.contacts[contact];
-  if (run.view.contacts[contact].untied == 0) return;
-  std::vector<bool> tied(c.secondary.size(), false);
-  for (const PenetrationRow& r : c.penetrations) tied[r.secondary] = true;
+  const std::vector<std::uint32_t> untied = untied_secondary(c);
+  if (untied.empty()) return;
   std::vector<std::int64_t> free;
-  NodeIndex first = no_index;
-  for (std::size_t s = 0; s < tied.size(); ++s) {
-    if (tied[s]) continue;
-    if (free.empty()) first = c.secondary[s].node;
+  const NodeIndex first = c.secondary[untied.front()].node;
+  for (const std::uint32_t s : untied)
     free.push_back(run.model().node_id(c.secondary[s].node));
-  }
   std::sort(free.begin(), free.end());
   Diagnostic* d =
       run.report(RuleId::DK308, c, "Gap",
                  fmt::format("{}: {} of {} not tied at the start, no segment is within the gap of "
                              "{:.6g}: {}",
-                             name_of(run, c), count_text(free.size(), "node"), tied.size(),
-                             c.gapmin, list_text(free)),
+                             name_of(run, c), count_text(free.size(), "node"),
+                             c.secondary.size(), c.gapmin, list_text(free)),
                  static_cast<double>(free.size()));
   if (d != nullptr) d->notes.emplace_back(run.model().node_span(first), "one of the nodes");
 }

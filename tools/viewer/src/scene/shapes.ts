@@ -26,8 +26,8 @@ export function discTexture(): CanvasTexture {
 }
 
 /** Dots of the colours of their vertices. */
-export const dotMaterial = (disc: CanvasTexture): PointsMaterial =>
-  new PointsMaterial({ size: 8, sizeAttenuation: false, map: disc, alphaTest: 0.3, vertexColors: true, transparent: true });
+export const dotMaterial = (disc: CanvasTexture, size = 8): PointsMaterial =>
+  new PointsMaterial({ size, sizeAttenuation: false, map: disc, alphaTest: 0.3, vertexColors: true, transparent: true });
 
 /** Lines one pixel wide, before everything else. */
 export function thinLines(positions: Float32Array, color: string): LineSegments {

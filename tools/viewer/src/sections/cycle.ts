@@ -4,15 +4,17 @@ import type { Cycle } from "../meta";
 import type { Report } from "../report";
 import { VirtualTable } from "../table/table";
 
-type Whole = Omit<Cycle["contacts"][0], "rows" | "active" | "acceleration">;
+/** `known`: something of it was evaluated; `left`: why the rest was not. */
+type Whole = Omit<Cycle["contacts"][0], "rows" | "active" | "acceleration" | "complete"> & { known: boolean; left: string };
 
 /** The first cycle of an interface: sums over its contacts, the smallest step; null: settings have changed. */
 export function wholeOf(report: Report, inter: number): Whole | null {
-  const out: Whole = { complete: true, dt: null, because: "", with_force: 0, force: 0, largest: 0, elastic: 0 };
+  const out: Whole = { known: false, left: "", dt: null, because: "", with_force: 0, force: 0, largest: 0, elastic: 0 };
   for (const i of report.contactsOf(inter)) {
     const c = report.cycleOf(i);
     if (!c) return null;
-    out.complete &&= c.complete;
+    if (!c.complete && !out.left.includes(c.because)) out.left += (out.left ? "; " : "") + c.because;
+    out.known ||= c.complete;
     out.with_force += c.with_force;
     out.force += c.force;
     out.largest = Math.max(out.largest, c.largest);
@@ -27,7 +29,7 @@ export function wholeOf(report: Report, inter: number): Whole | null {
 /** What the program has no forces for. */
 function notComputed(report: Report): string {
   const modern = new Set(report.meta.contacts.filter((c) => c.given).map((c) => c.interface)).size;
-  const ties = report.meta.ties.length;
+  const ties = report.welds.length;
   const left = [modern > 0 && plural(modern, "interface of TYPE24 or TYPE25", "interfaces of TYPE24 and TYPE25"), ties > 0 && plural(ties, "tie", "ties")].filter(Boolean);
   return left.length > 0 ? ` Forces of ${left.join(" and ")} are not computed.` : "";
 }
@@ -43,12 +45,16 @@ export function cycleSection(report: Report): HTMLElement {
   // An interface of several contacts, TYPE19, is one row, as in the other tables.
   const rows = report.meta.interfaces.flatMap((_, i) => {
     const c = of(i);
-    return c && (c.with_force > 0 || c.dt !== null || !c.complete) ? [i] : [];
+    return c && (c.with_force > 0 || c.dt !== null || c.left !== "") ? [i] : [];
   });
   const step = (dt: number | null) => (dt === null ? "–" : num(dt));
   const dash = (i: number, f: (c: Whole) => string) => {
     const c = of(i);
-    return c ? f(c) : "settings changed";
+    return c ? (c.known ? f(c) : "–") : "settings changed";
+  };
+  const why = (i: number) => {
+    const c = of(i);
+    return c ? [c.because, c.left].filter((t) => t).join("; ") || "–" : "settings changed";
   };
   const table = new VirtualTable<number>(
     [
@@ -58,8 +64,8 @@ export function cycleSection(report: Report): HTMLElement {
       { key: "force", title: "Sum", hint: "Sum of the sizes of the pair forces", kind: "number", rank: 4, value: (i) => of(i)?.force ?? 0, text: (i) => dash(i, (c) => num(c.force)) },
       { key: "largest", title: "Largest", hint: "Largest force of one pair", kind: "number", value: (i) => of(i)?.largest ?? 0, text: (i) => dash(i, (c) => num(c.largest)) },
       { key: "elastic", title: "Energy", hint: "Elastic energy of the contact", kind: "number", rank: 3, value: (i) => of(i)?.elastic ?? 0, text: (i) => dash(i, (c) => num(c.elastic)) },
-      { key: "dt", title: "Time step", hint: "Smallest step that this interface allows", kind: "number", value: (i) => of(i)?.dt ?? Infinity, text: (i) => dash(i, (c) => (c.complete ? step(c.dt) : "too many pairs")) },
-      { key: "because", title: "Because of", kind: "text", rank: 1, value: (i) => of(i)?.because ?? "", text: (i) => dash(i, (c) => c.because || "–") },
+      { key: "dt", title: "Time step", hint: "Smallest step that this interface allows", kind: "number", value: (i) => of(i)?.dt ?? Infinity, text: (i) => dash(i, (c) => step(c.dt)) },
+      { key: "because", title: "Because of", kind: "text", rank: 1, value: (i) => of(i)?.because ?? "", text: why },
     ],
     { label: "First cycle", sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: i, pair: null }) },
   );

@@ -1,6 +1,6 @@
 // What is known about the selected row, and what every Inacti would do to this node.
 import { button, fileName, group, h, lengthText, num, percent, replace } from "../dom";
-import { onSurfaceError, outcomeOf, type Row } from "../core";
+import { outcomeOf, stopsSolver, type Row } from "../core";
 import type { Hit, Report } from "../report";
 import { cornersOf, nodeOf, type Untied } from "./untied";
 import { sideView } from "./sideview";
@@ -24,7 +24,6 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
     const edge = report.isEdge(r);
     const meta = report.meta.contacts[x.contact];
     const setting = report.results[x.contact].setting;
-    const error = report.solverError(r);
     const place = report.place(r);
     const item = (name: string, value: string | Node, title = "") => [h("dt", null, name), h("dd", { title }, value)];
     const p = report.point(r);
@@ -51,7 +50,8 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
           ...(force ? item("First cycle", `force ${num(force.force, 5)} · stiffness ${num(force.stiffness, 4)}`, "With the deck's settings") : []),
           ...(x.status ? item("Earlier", x.earlier === null ? "did not penetrate" : `${num(x.earlier, 6)} (${x.status})`) : []))),
       h("div", { class: "side-row" }, sideView(report, x),
-        h("p", { class: "fate" }, h("b", null, error ? `The solver stops with error ${error}. ` : ""), error ? "The node lies exactly on the segment, so no direction exists. " : fate(report, r))),
+        h("p", { class: "fate" }, h("b", null, report.stops(r) ? `The solver stops with error ${r.action.slice(6)}. ` : ""), fate(report, r),
+          report.isRoundOff(r) && " Only the round-off of the solver's formula makes this pair a penetration: exactly, it is no nearer than its gap.")),
       edge || meta.type === 10 || meta.given ? null : alternatives(report, x, setting.inacti, setting.fpenmax),
     );
   };
@@ -76,7 +76,7 @@ function drawUntied(report: Report, x: Untied, element: HTMLElement): void {
     h("p", { class: "fate" }, why),
     h("div", { class: "detail-grid" },
       h("dl", null, ...item("Distance", length(distance)), ...item("Search distance", length(search))),
-      h("dl", null, ...item("Tie", `${report.interfaceName(tie.interface)} (TYPE2)`), ...item("Part", report.partText(part)),
+      h("dl", null, ...item("Tie", `${report.interfaceName(tie.interface)} (TYPE${report.meta.interfaces[tie.interface].type})`), ...item("Part", report.partText(part)),
         ...item("Node at", file < 0 ? "–" : `${fileName(report.meta.files[file])}:${line}`))));
 }
 
@@ -99,7 +99,7 @@ function fate(report: Report, r: Row): string {
   let text = actionLong[r.action];
   if (r.action === "node-stiffness-zero" && s.inacti !== 1) text = `Deeper than Fpenmax ${num(s.fpenmax)} × gap. ${text}`;
   if (r.action === "offset-stored") text += ` Stored: ${num(r.stored, 5)}.`;
-  if (r.gap0 !== null) text += ` Gap left ${num(r.gap0, 5)}, taken off ${num(r.p0!, 5)}.`;
+  if (r.action === "gap-reduced" && r.gap0 !== null) text += ` Gap left ${num(r.gap0, 5)}, taken off ${num(r.p0!, 5)}.`;
   if (r.movedBy) {
     const d = Math.hypot(...r.movedBy);
     text += d > 0 ? ` Moved by ${num(d, 5)}.` : " An earlier pair has moved it far enough already.";
@@ -112,13 +112,13 @@ function alternatives(report: Report, x: Hit, current: number, fpenmax: number):
   const r = x.row;
   const meta = report.meta.contacts[x.contact];
   const text = (inacti: number): string => {
-    const error = r.onSurface ? onSurfaceError(meta, fpenmax, inacti) : 0;
-    const then = outcomeOf(r, inacti, fpenmax);
-    if (error) return `error ${error}`;
-    if (then.action === "node-stiffness-zero" && inacti !== 1) return "node off (Fpenmax)";
+    const then = outcomeOf(r, meta, inacti, fpenmax);
+    const words = report.actionText(then.action);
+    if (stopsSolver(then.action)) return words;
+    if (then.action === "node-stiffness-zero" && inacti !== 1) return `${words} (Fpenmax)`;
     switch (inacti) {
-      case 1: return "node off for the whole run";
-      case 2: return "segment off for the whole run";
+      case 1:
+      case 2: return `${words} for the whole run`;
       case 3: return `moved by ${num(Math.hypot(...then.movedBy!), 5)}`;
       case 5:
       case 6: return `gap ${num(r.gap)} → ${num(then.gap0!, 5)}`;
@@ -143,7 +143,7 @@ export function notChecked(report: Report): HTMLElement {
   ];
   if (meta.contacts.some((c) => c.given))
     items.push("TYPE24 and TYPE25 are shown as the program found them: of their settings the page can try an Inacti with which the same pairs are found, and no other; in Who touches whom they count where they penetrate only.");
-  if (meta.ties.length > 0) items.push("Ties (TYPE2) are formed as the Starter forms them. A line ends at the nearest point of the segment.");
+  if (meta.ties.length > 0) items.push("Ties (TYPE2, TYPE10) are formed as the Starter forms them. A line ends at the nearest point of the segment.");
   const odd = meta.contacts.filter((c) => c.repaired + c.degenerate + c.reoriented + c.no_carrier > 0);
   const counts = meta.deck.counts;
   return h("section", { id: "notes" },

@@ -136,8 +136,9 @@ function chart(doc: CycleDocument): SVGElement {
 
 export function effectsSection(report: Report, doc: CycleDocument, name: string): HTMLElement {
   const detail = h("div", { class: "panel effect-detail", "aria-live": "polite", hidden: true });
-  const on = doc.interfaces.reduce((n, i) => n + i.effects.filter((e) => e.on).length, 0);
-  const count = h("span", { class: "muted count" }, `${group(on)} of ${group(doc.interfaces.reduce((n, i) => n + i.effects.length, 0))} run`);
+  const names = (list: Effect[]) => new Set(list.map((e) => e.name)).size;
+  const all = doc.interfaces.flatMap((i) => i.effects);
+  const count = h("span", { class: "muted count" }, `${names(all.filter((e) => e.on))} of ${plural(names(all), "effect runs", "effects run")}`);
   const drawing = doc.costs && doc.costs.pairs > 0 ? chart(doc) : null;
   const section = h("section", { id: "effects", "aria-label": "Effects" },
     h("h2", null, "Effects", count),

@@ -6,7 +6,6 @@ import type { Hit, Report } from "../report";
 import { openMenu, rowItems } from "../menu";
 import { named } from "../table/names";
 import { VirtualTable, type Column } from "../table/table";
-import { actionWords } from "../words";
 
 interface PairRow {
   secondary: number;
@@ -231,10 +230,7 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
 // Over 80 lines: the columns of the list and its filters share what a row is.
 export function listSection(report: Report, open: (hit: Hit) => void, exportsMenu: HTMLElement, changed: () => void): { element: HTMLElement; table: VirtualTable<Hit> } {
   const interfaceId = (x: Hit) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id;
-  const action = (x: Hit) => {
-    const error = report.solverError(x.row);
-    return error ? `error ${error}` : x.row.gap0 !== null ? `gap to ${lengthText(report, x.row.gap0)}` : actionWords[x.row.action];
-  };
+  const action = (x: Hit) => report.fateText(x.row);
   const place = (x: Hit) => report.place(x.row);
   const columns: Column<Hit>[] = [
     { key: "depth", title: "Depth", kind: "number", value: (x) => x.depth, text: (x) => lengthText(report, x.depth, 5) },
@@ -245,7 +241,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     { key: "node", title: "Node / edge", kind: "id", value: (x) => x.nodes[0], text: (x) => report.secondaryText(x.row) },
     { key: "segment", title: "Segment / edge", kind: "id", rank: 5, value: (x) => report.nodeId(report.mainNodes(x.row)[0]), text: (x) => report.mainText(x.row) },
     { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 2, value: (x) => x.row.action, text: action,
-      cell: (x) => (report.solverError(x.row) ? h("span", { class: "bad" }, action(x)) : action(x)) },
+      cell: (x) => (report.stops(x.row) ? h("span", { class: "bad" }, action(x)) : action(x)) },
     { key: "sp", title: "Part", kind: "text", least: 130, rank: 1, value: (x) => report.partText(x.secondaryPart), text: (x) => report.partText(x.secondaryPart), cell: (x) => partName(report, x.secondaryPart) },
     { key: "mp", title: "Main part", kind: "text", least: 130, rank: 1, value: (x) => report.partText(x.mainPart), text: (x) => report.partText(x.mainPart), cell: (x) => partName(report, x.mainPart) },
     { key: "place", title: "Defined at", kind: "text", rank: 7, value: (x) => place(x)?.line ?? 0, text: (x) => (place(x) ? `${place(x)!.file}:${place(x)!.line}` : ""),
@@ -301,6 +297,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
       f.depth && chip(`depth ${span(f.depth)}`, { depth: null }),
       f.ratio && chip(`depth ÷ gap ${span(f.ratio)}`, { ratio: null }),
       f.status && chip(f.status, { status: null }),
+      f.roundOff && chip("only by the solver's round-off", { roundOff: false }),
       f.text && chip(`“${f.text}”`, { text: "" }));
     const gone = report.solved;
     replace(solved, f.status === "solved" && gone.length > 0

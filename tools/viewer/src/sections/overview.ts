@@ -1,6 +1,6 @@
 // The table of interfaces and the settings under test.
 import { cardText, changedCard } from "../card";
-import { modernInacti } from "../core";
+import { modernInacti, stopsSolver, type Action } from "../core";
 import { button, group, h, lengthText, num, percent, plural, replace, sectionHead } from "../dom";
 import { copyText, deckCommand, whatIfCommand } from "../exports";
 import type { FieldName, Totals } from "../meta";
@@ -8,7 +8,7 @@ import type { Result } from "../evaluate";
 import type { Report } from "../report";
 import { commonStart, named } from "../table/names";
 import { VirtualTable } from "../table/table";
-import { actionWords, flagText, modernIgapWords, modernInactiWords } from "../words";
+import { flagText, modernIgapWords, modernInactiWords } from "../words";
 
 /** An interface with all its contacts, or one of several contacts of it. */
 interface ContactRow {
@@ -63,10 +63,17 @@ export function interfaces(report: Report): HTMLElement {
     const dt = report.cycle!.contacts[c]?.dt ?? null;
     return dt === null || (least !== null && least < dt) ? least : dt;
   }, null);
+  // Where nothing was evaluated no figure is known.
+  const known = (r: ContactRow, key = "pairs") => {
+    const all = r.contacts.map((c) => report.meta.contacts[c]);
+    const own = all.filter((c) => key === "pairs" || (key === "edges") === (c.kind === "edge_edge"));
+    return (own.length > 0 ? own : all).some((c) => c.evaluated);
+  };
+  const clean = (r: ContactRow) => totals(r).pairs === 0 && (inter(r).level === "clean" || report.settingsDiffer(r.contacts[0]));
   const kind = (r: ContactRow) => (r.part ? report.roleText(r.contacts[0]) : `TYPE${inter(r).type}`);
   const count = (key: "pairs" | "nodes" | "edges", title: string, hint: string, rank?: number) => ({
-    key, title, hint, kind: "number" as const, rank, value: (r: ContactRow) => totals(head(r))[key], text: (r: ContactRow) => group(totals(r)[key]),
-    cell: (r: ContactRow) => changedCell(group(totals(r)[key]), group(totals(r, "base")[key])),
+    key, title, hint, kind: "number" as const, rank, value: (r: ContactRow) => totals(head(r))[key], text: (r: ContactRow) => (known(r, key) ? group(totals(r)[key]) : "–"),
+    cell: (r: ContactRow) => (known(r, key) ? changedCell(group(totals(r)[key]), group(totals(r, "base")[key])) : "–"),
   });
   const table = new VirtualTable<ContactRow>(
     [
@@ -91,7 +98,7 @@ export function interfaces(report: Report): HTMLElement {
       count("pairs", "Pairs", "Penetrating pairs"),
       count("nodes", "Nodes", "Distinct secondary nodes", 3),
       count("edges", "Edges", "Distinct secondary edges", 4),
-      { key: "depth", title: "Deepest", kind: "number", value: (r) => (totals(head(r)).unbounded ? Infinity : totals(head(r)).max_depth), text: (r) => deepest(totals(r)),
+      { key: "depth", title: "Deepest", kind: "number", value: (r) => (totals(head(r)).unbounded ? Infinity : totals(head(r)).max_depth || (clean(head(r)) ? 0 : Number.MIN_VALUE)), text: (r) => deepest(totals(r)),
         cell: (r) => changedCell(deepest(totals(r)), deepest(totals(r, "base"))) },
       { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => totals(head(r)).max_ratio, text: (r) => (totals(r).pairs && !totals(r).unbounded ? percent(totals(r).max_ratio) : "–") },
       ...(report.cycle ? [{ key: "step", title: "Step", hint: "Largest stable time step that the contact allows in the first cycle", kind: "number" as const, rank: 8, value: (r: ContactRow) => step(r) ?? Infinity, text: (r: ContactRow) => (step(r) === null ? "–" : num(step(r)!)) }] : []),
@@ -104,7 +111,7 @@ export function interfaces(report: Report): HTMLElement {
     {
       label: "Interfaces", sort: "depth", descending: true, toggle: unfold,
       select: (r) => report.setFilter({ interface: r && report.filter.interface !== r.inter ? r.inter : null, pair: null, depth: null, ratio: null }),
-      classOf: (r) => `${totals(r).pairs === 0 ? "quiet" : ""} ${report.filter.interface === r.inter ? "group" : ""}`,
+      classOf: (r) => `${clean(r) ? "quiet" : ""} ${report.filter.interface === r.inter ? "group" : ""}`,
       same: (a, b) => a.inter === b.inter && a.part === b.part && a.contacts[0] === b.contacts[0],
     },
   );
@@ -123,7 +130,7 @@ export function interfaces(report: Report): HTMLElement {
   });
   return h(
     "section", { id: "interfaces", hidden: report.tiesOnly },
-    sectionHead(h("h2", null, "Interfaces", h("span", { class: "muted count" }, plural(report.meta.interfaces.length - report.meta.ties.length, "interface", "interfaces"))), table.chooser()),
+    sectionHead(h("h2", null, "Interfaces", h("span", { class: "muted count" }, plural(report.meta.interfaces.length - report.welds.length, "interface", "interfaces"))), table.chooser()),
     table.element,
     h("p", { class: "note" }, h("i", { class: "derived" }, "*"), " Gapmin derived from the mesh. Choose a row to filter everything below and to try other settings."),
     whatIf(report),
@@ -132,19 +139,27 @@ export function interfaces(report: Report): HTMLElement {
 
 /** What is done about the penetrations of some contacts. */
 export function actionsText(report: Report, contacts: number[]): string {
-  const errors = contacts.reduce((n, c) => n + report.results[c].totals.solver_errors, 0);
-  if (contacts.some((c) => !report.meta.contacts[c].evaluated)) return "not evaluated";
-  if (errors > 0) return `stops (${errors})`;
-  const count = new Map<string, number>();
+  const { meta } = report;
+  const out = contacts.filter((c) => !meta.contacts[c].evaluated);
+  if (out.length === contacts.length && contacts.length === 1) return "not evaluated";
+  const left = out.map((c) => `${meta.contacts[c].role === "primary" ? "nodes" : meta.contacts[c].role} not evaluated`).join(", ");
+  const first = meta.contacts[contacts[0]];
+  if (first.ties && report.results[contacts[0]].totals.solver_errors === 0) {
+    const tie = meta.ties.find((t) => t.interface === first.interface)!;
+    const lost = report.lost(tie);
+    return lost > 0 ? `${group(lost)} of ${plural(tie.nodes, "node", "nodes")} not tied` : plural(report.results[contacts[0]].rows.length, "pair tied", "pairs tied");
+  }
+  const count = new Map<Action, number>();
   for (const c of contacts) for (const [action, n] of actionsOf(report.results[c])) count.set(action, (count.get(action) ?? 0) + n);
   const all = [...count.values()].reduce((sum, n) => sum + n, 0);
-  return [...count].map(([a, n]) => (n === all ? actionWords[a] : `${n} ${actionWords[a]}`)).join(", ") || "–";
+  const words = [...count].sort(([a], [b]) => Number(stopsSolver(b)) - Number(stopsSolver(a))).map(([a, n]) => (n === all ? report.actionText(a, n) : `${n} ${report.actionText(a, n)}`));
+  return [words.join(", "), left].filter((t) => t).join("; ") || "–";
 }
-const counted = new WeakMap<Result, Map<string, number>>();
-function actionsOf(result: Result): Map<string, number> {
+const counted = new WeakMap<Result, Map<Action, number>>();
+function actionsOf(result: Result): Map<Action, number> {
   const known = counted.get(result);
   if (known) return known;
-  const count = new Map<string, number>();
+  const count = new Map<Action, number>();
   for (const r of result.rows) count.set(r.action, (count.get(r.action) ?? 0) + 1);
   counted.set(result, count);
   return count;
@@ -163,7 +178,7 @@ function fieldsOf(report: Report, inter: number): FieldName[] {
 
 /** What the page can try in place of the Inacti of a TYPE24 or TYPE25. */
 function triedInacti(report: Report, inter: number): number[] {
-  const held = Number(report.meta.interfaces[inter].values.Irem_i2?.value) === 1 && report.meta.ties.length > 0;
+  const held = Number(report.meta.interfaces[inter].values.Irem_i2?.value) === 1 && report.welds.length > 0;
   return modernInacti(report.meta.contacts[report.contactsOf(inter)[0]], held);
 }
 

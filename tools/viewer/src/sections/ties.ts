@@ -1,4 +1,4 @@
-// Ties: what `deck gaps` says of each /INTER/TYPE2, and the nodes that are not tied.
+// Ties: what `deck gaps` says of each /INTER/TYPE2 and TYPE10, and the nodes that are not tied.
 import { fileName, group, h, num, plural, sectionHead } from "../dom";
 import { Holds, type TieMeta } from "../meta";
 import type { Report } from "../report";
@@ -11,7 +11,7 @@ function listOfTies(report: Report): VirtualTable<TieMeta> {
   const table = new VirtualTable<TieMeta>(
     [
       { key: "id", title: "Id", kind: "id", value: (t) => inter(t).id, text: (t) => String(inter(t).id) },
-      { key: "text", title: "Result", kind: "text", least: 215, value: (t) => t.lost, text: (t) => `TYPE2 ${inter(t).id}: ${t.text}`,
+      { key: "text", title: "Result", kind: "text", least: 215, value: (t) => t.lost, text: (t) => `TYPE${inter(t).type} ${inter(t).id}: ${t.text}`,
         cell: (t) => h("span", { class: t.stops ? "bad" : "" }, t.text) },
       { key: "losses", title: "What happens", kind: "text", rank: 2, value: (t) => t.losses, text: (t) => (t.losses === "-" ? "–" : t.losses) },
       { key: "title", title: "Tie", kind: "text", least: 120, rank: 1, value: (t) => inter(t).title.toLowerCase(), text: (t) => inter(t).title || "(no title)" },
@@ -71,6 +71,7 @@ export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElem
   const lost = (x: Untied) => report.ties[x.tie].holds[x.row[0]] === Holds.lost;
   const count = h("span", { class: "muted count" });
   const title = h("h3", null, "Nodes that are not tied ", count);
+  const head = sectionHead(title, rims > 0 && h("label", { class: "check" }, beyond, `also ${group(rims)} tied beyond a rim`), table.chooser());
   const draw = () => {
     const { interface: inter } = report.filter;
     const own = ties.map((t) => inter === null || t.interface === inter);
@@ -79,6 +80,7 @@ export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElem
     const rows = all.filter((x) => (none || own[x.tie]) && (lost(x) || beyond.checked));
     table.setRows(rows);
     table.element.hidden = rows.length === 0;
+    head.hidden = rows.length === 0 && rims === 0;
     table.element.style.setProperty("--rows", String(Math.max(2, Math.min(rows.length, 10))));
     const wanted = ties.reduce((n, t, i) => n + (none || own[i] ? t.lost + (beyond.checked ? t.beyond_rim : 0) : 0), 0);
     count.textContent = rows.length > 0 ? plural(rows.length, "node", "nodes") : "";
@@ -93,7 +95,7 @@ export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElem
     sectionHead(h("h2", null, "Ties", h("span", { class: "muted count" }, plural(ties.length, "tie", "ties"))), list.chooser()),
     list.element,
     said,
-    sectionHead(title, rims > 0 && h("label", { class: "check" }, beyond, `also ${group(rims)} tied beyond a rim`), table.chooser()),
+    head,
     table.element);
   return section;
 }

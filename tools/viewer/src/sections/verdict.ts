@@ -34,13 +34,15 @@ export function verdict(report: Report): HTMLElement {
   const test = h("span", { class: "tag test", hidden: true }, "numbers below: with settings under test");
   const tiles = h("div", { class: "tiles" });
   const compare = h("div", { class: "compare" });
+  const marks = h("div", { class: "compare" });
   const element = h("section", { class: "verdict", id: "verdict", "aria-label": "Verdict", "data-level": colourOf(said), "data-verdict": said.level },
-    h("p", { class: "verdict-text" }, h("strong", null, first ?? ""), ...rest.map((t) => ` ${t}`), test), settingsBar(report), tiles, compare);
+    h("p", { class: "verdict-text" }, h("strong", null, first ?? ""), ...rest.map((t) => ` ${t}`), test), settingsBar(report), tiles, compare, marks);
   const errors = said.counts.errors ?? 0;
   const { tie_errors: lost = 0, main_and_tied: main = 0 } = said.counts;
   const crossed = report.crossed?.total ?? said.counts.crossed_elements ?? null;
-  const ties = report.meta.ties.reduce((sum, t) => ({ nodes: sum.nodes + t.nodes, lost: sum.lost + t.lost }), { nodes: 0, lost: 0 });
+  const roundOff = report.meta.contacts.reduce((n, c) => n + c.round_off.length, 0);
   const draw = () => {
+    const ties = report.meta.ties.reduce((sum, t) => ({ nodes: sum.nodes + t.nodes, lost: sum.lost + report.lost(t) }), { nodes: 0, lost: 0 });
     const now = report.totals("now", null);
     const base = report.totals("base", null);
     test.hidden = tiles.hidden = !report.anyChanged; // the banner has the numbers of the deck
@@ -67,12 +69,31 @@ export function verdict(report: Report): HTMLElement {
         stops === 0 && (now.on_segment.pairs > 0 ? `${itemsText(now.on_segment)} on a segment` : "no reason known")].filter((t) => t).join(", "), group(errors + base.solver_errors + lost + main), "notes", stops > 0),
       ties.nodes > 0 && tile("Not tied", group(ties.lost), `of ${plural(ties.nodes, "node", "nodes")} of ${plural(report.meta.ties.length, "tie", "ties")}`, null, "ties", report.meta.ties.some((t) => t.stops)),
       crossed !== null && crossed > 0 && tile("Crossed", group(crossed), "elements pass through segments", null, "crossed"));
+    chips();
+  };
+  const chips = () => {
     if (report.earlier) drawCompare(report, compare);
+    if (roundOff > 0 || ties10(report) > 0) drawMarks(report, marks, roundOff);
   };
   report.on("results", draw);
-  report.on("filter", () => report.earlier && drawCompare(report, compare));
+  report.on("filter", chips);
   draw();
   return element;
+}
+
+/** Nodes of ties that are not tied. */
+const ties10 = (report: Report): number => report.meta.ties.reduce((n, t) => n + report.lost(t), 0);
+
+/** What is easily missed among the rows. */
+function drawMarks(report: Report, element: HTMLElement, roundOff: number): void {
+  const on = report.filter.roundOff;
+  const lost = ties10(report);
+  replace(element,
+    lost > 0 && h("button", { type: "button", class: "chip", "data-chip": "Not tied", onclick: () => document.getElementById("ties")?.scrollIntoView() }, h("b", null, group(lost)), " not tied"),
+    roundOff > 0 && h("button", {
+      type: "button", class: `chip${on ? " on" : ""}`, "data-chip": "round-off", "aria-pressed": on ? "true" : "false",
+      title: "Exactly, these pairs are no nearer than their gap", onclick: () => report.setFilter({ roundOff: !on, perNode: on }),
+    }, h("b", null, group(roundOff)), " only by the solver's round-off"));
 }
 
 function drawCompare(report: Report, element: HTMLElement): void {

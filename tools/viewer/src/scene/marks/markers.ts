@@ -20,6 +20,7 @@ const mostDotsInSoftware = 20000; // no fewer than arrows
 export class Markers {
   hits: Hit[] = [];
   private dots: Points | null = null;
+  private hollow: Points | null = null; // what only the solver's round-off makes: the middle of the dot
   private list: Arrow[] = [];
   private arrows: InstancedMesh | null = null;
   private arrowsOn = true;
@@ -31,10 +32,12 @@ export class Markers {
 
   /** `colorOf` gives a colour of 0..255 parts. */
   set(hits: Hit[], colorOf: (h: Hit) => [number, number, number], instead: Arrow[] | null): void {
-    if (this.dots) {
-      this.scene.remove(this.dots);
-      this.dots.geometry.dispose();
+    for (const points of [this.dots, this.hollow]) {
+      if (!points) continue;
+      this.scene.remove(points);
+      points.geometry.dispose();
     }
+    this.hollow = null;
     if (this.arrows) {
       this.scene.remove(this.arrows);
       this.arrows.dispose();
@@ -58,6 +61,16 @@ export class Markers {
     this.dots.renderOrder = 3;
     geometry.setDrawRange(0, this.most);
     this.scene.add(this.dots);
+    const open = hits.slice(0, dots).filter((x) => this.report.isRoundOff(x.row));
+    if (open.length > 0) {
+      const middle = new BufferGeometry();
+      middle.setAttribute("position", new BufferAttribute(Float32Array.from(open.flatMap((x) => this.report.point(x.row))), 3));
+      middle.setAttribute("color", new BufferAttribute(new Float32Array(3 * open.length).fill(1), 3));
+      this.hollow = new Points(middle, dotMaterial(this.disc, 4));
+      this.hollow.frustumCulled = false;
+      this.hollow.renderOrder = 4;
+      this.scene.add(this.hollow);
+    }
     this.list = instead ?? hits.slice(0, mostArrows).map((hit, i) => ({
       at: this.report.point(hit.row), along: hit.row.normal, length: hit.row.onSurface ? 0 : 1, rgb: [color[3 * i], color[3 * i + 1], color[3 * i + 2]],
     }));
@@ -76,7 +89,7 @@ export class Markers {
   /** Dots and arrows end where the model does. */
   clip(planes: Plane[]): void {
     this.planes = planes;
-    if (this.dots) (this.dots.material as PointsMaterial).clippingPlanes = planes;
+    for (const points of [this.dots, this.hollow]) if (points) (points.material as PointsMaterial).clippingPlanes = planes;
     if (this.arrows) (this.arrows.material as MeshLambertMaterial).clippingPlanes = planes;
   }
 
