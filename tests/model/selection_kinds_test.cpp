@@ -169,7 +169,7 @@ TEST(NodeGroups, OfElementsHaveTheirNodesLessThoseOfOthers) {
 }
 
 TEST(NodeGroups, OfPartsTakeFamilyByFamily) {
-  // Part 6 has trusses, beams and springs, part 3 one of each: what a beam of part 3 takes away
+  // Part 3 has trusses, beams and springs, part 6 one of each: what a beam of part 6 takes away
   // does not come back, what a truss took away comes back with a spring.
   BuiltModel m(zoo() + group("GRNOD", "PART", 1, {3, -6}) + group("GRNOD", "PART", 2, {3, 6}) +
                group("GRNOD", "PART", 3, {1, -2}) + group("GRNOD", "PART", 4, {-2, 1, 4}) +
