@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "base/shared/length_text.hpp"
+#include "deck/contact/view.hpp"
 
 namespace deck {
 namespace {
