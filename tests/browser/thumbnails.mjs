@@ -18,7 +18,7 @@ export async function thumbnails(browser, scratch) {
     await p.evaluate(() => {
       const { report, viewport } = window.deckReport;
       document.querySelector(".split").style.setProperty("--left", "25%"); // the picture has the shape of a thumbnail
-      if (report.hits.length === 0 || report.ties.length > 0) viewport.showAll();
+      if (report.hits.length === 0 || report.welds.length > 0) viewport.showAll();
     });
     await p.waitForFunction(() => window.deckReport.viewport.view.canvas.clientWidth > 1100);
     await p.evaluate(() => window.deckReport.viewport.fit());
