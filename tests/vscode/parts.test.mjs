@@ -2,7 +2,7 @@
 // and what the package holds.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { chmodSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { delimiter, join } from "node:path";
@@ -17,13 +17,12 @@ const part = async (name) => {
   await require("esbuild").build({ entryPoints: [join(ROOT, "tools/vscode/src", `${name}.ts`)], bundle: true, format: "esm", platform: "node", outfile, logLevel: "warning" });
   return import(outfile);
 };
-const { convert, fix, gapsCall, lintCall, locate, noServer, notFound, partsCall, programOf } = await part("program");
+const { convert, fix, gapsCall, lintCall, locate, noServer, notFound, partsCall } = await part("program");
 const { cellAt, layoutOf, nextCell, ruler } = await part("columns");
 const { headerAbove, withScript } = await part("page");
 const { toggled } = await part("comments");
 const { treeOf } = await part("tree");
 const { planOf } = await part("new_interface");
-const hasEngine = existsSync(join(WORK, "stage/engine/deck.wasm"));
 const manifest = JSON.parse(readFileSync(join(WORK, "stage/package.json"), "utf8"));
 const settings = { path: "deck", includePaths: [], arguments: [], geometryOnSave: true };
 const source = readdirSync(join(ROOT, "tools/vscode/src")).map((f) => readFileSync(join(ROOT, "tools/vscode/src", f), "utf8")).join("\n");
@@ -49,24 +48,8 @@ test("the first deck on PATH that can be run is found, and nothing else", () => 
   assert.equal(locate("deck", path, true), join(out, "c/deck.exe"));
 });
 
-test("a deck of this machine comes before the extension's own, and only the name deck may mean that one", () => {
-  const [machine, engine, none] = ["machine", "engine", "none"].map((d) => join(out, d));
-  for (const d of [machine, engine]) mkdirSync(d);
-  writeFileSync(join(machine, "deck"), "#!/bin/sh\n");
-  chmodSync(join(machine, "deck"), 0o755);
-  writeFileSync(join(engine, "deck.js"), "console.log(process.argv.slice(2).join(' '), process.env.ELECTRON_RUN_AS_NODE)");
-  const found = (path, folders, folder) => programOf({ ...settings, path }, folders, folder);
-  assert.deepEqual(found("deck", machine, engine), { name: join(machine, "deck"), command: join(machine, "deck"), before: [], env: {} });
-  const own = found("deck", none, engine);
-  const said = spawnSync(own.command, [...own.before, "gaps", "a.rad"], { env: { ...process.env, ...own.env }, encoding: "utf8" });
-  assert.equal(said.stdout, "gaps a.rad 1\n", "run by the node of the editor");
-  assert.equal(found("deck", none, none), null);
-  assert.equal(found("deck-3", machine, engine), null);
-  assert.equal(found(join(none, "deck"), machine, engine), null);
-});
-
 test("who has no deck is told what to do", () => {
-  assert.match(notFound("deck"), /not found on PATH.*does not contain it.*Install.*deck\.path/);
+  assert.match(notFound("deck"), /not found on PATH.*Install.*deck\.path/);
   assert.match(notFound("/opt/deck"), /'\/opt\/deck'.*no such program/);
   assert.match(noServer("/opt/deck"), /\/opt\/deck has no language server.*install a newer libdeck/);
 });
@@ -242,15 +225,15 @@ test("the version is the project's", () => {
   assert.equal(manifest.version, spawnSync(DECK, ["--version"], { encoding: "utf8" }).stdout.match(/\d+\.\d+\.\d+/)[0]);
   assert.equal(manifest.devDependencies, undefined);
 });
-test("the package holds scripts, texts, two pictures, and the program as WebAssembly only if it was built", () => {
+test("the package holds scripts, texts, and two pictures", () => {
   const unpacked = join(out, "vsix");
   assert.equal(spawnSync("python3", ["-m", "zipfile", "-e", join(WORK, "stage/libdeck.vsix"), unpacked]).status, 0);
   const files = readdirSync(unpacked, { recursive: true, withFileTypes: true }).filter((f) => f.isFile()).map((f) => join(f.parentPath ?? f.path, f.name));
   assert.deepEqual(files.map((f) => f.slice(unpacked.length + 1)).sort(), [
     "[Content_Types].xml", "extension.vsixmanifest", "extension/LICENSE.txt", "extension/NOTICES.txt", "extension/README.md", "extension/dist/bridge.js",
-    "extension/dist/extension.js", ...(hasEngine ? ["extension/engine/deck.js", "extension/engine/deck.wasm"] : []), "extension/icon.png", "extension/language-configuration.json", "extension/package.json", "extension/screenshot.png", "extension/syntaxes/radioss.tmLanguage.json",
+    "extension/dist/extension.js", "extension/icon.png", "extension/language-configuration.json", "extension/package.json", "extension/screenshot.png", "extension/syntaxes/radioss.tmLanguage.json",
   ].sort());
-  for (const f of files.filter((f) => !/[.](png|wasm)$/.test(f))) assert.doesNotMatch(readFileSync(f, "latin1"), /\0/, f);
+  for (const f of files.filter((f) => !/[.]png$/.test(f))) assert.doesNotMatch(readFileSync(f, "latin1"), /\0/, f);
   const notices = readFileSync(join(unpacked, "extension/NOTICES.txt"), "utf8");
   for (const name of ["vscode-languageclient", "vscode-jsonrpc", "minimatch", "semver"]) assert.ok(notices.includes(`${name}\n`), name);
 });

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/shared/real_text.hpp"
 
 namespace deck::cycle::detail {
 
@@ -54,7 +53,7 @@ bool Table::values(std::string_view line) {
   const char* const end = p + line.size();
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     double value = 0.0;
-    const auto [next, code] = read_real_text(p, end, value);
+    const auto [next, code] = std::from_chars(p, end, value);
     // Smaller than any double: the nearest is 0.
     if (code != std::errc() && code != std::errc::result_out_of_range) return false;
     columns_[c].push_back(value);
@@ -80,7 +79,8 @@ void append_number(double value, std::string& out) {
     out += value < 0.0 ? "-inf" : "inf";
   } else {
     char text[40];
-    const auto end = write_real_text(text, text + sizeof text, value == 0.0 ? 0.0 : value, 17);
+    const auto end = std::to_chars(text, text + sizeof text, value == 0.0 ? 0.0 : value,
+                                   std::chars_format::scientific, 16);
     out.append(text, end.ptr);
   }
 }

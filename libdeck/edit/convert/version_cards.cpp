@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/shared/real_text.hpp"
 #include "deck/text/number.hpp"
 #include "text/shared/columns.hpp"
 

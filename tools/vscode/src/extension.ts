@@ -54,14 +54,14 @@ function missing(context: vscode.ExtensionContext, why: string): void {
 async function start(context: vscode.ExtensionContext, channel: vscode.LogOutputChannel): Promise<void> {
   await stop();
   const s = settings();
-  const deck = program(s, context.extensionPath);
+  const deck = program(s);
   if (deck === null) return missing(context, notFound(s.path));
-  if ((await run(deck, ["lsp", "--help"], context.extensionPath)).code !== 0) return missing(context, noServer(deck.name));
-  channel.info(`${deck.name} ${serverCall(s).join(" ")}`);
+  if ((await run(deck, ["lsp", "--help"], context.extensionPath)).code !== 0) return missing(context, noServer(deck));
+  channel.info(`${deck} ${serverCall(s).join(" ")}`);
   const server = new LanguageClient(
     "deck",
     "libdeck",
-    { command: deck.command, args: [...deck.before, ...serverCall(s)], options: { env: { ...process.env, ...deck.env } }, transport: TransportKind.stdio },
+    { command: deck, args: serverCall(s), transport: TransportKind.stdio },
     {
       documentSelector: [{ language: "radioss", scheme: "file" }],
       initializationOptions: serverOptions(s),

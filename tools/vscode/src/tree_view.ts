@@ -3,7 +3,7 @@ import * as vscode from "vscode";
 import { statSync } from "node:fs";
 import type { LanguageClient } from "vscode-languageclient/node";
 import { deckOf } from "./deck_of";
-import { gapsCall, partsCall, type Program } from "./program";
+import { gapsCall, partsCall } from "./program";
 import { open } from "./report";
 import { run, type Said } from "./run";
 import { settings } from "./settings";
@@ -33,7 +33,7 @@ export class DeckTree implements vscode.TreeDataProvider<Row>, vscode.Disposable
   private readonly listeners: vscode.Disposable[];
 
   constructor(
-    private readonly program: Program,
+    private readonly program: string,
     private readonly client: LanguageClient,
   ) {
     const soon = () => {
