@@ -61,23 +61,6 @@ TEST(Heading, EndsNamesWhereTheirColumnsEnd) {
   }
 }
 
-TEST(FormatCard, PutsCellsInPlaceAndKeepsTheirValues) {
-  const Deck deck = read(deck_of("/INTER/TYPE7/3\nt\n# grnd surf_IDm\n 1            2      4\n"));
-  const Block& b = block(deck, "/INTER/TYPE7");
-  const std::string text = changed(deck, format_card(deck, b));
-  EXPECT_NE(text.find("\n         1         2         4\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("\n# grnd_IDs  surf_IDm      Istf"), std::string::npos) << text;
-  const Deck again = read(text);
-  EXPECT_EQ(values(again), values(deck));
-  EXPECT_TRUE(format_card(again, block(again, "/INTER/TYPE7")).empty());
-}
-
-TEST(FormatCard, LeavesCommentsOfPeopleAndFreeFormatAlone) {
-  const Deck deck =
-      read(deck_of("/INTER/TYPE7/3\nt\n# ask Anna about the gap here\n1,2,4\n# and this\n"));
-  EXPECT_TRUE(format_card(deck, block(deck, "/INTER/TYPE7")).empty());
-}
-
 TEST(SetCell, MovesNothingElse) {
   const Deck deck = read(deck_of("/INTER/TYPE7/3\nt\n         1         2         4\n"));
   const Block& b = block(deck, "/INTER/TYPE7");
@@ -164,31 +147,6 @@ TEST(NewCard, HasTheLinesThatStandWithoutValues) {
   EXPECT_NE(new_card(schema, "/X/1", 51, "a title").find("/X/1\na title\n"), std::string::npos);
   schema.has_title = false;
   EXPECT_EQ(new_card(schema, "/X/1", 2022, "a title").find("a title"), std::string::npos);
-}
-
-TEST(FormatCard, ReplacesAHeadingOnlyWhereHalfOfItsWordsAreNames) {
-  const auto heading = [](const char* comment) {
-    const Deck deck = read(deck_of(std::string("/INTER/TYPE7/3\nt\n") + comment +
-                                   "\n         1         2         4\n"));
-    return changed(deck, format_card(deck, block(deck, "/INTER/TYPE7")))
-               .find("# grnd_IDs  surf_IDm") != std::string::npos;
-  };
-  EXPECT_TRUE(heading("# grnd surf"));
-  EXPECT_TRUE(heading("#- grnd what"));
-  EXPECT_TRUE(heading("# grnd what"));
-  EXPECT_FALSE(heading("# grnd what else"));
-  EXPECT_FALSE(heading("# what else"));
-  EXPECT_FALSE(heading("#"));
-  EXPECT_FALSE(heading("$ grnd surf"));
-  EXPECT_FALSE(heading("# grnd surf decklint: off"));
-}
-
-TEST(FormatCard, LeavesALineWithATextThatIsTooLongAlone) {
-  // A value in the columns of two cells would be read otherwise.
-  const Deck deck = read(deck_of("/INTER/TYPE7/3\nt\n   1         2\n"));
-  const std::string before(deck.sources[0].bytes());
-  const Deck again = read(changed(deck, format_card(deck, block(deck, "/INTER/TYPE7"))));
-  EXPECT_EQ(values(again), values(deck));
 }
 
 TEST(SetCell, TakesTheRoundAndSaysEachReason) {

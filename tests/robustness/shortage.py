@@ -102,7 +102,7 @@ def session(folder):
             ("textDocument/didChange", {"textDocument": {"uri": uri, "version": 2}, "contentChanges": [
                 {"range": {"start": place, "end": place}, "text": "7"}]})]
     said += [("textDocument/" + m, {**document, **everything, "context": {"diagnostics": []}}) for m in (
-        "hover", "completion", "definition", "documentSymbol", "semanticTokens/full", "foldingRange", "codeAction", "codeLens")]
+        "hover", "completion", "definition", "documentSymbol", "foldingRange", "codeAction", "codeLens")]
     return b"".join(frame(n, *m) for n, m in enumerate(said)), frame(90, "shutdown", None) + frame(91, "exit", None)
 
 

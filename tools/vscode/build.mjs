@@ -31,8 +31,6 @@ const bundle = (entry, outfile, more) =>
 rmSync(join(out, "dist"), { recursive: true, force: true });
 mkdirSync(join(out, "syntaxes"), { recursive: true });
 const { metafile } = await bundle("extension.ts", "extension.js", { platform: "node", format: "cjs", external: ["vscode"], metafile: true });
-// Runs inside the report's page.
-await bundle("bridge.ts", "bridge.js", { platform: "browser", format: "iife" });
 writeFileSync(join(out, "syntaxes/radioss.tmLanguage.json"), JSON.stringify(grammar(schemas())));
 
 // The licences of the packages that the script is bundled from.

@@ -46,10 +46,6 @@ export const serverCall = (s: Settings): string[] => ["lsp", ...s.arguments];
 export const serverOptions = (s: Settings) => ({ includePaths: s.includePaths, geometryOnSave: s.geometryOnSave, showReportCommand: "deck.showGapReport" });
 export const lintCall = (s: Settings, file: string): string[] => ["lint", file, "--geometry", "--color", "never", ...includes(s)];
 
-/** What the tree of a deck is made from. */
-export const gapsCall = (s: Settings, file: string): string[] => ["gaps", file, "--json", "-", "--quiet", "--fail-on", "never", ...includes(s)];
-export const partsCall = (s: Settings, file: string): string[] => ["parts", file, "--json", "-", "--quiet", ...includes(s)];
-
 /** What has changed in meaning since the last commit. */
 export const sinceHead = (s: Settings, file: string): string[] => ["diff", "--git", "HEAD", file, "--color", "never", ...includes(s)];
 
