@@ -46,7 +46,7 @@ std::string card_heading(const CardSchema& card, int version) {
 std::string new_card(const Schema& schema, std::string_view header, int version,
                      std::string_view title) {
   std::string out = std::string(header) + "\n";
-  if (schema.has_title && version >= 51) out += std::string(title) + "\n";
+  if (schema.has_title) out += std::string(title) + "\n";
   bool absent = false;  // the group that the card is of: it stands or falls with its first one
   for (std::size_t i = 0; i < schema.cards.size(); ++i) {
     const CardSchema& card = schema.cards[i];

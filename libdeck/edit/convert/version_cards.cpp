@@ -51,7 +51,7 @@ std::optional<FormattedReal> cell_text(double value, double factor, int width) {
 
 bool lacks_title(const DecodedBlock& block) {
   const Schema* schema = block.block->schema;
-  return schema != nullptr && schema->has_title && block.block->version >= 51 &&
+  return schema != nullptr && schema->has_title &&
          !block.title_line.valid();
 }
 

@@ -255,7 +255,8 @@ int LintRun::code_of(const LintJob& job) const {
   if (exit_code_of(*job.verdict, rules) != 0 || linting::passes_a_gate(job.result))
     code = exit_findings;
   code = std::max(code, examined_code(*job.loaded, common_));
-  return job.loaded->incomplete() ? static_cast<int>(exit_input) : code;
+  const bool unread = job.loaded->incomplete() || job.loaded->deck().begin.version_unread;
+  return unread ? static_cast<int>(exit_input) : code;
 }
 
 }  // namespace deck::cli
