@@ -163,21 +163,6 @@ TEST(Type25, RandomPlacesAroundATriangleAreThoseOfTheClosedForm) {
   EXPECT_GT(found, 100u);
 }
 
-TEST(Modern, OptionsOfTheCardAreThoseOfTheContact) {
-  SmallDeck d = places({{5, 5, 1.4}});
-  d.add(
-      "@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5 Igap=3 %mesh_size=0.25 Istf=4 "
-      "Gap_scale=0.5");
-  d.add("@/INTER/TYPE24/2 surf_ID2=2 grnd_IDs=1 Inacti=-1 Istf=2");
-  const Built b(d);
-  const Contact &first = b.contact(1), &second = b.contact(2);
-  EXPECT_EQ(std::tuple(first.type, first.igap, first.inacti, first.istf), std::tuple(25, 3, 5, 4));
-  EXPECT_EQ(std::tuple(first.gap_scale, first.mesh_fraction), std::tuple(0.5, 0.25));
-  EXPECT_EQ(std::tuple(second.type, second.inacti, second.istf), std::tuple(24, -1, 2));
-  EXPECT_EQ(first.kind, ContactKind::node_segment);
-  EXPECT_EQ(first.role, ContactRole::primary);
-}
-
 TEST(Type25, RandomPlacesInACubeAreAsDeepAsTheNearestFaceIsFarWithinReach) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> in(-2, 12);

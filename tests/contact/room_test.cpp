@@ -43,23 +43,6 @@ TEST(RoomForPairs, IsThatOfFourCopiesOfEach) {
   EXPECT_EQ(less.contact().candidates, 0u);
 }
 
-TEST(RoomForPairs, IsSaidWithTheGapAndTheMeanEdgeOfTheMainSide) {
-  const Built b(quad_and_triangle(5), with_room(10));
-  std::string text;
-  for (const Diagnostic& d : b.diagnostics.all())
-    if (d.rule == RuleId::DK390) {
-      text = d.message;
-      EXPECT_EQ(d.keyword, "/INTER/TYPE7");
-      EXPECT_EQ(d.id, 1);
-    }
-  // Sides 3, 4, 3, 4 and 3, 5, 4: 26 / 7. 13 is 3.5 times that.
-  EXPECT_NE(text.find("/INTER/TYPE7 1: "), std::string::npos) << text;
-  EXPECT_NE(text.find("more than 0 MB"), std::string::npos) << text;
-  EXPECT_NE(text.find("gap is 13, 3.5 times the mean edge of its main side (3.71429)"),
-            std::string::npos)
-      << text;
-}
-
 TEST(RoomForPenetrations, OfNodesIsLookedAtAfterEachGroupOf128Candidates) {
   const SmallDeck d = quad_and_triangle(130);
   const std::uint64_t group = 128 * sizeof(PenetrationRow);

@@ -1,5 +1,4 @@
-// Parts of ties and of modern contacts, each by hand: places on segments, texts and counts, main
-// segments with all their figures, stiffness of lines and solids.
+// By hand: the place of a tied node on its segment, penalty of ties, stiffness of lines and solids.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,71 +58,6 @@ TEST(PlaceOnASegment, OfATriangleRunsFromItsLastCornerAndKnowsTheSideAtIt) {
 
 // --- texts and counts
 
-TiedNode tied_node(bool tied, int message = 0, std::uint32_t segment = 0, int removed_by = 0) {
-  TiedNode n;
-  n.tied = tied;
-  n.message = message;
-  n.segment = segment;
-  n.removed_by = removed_by;
-  return n;
-}
-
-TEST(TieTexts, CountEveryNodeOnce) {
-  Tie tie;
-  EXPECT_EQ(holds_text(tie), "0 nodes are tied");
-  EXPECT_EQ(losses_text(tie), "-");
-  tie.nodes = {tied_node(true)};
-  EXPECT_EQ(holds_text(tie), "1 node is tied");
-  tie.nodes = {tied_node(true),
-               tied_node(true, 1079),
-               tied_node(true),
-               tied_node(false, 1157, no_index),
-               tied_node(false, 0, 3),
-               tied_node(false, 1158, 3),
-               tied_node(false, 0, 2, 1630)};
-  tie.ignore = 1;
-  const TieCounts n = count_ties(tie);
-  EXPECT_EQ(std::tuple(n.nodes, n.tied, n.not_found, n.dropped, n.elsewhere, n.outside, n.lost()),
-            std::tuple(7u, 3u, 1u, 2u, 1u, 1u, 3u));
-  EXPECT_EQ(holds_text(tie), "3 of 7 nodes are not tied");
-  EXPECT_EQ(losses_text(tie), "1 not found, 2 dropped, 1 held elsewhere, 1 tied beyond a rim");
-  tie.ignore = 0;
-  tie.main_and_tied = {1, 2};
-  EXPECT_EQ(losses_text(tie),
-            "1 not found: the solver stops, 2 dropped, 1 held elsewhere, 1 tied beyond a rim, 2 "
-            "main nodes tied: the solver stops");
-  tie.nodes = {tied_node(false, 0, no_index), tied_node(true)};
-  EXPECT_EQ(holds_text(tie), "1 of 2 nodes is not tied");
-  tie.not_evaluated = "why";
-  EXPECT_EQ(holds_text(tie), "not evaluated: why");
-  EXPECT_EQ(losses_text(tie), "not evaluated: why");
-}
-
-TEST(TieTexts, GiveTheReasonOfEachNode) {
-  Tie tie;
-  tie.search_distance = 5;
-  const auto reason = [&](TiedNode n) { return short_reason(tie, n); };
-  EXPECT_EQ(reason(tied_node(true)), "tied");
-  EXPECT_EQ(reason(tied_node(true, 1079)), "tied beyond the rim (1079)");
-  EXPECT_EQ(reason(tied_node(false, 0, 0, 1209)), "held elsewhere (1209)");
-  EXPECT_EQ(reason(tied_node(false, 1158)), "far beyond the rim (1158)");
-  TiedNode n = tied_node(false, 1157, no_index);
-  EXPECT_EQ(reason(n), "no segment (1157)");
-  n.nearest = 0;
-  n.nearest_distance = 5;  // not within 5
-  EXPECT_EQ(reason(n), "too far (1157)");
-  EXPECT_NE(why_text(tie, n).find("The nearest segment is 5 away, the solver looks 5 far"),
-            std::string::npos);
-  n.nearest_distance = 4.5;
-  EXPECT_EQ(reason(n), "beyond the rim (1157)");
-  EXPECT_NE(why_text(tie, n).find("The nearest segment is 4.5 away, within 5"), std::string::npos);
-  n.search = 4;  // its own goes before that of all
-  EXPECT_EQ(reason(n), "too far (1157)");
-  n.missed = true;
-  n.message = 0;
-  EXPECT_EQ(reason(n), "missed by the solver");
-}
-
 TEST(PenaltyOfTies, IsOfWhatIsTiedWithSpotflag25And26) {
   for (const int spotflag : {5, 25, 26, 27}) {
     SmallDeck d = sheet({{5, 5, 1}, {5, 15, 1}, {5, 5, 900}});
@@ -136,50 +70,6 @@ TEST(PenaltyOfTies, IsOfWhatIsTiedWithSpotflag25And26) {
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_EQ(nodes[k].tied, k < 2) << spotflag;
       EXPECT_EQ(nodes[k].penalty, k < 2 && (spotflag == 25 || spotflag == 26)) << spotflag << k;
-    }
-  }
-}
-
-// --- modern contacts
-
-TEST(ModernMainSegments, HaveTheFiguresOfTheirShells) {
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0).node(5, 16, 0, 0);
-  d.node(11, 5, 5, 1.2).node(12, 5, 6, 20).node(13, 6, 5, 20);
-  d.shell_part(1, 2).shell_part(2, 1).shell_part(3, 3);
-  d.shell(1, 7, 1, 2, 3, 4).shell3(3, 8, 2, 5, 3).shell3(2, 9, 11, 12, 13);
-  d.group("/SURF/PART/2", {1, 3}).group("/GRNOD/NODE/1", {11});
-  d.add("@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5 Stfac=0.5");
-  d.add("@/INTER/TYPE24/2 surf_ID2=2 grnd_IDs=1 Inacti=5");
-  for (const bool penetrations : {true, false}) {
-    SceneOptions options;
-    options.penetrations = penetrations;
-    const Built b(d, options);
-    for (const int id : {1, 2}) {
-      const Contact& c = b.contact(id);
-      std::size_t quads = 0, triangles = 0;
-      for (std::size_t k = 0; k < c.main.size(); ++k) {
-        const MainSegment& m = c.main[k];
-        const bool triangle = m.nodes[2] == m.nodes[3];
-        (triangle ? triangles : quads) += 1;
-        EXPECT_EQ(m.carrier, triangle ? Carrier::shell3 : Carrier::shell4);
-        EXPECT_EQ(m.element, 0u);
-        EXPECT_DOUBLE_EQ(m.thickness, triangle ? 3 : 2) << id;
-        EXPECT_DOUBLE_EQ(m.gap, triangle || id == 1 ? 1.5 : 1) << id;
-        EXPECT_FALSE(m.off);
-      }
-      EXPECT_EQ(quads, triangles);
-      EXPECT_GT(quads, 0u);
-      ASSERT_EQ(c.secondary.size(), 1u);
-      EXPECT_DOUBLE_EQ(c.secondary[0].gap, 0.5);
-      EXPECT_EQ(c.penetrations.size(), penetrations ? 1u : 0u) << id;
-      if (!penetrations) continue;
-      // TYPE25 has gaps by node, the largest of the shells there: 1 and 1.5, in the middle 1.25.
-      const double gap = id == 1 ? 0.5 + 1.25 : 0.5 + 1;
-      EXPECT_DOUBLE_EQ(c.penetrations[0].gap, gap);
-      EXPECT_NEAR(c.penetrations[0].depth, gap - 1.2, 1e-12);
-      EXPECT_NEAR(c.penetrations[0].distance, 1.2, 1e-12);
-      EXPECT_NEAR(c.penetrations[0].normal[2], 1, 1e-12);
     }
   }
 }

@@ -14,7 +14,6 @@ namespace deck::test {
 namespace {
 
 using detail::Corners;
-using testing::ElementsAre;
 
 SceneOptions with_ties(int threads = 1) {
   SceneOptions options;

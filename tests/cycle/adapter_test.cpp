@@ -56,27 +56,6 @@ TEST(CycleCard, FrictionBringsItsTangentialDamping) {
   EXPECT_EQ(c.visf, 1.0);
 }
 
-TEST(CycleCard, ConstantStiffnessKeepsItsValue) {
-  const auto b = scene_of("Istf=1 Stfac=50");
-  const ContactCard c = make_card(b->scene, b->contact());
-  EXPECT_EQ(c.istf, 1);
-  EXPECT_EQ(c.stfac, 50.0);
-}
-
-TEST(CycleCard, DirectionsToReleaseAreBits) {
-  const auto b = scene_of("IBCX=1 IBCZ=1");
-  EXPECT_EQ(make_card(b->scene, b->contact()).ibc, 5);
-}
-
-TEST(CycleCard, FieldsAreFoundOnTheirLine) {
-  const auto b = scene_of("Fric=0.2");
-  const auto place = field_place(*b->contact().inter, "Fric");
-  ASSERT_TRUE(place.has_value());
-  EXPECT_EQ(place->origin, Origin::card);
-  EXPECT_EQ(b->deck.sources.text(place->span).find("0.2") != std::string_view::npos, true);
-  EXPECT_FALSE(field_place(*b->contact().inter, "Edge_scale_gap").has_value());
-}
-
 TEST(CyclePairs, MainStiffnessIsYoungTimesThickness) {
   const auto b = scene_of("");
   const ContactCard c = make_card(b->scene, b->contact());

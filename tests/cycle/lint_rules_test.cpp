@@ -67,14 +67,6 @@ TEST(CycleRules, StepNamesBothSteps) {
       << d->message;
 }
 
-TEST(CycleRules, NearPairIsNamed) {
-  const Linted run = lint_geometry(rule_of(RuleId::DK403).bad);
-  const Diagnostic* d = run.find(RuleId::DK403);
-  ASSERT_NE(d, nullptr);
-  EXPECT_NE(d->message.find("node 21 over segment 1 2 3 4 has 0.02 of 1 (2 %)"), std::string::npos)
-      << d->message;
-}
-
 TEST(CycleRules, RoundingsAreNoForce) {
   const auto fires = [&](std::string z) {
     z.insert(0, 20 - z.size(), ' ');

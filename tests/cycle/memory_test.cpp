@@ -1,5 +1,4 @@
-// What an interface remembers and reports over steps, and what pairs get from /FRICTION: every
-// figure of lines, events and arrays, by hand.
+// What an interface remembers and reports over steps: figures of lines and events by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -72,15 +71,6 @@ TEST(StepLines, HaveTheFiguresOfTheirEvaluation) {
   EXPECT_EQ(h.outcome.coordinates.z[h.built->model.nodes.map.find(11)], 0.5);
 }
 
-TEST(StepLines, SayWhetherTheInterfaceActs) {
-  const Heights h("@/INTER/TYPE7/1 Tstart=20 Tstop=30", {0.6, 0.6, 0.6, 0.6}, false);  // 7 to 37
-  const bool acts[] = {false, false, true, false};
-  for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(h.outcome.lines[k].contacts[0].active, acts[k]) << k;
-    EXPECT_EQ(h.outcome.lines[k].contacts[0].force_sum > 0, acts[k]) << k;
-  }
-}
-
 TEST(StepEvents, OfTiesNameThePairWhenItTiesAndWhenItLetsGo) {
   // From outside the gap down by 0.12 and 0.1, up by 0.15 and 0.15: there the force turns.
   const Heights h("@/INTER/TYPE10/1 VISs=0", {1.02, 0.9, 0.8, 0.95, 1.1});
@@ -138,87 +128,6 @@ TEST(SearchesOverSteps, LookTenStepsAheadButNotBeyondGapAndShortestSide) {
   };
   EXPECT_EQ(searches(1.0 / 128, 21), 3u) << "at 0, 10 and 20";
   EXPECT_EQ(searches(8, 5), 3u) << "at 0, 16 and 32: one step of 8 is below 11, two are not";
-}
-
-// --- /FRICTION
-
-TEST(FrictionOfPairs, GoesByTheSmallerAndLargerPartAndTheGroupsOfParts) {
-  test::SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
-  d.node(5, 20, 0, 0).node(6, 20, 10, 0);
-  d.node(11, 5, 5, 0.5).node(12, 5, 6, 5).node(13, 6, 5, 5).node(14, 6, 6, 0.5);
-  d.shell_part(1, 1).shell_part(2, 1).shell_part(3, 1).shell_part(4, 1);
-  d.shell(1, 1, 1, 2, 3, 4).shell(2, 2, 2, 5, 6, 3);
-  d.shell3(3, 3, 11, 12, 13).shell3(4, 4, 14, 13, 12);
-  d.segments("/SURF/SEG/1", {{1, 2, 3, 4}, {2, 5, 6, 3}});
-  d.group("/GRNOD/NODE/2", {11, 14}).group("/GRPART/PART/8", {2, 3});
-  d.add("@/FRICTION/5 C1=0.0 Fric=0.3");
-  d.add("@/INTER/TYPE7/1 surf_IDm=1 grnd_IDs=2 Gapmin=1 fric_ID=5");
-  Built b(d);
-  // The values are made here: every one another.
-  double next = 1;
-  const auto fill = [&](FrictionValues& v) {
-    for (double& c : v.C) c = next++;
-    v.Fric = next++;
-    v.VISF = next++;
-  };
-  auto& friction = const_cast<Friction&>(*b.scene.interfaces->friction(5));
-  fill(friction.values);
-  friction.pairs.resize(3);
-  friction.pairs[0].part_ID1 = 3, friction.pairs[0].part_ID2 = 1;
-  friction.pairs[1].grpart_ID1 = 8, friction.pairs[1].part_ID2 = 4;  // 2 and 3 with 4
-  friction.pairs[2].part_ID1 = 4, friction.pairs[2].part_ID2 = 2;    // is known already
-  for (FrictionPair& p : friction.pairs) fill(p.values), fill(p.second);
-  ContactPairs pairs;
-  pairs.at = {{0, 0}, {0, 1}, {1, 0}, {1, 1}};  // parts 3-1, 3-2, 4-1, 4-2
-  const auto check = [&](const std::array<const FrictionValues*, 4>& along,
-                         const std::array<const FrictionValues*, 4>* across) {
-    ContactPairs got;
-    got.at = pairs.at;
-    detail::pair_friction(b.scene, b.contact(), got);
-    for (std::size_t k = 0; k < 4; ++k) {
-      EXPECT_EQ(got.fric.at(k), along[k]->Fric) << k;
-      EXPECT_EQ(got.visf2.at(k), along[k]->VISF) << k;
-      for (std::size_t c = 0; c < 6; ++c) EXPECT_EQ(got.c[c].at(k), along[k]->C[c]) << k;
-      EXPECT_EQ(got.directed.empty(), across == nullptr);
-      if (across == nullptr) continue;
-      EXPECT_EQ(got.directed.at(k), (*across)[k] == along[k] ? 0 : 1) << k;
-      EXPECT_EQ(got.ortho_mu[0].at(k), along[k]->Fric) << k;
-      EXPECT_EQ(got.ortho_mu[1].at(k), (*across)[k]->Fric) << k;
-      for (std::size_t c = 0; c < 6; ++c) EXPECT_EQ(got.c2[c].at(k), (*across)[k]->C[c]) << k;
-      EXPECT_EQ(std::tuple(got.ortho_direction[0].at(k), got.ortho_direction[1].at(k)),
-                std::tuple(1.0, 0.0));
-    }
-  };
-  const FrictionValues *none = &friction.values, *first = &friction.pairs[0].values,
-                       *second = &friction.pairs[1].values;
-  check({first, none, none, second}, nullptr);
-  EXPECT_FALSE(detail::orthotropic(friction));
-  friction.pairs[1].Idir = 1;
-  EXPECT_TRUE(detail::orthotropic(friction));
-  const std::array<const FrictionValues*, 4> across{first, none, none, &friction.pairs[1].second};
-  check({first, none, none, second}, &across);
-}
-
-// --- units of material cards
-
-TEST(ConductivityOfMaterials, IsInTheUnitsOfTheWork) {
-  test::SmallDeck d = testing::plates(0.6);
-  d.add(
-      "/HEAT/MAT/1\n"
-      "               300.0                 1.0                 2.0                0.25\n"
-      "              1000.0                 3.0                 0.5\n");
-  std::string text = d.text();
-  const std::string units = "                  kg                  mm                  ms\n";
-  const std::size_t at = text.find(units);
-  ASSERT_NE(at, std::string::npos);
-  // Input in g, m and s: kg = 1e3 g, mm = 1e-3 m, ms = 1e-3 s. A is mass length / (time^3 K).
-  text.replace(at, units.size(), "                   g                   m                   s\n");
-  const Built b(text);
-  const auto law = detail::conductivities(b.model).at(0);
-  const double factor = 1e-3 * 1e3 / 1e9;
-  EXPECT_NEAR(law(400), factor * (2 + 0.25 * 400), 1e-12 * factor * 102);
-  EXPECT_NEAR(law(1500), factor * (3 + 0.5 * 1500), 1e-12 * factor * 753);
 }
 
 }  // namespace

@@ -217,44 +217,6 @@ TEST(FirstCycle, AShellWithAMissingNodeExchangesNoHeat) {
   EXPECT_NEAR(run(b, options).contacts[0].heat_secondary, -0.5 * 32 * 100 * 1e-3, 1e-12);
 }
 
-TEST(FirstCycle, SummaryPutsThePartsOfAnInterfaceTogether) {
-  SmallDeck d = plates(0.6);
-  d.group("/SURF/PART/3", {2});
-  d.add("@/INTER/TYPE19/1 surf_IDs=3 surf_IDm=2 Gapmin=1");
-  SceneOptions o;
-  o.nodal_stiffness = true;
-  const Built b(d, o);
-  const SceneOutcome r = run(b);
-  const auto all = summarize(b.scene, r);
-  ASSERT_EQ(all.size(), 1u);
-  std::size_t pairs = 0;
-  for (const ContactOutcome& c : r.contacts) pairs += c.pairs_with_force;
-  EXPECT_EQ(all[0].pairs_with_force, pairs);
-  EXPECT_GE(all[0].pairs_with_force, 4u);
-  EXPECT_GT(all[0].largest_pair_force, 0.0);
-  EXPECT_LT(all[0].contact_dt, 1e30);
-}
-
-TEST(EffectLines, NameTheDecidingFieldAndItsLine) {
-  const auto b = scene_of("Fric=0.3", 0.6);
-  const SceneOutcome r = run(*b);
-  const auto lines = effect_lines(b->deck, r, *b->contact().inter);
-  const auto find = [&](const std::string& name) {
-    for (const EffectLine& e : lines)
-      if (e.name == name) return e;
-    ADD_FAILURE() << name;
-    return EffectLine{};
-  };
-  EXPECT_TRUE(find("friction-viscous").on);
-  EXPECT_EQ(find("elastic-normal").because, "always");
-  const EffectLine heat = find("heat-conduction");
-  EXPECT_FALSE(heat.on);
-  EXPECT_EQ(heat.because.find("Ithe = 0 (line "), 0u) << heat.because;
-  ASSERT_TRUE(heat.span.valid());
-  const auto line = std::to_string(b->deck.sources.position(heat.span).line);
-  EXPECT_NE(heat.because.find("line " + line), std::string::npos);
-}
-
 TEST(FirstCycle, HeatGoesFromTheHotSideToTheCold) {
   SmallDeck d = plates(0.6);
   exchange_heat(d);

@@ -316,18 +316,5 @@ TEST(Account, EffectsThatNeverActAreOffWithTheReason) {
   EXPECT_NE(row("friction-temperature-scale").reason.find("never"), std::string::npos);
 }
 
-TEST(EffectLines, SayThatEdgesOfATwoSurfaceContactReleaseNothing) {
-  SmallDeck d = over(0.5);
-  d.group("/SURF/PART/2", {2});
-  d.add("@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=1 Gapmin=1 IBCX=1 IBCY=1 IBCZ=1");
-  const Built b(d, Stepped::scene_options());
-  const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), {});
-  for (const EffectLine& e : effect_lines(b.deck, r, *b.interfaces.ordered.front()))
-    if (e.name == "boundary-release") {
-      EXPECT_TRUE(e.on);
-      EXPECT_NE(e.because.find("not between edges"), std::string::npos) << e.because;
-    }
-}
-
 }  // namespace
 }  // namespace deck::cycle

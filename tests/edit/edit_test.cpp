@@ -390,34 +390,6 @@ class EditValues : public EditTest {
       "/SENSOR/TIME/10\nfree\n5.0\n";
 };
 
-TEST_F(EditValues, EveryWrongValueHasItsReason) {
-  const std::string gap = "/INTER/TYPE7/3 Gapmin: ", igap = "/INTER/TYPE7/3 Igap: ";
-  EXPECT_EQ(answer("/INTER", 3, "Gapmin", std::numeric_limits<double>::infinity()),
-            gap + "infinity and not-a-number are no input");
-  EXPECT_EQ(answer("/INTER", 3, "Gapmin", "abc"), gap + "expected a number, not 'abc'");
-  EXPECT_EQ(answer("/INTER", 3, "Igap", "1.5"), igap + "expected a whole number, not '1.5'");
-  EXPECT_EQ(answer("/INTER", 3, "Igap", 1.5), igap + "expected a whole number of 32 bits, not 1.5");
-  EXPECT_EQ(answer("/INTER", 3, "Igap", 3e9),
-            igap + "expected a whole number of 32 bits, not 3000000000.0");
-  EXPECT_EQ(answer("/INTER", 3, "Igap", "12345678901"),
-            igap + "'12345678901' is longer than the 10 columns");
-  EXPECT_EQ(answer("/INTER", 3, "Gapmin", "1\n2"), gap + "expected one line");
-  EXPECT_EQ(answer("/INTER", 3, "Gapmin", "&nothing"),
-            gap + "there is no parameter with a number called nothing");
-  EXPECT_EQ(answer("/INTER", 3, "IBCX", "2"), "/INTER/TYPE7/3 IBCX: expected 0 or 1, not '2'");
-  EXPECT_EQ(answer("/INTER", 3, "IBCX", 2.0), "/INTER/TYPE7/3 IBCX: expected 0 or 1");
-  EXPECT_EQ(answer("/INTER", 3, "IBCX", -1.0), "/INTER/TYPE7/3 IBCX: expected 0 or 1");
-  EXPECT_EQ(answer("/UNHEARD", 9, "x", 1.0), "/UNHEARD/9 x: no schema describes this keyword");
-  EXPECT_EQ(answer("/SHELL", 1, "N1", 1.0),
-            "/SHELL/1 N1: lines of nodes and elements are no fields; move_node moves a node");
-  EXPECT_EQ(answer("/SENSOR/TIME", 7, "Tdelay", 1.0, 1),
-            "/SENSOR/TIME/7 Tdelay: the block has fewer cells of that name");
-  EXPECT_EQ(answer("/SENSOR/TIME", 7, "Tdelai", 1.0),
-            "/SENSOR/TIME/7 Tdelai: /SENSOR/TIME has no such field; did you mean Tdelay?");
-  EXPECT_EQ(answer("/SENSOR/TIME", 7, "nothingofthekind", 1.0),
-            "/SENSOR/TIME/7 nothingofthekind: /SENSOR/TIME has no such field");
-}
-
 TEST_F(EditValues, TheLargestThatFitsIsTakenAndTheNextIsNot) {
   const std::string gap = "/INTER/TYPE7/3 Gapmin: ", igap = "/INTER/TYPE7/3 Igap: ";
   const auto taken = [&](const char* field, const CellValue& value, const std::string& text) {
@@ -439,77 +411,6 @@ TEST_F(EditValues, TheLargestThatFitsIsTakenAndTheNextIsNot) {
             gap + "'1.2345678901234567890' is longer than the 20 columns");
   taken("IBCX", 1.0, "");
   EXPECT_EQ(answer("/INTER", 3, "IBCX", 0.5), "/INTER/TYPE7/3 IBCX: expected 0 or 1");
-}
-
-TEST_F(EditValues, ValuesAreWrittenInTheirColumns) {
-  EXPECT_EQ(answer("/SENSOR/TIME", 7, "Tdelay", 0.125),
-            "-                 5.0\n+               0.125\n");
-  EXPECT_EQ(answer("/SENSOR/TIME", 7, "Tdelay", "&height"),
-            "-                 5.0\n+             &height\n");
-  EXPECT_EQ(answer("/SENSOR/TIME", 7, "Tdelay", "  7.50 "),
-            "-                 5.0\n+                7.50\n");
-  EXPECT_EQ(answer("/SENSOR/TIME", 7, "Tdelay", 5.0), "") << "it says the same already";
-  EXPECT_EQ(answer("/SENSOR/TIME", 7, "Tdelay", std::int64_t{5}), "");
-  EXPECT_EQ(answer("/SENSOR/TIME", 7, "Tdelay", std::int64_t{6}),
-            "-                 5.0\n+                  6.\n");
-  EXPECT_EQ(
-      answer("/FUNCT", 8, "Y", 7.0, 1),
-      "-                10.0                 2.0\n+                10.0                  7.\n");
-  EXPECT_EQ(
-      answer("/FUNCT", 8, "X", -3.0, 0),
-      "-                 0.0                 1.0\n+                 -3.                 1.0\n");
-}
-
-TEST_F(EditValues, NamesWhatIsNotThereOrThereTwice) {
-  EXPECT_EQ(answer("/SENSOR", 77, "Tdelay", 1.0), "there is no /SENSOR with id 77");
-  const LoadedDeck deck =
-      open(all(mesh + contact + more + "/SENSOR/TIME/7\nagain\n                 5.0\n"));
-  Edit edit(deck);
-  edit.set("/SENSOR/TIME", 7, "Tdelay", 1.0);
-  EXPECT_NE(
-      error_of(edit).find("/SENSOR/TIME/7: there are several; the first is /SENSOR/TIME/7 in "),
-      std::string::npos)
-      << error_of(edit);
-}
-
-TEST_F(EditValues, ACellThatAFlagWithholdsSaysWhich) {
-  const std::string why = answer("/INTER", 3, "Fscalegap", 0.5);
-  EXPECT_EQ(answer("/INTER", 3, "Ifric", 2.0).find("error"), std::string::npos);
-  // C1 and those behind it stand only with a friction law.
-  const std::string no_law = answer("/INTER", 3, "C1", 0.5);
-  EXPECT_NE(no_law.find("/INTER/TYPE7/3 C1: the card has this cell only if Ifric is "),
-            std::string::npos)
-      << no_law << why;
-}
-
-TEST_F(EditValues, ConditionsOfCellsInWords) {
-  const std::string only = ": the card has this cell only if ";
-  for (const auto& [field, condition] : {std::pair{"node_ID1", "Icurv is 1 or 2"},
-                                         {"C1", "Ifric is at least 1"},
-                                         {"C6", "Ifric is at least 2"},
-                                         {"Kthe", "Ithe is 1"},
-                                         {"Drad", "Ithe is 1"}})
-    EXPECT_EQ(answer("/INTER", 3, field, 1.0),
-              std::string("/INTER/TYPE7/3 ") + field + only + condition);
-}
-
-TEST_F(EditValues, TheFirstErrorStays) {
-  const LoadedDeck deck = open(all(mesh + contact + more));
-  Edit edit(deck);
-  edit.set("/SENSOR/TIME", 7, "Tdelay", "abc").set("/SENSOR/TIME", 77, "Tdelay", 1.0);
-  edit.move_node(1, {1, 2, 3}).insert("no keyword").erase(nullptr);
-  EXPECT_NE(error_of(edit).find("expected a number, not 'abc'"), std::string::npos);
-  EXPECT_FALSE(edit.files().ok());
-  EXPECT_FALSE(edit.read().ok());
-  EXPECT_FALSE(edit.diff().ok());
-  EXPECT_FALSE(edit.save({}).ok());
-  EXPECT_FALSE(edit.save_to(file("out", "")).ok());
-  Edit wrong(deck);
-  wrong.insert("no keyword");
-  EXPECT_NE(error_of(wrong).find("has to begin with a keyword"), std::string::npos);
-  Edit none(deck);
-  none.erase(nullptr);
-  EXPECT_NE(error_of(none).find("there is no such block"), std::string::npos);
 }
 
 TEST_F(EditValues, SeveralBlocksCanBeRemovedInAnyOrder) {

@@ -1,5 +1,4 @@
-// Engine files beside a deck that gets other units: each time of each keyword, what stays, and what
-// is said about it; and the notes of the conversion.
+// Engine files beside a deck that gets other units: each time of each keyword, and what stays.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -11,8 +10,6 @@
 namespace deck {
 namespace {
 
-using edit_test::Whole;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -93,21 +90,6 @@ TEST_F(EngineUnits, EveryTimeOfEveryKeyword) {
   }
 }
 
-TEST_F(EngineUnits, OneEntryForEveryFileCountsItsTimes) {
-  const auto counted = [&](const std::string& engine) {
-    after(engine);
-    return notes(Loss::kept);
-  };
-  EXPECT_THAT(counted("/TFILE\n0.0\n/STOP\n1.\n"),
-              ElementsAre("car_0001.rad:1 : Engine file: no times to convert"));
-  EXPECT_THAT(counted("/TFILE\n1.0\n"),
-              ElementsAre("car_0001.rad:1 : Engine file: 1 time converted"));
-  write("car_0002.rad", "/RUN/car/2\n20.\n");
-  EXPECT_THAT(counted("/RUN/car/1\n10.0\n/ANIM/DT\n0. 2.5 4.5\n"),
-              ElementsAre("car_0001.rad:1 : Engine file: 3 times converted",
-                          "car_0002.rad:1 : Engine file: 1 time converted"));
-}
-
 TEST_F(EngineUnits, UnknownLinesRefuseOrStay) {
   const std::string text = "/TFILE\n1.0\n/NEWTHING\n3.0\n/DTIX\n1.5 2.5 3.5\n/STOP\n1.\n2.\n";
   EXPECT_EQ(after(text), "refused");
@@ -130,36 +112,6 @@ TEST_F(EngineUnits, UnknownLinesRefuseOrStay) {
                   "car_0001.rad:9 /STOP: this value of the keyword is not known" + rest));
 }
 
-TEST_F(EngineUnits, AWordInThePlaceOfATimeIsLeft) {
-  EXPECT_EQ(after("/TFILE\nsoon\n"), "refused");
-  EXPECT_THAT(out_.refusals, ElementsAre(HasSubstr("car_0001.rad:2:1: /TFILE: this is not a plain "
-                                                   "number, so it cannot be brought")));
-}
-
-TEST_F(EngineUnits, DigitsThatAreLostAreSaid) {
-  const auto lost = [&] {
-    std::vector<std::string> out;
-    for (const LossEntry& e : out_.losses)
-      if (e.loss == Loss::approximated)
-        out.push_back(e.keyword + " " + e.old_text + " " + e.new_text + " " + e.note);
-    return out;
-  };
-  // Most numbers come back from thirds of a second as they were; not all do.
-  std::string old;
-  for (int i = 1; i < 2000 && lost().empty(); ++i) {
-    old = "1." + std::to_string(1000000000000000 + 7 * i);
-    after("/TFILE\n" + old + "\n", "kg,mm,0.3");
-  }
-  ASSERT_EQ(lost().size(), 1u);
-  EXPECT_THAT(lost()[0], testing::MatchesRegex("/TFILE " + old +
-                                               " 0.00[0-9]+ no double holds the "
-                                               "converted value exactly"));
-  EXPECT_EQ(out_.edits.size(), 1u);
-  EXPECT_THAT(lost()[0], HasSubstr(" " + out_.edits.at(0).text + " "));
-  after("/TFILE\n1.0\n");
-  EXPECT_THAT(lost(), IsEmpty());
-}
-
 TEST_F(EngineUnits, TimesStayWhereTheWorkingUnitsStay) {
   options_.keep_working = true;
   EXPECT_EQ(after("/TFILE\n1.0\n/NEWTHING\n3.0\n"), "/TFILE\n1.0\n/NEWTHING\n3.0\n");
@@ -168,30 +120,6 @@ TEST_F(EngineUnits, TimesStayWhereTheWorkingUnitsStay) {
   write("car_0000.rad",
         deck_text("", "                  Mg                  mm                   s\n"));
   EXPECT_EQ(after("/TFILE\n1.0\n"), "/TFILE\n1.0\n");
-}
-
-TEST(UnitNotes, NameEveryFactorAndWhatWasConverted) {
-  const auto w = Whole::text(
-      deck_text("/UNIT/7\nm\n                  kg                   m                   s\n"
-                "/NODE/7\n         1                12.5                 0.0                 0.0\n"
-                "/NODE\n         2                12.5                 1.0                 0.0\n"));
-  const auto notes = [&](const char* target, const UnitsOptions& options = {}) {
-    return to_units(w->context(), parse_unit_system(target).value(), options).notes;
-  };
-  EXPECT_THAT(
-      notes("Mg,m,s"),
-      ElementsAre("mass kg -> Mg: factor 1e-3", "length mm -> m: factor 1e-3",
-                  "time ms -> s: factor 1e-3", "2 values converted", testing::_, testing::_));
-  EXPECT_THAT(notes("Mg,m,s"),
-              Contains("the working units change with the input units: the times of Engine files "
-                       "and all results are in the new units"));
-  EXPECT_THAT(notes("Mg,m,s"), Contains(HasSubstr("blocks have units of their own and keep")));
-  UnitsOptions keep;
-  keep.keep_working = true;
-  EXPECT_THAT(notes("Mg,m,s", keep),
-              Contains("the working units stay: results and Engine files keep their units"));
-  EXPECT_THAT(notes("kg,0.0254,ms"),
-              Contains(HasSubstr("length mm -> 0.0254: factor 0.03937007874")));
 }
 
 }  // namespace

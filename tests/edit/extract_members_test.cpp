@@ -13,7 +13,6 @@ namespace deck {
 namespace {
 
 using edit_test::Whole;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -116,18 +115,6 @@ TEST(ExtractMembers, SetsThatRangeOverElements) {
   EXPECT_THAT(members("ALL"), ElementsAre(1, 2, 3));
 }
 
-TEST(ExtractMembers, SetsOfRigidBodiesAreAnOpenQuestion) {
-  const auto w =
-      Whole::text(plates()
-                      .add("@/RBODY/1 node_ID=9 grnd_ID=0\n"
-                           "/SET/GENERAL/4\ns\nPART               1\nRBODY              1")
-                      .group("/SURF/PART/1", {2})
-                      .add("@/INTER/TYPE7/1 grnd_IDs=4 surf_IDm=1")
-                      .text());
-  EXPECT_THAT(extract_contacts(w->context(), std::vector<std::int64_t>{1}).notes,
-              Contains("/SET 4 selects rigid bodies, which were not carried"));
-}
-
 TEST(ExtractMembers, SwitchesOfTheRunStay) {
   const auto w = extracted(touching()
                                .add("/ANALY\n         0")
@@ -159,96 +146,6 @@ TEST(ExtractMembers, TransformationsOfOtherSubmodelsAndNodes) {
                          "                 0.0"));
   EXPECT_THAT(w->main_text(), HasSubstr("/TRANSFORM/TRA/2"));
   EXPECT_THAT(w->main_text(), Not(HasSubstr("/TRANSFORM/TRA/1")));
-}
-
-TEST(ExtractWords, CountWhatIsNeededAndNameWhatIsNot) {
-  const auto w =
-      Whole::text(touching().group("/GRNOD/PART/8", {3}).group("/GRNOD/PART/9", {3}).text());
-  const Rewrite r = extract_contacts(w->context(), std::vector<std::int64_t>{1, 1});
-  EXPECT_THAT(r.notes, ElementsAre("8 of 12 nodes and 2 of 3 elements are needed"));
-  std::vector<std::string> dropped;
-  for (const LossEntry& e : r.losses) {
-    EXPECT_EQ(e.loss, Loss::dropped);
-    dropped.push_back(e.keyword + " " + std::to_string(e.id) + ": " + e.note);
-  }
-  const std::string rest = " not needed by the interfaces (the first one is named)";
-  EXPECT_THAT(dropped, Contains("/GRNOD/PART 8: 2" + rest));
-  EXPECT_THAT(dropped, Contains("/PART 3: 1" + rest));
-  EXPECT_THAT(dropped, Contains("/PROP/SHELL 3: 1" + rest));
-  EXPECT_THAT(dropped, testing::SizeIs(3)) << testing::PrintToString(dropped);
-}
-
-TEST(ExtractWords, RefusalsNameTheInterfacesThereAre) {
-  const auto ids = [](const Whole& w, std::vector<std::int64_t> wanted) {
-    return extract_contacts(w.context(), wanted);
-  };
-  const auto two = Whole::text(touching().add("@/INTER/TYPE7/5 grnd_IDs=1 surf_IDm=1").text());
-  const Rewrite r = ids(*two, {7, 1});
-  EXPECT_TRUE(r.bad_request);
-  EXPECT_FALSE(r.new_text.has_value());
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_TRUE(r.refusals[0].ends_with(
-      ":1:1: no interface 7 of type 2, 7, 10, 11, 19, 24 or 25; the deck has 1, 5"))
-      << r.refusals[0];
-  const auto none = Whole::text(plates().text());
-  EXPECT_TRUE(ids(*none, {1}).refusals.at(0).ends_with("the deck has none"));
-  EXPECT_TRUE(ids(*two, {}).refusals.at(0).ends_with(":1:1: no interface was named"));
-  EXPECT_FALSE(ids(*two, {}).bad_request);
-  test::SmallDeck many = plates().group("/GRNOD/PART/1", {1}).group("/SURF/PART/1", {2});
-  for (int i = 1; i <= 21; ++i)
-    many.add("@/INTER/TYPE7/" + std::to_string(i) + " grnd_IDs=1 surf_IDm=1");
-  EXPECT_TRUE(ids(*Whole::text(many.text()), {99}).refusals.at(0).ends_with(" 19, 20, ..."));
-}
-
-TEST(ExtractWords, MoversThatComeFirstAreNamedOnce) {
-  const auto inactis = [](const std::string& first, const std::string& second) {
-    const auto w = Whole::text(plates()
-                                   .group("/GRNOD/PART/1", {1})
-                                   .group("/SURF/PART/1", {2})
-                                   .add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Inacti=" + first)
-                                   .add("@/INTER/TYPE7/2 grnd_IDs=1 surf_IDm=1 Inacti=" + second)
-                                   .text());
-    std::vector<std::string> out;
-    for (const LossEntry& e : extract_contacts(w->context(), std::vector<std::int64_t>{2}).losses)
-      if (e.field == "Inacti") {
-        EXPECT_EQ(e.loss, Loss::undecided);
-        out.push_back(e.note);
-      }
-    return out;
-  };
-  EXPECT_THAT(inactis("3", "5"),
-              ElementsAre("interface 1 comes first and moves nodes (Inacti 3); extract it too if "
-                          "they share nodes"));
-  EXPECT_THAT(inactis("3", "3"), testing::SizeIs(1));
-  EXPECT_THAT(inactis("5", "3"), IsEmpty());
-}
-
-TEST(ExtractWords, WhatIsLeftOutIsNamedInItsOwnFile) {
-  std::string text = touching().text();
-  const auto end = text.rfind("/END");
-  text.insert(end, "#include more.inc\n");
-  const auto w = Whole::read("main_0000.rad", {{"main_0000.rad", text},
-                                               {"more.inc",
-                                                "# groups\n/GRNOD/PART/8\ng\n         3\n"
-                                                "/GRNOD/PART/9\ng\n         3\n"}});
-  const Rewrite r = extract_contacts(w->context(), std::vector<std::int64_t>{1});
-  ASSERT_THAT(r.refusals, IsEmpty());
-  std::vector<std::string> places;
-  for (const LossEntry& e : r.losses)
-    if (e.keyword == "/GRNOD/PART")
-      places.push_back(e.file + ":" + std::to_string(e.line) + " " + std::to_string(e.id));
-  EXPECT_THAT(places, ElementsAre("more.inc:2 8"));
-  EXPECT_THAT(r.notes, ElementsAre("8 of 12 nodes and 2 of 3 elements are needed"));
-}
-
-TEST(ExtractLines, KeepTheEndsOfTheFile) {
-  std::string text = touching().text();
-  for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += 2) text.insert(at, "\r");
-  const auto w = Whole::text(text);
-  const Rewrite r = extract_contacts(w->context(), std::vector<std::int64_t>{1});
-  ASSERT_TRUE(r.new_text.has_value());
-  EXPECT_EQ(std::count(r.new_text->begin(), r.new_text->end(), '\n'),
-            std::count(r.new_text->begin(), r.new_text->end(), '\r'));
 }
 
 }  // namespace

@@ -197,42 +197,6 @@ TEST(Flatten, ParameterThatOnlyAnotherFileDefinesStaysUndefined) {
   EXPECT_EQ(w->after(flatten(w->context()))->model.nodes.x[0], 0);
 }
 
-TEST(Flatten, NotesCountTheIncludesAndLossesNameTheBegins) {
-  const auto w =
-      tree({{"main_0000.rad", head + "/NODE\n" + node1 + "#include a.inc\n#include b.inc\n/END\n"},
-            {"a.inc", "# first\n" + head.substr(head.find("/BEGIN")) + "/NODE\n" + node2},
-            {"b.inc", "/NODE\n" + node3}});
-  const Rewrite r = flatten(w->context(), {.mark = false});
-  EXPECT_EQ(r.notes, std::vector<std::string>{"2 includes replaced by their lines"});
-  ASSERT_EQ(r.losses.size(), 1u);
-  EXPECT_EQ(r.losses[0].loss, Loss::dropped);
-  EXPECT_EQ(r.losses[0].file, "a.inc");
-  EXPECT_EQ(r.losses[0].line, 2u);
-  EXPECT_EQ(r.losses[0].keyword, "/BEGIN");
-  EXPECT_EQ(r.losses[0].note, "a comment now: one file has one /BEGIN");
-  // Every line of the second /BEGIN is a comment, the others are as they were.
-  EXPECT_EQ(r.new_text.value_or(""),
-            head + "/NODE\n" + node1 +
-                "# first\n#/BEGIN\n#run\n#      2024         0\n"
-                "#                  kg                  mm                  ms\n"
-                "#                  kg                  mm                  ms\n/NODE\n" +
-                node2 + "/NODE\n" + node3 + "/END\n");
-}
-
-TEST(Flatten, ABeginInTheFirstLineOfAnIncludeBecomesACommentToo) {
-  const auto w = tree({{"main_0000.rad", head + "/NODE\n" + node1 + "#include a.inc\n/END\n"},
-                       {"a.inc", "/BEGIN\nrun\n      2024         0\n/NODE\n" + node2}});
-  EXPECT_EQ(flat(*w), head + "/NODE\n" + node1 + "#/BEGIN\n#run\n#      2024         0\n/NODE\n" +
-                          node2 + "/END\n");
-}
-
-TEST(Flatten, ADeckWithoutIncludesIsSaidToHaveNone) {
-  const auto w = tree({{"main_0000.rad", head + "/NODE\n" + node1 + "/END\n"}});
-  const Rewrite r = flatten(w->context());
-  EXPECT_EQ(r.notes, std::vector<std::string>{"the deck has no includes"});
-  EXPECT_FALSE(r.new_text.has_value());
-}
-
 /// Any cutting of a deck into files comes together again to the same bytes.
 TEST(Flatten, RandomCutsComeTogetherAgain) {
   std::mt19937 random(3);

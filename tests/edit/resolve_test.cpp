@@ -128,17 +128,6 @@ TEST(ResolveDefaults, LinesThatTheBlockEndsBeforeAreAdded) {
   EXPECT_EQ(after->interfaces.type7.at(0).Iform.input, 2);
 }
 
-TEST(ResolveDefaults, AHeaderWithoutAnyLineGetsATitleLineToo) {
-  const auto before = open_text(deck_of_version(2022, defaults_7 + "/INTER/TYPE7/1\n"));
-  const auto after = resolved(*before);
-  const InterType7& t = after->interfaces.type7.at(0);
-  EXPECT_EQ(t.title, "");
-  EXPECT_EQ(t.Istf.value, 4);
-  EXPECT_EQ(t.Istf.origin, Origin::card);
-  EXPECT_EQ(t.surf_IDm.value, 0);
-  EXPECT_EQ(t.Inacti.value, 6);
-}
-
 TEST(ResolveDefaults, LinesWithCommasGetFixedColumns) {
   const auto before = open_text(deck_of_version(
       2022, defaults_7 + "/INTER/TYPE7/1\nfree\n5,1,,0,1000,0,0\n,,\n\n1.5,0.1,0.3\n"
@@ -147,48 +136,6 @@ TEST(ResolveDefaults, LinesWithCommasGetFixedColumns) {
   EXPECT_EQ(difference(effective_values(*before), effective_values(*after)), "");
   EXPECT_EQ(after->interfaces.type7.at(0).grnd_IDs.value, 5);
   EXPECT_EQ(after->interfaces.type7.at(0).Inacti.value, 5);
-}
-
-TEST(ResolveDefaults, SaysOfEachValueWhereItIsFrom) {
-  const auto before = open_text(deck_of_version(
-      2022, defaults_7 + card("/INTER/TYPE7", 1, 2022, {{"surf_IDm", "1"}, {"Igap", "1000"}})));
-  std::map<std::string, std::string> said;
-  for (const LossEntry& e : resolve_defaults(before->context()).losses) {
-    EXPECT_EQ(e.loss, Loss::kept) << e.field;
-    EXPECT_EQ(e.keyword, "/INTER/TYPE7");
-    EXPECT_EQ(e.id, 1);
-    EXPECT_TRUE(said.emplace(e.field, e.old_text + "->" + e.new_text + " " + e.note).second)
-        << e.field << " twice";
-  }
-  for (const auto& [field, value] : {std::pair{"Istf", "4"},
-                                     {"Idel", "2"},
-                                     {"Irem_gap", "2"},
-                                     {"Irem_i2", "1"},
-                                     {"Inacti", "6"},
-                                     {"Iform", "2"}})
-    EXPECT_EQ(said[field], std::string("->") + value + " from /DEFAULT/INTER") << field;
-  EXPECT_EQ(said["VISs"], "->0.05 built-in default");
-  EXPECT_EQ(said["Stfac"], "->1. built-in default");
-  EXPECT_EQ(said.count("Igap"), 0u) << "it is on the card";
-  EXPECT_EQ(said.count("surf_IDm"), 0u);
-  EXPECT_EQ(said.count("Fric"), 0u) << "0 is what a blank cell says";
-  EXPECT_EQ(said["Gapmin"], "-> left blank: it follows from the mesh");
-}
-
-TEST(ResolveDefaults, LongCellsOfLinesWithCommasAreShortenedOnlyWhereNothingIsLost) {
-  const auto with_fric = [](const std::string& fric) {
-    return open_text(deck_of_version(
-        2022, defaults_7 + "/INTER/TYPE7/1\nfree\n5,1,,0,1000,0,0\n,,\n\n1.5," + fric + ",0.3\n"));
-  };
-  // The line of Fric has Tstop, which is written.
-  const auto longer = with_fric("0.1000000000000000000000");
-  const auto after = resolved(*longer);
-  EXPECT_EQ(after->interfaces.type7.at(0).Fric.value, 0.1);
-  EXPECT_EQ(difference(effective_values(*longer), effective_values(*after)), "");
-  const Rewrite r = resolve_defaults(with_fric("1.2345678901234567e-100")->context());
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_THAT(r.refusals[0], HasSubstr(": Fric does not fit its columns; shorten it"));
-  EXPECT_TRUE(r.edits.empty());
 }
 
 TEST(ResolveDefaults, ParameterOfZeroIsUndecided) {

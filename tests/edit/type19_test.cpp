@@ -322,38 +322,6 @@ TEST(ExpandType19, FlagWithoutCellInAnOldVersionIsRefused) {
   EXPECT_FALSE(losses_of(r, Loss::undecided).empty());
 }
 
-TEST(ExpandType19, SaysWhatEachInterfaceBecame) {
-  const auto before = open_text(with(
-      "@/INTER/TYPE19/5 surf_IDs=1 surf_IDm=2 Igap=1\n@/INTER/TYPE19/6 surf_IDs=3 surf_IDm=0"));
-  const Rewrite r = expand_type19(before->context());
-  std::vector<std::string> became;
-  for (const LossEntry& e : losses_of(r, Loss::kept))
-    became.push_back(e.old_text + " -> " + e.new_text + " " + e.note);
-  EXPECT_THAT(became, ::testing::ElementsAre(
-                          "/INTER/TYPE19/5 -> /INTER/TYPE7/5, /INTER/TYPE7/7, /INTER/TYPE11/8 ",
-                          "/INTER/TYPE19/6 -> /INTER/TYPE7/6, /INTER/TYPE11/9 "));
-  EXPECT_THAT(r.notes,
-              ::testing::ElementsAre(
-                  "time histories (/TH/INTER) that name a TYPE19 now record its first TYPE7 only"));
-  EXPECT_EQ(r.losses.size(), 2u);
-}
-
-TEST(ExpandType19, NewBlocksHaveTitlesThatSayWhatTheyAre) {
-  const auto after = expanded(*open_text(with("/INTER/TYPE19/5\nbumper\n         1         2\n")));
-  EXPECT_EQ(after->interfaces.type7.at(0).title, "bumper");
-  EXPECT_EQ(after->interfaces.type7.at(1).title, "bumper (reversed)");
-  EXPECT_EQ(after->interfaces.type11.at(0).title, "bumper (edges)");
-  const std::string text = bytes_of(*after);
-  for (const char* title :
-       {"\nnodes of surface 1\n         1\n", "\nnodes of surface 2\n         2\n",
-        "\nedges of surface 1\n         1\n", "\nedges of surface 2\n"})
-    EXPECT_THAT(text, HasSubstr(title));
-  const auto free_edges = expanded(*open_text(
-      with("@/DEFAULT/INTER/TYPE19 Iedge=1\n/INTER/TYPE19/5\nbumper\n         1         2\n")));
-  EXPECT_THAT(bytes_of(*free_edges), HasSubstr("\nfree edges of surface 1\n         1\n"));
-  EXPECT_THAT(bytes_of(*free_edges), HasSubstr("/LINE/EDGE/"));
-}
-
 TEST(ExpandType19, ASetWhoseIdAGroupHasCannotBeNamed) {
   const std::string sets =
       "/SET/GENERAL/41\nset\nPART               1\n/SET/GENERAL/42\nset\nPART               2\n"
@@ -376,42 +344,6 @@ TEST(ExpandType19, ASetWhoseIdAGroupHasCannotBeNamed) {
   EXPECT_THAT(
       expand_type19(open_text(with(sets + "/GRNOD/PART/40\ng\n         1"))->context()).refusals,
       ::testing::IsEmpty());
-}
-
-TEST(ExpandType19, NewGroupsAndLinesGoAboveTheSets) {
-  const auto after = expanded(
-      *open_text(with("/SET/GENERAL/500\nset\nPART               1\n/GRNOD/PART/70\ng\n         1\n"
-                      "@/INTER/TYPE19/5 surf_IDs=1 surf_IDm=2 Igap=1")));
-  const std::string text = bytes_of(*after);
-  for (const char* made : {"/GRNOD/SURF/501\n", "/GRNOD/SURF/502\n", "/LINE/SURF/501\n",
-                           "/LINE/SURF/502\n", "/INTER/TYPE7/6\n", "/INTER/TYPE11/7\n"})
-    EXPECT_THAT(text, HasSubstr(made));
-}
-
-TEST(ExpandType19, ASideOfSegmentsWithoutEdgesNeedsNoType11) {
-  // Surface 9 has no segments.
-  const auto before =
-      open_text(with("/SURF/PART/9\nnone\n\n@/INTER/TYPE19/5 surf_IDs=1 surf_IDm=9 Igap=1"));
-  const Rewrite r = expand_type19(before->context());
-  std::vector<std::string> notes;
-  for (const LossEntry& e : losses_of(r, Loss::kept))
-    if (!e.note.empty()) notes.push_back(e.note);
-  EXPECT_THAT(notes,
-              ::testing::ElementsAre(
-                  "no TYPE11: a side has no edges, and the solver drops this part too (1577)"));
-  EXPECT_TRUE(applied(*before, r)->interfaces.type11.empty());
-}
-
-TEST(ExpandType19, OldFormatsAreConvertedFirst) {
-  std::string text = with("@/INTER/TYPE19/5 surf_IDs=1 surf_IDm=2 Igap=1");
-  text.replace(text.find("      2022"), 10, "        90");
-  const auto before = open_text(text);
-  const Rewrite r = expand_type19(before->context());
-  if (before->interfaces.type19.empty()) GTEST_SKIP() << "the version does not know the keyword";
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_THAT(r.refusals[0],
-              HasSubstr("version 90 has other lines; convert the deck to a newer version first"));
-  EXPECT_TRUE(r.edits.empty());
 }
 
 TEST(ExpandType19, DeckWithoutType19IsNotTouched) {

@@ -311,24 +311,6 @@ TEST(ToUnits, PlanesAndEllipsesOfASetAreLengthsOnTwoLines) {
   EXPECT_TRUE(own->after(convert(*own, "Mg,m,s"))->contains(set));
 }
 
-TEST(ToUnits, ClausesOfASetWithCommasOrParametersAreRefusedLineByLine) {
-  const auto refusals = [](const std::string& rows) {
-    return convert(*Whole::text(deck_of("/SET/GENERAL/9\nset\n" + rows)), "Mg,m,s").refusals;
-  };
-  const std::string plain = clause_row("", {"1.0", "2.0", "3.0"}) + "\n";
-  const auto commas = refusals("PLANE     1.0,2.0,3.0\n          1.0,2.0,4.0\n");
-  ASSERT_EQ(commas.size(), 2u);
-  EXPECT_NE(commas[0].find(":9:1: /SET/GENERAL/9 PLANE: coordinates in free format or by "
-                           "parameters are not converted"),
-            std::string::npos)
-      << commas[0];
-  EXPECT_NE(commas[1].find(":10:1: "), std::string::npos) << commas[1];
-  EXPECT_EQ(refusals(clause_row("ELLIPS", {"&a"}) + "\n" + plain).size(), 1u);
-  EXPECT_EQ(refusals(clause_row("PLANE", {"1.0"}) + "\n" + plain).size(), 0u);
-  EXPECT_EQ(refusals(clause_row("PLANE", {"1.0"}) + "\n").size(), 0u)
-      << "its second line is absent";
-}
-
 TEST(ToUnits, TheToleranceOfACnodeIsALength) {
   const std::string node =
       "\n        20                 1.5                 0.0                 0.0\n";
@@ -548,46 +530,6 @@ TEST(ToUnits, ParameterWithTwoMeaningsGivesWayToItsNumber) {
     bool said = false;
     for (const LossEntry& e : r.losses) said |= e.loss == Loss::kept && e.old_text == "&a";
     EXPECT_TRUE(said) << other;
-  }
-}
-
-TEST(ToUnits, AParameterThatCannotChangeSaysWhy) {
-  const std::string uses =
-      "/SENSOR/TIME/7\ns\n                  &a\n/SENSOR/TIME/8\ns\n                 -&a\n";
-  const std::string plain = "/PARAMETER/GLOBAL/REAL/1\np\na                          2.5\n";
-  struct Case {
-    std::string definition, more;
-    const char* why;  // empty: the definition is changed
-  };
-  const Case cases[] = {
-      {plain, "", ""},
-      {plain, "# &a\n$ &a\n", ""},
-      {plain,
-       "/SENSOR/TIME/9\ns\n                 &ab\n/PARAMETER/GLOBAL/REAL/3\np\nab         "
-       "                1.5\n",
-       ""},
-      {plain, "/PARAMETER/GLOBAL/REAL_EXPR/2\np\nb         2*a\n",
-       "is used in other places too, where its value must not change"},
-      {plain, "/NODE\n         1                  &a\n", "is used with several dimensions"},
-      {"/PARAMETER/GLOBAL/REAL_EXPR/1\np\na         5/2\n", "", "is not a plain real number"},
-      {"/PARAMETER/GLOBAL/REAL/1\np\na,2.5\n", "", "stands in a line in free format"}};
-  for (const Case& c : cases) {
-    SCOPED_TRACE(c.definition + c.more);
-    const auto w = Whole::text(deck_of(c.definition + uses + c.more));
-    const Rewrite r = convert(*w, "Mg,m,s");
-    const auto after = w->after(r);
-    EXPECT_EQ(real(*after, "/SENSOR/TIME/7", "Tdelay"), 0.0025);
-    EXPECT_EQ(real(*after, "/SENSOR/TIME/8", "Tdelay"), -0.0025);
-    const bool changes = *c.why == '\0';
-    EXPECT_EQ(after->contains(c.definition), !changes);
-    EXPECT_EQ(after->contains(uses), changes);
-    std::vector<std::string> notes;
-    for (const LossEntry& e : r.losses)
-      if (e.old_text.ends_with("&a")) notes.push_back(e.note);
-    const std::string note =
-        std::string("parameter &a ") + c.why + "; the number was written instead";
-    const std::size_t written = changes ? 0 : c.more.starts_with("/NODE") ? 3 : 2;
-    EXPECT_EQ(notes, std::vector<std::string>(written, note));
   }
 }
 

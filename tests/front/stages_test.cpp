@@ -63,59 +63,6 @@ std::vector<double> steps(const Mesh& mesh) { return mesh.of(ElementKind::shell4
 
 using Ids = std::vector<std::int64_t>;
 
-// ---- loading -----------------------------------------------------------------------------------
-
-TEST(Stages, TakeThreadsAndLimitsOfLoading) {
-  LoadOptions how;
-  how.threads = 3;
-  how.read.limits.pair_bytes = 12345;
-  std::map<std::string, std::string> texts{{"none.inc", "\n"}};
-  how.read.overlay = &texts;
-  const LoadedDeck d = of_text(Two{}.text(), how);
-  EXPECT_EQ(d.scene_options().threads, 3);
-  EXPECT_EQ(d.scene_options().limits.pair_bytes, 12345u);
-  EXPECT_TRUE(d.scene_options().nodal_stiffness);
-  EXPECT_TRUE(d.scene_options().penetrations);
-  EXPECT_FALSE(d.scene_options().ties);
-  EXPECT_EQ(d.limits().pair_bytes, 12345u);
-  EXPECT_EQ(d.options().read.overlay, nullptr) << "which may end before the deck";
-  EXPECT_EQ(d.path(), "small_0000.rad");
-  EXPECT_EQ(&d.schemas(), &SchemaSet::built_in());
-  const SchemaSet own = SchemaSet::built_in();
-  EXPECT_EQ(&of_text(Two{}.text(), with_schemas(own)).schemas(), &own);
-}
-
-TEST(Stages, AreMadeAsFarAsTheyAreAskedFor) {
-  const LoadedDeck d = of_text(Two{}.text());
-  const auto reached = [&](Stage until) {
-    static_cast<void>(d.findings(until));
-    return d.reached();
-  };
-  for (const Stage s :
-       {Stage::deck, Stage::model, Stage::interfaces, Stage::cells, Stage::scene, Stage::deck})
-    EXPECT_EQ(reached(s), s == Stage::deck && d.reached() != Stage::deck ? Stage::scene : s);
-  for (const Stage s : {Stage::deck, Stage::model, Stage::interfaces, Stage::cells, Stage::scene}) {
-    const LoadedDeck one = of_text(Two{}.text());
-    static_cast<void>(one.found_by(s));
-    EXPECT_EQ(one.reached(), s);
-  }
-}
-
-TEST(Stages, FoundByOneHaveThatOnesFindingsAlone) {
-  // An unknown keyword, a group without its part, and a cell that is no number.
-  Two two;
-  two.contact = "Gapmin=0.7 Stfac=1.5";
-  std::string text = two.text();
-  text.replace(text.find("1.5\n") == text.npos ? text.find("1.5") : text.find("1.5"), 3, "l.5");
-  text.replace(text.find("/GRNOD/PART/2"), 13, "/GRNOD/PART/7");
-  const LoadedDeck d = of_text(text);
-  EXPECT_TRUE(d.found_by(Stage::model).all().empty());
-  ASSERT_EQ(d.found_by(Stage::cells).all().size(), 1u);
-  const Diagnostics& scene = d.found_by(Stage::scene);
-  EXPECT_EQ(scene.counts().count(RuleId::DK172), 1u) << "group 2 is not there any more";
-  EXPECT_GT(d.findings().all().size(), scene.all().size());
-}
-
 TEST(Load, ReadsEngineFilesWithTheDeckWhereAsked) {
   const Folder folder;
   const std::string path = folder.write("d_0000.rad", Two{}.text());
@@ -185,145 +132,6 @@ TEST(With, ReadsFilesAgainAndKeepsTheNameOfTheDeck) {
   EXPECT_EQ(gap(changed), 0.75) << "not the text that was there";
 }
 
-// ---- values that follow from the mesh ----------------------------------------------------------
-
-TEST(MeshValues, AreFormedWithoutPenetrationsAndOnce) {
-  Two two;
-  two.contact = "Istf=4";
-  LoadOptions how;
-  how.geometry = false;
-  how.read.limits.selection_bytes = 1 << 20;
-  const LoadedDeck d = of_text(two.text(), how);
-  std::size_t calls = 0;
-  const Scene& scene = d.mesh_values([&](std::size_t done, std::size_t all) {
-    ++calls;
-    EXPECT_LE(done, all);
-    EXPECT_EQ(all, 1u);
-  });
-  EXPECT_GT(calls, 0u);
-  ASSERT_EQ(scene.contacts.size(), 1u);
-  EXPECT_FALSE(scene.judged);
-  EXPECT_TRUE(scene.contacts[0].penetrations.empty());
-  EXPECT_EQ(scene.contacts[0].candidates, 0u);
-  EXPECT_EQ(scene.limits.selection_bytes, 1u << 20);
-  EXPECT_EQ(&d.mesh_values(), &scene);
-  EXPECT_EQ(d.reached(), Stage::interfaces);
-  const std::size_t before = calls;
-  EXPECT_EQ(d.scene().contacts[0].penetrations.size(), 4u);
-  EXPECT_EQ(&d.mesh_values(), &d.scene());
-  EXPECT_EQ(calls, before);
-}
-
-TEST(MeshValues, FindingsOfTheirContactsComeWithTheCells) {
-  Two two;
-  two.contact = "Istf=4";
-  LoadOptions how;
-  how.read.limits.selection_bytes = 1;
-  const LoadedDeck d = of_text(two.text(), how);
-  EXPECT_EQ(d.findings(Stage::interfaces).counts().count(RuleId::DK332), 0u);
-  EXPECT_EQ(d.findings(Stage::cells).counts().at(RuleId::DK332), 1u);
-  EXPECT_EQ(d.reached(), Stage::cells);
-  EXPECT_EQ(d.findings().counts().at(RuleId::DK332), 1u);
-}
-
-// ---- settings of the scene ---------------------------------------------------------------------
-
-TEST(SceneOptions, ProgressIsOfOneSceneOnly) {
-  LoadedDeck d = of_text(Two{}.text());
-  SceneOptions options = d.scene_options();
-  std::size_t calls = 0;
-  options.progress = [&](std::size_t, std::size_t) { ++calls; };
-  d.set_scene_options(options);
-  EXPECT_EQ(calls, 0u);
-  static_cast<void>(d.scene());
-  const std::size_t once = calls;
-  EXPECT_GT(once, 0u);
-  d.drop_scene();
-  static_cast<void>(d.scene());
-  EXPECT_EQ(calls, once);
-}
-
-TEST(SceneOptions, OfAnotherSceneTakeTheirFindingsWithThem) {
-  LoadOptions how;
-  how.read.limits.pair_bytes = 1;
-  LoadedDeck d = of_text(Two{}.text(), how);
-  EXPECT_EQ(d.findings().counts().count(RuleId::DK390), 1u);
-  SceneOptions options = d.scene_options();
-  options.limits.pair_bytes = 1 << 20;
-  d.set_scene_options(options);
-  EXPECT_EQ(d.found_by(Stage::scene).counts().count(RuleId::DK390), 0u);
-  EXPECT_EQ(d.findings().counts().count(RuleId::DK390), 0u);
-  EXPECT_TRUE(d.scene().contacts.front().evaluated);
-}
-
-TEST(SceneOptions, OfAnotherSceneMakeTheCycleAnew) {
-  LoadedDeck d = of_text(Two{}.text());
-  const double before = d.cycle().outcome.largest_nodal_force;
-  SceneOptions options = d.scene_options();
-  options.what_if.resize(1);
-  options.what_if.front().interface_id = 1;
-  options.what_if.front().Gapmin = 0.6;
-  d.set_scene_options(options);
-  EXPECT_LT(d.cycle().outcome.largest_nodal_force, before);
-  EXPECT_GT(d.cycle().outcome.largest_nodal_force, 0);
-}
-
-TEST(Cycle, NeedsPenetrationsAndStiffnessWhateverTheSceneHas) {
-  const double wanted = of_text(Two{}.text()).cycle().outcome.largest_nodal_force;
-  EXPECT_GT(wanted, 0);
-  for (int bits = 0; bits < 4; ++bits) {
-    LoadedDeck d = of_text(Two{}.text());
-    SceneOptions options = d.scene_options();
-    options.nodal_stiffness = (bits & 1) != 0;
-    options.penetrations = (bits & 2) != 0;
-    d.set_scene_options(options);
-    EXPECT_EQ(d.cycle().outcome.largest_nodal_force, wanted) << bits;
-    EXPECT_EQ(&d.cycle(), &d.cycle());
-    EXPECT_EQ(d.scene().judged, options.penetrations) << "the scene stays as it was asked for";
-    EXPECT_EQ(d.scene_options().penetrations, options.penetrations);
-  }
-}
-
-TEST(Findings, SaidAfterTheyWereAskedForAreThereTheNextTime) {
-  LoadedDeck d = of_text(Two{}.text());
-  const std::size_t before = d.findings().all().size();
-  Diagnostic said;
-  said.rule = RuleId::DK334;
-  d.report(said);
-  EXPECT_EQ(d.findings().all().size(), before + 1);
-}
-
-TEST(Findings, OfGroupsAreErrorsAndOnlyWithTheScene) {
-  // Group 5 has an error, group 6 a warning; they are resolved by nobody but us.
-  Two two;
-  two.more = "/GRNOD/NODE/5\ng\n        77\n/GRNOD/PART/6\ng\n        77\n";
-  const LoadedDeck d = of_text(two.text());
-  d.model().selections->resolve_all();
-  const auto count = [&](const Diagnostics& f, RuleId rule) { return f.counts().count(rule); };
-  EXPECT_EQ(count(d.model().selections->diagnostics(), RuleId::DK150), 1u);
-  EXPECT_EQ(count(d.model().selections->diagnostics(), RuleId::DK151), 1u);
-  EXPECT_EQ(count(d.findings(Stage::cells), RuleId::DK150), 0u);
-  EXPECT_EQ(count(d.findings(), RuleId::DK150), 1u);
-  EXPECT_EQ(count(d.findings(), RuleId::DK151), 0u);
-}
-
-TEST(Findings, ThatMembersWereLeftOutIsSaidOnce) {
-  LoadOptions how;
-  how.read.limits.selection_bytes = 1;
-  const LoadedDeck d = of_text(Two{}.text(), how);
-  static_cast<void>(d.scene());
-  d.model().selections->resolve_all();
-  const auto& all = d.findings().all();
-  EXPECT_EQ(
-      std::count_if(all.begin(), all.end(),
-                    [](const Diagnostic& f) { return f.rule == RuleId::DK332; }),
-      std::count_if(d.found_by(Stage::scene).all().begin(), d.found_by(Stage::scene).all().end(),
-                    [](const Diagnostic& f) { return f.rule == RuleId::DK332; }));
-  EXPECT_EQ(d.findings().counts().at(RuleId::DK332), 1u);
-}
-
-// ---- ties --------------------------------------------------------------------------------------
-
 TEST(Ties, AreThoseOfTheSceneOrFoundOnceBesideIt) {
   LoadedDeck beside = of_text(tied("", "Iproj=1")), within = of_text(tied("", "Iproj=1"));
   SceneOptions options = within.scene_options();
@@ -349,34 +157,6 @@ TEST(Ties, AreThoseOfTheSceneOrFoundOnceBesideIt) {
   beside.set_scene_options(options);
   ASSERT_EQ(beside.ties().size(), 1u) << "of another scene";
   EXPECT_EQ(beside.ties()[0].inter->id, 9);
-}
-
-TEST(Ties, OfAllInterfacesHoldNodesWhateverSceneThereIs) {
-  const Ids all{11, 12, 14};  // node 13 has no segment within reach
-  for (int bits = 0; bits < 8; ++bits) {
-    LoadedDeck d = of_text(tied("", "Iproj=1"));
-    SceneOptions options = d.scene_options();
-    options.ties = (bits & 1) != 0;
-    if ((bits & 2) != 0) options.only = {8};
-    d.set_scene_options(options);
-    if ((bits & 4) != 0) static_cast<void>(d.scene());
-    EXPECT_EQ(tied_nodes(d), all) << bits;
-    EXPECT_EQ(d.reached(), (bits & 4) != 0 ? Stage::scene : Stage::interfaces) << bits;
-    const std::size_t ties = !options.ties ? 0 : options.only.empty() ? 2 : 1;
-    EXPECT_EQ(d.scene().ties.size(), ties) << bits;
-    EXPECT_EQ(d.scene().examined == Examined::contacts_and_ties, options.ties) << bits;
-    EXPECT_EQ(&d.kinematics(), &d.kinematics());
-  }
-}
-
-TEST(Ties, ProgressOfTheSceneIsNotThatOfTies) {
-  LoadedDeck d = of_text(tied(""));
-  SceneOptions options = d.scene_options();
-  options.progress = [](std::size_t, std::size_t) { ADD_FAILURE(); };
-  d.set_scene_options(options);
-  EXPECT_EQ(tied_nodes(d), (Ids{11, 12}));
-  options.progress = nullptr;
-  d.set_scene_options(options);
 }
 
 /// What the mesh needs of ties, by hand.
@@ -428,18 +208,6 @@ TEST(Ties, CarryMassesToTheRimUnlessIprojSaysOtherwise) {
   }
 }
 
-TEST(Ties, ThatWereNotLookedForLeaveTheirNodesOpen) {
-  const LoadedDeck d = of_text(tied("Isearch=7"));
-  ASSERT_FALSE(d.ties()[0].not_evaluated.empty());
-  EXPECT_EQ(tied_nodes(d), (Ids{11, 12})) << "all are booked";
-  EXPECT_FALSE(d.kinematics().left_out.empty());
-  EXPECT_TRUE(std::isnan(d.mesh().nodes.dt[d.model().find_node(11)]));
-  const LoadedDeck known = of_text(tied(""));
-  EXPECT_TRUE(known.kinematics().left_out.empty());
-}
-
-// ---- contacts that move nodes ------------------------------------------------------------------
-
 TEST(MovedNodes, AreWhereTheMeshIsMeasured) {
   Two two;
   two.contact = "Gapmin=0.7 Inacti=3";
@@ -462,16 +230,6 @@ TEST(MovedNodes, AreWhereTheMeshIsMeasured) {
   options.what_if.front().Gapmin = 0.4;
   d.set_scene_options(options);
   expect_moved(0.4);
-}
-
-TEST(MovedNodes, AreAskedForOnlyWhereAContactMovesThem) {
-  for (const char* card : {"Gapmin=0.7", "Gapmin=0.7 Inacti=5", "Gapmin=0.7 Inacti=6"}) {
-    Two two;
-    two.contact = card;
-    const LoadedDeck d = of_text(two.text());
-    EXPECT_EQ(steps(d.mesh()), steps(make_mesh(d.model()))) << card;
-    EXPECT_EQ(d.reached(), Stage::interfaces) << card;
-  }
 }
 
 TEST(MovedNodes, AreTiedWhereTheyAreAfterwards) {

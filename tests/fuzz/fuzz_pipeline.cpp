@@ -1,6 +1,8 @@
-// A deck all the way: read, model, interfaces, contacts, penetrations, crossings, forces, and their
-// JSON. Positions and numbers must be sound, the documents valid, and one thread and three must
-// give the same bytes.
+// A deck all the way: read, model, interfaces, contacts, ties, penetrations, crossings, forces, and
+// their JSON. Positions and numbers must be sound, the documents valid, one thread and three must
+// give the same bytes, and what is in a TYPE24 or TYPE25 contact is what exact arithmetic says.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -35,6 +37,37 @@ void check_scene(const Scene& scene) {
   }
 }
 
+void check_ties(const Scene& scene) {
+  for (const Tie& tie : scene.ties) {
+    if (!tie.not_evaluated.empty()) continue;
+    for (const TiedNode& n : tie.nodes) {
+      require(n.node < scene.model->nodes.size(), "a tied node exists");
+      require(!n.tied || n.segment != no_index, "a tied node has a segment");
+      if (n.segment == no_index || tie.inter->Isearch.value == 1) continue;
+      require(n.segment < tie.main.size(), "the segment is one of the main side");
+      const auto& c = tie.main[n.segment];
+      require(std::find(c.begin(), c.end(), n.node) == c.end(), "no node is tied to its segment");
+      if (tie.ignore < 4) require(n.distance < n.search, "a node is within its search distance");
+    }
+  }
+}
+
+/// The nodes, pairs of edges, and edges through faces, in contact. Where several segments are
+/// equally near any may be named.
+std::vector<std::array<std::uint32_t, 4>> in_contact(const Scene& scene) {
+  std::vector<std::array<std::uint32_t, 4>> out;
+  for (std::uint32_t i = 0; i < scene.contacts.size(); ++i) {
+    const Contact& c = scene.contacts[i];
+    if (!is_modern(c.type)) continue;
+    for (const PenetrationRow& r : c.penetrations)
+      if (r.in_contact)
+        out.push_back({i, r.secondary, c.kind == ContactKind::edge_edge ? r.main : 0, 0});
+    for (const EdgeThroughSegment& e : c.edges_through_segments)
+      out.push_back({i, e.edge, e.main, static_cast<std::uint32_t>(e.side)});
+  }
+  return out;
+}
+
 /// Everything that the verbs would print about the deck as JSON.
 std::string answers(const std::string& text, int threads) {
   const auto whole = fuzz::read_text(text, threads);
@@ -51,8 +84,17 @@ std::string answers(const std::string& text, int threads) {
   SceneOptions options;
   options.threads = threads;
   options.nodal_stiffness = true;
+  options.ties = true;
   const Scene scene = build_scene(whole->model, whole->interfaces, whole->diagnostics, options);
   check_scene(scene);
+  check_ties(scene);
+  if (read_back && whole->interfaces.type24.size() + whole->interfaces.type25.size() > 0) {
+    options.accuracy = Accuracy::exact;
+    Diagnostics said;
+    require(in_contact(build_scene(whole->model, whole->interfaces, said, options)) ==
+                in_contact(scene),
+            "what is in contact is exact");
+  }
   fuzz::check_spans(whole->deck, whole->diagnostics);
   const SceneView view = make_view(scene);
   const auto crossings = find_crossings(scene, threads);

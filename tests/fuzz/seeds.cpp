@@ -1,5 +1,5 @@
 // Writes the first inputs of the fuzz targets below a directory: fuzz_seeds DIR. They are made of
-// the decks in samples/, of the examples of every rule, and of what the library makes of those.
+// the decks in samples/ and of the examples of every rule.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -7,13 +7,9 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "deck/keyword/deck.hpp"
 #include "deck/lint/rule.hpp"
-#include "deck/model/interfaces.hpp"
 #include "lint/shared/example.hpp"
-#include "report/shared/deck_json.hpp"
 
 namespace {
 
@@ -55,9 +51,6 @@ class Seeds {
     for (const char* t : {"fuzz_deck", "fuzz_pipeline", "fuzz_lint", "fuzz_edits", "fuzz_includes"})
       put(t, name, text);
     if (text.size() < 2800) put("fuzz_lsp", name, text + edits_of(text));
-    auto deck = deck::read_deck_text("a_0000.rad", text, deck::SchemaSet::built_in());
-    if (!deck || text.size() > 8000) return;
-    if (const auto json = deck::deck_to_json({"a_0000.rad", &*deck})) put("fuzz_json", name, *json);
   }
   std::size_t count = 0;
 
@@ -81,24 +74,6 @@ void parts_of(Seeds& seeds, const std::string& name, const std::string& text) {
   }
 }
 
-/// Blocks of groups, surfaces, lines, boxes and sets of a deck.
-std::string selections_of(std::string_view text) {
-  std::string out;
-  bool inside = false;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto end = std::min(text.find('\n', at), text.size() - 1) + 1;
-    const std::string_view line = text.substr(at, end - at);
-    if (line.starts_with("/")) {
-      inside = false;
-      for (const char* k : {"/GR", "/SURF", "/LINE", "/SET", "/BOX", "/SUBSET"})
-        inside = inside || line.starts_with(k);
-    }
-    if (inside) out += line;
-    at = end;
-  }
-  return out;
-}
-
 void samples(Seeds& seeds, const fs::path& directory) {
   for (const auto& entry : fs::directory_iterator(directory)) {
     if (!entry.path().string().ends_with("_0000.rad")) continue;
@@ -108,8 +83,6 @@ void samples(Seeds& seeds, const fs::path& directory) {
       seeds.deck(name, text);
     else
       parts_of(seeds, name, text);
-    if (const std::string s = selections_of(text); !s.empty())
-      seeds.put("fuzz_selections", name, s.substr(0, 8000));
   }
   std::string tree = read(directory / "include_tree_0000.rad");
   for (const char* file : {"mesh.inc", "sheets.inc"})
@@ -126,57 +99,11 @@ void examples(Seeds& seeds) {
       const std::string name =
           std::string(id_text(rule.id)) + (text == rule.bad ? "_bad" : "_good");
       if (example.main.size() > 12000) continue;
-      if (text.find("/INTER/TYPE2/") != std::string_view::npos)
-        seeds.put("fuzz_ties", name, std::string(text));
-      if (text.find("/INTER/TYPE24/") != std::string_view::npos ||
-          text.find("/INTER/TYPE25/") != std::string_view::npos)
-        seeds.put("fuzz_modern", name, std::string(text));
       std::string tree = example.main;
       for (const auto& [file, content] : example.files) tree += "=== " + file + "\n" + content;
       if (!example.files.empty()) seeds.put("fuzz_includes", name, tree);
       seeds.deck(name, example.main);
-      if (const std::string s = selections_of(example.main); s.size() > 300)
-        seeds.put("fuzz_selections", name, s);
     }
-}
-
-/// A states file: column names with stems given three axes, and rows of plain numbers.
-std::string states(const std::vector<std::string>& names, const std::vector<std::string>& stems) {
-  std::string head, row;
-  int n = 0;
-  const auto add = [&](const std::string& name, double v) {
-    head += (head.empty() ? "" : ",") + name;
-    row += (row.empty() ? "" : ",") + std::to_string(v);
-  };
-  for (const std::string& name : names) add(name, 0.5 + 0.25 * (n++ % 5));
-  for (const std::string& stem : stems)
-    for (const char* axis : {"_x", "_y", "_z"}) add(stem + axis, (n++ * 7 % 11) * 0.3);
-  return head + "\n" + row + "\n" + row + "\n";
-}
-
-void replays(Seeds& seeds) {
-  using Names = std::vector<std::string>;
-  const Names nodes = {"xs", "x1", "x2", "x3", "x4",    "vs",    "v1",
-                       "v2", "v3", "v4", "F",  "ft_in", "ft_out"};
-  const Names plain = {"interface", "dt1", "dt12", "K0",      "gap",   "P0_in", "ms",
-                       "m1",        "m2",  "m3",   "m4",      "n3",    "n4",    "H1",
-                       "H2",        "H3",  "H4",   "K_nodal", "P0_out"};
-  seeds.put("fuzz_replay", "nodes", states(plain, nodes));
-  Names tie = plain;
-  for (const char* k : {"Fn", "Ft1", "Ft2", "H1", "H2", "H3"})
-    for (const char* side : {"_in", "_out"}) tie.push_back(k + std::string(side));
-  seeds.put("fuzz_replay", "tied", states(tie, nodes));
-  seeds.put("fuzz_replay", "edges",
-            states({"interface", "dt1", "dt12", "K0", "gap", "pen_s_used", "pen_m_used", "mass_s1",
-                    "mass_s2", "mass_m1", "mass_m2", "hs1", "hs2", "hm1", "hm2"},
-                   {"xs1", "xs2", "xm1", "xm2", "vs1", "vs2", "vm1", "vm2", "f1", "f2", "f3", "f4",
-                    "ft_in"}));
-  Names hot = {"dt1", "gap", "area_s", "Fn", "E_fric", "H1", "H2", "H3", "H4"};
-  for (const char* r : {"s", "1", "2", "3", "4"}) {
-    hot.push_back("T" + std::string(r));
-    hot.push_back("Q_" + std::string(r));
-  }
-  seeds.put("fuzz_replay", "heat", states(hot, nodes));
 }
 
 void others(Seeds& seeds) {
@@ -196,8 +123,6 @@ void others(Seeds& seeds) {
   for (const char* number :
        {"  -1.5d3 ", "1e400", "0x10", "       123", "1+5", "9223372036854775808"})
     seeds.put("fuzz_number", "n" + std::to_string(n++), number);
-  for (const char* text : {"1+2*P0", "sqrt(2)\nP0^2\nint(P1/3)\n", "((((1))))\n-P0\nmax(P0,P1)"})
-    seeds.put("fuzz_parameters", "p" + std::to_string(n++), text);
 }
 
 }  // namespace
@@ -207,7 +132,6 @@ int main(int argc, char** argv) {
   Seeds seeds{argv[1]};
   samples(seeds, fs::path(DECK_SOURCE_DIR) / "samples");
   examples(seeds);
-  replays(seeds);
   others(seeds);
   std::printf("%zu inputs\n", seeds.count);
   return 0;

@@ -1,5 +1,4 @@
-// A model of sheets that inputs add to, and effective values of interfaces as text, for properties
-// of the kind "this edit changes nothing".
+// Effective values of interfaces as text, for properties of the kind "this edit changes nothing".
 #include "support.hpp"
 
 #include <cstring>
@@ -36,28 +35,6 @@ void add(std::string& out, const std::vector<Inter>& all, bool only_used) {
 }
 
 }  // namespace
-
-std::string head_of_sheets(int version) {
-  return "#RADIOSS STARTER\n/BEGIN\nfuzz\n      " + std::to_string(version) + R"(         0
-                  kg                  mm                  ms
-                  kg                  mm                  ms
-/PROP/SHELL/1
-sheet
-        24         0         0         0
-                 0.0                 0.0                 0.0                 0.0                 0.0
-         5                           1.0                 0.0                   0         0
-/MAT/ELAST/1
-steel
-             7.8e-06
-               210.0                 0.3
-)";
-}
-
-std::unique_ptr<Whole> read_blocks(int version, std::string_view model, const std::uint8_t* data,
-                                   std::size_t size) {
-  if (size > 8192) return nullptr;
-  return read_text(head_of_sheets(version) + std::string(model) + text_of(data, size) + "\n/END\n");
-}
 
 std::string effective_values(const Interfaces& interfaces, bool only_used) {
   std::string out;

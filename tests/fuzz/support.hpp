@@ -84,12 +84,6 @@ inline std::unique_ptr<Whole> read_text(std::string text, int threads = 1) {
   return read_files({{main_name, without_includes(std::move(text))}}, main_name, threads);
 }
 
-/// A deck up to its parts: shell property 1, 1 thick, and material 1, of steel.
-std::string head_of_sheets(int version);
-/// The deck that an input makes behind a model of sheets; nullptr: not a deck.
-std::unique_ptr<Whole> read_blocks(int version, std::string_view model, const std::uint8_t* data,
-                                   std::size_t size);
-
 /// Every span of the findings lies in its file.
 inline void check_spans(const Deck& deck, const Diagnostics& findings) {
   for (const Diagnostic& d : findings.all()) {

@@ -1,5 +1,5 @@
 // The layouts of the contact keywords against the published tables: number of lines, cells that
-// came or moved with a version, legal values, defaults, dimensions.
+// came or moved with a version, dimensions of the coefficients of friction.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include <array>
 #include <initializer_list>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -17,11 +16,9 @@ namespace deck {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::UnorderedElementsAreArray;
 
-constexpr int all_versions[] = {41,   42,   44,   51,   90,   100,  110,  120,  130,  140,
-                                2017, 2018, 2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
+constexpr int all_versions[] = {51,   90,   100,  110,  120,  130,  140,  2017, 2018,
+                                2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
 std::vector<int> versions_from(int first) {
   std::vector<int> versions;
   for (const int version : all_versions)
@@ -77,8 +74,6 @@ Dimension dimension(std::string_view keyword, std::string_view name, const Value
 // Number of lines after the title
 
 TEST(InterType7Layout, FixedLines) {
-  for (const int version : {41, 42}) EXPECT_EQ(lines("/INTER/TYPE7", version), 3u) << version;
-  EXPECT_EQ(lines("/INTER/TYPE7", 44), 4u);
   for (const int version : versions_from(51))
     EXPECT_EQ(lines("/INTER/TYPE7", version), 6u) << version;
 }
@@ -309,133 +304,6 @@ TEST(InterType10Cells, OldLayoutHasNarrowCellsWithoutIdel) {
   EXPECT_EQ(columns("/INTER/TYPE10", "Idel", 51), "71-80");
 }
 
-TEST(FindField, SpeaksForTheNewestLayout) {
-  EXPECT_EQ(schema("/INTER/TYPE7").find_field("grnd_IDs")->last, 10);
-  EXPECT_EQ(schema("/INTER/TYPE7").find_field("nothing"), nullptr);
-}
-
-// ---------------------------------------------------------------------------------------------
-// Contact fields: documentation, legal values, dimensions
-
-const char* const contact[] = {
-    "/INTER/TYPE7",          "/INTER/TYPE10",      "/INTER/TYPE11",        "/INTER/TYPE19",
-    "/INTER/LAGMUL/TYPE7",   "/INTER/LAGDT/TYPE7", "/DEFAULT/INTER/TYPE7", "/DEFAULT/INTER/TYPE11",
-    "/DEFAULT/INTER/TYPE19", "/FRICTION"};
-
-TEST(ContactFields, EveryFieldIsDocumentedAndBounded) {
-  const std::map<std::string, std::vector<std::int64_t>> legal = {
-      {"Istf", {0, 1, 2, 3, 4, 5, 1000}},
-      {"Ibag", {0, 1, 2, 1000}},
-      {"Icurv", {0, 1, 2, 3}},
-      {"Iadm", {0, 1, 2}},
-      {"Ifric", {0, 1, 2, 3, 4}},
-      {"Ifiltr", {0, 1, 2, 3}},
-      {"Iform", {0, 1, 2}},
-      {"Irem_gap", {0, 1, 2}},
-      {"Irem_i2", {0, 1, 3}}};
-  const std::set<std::string> nonnegative = {"Fscalegap",  "Gapmax", "Fpenmax", "Stmin",  "Stmax",
-                                             "%mesh_size", "dtmin",  "Stfac",   "Fric",   "Gapmin",
-                                             "Gap",        "VISs",   "VISF",    "Bumult", "Tstart",
-                                             "Tstop",      "Frad",   "Drad",    "Xfreq",  "Padm"};
-  for (const char* keyword : contact)
-    for (const auto& card : schema(keyword).cards)
-      for (const auto& field : card.fields) {
-        const std::string where = std::string(keyword) + "." + field.name;
-        EXPECT_FALSE(field.doc.empty()) << where;
-        if (const auto it = legal.find(field.name); it != legal.end()) {
-          EXPECT_THAT(field.values, UnorderedElementsAreArray(it->second)) << where;
-        }
-        if (nonnegative.count(field.name)) {
-          ASSERT_TRUE(field.min.has_value()) << where;
-          EXPECT_EQ(*field.min, 0.0) << where;
-        }
-        EXPECT_EQ(field.type == FieldType::id, !field.ref.empty()) << where;
-        EXPECT_TRUE(field.dimension_known) << where;
-      }
-}
-
-TEST(ContactFields, LegalValuesThatDifferByType) {
-  const auto values = [](const char* keyword, const char* field) {
-    return schema(keyword).find_field(field)->values;
-  };
-  EXPECT_THAT(values("/INTER/TYPE7", "Igap"), ElementsAre(0, 1, 2, 3, 1000));
-  EXPECT_THAT(values("/INTER/TYPE11", "Igap"), ElementsAre(0, 1, 3, 1000));
-  EXPECT_THAT(values("/INTER/TYPE19", "Igap"), ElementsAre(0, 1, 2, 3, 4, 1000));
-  EXPECT_THAT(values("/INTER/TYPE7", "Ithe"), ElementsAre(0, 1));
-  EXPECT_THAT(values("/INTER/TYPE11", "Ithe"), ElementsAre(0, 1, 2));
-  EXPECT_THAT(values("/INTER/TYPE10", "ITIED"), ElementsAre(0, 1));
-  EXPECT_THAT(values("/INTER/TYPE10", "Inacti"), ElementsAre(0, 1, 2, 3, 6, 1000));
-  EXPECT_THAT(values("/INTER/TYPE19", "Idel"), ElementsAre(0, 1, 2, -1, -2, 1000));
-  EXPECT_THAT(values("/DEFAULT/INTER/TYPE19", "Idel"), ElementsAre(0, 1, 2, 3, -1, -2, 1000));
-}
-
-TEST(ContactFields, DefaultsAreThoseTheSolverApplies) {
-  const auto text = [](const char* keyword, const char* field) {
-    return schema(keyword).find_field(field)->default_text;
-  };
-  EXPECT_EQ(text("/INTER/TYPE7", "VISs"), "0.05");
-  EXPECT_EQ(text("/INTER/TYPE10", "Stfac"), "0.2");
-  EXPECT_EQ(text("/INTER/TYPE7", "Stfac"), "1");
-  EXPECT_EQ(text("/INTER/TYPE7", "%mesh_size"), "0.4");
-  EXPECT_EQ(text("/INTER/TYPE7", "Gapmax"), "1e30");
-  EXPECT_THAT(text("/INTER/TYPE7", "Istf"), HasSubstr("else 1000"));
-  EXPECT_THAT(text("/INTER/TYPE11", "Istf"), HasSubstr("else 5"));
-  EXPECT_THAT(text("/INTER/TYPE7", "Irem_i2"), HasSubstr("else 3"));
-  EXPECT_EQ(text("/DEFAULT/INTER/TYPE7", "Irem_gap"), "1");
-}
-
-TEST(ContactFields, HaveTheNumberOfEveryDefaultThatNamesOne) {
-  for (const auto& [keyword, name, number, varies] :
-       std::initializer_list<std::tuple<const char*, const char*, double, DefaultVaries>>{
-           {"/INTER/TYPE7", "VISs", 0.05, DefaultVaries::no},
-           {"/INTER/TYPE7", "Istf", 1000, DefaultVaries::deck},
-           {"/INTER/TYPE7", "Irem_i2", 3, DefaultVaries::model},
-           {"/INTER/TYPE7", "Iform", 1, DefaultVaries::deck},
-           {"/INTER/TYPE7", "VISF", 1, DefaultVaries::fields},
-           {"/INTER/TYPE7", "sens_ID", 0, DefaultVaries::no}}) {
-    const Field& f = *schema(keyword).find_field(name);
-    EXPECT_EQ(f.default_value, number) << name;
-    EXPECT_EQ(f.default_varies, varies) << name;
-  }
-  for (const Schema* s : SchemaSet::built_in().all())
-    for (const CardSchema& card : s->cards)
-      for (const Field& f : card.fields)
-        if (f.default_text.find_first_of("0123456789") == 0) {
-          EXPECT_TRUE(f.default_value) << s->keyword << " " << f.name << ": " << f.default_text;
-        }
-}
-
-TEST(ContactFields, NotesWhereManualAndSolverDiffer) {
-  for (const auto& [keyword, field] :
-       std::initializer_list<std::pair<const char*, const char*>>{{"/INTER/TYPE11", "Istf"},
-                                                                  {"/INTER/TYPE7", "Xfreq"},
-                                                                  {"/INTER/TYPE7", "Fric"},
-                                                                  {"/INTER/TYPE7", "VISF"},
-                                                                  {"/INTER/TYPE7", "Stmin"},
-                                                                  {"/INTER/TYPE7", "Ibag"},
-                                                                  {"/INTER/TYPE19", "Iedge"},
-                                                                  {"/INTER/TYPE19", "Istf"},
-                                                                  {"/INTER/TYPE19", "Idel"},
-                                                                  {"/INTER/TYPE19", "Stfac"},
-                                                                  {"/INTER/TYPE19", "Igap"},
-                                                                  {"/INTER/TYPE7", "Irem_i2"},
-                                                                  {"/SH3N", "Thick"},
-                                                                  {"/INTER/TYPE7", "Ifric"}})
-    EXPECT_FALSE(schema(keyword).find_field(field)->from_manual.empty()) << keyword << "." << field;
-  bool quirk = false;  // Ithe of version 90 is a cell of its own
-  for (const auto& field : schema("/INTER/TYPE7").cards[4].fields)
-    quirk |= field.name == "Ithe" && field.until < 100 && !field.from_manual.empty();
-  EXPECT_TRUE(quirk);
-}
-
-TEST(ContactDimensions, StfacIsAStiffnessForIstf1Only) {
-  for (const char* keyword : {"/INTER/TYPE7", "/INTER/TYPE11", "/INTER/TYPE19"}) {
-    EXPECT_EQ(dimension(keyword, "Stfac", {{"Istf", 1}}), (Dimension{1, 0, -2, 0}));
-    for (const int istf : {0, 2, 5, 1000})
-      EXPECT_TRUE(dimension(keyword, "Stfac", {{"Istf", istf}}).dimensionless());
-  }
-}
-
 TEST(ContactDimensions, FrictionCoefficientsFollowTheLaw) {
   const Dimension p_inv{-1, 1, 2, 0}, p_inv2{-2, 2, 4, 0}, pv_inv{-1, 0, 3, 0}, v_inv{0, -1, 1, 0},
       v_inv2{0, -2, 2, 0}, v{0, 1, -1, 0}, one{};
@@ -449,29 +317,6 @@ TEST(ContactDimensions, FrictionCoefficientsFollowTheLaw) {
       for (std::size_t i = 0; i < 6; ++i)
         EXPECT_EQ(dimension(keyword, fmt::format("C{}", i + 1), {{"Ifric", law}}), expected[i])
             << keyword << " Ifric " << law << " C" << i + 1;
-}
-
-TEST(ContactDimensions, HeatExchangeWithAndWithoutFunction) {
-  const Schema& type7 = schema("/INTER/TYPE7");
-  const Dimension pressure{1, -1, -2, 0}, per_pressure{-1, 1, 2, 0}, conductance{1, 0, -3, -1};
-  // The solver takes Kthe as it is where a function stands beside it.
-  EXPECT_EQ(dimension("/INTER/TYPE7", "Kthe", {}), conductance);
-  EXPECT_EQ(dimension("/INTER/TYPE7", "Kthe", {{"fct_IDK", 4}}), conductance);
-  const Field& kthe = *type7.find_field("Kthe");
-  ASSERT_TRUE(kthe.solver_dimension && kthe.solver_when.size() == 1);
-  EXPECT_TRUE(kthe.solver_dimension->dimensionless());
-  EXPECT_TRUE(kthe.solver_when[0].holds(4));
-  EXPECT_FALSE(kthe.solver_when[0].holds(0));
-  // It brings AscaleK to working units as a pressure, and multiplies the pressure by it.
-  EXPECT_EQ(dimension("/INTER/TYPE7", "AscaleK", {}), per_pressure);
-  EXPECT_EQ(type7.find_field("AscaleK")->solver_dimension, pressure);
-  EXPECT_EQ(dimension("/INTER/TYPE7", "Frad", {}), (Dimension{1, 0, -3, -4}));
-}
-
-TEST(ContactDimensions, XfreqIsAFrequencyToTheSolverWhateverTheFilter) {
-  EXPECT_EQ(dimension("/INTER/TYPE7", "Xfreq", {{"Ifiltr", 3}}), (Dimension{0, 0, -1, 0}));
-  EXPECT_TRUE(dimension("/INTER/TYPE7", "Xfreq", {{"Ifiltr", 1}}).dimensionless());
-  EXPECT_EQ(schema("/INTER/TYPE7").find_field("Xfreq")->solver_dimension, (Dimension{0, 0, -1, 0}));
 }
 
 }  // namespace

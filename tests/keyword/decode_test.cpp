@@ -386,17 +386,6 @@ TEST(Decode, IdListsSkipBlankCellsAndTakeAllLines) {
   EXPECT_THAT(ids, ::testing::ElementsAre(1, -3, 9, 4, 5, 6, 7));
 }
 
-TEST(Decode, OldFormatsHaveEightColumnsAndEightyPerLine) {
-  std::string line;
-  for (int i = 1; i <= 12; ++i)
-    line += std::string(7 - std::to_string(i).size() + 1, ' ') + std::to_string(i);
-  const Decoded d("/X/OLD/5/title\n" + line + "\n", "44");
-  EXPECT_EQ(d.result.title, "title");
-  ASSERT_EQ(d.result.cards.size(), 1u);
-  EXPECT_EQ(d.result.cards[0].cells.size(), 10u);
-  EXPECT_EQ(d.result.cards[0].cells[9].integer, 10);
-}
-
 TEST(Decode, RowsRepeatToTheEnd) {
   const Decoded d("/X/ROWS/5\nt\n         3\n         1                 1.5\n         2\n");
   ASSERT_EQ(d.result.cards.size(), 3u);

@@ -94,14 +94,6 @@ TEST(StarterOfEngineFile, IsTheNameWithFourZeros) {
     EXPECT_EQ(starter_of_engine_file(other), "") << other;
 }
 
-TEST(EngineBlock, IsTakenApartAtItsSlashes) {
-  const EngineBlock block{"/DT/NODA/CST", {}, {}};
-  EXPECT_EQ(block.part(0), "DT");
-  EXPECT_EQ(block.part(1), "NODA");
-  EXPECT_EQ(block.part(2), "CST");
-  EXPECT_EQ(block.part(3), "");
-}
-
 TEST(EngineCells, ArePartedByBlanksTabsAndCommas) {
   Deck deck = read(deck_of(" 0.9,\t12  x\n"));
   const std::string_view bytes = deck.sources[0].bytes();
@@ -110,22 +102,6 @@ TEST(EngineCells, ArePartedByBlanksTabsAndCommas) {
   EXPECT_EQ(texts(deck, cells), (std::vector<std::string>{"0.9", "12", "x"}));
   EXPECT_EQ(cells[1].offset, at + 6);
   EXPECT_TRUE(engine_cells(deck.sources, {0, 1, at}).empty());
-}
-
-TEST(EngineLayout, KnowsWhatStandsOnTheLinesOfAKeyword) {
-  const auto layout = [](std::string_view keyword) { return engine_layout({keyword, {}, {}}); };
-  ASSERT_TRUE(layout("/ANIM/DT"));
-  EXPECT_EQ(layout("/ANIM/DT")->find(EngineCell::first), 0u);
-  EXPECT_EQ(layout("/ANIM/DT")->find(EngineCell::interval), 1u);
-  EXPECT_EQ(layout("/ANIM/DT")->find(EngineCell::time), 2u);
-  EXPECT_EQ(layout("/RUN/car/1")->find(EngineCell::end), 0u);
-  EXPECT_FALSE(layout("/RUN/car/1")->find(EngineCell::interval));
-  EXPECT_EQ(layout("/TFILE/4")->find(EngineCell::interval), 0u);
-  EXPECT_EQ(layout("/DT/NODA/CST")->find(EngineCell::time), 1u);
-  EXPECT_EQ(layout("/STOP")->cells.size(), 5u);
-  EXPECT_FALSE(layout("/ANIM"));
-  EXPECT_FALSE(layout("/ANIM/GPS"));
-  EXPECT_FALSE(layout("/MON/ON"));
 }
 
 }  // namespace

@@ -10,8 +10,6 @@
 namespace deck::test {
 namespace {
 
-using Lines = std::map<std::string, std::uint64_t>;
-
 /// The error of a text, without "c.toml:"; "": it is read.
 std::string refused(const std::string& text) {
   const auto config = parse_lint_config(text, "c.toml");
@@ -101,94 +99,21 @@ TEST(ConfigErrors, SuggestTheRuleThatWasMeant) {
   EXPECT_EQ(unknown_selector("nonsense"), "no rule is called 'nonsense'; see 'deck rules'");
 }
 
-TEST(ConfigKeys, HaveTheirValuesAndLines) {
-  const auto c = parse_lint_config(
-      "select = [\"DK1\", \"DK2\"]\n"
-      "ignore = [\"DK188\"]\n"
-      "fail-on = \"never\"\n"
-      "baseline = \"b.json\"\n"
-      "geometry = false\n"
-      "[severity]\n"
-      "DK1 = \"info\"\n"
-      "DK2 = \"error\"\n"
-      "[per-file-ignores]\n"
-      "\"*.inc\" = [\"DK0\", \"DK9\"]\n"
-      "[gate]\n"
-      "max-depth = 1.5\n"
-      "max-ratio = 0.25\n"
-      "max-count = 7\n"
-      "max-untied = 11\n"
-      "max-dt-loss = 0.5\n"
-      "compare = \"old.json\"\n"
-      "fail-on = [\"worse\"]\n"
-      "baseline = \"accepted.json\"\n"
-      "[[gate.interface]]\n"
-      "match = \"rail*\"\n"
-      "max-depth = 3\n"
-      "max-count = 5\n"
-      "[[gate.interface]]\n"
-      "match = \"7\"\n"
-      "max-ratio = 0.5\n"
-      "max-untied = 2\n"
-      "max-dt-loss = 0.125\n"
-      "[[gate.part-pair]]\n"
-      "match = [\"a\", \"b\"]\n"
-      "max-depth = 9\n",
-      "/some/where/.decklint.toml");
-  ASSERT_TRUE(c) << c.error().message;
-  EXPECT_EQ(c->path, "/some/where/.decklint.toml");
-  EXPECT_EQ(c->select, (std::vector<std::string>{"DK1", "DK2"}));
-  EXPECT_EQ(c->ignore, (std::vector<std::string>{"DK188"}));
-  EXPECT_EQ(c->fail_on, "never");
-  EXPECT_EQ(c->baseline, "/some/where/b.json");
-  EXPECT_EQ(c->geometry, std::optional(false));
-  EXPECT_EQ(c->severity,
-            (std::map<std::string, Severity>{{"DK1", Severity::info}, {"DK2", Severity::error}}));
-  ASSERT_EQ(c->per_file_ignores.size(), 1u);
-  EXPECT_EQ(c->per_file_ignores[0].second, (std::vector<std::string>{"DK0", "DK9"}));
-  EXPECT_EQ(c->compare, "/some/where/old.json");
-  EXPECT_EQ(c->accepted, "/some/where/accepted.json");
-  const Gate& g = c->gate;
-  EXPECT_FALSE(g.on_fresh);
-  EXPECT_TRUE(g.on_worse);
-  EXPECT_EQ(g.general.max_depth, 1.5);
-  EXPECT_EQ(g.general.max_ratio, 0.25);
-  EXPECT_EQ(g.general.max_count, 7u);
-  EXPECT_EQ(g.general.max_untied, 11u);
-  EXPECT_EQ(g.general.max_dt_loss, 0.5);
-  ASSERT_EQ(g.interfaces.size(), 2u);
-  EXPECT_EQ(g.interfaces[0].match, std::vector<std::string>{"rail*"});
-  EXPECT_EQ(g.interfaces[0].limits.max_depth, 3.0);
-  EXPECT_EQ(g.interfaces[0].limits.max_count, 5u);
-  EXPECT_FALSE(g.interfaces[0].limits.max_ratio);
-  EXPECT_EQ(g.interfaces[1].limits.max_ratio, 0.5);
-  EXPECT_EQ(g.interfaces[1].limits.max_untied, 2u);
-  EXPECT_EQ(g.interfaces[1].limits.max_dt_loss, 0.125);
-  ASSERT_EQ(g.part_pairs.size(), 1u);
-  EXPECT_EQ(g.part_pairs[0].match, (std::vector<std::string>{"a", "b"}));
-  EXPECT_EQ(g.part_pairs[0].limits.max_depth, 9.0);
-  EXPECT_EQ(c->lines, (Lines{{"select", 1},
-                             {"ignore", 2},
-                             {"fail-on", 3},
-                             {"baseline", 4},
-                             {"geometry", 5},
-                             {"severity", 6},
-                             {"severity.DK1", 7},
-                             {"severity.DK2", 8},
-                             {"per-file-ignores", 9},
-                             {"per-file-ignores.*.inc", 10},
-                             {"gate", 11},
-                             {"gate.max-depth", 12},
-                             {"gate.max-ratio", 13},
-                             {"gate.max-count", 14},
-                             {"gate.max-untied", 15},
-                             {"gate.max-dt-loss", 16},
-                             {"gate.compare", 17},
-                             {"gate.fail-on", 18},
-                             {"gate.baseline", 19},
-                             {"gate.interface[0]", 20},
-                             {"gate.interface[1]", 24},
-                             {"gate.part-pair[0]", 29}}));
+TEST(ConfigKeys, OfTheGateMatchPairsOfPartsByTwoPatterns) {
+  const auto config = parse_lint_config(
+      "[[gate.part-pair]]\nmatch = [\"bumper*\", \"12\"]\nmax-depth = 0\nmax-ratio = 0.5\n"
+      "max-count = 3\n[[gate.interface]]\nmatch = \"door*\"\nmax-dt-loss = 0.25\n",
+      "c.toml");
+  ASSERT_TRUE(config) << config.error().message;
+  ASSERT_EQ(config->gate.part_pairs.size(), 1u);
+  const GateScope& pair = config->gate.part_pairs[0];
+  EXPECT_EQ(pair.match, (std::vector<std::string>{"bumper*", "12"}));
+  EXPECT_EQ(pair.limits.max_depth, 0.0);
+  EXPECT_EQ(pair.limits.max_ratio, 0.5);
+  EXPECT_EQ(pair.limits.max_count, 3u);
+  ASSERT_EQ(config->gate.interfaces.size(), 1u);
+  EXPECT_EQ(config->gate.interfaces[0].match, (std::vector<std::string>{"door*"}));
+  EXPECT_EQ(config->gate.interfaces[0].limits.max_dt_loss, 0.25);
 }
 
 TEST(ConfigKeys, OfTheGateKnowRevisionsAndAbsolutePaths) {

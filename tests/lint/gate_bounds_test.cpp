@@ -71,51 +71,6 @@ struct Gated {
   Gate gate;
 };
 
-TEST(GateBounds, OfDepthAndRatioArePassedAboveAndNotAtThem) {
-  Gated g;
-  g.pair(0, 0.5, 2, 5).pair(0, 0.25, 0.5, 6).pair(1, 0.25, 1, 5, 6).pair(1, 0.125, 0, 7, 8);
-  g.gate.general.max_depth = 0.25;
-  EXPECT_EQ(
-      g.lines(),
-      (Lines{"DK370 /INTER/TYPE7 1: 1 node deeper than the 0.25 that the gate allows; deepest "
-             "node 5 by 0.5 (gap 2) | node 5 is 0.5 deep"}));
-  g.gate.general.max_depth = 0.2;
-  EXPECT_EQ(
-      g.lines(),
-      (Lines{"DK370 /INTER/TYPE7 1: 2 nodes deeper than the 0.2 that the gate allows; deepest "
-             "node 5 by 0.5 (gap 2) | node 5 is 0.5 deep",
-             "DK370 /INTER/TYPE11 2: 1 edge deeper than the 0.2 that the gate allows; deepest "
-             "edge 5-6 by 0.25 (gap 1) | edge 5-6 is 0.25 deep"}));
-  g.gate.general.max_depth.reset();
-  g.gate.general.max_ratio = 0.25;
-  EXPECT_EQ(g.lines(),
-            (Lines{"DK371 /INTER/TYPE7 1: 1 node deeper than the 0.25 of the gap that the gate "
-                   "allows; deepest node 6 by 0.25 (gap 0.5) | node 6 is 0.25 deep"}))
-      << "a pair without a gap has no share of it";
-}
-
-TEST(GateBounds, OfCountsAreOfItemsAndNotOfPairs) {
-  Gated g;
-  g.pair(0, 0.5, 2, 5).pair(0, 0.25, 2, 5).pair(0, 0.2, 2, 6).pair(1, 0.1, 1, 5, 6);
-  g.gate.general.max_count = 3;
-  EXPECT_EQ(g.lines(), Lines{});
-  g.gate.general.max_count = 2;
-  EXPECT_EQ(g.lines(), (Lines{"DK372 the deck: 2 nodes and 1 edge penetrate, the gate allows 2 | "
-                              "node 5 is 0.5 deep"}));
-  g.gate.general.max_count.reset();
-  g.gate.interfaces = {{{"1"}, {}}, {{"floor"}, {}}};
-  g.gate.interfaces[0].limits.max_count = 1;
-  g.gate.interfaces[1].limits.max_count = 0;
-  EXPECT_EQ(
-      g.lines(),
-      (Lines{"DK372 /INTER/TYPE7 1: 2 nodes penetrate, the gate allows 1 | node 5 is 0.5 deep",
-             "DK372 /INTER/TYPE11 2: 1 edge penetrates, the gate allows 0 | edge 5-6 is 0.1 "
-             "deep"}));
-  g.gate.interfaces[0].limits.max_count = 2;
-  g.gate.interfaces[1].limits.max_count = 1;
-  EXPECT_EQ(g.lines(), Lines{});
-}
-
 TEST(GateBounds, OfTheLastInterfaceThatMatchesHold) {
   Gated g;
   g.pair(0, 0.5, 2, 5);
@@ -173,36 +128,6 @@ TEST(GateBounds, OfPartsComeBeforeThoseOfInterfacesEitherWayRound) {
   EXPECT_EQ(g.lines().size(), 1u) << "the third pair is within its own bound now";
 }
 
-TEST(GateBounds, OfTiesCountNodesThatAreLost) {
-  Gated g;
-  Tie tie;
-  tie.inter = &g.d.interfaces.type2.front();
-  for (const std::int64_t id : {5, 6, 7, 8}) {
-    TiedNode n;
-    n.node = g.d.model.find_node(id);
-    n.tied = id == 5;
-    n.removed_by = id == 6 ? 1630 : 0;
-    tie.nodes.push_back(n);
-  }
-  g.scene.ties = {tie, tie};
-  g.gate.general.max_untied = 2;
-  EXPECT_EQ(g.lines(), Lines{}) << "two nodes, each once";
-  g.gate.general.max_untied = 1;
-  EXPECT_EQ(g.lines(), (Lines{"DK376 the deck: 2 nodes are not tied, the gate allows 1 | node 7"}));
-  g.gate.general.max_untied.reset();
-  g.gate.interfaces = {{{"3"}, {}}};
-  g.gate.interfaces[0].limits.max_untied = 2;
-  EXPECT_EQ(g.lines(), Lines{});
-  g.gate.interfaces[0].limits.max_untied = 1;
-  const std::string one = "DK376 /INTER/TYPE2 3: 2 nodes are not tied, the gate allows 1 | node 7";
-  EXPECT_EQ(g.lines(), (Lines{one, one}));
-  g.scene.ties.resize(1);
-  g.scene.ties[0].nodes.resize(3);
-  g.gate.interfaces[0].limits.max_untied = 0;
-  EXPECT_EQ(g.lines(),
-            (Lines{"DK376 /INTER/TYPE2 3: 1 node is not tied, the gate allows 0 | node 7"}));
-}
-
 TEST(GateBounds, OfTimeStepsAreSharesOfTheMeshsStep) {
   Gated g;
   g.gate.general.max_dt_loss = 0.25;
@@ -224,40 +149,6 @@ TEST(GateBounds, OfTimeStepsAreSharesOfTheMeshsStep) {
   EXPECT_EQ(found(2, 1), Lines{});
   g.gate.general.max_dt_loss.reset();
   EXPECT_EQ(found(0.5, 1), Lines{});
-}
-
-TEST(GateTrends, NewAndWorsePairsAreNamedWhereTheyAreAskedFor) {
-  Gated g;
-  g.pair(0, 0.5, 2, 5).pair(0, 0.4, 2, 6).pair(0, 0.3, 2, 7).pair(1, 0.2, 2, 8, 9);
-  EarlierGaps earlier;
-  earlier.path = "old.json";
-  const auto was = [&](std::int64_t interface, std::array<std::int64_t, 2> item, double depth) {
-    EarlierGaps::Row row;
-    row.interface_id = interface;
-    row.role = "primary";
-    row.secondary = item;
-    row.depth = depth;
-    row.gap = 2;
-    earlier.rows.push_back(row);
-  };
-  was(1, {6, 0}, 0.25);
-  was(1, {7, 0}, 0.3);
-  EXPECT_EQ(g.lines(&earlier), Lines{}) << "nothing was asked for";
-  const Lines fresh{
-      "DK374 /INTER/TYPE7 1: 1 node penetrates now that did not in old.json; deepest node 5 by 0.5 "
-      "(gap 2) | node 5 is 0.5 deep",
-      "DK374 /INTER/TYPE11 2: 1 edge penetrates now that did not in old.json; deepest edge 8-9 by "
-      "0.2 (gap 2) | edge 8-9 is 0.2 deep"};
-  const std::string worse =
-      "DK375 /INTER/TYPE7 1: 1 node penetrates deeper than in old.json; deepest node 6 by 0.4 (gap "
-      "2), which was 0.25 | node 6 is 0.4 deep";
-  g.gate.on_fresh = true;
-  EXPECT_EQ(g.lines(&earlier), fresh);
-  g.gate.on_fresh = false;
-  g.gate.on_worse = true;
-  EXPECT_EQ(g.lines(&earlier), Lines{worse});
-  g.gate.on_fresh = true;
-  EXPECT_EQ(g.lines(&earlier), (Lines{fresh[0], worse, fresh[1]}));
 }
 
 TEST(Gate, KnowsWhetherAnythingWasAskedFor) {
@@ -284,50 +175,6 @@ TEST(Gate, KnowsWhetherAnythingWasAskedFor) {
   worse.on_worse = true;
   EXPECT_TRUE(fresh.any() && worse.any());
   EXPECT_FALSE(fresh.needs_forces() || worse.needs_forces());
-}
-
-// ---- changed lines -----------------------------------------------------------------------------
-
-TEST(GatePlaces, NameTheFirstChangeThatAFindingMayFollowFrom) {
-  // What was changed, from the nearest to the farthest: a node of a pair, one of the main side, the
-  // interface, the part's property or material or itself, an element.
-  Gated g;
-  g.pair(0, 0.5, 2, 5).pair(0, 0.4, 2, 6);
-  for (NamedPenetration& p : g.view.penetrations) {
-    p.main = {1, 2, 3, 4};
-    p.secondary_element = {ElementKind::shell4, 1, 2, 2};
-    p.main_element = {ElementKind::shell4, 0, 1, 1};
-  }
-  g.gate.general.max_depth = 0.1;
-  const std::string text = g.d.deck.sources[0].bytes().data();
-  const auto line_of = [&](const std::string& what, std::uint64_t more = 0) {
-    const auto at = text.find(what);
-    EXPECT_NE(at, text.npos) << what;
-    return 1 + static_cast<std::uint64_t>(std::count(text.begin(), text.begin() + at, '\n')) + more;
-  };
-  const auto note = [&](std::uint64_t line) {
-    ChangedLines changed;
-    changed.add(g.d.deck.sources[0].path(), line, 1);
-    const auto found = check_gate(g.gate, g.scene, g.view, nullptr, nullptr, &changed);
-    EXPECT_EQ(found.size(), 1u);
-    EXPECT_EQ(found[0].notes[0].second, "node 5 is 0.5 deep");
-    return found[0].notes.size() > 1 ? found[0].notes[1].second : std::string();
-  };
-  const std::uint64_t nodes = line_of("/NODE");
-  EXPECT_EQ(note(nodes + 5), "node 5 was changed");
-  EXPECT_EQ(note(nodes + 6), "node 6 was changed");
-  EXPECT_EQ(note(nodes + 3), "node of the main side, 3 was changed");
-  EXPECT_EQ(note(nodes + 9), "") << "a node of another part";
-  EXPECT_EQ(note(line_of("/INTER/TYPE7/1", 2)), "/INTER/TYPE7 1 was changed");
-  EXPECT_EQ(note(line_of("/INTER/TYPE7/1")), "/INTER/TYPE7 1 was changed");
-  EXPECT_EQ(note(line_of("/INTER/TYPE11/2", 2)), "");
-  EXPECT_EQ(note(line_of("/PROP/SHELL/2", 4)), "/PROP/SHELL 2 was changed");
-  EXPECT_EQ(note(line_of("/PROP/SHELL/3", 4)), "");
-  EXPECT_EQ(note(line_of("/MAT/ELAST/1", 2)), "/MAT/LAW1 1 was changed");
-  EXPECT_EQ(note(line_of("/PART/2")), "part 2 was changed");
-  EXPECT_EQ(note(line_of("\n/SHELL/2", 2)), "element 2 was changed");
-  EXPECT_EQ(note(line_of("\n/SHELL/1", 2)), "element 1 was changed");
-  EXPECT_EQ(note(line_of("\n/SHELL/3", 2)), "");
 }
 
 }  // namespace

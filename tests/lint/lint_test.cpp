@@ -484,12 +484,6 @@ TEST(UnknownKeyword, HasASlashTooManyUnlessItIsASubmodel) {
   EXPECT_FALSE(lint_example("//SUBMODEL/1\nt\n\n/TITLE\nx\n//ENDSUB\n").fires(RuleId::DK040));
 }
 
-TEST(UnknownKeyword, SuggestsTheClosestOne) {
-  const Linted run = lint_example("/INTER/TYP7/1\nexample\n");
-  ASSERT_TRUE(run.fires(RuleId::DK040));
-  EXPECT_NE(run.find(RuleId::DK040)->message.find("did you mean /INTER/TYPE7"), std::string::npos);
-}
-
 TEST(Config, ReadsEveryKey) {
   const auto config = parse_lint_config(
       "select = [\"DK2\"]\nignore = [\"DK221\"]\nfail-on = \"warning\"\nbaseline = \"base.json\"\n"
@@ -505,17 +499,6 @@ TEST(Config, ReadsEveryKey) {
   EXPECT_EQ(config->per_file_ignores[0].first, "*.inc");
 }
 
-TEST(Config, RefusesUnknownKeysRulesAndValuesWithTheLine) {
-  const auto key = parse_lint_config("\nselct = []\n", "c.toml");
-  ASSERT_FALSE(key);
-  EXPECT_NE(key.error().message.find("c.toml:2"), std::string::npos) << key.error().message;
-  EXPECT_FALSE(parse_lint_config("select = [\"DK777\"]", "c.toml"));
-  EXPECT_FALSE(parse_lint_config("select = \"DK2\"", "c.toml"));
-  EXPECT_FALSE(parse_lint_config("fail-on = \"maybe\"", "c.toml"));
-  EXPECT_FALSE(parse_lint_config("[severity]\nDK2 = \"fatal\"", "c.toml"));
-  EXPECT_FALSE(parse_lint_config("= broken", "c.toml"));
-}
-
 TEST(Config, RefusesKeysThatStartWithWhatNoKeyCanStartWith) {
   for (const char* text :
        {"[*b*]\n", "[", "[[*]]\n", "select = []\n[\nDK104 = \"error\"\n[x]\n", "[ ,", "*=1\n"}) {
@@ -523,26 +506,6 @@ TEST(Config, RefusesKeysThatStartWithWhatNoKeyCanStartWith) {
     ASSERT_FALSE(config.ok()) << text;
     EXPECT_EQ(config.error().message.find("c.toml"), 0u) << config.error().message;
   }
-}
-
-TEST(Config, OtherLettersStandInQuotesAndCommentsOnly) {
-  const auto config = parse_lint_config("\n\xCF\x9C*[\n", "c.toml");
-  ASSERT_FALSE(config.ok());
-  EXPECT_EQ(config.error().message.find("c.toml:2: a character that is not ASCII"), 0u)
-      << config.error().message;
-  EXPECT_TRUE(
-      parse_lint_config("\xEF\xBB\xBF# Stra\xC3\x9F"
-                        "e\n[per-file-ignores]\n\"Tr\xC3\xA4ger/*\" = []  # \xC3\xA9\n",
-                        "c.toml"));
-}
-
-TEST(Config, IsFoundAboveTheDeck) {
-  const Folder folder;
-  folder.write(".decklint.toml", "ignore = [\"DK2\"]\n");
-  const std::string deck = folder.write("a/b/x_0000.rad", "");
-  const auto config = find_lint_config(deck);
-  ASSERT_TRUE(config);
-  EXPECT_EQ(config->ignore, std::vector<std::string>{"DK2"});
 }
 
 TEST(Glob, MatchesNamesPathsAndDepth) {
@@ -622,15 +585,6 @@ TEST(Config, KeysOfVeryManyPartsAreRefusedWithTheLine) {
   EXPECT_NE(line.error().message.find("c.toml:3"), std::string::npos) << line.error().message;
 }
 
-TEST(Config, DotsInPatternsCommentsAndStringsAreNoParts) {
-  const std::string dots(100, '.');
-  EXPECT_TRUE(parse_lint_config("# " + dots + "\n[per-file-ignores]\n\"a" + dots +
-                                    "\" = [\"DK0\"] # " + dots + "\n'b" + dots +
-                                    "' = [\n \"DK0\"]\n",
-                                "c.toml"));
-  EXPECT_TRUE(parse_lint_config("baseline = \"\"\"\\\\\n" + dots + "\n\\\"\"\"\"\n", "c.toml"));
-}
-
 TEST(Config, OnlyRegularFilesOfBoundedSizeAreRead) {
   EXPECT_FALSE(read_config_file("/dev/zero", 1000));
   const Folder folder;
@@ -638,17 +592,6 @@ TEST(Config, OnlyRegularFilesOfBoundedSizeAreRead) {
   EXPECT_FALSE(read_config_file(file, 1000));
   EXPECT_TRUE(read_config_file(file, 1001));
   EXPECT_FALSE(parse_baseline(R"({"schema":5,"decks":{}})", "b.json"));
-}
-
-TEST(Explain, KeywordPageListsColumnsValuesAndDefaults) {
-  const Schema* schema = SchemaSet::built_in().find("/INTER/TYPE7");
-  ASSERT_NE(schema, nullptr);
-  const std::string page = explain_keyword(*schema);
-  EXPECT_NE(page.find("21-30  Istf"), std::string::npos) << page.substr(0, 2000);
-  EXPECT_NE(page.find("only if Icurv in 1, 2"), std::string::npos);
-  const std::string field = explain_keyword(*schema, "Gapmin");
-  EXPECT_NE(field.find("length"), std::string::npos) << field;
-  EXPECT_TRUE(explain_keyword(*schema, "Nonsense").empty());
 }
 
 }  // namespace

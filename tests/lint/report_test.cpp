@@ -21,29 +21,6 @@ LintOptions only(std::string rule) {
   return o;
 }
 
-TEST(HumanReport, PointsAtTheCell) {
-  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=7\n", only("DK201"));
-  const std::string text = lint_human(one(run), {});
-  EXPECT_NE(text.find("warning[DK201:Istf]: Istf of /INTER/TYPE7 1 is 7"), std::string::npos)
-      << text;
-  EXPECT_NE(text.find("         2         1         7\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("                             ^\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("= solver: "), std::string::npos);
-  EXPECT_NE(text.find("= help: Write one of the legal values"), std::string::npos);
-  EXPECT_NE(text.find("0 errors, 1 warning"), std::string::npos);
-  EXPECT_NE(text.find("not checked:"), std::string::npos);
-  EXPECT_EQ(text.find('\x1b'), std::string::npos) << "no colours unless asked for";
-}
-
-TEST(HumanReport, ColoursAndRulerOnRequest) {
-  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=7\n", only("DK201"));
-  HumanOptions options;
-  options.color = options.ruler = true;
-  const std::string text = lint_human(one(run), options);
-  EXPECT_NE(text.find("\x1b[1;33mwarning[DK201:Istf]"), std::string::npos);
-  EXPECT_NE(text.find("....+....1....+....2"), std::string::npos);
-}
-
 TEST(HumanReport, CutsLongLinesAroundTheCaretAndFloodsPerRule) {
   std::string text = "/SKEW/FIX/1\naxes\n";
   for (int i = 0; i < 3; ++i) text += std::string(99, ' ') + "0" + std::string(400, 'x') + "\n";
@@ -58,64 +35,6 @@ TEST(HumanReport, CutsLongLinesAroundTheCaretAndFloodsPerRule) {
     EXPECT_LT(nl - at, 260u) << out.substr(at, nl - at);
     at = nl + 1;
   }
-}
-
-/// Twenty interfaces with a flag that does not exist, and one error behind them.
-std::string many_alike() {
-  std::string text;
-  for (int i = 1; i <= 20; ++i) text += "@/INTER/TYPE7/" + std::to_string(i) + " Istf=7 Gapmin=1\n";
-  return text + "@/INTER/TYPE10/30 Inacti=5\n";
-}
-
-LintOptions these(std::vector<std::string> rules) {
-  LintOptions o;
-  o.select = std::move(rules);
-  return o;
-}
-
-std::size_t count_of(const std::string& text, std::string_view what) {
-  std::size_t n = 0;
-  for (auto at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++n;
-  return n;
-}
-
-TEST(HumanReport, GroupsMoreThanThreeOfARule) {
-  const Linted run = lint_example(many_alike(), these({"DK201"}));
-  ASSERT_EQ(run.count(RuleId::DK201), 20u) << run.list();
-  const std::string grouped = lint_human(one(run), {});
-  EXPECT_EQ(count_of(grouped, "warning[DK201:Istf]"), 1u) << grouped;
-  EXPECT_NE(grouped.find("19 more of DK201:Istf: "), std::string::npos) << grouped;
-  EXPECT_NE(grouped.find(": Istf of /INTER/TYPE7 2 is 7"), std::string::npos) << grouped;
-  EXPECT_NE(grouped.find("… and 10 more"), std::string::npos) << grouped;
-  HumanOptions all;
-  all.group = false;
-  all.per_rule = 0;
-  EXPECT_EQ(count_of(lint_human(one(run), all), "warning[DK201:Istf]"), 20u);
-}
-
-TEST(HumanReport, ThreeOfARuleAreShownInFull) {
-  const Linted run = lint_example(
-      "@/INTER/TYPE7/1 Istf=7\n@/INTER/TYPE7/2 Istf=7\n@/INTER/TYPE7/3 Istf=7\n", only("DK201"));
-  EXPECT_EQ(count_of(lint_human(one(run), {}), "warning[DK201:Istf]"), 3u) << run.list();
-}
-
-TEST(HumanReport, ShowsErrorsBeforeWarnings) {
-  const Linted run = lint_example(many_alike(), these({"DK201", "DK254"}));
-  const std::string text = lint_human(one(run), {});
-  ASSERT_NE(text.find("error[DK254]"), std::string::npos) << text;
-  EXPECT_LT(text.find("error[DK254]"), text.find("warning[DK201:Istf]")) << text;
-}
-
-TEST(HumanReport, ManyDecksHaveOneListOfWhatWasNotCheckedAndOneTotal) {
-  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=7\n", only("DK201"));
-  auto decks = one(run);
-  decks.push_back(decks[0]);
-  decks.push_back({"absent_0000.rad", nullptr, nullptr, "no such file"});
-  const std::string text = lint_human(decks, {});
-  EXPECT_EQ(count_of(text, "not checked:"), 1u) << text;
-  EXPECT_NE(text.find("3 decks: 0 errors, 2 warnings; 0 without either; 1 could not be read\n"),
-            std::string::npos)
-      << text;
 }
 
 /// The columns at which the carets of a text begin, and the characters over them.
@@ -181,8 +100,6 @@ struct Written {
   LintResult result;
 };
 
-std::string title_of(RuleId rule) { return std::string(rule_of(rule).title); }
-
 /// A card is shown in the columns behind "3 | ": if it is longer, with marks for what is cut and
 /// with ten characters behind the caret.
 TEST(HumanReport, LongLinesAreCutAroundTheCaret) {
@@ -219,23 +136,6 @@ TEST(HumanReport, LongLinesAreCutAroundTheCaret) {
   }
 }
 
-TEST(HumanReport, TheRulerCountsTheColumnsOfTheFile) {
-  std::string line(300, 'x'), marks;
-  Written w(line);
-  w.find(100, 3);
-  for (std::size_t column = 60; column < 114; ++column) marks += ruler_mark(column);
-  EXPECT_NE(w.text({.ruler = true, .width = 60}).find("\n  |\n  |  " + marks + "\n3 | …xx"),
-            std::string::npos)
-      << w.text({.ruler = true, .width = 60});
-  Written narrow("abc");
-  narrow.find(1, 1);
-  marks.clear();
-  for (std::size_t column = 1; column <= 10; ++column) marks += ruler_mark(column);
-  EXPECT_NE(narrow.text({.ruler = true}).find("\n  | " + marks + "\n3 | abc\n  |  ^\n"),
-            std::string::npos)
-      << narrow.text({.ruler = true});
-}
-
 TEST(HumanReport, TheCaretLeavesOutTheBlanksOfACell) {
   const std::string line = "     ab   cd     e";
   const std::tuple<std::size_t, std::size_t, std::size_t, std::size_t> cases[] = {
@@ -249,150 +149,6 @@ TEST(HumanReport, TheCaretLeavesOutTheBlanksOfACell) {
               std::string::npos)
         << w.text();
   }
-}
-
-TEST(HumanReport, FindingsOfAKindAreTogetherWithThoseThatWereNotKept) {
-  Written w("abc");
-  for (int k = 0; k < 4; ++k) w.find(static_cast<std::size_t>(k % 3), 1);
-  w.result.dropped = {{RuleId::DK201, 5}};
-  const auto full = [](int k) {
-    return "warning[DK201]: m" + std::to_string(k) +
-           "\n --> a_0000.rad:3:" + std::to_string(k % 3 + 1) + "\n  |\n3 | abc\n  | " +
-           std::string(static_cast<std::size_t>(k % 3), ' ') + "^\n  |\n";
-  };
-  const auto line = [](int k) {
-    return "  a_0000.rad:3:" + std::to_string(k % 3 + 1) + ": m" + std::to_string(k) + "\n";
-  };
-  const std::string more = "8 more of DK201: " + title_of(RuleId::DK201) + "\n";
-  EXPECT_EQ(w.text(), full(0) + more + line(1) + line(2) + line(3) +
-                          "  … and 5 more (-v shows all that are kept, in full)\n\n");
-  EXPECT_EQ(w.text({.per_rule = 3}),
-            full(0) + more + line(1) + line(2) +
-                "  … and 6 more (-v shows all that are kept, in full)\n\n");
-  EXPECT_EQ(w.text({.per_rule = 0}), w.text());
-  EXPECT_EQ(w.text({.per_rule = 2, .group = false}),
-            full(0) + "\n" + full(1) +
-                "\n... 7 more findings of DK201: " + title_of(RuleId::DK201) + "\n\n");
-  w.result.dropped.clear();
-  EXPECT_EQ(w.text({.per_rule = 0}), full(0) + "3 more of DK201: " + title_of(RuleId::DK201) +
-                                         "\n" + line(1) + line(2) + line(3) + "\n");
-  EXPECT_EQ(w.text({.per_rule = 4, .group = false}),
-            full(0) + "\n" + full(1) + "\n" + full(2) + "\n" + full(3) + "\n");
-  w.result.diagnostics.pop_back();
-  EXPECT_EQ(w.text(), full(0) + "\n" + full(1) + "\n" + full(2) + "\n") << "three are not many";
-}
-
-TEST(HumanReport, ManyRemarksOfAKindAreOneLine) {
-  Written w("abc");
-  for (int k = 0; k < 4; ++k) w.find(1, 1, Severity::info);
-  w.result.diagnostics[0].reference = ReferenceMessage{77, Severity::warning};
-  w.result.dropped = {{RuleId::DK201, 5}};
-  EXPECT_EQ(w.text(), "info[DK201]: 9 places: " + title_of(RuleId::DK201) +
-                          " (solver: warning 77)\n --> a_0000.rad:3:2, the first of them; -v shows "
-                          "all\n\n");
-  w.result.dropped.clear();
-  w.result.diagnostics.pop_back();
-  EXPECT_EQ(count_of(w.text(), "info[DK201]: m"), 3u);
-  // What nearly every deck has can be left out, where it is a remark.
-  for (Diagnostic& d : w.result.diagnostics) d.rule = RuleId::DK295;
-  EXPECT_EQ(w.text({.remarks_of_every_deck = false}), "");
-  w.result.diagnostics[1].severity = Severity::warning;
-  EXPECT_EQ(count_of(w.text({.remarks_of_every_deck = false}), "[DK295]"), 1u);
-}
-
-TEST(HumanReport, TheSummaryCountsWhatWasLeftOutAndWhatCanBeRepaired) {
-  Written w("abc");
-  LintedDeck deck{"a_0000.rad", &w.deck, &w.result, ""};
-  deck.verdict = Verdict();
-  deck.verdict->sentences = {{"a", "One thing.", {}}, {"b", "Second.", {}}, {"c", "Third.", {}}};
-  const auto summary = [&] { return lint_human({deck}, {}); };
-  EXPECT_EQ(summary(), "a_0000.rad: One thing\nSecond. Third.\n");
-  w.result.suppressed = 2;
-  w.result.baselined = 3;
-  const auto add = [&](bool safe) { w.find(0, 1).fix = Fix{"f", safe, {}}; };
-  add(false);
-  EXPECT_TRUE(
-      summary().ends_with("\na_0000.rad: One thing, 2 suppressed, 3 in the baseline; "
-                          "--unsafe-fixes 1 more\nSecond. Third.\n"))
-      << summary();
-  add(true);
-  add(true);
-  EXPECT_TRUE(summary().ends_with("; --fix repairs 2, --unsafe-fixes 1 more\nSecond. Third.\n"))
-      << summary();
-  w.result.diagnostics.erase(w.result.diagnostics.begin());
-  EXPECT_TRUE(summary().ends_with("in the baseline; --fix repairs 2\nSecond. Third.\n"))
-      << summary();
-}
-
-TEST(HumanReport, WhatWasNotCheckedNamesTheDecksUnlessItIsAll) {
-  const Written w("abc");
-  LintResult some = w.result, others = w.result;
-  some.not_checked = {{"a", "why a"}, {"b", "why b"}};
-  others.not_checked = {{"b", "why b"}};
-  std::vector<LintedDeck> decks;
-  const auto add = [&](const char* path, const LintResult& result) {
-    decks.push_back({path, &w.deck, &result, ""});
-    decks.back().verdict = Verdict();
-  };
-  add("p", some);
-  add("q", others);
-  add("r", some);
-  const auto list = [&] {
-    const std::string text = lint_human(decks, {});
-    const auto begin = text.find("not checked:\n"), end = text.find(" decks: ");
-    return begin == text.npos ? "" : text.substr(begin, text.rfind('\n', end) + 1 - begin);
-  };
-  EXPECT_EQ(list(), "not checked:\n  - a: why a [p, r]\n  - b: why b\n");
-  add("s", some);
-  EXPECT_EQ(list(), "not checked:\n  - a: why a [p, r, s]\n  - b: why b\n");
-  add("t", some);
-  add("u", some);
-  EXPECT_EQ(list(), "not checked:\n  - a: why a [p, r, s, … and 2 more decks]\n  - b: why b\n");
-}
-
-TEST(JsonReport, HoldsWhatTheContractPromises) {
-  const Linted run = lint_example("@/INTER/TYPE10/1 Inacti=5\n", only("DK254"));
-  const auto json = nlohmann::json::parse(lint_json(one(run)));
-  EXPECT_EQ(json["schema"]["id"], "deck/lint");
-  EXPECT_EQ(json["tool"]["name"], "deck");
-  EXPECT_EQ(json["deck"]["path"], "deck_0000.rad");
-  ASSERT_EQ(json["diagnostics"].size(), 1u);
-  const auto& d = json["diagnostics"][0];
-  EXPECT_EQ(d["rule"], "DK254");
-  EXPECT_EQ(d["severity"], "error");
-  EXPECT_EQ(d["column"], 31);
-  EXPECT_EQ(d["end_column"], 41);
-  EXPECT_EQ(d["reference"]["message"], 1162);
-  EXPECT_EQ(d["reference"]["severity"], "error");
-  EXPECT_EQ(d["entity"]["keyword"], "/INTER/TYPE10");
-  EXPECT_EQ(d["entity"]["id"], 1);
-  EXPECT_EQ(d["fix"]["safe"], false);
-  EXPECT_EQ(json["summary"]["errors"], 1);
-  EXPECT_FALSE(json["not_checked"].empty());
-}
-
-TEST(JsonReport, SeveralDecksStandInAList) {
-  const Linted run = lint_example("@/INTER/TYPE7/1\n");
-  auto decks = one(run);
-  decks.push_back(decks[0]);
-  EXPECT_EQ(nlohmann::json::parse(lint_json(decks))["decks"].size(), 2u);
-}
-
-TEST(SarifReport, HasRulesRegionsFixesAndFingerprints) {
-  const Linted run = lint_example("@/INTER/TYPE7/1 Ibag=1\n", only("DK258"));
-  const auto json = nlohmann::json::parse(lint_sarif(one(run), SchemaSet::built_in()))["runs"][0];
-  EXPECT_EQ(json["tool"]["driver"]["rules"].size(), all_rules().size());
-  ASSERT_EQ(json["results"].size(), 1u);
-  const auto& r = json["results"][0];
-  EXPECT_EQ(json["tool"]["driver"]["rules"][r["ruleIndex"].get<std::size_t>()]["id"], "DK258");
-  EXPECT_EQ(r["locations"][0]["physicalLocation"]["artifactLocation"]["uri"], "deck_0000.rad");
-  EXPECT_EQ(r["locations"][0]["physicalLocation"]["region"]["startColumn"], 61);
-  EXPECT_EQ(r["locations"][0]["logicalLocations"][0]["fullyQualifiedName"], "/INTER/TYPE7/1");
-  EXPECT_EQ(r["partialFingerprints"]["deckFinding/v1"], run.result.fingerprints[0]);
-  const auto& replacement = r["fixes"][0]["artifactChanges"][0]["replacements"][0];
-  EXPECT_EQ(replacement["insertedContent"]["text"], "      1000");
-  EXPECT_EQ(replacement["deletedRegion"]["startColumn"], 61);
-  EXPECT_EQ(replacement["deletedRegion"]["endColumn"], 71);
 }
 
 TEST(SarifReport, NamesFilesByTheSourceRoot) {
@@ -412,20 +168,6 @@ TEST(SarifReport, NamesFilesByTheSourceRoot) {
   const auto elsewhere = artifact("/no/such/folder");
   EXPECT_EQ(elsewhere["uri"], "file://" + (here / "deck_0000.rad").string());
   EXPECT_FALSE(elsewhere.contains("uriBaseId"));
-}
-
-TEST(SarifReport, SaysThatColumnsCountCharacters) {
-  const Linted run = lint_example("@/INTER/TYPE7/1 Ibag=1\n", only("DK258"));
-  const auto json = nlohmann::json::parse(lint_sarif(one(run), SchemaSet::built_in()));
-  EXPECT_EQ(json["runs"][0]["columnKind"], "unicodeCodePoints");
-}
-
-TEST(SarifReport, SaysWhichDeckCouldNotBeRead) {
-  const std::vector<LintedDeck> decks = {{"a b_0000.rad", nullptr, nullptr, "it is a folder"}};
-  const auto run = nlohmann::json::parse(lint_sarif(decks, SchemaSet::built_in()))["runs"][0];
-  EXPECT_EQ(run["invocations"][0]["executionSuccessful"], false);
-  EXPECT_EQ(run["invocations"][0]["toolExecutionNotifications"][0]["message"]["text"],
-            "it is a folder");
 }
 
 TEST(GithubReport, EscapesAndPutsTheWorstFirst) {

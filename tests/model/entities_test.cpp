@@ -1,5 +1,4 @@
-// Materials and properties by law and type, parts and what is said of them, curves, options of the
-// run, merged nodes, noise and coordinates.
+// By hand: stiffness of materials, noise on coordinates, merged nodes, transforms.
 #include <cmath>
 #include <set>
 
@@ -72,182 +71,7 @@ TEST(MaterialStiffness, FollowsTheLaw) {
   expect_stiffness("B-K-EPS", "", {0, 0, false}, 11);
 }
 
-TEST(MaterialStiffness, IsThatOfTheStateEquationWhereThereIsOne) {
-  const auto of = [](const std::string& more) {
-    const Made m("@/MAT/LAW3/1 Rho_I=3 E=210 Nu=0.25\n" + more);
-    return std::tuple(m.model.materials.at(0).bulk, m.model.materials.at(0).stiffness_known,
-                      m.message(RuleId::DK118));
-  };
-  using Row = std::tuple<double, bool, std::string>;
-  EXPECT_EQ(of("@/EOS/POLYNOMIAL/1 C1=50\n"), Row(50, true, ""));
-  EXPECT_EQ(of("@/EOS/POLYNOMIAL/2 C1=50\n"),
-            Row(140, true, "/EOS/POLYNOMIAL belongs to material 2, which does not exist"));
-  EXPECT_EQ(of("@/HEAT/MAT/2 T0=1\n"),
-            Row(140, true, "/HEAT/MAT belongs to material 2, which does not exist"));
-  EXPECT_FALSE(Made("@/MAT/LAW1/1 E=1\n").model.has_thermal_material);
-}
-
-// ---- properties --------------------------------------------------------------------------------
-
-TEST(Properties, HaveTheirNumberThicknessAreaAndStiffness) {
-  const auto of = [](const std::string& text) {
-    const Made m(text + "\n");
-    EXPECT_EQ(m.model.properties.size(), 1u) << text;
-    return m.model.properties.at(0);
-  };
-  const Property shell = of("@/PROP/TYPE1/5 Thick=2");
-  EXPECT_EQ(shell.id, 5);
-  EXPECT_EQ(shell.number, 1);
-  EXPECT_EQ(shell.type, "/PROP/SHELL");
-  EXPECT_EQ(shell.thickness, 2);
-  EXPECT_EQ(of("@/PROP/TYPE2/5 Area=3").area, 3);
-  EXPECT_EQ(of("@/PROP/TYPE14/5").number, 14);
-  EXPECT_EQ(of("/PROP/FLUID/5\nf\n\n").number, 14);
-  using Three = std::array<double, 3>;
-  EXPECT_EQ(of("@/PROP/TYPE4/5 K=12 A=3").stiffness, (Three{4, 0, 0}));
-  EXPECT_EQ(of("@/PROP/TYPE4/5 K=12").stiffness, (Three{12, 0, 0}));
-  EXPECT_EQ(of("@/PROP/TYPE12/5 K=12 A=3").stiffness, (Three{4, 0, 0}));
-  const std::string three = " K1=12 A1=3 K2=20 A2=4 K3=30";
-  EXPECT_EQ(of("@/PROP/TYPE8/5" + three).stiffness, (Three{4, 5, 30}));
-  EXPECT_EQ(of("@/PROP/TYPE13/5" + three).stiffness, (Three{4, 5, 30}));
-  EXPECT_EQ(of("@/PROP/TYPE25/5" + three).stiffness, (Three{4, 5, 0}));
-  EXPECT_EQ(of("@/PROP/TYPE3/5 Area=7").stiffness, (Three{0, 0, 0}));
-}
-
-// ---- parts -------------------------------------------------------------------------------------
-
-std::string shells(const std::string& more) {
-  return grid_nodes() + "@/MAT/LAW1/1 E=1\n@/PROP/TYPE1/1 Thick=1\n@/PROP/TYPE1/2\n" + more;
-}
-std::string part(int id, int prop, int mat, int subset = 0) {
-  return "/PART/" + std::to_string(id) + "\np\n" + cells({prop, mat, subset});
-}
-
-TEST(PartFindings, NameWhatIsMissing) {
-  const auto said = [](const std::string& more) {
-    std::vector<std::string> out;
-    const Made m(shells(more));
-    for (const Diagnostic& d : m.found.all())
-      out.push_back(std::string(id_text(d.rule)) + " " + d.message);
-    return out;
-  };
-  using Lines = std::vector<std::string>;
-  const std::string elements = "/SHELL/7\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5});
-  EXPECT_EQ(said(part(7, 1, 1) + elements), Lines{});
-  EXPECT_EQ(said(part(7, 9, 1) + elements),
-            Lines{"DK102 part 7 refers to property 9, which does not exist"});
-  EXPECT_EQ(said(part(7, 1, 9)), Lines{"DK103 part 7 refers to material 9, which does not exist"});
-  EXPECT_EQ(said(part(7, 1, 0)), Lines{}) << "no element needs it";
-  EXPECT_EQ(said(part(7, 1, 0) + elements),
-            Lines{"DK103 part 7 has elements but names no material"});
-  EXPECT_EQ(said(part(7, 1, 1, 4)), Lines{"DK108 part 7 names subset 4, which does not exist"});
-  EXPECT_EQ(said(part(7, 2, 1) + elements),
-            Lines{"DK106 2 shells of part 7 have no thickness: neither on the element nor in "
-                  "property 2; the first is element 1"});
-  EXPECT_EQ(said(part(7, 1, 1) + "/SHELL/7\n" + cells({1, 1, 2, 5, 5}) + cells({2, 2, 3, 6, 6})),
-            Lines{"DK107 2 shells of part 7 have the same third and fourth node; the first is "
-                  "element 1"});
-  EXPECT_EQ(said(part(7, 1, 1) + "/SHELL/7\n" + cells({1, 1, 1, 5, 4}) + cells({2, 2, 3, 3, 5}) +
-                 cells({3, 5, 6, 9, 5}) + cells({4, 5, 6, 5, 8})),
-            Lines{"DK136 3 shells of part 7 name a node twice; the first is element 1"});
-  EXPECT_EQ(
-      said("/SUBSET/3\ns\n" + cells({4, 3})),
-      (Lines{"DK108 subset 3 lists subset 4, which does not exist", "DK111 the deck has no part"}));
-}
-
-TEST(PartFindings, OfSpringsNeedNoMaterialUnlessTheyNameOne) {
-  const auto fires = [](const std::string& prop, int mat) {
-    const Made m(shells("@/PROP/" + prop + "/3 Mass=1\n" + part(7, 3, mat) + "/SPRING/7\n" +
-                        cells({1, 1, 2})));
-    return !m.message(RuleId::DK103).empty();
-  };
-  for (const char* prop : {"TYPE4", "TYPE8", "TYPE12", "TYPE13", "TYPE25"})
-    EXPECT_FALSE(fires(prop, 0)) << prop;
-  EXPECT_FALSE(fires("TYPE4", 9)) << "springs alone do not look for it";
-}
-
-TEST(PartFindings, OfShellsWithOtherThicknessAreNone) {
-  const auto fires = [](const std::string& prop) {
-    return !Made(shells(prop + part(7, 3, 1) + "/SHELL/7\n" + cells({1, 1, 2, 5, 4})))
-                .message(RuleId::DK106)
-                .empty();
-  };
-  EXPECT_TRUE(fires("@/PROP/TYPE9/3\n"));
-  EXPECT_FALSE(fires("@/PROP/TYPE9/3 Thick=1\n"));
-  for (const char* type : {"0", "17", "51"})
-    EXPECT_FALSE(fires("@/PROP/TYPE" + std::string(type) + "/3\n")) << type;
-}
-
-TEST(PartFindings, OfRepeatedIdsAreNamedUnlessTheyAreZero) {
-  EXPECT_EQ(Made("/PART/7\np\n/PART/7\np\n").message(RuleId::DK100), "/PART 7 is defined twice");
-  EXPECT_EQ(Made("/PART/0\np\n/PART/0\np\n").message(RuleId::DK100), "");
-}
-
-// ---- curves and options of the run -------------------------------------------------------------
-
-TEST(Curves, AreScaledAndShifted) {
-  const std::string points =
-      "                   1                   2\n\n"
-      "                   3                   5\n";
-  const Made m("/FUNCT/4\nf\n" + points + "/FUNCT/5\ng\n" + points +
-               "@/MOVE_FUNCT/5 Ascale_x=2 Ascale_y=3 Ashift_x=10 Ashift_y=20\n/FUNCT/6\nh\n" +
-               points + "@/MOVE_FUNCT/6 Ashift_x=10\n@/MOVE_FUNCT/9 Ashift_x=10\n");
-  const auto of = [&](std::int64_t id) {
-    const Curve& c = m.model.curves.at(id);
-    return std::pair(c.x, c.y);
-  };
-  using Points = std::pair<std::vector<double>, std::vector<double>>;
-  EXPECT_EQ(of(4), (Points{{1, 3}, {2, 5}})) << "a blank line is no point";
-  EXPECT_EQ(of(5), (Points{{12, 16}, {26, 35}}));
-  EXPECT_EQ(of(6), (Points{{11, 13}, {2, 5}}));
-  EXPECT_EQ(m.model.curves.size(), 3u);
-  EXPECT_EQ(m.model.curves.at(4).title, "f");
-}
-
-TEST(RunOptions, SetOneFlagEach) {
-  const auto flags = [](const std::string& text) {
-    const Made made(text);
-    const Model& m = made.model;
-    return std::array{m.two_dimensional,      m.intthick_v5, m.implicit,
-                      m.has_monitored_volume, m.has_ale,     m.has_adaptive_mesh,
-                      m.has_acoustics,        m.has_random};
-  };
-  using Flags = std::array<bool, 8>;
-  const auto only = [](std::size_t i) {
-    Flags f{};
-    if (i < f.size()) f[i] = true;
-    return f;
-  };
-  EXPECT_EQ(flags("\n"), only(9));
-  EXPECT_EQ(flags("@/ANALY N2D3D=1\n"), only(0));
-  EXPECT_EQ(flags("@/ANALY N2D3D=0\n"), only(9));
-  EXPECT_EQ(flags("/INTTHICK/V5\n"), only(1));
-  EXPECT_EQ(flags("/IMPLICIT\n"), only(2));
-  EXPECT_EQ(flags("/MONVOL/GAS/1\nm\n"), only(3));
-  EXPECT_EQ(flags("/ALE/MAT/1\n"), only(4));
-  EXPECT_EQ(flags("/EULER/MAT/1\n"), only(4));
-  EXPECT_EQ(flags("/ADMESH/GLOBAL\n"), only(5));
-  EXPECT_EQ(flags("/CAA\n"), only(6));
-  EXPECT_EQ(flags("@/RANDOM Noise=0.5\n"), only(7));
-  EXPECT_EQ(flags("@/RANDOM Noise=0\n"), only(9));
-  EXPECT_EQ(flags("@/RANDOM Noise=0.5 Seed=0.25\n"), only(9));
-  EXPECT_EQ(Made("@/RANDOM Noise=0.5 Seed=0.25\n").message(RuleId::DK119),
-            "/RANDOM with a seed: deck does not reproduce the noise");
-}
-
-TEST(RunOptions, OtherEntitiesAreKnownByTheirIds) {
-  const Made m(
-      "/SENSOR/TIME/4\ns\n                   1\n@/SKEW/FIX/5 Y_Y=1 Z_Z=1\n"
-      "/FRICTION/6\nf\n\n\n\n@/RBODY/7 node_ID=1\n/SUBSET/8\ns\n" +
-      cells({9, 10}) + "/SUBSET/9\ns\n\n/SUBSET/10\ns\n\n");
-  EXPECT_EQ(m.model.sensors.size() + m.model.skews.size() + m.model.frictions.size() +
-                m.model.rbodies.size(),
-            4u);
-  EXPECT_TRUE(m.model.sensors.contains(4) && m.model.skews.contains(5) &&
-              m.model.frictions.contains(6) && m.model.rbodies.contains(7));
-  EXPECT_EQ(m.model.subset_children,
-            (std::map<std::int64_t, std::vector<std::int64_t>>{{8, {9, 10}}, {9, {}}, {10, {}}}));
-}
+// ---- noise -------------------------------------------------------------------------------------
 
 TEST(Noise, MovesEveryCoordinateByTheSolversNumbers) {
   std::string nodes = "/NODE\n";
@@ -270,20 +94,6 @@ TEST(Noise, MovesEveryCoordinateByTheSolversNumbers) {
 }
 
 // ---- nodes -------------------------------------------------------------------------------------
-
-TEST(Coordinates, ThatAreTooLargeAreNamedWithTheirAxis) {
-  const auto said = [](double x, double y, double z) {
-    const Made m("/NODE\n" + node(1, 0, 0, 0) + node(7, x, y, z));
-    return m.message(RuleId::DK334) + m.message(RuleId::DK333);
-  };
-  EXPECT_EQ(said(1e75, -1e75, 1), "");
-  EXPECT_EQ(said(1.1e75, 1, 1),
-            "node 7: X is 1.1e+75 in working units, too large for distances to be computed");
-  EXPECT_EQ(said(1, -2e76, 1e76),
-            "node 7: Y is -2e+76 in working units, too large for distances to be computed");
-  EXPECT_EQ(said(1, 2e76, -3e76),
-            "node 7: Z is -3e+76 in working units, too large for distances to be computed");
-}
 
 TEST(ConnectionNodes, AreTheNearestNodeWithinTheTolerance) {
   const auto merged = [](double tolerance, const std::vector<double>& at) {
@@ -356,26 +166,6 @@ TEST(AffineMaps, OfTransformsInGeneralPosition) {
   near(moved("@/TRANSFORM/TRA/1 GR_NODE=1 TX=1 TY=-2 TZ=5\n@/TRANSFORM/SCA/2 GR_NODE=1 FX=2 FY=3 "
              "FZ=5"),
        {4, 0, 40});
-}
-
-TEST(AffineMaps, WhatCannotBeMovedIsSaid) {
-  const auto said = [](const std::string& cards) {
-    return Made("/NODE\n" + node(1, 1, 2, 3) + node(2, 1, 0, 1) + "/GRNOD/NODE/1\ng\n" +
-                cells({1}) + cards + "\n")
-        .message(RuleId::DK110);
-  };
-  EXPECT_EQ(said("@/TRANSFORM/ROT/1 GR_NODE=1 X1=1 X2=1 Angle=5"),
-            "/TRANSFORM/ROT 1: its two points coincide");
-  EXPECT_EQ(said("@/TRANSFORM/TRA/1 GR_NODE=1 node_ID1=2 node_ID2=77"),
-            "/TRANSFORM/TRA 1: node 77 does not exist");
-  EXPECT_EQ(said("@/TRANSFORM/SCA/1 GR_NODE=1 FX=2 node_ID1=77"),
-            "/TRANSFORM/SCA 1: node 77 does not exist");
-  EXPECT_EQ(said("@/TRANSFORM/TRA/1 GR_NODE=9 TX=1"),
-            "/TRANSFORM/TRA 1 moves node group 9, which does not exist");
-  EXPECT_EQ(said("@/TRANSFORM/TRA/1 TX=1"), "/TRANSFORM/TRA 1 names no node group to move");
-  EXPECT_EQ(said("@/TRANSFORM/TRA/1 SUBMODEL=9 TX=1"),
-            "/TRANSFORM/TRA 1 moves submodel 9, which does not exist");
-  EXPECT_EQ(said("@/TRANSFORM/TRA/1 GR_NODE=1 TX=1"), "");
 }
 
 }  // namespace

@@ -67,21 +67,6 @@ TEST(SolidFace, IsOneOfASolidWhereItHasFourOfItsNodes) {
   EXPECT_GT(yes, 300);
 }
 
-TEST(NodeKeys, AreTheNodesAscendingEachOnce) {
-  std::mt19937 random(7);
-  for (int round = 0; round < 400; ++round) {
-    std::array<NodeIndex, 4> nodes;
-    for (NodeIndex& n : nodes) n = random() % 5;
-    for (int count = 1; count <= 4; ++count) {
-      const std::set<NodeIndex> wanted(nodes.begin(), nodes.begin() + count);
-      const NodeKey key = detail::node_key(nodes.data(), count);
-      EXPECT_TRUE(std::equal(wanted.begin(), wanted.end(), key.nodes.begin()));
-      EXPECT_EQ(key, detail::node_key(std::vector<NodeIndex>(wanted.begin(), wanted.end()).data(),
-                                      static_cast<int>(wanted.size())));
-    }
-  }
-}
-
 TEST(KeyTables, NumberKeysInTheOrderInWhichTheyCameHoweverManyWereExpected) {
   for (const std::size_t expected : {0u, 1u, 7u, 8u, 9u, 500u, 5000u}) {
     KeyTable table(expected);
@@ -168,37 +153,6 @@ TEST(ExteriorFaces, OfSolidsWithoutAllNodesAreNone) {
                cells({2, 102, 103, 106, 105, 108, 109, 112, 111}) + "/SURF/PART/EXT/1\ns\n" +
                cells({4, 5}));
   EXPECT_EQ(b.surface(1).size(), 6u);
-}
-
-TEST(ShellCovers, HoldTheShellThatLiesOnAFace) {
-  BuiltModel b(parts() + cube_nodes() + cubes() + "/SHELL/1\n" + cells({7, 101, 102, 105, 104}) +
-               cells({8, 104, 101, 102, 105}) + "/SH3N/2\n" + cells({9, 101, 102, 105}));
-  const Model& m = b.model();
-  detail::ShellCover cover(m.shell4, m.shell3);
-  const auto face = [&](const Ids& ids) {
-    Face f;
-    for (std::size_t i = 0; i < ids.size(); ++i) f.nodes[i] = m.find_node(ids[i]);
-    f.corners = static_cast<int>(ids.size());
-    if (ids.size() == 3) f.nodes[3] = f.nodes[2];
-    return f;
-  };
-  const auto on = [&](const Ids& ids) {
-    const detail::CoverShell s = cover.on(face(ids));
-    return s.element == no_index ? -1 : (s.four ? m.shell4.id[s.element] : m.shell3.id[s.element]);
-  };
-  EXPECT_EQ(on({101, 104, 105, 102}), 7) << "it begins with the first node of the face";
-  EXPECT_EQ(on({104, 105, 102, 101}), 8);
-  EXPECT_EQ(on({105, 102, 101, 104}), 7) << "third of both corners before fourth";
-  EXPECT_EQ(on({101, 102, 105}), 9);
-  EXPECT_EQ(on({101, 102, 104}), -1);
-  EXPECT_EQ(on({102, 103, 106, 105}), -1);
-  cover.select({0}, {});
-  EXPECT_TRUE(cover.hides(face({101, 104, 105, 102})));
-  EXPECT_FALSE(cover.hides(face({104, 105, 102, 101}))) << "shell 8 is not selected";
-  EXPECT_FALSE(cover.hides(face({101, 102, 105})));
-  cover.select({1}, {0});
-  EXPECT_FALSE(cover.hides(face({101, 104, 105, 102})));
-  EXPECT_TRUE(cover.hides(face({101, 102, 105})));
 }
 
 }  // namespace

@@ -158,58 +158,5 @@ TEST(Spring, OfSeveralDirectionsHasTheSmallerStepOfMovingAndTurning) {
       }
 }
 
-TEST(Spring, WithoutStiffnessHasTheStepOfTheLeastOne) {
-  ElementOutcome o;
-  detail::spring_outcome(spring(8, {{11, 0}, {0, 0}, {0, 0}, {0, 0}}), 3, false, o);
-  expect_near(o.dt, std::sqrt(5 / 11.0));
-  detail::spring_outcome(spring(8, {{0, 0}, {0, 0}, {0, 0}, {0, 4}}), 3, false, o);
-  expect_near(o.dt, 7 / 8.0);
-  detail::spring_outcome(spring(8, {}), 3, false, o);
-  expect_near(o.dt, 1 / std::sqrt(1e-15));
-  PartRow light = spring(4, {{11, 2}});
-  light.property.spring_mass = 0;
-  detail::spring_outcome(light, 3, false, o);
-  EXPECT_EQ(o.stiffness, 11);
-}
-
-TEST(Spring, OnARigidBodyIsLeftToTheEngine) {
-  for (const auto& [type, step] :
-       {std::pair(8, no_step), {13, no_step}, {25, no_step}, {4, 0.}, {12, 0.}, {23, no_step}}) {
-    ElementOutcome on, off;
-    const PartRow row = spring(type, {{11, 2}, {3, 1}, {4, 1}, {2, 1}});
-    detail::spring_outcome(row, 3, true, on);
-    detail::spring_outcome(row, 3, false, off);
-    if (type == 23) {
-      EXPECT_TRUE(std::isnan(off.dt));
-      EXPECT_TRUE(std::isnan(on.mass));
-      EXPECT_TRUE(std::isnan(on.stiffness));
-      EXPECT_NE(on.why, nullptr);
-    } else {
-      EXPECT_LT(off.dt, 10);
-      EXPECT_EQ(on.stiffness, off.stiffness);
-    }
-    EXPECT_EQ(on.dt, step == no_step ? no_step : off.dt) << type;
-  }
-  ElementOutcome other;
-  detail::spring_outcome(spring(26, {{11, 2}}), 3, true, other);
-  EXPECT_TRUE(std::isnan(other.dt));
-}
-
-TEST(Spring, WithAFunctionOfItsSpeedHasMassOnly) {
-  for (std::size_t i = 0; i < 6; ++i) {
-    PartRow row = spring(8, {{11, 2}, {3, 1}, {4, 1}, {2, 1}, {2, 1}, {2, 1}});
-    row.property.freedom[i].known = false;
-    ElementOutcome o, on;
-    detail::spring_outcome(row, 3, false, o);
-    EXPECT_TRUE(std::isnan(o.dt));
-    EXPECT_TRUE(std::isnan(o.stiffness));
-    EXPECT_TRUE(std::isnan(o.rotational));
-    EXPECT_EQ(o.mass, 5);
-    EXPECT_NE(o.why, nullptr);
-    detail::spring_outcome(row, 3, true, on);
-    EXPECT_EQ(on.dt, no_step);
-  }
-}
-
 }  // namespace
 }  // namespace deck::test

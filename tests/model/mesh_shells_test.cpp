@@ -243,20 +243,5 @@ TEST(Shell3, HasItsSmallestHeightAndSharesByItsAngles) {
   }
 }
 
-TEST(Shells, OfRigidPartsHaveMassOnly) {
-  PartRow row = part();
-  row.rigid = true;
-  ElementOutcome four, three;
-  detail::shell4_outcome(row, 2, warped, four);
-  detail::shell3_outcome(row, 2, {warped[0], warped[1], warped[2]}, three);
-  for (const ElementOutcome* o : {&four, &three}) {
-    EXPECT_GT(o->mass, 0);
-    EXPECT_GT(o->inertia, 0);
-    EXPECT_EQ(o->dt, no_step);
-    EXPECT_EQ(o->stiffness, 0);
-    EXPECT_EQ(o->rotational, 0);
-  }
-}
-
 }  // namespace
 }  // namespace deck::test

@@ -440,28 +440,6 @@ TEST(Solid, StepsThatAreFixedOrFollowBlankViscosity) {
   expect_near(detail::bulk_step(row, 2, 3), step_of(2, 3, 0.5, 0.25, 0.75));
 }
 
-TEST(Solid, OfSixteenAndTwentyNodesHasMassOnly) {
-  const double mass = 3 * 8 * jacobian(hexa, {0, 0, 0});
-  for (const SolidShape shape : {SolidShape::brick20, SolidShape::thick16}) {
-    ElementOutcome o = solid(part(36, 14), hexa, shape);
-    expect_near(o.mass, mass);
-    EXPECT_TRUE(std::isnan(o.dt));
-    EXPECT_TRUE(std::isnan(o.stiffness));
-    EXPECT_TRUE(std::isnan(o.middle_stiffness));
-    EXPECT_NE(o.why, nullptr);
-    const bool thick = shape == SolidShape::thick16;
-    expect_near(8 * o.share[3] + (thick ? 8 : 12) * o.middle_share, 1);
-    expect_near(o.share[0] / o.middle_share, thick ? 1.0 / 3 : 3.0 / 14);
-    PartRow rigid = part(36, 14);
-    rigid.rigid = true;
-    o = solid(rigid, hexa, shape);
-    EXPECT_EQ(o.dt, no_step);
-    EXPECT_EQ(o.stiffness, 0);
-    EXPECT_EQ(o.middle_stiffness, 0);
-    EXPECT_EQ(o.why, nullptr);
-  }
-}
-
 TEST(Quad, HasItsAreaOverItsLongestSide) {
   const std::array<Vec, 4> x{Vec{7, 2, 1}, Vec{0, 8, 2}, Vec{1, 9, 6}, Vec{0, 3, 4}};
   const auto flat = [&](std::size_t i) { return Vec{0, x[i].y, x[i].z}; };

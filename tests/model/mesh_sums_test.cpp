@@ -15,7 +15,6 @@ using test::SmallDeck;
 
 // Material 1 of SmallDeck: E 200, nu 0.3, density 1e-6.
 constexpr double density = 1e-6, young = 200.0, poisson = 0.3;
-const double rod_speed = std::sqrt(young / density);
 
 SmallDeck square() {
   SmallDeck d;
@@ -23,42 +22,6 @@ SmallDeck square() {
   d.shell_part(1, 2.0).shell(1, 1, 1, 2, 3, 4);
   d.group("/GRNOD/PART/1", {1});
   return d;
-}
-
-TEST(ElementStep, OfASquareShellIsItsSideOverTheSpeedOfARod) {
-  const Built b(square());
-  const Mesh m = make_mesh(b.model);
-  // Side 10; area over diagonal is less.
-  EXPECT_NEAR(m.of(ElementKind::shell4).dt[0], 10.0 / rod_speed, 1e-15);
-  EXPECT_EQ(m.total.slowest.element, 0u);
-  EXPECT_TRUE(m.left_out.empty());
-}
-
-TEST(ElementStep, OfATriangleIsItsSmallestHeight) {
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 0, 10, 0);
-  d.shell_part(1, 2.0).shell3(1, 1, 1, 2, 3);
-  d.group("/GRNOD/PART/1", {1});
-  const Built b(d);
-  const Mesh m = make_mesh(b.model);
-  EXPECT_NEAR(m.of(ElementKind::shell3).dt[0], 100.0 / std::sqrt(200.0) / rod_speed, 1e-15);
-}
-
-TEST(ElementStep, OfACubeHasTheLinearViscosityOfItsProperty) {
-  SmallDeck d = square();
-  for (int k = 0; k < 8; ++k)
-    d.node(10 + k, (k % 4 == 1 || k % 4 == 2) ? 50 : 40, k % 4 >= 2 ? 10 : 0, k >= 4 ? 10 : 0);
-  d.solid_part(2).brick(2, 3, {10, 11, 12, 13, 14, 15, 16, 17});
-  const Built b(d);
-  const Mesh m = make_mesh(b.model);
-  const double bulk = young / (3 * (1 - 2 * poisson)), shear = young / (2 * (1 + poisson));
-  const double c = std::sqrt((bulk + 4.0 / 3.0 * shear) / density), q = 0.05 * c;
-  const double dt = 10.0 / (q + std::sqrt(q * q + c * c));
-  EXPECT_NEAR(m.of(ElementKind::solid8).dt[0], dt, 1e-14);
-  // A quarter of the mass over the square of the step, at every node.
-  const NodeIndex n = b.model.nodes.map.find(10);
-  EXPECT_NEAR(m.nodes.stiffness[n], 0.25 * density * 1000.0 / (dt * dt), 1e-9);
-  EXPECT_NEAR(m.nodes.dt[n], dt, 1e-14);
 }
 
 TEST(ElementStep, OfVoidLimitsNothingAndGivesMassOnly) {
@@ -108,34 +71,6 @@ TEST(ElementStep, IsNotGuessedForALawThatIsNotEstablished) {
   ASSERT_FALSE(m.left_out.empty());
 }
 
-TEST(PartSums, AreMassCentreAndInertiaOfNodes) {
-  const Built b(square());
-  const Mesh m = make_mesh(b.model);
-  const PartFigures& part = m.parts[0];
-  const double mass = density * 2.0 * 100.0;
-  EXPECT_NEAR(part.mass, mass, 1e-18);
-  EXPECT_NEAR(part.centre[0], 5.0, 1e-12);
-  EXPECT_NEAR(part.centre[1], 5.0, 1e-12);
-  // The nodes have A / 9 + t^2 / 12 of their own.
-  const double own = mass * (100.0 / 9.0 + 4.0 / 12.0);
-  EXPECT_NEAR(part.inertia[0], mass * 25.0 + own, 1e-15);
-  EXPECT_NEAR(part.inertia[2], mass * 50.0 + own, 1e-15);
-  EXPECT_NEAR(m.total.mass, part.mass, 1e-18);
-}
-
-TEST(RigidBody, TakesTheStiffnessOfItsNodesToTheMainNode) {
-  SmallDeck d = square();
-  d.node(99, 5, 5, 0);
-  d.add("@/RBODY/1 node_ID=99 grnd_ID=1");
-  const Built b(d);
-  const Mesh m = make_mesh(b.model);
-  const NodeIndex main = b.model.nodes.map.find(99), corner = b.model.nodes.map.find(1);
-  EXPECT_NEAR(m.nodes.mass[main], density * 2.0 * 100.0, 1e-18);
-  EXPECT_EQ(m.nodes.dt[corner] < no_step, m.nodes.inertia[corner] != 0.0);
-  EXPECT_GT(m.nodes.stiffness[main], 1.0);
-  EXPECT_LT(m.nodes.stiffness[corner], 1e-19);
-}
-
 /// Shell 1 of square() as the main segment, and a strip on top with node 11 above its middle.
 SmallDeck tied_square(int spotflag, double height = 1.0) {
   SmallDeck d = square();
@@ -144,31 +79,6 @@ SmallDeck tied_square(int spotflag, double height = 1.0) {
   d.group("/GRNOD/NODE/5", {11}).group("/SURF/PART/5", {1});
   return d.add("@/INTER/TYPE2/1 grnd_IDs=5 surf_IDm=5 Ignore=1 dsearch=2 Spotflag=" +
                std::to_string(spotflag));
-}
-
-TEST(Ties, CarryMassAndStiffnessByTheWeightsOfTheCorners) {
-  const Built b(tied_square(5)), apart(tied_square(5, 5.0));
-  const NodeFigures &m = b.loaded.mesh().nodes, &o = apart.loaded.mesh().nodes;
-  const NodeIndex node = b.model.nodes.map.find(11), corner = b.model.nodes.map.find(1);
-  EXPECT_EQ(m.mass[node], 0.0);
-  EXPECT_GT(o.mass[node], 0.0);  // too far: it keeps what it has
-  EXPECT_NEAR(m.mass[corner] - o.mass[corner], 0.25 * o.mass[node], 1e-18);
-  EXPECT_NEAR(m.stiffness[corner] - o.stiffness[corner], 0.25 * o.stiffness[node], 1e-9);
-  EXPECT_EQ(m.lumped_mass, o.lumped_mass);
-  EXPECT_TRUE(b.loaded.mesh().left_out.empty());
-}
-
-TEST(Ties, WithSpotflagOneCarryTheMomentToo) {
-  const Built b(tied_square(1)), apart(tied_square(1, 5.0));
-  const NodeFigures &m = b.loaded.mesh().nodes, &o = apart.loaded.mesh().nodes;
-  const NodeIndex node = b.model.nodes.map.find(11), corner = b.model.nodes.map.find(1);
-  // Four corners at 5, 5 from their middle: a moment of 1 takes at most 1/100 about x and y, and
-  // the node stands 1 above them.
-  const double r = 1.0 / 100.0, turn = o.rotational_stiffness[node] + o.stiffness[node];
-  EXPECT_NEAR(m.stiffness[corner] - o.stiffness[corner], 0.25 * o.stiffness[node] + r * turn,
-              1e-9 * turn);
-  EXPECT_EQ(m.inertia[node], 0.0);
-  EXPECT_EQ(m.dt[node], no_step);
 }
 
 TEST(Ties, ByPenaltyLeaveMassesAndTheStepsOfMainNodesAreNotGiven) {

@@ -1,6 +1,5 @@
 // Groups, surfaces, lines and sets over elements of every kind: each way to select against the
 // members that stand there.
-// Over 600 lines: independent tests of one resolver.
 #include <algorithm>
 
 #include "model/selection_deck.hpp"
@@ -150,16 +149,6 @@ TEST(ElementGroups, OfBoxesNeedAllNodesOrOne) {
     }
 }
 
-TEST(ElementGroups, OfBoxesLookAtTheNodesThatAreThere) {
-  // Shell 1 has one node in the model, shell 2 none.
-  const std::string shells = parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 97, 98, 99}) +
-                             cells({2, 95, 97, 98, 99});
-  BuiltModel m(shells + box(1, -1, 5) + group("GRSHEL", "BOX", 1, {1}) +
-               group("GRSHEL", "BOX2", 2, {1}));
-  EXPECT_EQ(*m.selections().element_group("grshel", 1), (std::vector<std::uint32_t>{0}));
-  EXPECT_EQ(*m.selections().element_group("grshel", 2), (std::vector<std::uint32_t>{0}));
-}
-
 TEST(NodeGroups, OfElementsHaveTheirNodesLessThoseOfOthers) {
   for (const Kind& k : kinds) {
     const std::string g = k.group;
@@ -190,79 +179,6 @@ TEST(NodeGroups, OfPartsTakeFamilyByFamily) {
   EXPECT_EQ(m.group(2), (Ids{1, 2, 3, 9, 10, 11, 12, 13, 27, 28, 29}));
   EXPECT_EQ(m.group(3), (Ids{1, 2, 3, 4, 5, 6, 7})) << "5, 6, 7 come back with triangles, 8, 9 not";
   EXPECT_EQ(m.group(5), Ids{});
-}
-
-TEST(NodeGroups, OfSurfacesAndLinesHaveTheirNodes) {
-  BuiltModel m(zoo() + group("SURF", "PART", 1, {2}) + group("SURF", "PART", 2, {1}) +
-               group("LINE", "PART", 3, {3}) + group("LINE", "PART", 4, {6}) +
-               group("GRNOD", "SURF", 1, {1}) + group("GRNOD", "SURF", 2, {2, 1, 9}) +
-               group("GRNOD", "LINE", 3, {3}) + group("GRNOD", "LINE", 4, {4, 3, 9}));
-  EXPECT_EQ(m.group(1), (Ids{5, 6, 7, 8, 9, 10}));
-  EXPECT_EQ(m.group(2), (Ids{1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
-  EXPECT_EQ(m.message(RuleId::DK151), 193);
-  EXPECT_EQ(m.group(3), (Ids{10, 12, 13, 27, 28, 29}));
-  EXPECT_EQ(m.group(4), (Ids{1, 2, 3, 9, 10, 11, 12, 13, 27, 28, 29}));
-}
-
-TEST(NodeGroups, OfBoxesAreThoseOfTheLastBoxThatHoldsTheNode) {
-  BuiltModel m(zoo() + box(1, 3, 9) + box(2, 8, 12) + box(3, 5, 5) +
-               group("GRNOD", "BOX", 1, {1, 2}) + group("GRNOD", "BOX", 2, {1, -3}) +
-               group("GRNOD", "BOX2", 3, {-3, 1}) + group("GRNOD", "BOX", 4, {2, 9}));
-  EXPECT_EQ(m.group(1), (Ids{3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
-  EXPECT_EQ(m.group(2), (Ids{3, 4, 6, 7, 8, 9}));
-  EXPECT_EQ(m.group(3), (Ids{3, 4, 6, 7, 8, 9}));
-  EXPECT_EQ(m.group(4), (Ids{8, 9, 10, 11, 12}));
-  EXPECT_EQ(m.message(RuleId::DK159), 690);
-}
-
-TEST(NodeGroups, OfGroupsKeepTheirOrderWhereAskedTo) {
-  BuiltModel m(zoo() + group("GRNOD", "NODENS", 1, {9, 4, 7}) +
-               group("GRNOD", "NODENS", 2, {5, 4}) + group("GRNOD", "GRNODNS", 3, {2, 1}) +
-               group("GRNOD", "GRNOD", 4, {2, 1}) + group("GRNOD", "GRNODNS", 5, {1, -2}) +
-               group("GRNOD", "GRNODNS", 6, {-2, 1, 9}));
-  EXPECT_EQ(m.group(3), (Ids{5, 4, 9, 7}));
-  EXPECT_EQ(m.group(4), (Ids{4, 5, 7, 9}));
-  EXPECT_EQ(m.group(5), (Ids{9, 7}));
-  EXPECT_EQ(m.group(6), (Ids{9, 7}));
-}
-
-TEST(NodeGroups, OfRangesVisitIdsOrNodesWithTheSameResult) {
-  // Few nodes and a long range: the nodes are visited; the other way round: the ids.
-  const std::string nodes = "/NODE\n" + node(4, 0, 0, 0) + node(1, 1, 0, 0) + node(10, 2, 0, 0) +
-                            node(7, 3, 0, 0) + node(1000, 4, 0, 0);
-  BuiltModel m(nodes + group("GRNOD", "GENE", 1, {4, 8}) + group("GRNOD", "GENE", 2, {4, 9}) +
-               group("GRNOD", "GENE", 3, {4, 999}) + group("GRNOD", "GENE", 4, {4, 1000}) +
-               group("GRNOD", "GENE", 5, {7, 7}) + group("GRNOD", "GENE", 6, {9, 4}) +
-               group("GRNOD", "GEN_INCR", 7, {1, 10, 3}) +
-               group("GRNOD", "GEN_INCR", 8, {4, 1000, 6}) + group("GRNOD", "GENE", 9, {1, 4, 10}) +
-               group("GRNOD", "GEN_INCR", 10, {1, 10, 0}));
-  EXPECT_EQ(m.group(1), (Ids{4, 7}));
-  EXPECT_EQ(m.group(2), (Ids{4, 7}));
-  EXPECT_EQ(m.group(3), (Ids{4, 7, 10}));
-  EXPECT_EQ(m.group(4), (Ids{4, 7, 10, 1000}));
-  EXPECT_EQ(m.group(5), (Ids{7}));
-  EXPECT_EQ(m.group(6), Ids{});
-  EXPECT_EQ(m.group(7), (Ids{1, 4, 7, 10}));
-  EXPECT_EQ(m.group(8), (Ids{4, 10, 1000}));
-  EXPECT_EQ(m.group(9), (Ids{1, 4})) << "a first id without a last one";
-  EXPECT_EQ(m.group(10), Ids{});
-}
-
-TEST(NodeGroups, AreInTheOrderOfIdsHoweverFarApartTheyLie) {
-  // Nodes of a deck in an order of their own; few of many, many of few.
-  std::string nodes = "/NODE\n";
-  Ids order;
-  for (int i = 0; i < 100; ++i) order.push_back(1 + (i * 37) % 100);
-  for (const auto id : order) nodes += node(id, 0, 0, 0);
-  BuiltModel m(nodes + group("GRNOD", "NODE", 1, {100, 1}) +
-               group("GRNOD", "NODE", 2, {100, 50, 1, 17}) +
-               group("GRNOD", "NODE", 3, {33, 31, 32, 30}) + group("GRNOD", "GENE", 4, {1, 100}));
-  EXPECT_EQ(m.group(1), (Ids{1, 100}));
-  EXPECT_EQ(m.group(2), (Ids{1, 17, 50, 100}));
-  EXPECT_EQ(m.group(3), (Ids{30, 31, 32, 33}));
-  Ids all;
-  for (int i = 1; i <= 100; ++i) all.push_back(i);
-  EXPECT_EQ(m.group(4), all);
 }
 
 // ---- what is missing ---------------------------------------------------------------------------
@@ -313,65 +229,6 @@ TEST(MissingMembers, AreNamedWithTheMessageOfTheSolver) {
   }
 }
 
-TEST(MissingMembers, AreListedUpToFive) {
-  const auto message = [](const Ids& ids) {
-    BuiltModel m(zoo() + group("GRNOD", "NODE", 1, ids));
-    m.group(1);
-    return m.selections().diagnostics().all().at(0).message;
-  };
-  EXPECT_EQ(message({71}), "/GRNOD/NODE 1 lists node 71, which does not exist");
-  EXPECT_EQ(message({71, 1, 72}), "/GRNOD/NODE 1 lists node 71, 72, which do not exist");
-  EXPECT_EQ(message({71, 72, 73, 74, 75}),
-            "/GRNOD/NODE 1 lists node 71, 72, 73, 74, 75, which do not exist");
-  EXPECT_EQ(message({71, 72, 73, 74, 75, 76, 77}),
-            "/GRNOD/NODE 1 lists node 71, 72, 73, 74, 75 and 2 more, which do not exist");
-}
-
-TEST(MissingMembers, OfASubsetWithoutPartsAreSaid) {
-  BuiltModel m(zoo() + "/SUBSET/9\nempty\n\n" + group("GRNOD", "SUBSET", 1, {1, 9}));
-  EXPECT_EQ(m.group(1).size(), 26u);
-  EXPECT_EQ(m.findings(RuleId::DK166), 1u);
-  BuiltModel full(zoo() + group("GRNOD", "SUBSET", 1, {1}));
-  full.group(1);
-  EXPECT_EQ(full.findings(RuleId::DK166), 0u);
-}
-
-TEST(MissingMembers, ParticlesOfAPartAreNotEvaluated) {
-  const std::string particles = "/SPHCEL/2\n         1         1\n";
-  const auto findings = [&](const std::string& text) {
-    BuiltModel m(zoo() + particles + text);
-    m.selections().resolve_all();
-    return m.findings(RuleId::DK164);
-  };
-  EXPECT_EQ(findings(group("GRNOD", "PART", 1, {1})), 0u);
-  EXPECT_EQ(findings(group("GRNOD", "PART", 1, {1, 2})), 1u);
-  EXPECT_EQ(findings(set(1, clause("PART", {2}))), 1u);
-  EXPECT_EQ(findings(set(1, clause("PART", {1}))), 0u);
-}
-
-TEST(PartGroups, HoldWhatTheirTypeSays) {
-  BuiltModel m(zoo() + group("GRPART", "PART", 1, {5, 2, 99}) + group("GRPART", "GENE", 2, {2, 4}) +
-               group("GRPART", "GEN_INCR", 3, {1, 6, 2}) +
-               group("GRPART", "GRPART", 4, {2, 3, -1}) + group("GRPART", "PROP", 5, {2}) +
-               group("GRPART", "SUBSET", 6, {1, -2}) + group("GRPART", "PART", 7, {3, -3, -4}) +
-               set(8, clause("PART", {6, 1})));
-  const auto parts = [&](std::int64_t id) {
-    Ids out;
-    if (const auto* list = m.selections().part_group(id))
-      for (const std::uint32_t p : *list) out.push_back(m.model().parts[p].id);
-    return out;
-  };
-  EXPECT_EQ(parts(1), (Ids{2, 5}));
-  EXPECT_EQ(parts(2), (Ids{2, 3, 4}));
-  EXPECT_EQ(parts(3), (Ids{1, 3, 5}));
-  EXPECT_EQ(parts(4), (Ids{1, 3, 4}));
-  EXPECT_EQ(parts(5), (Ids{4, 5}));
-  EXPECT_EQ(parts(6), (Ids{1, 2, 4, 5})) << "listed already";
-  EXPECT_EQ(parts(7), (Ids{3}));
-  EXPECT_EQ(parts(8), (Ids{1, 6}));
-  EXPECT_EQ(m.selections().part_group(99), nullptr);
-}
-
 // ---- surfaces ----------------------------------------------------------------------------------
 
 using Faces = std::vector<Ids>;
@@ -399,38 +256,6 @@ TEST(Surfaces, OfShellsAreSelectedByAllTheirOwners) {
   EXPECT_EQ(m.surface(10), (Faces{{3, 4, 5, 6}, {1, 2, 3, 4}, {7, 6, 5, 5}}));
 }
 
-TEST(Surfaces, WithoutAWholeShellLeaveItOut) {
-  const std::string shells = parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 99}) +
-                             cells({2, 2, 3, 6, 5}) + group("SURF", "PART", 1, {1});
-  BuiltModel m(shells);
-  EXPECT_EQ(m.surface(1), (Faces{{2, 3, 6, 5}}));
-}
-
-TEST(Surfaces, AreSortedByCarrierAndIdsOfAnySize) {
-  // Ids above 2^32 are read as they are; those of equal lower halves differ above.
-  const std::int64_t big = std::int64_t{1} << 32;
-  std::string text = parts() + grid_nodes() + "/SHELL/1\n";
-  const auto wide = [](std::int64_t id, const Ids& nodes) {
-    char line[32];
-    std::snprintf(line, sizeof line, "%10lld", static_cast<long long>(id));
-    return std::string(line) + cells(nodes);
-  };
-  text += wide(big + 1, {4, 5, 8, 7}) + wide(5, {1, 2, 5, 4}) + wide(big + 5, {2, 3, 6, 5}) +
-          wide(1, {5, 6, 9, 8});
-  BuiltModel m(text + group("SURF", "PART", 1, {1}) + group("GRSHEL", "PART", 2, {1}) +
-               group("SURF", "GRSHEL", 3, {2}));
-  const Faces sorted{{5, 6, 9, 8}, {1, 2, 5, 4}, {4, 5, 8, 7}, {2, 3, 6, 5}};
-  EXPECT_EQ(m.surface(1), sorted);
-  EXPECT_EQ(m.surface(3), sorted);
-}
-
-TEST(Surfaces, OfSegmentsNeedThreeNodesThatAreThere) {
-  BuiltModel m(zoo() + "/SURF/SEG/1\ns\n" + cells({1, 1, 2, 3, 4}) + cells({2, 5, 6, 7}) +
-               cells({3, 5, 6, 7, 0}) + cells({4, 5, 0, 7, 8}) + cells({5, 5, 6, 77, 8}) +
-               cells({6, 5, 6, 0, 0}) + cells({7, 0, 6, 7, 8}));
-  EXPECT_EQ(m.surface(1), (Faces{{1, 2, 3, 4}, {5, 6, 7, 7}, {5, 6, 7, 7}}));
-}
-
 TEST(Surfaces, DifferenceComparesSegmentsFromTheirSmallestNode) {
   BuiltModel m(zoo() + "/SURF/SEG/1\na\n" + cells({1, 3, 4, 1, 2}) + cells({2, 9, 8, 7}) +
                cells({3, 5, 6, 7, 8}) + cells({4, 8, 5, 6, 7}) + "/SURF/SEG/2\nb\n" +
@@ -442,23 +267,6 @@ TEST(Surfaces, DifferenceComparesSegmentsFromTheirSmallestNode) {
   EXPECT_EQ(m.surface(6), (Faces{{1, 2, 3, 4}, {5, 6, 7, 8}}));
   EXPECT_EQ(m.surface(7), (Faces{{1, 2, 3, 4}, {5, 6, 7, 8}, {7, 9, 8, 8}})) << "the other sense";
   EXPECT_EQ(m.surface(8), Faces{});
-}
-
-TEST(Surfaces, OfSolidsNameTheFirstOneWithoutFaces) {
-  const auto message = [](const std::string& text, RuleId rule) {
-    BuiltModel m(zoo() + text);
-    m.surface(1);
-    for (const Diagnostic& d : m.selections().diagnostics().all())
-      if (d.rule == rule) return d.message;
-    return std::string();
-  };
-  EXPECT_EQ(message(group("SURF", "PART", 1, {4}), RuleId::DK155),
-            "/SURF/PART 1 selects 2 solids but does not say which faces; the first is solid 33 of "
-            "part 4");
-  EXPECT_EQ(message(group("SURF", "PART", 1, {5}), RuleId::DK155),
-            "/SURF/PART 1 selects 1 solid but does not say which faces; the first is solid 32 of "
-            "part 5");
-  EXPECT_EQ(message(group("SURF", "PART", 1, {1}), RuleId::DK155), "");
 }
 
 // ---- lines -------------------------------------------------------------------------------------
@@ -484,44 +292,6 @@ TEST(Lines, OfElementsAreThoseOfTrussesBeamsAndSprings) {
   EXPECT_EQ(m.line(9), (Faces{{11, 13}}));
   EXPECT_EQ(m.line(10), (Faces{{12, 28}, {10, 27}, {1, 9}, {11, 13}}));
   EXPECT_EQ(m.line(11), (Faces{{10, 27}, {12, 28}, {13, 29}}));
-}
-
-TEST(Lines, KnowTheElementBehindEachEdge) {
-  BuiltModel m(zoo() + group("LINE", "PART", 1, {3}) + group("SURF", "PART", 1, {1}) +
-               group("LINE", "SURF", 2, {1}) + "/LINE/SEG/3\nl\n" + cells({1, 5, 2}));
-  const auto carriers = [&](std::int64_t id) {
-    std::vector<std::pair<Carrier, std::uint32_t>> out;
-    for (const Edge& e : m.selections().line(id)->edges) out.emplace_back(e.carrier, e.element);
-    return out;
-  };
-  EXPECT_EQ(carriers(1), (std::vector<std::pair<Carrier, std::uint32_t>>{
-                             {Carrier::truss, 2}, {Carrier::beam, 2}, {Carrier::spring, 2}}));
-  EXPECT_EQ(carriers(3),
-            (std::vector<std::pair<Carrier, std::uint32_t>>{{Carrier::none, no_index}}));
-  for (const Edge& e : m.selections().line(2)->edges) {
-    const Elements& family =
-        m.model().family(e.carrier == Carrier::shell4 ? ElementKind::shell4 : ElementKind::shell3);
-    const NodeIndex* n = family.of(e.element);
-    for (const NodeIndex end : e.nodes)
-      EXPECT_NE(std::find(n, n + family.width, end), n + family.width);
-  }
-}
-
-TEST(Lines, LeaveOutElementsWithoutLengthAndSegmentsWithoutNodes) {
-  BuiltModel m(parts() + grid_nodes() + "/SPRING/6\n" + cells({1, 1, 1}) + cells({2, 1, 2}) +
-               cells({3, 1, 99}) + cells({4, 5}) + group("LINE", "PART", 1, {6}) +
-               "/LINE/SEG/2\nl\n" + cells({1, 5, 99}) + cells({2, 99, 5}) + cells({3, 5, 0}) +
-               cells({4, 3, 5}));
-  EXPECT_EQ(m.line(1), (Faces{{1, 2}}));
-  EXPECT_EQ(m.line(2), (Faces{{3, 5}}));
-  EXPECT_EQ(m.message(RuleId::DK150), 78);
-}
-
-TEST(Lines, FreeEdgesAreThoseOfOneSegment) {
-  BuiltModel m(zoo() + "/SURF/SEG/1\ns\n" + cells({1, 4, 3, 2, 1}) + cells({2, 3, 4, 5}) +
-               cells({3, 4, 3, 6}) + group("LINE", "EDGE", 1, {1}) + group("LINE", "SURF", 2, {1}));
-  EXPECT_EQ(m.line(1), (Faces{{1, 2}, {2, 3}, {1, 4}, {3, 5}, {4, 5}, {3, 6}, {4, 6}}));
-  EXPECT_EQ(m.line(2), (Faces{{1, 2}, {2, 3}, {1, 4}, {3, 4}, {3, 5}, {4, 5}, {3, 6}, {4, 6}}));
 }
 
 // ---- sets --------------------------------------------------------------------------------------
@@ -551,19 +321,6 @@ TEST(Sets, HaveElementsOfEveryKind) {
   }
 }
 
-TEST(Sets, TakeNodesAwayAndGiveThemBack) {
-  BuiltModel m(zoo() + set(1, clause("SHELL", {11, 12}) + clause("NODE_D", {5, 6})) +
-               set(2, clause("SHELL", {11, 12}) + clause("NODE_D", {5, 6}) + clause("NODE", {6})) +
-               set(3, clause("NODE", {1, 2, 3}) + clause("NODE_I", {2, 3, 4})) +
-               set(4, clause("SHELL", {11}) + clause("NODE_I", {1, 3, 6})) +
-               set(5, clause("NODE", {1, 2}) + clause("NODE_D", {2, 9}) + clause("NODE", {3})));
-  EXPECT_EQ(m.group(1), (Ids{3, 4, 7, 8}));
-  EXPECT_EQ(m.group(2), (Ids{3, 4, 6, 7, 8}));
-  EXPECT_EQ(m.group(3), (Ids{2, 3}));
-  EXPECT_EQ(m.group(4), (Ids{3, 6}));
-  EXPECT_EQ(m.group(5), (Ids{1, 3}));
-}
-
 TEST(Sets, TakeSegmentsAndEdgesAwayInAnySense) {
   const std::string all = clause("SEG", {1, 1, 2, 3, 4}) + clause("", {2, 5, 6, 7}) +
                           clause("", {3, 8, 9}) + clause("", {4, 9, 10});
@@ -582,77 +339,6 @@ TEST(Sets, TakeSegmentsAndEdgesAwayInAnySense) {
   EXPECT_EQ(m.surface(3), (Faces{{5, 6, 7, 7}}));
   EXPECT_FALSE(has(3, {8, 9}));
   EXPECT_TRUE(has(3, {9, 10}));
-}
-
-TEST(Sets, OfBoxesHaveElementsAndNodes) {
-  BuiltModel m(zoo() + box(1, 3, 8) + box(2, 28, 30) + set(1, clause("BOX", {1})) +
-               set(2, clause("BOX2", {2})) + set(3, clause("BOX", {1, 2})));
-  EXPECT_EQ(m.surface(1), (Faces{{3, 4, 5, 6}, {5, 6, 7, 8}, {5, 6, 7, 7}}));
-  EXPECT_EQ(m.group(1), (Ids{3, 4, 5, 6, 7, 8}));
-  EXPECT_EQ(m.line(2), (Faces{{12, 28}, {13, 29}}));
-  EXPECT_EQ(m.group(2), (Ids{12, 13, 28, 29, 30}));
-  EXPECT_EQ(m.group(3), (Ids{3, 4, 5, 6, 7, 8, 28, 29, 30}));
-}
-
-TEST(Sets, OfPartsGenerateThemAndKeepTheirParts) {
-  BuiltModel m(zoo() + set(1, clause("PART_G", {1, 3, 2})) + set(2, clause("SUBS_G", {2, 9, 1})) +
-               set(3, clause("PART", {1, 2, 3}) + clause("PART_D", {2})) +
-               set(4, clause("PART", {1, 2, 3}) + clause("PART_I", {2, 3, 4})) +
-               set(5, clause("SET_G", {1, 3, 2})) + set(6, clause("SET", {1, 2})) +
-               set(7, clause("SUBS", {1})));
-  const auto parts = [&](std::int64_t id) {
-    Ids out;
-    for (const std::uint32_t p : *m.selections().part_group(id))
-      out.push_back(m.model().parts[p].id);
-    return out;
-  };
-  EXPECT_EQ(parts(1), (Ids{1, 3}));
-  EXPECT_EQ(parts(2), (Ids{4, 5}));
-  EXPECT_EQ(parts(3), (Ids{1, 3}));
-  EXPECT_EQ(parts(4), (Ids{2, 3}));
-  EXPECT_EQ(parts(5), (Ids{1, 3}));
-  EXPECT_EQ(parts(6), (Ids{1, 3, 4, 5}));
-  EXPECT_EQ(parts(7), (Ids{1, 2, 4, 5}));
-}
-
-TEST(Sets, OptionsReverseAndShowAllFacesOfTheirElementsAlone) {
-  BuiltModel m(zoo() + set(1, clause("SHELL_O", {11}) + clause("SHELL", {12})) +
-               set(2, clause("SH3N_O", {21}) + clause("SH3N", {22})) +
-               set(3, clause("SOLID_A", {33, 31})) + set(4, clause("SOLID", {33, 31})) +
-               set(5, clause("PART_O", {2})));
-  EXPECT_EQ(m.surface(1), (Faces{{6, 5, 4, 3}, {5, 6, 7, 8}}));
-  EXPECT_EQ(m.surface(2), (Faces{{9, 8, 7, 7}, {8, 9, 10, 10}}));
-  EXPECT_EQ(m.surface(3).size(), 12u);
-  EXPECT_EQ(m.surface(4).size(), 10u);
-  EXPECT_EQ(m.surface(5), (Faces{{8, 7, 6, 5}, {10, 9, 8, 8}}));
-}
-
-TEST(Sets, HaveTheirThreeViewsAtOnce) {
-  BuiltModel m(zoo() + set(1, clause("PART", {1}) + clause("TRUSS", {42}) + clause("NODE", {30})) +
-               set(2, clause("PART", {1}) + clause("TRUSS", {42}) + clause("NODE", {30})));
-  const SetGeneral* s = m.selections().set(1);
-  ASSERT_NE(s, nullptr);
-  EXPECT_EQ(s->id, 1);
-  EXPECT_EQ(s->title, "set");
-  EXPECT_EQ(m.ids(s->nodes), m.group(2));
-  EXPECT_EQ(m.ids(s->nodes), (Ids{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 27, 30}));
-  EXPECT_EQ(s->segments.size(), m.surface(2).size());
-  EXPECT_EQ(s->segments.size(), 4u);
-  EXPECT_EQ(m.edges(s->edges), m.line(2));
-  EXPECT_EQ(s->parts, (std::vector<std::uint32_t>{0}));
-  EXPECT_EQ(m.surface(1), m.surface(2));
-  EXPECT_EQ(m.selections().set(9), nullptr);
-  EXPECT_TRUE(m.selections().complete());
-  EXPECT_EQ(m.selections().ids("set"), (Ids{1, 2}));
-  EXPECT_TRUE(m.selections().where("set", 2));
-  EXPECT_FALSE(m.selections().where("set", 9));
-}
-
-TEST(Sets, AreThereBothWaysWhereSurfaceWasAskedFirst) {
-  BuiltModel m(zoo() + set(1, clause("PART", {1})));
-  const Faces first = m.surface(1);
-  EXPECT_EQ(m.selections().set(1)->segments.size(), first.size());
-  EXPECT_EQ(m.surface(1), first);
 }
 
 }  // namespace

@@ -3,10 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "model/shared/mesh.hpp"
 #include "report/page.hpp"
-#include "report/shared/cycle.hpp"
-#include "report/shared/parts.hpp"
 
 namespace deck::test {
 namespace {
@@ -129,66 +126,10 @@ struct Paged {
     EXPECT_TRUE(page.ok());
     return page.ok() ? *page : "";
   }
-  Json meta() const { return Json::parse(block(text(), "deck-meta")); }
-  /// What a packed block unpacks to.
-  Json packed(const std::string& id) const {
-    const std::string data = block(text(), id);
-    return data.empty() ? Json() : Json::parse(PageBlock(data).bytes());
-  }
-  /// Id of a node of the page by its number there.
-  std::int64_t id(const Json& number) const {
-    PageBlock in(block(text(), "deck-mesh"));
-    return in.deltas(in.u()).at(number.get<std::size_t>());
-  }
   Built b;
   SceneView view;
   HtmlInput input;
 };
-
-std::string title_of(const std::string& page) {
-  const auto at = page.find("<title>") + 7;
-  return page.substr(at, page.find("</title>") - at);
-}
-
-TEST_F(WholePage, DescribesTheDeckItsPartsAndFiles) {
-  SmallDeck d = plate().truss_part(7, 3).bar("TRUSS", 7, 70, 1, 2);
-  Paged p(
-      d.group("/GRNOD/NODE/40", {1}).group("/GRNOD/NODE/6", {1}).add("@/INTER/TYPE7/1 Gapmin=1.5"));
-  WhatIf w;
-  w.interface_id = 1;
-  w.Inacti = 6;
-  p.input.what_if = {w};
-  const Json meta = p.meta();
-  EXPECT_EQ(meta["schema"], Json({{"id", "deck/gaps-html"}, {"version", 1}}));
-  EXPECT_EQ(meta["page"], "gaps");
-  EXPECT_EQ(meta["deck"]["path"], "somewhere/small_0000.rad");
-  EXPECT_EQ(meta["deck"]["counts"]["parts"], 2);
-  EXPECT_EQ(meta["deck"]["counts"]["interfaces"], 1);
-  EXPECT_EQ(meta["verdict"]["counts"]["pairs"], 1);
-  EXPECT_EQ(meta["summary"]["pairs"], 1);
-  EXPECT_EQ(meta["summary"]["max_depth"], 1.0);
-  EXPECT_EQ(meta["examined"], 1);
-  EXPECT_EQ(meta["bytes"], p.b.deck.sources[0].bytes().size());
-  EXPECT_EQ(meta["largest_gap"], largest_bounded_gap(p.b.model));
-  EXPECT_EQ(meta["files"], Json::array({p.b.deck.sources[0].path()}));
-  EXPECT_EQ(meta["parts"], Json({{{"id", 1},
-                                  {"title", "part"},
-                                  {"prop", 1},
-                                  {"mat", 1},
-                                  {"prop_type", "/PROP/SHELL"},
-                                  {"thickness", 2.0}},
-                                 {{"id", 7},
-                                  {"title", "part"},
-                                  {"prop", 7},
-                                  {"mat", 1},
-                                  {"prop_type", "/PROP/TRUSS"},
-                                  {"thickness", 0.0}}}));
-  EXPECT_EQ(meta["free_group_id"], 41);
-  EXPECT_EQ(meta["what_if"], Json({{{"interface", 1}, {"Inacti", 6}}}));
-  EXPECT_EQ(meta["touches"], Json::array({Json({-1, 0, 0})}));
-  EXPECT_EQ(meta["contacts"].size(), 1u);
-  EXPECT_EQ(meta["ties"], Json::array());
-}
 
 TEST_F(WholePage, IsOneDocumentWithViewerAndPolicy) {
   const std::string page = Paged().text();
@@ -209,143 +150,6 @@ TEST_F(WholePage, IsOneDocumentWithViewerAndPolicy) {
                                               "deck-mesh", "deck-elements"}));
   EXPECT_THAT(page, Not(HasSubstr("id=\"cycle-json\"")));
   EXPECT_THAT(page, Not(HasSubstr("id=\"parts-json\"")));
-}
-
-TEST_F(WholePage, WithoutScriptsHasVerdictAndContacts) {
-  SmallDeck d = plate().add("@/INTER/TYPE7/1 Gapmin=1.5").add("@/INTER/TYPE7/2 Gapmin=0.25");
-  const Paged p(d);
-  const std::string page = p.text();
-  const Verdict verdict = verdict_of(p.b.deck, p.b.scene, p.view);
-  EXPECT_THAT(page, HasSubstr("<main id=\"static\"><h1>small_0000.rad</h1>\n<p data-level=\"" +
-                              std::string(to_string(verdict.level)) + "\">" + verdict.text +
-                              "</p>\n<table>"));
-  const auto row = [&](int id, const char* rest) {
-    const Contact& c = p.b.contact(id);
-    EXPECT_THAT(page,
-                HasSubstr("<tr><td>" + std::to_string(id) + "</td><td>" + c.inter->title + rest));
-  };
-  row(1, "</td><td>primary</td><td>1.5</td><td>1</td><td>1.0</td></tr>\n");
-  row(2,
-      "</td><td>primary</td><td>0.25</td><td>0</td><td>0.0</td></tr>\n</tbody></"
-      "table>\n<noscript>");
-  EXPECT_THAT(page, HasSubstr("needs JavaScript"));
-}
-
-TEST_F(WholePage, IsNamedAfterTheVerbThatWritesIt) {
-  Paged p;
-  const std::string name = "small_0000.rad \xe2\x80\x93 ";
-  EXPECT_EQ(title_of(p.text()), name + "initial penetrations");
-  p.input.path = "C:\\decks\\b.rad";
-  EXPECT_THAT(title_of(p.text()), testing::StartsWith("b.rad "));
-  p.input.path = "somewhere/small_0000.rad";
-  const Built before(plate());
-  p.input.before = &before.model;
-  EXPECT_EQ(title_of(p.text()), name + "before and after");
-  EXPECT_EQ(p.meta()["page"], "gaps");
-  p.input.verb = "fix";
-  EXPECT_EQ(p.meta()["page"], "fix");
-  p.input.verb = nullptr;
-  p.input.parts = &p.b.loaded;
-  EXPECT_EQ(title_of(p.text()), name + "parts");
-  EXPECT_EQ(p.meta()["page"], "parts");
-}
-
-TEST_F(WholePage, OfARepairHasMovedNodesAndWhatItSays) {
-  Paged p;
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0).node(9, 5, 5, 0.25);
-  const Built before(d);
-  p.input.before = &before.model;
-  p.input.repair = "{\"a\": \"<b>\"}";
-  const Json moved = p.packed("deck-moved");
-  EXPECT_EQ(moved["total"], 1);
-  EXPECT_EQ(p.id(moved["rows"][0][0]), 9);
-  EXPECT_EQ(moved["rows"][0][3], 0.25);
-  EXPECT_EQ(p.packed("deck-repair"), Json({{"a", "<b>"}}));
-  EXPECT_EQ(Paged().packed("deck-moved"), Json());
-  EXPECT_EQ(Paged().packed("deck-repair"), Json());
-}
-
-TEST_F(WholePage, HasCrossedElementsThatWereLookedFor) {
-  SmallDeck d = plate();
-  d.node(11, 4, 4, -1).node(12, 4, 5, 1).truss_part(2, 1).bar("TRUSS", 2, 5, 11, 12);
-  d.group("/GRNOD/NODE/3", {11, 12}).add("@/INTER/TYPE7/1 grnd_IDs=3 surf_IDm=1 Gapmin=0.5");
-  Paged p(d);
-  EXPECT_EQ(p.packed("deck-crossed"), Json());
-  const std::vector<Crossing> found = find_crossings(p.b.scene);
-  ASSERT_EQ(found.size(), 1u);
-  p.input.crossings = &found;
-  const Json rows = p.packed("deck-crossed")["rows"];
-  ASSERT_EQ(rows.size(), 1u);
-  EXPECT_EQ(p.id(rows[0][1]), 11);
-  EXPECT_EQ(p.id(rows[0][2]), 12);
-  EXPECT_EQ(rows[0][4], 5);
-}
-
-TEST_F(WholePage, HasEarlierRowsUnderTheNamesOfNow) {
-  // Node 9 of interface 1 was node 77 of interface 70; another row has no counterpart.
-  Paged p;
-  EXPECT_EQ(p.packed("deck-earlier"), Json());
-  EarlierGaps earlier;
-  earlier.path = "earlier.json";
-  earlier.deck_path = "earlier_0000.rad";
-  earlier.rows = {{1, "edges", {5, 6}, 0.375, 2.5, std::array{50.0, 0.0, 0.0}},
-                  {1, "primary", {9, 0}, 0.75, 1.25, std::array{5.0, 5.0, 0.5}}};
-  p.input.earlier = &earlier;
-  EXPECT_EQ(p.packed("deck-earlier"),
-            Json({{"path", "earlier.json"},
-                  {"deck", "earlier_0000.rad"},
-                  {"same_depth", same_depth},
-                  {"rows", {{1, "edges", 5, 6, 0.375, 2.5}, {1, "primary", 9, 0, 0.75, 1.25}}}}));
-  earlier.rows[1].interface_id = 1;
-  earlier.rows[1].secondary = {77, 0};
-  EXPECT_EQ(p.packed("deck-earlier")["rows"][1], Json({1, "primary", 9, 0, 0.75, 1.25}))
-      << "by its place";
-}
-
-TEST_F(WholePage, OfPartsHasTheirDocumentAndTheStepsOfTheirElements) {
-  Paged p;
-  p.input.parts = &p.b.loaded;
-  const std::string page = p.text();
-  EXPECT_EQ(Json::parse(block(page, "parts-json")), Json::parse(parts_json(p.b.loaded, false)));
-  PageBlock steps(block(page, "deck-steps"));
-  const double dt = p.b.loaded.mesh().elements[0].dt[0];
-  EXPECT_EQ(steps.reals(3), (std::vector{dt, dt, dt}));
-}
-
-TEST_F(WholePage, OfForcesHasTheirDocumentCostsAndNodes) {
-  SceneOptions options;
-  options.nodal_stiffness = true;
-  Paged p(plate().add("@/INTER/TYPE7/1 Gapmin=1.5 Istf=1 Stfac=3"), options);
-  const cycle::State state = cycle::make_state(p.b.scene);
-  cycle::CycleOptions with_pairs;
-  with_pairs.keep_pairs = true;
-  const cycle::SceneOutcome outcome = cycle::run_cycle(p.b.scene, state, with_pairs);
-  p.input.cycle = &outcome;
-  p.input.acted = acted_in_page(state, outcome);
-  const Json forces = p.packed("deck-cycle");
-  ASSERT_EQ(forces["contacts"].size(), 1u);
-  EXPECT_EQ(forces["contacts"][0]["with_force"], 1);
-  std::vector<std::int64_t> acted;
-  for (const Json& n : forces["nodes"]) acted.push_back(p.id(n[0]));
-  std::vector<std::int64_t> expected;
-  for (const cycle::ActedNode& n : cycle::acted_nodes(state, outcome))
-    expected.push_back(p.b.model.node_id(n.node));
-  EXPECT_EQ(acted, expected);
-  EXPECT_EQ(p.meta()["page"], "gaps");
-  CycleInput effects;
-  effects.path = p.input.path;
-  effects.deck = &p.b.deck;
-  effects.scene = &p.b.scene;
-  effects.state = &state;
-  effects.outcome = &outcome;
-  effects.view = &p.view;
-  p.input.effects = &effects;
-  const std::string page = p.text();
-  EXPECT_EQ(Json::parse(block(page, "cycle-json")), Json::parse(cycle_json(effects, false)));
-  EXPECT_EQ(title_of(page), "small_0000.rad \xe2\x80\x93 first contact cycle");
-  EXPECT_EQ(Json::parse(block(page, "deck-meta"))["page"], "cycle");
-  EXPECT_THAT(page, HasSubstr(cycle_verdict(effects).text + "</p>"));
 }
 
 TEST(ScriptSafe, NoElementCanBeginOrEnd) {

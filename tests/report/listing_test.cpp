@@ -1,17 +1,12 @@
 // Listings of the Starter read back and held against their decks.
 #include "report/shared/listing.hpp"
 
-#include <nlohmann/json.hpp>
-
-#include "base/shared/columns.hpp"
 #include "deck/text/rule_id.hpp"
-#include "model/shared/mesh.hpp"
 #include "report/inspected.hpp"
 
 namespace deck {
 namespace {
 
-using nlohmann::json;
 using test::Inspected;
 using test::plates;
 
@@ -75,37 +70,6 @@ TEST(ReadListing, RefusesOtherFiles) {
   EXPECT_FALSE(read_listing("/nowhere/x_0000.out", {}).ok());
 }
 
-TEST(ReadListing, TakesTheMessagesWithWhatTheyName) {
-  const Listing listing = read(
-      head(0) +
-      "\nERROR ID :    612\n** ERROR IN INITIAL PENETRATION IN INTERFACE\nDESCRIPTION :  \n"
-      "   -- INTERFACE ID: 9\n   -- INTERFACE TITLE: if9\n   INACTI = 0\n"
-      "   SECONDARY NODE 105 IS ON THE MAIN SURFACE\n       102         1         2         3\n"
-      "\nMESSAGE ID :   1741\n** INFO IN PROPERTY DEFINITION\nDESCRIPTION :  \n"
-      "   CONCERNING 2 PROPERTY(S)\n   PROPERTY ID=8   ,  PROPERTY TITLE: foam,  ICPRE=3\n"
-      "   PROPERTY ID=9   ,  PROPERTY TITLE: back,  ICPRE=3\n"
-      "\nERROR ID :    558\n** ERROR\nDESCRIPTION :\n   -- INTERFACE ID: 2\n"
-      "   MAIN SEGMENT DEFINED BY NODES 1 3 2 4\n");
-  ASSERT_EQ(listing.messages.size(), 3u);
-  const ListedMessage& first = listing.messages[0];
-  EXPECT_EQ(first.number, 612);
-  EXPECT_EQ(first.severity, Severity::error);
-  EXPECT_EQ(first.line, 4u);
-  ASSERT_EQ(first.ids.size(), 1u);
-  EXPECT_EQ(first.ids[0].kind, "INTERFACE");
-  EXPECT_EQ(first.ids[0].id, 9);
-  EXPECT_EQ(first.ids[0].title, "if9");
-  EXPECT_EQ(first.nodes, std::vector<std::int64_t>{105});
-  EXPECT_FALSE(first.count);
-  const ListedMessage& second = listing.messages[1];
-  EXPECT_EQ(second.severity, Severity::info);
-  ASSERT_EQ(second.ids.size(), 2u);
-  EXPECT_EQ(second.ids[1].title, "back");
-  EXPECT_EQ(second.count, 2u);
-  EXPECT_EQ(listing.messages[2].nodes, (std::vector<std::int64_t>{1, 3, 2, 4}));
-  EXPECT_FALSE(listing.errors) << "it has no end";
-}
-
 TEST(ReadListing, KeepsTheLastPassOfAContact) {
   const Listing listing = read(listing_of_plates());
   ASSERT_EQ(listing.contacts.size(), 1u);
@@ -119,48 +83,6 @@ TEST(ReadListing, KeepsTheLastPassOfAContact) {
   EXPECT_EQ(listing.printout, 5);
   EXPECT_EQ(listing.errors, 0u);
   EXPECT_EQ(listing.warnings, 1u);
-}
-
-TEST(ReadListing, GivesAPartWithoutHeaderTheInterfaceOfItsMessage) {
-  const Listing listing = read(head(0) + contact_head(3, 19) + total(3, 2, 2) +
-                               "  POSSIBLE IMPACT NUMBER:          21  (<= 2 *NSN)\n" +
-                               total(3, 9, 4) + "  POSSIBLE IMPACT NUMBER:   1  (<= 7 *NSN)\n");
-  ASSERT_EQ(listing.contacts.size(), 3u);
-  EXPECT_EQ(listing.contacts[0].type, 19);
-  EXPECT_EQ(listing.contacts[1].interface, 3);
-  EXPECT_EQ(listing.contacts[1].type, 0);
-  EXPECT_EQ(listing.contacts[1].total, 9u);
-  EXPECT_EQ(listing.contacts[2].interface, 0);
-}
-
-TEST(ReadListing, MarksTheNodesOnASegment) {
-  const std::string on =
-      "  ** INITIAL PENETRATION = 0.1E+01 IMPOSSIBLE TO MOVE SECONDARY NODE     ";
-  const Listing shown =
-      read(head(1) + contact_head(1, 7) + pairs_head + row({5, 1, 2, 3, 4}) + on + "5\n");
-  ASSERT_EQ(shown.contacts[0].pairs.size(), 1u);
-  EXPECT_TRUE(shown.contacts[0].pairs[0].on_segment);
-  const Listing hidden = read(head(0) + contact_head(1, 7) + on + "5\n" + on + "6\n");
-  ASSERT_EQ(hidden.contacts[0].pairs.size(), 2u);
-  EXPECT_EQ(hidden.contacts[0].pairs[1].secondary[0], 6);
-  EXPECT_EQ(hidden.contacts[0].pairs[1].main[0], 0);
-}
-
-TEST(ReadListing, TakesTheTablesOfTimeSteps) {
-  const Listing listing = read(head(0) +
-                               "         SHELL ELEMENTS TIME STEP\n         ----------\n\n"
-                               "      TIME STEP       ELEMENT NUMBER\n"
-                               "  1.5E-03              7\n  1.0000000000000E+30          9\n\n"
-                               "         TRIANGULAR SHELL ELEMENTS TIME STEP\n         ---\n\n"
-                               "      TIME STEP       ELEMENT NUMBER\n  2.5E-03    8\n\n"
-                               "         NODAL TIME STEP (estimation)\n         ---\n\n"
-                               "      TIME STEP       NODE NUMBER\n  1.0E-03   3\n\n"
-                               "         NODAL TIME STEP DISTRIBUTION\n  4.0E-03   5\n");
-  ASSERT_EQ(listing.element_steps.at(ElementKind::shell4).size(), 2u);
-  EXPECT_EQ(listing.element_steps.at(ElementKind::shell4)[0].id, 7);
-  ASSERT_EQ(listing.element_steps.at(ElementKind::shell3).size(), 1u);
-  ASSERT_EQ(listing.node_steps.size(), 1u);
-  EXPECT_EQ(listing.node_steps[0].dt, 1e-3);
 }
 
 TEST(CompareListing, MatchesPairByPairAndLeadsToTheCard) {
@@ -203,21 +125,6 @@ TEST(CompareListing, TellsWhatOnlyOneSideHas) {
             1);
 }
 
-TEST(CompareListing, HoldsStepsAgainstTheMesh) {
-  Inspected deck(plates());
-  const double dt = deck.loaded.mesh().of(ElementKind::shell4).dt[0];
-  const Listing listing = read(head(0) + fmt::format("   SHELL ELEMENTS TIME STEP\n   ---\n\n"
-                                                     "  TIME STEP  ELEMENT NUMBER\n  {:.13E}   1\n"
-                                                     "  {:.13E}   2\n  1.0E-03   77\n\n",
-                                                     dt, dt * 1.1));
-  const ListingReport report = compare_listing(listing, deck.loaded);
-  ASSERT_EQ(report.steps.size(), 1u);
-  EXPECT_EQ(report.steps[0].equal, 1u);
-  ASSERT_EQ(report.steps[0].different.size(), 2u);
-  EXPECT_TRUE(std::isnan(report.steps[0].different[1].computed));
-  EXPECT_FALSE(report.agrees());
-}
-
 TEST(CompareListing, NamesWhatDeckExpectsAndTheListingDoesNotHave) {
   Inspected deck(plates());
   const Listing listing = read(head(0) + end);
@@ -236,37 +143,6 @@ TEST(ExplainListing, NeedsNoDeck) {
             std::string::npos)
       << text;
   EXPECT_EQ(text.find("Time steps"), std::string::npos);
-}
-
-TEST(ListingText, LeadsFromTheNumberToTheRows) {
-  Inspected deck(plates());
-  const Listing listing = read(listing_of_plates());
-  const ListingReport report = compare_listing(listing, deck.loaded);
-  const std::string text = listing_text(listing, report, &deck.loaded, {.width = 80});
-  for (const char* expected : {"interface 1 'example', test_0000.rad:", "number in the message: 4",
-                               "DK301", "4 the same", "1 2 3 4", "2 on 1"})
-    EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const std::size_t line_end = std::min(text.find('\n', at), text.size());
-    EXPECT_LE(display_width(text.substr(at, line_end - at)), 80u) << text.substr(at, line_end - at);
-    at = line_end + 1;
-  }
-}
-
-TEST(ListingJson, HasThePairsWithTheirDepths) {
-  Inspected deck(plates());
-  const Listing listing = read(listing_of_plates());
-  const ListingReport report = compare_listing(listing, deck.loaded);
-  const json document = json::parse(listing_json(listing, report, &deck.loaded));
-  EXPECT_EQ(document["schema"]["id"], "deck/explain");
-  EXPECT_EQ(document["agrees"], true);
-  const json& pair = document["contacts"][0]["pairs"][0];
-  EXPECT_EQ(pair["listed"], true);
-  EXPECT_EQ(pair["listed_penetration"], 0.1);
-  EXPECT_EQ(pair["parts"], json({2, 1}));
-  EXPECT_TRUE(
-      json::parse(listing_json(listing, explain_listing(listing), nullptr))["deck"].is_null());
 }
 
 }  // namespace

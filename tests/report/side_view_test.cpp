@@ -12,7 +12,6 @@ namespace deck::test {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// A node 0.5 above a shell of thickness 2, in the interfaces that `cards` say.
 SmallDeck node_over_shell(const std::string& cards) {
@@ -130,143 +129,6 @@ TEST(SideView, OfASolidHasNoHalfAndOfOneNodeThatOfItsShell) {
   EXPECT_NEAR(attribute(svg, "data-scale"), 160 / (2 + 0.24), 1e-12);
 }
 
-/// A row of a TYPE7 whose figures are set here.
-struct Drawn {
-  explicit Drawn(const char* card = "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1.25")
-      : b(node_over_shell(card)), pair(found(b, "9/1-2-3-4")) {}
-  PenetrationRow& row() { return b.scene.contacts[pair.contact].penetrations[pair.row]; }
-  std::string svg() const { return side_view_svg(b.scene, pair); }
-  Built b;
-  FoundPair pair;
-};
-
-/// Heights over the surface of all elements of a kind, in their order.
-std::vector<double> heights(const std::string& svg, const std::string& begin, const char* name,
-                            double low) {
-  std::vector<double> out;
-  for (auto at = svg.find(begin); at != svg.npos; at = svg.find(begin, at + 1))
-    out.push_back((190 - attribute(svg, name, at)) / attribute(svg, "data-scale") + low);
-  return out;
-}
-
-TEST(SideView, EveryShapeIsAtItsHeight) {
-  Drawn d;
-  d.row().action = PenetrationAction::node_moved;
-  d.row().moved_by = {0.6, 0, 0.8};  // 1 long
-  const std::string svg = d.svg();
-  // From 1 below the surface, the half of the shell, to the moved node at 1.5.
-  const double low = -1, scale = attribute(svg, "data-scale");
-  EXPECT_NEAR(scale, 160 / 2.5, 1e-12);
-  EXPECT_EQ(attribute(svg, "data-gap"), 1.25);
-  EXPECT_EQ(attribute(svg, "data-depth"), 0.75);
-  EXPECT_EQ(attribute(svg, "data-distance"), 0.5);
-  const auto near = [](const std::vector<double>& found, const std::vector<double>& expected) {
-    ASSERT_EQ(found.size(), expected.size());
-    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-3);
-  };
-  near(heights(svg, "<rect class='band'", "y", low), {1.25});
-  near(heights(svg, "<rect class='main'", "y", low), {1.0});
-  const auto tall = [&](const char* kind) {
-    return attribute(svg, "height", svg.find(std::string("<rect class='") + kind)) / scale;
-  };
-  EXPECT_NEAR(tall("band"), 1.25, 1e-3);
-  EXPECT_NEAR(tall("main"), 2.0, 1e-3);
-  near(heights(svg, "<line class='surface'", "y1", low), {0.0});
-  near(heights(svg, "<line class='gap-end'", "y2", low), {1.25});
-  near(heights(svg, "<line class='gap-length'", "y1", low), {0.0});
-  near(heights(svg, "<line class='gap-length'", "y2", low), {1.25});
-  near(heights(svg, "<line class='distance'", "y1", low), {0.0});
-  near(heights(svg, "<line class='distance'", "y2", low), {0.5});
-  near(heights(svg, "<line class='depth'", "y1", low), {0.5});
-  near(heights(svg, "<line class='depth'", "y2", low), {1.25});
-  near(heights(svg, "<circle class='dot'", "cy", low), {0.5});
-  near(heights(svg, "<circle class='half'", "cy", low), {0.5});
-  near(heights(svg, "<circle class='ghost'", "cy", low), {1.5, 1.5});
-  EXPECT_THAT(svg, HasSubstr(">moved here</text>"));
-  EXPECT_THAT(svg, Not(HasSubstr("left of the gap")));
-  EXPECT_THAT(svg, HasSubstr(">segment</text>"));
-  EXPECT_THAT(svg, HasSubstr(">gap 1.25</text>"));
-  EXPECT_THAT(svg, HasSubstr("class='deep' x='268'"));
-  EXPECT_THAT(svg, HasSubstr(">depth 0.75</text>"));
-  for (const char* kind : {"gap-length", "distance", "depth"}) {
-    const auto at = svg.find(std::string("<line class='") + kind);
-    EXPECT_EQ(attribute(svg, "x1", at), std::string(kind) == "gap-length" ? 18 : 130) << kind;
-    EXPECT_EQ(attribute(svg, "x2", at), attribute(svg, "x1", at));
-  }
-  const auto level = svg.find("<line class='surface'");
-  EXPECT_EQ(attribute(svg, "x1", level), 10);
-  EXPECT_EQ(attribute(svg, "x2", level), 250);
-  EXPECT_EQ(attribute(svg, "cx", svg.find("<circle class='dot'")), 130);
-  EXPECT_EQ(attribute(svg, "width", svg.find("<rect class='band'")), 240);
-}
-
-TEST(SideView, WhatIsSwitchedOffIsDashed) {
-  Drawn d;
-  EXPECT_THAT(d.svg(), HasSubstr("<line class='surface' "));
-  EXPECT_THAT(d.svg(), HasSubstr("<circle class='dot' "));
-  for (const auto action :
-       {PenetrationAction::segment_stiffness_zero, PenetrationAction::edge_stiffness_zero}) {
-    d.row().action = action;
-    EXPECT_THAT(d.svg(), HasSubstr("<line class='surface off' "));
-    EXPECT_THAT(d.svg(), HasSubstr("<circle class='dot' "));
-  }
-  d.row().action = PenetrationAction::node_stiffness_zero;
-  EXPECT_THAT(d.svg(), HasSubstr("<line class='surface' "));
-  EXPECT_THAT(d.svg(), HasSubstr("<circle class='dot off' "));
-}
-
-TEST(SideView, WhatIsLeftOfTheGapIsNamedUnlessItIsNearlyAll) {
-  Drawn d;
-  d.row().has_gap0 = true;
-  d.row().gap0 = 0.4;
-  EXPECT_THAT(d.svg(), HasSubstr(">left of the gap 0.4</text>"));
-  EXPECT_THAT(d.svg(), HasSubstr("<line class='ghost' "));
-  d.row().gap0 = 0.98 * 1.25;
-  EXPECT_THAT(d.svg(), Not(HasSubstr("left of the gap")));
-  EXPECT_THAT(d.svg(), HasSubstr("<line class='ghost' "));
-  d.row().has_gap0 = false;
-  EXPECT_THAT(d.svg(), Not(HasSubstr("<line class='ghost' ")));
-  // TYPE25 takes off what it stores.
-  d.row().action = PenetrationAction::offset_stored;
-  d.row().p0 = 0.5;
-  EXPECT_THAT(d.svg(), HasSubstr(">left of the gap 0.75</text>"));
-}
-
-TEST(SideView, NamesKeepSixteenApart) {
-  Drawn d;
-  d.row().has_gap0 = true;
-  d.row().gap0 = 1.1;
-  const std::string svg = d.svg();
-  std::vector<double> y;
-  for (auto at = svg.find("<path class='leader'"); at != svg.npos;
-       at = svg.find("<path class='leader'", at + 1))
-    y.push_back(attribute(svg, "y", svg.find("<text", at)));
-  ASSERT_EQ(y.size(), 4u);
-  for (std::size_t i = 1; i < y.size(); ++i) EXPECT_LE(y[i], y[i - 1] - 16 + 1e-9);
-  // From below: segment, depth, what is left, gap.
-  const auto at = [&](const char* text) { return svg.find(text, svg.find("class='leader' d=")); };
-  EXPECT_LT(at(">segment<"), at(">depth 0.75<"));
-  EXPECT_LT(at(">depth 0.75<"), at(">left of the gap"));
-  EXPECT_LT(at(">left of the gap"), at(">gap 1.25<"));
-}
-
-TEST(SideView, ALongTitleMakesAWideDrawing) {
-  Drawn d;
-  EXPECT_EQ(attribute(d.svg(), "width"), 420);
-  SmallDeck far;
-  far.node(1000000001, 0, 0, 0).node(1000000002, 10, 0, 0).node(1000000003, 10, 10, 0);
-  far.node(1000000004, 0, 10, 0).node(1000000009, 5, 5, 0.5).shell_part(1, 2);
-  far.shell(1, 1, 1000000001, 1000000002, 1000000003, 1000000004).group("/SURF/PART/1", {1});
-  far.group("/GRNOD/NODE/2", {1000000009});
-  const Built b(far.add("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1.25"));
-  const std::string svg =
-      side_view_svg(b.scene, found(b, "1000000009/1000000001-1000000002-1000000003-1000000004"));
-  const std::string title =
-      "Interface 1 TYPE7: node 1000000009 on segment 1000000001-1000000002-1000000003-1000000004";
-  EXPECT_THAT(svg, HasSubstr("<text x='10' y='18'>" + title + "</text>"));
-  EXPECT_EQ(attribute(svg, "width"), 20 + 7.5 * static_cast<double>(title.size()));
-}
-
 TEST(SideView, EquationsTellOnWhichSideTheNodeIs) {
   EXPECT_EQ(pair_equation({1.25, 0.75, 0.5, 0.5, 0, 0}), "depth 0.75 = gap 1.25 - distance 0.5");
   EXPECT_EQ(pair_equation({1.25, 1.75, -0.5, 0.5, 0, 0}),
@@ -277,25 +139,6 @@ TEST(SideView, EquationsTellOnWhichSideTheNodeIs) {
   EXPECT_THAT(pair_equation({2, 1, 1, 1 + 1.9e-6, 0, 0}), HasSubstr(" - distance"));
   EXPECT_THAT(pair_equation({2, 1, 1, 1 + 2.1e-6, 0, 0}), HasSubstr("rounded off"));
   EXPECT_THAT(pair_equation({1, 2, -1, 1 + 1.9e-6, 0, 0}), HasSubstr(" + distance"));
-}
-
-TEST(SideView, OfRowsThatNamesFitTheDeepestIsTaken) {
-  // Both directions of a TYPE19 have edge pairs of the same nodes; here the second row is deeper.
-  Drawn d;
-  auto& rows = d.b.scene.contacts[d.pair.contact].penetrations;
-  rows.push_back(rows[0]);
-  rows[1].depth = 0.875;
-  EXPECT_EQ(found(d.b, "9/1-2-3-4").row, 1u);
-  rows[0].depth = 0.9;
-  EXPECT_EQ(found(d.b, "9/1-2-3-4").row, 0u);
-  EXPECT_EQ(find_pair(d.b.scene, parse_pair("9/1-2-3").value()).error().message,
-            "no pair of these nodes penetrates");
-  EXPECT_EQ(find_pair(d.b.scene, parse_pair("9/1-2-3-4").value(), 8).error().message,
-            "no pair of these nodes penetrates in interface 8");
-  EXPECT_EQ(
-      side_view_text(d.b.scene, {d.pair.contact, 1}),
-      "Interface 1 TYPE7: node 9 on segment 1-2-3-4\ndepth 0.875 of a gap of 1.25: at the rim "
-      "of a surface the gap is rounded off\n");
 }
 
 }  // namespace

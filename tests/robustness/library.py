@@ -89,27 +89,6 @@ def as_by_hand(c, tmp):
     c.check("to JSON and back: every byte", r.code == 0 and b.code == 0 and decks_of(both[1]) == tree(lib), r.text[-200:] + b.text[-200:])
 
 
-def own_names(c, tmp):
-    """An include of the name of a result of the batch is refused, however the directory is written."""
-    lib = os.path.join(tmp, "nlib")
-    library(lib, 1, 1)
-    deck = os.path.join(lib, "deck_0000.rad")
-    with open(os.path.join(lib, "family000", "deck00", "car00_0000.rad")) as f:
-        text = f.read().replace("../common/mat.inc", "summary.json").replace("../common/", "family000/common/")
-    with open(deck, "w") as f:
-        f.write(text)
-    os.rename(os.path.join(lib, "family000", "common", "mat.inc"), os.path.join(lib, "summary.json"))
-    os.mkdir(os.path.join(tmp, "x"))
-    for written in ("nout", "nout/", "./nout//", "x/../nout"):
-        out = os.path.join(tmp, written)
-        shutil.rmtree(os.path.join(tmp, "nout"), ignore_errors=True)
-        r = c.run("batch", "-o", out, deck, "--verb", "convert --units kg,m,s")
-        with open(os.path.join(tmp, "nout", "summary.json")) as f:
-            summary = f.read()
-        c.check("-o %s: the summary is the batch's own" % written, r.code != 0 and "a file of the batch itself" in r.text and
-                summary.startswith("{"), "%s %s" % (r.code, r.text[-300:]))
-
-
 def divided(c, tmp):
     """Shards keep decks that share files together, and merge into the same bytes."""
     lib, one, out = (os.path.join(tmp, n) for n in ("dlib", "one", "parts"))
@@ -361,32 +340,6 @@ def read_once(c, tmp, shim):
     c.check("the decks are as they were", tree(lib) == before)
 
 
-def times(c, tmp, families, each):
-    """Against copying the library and parsing it once."""
-    lib = os.path.join(tmp, "time")
-    library(lib, families, each, side=12)
-    names = sorted(os.path.join(lib, k) for k in tree(lib) if k.endswith("_0000.rad"))
-    best = {}
-    for turn in range(3):
-        for what in ("copy", "parse", 1, 2):
-            # Never one that was just removed: ext4 avoids such inodes and looks long for others.
-            out = os.path.join(tmp, "t-out-%d-%s" % (turn, what))
-            start = time.monotonic()
-            if what == "copy":
-                shutil.copytree(lib, out)
-            elif what == "parse":
-                c.run("params", *names, "--json", os.devnull, "-q", "--threads", "1", timeout=600)
-            else:
-                c.run("batch", "-o", out, lib, "--verb", "convert --units kg,m,s", "--jobs", what, "--threads", "1", timeout=600)
-            best[what] = min(best.get(what, 1e9), time.monotonic() - start)
-    base = best["copy"] + best["parse"]
-    print("%d decks: copied and parsed once in %.2f s; converted and verified with one job %.2f s (%.2f x), two %.2f s (%.2f x)" % (
-        len(names), base, best[1], best[1] / base, best[2], best[2] / base))
-    if not c.sanitized:
-        for jobs in (1, 2):
-            c.check("%d jobs take at most 3 times what copying and parsing takes" % jobs, best[jobs] <= 3 * base, "%.2f" % (best[jobs] / base))
-
-
 def first_interfaces(c, directory):
     """The decks below a directory by the id of their first interface."""
     found = {}
@@ -402,7 +355,7 @@ def first_interfaces(c, directory):
 
 
 def corpus(c, tmp):
-    """The decks outside the project as one tree: up, units there and back, extract, JSON and back, all verified."""
+    """The decks outside the project as one tree: up, units there and back, extract, all verified."""
     top = os.path.join(c.options.corpus, "corpus")
     if not os.path.isdir(top):
         return c.skip("corpus", "no decks under %s (set DECK_CORPUS)" % c.options.corpus)
@@ -429,12 +382,6 @@ def corpus(c, tmp):
         for k, v in step(os.path.join(place, "extract", str(number)), decks, "convert --extract-contacts %d" % number).items():
             totals[k] = totals.get(k, 0) + v
     print("corpus: convert --extract-contacts, the first of each deck: %s" % totals)
-    for name, at in (("whole", at), ("contacts", os.path.join(place, "extract"))):
-        json_out, back = os.path.join(place, name + "-json"), os.path.join(place, name + "-rad")
-        print("corpus: JSON of %s: %s" % (name, step(json_out, [at], "convert --to json")))
-        print("corpus: and back: %s" % step(back, [json_out], "convert --from json"))
-        written = {k: v for k, v in decks_of(at).items() if os.path.basename(k) not in ("summary.json", "index.html", "losses.json")}
-        c.check("corpus: JSON of %s and back: every byte" % name, written and decks_of(back) == written, differing(decks_of(back), written))
 
 
 def main():
@@ -442,7 +389,6 @@ def main():
     tmp = tempfile.mkdtemp(prefix="deck-library-")
     try:
         as_by_hand(c, tmp)
-        own_names(c, tmp)
         divided(c, tmp)
         together_or_not(c, tmp)
         in_place(c, tmp)
@@ -455,7 +401,6 @@ def main():
         killed(c, tmp, families, each, kills, ["batch", "-o", "out", ".", "--verb", "convert --units kg,m,s", "--jobs", "2"], "out", "below another directory")
         killed(c, tmp, families, each, kills, ["batch", "-o", "out", ".", "--verb", "convert --renumber node+1000 --in-place", "--jobs", "2"], ".", "in place")
         if big:
-            times(c, tmp, 250, 4)
             corpus(c, tmp)
     finally:
         shutil.rmtree(tmp, ignore_errors=True)

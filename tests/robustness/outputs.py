@@ -226,11 +226,6 @@ def looks(c, tmp):
         if c.run("convert", path, "--units", "Mg,mm,s", "-o", copy + "-units").code == 0:
             r = c.run("diff", path, os.path.join(copy + "-units", os.path.basename(path)))
             c.check("%s in other units is the same deck" % stem, r.code == 0, r.out.decode()[:300])
-    for verb, args in (("show", ("1",)), ("diff", (SAMPLES[1],)), ("params", ("--matrix",))):
-        for width in ("80", "120", "200"):
-            r = c.run(verb, SAMPLES[0], *args, env={"COLUMNS": width})
-            wide = [x for x in r.out.decode().split("\n") if x.startswith("  ") and len(x) > int(width)]
-            c.check("%s in %s columns" % (verb, width), not wide, wide[:2])
 
 
 def same_bytes(c, tmp):

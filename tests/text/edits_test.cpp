@@ -64,23 +64,6 @@ TEST(CellWriter, GoOnBehindACellThatTheEndOfTheLineCuts) {
   EXPECT_EQ(l.after(cells), "01234    5    9\r\nnext\n");
 }
 
-TEST(CellWriter, HandItsEditsOutOnce) {
-  const Lines l("0123456789\n1,2,3\n");
-  CellWriter cells(l.sources);
-  EXPECT_TRUE(cells.empty());
-  cells.set({0, 0, 0}, 1, 5, "1");
-  EXPECT_FALSE(cells.empty());
-  cells.replace({0, 1, 13}, "7");
-  const std::vector<TextEdit> edits = cells.finish();
-  ASSERT_EQ(edits.size(), 2u) << "cells of columns, then those of free lines";
-  EXPECT_EQ(edits[0].text, "    1");
-  EXPECT_EQ(edits[1].text, "7");
-  EXPECT_EQ(edits[1].span.offset, 13u);
-  EXPECT_EQ(edits[1].span.length, 1u);
-  EXPECT_TRUE(cells.empty());
-  EXPECT_TRUE(cells.finish().empty());
-}
-
 TEST(CellWriter, PutATextAtTheRightOfItsColumns) {
   const auto put = [](std::string line, int first, int last, std::string_view text) {
     CellWriter::put(line, first, last, text);
@@ -110,14 +93,6 @@ TEST(CellWriter, EditInPlaceEndsWhereTheTextBeforeEnded) {
   for (const std::string end : {"", "\n", "\r\n", "\r"})
     EXPECT_EQ(edited("ab 1" + end, 3, 7, "7"), "ab 7" + end) << "the line ends in the cell";
   EXPECT_EQ(edited("ab 1\r2\n", 3, 6, "7"), "ab   7\n") << "no end of a line";
-}
-
-TEST(CellWriter, KeepTheLastTextOfACell) {
-  const Lines l("0123456789\n");
-  CellWriter cells(l.sources);
-  cells.set({0, 0, 0}, 1, 5, "1");
-  cells.set({0, 0, 3}, 1, 5, "2");
-  EXPECT_EQ(l.after(cells), "    256789\n");
 }
 
 TEST(CellWriter, ChangeNothingButTheirColumns) {

@@ -274,20 +274,6 @@ TEST(ReduceGap, ChangesNoMoreThanTheNearestPairNeeds) {
   }
 }
 
-TEST(ReduceGap, IsRefusedBelowTheLeastShareAndTakenAtIt) {
-  const Built before(at_heights({0.75}, "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=2.0"));
-  EXPECT_TRUE(reduced(before, {}, 0.375).complete);
-  const PenetrationFix fix = reduced(before, {}, 0.376);
-  EXPECT_FALSE(fix.complete);
-  EXPECT_TRUE(fix.rewrite.edits.empty());
-  ASSERT_EQ(fix.refused.size(), 1u);
-  EXPECT_EQ(fix.refused[0].interface_id, 1);
-  EXPECT_EQ(fix.refused[0].depth, 1.25);
-  EXPECT_EQ(fix.refused[0].reason,
-            "the gap would shrink to 37.5 % of what it is, less than the 37.6 % allowed "
-            "(--min-gap): move the nodes instead");
-}
-
 TEST(ReduceGap, KeepsTheUnitsOfTheCard) {
   const auto source = Source::open(sample("units_and_parameters"), Limits{});
   ASSERT_TRUE(source.ok());
@@ -399,43 +385,6 @@ TEST(SetInacti, RefusesWhatStopsTheSolver) {
   EXPECT_TRUE(with_inacti(before, 1).complete);
 }
 
-std::vector<std::pair<std::int64_t, std::string>> refusals(const PenetrationFix& fix) {
-  std::vector<std::pair<std::int64_t, std::string>> out;
-  for (const FixRefusal& r : fix.refused) out.emplace_back(r.interface_id, r.reason);
-  return out;
-}
-
-TEST(SetInacti, SaysOfHowManyPairsTheSolverStopsAndOfHowManyItDoesNothing) {
-  using Refusals = std::vector<std::pair<std::int64_t, std::string>>;
-  const std::string card = "@/INTER/TYPE7/4 grnd_IDs=1 surf_IDm=1 Gapmin=1.0 Inacti=";
-  const std::string instead =
-      "): move these nodes, switch them off with Inacti 1, or set Fpenmax first (--strategy "
-      "fpenmax)";
-  const std::string stops =
-      " whose nodes lie exactly on a segment (error 611/612): move the nodes, or switch them off "
-      "with --inacti 1";
-  const std::string nothing = "the solver still does nothing about ";
-  const auto said = [&](const std::vector<double>& heights, const char* now, int wanted) {
-    const PenetrationFix fix = with_inacti(Built(at_heights(heights, card + now)), wanted);
-    EXPECT_TRUE(fix.rewrite.edits.empty());
-    return refusals(fix);
-  };
-  EXPECT_EQ(said({0, 0, 0.6}, "3", 6),
-            (Refusals{{4,
-                       "2 pairs at distance 0, at which the solver stops with Inacti 6 (error "
-                       "611" +
-                           instead}}));
-  EXPECT_EQ(said({0, 0.6}, "1", 0),
-            (Refusals{{4,
-                       "1 pair at distance 0, at which the solver stops with Inacti 0 (error "
-                       "612" +
-                           instead}}));
-  EXPECT_EQ(said({0.6}, "0", 0), (Refusals{{4, nothing + "1 pair: Inacti is 0"}}));
-  EXPECT_EQ(said({0, 0.6, 0.7}, "0", 0),
-            (Refusals{{4, nothing + "2 pairs: Inacti is 0; it stops at 1 pair" + stops}}));
-  EXPECT_EQ(said({0, 0, 0.6}, "6", 6), (Refusals{{4, "the solver stops at 2 pairs" + stops}}));
-}
-
 TEST(SetInacti, OtherValuesAreAnError) {
   const Built before(touching("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
   for (const int value : {-2, 4, 7, 42}) {
@@ -505,27 +454,6 @@ TEST(SetFpenmax, OtherTypesHaveNone) {
   }
 }
 
-TEST(SetFpenmax, ReplacesAnotherValueAndKeepsTheSame) {
-  const std::string card = "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0 Inacti=6 ";
-  const Built blank(touching(card)), set(touching(card + "Fpenmax=0.25"));
-  for (const double ratio : {0.75, 1.0}) {
-    const PenetrationFix of_set = with_fpenmax(set, ratio), of_blank = with_fpenmax(blank, ratio);
-    const FieldChange *from = change(of_set, "Fpenmax"), *first = change(of_blank, "Fpenmax");
-    ASSERT_TRUE(from != nullptr && first != nullptr);
-    EXPECT_EQ(from->old_text, "0.25");
-    EXPECT_EQ(from->old_value, 0.25);
-    EXPECT_EQ(first->old_text, "");
-    EXPECT_EQ(first->old_value, 0.0);
-    for (const FieldChange* c : {from, first}) {
-      EXPECT_EQ(c->new_value, ratio);
-      EXPECT_EQ(std::stod(c->new_text), ratio);
-    }
-    EXPECT_EQ(Built(text_after(set, of_set)).interfaces.type7.at(0).Fpenmax.value, ratio);
-  }
-  EXPECT_TRUE(with_fpenmax(set, 0.25).rewrite.edits.empty());
-  EXPECT_TRUE(with_fpenmax(set).rewrite.edits.empty()) << "nothing stops the solver";
-}
-
 /// The smallest share of three digits that keeps the deepest of the other pairs; 1 would keep the
 /// pairs at distance 0, too.
 TEST(SetFpenmax, IsJustAboveTheDeepestPairThatIsNotAtDistanceZero) {
@@ -558,27 +486,6 @@ TEST(SetFpenmax, IsJustAboveTheDeepestPairThatIsNotAtDistanceZero) {
             "a pair is so close to distance 0 that no Fpenmax drops only the pairs at 0; give a "
             "ratio (--fpenmax)");
   EXPECT_TRUE(fix({0.5, 1.5}).rewrite.edits.empty()) << "nothing stops the solver";
-}
-
-TEST(SetFpenmax, ActionsAreByInterfaceAndTheDeepestFirst) {
-  const std::string end = " grnd_IDs=1 surf_IDm=1 Gapmin=2.0 Inacti=6";
-  const Built before(at_heights({1.5, 0.5, 1.25}, "@/INTER/TYPE7/5" + end + " Fpenmax=0.9\n" +
-                                                      "@/INTER/TYPE7/3" + end + " Fpenmax=0.9"));
-  const PenetrationFix fix = with_fpenmax(before, 0.5);
-  using Action = std::tuple<std::int64_t, std::int64_t, double, double, PenetrationAction,
-                            PenetrationAction, bool>;
-  std::vector<Action> actions;
-  for (const FixAction& a : fix.actions)
-    actions.emplace_back(a.interface_id, a.secondary.at(0), a.depth, a.gap, a.before, a.after,
-                         a.stops);
-  std::vector<Action> expected;
-  const auto kept = PenetrationAction::gap_reduced, off = PenetrationAction::node_stiffness_zero;
-  for (const std::int64_t id : {3, 5}) {
-    expected.emplace_back(id, 101, 1.5, 2.0, kept, off, false);
-    expected.emplace_back(id, 102, 0.75, 2.0, kept, kept, false);
-    expected.emplace_back(id, 100, 0.5, 2.0, kept, kept, false);
-  }
-  EXPECT_EQ(actions, expected);
 }
 
 TEST(SetFpenmax, ARatioOutsideItsRangeIsAnError) {

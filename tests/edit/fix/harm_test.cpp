@@ -74,29 +74,5 @@ TEST(Harm, AFixThatHarmsIsTakenBackAndSaysWhy) {
   EXPECT_EQ(good.tied_pairs, 1u);
 }
 
-TEST(Harm, IsSaidOfTheWorstWithHowManyMore) {
-  const Built b(node_over_plate(0.4));
-  Harm deep;
-  deep.pair.contact = 0;
-  deep.pair.secondary = {b.model.nodes.map.find(100), no_index};
-  deep.before = 0.125;
-  deep.after = 0.25;
-  const auto said = [&](const std::vector<Harm>& all) {
-    return *detail::harm_text(b.model, b.scene, all);
-  };
-  EXPECT_EQ(detail::harm_text(b.model, b.scene, {}), std::nullopt);
-  EXPECT_EQ(said({deep}), "interface 1, node 100 would be 0.25 deep instead of 0.125");
-  EXPECT_EQ(said({deep, deep}),
-            "interface 1, node 100 would be 0.25 deep instead of 0.125 (and 1 more)");
-  EXPECT_EQ(said({deep, deep, deep}),
-            "interface 1, node 100 would be 0.25 deep instead of 0.125 (and 2 more)");
-  deep.before = 0;
-  EXPECT_EQ(said({deep}), "interface 1, node 100 would penetrate by 0.25");
-  deep.tie = true;
-  EXPECT_EQ(said({deep}), "interface 1, node 100 would be tied to another segment");
-  deep.after = 0;
-  EXPECT_EQ(said({deep}), "interface 1, node 100 would come off its tie");
-}
-
 }  // namespace
 }  // namespace deck::test

@@ -7,7 +7,6 @@
 namespace deck::test {
 namespace {
 
-using detail::Translation;
 using detail::translations_for;
 using detail::WayOut;
 
@@ -56,11 +55,6 @@ TEST(Translations, AreNoMoreThanAsked) {
       EXPECT_LE(norm(all[i - 1].by), norm(all[i].by) * (1 + 1e-9));
     }
   }
-}
-
-TEST(MovePart, HasItsName) {
-  const Built before(two_plates(1, 0.45, "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
-  EXPECT_EQ(moved(before).strategy, "move-part");
 }
 
 TEST(Translations, NeverGoAgainstANormal) {

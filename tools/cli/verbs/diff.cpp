@@ -182,7 +182,7 @@ Action setup(CommandLine& line) {
   line.option("--tolerance", options->tolerance,
               "Numbers that differ by less than this share of their size are equal (coordinates "
               "and lengths: of the size of the model)")
-      .range(0, 1)
+      .range(0.0, 1.0)
       .value("X")
       .show_default();
   line.flag("--no-geometry", options->no_geometry,
