@@ -29,9 +29,6 @@ constexpr std::string_view schema_text = R"({"schemas":[
   {"name":"last","optional":true,"fields":[{"name":"t","cols":[1,40],"type":"text"}]}]},
  {"keyword":"/X/IDS","cards":[{"name":"ids","repeat":"ids","fields":[
     {"name":"item","cols":[1,10],"type":"id","ref":"node"}]}]},
- {"keyword":"/X/OLD","cards":[{"name":"ids","versions":[41,50],"repeat":"ids","fields":[
-    {"name":"item","cols":[1,8],"type":"id","ref":"node"}]},
-    {"name":"new","versions":[51,null],"fields":[{"name":"r","cols":[1,20],"type":"real"}]}]},
  {"keyword":"/X/ROWS","cards":[
     {"name":"head","fields":[{"name":"k","cols":[1,10],"type":"int"}]},
     {"name":"row","repeat":"rows","fields":[{"name":"a","cols":[1,10],"type":"int"},

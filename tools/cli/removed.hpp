@@ -13,6 +13,7 @@ struct Removed {
 
 inline constexpr std::array removed_words = {
     Removed{"completion", "", "the file deck.bash that is installed with the program"},
+    Removed{"replay", "", "the program replay of tools/bench, which is built with the tests"},
     Removed{"man", "", "the installed man pages, or deck help VERB"},
 };
 

@@ -1,12 +1,12 @@
 // The result columns of recorded states, kind by kind.
-#include "cycle/replay/results.hpp"
+#include "replay/results.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "cycle/adapter/parts.hpp"
-#include "cycle/replay/node_outputs.hpp"
+#include "replay/node_outputs.hpp"
 #include "cycle/shared/heat.hpp"
 #include "deck/cycle/kernel.hpp"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "cycle/replay/states.hpp"
-#include "cycle/replay/table.hpp"
+#include "replay/states.hpp"
+#include "replay/table.hpp"
 
 namespace deck::cycle::detail {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cycle/replay/table.hpp"
+#include "replay/table.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/card.hpp"
 #include "deck/cycle/packet.hpp"

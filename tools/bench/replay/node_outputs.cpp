@@ -1,5 +1,5 @@
 // Running values of nodes over the packets of a cycle.
-#include "cycle/replay/node_outputs.hpp"
+#include "replay/node_outputs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Columns of recorded states, sorted into the kernel's inputs.
-#include "cycle/replay/states.hpp"
+#include "replay/states.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,10 +1,10 @@
 // Recorded states held against the kernel: result columns computed again, group by group.
-#include "cycle/shared/replay.hpp"
+#include "replay/replay.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cycle/replay/results.hpp"
+#include "replay/results.hpp"
 #include "text/shared/gzip.hpp"
 
 namespace deck::cycle {

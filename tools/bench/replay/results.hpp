@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "cycle/replay/states.hpp"
-#include "cycle/replay/table.hpp"
-#include "cycle/shared/replay.hpp"
+#include "replay/states.hpp"
+#include "replay/table.hpp"
+#include "replay/replay.hpp"
 
 namespace deck::cycle::detail {
 

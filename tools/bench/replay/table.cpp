@@ -1,5 +1,5 @@
 // Reading and writing of tables of recorded states.
-#include "cycle/replay/table.hpp"
+#include "replay/table.hpp"
 
 #include <algorithm>
 #include <cmath>
