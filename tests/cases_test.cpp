@@ -201,7 +201,8 @@ struct CaseTest : CommandLine {
     const bool exit_shown = !s.shown.empty() && s.shown.back().starts_with("exit ");
     if (exit_shown) printed.push_back("exit " + std::to_string(code));
     const bool same = text_fits(s.shown, printed);
-    if (!same && std::getenv("DECK_RECORD") && text_of(s.shown).find("...") == std::string::npos) {
+    if (!same && std::getenv("DECK_RECORD") && text_of(s.shown).find("...") == std::string::npos &&
+        (!exit_shown || s.shown.back() == printed.back())) {
       s.shown = printed;
       file.changed = true;
       return;

@@ -1,5 +1,5 @@
-// Several contacts of a deck: time steps, forces, heat and stiffness add up at common nodes. Axes of
-// skews, and nodes of elements that are gone.
+// Several contacts of a deck: time steps, forces, heat and stiffness add up at common nodes. Axes
+// of skews, and nodes of elements that are gone.
 #include <gtest/gtest.h>
 
 #include <cmath>

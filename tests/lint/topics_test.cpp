@@ -140,11 +140,6 @@ TEST(ExplainTopic, PagesOfRulesFitANarrowTerminalWithTheirCards) {
     EXPECT_LE(widest(explain_topic(id_text(r.id), schemas(), 80)), 80u) << id_text(r.id);
 }
 
-TEST(ExplainTopic, PagesOfContactsFitANarrowTerminal) {
-  for (const char* topic : {"TYPE7", "TYPE10", "TYPE11", "TYPE19", "Gapmin", "TYPE7.Igap"})
-    EXPECT_LE(widest(explain_topic(topic, schemas(), 80)), 80u) << topic;
-}
-
 TEST(ExplainTopic, TheCellOfAnExampleIsMarked) {
   const std::string blanks(39, ' ');
   const std::string marked = "  | " + blanks + "5\n  | " + blanks + "^\n";
