@@ -211,9 +211,10 @@ struct LongList {
   }
 };
 
-TEST(SearchOrder, NodesInTheOrderOfTheMeshAreTakenAsTheyCome) {
+TEST(SearchOrder, ShuffledNodesAreSorted) {
   LongList list;
-  EXPECT_TRUE(list.keeps_its_order());
+  list.shuffle(1);
+  EXPECT_FALSE(list.keeps_its_order());
   list.expect_all_pairs();
 }
 
@@ -245,42 +246,6 @@ TEST(SearchOrder, DistantPartsOfBothSidesAreLeftOut) {
   EXPECT_EQ(find_node_segment_pairs(in, o).pairs.size(), 81U);
   for (std::uint32_t node : in.secondary) mesh.z[node] += 1;  // out of reach
   EXPECT_TRUE(find_node_segment_pairs(in, o).pairs.empty());
-}
-
-TEST(SearchOrder, ShuffledNodesAreSorted) {
-  LongList list;
-  list.shuffle(1);
-  EXPECT_FALSE(list.keeps_its_order());
-  list.expect_all_pairs();
-}
-
-TEST(SearchOrder, ShortRunsFromEverywhereAreSorted) {
-  LongList list;
-  list.shuffle(64);
-  EXPECT_FALSE(list.keeps_its_order()) << "neighbours are near, but larger groups are everywhere";
-  list.expect_all_pairs();
-}
-
-bool segments_keep_their_order(const Mesh& mesh) {
-  NodeSegmentInput in = node_input(mesh);
-  const auto few = some_of(mesh.secondary, mesh.secondary.size(), 97);
-  in.secondary = few;
-  const sweep::NodeSweep w(in, LongList::options(), 1);
-  return std::is_sorted(w.segments.begin(), w.segments.end());
-}
-
-TEST(SearchOrder, SegmentsInRowsOfAnyLengthAreTakenAsTheyCome) {
-  for (const int row : {95, 210, 316})
-    EXPECT_TRUE(segments_keep_their_order(two_sheets(row))) << row;
-}
-
-TEST(SearchOrder, ShuffledSegmentsAreSorted) {
-  Mesh mesh = two_sheets(95);
-  Dice dice(6);
-  for (std::size_t i = mesh.segments.size(); i > 1; --i)
-    std::swap(mesh.segments[i - 1],
-              mesh.segments[std::min(i - 1, static_cast<std::size_t>(dice.uniform(0, double(i))))]);
-  EXPECT_FALSE(segments_keep_their_order(mesh));
 }
 
 TEST(SearchThreads, AnyNumberGivesTheSameList) {
@@ -581,33 +546,6 @@ TEST(PairGapRule, SharesOfTheTwoSidesCoverThePairGap) {
   }
 }
 
-TEST(SpaceOrder, HilbertCurveVisitsEveryCellAndMovesByOne) {
-  constexpr unsigned level_bits = 3, side = 1U << level_bits;
-  std::vector<std::array<int, 3>> cell(side * side * side, {-1, -1, -1});
-  for (unsigned x = 0; x < side; ++x) {
-    for (unsigned y = 0; y < side; ++y) {
-      for (unsigned z = 0; z < side; ++z) {
-        cell.at(order_detail::hilbert_index(x, y, z, level_bits)) = {
-            static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)};
-      }
-    }
-  }
-  for (std::size_t i = 0; i + 1 < cell.size(); ++i) {
-    const int step = std::abs(cell[i][0] - cell[i + 1][0]) + std::abs(cell[i][1] - cell[i + 1][1]) +
-                     std::abs(cell[i][2] - cell[i + 1][2]);
-    EXPECT_EQ(step, 1) << i;
-  }
-}
-
-TEST(SpaceOrder, TheFarEndOfTheGridLiesInItsLastCell) {
-  constexpr unsigned bits = 4;
-  const order_detail::CurveGrid grid({0, 0, 0}, {16, 16, 16}, bits);
-  for (const Point3<double>& p : {Point3<double>{16, 16, 16}, {16, 3, 3}, {3, 16, 3}, {3, 3, 16}}) {
-    const auto inside = [](double v) { return std::min(v, 15.5); };
-    EXPECT_EQ(grid.index(p), grid.index({inside(p.x), inside(p.y), inside(p.z)}));
-  }
-}
-
 TEST(SpaceOrder, TheRadixSortIsTheStableSortOfItsBits) {
   Dice dice(8);
   for (const std::size_t n : {100u, 5000u}) {
@@ -622,24 +560,6 @@ TEST(SpaceOrder, TheRadixSortIsTheStableSortOfItsBits) {
       EXPECT_EQ(keys, expected) << n;
     }
   }
-}
-
-TEST(SpaceOrder, ACrowdFarFromTheRestIsOrderedOnItsOwnGrid) {
-  // A thousand points in one cell of the grid over all: without a grid of their own they would stay
-  // in the order of the list, which is none.
-  Dice dice(4);
-  std::vector<Point3<double>> p(1000);
-  for (auto& q : p) q = {1e-6 * dice.uniform(0, 1), 1e-6 * dice.uniform(0, 1), 0.0};
-  p.push_back({1, 1, 1});
-  const auto order = order_by_place(
-      p.size(), [&p](std::uint32_t i) { return Place{p[i]}; }, 1);
-  double path = 0;
-  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
-    const auto &a = p[order[i]], &b = p[order[i + 1]];
-    if (order[i] != 1000 && order[i + 1] != 1000) path += std::hypot(a.x - b.x, a.y - b.y);
-  }
-  // About sqrt(1000) for a curve through the unit square, about 520 for a random walk.
-  EXPECT_LT(path, 100e-6);
 }
 
 TEST(SpaceOrder, IsAPermutationForAnyGradingAndThreads) {

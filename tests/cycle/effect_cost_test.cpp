@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/effect_cards.hpp"
 #include "cycle/plates.hpp"
 
 namespace deck {
@@ -75,18 +74,6 @@ TEST(EffectCost, FrictionThatTheCardAsksForIsHeldAgainstNoneAndMovesForces) {
   EXPECT_FALSE(m["friction-incremental"].why_not.empty());
 }
 
-TEST(EffectCost, FrictionThatTheCardDoesNotAskForIsHeldAgainstSome) {
-  const Measured m = measure(scene_of(""));
-  EXPECT_FALSE(m["friction-viscous"].on);
-  EXPECT_EQ(m["friction-viscous"].other, "Fric = 0.2, Iform = 1");
-  EXPECT_GT(m["friction-viscous"].change, 1e-3);
-}
-
-TEST(EffectCost, AnEffectThatChangesNothingHereSaysSo) {
-  // Temperatures are all 0: conduction moves heat, never a force.
-  EXPECT_EQ(measure(scene_of(""))["heat-conduction"].change, 0.0);
-}
-
 TEST(EffectCost, EverythingCostsMoreThanWhatIsAskedFor) {
   const Measured m = measure(scene_of(""), {3, 16384, 1e6});
   EXPECT_GT(m.cost.loop_ns, 0.0);
@@ -110,18 +97,6 @@ TEST(EffectCost, WithoutAPairInItsGapFurtherOnesAreTimed) {
   EXPECT_TRUE(none.cost.effects.empty());
 }
 
-TEST(EffectCost, NoMorePairsThanAskedForAreTimed) {
-  EffectCostOptions how;
-  how.most_pairs = 3;
-  const Measured m = measure(scene_of(""), how);
-  EXPECT_EQ(m.cost.pairs, 4u);
-  EXPECT_EQ(m.cost.measured, 3u);
-}
-
-TEST(EffectCost, AContactThatIsNotActiveIsNotTimed) {
-  EXPECT_EQ(measure(scene_of("Tstart=1")).cost.problem, "not active at this time");
-}
-
 TEST(EffectCost, AChangeIsTheLargestDifferenceOverTheLargestForce) {
   // A slow slip under a small coefficient: friction is mu Fn, across to Fn.
   const Measured m = measure(scene_of("Fric=0.001"));
@@ -130,69 +105,6 @@ TEST(EffectCost, AChangeIsTheLargestDifferenceOverTheLargestForce) {
   EXPECT_GT(m["fixed-stiffness"].change, 0.9);
   EXPECT_LT(m["fixed-stiffness"].change, 1.0);
   EXPECT_EQ(m["boundary-release"].change, 0.0);
-}
-
-// --- cards that differ in one effect
-
-using cycle::ContactCard;
-using cycle::ContactKind;
-
-ContactCard plain_card() {
-  ContactCard c;
-  c.viss = 0.0;
-  c.gapmin = 0.75;
-  return c;
-}
-/// Every effect of a node-segment card that can be there with the others.
-ContactCard rich_card() {
-  ContactCard c;
-  c.istf = 1;
-  c.inacti = 5;
-  c.viss = 0.125;
-  c.fric = 0.375;
-  c.ifric = 3;
-  c.c = {1, 2, 3, 4, 5, 6};
-  c.ifiltr = 2;
-  c.xfreq = 8;
-  c.ithe = c.ithe_form = 1;
-  c.fct_idf = cycle::Curve{{0, 1}, {2, 3}};
-  c.kthe = 3;
-  c.fct_idk = cycle::Curve{{0, 4}, {5, 6}};
-  c.frad = 1e-5;
-  c.drad = 2;
-  c.fheats = 0.25;
-  c.fheatm = 0.5;
-  c.icurv = 1;
-  c.iadm = 1;
-  c.dtmin = 1e-4;
-  c.ibc = 5;
-  return c;
-}
-
-TEST(EffectCards, GivingTurnsNothingElseOffAndTakingNothingElseOn) {
-  for (const ContactKind kind :
-       {ContactKind::node_segment, ContactKind::edge_edge, ContactKind::tied})
-    for (ContactCard card : {plain_card(), rich_card()}) {
-      card.kind = kind;
-      const auto account = cycle::effect_plan(card);
-      std::size_t found = 0;
-      for (std::size_t k = 0; k < account.size(); ++k) {
-        std::string why_not;
-        const auto made = accuracy::other_card(card, account[k], why_not);
-        if (!made) continue;
-        ++found;
-        EXPECT_NE(made->says, "") << account[k].name;
-        const auto after = cycle::effect_plan(made->card);
-        EXPECT_EQ(after[k].on, !account[k].on) << account[k].name;
-        for (std::size_t j = 0; j < account.size(); ++j) {
-          const bool tie_for_deletion =
-              account[k].name == "tie-on-time-step" && account[j].name == "time-step-deletion";
-          if (j == k || tie_for_deletion || after[j].on == account[j].on) continue;
-          EXPECT_EQ(after[j].on, !account[k].on) << account[k].name << ": " << account[j].name;
-        }
-      }
-      EXPECT_EQ(found > 0, kind != ContactKind::tied || card.viss > 0) << static_cast<int>(kind);
-    }
 }
 
 }  // namespace

@@ -10,8 +10,6 @@
 namespace deck {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 const std::string kg_mm_ms = "                  kg                  mm                  ms\n";
@@ -88,28 +86,6 @@ TEST_F(EngineUnits, EveryTimeOfEveryKeyword) {
     EXPECT_THAT(out_.refusals, IsEmpty());
     EXPECT_THAT(notes(Loss::undecided), IsEmpty());
   }
-}
-
-TEST_F(EngineUnits, UnknownLinesRefuseOrStay) {
-  const std::string text = "/TFILE\n1.0\n/NEWTHING\n3.0\n/DTIX\n1.5 2.5 3.5\n/STOP\n1.\n2.\n";
-  EXPECT_EQ(after(text), "refused");
-  EXPECT_THAT(out_.edits, IsEmpty());
-  EXPECT_THAT(
-      out_.refusals,
-      ElementsAre(HasSubstr("car_0001.rad:3:1: /NEWTHING: the cells of this keyword are not "
-                            "known, so it cannot be brought to other units"),
-                  HasSubstr("car_0001.rad:6:9: /DTIX: this value of the keyword is not "
-                            "known, so it cannot be brought to other units"),
-                  HasSubstr("car_0001.rad:9:1: /STOP: this value of the keyword is not "
-                            "known, so it cannot be brought to other units")));
-  EXPECT_EQ(after(text, "kg,mm,s", true),
-            "/TFILE\n0.001\n/NEWTHING\n3.0\n/DTIX\n0.0015 0.0025 3.5\n/STOP\n1.\n2.\n");
-  const std::string rest = ", so it keeps its old units; convert it by hand";
-  EXPECT_THAT(
-      notes(Loss::undecided),
-      ElementsAre("car_0001.rad:3 /NEWTHING: the cells of this keyword are not known" + rest,
-                  "car_0001.rad:6 /DTIX: this value of the keyword is not known" + rest,
-                  "car_0001.rad:9 /STOP: this value of the keyword is not known" + rest));
 }
 
 TEST_F(EngineUnits, TimesStayWhereTheWorkingUnitsStay) {

@@ -125,18 +125,6 @@ TEST(Flatten, BeginOfAnIncludeBecomesAComment) {
   EXPECT_EQ(r.losses[0].loss, Loss::dropped);
 }
 
-TEST(Flatten, IncludeOfAnotherVersionIsRefusedWhereColumnsDiffer) {
-  // Line 2 of the card is the gap line from 110 on; 100 has none.
-  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n/NODE\n" + node2 + "/END\n"},
-                       {"a.inc",
-                        "/BEGIN\nsub\n       100\n\n\n/INTER/TYPE11/1\ni\n"
-                        "         1         2\n                 1.0\n       000\n"}});
-  const Rewrite r = flatten(w->context());
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_EQ(r.refusals[0].substr(0, 10), "a.inc:6:1:");
-  EXPECT_NE(r.refusals[0].find("100"), std::string::npos);
-}
-
 TEST(Flatten, IncludeOfAnotherVersionWithTheSameColumnsIsTaken) {
   const auto w = tree({{"main_0000.rad", head + "#include a.inc\n/NODE\n" + node2 + "/END\n"},
                        {"a.inc", "/BEGIN\nsub\n       110\n\n\n/NODE\n" + node1 +

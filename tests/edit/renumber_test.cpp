@@ -127,12 +127,6 @@ TEST(Renumber, NothingElseMoves) {
   EXPECT_EQ(after->main_text(), expected);
 }
 
-TEST(Renumber, NegativeMembersKeepTheirSign) {
-  const auto w = Whole::text(plates().group("/GRNOD/PART/4", {1, -2}).text());
-  const auto after = w->after(numbered(*w, {"part+10"}));
-  EXPECT_TRUE(after->contains("        11       -12"));
-}
-
 TEST(Renumber, RangesStayRanges) {
   const auto w = Whole::text(plates().group("/GRNOD/GENE/4", {15, 45, 50, 52}).text());
   const auto nodes = [](const Whole& x) {
@@ -158,42 +152,6 @@ TEST(Renumber, IdsWithoutABlankBetweenThemAreSeenInUndescribedText) {
   }
 }
 
-TEST(Renumber, IdsOfLoadsConstraintsAndRequestsFollow) {
-  const auto w = Whole::text(plates()
-                                 .add("/TH/PART/4\nh\nDEF       IE\n         2         3\n"
-                                      "/TH/NODE/5\nh\nDEF\n        10         0corner\n"
-                                      "/ADMAS/5/6\nm\n                 0.5        10\n"
-                                      "@/RBODY/1 node_ID=10 grnd_ID=0\n")
-                                 .text());
-  const auto after = w->after(numbered(*w, {"node+100", "part+50"}));
-  EXPECT_TRUE(after->contains("DEF       IE\n        52        53\n")) << after->main_text();
-  EXPECT_TRUE(after->contains("DEF\n       110         0corner\n"));
-  EXPECT_TRUE(after->contains("                 0.5       110\n"));
-}
-
-TEST(Renumber, IncrementsAreNoIds) {
-  const auto w = Whole::text(plates().group("/GRNOD/GEN_INCR/4", {10, 40, 20}).text());
-  const auto after = w->after(numbered(*w, {"node+1000"}));
-  EXPECT_TRUE(after->contains("      1010      1040        20"));
-  EXPECT_FALSE(numbered(*w, {"node=1"}).refusals.empty());
-}
-
-TEST(Renumber, ClausesOfSetsFollow) {
-  const std::string sets =
-      "/SET/GENERAL/51\ns\nNODE              50        51\nPART               2\n"
-      "SEG                7        10        20        40        30\nNODE_GD           50"
-      "        52         2\nSHELL              9\n/SET/GENERAL/52\nt\nSET               51\n";
-  const auto w = Whole::text(plates().add(sets + "@/INTER/TYPE7/1 grnd_IDs=52 surf_IDm=51").text());
-  const auto after = w->after(numbered(*w, {"node+100", "shell+20", "part+3", "set+1000"}));
-  EXPECT_TRUE(
-      after->contains("NODE             150       151\nPART               5\n"
-                      "SEG                7       110       120       140       130\n"
-                      "NODE_GD          150       152         2\nSHELL             29\n"
-                      "/SET/GENERAL/1052\nt\nSET             1051\n"))
-      << after->main_text();
-  EXPECT_EQ(after->interfaces.type7.at(0).grnd_IDs.value, 1052);
-}
-
 TEST(Renumber, SmoothedSurfaceInThePlaceOfTheNodeGroupFollowsAsASurface) {
   const auto w = Whole::text(test::deck_of_version(
       2026,
@@ -206,66 +164,6 @@ TEST(Renumber, SmoothedSurfaceInThePlaceOfTheNodeGroupFollowsAsASurface) {
   EXPECT_EQ(after->interfaces.type7.at(0).surf_IDm.value, 101);
 }
 
-TEST(Renumber, GroupThatWouldHideASetIsRefused) {
-  const auto w = Whole::text(plates()
-                                 .add("/SET/GENERAL/12\ns\nPART               2\n"
-                                      "@/INTER/TYPE7/1 grnd_IDs=12 surf_IDm=1")
-                                 .text());
-  EXPECT_TRUE(numbered(*w, {"grnod+5"}).refusals.empty());
-  const Rewrite r = numbered(*w, {"grnod+10"});
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_NE(r.refusals[0].find("set 12"), std::string::npos);
-}
-
-TEST(Renumber, MaterialsOfMaterialOptionsFollow) {
-  const auto w =
-      Whole::text(plates().add("/HEAT/MAT/1\n                 0.0\n/FAIL/JOHNSON/1\n").text());
-  const auto after = w->after(numbered(*w, {"mat+8"}));
-  EXPECT_TRUE(after->contains("/HEAT/MAT/9\n"));
-  EXPECT_TRUE(after->contains("/FAIL/JOHNSON/9\n"));
-  EXPECT_TRUE(after->contains("/MAT/ELAST/9\n"));
-}
-
-TEST(Renumber, TextThatMayHoldAnIdIsRefusedOrUndecided) {
-  const auto w = Whole::text(
-      plates().add("/GJOINT/1\nr\n        50         0\n/NEWTHING/2\n        51").text());
-  const Rewrite r = numbered(*w, {"node+1000"});
-  ASSERT_EQ(r.refusals.size(), 2u);
-  EXPECT_NE(r.refusals[0].find("/GJOINT/1: "), std::string::npos) << r.refusals[0];
-  EXPECT_TRUE(r.edits.empty());
-  const Rewrite partial = numbered(*w, {"node+1000"}, true);
-  EXPECT_TRUE(partial.refusals.empty());
-  EXPECT_EQ(std::count_if(partial.losses.begin(), partial.losses.end(),
-                          [](const LossEntry& e) { return e.loss == Loss::undecided; }),
-            2);
-  // The id of an unknown keyword may be that of a part or a surface.
-  EXPECT_EQ(numbered(*w, {"part+1000"}).refusals.size(), 1u);
-  EXPECT_EQ(numbered(*w, {"surf+1000"}).refusals.size(), 1u);
-}
-
-TEST(Renumber, NodesAndGroupsOfRigidBodiesAndLoadsFollow) {
-  const auto w = Whole::text(plates()
-                                 .add("@/RBODY/1 node_ID=50 grnd_ID=52\n"
-                                      "@/BCS/2 Tx=1 grnod_ID=52\n")
-                                 .text());
-  const auto after = w->after(numbered(*w, {"node+1000", "grnod+5"}));
-  EXPECT_TRUE(after->contains("      1050")) << after->main_text();
-  EXPECT_TRUE(after->contains("        57"));
-  EXPECT_FALSE(after->contains("        52\n"));
-}
-
-TEST(Renumber, ReferenceGeometryFollowsItsPartAndNodesAndKeepsItsCount) {
-  // Nitrs is 10 and looks like a node; title, count, nodes.
-  const auto w = Whole::text(plates()
-                                 .add("/XREF/1\nat rest\n        10\n"
-                                      "        20                 1.0")
-                                 .add("/SPH/RESERVE/2\n        10")
-                                 .text());
-  const auto after = w->after(numbered(*w, {"node+1000", "part+50"}, true));
-  EXPECT_TRUE(after->contains("/XREF/51\nat rest\n        10\n      1020 ")) << after->main_text();
-  EXPECT_TRUE(after->contains("/SPH/RESERVE/52\n"));
-}
-
 TEST(Renumber, SpringGroupOfAnActivationIsNoNodeGroup) {
   const auto w = Whole::text(plates().add("@/ACTIV/1 grspr_ID=52 grshel_ID=52\n").text());
   EXPECT_EQ(w->after(numbered(*w, {"grnod+5"}))->main_text(), [&] {
@@ -274,13 +172,6 @@ TEST(Renumber, SpringGroupOfAnActivationIsNoNodeGroup) {
       text.replace(at, 13, "/GRNOD/PART/7");
     return text;
   }());
-}
-
-TEST(Renumber, BoundaryConditionOfTheAleGridHasATitle) {
-  const auto w =
-      Whole::text(plates().add("/ALE/BCS/1\ngrid\n   111 000         0        52").text());
-  const auto after = w->after(numbered(*w, {"grnod+5"}));
-  EXPECT_TRUE(after->contains("grid\n   111 000         0        57\n")) << after->main_text();
 }
 
 /// Their first line looks like a title and holds values.
@@ -294,34 +185,6 @@ TEST(Renumber, BlocksWithoutTitleAreNotSkippedOver) {
 TEST(Renumber, NumbersThatNoIdHasAreNoReasonToRefuse) {
   const auto w = Whole::text(plates().add("/RBODY/9\nr\n        77         0").text());
   EXPECT_TRUE(numbered(*w, {"node+1000", "part+1000"}).refusals.empty());
-}
-
-TEST(Renumber, IdsMadeByParametersAreRefused) {
-  const auto w = Whole::text(
-      plates()
-          .add("/PARAMETER/GLOBAL/INTEGER/1\np\nn                 50\n/GRNOD/NODE/4\ng\n        &n")
-          .text());
-  const Rewrite r = numbered(*w, {"node+1000"});
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_NE(r.refusals[0].find("parameter"), std::string::npos);
-  EXPECT_TRUE(numbered(*w, {"part+1000"}).refusals.empty());
-}
-
-TEST(Renumber, IdsOutsideTheLegalRangeAreRefused) {
-  const auto w = Whole::text(plates().text());
-  EXPECT_FALSE(numbered(*w, {"node+2147483647"}).refusals.empty());
-  EXPECT_FALSE(numbered(*w, {"node-10"}).refusals.empty());
-  EXPECT_TRUE(numbered(*w, {"node-9"}).refusals.empty());
-  EXPECT_FALSE(numbered(*w, {"node+1", "node+2"}).refusals.empty());
-  EXPECT_FALSE(numbered(*w, {"element+1", "shell+2"}).refusals.empty());
-}
-
-TEST(Renumber, DanglingReferenceDoesNotCatchANewId) {
-  const auto w = Whole::text(plates().group("/GRNOD/NODE/4", {3, 50}).text());
-  EXPECT_TRUE(w->after(numbered(*w, {"node+1"}))->contains("         4        51"));
-  const Rewrite r = numbered(*w, {"node=1"});  // 3 would be a node then
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_NE(r.refusals[0].find("3 is not defined"), std::string::npos);
 }
 
 TEST(Renumber, SubmodelsWriteIdsBelowTheirOffset) {

@@ -322,30 +322,6 @@ TEST(ExpandType19, FlagWithoutCellInAnOldVersionIsRefused) {
   EXPECT_FALSE(losses_of(r, Loss::undecided).empty());
 }
 
-TEST(ExpandType19, ASetWhoseIdAGroupHasCannotBeNamed) {
-  const std::string sets =
-      "/SET/GENERAL/41\nset\nPART               1\n/SET/GENERAL/42\nset\nPART               2\n"
-      "@/INTER/TYPE19/5 surf_IDs=41 surf_IDm=42 Igap=1\n";
-  for (const auto& [id, block] : {std::pair{"41", "/GRNOD/PART/41\ng\n         1"},
-                                  std::pair{"42", "/LINE/SURF/42\nl\n         1"}}) {
-    const auto before = open_text(with(sets + block));
-    const Rewrite r = expand_type19(before->context());
-    ASSERT_EQ(r.refusals.size(), 1u) << id;
-    EXPECT_THAT(r.refusals[0], HasSubstr(std::string(": TYPE19 5 surf_IDs: set ") + id +
-                                         " cannot be named here, because a group or line has the "
-                                         "same id; renumber one of them first"));
-    const auto open = losses_of(r, Loss::undecided);
-    ASSERT_EQ(open.size(), 1u);
-    EXPECT_EQ(open[0].field, "surf_IDs");
-    EXPECT_EQ(open[0].old_text, id);
-    EXPECT_EQ(open[0].id, 5);
-  }
-  // Another set's or group's id does not matter.
-  EXPECT_THAT(
-      expand_type19(open_text(with(sets + "/GRNOD/PART/40\ng\n         1"))->context()).refusals,
-      ::testing::IsEmpty());
-}
-
 TEST(ExpandType19, DeckWithoutType19IsNotTouched) {
   const auto before = open_text(with("@/INTER/TYPE7/5 surf_IDm=2"));
   EXPECT_TRUE(expand_type19(before->context()).edits.empty());

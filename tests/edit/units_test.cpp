@@ -230,30 +230,6 @@ TEST(ToUnits, SubmodelsWithTheirOwnBeginKeepTheirCells) {
   EXPECT_EQ(after->model.nodes.x[1], 0.0125);
 }
 
-TEST(ToUnits, UnknownKeywordIsRefusedWithItsPlace) {
-  const auto w = Whole::text(deck_of("/NEWTHING/3\ntitle\n                 1.0\n"));
-  const Rewrite r = convert(*w, "Mg,m,s");
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_EQ(r.refusals[0].substr(0, 23), "memory_0000.rad:7:1: /N");
-  EXPECT_TRUE(r.edits.empty());
-}
-
-TEST(ToUnits, PartialLeavesTheUnknownAndSaysSo) {
-  const auto w = Whole::text(
-      deck_of("/NEWTHING/3\ntitle\n                 1.0\n/NODE\n"
-              "         1                12.5                 0.0                 0.0\n"));
-  const Rewrite r = convert(*w, "Mg,m,s", {.partial = true});
-  ASSERT_EQ(r.losses.size(), 2u);
-  EXPECT_EQ(r.losses[0].loss, Loss::undecided);
-  EXPECT_EQ(r.losses[1].loss, Loss::kept);
-  EXPECT_EQ(r.losses[1].note, "1 value converted");
-  EXPECT_EQ(r.losses[0].keyword, "/NEWTHING");
-  EXPECT_EQ(r.losses[0].line, 7u);
-  const auto after = w->after(r);
-  EXPECT_EQ(after->model.nodes.x[0], 0.0125);
-  EXPECT_TRUE(after->contains("/NEWTHING/3\ntitle\n                 1.0\n"));
-}
-
 TEST(ToUnits, UndescribedZerosAreNoReasonToRefuse) {
   const std::string card = "/SENSOR/DISP/1\ns\n                 0.0\n         1         2\n";
   EXPECT_TRUE(convert(*Whole::text(deck_of(card + "                 0.0         0\n\n")), "Mg,m,s")
@@ -342,17 +318,6 @@ TEST(ToUnits, KeywordsOfIdsFlagsAndNamesNeedNoConversion) {
     EXPECT_TRUE(r.refusals.empty()) << r.refusals[0];
     EXPECT_TRUE(w->after(r)->contains(block)) << header;
   }
-}
-
-TEST(ToUnits, FieldOfUnknownDimensionIsRefusedUnlessZero) {
-  const auto spring = [](const std::string& size) {
-    return deck_of("/PROP/SPR_MAT/1\ns\n" + std::string(40 - size.size(), ' ') + size + "\n");
-  };
-  EXPECT_TRUE(convert(*Whole::text(spring("0.0")), "Mg,m,s").refusals.empty());
-  const Rewrite r = convert(*Whole::text(spring("2.0")), "Mg,m,s");
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_NE(r.refusals[0].find(":9:21: /PROP/SPR_MAT/1 Volume_or_area"), std::string::npos)
-      << r.refusals[0];
 }
 
 TEST(ToUnits, HeatFunctionOfAContactIsReadAtTheSamePressure) {
@@ -495,55 +460,6 @@ TEST(ToUnits, TableWithRatesIsRefusedWhereTimeChanges) {
   EXPECT_NE(r.refusals[0].find("TAB_ID2: an abscissa of this table"), std::string::npos)
       << r.refusals[0];
   EXPECT_TRUE(convert(*w, "g,mm,ms").refusals.empty());
-}
-
-TEST(ToUnits, ATimeSensorByItsNumberIsTheSame) {
-  const auto w = Whole::text(deck_of("/SENSOR/TYPE0/7\nlate\n                 5.0\n", "2022"));
-  EXPECT_TRUE(w->after(convert(*w, "kg,m,s"))->contains("               0.005"));
-}
-
-TEST(ToUnits, ParameterOfOneDimensionIsConvertedAtItsDefinition) {
-  const std::string body =
-      "/PARAMETER/GLOBAL/REAL/1\np\ngap                        2.5\n"
-      "/NODE\n         1                &gap               -&gap                 0.0\n";
-  const auto after =
-      Whole::text(deck_of(body))->after(convert(*Whole::text(deck_of(body)), "Mg,m,s"));
-  EXPECT_EQ(after->model.nodes.x[0], 0.0025);
-  EXPECT_EQ(after->model.nodes.y[0], -0.0025);
-  EXPECT_TRUE(after->contains("&gap"));
-}
-
-TEST(ToUnits, ParameterWithTwoMeaningsGivesWayToItsNumber) {
-  const std::string use =
-      "/NODE\n         1                  &a                 -&a                 0.0\n";
-  const std::string definition = "/PARAMETER/GLOBAL/REAL/1\np\na                          2.5\n";
-  for (const std::string other :
-       {"/SENSOR/TIME/1\ns\n                  &a\n",               // a time
-        "/PROP/SHELL/1\np\n\n                  &a\n         3\n",  // a pure number
-        "/PARAMETER/GLOBAL/REAL_EXPR/2\np\nb         a*2\n"}) {    // an expression
-    const auto w = Whole::text(deck_of(definition + use + other));
-    const Rewrite r = convert(*w, "Mg,m,s");
-    const auto after = w->after(r);
-    EXPECT_EQ(after->model.nodes.x[0], 0.0025) << after->main_text();
-    EXPECT_EQ(after->model.nodes.y[0], -0.0025) << after->main_text();
-    EXPECT_TRUE(after->contains(definition)) << after->main_text();
-    bool said = false;
-    for (const LossEntry& e : r.losses) said |= e.loss == Loss::kept && e.old_text == "&a";
-    EXPECT_TRUE(said) << other;
-  }
-}
-
-TEST(ToUnits, ParameterWithoutAValueIsRefused) {
-  const auto w = Whole::text(deck_of("/NODE\n         1                  &a\n"));
-  const Rewrite r = convert(*w, "Mg,m,ms");
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_NE(r.refusals[0].find("not defined"), std::string::npos) << r.refusals[0];
-}
-
-TEST(ToUnits, FreeFormatKeepsItsCommas) {
-  const auto w = Whole::text(deck_of("/NODE\n1,12.5,-3.0,4\n"));
-  const auto after = w->after(convert(*w, "Mg,m,s"));
-  EXPECT_TRUE(after->contains("/NODE\n1,0.0125,-0.003,0.004\n")) << after->main_text();
 }
 
 TEST(ToUnits, CarriageReturnsTabsOfCommentsAndShortLinesStay) {

@@ -79,33 +79,6 @@ TEST(ToVersion, HeatLineMovesBehindTheAdaptiveLineFromVersion110On) {
   EXPECT_FALSE(block.cards.back().missing());
 }
 
-TEST(ToVersion, ValueWithoutCellIsRefusedWithItsPlace) {
-  const std::string text =
-      deck_of_version(2020, card("/INTER/TYPE11", 4, 2020, {{"line_IDs", "1"}, {"Irem_gap", "2"}}));
-  const Rewrite r = rewrite_of(text, 2019);
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_THAT(r.refusals[0], HasSubstr("main_0000.rad:10:61"));
-  EXPECT_THAT(r.refusals[0], HasSubstr("Irem_gap = 2"));
-  const auto dropped = losses_of(r, Loss::dropped);
-  ASSERT_EQ(dropped.size(), 1u);
-  EXPECT_EQ(dropped[0].line, 10u);
-  EXPECT_EQ(dropped[0].field, "Irem_gap");
-  EXPECT_EQ(dropped[0].old_text, "2");
-  EXPECT_EQ(dropped[0].id, 4);
-}
-
-TEST(ToVersion, AllowedLossBlanksTheCell) {
-  const std::string text =
-      deck_of_version(2020, card("/INTER/TYPE11", 4, 2020, {{"line_IDs", "1"}, {"Irem_gap", "2"}}));
-  const auto before = open_text(text);
-  const Rewrite r = to_version(before->context(), 2019, {.allow_loss = true});
-  EXPECT_TRUE(r.refusals.empty());
-  EXPECT_EQ(losses_of(r, Loss::dropped).size(), 1u);
-  const auto then = applied(*before, r);
-  EXPECT_EQ(then->interfaces.type11.at(0).Irem_gap.value, 1);
-  EXPECT_TRUE(then->diagnostics.all().empty());
-}
-
 TEST(ToVersion, ValueThatIsTheDefaultGoesWithoutLoss) {
   const std::string text = deck_of_version(2020, card("/INTER/TYPE7", 4, 2020,
                                                       {{"surf_IDm", "1"},
@@ -199,14 +172,6 @@ TEST(ToVersion, AFlagThatNoSolverReadsIsDroppedWithoutARefusal) {
   EXPECT_EQ(dropped[0].field, "Istrain");
 }
 
-TEST(ToVersion, SensorStopLineIsReadAsBeforeAfterGoingUpAndDown) {
-  const std::string text =
-      deck_of_version(2023, card("/SENSOR/TIME", 1, 2023, {{"Tdelay", "1.0"}, {"Tstop", "9.0"}}));
-  const Rewrite r = rewrite_of(text, 2022);
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_THAT(r.refusals[0], HasSubstr("Tstop"));
-}
-
 TEST(ToVersion, ZeroAndTheDefaultAxisGoWithoutLoss) {
   const std::string text = deck_of_version(
       2020,
@@ -242,12 +207,6 @@ TEST(ToVersion, NumberWithoutVersionIsReadAsTheNewest) {
   const Rewrite r = to_version(before->context(), 2026);
   EXPECT_TRUE(r.refusals.empty());
   EXPECT_EQ(applied(*before, r)->deck.begin.version_written, 2026);
-}
-
-TEST(ToVersion, SmoothingSurfacesCannotGoDown) {
-  const std::string text =
-      deck_of_version(2026, card("/INTER/TYPE7", 1, 2026, {{"surf_IDm", "1"}, {"Ists", "1"}}));
-  EXPECT_EQ(rewrite_of(text, 2025, {.allow_loss = true}).refusals.size(), 1u);
 }
 
 TEST(ToVersion, UnknownTargetsAndOldDecksAreRefused) {

@@ -47,7 +47,8 @@ void check_ties(const Scene& scene) {
       require(n.segment < tie.main.size(), "the segment is one of the main side");
       const auto& c = tie.main[n.segment];
       require(std::find(c.begin(), c.end(), n.node) == c.end(), "no node is tied to its segment");
-      if (tie.ignore < 4) require(n.distance < n.search, "a node is within its search distance");
+      if (tie.ignore < 4 && std::isfinite(n.search))
+        require(n.distance < n.search, "a node is within its search distance");
     }
   }
 }

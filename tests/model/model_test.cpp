@@ -21,11 +21,6 @@ TEST(Part, KnowsPropertyAndMaterial) {
   EXPECT_TRUE(b.diagnostics().all().empty());
 }
 
-TEST(Part, MissingPropertyIsMessage178) {
-  BuiltModel b(quad() + "/PART/1\np\n" + cells({9, 9}));
-  EXPECT_EQ(b.message(RuleId::DK102), 178);
-}
-
 TEST(Part, MissingMaterialIsMessage179IfThereAreElementsOrAPropertyOfShells) {
   const std::string prop = "/PROP/VOID/1\np\n" + reals({1});
   for (const int material : {9, 0}) {
@@ -70,11 +65,6 @@ TEST(Part, ASpringPropertyExcusesAMaterialThatIsNotNamedNotOneThatIsMissing) {
   EXPECT_EQ(findings(1), 1u);
 }
 
-TEST(Part, SecondDefinitionIsReported) {
-  BuiltModel b(parts() + "/PART/1\np\n" + cells({1, 1}));
-  EXPECT_EQ(b.findings(RuleId::DK100), 1u);
-}
-
 TEST(Element, ThatNamesANodeTwiceIsMessage22Or681) {
   const auto message = [](const std::string& element) {
     BuiltModel b(parts() + grid_nodes() + element);
@@ -97,12 +87,6 @@ TEST(ModelFindings, CarryKeywordAndIdOfTheirBlock) {
   EXPECT_EQ(b.findings(RuleId::DK109), 1u);
 }
 
-TEST(Shell, WithoutAnyThicknessIsMessage495) {
-  BuiltModel b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
-               "/PART/1\np\n" + cells({1, 1}) + quad());
-  EXPECT_EQ(b.message(RuleId::DK106), 495);
-}
-
 TEST(Shell, OfAStackHasTheThicknessOfItsPlies) {
   BuiltModel b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/TYPE17/1\np\n\n\n\n\n" +
                "/PART/1\np\n" + cells({1, 1}) + quad());
@@ -116,16 +100,6 @@ TEST(Shell, OwnThicknessIsEnough) {
   BuiltModel b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
                "/PART/1\np\n" + cells({1, 1}) + grid_nodes() + "/SHELL/1\n" + line + reals({1.5}));
   EXPECT_EQ(b.findings(RuleId::DK106), 0u);
-}
-
-TEST(Shell, CollapsedQuadrangleIsWarning430) {
-  BuiltModel b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 5}));
-  EXPECT_EQ(b.message(RuleId::DK107), 430);
-}
-
-TEST(Element, SecondUseOfAnIdIsMessage79) {
-  BuiltModel b(parts() + quad() + "/SHELL/2\n" + cells({7, 2, 3, 6, 5}));
-  EXPECT_EQ(b.message(RuleId::DK105), 79);
 }
 
 TEST(Node, SecondUseOfAnIdTellsWhetherTheCoordinatesAgree) {
@@ -172,27 +146,12 @@ TEST(Run, OptionsOfTheWholeRun) {
   EXPECT_FALSE(b.model().two_dimensional);
 }
 
-TEST(Run, SecondIntthickIsMessage725) {
-  BuiltModel b("/INTTHICK/V5\n/INTTHICK/V5\n");
-  EXPECT_EQ(b.message(RuleId::DK112), 725);
-}
-
 TEST(Curve, PointsAndScaling) {
   BuiltModel b("/FUNCT/4\nf\n" + reals({0, 1}) + reals({2, 5}) + "/MOVE_FUNCT/4\nm\n" +
                reals({10, 0, 1, 0}));
   const Curve& c = b.model().curves.at(4);
   EXPECT_EQ(c.x, (std::vector<double>{1, 21}));
   EXPECT_EQ(c.y, (std::vector<double>{1, 5}));
-}
-
-TEST(ConnectionNode, WithinTheToleranceIsTheOtherNode) {
-  BuiltModel b(parts() + grid_nodes() + "/CNODE/0.1\n" + node(50, 10.05, 10, 0) +
-               node(51, 10.2, 10, 0) + "/SHELL/1\n" + cells({1, 1, 2, 50, 4}) +
-               "/GRNOD/NODE/1\ng\n" + cells({50, 51}));
-  const Model& m = b.model();
-  EXPECT_EQ(m.node_id(m.shell4.of(0)[2]), 5);
-  EXPECT_EQ(b.group(1), (Ids{5, 51}));
-  EXPECT_EQ(b.findings(RuleId::DK041), 0u) << "they are merged, and the keyword is in upper case";
 }
 
 TEST(ConnectionNode, HasItsToleranceInTheUnitsOfTheDeck) {

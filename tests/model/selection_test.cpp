@@ -30,12 +30,6 @@ TEST(NodeGroup, NodensKeepsTheOrderOfTheList) {
   EXPECT_EQ(b.group(5), (Ids{9, 2, 4}));
 }
 
-TEST(NodeGroup, MissingNodeIsMessage78) {
-  BuiltModel b(quads() + "/GRNOD/NODE/5\ng\n" + cells({1, 77}));
-  EXPECT_EQ(b.group(5), (Ids{1}));
-  EXPECT_EQ(b.message(RuleId::DK150), 78);
-}
-
 TEST(NodeGroup, EmptyResultIsWarning690) {
   BuiltModel b(parts() + quads() + "/GRNOD/PART/5\ng\n" + cells({3}));
   EXPECT_TRUE(b.group(5).empty());
@@ -87,12 +81,6 @@ TEST(NodeGroup, NegativeGroupIsRemovedAfterAllPositiveOnes) {
   EXPECT_EQ(b.group(4), (Ids{1, 2, 4}));
 }
 
-TEST(NodeGroup, MissingMemberGroupIsWarning174) {
-  BuiltModel b(quads() + "/GRNOD/NODE/1\na\n" + cells({1}) + "/GRNOD/GRNOD/4\nd\n" + cells({1, 8}));
-  EXPECT_EQ(b.group(4), (Ids{1}));
-  EXPECT_EQ(b.message(RuleId::DK151), 174);
-}
-
 TEST(NodeGroup, CircleOfGroupsIsMessage176AndEnds) {
   BuiltModel b(quads() + "/GRNOD/GRNOD/1\na\n" + cells({2}) + "/GRNOD/GRNOD/2\nb\n" + cells({1}));
   b.group(1);
@@ -126,12 +114,6 @@ TEST(NodeGroup, MaterialAndPropertySelectTheirParts) {
                "/GRNOD/MAT/6\ng\n" + cells({1}));
   EXPECT_EQ(b.group(5).size(), 12u);
   EXPECT_EQ(b.group(6).size(), 21u);
-}
-
-TEST(NodeGroup, MissingPartIsWarning194) {
-  BuiltModel b(parts() + quads() + "/GRNOD/PART/5\ng\n" + cells({1, 99}));
-  EXPECT_EQ(b.group(5).size(), 6u);
-  EXPECT_EQ(b.message(RuleId::DK151), 194);
 }
 
 TEST(NodeGroup, SurfaceGroupIgnoresNegativeIds) {
@@ -306,12 +288,6 @@ TEST(Surface, GroupsOfShellsKeepTheirSign) {
   BuiltModel b(parts() + quads() + "/GRSHEL/SHEL/1\ne\n" + cells({1}) + "/GRSHEL/SHEL/2\ne\n" +
                cells({4}) + "/SURF/GRSHEL/3\ns\n" + cells({1, -2}));
   EXPECT_EQ(b.surface(3), (std::vector<Ids>{{1, 2, 5, 4}, {8, 9, 6, 5}}));
-}
-
-TEST(Surface, MissingElementGroupIsWarning192) {
-  BuiltModel b(parts() + quads() + "/SURF/GRSHEL/3\ns\n" + cells({1}));
-  b.surface(3);
-  EXPECT_EQ(b.message(RuleId::DK151), 192);
 }
 
 TEST(SolidFaces, FacesOfABrickInTheirOrderAllOutward) {

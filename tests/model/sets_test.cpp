@@ -187,22 +187,10 @@ TEST(Set, CollectGathersAllDefinitionsOfTheId) {
   EXPECT_EQ(b.findings(RuleId::DK167), 0u);
 }
 
-TEST(Set, MissingIdIsWarning1902AndIgnored) {
-  BuiltModel b(model() + set(1, clause("NODE", {1, 77})));
-  EXPECT_EQ(b.group(1), (Ids{1}));
-  EXPECT_EQ(b.message(RuleId::DK161), 1902);
-}
-
 TEST(Set, MissingSetIsWarning1902AndTheOthersCount) {
   BuiltModel b(model() + set(1, clause("SET", {2, 77})) + set(2, clause("NODE", {1})));
   EXPECT_EQ(b.group(1), (Ids{1}));
   EXPECT_EQ(b.message(RuleId::DK161), 1902);
-}
-
-TEST(Set, MissingNodeOfASegmentIsMessage1903) {
-  BuiltModel b(model() + set(1, clause("SEG", {1, 9, 8, 77})));
-  EXPECT_TRUE(b.surface(1).empty());
-  EXPECT_EQ(b.message(RuleId::DK162), 1903);
 }
 
 TEST(Set, UnknownClauseIsMessage1906) {

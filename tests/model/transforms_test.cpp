@@ -24,41 +24,6 @@ void expect_at(BuiltModel& b, std::int64_t id, double x, double y, double z) {
   EXPECT_NEAR(b.model().nodes.z[n], z, 1e-12);
 }
 
-TEST(Transform, Translation) {
-  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(1, {1, 2, 3}, {}));
-  expect_at(b, 9, 21, 22, 3);
-}
-
-TEST(Transform, TranslationByTwoNodes) {
-  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(1, {1, 2, 3}, {1, 5}));
-  expect_at(b, 9, 30, 30, 0);
-}
-
-TEST(Transform, RotationIsRightHanded) {
-  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/ROT/1\nt\n" + head(1, {10, 0, 0}, {}) +
-               "          " + reals({10, 0, 5, 90}));
-  expect_at(b, 3, 10, 10, 0);
-}
-
-TEST(Transform, MirrorImage) {
-  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/SYM/1\nt\n" + head(1, {20, 0, 0}, {}) +
-               "          " + reals({25, 0, 0}));
-  expect_at(b, 1, 40, 0, 0);
-  expect_at(b, 3, 20, 0, 0);
-}
-
-TEST(Transform, ScalingAboutANodeTakesZeroForOne) {
-  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/SCA/1\nt\n" + head(1, {2, 0, 3}, {5}));
-  expect_at(b, 9, 30, 20, 0);
-  expect_at(b, 1, -10, 0, 0);
-}
-
-TEST(Transform, Matrix) {
-  BuiltModel b(grid_nodes() + all_nodes() + "/TRANSFORM/MATRIX/1\nt\n" + head(1, {0, 1, 0}, {}) +
-               "          " + reals({1, 0, 0, 7}) + "          " + reals({0, 0, 1}));
-  expect_at(b, 3, 0, 27, 0);
-}
-
 TEST(Transform, OrderOfTheDeckCounts) {
   const std::string move = "/TRANSFORM/TRA/1\nt\n" + head(1, {10, 0, 0}, {});
   const std::string scale = "/TRANSFORM/SCA/2\nt\n" + head(1, {2, 2, 2}, {});

@@ -1,6 +1,5 @@
-// By hand: stiffness of materials, noise on coordinates, merged nodes, transforms.
+// By hand: noise on coordinates, merged nodes, transforms.
 #include <cmath>
-#include <set>
 
 #include "lint/shared/example.hpp"
 #include "model/selection_deck.hpp"
@@ -15,61 +14,10 @@ struct Made {
             "made_0000.rad", example_deck("@bare\n" + text, SchemaSet::built_in()).main,
             SchemaSet::built_in()))),
         model(build_model(**deck, SchemaSet::built_in(), found)) {}
-  std::string message(RuleId rule) const {
-    for (const Diagnostic& d : found.all())
-      if (d.rule == rule) return d.message;
-    return {};
-  }
   Diagnostics found;
   std::unique_ptr<Result<Deck>> deck;
   Model model;
 };
-
-// ---- materials ---------------------------------------------------------------------------------
-
-struct Stiffness {
-  double young, bulk;
-  bool known;
-};
-
-void expect_stiffness(const std::string& keyword, const std::string& fields, const Stiffness& s,
-                      int law) {
-  const Made m("@/MAT/" + keyword + "/1 Rho_I=3 " + fields + "\n");
-  ASSERT_EQ(m.model.materials.size(), 1u) << keyword;
-  const Material& got = m.model.materials[0];
-  EXPECT_NEAR(got.young, s.young, 1e-12 * s.young) << keyword << fields;
-  EXPECT_NEAR(got.bulk, s.bulk, 1e-12 * std::abs(s.bulk)) << keyword << fields;
-  EXPECT_EQ(got.stiffness_known, s.known) << keyword << fields;
-  EXPECT_EQ(got.law, law) << keyword;
-}
-
-TEST(MaterialStiffness, FollowsTheLaw) {
-  const double bulk = 210 / (3 * (1 - 0.5));
-  for (const char* law : {"0", "1", "2", "3", "4", "13", "22", "23", "24", "36", "43", "44", "65"})
-    expect_stiffness("LAW" + std::string(law), "E=210 Nu=0.25", {210, bulk, true}, std::stoi(law));
-  expect_stiffness("LAW70", "E=210 Nu=0.25", {210, bulk, false}, 70);
-  expect_stiffness("LAW1", "E=210 Nu=0.5", {210, 210 / (3 * (1 - 0.998)), true}, 1);
-  expect_stiffness("LAW35", "E=210 Nu=0.25", {210, 210, true}, 35);
-  expect_stiffness("LAW38", "E=210 Nu=0.25", {210, 210, true}, 38);
-  expect_stiffness("LAW21", "E=210 Nu=0.25 K=70", {210, 70, true}, 21);
-  expect_stiffness("LAW33", "E=210", {0, 210, true}, 33);
-  expect_stiffness("LAW59", "E=210 G=90", {210, 70, true}, 59);
-  expect_stiffness("LAW59", "E=90 G=210", {210, 70, true}, 59);
-  expect_stiffness("LAW34", "K=100 G0=30", {9 * 100 * 30 / 330.0, 100, true}, 34);
-  expect_stiffness("LAW34", "K=100", {0, 100, false}, 34);  // the line of G0 is missing
-  expect_stiffness("LAW28", "E11=5 E22=9 E33=7", {0, 9, false}, 28);
-  expect_stiffness("LAW12", "E11=5 E22=9 E33=7 G12=8", {9, 9, false}, 12);
-  expect_stiffness("LAW58", "E1=5 E2=9", {9, 9, false}, 58);
-  expect_stiffness("LAW19", "E11=40 E22=90 Nu12=0.3",
-                   {90 / (1 - 0.09 * 90 / 40), 90 / (1 - 0.09 * 90 / 40), true}, 19);
-  expect_stiffness("LAW42", "Nu=0.4 mu_1=3 alpha_1=2 mu_5=5 alpha_5=4", {26 * 1.4, 26, true}, 42);
-  expect_stiffness("LAW42", "mu_1=3 alpha_1=2", {6, 6, false}, 42);
-  for (const char* law : {"5", "6", "11", "37", "51", "69"})
-    expect_stiffness("LAW" + std::string(law), "", {0, 0, false}, std::stoi(law));
-  expect_stiffness("PLAS_ZERIL", "E=210 Nu=0.25", {210, bulk, true}, 2);
-  expect_stiffness("K-EPS", "", {0, 0, false}, 6);
-  expect_stiffness("B-K-EPS", "", {0, 0, false}, 11);
-}
 
 // ---- noise -------------------------------------------------------------------------------------
 
