@@ -66,7 +66,6 @@ script("editors" editor tests/vscode/run ${deck})
 # Minutes each; `tools/test --all` runs them.
 script("report in a browser, all" slow tests/browser/run ${deck} --all)
 script("what-if on 4000 random decks" slow tests/browser/what_if ${deck} 4000)
-script("the page of the whole program" slow tests/web/run ${deck} --all)
 python_script("hostile input, all" slow tests/robustness/hostile.py --all)
 python_script("bounds, all" slow tests/robustness/bounds.py --all)
 python_script("batches that write, all" slow tests/robustness/library.py --all)
@@ -80,4 +79,4 @@ script("sources for 32 bits" slow ${python} tests/tools/narrow)
 script("every public header alone" slow tests/consumer/run --all ${PROJECT_BINARY_DIR})
 # They install the same modules of node.
 set_tests_properties("what-if on random decks" "report in a browser, all" "what-if on 4000 random decks"
-                     "the page of the whole program" PROPERTIES RESOURCE_LOCK node)
+                     PROPERTIES RESOURCE_LOCK node)

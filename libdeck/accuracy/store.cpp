@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 
-#include "base/shared/bits.hpp"
 #include "base/shared/hash.hpp"
 
 namespace deck {
@@ -22,7 +22,7 @@ struct RowWriter {
     out += column_separator;
     return *this;
   }
-  RowWriter& add(double v) { return add(bit_cast<std::uint64_t>(v)); }
+  RowWriter& add(double v) { return add(std::bit_cast<std::uint64_t>(v)); }
   RowWriter& add(std::uint64_t v) { return add(std::string_view(std::to_string(v))); }
   void end() { out.back() = '\n'; }
 };
@@ -41,7 +41,7 @@ struct RowReader {
   void get(double& v) {
     std::uint64_t bits = 0;
     get(bits);
-    v = bit_cast<double>(bits);
+    v = std::bit_cast<double>(bits);
   }
   void get(std::uint64_t& v) {
     const std::string_view t = text();

@@ -26,55 +26,6 @@ bool stands_without_values(const std::vector<Condition>& when) {
   });
 }
 
-/// A comment that says what the columns below it are called.
-bool is_heading(std::string_view comment, const DecodedCard& card) {
-  if (comment.empty() || comment[0] != '#' || comment.find("decklint:") != comment.npos)
-    return false;
-  std::size_t words = 0, names = 0;
-  for (std::size_t at = 1; at < comment.size();) {
-    const auto begin = comment.find_first_not_of(" \t#-", at);
-    if (begin == comment.npos) break;
-    const auto end = std::min(comment.find_first_of(" \t", begin), comment.size());
-    const std::string_view word = comment.substr(begin, end - begin);
-    ++words;
-    names += std::any_of(card.cells.begin(), card.cells.end(), [&](const Cell& c) {
-      return std::string_view(c.field->name).starts_with(word);
-    });
-    at = end;
-  }
-  return names > 0 && 2 * names >= words;
-}
-
-/// The line with its cells in place; the line itself where a cell would be read otherwise.
-std::string ordered_line(const Deck& deck, const Block& block, const DecodedCard& card) {
-  std::string text(card.line.text);
-  for (const Cell& cell : card.cells) {
-    if (cell.text.empty() || cell.field->type == FieldType::flag) continue;
-    const CellColumns at = columns_of(card, cell);
-    const auto begin = static_cast<std::size_t>(at.first - 1);
-    const auto width = static_cast<std::size_t>(at.last - at.first + 1);
-    if (begin >= text.size() || cell.text.size() > width) return std::string(card.line.text);
-    if (text.size() < begin + width) text.resize(begin + width, ' ');
-    const std::string blanks(width - cell.text.size(), ' ');
-    const bool left = cell.field->type == FieldType::text;
-    text.replace(begin, width,
-                 left ? std::string(cell.text) + blanks : blanks + std::string(cell.text));
-  }
-  text.resize(detail::trim_right(text).size());
-  const DecodedCard again =
-      decode_line(deck, block, *card.schema, {text, card.line.file, card.line.offset}, nullptr);
-  bool same = again.cells.size() >= card.cells.size() && again.free_format == card.free_format;
-  for (std::size_t i = 0; same && i < card.cells.size(); ++i) {
-    // Conditions on other lines are not known to decode_line: cells are found by their columns.
-    const auto it = std::find_if(again.cells.begin(), again.cells.end(), [&](const Cell& c) {
-      return c.field == card.cells[i].field &&
-             columns_of(again, c).first == columns_of(card, card.cells[i]).first;
-    });
-    same = it != again.cells.end() && it->text == card.cells[i].text;
-  }
-  return same ? text : std::string(card.line.text);
-}
-
 }  // namespace
 
 std::string card_heading(const CardSchema& card, int version) {
@@ -95,7 +46,7 @@ std::string card_heading(const CardSchema& card, int version) {
 std::string new_card(const Schema& schema, std::string_view header, int version,
                      std::string_view title) {
   std::string out = std::string(header) + "\n";
-  if (schema.has_title && version >= 51) out += std::string(title) + "\n";
+  if (schema.has_title) out += std::string(title) + "\n";
   bool absent = false;  // the group that the card is of: it stands or falls with its first one
   for (std::size_t i = 0; i < schema.cards.size(); ++i) {
     const CardSchema& card = schema.cards[i];
@@ -113,35 +64,6 @@ std::string new_card(const Schema& schema, std::string_view header, int version,
            "\n";
   }
   return out;
-}
-
-std::vector<TextEdit> format_card(const Deck& deck, const Block& block) {
-  std::vector<TextEdit> edits;
-  if (block.schema == nullptr || block.schema->bulk || block.opaque) return edits;
-  const DecodedBlock decoded = decode(deck, block);
-  const auto put = [&](const Line& line, const std::string& text) {
-    if (text != line.text) edits.push_back({line.whole(), text});
-  };
-  std::size_t next = 0;
-  Line comment;
-  LineCursor cursor(deck.sources, block);
-  for (Line line = cursor.next_physical(); line.valid(); line = cursor.next_physical()) {
-    if (!line.text.empty() && (line.text[0] == '#' || line.text[0] == '$')) {
-      comment = line;
-      continue;
-    }
-    const Line above = comment;
-    comment = {};
-    if (next >= decoded.cards.size()) continue;
-    const DecodedCard& card = decoded.cards[next];
-    if (card.missing() || card.line.file != line.file || card.line.offset != line.offset) continue;
-    ++next;
-    if (card.free_format) continue;
-    put(line, ordered_line(deck, block, card));
-    if (above.valid() && is_heading(above.text, card))
-      put(above, card_heading(*card.schema, block.version));
-  }
-  return edits;
 }
 
 Result<TextEdit> set_cell(const Deck& deck, const Block& block, std::string_view field,

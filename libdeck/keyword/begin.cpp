@@ -34,12 +34,19 @@ Begin read_begin(Deck& deck, Span header, std::uint64_t pos) {
   const IntegerCell number = read_integer(cell);
   begin.version_written = static_cast<int>(std::clamp<std::int64_t>(number.value, 0, 99999));
   begin.version_known = is_known_version(begin.version_written);
+  begin.version_unread = begin.version_written == 41 || begin.version_written == 42 ||
+                         begin.version_written == 44;
   begin.has_input = read_units(deck, lines[2], begin.input);
   begin.has_working = read_units(deck, lines[3], begin.working);
   if (begin.has_input) fill_blank_units(deck, header, begin.input, begin.working, "input system");
   if (begin.has_working)
     fill_blank_units(deck, header, begin.working, begin.input, "working system");
-  if (!begin.version_known)
+  if (begin.version_unread)
+    report(deck, RuleId::DK050, begin.version_span,
+           "input version " + std::to_string(begin.version_written) +
+               " has cells of eight columns, which deck does not read",
+           {.severity = Severity::error});
+  else if (!begin.version_known)
     report(deck, RuleId::DK003, begin.version_span,
            "input version " + std::string(trim(cell).empty() ? "(blank)" : trim(cell)) +
                " is unknown; the columns of version " + std::to_string(newest_version) +

@@ -181,7 +181,7 @@ void note_lint_markers(Deck& deck, std::uint32_t file) {
 }
 
 void parse_header(const SchemaSet& schemas, Block& block) {
-  block.header = without_comment(block.header, block.version);
+  block.header = without_comment(block.header);
   const std::string_view header = block.header;
   block.schema = schemas.match(header);
   std::size_t length = 0;
@@ -249,13 +249,10 @@ void parse_header(const SchemaSet& schemas, Block& block) {
         block.id.span.length > 0 && header[block.id.span.offset - block.header_span.offset] == '&';
     if (block.id.value == 0 && !parameter && !keeps_zero(block)) block.id.value = 1;
   }
-  // The formats up to 51 have no unit field; before 51 the title stands in the header.
-  if (block.version < 51) {
-    if (next < parts.size()) block.inline_title = header.substr(parts[next].begin);
-  } else if (block.version > 51 && next < parts.size() &&
-             (block.schema == nullptr || block.schema->has_unit)) {
+  // Version 51 has no unit field.
+  if (block.version > 51 && next < parts.size() &&
+      (block.schema == nullptr || block.schema->has_unit))
     if (!take(parts[next], block.unit_id)) block.unit_id = {};
-  }
 }
 
 }  // namespace detail

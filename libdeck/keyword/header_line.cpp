@@ -52,9 +52,9 @@ void check_blanks(Deck& deck, const HeaderPlace& place, std::string_view header)
 
 }  // namespace
 
-void check_header_line(Deck& deck, const HeaderPlace& place, std::string_view header, int version) {
+void check_header_line(Deck& deck, const HeaderPlace& place, std::string_view header) {
   check_length(deck, place);
-  if (version >= 51) check_blanks(deck, place, header);  // before, the title stands in the header
+  check_blanks(deck, place, header);
 }
 
 }  // namespace deck::detail

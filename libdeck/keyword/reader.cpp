@@ -64,10 +64,20 @@ class Reader {
     stack_.pop_back();
     if (!submodel_stack_.empty()) notes_.unclosed_submodel = submodel_stack_.back();
     detail::finish_deck(deck_, notes_, options_);
+    if (deck_.begin.version_unread) forget_all();
     return std::move(deck_);
   }
 
  private:
+  /// Of a version that is not read only this is said.
+  void forget_all() {
+    deck_.blocks.clear();
+    Diagnostics only(options_.limits.diagnostics_per_rule);
+    for (const Diagnostic& d : deck_.diagnostics.all())
+      if (d.rule == RuleId::DK050) only.report(d);
+    deck_.diagnostics = std::move(only);
+  }
+
   void report(RuleId rule, Span span, std::string message, Case particular = {}) {
     detail::report(deck_, rule, span, std::move(message), std::move(particular));
   }
@@ -351,8 +361,8 @@ class Reader {
       const auto slash = bytes.find('/', pos);
       const std::string_view line =
           trim_right(bytes.substr(slash, std::min<std::uint64_t>(end - slash, header_columns)));
-      const std::string_view header = detail::without_comment(line, version);
-      detail::check_header_line(deck_, {file, pos, slash, end}, header, version);
+      const std::string_view header = detail::without_comment(line);
+      detail::check_header_line(deck_, {file, pos, slash, end}, header);
       pos = next;
       if (line == "/END") {  // with a comment it is none
         open_block_ = -1;
@@ -486,6 +496,7 @@ class Reader {
     ++notes_.begin_count;
     Begin begin = detail::read_begin(deck_, header, pos);
     version = begin.version_known ? begin.version_written : newest_version;
+    const bool unread = begin.version_unread || deck_.begin.version_unread;
     if (notes_.begin_count == 1) {
       deck_.begin = std::move(begin);
       deck_.version = version;
@@ -511,6 +522,7 @@ class Reader {
                 .fix = "put the #include between //SUBMODEL and //ENDSUB, give the blocks of the "
                        "file a /UNIT, or convert it"});
     }
+    deck_.begin.version_unread = unread;
   }
 
   const SchemaSet& schemas_;

@@ -195,7 +195,7 @@ void fill_units(Deck& deck, const ReaderNotes& notes) {
   for (const Block& b : deck.blocks) {
     if (is_global_unit(b) || !b.header.starts_with("/UNIT/")) continue;
     LineCursor cursor(deck.sources, b);
-    if (b.version >= 51) cursor.next();  // title
+    cursor.next();  // title
     UnitSystem units;
     if (const Line line = cursor.next(); line.valid()) read_units(deck, line, units, true);
     deck.units[b.id.value + deck.offset_of(b, "unit")] = units;

@@ -127,7 +127,14 @@ Result<void> detail::refuse_binary(const Source& source) {
                                         "); expected the text of a Starter deck"};
 }
 
+std::string unread_version(const Deck& deck) {
+  if (!deck.begin.version_unread) return {};
+  const Diagnostic& d = deck.diagnostics.all().front();
+  return deck.sources.where(d.span) + ": " + d.message + "; convert the deck to version 51 or later";
+}
+
 std::string no_starter_deck(const Deck& deck) {
+  if (deck.begin.version_unread) return {};
   const std::string_view bytes = deck.sources[0].bytes();
   const std::string_view head = bytes.substr(0, head_bytes);
   const auto is = [](std::string_view what) {

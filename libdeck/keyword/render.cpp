@@ -45,7 +45,7 @@ std::vector<const Field*> in_columns(const CardSchema& card, int version) {
 std::string render_card(const Schema& schema, std::string_view header, int version,
                         const Values& values) {
   std::string out = std::string(header) + "\n";
-  if (schema.has_title && version >= 51) out += "example\n";
+  if (schema.has_title) out += "example\n";
   std::vector<std::string> used;
   std::string pending;  // blank optional lines, which are needed only in front of others
   const auto holds = [&](const Condition& c) {

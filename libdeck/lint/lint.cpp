@@ -405,6 +405,11 @@ std::vector<NotChecked> run_extra_checks(const std::vector<ExtraCheck>& extra,
 LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options,
                     const std::vector<ExtraCheck>& extra) {
   const Deck& deck = loaded.deck();
+  if (deck.begin.version_unread) {
+    LintResult only;
+    only.diagnostics = deck.diagnostics.all();
+    return only;
+  }
   Pool pool{loaded.schemas()};
   pool.take(loaded.findings(Stage::interfaces), options);
 

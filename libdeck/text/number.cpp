@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "base/shared/real_text.hpp"
 #include "text/shared/decimal.hpp"
 #include "text/shared/number_scan.hpp"
 
@@ -33,7 +32,8 @@ std::int64_t decimal_exponent(std::string_view mantissa, std::string_view expone
 RealCell read_hexadecimal(std::string_view s) {
   double value = 0;
   if (s.empty() || s[0] == '-') return {};
-  const auto [end, error] = read_hexadecimal_text(s.data(), s.data() + s.size(), value);
+  const auto [end, error] =
+      std::from_chars(s.data(), s.data() + s.size(), value, std::chars_format::hex);
   if (end == s.data() || !std::isfinite(value)) return {};  // "inf" and "nan" are no digits
   if (error == std::errc::result_out_of_range) return {0, NumberStatus::overflow};
   return {value, NumberStatus::trailing_text};  // not the number that a deck's author has in mind
@@ -97,7 +97,7 @@ RealCell convert(std::string_view s) {
   double value = 0;
   std::from_chars_result result;
   if (exponent.empty()) {
-    result = read_real_text(mantissa.data(), mantissa.data() + mantissa.size(), value);
+    result = std::from_chars(mantissa.data(), mantissa.data() + mantissa.size(), value);
   } else {
     // The library reads neither D nor a missing letter: spell the number its way. Cells of a deck
     // fit the buffer; only hostile ones need the heap.
@@ -114,7 +114,7 @@ RealCell convert(std::string_view s) {
     *to++ = 'e';
     if (minus) *to++ = '-';
     to = std::copy(exponent.begin(), exponent.end(), to);
-    result = read_real_text(text, to, value);
+    result = std::from_chars(text, to, value);
   }
   if (result.ec == std::errc::result_out_of_range) {
     if (!nonzero) {
@@ -179,7 +179,7 @@ using detail::scientific_text;
 
 /// `significant` digits, correctly rounded; 0: the fewest that read back to the same double.
 Decimal to_decimal(double value, int significant, char (&buffer)[32]) {
-  const auto result = write_real_text(buffer, buffer + sizeof buffer, value, significant);
+  const auto result = detail::write_scientific(buffer, buffer + sizeof buffer, value, significant);
   // "-d.ddde+XX": move the digits together over the point.
   Decimal out;
   char* first = buffer;

@@ -50,16 +50,17 @@ int set_gap(const deck::LoadedDeck& loaded, const char* directory) {
 
 int main(int argc, char** argv) {
   if (argc < 2) return 2;
-  const auto loaded = deck::load(argv[1]);
-  if (!loaded) {
-    std::fprintf(stderr, "%s\n", loaded.error().message.c_str());
+  const auto result = deck::load(argv[1]);
+  if (!result) {
+    std::fprintf(stderr, "%s\n", result.error().message.c_str());
     return 3;
   }
-  for (const deck::InterType7& inter : loaded->interfaces().type7)
+  const deck::LoadedDeck& loaded = *result;
+  for (const deck::InterType7& inter : loaded.interfaces().type7)
     std::printf("TYPE7 %lld Gapmin %g Inacti %lld\n", static_cast<long long>(inter.id),
                 inter.Gapmin.value, static_cast<long long>(inter.Inacti.value));
-  print_defaults(*loaded);
-  print_gaps(*loaded);
-  print_penetrations(*loaded);
-  return argc > 2 ? set_gap(*loaded, argv[2]) : 0;
+  print_defaults(loaded);
+  print_gaps(loaded);
+  print_penetrations(loaded);
+  return argc > 2 ? set_gap(loaded, argv[2]) : 0;
 }

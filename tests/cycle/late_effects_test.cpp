@@ -7,7 +7,7 @@
 #include "contact/small_deck.hpp"
 #include "cycle/adapter/parts.hpp"
 #include "cycle/shared/heat.hpp"
-#include "cycle/shared/replay.hpp"
+#include "replay/replay.hpp"
 #include "cycle/support.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 

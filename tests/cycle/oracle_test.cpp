@@ -2,7 +2,7 @@
 // of the interface card in the deck beside each set of records.
 #include <gtest/gtest.h>
 
-#include "cycle/shared/replay.hpp"
+#include "replay/replay.hpp"
 #include "cycle/support.hpp"
 
 namespace deck::cycle {

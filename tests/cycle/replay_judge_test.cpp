@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "cycle/shared/replay.hpp"
+#include "replay/replay.hpp"
 #include "cycle/support.hpp"
 
 namespace deck::cycle {

@@ -14,7 +14,7 @@
 #include <sstream>
 
 #include "contact/small_deck.hpp"
-#include "cycle/shared/replay.hpp"
+#include "replay/replay.hpp"
 #include "where.hpp"
 
 namespace deck::cycle {

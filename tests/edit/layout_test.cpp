@@ -16,14 +16,6 @@ std::string changed(const Deck& deck, std::vector<TextEdit> edits) {
   return text ? *text : std::string();
 }
 
-std::string values(const Deck& deck) {
-  std::string out;
-  for (const Block& b : deck.blocks)
-    for (const DecodedCard& card : decode(deck, b).cards)
-      for (const Cell& c : card.cells) out += c.field->name + "=" + std::string(c.text) + ";";
-  return out;
-}
-
 const Block& block(const Deck& deck, std::string_view keyword) {
   for (const Block& b : deck.blocks)
     if (b.header.starts_with(keyword)) return b;
@@ -59,23 +51,6 @@ TEST(Heading, EndsNamesWhereTheirColumnsEnd) {
       EXPECT_TRUE(head.size() == last || head[last] == ' ') << head << f.name;
     }
   }
-}
-
-TEST(FormatCard, PutsCellsInPlaceAndKeepsTheirValues) {
-  const Deck deck = read(deck_of("/INTER/TYPE7/3\nt\n# grnd surf_IDm\n 1            2      4\n"));
-  const Block& b = block(deck, "/INTER/TYPE7");
-  const std::string text = changed(deck, format_card(deck, b));
-  EXPECT_NE(text.find("\n         1         2         4\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("\n# grnd_IDs  surf_IDm      Istf"), std::string::npos) << text;
-  const Deck again = read(text);
-  EXPECT_EQ(values(again), values(deck));
-  EXPECT_TRUE(format_card(again, block(again, "/INTER/TYPE7")).empty());
-}
-
-TEST(FormatCard, LeavesCommentsOfPeopleAndFreeFormatAlone) {
-  const Deck deck =
-      read(deck_of("/INTER/TYPE7/3\nt\n# ask Anna about the gap here\n1,2,4\n# and this\n"));
-  EXPECT_TRUE(format_card(deck, block(deck, "/INTER/TYPE7")).empty());
 }
 
 TEST(SetCell, MovesNothingElse) {

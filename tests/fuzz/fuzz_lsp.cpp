@@ -34,14 +34,10 @@ constexpr Named of_a_place[] = {{"hover", hover},
                                 {"definition", definition},
                                 {"references", references},
                                 {"highlight", document_highlight},
-                                {"calls", prepare_call_hierarchy},
-                                {"prepare rename", prepare_rename},
-                                {"rename", rename},
                                 {"card", card_at}};
 constexpr Named of_the_text[] = {
-    {"completion", completion},  {"tokens", semantic_tokens}, {"symbols", document_symbols},
-    {"folding", folding_ranges}, {"links", document_links},   {"hints", inlay_hints},
-    {"lenses", code_lenses},     {"actions", code_actions},   {"formatting", range_formatting}};
+    {"completion", completion}, {"symbols", document_symbols}, {"folding", folding_ranges},
+    {"hints", inlay_hints},     {"lenses", code_lenses},       {"actions", code_actions}};
 
 /// One document, its deck, and what is known about it.
 class Session {

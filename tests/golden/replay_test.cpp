@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "cycle/shared/replay.hpp"
+#include "replay/replay.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "golden/reference.hpp"
 

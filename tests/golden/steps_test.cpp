@@ -10,8 +10,8 @@
 #include <map>
 #include <set>
 
-#include "cycle/replay/table.hpp"
-#include "cycle/shared/replay.hpp"
+#include "replay/table.hpp"
+#include "replay/replay.hpp"
 #include "deck/cycle/steps.hpp"
 #include "where.hpp"
 

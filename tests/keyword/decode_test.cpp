@@ -29,9 +29,6 @@ constexpr std::string_view schema_text = R"({"schemas":[
   {"name":"last","optional":true,"fields":[{"name":"t","cols":[1,40],"type":"text"}]}]},
  {"keyword":"/X/IDS","cards":[{"name":"ids","repeat":"ids","fields":[
     {"name":"item","cols":[1,10],"type":"id","ref":"node"}]}]},
- {"keyword":"/X/OLD","cards":[{"name":"ids","versions":[41,50],"repeat":"ids","fields":[
-    {"name":"item","cols":[1,8],"type":"id","ref":"node"}]},
-    {"name":"new","versions":[51,null],"fields":[{"name":"r","cols":[1,20],"type":"real"}]}]},
  {"keyword":"/X/ROWS","cards":[
     {"name":"head","fields":[{"name":"k","cols":[1,10],"type":"int"}]},
     {"name":"row","repeat":"rows","fields":[{"name":"a","cols":[1,10],"type":"int"},
@@ -384,17 +381,6 @@ TEST(Decode, IdListsSkipBlankCellsAndTakeAllLines) {
     for (const Cell& cell : card.cells)
       if (!cell.blank()) ids.push_back(cell.integer);
   EXPECT_THAT(ids, ::testing::ElementsAre(1, -3, 9, 4, 5, 6, 7));
-}
-
-TEST(Decode, OldFormatsHaveEightColumnsAndEightyPerLine) {
-  std::string line;
-  for (int i = 1; i <= 12; ++i)
-    line += std::string(7 - std::to_string(i).size() + 1, ' ') + std::to_string(i);
-  const Decoded d("/X/OLD/5/title\n" + line + "\n", "44");
-  EXPECT_EQ(d.result.title, "title");
-  ASSERT_EQ(d.result.cards.size(), 1u);
-  EXPECT_EQ(d.result.cards[0].cells.size(), 10u);
-  EXPECT_EQ(d.result.cards[0].cells[9].integer, 10);
 }
 
 TEST(Decode, RowsRepeatToTheEnd) {

@@ -201,10 +201,21 @@ TEST(ReaderBegin, UnknownVersionsTakeTheNewestLayout) {
     EXPECT_FALSE(d.begin.version_known);
     EXPECT_EQ(count(d.diagnostics, RuleId::DK003), 1u) << version;
   }
-  for (const int version : {41,   42,   44,   51,   90,   100,  110,  120,  130,  140,
-                            2017, 2018, 2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026}) {
+  for (const int version : {51,   90,   100,  110,  120,  130,  140,  2017, 2018,
+                            2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026}) {
     EXPECT_EQ(read(deck_of("", std::to_string(version))).version, version);
     EXPECT_TRUE(is_known_version(version));
+  }
+}
+
+TEST(ReaderBegin, VersionsOfEightColumnsAreNotRead) {
+  for (const char* version : {"41", "42", "44"}) {
+    const Deck d = read(deck_of("/NODE\nx\n/NOSUCH\n", version));
+    EXPECT_TRUE(d.begin.version_unread);
+    EXPECT_TRUE(d.blocks.empty());
+    ASSERT_EQ(d.diagnostics.all().size(), 1u);
+    EXPECT_EQ(d.diagnostics.all()[0].rule, RuleId::DK050);
+    EXPECT_EQ(d.diagnostics.all()[0].severity, Severity::error);
   }
 }
 
@@ -309,15 +320,6 @@ TEST(ReaderHeader, FindsIdAndUnitBehindTheKeyword) {
   EXPECT_EQ(block(d, "/INTER/TYPE7/12/3")->keyword, "/INTER/TYPE7");
   EXPECT_EQ(d.sources.text(block(d, "/INTER/TYPE7/12/3")->id.span), "12");
   EXPECT_EQ(d.sources.text(block(d, "/INTER/TYPE7/12/3")->unit_id.span), "3");
-}
-
-TEST(ReaderHeader, OldFormatsCarryTheTitleInTheHeader) {
-  const Deck d = read(deck_of("/INTER/TYPE7/12/my 1/2 title\n", "44"));
-  const Block* b = block(d, "/INTER/TYPE7/12/my 1/2 title");
-  ASSERT_NE(b, nullptr);
-  EXPECT_EQ(b->id.value, 12);
-  EXPECT_EQ(b->inline_title, "my 1/2 title");
-  EXPECT_EQ(decode(d, *b).title, "my 1/2 title");
 }
 
 TEST(ReaderHeader, Format51HasATitleLineAndNoUnitField) {

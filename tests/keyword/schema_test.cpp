@@ -25,8 +25,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAreArray;
 
-constexpr int all_versions[] = {41,   42,   44,   51,   90,   100,  110,  120,  130,  140,
-                                2017, 2018, 2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
+constexpr int all_versions[] = {51,   90,   100,  110,  120,  130,  140,  2017, 2018,
+                                2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
 std::string error_of(std::string_view text) {
   SchemaSet set;
   const auto added = set.add_json("test.json", text);
@@ -478,39 +478,6 @@ TEST_F(SchemaDirectory, ErrorsNameTheFile) {
   ASSERT_FALSE(added);
   EXPECT_THAT(added.error().message, HasSubstr("wrong.json: /cards: expected a list"));
   EXPECT_EQ(added.error().code, Error::Code::config);
-}
-
-/// Until version 44 numbers have 16 columns, ids 8.
-TEST(OldLayouts, SkewsFramesAndTrussesHaveTheNarrowColumns) {
-  const auto deck = read_deck_text("old_0000.rad",
-                                   "#RADIOSS STARTER\n/BEGIN\nold\n      44       0\n"
-                                   "/PROP/TRUSS/1/bar\n            25.0             0.5\n"
-                                   "/SKEW/MOV/2/moves\n      11      12      13\n"
-                                   "/FRAME/FIX/3/stays\n             1.0             2.0"
-                                   "             3.0\n             0.0             1.0"
-                                   "             0.0\n             0.0             0.0"
-                                   "             1.0\n/END\n",
-                                   SchemaSet::built_in());
-  ASSERT_TRUE(deck.ok());
-  ASSERT_EQ(deck->version, 44);
-  std::map<std::string, double> real;
-  std::map<std::string, std::int64_t> id;
-  for (const Block& b : deck->blocks) {
-    if (b.schema == nullptr || b.keyword == "/BEGIN") continue;
-    const DecodedBlock d = decode(*deck, b);
-    for (const DecodedCard& card : d.cards)
-      for (const Cell& c : card.cells) {
-        EXPECT_TRUE(c.status == NumberStatus::ok || c.field->type == FieldType::text)
-            << b.keyword << " " << c.field->name;
-        real[c.field->name] = c.real;
-        id[c.field->name] = c.integer;
-      }
-  }
-  EXPECT_EQ(real["Area"], 25);
-  EXPECT_EQ(real["Gap"], 0.5);
-  EXPECT_EQ(id["N3"], 13);
-  EXPECT_EQ(real["OZ"], 3);
-  EXPECT_EQ(real["Z_Z"], 1);
 }
 
 /// Each row of a list has a flag of its own that says what its value is.

@@ -3,7 +3,7 @@ import json
 import os
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-VERSIONS = [2026, 2025, 2024, 2023, 2022, 2021, 2020, 2019, 2018, 2017, 140, 130, 120, 110, 100, 90, 51, 44, 42, 41]
+VERSIONS = [2026, 2025, 2024, 2023, 2022, 2021, 2020, 2019, 2018, 2017, 140, 130, 120, 110, 100, 90, 51]
 FILES = {"/INTER/TYPE7": "inter_type7.json", "/INTER/TYPE10": "inter_type10.json", "/INTER/TYPE11": "inter_type11.json",
          "/INTER/TYPE19": "inter_type19.json", "/DEFAULT/INTER/TYPE7": "default_inter.json",
          "/DEFAULT/INTER/TYPE11": "default_inter.json", "/DEFAULT/INTER/TYPE19": "default_inter.json"}
@@ -13,11 +13,6 @@ def schema(keyword):
     with open(os.path.join(ROOT, "schemas", "keywords", FILES[keyword]), encoding="utf-8") as f:
         found = json.load(f)
     return next(s for s in found.get("schemas", [found]) if s["keyword"] == keyword)
-
-
-def versions(keyword):
-    """Input versions that know the keyword; default blocks have no layout before version 51."""
-    return [v for v in VERSIONS if v >= 51 or keyword.startswith("/INTER")]
 
 
 def fields(card):
@@ -59,7 +54,7 @@ def deck(keyword, version):
     lines += ["%20s%20s%20s" % ("kg", "mm", "ms")] * 2
     header = keyword + ("/1" if s.get("id", True) else "")
     if s.get("title", True):
-        lines += [header, "title"] if version >= 51 else [header + "/title"]
+        lines += [header, "title"]
     else:
         lines.append(header)
     placed = []

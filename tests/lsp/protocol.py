@@ -8,16 +8,11 @@ PACKAGES = ["vscode-languageserver-protocol@3.17.5", "typescript@5.4.5"]
 RESULTS = {
     "initialize": "InitializeResult", "shutdown": "null", "workspace/executeCommand": "unknown",
     "textDocument/hover": "Hover | null", "textDocument/inlayHint": "InlayHint[] | null", "textDocument/completion": "CompletionList | null",
-    "textDocument/semanticTokens/full": "SemanticTokens | null", "textDocument/semanticTokens/range": "SemanticTokens | null",
     "textDocument/documentSymbol": "DocumentSymbol[] | SymbolInformation[] | null", "textDocument/foldingRange": "FoldingRange[] | null",
     "textDocument/definition": "Location | null", "textDocument/references": "Location[] | null",
-    "textDocument/documentHighlight": "DocumentHighlight[] | null", "textDocument/documentLink": "DocumentLink[] | null",
-    "textDocument/prepareCallHierarchy": "CallHierarchyItem[] | null", "callHierarchy/incomingCalls": "CallHierarchyIncomingCall[] | null",
-    "callHierarchy/outgoingCalls": "CallHierarchyOutgoingCall[] | null",
-    "textDocument/prepareRename": "{ range: Range; placeholder: string } | null", "textDocument/rename": "WorkspaceEdit | null",
+    "textDocument/documentHighlight": "DocumentHighlight[] | null",
     "textDocument/codeAction": "CodeAction[] | null", "textDocument/codeLens": "CodeLens[] | null",
-    "textDocument/rangeFormatting": "TextEdit[] | null",
-    "deck/card": "unknown", "deck/locate": "Location | null", "deck/gapReport": "{ html: string } | { file: string }", "deck/explain": "{ text: string }"}
+    "deck/card": "unknown", "deck/gapReport": "{ html: string } | { file: string }", "deck/explain": "{ text: string }"}
 SAID = {
     "textDocument/publishDiagnostics": "PublishDiagnosticsParams", "window/logMessage": "LogMessageParams",
     "$/progress": "{ token: ProgressToken; value: WorkDoneProgressBegin | WorkDoneProgressReport | WorkDoneProgressEnd }",
@@ -90,8 +85,8 @@ def check(folder, values):
     path = os.path.join(folder, "messages.ts")
     with open(path, "w", encoding="utf-8") as f:
         f.write('import * as P from "vscode-languageserver-protocol";\n')
-        for name in ("InitializeResult Hover InlayHint CompletionList SemanticTokens DocumentSymbol SymbolInformation FoldingRange Location "
-                     "DocumentHighlight DocumentLink CallHierarchyItem CallHierarchyIncomingCall CallHierarchyOutgoingCall Range WorkspaceEdit "
+        for name in ("InitializeResult Hover InlayHint CompletionList DocumentSymbol SymbolInformation FoldingRange Location "
+                     "DocumentHighlight Range WorkspaceEdit "
                      "CodeAction CodeLens TextEdit PublishDiagnosticsParams LogMessageParams ProgressToken WorkDoneProgressBegin "
                      "WorkDoneProgressReport WorkDoneProgressEnd WorkDoneProgressCreateParams ApplyWorkspaceEditParams ShowDocumentParams").split():
             f.write("type %s = P.%s;\n" % (name, name))

@@ -94,13 +94,6 @@ TEST(BulkNodes, TakeUnitsAndSubmodelOffsets) {
       << "the unit system 6 that is missing is the model's finding";
 }
 
-TEST(BulkNodes, OldColumnsBelongToOldVersions) {
-  const Bulk b = bulk("/NODE\n       5             1.5              2.              3.\n", "44");
-  EXPECT_THAT(b.model.nodes.id, ElementsAre(5));
-  EXPECT_THAT(b.model.nodes.x, ElementsAre(1.5));
-  EXPECT_THAT(b.model.nodes.z, ElementsAre(3));
-}
-
 TEST(BulkNodes, BlankLinesAreNoNodesAndBadIdsAreNamed) {
   const Bulk b = bulk("/NODE\n" + ids({1}) + "\n   \n" + ids({-4}) + "                  1.0\n");
   EXPECT_THAT(b.model.nodes.id, ElementsAre(1, -4, 0));

@@ -38,21 +38,6 @@ def sample(name):
     return read(os.path.join(ROOT, "samples", name))
 
 
-def small_states():
-    """A states file of two pairs, for replay."""
-    names = ["interface", "dt1", "dt12", "K0", "gap", "P0_in", "ms", "m1", "m2", "m3", "m4", "H1", "H2", "H3", "H4"]
-    values = ["1", "0", "0", "100", "1", "0", "1e-3", "1e-3", "1e-3", "1e-3", "1e-3", "0.25", "0.25", "0.25", "0.25"]
-    for role, x in (("xs", (5, 5, 0.5)), ("x1", (0, 0, 0)), ("x2", (10, 0, 0)), ("x3", (10, 10, 0)), ("x4", (0, 10, 0))):
-        for axis, v in zip("xyz", x):
-            names.append("%s_%s" % (role, axis))
-            values.append(str(v))
-    for role in ("vs", "v1", "v2", "v3", "v4", "F", "ft_in"):
-        for axis in "xyz":
-            names.append("%s_%s" % (role, axis))
-            values.append("0")
-    return (",".join(names) + "\n" + (",".join(values) + "\n") * 2).encode()
-
-
 def verbs():
     """(name, arguments, files) of a small run of every verb."""
     clean, bad = {"car_0000.rad": sample("too_close_0000.rad")}, {"car_0000.rad": sample("variable_gap_0000.rad")}
@@ -71,7 +56,6 @@ def verbs():
     yield "convert --units --in-place", ("convert", "car_0000.rad", "--units", "Mg,mm,s", "--in-place"), clean
     yield "convert --version", ("convert", "car_0000.rad", "--version", "2026", "-o", "out"), clean
     yield "fix", ("fix", "car_0000.rad", "--strategy", "reduce-gap", "--in-place"), bad
-    yield "replay", ("replay", "car_0000.rad", "--interface", "1", "states.csv"), dict(clean, **{"states.csv": small_states()})
     yield "accuracy", ("accuracy", "--samples", "2"), {}
     yield "explain", ("explain", "/INTER/TYPE7.Inacti"), {}
     yield "rules", ("rules",), {}
@@ -102,7 +86,7 @@ def session(folder):
             ("textDocument/didChange", {"textDocument": {"uri": uri, "version": 2}, "contentChanges": [
                 {"range": {"start": place, "end": place}, "text": "7"}]})]
     said += [("textDocument/" + m, {**document, **everything, "context": {"diagnostics": []}}) for m in (
-        "hover", "completion", "definition", "documentSymbol", "semanticTokens/full", "foldingRange", "codeAction", "codeLens")]
+        "hover", "completion", "definition", "documentSymbol", "foldingRange", "codeAction", "codeLens")]
     return b"".join(frame(n, *m) for n, m in enumerate(said)), frame(90, "shutdown", None) + frame(91, "exit", None)
 
 

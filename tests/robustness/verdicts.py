@@ -29,14 +29,13 @@ def read(path):
 
 def verbs(c, deck, tmp):
     """(verb, arguments) for every verb that reads a deck."""
-    states = write(os.path.join(tmp, "states.csv"), b"inter,x\n1,0\n")
     out = os.path.join(tmp, "out")
     for verb, *rest in (("lint",), ("lint", "--geometry"), ("params",), ("gaps",), ("cycle",), ("accuracy",),
                         ("convert", "-o", out), ("convert", "--version", "2022", "--diff"), ("convert", "--to", "json"),
-                        ("fix", "--strategy", "move-nodes"), ("replay", "--interface", "1", states)):
+                        ("fix", "--strategy", "move-nodes")):
         if not c.has(verb):
             continue
-        yield (verb, deck, rest[2]) + tuple(rest[:2]) if verb == "replay" else (verb, deck, *rest)
+        yield (verb, deck, *rest)
 
 
 # ---- what is no Starter deck ---------------------------------------------------------------------

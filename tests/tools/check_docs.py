@@ -313,7 +313,7 @@ def main():
     text = c.run("--help").out.decode()
     verbs = re.findall(r"^  ([a-z]+)  ", text[text.index("Subcommands:"):text.index("Examples:")], re.M)
     options = {}
-    for verb in verbs + ["man", "completion"]:
+    for verb in verbs:
         out = c.run(verb, "--help").out.decode()
         options[verb] = {o for m in re.finditer(r"(?m)^\s+((?:-\w,)?--[\w-]+|-\w)\b", out) for o in m.group(1).split(",")} | {"-h", "--help"}
     all_pages = {name: Page(name) for name in pages()}

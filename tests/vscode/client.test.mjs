@@ -1,5 +1,4 @@
-// A scripted client against the real server: what the extension asks beyond the protocol, and that the
-// grammar and the server see the same cells.
+// A scripted client against the real server: what the extension asks beyond the protocol.
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
@@ -8,19 +7,15 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { cellScopes } from "../../tools/vscode/grammar.mjs";
-import { tokens } from "./engine.mjs";
 
 const { ROOT, WORK, DECK } = process.env;
 const require = createRequire(join(WORK, "x.js"));
 const { StreamMessageReader, StreamMessageWriter, createMessageConnection } = require("vscode-jsonrpc/node");
 const out = mkdtempSync(join(tmpdir(), "deck-client-"));
-for (const name of ["program", "columns", "page", "new_interface"])
+for (const name of ["program", "columns"])
   await require("esbuild").build({ entryPoints: [join(ROOT, `tools/vscode/src/${name}.ts`)], bundle: true, format: "esm", platform: "node", outfile: join(out, `${name}.mjs`) });
 const { serverCall, serverOptions } = await import(join(out, "program.mjs"));
 const { layoutOf, ruler } = await import(join(out, "columns.mjs"));
-const { planOf } = await import(join(out, "new_interface.mjs"));
-const { withScript } = await import(join(out, "page.mjs"));
 
 const settings = { path: DECK, includePaths: [join(ROOT, "samples")], arguments: ["--threads", "1"], geometryOnSave: false };
 const server = spawn(DECK, serverCall(settings), { stdio: ["pipe", "pipe", "inherit"] });
@@ -41,8 +36,7 @@ after(async () => {
 });
 const { capabilities } = await connection.sendRequest("initialize", {
   processId: process.pid, rootUri: null, initializationOptions: serverOptions(settings),
-  capabilities: { general: { positionEncodings: ["utf-16"] }, textDocument: { semanticTokens: { requests: { full: true }, tokenTypes: [], tokenModifiers: [], formats: ["relative"] },
-    documentSymbol: { hierarchicalDocumentSymbolSupport: true }, completion: { completionItem: { snippetSupport: true } } } },
+  capabilities: { general: { positionEncodings: ["utf-16"] }, textDocument: { documentSymbol: { hierarchicalDocumentSymbolSupport: true }, completion: { completionItem: { snippetSupport: true } } } },
 });
 await connection.sendNotification("initialized", {});
 
@@ -73,7 +67,7 @@ test("every line with cells has a layout that ends where they end, other lines h
   await close(deck);
 });
 
-test("the lens shows the report by the extension's command, and the report takes its script", async () => {
+test("the lens shows the report by the extension's command", async () => {
   const deck = await open("crash_box_0000.rad");
   // They come with the interfaces, which are read beside; an editor is told to ask again.
   let lens;
@@ -85,8 +79,6 @@ test("the lens shows the report by the extension's command, and the report takes
   assert.ok(lens);
   assert.deepEqual(lens.command.arguments[0].textDocument, deck.textDocument);
   assert.equal(typeof lens.command.arguments[0].interface, "number");
-  const { html } = await connection.sendRequest("deck/gapReport", { textDocument: deck.textDocument });
-  assert.match(withScript(html, "f()"), /<script>f\(\)<\/script>\n<\/body>\n<\/html>\n$/);
   await close(deck);
 });
 
@@ -114,79 +106,7 @@ test("a field is set where its columns end, and nothing else moves", async () =>
   await close(deck);
 });
 
-test("a part of the tree is found in the file that holds it", async () => {
-  const deck = await open("include_tree_0000.rad");
-  const { uri, range } = await connection.sendRequest("deck/locate", { textDocument: deck.textDocument, kind: "part", id: 2 });
-  assert.match(readFileSync(new URL(uri), "utf8").split("\n")[range.start.line], /^\/PART\/2$/);
-  assert.equal(await connection.sendRequest("deck/locate", { textDocument: deck.textDocument, kind: "part", id: 3 }), null);
-  await close(deck);
-});
-
-/** Inserts an interface of every type that is offered; the deck with all of them. */
-async function withNewOnes(name, text) {
-  const inserted = [];
-  for (let more = true; more; ) {
-    const deck = await open(name, text);
-    const plan = await planOf((method, params) => connection.sendRequest(method, params), deck.textDocument, { line: 0, character: 0 });
-    const { label } = plan.keywords[inserted.length];
-    edits.length = 0;
-    await connection.sendRequest("workspace/executeCommand", { command: "deck.insertCard", arguments: [{ textDocument: deck.textDocument, position: plan.position, keyword: label, id: plan.id, title: "New interface" }] });
-    const [edit, ...others] = Object.values(edits[0].changes).flat();
-    assert.deepEqual([others.length, edit.range.start], [0, edit.range.end], "one edit, which replaces nothing");
-    const lines = text.split("\n");
-    text = [...lines.slice(0, edit.range.start.line), edit.newText + lines.slice(edit.range.start.line).join("\n")].join("\n");
-    inserted.push({ label, id: plan.id, at: edit.range.start.line });
-    more = inserted.length < plan.keywords.length;
-    await close(deck);
-  }
-  return { inserted, text };
-}
-for (const [version, types] of [["2022", [2, 7, 10, 11, 19, 24, 25]], ["110", [2, 7, 10, 11, 19]]])
-  test(`a new interface of each type of version ${version} is read back, with the next free id and all defaults`, async () => {
-    const name = "too_close_0000.rad";
-    assert.equal(spawnSync(DECK, ["convert", join(ROOT, "samples", name), "--version", version, "-o", join(out, version)]).status, 0);
-    const { inserted, text } = await withNewOnes(name, readFileSync(join(out, version, name), "utf8"));
-    assert.deepEqual(inserted.map((i) => i.id), inserted.map((_, i) => i + 2));
-    for (const { label, id, at } of inserted) assert.ok(text.split("\n").indexOf(`${label}/${id}`) === at, `${label} stands behind the one before`);
-    writeFileSync(join(out, version, name), text);
-    const said = JSON.parse(spawnSync(DECK, ["params", join(out, version, name), "--json", "-"], { encoding: "utf8" }).stdout);
-    assert.equal(said.deck.version, Number(version));
-    for (const type of types) {
-      const { id } = inserted.find((i) => i.label === `/INTER/TYPE${type}`);
-      const found = said.interfaces.filter((i) => i.id === id);
-      assert.deepEqual(found.map((i) => [i.type, i.title]), [[type, "New interface"]]);
-      for (const [field, p] of Object.entries(found[0].parameters)) assert.ok(p.input === null && ["built-in", "derived"].includes(p.origin), `TYPE${type}.${field}: ${p.input}, ${p.origin}`);
-    }
-    assert.equal(said.interfaces.length + said.not_evaluated.length, 1 + inserted.length);
-  });
-
 test("what the solver does is told by topic", async () => {
   const { text } = await connection.sendRequest("deck/explain", { topic: "/INTER/TYPE7.Inacti" });
   assert.match(text, /Initial penetrations/);
-});
-
-test("the grammar and the server see the same cells in every sample", async () => {
-  const { tokenTypes } = capabilities.semanticTokensProvider.legend;
-  const sharp = new Set(Object.values(cellScopes));
-  let same = 0;
-  for (const name of readdirSync(join(ROOT, "samples")).filter((f) => f.endsWith(".rad") && f !== "every_mistake_0000.rad")) {
-    const deck = await open(name);
-    const seen = tokens(deck.lines.join("\n"));
-    const { data } = await connection.sendRequest("textDocument/semanticTokens/full", { textDocument: deck.textDocument });
-    for (let i = 0, line = 0, start = 0; i < data.length; i += 5) {
-      start = data[i] ? data[i + 1] : start + data[i + 1];
-      line += data[i];
-      const text = deck.lines[line];
-      const end = start + data[i + 2];
-      if (/^[/#$]/.test(text) || !text.slice(start, end).trim()) continue;
-      const last = start + text.slice(start, end).trimEnd().length;
-      const token = seen[line].tokens.find((t) => t.start < last && last <= t.end);
-      assert.ok(token, `${name}:${line + 1}: nothing at ${start}–${end} (${tokenTypes[data[i + 3]]})`);
-      if (!sharp.has(token.scope)) continue;
-      assert.equal(token.start + text.slice(token.start, token.end).trimEnd().length, last, `${name}:${line + 1}: the server has ${start}–${end} (${tokenTypes[data[i + 3]]}), the grammar ${token.start}–${token.end}: '${text}'`);
-      ++same;
-    }
-    await close(deck);
-  }
-  assert.ok(same > 3000, String(same));
 });

@@ -2,7 +2,7 @@
 // and what the package holds.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { chmodSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { delimiter, join } from "node:path";
@@ -17,13 +17,9 @@ const part = async (name) => {
   await require("esbuild").build({ entryPoints: [join(ROOT, "tools/vscode/src", `${name}.ts`)], bundle: true, format: "esm", platform: "node", outfile, logLevel: "warning" });
   return import(outfile);
 };
-const { convert, fix, gapsCall, lintCall, locate, noServer, notFound, partsCall, programOf } = await part("program");
+const { convert, fix, lintCall, locate, noServer, notFound } = await part("program");
 const { cellAt, layoutOf, nextCell, ruler } = await part("columns");
-const { headerAbove, withScript } = await part("page");
 const { toggled } = await part("comments");
-const { treeOf } = await part("tree");
-const { planOf } = await part("new_interface");
-const hasEngine = existsSync(join(WORK, "stage/engine/deck.wasm"));
 const manifest = JSON.parse(readFileSync(join(WORK, "stage/package.json"), "utf8"));
 const settings = { path: "deck", includePaths: [], arguments: [], geometryOnSave: true };
 const source = readdirSync(join(ROOT, "tools/vscode/src")).map((f) => readFileSync(join(ROOT, "tools/vscode/src", f), "utf8")).join("\n");
@@ -49,24 +45,8 @@ test("the first deck on PATH that can be run is found, and nothing else", () => 
   assert.equal(locate("deck", path, true), join(out, "c/deck.exe"));
 });
 
-test("a deck of this machine comes before the extension's own, and only the name deck may mean that one", () => {
-  const [machine, engine, none] = ["machine", "engine", "none"].map((d) => join(out, d));
-  for (const d of [machine, engine]) mkdirSync(d);
-  writeFileSync(join(machine, "deck"), "#!/bin/sh\n");
-  chmodSync(join(machine, "deck"), 0o755);
-  writeFileSync(join(engine, "deck.js"), "console.log(process.argv.slice(2).join(' '), process.env.ELECTRON_RUN_AS_NODE)");
-  const found = (path, folders, folder) => programOf({ ...settings, path }, folders, folder);
-  assert.deepEqual(found("deck", machine, engine), { name: join(machine, "deck"), command: join(machine, "deck"), before: [], env: {} });
-  const own = found("deck", none, engine);
-  const said = spawnSync(own.command, [...own.before, "gaps", "a.rad"], { env: { ...process.env, ...own.env }, encoding: "utf8" });
-  assert.equal(said.stdout, "gaps a.rad 1\n", "run by the node of the editor");
-  assert.equal(found("deck", none, none), null);
-  assert.equal(found("deck-3", machine, engine), null);
-  assert.equal(found(join(none, "deck"), machine, engine), null);
-});
-
 test("who has no deck is told what to do", () => {
-  assert.match(notFound("deck"), /not found on PATH.*does not contain it.*Install.*deck\.path/);
+  assert.match(notFound("deck"), /not found on PATH.*Install.*deck\.path/);
   assert.match(notFound("/opt/deck"), /'\/opt\/deck'.*no such program/);
   assert.match(noServer("/opt/deck"), /\/opt\/deck has no language server.*install a newer libdeck/);
 });
@@ -108,6 +88,7 @@ test("an answer becomes a layout from left to right; a line that is no card has 
   assert.equal(layoutOf(null, ""), null);
   assert.equal(layoutOf({ keyword: "/INTER/TYPE7", title: "a" }, "a"), null);
 });
+
 test("columns are bytes, characters are the editor's", () => {
   const cells = ["a", "b"].map((field, i) => ({ field, columns: [10 * i + 1, 10 * i + 10], label: "", used: "", doc: "" }));
   const at = (text) => layoutOf({ keyword: "k", card: "c", cells }, text).cells.map((c) => [c.start, c.end]);
@@ -115,6 +96,7 @@ test("columns are bytes, characters are the editor's", () => {
   assert.deepEqual(at("\u00e9         7"), [[0, 9], [9, 19]]);
   assert.deepEqual(at("\ud83d\ude97      7"), [[0, 8], [8, 18]], "four bytes, two units of UTF-16");
 });
+
 test("the ruler marks the fields on the line and names those behind its end", () => {
   const r = ruler(layout, 30, 25);
   assert.deepEqual(r.cells, [{ start: 0, end: 20, odd: false, current: false }, { start: 20, end: 30, odd: true, current: true }]);
@@ -125,21 +107,25 @@ test("the ruler marks the fields on the line and names those behind its end", ()
   assert.equal(r.status, "Gapmax  21–40");
   assert.equal(r.tooltip, "/INTER/TYPE7, gap\n\nGapmax · columns 21-40 · real · mm: 1e+30, built-in\n\nUpper bound");
 });
+
 test("on a full line nothing is drawn behind it, on an empty one every field", () => {
   assert.equal(ruler(layout, 100, 0).tail, "");
   assert.equal(ruler(layout, 90, 0).cells.length, 4);
   assert.equal(ruler(layout, 0, 0).cells.length, 0);
   assert.match(ruler(layout, 0, 0).tail, /^│Fscalegap/);
 });
+
 test("between fields the ruler says that there is none", () => {
   assert.equal(ruler(layout, 100, 70).status, "column 71: no field");
   assert.equal(cellAt(layout.cells, 20).name, "Gapmax");
   assert.equal(cellAt(layout.cells, 60).name, "Fpenmax", "behind its last character");
 });
+
 test("a name that does not fit ends at the next field", () => {
   const cells = ["IBCX", "IBCY", "IBCZ"].map((name, i) => ({ name, start: 7 + i, end: 8 + i, about: "", doc: "" }));
   assert.equal(ruler({ keyword: "k", card: "c", cells }, 0, 0).tail.replaceAll("\u00a0", "."), ".......│││");
 });
+
 test("field by field, over gaps, to the end and back", () => {
   const names = [];
   for (let at = 0, cell; (cell = nextCell(layout.cells, at, 1)); at = cell.start) names.push(cell.name);
@@ -149,77 +135,11 @@ test("field by field, over gaps, to the end and back", () => {
   assert.equal(nextCell(layout.cells, 5, -1), null);
 });
 
-test("a script goes to the end of the page, and only a harmless one", () => {
-  assert.equal(withScript("<body>a</body> in text </body></html>", "f()"), "<body>a</body> in text <script>f()</script>\n</body></html>");
-  assert.throws(() => withScript("<body></body>", "'</script>'"));
-  assert.throws(() => withScript("text", "f()"));
-});
-test("the keyword above a line is found, also on its own line", () => {
-  const lines = ["#RADIOSS STARTER", "/BEGIN", "a", "# /NODE", "/INTER/TYPE7/1", "b"];
-  const at = (line) => headerAbove((n) => lines[n - 1], line);
-  assert.deepEqual([1, 2, 3, 4, 5, 6].map(at), [0, 2, 2, 2, 5, 5]);
-});
-
 test("lines become comments in the first column, and what they were again", () => {
   const card = ["         1       2.5", "", "# heading"];
   assert.deepEqual(toggled(card), ["#         1       2.5", "#", "## heading"]);
   assert.deepEqual(toggled(toggled(card)), card);
   assert.deepEqual(toggled(["# heading"]), [" heading"]);
-});
-
-const sample = (name) => join(ROOT, "samples", `${name}_0000.rad`);
-const json = (call) => JSON.parse(spawnSync(DECK, call, { encoding: "utf8", maxBuffer: 1 << 28 }).stdout);
-const gapsOf = (name, ...more) => json([...gapsCall(settings, sample(name)), ...more]);
-const lines = (row, above = "") => [`${above}${row.label} | ${row.description} | ${row.icon}`, ...row.rows.flatMap((r) => lines(r, `${above}  `))];
-test("the tree of a deck: includes, interfaces with level and depth, parts, in this order", () => {
-  const tree = (name) => treeOf(gapsOf(name), json(partsCall(settings, sample(name))));
-  const parts = (first, second) => ["  Parts | 2 | group", `    1 lower plate | ${first} | part`, `    2 upper plate | ${second} | part`];
-  assert.deepEqual(lines(tree("include_tree")), [
-    "include_tree_0000.rad | penetrates | penetrates", "  Includes | 1 | group", "    include_tree/mesh.inc |  | include", "      sheets.inc |  | include",
-    "  Interfaces | 1 | group", "    1 upper on lower | penetrates, 0.2 deep, 16.7 % of the gap · TYPE7 | penetrates",
-    ...parts("mass 0.00374, time step 0.0017", "mass 0.0024, time step 0.00136"),
-  ]);
-  assert.deepEqual(lines(tree("too_close")), [
-    "too_close_0000.rad | penetrates | penetrates", "  Interfaces | 1 | group", "    1 upper on lower | penetrates, 0.35 deep, 28 % of the gap · TYPE7 | penetrates",
-    ...parts("mass 0.00468, time step 0.0017", "mass 0.002, time step 0.00136"),
-  ]);
-  const [included, interfaces, of] = tree("include_tree").rows;
-  assert.deepEqual(included.rows[0].rows[0].place, { file: join(ROOT, "samples/include_tree/sheets.inc"), line: 1 });
-  const { file, line } = interfaces.rows[0].place;
-  assert.equal(readFileSync(file, "utf8").split("\n")[line - 1], "/INTER/TYPE7/1");
-  assert.deepEqual(of.rows[1].find, { kind: "part", id: 2 });
-  assert.ok(lines(tree("every_mistake")).some((l) => l.startsWith("  Parts | ")), "a deck with errors has parts, too");
-  const mistakes = lines(treeOf(gapsOf("every_mistake"), null));
-  assert.ok(mistakes.includes("    70 | not-examined · TYP7 | not-examined"), "nor are types that nobody examines left out");
-  assert.equal(mistakes.some((l) => l.includes("Parts")), false, "parts that could not be had");
-});
-test("the level of an interface is the verdict on it alone, its depth the deepest of its contacts", () => {
-  const levels = new Set();
-  for (const name of readdirSync(join(ROOT, "samples")).flatMap((f) => f.match(/^(.*)_0000\.rad$/)?.[1] ?? [])) {
-    const gaps = gapsOf(name);
-    if (gaps.verdict.counts.errors > 0) continue; // then the verdict is on the deck
-    for (const r of treeOf(gaps, null).rows.find((r) => r.label === "Interfaces").rows) {
-      const alone = gapsOf(name, "--interface", String(r.find.id));
-      assert.equal(r.icon, alone.verdict.level, `${name}: ${r.label}`);
-      assert.equal(Number(r.description.match(/([\d.e-]+) deep/)?.[1] ?? 0), Number(alone.summary.max_depth.toPrecision(3)), `${name}: ${r.label}`);
-      levels.add(r.icon);
-    }
-  }
-  assert.deepEqual([...levels].sort(), ["clean", "penetrates", "stops", "untied"]);
-});
-
-test("a new interface goes behind the last one, else behind the cursor's block, and into no submodel", async () => {
-  const plan = async (names, line, ...taken) => {
-    const symbols = names.map((name, i) => ({ name, selectionRange: { start: { line: 10 * i, character: 0 } } }));
-    const items = ["/INTER/LAGMUL/TYPE7", "/INTER/TYPE11", "/INTER/TYPE7", "/NODE"].flatMap((label) => [{ label, detail: "a" }, { label: `${label} …`, detail: "b" }]);
-    const answers = { "textDocument/documentSymbol": () => symbols, "deck/locate": ({ id }) => (taken.includes(id) ? {} : null), "textDocument/completion": () => ({ items: [...items, { label: "/INTER/TYPE9", detail: "no card" }] }) };
-    return planOf(async (method, params) => answers[method](params), { uri: "" }, { line, character: 0 });
-  };
-  const { position, id, keywords } = await plan(["/BEGIN", "/INTER/TYPE7/5", "/INTER/LAGMUL/TYPE7/8/2", "/PART/9", "//SUBMODEL/1", "/INTER/TYPE7/3", "//ENDSUB", "/NODE"], 0, 9, 10);
-  assert.deepEqual([position.line, id, keywords.map((k) => k.label)], [20, 11, ["/INTER/TYPE7", "/INTER/TYPE11", "/INTER/LAGMUL/TYPE7"]]);
-  const at = async (line) => (await plan(["/BEGIN", "/PART/9", "//SUBMODEL/1", "/NODE", "//ENDSUB", "/NODE"], line)).position.line;
-  assert.deepEqual(await Promise.all([0, 19, 35, 45, 99].map(at)), [0, 10, 10, 40, 50]);
-  assert.equal(await plan([], 0), null);
 });
 
 test("every command of the manifest is carried out, and every one carried out is in it", () => {
@@ -229,6 +149,7 @@ test("every command of the manifest is carried out, and every one carried out is
   const { menus, keybindings } = manifest.contributes;
   for (const item of [...Object.values(menus).flat(), ...keybindings]) assert.ok(contributed.includes(item.command), item.command);
 });
+
 test("every setting is read somewhere and told in the README", () => {
   const readme = readFileSync(join(WORK, "stage/README.md"), "utf8");
   for (const key of Object.keys(manifest.contributes.configuration.properties)) {
@@ -238,19 +159,21 @@ test("every setting is read somewhere and told in the README", () => {
     assert.ok(readme.includes(`\`${key}\``), key);
   }
 });
+
 test("the version is the project's", () => {
   assert.equal(manifest.version, spawnSync(DECK, ["--version"], { encoding: "utf8" }).stdout.match(/\d+\.\d+\.\d+/)[0]);
   assert.equal(manifest.devDependencies, undefined);
 });
-test("the package holds scripts, texts, two pictures, and the program as WebAssembly only if it was built", () => {
+
+test("the package holds scripts, texts, and two pictures", () => {
   const unpacked = join(out, "vsix");
   assert.equal(spawnSync("python3", ["-m", "zipfile", "-e", join(WORK, "stage/libdeck.vsix"), unpacked]).status, 0);
   const files = readdirSync(unpacked, { recursive: true, withFileTypes: true }).filter((f) => f.isFile()).map((f) => join(f.parentPath ?? f.path, f.name));
   assert.deepEqual(files.map((f) => f.slice(unpacked.length + 1)).sort(), [
-    "[Content_Types].xml", "extension.vsixmanifest", "extension/LICENSE.txt", "extension/NOTICES.txt", "extension/README.md", "extension/dist/bridge.js",
-    "extension/dist/extension.js", ...(hasEngine ? ["extension/engine/deck.js", "extension/engine/deck.wasm"] : []), "extension/icon.png", "extension/language-configuration.json", "extension/package.json", "extension/screenshot.png", "extension/syntaxes/radioss.tmLanguage.json",
+    "[Content_Types].xml", "extension.vsixmanifest", "extension/LICENSE.txt", "extension/NOTICES.txt", "extension/README.md",
+    "extension/dist/extension.js", "extension/icon.png", "extension/language-configuration.json", "extension/package.json", "extension/screenshot.png", "extension/syntaxes/radioss.tmLanguage.json",
   ].sort());
-  for (const f of files.filter((f) => !/[.](png|wasm)$/.test(f))) assert.doesNotMatch(readFileSync(f, "latin1"), /\0/, f);
+  for (const f of files.filter((f) => !/[.]png$/.test(f))) assert.doesNotMatch(readFileSync(f, "latin1"), /\0/, f);
   const notices = readFileSync(join(unpacked, "extension/NOTICES.txt"), "utf8");
   for (const name of ["vscode-languageclient", "vscode-jsonrpc", "minimatch", "semver"]) assert.ok(notices.includes(`${name}\n`), name);
 });

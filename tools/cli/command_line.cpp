@@ -1,5 +1,5 @@
-// The only file that knows the parser of the command line (CLI11): options, the verbs of the
-// program, and what man pages and completion read from it.
+// The only file that knows the parser of the command line (CLI11): options and the verbs of the
+// program.
 #include "command_line.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 #include "base/shared/spelling.hpp"
 #include "common.hpp"
 #include "deck/text/number.hpp"
-#include "verbs/completion_table.hpp"
+#include "removed.hpp"
 
 namespace deck::cli {
 
@@ -205,8 +205,6 @@ bool CommandLine::given(const std::string& name) const {
   const CLI::Option* option = app_->get_option_no_throw(name);
   return option != nullptr && option->count() > 0;
 }
-void CommandLine::hide() { app_->group(""); }
-bool CommandLine::hidden() const { return app_->get_group().empty(); }
 
 // ---- wrong usage
 
@@ -231,6 +229,7 @@ std::string unexpected(const CLI::App& app) {
   std::vector<std::string> names;
   collect_names(app, names);
   const std::string word = option->substr(0, option->find('='));
+  if (std::string text = removed(app.get_name(), word); !text.empty()) return text;
   return "unknown option '" + word + "'" + did_you_mean(word, names);
 }
 
@@ -325,55 +324,9 @@ std::vector<std::string> split_words(const std::string& line) {
   return words;
 }
 
-// ---- what there is, as data
+// ---- the help
 
 namespace {
-
-/// "FORMAT:{human,json}" and "N:INT in [0 - 1024]" as name, choices and range.
-void split_type(const std::string& type, OptionInfo& info) {
-  const auto colon = type.find(':');
-  info.value = type.substr(0, colon);
-  if (colon == std::string::npos) return;
-  const std::string rest = type.substr(colon + 1);
-  if (!rest.starts_with('{')) {
-    // "INT in [0 - 9]", NONNEGATIVE
-    if (const auto bracket = rest.find(" in ["); bracket != std::string::npos)
-      info.range = rest.substr(bracket + 4);
-    else if (rest == "NONNEGATIVE" || rest == "POSITIVE")
-      info.range = rest == "POSITIVE" ? "above 0" : "0 or more";
-    return;
-  }
-  const auto end = rest.find('}');
-  info.choices = CLI::detail::split(rest.substr(1, end - 1), ',');
-}
-
-OptionInfo describe(const CLI::Option& option, const std::string& group) {
-  OptionInfo info;
-  for (const std::string& s : option.get_snames()) info.names.push_back("-" + s);
-  for (const std::string& l : option.get_lnames()) info.names.push_back("--" + l);
-  if (option.get_positional() && info.names.empty()) info.names.push_back(option.get_name(true));
-  info.optional_value = option.get_expected_min() == 0 && !option.get_fnames().empty();
-  if (option.get_items_expected_max() > 0 && option.get_expected_min() > 0)
-    split_type(option.get_type_name(), info);
-  info.preset = option.get_default_str();
-  info.group = group.empty() && option.get_group() != "Options" ? option.get_group() : group;
-  info.description = option.get_description();
-  info.repeatable = option.get_expected_max() >= CLI::detail::expected_max_vector_size;
-  info.required = option.get_required();
-  return info;
-}
-
-void collect(const CLI::App& app, const std::string& group, VerbInfo& verb) {
-  for (const CLI::Option* option : app.get_options()) {
-    // Hidden ones, and the help that every option group has once more.
-    if (option->get_group().empty() || (!group.empty() && option->check_lname("help"))) continue;
-    OptionInfo info = describe(*option, group);
-    (option->nonpositional() ? verb.options : verb.positionals).push_back(std::move(info));
-  }
-  // Option groups are subcommands without a name.
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-    if (sub->get_name().empty() && !sub->get_group().empty()) collect(*sub, sub->get_group(), verb);
-}
 
 /// Headings of the help for options that several verbs share; the others are those of the verb
 /// itself, and stand above.
@@ -414,6 +367,7 @@ int check_verb(const std::vector<std::string>& words, const std::vector<Verb>& a
   std::vector<std::string> known = {"help"};
   for (const Verb& v : all) known.emplace_back(v.name);
   if (std::find(known.begin() + 1, known.end(), word) != known.end()) return exit_clean;
+  if (const std::string text = removed(word, ""); !text.empty()) return wrong_usage("", text);
   std::string text = "there is no verb '" + word + "'";
   if (word.find('.') != std::string::npos)
     text += "; name what to do first, for example: deck params " + word;
@@ -455,44 +409,6 @@ void help_verb_to_option(std::vector<std::string>& words) {
 }
 
 }  // namespace
-
-std::vector<VerbInfo> describe_verbs() {
-  Session session;  // of no call
-  std::vector<VerbInfo> all;
-  for (const Verb& v : verbs()) {
-    CommandLine line((std::string(v.summary)), std::string(v.name), session);
-    line.parser().set_help_flag("-h,--help", "This help");
-    const Action action = v.setup(line);  // holds what the options are stored in
-    group_options(line.parser());
-    if (line.hidden()) continue;
-    VerbInfo info;
-    info.name = v.name;
-    info.summary = v.summary;
-    info.description = line.parser().get_description();
-    info.examples = v.examples;
-    collect(line.parser(), "", info);
-    std::vector<std::string> groups = {""};  // in the order in which they first occur
-    for (const OptionInfo& o : info.options)
-      if (std::find(groups.begin(), groups.end(), o.group) == groups.end())
-        groups.push_back(o.group);
-    const auto place = [&](const OptionInfo& o) {
-      return std::find(groups.begin(), groups.end(), o.group) - groups.begin();
-    };
-    std::stable_sort(info.options.begin(), info.options.end(),
-                     [&](const OptionInfo& a, const OptionInfo& b) { return place(a) < place(b); });
-    all.push_back(std::move(info));
-  }
-  return all;
-}
-
-std::vector<OptionInfo> program_options() {
-  OptionInfo help, version;
-  help.names = {"-h", "--help"};
-  help.description = "Help; deck help VERB explains a verb";
-  version.names = {"--version"};
-  version.description = "Version and compiler";
-  return {help, version};
-}
 
 // ---- the program
 

@@ -91,9 +91,6 @@ class CommandLine {
   void remove(const std::string& name);
   /// True if there is such an option and it was given.
   bool given(const std::string& name) const;
-  /// Leaves the verb out of the help.
-  void hide();
-  bool hidden() const;
 
   /// Parses words (without the name of the program). Error: what the parser says.
   Result<void> parse(std::vector<std::string> words);

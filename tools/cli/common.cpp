@@ -246,6 +246,8 @@ Result<LoadedDeck> load(const std::string& given, const SchemaSet& schemas,
   options.session->remember_read(loaded.deck().sources);
   if (const std::string other = no_starter_deck(loaded.deck()); !other.empty())
     return Error{Error::Code::syntax, path + ": " + other};
+  if (std::string old = unread_version(loaded.deck()); !old.empty() && !options.unread_too)
+    return Error{Error::Code::syntax, std::move(old)};
   if (stage < Stage::model) return loaded;
   progress.step("building the model of " + path);
   loaded.interfaces();

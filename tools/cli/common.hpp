@@ -39,6 +39,7 @@ struct CommonOptions {
   /// The verb will change files of the decks in place. Set by the verb, not by an option.
   bool rewrites = false;
   bool engine_files = false;  ///< the verb looks at the Engine files beside the decks, too
+  bool unread_too = false;    ///< the verb reports decks of versions that are not read
   Limits limits;
   Session* session = nullptr;  ///< never nullptr once the options were added to a command line
 

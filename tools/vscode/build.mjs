@@ -1,8 +1,7 @@
 // Puts the extension together in a folder of its own: one bundled script, the grammar made from the
-// keyword schemas, manifest, pages, and the program as WebAssembly where it was built.
-//   node build.mjs [--modules DIR] [--out DIR] [--engine DIR]
+// keyword schemas, manifest and pages.
+//   node build.mjs [--modules DIR] [--out DIR]
 // --modules: the node_modules to take packages from (default: beside this file); --out: default build
-// --engine: deck.js and deck.wasm as tools/web/build writes them to node/; without it no program is part of the extension
 import { createRequire } from "node:module";
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
@@ -29,11 +28,9 @@ export function schemas() {
 const bundle = (entry, outfile, more) =>
   esbuild.build({ entryPoints: [join(here, "src", entry)], outfile: join(out, "dist", outfile), bundle: true, minify: true, target: "es2022", nodePaths: [modules], logLevel: "warning", ...more });
 
-for (const made of ["dist", "engine"]) rmSync(join(out, made), { recursive: true, force: true });
+rmSync(join(out, "dist"), { recursive: true, force: true });
 mkdirSync(join(out, "syntaxes"), { recursive: true });
 const { metafile } = await bundle("extension.ts", "extension.js", { platform: "node", format: "cjs", external: ["vscode"], metafile: true });
-// Runs inside the report's page.
-await bundle("bridge.ts", "bridge.js", { platform: "browser", format: "iife" });
 writeFileSync(join(out, "syntaxes/radioss.tmLanguage.json"), JSON.stringify(grammar(schemas())));
 
 // The licences of the packages that the script is bundled from.
@@ -52,7 +49,3 @@ writeFileSync(join(out, "package.json"), JSON.stringify(manifest, null, 2));
 writeFileSync(join(out, ".vscodeignore"), "*.vsix\n");
 for (const name of ["README.md", "language-configuration.json", "icon.png", "screenshot.png"]) copyFileSync(join(here, name), join(out, name));
 copyFileSync(join(root, "LICENSE"), join(out, "LICENSE"));
-if (options.engine) {
-  mkdirSync(join(out, "engine"));
-  for (const name of ["deck.js", "deck.wasm"]) copyFileSync(join(options.engine, name), join(out, "engine", name));
-}

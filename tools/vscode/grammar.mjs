@@ -3,7 +3,7 @@
 //
 // What a grammar can know: the keyword, the title line, the names in the comment above a card, and the
 // cells of cards that every newer deck has in this place. Where the next card depends on what an earlier
-// one says, cells are coloured by what stands in them; the server's semantic tokens know better.
+// one says, cells are coloured by what stands in them.
 
 /** Scopes of cells by the type of the field; themes have colours for what comes before '.radioss'. */
 export const cellScopes = {

@@ -5,11 +5,11 @@
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
-#include "base/shared/bits.hpp"
 #include "contact/shared/exact_number.hpp"
 
 namespace deck {
@@ -80,7 +80,7 @@ double rounded_square_root(const Rational& value) {
     case CGAL::EQUAL:
       break;
   }
-  return bit_cast<std::uint64_t>(low) % 2 == 0 ? low : high;
+  return std::bit_cast<std::uint64_t>(low) % 2 == 0 ? low : high;
 }
 
 Rational long_square_root(const Rational& value) {

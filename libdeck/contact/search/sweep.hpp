@@ -16,7 +16,6 @@
 #include <span>
 #include <vector>
 
-#include "base/shared/bits.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/search/box_order.hpp"
 #include "contact/search/box_tree.hpp"
@@ -329,7 +328,7 @@ void drop_distant(std::vector<std::uint32_t>& ids, const BoxOf& box_of,
 // Things whose sizes differ by more than a factor of eight or so are kept in different leaves and
 // groups. The class repeats every 8^8, which does no harm.
 inline unsigned size_class(double size) {
-  return static_cast<unsigned>(((bit_cast<std::uint64_t>(size) >> 52) & 0x7ffU) / 3) & 7U;
+  return static_cast<unsigned>(((std::bit_cast<std::uint64_t>(size) >> 52) & 0x7ffU) / 3) & 7U;
 }
 
 // By value: std::min and std::max keep what they compare in memory.

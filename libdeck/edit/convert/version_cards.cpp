@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/shared/real_text.hpp"
 #include "deck/text/number.hpp"
 #include "text/shared/columns.hpp"
 
@@ -52,7 +51,7 @@ std::optional<FormattedReal> cell_text(double value, double factor, int width) {
 
 bool lacks_title(const DecodedBlock& block) {
   const Schema* schema = block.block->schema;
-  return schema != nullptr && schema->has_title && block.block->version >= 51 &&
+  return schema != nullptr && schema->has_title &&
          !block.title_line.valid();
 }
 

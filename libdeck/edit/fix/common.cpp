@@ -5,7 +5,6 @@
 #include <charconv>
 #include <set>
 
-#include "base/shared/real_text.hpp"
 #include "deck/contact/view.hpp"
 #include "edit/fix/type_rules.hpp"
 #include "keyword/shared/line_check.hpp"
@@ -251,7 +250,7 @@ struct RoundedNumber {
   double value() const {
     const std::string text = std::to_string(mantissa) + "e" + std::to_string(exponent);
     double out = 0;
-    read_real_text(text.data(), text.data() + text.size(), out);
+    std::from_chars(text.data(), text.data() + text.size(), out);
     return out;
   }
   /// The next one of as many digits, `least` being the smallest mantissa with them: 9.9 is next
@@ -268,7 +267,8 @@ struct RoundedNumber {
 /// The decimal of that many digits nearest to `value` > 0.
 RoundedNumber nearest(double value, int digits) {
   char buffer[64];
-  const auto end = write_real_text(buffer, buffer + sizeof buffer, value, digits);
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value,
+                                 std::chars_format::scientific, digits - 1);
   const std::string_view text(buffer, static_cast<std::size_t>(end.ptr - buffer));
   RoundedNumber out;
   const auto e = text.find('e');

@@ -1,5 +1,4 @@
-// Cards laid out: headings over the columns, all lines of a new card, one card put in order, one
-// cell set. Columns stay what the schema says; text that is no cell is not touched.
+// Cards laid out: headings over the columns, all lines of a new card, one cell set.
 #pragma once
 #include <string>
 #include <string_view>
@@ -19,12 +18,6 @@ std::string card_heading(const CardSchema& card, int version);
 /// repeats stands once. Lines end with "\n".
 std::string new_card(const Schema& schema, std::string_view header, int version,
                      std::string_view title);
-
-/// Edits that put every cell of a block where its columns end (texts: where they begin), and renew
-/// headings: comment lines right above a line that name at least one of its fields. Lines in free
-/// format, encrypted blocks, nodes and elements, titles and lines that no schema describes stay.
-/// Values do not change: a cell that would be read otherwise keeps its line as it is.
-std::vector<TextEdit> format_card(const Deck& deck, const Block& block);
 
 /// Edit that writes `text` into the first cell called `field` whose line is there, `round` lines of
 /// a repeated card later, and moves nothing else; empty text blanks it. Error (config): no such

@@ -59,11 +59,9 @@ class BlockDecoder {
 
  private:
   void read_title(const Schema& schema) {
-    if (schema.has_title && block_.version >= 51) {
+    if (schema.has_title) {
       out_.title_line = cursor_.next();
       out_.title = std::string(detail::trim_right(out_.title_line.text.substr(0, line_columns)));
-    } else {
-      out_.title = std::string(block_.inline_title);
     }
   }
 
@@ -88,7 +86,7 @@ class BlockDecoder {
   std::int64_t data_lines() {
     if (lines_ < 0) {
       LineCursor cursor(deck_.sources, block_);
-      lines_ = block_.schema->has_title && block_.version >= 51 ? -1 : 0;
+      lines_ = block_.schema->has_title ? -1 : 0;
       while (cursor.next().valid()) ++lines_;
       lines_ = std::max<std::int64_t>(lines_, 0);
     }

@@ -244,7 +244,7 @@ bool has_comma(const CardSchema& card, const Line& line) {
 }
 
 /// Cells of a list. `limit`: how many there are at most on this line, blank ones included.
-void read_ids(const Deck& deck, Findings& findings, const CardSchema& card, int version,
+void read_ids(const Deck& deck, Findings& findings, const CardSchema& card,
               const Line& line, int limit, DecodedCard& out) {
   const Field& f = card.fields.back();
   for (std::size_t i = 0; i + 1 < card.fields.size(); ++i) {
@@ -255,7 +255,7 @@ void read_ids(const Deck& deck, Findings& findings, const CardSchema& card, int 
   }
   const int width = f.last - f.first + 1;
   const bool counted = !card.count.empty();
-  const auto meaningful = static_cast<std::size_t>(detail::columns_of_version(version));
+  const auto meaningful = std::size_t{detail::line_columns};
   const int size = static_cast<int>(std::min(line.text.size(), meaningful));
   for (int first = f.first, n = 0; n < limit && (counted || first <= size); first += width, ++n) {
     const int last = first + width - 1;
@@ -439,7 +439,7 @@ DecodedCard detail::decode_in_context(const Deck& deck, const Block& block, cons
     const int most = card.count.empty() ? line_columns : card.per_line;
     const Field& id = card.fields.back();
     out.cells.reserve(line.text.size() / static_cast<std::size_t>(id.last - id.first + 1) + 1);
-    read_ids(deck, findings, card, block.version, line, context.cells > 0 ? context.cells : most,
+    read_ids(deck, findings, card, line, context.cells > 0 ? context.cells : most,
              out);
     return out;
   }

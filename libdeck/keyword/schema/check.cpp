@@ -123,9 +123,6 @@ std::string check_columns(const CardSchema& card, std::size_t index) {
     if (range.from > range.until)
       return fmt::format("/cards/{}/fields/{}: \"{}\" exists in no version of its card", index, j,
                          field.name);
-    if (range.until < 51 && field.last > 80)
-      return fmt::format("/cards/{}/fields/{}/cols: lines have 80 columns before version 51", index,
-                         j);
     for (std::size_t i = 0; i < j; ++i) {
       const auto& other = card.fields[i];
       const bool alternatives = !field.when.empty() && !other.when.empty();

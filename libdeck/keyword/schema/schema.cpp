@@ -19,9 +19,8 @@ namespace deck {
 namespace detail {
 
 const std::vector<int>& known_versions() {
-  static const std::vector<int> versions = {41,   42,   44,   51,   90,   100,  110,
-                                            120,  130,  140,  2017, 2018, 2019, 2020,
-                                            2021, 2022, 2023, 2024, 2025, 2026};
+  static const std::vector<int> versions = {51,   90,   100,  110,  120,  130,  140,  2017, 2018,
+                                            2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
   return versions;
 }
 

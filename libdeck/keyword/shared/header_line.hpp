@@ -18,12 +18,10 @@ struct HeaderPlace {
 };
 /// Reports text behind the last column (DK012) and blanks at which the solver reads another keyword
 /// (DK052). `header` is the line from the slash on, without its comment.
-void check_header_line(Deck& deck, const HeaderPlace& place, std::string_view header, int version);
+void check_header_line(Deck& deck, const HeaderPlace& place, std::string_view header);
 
-/// The header without its comment: a '#' behind a blank starts one. Before version 51 the header
-/// holds the title, which may contain anything.
-inline std::string_view without_comment(std::string_view header, int version) {
-  if (version < 51) return header;
+/// The header without its comment: a '#' behind a blank starts one.
+inline std::string_view without_comment(std::string_view header) {
   const auto blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
   for (std::size_t hash = 1; hash < header.size(); ++hash) {
     if (header[hash] != '#' || !blank(header[hash - 1])) continue;

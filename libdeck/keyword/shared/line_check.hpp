@@ -15,10 +15,6 @@ namespace deck::detail {
 
 /// Meaningful columns of a data line.
 inline constexpr int line_columns = 100;
-inline constexpr int old_line_columns = 80;  ///< before version 51
-inline int columns_of_version(int version) {
-  return version < 51 ? old_line_columns : line_columns;
-}
 
 enum class LineRule : std::uint8_t {
   tail,

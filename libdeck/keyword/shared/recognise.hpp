@@ -12,4 +12,7 @@ namespace deck {
 /// it is another question.
 std::string no_starter_deck(const Deck& deck);
 
+/// Why a deck of input version 41, 42 or 44 is not read, with its place; empty for other decks.
+std::string unread_version(const Deck& deck);
+
 }  // namespace deck

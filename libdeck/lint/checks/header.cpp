@@ -178,7 +178,7 @@ void check_title(const LintContext& c, const Rule& rule, Reporter& r) {
   }
   // Ids in the place of the title would be missing in the group.
   for (const Block& b : c.deck.blocks) {
-    if (b.schema == nullptr || !b.schema->has_title || b.version < 51 || b.opaque ||
+    if (b.schema == nullptr || !b.schema->has_title || b.opaque ||
         (b.schema->kind != "grnod" && b.schema->kind != "surf" && b.schema->kind != "line"))
       continue;
     const Line title = LineCursor(c.deck.sources, b).next();

@@ -69,7 +69,7 @@ std::pair<Span, double> yield_of(const LintContext& c, const DecodedBlock& d) {
   for (const char* name : {"a", "SIG_Y"})
     if (const Cell* cell = d.find(name); cell != nullptr) return {cell->span, cell->real};
   if (d.extra.empty()) return {d.block->header_span, 0};
-  const Span span = d.extra.front().columns(1, c.deck.version < 51 ? 16 : 20);
+  const Span span = d.extra.front().columns(1, 20);
   const std::string_view text = trim(c.text(span));
   return {span, text.starts_with('&') ? 1 : read_real(text).value};
 }

@@ -17,7 +17,7 @@ void ByteStream::f64(std::span<const double> values) {
       const std::size_t end = std::min(from + at_once, values.size());
       char* to = bytes_.data() + size_;
       for (std::size_t i = from; i < end; ++i)
-        *to++ = static_cast<char>(bit_cast<std::uint64_t>(values[i]) >> (8 * plane) & 0xff);
+        *to++ = static_cast<char>(std::bit_cast<std::uint64_t>(values[i]) >> (8 * plane) & 0xff);
       size_ += end - from;
       if (size_ >= enough) pack();
     }

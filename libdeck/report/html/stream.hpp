@@ -1,6 +1,7 @@
 // ByteStream: the compact binary blocks of the HTML report — variable-length integers, differences
 // and byte planes, made to compress well — and how a block becomes text.
 #pragma once
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -10,7 +11,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/shared/bits.hpp"
 
 namespace deck::detail {
 
@@ -58,7 +58,7 @@ class ByteStream {
   template <class Items, class Value>
   void palette(const Items& items, Value value) {
     const auto bits = [&](const auto& item) {
-      return bit_cast<std::uint64_t>(double{value(item)});
+      return std::bit_cast<std::uint64_t>(double{value(item)});
     };
     std::unordered_map<std::uint64_t, std::uint32_t> number;
     std::vector<double> values;
@@ -66,12 +66,12 @@ class ByteStream {
     for (const auto& item : items)
       if (const std::uint64_t v = bits(item); values.empty() || v != last)
         if (number.emplace(last = v, static_cast<std::uint32_t>(values.size())).second)
-          values.push_back(bit_cast<double>(v));
+          values.push_back(std::bit_cast<double>(v));
     u(values.size());
     f64(values);
     if (values.size() <= 1) return;
     std::uint32_t at = 0;
-    last = bit_cast<std::uint64_t>(values[0]);
+    last = std::bit_cast<std::uint64_t>(values[0]);
     for (const auto& item : items) {
       if (const std::uint64_t v = bits(item); v != last) at = number.find(last = v)->second;
       u(at);

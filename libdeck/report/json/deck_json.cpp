@@ -359,7 +359,7 @@ class DeckWriter {
   /// Nodes, elements, ids: rows of text and values.
   void write_list(const Block& block, const CardSchema& card, std::uint64_t begin,
                   std::uint64_t end, bool header) {
-    const bool title = header && block.schema->has_title && block.version >= 51;
+    const bool title = header && block.schema->has_title;
     const std::uint64_t rows = title ? end_of_title(begin, end) : begin;
     json_.key("lines").begin_array();
     if (title)

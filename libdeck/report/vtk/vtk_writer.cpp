@@ -1,9 +1,9 @@
 // Writes one VTK XML file of points, cells and arrays.
 #include "report/vtk/vtk_writer.hpp"
 
+#include <bit>
 #include <cstring>
 
-#include "base/shared/bits.hpp"
 
 namespace deck::detail {
 namespace {
@@ -41,7 +41,7 @@ class Encoder {
   int held_ = 0;
 };
 
-std::uint64_t word_of(double v) { return bit_cast<std::uint64_t>(v); }
+std::uint64_t word_of(double v) { return std::bit_cast<std::uint64_t>(v); }
 std::uint64_t word_of(std::int64_t v) { return static_cast<std::uint64_t>(v); }
 
 /// One DataArray element; the length in bytes goes before the data, both in one run of base64.

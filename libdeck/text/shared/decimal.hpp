@@ -1,5 +1,6 @@
 // Decimal digits as text, in the two forms a deck knows.
 #pragma once
+#include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -12,6 +13,15 @@ struct Decimal {
   std::string_view digits;
   int point = 0;
 };
+
+/// A finite number as "-d.ddde+XX" with `significant` digits, exactly rounded; 0: the fewest that
+/// read back to the same double.
+inline std::to_chars_result write_scientific(char* first, char* last, double value,
+                                             int significant) {
+  constexpr auto form = std::chars_format::scientific;
+  return significant == 0 ? std::to_chars(first, last, value, form)
+                          : std::to_chars(first, last, value, form, significant - 1);
+}
 
 /// "12.5", "0.05" or, without `leading_zero`, ".05"; always with a point.
 std::string fixed_text(const Decimal& d, bool leading_zero);

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <cstring>
 
-#include "base/shared/bits.hpp"
 #include "deck/text/number.hpp"
 
 namespace deck::detail {
@@ -107,7 +106,7 @@ RealCell read_real_general(const char* begin, const char* end);
 /// Reads a real cell. One rounding at most where mantissa and power of ten are exact doubles
 /// (Clinger), else the general case.
 inline double with_sign(double value, bool negative) {
-  return bit_cast<double>(bit_cast<std::uint64_t>(value) ^
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^
                           (static_cast<std::uint64_t>(negative) << 63));
 }
 

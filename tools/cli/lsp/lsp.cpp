@@ -1,6 +1,8 @@
 // deck lsp: the language server for editors, on standard input and output.
 #include <unistd.h>
 
+#include <csignal>
+
 #include "common.hpp"
 #include "lsp/server.hpp"
 
@@ -28,7 +30,10 @@ int run(const Options& o) {
   settings.include_paths = o.common.include_paths;
   settings.limits = o.common.limits;
   settings.threads = o.common.threads > 0 ? o.common.threads : 1;
-  return lsp::serve(*schemas, std::move(settings)) == 0 ? exit_clean : exit_findings;
+  std::signal(SIGPIPE, SIG_IGN);  // a client that is gone shows in what write() says
+  lsp::Connection connection(0, 1);
+  lsp::Server server(connection, *schemas, std::move(settings));
+  return server.run() == 0 ? exit_clean : exit_findings;
 }
 
 Action setup(CommandLine& line) {

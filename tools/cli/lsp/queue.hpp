@@ -6,7 +6,6 @@
 #include <functional>
 #include <mutex>
 #include <optional>
-#include <system_error>
 #include <thread>
 
 namespace deck::lsp {
@@ -44,18 +43,11 @@ class Queue {
   std::deque<Task> tasks_;
 };
 
-/// One thread that does what it is given; ends when this does, after the task at hand. Where
-/// threads cannot be started the owner calls do_one().
+/// One thread that does what it is given; ends when this does, after the task at hand.
 class Worker {
  public:
-  Worker() {
-    try {
-      thread_ = std::thread([this] { run(); });
-    } catch (const std::system_error&) {  // a machine without threads
-    }
-  }
+  Worker() : thread_([this] { run(); }) {}
   ~Worker() {
-    if (!thread_.joinable()) return;
     queue_.push({});
     thread_.join();
   }
@@ -63,13 +55,6 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   void push(Queue::Task task) { queue_.push(std::move(task)); }
-  /// Does the next task here; false: there is none, or a thread does them.
-  bool do_one() {
-    if (thread_.joinable()) return false;
-    const auto task = queue_.pop(Queue::Clock::now());
-    if (task) (*task)();
-    return task.has_value();
-  }
 
  private:
   void run() {

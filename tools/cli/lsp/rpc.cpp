@@ -54,7 +54,7 @@ bool Connection::fill() {
     n = ::read(in_, chunk, sizeof chunk);
   } while (n < 0 && errno == EINTR);
   if (n <= 0) return false;
-  receive({chunk, static_cast<std::size_t>(n)});
+  buffer_.append(chunk, static_cast<std::size_t>(n));
   return true;
 }
 

@@ -28,16 +28,12 @@ class Connection {
 
   /// The content of the next message; nullopt: the other side has closed, or sends no frames.
   std::optional<std::string> read();
-  /// For one whose bytes are handed over: adds them, and the next message of what has arrived.
-  /// nullopt: it is not whole yet, or closed() is true.
-  void receive(std::string_view bytes) { buffer_ += bytes; }
-  std::optional<std::string> arrived();
-  void close() { closed_ = true; }
-  bool closed() const { return closed_; }
   /// Sends a message; one at a time, from any thread. False: the client no longer reads.
   bool write(const Json& message);
 
  private:
+  /// The next message of what has arrived; nullopt: it is not whole yet, or no frame (closed_).
+  std::optional<std::string> arrived();
   bool fill();
   int in_, out_;
   std::string buffer_;

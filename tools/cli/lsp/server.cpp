@@ -38,23 +38,13 @@ Feature feature(const std::string& method) {
       {"textDocument/hover", hover},
       {"textDocument/inlayHint", inlay_hints},
       {"textDocument/completion", completion},
-      {"textDocument/semanticTokens/full", semantic_tokens},
-      {"textDocument/semanticTokens/range", semantic_tokens},
       {"textDocument/documentSymbol", document_symbols},
       {"textDocument/foldingRange", folding_ranges},
       {"textDocument/definition", definition},
       {"textDocument/references", references},
       {"textDocument/documentHighlight", document_highlight},
-      {"textDocument/documentLink", document_links},
-      {"textDocument/prepareCallHierarchy", prepare_call_hierarchy},
-      {"callHierarchy/incomingCalls", incoming_calls},
-      {"callHierarchy/outgoingCalls", outgoing_calls},
-      {"textDocument/prepareRename", prepare_rename},
-      {"textDocument/rename", rename},
       {"textDocument/codeAction", code_actions},
       {"textDocument/codeLens", code_lenses},
-      {"textDocument/rangeFormatting", range_formatting},
-      {"deck/locate", locate},
       {"deck/card", card_at},
   };
   const auto it = all.find(method);
@@ -75,16 +65,10 @@ Json capabilities(const Client& client) {
       {"documentSymbolProvider", true},
       {"codeActionProvider", {{"codeActionKinds", {"quickfix", "source.fixAll", "refactor"}}}},
       {"codeLensProvider", {{"resolveProvider", false}}},
-      {"documentLinkProvider", {{"resolveProvider", false}}},
-      {"documentRangeFormattingProvider", true},
-      {"renameProvider", {{"prepareProvider", true}}},
       {"foldingRangeProvider", true},
-      {"callHierarchyProvider", true},
       {"executeCommandProvider",
-       {{"commands",
-         {"deck.setField", "deck.insertCard", "deck.fixAll", "deck.openGapReport", "deck.explain"}},
+       {{"commands", {"deck.setField", "deck.fixAll", "deck.openGapReport", "deck.explain"}},
         {"workDoneProgress", false}}},
-      {"semanticTokensProvider", {{"legend", token_legend()}, {"full", true}, {"range", true}}},
       {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}},
   };
 }
@@ -116,26 +100,7 @@ int Server::run() {
     start_due();
   }
   reader.join();
-  return exit_code();
-}
-
-std::optional<Server::Clock::time_point> Server::step() {
-  // All that has arrived is seen before any of it is done: it may be cancelled.
-  while (const auto content = connection_.arrived())
-    if (!take(*content)) break;
-  if (connection_.closed()) queue_.push([this] { done_ = true; });
-  const auto do_short_tasks = [this] {
-    while (!done_) {
-      const auto task = queue_.pop(Clock::now());
-      if (task) (*task)();
-      start_due();
-      if (!task) return;
-    }
-  };
-  do_short_tasks();
-  if (done_ || !(analyst_->do_one() || geometer_->do_one())) return next_due();
-  do_short_tasks();
-  return Clock::now();  // there may be another one
+  return shutdown_ ? 0 : 1;
 }
 
 /// On a thread of its own, so that a request can be cancelled while others are worked through.
@@ -260,9 +225,7 @@ Json Server::answer(const std::string& method, const Json& params, const Json& i
 
 /// The document that the parameters name; nullopt: it is not open, or no deck.
 std::optional<View> Server::view_of(const Json& params) {
-  const Json* uri = &at(params, {"textDocument", "uri"});
-  if (uri->is_null()) uri = &at(params, {"item", "data", "document"});
-  const std::string path = path_of_uri(uri->get<std::string>());
+  const std::string path = path_of_uri(at(params, {"textDocument", "uri"}).get<std::string>());
   const OpenDeck* deck = workspace_.deck_of(path);
   if (deck == nullptr) return std::nullopt;
   return View(workspace_, client_, *deck, path);

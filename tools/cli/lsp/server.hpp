@@ -28,11 +28,6 @@ class Server {
   ~Server();
   /// Serves until the client says exit, or closes. 0: it said shutdown before.
   int run();
-  /// The same for an owner whose thread must not wait: does what has arrived and what is due, and
-  /// at most one longer task. When to call again without new bytes; nullopt: not before.
-  std::optional<Clock::time_point> step();
-  bool done() const { return done_; }
-  int exit_code() const { return shutdown_ ? 0 : 1; }
 
  private:
   // ---- messages (server.cpp)
@@ -106,8 +101,5 @@ class Server {
   // Last, so that they end first.
   std::unique_ptr<Worker> analyst_, geometer_;
 };
-
-/// Serves an editor on standard input and output; the exit code of the program.
-int serve(const SchemaSet& schemas, Settings settings);
 
 }  // namespace deck::lsp

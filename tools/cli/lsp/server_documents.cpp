@@ -96,10 +96,9 @@ void Server::execute_command(const Json& id, const Json& params) {
   if (command == "deck.explain") return respond(id, explain(argument));
   if (command == "deck.openGapReport") return open_gap_report(id, argument);
   using Edit = Json (*)(const View&, const Json&);
-  const Edit edit_of = command == "deck.setField"     ? set_field_edit
-                       : command == "deck.insertCard" ? insert_card_edit
-                       : command == "deck.fixAll"     ? fix_all_edit
-                                                      : nullptr;
+  const Edit edit_of = command == "deck.setField" ? set_field_edit
+                       : command == "deck.fixAll" ? fix_all_edit
+                                                  : nullptr;
   if (edit_of == nullptr) return fail(id, invalid_params, "there is no command '" + command + "'");
   const auto view = view_of(argument);
   if (!view) return fail(id, request_failed, "the document is not open, or no deck");

@@ -78,33 +78,19 @@ using Answer = Json;
 Answer hover(const View& view, const Json& params);
 Answer inlay_hints(const View& view, const Json& params);
 Answer completion(const View& view, const Json& params);
-Answer semantic_tokens(const View& view, const Json& params);
 Answer document_symbols(const View& view, const Json& params);
 Answer folding_ranges(const View& view, const Json& params);
 Answer definition(const View& view, const Json& params);
 Answer references(const View& view, const Json& params);
 Answer document_highlight(const View& view, const Json& params);
-Answer document_links(const View& view, const Json& params);
-Answer prepare_call_hierarchy(const View& view, const Json& params);
-Answer incoming_calls(const View& view, const Json& params);
-Answer outgoing_calls(const View& view, const Json& params);
-Answer prepare_rename(const View& view, const Json& params);
-Answer rename(const View& view, const Json& params);
 Answer code_actions(const View& view, const Json& params);
 Answer code_lenses(const View& view, const Json& params);
-Answer range_formatting(const View& view, const Json& params);
-/// deck/locate, deck/card: see tools/docs/editors.md.
-Answer locate(const View& view, const Json& params);
+/// deck/card: see tools/docs/editors.md.
 Answer card_at(const View& view, const Json& params);
 /// Edits of the command "deck.setField".
 Json set_field_edit(const View& view, const Json& argument);
-/// Of "deck.insertCard": all lines of a card with headings.
-Json insert_card_edit(const View& view, const Json& argument);
 /// Of "deck.fixAll": all fixes of the document's findings, "unsafe" ones if asked.
 Json fix_all_edit(const View& view, const Json& argument);
-
-/// Types of semantic tokens, in the order of their numbers.
-Json token_legend();
 
 // ---- shared by features
 /// What a person is told about a cell: name, columns, type, unit, range, value and origin, help.

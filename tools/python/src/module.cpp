@@ -100,6 +100,8 @@ DeckPointer load_deck(const std::string& path, int threads,
   if (!loaded) raise_error(loaded.error().message);
   if (const std::string other = no_starter_deck(loaded->deck()); !other.empty())
     raise_error(path + ": " + other, &loaded->deck(), &loaded->deck().diagnostics.all());
+  if (const std::string old = unread_version(loaded->deck()); !old.empty())
+    raise_error(old, &loaded->deck(), &loaded->deck().diagnostics.all());
   const py::gil_scoped_release free;
   return std::make_shared<PyDeck>(path, std::move(*loaded));
 }

@@ -1,7 +1,7 @@
 // Commands that run the program on a deck: findings, and changes that are shown as a patch before anything is written.
 import * as vscode from "vscode";
 import { deckOf } from "./deck_of";
-import { convert, fix, lintCall, sinceHead, type Change, type Program, type Settings } from "./program";
+import { convert, fix, lintCall, sinceHead, type Change, type Settings } from "./program";
 import { run } from "./run";
 import { settings } from "./settings";
 import { showText } from "./texts";
@@ -33,7 +33,7 @@ const conversions = [
   { label: "New ids …", option: "--renumber", prompt: "KIND+N, KIND-N or KIND=N, KIND being node, part, element, surf, all …" },
 ];
 
-export function registerCommands(program: Program, channel: vscode.LogOutputChannel): vscode.Disposable[] {
+export function registerCommands(program: string, channel: vscode.LogOutputChannel): vscode.Disposable[] {
   const busy = <T>(title: string, work: (cancel: vscode.CancellationToken) => Promise<T>) =>
     vscode.window.withProgress({ location: vscode.ProgressLocation.Notification, title, cancellable: true }, (_, cancel) => work(cancel));
 

@@ -1,17 +1,14 @@
 // The extension: starts `deck lsp` and adds what an editor cannot ask a server for (ruler, report, commands).
 import * as vscode from "vscode";
-import { readFileSync } from "node:fs";
 import { LanguageClient, TransportKind } from "vscode-languageclient/node";
 import { toggled } from "./comments";
 import { registerCommands } from "./commands";
-import { planOf } from "./new_interface";
 import { noServer, notFound, serverCall, serverOptions } from "./program";
 import { Report } from "./report";
 import { RulerView } from "./ruler";
 import { run } from "./run";
 import { program, settings } from "./settings";
 import { showText, textProvider } from "./texts";
-import { DeckTree } from "./tree_view";
 
 const alone = ["deck.restart", "deck.toggleComment"]; // need no program
 let client: LanguageClient | undefined;
@@ -54,14 +51,14 @@ function missing(context: vscode.ExtensionContext, why: string): void {
 async function start(context: vscode.ExtensionContext, channel: vscode.LogOutputChannel): Promise<void> {
   await stop();
   const s = settings();
-  const deck = program(s, context.extensionPath);
+  const deck = program(s);
   if (deck === null) return missing(context, notFound(s.path));
-  if ((await run(deck, ["lsp", "--help"], context.extensionPath)).code !== 0) return missing(context, noServer(deck.name));
-  channel.info(`${deck.name} ${serverCall(s).join(" ")}`);
+  if ((await run(deck, ["lsp", "--help"], context.extensionPath)).code !== 0) return missing(context, noServer(deck));
+  channel.info(`${deck} ${serverCall(s).join(" ")}`);
   const server = new LanguageClient(
     "deck",
     "libdeck",
-    { command: deck.command, args: [...deck.before, ...serverCall(s)], options: { env: { ...process.env, ...deck.env } }, transport: TransportKind.stdio },
+    { command: deck, args: serverCall(s), transport: TransportKind.stdio },
     {
       documentSelector: [{ language: "radioss", scheme: "file" }],
       initializationOptions: serverOptions(s),
@@ -73,16 +70,16 @@ async function start(context: vscode.ExtensionContext, channel: vscode.LogOutput
       },
     },
   );
-  const report = new Report(server, readFileSync(vscode.Uri.joinPath(context.extensionUri, "dist/bridge.js").fsPath, "utf8"));
+  const report = new Report(server);
   const ruler = new RulerView(server);
   const explain = async (topic: string) => {
     const { text } = await server.sendRequest<{ text: string }>("deck/explain", { topic });
     await showText(topic.replaceAll("/", " ").trim(), text);
   };
-  /** From a lens with the interface it stands above, or from the palette without. */
-  const showReport = async (of?: { textDocument?: { uri: string }; interface?: number }) => {
+  /** From a lens, or from the palette without its document. */
+  const showReport = async (of?: { textDocument?: { uri: string } }) => {
     const uri = of?.textDocument ? server.protocol2CodeConverter.asUri(of.textDocument.uri) : deckEditor()?.document.uri;
-    if (uri) await report.show(uri, of?.interface ?? null);
+    if (uri) await report.show(uri);
   };
   const deckEditor = () => {
     const editor = vscode.window.activeTextEditor;
@@ -100,33 +97,6 @@ async function start(context: vscode.ExtensionContext, channel: vscode.LogOutput
     const topic = await vscode.window.showInputBox({ prompt: "Keyword, field, rule (DK301) or message of the solver (611)", value });
     if (topic) await explain(topic);
   };
-  /** The server writes the card; its title is selected then, to be typed over. */
-  const newInterface = async () => {
-    const editor = deckEditor();
-    if (!editor) return;
-    const { document } = editor;
-    const textDocument = server.code2ProtocolConverter.asTextDocumentIdentifier(document);
-    let listener: vscode.Disposable | undefined;
-    try {
-      const plan = await planOf((method, params) => server.sendRequest(method, params), textDocument, editor.selection.active);
-      if (!plan?.keywords.length) throw new Error("the file has no block behind which it could go");
-      const items = plan.keywords.map((k) => ({ label: k.label, detail: k.detail }));
-      const chosen = await vscode.window.showQuickPick(items, { title: `New interface ${plan.id}`, matchOnDetail: true });
-      if (!chosen) return;
-      listener = vscode.workspace.onDidChangeTextDocument((e) => {
-        if (e.document !== document || !e.contentChanges[0]) return;
-        listener?.dispose();
-        const { start } = e.contentChanges[0].range;
-        const title = document.lineAt(start.line + (start.character > 0 ? 2 : 1)).range; // behind a line without end a new one begins first
-        editor.selection = new vscode.Selection(title.start, title.end);
-        editor.revealRange(title, vscode.TextEditorRevealType.InCenterIfOutsideViewport);
-      });
-      await vscode.commands.executeCommand("deck.insertCard", { textDocument, position: plan.position, keyword: chosen.label, id: plan.id, title: "New interface" });
-    } catch (e) {
-      listener?.dispose();
-      void vscode.window.showErrorMessage(`No interface could be inserted: ${e instanceof Error ? e.message : String(e)}`);
-    }
-  };
   const fixAll = async (unsafe: boolean) => {
     const editor = deckEditor();
     if (editor) await vscode.commands.executeCommand("deck.fixAll", { textDocument: server.code2ProtocolConverter.asTextDocumentIdentifier(editor.document), unsafe });
@@ -134,15 +104,9 @@ async function start(context: vscode.ExtensionContext, channel: vscode.LogOutput
   parts = [
     report,
     ruler,
-    new DeckTree(deck, server),
     ...registerCommands(deck, channel),
     vscode.commands.registerCommand("deck.showGapReport", showReport),
-    vscode.commands.registerCommand("deck.showInReport", async () => {
-      const editor = deckEditor();
-      if (editor) await report.showLine(editor);
-    }),
     vscode.commands.registerCommand("deck.explainHere", explainHere),
-    vscode.commands.registerCommand("deck.newInterface", newInterface),
     vscode.commands.registerCommand("deck.fixSafely", () => fixAll(false)),
     vscode.commands.registerCommand("deck.fixUnsafely", () => fixAll(true)),
     vscode.commands.registerCommand("deck.editField", () => ruler.edit()),

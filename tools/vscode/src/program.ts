@@ -1,5 +1,5 @@
 // Where the program `deck` is, and how it is called. Knows nothing of the editor.
-import { accessSync, constants, existsSync, statSync } from "node:fs";
+import { accessSync, constants, statSync } from "node:fs";
 import { delimiter, isAbsolute, join } from "node:path";
 
 export interface Settings {
@@ -31,31 +31,10 @@ export function locate(name: string, folders: string | undefined, windows = proc
   return null;
 }
 
-/** How the program is started: by itself, or as WebAssembly by node. */
-export interface Program {
-  name: string; // for people
-  command: string;
-  before: string[]; // arguments in front of its own
-  env: Record<string, string>; // beside that of the editor
-}
-
-/** The one that the extension brings; null: it was packaged without. The editor itself is the node that runs it. */
-function brought(folder: string): Program | null {
-  const script = join(folder, "deck.js");
-  return existsSync(script) ? { name: "deck (WebAssembly)", command: process.execPath, before: [script], env: { ELECTRON_RUN_AS_NODE: "1" } } : null;
-}
-
-/** The program on this machine, else the one in `folder` of the extension. Another name than `deck` is meant as it is. */
-export function programOf(s: Settings, folders: string | undefined, folder: string): Program | null {
-  const path = locate(s.path, folders);
-  if (path !== null) return { name: path, command: path, before: [], env: {} };
-  return s.path === "deck" ? brought(folder) : null;
-}
-
 /** What to tell somebody whose `deck` is not there. */
 export const notFound = (name: string): string =>
   name === "deck"
-    ? "The program 'deck' was not found on PATH, and this package of the extension does not contain it. Install libdeck, or set deck.path to the program. Until then decks are coloured only."
+    ? "The program 'deck' was not found on PATH. Install libdeck, or set deck.path to the program. Until then decks are coloured only."
     : `deck.path is '${name}', but there is no such program. Give an absolute path or a name that is on PATH. Until then decks are coloured only.`;
 
 export const noServer = (path: string): string => `${path} has no language server ('deck lsp'): install a newer libdeck. Until then decks are coloured only.`;
@@ -66,10 +45,6 @@ export const serverCall = (s: Settings): string[] => ["lsp", ...s.arguments];
 /** What the server is told at its start. Its lenses name the command that shows the report here. */
 export const serverOptions = (s: Settings) => ({ includePaths: s.includePaths, geometryOnSave: s.geometryOnSave, showReportCommand: "deck.showGapReport" });
 export const lintCall = (s: Settings, file: string): string[] => ["lint", file, "--geometry", "--color", "never", ...includes(s)];
-
-/** What the tree of a deck is made from. */
-export const gapsCall = (s: Settings, file: string): string[] => ["gaps", file, "--json", "-", "--quiet", "--fail-on", "never", ...includes(s)];
-export const partsCall = (s: Settings, file: string): string[] => ["parts", file, "--json", "-", "--quiet", ...includes(s)];
 
 /** What has changed in meaning since the last commit. */
 export const sinceHead = (s: Settings, file: string): string[] => ["diff", "--git", "HEAD", file, "--color", "never", ...includes(s)];

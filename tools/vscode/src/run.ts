@@ -2,7 +2,6 @@
 import { execFile } from "node:child_process";
 import { dirname } from "node:path";
 import type * as vscode from "vscode";
-import type { Program } from "./program";
 
 export interface Said {
   code: number; // 0: fine, 1: findings, 2: wrong call, 3: unreadable, -1: not run to its end
@@ -11,9 +10,9 @@ export interface Said {
 }
 
 /** Runs `program` in the folder of `file`; never throws. */
-export function run(program: Program, call: string[], file: string, cancel?: vscode.CancellationToken): Promise<Said> {
+export function run(program: string, call: string[], file: string, cancel?: vscode.CancellationToken): Promise<Said> {
   return new Promise((resolve) => {
-    const child = execFile(program.command, [...program.before, ...call], { cwd: dirname(file), env: { ...process.env, ...program.env }, maxBuffer: 1 << 30, windowsHide: true }, (error, out, said) => {
+    const child = execFile(program, call, { cwd: dirname(file), maxBuffer: 1 << 30, windowsHide: true }, (error, out, said) => {
       const code = !error ? 0 : typeof error.code === "number" ? error.code : -1;
       resolve({ code, out, error: said || (code === -1 ? String(error?.message) : "") });
     });

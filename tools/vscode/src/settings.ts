@@ -1,8 +1,7 @@
 // The settings of the extension, as the editor holds them for a file.
 import * as vscode from "vscode";
 import { homedir } from "node:os";
-import { join } from "node:path";
-import { programOf, type Program, type Settings } from "./program";
+import { locate, type Settings } from "./program";
 
 /** `~` and `${workspaceFolder}` stand for what they stand for elsewhere. */
 function expanded(text: string, folder: string): string {
@@ -16,5 +15,5 @@ export function settings(scope?: vscode.Uri): Settings {
   return { path: expanded(c.get("path", "deck"), folder), includePaths: list("includePaths"), arguments: list("arguments"), geometryOnSave: c.get("geometryOnSave", true) };
 }
 
-/** `extension`: the folder of the extension. */
-export const program = (s: Settings, extension: string): Program | null => programOf(s, process.env.PATH, join(extension, "engine"));
+/** Path of the program, or null: it is not there. */
+export const program = (s: Settings): string | null => locate(s.path, process.env.PATH);

@@ -216,7 +216,7 @@ class Checker {
 
   void title(const Block& block, std::uint64_t line, const Path& path) const {
     const Path place{&path, "title"};
-    if (block.schema == nullptr || !block.schema->has_title || block.version < 51)
+    if (block.schema == nullptr || !block.schema->has_title)
       fail(place, "this keyword has no title");
     const Line found = LineCursor(deck_.sources, block).next();
     if (found.file != source_ || found.offset != line)

@@ -116,7 +116,7 @@ class FileWriter {
     if (with_header) {
       lines_.push_back(header_of(json, path, block.version));
       const std::string_view line = lines_.back();
-      block.schema = schemas_.match(trim_right(without_comment(line, block.version)));
+      block.schema = schemas_.match(trim_right(without_comment(line)));
     } else {
       block.schema = schemas_.find(loss_.keyword);
     }
@@ -169,7 +169,7 @@ class FileWriter {
     if (id == nullptr) return text;
     Block block;
     const std::size_t slash = text.find('/');
-    block.header = trim_right(without_comment(text, version).substr(slash));
+    block.header = trim_right(without_comment(text).substr(slash));
     block.header_span = {0, static_cast<std::uint32_t>(block.header.size()), slash};
     parse_header(schemas_, block);
     const std::int64_t wanted = integer_of(*id, id_path);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "base/shared/real_text.hpp"
 #include "deck/text/number.hpp"
 #include "text/shared/decimal.hpp"
 #include "text/shared/number_scan.hpp"
@@ -65,7 +64,7 @@ std::optional<Digits> parse(std::string_view cell) {
 /// Shortest digits that read back as `value`, or a given number of them.
 Digits decimal_of(double value, int significant = 0) {
   char buffer[64];
-  const auto end = write_real_text(buffer, buffer + sizeof buffer, value, significant);
+  const auto end = write_scientific(buffer, buffer + sizeof buffer, value, significant);
   return *parse({buffer, static_cast<std::size_t>(end.ptr - buffer)});
 }
 

@@ -36,11 +36,6 @@ std::int64_t integer_at(std::string_view text, std::size_t first, std::size_t la
 Result<void> hold_named(const LoadedDeck& context, const Block& block, Hold hold,
                         std::size_t node_column, std::size_t group_column,
                         std::vector<std::uint8_t>& holds) {
-  if (block.version < 51)
-    return Error{Error::Code::config,
-                 context.deck().sources.where(block.header_span) +
-                     ": nodes of this keyword cannot be locked in input version " +
-                     std::to_string(block.version) + "; lock parts instead"};
   LineCursor cursor(context.deck().sources, block);
   cursor.next();  // the title
   const Line line = cursor.next();

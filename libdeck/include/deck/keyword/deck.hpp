@@ -41,7 +41,6 @@ struct Block {
   int version = newest_version;   ///< input version that its columns follow
   std::int32_t submodel = -1;     ///< index into Deck::submodels
   bool opaque = false;            ///< encrypted: kept, never interpreted
-  std::string_view inline_title;  ///< formats before 51 carry the title in the header
 };
 
 /// One physical line of a block, trailing control characters and blanks removed.
@@ -121,6 +120,7 @@ struct Begin {
   std::string run_name;
   int version_written = 0;  ///< the number in the deck, 0 if blank
   bool version_known = true;
+  bool version_unread = false;  ///< 41, 42, 44: cells of eight columns; the deck has no blocks
   UnitSystem input, working;
   bool has_input = false, has_working = false;
   Span span;  ///< header line; invalid: no /BEGIN

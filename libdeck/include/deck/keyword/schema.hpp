@@ -148,7 +148,7 @@ struct Schema {
   /// are legal and not interpreted.
   bool opaque_tail = false;
   /// With opaque_tail: every line and cell that the solver reads is described after all, for every
-  /// version from 51 on. Cells can be moved; what some of them mean is not interpreted.
+  /// version. Cells can be moved; what some of them mean is not interpreted.
   bool full_layout = false;
   int from = 0;  ///< first input version that knows the keyword
   std::string doc;

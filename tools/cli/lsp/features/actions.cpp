@@ -1,5 +1,4 @@
-// Changes of the text that a person asks for: fixes of findings, suppressions, one cell set, a new
-// card, a card put in order, another id for an entity.
+// Changes of the text that a person asks for: fixes of findings, suppressions, one cell set.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -130,7 +129,7 @@ Json fix_all_edit(const View& view, const Json& argument) {
   return view.workspace_edit(all_fixes(view, *s, argument.value("unsafe", false)));
 }
 
-// ---- cells and cards ---------------------------------------------------------------------------
+// ---- cells ---------------------------------------------------------------------------
 
 namespace {
 
@@ -155,43 +154,6 @@ Json set_field_edit(const View& view, const Json& argument) {
                              argument.value("round", 0));
   if (!edit) throw Refusal{edit.error().message};
   return view.workspace_edit({*edit});
-}
-
-/// {"textDocument", "position", "keyword", "id"?, "title"?}: in front of the next keyword.
-Json insert_card_edit(const View& view, const Json& argument) {
-  const std::string keyword = argument.at("keyword").get<std::string>();
-  const Schema* schema = view.schemas().find(keyword);
-  if (schema == nullptr) throw Refusal{"there is no keyword '" + keyword + "'"};
-  const std::uint64_t offset = view.offset(argument.at("position"));
-  const std::int64_t b = view.syntax->index.find(view.file, offset);
-  const std::string_view text = view.text();
-  std::uint64_t place = text.size();
-  for (const Block& block : view.deck.blocks)
-    if (block.header_span.file == view.file && block.header_span.offset > offset)
-      place = std::min(place, block.header_span.offset);
-  if (const auto end = text.find("\n/END", offset); end != text.npos)
-    place = std::min<std::uint64_t>(place, end + 1);
-  const int version =
-      b < 0 ? view.deck.version : view.deck.blocks[static_cast<std::size_t>(b)].version;
-  std::string header = keyword;
-  if (schema->has_id) header += "/" + std::to_string(argument.value("id", std::int64_t{1}));
-  std::string card = new_card(*schema, header, version, argument.value("title", "title"));
-  if (place > 0 && text[place - 1] != '\n') card.insert(0, "\n");
-  return view.workspace_edit({{{view.file, 0, place}, card}});
-}
-
-Answer range_formatting(const View& view, const Json& params) {
-  const std::uint64_t begin = view.offset(params.at("range").at("start"));
-  const std::uint64_t end = view.offset(params.at("range").at("end"));
-  Json out = Json::array();
-  for (const Block& block : view.deck.blocks) {
-    if (block.header_span.file != view.file || block.header_span.offset > end ||
-        view.block_end(block) < begin)
-      continue;
-    for (const TextEdit& e : format_card(view.deck, block))
-      if (e.span.file == view.file) out.push_back(view.text_edit(e));
-  }
-  return out;
 }
 
 /// {"textDocument", "position"} -> the card line at the place, for a ruler over it.
@@ -231,42 +193,6 @@ Answer card_at(const View& view, const Json& params) {
   }
   out["cells"] = std::move(cells);
   return out;
-}
-
-// ---- another id --------------------------------------------------------------------------------
-
-Answer prepare_rename(const View& view, const Json& params) {
-  const auto id = id_at(view, view.offset(params.at("position")));
-  if (!id || id->span.length == 0) return nullptr;
-  return {{"range", view.range(id->span)}, {"placeholder", std::to_string(id->id)}};
-}
-
-Answer rename(const View& view, const Json& params) {
-  const auto id = id_at(view, view.offset(params.at("position")));
-  if (!id) throw Refusal{"there is no id at this place"};
-  const std::string name = params.at("newName").get<std::string>();
-  RenumberRule rule;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), rule.value);
-  if (error != std::errc() || end != name.data() + name.size())
-    throw Refusal{"'" + name + "' is not an id: a whole number is needed"};
-  rule.only = id->id;
-  // A set may stand where a group is asked for.
-  rule.kind = id->kind;
-  if (const Block* block = Definitions(view.deck).find(id->kind, id->id); block != nullptr)
-    rule.kind = block->schema->kind;
-  constexpr std::string_view solids[] = {"brick",   "tetra4", "penta6",
-                                         "tetra10", "bric20", "shel16"};
-  if (std::find(std::begin(solids), std::end(solids), rule.kind) != std::end(solids))
-    rule.kind = "solid";
-  const auto texts = view.workspace.texts();
-  const auto loaded =
-      load(view.open.path, load_options(view.workspace.settings(), texts, view.schemas()));
-  if (!loaded) throw Refusal{loaded.error().message};
-  RenumberOptions wanted;
-  wanted.rules = {rule};
-  const Rewrite rewrite = renumber(*loaded, wanted);
-  if (!rewrite.refusals.empty()) throw Refusal{rewrite.refusals.front()};
-  return view.workspace_edit(rewrite.edits);
 }
 
 // ---- over every interface ----------------------------------------------------------------------

@@ -160,7 +160,6 @@ std::string meaning_of_value(const Field& field, std::int64_t value) {
 
 std::string title_of(const Deck& deck, const Block& block) {
   if (block.schema == nullptr || !block.schema->has_title || block.opaque) return {};
-  if (block.version < 51) return utf8(block.inline_title);
   LineCursor cursor(deck.sources, block);
   const Line line = cursor.next();
   return line.valid() ? utf8(line.text.substr(0, 100)) : std::string();

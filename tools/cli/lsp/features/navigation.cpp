@@ -1,7 +1,5 @@
-// From an id to what defines it and to what names it; includes as links and as a hierarchy of
-// calls.
+// From an id to what defines it and to what names it, and from an include to its file.
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 #include "deck/text/number.hpp"
@@ -221,89 +219,6 @@ Answer document_highlight(const View& view, const Json& params) {
     add(line.line.columns(columns_of(line.card, *cell).first, columns_of(line.card, *cell).last),
         1);
   return out;
-}
-
-Answer document_links(const View& view, const Json&) {
-  Json out = Json::array();
-  for (const IncludeEdge& e : view.deck.includes) {
-    if (e.parent != view.file) continue;
-    // The path, without the directive.
-    const std::string_view line = view.deck.sources.text(e.directive);
-    const auto blank = line.find_first_of(" \t'\"");
-    const auto name = blank == line.npos ? line.npos : line.find_first_not_of(" \t", blank);
-    if (name == line.npos) continue;
-    auto end = line.size();
-    while (end > name && static_cast<unsigned char>(line[end - 1]) <= ' ') --end;
-    out.push_back(
-        {{"range", view.range(view.file, e.directive.offset + name, e.directive.offset + end)},
-         {"target", view.uri(e.file)},
-         {"tooltip", utf8(view.deck.sources[e.file].path())}});
-  }
-  return out;
-}
-
-// ---- call hierarchy: a file calls what it includes -------------------------------------------
-
-namespace {
-
-Json file_item(const View& view, std::uint32_t file) {
-  const std::string& path = view.deck.sources[file].path();
-  const Json all = view.range(file, 0, view.deck.sources[file].bytes().size());
-  return {{"name", utf8(std::filesystem::path(path).filename().string())},
-          {"kind", 1},
-          {"detail", utf8(std::filesystem::path(path).parent_path().string())},
-          {"uri", view.uri(file)},
-          {"range", all},
-          {"selectionRange", begin_of_file()},
-          // Requests about the item name a file that need not be open: this one is.
-          {"data", {{"document", view.workspace.uri(view.path)}, {"path", path}}}};
-}
-
-/// The file of an item among those of the deck.
-std::uint32_t file_of_item(const View& view, const Json& params) {
-  return view.syntax->file_of(params.at("item").at("data").at("path").get<std::string>());
-}
-
-}  // namespace
-
-Answer prepare_call_hierarchy(const View& view, const Json& params) {
-  const IncludeEdge* e = include_at(view, view.offset(params.at("position")));
-  return Json::array({file_item(view, e != nullptr ? e->file : view.file)});
-}
-
-Answer incoming_calls(const View& view, const Json& params) {
-  Json out = Json::array();
-  const std::uint32_t file = file_of_item(view, params);
-  if (file == Span::no_file) return out;
-  const std::string& path = view.deck.sources[file].path();
-  std::map<std::string, std::vector<const IncludeEdge*>> by_parent;
-  for (const IncludeEdge& e : view.deck.includes)
-    if (view.deck.sources[e.file].path() == path)
-      by_parent[view.deck.sources[e.parent].path()].push_back(&e);
-  for (const auto& [parent, edges] : by_parent) {
-    Json ranges = Json::array();
-    for (const IncludeEdge* e : edges) ranges.push_back(view.range(e->directive));
-    out.push_back({{"from", file_item(view, edges.front()->parent)}, {"fromRanges", ranges}});
-  }
-  return out;
-}
-
-Answer outgoing_calls(const View& view, const Json& params) {
-  Json out = Json::array();
-  const std::uint32_t file = file_of_item(view, params);
-  if (file == Span::no_file) return out;
-  for (const IncludeEdge& e : view.deck.includes)
-    if (e.parent == file)
-      out.push_back({{"to", file_item(view, e.file)},
-                     {"fromRanges", Json::array({view.range(e.directive)})}});
-  return out;
-}
-
-/// {"textDocument", "kind", "id"} -> Location: where an entity of the deck is defined.
-Answer locate(const View& view, const Json& params) {
-  const std::string kind = params.at("kind").get<std::string>();
-  const Span place = definition_of(view, kind, params.at("id").get<std::int64_t>());
-  return place.valid() ? view.location(place) : Json();
 }
 
 }  // namespace deck::lsp

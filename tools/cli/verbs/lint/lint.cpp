@@ -112,7 +112,7 @@ Action setup(CommandLine& line) {
       .range(0, 1000000)
       .value("N");
   return [options] {
-    options->common.engine_files = true;
+    options->common.engine_files = options->common.unread_too = true;
     options->common.rewrites = (options->fix || options->unsafe_fixes) && !options->diff;
     options->write.in_place = options->common.rewrites;
     options->write.diff = options->diff;

@@ -262,7 +262,8 @@ int LintRun::code_of(const LintJob& job) const {
   if (exit_code_of(*job.verdict, rules) != 0 || (job.report.asked && !job.report.passed()))
     code = exit_findings;
   code = std::max(code, examined_code(*job.loaded, common_));
-  return job.loaded->incomplete() ? static_cast<int>(exit_input) : code;
+  const bool unread = job.loaded->incomplete() || job.loaded->deck().begin.version_unread;
+  return unread ? static_cast<int>(exit_input) : code;
 }
 
 }  // namespace deck::cli
