@@ -3,10 +3,8 @@
 
 #include <fcntl.h>
 #include <unistd.h>
-#ifndef __EMSCRIPTEN__
 #include <spawn.h>
 #include <sys/wait.h>
-#endif
 
 #include <algorithm>
 #include <cerrno>
@@ -33,11 +31,6 @@ struct Answer {
   int code = 0;
 };
 
-#ifdef __EMSCRIPTEN__
-Result<Answer> run_git(const std::vector<std::string>&, const std::string& = {}) {
-  return Error{Error::Code::config, "git cannot be run here"};
-}
-#else
 /// The one place that calls git: nothing that a repository names as a command is run, and nothing
 /// is fetched. Filters, which only comparing the work tree runs, are switched off by
 /// without_filters().
@@ -99,7 +92,6 @@ Result<Answer> run_git(const std::vector<std::string>& words, const std::string&
   answer.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
   return answer;
 }
-#endif
 
 /// The files of a revision, by their paths from the top of the work tree.
 class Revision {

@@ -114,7 +114,7 @@ class FileWriter {
     if (const Json* id = optional_member(json, "id", path))
       loss_.id = integer_of(*id, {&path, "id"});
     if (with_header) {
-      lines_.push_back(header_of(json, path, block.version));
+      lines_.push_back(header_of(json, path));
       const std::string_view line = lines_.back();
       block.schema = schemas_.match(trim_right(without_comment(line)));
     } else {
@@ -154,7 +154,7 @@ class FileWriter {
   }
 
   /// The keyword line: `header` if given, with another `id` if that was changed.
-  std::string header_of(const Json& json, const Path& path, int version) const {
+  std::string header_of(const Json& json, const Path& path) const {
     const Json* header = optional_member(json, "header", path);
     const Json* id = optional_member(json, "id", path);
     const Path id_path{&path, "id"};
