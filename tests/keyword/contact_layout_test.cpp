@@ -257,7 +257,6 @@ TEST(FrictionLayout, ThreeLinesThenGroupsOfThreeOrFive) {
 
 TEST(InterType7Cells, ComeWithTheirVersion) {
   const std::string k = "/INTER/TYPE7";
-  EXPECT_EQ(columns(k, "grnd_IDs", 41), "1-8");
   EXPECT_EQ(columns(k, "grnd_IDs", 51), "1-10");
   EXPECT_EQ(columns(k, "Multimp", 110), "51-60");
   EXPECT_EQ(columns(k, "Multimp", 120), "");
@@ -295,13 +294,6 @@ TEST(InterType19Cells, IedgeIsMissingIn140Only) {
   EXPECT_EQ(columns("/INTER/TYPE19", "Iedge", 140), "");
   EXPECT_EQ(columns("/INTER/TYPE19", "Edge_scale_gap", 2023), "");
   EXPECT_EQ(columns("/INTER/TYPE19", "Edge_scale_gap", 2024), "41-60");
-}
-
-TEST(InterType10Cells, OldLayoutHasNarrowCellsWithoutIdel) {
-  EXPECT_EQ(columns("/INTER/TYPE10", "Gap", 41), "33-48");
-  EXPECT_EQ(columns("/INTER/TYPE10", "ITIED", 41), "17-24");
-  EXPECT_EQ(columns("/INTER/TYPE10", "Idel", 42), "");
-  EXPECT_EQ(columns("/INTER/TYPE10", "Idel", 51), "71-80");
 }
 
 TEST(ContactDimensions, FrictionCoefficientsFollowTheLaw) {

@@ -2,8 +2,8 @@
 #include "replay/table.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-
 
 namespace deck::cycle::detail {
 
