@@ -407,7 +407,12 @@ LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options,
   const Deck& deck = loaded.deck();
   if (deck.begin.version_unread) {
     LintResult only;
-    only.diagnostics = deck.diagnostics.all();
+    for (const Diagnostic& d : deck.diagnostics.all()) {
+      only.diagnostics.push_back(d);
+      only.fingerprints.push_back(fingerprint(deck, d));
+      ++only.counts[d.rule];
+      ++only.errors;
+    }
     return only;
   }
   Pool pool{loaded.schemas()};

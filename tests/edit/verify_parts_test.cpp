@@ -77,7 +77,7 @@ TEST(VerifiedFigures, AreEachNoticed) {
       {[](Copy& p) { p.contact(0).secondary.pop_back(); }, "the secondary side of "},
       {[](Copy& p) { p.contact(0).main.clear(); }, " has 0 entries, expected 4"},
       {[](Copy& p) { std::swap(p.contact(0).secondary[0].node, p.contact(0).secondary[1].node); },
-       "node 9 is in the place of another one"},
+       "the penetration of interface 1 at node 8 is 1, expected 0.75"},
       {[](Copy& p) { p.contact(0).penetrations[0].gap += 1e-3; }, "the gap of "},
       {[](Copy& p) { p.contact(0).penetrations[0].depth += 1e-3; }, "the penetration of "},
       {[](Copy& p) { p.contact(0).penetrations[1].gap0 += 1e-3; }, "the gap left of "},

@@ -193,11 +193,11 @@ TEST(ToVersion, SubmodelsWithTheirOwnVersionAreConvertedFromIt) {
                 "//SUBMODEL/1\n\n       100\n" + inner + "//ENDSUB\n" +
                 card("/INTER/TYPE11", 3, 2020, {{"line_IDs", "1"}, {"Irem_gap", "2"}}));
   const auto before = open_text(text);
-  ASSERT_EQ(before->interfaces.type11.at(1).block->version, 110);
+  ASSERT_EQ(before->interfaces.type11.at(2).block->version, 110);
   const auto then = applied(*before, to_version(before->context(), 2024));
   EXPECT_EQ(difference(effective_values(*before), effective_values(*then)), "");
   for (const Block& b : then->deck.blocks) EXPECT_EQ(b.version, 2024) << b.header;
-  EXPECT_TRUE(decode(then->deck, *then->interfaces.type11.at(1).block).extra.empty());
+  EXPECT_TRUE(decode(then->deck, *then->interfaces.type11.at(2).block).extra.empty());
 }
 
 TEST(ToVersion, NumberWithoutVersionIsReadAsTheNewest) {

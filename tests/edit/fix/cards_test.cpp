@@ -124,7 +124,6 @@ TEST(ReduceGap, EdgesOfType19HaveTheirScale) {
 TEST(ReduceGap, LeavesTiesAlone) {
   const Built before(two_plates(1, 0.6,
                                 "@/INTER/TYPE10/1 grnd_IDs=1 surf_IDm=1 Gap=1.0\n"
-                                "@/INTER/TYPE7/2 grnd_IDs=1 surf_IDm=1 Gapmin=0.9 ITIED=1\n"
                                 "@/INTER/TYPE7/3 grnd_IDs=1 surf_IDm=1 Gapmin=0.8"));
   const PenetrationFix fix = reduced(before);
   EXPECT_TRUE(fix.complete);
