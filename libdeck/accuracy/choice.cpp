@@ -26,7 +26,7 @@ std::string deck_clause(const AccuracyChoice& robust, const AccuracyChoice& fast
 
 }  // namespace
 
-bool TimeRatio::unmeasurable() const { return std::abs(value - 1.0) <= spread; }
+bool TimeRatio::unmeasurable() const { return low() <= 1.0 && high() >= 1.0; }
 
 std::size_t AccuracyChoice::OnHardCases::kinds_never_wrong() const {
   return static_cast<std::size_t>(
@@ -94,8 +94,7 @@ std::string ratio_text(double ratio) {
 std::string ratio_text(const TimeRatio& r) {
   const double percent = std::ceil(100.0 * r.spread);
   if (r.noisy() && r.unmeasurable())
-    return fmt::format("too noisy here: {:.1f} to {:.1f} x",
-                       std::max(0.0, r.value * (1.0 - r.spread)), r.value * (1.0 + r.spread));
+    return fmt::format("too noisy here: {:.1f} to {:.1f} x", r.low(), r.high());
   if (r.unmeasurable())
     return fmt::format("no measurable difference, {} ±{:.0f} %", ratio_text(r.value), percent);
   return ratio_text(r.value) + (r.noisy() ? fmt::format(" ±{:.0f} %", percent) : "");

@@ -44,7 +44,7 @@ async function firstScreen(p, name, data) {
     const text = await p.$eval(`.choices [data-accuracy=${c.word}]`, (r) => r.innerText);
     const wrong = (part) => text.includes(`${part.wrong} of ${part.pairs}`);
     check(`${name}, ${c.word}: wrong decisions, other answers`, wrong(c.hard) && text.includes(`${c.hard.other_answer} of ${c.hard.rewritten}`) && (!c.deck || wrong(c.deck)), text);
-    const noisy = [c.hard, c.deck].filter((t) => t && Math.abs(t.ratio - 1) <= t.spread && t.spread > 0.2).length;
+    const noisy = [c.hard, c.deck].filter((t) => t && t.ratio / (1 + t.spread) <= 1 && t.ratio * (1 + t.spread) >= 1 && t.spread > 0.2).length;
     check(`${name}, ${c.word}: times, and a ratio to each`, (text.match(/\d (ns|µs|ms|s|min)\b/g) ?? []).length >= (c.deck ? 2 : 1) && (text.match(/\d x\b/g) ?? []).length === (c.deck ? 2 : 1), text);
     check(`${name}, ${c.word}: noise is called noise`, c.word === "fast" || (text.match(/too noisy here/g) ?? []).length === noisy, text);
     const kinds = await p.$eval(`.strip[data-accuracy=${c.word}]`, (e) => ({ text: e.querySelector(".who").textContent, marks: [...e.querySelectorAll("button")].map((b) => Number(b.className[1])) }));

@@ -17,6 +17,8 @@ namespace deck {
 struct TimeRatio {
   double value = 1.0;
   double spread = 0.0;  // of both times, as a share
+  double low() const { return value / (1.0 + spread); }
+  double high() const { return value * (1.0 + spread); }
   // The times do not differ by more than they do from run to run.
   bool unmeasurable() const;
   // They differ so much from run to run that not even that can be said.
@@ -68,7 +70,7 @@ struct HardCaseOptions {
   std::uint64_t seed = 1;
   int repeats = 5;                     // timings; the median counts
   std::size_t slow_limit = 1000;       // pairs timed in exact arithmetic
-  std::size_t rewritten_limit = 2000;  // pairs written down in other ways
+  std::size_t rewritten_limit = 1000;  // pairs written down in other ways
   MeasureProgress progress = {};
 };
 

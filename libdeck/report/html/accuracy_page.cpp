@@ -3,6 +3,7 @@
 #include "base/shared/escape.hpp"
 #include "report/html/accuracy_choices.hpp"
 #include "report/html/parts.hpp"
+#include "report/shared/accuracy.hpp"
 
 namespace deck {
 namespace {
@@ -133,8 +134,8 @@ std::string accuracy_html(const AccuracyChoices& choices, const AccuracyContext&
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src "
       "'unsafe-inline'; "
       "style-src 'unsafe-inline'; img-src data: blob:\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      "What accuracy costs" + "</title>\n<style>";
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>"
+      "What accuracy costs</title>\n<style>";
   out += page_style;
   out += "</style>\n</head>\n<body>\n<header><h1>What accuracy costs <small>" +
          html_text(context.path.empty() ? "the hard cases" : terminal_text(context.path)) +
