@@ -97,7 +97,8 @@ std::string ratio_text(const TimeRatio& r) {
     return fmt::format("too noisy here: {:.1f} to {:.1f} x", r.low(), r.high());
   if (r.unmeasurable())
     return fmt::format("no measurable difference, {} ±{:.0f} %", ratio_text(r.value), percent);
-  return ratio_text(r.value) + (r.noisy() ? fmt::format(" ±{:.0f} %", percent) : "");
+  if (!r.noisy()) return ratio_text(r.value);
+  return fmt::format("{} ({:.1f} to {:.1f})", ratio_text(r.value), r.low(), r.high());
 }
 
 std::string share_text(std::uint64_t part, std::uint64_t all) {

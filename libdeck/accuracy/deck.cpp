@@ -128,8 +128,7 @@ struct Runs {
 void measure_deck(const GapsRun& run, const GapsTiming& timing,
                   std::vector<AccuracyChoice>& choices) {
   for (AccuracyChoice& c : choices) c.deck.reset();
-  Runs all[] = {
-      {Accuracy::exact}, {Accuracy::robust}, {Accuracy::reference}, {Accuracy::fast}};
+  Runs all[] = {{Accuracy::exact}, {Accuracy::robust}, {Accuracy::reference}, {Accuracy::fast}};
   Decided truth;
   const int repeats = std::max(1, timing.repeats);
   const auto runs = static_cast<std::uint64_t>(3 * repeats + 1);
@@ -146,8 +145,7 @@ void measure_deck(const GapsRun& run, const GapsTiming& timing,
     if (round >= 3 && seconds_since(start) > timing.most) break;
     for (std::size_t k = 1; k < std::size(all); ++k) one(all[k]);
   }
-  if (std::any_of(std::begin(all), std::end(all),
-                  [](const Runs& r) { return r.seconds.empty(); }))
+  if (std::any_of(std::begin(all), std::end(all), [](const Runs& r) { return r.seconds.empty(); }))
     return;  // the deck has gone away
   const Runs& fast = all[3];
   for (AccuracyChoice& c : choices)

@@ -33,16 +33,17 @@ bool exactly_closer(const PairSample& s) {
          (s.edges ? exact_compare_distance(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
                   : exact_compare_distance(s.x[4], s.corners(), s.triangle, s.gap)) < 0;
 }
-double exact_distance(const PairSample& s) {
-  return s.edges ? exact_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3]).distance
-                 : exact_closest_on_segment(s.x[4], s.corners(), s.triangle).distance;
+// Correctly rounded, as `--accuracy exact` prints it.
+double rounded_distance(const PairSample& s) {
+  return s.edges ? filtered_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3]).distance
+                 : filtered_closest_on_segment(s.x[4], s.corners(), s.triangle).distance;
 }
 
 constexpr Word words[] = {
     {Accuracy::reference, plainly_closer<Form::reference>, plain_distance<Form::reference>},
     {Accuracy::fast, plainly_closer<Form::robust>, plain_distance<Form::robust>},
     {Accuracy::robust, surely_closer, plain_distance<Form::reference>},
-    {Accuracy::exact, exactly_closer, exact_distance},
+    {Accuracy::exact, exactly_closer, rounded_distance},
 };
 
 }  // namespace
@@ -166,10 +167,9 @@ std::vector<AccuracyChoice> measure_hard_cases(const HardCaseOptions& options) {
     for (const PairSample& s : some) truth.push_back(accuracy::exactly_closer(s));
     for (AccuracyChoice& c : choices) {
       // What the exact word says is the truth.
-      c.hard.kinds.push_back(
-          c.accuracy == Accuracy::exact
-              ? KindResult{&kind, some.size(), 0, {}, 0.0, 0.0, false}
-              : judge_kind(accuracy::word(c.accuracy), kind, some, truth));
+      c.hard.kinds.push_back(c.accuracy == Accuracy::exact
+                                 ? KindResult{&kind, some.size(), 0, {}, 0.0, 0.0, false}
+                                 : judge_kind(accuracy::word(c.accuracy), kind, some, truth));
       c.hard.pairs += some.size();
       c.hard.wrong += c.hard.kinds.back().wrong;
     }

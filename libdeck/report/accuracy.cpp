@@ -105,8 +105,7 @@ void write_families(JsonWriter& j, const AccuracyChoices& choices) {
     j.begin_object().field("id", first.kind->id).field("name", first.kind->name);
     j.field("group", first.kind->group).field("expected", first.kind->expected);
     j.field("pairs", first.pairs).key("wrong").begin_object(true);
-    for (const AccuracyChoice& c : choices)
-      j.field(to_string(c.accuracy), c.hard.kinds[k].wrong);
+    for (const AccuracyChoice& c : choices) j.field(to_string(c.accuracy), c.hard.kinds[k].wrong);
     j.end_object().key("worst").begin_array();
     for (const AccuracyChoice& c : choices)
       if (c.hard.kinds[k].wrong > 0) write_worst(j, c.accuracy, c.hard.kinds[k]);
@@ -180,8 +179,7 @@ std::string accuracy_text(const AccuracyChoices& choices, const AccuracyContext&
                           bool color, std::size_t width) {
   std::string out;
   if (!context.path.empty())
-    out = terminal_text(context.path) +
-          (choices.front().deck ? "\n" : ": no pair to decide\n");
+    out = terminal_text(context.path) + (choices.front().deck ? "\n" : ": no pair to decide\n");
   return out + choice_text(choices, color, width) +
          fmt::format("\n{}; {}\n", terminal_text(context.processor), accuracy_compiler());
 }

@@ -92,7 +92,7 @@ TEST(Accuracy, NoiseIsNoAgreementAndTheRatioIsAlwaysSaid) {
   EXPECT_EQ(ratio_text({1.31, 0.54}), "too noisy here: 0.9 to 2.0 x");
   EXPECT_EQ(ratio_text({1.02, 0.05}), "no measurable difference, 1.02 x ±5 %");
   EXPECT_EQ(ratio_text({2.7, 0.1}), "2.7 x");
-  EXPECT_EQ(ratio_text({2.7, 0.4}), "2.7 x ±40 %");
+  EXPECT_EQ(ratio_text({2.7, 0.4}), "2.7 x (1.9 to 3.8)");
 }
 
 TEST(Accuracy, BothTimesOfASentenceHaveOneUnit) {

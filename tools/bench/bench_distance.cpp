@@ -72,7 +72,8 @@ struct Row {
   void judge(const std::vector<Outcome>& truth) {
     const std::size_t step = truth.size() / slow_pairs + 1;
     for (std::size_t k = 0; k < pairs->size(); ++k) {
-      const Outcome got = tier->run((*pairs)[k], counters), &want = truth[tier->slow ? k * step : k];
+      const Outcome got = tier->run((*pairs)[k], counters),
+                    &want = truth[tier->slow ? k * step : k];
       wrong += got.closer != want.closer;
       if (std::string_view(tier->what) == "decision" || got.value == want.value) continue;
       constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -80,8 +81,8 @@ struct Row {
       non_finite += !finite;
       const double error = std::abs(got.value - want.value);
       relative = std::max(relative, finite && want.value > 0.0 ? error / want.value : infinite);
-      ulp = std::max(ulp, finite ? error / (std::nextafter(want.value, infinite) - want.value)
-                                 : infinite);
+      ulp = std::max(
+          ulp, finite ? error / (std::nextafter(want.value, infinite) - want.value) : infinite);
     }
   }
 };
@@ -91,12 +92,14 @@ const Row& row_of(const std::vector<Row>& rows, std::string_view name, std::stri
 }
 
 void print(const std::vector<Row>& rows, const std::string& title) {
-  const Row &plain = row_of(rows, "double", "distance"), &robust = row_of(rows, "robust", "decision");
+  const Row &plain = row_of(rows, "double", "distance"),
+            &robust = row_of(rows, "robust", "decision");
   const auto share = [&](std::uint64_t n) {
     return 100.0 * static_cast<double>(n) / static_cast<double>(robust.counters.pairs);
   };
   fmt::print("\n{}: {} pairs; {:.1f} % decided beyond double, {:.1f} % in exact numbers\n", title,
-             plain.pairs->size(), share(robust.counters.double_double), share(robust.counters.exact));
+             plain.pairs->size(), share(robust.counters.double_double),
+             share(robust.counters.exact));
   fmt::print("  {:<28} {:>7} {:>9} {:>10} {:>11} {:>9} {:>6} {:>10}\n", "", "pairs", "ns/pair",
              "of double", "worst rel.", "ulp", "wrong", "not finite");
   for (const Row& r : rows)

@@ -89,8 +89,8 @@ std::string strip_row(const AccuracyChoice& c) {
     out += fmt::format(
         "<button type=\"button\" class=\"l{}\" data-kind=\"{}\"{} aria-label=\"{}, {}: {} wrong of "
         "{}\" title=\"{}: {} wrong of {}\"></button>",
-        kind_level(k), k.kind->id, first ? "" : " tabindex=\"-1\"", html_text(k.kind->name),
-        name, k.wrong, k.pairs, html_text(k.kind->name), k.wrong, k.pairs);
+        kind_level(k), k.kind->id, first ? "" : " tabindex=\"-1\"", html_text(k.kind->name), name,
+        k.wrong, k.pairs, html_text(k.kind->name), k.wrong, k.pairs);
     first = false;
   }
   return out + "</span></div>\n";
@@ -122,7 +122,8 @@ std::string accuracy_first_screen(const Choices& choices) {
       "<dt><code>exact</code></dt><dd>to settle one doubtful deck</dd></dl>\n";
   out +=
       "<section class=\"stable\"><div><h2>Which hard cases stay stable</h2>\n<p class=\"note\">"
-      "<span class=\"key l0\"></span>never decides wrongly <span class=\"key l1\"></span>under 10 % wrong "
+      "<span class=\"key l0\"></span>never decides wrongly <span class=\"key l1\"></span>under 10 "
+      "% wrong "
       "<span class=\"key l2\"></span>more. Choose a mark to see the worst pair of its kind.</p>\n";
   for (const AccuracyChoice& c : choices) out += strip_row(c);
   return out + "</div><div id=\"example\" aria-live=\"polite\"></div></section>\n";

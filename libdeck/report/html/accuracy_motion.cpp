@@ -1,6 +1,6 @@
-// The hard case in motion on the page of `deck accuracy`, drawn as SVG: who says that the node is in
-// contact, and the force of the figures that each word prints. Colours are classes, so that a page
-// can give it another ground.
+// The hard case in motion on the page of `deck accuracy`, drawn as SVG: who says that the node is
+// in contact, and the force of the figures that each word prints. Colours are classes, so that a
+// page can give it another ground.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,8 +49,8 @@ std::string contact_band(const HardMotion::Line& l, double y, const X& x, const 
     if (l.depth[k] > 0.0 && l.depth[k + 1] > 0.0)
       out += (k > 0 && l.depth[k - 1] > 0.0 ? "" : fmt::format("M{:.1f} {:.1f}", x(k), y)) +
              fmt::format("H{:.1f}", x(k + 1));
-  return out + fmt::format("' class='{} dk-band' data-accuracy='{}'/>\n", kind,
-                           to_string(l.accuracy));
+  return out +
+         fmt::format("' class='{} dk-band' data-accuracy='{}'/>\n", kind, to_string(l.accuracy));
 }
 
 std::string motion_panel(const HardMotion& motion) {
@@ -74,7 +74,7 @@ std::string motion_panel(const HardMotion& motion) {
     out += text(x(step), bottom + 18, step == last ? "end" : "middle", std::to_string(step));
   out += text(0.5 * (left + right), bottom + 34, "middle", "step");
   std::string rings;
-  double key = left, band = 58;
+  double key = left, band = 52;
   // Wide lines below narrow ones: those that coincide are both seen.
   for (const Accuracy a :
        {Accuracy::exact, Accuracy::reference, Accuracy::fast, Accuracy::robust}) {

@@ -59,9 +59,8 @@ Outcome robust_decision(const PairSample& s, FilterCounters& counters) {
 Outcome robust_distance(const PairSample& s, FilterCounters& counters) {
   Outcome out;
   out.value =
-      s.edges
-          ? filtered_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3], &counters).distance
-          : filtered_closest_on_segment(s.x[4], s.corners(), s.triangle, &counters).distance;
+      s.edges ? filtered_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3], &counters).distance
+              : filtered_closest_on_segment(s.x[4], s.corners(), s.triangle, &counters).distance;
   // Rounding is monotone: the digits behind matter only where the rounded distance is the gap.
   FilterCounters again;
   out.closer = out.value == s.gap ? decide(s, again) : out.value < s.gap;

@@ -113,16 +113,14 @@ Action setup(CommandLine& line) {
   line.existing("decks").required(false).any_number().describe(
       "Starter decks (*_0000.rad) to be measured beside the built-in hard cases; without: the hard "
       "cases alone");
-  line.option("--samples", options->hard.samples,
-              "Pairs per kind of hard cases")
+  line.option("--samples", options->hard.samples, "Pairs per kind of hard cases")
       .range(std::size_t{1}, std::size_t{10000000})
       .show_default();
   line.option("--seed", options->hard.seed, "Seed of the hard cases").show_default();
   line.option("--repeats", options->hard.repeats, "Timings of each accuracy")
       .range(1, 1000)
       .show_default();
-  line.option("--html", options->html,
-              "Write the choices and kinds to FILE: one page, no network")
+  line.option("--html", options->html, "Write the choices and kinds to FILE: one page, no network")
       .value("FILE");
   return [options] { return run(*options); };
 }
