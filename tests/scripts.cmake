@@ -26,8 +26,6 @@ endfunction()
 # python(NAME LABEL FILE [ARGUMENTS]): a script of Python that takes the program first.
 function(python_script name label file)
   script("${name}" ${label} ${python} ${file} ${deck} ${ARGN})
-  set_property(TEST "${name}" APPEND PROPERTY ENVIRONMENT # what `deck accuracy` keeps for its user
-    XDG_CACHE_HOME=${CMAKE_CURRENT_BINARY_DIR}/cache)
 endfunction()
 
 script("report in a browser" browser tests/browser/run ${deck})

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <functional>
 
-#include "accuracy/tiers.hpp"
+#include "accuracy/shared/thread_time.hpp"
 #include "cycle/shared/contact_run.hpp"
 
 namespace deck {

@@ -521,12 +521,31 @@ const Recipe recipes[] = {
     {{40, "sharp dihedral", "continuous, first sub-triangle of ties"}, dihedral},
 };
 
+struct Group {
+  int last;  // id of its last family
+  const char* name;
+};
+const Group groups[] = {{5, "triangles without area"},
+                        {10, "quads, folded and warped"},
+                        {16, "nodes on a segment, or hardly beside it"},
+                        {22, "large and small numbers"},
+                        {29, "edges"},
+                        {32, "distance near the gap"},
+                        {34, "shared nodes, exchanged sides"},
+                        {37, "builds"},
+                        {40, "shapes of meshes"}};
+
 }  // namespace
 
 std::span<const HardFamily> hard_families() {
   static const std::vector<HardFamily> list = [] {
     std::vector<HardFamily> out;
-    for (const Recipe& recipe : recipes) out.push_back(recipe.family);
+    for (const Recipe& recipe : recipes) {
+      const Group* group = groups;
+      while (recipe.family.id > group->last) ++group;
+      out.push_back(recipe.family);
+      out.back().group = group->name;
+    }
     return out;
   }();
   return list;

@@ -6,13 +6,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/tiers.hpp"
 #include "contact/shared/filtered_decisions.hpp"
 
 namespace deck {
 namespace {
 
 constexpr std::size_t motion_steps = 100;
+
+/// Elastic normal force of the robust law for a stiffness of 1, linear below 1e-8 of the gap. In
+/// ratios: small numbers must not meet in a product.
+double elastic_force(double gap, double distance, double depth) {
+  constexpr double floor = 1e-8;
+  const double share = distance / gap;
+  if (share >= floor) return 0.5 * depth / share;
+  return 0.5 * gap * ((1.0 - floor) / floor + (floor - share) / (floor * floor));
+}
 
 HardMotion::Line motion_line(const HardMotion& m, Accuracy accuracy) {
   HardMotion::Line out;
@@ -27,7 +35,7 @@ HardMotion::Line motion_line(const HardMotion& m, Accuracy accuracy) {
     const PenetrationRow& row = verdict.row;
     const bool pressed = verdict.is_row();
     out.depth.push_back(pressed ? row.depth : 0.0);
-    out.force.push_back(pressed ? accuracy::elastic_force(m.gap, row.distance, row.depth) : 0.0);
+    out.force.push_back(pressed ? elastic_force(m.gap, row.distance, row.depth) : 0.0);
     // A thousandth for the rounding of the steps themselves.
     if (k > 0 && std::abs(out.depth[k] - out.depth[k - 1]) > 1.001 * m.way) out.jumps.push_back(k);
   }

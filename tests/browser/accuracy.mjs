@@ -1,4 +1,4 @@
-// The page of `deck accuracy`: its first screen against the JSON, kinds with their worst pair, texts that do not meet.
+// The page of `deck accuracy`: its first screen against the JSON, kinds with their worst pair, the hard case in motion.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible, reachable } from "./axe.mjs";
@@ -41,32 +41,36 @@ async function firstScreen(p, name, data) {
   }
   await p.setViewportSize({ width: 1440, height: 900 });
   for (const c of data.choices) {
-    const text = await p.$eval(`.choices [data-accuracy=${c.accuracy}]`, (r) => r.innerText);
+    const text = await p.$eval(`.choices [data-accuracy=${c.word}]`, (r) => r.innerText);
     const wrong = (part) => text.includes(`${part.wrong} of ${part.pairs}`);
-    check(`${name}, ${c.accuracy}: wrong decisions, other answers`, wrong(c.hard_cases) && text.includes(`${c.hard_cases.other_answers} of ${c.hard_cases.rewritten}`) && (!c.deck || wrong(c.deck)), text);
-    check(`${name}, ${c.accuracy}: times and how they compare`, (text.match(/\d (ns|µs|ms|s|min)\b/g) ?? []).length >= (c.deck ? 2 : 1) && (c.accuracy === "fast" || text.includes("no measurable difference") === (!c.hard_cases.measurable || (c.deck !== null && !c.deck.measurable))), text);
-    const kinds = await p.$eval(`.strip[data-accuracy=${c.accuracy}]`, (e) => ({ text: e.querySelector(".who").textContent, marks: [...e.querySelectorAll("button")].map((b) => Number(b.className[1])) }));
-    same(`${name}, ${c.accuracy}: kinds never wrong`, kinds.text.trim(), `${c.accuracy} ${c.kinds.filter((k) => k.wrong === 0).length} of ${c.kinds.length} kinds`);
-    same(`${name}, ${c.accuracy}: a mark for every kind`, kinds.marks, c.kinds.map((k) => (k.wrong === 0 ? 0 : 10 * k.wrong < k.pairs ? 1 : 2)));
+    check(`${name}, ${c.word}: wrong decisions, other answers`, wrong(c.hard) && text.includes(`${c.hard.other_answer} of ${c.hard.rewritten}`) && (!c.deck || wrong(c.deck)), text);
+    const noisy = [c.hard, c.deck].filter((t) => t && t.ratio / (1 + t.spread) <= 1 && t.ratio * (1 + t.spread) >= 1 && t.spread > 0.2).length;
+    check(`${name}, ${c.word}: times, and a ratio to each`, (text.match(/\d (ns|µs|ms|s|min)\b/g) ?? []).length >= (c.deck ? 2 : 1) && (text.match(/\d x\b/g) ?? []).length === (c.deck ? 2 : 1), text);
+    check(`${name}, ${c.word}: noise is called noise`, c.word === "fast" || (text.match(/too noisy here/g) ?? []).length === noisy, text);
+    const kinds = await p.$eval(`.strip[data-accuracy=${c.word}]`, (e) => ({ text: e.querySelector(".who").textContent, marks: [...e.querySelectorAll("button")].map((b) => Number(b.className[1])) }));
+    same(`${name}, ${c.word}: kinds never wrong`, kinds.text.trim(), `${c.word} ${data.families.filter((k) => k.wrong[c.word] === 0).length} of ${data.families.length} kinds`);
+    same(`${name}, ${c.word}: a mark for every kind`, kinds.marks, data.families.map((k) => (k.wrong[c.word] === 0 ? 0 : 10 * k.wrong[c.word] < k.pairs ? 1 : 2)));
   }
+  check(`${name}: "never wrong" is said of decisions only`, !(await p.innerText("body")).includes("never wrong"));
   const said = await p.$eval(".said", (e) => ({ text: e.textContent.trim().replace(/\s+/g, " "), names: [...e.querySelectorAll("code")].map((c) => c.textContent) }));
   same(`${name}: the sentences are those of the JSON`, said.text, data.advice.join(" "));
-  const names = data.choices.map((c) => c.accuracy);
+  const names = data.choices.map((c) => c.word);
   check(`${name}: names in the sentences are names in the table`, said.names.length > 0 && said.names.every((n) => names.includes(n)), said.names.join(" "));
 }
 
 /** A mark shows its worst pair, with the gap between both answers. */
 async function kinds(p, name, data) {
-  const reference = data.choices.find((c) => c.accuracy === "reference"), wrong = reference.kinds.filter((k) => k.wrong > 0);
+  const wrong = data.families.filter((k) => k.wrong.reference > 0);
   for (const kind of wrong) {
+    const worst = kind.worst.find((w) => w.word === "reference");
     await p.click(`.strip[data-accuracy=reference] [data-kind="${kind.id}"]`);
     const shown = await p.$eval("#example", (e) => ({
       text: e.textContent, drawn: e.querySelectorAll("svg polygon, svg polyline, svg circle").length,
       exact: e.querySelector(".exact")?.cy.baseVal.value, got: e.querySelector(".got")?.getBBox().y + 5, gap: e.querySelector(".gap")?.y1.baseVal.value,
       texts: [...e.querySelectorAll("svg:last-of-type text")].map((t) => ({ text: t.textContent, r: t.getBoundingClientRect() })), box: e.querySelector("svg:last-of-type").getBoundingClientRect(),
     }));
-    check(`${name}, ${kind.name}: the worst pair with both answers`, shown.drawn >= 3 && shown.text.includes(`${kind.wrong} of ${kind.pairs}`) && shown.text.includes(`gap ${String(kind.example.gap).length > 18 ? kind.example.gap.toExponential() : kind.example.gap}`), shown.text);
-    check(`${name}, ${kind.name}: the answers stand on both sides of the gap`, kind.in_contact ? shown.exact > shown.gap && shown.got < shown.gap : shown.exact < shown.gap && shown.got > shown.gap, JSON.stringify(shown));
+    check(`${name}, ${kind.name}: the worst pair with both answers`, shown.drawn >= 3 && shown.text.includes(`${kind.wrong.reference} of ${kind.pairs}`) && shown.text.includes(`gap ${String(worst.gap).length > 18 ? worst.gap.toExponential() : worst.gap}`), shown.text);
+    check(`${name}, ${kind.name}: the answers stand on both sides of the gap`, worst.in_contact ? shown.exact > shown.gap && shown.got < shown.gap : shown.exact < shown.gap && shown.got > shown.gap, JSON.stringify(shown));
     const meet = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 3 && b.top < a.bottom - 3;
     const collide = shown.texts.flatMap((a, i) => shown.texts.slice(i + 1).filter((b) => meet(a.r, b.r)).map((b) => `${a.text}/${b.text}`));
     same(`${name}, ${kind.name}: texts do not meet`, collide, []);
@@ -75,8 +79,7 @@ async function kinds(p, name, data) {
   await p.focus(".strip[data-accuracy=robust] button");
   await p.keyboard.press("ArrowRight");
   await p.keyboard.press("Enter");
-  const robust = data.choices.find((c) => c.accuracy === "robust");
-  check(`${name}: arrows lead along the kinds`, (await p.textContent("#example")).includes(`${robust.kinds[1].name}, robust`));
+  check(`${name}: arrows lead along the kinds`, (await p.textContent("#example")).includes(`${data.families[1].name}, robust`));
 }
 
 /** The hard case in motion: a line for every word, a ring and a sentence for every jump. */
@@ -86,44 +89,25 @@ async function motion(p, name, data) {
     await p.setViewportSize({ width, height: 900 });
     const shown = await p.$eval("#motion", (e) => ({
       lines: [...e.querySelectorAll("polyline")].map((l) => l.points.length), rings: [...e.querySelectorAll(".dk-default")].map((r) => `${r.dataset.accuracy} ${r.dataset.step}`).sort(),
+      bands: Object.fromEntries([...e.querySelectorAll(".dk-band")].map((b) => [b.dataset.accuracy, b.getAttribute("d").replace(/M[\d.]+ [\d.]+/g, (m) => m.split(" ")[0])])),
       sentences: [...e.querySelectorAll(".jump")].map((j) => j.textContent), cut: [...e.querySelectorAll("svg text, .dk-default")].filter((t) => t.getBoundingClientRect().right > e.querySelector("figure").getBoundingClientRect().right).length,
     }));
     same(`${name}, ${width} wide: four lines over the steps`, shown.lines, m.lines.map((l) => l.force.length));
-    same(`${name}, ${width} wide: a ring at every jump`, shown.rings, m.lines.flatMap((l) => l.jumps.map((k) => `${l.accuracy} ${k}`)).sort());
+    same(`${name}, ${width} wide: a ring at every jump`, shown.rings, m.lines.flatMap((l) => l.jumps.map((k) => `${l.word} ${k}`)).sort());
+    same(`${name}, ${width} wide: the band of contact of robust is that of exact`, shown.bands.robust, shown.bands.exact);
+    check(`${name}, ${width} wide: that of reference is another`, shown.bands.reference !== shown.bands.exact);
     same(`${name}, ${width} wide: a sentence for every jump`, shown.sentences, m.sentences);
     check(`${name}, ${width} wide: jumps are shown, nothing is cut`, shown.rings.length > 0 && m.sentences.length > 0 && shown.cut === 0);
     await (await p.$("#motion")).screenshot({ path: join(DECK_ARTEFACTS, `accuracy_motion_${width}.png`) });
   }
 }
 
-/** What is folded: charts whose texts do not meet, and where the time goes. */
-async function folded(p, name, data) {
-  await p.$$eval("details", (all) => all.forEach((d) => (d.open = true)));
-  const charts = await p.$$eval("details figure svg", (all) => all.map((s) => {
-    const labels = [...s.querySelectorAll("text")].map((e) => ({ text: e.textContent, r: e.getBoundingClientRect() }));
-    const meet = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 3 && b.top < a.bottom - 3;
-    const out = s.getBoundingClientRect();
-    return {
-      collide: labels.flatMap((a, i) => labels.slice(i + 1).filter((b) => meet(a.r, b.r)).map((b) => `${a.text}/${b.text}`)),
-      outside: labels.filter((l) => l.r.right > out.right || l.r.left < out.left).map((l) => l.text),
-      marks: [...s.querySelectorAll(".dk-mark")].map((m) => ({ name: m.textContent.split(":")[0], hollow: m.matches(".dk-hollow") })),
-      reason: s.querySelector(".dk-reason")?.textContent ?? "", standard: s.querySelectorAll(".dk-default").length, frontier: s.querySelectorAll(".dk-frontier").length,
-      ticks: [...s.querySelectorAll("text")].map((t) => t.textContent).filter((t) => /^[\d.]+ (ns|µs|ms|s)$/.test(t)).length,
-    };
-  }));
-  check(`${name}: a chart for decisions, distances and forces`, charts.length === 3);
-  check(`${name}: no text of a chart meets another or leaves it`, charts.every((c) => c.collide.length + c.outside.length === 0), JSON.stringify(charts.map((c) => [c.collide, c.outside])));
-  check(`${name}: the default and the frontier are marked, the axis of time has words`, charts.every((c) => c.standard === 1 && c.frontier === 1 && c.ticks >= 2));
-  check(`${name}: the default is never drawn as beaten`, charts.every((c) => c.marks.some((m) => m.name === "robust" && !m.hollow)));
-  const shares = await p.$$eval(".share", (bars) => bars.map((b) => [...b.children].reduce((n, e) => n + e.getBoundingClientRect().width, 0) / b.getBoundingClientRect().width));
-  check(`${name}: the shares fill their bars`, shares.length === 2 && shares.every((s) => Math.abs(s - 1) < 0.02), shares.join(" "));
-  const cells = await p.$$eval(".heat td", (all) => all.map((e) => [Number(e.dataset.kind), e.dataset.label, Number(e.textContent)]));
-  const family = (id, t) => data.families.find((f) => f.id === id && f.tier === t);
-  check(`${name}: every kind and number type of the JSON`, cells.length === data.families.length && cells.every(([id, t, n]) => family(id, t).decision_errors + family(id, t).non_finite === n));
+/** Neither the page nor a table is wider than its box. */
+async function fits(p, name) {
   for (const width of widths) {
     await p.setViewportSize({ width, height: 900 });
     const over = await p.evaluate(() => [document.documentElement.scrollWidth > innerWidth, ...[...document.querySelectorAll("table")].map((t) => t.offsetWidth > t.parentElement.clientWidth)]);
-    check(`${name}, unfolded, ${width} wide: neither page nor table is too wide`, over.every((o) => !o), over.join(" "));
+    check(`${name}, ${width} wide: neither page nor table is too wide`, over.every((o) => !o), over.join(" "));
   }
   await p.setViewportSize({ width: 1280, height: 900 });
 }
@@ -141,7 +125,7 @@ export async function accuracyPage(browser, scratch, shot) {
     await p.setViewportSize({ width: 390, height: 844 });
     await shot(p, `accuracy_${decks.length}_phone`);
     await motion(p, name, data);
-    await folded(p, name, data);
+    await fits(p, name);
     await accessible(p, `accuracy of ${name}`);
     await p.click("#theme");
     await accessible(p, `accuracy of ${name}, dark`);

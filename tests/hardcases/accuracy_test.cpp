@@ -1,185 +1,105 @@
-// The measurement behind `deck accuracy`: what each arithmetic keeps.
+// The measurement behind `deck accuracy`: what each word of --accuracy keeps.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <tuple>
 
+#include "accuracy/shared/choice.hpp"
 #include "accuracy/shared/motion.hpp"
-#include "accuracy/tiers.hpp"
+#include "contact/distance/exact.hpp"
 #include "contact/shared/filtered.hpp"
-#include "report/shared/accuracy.hpp"
+#include "contact/small_deck.hpp"
 
 namespace deck {
 namespace {
 
-AccuracyReport small_report() {
-  std::vector<PairSample> samples;
-  for (const int family : {1, 17, 25, 30}) {
-    const auto some = hard_cases(family, 50);
-    samples.insert(samples.end(), some.begin(), some.end());
-  }
-  AccuracyOptions options;
-  options.repeats = 1;
-  return measure_accuracy(samples, options);
+bool is_in_contact(const PairSample& s) {
+  return s.edges ? is_closer_than(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
+                 : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap);
 }
 
-const TierResult& tier(const AccuracyReport& report, const std::string& name,
-                       const std::string& what = "distance") {
-  const auto found =
-      std::find_if(report.tiers.begin(), report.tiers.end(),
-                   [&](const TierResult& t) { return t.name == name && t.what == what; });
-  if (found != report.tiers.end()) return *found;
-  ADD_FAILURE() << "no tier " << name << ", " << what;
-  static const TierResult none;
-  return none;
+const std::vector<AccuracyChoice>& hard() {
+  static const std::vector<AccuracyChoice> choices = [] {
+    HardCaseOptions o;
+    o.samples = 30, o.repeats = 1, o.rewritten_limit = 300;
+    return measure_hard_cases(o);
+  }();
+  return choices;
 }
 
-TEST(Accuracy, TiersRankAsTheirArithmetic) {
-  const AccuracyReport r = small_report();
-  EXPECT_EQ(r.scene, "hard-cases");
-  EXPECT_GT(tier(r, "float").max_relative_error, tier(r, "double").max_relative_error);
-  // At an offset of 1e9 the textbook subtraction loses what the residual form keeps.
-  EXPECT_GT(tier(r, "double").max_scaled_error, tier(r, "double-residual").max_scaled_error);
-  EXPECT_GT(tier(r, "double-residual").decision_errors, 0u);
-  EXPECT_EQ(tier(r, "robust").decision_errors, 0u);
-  EXPECT_EQ(tier(r, "robust").max_ulp, 0.0);
-  EXPECT_EQ(tier(r, "robust").non_finite, 0u);
-}
-
-TEST(Accuracy, CertifiedTiersDecideAllAlike) {
-  const AccuracyReport r = small_report();
-  for (const char* name : {"robust", "interval", "epeck", "exact"}) {
-    EXPECT_EQ(tier(r, name).decision_errors, 0u) << name;
-    EXPECT_EQ(tier(r, name).non_finite, 0u) << name;
-  }
-  EXPECT_EQ(tier(r, "epeck").max_ulp, 0.0);
-  EXPECT_EQ(tier(r, "robust", "gaps").decision_errors, 0u);
-  EXPECT_GT(tier(r, "reference", "gaps").decision_errors, 0u);
-}
-
-TEST(Accuracy, AnotherPartAtTheSameDistanceIsNoError) {
-  // Two edges on one line meet in many points: every part that is as near as the nearest is right.
-  std::vector<PairSample> samples;
-  for (int i = 0; i < 40; ++i) {
-    PairSample s;
-    s.edges = true;
-    s.x = {Point3<double>{1000.0 + i, 7, 0}, Point3<double>{1010.0 + i, 7, 0},
-           Point3<double>{1002.0, 7, 1}, Point3<double>{1030.0, 7, 1}};
-    s.gap = 2;
-    samples.push_back(s);
-  }
-  for (const TierResult& t : measure_accuracy(samples).tiers) {
-    if (t.what == "distance" && t.name != "float") {
-      EXPECT_EQ(t.feature_errors, 0u) << t.name;
-    }
+TEST(Accuracy, RobustAndExactNeverDecideWronglyWhateverWayAPairIsWritten) {
+  ASSERT_EQ(hard().size(), 4u);
+  for (const AccuracyChoice& c : hard()) {
+    const bool sure = c.accuracy == Accuracy::robust || c.accuracy == Accuracy::exact;
+    EXPECT_EQ(c.hard.pairs, 37u * 30u);
+    EXPECT_GT(c.hard.ns_per_pair, 0.0);
+    EXPECT_EQ(c.hard.wrong == 0, sure) << to_string(c.accuracy);
+    EXPECT_EQ(c.hard.other_answer == 0, sure) << to_string(c.accuracy);
+    EXPECT_EQ(c.hard.kinds_never_wrong() == c.hard.kinds.size(), sure);
   }
 }
 
-TEST(Accuracy, RobustAnswersDoNotNoticeHowAPairIsWritten) {
-  const AccuracyReport r = small_report();
-  for (const char* what : {"distance", "gaps"}) {
-    EXPECT_EQ(tier(r, "robust", what).rewritten, 200u);
-    EXPECT_EQ(tier(r, "robust", what).invariance_violations, 0u);
-    EXPECT_GT(tier(r, "reference", what).invariance_violations, 0u);
-  }
-  EXPECT_EQ(tier(r, "robust").jumps, 0u);
-  EXPECT_GT(tier(r, "double").jumps, 0u);
-  EXPECT_EQ(tier(r, "epeck").rewritten, 0u);
-}
-
-TEST(Accuracy, RobustForceKeepsTwelveDigits) {
-  const AccuracyReport r = small_report();
-  EXPECT_EQ(tier(r, "robust", "force").decision_errors, 0u);
-  EXPECT_LT(tier(r, "robust", "force").max_relative_error, 4e-12);
-  EXPECT_GT(tier(r, "double", "force").max_relative_error, 1e-6);
-  // The law alone, without hard geometry: the kernel of the cycle stage has nearly all digits.
-  std::vector<PairSample> easy;
-  for (int k = 1; k < 9; ++k) {
-    PairSample s;
-    s.x = {Point3<double>{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.3, 0.4, 0.1 * k}};
-    s.gap = 1.0;
-    easy.push_back(s);
-  }
-  const AccuracyReport plain = measure_accuracy(easy, {});
-  EXPECT_EQ(plain.scene, "deck");
-  EXPECT_EQ(tier(plain, "kernel", "force").decision_errors, 0u);
-  EXPECT_LT(tier(plain, "kernel", "force").max_relative_error, 1e-14);
-  EXPECT_LT(tier(plain, "exact", "force").ns_per_pair, 1e9);
-}
-
-TEST(Accuracy, FamiliesGiveAnExampleOfTheirWrongDecisions) {
-  const AccuracyReport r = small_report();
+TEST(Accuracy, TheWorstPairOfAKindIsDecidedWrongly) {
   int shown = 0;
-  for (const FamilyResult& f : r.families) {
-    if (f.decision_errors == 0) continue;
-    ASSERT_TRUE(f.has_example);
-    const PairSample& s = f.example;
-    const bool closer = s.edges ? is_closer_than(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
-                                : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap);
-    EXPECT_NE(f.got < s.gap, closer);
-    EXPECT_EQ(f.exact_closer, closer);
-    EXPECT_EQ(f.example.family, f.id);
-    ++shown;
-  }
-  EXPECT_GT(shown, 0);
-  EXPECT_NE(accuracy_examples(r).find("0x"), std::string::npos);
-  EXPECT_EQ(accuracy_examples({}), "");
-}
-
-TEST(Accuracy, WholeDecksAreHeldAgainstTheExactOnes) {
-  AccuracyReport report;
-  report.tiers.push_back({"robust", "gaps"});
-  const auto scene = [](Accuracy accuracy) {
-    Scene s;
-    s.decisions.pairs = 4;
-    s.decisions.fallback = accuracy == Accuracy::exact ? 4 : 1;
-    s.contacts.resize(1);
-    PenetrationRow row;
-    row.distance = accuracy == Accuracy::reference ? 1.5 : 1.0;
-    s.contacts[0].penetrations.push_back(row);
-    if (accuracy != Accuracy::fast) {
-      row.secondary = 1;
-      row.in_contact = accuracy != Accuracy::robust;
-      s.contacts[0].penetrations.push_back(row);
+  for (const AccuracyChoice& c : hard())
+    for (const KindResult& k : c.hard.kinds) {
+      if (k.wrong == 0) continue;
+      EXPECT_EQ(k.worst.family, k.kind->id);
+      EXPECT_EQ(k.in_contact, is_in_contact(k.worst));
+      EXPECT_NE(k.computed < k.worst.gap, k.in_contact);
+      ++shown;
     }
-    return s;
-  };
-  measure_gaps(scene, {3}, report);
-  ASSERT_EQ(report.tiers.size(), 4u);
-  EXPECT_EQ(tier(report, "exact", "gaps").decision_errors, 0u);
-  EXPECT_EQ(tier(report, "robust", "gaps").decision_errors, 1u);
-  EXPECT_EQ(tier(report, "fast", "gaps").decision_errors, 1u);
-  EXPECT_EQ(tier(report, "reference", "gaps").decision_errors, 0u);
-  EXPECT_EQ(tier(report, "reference", "gaps").max_relative_error, 0.5);
-  EXPECT_EQ(tier(report, "robust", "gaps").fallback_share, 0.25);
+  EXPECT_GT(shown, 0);
 }
 
-TEST(Accuracy, StagesOfTheRobustDecisionHoldEveryPairOnce) {
-  const AccuracyReport r = small_report();
-  ASSERT_EQ(r.stages.size(), 3u);
-  std::uint64_t pairs = 0;
-  for (const StageResult& s : r.stages) {
-    pairs += s.pairs;
-    EXPECT_EQ(s.ns_per_pair > 0, s.pairs > 0) << s.name;
+// The solver's arithmetic sees this node within its gap of 3; its distance is 3.
+TEST(Accuracy, WrongPairsOfADeckAreNamed) {
+  test::SmallDeck d;
+  d.node(1, 119, 3, -5).node(2, 136, 37, 29).node(3, 170, 54, -5).node(4, 153, 20, -39);
+  d.node(101, 126, 5, -6).shell_part(1, 2).shell(1, 1, 1, 2, 3, 4);
+  d.segments("/SURF/SEG/1", {{1, 2, 3, 4}}).group("/GRNOD/NODE/2", {101});
+  d.add("@/INTER/TYPE7/1 Gapmin=3 Inacti=6");
+  std::vector<AccuracyChoice> choices = hard();
+  measure_deck(
+      [&](Accuracy accuracy, const std::function<void(const Scene&)>& look) {
+        SceneOptions options;
+        options.accuracy = accuracy;
+        look(test::Built(d, options).scene);
+      },
+      {3}, choices);
+  for (const AccuracyChoice& c : choices) {
+    ASSERT_TRUE(c.deck) << to_string(c.accuracy);
+    EXPECT_EQ(c.deck->pairs, 1u);
+    if (c.accuracy == Accuracy::fast) continue;
+    EXPECT_EQ(c.deck->wrong.size(), c.accuracy == Accuracy::reference ? 1u : 0u);
   }
-  const TierResult& robust = tier(r, "robust", "gaps");
-  EXPECT_EQ(pairs, robust.samples);
-  EXPECT_NEAR(static_cast<double>(r.stages[2].pairs) / static_cast<double>(pairs),
-              robust.exact_share, 1e-12);
+  const WrongPair& p = choices[0].deck->wrong.at(0);
+  EXPECT_EQ(p.interface, 1);
+  EXPECT_EQ(p.secondary, std::vector<std::int64_t>{101});
+  EXPECT_EQ(p.main, (std::vector<std::int64_t>{1, 2, 3, 4}));
+  EXPECT_EQ(p.exact, 3.0);
+  EXPECT_LT(p.computed, 3.0);
 }
 
-TEST(Accuracy, FamiliesHaveOneRowPerTier) {
-  const AccuracyReport r = small_report();
-  const auto distances = std::count_if(r.tiers.begin(), r.tiers.end(),
-                                       [](const TierResult& t) { return t.what == "distance"; });
-  ASSERT_EQ(r.families.size(), 4u * static_cast<std::size_t>(distances));
-  for (const FamilyResult& f : r.families) EXPECT_EQ(f.samples, 50u);
+TEST(Accuracy, ADeckWithoutPairsHasNoTimes) {
+  std::vector<AccuracyChoice> choices = hard();
+  measure_deck([](Accuracy, const std::function<void(const Scene&)>& look) { look(Scene()); }, {},
+               choices);
+  for (const AccuracyChoice& c : choices) EXPECT_FALSE(c.deck);
 }
 
-TEST(Accuracy, NoPairsNoTiers) {
-  EXPECT_TRUE(measure_accuracy({}).tiers.empty());
-  EXPECT_EQ(accuracy_text({}, {}), "No pairs to measure.\n");
+TEST(Accuracy, NoiseIsNoAgreementAndTheRatioIsAlwaysSaid) {
+  EXPECT_EQ(ratio_text({1.31, 0.54}), "too noisy here: 0.9 to 2.0 x");
+  EXPECT_EQ(ratio_text({1.02, 0.05}), "no measurable difference, 1.02 x ±5 %");
+  EXPECT_EQ(ratio_text({2.7, 0.1}), "2.7 x");
+  EXPECT_EQ(ratio_text({2.7, 0.4}), "2.7 x (1.9 to 3.8)");
+}
+
+TEST(Accuracy, BothTimesOfASentenceHaveOneUnit) {
+  EXPECT_EQ(seconds_text(837e-6, 4.3e-3), "0.84 ms");
+  EXPECT_EQ(seconds_text(4.3e-3), "4.3 ms");
+  EXPECT_EQ(seconds_text(837e-6), "837 µs");
+  EXPECT_EQ(seconds_text(0.65), "0.65 s");
 }
 
 TEST(AccuracyMotion, TheReferenceFormulaJumpsAndTheExactOneDoesNot) {
@@ -190,18 +110,16 @@ TEST(AccuracyMotion, TheReferenceFormulaJumpsAndTheExactOneDoesNot) {
   EXPECT_EQ(reference.jumps, std::vector<std::size_t>{47});
   EXPECT_EQ(robust.jumps, (std::vector<std::size_t>{47, 77}));
   EXPECT_TRUE(fast.jumps.empty() && exact.jumps.empty());
-  FilterCounters unused;
   for (std::size_t k = 0; k <= 100; ++k) {
-    PairSample s;
-    s.triangle = true;
-    s.gap = m.gap;
-    s.x = {m.corners[0], m.corners[1], m.corners[2], m.corners[2],
-           m.from + (static_cast<double>(k) / 100.0) * (m.to - m.from)};
-    EXPECT_NEAR(exact.depth[k], m.gap - accuracy::exact(s, unused).value, 1e-15) << k;
-    const double force = accuracy::exact_force(s, unused).value;
-    EXPECT_NEAR(exact.force[k], force, 1e-14 * force) << k;
+    const Point3<double> p = m.from + (static_cast<double>(k) / 100.0) * (m.to - m.from);
+    const ExactDepth want =
+        exact_depth(p, {m.corners[0], m.corners[1], m.corners[2], m.corners[2]}, true, m.gap);
+    EXPECT_NEAR(exact.depth[k], want.depth, 1e-15) << k;
+    const double force = want.depth > 0.0 ? 0.5 * m.gap * want.depth / want.distance : 0.0;
+    EXPECT_NEAR(exact.force[k], force, 1e-12 * force) << k;
     EXPECT_NEAR(fast.force[k], force, 1e-12 * force) << k;
-    // Figures of the reference formula where it sees a contact, else exact ones.
+    // Whether there is contact is decided exactly; the figures are the reference formula's.
+    EXPECT_EQ(robust.depth[k] > 0.0, exact.depth[k] > 0.0) << k;
     EXPECT_EQ(robust.depth[k], (reference.depth[k] > 0 ? reference : exact).depth[k]) << k;
   }
   EXPECT_LT(reference.force[47], 0.1 * exact.force[47]);

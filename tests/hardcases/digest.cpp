@@ -7,9 +7,10 @@
 #include <cstdlib>
 #include <vector>
 
-#include "accuracy/tiers.hpp"
+#include "accuracy/shared/accuracy.hpp"
 #include "contact/search/sweep.hpp"
 #include "contact/shared/dd.hpp"
+#include "contact/shared/filtered.hpp"
 #include "deck/contact/search.hpp"
 #include "deck/cycle/kernel.hpp"
 
@@ -128,9 +129,52 @@ void search(const Sheets& sheets) {
   }
 }
 
+// Pairs of one kind as the arrays of a packet.
+struct Packet {
+  bool edges = false;
+  std::array<std::array<std::vector<double>, 3>, 5> x;
+  std::vector<double> gap, k0;
+  std::vector<std::uint8_t> triangle;
+
+  void add(const PairSample& s) {
+    // Roles of node-segment pairs: the node comes first.
+    for (std::size_t role = 0; role < 5; ++role) {
+      const Point3<double>& p = s.x[edges ? role : (role + 4) % 5];
+      x[role][0].push_back(p.x);
+      x[role][1].push_back(p.y);
+      x[role][2].push_back(p.z);
+    }
+    gap.push_back(s.gap);
+    k0.push_back(1.0);
+    triangle.push_back(s.triangle);
+  }
+  cycle::PacketView view() const {
+    cycle::PacketView v;
+    v.size = gap.size();
+    for (std::size_t role = 0; role < 5; ++role)
+      for (std::size_t c = 0; c < 3; ++c) v.position[role][c] = x[role][c].data();
+    v.gap = gap.data();
+    v.k0 = k0.data();
+    v.triangle = triangle.data();
+    return v;
+  }
+};
+
 void kernel(std::span<const PairSample> samples) {
   Digest d;
-  for (const accuracy::Outcome& o : accuracy::run_kernel(samples, 1).outcomes) d.add(o.value);
+  for (const bool edges : {false, true}) {
+    Packet packet;
+    packet.edges = edges;
+    for (const PairSample& s : samples)
+      if (s.edges == edges) packet.add(s);
+    cycle::ContactCard card;
+    card.kind = edges ? cycle::ContactKind::edge_edge : cycle::ContactKind::node_segment;
+    card.viss = 0.0;
+    cycle::PacketResult result;
+    cycle::evaluate(cycle::make_plan(card, cycle::Model::robust), packet.view(), result);
+    for (const double force : result.normal_force) d.add(force);
+    for (const double distance : result.distance) d.add(distance);
+  }
   d.print("force kernel");
 }
 

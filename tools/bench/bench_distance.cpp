@@ -1,27 +1,31 @@
-// What never being wrong costs: the filtered decision and the correctly rounded distance against
-// plain double arithmetic, on the hard cases and on the pairs of decks. Turn by turn, processor
-// time, best of the rounds; no time is shown unless decisions and distances are the exact ones (a
-// sample of them).
+// What deciding without a wrong answer costs: distances in many number types and the filtered
+// decision, on the hard cases and on the pairs of decks. Turn by turn, processor time, best of the
+// rounds; no time is shown unless robust decisions and distances are the exact ones.
 //
 //   bench_distance [--samples N] [--rounds K] [--json FILE] [DECK...]
+//
+// The tiers of the JSON are those of the hard cases; "ratios" are for tools/bench/ratios.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "accuracy/tiers.hpp"
+#include "accuracy/shared/thread_time.hpp"
 #include "deck/front/loaded_deck.hpp"
+#include "distance/tiers.hpp"
 
 namespace {
 
 using deck::FilterCounters;
 using deck::PairSample;
-using deck::accuracy::Outcome;
-using deck::accuracy::Tier;
+using deck::bench::Outcome;
+using deck::bench::Tier;
+using Pairs = std::vector<PairSample>;
 
 struct Settings {
   std::size_t samples = 300;
@@ -30,15 +34,19 @@ struct Settings {
   std::vector<std::string> decks;
 };
 
-const Tier* tier(std::string_view name, std::string_view what) {
-  for (const Tier& t : deck::accuracy::distance_tiers())
-    if (t.name == name && t.what == what) return &t;
-  return nullptr;
+// Exact tiers take hundreds of times as long: they have fewer pairs, and one round.
+constexpr std::size_t slow_pairs = 1000;
+
+Pairs thinned(const Pairs& all) {
+  Pairs out;
+  const std::size_t step = all.size() / slow_pairs + 1;
+  for (std::size_t k = 0; k < all.size(); k += step) out.push_back(all[k]);
+  return out;
 }
 
-double seconds_of(const Tier& t, const std::vector<PairSample>& samples) {
+double time_of(const Tier& t, const Pairs& samples) {
   FilterCounters counters;
-  volatile double kept = 0.0;
+  static volatile double kept = 0.0;
   double sum = 0.0;
   const double start = deck::accuracy::thread_nanoseconds();
   for (const PairSample& s : samples) {
@@ -46,62 +54,102 @@ double seconds_of(const Tier& t, const std::vector<PairSample>& samples) {
     sum += o.value + static_cast<double>(o.closer);
   }
   const double spent = deck::accuracy::thread_nanoseconds() - start;
-  kept = sum;
-  (void)kept;
+  kept = kept + sum;
   return spent / static_cast<double>(samples.size());
 }
 
-// Whether decision and distance of some pairs are the exact ones.
-bool is_right(const Tier& decision, const Tier& distance, const std::vector<PairSample>& samples) {
-  FilterCounters counters;
-  const std::size_t step = samples.size() / 4000 + 1;
-  for (std::size_t k = 0; k < samples.size(); k += step) {
-    const Outcome exact = deck::accuracy::exact(samples[k], counters);
-    if (decision.run(samples[k], counters).closer != exact.closer) return false;
-    if (distance.run(samples[k], counters).value != exact.value) return false;
+struct Row {
+  const Tier* tier;
+  const Pairs* pairs;
+  double ns = std::numeric_limits<double>::infinity();
+  double relative = 0.0, ulp = 0.0;
+  std::uint64_t wrong = 0, non_finite = 0;
+  FilterCounters counters = {};
+
+  bool is(std::string_view name, std::string_view what) const {
+    return tier->name == name && tier->what == what;
   }
-  return true;
+  void judge(const std::vector<Outcome>& truth) {
+    const std::size_t step = truth.size() / slow_pairs + 1;
+    for (std::size_t k = 0; k < pairs->size(); ++k) {
+      const Outcome got = tier->run((*pairs)[k], counters),
+                    &want = truth[tier->slow ? k * step : k];
+      wrong += got.closer != want.closer;
+      if (std::string_view(tier->what) == "decision" || got.value == want.value) continue;
+      constexpr double infinite = std::numeric_limits<double>::infinity();
+      const bool finite = std::isfinite(got.value);
+      non_finite += !finite;
+      const double error = std::abs(got.value - want.value);
+      relative = std::max(relative, finite && want.value > 0.0 ? error / want.value : infinite);
+      ulp = std::max(
+          ulp, finite ? error / (std::nextafter(want.value, infinite) - want.value) : infinite);
+    }
+  }
+};
+
+const Row& row_of(const std::vector<Row>& rows, std::string_view name, std::string_view what) {
+  return *std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.is(name, what); });
 }
 
-// The race on some pairs; adds the ratios of speed against double to `ratios`.
-bool race(const std::string& title, const std::vector<PairSample>& samples, int rounds,
-          nlohmann::json& ratios) {
-  const std::array<const Tier*, 6> all{
-      tier("double", "distance"),    tier("double-residual", "distance"),
-      tier("reference", "distance"), tier("double-double", "distance"),
-      tier("robust", "gaps"),        tier("robust", "distance")};
-  if (!is_right(*all[4], *all[5], samples)) {
+void print(const std::vector<Row>& rows, const std::string& title) {
+  const Row &plain = row_of(rows, "double", "distance"),
+            &robust = row_of(rows, "robust", "decision");
+  const auto share = [&](std::uint64_t n) {
+    return 100.0 * static_cast<double>(n) / static_cast<double>(robust.counters.pairs);
+  };
+  fmt::print("\n{}: {} pairs; {:.1f} % decided beyond double, {:.1f} % in exact numbers\n", title,
+             plain.pairs->size(), share(robust.counters.double_double),
+             share(robust.counters.exact));
+  fmt::print("  {:<28} {:>7} {:>9} {:>10} {:>11} {:>9} {:>6} {:>10}\n", "", "pairs", "ns/pair",
+             "of double", "worst rel.", "ulp", "wrong", "not finite");
+  for (const Row& r : rows)
+    fmt::print("  {:<28} {:>7} {:>9.1f} {:>10.2f} {:>11.1e} {:>9.1e} {:>6} {:>10}\n",
+               fmt::format("{}, {}", r.tier->name, r.tier->what), r.pairs->size(), r.ns,
+               r.ns / plain.ns, r.relative, r.ulp, r.wrong, r.non_finite);
+}
+
+// The race on some pairs; adds the ratios of speed against double, and of the hard cases the tiers.
+bool race(const std::string& title, const Pairs& samples, int rounds, nlohmann::json& out) {
+  const Pairs few = thinned(samples);
+  std::vector<Outcome> truth;
+  FilterCounters unused;
+  for (const PairSample& s : samples) truth.push_back(deck::bench::exact(s, unused));
+  std::vector<Row> rows;
+  for (const Tier& t : deck::bench::tiers()) rows.push_back({&t, t.slow ? &few : &samples});
+  for (Row& r : rows) r.judge(truth);
+  const Row &decision = row_of(rows, "robust", "decision"),
+            &distance = row_of(rows, "robust", "distance");
+  if (decision.wrong + distance.wrong > 0 || distance.ulp > 0.0) {
     fmt::print(stderr, "{}: answers differ from the exact ones; no times\n", title);
     return false;
   }
-  std::array<double, 6> best;
-  best.fill(1e300);
   for (int round = 0; round < rounds; ++round)
-    for (std::size_t k = 0; k < all.size(); ++k)
-      best[k] = std::min(best[k], seconds_of(*all[k], samples));
-  FilterCounters counters;
-  for (const PairSample& s : samples) all[4]->run(s, counters);
-  const auto share = [&](std::uint64_t n) {
-    return 100.0 * static_cast<double>(n) / static_cast<double>(counters.pairs);
-  };
-  fmt::print("\n{}: {} pairs; {:.1f} % decided beyond double, {:.1f} % in exact numbers\n", title,
-             samples.size(), share(counters.double_double), share(counters.exact));
-  fmt::print("  {:<28} {:>9} {:>12}\n", "", "ns/pair", "of double");
-  for (std::size_t k = 0; k < all.size(); ++k)
-    fmt::print("  {:<28} {:>9.1f} {:>12.2f}\n", fmt::format("{}, {}", all[k]->name, all[k]->what),
-               best[k], best[k] / best[0]);
-  ratios["distance, " + title + ": double, of a robust decision"] = best[0] / best[4];
-  ratios["distance, " + title + ": double, of a rounded distance"] = best[0] / best[5];
+    for (Row& r : rows)
+      if (round == 0 || !r.tier->slow) r.ns = std::min(r.ns, time_of(*r.tier, *r.pairs));
+  print(rows, title);
+  const double plain = row_of(rows, "double", "distance").ns;
+  out["ratios"]["distance, " + title + ": double, of a robust decision"] = plain / decision.ns;
+  out["ratios"]["distance, " + title + ": double, of a rounded distance"] = plain / distance.ns;
+  if (out.contains("tiers")) return true;
+  for (const Row& r : rows)
+    out["tiers"].push_back({{"name", r.tier->name},
+                            {"what", r.tier->what},
+                            {"samples", r.pairs->size()},
+                            {"ns_per_pair", r.ns},
+                            {"max_relative_error", r.relative},  // null: without bound
+                            {"max_ulp", r.ulp},
+                            {"decision_errors", r.wrong},
+                            {"non_finite", r.non_finite}});
   return true;
 }
 
-std::vector<PairSample> pairs_of(const std::string& path) {
+Pairs pairs_of(const std::string& path) {
   const auto loaded = deck::load(path);
   if (!loaded) return {};
   deck::Diagnostics ignored;
   deck::SceneOptions options = loaded->scene_options();
   options.penetrations = options.candidates = false;
-  return deck::scene_pairs(loaded->scene_with(options, ignored), 40000);
+  return deck::bench::scene_pairs(loaded->scene_with(options, ignored), 40000);
 }
 
 Settings parse(int argc, char** argv) {
@@ -125,13 +173,13 @@ Settings parse(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   const Settings settings = parse(argc, argv);
-  nlohmann::json ratios = nlohmann::json::object();
-  std::vector<PairSample> samples;
+  nlohmann::json out = nlohmann::json::object();
+  Pairs samples;
   for (const deck::HardFamily& family : deck::hard_families()) {
     const auto some = deck::hard_cases(family.id, settings.samples);
     samples.insert(samples.end(), some.begin(), some.end());
   }
-  if (!race("hard cases", samples, settings.rounds, ratios)) return 1;
+  if (!race("hard cases", samples, settings.rounds, out)) return 1;
   for (const std::string& path : settings.decks) {
     const auto pairs = pairs_of(path);
     const std::string name = path.substr(path.find_last_of('/') + 1);
@@ -139,9 +187,8 @@ int main(int argc, char** argv) {
       fmt::print(stderr, "{}: no pairs\n", path);
       return 1;
     }
-    if (!race(name, pairs, settings.rounds, ratios)) return 1;
+    if (!race(name, pairs, settings.rounds, out)) return 1;
   }
-  if (!settings.json.empty())
-    std::ofstream(settings.json) << nlohmann::json{{"ratios", ratios}}.dump(2) << "\n";
+  if (!settings.json.empty()) std::ofstream(settings.json) << out.dump(2) << "\n";
   return 0;
 }

@@ -1,12 +1,15 @@
-// What each word of --accuracy costs and gives: the answer of `deck accuracy`, from what was
-// measured on a deck and on the hard cases.
+// What each word of --accuracy costs and gives, on the hard cases and on a deck, against exact
+// arithmetic: the answer of `deck accuracy`.
+// Example: std::vector<AccuracyChoice> choices = measure_hard_cases({});
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "accuracy/shared/accuracy.hpp"
+#include "deck/contact/scene.hpp"
 
 namespace deck {
 
@@ -14,8 +17,29 @@ namespace deck {
 struct TimeRatio {
   double value = 1.0;
   double spread = 0.0;  // of both times, as a share
+  double low() const { return value / (1.0 + spread); }
+  double high() const { return value * (1.0 + spread); }
   // The times do not differ by more than they do from run to run.
   bool unmeasurable() const;
+  // They differ so much from run to run that not even that can be said.
+  bool noisy() const { return spread > 0.2; }
+};
+
+// The decisions of one word about one kind of hard cases.
+struct KindResult {
+  const HardFamily* kind = nullptr;
+  std::uint64_t pairs = 0, wrong = 0;
+  // The wrong decision with the largest error of its distance; of no meaning without one.
+  PairSample worst;
+  double computed = 0.0, exact = 0.0;  // its distance
+  bool in_contact = false;             // exactly
+};
+
+// A pair of a deck that a word decides wrongly. A distance that nothing computes is not a number.
+struct WrongPair {
+  std::int64_t interface = 0;
+  std::vector<std::int64_t> secondary, main;  // node ids
+  double gap = 0.0, exact = 0.0, computed = 0.0;
 };
 
 struct AccuracyChoice {
@@ -23,35 +47,63 @@ struct AccuracyChoice {
   struct OnDeck {
     double seconds = 0.0;  // whole `deck gaps`
     TimeRatio ratio;       // against `fast`
-    std::uint64_t wrong = 0, pairs = 0;
+    std::uint64_t pairs = 0;
+    std::vector<WrongPair> wrong;
   };
   std::optional<OnDeck> deck;  // nothing: no deck, or no pair in it
   struct OnHardCases {
     double ns_per_pair = 0.0;
     TimeRatio ratio;  // against `fast`
     std::uint64_t wrong = 0, pairs = 0;
-    // Pairs written down in other ways, and how many of them got another answer.
-    std::uint64_t rewritten = 0, other_answers = 0;
-    std::uint64_t kinds_right = 0, kinds = 0;  // kinds of hard cases without a wrong decision
-  };
-  OnHardCases hard;
-  std::vector<const FamilyResult*> kinds;  // in the report of the hard cases
+    // Pairs written down in other ways (order of nodes, orientation, axes, powers of two), and how
+    // many of them got another answer.
+    std::uint64_t rewritten = 0, other_answer = 0;
+    std::vector<KindResult> kinds;
+    std::size_t kinds_never_wrong() const;
+  } hard;
 };
 
-// In the order reference, fast, robust, exact. `deck` may be nullptr. Empty if `hard` has no
-// decisions.
-std::vector<AccuracyChoice> accuracy_choices(const AccuracyReport& hard,
-                                             const AccuracyReport* deck);
+using MeasureProgress = std::function<void(std::uint64_t, std::uint64_t)>;  // done, of all
 
-// Two sentences: which accuracy to keep, and why. `names` is put around the words of --accuracy,
-// "" or a tag such as "b". Empty without choices.
+struct HardCaseOptions {
+  std::size_t samples = 1000;  // of each kind
+  std::uint64_t seed = 1;
+  int repeats = 5;                     // timings; the median counts
+  std::size_t slow_limit = 1000;       // pairs timed in exact arithmetic
+  std::size_t rewritten_limit = 1000;  // pairs written down in other ways
+  MeasureProgress progress = {};
+};
+
+// The choices in the order reference, fast, robust, exact, without a deck. Processor time; the
+// words take turns, so that what slows the machine down slows down all of them.
+std::vector<AccuracyChoice> measure_hard_cases(const HardCaseOptions& options);
+
+// How long measure_deck() repeats.
+struct GapsTiming {
+  int repeats = 5;
+  double least = 0.0;   // seconds: short runs are repeated more often, until this much was spent
+  double most = 1e300;  // seconds: after three rounds none begins once this much was spent
+  MeasureProgress progress = {};
+};
+// Reads the deck, builds its scene with penetrations and hands it over.
+using GapsRun = std::function<void(Accuracy, const std::function<void(const Scene&)>&)>;
+
+// Times the whole of `deck gaps` with each word and fills AccuracyChoice::deck. Times are those of
+// the clock, the best of the repeats; the words take turns, the exact one runs once.
+void measure_deck(const GapsRun& run, const GapsTiming& timing,
+                  std::vector<AccuracyChoice>& choices);
+
+// Two sentences: which accuracy to keep, and why. `tag` is put around the words of --accuracy, ""
+// or a tag such as "b".
 std::vector<std::string> accuracy_advice(const std::vector<AccuracyChoice>& choices,
                                          const std::string& tag = {});
 
-// "0.65 s", "31 ms", "73 µs", "240 ns".
-std::string seconds_text(double seconds);
-// "2.7", "258", "0.98".
-std::string ratio_text(double ratio);
+// "0.65 s", "31 ms", "73 µs", "240 ns", in the unit of `like` where one is given.
+std::string seconds_text(double seconds, double like = 0.0);
+// "2.7 x", "2.7 x (1.9 to 3.8)", "no measurable difference, 1.02 x ±5 %", "too noisy here: 0.9
+// to 2.0 x".
+std::string ratio_text(const TimeRatio& ratio);
+std::string ratio_text(double ratio);  // "2.7 x"
 // "14 %", "0.3 %", "0".
 std::string share_text(std::uint64_t part, std::uint64_t all);
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/shared/escape.hpp"
 #include "deck/contact/scene.hpp"
@@ -29,10 +28,7 @@ std::string wrong_cell(std::string_view label, std::uint64_t wrong, std::uint64_
 }
 
 std::string ratio_words(const TimeRatio& r, bool is_fast) {
-  if (is_fast) return "1 &times;";
-  if (r.unmeasurable())
-    return fmt::format("no measurable difference (&plusmn;{:.0f} %)", std::ceil(100 * r.spread));
-  return ratio_text(r.value) + " &times; <code>fast</code>";
+  return is_fast ? "1 x" : html_text(ratio_text(r)) + " <code>fast</code>";
 }
 
 /// A bar as long as the time; what is longer than the scale is drawn as cut.
@@ -64,21 +60,21 @@ std::string choice_row(const AccuracyChoice& c, double deck_scale, double hard_s
                 fmt::format("{}<b class=\"seconds\">{}</b> <small>{}</small>",
                             bar(c.deck->seconds, deck_scale), seconds_text(c.deck->seconds),
                             ratio_words(c.deck->ratio, is_fast)));
-    out += wrong_cell("Wrong, deck", c.deck->wrong, c.deck->pairs);
+    out += wrong_cell("Wrong, deck", c.deck->wrong.size(), c.deck->pairs);
   }
   out += cell(
       "Hard cases",
       fmt::format("{}<b>{}</b> <small>{}</small>", bar(c.hard.ns_per_pair, hard_scale),
                   seconds_text(1e-9 * c.hard.ns_per_pair), ratio_words(c.hard.ratio, is_fast)));
   out += wrong_cell("Wrong, hard cases", c.hard.wrong, c.hard.pairs);
-  out += wrong_cell("Other answer", c.hard.other_answers, c.hard.rewritten);
+  out += wrong_cell("Other answer", c.hard.other_answer, c.hard.rewritten);
   return out + "</tr>\n";
 }
 
-/// never wrong, under 10 % wrong, more
-int kind_level(const FamilyResult& f) {
-  if (f.decision_errors == 0) return 0;
-  return 10 * f.decision_errors < f.samples ? 1 : 2;
+/// never, in under 10 % of the pairs, or more often wrong
+int kind_level(const KindResult& k) {
+  if (k.wrong == 0) return 0;
+  return 10 * k.wrong < k.pairs ? 1 : 2;
 }
 
 std::string strip_row(const AccuracyChoice& c) {
@@ -87,14 +83,14 @@ std::string strip_row(const AccuracyChoice& c) {
       "<div class=\"strip\" data-accuracy=\"{0}\"><span class=\"who\"><code>{0}</code> "
       "<b>{1} of {2}</b> kinds</span><span class=\"kinds\" role=\"toolbar\" aria-label=\"Kinds of "
       "hard cases, {0}\">",
-      name, c.hard.kinds_right, c.hard.kinds);
+      name, c.hard.kinds_never_wrong(), c.hard.kinds.size());
   bool first = true;
-  for (const FamilyResult* f : c.kinds) {
+  for (const KindResult& k : c.hard.kinds) {
     out += fmt::format(
         "<button type=\"button\" class=\"l{}\" data-kind=\"{}\"{} aria-label=\"{}, {}: {} wrong of "
         "{}\" title=\"{}: {} wrong of {}\"></button>",
-        kind_level(*f), f->id, first ? "" : " tabindex=\"-1\"", html_text(f->name), name,
-        f->decision_errors, f->samples, html_text(f->name), f->decision_errors, f->samples);
+        kind_level(k), k.kind->id, first ? "" : " tabindex=\"-1\"", html_text(k.kind->name), name,
+        k.wrong, k.pairs, html_text(k.kind->name), k.wrong, k.pairs);
     first = false;
   }
   return out + "</span></div>\n";
@@ -103,9 +99,6 @@ std::string strip_row(const AccuracyChoice& c) {
 }  // namespace
 
 std::string accuracy_first_screen(const Choices& choices) {
-  if (choices.empty())
-    return "<p class=\"said\">The hard cases were not measured, so there is nothing to "
-           "compare.</p>\n";
   std::string out = "<p class=\"said\">";
   for (const std::string& sentence : accuracy_advice(choices, "code")) out += sentence + " ";
   out += "</p>\n<table class=\"choices cards\"><thead><tr><th scope=\"col\">--accuracy</th>";
@@ -113,7 +106,7 @@ std::string accuracy_first_screen(const Choices& choices) {
   if (first.deck) out += "<th scope=\"col\">This deck: time</th><th scope=\"col\">wrong</th>";
   out += fmt::format(
       "<th scope=\"col\">Hard cases: time per pair</th><th scope=\"col\">wrong</th>"
-      "<th scope=\"col\">same pair, other answer</th></tr></thead><tbody>\n");
+      "<th scope=\"col\">other answer</th></tr></thead><tbody>\n");
   const double deck_scale = scale_of(choices, deck_time), hard_scale = scale_of(choices, hard_time);
   for (const AccuracyChoice& c : choices) out += choice_row(c, deck_scale, hard_scale);
   out += fmt::format(
@@ -129,7 +122,8 @@ std::string accuracy_first_screen(const Choices& choices) {
       "<dt><code>exact</code></dt><dd>to settle one doubtful deck</dd></dl>\n";
   out +=
       "<section class=\"stable\"><div><h2>Which hard cases stay stable</h2>\n<p class=\"note\">"
-      "<span class=\"key l0\"></span>never wrong <span class=\"key l1\"></span>under 10 % wrong "
+      "<span class=\"key l0\"></span>never decides wrongly <span class=\"key l1\"></span>under 10 "
+      "% wrong "
       "<span class=\"key l2\"></span>more. Choose a mark to see the worst pair of its kind.</p>\n";
   for (const AccuracyChoice& c : choices) out += strip_row(c);
   return out + "</div><div id=\"example\" aria-live=\"polite\"></div></section>\n";

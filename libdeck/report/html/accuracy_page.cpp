@@ -1,15 +1,9 @@
-// The page of `deck accuracy`: the first screen answers what each word of --accuracy costs; folded
-// below are where the time goes, charts and tables of number types. All figures stand in the page
-// without scripts; the JSON document stands in it, too.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
+// The page of `deck accuracy`: the first screen answers what each word of --accuracy costs. All
+// figures stand in the page without scripts; the JSON document stands in it, too.
 #include "base/shared/escape.hpp"
-#include "report/accuracy_chart.hpp"
 #include "report/html/accuracy_choices.hpp"
 #include "report/html/parts.hpp"
+#include "report/shared/accuracy.hpp"
 
 namespace deck {
 namespace {
@@ -26,7 +20,6 @@ header h1 { font-size: 16px; margin: 0; flex: 1; overflow-wrap: anywhere; } head
 h2 { font-size: 16px; margin: 14px 0 2px; } .note { color: var(--muted); font-size: 13px; margin: 4px 0; overflow-wrap: anywhere; }
 button { font: inherit; font-size: 13px; color: inherit; background: var(--panel); border: 1px solid var(--line); border-radius: 7px; padding: 4px 11px; cursor: pointer; }
 :focus-visible { outline: 2px solid var(--accent); outline-offset: 1px; }
-summary { font-size: 16px; font-weight: 600; cursor: pointer; padding: 8px 0; } details { border-top: 1px solid var(--line); margin-top: 12px; }
 figure { margin: 0 0 14px; background: var(--panel); border: 1px solid var(--line); border-radius: 10px; padding: 8px; overflow-x: auto; } figure svg { width: 100%; min-width: 880px; max-width: 1100px; height: auto; display: block; }
 table { border-collapse: collapse; font-size: 13px; background: var(--panel); max-width: 100%; }
 th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; white-space: nowrap; } th { color: var(--muted); font-weight: 600; } thead th { white-space: normal; } .l { text-align: left; }
@@ -36,17 +29,12 @@ th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; wh
 .choose { display: grid; grid-template-columns: auto 1fr auto 1fr; gap: 2px 14px; margin: 10px 0; } .choose dd { margin: 0; color: var(--muted); }
 .stable { display: grid; gap: 8px 16px; align-items: start; } .strip { display: flex; gap: 10px; align-items: center; margin: 5px 0; } .who { flex: none; width: 104px; line-height: 1.25; font-size: 13px; white-space: nowrap; } .who code { display: block; } .kinds { display: flex; flex-wrap: wrap; }
 .kinds button, .key { width: 24px; height: 24px; padding: 0; border: 0; border-radius: 5px; background: none; position: relative; } .key { display: inline-block; vertical-align: -7px; }
-.kinds button::after, .key::after { content: ""; position: absolute; inset: 4px; border-radius: 50%; } .l0::after { background: var(--good); } .l1::after { border: 3px solid var(--some); } .l2::after { border: 2px solid var(--bad); border-radius: 2px; transform: scale(.6) rotate(45deg); }
+.kinds button::after, .key::after { content: ""; position: absolute; inset: 4px; border-radius: 50%; } .l0::after { background: var(--good); } .l1::after { border: 3px solid var(--some); } .kinds .l2::after, .key.l2::after { background: var(--bad); border-radius: 2px; transform: scale(.8) rotate(45deg); }
 .kinds [aria-pressed=true] { background: var(--line); outline: 1px solid var(--muted); } .kinds button:hover { background: var(--line); }
 #example { background: var(--panel); border: 1px solid var(--line); border-radius: 10px; padding: 8px 12px; max-width: 380px; } #example:empty { display: none; } #example h3 { margin: 0; font-size: 14px; } #example svg { width: 340px; max-width: 100%; height: auto; display: block; font-size: 12px; } #example p { margin: 2px 0; font-size: 13px; overflow-wrap: anywhere; }
 #example .seg { fill: var(--soft); stroke: var(--accent); stroke-width: 2; } #example .other { stroke: var(--bad); stroke-width: 3; fill: var(--bad); } #example text { fill: var(--ink); } #example text.dim { fill: var(--muted); } #example .inside { fill: var(--soft); } #example .gap { stroke: var(--ink); stroke-dasharray: 5 4; } #example .got { stroke: var(--bad); stroke-width: 2.5; } #example .exact { fill: var(--good); }
-.heat td { padding: 0; } .heat button { width: 100%; min-width: 44px; border: 0; border-radius: 0; padding: 4px 8px; background: none; text-align: right; } .heat thead th { writing-mode: vertical-rl; transform: rotate(180deg); text-align: left; padding: 6px 4px; } .heat thead th.l { writing-mode: initial; transform: none; }
-.heat td.plain { padding: 4px 8px; } .h1 { background: #fee19d; color: #222; } .h2 { background: #fa8f48; color: #222; } .h3 { background: #bd0026; color: #fff; }
-.share { display: flex; height: 22px; border-radius: 6px; overflow: hidden; margin: 3px 0 8px; max-width: 900px; } .share span { min-width: 2px; }
-.s0 { background: #7fa8d8; } .s1 { background: #f0a860; } .s2 { background: #bd0026; } .swatch { display: inline-block; width: 11px; height: 11px; border-radius: 3px; margin-right: 6px; }
-[data-theme=dark] .dk-ground, [data-theme=dark] .dk-mark.dk-hollow { fill: #171e27; } [data-theme=dark] .dk-grid { stroke: #303c4c; }
-[data-theme=dark] .dk-svg text { fill: #93a2b4; } [data-theme=dark] .dk-svg .dk-label, [data-theme=dark] .dk-svg .dk-title { fill: #e7edf4; }
-[data-theme=dark] .dk-svg .dk-label { stroke: #171e27; } [data-theme=dark] .dk-mark { fill: #7fb2ff; stroke: #7fb2ff; } [data-theme=dark] .dk-frontier { stroke: #7fb2ff; } [data-theme=dark] .dk-default { stroke: #ffc069; }
+[data-theme=dark] .dk-ground { fill: #171e27; } [data-theme=dark] .dk-grid { stroke: #303c4c; } [data-theme=dark] .dk-default { stroke: #ffc069; }
+[data-theme=dark] .dk-svg text { fill: #93a2b4; } [data-theme=dark] .dk-svg .dk-title { fill: #e7edf4; }
 [data-theme=dark] .dk-line.dk-reference { stroke: #ff8a80; } [data-theme=dark] .dk-line.dk-fast { stroke: #7fb2ff; } [data-theme=dark] .dk-line.dk-robust { stroke: #e7edf4; } [data-theme=dark] .dk-line.dk-exact { stroke: #5fd38d; }
 #motion > div { display: flex; flex-wrap: wrap; gap: 8px 24px; align-items: center; margin-top: 8px; } #motion figure { flex: 0 1 460px; min-width: 0; margin: 0; } #motion figure svg { min-width: 0; } #motion div div { flex: 1 1 320px; } .jump { margin: 4px 0; }
 @media (min-width: 1400px) { .stable { grid-template-columns: minmax(0, 1fr) 350px; } }
@@ -55,7 +43,7 @@ th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; wh
   header { padding: 6px 12px; flex-wrap: nowrap; } header h1 small { display: block; margin: 0; line-height: 1.3; } .strip { display: block; } .who code { display: inline; } main { padding: 0 12px 30px; } .said { font-size: 14px; line-height: 1.4; padding: 8px 10px; margin: 8px 0; }
   .cards, .cards tbody, .cards td, .cards th { display: block; } .cards thead { display: none; } .cards { background: none; width: 100%; } .cards tr { display: flex; flex-wrap: wrap; background: var(--panel); border: 1px solid var(--line); border-radius: 8px; margin: 0 0 5px; padding: 3px 8px; }
   .cards th, .choices th { flex: 1 0 100%; text-align: left; border: 0; padding: 0; white-space: normal; } .cards td, .choices td { flex: 1 0 33%; max-width: 100%; text-align: left; white-space: normal; border: 0; padding: 0 6px 2px 0; font-size: 13px; line-height: 1.3; } .choices td { flex: 0 0 38%; } .choices td:nth-of-type(2) { flex-basis: 24%; } .choices td small { display: block; }
-  .cards td::before { content: attr(data-label); display: block; font-size: 11px; color: var(--muted); } .choices .default th { box-shadow: none; } .choices .bar { display: none; } .heat td { flex: 1 0 20%; } .heat button { text-align: left; padding: 4px; }
+  .cards td::before { content: attr(data-label); display: block; font-size: 11px; color: var(--muted); } .choices .default th { box-shadow: none; } .choices .bar { display: none; }
 }
 @media print { header button, .save { display: none; } }
 )~";
@@ -95,29 +83,28 @@ function draw(e) {
 /** All digits, in the shorter way of writing. */
 const shortest = (d) => String(d).length > 18 ? d.toExponential() : String(d);
 /** Both distances beside the gap, so far enlarged that their difference is seen. Each mark stands on the side it was decided for. */
-function drawGap(e, accuracy, exactInside, gotInside) {
+function drawGap(e) {
   const s = svg("svg", { viewBox: "0 0 340 148", role: "img", "aria-label": "Gap and distances" }), middle = 74;
-  const off = (d) => Number.isFinite(d) ? Math.abs(d - e.gap) : 0, span = Math.max(off(e.exact_distance), off(e.distance));
+  const off = (d) => Number.isFinite(d) ? Math.abs(d - e.gap) : 0, span = Math.max(off(e.exact), off(e.computed));
   const y = (d, inside) => middle + (inside ? 1 : -1) * (Number.isFinite(d) && span > 0 ? 26 + 20 * Math.min(1, off(d) / span) : 36);
   s.append(svg("rect", { x: 0, y: middle, width: 340, height: 74, class: "inside" }), svg("line", { x1: 0, x2: 340, y1: middle, y2: middle, class: "gap" }));
   s.append(svg("text", { x: 6, y: middle - 5 }, `gap ${shortest(e.gap)}`), svg("text", { x: 6, y: 12, class: "dim" }, "not in contact"), svg("text", { x: 6, y: 142, class: "dim" }, "in contact"));
-  const words = (d) => d === null ? "not finite" : shortest(d), ye = y(e.exact_distance, exactInside), yg = y(e.distance, gotInside);
-  s.append(svg("circle", { cx: 60, cy: ye, r: 5, class: "exact" }), svg("text", { x: 72, y: ye + 4 }, `exactly ${words(e.exact_distance)}`));
-  s.append(svg("path", { d: `M55 ${yg - 5}l10 10m0 -10l-10 10`, class: "got" }), svg("text", { x: 72, y: yg + 4 }, `${accuracy} ${words(e.distance)}`));
+  const words = (d) => d === null ? "not finite" : shortest(d), ye = y(e.exact, e.in_contact), yg = y(e.computed, !e.in_contact);
+  s.append(svg("circle", { cx: 60, cy: ye, r: 5, class: "exact" }), svg("text", { x: 72, y: ye + 4 }, `exactly ${words(e.exact)}`));
+  s.append(svg("path", { d: `M55 ${yg - 5}l10 10m0 -10l-10 10`, class: "got" }), svg("text", { x: 72, y: yg + 4 }, `${e.word} ${words(e.computed)}`));
   return { s, span };
 }
 const panel = document.getElementById("example"), marks = [...document.querySelectorAll(".kinds button")];
 function show(accuracy, id) {
-  const kind = data.choices.find((c) => c.accuracy === accuracy).kinds.find((k) => k.id === id);
+  const kind = data.families.find((k) => k.id === id), wrong = kind.wrong[accuracy], e = kind.worst.find((w) => w.word === accuracy);
   for (const b of marks) b.setAttribute("aria-pressed", String(b.closest(".strip").dataset.accuracy === accuracy && Number(b.dataset.kind) === id));
   panel.replaceChildren();
   const add = (tag, text) => { const e = document.createElement(tag); e.textContent = text; panel.append(e); return e; };
   add("h3", `${kind.name}, ${accuracy}`);
-  const e = kind.example;
-  add("p", kind.wrong === 0 ? `All ${kind.pairs} pairs are decided rightly.` : `${kind.wrong} of ${kind.pairs} pairs are decided wrongly. The worst one:`);
-  if (!e || kind.wrong === 0) { add("p", `Expected: ${kind.expected}.`).className = "note"; return; }
+  add("p", wrong === 0 ? `All ${kind.pairs} pairs are decided rightly.` : `${wrong} of ${kind.pairs} pairs are decided wrongly. The worst one:`);
+  if (!e) { add("p", `Expected: ${kind.expected}.`).className = "note"; return; }
   panel.append(draw(e));
-  const gap = drawGap(e, accuracy, kind.in_contact, !kind.in_contact), size = extent(e.points);
+  const gap = drawGap(e), size = extent(e.points);
   panel.append(gap.s);
   if (gap.span > 0 && size > 0) add("p", `Pair of size ${size.toPrecision(3)}; below, differences are enlarged ${((20 / gap.span) / (300 / size)).toPrecision(1)} times against it.`).className = "note";
 }
@@ -135,177 +122,31 @@ for (const strip of document.querySelectorAll(".kinds")) {
   });
 }
 // First the kind that plain double decides worst.
-const share = (k) => k.wrong / k.pairs, worst = (data.choices.find((c) => c.accuracy === "fast")?.kinds ?? []).reduce((a, b) => !a || share(b) > share(a) ? b : a, null);
-if (worst && worst.wrong > 0) show("fast", worst.id);
+const share = (k) => k.wrong.fast / k.pairs, worst = data.families.reduce((a, b) => share(b) > share(a) ? b : a);
+if (worst.wrong.fast > 0) show("fast", worst.id);
 )~";
-
-std::string figure(double v) {
-  if (!std::isfinite(v)) return "unbounded";
-  if (v == 0.0) return "0";
-  return v >= 0.01 && v < 1e6 ? fmt::format("{:.4g}", v) : fmt::format("{:.1e}", v);
-}
-
-std::string percent(double part, double all) {
-  return all > 0 ? fmt::format("{:.3g} %", 100.0 * part / all) : "0 %";
-}
-
-std::string chart(const AccuracyReport& r, const std::string& what) {
-  const std::string panel = accuracy_panel(r, what);
-  if (panel.empty()) return {};
-  return "<figure tabindex=\"0\">" + panel +
-         "<button type=\"button\" class=\"save\" data-name=\"accuracy_" + what +
-         ".svg\">Save as SVG</button></figure>\n";
-}
-
-/// Wrong decisions of every number type in every kind of hard cases; nothing for decks.
-std::string heat_map(const AccuracyReport& r) {
-  if (r.scene != "hard-cases" || r.families.empty()) return {};
-  std::vector<std::string> tiers;
-  for (const FamilyResult& f : r.families)
-    if (std::find(tiers.begin(), tiers.end(), f.tier) == tiers.end()) tiers.push_back(f.tier);
-  std::string out =
-      "<h3>Kinds of hard cases</h3>\n<p class=\"note\">Wrong decisions and results that are not "
-      "finite, by the distance that a number type computes.</p>\n<table class=\"heat "
-      "cards\"><thead>"
-      "<tr><th class=\"l\">Kind</th>";
-  for (const std::string& t : tiers) out += "<th>" + html_text(t) + "</th>";
-  out += "</tr></thead><tbody>\n";
-  for (const HardFamily& family : hard_families()) {
-    if (!family.sampled) continue;
-    out += fmt::format("<tr><th class=\"l\" scope=\"row\">{} {}</th>", family.id,
-                       html_text(family.name));
-    for (const FamilyResult& f : r.families) {
-      if (f.id != family.id) continue;
-      const std::uint64_t wrong = f.decision_errors + f.non_finite;
-      const double share = static_cast<double>(wrong) / static_cast<double>(f.samples);
-      const int heat = wrong == 0 ? 0 : share < 0.05 ? 1 : share < 0.25 ? 2 : 3;
-      out += fmt::format("<td class=\"plain h{}\" data-label=\"{}\" data-kind=\"{}\">{}</td>", heat,
-                         html_text(f.tier), f.id, wrong);
-    }
-    out += "</tr>\n";
-  }
-  return out + "</tbody></table>\n";
-}
-
-std::string time_shares(const AccuracyReport& r) {
-  double pairs = 0, time = 0;
-  for (const StageResult& s : r.stages) {
-    pairs += static_cast<double>(s.pairs);
-    time += static_cast<double>(s.pairs) * s.ns_per_pair;
-  }
-  static constexpr const char* words[] = {"the filter in double is sure", "double-double is sure",
-                                          "integers or rationals decide"};
-  std::string bars[2], rows;
-  for (std::size_t k = 0; k < r.stages.size(); ++k) {
-    const StageResult& s = r.stages[k];
-    const double spent = static_cast<double>(s.pairs) * s.ns_per_pair;
-    const double shares[] = {static_cast<double>(s.pairs) / std::max(pairs, 1.0),
-                             spent / std::max(time, 1e-300)};
-    for (int b = 0; b < 2; ++b)
-      if (s.pairs > 0)
-        bars[b] += fmt::format("<span class=\"s{}\" style=\"flex:{:.6f}\"></span>", k, shares[b]);
-    rows += fmt::format(
-        "<tr><th class=\"l\" scope=\"row\"><span class=\"swatch s{}\"></span>{}</th><td "
-        "class=\"l\" data-label=\"because\">{}</td><td data-label=\"pairs\">{}</td>"
-        "<td data-label=\"of the pairs\">{}</td><td data-label=\"ns per pair\">{:.0f}</td>"
-        "<td data-label=\"of the time\">{}</td></tr>\n",
-        k, html_text(s.name), words[std::min<std::size_t>(k, 2)], s.pairs,
-        percent(static_cast<double>(s.pairs), pairs), s.ns_per_pair, percent(spent, time));
-  }
-  return "<p class=\"note\">Of the robust decision. Each pair is counted in the stage that decides "
-         "it, with its whole time.</p>\n"
-         "Share of the pairs<div class=\"share\">" +
-         bars[0] + "</div>Share of the time<div class=\"share\">" + bars[1] +
-         "</div>\n<table class=\"cards\"><thead><tr><th class=\"l\">Ends in</th><th "
-         "class=\"l\">because</th><th>pairs</th>"
-         "<th>of the pairs</th><th>ns per pair</th><th>of the time</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table>\n";
-}
-
-std::string motion_section() {
-  const HardMotion motion = hard_motion();
-  std::string said;
-  for (const std::string& sentence : motion_sentences(motion, "code"))
-    said += "<p class=\"jump\">" + sentence + "</p>\n";
-  return fmt::format(
-      R"~(<section id="motion"><h2>A node passes a sliver</h2>
-<div><figure tabindex="0">{}<button type="button" class="save" data-name="accuracy_motion.svg">Save as SVG</button></figure>
-<div>{}<p class="note">The area of the triangle is round-off: there the reference formula takes the wrong edge. <code>robust</code>
-decides contact without round-off and prints the figures of the reference formula; where that formula sees no contact, the exact ones.</p>
-<p class="note">A ring is a jump: the depth changes by more than the node moves ({:.3g} a step, gap {:g}), which no distance can do.</p>
-</div></div></section>
-)~",
-      motion_panel(motion), said, motion.way, motion.gap);
-}
-
-std::string tier_row(const TierResult& t) {
-  std::string out = fmt::format("<tr><th class=\"l\" scope=\"row\">{}</th>", html_text(t.name));
-  const auto cell = [&](std::string_view label, const std::string& text) {
-    out += fmt::format("<td data-label=\"{}\">{}</td>", label, text);
-  };
-  cell("pairs", std::to_string(t.samples));
-  cell("ns per pair", fmt::format("{:.1f}", t.ns_per_pair));
-  cell("wrong decisions", std::to_string(t.decision_errors));
-  cell("not finite", std::to_string(t.non_finite));
-  cell("worst relative error",
-       t.what == "gaps" ? "does not compute one" : figure(t.max_relative_error));
-  cell("answer depends on how the pair is written",
-       t.rewritten > 0 ? fmt::format("{} of {}", t.invariance_violations, t.rewritten)
-                       : "not asked");
-  cell("needed more than double", percent(t.fallback_share, 1.0));
-  cell("needed exact arithmetic", percent(t.exact_share, 1.0));
-  return out + "</tr>\n";
-}
-
-std::string tier_table(const AccuracyReport& r) {
-  std::string out;
-  for (const auto& [what, title] :
-       {std::pair("gaps", "Decision"), std::pair("distance", "Distance"),
-        std::pair("force", "Elastic force")}) {
-    std::string rows;
-    for (const TierResult& t : r.tiers)
-      if (t.what == what) rows += tier_row(t);
-    if (rows.empty()) continue;
-    out +=
-        std::string("<h3>") + title +
-        "</h3>\n<table class=\"cards\"><thead><tr><th class=\"l\">number type</th>"
-        "<th>pairs</th><th>ns per pair</th><th>wrong decisions</th><th>not finite</th>"
-        "<th>worst relative error</th><th>answer depends on how the pair is written</th>"
-        "<th>needed more than double</th><th>needed exact arithmetic</th></tr></thead><tbody>\n" +
-        rows + "</tbody></table>\n";
-  }
-  return out;
-}
 
 }  // namespace
 
-std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& context) {
+std::string accuracy_html(const AccuracyChoices& choices, const AccuracyContext& context) {
   std::string out =
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src "
       "'unsafe-inline'; "
       "style-src 'unsafe-inline'; img-src data: blob:\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      html_text(accuracy_title(report, context)) + "</title>\n<style>";
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>"
+      "What accuracy costs</title>\n<style>";
   out += page_style;
   out += "</style>\n</head>\n<body>\n<header><h1>What accuracy costs <small>" +
          html_text(context.path.empty() ? "the hard cases" : terminal_text(context.path)) +
          "</small></h1><button type=\"button\" id=\"json\">JSON</button><button type=\"button\" "
          "id=\"theme\">Dark or light</button></header>\n<main>\n";
-  const std::vector<AccuracyChoice> choices = accuracy_choices_of(report, context);
   out += detail::accuracy_first_screen(choices);
-  if (!choices.empty()) out += motion_section();
-  if (!report.stages.empty())
-    out += "<details><summary>Where robust spends its time</summary>\n" + time_shares(report) +
-           "</details>\n";
-  if (!report.tiers.empty())
-    out += "<details><summary>For experts: number types, decisions, distances, forces</summary>\n" +
-           chart(report, "gaps") + chart(report, "distance") + chart(report, "force") +
-           tier_table(report) + heat_map(report) + "</details>\n";
+  out += detail::accuracy_motion();
   for (const std::string& line : {context.processor, accuracy_compiler(), context.command})
     out += "<p class=\"note\">" + html_text(terminal_text(line)) + "</p>\n";
   out += "</main>\n<script type=\"application/json\" id=\"accuracy-json\">" +
-         detail::script_safe(accuracy_json(report, context)) + "</script>\n<script>";
+         detail::script_safe(accuracy_json(choices, context)) + "</script>\n<script>";
   out += page_script;
   return out + "</script>\n</body>\n</html>\n";
 }

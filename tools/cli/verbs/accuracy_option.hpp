@@ -12,7 +12,7 @@ namespace deck::cli {
 inline void add_accuracy(CommandLine& line, std::string& value) {
   line.option("--accuracy", value,
               "How contact of a pair is decided: fast (plain double), reference (the solver's "
-              "formula), robust (never wrong, filtered), exact (rationals)")
+              "formula), robust (never decides wrongly, filtered), exact (rationals)")
       .one_of({"fast", "reference", "robust", "exact"})
       .show_default();
 }

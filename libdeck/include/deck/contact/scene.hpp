@@ -72,7 +72,7 @@ struct EdgeThroughSegment {
 enum class Accuracy : std::uint8_t {
   fast,       ///< plain double, closest point by the robust formula
   reference,  ///< plain double, the reference solver's formula
-  robust,     ///< filtered, never wrong; figures are the reference formula's
+  robust,     ///< never decides wrongly, filtered; figures are the reference formula's
   exact       ///< rationals; figures rounded once
 };
 const char* to_string(Accuracy accuracy);  ///< "fast", "reference", "robust", "exact"

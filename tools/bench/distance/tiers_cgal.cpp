@@ -4,27 +4,23 @@
 
 #include <cmath>
 
-#include "accuracy/tiers.hpp"
 #include "contact/shared/exact_number.hpp"
+#include "distance/tiers.hpp"
 
-namespace deck::accuracy {
+namespace deck::bench {
 namespace {
 
 template <class T, class F>
-void run(const PairSample& s, Outcome& out, const F& take) {
+void run(const PairSample& s, const F& take) {
   std::array<Point3<T>, 5> x;
   for (std::size_t k = 0; k < 5; ++k) x[k] = cast<T>(s.x[k]);
   if (s.edges) {
     const auto c = closest_between_edges<Form::robust>(x[0], x[1], x[2], x[3]);
-    out.feature = number_of(c.feature_s, c.feature_m);
     take(c.distance_squared);
-    out.weights = {CGAL::to_double(c.weight_s), CGAL::to_double(c.weight_m), 0.0, 0.0};
   } else {
     const auto c = closest_on_segment<Form::robust>(
         x[4], std::array<Point3<T>, 4>{x[0], x[1], x[2], x[3]}, s.triangle);
-    out.feature = number_of(c.feature, c.feature_index);
     take(c.distance_squared());
-    for (std::size_t k = 0; k < 4; ++k) out.weights[k] = CGAL::to_double(c.weights[k]);
   }
 }
 
@@ -34,7 +30,7 @@ const Rational& exact_value(const LazyRational& number) { return number.exact();
 template <class T>
 Outcome in_exact_numbers(const PairSample& s) {
   Outcome out;
-  run<T>(s, out, [&](const T& squared) {
+  run<T>(s, [&](const T& squared) {
     out.value = rounded_square_root(exact_value(squared));
     out.closer = s.gap > 0.0 && squared < CGAL::square(T(s.gap));
   });
@@ -54,7 +50,7 @@ Outcome interval(const PairSample& s, FilterCounters& counters) {
   Outcome out;
   try {
     const T::Protector rounding;
-    run<T>(s, out, [&](const T& squared) {
+    run<T>(s, [&](const T& squared) {
       const T distance = CGAL::sqrt(CGAL::max(T(0), squared));
       out.closer = s.gap > 0.0 && CGAL::make_certain(distance < T(s.gap));
       out.value = 0.5 * (distance.inf() + distance.sup());
@@ -70,4 +66,4 @@ Outcome interval(const PairSample& s, FilterCounters& counters) {
   return exact(s, unused);
 }
 
-}  // namespace deck::accuracy
+}  // namespace deck::bench

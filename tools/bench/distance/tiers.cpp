@@ -1,20 +1,20 @@
 // The distance and the contact decision of one pair in several arithmetics.
-#include "accuracy/tiers.hpp"
+#include "distance/tiers.hpp"
 
 #include <cmath>
 #include <limits>
 
 #include "contact/shared/dd.hpp"
 
-namespace deck::accuracy {
+namespace deck::bench {
 namespace {
 
-// One arithmetic and form, with the coordinates as they are or seen from the first one (`local`),
-// the distance from the formula itself or by subtracting the closest point (`textbook`).
-template <class T, Form F, bool local = false, bool textbook = false>
+// One arithmetic and form, the distance from the formula itself or by subtracting the closest point
+// (`textbook`).
+template <class T, Form F, bool textbook = false>
 Outcome evaluate(const PairSample& s, FilterCounters&) {
   std::array<Point3<T>, 5> x;
-  for (std::size_t k = 0; k < 5; ++k) x[k] = cast<T>(local ? s.x[k] - s.x[0] : s.x[k]);
+  for (std::size_t k = 0; k < 5; ++k) x[k] = cast<T>(s.x[k]);
   Outcome out;
   // Coordinates that the number type cannot hold: the tier has no answer.
   if constexpr (std::is_same_v<T, float>) {
@@ -33,8 +33,6 @@ Outcome evaluate(const PairSample& s, FilterCounters&) {
       const Point3<T> b = c.weight_m * x[2] + (T(1) - c.weight_m) * x[3];
       distance = deck::length(a - b);
     }
-    out.feature = number_of(c.feature_s, c.feature_m);
-    out.weights = {static_cast<double>(c.weight_s), static_cast<double>(c.weight_m), 0.0, 0.0};
   } else {
     const auto c = closest_on_segment<F>(x[4], {x[0], x[1], x[2], x[3]}, s.triangle);
     distance = c.distance();
@@ -43,34 +41,26 @@ Outcome evaluate(const PairSample& s, FilterCounters&) {
       for (std::size_t k = 1; k < 4; ++k) q = q + c.weights[k] * x[k];
       distance = deck::length(x[4] - q);
     }
-    out.feature = number_of(c.feature, c.feature_index);
-    for (std::size_t k = 0; k < 4; ++k) out.weights[k] = static_cast<double>(c.weights[k]);
   }
   out.value = static_cast<double>(distance);
   out.closer = distance < T(s.gap);
   return out;
 }
 
-// The decision alone.
+bool decide(const PairSample& s, FilterCounters& counters) {
+  return s.edges ? is_closer_than(s.x[0], s.x[1], s.x[2], s.x[3], s.gap, &counters)
+                 : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap, &counters);
+}
+
 Outcome robust_decision(const PairSample& s, FilterCounters& counters) {
-  Outcome out;
-  out.closer = decide(s, counters);
-  return out;
+  return {0.0, decide(s, counters)};
 }
 
 Outcome robust_distance(const PairSample& s, FilterCounters& counters) {
   Outcome out;
-  if (s.edges) {
-    const auto c = filtered_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3], &counters);
-    out.value = c.distance;
-    out.feature = number_of(c.feature_s, c.feature_m);
-    out.weights = {c.weight_s, c.weight_m, 0.0, 0.0};
-  } else {
-    const auto c = filtered_closest_on_segment(s.x[4], s.corners(), s.triangle, &counters);
-    out.value = c.distance;
-    out.feature = number_of(c.feature, c.feature_index);
-    out.weights = c.weights;
-  }
+  out.value =
+      s.edges ? filtered_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3], &counters).distance
+              : filtered_closest_on_segment(s.x[4], s.corners(), s.triangle, &counters).distance;
   // Rounding is monotone: the digits behind matter only where the rounded distance is the gap.
   FilterCounters again;
   out.closer = out.value == s.gap ? decide(s, again) : out.value < s.gap;
@@ -79,30 +69,21 @@ Outcome robust_distance(const PairSample& s, FilterCounters& counters) {
 
 constexpr Form by_robust = Form::robust, by_reference = Form::reference;
 
-const Tier tiers_of_distances[] = {
+const Tier all_tiers[] = {
     {"float", "distance", evaluate<float, by_robust>},
-    {"float-local", "distance", evaluate<float, by_robust, true>},
-    {"double", "distance", evaluate<double, by_robust, false, true>},
+    {"double", "distance", evaluate<double, by_robust, true>},
     {"double-residual", "distance", evaluate<double, by_robust>},
     {"reference", "distance", evaluate<double, by_reference>},
     {"double-double", "distance", evaluate<DoubleDouble, by_robust>},
     {"robust", "distance", robust_distance},
     {"interval", "distance", interval, true},
     {"epeck", "distance", lazy_exact, true},
-    {"exact", "distance", exact, true, true},
-    {"fast", "gaps", evaluate<double, by_robust>},
-    {"reference", "gaps", evaluate<double, by_reference>},
-    {"robust", "gaps", robust_decision},
-    {"exact", "gaps", exact, true, true},
+    {"exact", "distance", exact, true},
+    {"robust", "decision", robust_decision},
 };
 
 }  // namespace
 
-bool decide(const PairSample& s, FilterCounters& counters) {
-  return s.edges ? is_closer_than(s.x[0], s.x[1], s.x[2], s.x[3], s.gap, &counters)
-                 : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap, &counters);
-}
+std::span<const Tier> tiers() { return all_tiers; }
 
-std::span<const Tier> distance_tiers() { return tiers_of_distances; }
-
-}  // namespace deck::accuracy
+}  // namespace deck::bench
