@@ -34,8 +34,8 @@ Begin read_begin(Deck& deck, Span header, std::uint64_t pos) {
   const IntegerCell number = read_integer(cell);
   begin.version_written = static_cast<int>(std::clamp<std::int64_t>(number.value, 0, 99999));
   begin.version_known = is_known_version(begin.version_written);
-  begin.version_unread = begin.version_written == 41 || begin.version_written == 42 ||
-                         begin.version_written == 44;
+  begin.version_unread =
+      begin.version_written == 41 || begin.version_written == 42 || begin.version_written == 44;
   begin.has_input = read_units(deck, lines[2], begin.input);
   begin.has_working = read_units(deck, lines[3], begin.working);
   if (begin.has_input) fill_blank_units(deck, header, begin.input, begin.working, "input system");

@@ -130,7 +130,8 @@ Result<void> detail::refuse_binary(const Source& source) {
 std::string unread_version(const Deck& deck) {
   if (!deck.begin.version_unread) return {};
   const Diagnostic& d = deck.diagnostics.all().front();
-  return deck.sources.where(d.span) + ": " + d.message + "; convert the deck to version 51 or later";
+  return deck.sources.where(d.span) + ": " + d.message +
+         "; convert the deck to version 51 or later";
 }
 
 std::string no_starter_deck(const Deck& deck) {

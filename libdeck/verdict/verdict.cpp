@@ -90,11 +90,12 @@ std::string losses_text(const char* type, const std::vector<TieFacts::Losses>& l
     ids += fmt::format("{}{}", i == 0 ? "" : ", ", losses[i].id);
   if (losses.size() > most) ids += fmt::format(" and {} more", losses.size() - most);
   const bool one = losses.size() == 1;
-  const std::string who = one ? fmt::format("{} {}", type, ids)
-                              : fmt::format("{} {} ({})", losses.size(), type, ids);
+  const std::string who =
+      one ? fmt::format("{} {}", type, ids) : fmt::format("{} {} ({})", losses.size(), type, ids);
   if (untied == of && of > 1)
     return one ? fmt::format("{} ties none of its {} nodes.", who, of)
-               : fmt::format("{} {} tie none of their {} nodes ({}).", losses.size(), type, of, ids);
+               : fmt::format("{} {} tie none of their {} nodes ({}).", losses.size(), type, of,
+                             ids);
   return fmt::format("{} of {} of {} {} not tied.", untied, count(of, "node", "nodes"), who,
                      untied == 1 ? "is" : "are");
 }
@@ -140,8 +141,7 @@ void say_penetrations(const ContactFacts& f, Sentences& out) {
             fmt::format("{} tied ({}).", count(t.tied.pairs, "pair", "pairs"),
                         count(t.tied.nodes, "node", "nodes")),
             {{"tied_pairs", t.tied.pairs}, {"tied_nodes", t.tied.nodes}});
-  if (t.untied > 0)
-    out.add("untied", losses_text("TYPE10", f.untied), {});
+  if (t.untied > 0) out.add("untied", losses_text("TYPE10", f.untied), {});
   if (const std::uint64_t n = t.crossed_elements.value_or(0); n > 0)
     out.add("crossed",
             fmt::format("{}: an edge of the secondary side passes through a main segment.",

@@ -7,9 +7,9 @@
 #include "contact/small_deck.hpp"
 #include "cycle/adapter/parts.hpp"
 #include "cycle/shared/heat.hpp"
-#include "replay/replay.hpp"
 #include "cycle/support.hpp"
 #include "deck/cycle/scene_cycle.hpp"
+#include "replay/replay.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -2,8 +2,8 @@
 // of the interface card in the deck beside each set of records.
 #include <gtest/gtest.h>
 
-#include "replay/replay.hpp"
 #include "cycle/support.hpp"
+#include "replay/replay.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "replay/replay.hpp"
 #include "cycle/support.hpp"
+#include "replay/replay.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -14,6 +14,14 @@ namespace {
 
 using edit_test::Whole;
 
+/// Coordinates by id: the solver's order of nodes follows their files.
+std::map<std::int64_t, std::array<double, 2>> places(const Model& model) {
+  std::map<std::int64_t, std::array<double, 2>> out;
+  for (NodeIndex n = 0; n < model.nodes.size(); ++n)
+    out[model.nodes.id[n]] = {model.nodes.x[n], model.nodes.y[n]};
+  return out;
+}
+
 const std::string head =
     "#RADIOSS STARTER\n/BEGIN\nrun\n      2024         0\n"
     "                  kg                  mm                  ms\n"
@@ -158,14 +166,6 @@ TEST(Flatten, LocalParametersOfOneFileStayAsTheyAre) {
   const auto w = tree({{"main_0000.rad", head + "#include a.inc\n/END\n"},
                        {"a.inc", local("2.5") + "/NODE\n" + coordinate}});
   EXPECT_EQ(flat(*w), head + local("2.5") + "/NODE\n" + coordinate + "/END\n");
-}
-
-/// Coordinates by id: the solver's order of nodes follows their files.
-std::map<std::int64_t, std::array<double, 2>> places(const Model& model) {
-  std::map<std::int64_t, std::array<double, 2>> out;
-  for (NodeIndex n = 0; n < model.nodes.size(); ++n)
-    out[model.nodes.id[n]] = {model.nodes.x[n], model.nodes.y[n]};
-  return out;
 }
 
 TEST(Flatten, LocalParametersThatWouldMeetGetNewNames) {

@@ -35,9 +35,9 @@ constexpr Named of_a_place[] = {{"hover", hover},
                                 {"references", references},
                                 {"highlight", document_highlight},
                                 {"card", card_at}};
-constexpr Named of_the_text[] = {
-    {"completion", completion}, {"symbols", document_symbols}, {"folding", folding_ranges},
-    {"hints", inlay_hints},     {"lenses", code_lenses},       {"actions", code_actions}};
+constexpr Named of_the_text[] = {{"completion", completion},  {"symbols", document_symbols},
+                                 {"folding", folding_ranges}, {"hints", inlay_hints},
+                                 {"lenses", code_lenses},     {"actions", code_actions}};
 
 /// One document, its deck, and what is known about it.
 class Session {

@@ -8,9 +8,9 @@
 #include <map>
 #include <set>
 
-#include "replay/replay.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "golden/reference.hpp"
+#include "replay/replay.hpp"
 
 namespace deck {
 namespace {

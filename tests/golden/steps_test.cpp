@@ -10,9 +10,9 @@
 #include <map>
 #include <set>
 
-#include "replay/table.hpp"
-#include "replay/replay.hpp"
 #include "deck/cycle/steps.hpp"
+#include "replay/replay.hpp"
+#include "replay/table.hpp"
 #include "where.hpp"
 
 namespace deck {

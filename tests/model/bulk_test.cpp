@@ -545,8 +545,7 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 bool same(const Elements& a, const Elements& b) {
-  return a.id == b.id && a.part == b.part && a.nodes == b.nodes &&
-         same(a.thickness, b.thickness) &&
+  return a.id == b.id && a.part == b.part && a.nodes == b.nodes && same(a.thickness, b.thickness) &&
          a.shape == b.shape && a.extra == b.extra && a.extra_nodes == b.extra_nodes &&
          a.block == b.block && a.width == b.width;
 }

@@ -237,8 +237,7 @@ void find_penetrations(SceneContext& c, Contact& contact, DecisionReport& decisi
   if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
   sides.reset();
   PairJudge judge(c.options.accuracy, decisions);
-  const int error =
-      on_surface_error(contact.type, contact.itied, contact.fpenmax, contact.inacti);
+  const int error = on_surface_error(contact.type, contact.itied, contact.fpenmax, contact.inacti);
   // The solver measures a whole group of candidates before it acts on any of them.
   CandidateGroup group;
   std::vector<PairVerdict> verdicts;

@@ -51,8 +51,7 @@ std::optional<FormattedReal> cell_text(double value, double factor, int width) {
 
 bool lacks_title(const DecodedBlock& block) {
   const Schema* schema = block.block->schema;
-  return schema != nullptr && schema->has_title &&
-         !block.title_line.valid();
+  return schema != nullptr && schema->has_title && !block.title_line.valid();
 }
 
 Span end_of_main(const Deck& deck) {

@@ -171,7 +171,7 @@ class ContactComparison {
   using Rows = std::vector<Row>;
   /// By their pairs.
   static Rows sorted(const std::vector<PenetrationRow>& rows, const Partners& secondary,
-                                 const Partners& main) {
+                     const Partners& main) {
     Rows out;
     out.reserve(rows.size());
     for (const PenetrationRow& row : rows)

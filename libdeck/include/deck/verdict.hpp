@@ -77,7 +77,7 @@ struct ContactFacts {
   std::array<std::size_t, 7> obstacles{};  ///< evaluated contacts by Obstacle
   ContactTotals total;
   double deepest = 0, deepest_gap = 0;  ///< of the deepest pair: its depth, and its gap
-  std::uint64_t unbounded = 0;   ///< pairs that are left out of these: beyond largest_bounded_gap
+  std::uint64_t unbounded = 0;  ///< pairs that are left out of these: beyond largest_bounded_gap
   std::vector<TieFacts::Losses> untied;  ///< TYPE10 that do not tie all of their nodes
   std::optional<TieFacts> ties;          ///< of TYPE2; nullopt: not looked for
 };

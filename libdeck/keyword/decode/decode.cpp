@@ -244,8 +244,8 @@ bool has_comma(const CardSchema& card, const Line& line) {
 }
 
 /// Cells of a list. `limit`: how many there are at most on this line, blank ones included.
-void read_ids(const Deck& deck, Findings& findings, const CardSchema& card,
-              const Line& line, int limit, DecodedCard& out) {
+void read_ids(const Deck& deck, Findings& findings, const CardSchema& card, const Line& line,
+              int limit, DecodedCard& out) {
   const Field& f = card.fields.back();
   for (std::size_t i = 0; i + 1 < card.fields.size(); ++i) {
     const Field& lead = card.fields[i];
@@ -439,8 +439,7 @@ DecodedCard detail::decode_in_context(const Deck& deck, const Block& block, cons
     const int most = card.count.empty() ? line_columns : card.per_line;
     const Field& id = card.fields.back();
     out.cells.reserve(line.text.size() / static_cast<std::size_t>(id.last - id.first + 1) + 1);
-    read_ids(deck, findings, card, line, context.cells > 0 ? context.cells : most,
-             out);
+    read_ids(deck, findings, card, line, context.cells > 0 ? context.cells : most, out);
     return out;
   }
   // Where a schema describes only the cells that matter here, the other columns are not blank.

@@ -78,8 +78,7 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     j.field("pairs", wide.pairs.size());
     j.key("round_off").begin_array(true);  // pairs that only the solver's round-off makes
     for (const PenetrationRow& row : c.penetrations)
-      if (!row.in_contact)
-        j.begin_array(true).value(row.secondary).value(row.main).end_array();
+      if (!row.in_contact) j.begin_array(true).value(row.secondary).value(row.main).end_array();
     j.end_array();
     j.key("totals").begin_object(true);
     write_totals(j, input.view->contacts[i]);

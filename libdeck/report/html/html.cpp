@@ -213,7 +213,8 @@ std::vector<Packed> packed_blocks(const HtmlInput& in, const std::vector<detail:
   const detail::ContactBlocks contacts = detail::contact_blocks(in, page, nodes);
   packed("deck-shared", contacts.shared);
   packed("deck-contacts", contacts.contacts);
-  if (detail::has_ties(*in.scene)) packed("deck-ties", [&] { return detail::ties_block(in, nodes); });
+  if (detail::has_ties(*in.scene))
+    packed("deck-ties", [&] { return detail::ties_block(in, nodes); });
   packed("deck-mesh", [&] { return detail::mesh_block(model, mesh, nodes); });
   packed("deck-elements", [&] { return detail::elements_block(model, mesh); });
   if (in.earlier != nullptr)

@@ -11,7 +11,6 @@
 #include <unordered_map>
 #include <vector>
 
-
 namespace deck::detail {
 
 /// Bytes that are packed (zlib) and written as base64 piece by piece as they come.

@@ -111,8 +111,9 @@ class TieWriter {
     j_.key("rows").begin_array(true);
     for (std::size_t k = 0; k < untied.size(); ++k) {
       j_.begin_array(true).value(untied[k]).null().value(c.gapmin).value(part_at(list[k]));
-      j_.value("no segment").value(
-          fmt::format("No segment is within the gap of {:.6g}: the node is not tied.", c.gapmin));
+      j_.value("no segment")
+          .value(fmt::format("No segment is within the gap of {:.6g}: the node is not tied.",
+                             c.gapmin));
       place(spans[k]);
       j_.end_array();
     }

@@ -47,10 +47,10 @@ std::int64_t whole(const Json& v) { return v.is_number_integer() ? v.get<std::in
 /// A document of `gaps --all` is large, and little of it is compared: the rest is not kept.
 bool is_compared(int, Json::parse_event_t event, Json& parsed) {
   static const std::set<std::string, std::less<>> keys = {
-      "at",          "contacts",     "deck",       "decks",     "edge",    "edge_penetrations",
-      "gap",         "id",           "interfaces", "node",      "nodes",   "path",
-      "penetration", "penetrations", "role",       "schema",    "sentences", "tied",
-      "tied_pairs",  "ties",         "verdict",    "version",   "what"};
+      "at",          "contacts",     "deck",       "decks",   "edge",      "edge_penetrations",
+      "gap",         "id",           "interfaces", "node",    "nodes",     "path",
+      "penetration", "penetrations", "role",       "schema",  "sentences", "tied",
+      "tied_pairs",  "ties",         "verdict",    "version", "what"};
   return event != Json::parse_event_t::key || keys.contains(parsed.get_ref<std::string&>());
 }
 

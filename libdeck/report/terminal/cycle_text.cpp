@@ -231,9 +231,7 @@ std::string contact_table(const CycleInput& input, const CycleTextOptions& optio
     const auto count = [&](std::size_t n) {
       cells.emplace_back(known ? fmt::format("{}", n) : "-");
     };
-    const auto figure = [&](double v) {
-      cells.emplace_back(known ? figure_text(v) : "-");
-    };
+    const auto figure = [&](double v) { cells.emplace_back(known ? figure_text(v) : "-"); };
     if (all) count(s.pairs_in_reach);
     count(s.pairs_with_force);
     figure(s.force_sum);

@@ -194,9 +194,9 @@ class InterfaceTable {
     add(share_text(t.max_ratio));
     const bool tied = c.ties() && known && obstacle(c).empty() && t.solver_errors == 0;
     cells.emplace_back(tied ? tied_words(c, t) : action_words(contacts),
-                       t.solver_errors > 0                 ? Tone::red
+                       t.solver_errors > 0            ? Tone::red
                        : t.count.pairs + t.untied > 0 ? Tone::yellow
-                                                           : Tone::plain);
+                                                      : Tone::plain);
     table_.row(std::move(cells));
   }
 
@@ -337,10 +337,9 @@ std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view
     fmt::format_to(
         std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n",
         r.normal[0], r.normal[1], r.normal[2], r.on_surface ? 1 : 0, r.in_contact ? 1 : 0,
-        to_string(r.action),
-        r.has_gap0 ? length(r.gap0) : "", r.has_gap0 ? length(r.p0) : "", p.at[0], p.at[1], p.at[2],
-        id(p.secondary_element.id), id(p.secondary_element.part), id(p.main_element.id),
-        id(p.main_element.part),
+        to_string(r.action), r.has_gap0 ? length(r.gap0) : "", r.has_gap0 ? length(r.p0) : "",
+        p.at[0], p.at[1], p.at[2], id(p.secondary_element.id), id(p.secondary_element.part),
+        id(p.main_element.id), id(p.main_element.part),
         span.valid() ? csv_text(terminal_text(deck.sources[span.file].path())) : std::string(),
         span.valid() ? fmt::format("{}", deck.sources.position(span).line) : "");
     drain_text(drain, out);

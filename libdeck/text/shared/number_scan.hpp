@@ -107,7 +107,7 @@ RealCell read_real_general(const char* begin, const char* end);
 /// (Clinger), else the general case.
 inline double with_sign(double value, bool negative) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^
-                          (static_cast<std::uint64_t>(negative) << 63));
+                               (static_cast<std::uint64_t>(negative) << 63));
 }
 
 template <Blanks blanks = Blanks::all>

@@ -26,7 +26,6 @@ struct ReplayInput {
   cycle::Model model = cycle::Model::reference;
 };
 
-
 void write_vector(JsonWriter& j, const std::vector<double>& v) {
   j.begin_array(true);
   for (const double x : v) j.value(x);
@@ -182,14 +181,21 @@ int run(const Options& o) {
 
 int main(int argc, char** argv) {
   deck::Options o;
-  CLI::App app("The contact kernel on recorded pair states, compared with the recorded forces.", "replay");
+  CLI::App app("The contact kernel on recorded pair states, compared with the recorded forces.",
+               "replay");
   app.add_option("deck", o.deck, "Starter deck (*_0000.rad)")->required()->option_text("DECK");
-  app.add_option("states", o.states, "Recorded states: CSV, also compressed (.gz)")->required()->option_text("STATES");
+  app.add_option("states", o.states, "Recorded states: CSV, also compressed (.gz)")
+      ->required()
+      ->option_text("STATES");
   app.add_option("--interface", o.interface_id, "Interface whose states are replayed")->required();
-  app.add_option("--model", o.model, "reference or robust")->check(CLI::IsMember({"reference", "robust"}));
+  app.add_option("--model", o.model, "reference or robust")
+      ->check(CLI::IsMember({"reference", "robust"}));
   app.add_option("--json", o.json, "Write JSON to FILE; '-' is standard output");
-  app.add_option("--csv", o.csv, "Every result column of STATES as computed here, one line per state, preceded by the number of its data line");
-  app.add_option("--include-path", o.include_paths, "Also search included files in DIR")->allow_extra_args(false);
+  app.add_option("--csv", o.csv,
+                 "Every result column of STATES as computed here, one line per state, preceded by "
+                 "the number of its data line");
+  app.add_option("--include-path", o.include_paths, "Also search included files in DIR")
+      ->allow_extra_args(false);
   app.add_flag("-q,--quiet", o.quiet, "Print nothing but errors");
   try {
     app.parse(argc, argv);

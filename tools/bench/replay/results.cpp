@@ -6,9 +6,9 @@
 #include <map>
 
 #include "cycle/adapter/parts.hpp"
-#include "replay/node_outputs.hpp"
 #include "cycle/shared/heat.hpp"
 #include "deck/cycle/kernel.hpp"
+#include "replay/node_outputs.hpp"
 
 namespace deck::cycle::detail {
 namespace {

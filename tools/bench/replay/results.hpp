@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "replay/replay.hpp"
 #include "replay/states.hpp"
 #include "replay/table.hpp"
-#include "replay/replay.hpp"
 
 namespace deck::cycle::detail {
 

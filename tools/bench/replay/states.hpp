@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "replay/table.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/card.hpp"
 #include "deck/cycle/packet.hpp"
+#include "replay/table.hpp"
 
 namespace deck::cycle::detail {
 

@@ -224,9 +224,8 @@ std::string summary_table(const Json& s, std::size_t width, bool color) {
     const std::vector<Field> fields = fields_of(rows);
     // Where numbers say why a deck is listed no words are needed.
     const auto what = [&](const Row& r) {
-      const bool told =
-          r.level->name == "penetrates" ||
-          (r.level->name != "stops" && r.number("errors") + r.number("warnings") > 0);
+      const bool told = r.level->name == "penetrates" ||
+                        (r.level->name != "stops" && r.number("errors") + r.number("warnings") > 0);
       return !fields.empty() && r.got_through && told ? std::string() : r.what;
     };
     std::vector<TextTable::Column> columns = {{"deck"}, {"status"}};

@@ -81,8 +81,11 @@ Result<Side> read_old(const Options& o, const SchemaSet& schemas) {
 std::vector<PageTrend> trends_of(const DeckDiff& diff) {
   std::vector<PageTrend> out;
   const std::pair<const char*, const std::vector<PenetrationChange>&> lists[] = {
-      {"new", diff.appeared}, {"worse", diff.worse}, {"better", diff.better},
-      {"same", diff.same},    {"solved", diff.gone}};
+      {"new", diff.appeared},
+      {"worse", diff.worse},
+      {"better", diff.better},
+      {"same", diff.same},
+      {"solved", diff.gone}};
   for (const auto& [trend, list] : lists)
     for (const PenetrationChange& p : list)
       out.push_back({p.interface_id, p.role, p.secondary, p.depth_old, p.gap_old, trend});

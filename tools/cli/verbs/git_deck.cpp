@@ -2,9 +2,9 @@
 #include "verbs/git_deck.hpp"
 
 #include <fcntl.h>
-#include <unistd.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>

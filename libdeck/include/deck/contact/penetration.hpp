@@ -20,8 +20,8 @@ enum class PenetrationAction : std::uint8_t {
   offset_stored,           ///< TYPE24, 25: Inacti 5, taken off the penetration from then on
   initial_force,           ///< TYPE24, 25: Inacti -1, a force from the start
   removed_tied,            ///< TYPE24, 25: a tie holds the node, Irem_i2
-  error_611,               ///< the node is exactly on the segment: the solver stops (Inacti 3, 5, 6)
-  error_612,               ///< the same with Inacti 0
+  error_611,  ///< the node is exactly on the segment: the solver stops (Inacti 3, 5, 6)
+  error_612,  ///< the same with Inacti 0
 };
 inline constexpr std::size_t penetration_actions = 12;  ///< how many there are
 /// The solver stops at this penetration.

@@ -51,8 +51,8 @@ struct ContactTotals {
   ItemCounts on_segment;     ///< what of it lies exactly on a segment
   std::optional<std::uint64_t> crossed_elements;  ///< crossings listed; nullopt: not looked for
   std::uint64_t solver_errors = 0;                ///< nodes for which the solver stops: 611, 612
-  std::uint64_t acted = 0;      ///< pairs on which Inacti or Fpenmax do something
-  std::uint64_t round_off = 0;  ///< pairs with PenetrationRow::in_contact false
+  std::uint64_t acted = 0;                        ///< pairs on which Inacti or Fpenmax do something
+  std::uint64_t round_off = 0;                    ///< pairs with PenetrationRow::in_contact false
   double max_depth = 0, max_ratio = 0;
 };
 

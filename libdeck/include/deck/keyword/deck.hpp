@@ -35,12 +35,12 @@ struct Block {
   const Schema* schema = nullptr;  ///< nullptr: unknown keyword
   std::string_view header;         ///< the header line, trimmed; points into the source
   Span header_span;
-  std::string_view keyword;       ///< the part of the header that names the keyword
-  HeaderId id, unit_id;           ///< without submodel offset
-  std::vector<Piece> body;        ///< all lines up to the next header, comments included
-  int version = newest_version;   ///< input version that its columns follow
-  std::int32_t submodel = -1;     ///< index into Deck::submodels
-  bool opaque = false;            ///< encrypted: kept, never interpreted
+  std::string_view keyword;      ///< the part of the header that names the keyword
+  HeaderId id, unit_id;          ///< without submodel offset
+  std::vector<Piece> body;       ///< all lines up to the next header, comments included
+  int version = newest_version;  ///< input version that its columns follow
+  std::int32_t submodel = -1;    ///< index into Deck::submodels
+  bool opaque = false;           ///< encrypted: kept, never interpreted
 };
 
 /// One physical line of a block, trailing control characters and blanks removed.

@@ -164,15 +164,14 @@ void check_untied(const GeometryRun& run, std::uint32_t contact) {
   if (untied.empty()) return;
   std::vector<std::int64_t> free;
   const NodeIndex first = c.secondary[untied.front()].node;
-  for (const std::uint32_t s : untied)
-    free.push_back(run.model().node_id(c.secondary[s].node));
+  for (const std::uint32_t s : untied) free.push_back(run.model().node_id(c.secondary[s].node));
   std::sort(free.begin(), free.end());
   Diagnostic* d =
       run.report(RuleId::DK308, c, "Gap",
                  fmt::format("{}: {} of {} not tied at the start, no segment is within the gap of "
                              "{:.6g}: {}",
-                             name_of(run, c), count_text(free.size(), "node"),
-                             c.secondary.size(), c.gapmin, list_text(free)),
+                             name_of(run, c), count_text(free.size(), "node"), c.secondary.size(),
+                             c.gapmin, list_text(free)),
                  static_cast<double>(free.size()));
   if (d != nullptr) d->notes.emplace_back(run.model().node_span(first), "one of the nodes");
 }
