@@ -16,9 +16,12 @@ std::string because_of(const Deck& deck, const InterBase& inter, const cycle::Ef
   if (!place) return e.reason;
   span = place->span;
   std::string where;
-  if (place->span.valid())
-    where = fmt::format("{}:{}", deck.sources[place->span.file].path(),
-                        deck.sources.position(place->span).line);
+  if (place->span.valid()) {  // in the main file its line is enough
+    const auto line = deck.sources.position(place->span).line;
+    where = place->span.file == 0
+                ? fmt::format("line {}", line)
+                : fmt::format("{}:{}", deck.sources[place->span.file].path(), line);
+  }
   if (place->origin != Origin::card) {
     if (!where.empty()) where += ", ";
     where += place->origin == Origin::built_in        ? "default"

@@ -225,7 +225,7 @@ TEST(Renumber, FileIncludedUnderTwoOffsetsMustAgree) {
   const auto w = Whole::read("main_0000.rad", files);
   ASSERT_EQ(w->model.nodes.size(), 2u);
   const auto after = w->after(numbered(*w, {"node+5"}));
-  EXPECT_EQ(after->model.nodes.id, (std::vector<std::int64_t>{6, 1006}));
+  EXPECT_EQ(after->model.nodes.id, (std::vector<std::int64_t>{1006, 6}));
   EXPECT_FALSE(numbered(*w, {"node=1001"}).refusals.empty());
 }
 
