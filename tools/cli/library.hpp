@@ -13,7 +13,7 @@
 
 namespace deck::cli {
 
-inline constexpr std::string_view deck_ending = "_0000.rad", document_ending = "_0000.json";
+inline constexpr std::string_view deck_ending = "_0000.rad";
 
 /// The deck that a name without its ending stands for: "crash_box" is crash_box_0000.rad where that
 /// is there, then crash_box.rad, then one of them packed (".gz"). What exists stands for itself.

@@ -15,6 +15,8 @@ inline constexpr std::array removed_words = {
     Removed{"accuracy", "--again", "deck accuracy, which measures the hard cases every time"},
     Removed{"accuracy", "--verbose", "--json, or bench_distance of tools/bench for number types"},
     Removed{"accuracy", "-v", "--json, or bench_distance of tools/bench for number types"},
+    Removed{"convert", "--from", "deck.Edit of the library, or libdeck in Python"},
+    Removed{"convert", "--round", "deck.Edit of the library, or libdeck in Python"},
     Removed{"completion", "", "the file deck.bash that is installed with the program"},
     Removed{"replay", "", "the program replay of tools/bench, which is built with the tests"},
     Removed{"man", "", "the installed man pages, or deck help VERB"},
