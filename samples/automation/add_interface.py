@@ -19,7 +19,7 @@ def main():
     o = options.parse_args()
     for path in o.decks:
         deck = libdeck.load(path)
-        new = max([*deck.interfaces, *(tie.id for tie in deck.ties())], default=0) + 1
+        new = max(deck.interfaces, default=0) + 1
         # The lines of the block come with the fields, which 'deck explain TYPE7' names; others are blank.
         deck.insert("/INTER/TYPE7/%d\nadded by add_interface.py\n" % new)
         deck.interfaces[new].set(grnd_IDs=o.grnd, surf_IDm=o.surf, Istf=4, Idel=2, Gapmin=o.gap, Fric=o.fric, Inacti=6)

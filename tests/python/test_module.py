@@ -318,6 +318,15 @@ def test_blocks_and_nodes_are_set_in_place(tmp_path):
         d.save()
 
 
+def test_an_interface_behind_ties_sets_its_own_card(tmp_path):
+    d = libdeck.load(os.path.join(SAMPLES, "welds_0000.rad"))
+    d.insert("/INTER/TYPE7/99\nbehind the ties\n")
+    d = libdeck.load(d.write(tmp_path)[0])
+    d.interfaces[99].set(Stfac=0.5)
+    d.interfaces[1].set(dsearch=0.25)
+    assert (d.interfaces[99].Stfac.value, d.interfaces[1].dsearch.value) == (0.5, 0.25)
+
+
 def test_blocks_come_and_go():
     d = libdeck.load(BOX)
     first, old = d.interfaces[1], len(d.interfaces)

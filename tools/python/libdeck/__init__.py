@@ -47,7 +47,8 @@ class Value:
     value: Union[int, float, str]
     """The value that the solver uses."""
     input: Union[int, float, str, None]
-    """The value on the card; None for a blank cell, or if this input version has no such cell."""
+    """The value on the card, as text where it is no finite number; None for a blank cell, or if this input version has no
+    such cell."""
     origin: str
     """"card", "default-block", "built-in" or "derived" (follows from other values or from the mesh)."""
     span: Optional[Place]

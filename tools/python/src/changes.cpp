@@ -46,7 +46,7 @@ void bind_changes(py::module_& m) {
   py::class_<PyChanges, std::shared_ptr<PyChanges>>(m, "Changes")
       .def("set_interface",
            [](PyChanges& c, std::size_t at, const std::string& field, const CellValue& value) {
-             c.edit.set(c.before->loaded.interfaces().ordered.at(at), field, value);
+             c.edit.set(c.before->loaded.interfaces().all.at(at), field, value);
              must_have_worked(c.edit);
            })
       .def("set_block",
