@@ -1,6 +1,7 @@
 // Include trees in memory: the input is the main file and, behind lines "=== NAME", further files.
-// Reading is repeatable; a deck becomes JSON; flattening keeps every block and the effective values. The input decides which of these is looked at beside what was read:
-// each costs several times as much as reading.
+// Reading is repeatable; a deck becomes JSON; flattening keeps every block and the effective
+// values. The input decides which of these is looked at beside what was read: each costs several
+// times as much as reading.
 #include <nlohmann/json.hpp>
 
 #include "deck/edit/convert.hpp"

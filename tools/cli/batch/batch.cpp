@@ -86,7 +86,7 @@ Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, BatchList&
   if (!outsiders) return outsiders.error();
   task.outsiders = std::move(*outsiders);
   IncludeScan scan(o.common.include_paths);
-  auto more = list_decks(paths, "", deck_ending, o.directory, scan);
+  auto more = list_decks(paths, "", o.directory, scan);
   if (!more) return more.error();
   list.decks = std::move(more->decks);
   return {};
@@ -149,10 +149,10 @@ Result<BatchRun> plan(const BatchOptions& o) {
     return config_error("'" + first + "' is read as the name of a deck, which does not exist; " +
                         "name the verb with --verb " + first);
   IncludeScan scan(o.common.include_paths);
-  auto list = list_decks(o.common.decks, o.manifest, deck_ending, o.directory, scan);
+  auto list = list_decks(o.common.decks, o.manifest, o.directory, scan);
   if (!list) return list.error();
   o.common.session->remember_read(o.manifest);
-  if (list->decks.empty() && !first.empty()) return no_deck_in(first, deck_ending);
+  if (list->decks.empty() && !first.empty()) return no_deck_in(first);
   if (list->decks.empty())
     return config_error("no decks: name some, or a directory, or a --manifest");
   for (const std::string& note : list->notes)

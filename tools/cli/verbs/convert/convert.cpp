@@ -78,7 +78,7 @@ int run(ConvertOptions& options) {
     return bad;
   ConvertRun work{options, std::move(*steps), Changes(options.common, options.write),
                   Progress(!options.common.quiet)};
-  const auto decks = work.changes.decks(options.common.decks, deck_ending);
+  const auto decks = work.changes.decks(options.common.decks);
   if (!decks) {
     print_error(options.common, decks.error().message);
     return decks.error().code == Error::Code::config ? exit_usage : exit_input;

@@ -144,8 +144,7 @@ int add_result(ConvertRun& run, std::size_t member, Conversion& c) {
   return exit_clean;
 }
 
-int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded,
-            const SchemaSet& schemas) {
+int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded, const SchemaSet& schemas) {
   const ConvertOptions& options = run.options;
   if (loaded.incomplete()) {
     run.refused = true;
