@@ -84,44 +84,66 @@ class Edit::State {
     if (!error) error = std::move(why);
   }
 
-  /// What became of a block of the original; nullptr with an error: it was erased, or is none.
-  const Block* block_of(const Block* block) {
-    const std::vector<Block>& all = original->deck().blocks;
-    const auto index = static_cast<std::size_t>(block - all.data());
-    if (block == nullptr || index >= all.size()) {
+  /// The position in `place` of a block of the original, or of one that was inserted and that the
+  /// deck as it is now has; `erased`: it is none of them.
+  std::size_t number_of(const Block* block) const {
+    const auto index_in = [&](const LoadedDeck& loaded) {
+      const std::vector<Block>& all = loaded.deck().blocks;
+      const auto index = static_cast<std::size_t>(block - all.data());
+      return block != nullptr && index < all.size() ? index : erased;
+    };
+    if (const std::size_t index = index_in(*original); index != erased) return index;
+    const std::size_t index = index_in(now());
+    const auto it = std::find(place.begin(), place.end(), index);
+    return index == erased || it == place.end() ? erased
+                                                : static_cast<std::size_t>(it - place.begin());
+  }
+
+  /// What became of a block; nullptr with an error: it was erased, or is none.
+  const Block* block_of(std::size_t number) {
+    if (number == erased) {
       fail(config(original->path() + ": there is no such block"));
       return nullptr;
     }
-    if (place[index] == erased) {
-      fail(detail::block_error(original->deck(), *block, {}, {}, "it was removed before"));
+    if (place[number] == erased) {
+      fail(detail::block_error(original->deck(), original->deck().blocks[number], {}, {},
+                               "it was removed before"));
       return nullptr;
     }
-    return &now().deck().blocks[place[index]];
+    return &now().deck().blocks[place[number]];
   }
 
-  void set(const Block* block, std::string_view field, const CellValue& value, int occurrence) {
+  Result<const Block*> find(std::string_view keyword, std::int64_t id) {
+    const auto first = find_block(original->deck(), keyword, id);
+    const bool stands = first && place[number_of(*first)] != erased;
+    if (stands || place.size() == original->deck().blocks.size()) return first;
+    if (!refresh()) return *error;
+    return find_block(now().deck(), keyword, id);
+  }
+
+  void set(std::size_t number, std::string_view field, const CellValue& value, int occurrence) {
     if (error || (read_again && !refresh())) return;
-    const Block* here = block_of(block);
+    const Block* here = block_of(number);
     if (here == nullptr) return;
     bool absent = false;
     auto edit = detail::set_value(now().deck(), *here, field, value, occurrence, cells, absent);
     if (absent && pending()) {
       // Another change may have made the cell.
       if (!refresh()) return;
-      here = block_of(block);
+      here = block_of(number);
       edit = detail::set_value(now().deck(), *here, field, value, occurrence, cells, absent);
     }
     if (!edit) return fail(edit.error());
     edits.insert(edits.end(), edit->edits.begin(), edit->edits.end());
     read_again = read_again || edit->read_again;
     if (!edit->note.empty()) notes.push_back(edit->note);
-    if (absent && !edit->edits.empty()) look_at_new_line(block, field);
+    if (absent && !edit->edits.empty()) look_at_new_line(number, field);
   }
 
   /// A line that was added must be read as the one that was meant.
-  void look_at_new_line(const Block* block, std::string_view field) {
+  void look_at_new_line(std::size_t number, std::string_view field) {
     if (!refresh()) return;
-    const Block* here = block_of(block);
+    const Block* here = block_of(number);
     for (const DecodedCard& card : decode(now().deck(), *here).cards)
       for (const Cell& cell : card.cells)
         if (!card.missing() && cell.field->name == field && !cell.blank()) return;
@@ -163,17 +185,16 @@ class Edit::State {
     }
   }
 
-  void erase(const Block* block) {
+  void erase(std::size_t number) {
     if (error || (pending() && !refresh())) return;
-    const Block* here = block_of(block);
+    const Block* here = block_of(number);
     if (here == nullptr) return;
     auto removed = detail::erase_block(now().deck(), *here);
     if (!removed) return fail(removed.error());
     edits = std::move(*removed);
-    std::size_t& gone = place[static_cast<std::size_t>(block - original->deck().blocks.data())];
+    const std::size_t gone = std::exchange(place[number], erased);
     for (std::size_t& other : place)
       if (other != erased && other > gone) --other;
-    gone = erased;
     refresh();
   }
 
@@ -182,8 +203,10 @@ class Edit::State {
     if (!blocks.starts_with('/'))
       return fail(config(original->path() + ": what is inserted has to begin with a keyword, as '" +
                          "/FUNCT/7'"));
+    const std::size_t before = now().deck().blocks.size();
     edits = detail::insert_blocks(now().deck(), blocks);
-    refresh();
+    if (!refresh()) return;
+    for (std::size_t i = before; i < now().deck().blocks.size(); ++i) place.push_back(i);
   }
 
   bool pending() const { return !cells.empty() || !edits.empty(); }
@@ -228,7 +251,8 @@ class Edit::State {
   std::optional<LoadedDeck> later;
   ChangedFiles changed;  ///< what `later` was read with
   static constexpr std::size_t erased = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> place;  ///< of every block of the original in the deck as it is now
+  /// Of every block of the original, then of those inserted, in the deck as it is now.
+  std::vector<std::size_t> place;
   CellWriter cells;
   std::vector<TextEdit> edits;
   bool read_again = false;  ///< the next change depends on those before
@@ -254,6 +278,7 @@ Edit& Edit::set(const InterBase* inter, std::string_view field, const CellValue&
 
 Edit& Edit::set(const Block* block, std::string_view field, const CellValue& value,
                 int occurrence) {
+  const std::size_t number = state_->number_of(block);
   const auto has = [&](std::string_view name) {
     return block != nullptr && block->schema != nullptr &&
            block->schema->find_field(name) != nullptr;
@@ -262,18 +287,18 @@ Edit& Edit::set(const Block* block, std::string_view field, const CellValue& val
   const auto* flags = std::get_if<std::string>(&value);
   if (field == "IBC" && !has(field) && has("IBCX") && flags != nullptr && flags->size() == 3) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-      state_->set(block, std::string("IBC") + "XYZ"[axis], flags -> substr(axis, 1), occurrence);
+      state_->set(number, std::string("IBC") + "XYZ"[axis], flags -> substr(axis, 1), occurrence);
     return *this;
   }
   const std::string percent = "%" + std::string(field);
-  state_->set(block, !has(field) && has(percent) ? std::string_view(percent) : field, value,
+  state_->set(number, !has(field) && has(percent) ? std::string_view(percent) : field, value,
               occurrence);
   return *this;
 }
 
 Edit& Edit::set(std::string_view keyword, std::int64_t id, std::string_view field,
                 const CellValue& value, int occurrence) {
-  const auto block = find_block(state_->original->deck(), keyword, id);
+  const auto block = find(keyword, id);
   if (block) return set(*block, field, value, occurrence);
   state_->fail(block.error());
   return *this;
@@ -290,8 +315,12 @@ Edit& Edit::insert(std::string_view blocks) {
 }
 
 Edit& Edit::erase(const Block* block) {
-  state_->erase(block);
+  state_->erase(state_->number_of(block));
   return *this;
+}
+
+Result<const Block*> Edit::find(std::string_view keyword, std::int64_t id) {
+  return state_->find(keyword, id);
 }
 
 Result<void> Edit::status() const {

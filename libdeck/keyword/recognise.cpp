@@ -86,7 +86,7 @@ std::string text_kind(const Deck& deck, std::string_view head) {
   if (small.find("<html") != std::string::npos || small.find("<!doctype html") != std::string::npos)
     return "an HTML page; was the deck downloaded as a web page?";
   if (line.starts_with("<?xml")) return "an XML document";
-  if (line.starts_with("{")) return "a JSON document; deck convert --from json makes a deck of it";
+  if (line.starts_with("{")) return "a JSON document";
   if (small.find("#radioss engine") != std::string::npos || is_engine(deck))
     return "an Engine file (*_0001.rad); name the Starter deck (*_0000.rad)";
   if (line.size() > 1 && line[0] == '*' && ((line[1] | 0x20) >= 'a' && (line[1] | 0x20) <= 'z'))

@@ -3,8 +3,9 @@
 
     add_interface.py -o with_contact --grnd 2 --surf 1 --gap 0.8 car01_0000.rad car02_0000.rad ..."""
 import argparse
+import sys
 
-import decks
+import libdeck
 
 
 def main():
@@ -13,25 +14,21 @@ def main():
     options.add_argument("-o", dest="directory", required=True)
     options.add_argument("--grnd", type=int, required=True, help="node group of the secondary side")
     options.add_argument("--surf", type=int, required=True, help="surface of the main side")
-    options.add_argument("--gap", type=float, required=True)
+    options.add_argument("--gap", type=float, required=True, help="in the working units of the decks")
     options.add_argument("--fric", type=float, default=0.2)
     o = options.parse_args()
     for path in o.decks:
-        document = decks.read(path)
-        interface = max([b.get("id", 0) for b in decks.blocks(document, "/INTER")], default=0) + 1
-        items = document["files"][0]["items"]
-        end = next((i for i, item in enumerate(items) if item["kind"] == "text" and "/END" in item["lines"]), len(items))
-        # Cards in the order of 'deck explain /INTER/TYPE7'; a field that is not named is blank.
-        items.insert(end, {"kind": "block", "keyword": "/INTER/TYPE7", "id": interface, "lines": [
-            {"title": "added by add_interface.py"},
-            {"card": "sides and flags", "fields": {"grnd_IDs": o.grnd, "surf_IDm": o.surf, "Istf": 4, "Idel": 2}},
-            {"card": "gap"},
-            {"card": "stiffness bounds, mesh size, removal"},
-            {"card": "stiffness, friction, gap, times", "fields": {"Fric": o.fric, "Gapmin": o.gap}},
-            {"card": "release flags, damping, sorting", "fields": {"Inacti": 6}},
-            {"card": "friction"}]})
-        print("%s: /INTER/TYPE7/%d" % (decks.write(document, o.directory), interface))
+        deck = libdeck.load(path)
+        new = max(deck.interfaces, default=0) + 1
+        # The lines of the block come with the fields, which 'deck explain TYPE7' names; others are blank.
+        deck.insert("/INTER/TYPE7/%d\nadded by add_interface.py\n" % new)
+        deck.interfaces[new].set(grnd_IDs=o.grnd, surf_IDm=o.surf, Istf=4, Idel=2, Gapmin=o.gap, Fric=o.fric, Inacti=6)
+        deck.write(o.directory, overwrite=True)
+        print("%s: /INTER/TYPE7/%d" % (path, new))
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except (ValueError, OSError, libdeck.DeckError) as why:
+        sys.exit(str(why))

@@ -4,9 +4,22 @@ where that comes from.
 
     collect_friction.py car01_0000.rad car02_0000.rad ... > friction.csv"""
 import csv
+import json
+import os
+import subprocess
 import sys
 
-import decks
+
+def interfaces(path):
+    """The interfaces of a deck and of what it includes, out of deck convert --to json."""
+    deck = os.environ.get("DECK", "deck")
+    run = subprocess.run([deck, "convert", path, "--to", "json", "-o", "-", "--quiet"], stdout=subprocess.PIPE)
+    if run.returncode not in (0, 1):
+        sys.exit(run.returncode)
+    for file in json.loads(run.stdout)["files"]:
+        for item in file.get("items", []):
+            if item["kind"] == "block" and item["keyword"].startswith("/INTER/"):
+                yield item
 
 
 def main():
@@ -15,8 +28,7 @@ def main():
     table = csv.writer(sys.stdout, lineterminator="\n")
     table.writerow(["deck", "interface", "title", "on the card", "used", "origin", "file", "line"])
     for path in sys.argv[1:]:
-        document = decks.read(path)
-        for block in decks.blocks(document, "/INTER"):
+        for block in interfaces(path):
             friction = block.get("effective", {}).get("Fric")
             if friction is None:
                 continue

@@ -371,6 +371,22 @@ TEST_F(EditTest, BlocksComeAndGo) {
   EXPECT_NE(error_of(edit).find("was removed before"), std::string::npos);
 }
 
+TEST_F(EditTest, AnInsertedBlockGetsItsLinesFromTheFieldsThatAreSet) {
+  const LoadedDeck deck = open(all(mesh + contact));
+  Edit edit(deck);
+  edit.erase(*edit.find("/INTER", 3)).insert("/INTER/TYPE7/3\nsecond\n/INTER/TYPE7/4\nthird\n");
+  edit.set("/INTER", 4, "Inacti", 6).set("/INTER", 3, "Gapmin", 0.5).set("/INTER", 3, "IBC", "101");
+  edit.erase(*edit.find("/INTER", 4)).set("/INTER", 3, "Fric", 0.25);
+  const auto after = edit.read();
+  ASSERT_TRUE(after.ok()) << error_of(edit);
+  ASSERT_EQ(after->interfaces().type7.size(), 1u);
+  const InterType7& inter = after->interfaces().type7[0];
+  EXPECT_EQ(inter.id, 3);
+  EXPECT_EQ(inter.Gapmin.value, 0.5);
+  EXPECT_EQ(inter.Fric.value, 0.25);
+  EXPECT_FALSE(edit.find("/INTER", 4).ok());
+}
+
 /// What setting a value answers, without the place.
 class EditValues : public EditTest {
  protected:

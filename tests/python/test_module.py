@@ -318,6 +318,60 @@ def test_blocks_and_nodes_are_set_in_place(tmp_path):
         d.save()
 
 
+def test_an_interface_behind_ties_sets_its_own_card(tmp_path):
+    d = libdeck.load(os.path.join(SAMPLES, "welds_0000.rad"))
+    d.insert("/INTER/TYPE7/99\nbehind the ties\n")
+    d = libdeck.load(d.write(tmp_path)[0])
+    d.interfaces[99].set(Stfac=0.5)
+    d.interfaces[1].set(dsearch=0.25)
+    assert (d.interfaces[99].Stfac.value, d.interfaces[1].dsearch.value) == (0.5, 0.25)
+
+
+def test_blocks_come_and_go():
+    d = libdeck.load(BOX)
+    first, old = d.interfaces[1], len(d.interfaces)
+    first.set(Tstop=0.5)
+    d.insert("/INTER/TYPE7/777\nnew contact\n")
+    new = d.interfaces[777]
+    new.set(grnd_IDs=1, Gapmin=0.75, Inacti=6)
+    assert (new.title, new.Gapmin.value, new.Inacti.value, new.Gapmin.origin) == ("new contact", 0.75, 6, "card")
+    d.erase("/INTER", 1)
+    assert len(d.interfaces) == old and 1 not in d.interfaces and new.Gapmin.value == 0.75
+    new.set(Gapmin=0.5)
+    d.set("/INTER/TYPE7", 777, Fric=0.1)
+    assert (new.Gapmin.value, new.Fric.value) == (0.5, 0.1)
+    with pytest.raises(KeyError):
+        first.Gapmin
+    patch = d.diff()
+    with pytest.raises(KeyError):
+        d.erase("/INTER", 1234)
+    with pytest.raises(ValueError, match="begin with a keyword"):
+        d.insert("no keyword")
+    assert d.diff() == patch
+
+
+def test_the_sample_adds_a_contact_to_many_decks(tmp_path):
+    import shutil
+    import sys
+
+    script = os.path.join(SAMPLES, "automation", "add_interface.py")
+    decks = [tmp_path / f"car{k:02}_0000.rad" for k in range(3)]
+    for path in decks:
+        shutil.copy(os.path.join(SAMPLES, "too_close_0000.rad"), path)
+    command = [sys.executable, script, "-o", str(tmp_path / "out"), "--surf", "1", "--gap", "0.8"]
+    run = subprocess.run([*command, "--grnd", "2", *decks], capture_output=True, text=True)
+    assert run.returncode == 0 and len(run.stdout.splitlines()) == 3, run.stderr
+    for path in decks:
+        made = tmp_path / "out" / path.name
+        inter = libdeck.load(made).interfaces
+        assert list(inter) == [1, 2]
+        assert [inter[2][n].value for n in ("Gapmin", "Fric", "Inacti", "Istf")] == [0.8, 0.2, 6, 4]
+        before, after = path.read_text().splitlines(), made.read_text().splitlines()
+        assert before == after[:len(before) - 1] + after[-1:]
+    run = subprocess.run([*command, "--grnd", "12345678901", decks[0]], capture_output=True, text=True)
+    assert run.returncode == 1 and "/INTER/TYPE7/2 grnd_IDs" in run.stderr and "Traceback" not in run.stderr
+
+
 @pytest.mark.parametrize("values, message", [
     ({"Gapmin": float("nan")}, "not-a-number"), ({"Gapmin": float("inf")}, "infinity"),
     ({"Gapmin": np.float64("-inf")}, "infinity"), ({"Igap": 2.5}, "whole number"), ({"Gapmin": "wide"}, "expected a number"),

@@ -174,18 +174,6 @@ def extraction(deck):
                          part["interfaces"] == expected, first_difference(expected, part["interfaces"]))
 
 
-def json_round_trip(deck, tmp):
-    document = os.path.join(tmp, "deck.json")
-    r = deck.c.run("convert", deck.path, "--to", "json", "-o", document, timeout=300)
-    if not deck.c.no_crash("convert %s --to json" % deck.stem, r, (0,)):
-        return
-    back = deck.convert(document, "--from", "json")
-    if back:
-        deck.c.check("%s: JSON and back keeps every byte" % deck.stem,
-                     open(back, "rb").read() == open(deck.path, "rb").read())
-    os.remove(document)
-
-
 def one(job):
     """One deck through everything; returns the counts."""
     stem, path = job
@@ -193,7 +181,6 @@ def one(job):
     work = tempfile.mkdtemp(prefix="deck-conversions-")
     try:
         deck = Deck(c, stem, path, work)
-        json_round_trip(deck, work)
         conversions(deck, work)
     finally:
         shutil.rmtree(work, ignore_errors=True)

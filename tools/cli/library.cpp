@@ -49,7 +49,7 @@ std::string find_deck(const std::string& given) {
   return given;
 }
 
-Result<std::vector<std::string>> files_below(const std::string& directory, std::string_view ending,
+Result<std::vector<std::string>> files_below(const std::string& directory,
                                              const std::string& output,
                                              fs::directory_options closed) {
   std::vector<std::string> found;
@@ -64,7 +64,8 @@ Result<std::vector<std::string>> files_below(const std::string& directory, std::
       it.disable_recursion_pending();
     // A link that leads nowhere is a deck that cannot be read, not one that is not there.
     const bool lost = it->is_symlink(status) && !it->exists(status);
-    if (!without_gz(name).ends_with(ending) || !(lost || it->is_regular_file(status))) continue;
+    if (!without_gz(name).ends_with(deck_ending) || !(lost || it->is_regular_file(status)))
+      continue;
     // Where both lie there the packed one is the copy.
     if (has_gz_name(name) && fs::exists(without_gz(it->path().string()), status)) continue;
     found.push_back(it->path().string());
@@ -81,7 +82,7 @@ bool names_directory(const std::vector<std::string>& given) {
 }
 
 Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& given,
-                                              std::string_view ending, const std::string& output) {
+                                              const std::string& output) {
   std::vector<std::string> out;
   std::set<fs::path> seen;
   std::error_code ec;
@@ -90,7 +91,7 @@ Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& gi
   };
   for (const std::string& path : given) {
     if (fs::is_directory(path, ec)) {
-      const auto below = files_below(path, ending, output);
+      const auto below = files_below(path, output);
       if (!below) return below.error();
       for (const std::string& deck : *below) add(deck);
     } else if (is_pattern(path) && !fs::exists(path, ec)) {
@@ -100,7 +101,7 @@ Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& gi
       for (const std::string& deck : matches)
         if (!fs::is_directory(deck, ec)) add(deck);
     } else {
-      add(ending == deck_ending ? find_deck(path) : path);
+      add(find_deck(path));
     }
   }
   return out;
@@ -139,14 +140,14 @@ std::vector<std::string> take_includes(std::vector<std::string>& found,
   return notes;
 }
 
-Error no_deck_in(const std::string& directory, std::string_view ending) {
-  return {Error::Code::io, directory + ": no *" + std::string(ending) + " in this directory"};
+Error no_deck_in(const std::string& directory) {
+  return {Error::Code::io, directory + ": no *" + std::string(deck_ending) + " in this directory"};
 }
 
 Result<std::vector<std::string>> decks_in_directories(const std::vector<std::string>& given) {
   if (!names_directory(given)) return given;
-  auto decks = expand_decks(given, deck_ending);
-  if (decks && decks->empty()) return no_deck_in(given.front(), deck_ending);
+  auto decks = expand_decks(given);
+  if (decks && decks->empty()) return no_deck_in(given.front());
   return decks;
 }
 
@@ -231,7 +232,7 @@ Result<Dependents> find_dependents(const std::vector<std::string>& decks, const 
   std::vector<std::pair<std::string, std::vector<IncludeScan::File>>> others;
   for (const std::string& directory : out.roots) {
     const auto below = files_below(
-        directory, deck_ending, {},
+        directory, {},
         root.empty() ? fs::directory_options::skip_permission_denied : fs::directory_options::none);
     if (!below) return below.error();
     for (const std::string& deck : *below) {
@@ -285,7 +286,7 @@ Result<std::vector<std::string>> decks_of_files(const std::vector<std::string>& 
     roots.insert(root.empty() ? library_root(path) : root);
   }
   for (const std::string& directory : roots) {
-    const auto below = files_below(directory, deck_ending);
+    const auto below = files_below(directory);
     if (!below) return below.error();
     for (const std::string& deck : *below)
       for (const IncludeScan::File& file : scan.files(deck))

@@ -13,26 +13,25 @@
 
 namespace deck::cli {
 
-inline constexpr std::string_view deck_ending = "_0000.rad", document_ending = "_0000.json";
+inline constexpr std::string_view deck_ending = "_0000.rad";
 
 /// The deck that a name without its ending stands for: "crash_box" is crash_box_0000.rad where that
 /// is there, then crash_box.rad, then one of them packed (".gz"). What exists stands for itself.
 std::string find_deck(const std::string& given);
 
-/// All files below a directory whose names end so, packed (".gz") ones included where
-/// the plain one is not there as well, sorted; hidden directories and `output`, where
-/// results go, are passed over. `closed`: what is done about directories that may not be read.
+/// All decks (*_0000.rad) below a directory, packed (".gz") ones included where the plain one is
+/// not there as well, sorted; hidden directories and `output`, where results go, are passed over.
+/// `closed`: what is done about directories that may not be read.
 Result<std::vector<std::string>> files_below(
-    const std::string& directory, std::string_view ending, const std::string& output = {},
+    const std::string& directory, const std::string& output = {},
     std::filesystem::directory_options closed = std::filesystem::directory_options::none);
 
-/// The refusal of a directory that holds no file of this ending, nor any folder in it.
-Error no_deck_in(const std::string& directory, std::string_view ending);
+/// The refusal of a directory that holds no deck, nor any folder in it.
+Error no_deck_in(const std::string& directory);
 /// `given` with every directory replaced by the decks below it, and every pattern (* ? [ ]) that no
 /// file is called by those that it matches. Error: a directory without a deck, a pattern that
 /// matches nothing.
 Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& given,
-                                              std::string_view ending,
                                               const std::string& output = {});
 /// The same where a directory is among them, for verbs that only read; else `given` unchanged.
 /// Error: a directory without a deck.

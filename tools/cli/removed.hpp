@@ -15,6 +15,8 @@ inline constexpr std::array removed_words = {
     Removed{"accuracy", "--again", "deck accuracy, which measures the hard cases every time"},
     Removed{"accuracy", "--verbose", "--json, or bench_distance of tools/bench for number types"},
     Removed{"accuracy", "-v", "--json, or bench_distance of tools/bench for number types"},
+    Removed{"convert", "--from", "libdeck in Python, or deck::Edit in C++"},
+    Removed{"convert", "--round", "libdeck in Python, or deck::Edit in C++"},
     Removed{"completion", "", "the file deck.bash that is installed with the program"},
     Removed{"replay", "", "the program replay of tools/bench, which is built with the tests"},
     Removed{"man", "", "the installed man pages, or deck help VERB"},

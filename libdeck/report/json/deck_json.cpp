@@ -86,9 +86,7 @@ class DeckWriter {
     out_.reserve(3 * deck_.total_bytes + 10000);
     json_.begin_object();
     write_json_head(json_, detail::deck_json_id, detail::deck_json_version);
-    const std::size_t head = out_.size();
     write_json_deck(json_, in_.path, deck_, in_.model, in_.interfaces);
-    write_sum("deck_sum", out_.find('{', head));
     json_.key("files").begin_array();
     for (const std::uint32_t f : carried) write_file(f);
     for (std::uint32_t f = 0; f < deck_.sources.size(); ++f)
@@ -228,7 +226,7 @@ class DeckWriter {
       const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', s.begin), bytes.size());
       header = bytes.substr(s.begin, nl - s.begin);
       if (carriage_ && nl < bytes.size()) header.remove_suffix(1);
-      json_.field("header", shown(header)).field("header_sum", detail::sum_of_text(shown(header)));
+      json_.field("header", shown(header));
       body = std::min<std::uint64_t>(nl + 1, bytes.size());
       ++line_;
     } else {
@@ -244,11 +242,6 @@ class DeckWriter {
       write_cards(block, body, s);
     if (s.header) write_effective(block);
     json_.end_object();
-  }
-
-  /// The sum of the value that the text has from `begin` on.
-  void write_sum(std::string_view name, std::size_t begin) {
-    json_.field(name, detail::sum_of_json(std::string_view(out_).substr(begin)));
   }
 
   static bool comment(std::string_view text) {
@@ -301,17 +294,12 @@ class DeckWriter {
 
   void write_title(std::string_view text, std::string_view title) {
     json_.begin_object(true).field("line", line_).field("title", shown(title));
-    write_text_of_line(text);
-    json_.end_object();
-  }
-
-  void write_text_of_line(std::string_view text) {
-    json_.field("text", shown(text)).field("text_sum", detail::sum_of_text(shown(text)));
+    json_.field("text", shown(text)).end_object();
   }
 
   void write_card(std::string_view text, const DecodedCard& card) {
     json_.begin_object(true).field("line", line_).field("card", card.schema->name);
-    write_text_of_line(text);
+    json_.field("text", shown(text));
     // A list of ids is one value.
     const bool list = card.schema->repeat == Repeat::ids;
     const Field* ids = list ? &card.schema->fields.back() : nullptr;
@@ -375,23 +363,19 @@ class DeckWriter {
     for (const Field& f : card.fields)
       if (f.in_version(block.version)) json_.value(f.name);
     json_.end_array();
-    detail::TextSum sum;
     json_.key("rows").begin_array();
     each_line(rows, end, [&](std::string_view text, std::uint64_t offset) {
       if (comment(text)) {
         json_.value(shown(text));
         return;
       }
-      const std::string line = shown(text);
-      sum.add(line);
-      json_.begin_array(true).value(line);
+      json_.begin_array(true).value(shown(text));
       const DecodedCard row =
           decode_line(deck_, block, card, Line{detail::trim_right(text), file_, offset}, nullptr);
       for (const Cell& cell : row.cells) write_value(cell);
       json_.end_array();
     });
     json_.end_array();
-    json_.field("rows_sum", sum.text());
   }
 
   static std::string_view trimmed_title(std::string_view text) {
@@ -415,9 +399,7 @@ class DeckWriter {
   void write_effective(const Block& block) {
     const auto it = inter_of_.find(&block);
     if (it == inter_of_.end()) return;
-    json_.key("effective");
-    const std::size_t begin = out_.size();
-    json_.begin_object();
+    json_.key("effective").begin_object();
     visit_any_interface(*it->second, [&](const auto& t) {
       t.for_each([&](std::string_view name, const auto& e) {
         json_.key(name).begin_object(true).key("input");
@@ -436,7 +418,6 @@ class DeckWriter {
       });
     });
     json_.end_object();
-    write_sum("effective_sum", begin);
   }
 
   static std::int64_t text_safe(std::int64_t v) { return v; }

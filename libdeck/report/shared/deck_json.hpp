@@ -1,5 +1,5 @@
 // A deck as JSON: blocks with named, typed values, effective values of the interfaces, and the text
-// of every line, so that the same deck can be written from it (edit/shared/from_json.hpp).
+// of every line.
 #pragma once
 #include <string>
 #include <string_view>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "batch/list.hpp"
 #include "batch/run.hpp"
@@ -34,11 +33,7 @@ std::string value_among(const std::vector<std::string>& words, const std::string
 
 /// What a verb that writes decks does with them.
 void parse_writing(BatchTask& task, const CommandLine& line) {
-  if (task.converts()) {
-    task.from_json = value_among(task.words, "--from") == "json";
-    task.to_json = value_among(task.words, "--to") == "json";
-    if (task.from_json) task.ending = document_ending;
-  }
+  if (task.converts()) task.to_json = value_among(task.words, "--to") == "json";
   task.writes = task.converts() || task.verb.name == "fix" || line.given("--fix") ||
                 line.given("--unsafe-fixes");
   if (!task.writes) return;
@@ -78,15 +73,6 @@ Result<BatchTask> parse_task(const BatchOptions& o) {
   return task;
 }
 
-/// True for a document of several files, some of which others may hold as well.
-bool holds_includes(const std::string& document) {
-  std::ifstream in(document, std::ios::binary);
-  std::string head(std::size_t{1} << 14, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  return head.find("\"includes\": []") == head.npos;
-}
-
 /// In place: decks that depend on the same files join the list, or their files are outsiders'.
 Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, BatchList& list) {
   CommonOptions common = o.common;
@@ -100,7 +86,7 @@ Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, BatchList&
   if (!outsiders) return outsiders.error();
   task.outsiders = std::move(*outsiders);
   IncludeScan scan(o.common.include_paths);
-  auto more = list_decks(paths, "", task.ending, o.directory, scan);
+  auto more = list_decks(paths, "", o.directory, scan);
   if (!more) return more.error();
   list.decks = std::move(more->decks);
   return {};
@@ -114,10 +100,7 @@ Result<std::vector<BatchJob>> plan_jobs(const BatchOptions& o, BatchTask& task,
   std::vector<std::vector<IncludeScan::File>> trees(list.decks.size());
   for (std::size_t d = 0; d < trees.size() && task.writes; ++d) {
     const std::string& deck = list.decks[d].path;
-    if (task.from_json && holds_includes(deck))  // which others may hold as well
-      trees[d] = {{deck, FileIdentity()}};
-    if (!task.from_json && !task.to_json)  // a document holds all files of its deck
-      trees[d] = scan.files(deck);
+    if (!task.to_json) trees[d] = scan.files(deck);  // a document holds all files of its deck
     for (const IncludeScan::File& f : trees[d])
       if (task.in_place && f.contents == 0)
         return config_error("cannot read " + f.path + ", a file of " + deck +
@@ -166,10 +149,10 @@ Result<BatchRun> plan(const BatchOptions& o) {
     return config_error("'" + first + "' is read as the name of a deck, which does not exist; " +
                         "name the verb with --verb " + first);
   IncludeScan scan(o.common.include_paths);
-  auto list = list_decks(o.common.decks, o.manifest, task->ending, o.directory, scan);
+  auto list = list_decks(o.common.decks, o.manifest, o.directory, scan);
   if (!list) return list.error();
   o.common.session->remember_read(o.manifest);
-  if (list->decks.empty() && !first.empty()) return no_deck_in(first, task->ending);
+  if (list->decks.empty() && !first.empty()) return no_deck_in(first);
   if (list->decks.empty())
     return config_error("no decks: name some, or a directory, or a --manifest");
   for (const std::string& note : list->notes)

@@ -81,8 +81,7 @@ std::vector<std::string> result_names(const std::vector<fs::path>& paths) {
 }  // namespace
 
 Result<BatchList> list_decks(std::vector<std::string> given, const std::string& manifest,
-                             std::string_view ending, const std::string& output,
-                             IncludeScan& scan) {
+                             const std::string& output, IncludeScan& scan) {
   if (!manifest.empty()) {
     const auto lines = manifest_lines(manifest);
     if (!lines) return lines.error();
@@ -91,10 +90,10 @@ Result<BatchList> list_decks(std::vector<std::string> given, const std::string& 
   if (std::find(given.begin(), given.end(), "-") != given.end())
     return Error{Error::Code::config,
                  "standard input cannot be one of many decks; --manifest - reads the list from it"};
-  auto found = expand_decks(given, ending, output);
+  auto found = expand_decks(given, output);
   if (!found) return found.error();
   BatchList list;
-  if (ending == deck_ending) list.notes = take_includes(*found, given, scan);
+  list.notes = take_includes(*found, given, scan);
   std::vector<fs::path> paths;
   for (const std::string& path : *found) paths.push_back(absolute_path(path));
   const auto names = result_names(paths);

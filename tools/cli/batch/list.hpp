@@ -24,7 +24,7 @@ struct BatchList {
 };
 
 /// The decks in the order given: the arguments, then the lines of `manifest` (empty: none, "-":
-/// standard input). A directory stands for all files below it with the ending, by name, a pattern
+/// standard input). A directory stands for all decks below it, by name, a pattern
 /// for the files it matches; `output` is passed over. A deck named twice is taken once. Error: a
 /// manifest or directory that cannot be read, a pattern that matches nothing, "-" as a deck.
 ///
@@ -35,7 +35,7 @@ struct BatchList {
 /// name of the directory is put before it ("left--car_0000.json"), and of the one above as long as
 /// needed; what is still equal is numbered.
 Result<BatchList> list_decks(std::vector<std::string> given, const std::string& manifest,
-                             std::string_view ending, const std::string& output, IncludeScan& scan);
+                             const std::string& output, IncludeScan& scan);
 
 /// The files of decks, as far as they can be found, with Engine files, which some verbs look at.
 struct DeckFiles {

@@ -30,14 +30,13 @@ struct BatchOptions {
 /// The verb to run, as given in --verb.
 struct BatchTask {
   Verb verb;
-  std::vector<std::string> words;         ///< options of the verb
-  std::vector<std::string> options;       ///< with those of the batch that it passes on
-  std::string_view ending = deck_ending;  ///< of the files below a directory
+  std::vector<std::string> words;    ///< options of the verb
+  std::vector<std::string> options;  ///< with those of the batch that it passes on
 
   // Verbs that write decks.
   bool writes = false;
   bool in_place = false;  ///< else below the output directory
-  bool from_json = false, to_json = false, with_dependents = false;
+  bool to_json = false, with_dependents = false;
   std::string root;        ///< where to look for decks that depend on the same files
   std::string frame_root;  ///< decks are written where they lie below it
   std::map<FileIdentity, std::string> outsiders;  ///< see BatchFrame

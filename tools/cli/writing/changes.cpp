@@ -110,23 +110,21 @@ Result<std::map<FileIdentity, std::string>> look_after(std::vector<std::string>&
   }
 }
 
-Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& given,
-                                                std::string_view ending) {
-  if (ending == deck_ending)
-    for (const std::string& path : given) note_found(path, find_deck(path), common_);
-  auto all = expand_decks(given, ending, choice_.directory);
+Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& given) {
+  for (const std::string& path : given) note_found(path, find_deck(path), common_);
+  auto all = expand_decks(given, choice_.directory);
   if (!all) return all;
-  if (all->empty()) return no_deck_in(given.empty() ? "." : given.front(), ending);
+  if (all->empty()) return no_deck_in(given.empty() ? "." : given.front());
   if (const BatchFrame* frame = common_.session->frame) {
     root_ = frame->root;
     outsiders_ = frame->outsiders;
   } else if (!choice_.directory.empty() && names_directory(given)) {
     std::vector<std::string> files = *all;
     IncludeScan scan(common_.include_paths);
-    for (std::size_t d = 0; d < all->size() && ending == deck_ending; ++d)
-      for (const IncludeScan::File& f : scan.files((*all)[d])) files.push_back(f.path);
+    for (const std::string& deck : *all)
+      for (const IncludeScan::File& f : scan.files(deck)) files.push_back(f.path);
     root_ = common_root(given, files);
-  } else if ((choice_.in_place || choice_.with_dependents) && ending == deck_ending) {
+  } else if (choice_.in_place || choice_.with_dependents) {
     auto outsiders = look_after(*all, choice_, common_);
     if (!outsiders) return outsiders.error();
     outsiders_ = std::move(*outsiders);

@@ -37,8 +37,7 @@ class Changes {
   /// The decks to work on: `given` with directories and patterns expanded and, where they are asked
   /// for, with those that depend on the same files. What a kill left half written of them is
   /// finished first. Call before anything else.
-  Result<std::vector<std::string>> decks(const std::vector<std::string>& given,
-                                         std::string_view ending);
+  Result<std::vector<std::string>> decks(const std::vector<std::string>& given);
   /// The directory below which decks keep their place; empty: decks are written at the top.
   const std::string& root() const { return root_; }
 

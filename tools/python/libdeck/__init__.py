@@ -47,7 +47,8 @@ class Value:
     value: Union[int, float, str]
     """The value that the solver uses."""
     input: Union[int, float, str, None]
-    """The value on the card; None for a blank cell, or if this input version has no such cell."""
+    """The value on the card, as text where it is no finite number; None for a blank cell, or if this input version has no
+    such cell."""
     origin: str
     """"card", "default-block", "built-in" or "derived" (follows from other values or from the mesh)."""
     span: Optional[Place]
@@ -179,23 +180,26 @@ class Interface:
     """A contact interface. Its fields are attributes: ``i.Gapmin.value``; names that are not Python names are
     items: ``i["%mesh_size"]``."""
 
-    def __init__(self, deck: "Deck", at: int, row: Sequence[Any]) -> None:
+    def __init__(self, deck: "Deck", at: int, row: Sequence[Any], nth: int) -> None:
         self.id: int = row[0]
         self.type: int = row[1]
         self.title: str = _text(row[2])
-        self._deck, self._at = deck, at
+        self._deck, self._at, self._nth = deck, at, nth
         self._span: Optional[Place] = _place(row[3])
         self._fields: Dict[str, Value] = {}
-        self._of: Any = None
+        self._of: Any = deck._native
 
     def _read(self) -> None:
         native = self._deck._native
-        if self._of is not native:
+        if self._of is not native:  # lines and blocks may have come and gone
+            same = [(k, r) for k, r in enumerate(native.interfaces()) if (r[0], r[1]) == (self.id, self.type)]
+            if self._nth >= len(same):
+                raise KeyError(f"/INTER/TYPE{self.type}/{self.id} was erased")
+            self._at, row = same[self._nth]
+            self._span, self._fields, self._of = _place(row[3]), {}, native
+        if not self._fields:
             self._fields = {r[0]: Value(r[0], r[1], r[2], r[3], _place(r[4]), r[5], r[6])
                             for r in native.fields(self._at)}
-            if self._of is not None:  # lines may have been added
-                self._span = _place(native.interfaces()[self._at][3])
-            self._of = native
 
     @property
     def span(self) -> Optional[Place]:
@@ -216,7 +220,10 @@ class Interface:
         The deck has the new values at once; the files change with ``Deck.save`` or ``Deck.write``. ValueError with the
         place and what was expected; then no value of the call is set.
         """
-        self._deck._change([("set_interface", self._at, name, _cell(name, v)) for name, v in values.items()])
+        if any(step[0] in ("insert", "erase") for step in self._deck._steps):  # places are not those of the files
+            self._deck.set("/INTER", self.id, **values)
+        else:
+            self._deck._change([("set_interface", self._at, name, _cell(name, v)) for name, v in values.items()])
 
     def __getitem__(self, name: str) -> Value:
         return self.fields[name]
@@ -240,10 +247,13 @@ class Interfaces(_Mapping):
 
     def __init__(self, deck: "Deck") -> None:
         rows = deck._native.interfaces()
-        self.list: List[Interface] = [Interface(deck, k, row) for k, row in enumerate(rows)]
+        self.list: List[Interface] = []
         self._by_id: Dict[int, Interface] = {}
-        for i in self.list:
-            self._by_id.setdefault(i.id, i)
+        times: Dict[Any, int] = {}
+        for k, row in enumerate(rows):
+            nth = times[row[0], row[1]] = times.get((row[0], row[1]), -1) + 1
+            self.list.append(Interface(deck, k, row, nth))
+            self._by_id.setdefault(row[0], self.list[-1])
 
     def __getitem__(self, interface_id: int) -> Interface:
         return self._by_id[interface_id]
@@ -482,6 +492,8 @@ class Deck:
             raise
         self._changes, self._steps = changes, self._steps + steps
         self._now = self._nodes = None
+        if any(step[0] in ("insert", "erase") for step in steps):
+            self._interfaces = None
 
     def set(self, keyword: str, id: int, occurrence: int = 0, **values: Union[int, float, str]) -> None:
         """Sets fields of any block: ``d.set("/PROP/SHELL", 2, Thick=1.5)``. ``occurrence``: which cell of that name, from
@@ -493,6 +505,17 @@ class Deck:
         """Puts a node elsewhere, in working units. ValueError where its line does not say where it is (/TRANSFORM)."""
         self.nodes.index(node_id)
         self._change([("move_node", int(node_id), _cell("x", float(x)), _cell("y", float(y)), _cell("z", float(z)))])
+
+    def insert(self, blocks: Union[str, bytes]) -> None:
+        """Adds blocks at the end of the main file: ``d.insert("/INTER/TYPE7/9\\nnew contact\\n")``, then
+        ``d.interfaces[9].set(Gapmin=0.8)``. A block may end before all of its lines: setting a field adds its line.
+        ValueError where the text does not begin with a keyword."""
+        self._change([("insert", blocks)])
+
+    def erase(self, keyword: str, id: int) -> None:
+        """Removes a block with its lines: ``d.erase("/INTER/TYPE7", 9)``; comments after its last line stay. KeyError if there
+        is no such block; ValueError where some of its lines are in an included file."""
+        self._change([("erase", keyword, int(id))])
 
     @property
     def notes(self) -> List[str]:

@@ -1,4 +1,5 @@
-// libdeck._native: values of a deck set by name, kept until somebody writes them.
+// libdeck._native: values of a deck set by name, and blocks that come and go, kept until somebody
+// writes them.
 #include "deck/edit/edit.hpp"
 
 #include <utility>
@@ -15,6 +16,13 @@ struct PyChanges {
   DeckPointer before;
   Edit edit;
 };
+
+/// KeyError where the deck has no such block.
+const Block* block_of(Edit& edit, const std::string& keyword, std::int64_t id) {
+  const auto block = edit.find(keyword, id);
+  if (!block) throw py::key_error(block.error().message);
+  return *block;
+}
 
 void must_have_worked(const Edit& edit) {
   if (const auto status = edit.status(); !status) throw py::value_error(status.error().message);
@@ -38,15 +46,23 @@ void bind_changes(py::module_& m) {
   py::class_<PyChanges, std::shared_ptr<PyChanges>>(m, "Changes")
       .def("set_interface",
            [](PyChanges& c, std::size_t at, const std::string& field, const CellValue& value) {
-             c.edit.set(c.before->loaded.interfaces().ordered.at(at), field, value);
+             c.edit.set(c.before->loaded.interfaces().all.at(at), field, value);
              must_have_worked(c.edit);
            })
       .def("set_block",
            [](PyChanges& c, const std::string& keyword, std::int64_t id, const std::string& field,
               const CellValue& value, int occurrence) {
-             const auto block = find_block(c.before->loaded.deck(), keyword, id);
-             if (!block) throw py::key_error(block.error().message);
-             c.edit.set(*block, field, value, occurrence);
+             c.edit.set(block_of(c.edit, keyword, id), field, value, occurrence);
+             must_have_worked(c.edit);
+           })
+      .def("insert",
+           [](PyChanges& c, const std::string& blocks) {
+             c.edit.insert(blocks);
+             must_have_worked(c.edit);
+           })
+      .def("erase",
+           [](PyChanges& c, const std::string& keyword, std::int64_t id) {
+             c.edit.erase(block_of(c.edit, keyword, id));
              must_have_worked(c.edit);
            })
       .def("move_node",

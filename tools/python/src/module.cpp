@@ -1,7 +1,9 @@
 // libdeck._native: a deck, its arrays and the effective values of its interfaces.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "deck/lint/lint.hpp"
@@ -12,6 +14,7 @@
 #include "native.hpp"
 #include "report/shared/diagnostics.hpp"
 #include "report/shared/params_report.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::python {
 
@@ -68,6 +71,16 @@ std::string dimension_of(const Field* field) {
   return text.empty() ? text : text.substr(1);
 }
 
+/// What the card says; a cell without a finite number as it is written.
+template <class T>
+py::object input_of(const Deck& deck, const Effective<T>& e) {
+  if (!e.has_input) return py::none();
+  if constexpr (std::is_same_v<T, double>)
+    if (!std::isfinite(e.input))
+      return py::str(std::string(detail::trim(deck.sources.text(e.span))));
+  return py::cast(e.input);
+}
+
 /// Every field of an interface: (name, value, input or None, origin, place, dimension, meaning).
 py::list interface_fields(const PyDeck& d, std::size_t at) {
   const Deck& deck = d.loaded.deck();
@@ -77,9 +90,8 @@ py::list interface_fields(const PyDeck& d, std::size_t at) {
   visit_any_interface(inter, [&](const auto& typed) {
     typed.for_each([&](std::string_view name, const auto& e) {
       const Field* const field = schema != nullptr ? schema->find_field(name) : nullptr;
-      out.append(py::make_tuple(std::string(name), e.value,
-                                e.has_input ? py::cast(e.input) : py::object(py::none()),
-                                to_string(e.origin), place_of(deck, e.span), dimension_of(field),
+      out.append(py::make_tuple(std::string(name), e.value, input_of(deck, e), to_string(e.origin),
+                                place_of(deck, e.span), dimension_of(field),
                                 field != nullptr ? field->doc : std::string()));
     });
   });

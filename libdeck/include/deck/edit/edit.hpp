@@ -63,10 +63,14 @@ class Edit {
   /// Coordinates in working units. Error where the line of the node does not say where it is
   /// (/CNODE, /TRANSFORM).
   Edit& move_node(std::int64_t id, const Point3<double>& to);
-  /// Adds blocks, whole lines that begin with a keyword, at the end of the main file.
+  /// Adds blocks, whole lines that begin with a keyword, at the end of the main file. Lines that
+  /// they leave away come when their fields are set.
   Edit& insert(std::string_view blocks);
   /// Removes a block with its lines; comments after its last line stay.
   Edit& erase(const Block* block);
+  /// The block with this keyword and id, as find_block() has it, in the deck with what was
+  /// inserted. One that was inserted is there until the next change.
+  Result<const Block*> find(std::string_view keyword, std::int64_t id);
 
   /// The error that diff(), save() and save_to() would give.
   Result<void> status() const;

@@ -40,8 +40,8 @@ int check(const ConvertOptions& options) {
   if (options.write.in_place &&
       std::count(options.common.decks.begin(), options.common.decks.end(), std::string("-")) > 0)
     return refuse("standard input cannot be rewritten; without --in-place the deck is printed");
-  if (options.check && (options.to != "rad" || options.from != "rad"))
-    return refuse("--check is about Starter decks; leave out --to and --from");
+  if (options.check && options.to != "rad")
+    return refuse("--check is about Starter decks; leave out --to");
   if (options.check && options.write.diff) return refuse("--check and --diff exclude one another");
   if (!somewhere && options.to == "rad" && !only_standard_input && !options.check)
     return refuse(
@@ -49,11 +49,8 @@ int check(const ConvertOptions& options) {
         "happen");
   if (options.to == "json" && (options.write.in_place || options.write.diff))
     return refuse("--to json writes a new file: use -o, or standard output");
-  if (options.from != "rad" && (options.write.in_place || options.write.diff))
-    return refuse("--from " + options.from + " needs -o DIR");
   if (options.verify && options.no_verify)
     return refuse("--verify and --no-verify exclude one another");
-  if (options.steps.round && options.from != "json") return refuse("--round goes with --from json");
   return exit_clean;
 }
 
@@ -79,10 +76,9 @@ int run(ConvertOptions& options) {
   }
   if (const int bad = check_outputs(options.common, {options.report}); bad != exit_clean)
     return bad;
-  const std::string_view ending = options.from == "json" ? document_ending : deck_ending;
   ConvertRun work{options, std::move(*steps), Changes(options.common, options.write),
                   Progress(!options.common.quiet)};
-  const auto decks = work.changes.decks(options.common.decks, ending);
+  const auto decks = work.changes.decks(options.common.decks);
   if (!decks) {
     print_error(options.common, decks.error().message);
     return decks.error().code == Error::Code::config ? exit_usage : exit_input;
@@ -124,9 +120,6 @@ Action setup(CommandLine& line) {
               "Format to write: rad (Starter deck), json (typed fields with effective values)")
       .one_of({"rad", "json"})
       .value("FORMAT");
-  line.option("--from", options->from, "Format to read: rad, json (as written by --to json)")
-      .one_of({"rad", "json"})
-      .value("FORMAT");
   line.flag("--check", options->check,
             "Write nothing; say for how many decks it would work, and what they would lose: one "
             "line a cause with the number of decks. With -o or --in-place also whether that could "
@@ -149,7 +142,7 @@ Action setup(CommandLine& line) {
   line.existing("decks").describe("Starter decks, or directories: all *_0000.rad below them");
   return [options] {
     options->write.read_back = options->verifies();
-    options->common.engine_files = options->to == "rad" && options->from == "rad";
+    options->common.engine_files = options->to == "rad";
     options->common.rewrites = options->write.in_place && !options->check;
     return run(*options);
   };
@@ -164,7 +157,6 @@ const VerbRegistration registration{
      "  deck convert car_0000.rad --resolve-defaults --in-place --backup\n"
      "  deck convert car_0000.rad --extract-contacts 7 -o bug  one interface and what it needs\n"
      "  deck convert car_0000.rad --to json -o car.json\n"
-     "  deck convert car.json --from json -o back\n"
      "\n"
      "Conversions are done in the order of their options above, whatever their order on the\n"
      "command line. A conversion that would lose a value is refused with the place of the value\n"

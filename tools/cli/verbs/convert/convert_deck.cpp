@@ -16,8 +16,8 @@ namespace {
 /// A deck on its way through the conversions.
 struct Conversion {
   LoadedDeck now;
-  Overlay changed;  ///< contents that differ from the files on disk
-  std::vector<LossEntry> losses;
+  Overlay changed = {};  ///< contents that differ from the files on disk
+  std::vector<LossEntry> losses = {};
   std::vector<std::string> refusals = {};
   bool together = false;  ///< with other decks: what it loses is said with what they lose
 };
@@ -127,10 +127,10 @@ void tell_of_copies(Conversion& c) {
 }
 
 /// What the deck has become goes into the set.
-int add_result(ConvertRun& run, std::size_t member, Conversion& c, const SchemaSet& schemas) {
+int add_result(ConvertRun& run, std::size_t member, Conversion& c) {
   const ConvertOptions& options = run.options;
-  if (options.to == "json") return add_document(run, c.now, schemas);
-  if (c.now.path() == "-" && options.from == "rad" && !options.write.diff && !options.check) {
+  if (options.to == "json") return add_document(run, c.now);
+  if (c.now.path() == "-" && !options.write.diff && !options.check) {
     if (c.now.deck().sources.size() == 1 && options.write.directory.empty()) {
       print_contents(c.now.deck().sources[0].bytes());
       return exit_clean;
@@ -144,8 +144,7 @@ int add_result(ConvertRun& run, std::size_t member, Conversion& c, const SchemaS
   return exit_clean;
 }
 
-int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded, Overlay overlay,
-            const std::vector<LossEntry>& losses, const SchemaSet& schemas) {
+int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded, const SchemaSet& schemas) {
   const ConvertOptions& options = run.options;
   if (loaded.incomplete()) {
     run.refused = true;
@@ -163,7 +162,7 @@ int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded, Overlay
     run.refused = true;
     return fail(run, member.error());
   }
-  Conversion c{std::move(loaded), std::move(overlay), losses};
+  Conversion c{std::move(loaded)};
   c.together = run.together;
   int code = exit_clean;
   for (const ConvertStep& step : run.steps) {
@@ -184,45 +183,23 @@ int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded, Overlay
                   c.losses, c.refusals,
                   code != exit_clean && c.refusals.empty() ? "the result was refused" : "");
   for (LossEntry& e : c.losses) run.losses.push_back(std::move(e));
-  if (code == exit_clean) code = add_result(run, *member, c, schemas);
+  if (code == exit_clean) code = add_result(run, *member, c);
   run.refused = run.refused || code != exit_clean;
   return code == exit_clean && open ? exit_findings : code;
-}
-
-/// The deck of one command line argument, whatever it is written in.
-Result<std::pair<LoadedDeck, Overlay>> open_input(const std::string& path,
-                                                  const ConvertOptions& options,
-                                                  const SchemaSet& schemas, bool whole,
-                                                  std::vector<LossEntry>& losses) {
-  Overlay overlay;
-  std::string main = path;
-  if (options.from == "json") {
-    auto files = files_of_json(*options.common.session, path, schemas, options.steps, losses);
-    if (!files) return files.error();
-    main = files->main;
-    overlay = std::move(files->contents);
-  }
-  auto loaded = load(main, schemas, options.common, whole ? Stage::interfaces : Stage::deck,
-                     options.from == "json" ? &overlay : nullptr);
-  if (!loaded) return loaded.error();
-  return std::pair(std::move(*loaded), std::move(overlay));
 }
 
 }  // namespace
 
 int convert_one(ConvertRun& run, const std::string& path, const SchemaSet& schemas) {
   const ConvertOptions& options = run.options;
-  std::vector<LossEntry> losses;
-  auto input =
-      open_input(path, options, schemas, !run.steps.empty() || options.to == "json", losses);
-  if (input)
-    return convert(run, path, std::move(input->first), std::move(input->second), losses, schemas);
+  const bool whole = !run.steps.empty() || options.to == "json";
+  auto input = load(path, schemas, options.common, whole ? Stage::interfaces : Stage::deck);
+  if (input) return convert(run, path, std::move(*input), schemas);
   run.refused = true;
   if (options.check || run.together)
     run.check.add(path, ConversionCheck::Outcome::unreadable, {}, {}, input.error().message);
   if (!options.check) print_error(options.common, input.error().message);
-  const bool wrong = input.error().code == Error::Code::config && options.from == "rad";
-  return wrong ? exit_usage : exit_input;
+  return input.error().code == Error::Code::config ? exit_usage : exit_input;
 }
 
 }  // namespace deck::cli::verb_convert

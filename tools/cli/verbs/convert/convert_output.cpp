@@ -4,7 +4,6 @@
 #include <set>
 
 #include "base/shared/paths.hpp"
-#include "edit/shared/from_json.hpp"
 #include "report/shared/deck_json.hpp"
 #include "text/shared/gzip.hpp"
 #include "verbs/convert/convert_run.hpp"
@@ -66,19 +65,6 @@ int write_documents(ConvertRun& run) {
   return done ? exit_clean : fail(run, done.error());
 }
 
-/// The document as a deck again: it must be the deck that it was made of.
-std::string document_difference(const std::string& document, const Deck& deck,
-                                const SchemaSet& schemas) {
-  const auto back = deck_from_json(document, schemas);
-  if (!back) return back.error().message;
-  std::map<std::string_view, int> texts;
-  for (const DeckFile& f : *back) ++texts[f.text];
-  for (std::uint32_t f = 0; f < deck.sources.size(); ++f)
-    if (!texts.contains(deck.sources[f].bytes()))
-      return deck.sources[f].path() + " is not the same byte for byte when read back";
-  return {};
-}
-
 }  // namespace
 
 int fail(const ConvertRun& run, const Error& error) {
@@ -108,13 +94,10 @@ int write_all(ConvertRun& run) {
   return done ? exit_clean : fail(run, done.error());
 }
 
-int add_document(ConvertRun& run, const LoadedDeck& deck, const SchemaSet& schemas) {
+int add_document(ConvertRun& run, const LoadedDeck& deck) {
   resolve_geometry(deck, run.options.common);
   auto document = deck_to_json({deck.path(), &deck.deck(), &deck.model(), &deck.interfaces()});
   if (!document) return fail(run, document.error());
-  if (run.options.verifies())
-    if (const std::string why = document_difference(*document, deck.deck(), schemas); !why.empty())
-      return fail(run, {Error::Code::internal, deck.path() + ": the JSON is not the deck: " + why});
   Document made{deck.path(), std::move(*document), {}};
   fs::path name =
       made.deck == "-" ? "stdin.json" : fs::path(without_gz(made.deck)).stem().string() + ".json";

@@ -17,7 +17,7 @@ struct ConvertOptions {
   CommonOptions common;
   ConvertSteps steps;
   WriteChoice write;
-  std::string to = "rad", from = "rad";
+  std::string to = "rad";
   std::string report;
   bool verify = false, no_verify = false;
   bool check = false;  ///< nothing is written: what would happen
@@ -51,7 +51,7 @@ int fail(const ConvertRun& run, const Error& error);
 int convert_one(ConvertRun& run, const std::string& path, const SchemaSet& schemas);
 
 /// The deck in JSON, kept until all decks of the call are ready.
-int add_document(ConvertRun& run, const LoadedDeck& deck, const SchemaSet& schemas);
+int add_document(ConvertRun& run, const LoadedDeck& deck);
 /// Writes what all decks have become, or prints it; nothing with --check. The exit code.
 int write_all(ConvertRun& run);
 

@@ -2,15 +2,11 @@
 #include "verbs/convert/convert_steps.hpp"
 
 #include "deck/edit/convert.hpp"
-#include "edit/shared/from_json.hpp"
 #include "edit/shared/resolve.hpp"
 
 namespace deck::cli {
 
 void add_step_options(CommandLine& line, ConvertSteps& steps) {
-  line.flag("--round", steps.round,
-            "With --from json: a number that does not fit its columns keeps the digits that fit "
-            "and is reported");
   CommandLine group = line.group("Conversions, in this order");
   group
       .option("--extract-contacts", steps.extract,
@@ -110,21 +106,6 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
   if (steps.partial && steps.units.empty() && steps.renumber.empty())
     return Error{Error::Code::config, "--partial goes with --units or --renumber"};
   return all;
-}
-
-Result<JsonFiles> files_of_json(Session& session, const std::string& path, const SchemaSet& schemas,
-                                const ConvertSteps& steps, std::vector<LossEntry>& losses) {
-  const auto source = Source::open_text(path, Limits{});
-  if (!source) return source.error();
-  session.remember_read(**source);
-  auto files = deck_from_json((*source)->bytes(), schemas, {steps.round}, &losses);
-  if (!files) return Error{files.error().code, path + ": " + files.error().message};
-  JsonFiles result;
-  for (DeckFile& f : *files) {
-    if (result.main.empty()) result.main = f.path;
-    result.contents[f.path] = std::move(f.text);
-  }
-  return result;
 }
 
 }  // namespace deck::cli

@@ -16,7 +16,6 @@ struct ConvertSteps {
   int version = 0;
   bool allow_loss = false;
   std::string units;
-  bool round = false;  ///< JSON: a number may lose digits that do not fit its columns
   bool keep_working = false, partial = false;
   std::vector<std::string> renumber;
 };
@@ -33,14 +32,5 @@ struct ConvertStep {
 
 /// Those asked for, in the order they are done. Error: an option that makes no sense.
 Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps);
-
-/// A deck in JSON as the files it stands for.
-struct JsonFiles {
-  std::string main;
-  Overlay contents;  ///< by path; holds `main`
-};
-/// `path` "-" is standard input. A number that was rounded is an entry of `losses`.
-Result<JsonFiles> files_of_json(Session& session, const std::string& path, const SchemaSet& schemas,
-                                const ConvertSteps& steps, std::vector<LossEntry>& losses);
 
 }  // namespace deck::cli

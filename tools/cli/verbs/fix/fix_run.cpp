@@ -26,7 +26,7 @@ class FixRun {
       : o_(options), json_(json), changes_(options.common, options.write) {}
 
   /// With directories expanded and, where asked for, the decks that include the same files.
-  Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks, deck_ending); }
+  Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks); }
 
   int one(LoadedDeck& loaded) {
     const bool errors = print_findings(loaded, o_.common) > 0;

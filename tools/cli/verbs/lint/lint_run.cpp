@@ -127,7 +127,7 @@ int LintRun::run() {
     if (decks && decks->empty()) return none_changed();
   } else if (!rewrites)
     decks = decks_in_directories(common_.decks);
-  if (rewrites && decks) decks = changes_.decks(*decks, deck_ending);
+  if (rewrites && decks) decks = changes_.decks(*decks);
   if (!decks) {
     print_error(common_, decks.error().message);
     return decks.error().code == Error::Code::config ? exit_usage : exit_input;
