@@ -12,6 +12,9 @@ struct Removed {
 };
 
 inline constexpr std::array removed_words = {
+    Removed{"fix", "--smooth", "--max-moved 100%, or --strategy move-part"},
+    Removed{"fix", "--step", "deck fix without it"},
+    Removed{"fix", "--iterations", "deck fix without it"},
     Removed{"accuracy", "--again", "deck accuracy, which measures the hard cases every time"},
     Removed{"accuracy", "--verbose", "--json, or bench_distance of tools/bench for number types"},
     Removed{"accuracy", "-v", "--json, or bench_distance of tools/bench for number types"},

@@ -18,10 +18,7 @@ struct MoveNodesOptions : FixOptions {
   /// No node moves farther than this, working units. Absent: ten times the deepest
   /// penetration.
   std::optional<double> most_displacement;
-  double share = 0.7;       ///< of the depth, per iteration
   double clearance = 1e-3;  ///< of the gap, left between gap and distance at the end
-  int smooth = 0;           ///< rings of neighbours that follow the moved nodes
-  int iterations = 60;
 };
 
 /// Moves nodes of /NODE lines. Verified with the coordinates as printed: the deck is read again

@@ -17,7 +17,7 @@ MoveNodesOptions all_may_move() {
 PenetrationFix moved(const Built& b, const MoveNodesOptions& options = all_may_move()) {
   auto fix = move_nodes(context_of(b), options);
   EXPECT_TRUE(fix.ok()) << fix.error().message;
-  if (options.smooth == 0) expect_within_depth(b, *fix, options.clearance);
+  expect_within_depth(b, *fix, options.clearance);
   return std::move(*fix);
 }
 
@@ -433,16 +433,6 @@ TEST(MoveNodes, NodesOfRigidBodiesAndBoundaryConditionsStayOnRequest) {
   bool free_moves = false;
   for (const MovedNode& m : moved(before).moved) free_moves |= m.id >= 1001 && m.id <= 1007;
   EXPECT_TRUE(free_moves);
-}
-
-TEST(MoveNodes, SmoothingTakesNeighboursAlong) {
-  const Built before(two_plates(4, 0.8, plain));
-  MoveNodesOptions o = all_may_move();
-  const std::size_t without = moved(before, o).moved.size();
-  o.smooth = 2;
-  const PenetrationFix fix = moved(before, o);
-  EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, fix)).empty());
-  EXPECT_GT(fix.moved.size(), without);
 }
 
 TEST(MoveNodes, OnlyTheInterfacesAskedForAreTreated) {

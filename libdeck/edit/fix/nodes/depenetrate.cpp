@@ -1,4 +1,4 @@
-// The iteration: search, ask for displacements, smooth, print, search again.
+// The iteration: search, ask for displacements, print, search again.
 #include "edit/shared/depenetrate.hpp"
 
 #include <algorithm>
@@ -25,8 +25,10 @@ namespace {
 
 using namespace detail;
 
-constexpr int rounds = 4;                 // after each, harmful moves are taken back
-constexpr int sweeps = 200;               // projections per iteration
+constexpr int rounds = 4;    // after each, harmful moves are taken back
+constexpr int sweeps = 200;  // projections per iteration
+constexpr int most_iterations = 60;
+constexpr double step_share = 0.7;        // of the depth, per iteration
 constexpr int patience = 8;               // iterations without progress
 constexpr double largest_step = 0.45;     // of the gap: two sides cannot pass each other unseen
 constexpr double least_side = 0.5;        // of the length of an element's side before
@@ -108,7 +110,7 @@ class Depenetrator : MovableDeck {
   bool iterate() {
     double best = -1, last = -1;
     int waited = 0;
-    for (int i = 0; i < options_.iterations; ++i) {
+    for (int i = 0; i < most_iterations; ++i) {
       const Scene& scene = evaluate();
       double total = 0;
       std::vector<PairAt> too_close;
@@ -180,7 +182,6 @@ class Depenetrator : MovableDeck {
 
   NodeMoves moves_for(const std::vector<Wish>& wishes) {
     NodeMoves moves = solve_wishes(wishes, holds_, sweeps);
-    if (options_.smooth > 0) smooth(moves);
     constexpr double none = std::numeric_limits<double>::infinity();
     std::vector<double> cap(holds_.size(), none);  // by node: its smallest gap
     for (const Wish& w : wishes)
@@ -221,7 +222,7 @@ class Depenetrator : MovableDeck {
       w.normal = way_out(scene, *mesh_, now_, pair->at, w.state);
       const double lack = w.state.depth() + options_.clearance * w.state.gap;
       const bool enough = settling_ && lack <= enough_clearance * options_.clearance * w.state.gap;
-      w.by = lack <= 0 ? lack : enough ? 0 : options_.share * lack;
+      w.by = lack <= 0 ? lack : enough ? 0 : step_share * lack;
       w.main_gives_way = !options_.secondary_only;
       if (dot(w.normal, w.normal) > 0) wishes.push_back(w);
     }
@@ -234,41 +235,6 @@ class Depenetrator : MovableDeck {
     cells_.look_up(nodes);
     for (const NodeIndex n : nodes)
       if (!cells_.obstacle(n).empty()) hold(n, Hold::not_writable);
-  }
-
-  /// Neighbours of moved nodes follow, ring by ring, less and less.
-  void smooth(NodeMoves& of_wishes) {
-    std::map<NodeIndex, Vec> moves(of_wishes.begin(), of_wishes.end());
-    std::set<NodeIndex> ring;
-    for (const auto& [n, move] : moves) ring.insert(n);
-    for (int k = 1; k <= options_.smooth; ++k) {
-      struct Sum {
-        Vec moves;
-        int count = 0;
-        double reach = 0;
-      };
-      std::map<NodeIndex, Sum> sums;
-      for (const NodeIndex n : ring)
-        for (const NodeIndex next : mesh_->neighbours(n)) {
-          if (moves.contains(next)) continue;
-          Sum& sum = sums[next];
-          sum.moves = sum.moves + moves.at(n);
-          ++sum.count;
-          sum.reach = std::max(sum.reach, bounds_.reach_of(n));
-        }
-      std::vector<NodeIndex> nodes;
-      for (const auto& [n, sum] : sums) nodes.push_back(n);
-      hold_unwritable(nodes);
-      ring.clear();
-      for (const auto& [n, sum] : sums) {
-        if (holds_[n] != 0 && !is_bystander(n)) continue;
-        const double share = 1 - k / (options_.smooth + 1.0);
-        moves.emplace(n, (share / sum.count) * sum.moves);
-        bounds_.follow(n, sum.reach);
-        ring.insert(n);
-      }
-    }
-    of_wishes.assign(moves.begin(), moves.end());
   }
 
   /// Counts the moved nodes of each part. False: parts would pass their share. These are left

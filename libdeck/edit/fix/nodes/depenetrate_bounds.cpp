@@ -127,11 +127,6 @@ void DepthBounds::add(const PairKey& key, const PairState& state, const Vec& nor
   }
 }
 
-void DepthBounds::follow(NodeIndex n, double reach) {
-  Bound& bound = nodes_[n];
-  if (bound.pairs.empty()) bound.reach = std::max(bound.reach, reach);
-}
-
 std::vector<DepthBounds::Place> DepthBounds::allowed(const NodeMoves& wanted, int threads) const {
   const auto directions = [&](std::uint32_t i) -> const std::vector<Vec>& {
     return nodes_.at(wanted[i].first).directions;

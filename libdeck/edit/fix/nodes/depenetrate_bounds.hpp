@@ -13,8 +13,6 @@ class DepthBounds {
   /// A penetration as it is before anything moves: `normal` leads from main to secondary, its nodes
   /// may move by `reach`, the secondary ones along it, the main ones against it.
   void add(const PairKey& key, const PairState& state, const Vec& normal, double reach);
-  /// A node that is in no penetration but follows its neighbours, by `reach` at most.
-  void follow(NodeIndex n, double reach);
 
   bool contains(NodeIndex n) const { return nodes_.contains(n); }
   /// The penetrations that a node is in; none of one that follows.

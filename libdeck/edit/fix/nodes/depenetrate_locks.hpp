@@ -25,7 +25,7 @@ enum class Hold : std::uint8_t {
   would_penetrate,
   would_untie,
   depth,      ///< moved as far as the penetration is deep, or would have to move farther
-  bystander,  ///< in no penetration: stays, or follows its neighbours
+  bystander,  ///< in no penetration: stays
 };
 const char* to_string(Hold hold);
 /// "stopped by --max-moved 10 %"

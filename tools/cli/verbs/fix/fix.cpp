@@ -101,24 +101,10 @@ void add_move_options(CommandLine& line, Options& o) {
               "Farthest a node may move, working units (default of move-nodes: as far as its "
               "penetration is deep, which it never passes; of move-part: twice the deepest one)")
       .value("LENGTH");
-  move.option("--smooth", o.move.smooth,
-              "move-nodes: rings of neighbours that follow the moved nodes")
-      .range(0, 20)
-      .show_default()
-      .value("N");
-  move.option("--step", o.move.share,
-              "move-nodes: share of the depth that one iteration takes away")
-      .range(0.05, 1.0)
-      .show_default()
-      .value("SHARE");
   move.option("--clearance", o.move.clearance, "Distance left beyond the gap, share of it")
       .range(0.0, 1.0)
       .show_default()
       .value("SHARE");
-  move.option("--iterations", o.move.iterations, "move-nodes: at most this many, up to four times")
-      .range(1, 10000)
-      .show_default()
-      .value("N");
 }
 
 Action setup(CommandLine& line) {

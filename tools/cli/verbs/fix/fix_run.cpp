@@ -271,7 +271,6 @@ class FixRun {
       if (strategy == "move-nodes") {
         add("--max-moved", o_.max_moved, plain.max_moved);
         if (o_.move.secondary_only) text += " --secondary-only";
-        add("--smooth", std::to_string(o_.move.smooth), std::to_string(plain.move.smooth));
       }
       add("--clearance", fmt::format("{}", o_.move.clearance),
           fmt::format("{}", plain.move.clearance));
