@@ -156,7 +156,7 @@ class GroupWork {
       }
     }
     if (code == exit_clean || (!task_.writes && code == exit_findings)) error.clear();
-    if (refused && code == exit_findings) status = "failed";  // the deck was not written
+    if (refused && code == exit_findings && status.empty()) status = "failed";  // not written
     if (!task_.writes && head_) status = status_in(task_, code, *head_);
     Json line = deck_line(path, code, error, status);
     if (const std::string& target = head_ ? job_.result : deck.target; !refused && !target.empty())

@@ -140,6 +140,8 @@ class FixRun {
     if (!changed.empty()) {
       auto again = loaded.with({changed.begin(), changed.end()});
       if (!again) return again.error();
+      if (again->incomplete() && !loaded.incomplete())
+        return Error{Error::Code::io, loaded.path() + ": a file of the deck cannot be read again"};
       result.emplace(std::move(*again));
       result->set_scene_options(loaded.scene_options());
     }
