@@ -525,15 +525,15 @@ struct Group {
   int last;  // id of its last family
   const char* name;
 };
-const Group groups[] = {{5, "triangles without area"},
-                        {10, "quads, folded and warped"},
-                        {16, "nodes on a segment, or hardly beside it"},
-                        {22, "large and small numbers"},
-                        {29, "edges"},
-                        {32, "distance near the gap"},
-                        {34, "shared nodes, exchanged sides"},
-                        {37, "builds"},
-                        {40, "shapes of meshes"}};
+const Group family_groups[] = {{5, "triangles without area"},
+                               {10, "quads, folded and warped"},
+                               {16, "nodes on a segment, or hardly beside it"},
+                               {22, "large and small numbers"},
+                               {29, "edges"},
+                               {32, "distance near the gap"},
+                               {34, "shared nodes, exchanged sides"},
+                               {37, "builds"},
+                               {40, "shapes of meshes"}};
 
 }  // namespace
 
@@ -541,7 +541,7 @@ std::span<const HardFamily> hard_families() {
   static const std::vector<HardFamily> list = [] {
     std::vector<HardFamily> out;
     for (const Recipe& recipe : recipes) {
-      const Group* group = groups;
+      const Group* group = family_groups;
       while (recipe.family.id > group->last) ++group;
       out.push_back(recipe.family);
       out.back().group = group->name;

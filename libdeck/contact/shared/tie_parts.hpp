@@ -11,6 +11,8 @@ namespace deck::detail {
 using Corners = std::array<NodeIndex, 4>;
 
 inline bool is_triangle(const Corners& c) { return c[2] == c[3]; }
+/// Spotflags of ties by penalty.
+inline bool is_penalty(int spotflag) { return spotflag >= 25 && spotflag <= 28; }
 
 // distance.cpp
 /// Distance of a node from a segment, and its place there, as the solver measures them.

@@ -11,8 +11,6 @@
 namespace deck::detail {
 namespace {
 
-bool is_penalty(int spotflag) { return spotflag >= 25 && spotflag <= 28; }
-
 /// The segments of a surface as the solver turns them.
 std::vector<Corners> segments_of(SceneContext& c, std::int64_t surface) {
   std::vector<Corners> out;

@@ -24,7 +24,7 @@ using Vec = Point3<double>;
 double length(const Vec& a) { return length3(a.x, a.y, a.z); }
 
 /// Corners of one element, in the slots of its family.
-struct Corners {
+struct ElementCorners {
   std::array<Vec, 8> at;
   std::size_t count = 0;
   std::size_t size() const { return count; }
@@ -37,7 +37,7 @@ constexpr double rounding = 1e-13;
 /// Corners of an element of `width` nodes; false: one of its nodes is missing.
 template <class Width>
 [[gnu::always_inline]] inline bool corners_of(const Nodes& nodes, const NodeIndex* n, Width width,
-                                              Corners& out) {
+                                              ElementCorners& out) {
   out.count = width;
   for (std::size_t i = 0; i < width; ++i) {
     if (n[i] >= nodes.size()) return false;
@@ -56,7 +56,7 @@ bool surely_apart(double product2, double a2, double b2) {
 
 /// Half the cross product of the diagonals vanishes: all corners on a line, or a crossed quad.
 /// Inlined where all shells are walked over, as corners_of(): corners stay in registers.
-[[gnu::always_inline]] inline bool without_area(const Corners& p) {
+[[gnu::always_inline]] inline bool without_area(const ElementCorners& p) {
   const Vec a = p[2] - p[0];
   const Vec b = (p.size() > 3 ? p[3] : p[1]) - p[1];
   const Vec side = p.size() > 3 ? b : p[1] - p[0];
@@ -66,7 +66,7 @@ bool surely_apart(double product2, double a2, double b2) {
 }
 
 /// The one-point volume of the eight slots vanishes.
-bool without_volume(const Corners& p) {
+bool without_volume(const ElementCorners& p) {
   const Vec a = p[6] - p[0], b = p[7] - p[1], c = p[4] - p[2], d = p[5] - p[3];
   const Vec u = (a + b) - (c + d), v = (a + d) + (b + c), w = (a + d) - (b + c);
   return std::abs(dot(u, cross(v, w))) <= rounding * length(u) * length(v) * length(w);
@@ -79,7 +79,7 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
   const Model& m = *c.model;
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> found;  // part: count, first
   const auto walk = [&](auto width) {
-    Corners p;
+    ElementCorners p;
     for (std::size_t e = 0, size = family.size(); e < size; ++e) {
       if (!corners_of(m.nodes, family.of(e), width, p) || !bad(p)) continue;
       auto& [count, first] = found[family.part[e]];
@@ -102,7 +102,7 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
 void check_area(const LintContext& c, const Rule& rule, Reporter& r) {
   const auto each_family = [&](const Elements& family, std::string_view what) {
     count_bad(c, rule, r, family, what, "without area",
-              [](const Corners& p) { return without_area(p); });
+              [](const ElementCorners& p) { return without_area(p); });
   };
   each_family(c.model->shell4, "shell");
   each_family(c.model->shell3, "triangular shell");
@@ -110,11 +110,11 @@ void check_area(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_volume(const LintContext& c, const Rule& rule, Reporter& r) {
   count_bad(c, rule, r, c.model->solid8, "solid", "without volume",
-            [](const Corners& p) { return p.size() == 8 && without_volume(p); });
+            [](const ElementCorners& p) { return p.size() == 8 && without_volume(p); });
 }
 
 void check_length(const LintContext& c, const Rule& rule, Reporter& r) {
-  const auto short_one = [](const Corners& p) {
+  const auto short_one = [](const ElementCorners& p) {
     return p[0].x == p[1].x && p[0].y == p[1].y && p[0].z == p[1].z;
   };
   count_bad(c, rule, r, c.model->truss, "truss element", "without length", short_one);

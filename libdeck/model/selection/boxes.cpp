@@ -7,7 +7,7 @@
 
 namespace deck {
 
-using detail::Box;
+using detail::BoxVolume;
 using detail::Definition;
 
 namespace detail {
@@ -34,7 +34,7 @@ bool between(double x, double from, double to) {
 
 }  // namespace
 
-bool Box::contains(double x, double y, double z) const {
+bool BoxVolume::contains(double x, double y, double z) const {
   const Vec point{x, y, z};
   switch (type) {
     case Type::none: {
@@ -70,7 +70,7 @@ std::array<double, 3> Selections::Impl::box_point(NodeIndex n) const {
   return {nodes.x[n], nodes.y[n], nodes.z[n]};
 }
 
-const Box* Selections::Impl::box(std::int64_t id, const Block& from, int missing_number) {
+const BoxVolume* Selections::Impl::box(std::int64_t id, const Block& from, int missing_number) {
   if (const auto it = boxes.find(id); it != boxes.end()) return &it->second;
   const Definition* def = definition("box", id);
   if (def == nullptr) {
@@ -90,7 +90,7 @@ const Box* Selections::Impl::box(std::int64_t id, const Block& from, int missing
   }
   if (recursive("box", id, *def->block, 797)) return nullptr;
   const auto guard = open.emplace("box", id).first;
-  Box b;
+  BoxVolume b;
   fill_box(b, *def, decode(deck(), *def->block));
   open.erase(guard);
   return &boxes.emplace(id, std::move(b)).first->second;
@@ -144,19 +144,19 @@ void Selections::Impl::report_box(const Block& block, std::string what, std::str
 }
 
 /// /BOX/BOX: a union of others, less some.
-void Selections::Impl::collect_boxes(Box& b, const Block& block, const DecodedBlock& d) {
+void Selections::Impl::collect_boxes(BoxVolume& b, const Block& block, const DecodedBlock& d) {
   const detail::IdList list = id_list(d);
   if (list.positive.empty() && list.negative.empty())
     report_box(block, "the list of boxes is empty", "list boxes or remove it", 801);
   for (const auto* refs : {&list.positive, &list.negative})
     for (const detail::IdRef& ref : *refs)
-      if (const Box* member = box(ref.id, block, 795)) {
+      if (const BoxVolume* member = box(ref.id, block, 795)) {
         b.members.push_back(member);
         b.subtracted.push_back(refs == &list.negative);
       }
 }
 
-void Selections::Impl::fill_box(Box& b, const Definition& def, const DecodedBlock& d) {
+void Selections::Impl::fill_box(BoxVolume& b, const Definition& def, const DecodedBlock& d) {
   const Block& block = *def.block;
   if (def.type == "BOX") return collect_boxes(b, block, d);
   const auto fail = [&](std::string what, std::string help, int number) {
@@ -195,11 +195,11 @@ void Selections::Impl::fill_box(Box& b, const Definition& def, const DecodedBloc
                                            : blank({"X1", "Y1", "Z1", "X2", "Y2", "Z2"}));
   if (undefined) fail("its limits are not given", "give coordinates or nodes", 752);
   if (sphere) {
-    b.type = Box::Type::sphere;
+    b.type = BoxVolume::Type::sphere;
   } else if (def.type == "CYLIN") {
-    b.type = Box::Type::cylinder;
+    b.type = BoxVolume::Type::cylinder;
   } else {
-    b.type = Box::Type::rectangle;
+    b.type = BoxVolume::Type::rectangle;
     const std::int64_t skew = shift(block, "skew", d.integer("skew_ID"));
     if (skew != 0) {
       b.global = false;

@@ -237,7 +237,7 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
   return out;
 }
 
-Indices Selections::Impl::elements_in_box(const detail::Box& b, ElementKind kind,
+Indices Selections::Impl::elements_in_box(const detail::BoxVolume& b, ElementKind kind,
                                           bool any_node) const {
   const Elements& family = model->family(kind);
   const int count = detail::carrying_nodes(kind);
@@ -260,7 +260,7 @@ Indices Selections::Impl::elements_in_boxes(const Block& block, const std::vecto
                                             ElementKind kind, bool any_node, int missing_number) {
   Indices out;
   for (const IdRef& ref : ids) {
-    const detail::Box* b = box(ref.id, block, missing_number);
+    const detail::BoxVolume* b = box(ref.id, block, missing_number);
     if (b == nullptr) continue;
     const Indices in = elements_in_box(*b, kind, any_node);
     out.insert(out.end(), in.begin(), in.end());

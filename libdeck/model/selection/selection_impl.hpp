@@ -130,7 +130,7 @@ struct Selections::Impl {
   std::map<std::int64_t, SetGeneral> sets;
   std::map<std::int64_t, detail::SetState> set_states;
   std::deque<detail::SetGroup> clause_groups;  ///< what SetState::others points to, beside `own`
-  std::map<std::int64_t, detail::Box> boxes;
+  std::map<std::int64_t, detail::BoxVolume> boxes;
   std::map<std::pair<std::string, std::int64_t>, detail::Indices> element_groups;
   std::map<std::int64_t, detail::Indices> part_groups;
   // Views of sets as other kinds.
@@ -230,7 +230,8 @@ struct Selections::Impl {
   /// Elements of a family whose nodes are all (or, for BOX2, any of them) in one of the boxes.
   detail::Indices elements_in_boxes(const Block& block, const std::vector<detail::IdRef>& ids,
                                     ElementKind kind, bool any_node, int missing_number);
-  detail::Indices elements_in_box(const detail::Box& box, ElementKind kind, bool any_node) const;
+  detail::Indices elements_in_box(const detail::BoxVolume& box, ElementKind kind,
+                                  bool any_node) const;
   std::int64_t element_id(Carrier carrier, std::uint32_t e) const;
 
   // ---- surfaces (selection_surfaces.cpp)
@@ -280,9 +281,9 @@ struct Selections::Impl {
 
   // ---- boxes (boxes.cpp)
   // ------------------------------------------------------------------------------
-  const detail::Box* box(std::int64_t id, const Block& from, int missing_number);
-  void fill_box(detail::Box& b, const detail::Definition& def, const DecodedBlock& d);
-  void collect_boxes(detail::Box& b, const Block& block, const DecodedBlock& d);
+  const detail::BoxVolume* box(std::int64_t id, const Block& from, int missing_number);
+  void fill_box(detail::BoxVolume& b, const detail::Definition& def, const DecodedBlock& d);
+  void collect_boxes(detail::BoxVolume& b, const Block& block, const DecodedBlock& d);
   void report_box(const Block& block, std::string what, std::string help, int number);
   bool skew_axes(std::int64_t id, std::array<Vec, 3>& axes);
   std::array<double, 3> box_point(NodeIndex n) const;

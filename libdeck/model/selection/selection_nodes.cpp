@@ -198,7 +198,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_in_boxes(const Block& block, cons
   std::vector<std::uint8_t> in(model->nodes.size(), 0);
   const auto apply = [&](const std::vector<IdRef>& refs, std::uint8_t value) {
     for (const IdRef& ref : refs) {
-      const detail::Box* b = box(ref.id, block, 794);
+      const detail::BoxVolume* b = box(ref.id, block, 794);
       if (b == nullptr) continue;
       for (NodeIndex n = 0; n < model->nodes.size(); ++n) {
         const auto p = box_point(n);

@@ -359,7 +359,7 @@ class ClauseReader {
     const bool any_node = clause_.kind == "BOX2";
     const std::int64_t offset = all_.deck().offset_of(block_, "box");
     for (const IdRef& ref : clause_.ids) {
-      const Box* b = all_.box(ref.id + offset, block_, 796);
+      const BoxVolume* b = all_.box(ref.id + offset, block_, 796);
       if (b == nullptr) continue;
       for (std::size_t k = 0; k < SetGroup::families; ++k) {
         const Indices in = all_.elements_in_box(*b, static_cast<ElementKind>(k), any_node);
