@@ -8,7 +8,7 @@
 #include "accuracy/shared/choice.hpp"
 #include "accuracy/shared/thread_time.hpp"
 #include "accuracy/words.hpp"
-#include "contact/distance/exact.hpp"
+#include "contact/shared/exact.hpp"
 #include "contact/shared/filtered.hpp"
 
 namespace deck {

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "contact/distance/exact.hpp"
+#include "contact/shared/exact.hpp"
 #include "contact/shared/dd.hpp"
 
 namespace deck {

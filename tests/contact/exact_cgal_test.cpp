@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/distance/exact.hpp"
+#include "contact/shared/exact.hpp"
 #include "contact/search_scenes.hpp"
 #include "contact/shared/exact_number.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "accuracy/shared/choice.hpp"
 #include "accuracy/shared/motion.hpp"
-#include "contact/distance/exact.hpp"
+#include "contact/shared/exact.hpp"
 #include "contact/shared/filtered.hpp"
 #include "contact/small_deck.hpp"
 

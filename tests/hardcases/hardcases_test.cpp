@@ -10,7 +10,7 @@
 
 #include "accuracy/pair_rewriting.hpp"
 #include "accuracy/shared/accuracy.hpp"
-#include "contact/distance/exact.hpp"
+#include "contact/shared/exact.hpp"
 #include "contact/shared/filtered.hpp"
 
 namespace deck {

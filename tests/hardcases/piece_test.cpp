@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "contact/distance/exact.hpp"
+#include "contact/shared/exact.hpp"
 
 namespace deck {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "accuracy/shared/accuracy.hpp"
-#include "contact/distance/exact.hpp"
+#include "contact/shared/exact.hpp"
 #include "contact/shared/filtered.hpp"
 #include "where.hpp"
 

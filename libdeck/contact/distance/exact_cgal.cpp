@@ -1,6 +1,6 @@
 // Exact distances: the closest-point templates on CGAL's exact numbers. Regions are chosen by
 // intervals where these suffice.
-#include "contact/distance/exact.hpp"
+#include "contact/shared/exact.hpp"
 
 #include <CGAL/number_utils.h>
 

@@ -2,7 +2,7 @@
 // numbers.
 #include "contact/shared/filtered.hpp"
 
-#include "contact/distance/exact.hpp"
+#include "contact/shared/exact.hpp"
 #include "contact/distance/filtered_bounds.hpp"
 #include "contact/distance/filtered_piece.hpp"
 #include "contact/distance/fused.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/distance/exact.hpp"
+#include "contact/shared/exact.hpp"
 #include "contact/rules/actions.hpp"
 
 namespace deck {
