@@ -310,7 +310,7 @@ bool Differ::same_word(const std::string& x, const std::string& y) {
 
 void Differ::id_lists(const Item& a, const Item& b, const std::string& name, const Contents& ca,
                       const Contents& cb) {
-  std::set<std::int64_t> now;
+  std::multiset<std::int64_t> now;
   if (const auto it = cb.lists.find(name); it != cb.lists.end())
     for (const auto& [id, kind] : it->second) now.insert(id);
   std::vector<std::int64_t> lost;
@@ -319,7 +319,10 @@ void Differ::id_lists(const Item& a, const Item& b, const std::string& name, con
       const std::int64_t to =
           kind.empty() ? std::abs(id) : pairs_.mapped(a_, b_, kind, std::abs(id));
       const std::int64_t there = (to == 0 ? std::abs(id) : to) * (id < 0 ? -1 : 1);
-      if (now.erase(there) == 0) lost.push_back(id);
+      if (const auto same = now.find(there); same != now.end())
+        now.erase(same);
+      else
+        lost.push_back(id);
     }
   if (lost.empty() && now.empty()) return;
   Change& c = add(ChangeKind::changed, a, &b, name);

@@ -91,7 +91,10 @@ def configuration(c, tmp):
 
 def baseline(c, tmp):
     deck = os.path.join(tmp, "base_0000.rad")
-    shutil.copy(MISTAKES, deck)
+    with open(MISTAKES, encoding="utf-8") as f:
+        mistakes = f.read()
+    with open(deck, "w", encoding="utf-8") as f:
+        f.write(mistakes.replace(" nan", " 0.0"))  # a contact that cannot be evaluated fails in spite of a baseline
     file = os.path.join(tmp, "baseline.json")
     c.run("lint", deck, "--write-baseline", file, "--fail-on", "never")
     r, d = lint(c, deck, "--baseline", file)

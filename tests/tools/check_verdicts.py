@@ -80,11 +80,12 @@ def compare(c, deck, folder):
         interfaces = json.loads(fix.out)["interfaces"]
         before = sum(i["before"]["pairs"] for i in interfaces)
         c.check("%s: fix has the verdict of gaps" % name, json.loads(fix.out)["verdict"] == gaps, "%s, gaps %s" % (json.loads(fix.out)["verdict"], gaps))
-        c.check("%s: fix begins with the pairs of gaps" % name, before == gaps["counts"].get("pairs", 0), "%s, gaps %s" % (before, gaps["counts"]))
+        refused = gaps["counts"].get("not_evaluated", 0) > 0  # then it fixes nothing, and counts no pairs
+        c.check("%s: fix begins with the pairs of gaps" % name, refused or before == gaps["counts"].get("pairs", 0), "%s, gaps %s" % (before, gaps["counts"]))
 
 
 NO_NUMBER = re.compile(r"\b(?:inf|nan)\b|e\+30[0-9]", re.I)
-QUOTED = re.compile(r"^ *\d* *\|.*$|'[^']*'", re.M)  # lines of the deck, and cells as they are written
+QUOTED = re.compile(r"^ *\d* *\|.*$|'[^']*'|\"input\": \"[^\"]*\"", re.M)  # lines of the deck, and cells as they are written
 
 
 def no_such_number(c, deck, folder):

@@ -10,6 +10,7 @@
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "deck/contact/view.hpp"
+#include "deck/lint/lint.hpp"
 #include "deck/model/coverage.hpp"
 #include "deck/text/number.hpp"
 #include "edit/shared/move_part.hpp"
@@ -30,6 +31,7 @@ class FixRun {
 
   int one(LoadedDeck& loaded) {
     const bool errors = print_findings(loaded, o_.common) > 0;
+    report_solver_errors(loaded);  // what the Starter does follows from them too
     if (loaded.incomplete()) {
       print_error(o_.common, loaded.path() + ": not fixed, the include tree is not complete");
       return exit_input;
@@ -144,6 +146,7 @@ class FixRun {
         return Error{Error::Code::io, loaded.path() + ": a file of the deck cannot be read again"};
       result.emplace(std::move(*again));
       result->set_scene_options(loaded.scene_options());
+      report_solver_errors(*result);
     }
     const LoadedDeck& deck = result ? *result : loaded;
     const Verdict verdict = verdict_of(deck);
