@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <type_traits>
 
 #include "deck/text/number.hpp"
 #include "keyword/shared/references.hpp"
@@ -34,6 +35,13 @@ auto Differ::fields_of(const DiffSide& side, const InterBase& inter) const
   const DecodedBlock d = decode(side.loaded.deck(), *inter.block);
   const ImpliedOnes ones = implied_ones(d);
   visit_any_interface(inter, [&](const auto& t) {
+    DecodedBlock counting = d;  // with the flags that count
+    t.for_each([&](std::string_view name, const auto& e) {
+      if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(e.value)>>)
+        for (DecodedCard& card : counting.cards)
+          for (Cell& cell : card.cells)
+            if (cell.field->name == name) cell.integer = e.value;
+    });
     t.for_each([&](std::string_view name, const auto& e) {
       FieldValue f;
       f.name = name;
@@ -50,6 +58,8 @@ auto Differ::fields_of(const DiffSide& side, const InterBase& inter) const
           f.dimension = name == "Stfac" && constant_stiffness(inter) ? stiffness_dimension
                         : name == "Stfac"                            ? Dimension{}
                                                                      : dimension_of(*field, d);
+        f.effective_dimension =
+            name == "Stfac" ? f.dimension : dimension_of(*field, counting);
         const Cell* cell = d.find(name);
         const bool scale = !field->unit_for.empty() || is_scale(*inter.block->schema, name);
         f.counts = scale ? ones.cells.contains(cell) || ones.absent.contains(field->name)
@@ -93,7 +103,7 @@ void Differ::contact(const Item& a, const Item& b, const InterBase& ia, const In
   const std::vector<FieldValue> fa = fields_of(a_, ia), fb = fields_of(b_, ib);
   for (std::size_t i = 0; i < fa.size() && i < fb.size(); ++i) {
     const DiffValue input = in_first_units(fb[i].input, fb[i].dimension);
-    const DiffValue effective = in_first_units(fb[i].effective, fb[i].dimension);
+    const DiffValue effective = in_first_units(fb[i].effective, fb[i].effective_dimension);
     // Values from the mesh are sums that may have another order.
     if (same_value(fa[i].effective, effective, fa[i].ref, size_of(fa[i].dimension), true)) continue;
     if (functions_.same_cell(*a.block, {fa[i].name, 0, 0})) continue;

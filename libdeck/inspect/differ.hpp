@@ -55,7 +55,7 @@ class Differ {
     bool has_input = false;
     std::string why;
     Span span;
-    Dimension dimension;
+    Dimension dimension, effective_dimension;  ///< by the flags as written, and as they count
     std::string ref;
     bool counts = false;  ///< its default is a number that other units change
   };

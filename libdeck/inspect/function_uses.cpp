@@ -245,12 +245,13 @@ void FunctionUses::compare_springs(const Named& na, const Named& nb,
     const std::string k = na.cells.contains({"K", 0, 0}) ? "K" : "K" + row.row;
     if (na.decoded.real(k) != 0 && !same(a->value, b->value) && !same(a->value, in_first(*b)))
       scales[key] = false;
-    for (const std::string& name : {"B" + row.row, row.e()}) {
+    const std::string of_speed = nb.cells.contains({"B" + row.row, 0, 0}) ? "B" + row.row : "B1";
+    for (const std::string& name : {of_speed, row.e()}) {
       const CellKey other{name, 0, 0};
       const auto x = na.cells.find(other), y = nb.cells.find(other);
       if (x == na.cells.end() || y == nb.cells.end() || scales.contains(other)) continue;
       scales[other] = same(na.number(x) / a->value, nb.number(y) / b->value);
-      const bool counts = name == "B" + row.row || na.decoded.integer(row.second) != 0 ||
+      const bool counts = name == of_speed || na.decoded.integer(row.second) != 0 ||
                           nb.decoded.integer(row.second) != 0;
       if (!scales[other] && counts) scales[key] = false;
     }
