@@ -58,8 +58,7 @@ auto Differ::fields_of(const DiffSide& side, const InterBase& inter) const
           f.dimension = name == "Stfac" && constant_stiffness(inter) ? stiffness_dimension
                         : name == "Stfac"                            ? Dimension{}
                                                                      : dimension_of(*field, d);
-        f.effective_dimension =
-            name == "Stfac" ? f.dimension : dimension_of(*field, counting);
+        f.effective_dimension = name == "Stfac" ? f.dimension : dimension_of(*field, counting);
         const Cell* cell = d.find(name);
         const bool scale = !field->unit_for.empty() || is_scale(*inter.block->schema, name);
         f.counts = scale ? ones.cells.contains(cell) || ones.absent.contains(field->name)

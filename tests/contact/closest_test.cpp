@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "contact/shared/exact.hpp"
 #include "contact/shared/dd.hpp"
+#include "contact/shared/exact.hpp"
 
 namespace deck {
 namespace {

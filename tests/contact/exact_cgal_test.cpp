@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/shared/exact.hpp"
 #include "contact/search_scenes.hpp"
+#include "contact/shared/exact.hpp"
 #include "contact/shared/exact_number.hpp"
 
 namespace deck {

@@ -2,10 +2,10 @@
 // numbers.
 #include "contact/shared/filtered.hpp"
 
-#include "contact/shared/exact.hpp"
 #include "contact/distance/filtered_bounds.hpp"
 #include "contact/distance/filtered_piece.hpp"
 #include "contact/distance/fused.hpp"
+#include "contact/shared/exact.hpp"
 
 namespace deck {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/shared/exact.hpp"
 #include "contact/rules/actions.hpp"
+#include "contact/shared/exact.hpp"
 
 namespace deck {
 

@@ -1,10 +1,10 @@
 // Distances and depths as exact as they are asked for, by the brackets of the filtered decisions.
 #include <cmath>
 
-#include "contact/shared/exact.hpp"
 #include "contact/distance/filtered_bounds.hpp"
 #include "contact/distance/filtered_piece.hpp"
 #include "contact/distance/fused.hpp"
+#include "contact/shared/exact.hpp"
 
 namespace deck {
 
