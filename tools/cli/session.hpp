@@ -49,9 +49,9 @@ class Session {
   Result<void> check_output(const std::string& path, const OutputRules& rules = {},
                             std::optional<std::string_view> bytes = std::nullopt,
                             std::string_view origin = {}) const;
-  /// The files that a call is told to write, before its work begins: none may be protected, and no
-  /// two be one. "" and "-" are no files. Every write looks at all of them before it begins: what
-  /// was read by then is protected as well, so that a refusal means that nothing was written.
+  /// Registers the files that a call will write, before its work begins. Error: a file is
+  /// protected, or two names lead to the same file. "" and "-" are no files. Every write checks all
+  /// of them again, also against the files read since; if one is refused, none is written.
   Result<void> claim_outputs(const std::vector<std::string>& paths);
   Result<void> check_claimed() const;
   /// The same for files with their contents, none of which may be a claimed one.

@@ -35,7 +35,8 @@ struct KindResult {
   bool in_contact = false;             // exactly
 };
 
-// A pair of a deck that a word decides wrongly. A distance that nothing computes is not a number.
+// A pair of a deck for which one --accuracy gives the wrong decision. A distance that was not
+// computed is NaN.
 struct WrongPair {
   std::int64_t interface = 0;
   std::vector<std::int64_t> secondary, main;  // node ids

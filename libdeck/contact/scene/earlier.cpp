@@ -151,7 +151,7 @@ void find_lost_ties(const EarlierGaps& earlier, const Scene& scene, GapsComparis
   }
 }
 
-/// Ids of interfaces of which nobody knows now whether something penetrates there.
+/// Ids of interfaces with a contact that was not evaluated: their penetrations are unknown.
 std::set<std::int64_t> undecided_interfaces(const Scene& scene) {
   std::set<std::int64_t> out;
   for (const Contact& c : scene.contacts)

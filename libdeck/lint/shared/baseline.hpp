@@ -29,7 +29,7 @@ class Baseline {
   /// Error: a line names no deck, or the text has the form of an earlier version; then with the
   /// command that writes it anew.
   static Result<Baseline> parse(std::string_view text, const std::string& path, Kind kind);
-  /// True if the text has the form of an earlier version, of which nothing can be kept.
+  /// True if the text is a baseline in the format of an earlier version. It cannot be read.
   static bool is_of_earlier_form(std::string_view text);
 
   const std::string& path() const { return path_; }
