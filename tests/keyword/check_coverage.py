@@ -14,6 +14,7 @@ import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "robustness"))
 from common import ROOT, SAMPLES, Checks  # noqa: E402
+from schema_files import keyword_schemas  # noqa: E402
 
 LEAST_SHARE = 0.999  # of data lines; the samples hold unknown keywords on purpose
 LEAST_FULL = 370  # keywords
@@ -22,13 +23,10 @@ LEAST_FULL = 370  # keywords
 def keywords():
     """{how well: [keywords]}"""
     found = collections.defaultdict(list)
-    for path in sorted(glob.glob(os.path.join(ROOT, "schemas", "keywords", "*.json"))):
-        with open(path, encoding="utf-8") as f:
-            document = json.load(f)
-        for s in document.get("schemas", [document]):
-            full = not s.get("opaque_tail") or s.get("full_layout")
-            how = "in full" if full else "in part" if s.get("cards") else "by name"
-            found[how] += [s["keyword"]] + s.get("aliases", [])
+    for s in keyword_schemas():
+        full = not s.get("opaque_tail") or s.get("full_layout")
+        how = "in full" if full else "in part" if s.get("cards") else "by name"
+        found[how] += [s["keyword"]] + s.get("aliases", [])
     return found
 
 

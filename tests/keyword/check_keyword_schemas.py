@@ -14,6 +14,7 @@ import re
 import sys
 
 import jsonschema
+from schema_files import keyword_schemas
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GOOD = {"keyword": "/A", "doc": "d", "cards": [{"name": "c", "fields": [
@@ -113,11 +114,9 @@ def check_limits():
     validator = jsonschema.Draft202012Validator(
         json.loads((ROOT / "schemas/limits.schema.json").read_text(encoding="utf-8")))
     cells = {}
-    for file in (ROOT / "schemas/keywords").glob("*.json"):
-        family = json.loads(file.read_text(encoding="utf-8"))
-        for keyword in family.get("schemas", [family]):
-            cells[keyword["keyword"]] = {field["name"]: field["type"] for card in keyword.get("cards", [])
-                                         for field in card.get("fields", [])}
+    for keyword in keyword_schemas():
+        cells[keyword["keyword"]] = {field["name"]: field["type"] for card in keyword.get("cards", [])
+                                     for field in card.get("fields", [])}
     passed = failed = 0
     for file in sorted((ROOT / "schemas/limits").glob("*.json")):
         table = json.loads(file.read_text(encoding="utf-8"))

@@ -14,6 +14,7 @@ import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "robustness"))
 from common import ROOT, Checks  # noqa: E402
+from schema_files import keyword_schemas  # noqa: E402
 
 VERSIONS = (2026, 2021, 110)
 EVERY_VERSION = (90, 100, 110, 120, 130, 140) + tuple(range(2017, 2027))  # with --all
@@ -26,14 +27,10 @@ LEFT_OUT = ("/BEGIN", "/END", "/TITLE", "//", "/UNIT", "/CNODE", "/ENCRYPTED", "
 
 
 def schemas():
-    folder = os.path.join(ROOT, "schemas", "keywords")
-    for name in sorted(os.listdir(folder)):
-        with open(os.path.join(folder, name), encoding="utf-8") as f:
-            document = json.load(f)
-        for schema in document.get("schemas", [document]):
-            for card in schema.get("cards", []):
-                card.setdefault("fields", [])  # of a blank line
-            yield schema
+    for schema in keyword_schemas():
+        for card in schema.get("cards", []):
+            card.setdefault("fields", [])  # of a blank line
+        yield schema
 
 
 def described(schema, version):

@@ -40,51 +40,6 @@ std::string with_cards(const std::string& list) {
 // ---------------------------------------------------------------------------------------------
 // The built-in files
 
-TEST(BuiltInSchemas, EveryFileLoadsAndNoneIsLost) {
-  SchemaSet set;
-  std::size_t files = 0;
-  for (const auto& file : detail::embedded_schemas()) {
-    const auto added = set.add_json(file.name, file.text);
-    EXPECT_TRUE(added) << added.error().message;
-    ++files;
-  }
-  EXPECT_GT(files, 20u);
-  EXPECT_GT(set.all().size(), 500u);
-  EXPECT_EQ(set.all().size(), SchemaSet::built_in().all().size());
-}
-
-TEST(BuiltInSchemas, TheTextIsThatOfTheFileByteForByte) {
-  const auto compare = [](const std::vector<detail::EmbeddedFile>& files, const char* folder) {
-    for (const auto& file : files) {
-      std::ifstream in(test::source_dir() / "schemas" / folder / file.name, std::ios::binary);
-      const std::string text{std::istreambuf_iterator<char>(in), {}};
-      ASSERT_FALSE(text.empty()) << file.name;
-      EXPECT_TRUE(file.text == text) << file.name;
-    }
-  };
-  compare(detail::embedded_schemas(), "keywords");
-  compare(detail::embedded_rules(), "rules");
-}
-
-TEST(BuiltInSchemas, ParsingOnFirstUseGivesWhatParsingAtOnceGives) {
-  for (const auto& file : detail::embedded_schemas()) {
-    SchemaSet set;
-    ASSERT_TRUE(set.add_json(file.name, file.text));
-    for (const auto* eager : set.all()) {
-      auto names = eager->aliases;
-      names.push_back(eager->keyword);
-      for (const auto& name : names) {
-        const auto* lazy = SchemaSet::built_in().find(name);
-        ASSERT_NE(lazy, nullptr) << name;
-        EXPECT_EQ(lazy->keyword, eager->keyword);
-        EXPECT_EQ(lazy->doc, eager->doc);
-        EXPECT_EQ(lazy->cards.size(), eager->cards.size());
-        EXPECT_EQ(lazy->source, file.name);
-      }
-    }
-  }
-}
-
 TEST(BuiltInSchemas, MayBeAskedForByManyThreadsAtOnce) {
   const auto& set = SchemaSet::built_in();
   std::vector<std::thread> threads;
@@ -95,31 +50,27 @@ TEST(BuiltInSchemas, MayBeAskedForByManyThreadsAtOnce) {
   for (const auto* s : seen[0]) EXPECT_FALSE(s->keyword.empty());
 }
 
-TEST(SplitSchemas, FindsNamesInAnyOrderAndIgnoresThoseOfFields) {
-  const auto one = detail::split_schemas(
-      R"({"$schema":"x","cards":[{"name":"keyword","fields":[{"keyword":"/no"}]}],)"
-      R"("doc":"\"}{[","aliases":["/B","/C"],"keyword":"/A"})");
-  ASSERT_EQ(one.size(), 1u);
-  EXPECT_EQ(one[0].keyword, "/A");
-  EXPECT_EQ(one[0].aliases, (std::vector<std::string>{"/B", "/C"}));
-  const auto two = detail::split_schemas(R"({"schemas":[{"keyword":"/A"},{"keyword":"/B"}]})");
-  ASSERT_EQ(two.size(), 2u);
-  EXPECT_EQ(two[1].keyword, "/B");
-  EXPECT_EQ(two[1].text, R"({"keyword":"/B"})");
-  EXPECT_TRUE(two[1].aliases.empty());
-}
-
-TEST(BuiltInSchemas, NoTwoFilesDescribeTheSameKeyword) {
-  std::map<std::string, std::string> owner;
-  for (const auto& file : detail::embedded_schemas()) {
-    SchemaSet alone;
-    ASSERT_TRUE(alone.add_json(file.name, file.text));
-    for (const auto* s : alone.all()) {
-      EXPECT_TRUE(owner.emplace(s->keyword, file.name).second) << s->keyword;
-      for (const auto& alias : s->aliases)
-        EXPECT_TRUE(owner.emplace(alias, file.name).second) << alias;
-    }
-  }
+TEST(Schemas, ATableGivesOneSchemaForEachRow) {
+  SchemaSet set;
+  const auto added = set.add_json("x.json", R"({"schemas":[{
+    "for":[["G","kind"],["GRA","shell"],["GRB","sh3n"]],"schemas":[
+      {"for":[["S"],["{G}"],["PART"]],"schemas":[
+        {"keyword":"/{G}/{S}","aliases":["/{S}/{G}/X"],"kind":"{kind}","doc":"{G} {?} {G}"}]}]}]})");
+  ASSERT_TRUE(added) << added.error().message;
+  EXPECT_EQ(set.all().size(), 4u);
+  const Schema* of_b = set.find("/PART/GRB/X");
+  ASSERT_NE(of_b, nullptr);
+  EXPECT_EQ(of_b->keyword, "/GRB/PART");
+  EXPECT_EQ(of_b->kind, "sh3n");
+  EXPECT_EQ(of_b->doc, "GRB {?} GRB");
+  EXPECT_NE(set.find("/GRA/GRA"), nullptr);
+  const auto error = [](const std::string& table) {
+    return error_of(R"({"schemas":[{"for":)" + table + R"(,"schemas":[{"keyword":"/A"}]}]})");
+  };
+  EXPECT_THAT(error(R"([["G"]])"), HasSubstr("/schemas/0/for: expected a row of names"));
+  EXPECT_THAT(error(R"([["G"],["a","b"]])"), HasSubstr("/schemas/0/for/1: expected 1 words"));
+  EXPECT_THAT(error(R"([["G"],[1]])"), HasSubstr("/schemas/0/for/1/0: expected text"));
+  EXPECT_THAT(error_of(R"({"schemas":[{"for":[["G"],["a"]]}]})"), HasSubstr("schemas\" is missing"));
 }
 
 TEST(BuiltInSchemas, CellsOverlapInNoVersionUnlessConditionsTellThemApart) {

@@ -4,15 +4,12 @@ import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { cellScopes } from "../../tools/vscode/grammar.mjs";
+import { cellScopes, schemasOf } from "../../tools/vscode/grammar.mjs";
 import { tokens } from "./engine.mjs";
 
 const { ROOT } = process.env;
 const samples = ["samples", "samples/include_tree"].flatMap((d) => readdirSync(join(ROOT, d)).filter((f) => /\.(rad|inc)$/.test(f)).map((f) => join(ROOT, d, f)));
-const schemas = readdirSync(join(ROOT, "schemas/keywords")).flatMap((f) => {
-  const d = JSON.parse(readFileSync(join(ROOT, "schemas/keywords", f), "utf8"));
-  return d.schemas ?? [d];
-});
+const schemas = readdirSync(join(ROOT, "schemas/keywords")).flatMap((f) => schemasOf(JSON.parse(readFileSync(join(ROOT, "schemas/keywords", f), "utf8"))));
 const known = new Map(schemas.flatMap((s) => [s.keyword, ...(s.aliases ?? [])].map((k) => [k, s])));
 function schemaOf(header) {
   const fields = header.split(/\s/)[0].split("/");

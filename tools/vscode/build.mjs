@@ -6,7 +6,7 @@ import { createRequire } from "node:module";
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { grammar } from "./grammar.mjs";
+import { grammar, schemasOf } from "./grammar.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = resolve(here, "../..");
@@ -19,10 +19,10 @@ const esbuild = createRequire(join(modules, "x.js"))("esbuild");
 /** All keyword schemas of the project. */
 export function schemas() {
   const folder = join(root, "schemas/keywords");
-  return readdirSync(folder).filter((f) => f.endsWith(".json")).sort().flatMap((f) => {
-    const data = JSON.parse(readFileSync(join(folder, f), "utf8"));
-    return data.schemas ?? [data];
-  });
+  return readdirSync(folder)
+    .filter((f) => f.endsWith(".json"))
+    .sort()
+    .flatMap((f) => schemasOf(JSON.parse(readFileSync(join(folder, f), "utf8"))));
 }
 
 const bundle = (entry, outfile, more) =>

@@ -5,6 +5,19 @@
 // cells of cards that every newer deck has in this place. Where the next card depends on what an earlier
 // one says, cells are coloured by what stands in them.
 
+/** The schemas of a file: tables ("for") written out, a schema for each row. */
+export function schemasOf(document) {
+  const filled = (json, row) =>
+    JSON.parse(JSON.stringify(json), (_, v) => (typeof v === "string" ? row.reduce((text, [name, word]) => text.replaceAll(`{${name}}`, word), v) : v));
+  const written = (list) =>
+    list.flatMap((item) => {
+      if (!item.for) return [item];
+      const [names, ...rows] = item.for;
+      return rows.flatMap((words) => written(filled(item.schemas, names.map((name, k) => [name, words[k]]))));
+    });
+  return written(document.schemas ?? [document]);
+}
+
 /** Scopes of cells by the type of the field; themes have colours for what comes before '.radioss'. */
 export const cellScopes = {
   id: "variable.other.id.radioss",

@@ -10,7 +10,14 @@ struct EmbeddedFile {
   std::string_view text;
 };
 
-const std::vector<EmbeddedFile>& embedded_schemas();   // schemas/keywords/*.json
+/// A keyword of schemas/keywords/*.json.
+struct EmbeddedSchema {
+  const char* file;   ///< without folder
+  const char* names;  ///< the keyword and its aliases, one a line
+  const char* text;   ///< its JSON object, checked by the build
+};
+
+const std::vector<EmbeddedSchema>& embedded_schemas();
 const std::vector<EmbeddedFile>& embedded_rules();     // schemas/rules/*.md
 const std::vector<EmbeddedFile>& embedded_limits();    // schemas/limits/*.json
 const std::vector<EmbeddedFile>& embedded_messages();  // schemas/messages/*.json

@@ -14,6 +14,15 @@
 #include "deck/text/number.hpp"
 #include "text/shared/read_json.hpp"
 
+namespace deck {
+
+bool is_known_version(int version) {
+  const auto& known = detail::known_versions();
+  return std::binary_search(known.begin(), known.end(), version);
+}
+
+}  // namespace deck
+
 namespace deck::detail {
 namespace {
 
@@ -551,33 +560,106 @@ class DuplicateKeys {
   std::vector<std::set<std::string>> open_;
 };
 
-}  // namespace
+/// The names of a "for" table and one of its rows.
+struct Row {
+  const Json* names;
+  const Json* values;
+};
 
-Result<std::vector<Schema>> parse_schemas(std::string_view name, std::string_view text,
-                                          bool look_for_twins) {
-  try {
-    if (look_for_twins && is_nested_too_deep(text)) throw Wrong{"nested too deep for a schema"};
-    DuplicateKeys duplicates;
-    const auto json =
-        look_for_twins ? Json::parse(text, [&](int, Json::parse_event_t event,
-                                               Json& parsed) { return duplicates(event, parsed); })
-                       : Json::parse(text);
-    std::vector<Schema> schemas;
-    if (json.is_object() && json.contains("schemas")) {
-      const Path root;
-      expect_object(json, root, {"$schema", "schemas"});
-      const auto list = at(root, "schemas");
-      for (const auto& item : expect_array(json["schemas"], list))
-        schemas.push_back(schema_of(item, at(list, schemas.size()), name));
-    } else {
-      schemas.push_back(schema_of(json, {}, name));
+/// `json` with each "{name}" of a text replaced by the word of the row.
+Json filled(const Json& json, const Row& row) {
+  Json out = json;
+  if (json.is_string()) {
+    auto text = json.get<std::string>();
+    for (std::size_t k = 0; k < row.names->size(); ++k) {
+      const std::string name = "{" + (*row.names)[k].get<std::string>() + "}";
+      const auto word = (*row.values)[k].get<std::string>();
+      for (auto p = text.find(name); p != std::string::npos; p = text.find(name, p + word.size()))
+        text.replace(p, name.size(), word);
     }
-    return schemas;
+    out = text;
+  } else if (json.is_structured()) {
+    for (auto& item : out) item = filled(item, row);
+  }
+  return out;
+}
+
+void add_schemas(const Json& list, const Path& path, std::string_view source,
+                 std::vector<ReadSchema>& out);
+
+/// A table of words, and the schemas that are read once for each of its rows:
+/// {"for": [[NAME, ...], [WORD, ...], ...], "schemas": [...]}.
+void add_family(const Json& family, const Path& path, std::string_view source,
+                std::vector<ReadSchema>& out) {
+  expect_object(family, path, {"for", "schemas"});
+  require(family, path, "schemas");
+  const auto here = at(path, "for");
+  const Json& table = expect_array(family["for"], here);
+  if (table.size() < 2) fail(here, "expected a row of names and rows of words");
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    const auto entry = at(here, k);
+    names_of(table[k], entry);
+    if (table[k].size() != table[0].size())
+      fail(entry, fmt::format("expected {} words, one for each name", table[0].size()));
+    if (k > 0)
+      add_schemas(filled(family["schemas"], {&table[0], &table[k]}), at(path, "schemas"), source,
+                  out);
+  }
+}
+
+void add_schemas(const Json& list, const Path& path, std::string_view source,
+                 std::vector<ReadSchema>& out) {
+  std::size_t n = 0;
+  for (const auto& item : expect_array(list, path)) {
+    const auto here = at(path, n++);
+    if (item.is_object() && item.contains("for"))
+      add_family(item, here, source, out);
+    else
+      out.push_back({schema_of(item, here, source), item.dump()});
+  }
+}
+
+/// What `read` gives; what it throws as an error that begins with the name of the text.
+template <class Read>
+auto reading(std::string_view name, const Read& read) -> Result<decltype(read())> {
+  try {
+    return read();
   } catch (const Wrong& wrong) {
     return Error{Error::Code::config, fmt::format("{}: {}", name, wrong.what)};
   } catch (const Json::exception& error) {
     return Error{Error::Code::config, fmt::format("{}: not valid JSON: {}", name, error.what())};
   }
+}
+
+}  // namespace
+
+const std::vector<int>& known_versions() {
+  static const std::vector<int> versions = {51,   90,   100,  110,  120,  130,  140,  2017, 2018,
+                                            2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
+  return versions;
+}
+
+Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_view text) {
+  return reading(name, [&] {
+    if (is_nested_too_deep(text)) throw Wrong{"nested too deep for a schema"};
+    DuplicateKeys duplicates;
+    const auto json = Json::parse(text, [&](int, Json::parse_event_t event, Json& parsed) {
+      return duplicates(event, parsed);
+    });
+    std::vector<ReadSchema> schemas;
+    if (json.is_object() && json.contains("schemas")) {
+      const Path root;
+      expect_object(json, root, {"$schema", "schemas"});
+      add_schemas(json["schemas"], at(root, "schemas"), name, schemas);
+    } else {
+      schemas.push_back({schema_of(json, {}, name), json.dump()});
+    }
+    return schemas;
+  });
+}
+
+Result<Schema> read_checked_schema(std::string_view name, std::string_view text) {
+  return reading(name, [&] { return schema_of(Json::parse(text), {}, name); });
 }
 
 }  // namespace deck::detail

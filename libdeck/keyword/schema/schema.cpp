@@ -1,5 +1,5 @@
 // SchemaSet: the table of keywords and aliases, and the search for the longest one that begins a
-// header; the input versions. Reading the JSON is in json.cpp.
+// header. Reading the JSON is in json.cpp.
 #include "deck/keyword/schema.hpp"
 
 #include <fmt/format.h>
@@ -16,21 +16,6 @@
 #include "keyword/schema/json.hpp"
 
 namespace deck {
-namespace detail {
-
-const std::vector<int>& known_versions() {
-  static const std::vector<int> versions = {51,   90,   100,  110,  120,  130,  140,  2017, 2018,
-                                            2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
-  return versions;
-}
-
-}  // namespace detail
-
-bool is_known_version(int version) {
-  const auto& known = detail::known_versions();
-  return std::binary_search(known.begin(), known.end(), version);
-}
-
 bool Condition::holds(std::int64_t value) const {
   if (!in.empty() && std::find(in.begin(), in.end(), value) == in.end()) return false;
   if (std::find(not_in.begin(), not_in.end(), value) != not_in.end()) return false;
@@ -72,12 +57,12 @@ const Field* Schema::find_field(std::string_view name) const {
 struct SchemaSet::Entry {
   std::string keyword;
   std::string source;
-  std::string_view text;  ///< of the built-in schemas, which live as long as the program
+  const char* text = nullptr;  ///< of the built-in schemas, which live as long as the program
 
   explicit Entry(Schema parsed)
       : keyword(parsed.keyword), source(parsed.source), schema_(std::move(parsed)), ready_(true) {}
-  Entry(std::string name, std::string file, std::string_view json)
-      : keyword(std::move(name)), source(std::move(file)), text(json) {}
+  Entry(std::string_view name, const detail::EmbeddedSchema& schema)
+      : keyword(name), source(schema.file), text(schema.text) {}
 
   const Schema& get() const {
     if (!ready_.load(std::memory_order_acquire)) {
@@ -85,9 +70,8 @@ struct SchemaSet::Entry {
       // own frames, finds no memory for that either and ends the process.
       const std::lock_guard lock(parsing_);
       if (!ready_.load(std::memory_order_relaxed)) {
-        // The built-in files are checked by the tests of the build, so parsing cannot fail here.
-        if (auto parsed = detail::parse_schemas(source, text, false))
-          schema_ = std::move(parsed->front());
+        // The build has checked them, so parsing cannot fail here.
+        if (auto parsed = detail::read_checked_schema(source, text)) schema_ = std::move(*parsed);
         ready_.store(true, std::memory_order_release);
       }
     }
@@ -103,38 +87,29 @@ struct SchemaSet::Entry {
 const SchemaSet& SchemaSet::built_in() {
   static const SchemaSet set = [] {
     SchemaSet all;
-    for (const auto& file : detail::embedded_schemas())
-      for (auto& piece : detail::split_schemas(file.text)) {
-        const auto entry = std::make_shared<const Entry>(piece.keyword, file.name, piece.text);
-        all.by_name_.emplace(std::move(piece.keyword), entry);
-        for (auto& alias : piece.aliases) all.by_name_.emplace(std::move(alias), entry);
+    for (const auto& schema : detail::embedded_schemas()) {
+      std::string_view names = schema.names;
+      const auto entry = std::make_shared<const Entry>(names.substr(0, names.find('\n')), schema);
+      while (!names.empty()) {
+        const std::size_t end = std::min(names.find('\n'), names.size());
+        all.by_name_.emplace(names.substr(0, end), entry);
+        names.remove_prefix(std::min(end + 1, names.size()));
       }
+    }
     return all;
   }();
   return set;
 }
 
-namespace {
-
-/// Keywords of a text that say what their cards are, an empty list included.
-std::set<std::string, std::less<>> with_cards(std::string_view text) {
-  std::set<std::string, std::less<>> keywords;
-  for (const auto& piece : detail::split_schemas(text))
-    if (piece.text.find("\"cards\"") != std::string_view::npos) keywords.emplace(piece.keyword);
-  return keywords;
-}
-
-}  // namespace
-
 Result<void> SchemaSet::add_json(std::string_view name, std::string_view text) {
-  auto parsed = detail::parse_schemas(name, text);
+  auto parsed = detail::read_schemas(name, text);
   if (!parsed) return parsed.error();
-  const auto described = with_cards(text);
 
   // Build the new table first so that a bad file leaves the set as it was.
   auto table = by_name_;
   std::set<std::string> fresh;
-  for (auto& schema : *parsed) {
+  for (auto& [schema, json] : *parsed) {
+    const bool described = json.find("\"cards\"") != std::string::npos;
     std::vector<std::string> names = schema.aliases;
     names.insert(names.begin(), schema.keyword);
     const auto added = std::make_shared<const Entry>(std::move(schema));
@@ -142,7 +117,7 @@ Result<void> SchemaSet::add_json(std::string_view name, std::string_view text) {
                                                     it->second->keyword == added->keyword &&
                                                     !fresh.count(added->keyword)) {
       // Without cards nothing of the keyword is read, so nothing of it is checked either.
-      if (!it->second->get().cards.empty() && !described.contains(added->keyword))
+      if (!it->second->get().cards.empty() && !described)
         return Error{Error::Code::config,
                      fmt::format("{}: {} replaces a schema with cards ({}) but has none; describe "
                                  "its lines, or write \"cards\": [] if its lines need not be read",

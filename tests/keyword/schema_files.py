@@ -1,0 +1,34 @@
+"""The keyword schemas of schemas/keywords, tables ("for") written out."""
+import json
+import pathlib
+
+FOLDER = pathlib.Path(__file__).resolve().parents[2] / "schemas" / "keywords"
+
+
+def filled(value, row):
+    """A JSON value with each "{name}" of its texts replaced by the word of the row."""
+    if isinstance(value, str):
+        for name, word in row.items():
+            value = value.replace("{" + name + "}", word)
+        return value
+    if isinstance(value, list):
+        return [filled(item, row) for item in value]
+    if isinstance(value, dict):
+        return {key: filled(item, row) for key, item in value.items()}
+    return value
+
+
+def written_out(items):
+    for item in items:
+        if "for" in item:
+            names, *rows = item["for"]
+            for words in rows:
+                yield from written_out(filled(item["schemas"], dict(zip(names, words))))
+        else:
+            yield item
+
+
+def keyword_schemas():
+    for file in sorted(FOLDER.glob("*.json")):
+        document = json.loads(file.read_text(encoding="utf-8"))
+        yield from written_out(document.get("schemas", [document]))
