@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/small_deck.hpp"
+#include "cycle/plates.hpp"
 #include "cycle/shared/heat.hpp"
 #include "cycle/support.hpp"
 #include "deck/cycle/scene_cycle.hpp"
@@ -202,15 +202,10 @@ TEST(EdgeHeat, OfADeckTakesSectionsAndConductivityFromTheElements) {
 }
 
 TEST(HeatExchange, NodesOfADeckTakeTheConductivityOfTheirShells) {
-  deck::test::SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
-  d.node(11, 1, 5, 0.6).node(12, 5, 1, 0.6).node(13, 9, 5, 0.6).node(14, 5, 9, 0.6);
-  d.shell_part(1, 1.0).shell_part(2, 1.0);
-  d.shell(1, 1, 4, 3, 2, 1).shell(2, 2, 11, 12, 13, 14);  // the nodes are behind the segment
+  deck::test::SmallDeck d = testing::plates(-0.6);  // the nodes are behind the segment
   d.add(
       "/HEAT/MAT/1\n               300.0                 1.0                 2.0"
       "                0.01");
-  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/2", {1});
   d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 Ithe=1 Kthe=0.5 Tint=500");
   const deck::test::Built b(d);
   CycleOptions options;

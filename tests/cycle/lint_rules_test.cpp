@@ -1,5 +1,5 @@
-// The rules about the first force evaluation, of which lint_rules.cases has examples: examples of
-// their pages, and threads.
+// The rules about the first force evaluation on the examples of their pages; lint_rules.cases has
+// more.
 #include <gtest/gtest.h>
 
 #include "lint/shared/geometry.hpp"
@@ -21,11 +21,6 @@ TEST(CycleRules, FireOnTheirBadExampleIfAskedForAndNotOnTheGoodOne) {
       EXPECT_NE(d.severity, Severity::error) << id_text(d.rule) << " " << d.message;
   }
   EXPECT_GE(rules, 3u);
-}
-
-TEST(CycleRules, FindingsDoNotDependOnThreads) {
-  EXPECT_EQ(lint_geometry("@/INTER/TYPE7/1 Gapmin=4\n", {}, with_threads(1)).list(),
-            lint_geometry("@/INTER/TYPE7/1 Gapmin=4\n", {}, with_threads(3)).list());
 }
 
 }  // namespace

@@ -202,26 +202,30 @@ TEST(PairStepLimit, OfEdgesIsThatOfTheLighterMeanMass) {
   }
 }
 
-TEST(TiesByTimeStep, BeginWithTheElasticForceOfTheirSideAndPlace) {
+TEST(TiesByTimeStep, BeginWithTheElasticForceOfTheirSideWhereverTheSegmentLies) {
   ContactCard card = testing::elastic_card();
   card.itied = 1;
-  card.dtmin = 1e3;
+  card.stfac = 3e4;
   for (const Model model : {Model::reference, Model::robust})
-    for (const double side : {1.0, -1.0})
-      for (const int istf : {0, 1}) {
-        card.istf = istf;
-        card.stfac = 3e4;
-        Pair p = testing::quad_pair({4, 3, side * 0.6});
-        const testing::Outcome r = testing::run(card, p, 0, 0, model);
-        const double kappa = istf == 1 ? 3e4 : 0.5 * p.k0;
-        EXPECT_NE(r.all.status[0] & status_tied, 0);
-        EXPECT_NEAR(r.all.tie[0][0], -side * kappa * 0.4 / 0.6, 1e-6) << istf;
-        for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(r.all.tie[c + 3][0], r.weights()[c]);
-        EXPECT_NEAR(r.all.tie[6][0], 0.4, 1e-12);
-        // Where the weights point to the node is as far as the height.
-        EXPECT_NEAR(r.all.tie[7][0], side * 0.6, 1e-12);
-        EXPECT_EQ(r.all.dt_kinematic[0], 1e30);
-      }
+    for (const double height : {0.0, 3.0, -40.0})
+      for (const double side : {1.0, -1.0})
+        for (const int istf : {0, 1}) {
+          card.istf = istf;
+          card.dtmin = 1e3;
+          Pair p = testing::quad_pair({4, 3, side * 0.6});
+          for (Vec& x : p.x) x[2] += height;
+          const testing::Outcome r = testing::run(card, p, 0, 0, model);
+          const double kappa = istf == 1 ? 3e4 : 0.5 * p.k0;
+          EXPECT_NE(r.all.status[0] & status_tied, 0);
+          EXPECT_NEAR(r.all.tie[0][0], -side * kappa * 0.4 / 0.6, 1e-6) << istf << ' ' << height;
+          for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(r.all.tie[c + 3][0], r.weights()[c]);
+          EXPECT_NEAR(r.all.tie[6][0], 0.4, 1e-12);
+          // Where the weights point to the node is as far as the height.
+          EXPECT_NEAR(r.all.tie[7][0], side * 0.6, 1e-12) << height;
+          EXPECT_EQ(r.all.dt_kinematic[0], 1e30);
+          card.dtmin = 1e-12;
+          EXPECT_EQ(testing::run(card, p, 0, 0, model).all.status[0] & status_tied, 0);
+        }
 }
 
 TEST(TiesByTimeStep, KeepTheirWeightsAndTheDepthTheyBeganWith) {

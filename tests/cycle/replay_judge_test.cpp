@@ -1,8 +1,7 @@
-// `deck replay` as a judge: what counts as equal, and what it writes row by row.
+// `deck replay` as a judge: what counts as equal.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
 #include "cycle/support.hpp"
 #include "replay/replay.hpp"
@@ -16,9 +15,8 @@ const char* const header =
     "v4_x,v4_y,v4_z,ms,K0,gap,P0_in,F_x,F_y,F_z,K_nodal";
 
 /// A node 0.4 above the middle of a unit-thick square of side 10 with gap 1, and what was recorded.
-std::string state(const std::string& height, const std::string& recorded, int interface = 3,
-                  const std::string& time = "0") {
-  return "0," + std::to_string(interface) + ",9,1,2,3,4," + time + ",0,0,5,5," + height +
+std::string state(const std::string& height, const std::string& recorded) {
+  return "0,3,9,1,2,3,4,0,0,0,5,5," + height +
          ",0,0,0,10,0,0,10,10,0,0,10,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1,1000,1,0," + recorded + "\n";
 }
 
@@ -83,38 +81,6 @@ TEST(ReplayJudge, FrictionThatTheSolverUsedStandsForThatOfTheCard) {
   EXPECT_NE(expected, computed(0.3, 1.0, "", ""));
   EXPECT_EQ(computed(0.0, 2.0, names, used), expected) << "the damping of the card, squared";
   EXPECT_EQ(computed(0.0, 1.0, names + ",visf", used + ",4"), expected) << "or that of the record";
-}
-
-TEST(ReplayCsv, HasOneLinePerStateOfTheInterfaceInOrder) {
-  ReplayOptions options;
-  options.csv = true;
-  options.interface_id = 3;
-  const ReplayReport r = replay(spring(),
-                                table(state("0.5", "0,0,0,0") + state("0.4", "0,0,0,0", 8) +
-                                      state("2", "9,9,9,9") + state("nan", "0,0,0,0")),
-                                options);
-  std::istringstream in(r.csv);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  ASSERT_EQ(lines.size(), 4u);
-  EXPECT_EQ(lines[0], "row,F_x,F_y,F_z,K_nodal");
-  EXPECT_TRUE(lines[1].starts_with("0,"));
-  EXPECT_NE(lines[1].find("-5.0000000000000000e+02,2.0000000000000000e+03"), std::string::npos)
-      << lines[1];
-  // Row 2 of the states, 0-based: nothing of the record passes into what is computed.
-  EXPECT_EQ(lines[2],
-            "2,0.0000000000000000e+00,0.0000000000000000e+00,0.0000000000000000e+00,"
-            "0.0000000000000000e+00");
-  EXPECT_TRUE(lines[3].starts_with("3,nan,nan,nan")) << lines[3];
-}
-
-TEST(ReplayCsv, PairsOutsideTheTimeWindowDoNothing) {
-  ContactCard card = spring();
-  card.tstart = 0.5;
-  card.sensor_time = 0.75;  // both conditions hold together
-  for (const char* time : {"0.4", "0.6"})
-    EXPECT_EQ(replay(card, table(state("0.4", "0,0,-750,3125", 3, time))).max, 1.0) << time;
-  EXPECT_LE(replay(card, table(state("0.4", "0,0,-750,3125", 3, "0.75"))).max, 1e-15);
 }
 
 }  // namespace

@@ -74,16 +74,6 @@ TEST(ElasticLaw, StiffensHyperbolically) {
   }
 }
 
-TEST(ElasticLaw, FixedStiffnessHasNoHalf) {
-  ContactCard card = elastic_card();
-  card.istf = 1;
-  card.stfac = 1e5;
-  const Outcome r = run(card, triangle_pair({2, 3, 0.6}));
-  expect_digits(r.all.normal_force[0], -66666.66667);
-  expect_digits(r.all.elastic_energy[0], 11082.56238);
-  expect_digits(r.all.k_nodal[0], 277777.7778);
-}
-
 TEST(ElasticLaw, TheNodeIsDroppedAtTheMidSurface) {
   for (const Model model : {Model::reference, Model::robust}) {
     const Outcome closed = run(elastic_card(), triangle_pair({2, 3, 0.5e-10}), 0, 0, model);
