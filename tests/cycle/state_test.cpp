@@ -126,8 +126,8 @@ TEST(Velocities, OfNodeGroupsAlsoInASkewAndOfPartsOnRequest) {
     const State s = make_state(b.scene), t = make_state(b.scene, {{2, {0, 0, -5}}});
     EXPECT_TRUE(s.moving);
     for (std::size_t c = 0; c < 3; ++c) {
-      EXPECT_DOUBLE_EQ(s.velocity[c][shell], wanted[c]) << cards;
-      EXPECT_EQ(s.velocity[c][solid], 0.0);
+      EXPECT_DOUBLE_EQ(s.velocity[c].at(shell), wanted[c]) << cards;
+      EXPECT_EQ(s.velocity[c].at(solid), 0.0);
     }
     EXPECT_EQ(t.velocity[2][solid], -5.0);
     EXPECT_EQ(t.velocity[2][shell], wanted[2]);
