@@ -1,5 +1,5 @@
-// TYPE24 and TYPE25: the worked places of a shell and a cube, sides and gaps, what Inacti stores,
-// edges, what is left open, and the search against looking at all pairs.
+// TYPE24 and TYPE25: the worked places of a shell and a cube, sides and gaps, edges,
+// what is left open, and the search against looking at all pairs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

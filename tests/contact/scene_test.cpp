@@ -1,4 +1,4 @@
-// Interfaces as elementary contacts: TYPE19 and its parts, order, options, empty sides.
+// Interfaces as elementary contacts: TYPE19 and its parts, order, options, nodes at one place.
 #include <gtest/gtest.h>
 
 #include "contact/small_deck.hpp"

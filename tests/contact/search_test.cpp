@@ -1,5 +1,5 @@
-// The pair search finds exactly the pairs of the brute-force loop, on meshes made to break it. Over
-// 600 lines: orders, kernels, threads and limits are tried on the same scenes.
+// The pair search finds exactly the pairs of the brute-force loop, on meshes made to break it:
+// orders, kernels, threads and limits are tried on the same scenes.
 #include "deck/contact/search.hpp"
 
 #include <gtest/gtest.h>

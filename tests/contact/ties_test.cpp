@@ -1,5 +1,5 @@
-// Ties: the search finds what looking at every segment finds, and nodes are lost for the reasons
-// that the solver has.
+// Ties: the search finds what looking at every segment finds, nodes are lost for the reasons that
+// the solver has; places on segments and the old search by hand.
 #include <gmock/gmock.h>
 
 #include <cmath>

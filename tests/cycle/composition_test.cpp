@@ -1,5 +1,5 @@
 // A kernel is a composition of effects: every composition gives the bits of the run-time-flag
-// kernel and of both instruction sets, reads only what its effects need, and accounts for itself.
+// kernel and of both instruction sets, and refuses a packet without the arrays that it reads.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Worked numeric vectors of the kernel's rules, to ten digits: geometry, law, damping, friction,
-// filters, edges, ties, heat, gap reduction, time steps, curvature.
+// edges, ties, gap reduction, stiffness, heat, curvature.
 #include <gtest/gtest.h>
 
 #include "cycle/shared/heat.hpp"
