@@ -98,11 +98,6 @@ class BuiltModel {
       for (const Edge& edge : l->edges) out.push_back(ids({edge.nodes.begin(), edge.nodes.end()}));
     return out;
   }
-  std::vector<Ids> edges(const std::vector<Edge>& all) const {
-    std::vector<Ids> out;
-    for (const Edge& edge : all) out.push_back(ids({edge.nodes.begin(), edge.nodes.end()}));
-    return out;
-  }
   /// Findings of `rule` from building and from the selections.
   std::size_t findings(RuleId rule) {
     std::size_t count = 0;
@@ -161,6 +156,12 @@ inline std::string grid_nodes() {
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 3; ++x) out += node(1 + x + 3 * y, 10 * x, 10 * y, 0);
   return out;
+}
+
+/// Shells 1..4 on these nodes, in parts 1 (1, 2) and 2 (3, 4).
+inline std::string quads() {
+  return grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
+         "/SHELL/2\n" + cells({3, 4, 5, 8, 7}) + cells({4, 5, 6, 9, 8});
 }
 
 /// Nodes 101..112 of two unit cubes side by side in x.
