@@ -333,35 +333,18 @@ TEST(InterfaceFields, HaveTheirPlaceInTheText) {
 }
 
 TEST(InterfaceFriction, FrictionBlockReplacesTheCard) {
-  const Cards c("TYPE7 Fric=0.9 Ifric=1 Xfreq=0.3 fric_ID=7\n/FRICTION/7\nlaw\n" +
-                with(with(with(at(10, "4"), 20, "3"), 40, "0.05"), 50, "1") + "\n" +
-                with(at(20, "0.4"), 40, "0.01") + "\n" + at(40, "0.2") + "\n" +
-                with(at(30, "11"), 40, "12") + "\n" + at(20, "0.7") + "\n" + at(40, "0.6") + "\n");
-  const InterType7& t = c.all.type7.at(0);
-  EXPECT_EQ(t.Ifric.value, 4);
-  EXPECT_EQ(t.Ifiltr.value, 3);
-  EXPECT_EQ(t.Xfreq.value, 0.05);
-  EXPECT_EQ(t.Fric.value, 0.2);
-  EXPECT_EQ(t.VISF.value, 1.0);
-  EXPECT_EQ(t.C1.value, 0.4);
-  EXPECT_EQ(t.C2.value, 0.01);
-  EXPECT_EQ(t.Fric.origin, Origin::derived);
-  EXPECT_EQ(t.Fric.input, 0.9);
-  const Friction* f = c.all.friction(7);
-  ASSERT_NE(f, nullptr);
-  ASSERT_EQ(f->pairs.size(), 1u);
-  EXPECT_EQ(f->pairs[0].part_ID1, 11);
-  EXPECT_EQ(f->pairs[0].part_ID2, 12);
-  EXPECT_EQ(f->pairs[0].values.C[0], 0.7);
-  EXPECT_EQ(f->pairs[0].values.Fric, 0.6);
-  EXPECT_EQ(f->pairs[0].values.VISF, 1.0);
+  const Row row{"", "Ifric=4 Ifiltr=3 Xfreq=0.05 Fric=0.2:derived<0.9 VISF=1 C1=0.4 C2=0.01"};
+  expect_values("TYPE7 Fric=0.9 Ifric=1 Xfreq=0.3 fric_ID=7\n/FRICTION/7\nlaw\n" +
+                    with(with(with(at(10, "4"), 20, "3"), 40, "0.05"), 50, "1") + "\n" +
+                    with(at(20, "0.4"), 40, "0.01") + "\n" + at(40, "0.2"),
+                row);
 }
 
 TEST(InterfaceFriction, PairsOfPartsHaveTheirOwnValues) {
   // The first pair is orthotropic, the last one has no friction and so no damping.
   const Cards c("/FRICTION/7\nlaw\n\n\n\n" + with(with(at(10, "3"), 20, "4"), 60, "1") + "\n\n" +
-                at(40, "0.1") + "\n\n" + at(40, "0.2") + "\n" + at(40, "13") + "\n\n" +
-                at(40, "0.3") + "\n" + at(40, "14") + "\n\n\n");
+                at(40, "0.1") + "\n\n" + at(40, "0.2") + "\n" + at(40, "13") + "\n" +
+                at(20, "0.7") + "\n" + at(40, "0.3") + "\n" + at(40, "14") + "\n\n\n");
   const Friction* f = c.all.friction(7);
   ASSERT_NE(f, nullptr);
   ASSERT_EQ(f->pairs.size(), 3u);
@@ -370,6 +353,7 @@ TEST(InterfaceFriction, PairsOfPartsHaveTheirOwnValues) {
   EXPECT_EQ(f->pairs[0].values.Fric, 0.1);
   EXPECT_EQ(f->pairs[0].second.Fric, 0.2);
   EXPECT_EQ(f->pairs[1].part_ID2, 13);
+  EXPECT_EQ(f->pairs[1].values.C[0], 0.7);
   EXPECT_EQ(f->pairs[1].values.Fric, 0.3);
   EXPECT_EQ(f->pairs[1].values.VISF, 1.0);
   EXPECT_EQ(f->pairs[2].values.VISF, 0.0);

@@ -114,18 +114,6 @@ TEST(MovingWall, MakesTheMassOfItsNodeUnknown) {
   ASSERT_EQ(m.left_out.size(), 1u);
 }
 
-TEST(Mesh, IsTheSameForAnyNumberOfThreads) {
-  SmallDeck d = square();
-  d.node(31, 60, 0, 0).node(32, 64, 0, 0);
-  d.spring_part(2, 4.0).bar("SPRING", 2, 9, 31, 32);
-  const Built b(d);
-  MeshOptions four;
-  four.threads = 4;
-  const Mesh one = make_mesh(b.model), other = make_mesh(b.model, four);
-  EXPECT_EQ(one.nodes.stiffness, other.nodes.stiffness);
-  EXPECT_EQ(one.parts[0].inertia, other.parts[0].inertia);
-}
-
 /// Step of the shell of square() of another material.
 double step(const std::string& material, const std::string& more = "") {
   SmallDeck d;
@@ -155,17 +143,6 @@ TEST(ElementStep, OfRubberIsNotGivenWithAReferenceGeometry) {
   EXPECT_TRUE(std::isnan(step(rubber, geometry)));
   test::expect_near(step("@/MAT/LAW1/7 Rho_I=7.8e-6 E=210 Nu=0.3", geometry),
                     10 / std::sqrt(210 / 7.8e-6));
-}
-
-TEST(NodeSums, HaveAQuarterOfTheMassOfAShell) {
-  SmallDeck d = square();
-  d.node(5, 0, 0, 9);
-  const Built b(d);
-  const Mesh m = make_mesh(b.model);
-  test::expect_near(m.nodes.mass[b.model.find_node(1)], 50 * density);
-  EXPECT_EQ(m.nodes.dt[b.model.find_node(5)], no_step) << "no element has it";
-  EXPECT_EQ(m.total.slowest.element, 0u);
-  test::expect_near(m.total.dt, 10 / std::sqrt(200 / density));
 }
 
 }  // namespace

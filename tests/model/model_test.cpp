@@ -1,7 +1,6 @@
 // The model as a whole: parts and what they refer to, properties, run options, places in the file.
 #include "model/selection_deck.hpp"
 
-#include "model/shared/connectivity.hpp"
 #include "model/shared/item_spans.hpp"
 
 namespace deck::test {
@@ -84,15 +83,6 @@ TEST(Shell, OwnThicknessIsEnough) {
   EXPECT_EQ(b.findings(RuleId::DK106), 0u);
 }
 
-TEST(Node, SecondUseOfAnIdTellsWhetherTheCoordinatesAgree) {
-  BuiltModel b("/NODE\n" + node(1, 0, 0, 0) + node(1, 0, 0, 0));
-  ASSERT_EQ(b.findings(RuleId::DK105), 1u);
-  std::string message;
-  for (const Diagnostic& d : b.diagnostics().all())
-    if (d.rule == RuleId::DK105) message = d.message;
-  EXPECT_NE(message.find("same coordinates"), std::string::npos);
-}
-
 TEST(Property, HasItsValuesInWorkingUnits) {
   BuiltModel b("/PROP/VOID/1\np\n" + reals({0.002}) + "/PROP/TRUSS/2\np\n" + reals({3e-6}) +
                    "/PROP/SH_ORTH/3\np\n\n\n\n\n/PROP/TYPE9/4\np\n\n\n\n\n",
@@ -153,15 +143,6 @@ TEST(Unit, UnknownUnitSystemIsAnErrorWhereTheSolverLooksItUp) {
     EXPECT_EQ(severity(block), Severity::error) << block;
 }
 
-TEST(Place, OfANodeAndAnElementIsItsLine) {
-  BuiltModel b(parts() + grid_nodes() + "# a comment\n" + node(50, 1, 2, 3) + "/SHELL/1\n" +
-               cells({7, 1, 2, 5, 4}) + cells({8, 2, 3, 6, 5}));
-  const Model& m = b.model();
-  const auto text = [&](Span s) { return std::string(m.deck->sources.text(s).substr(0, 10)); };
-  EXPECT_EQ(text(m.node_span(m.nodes.map.find(50))), "        50");
-  EXPECT_EQ(text(m.element_span(ElementKind::shell4, m.shell4.map.find(8))), "         8");
-}
-
 TEST(Order, IsByFileIdAndRowAndPlacesAreStillThoseOfTheText) {
   BuiltModel b("/NODE\n" + node(9, 9, 0, 0) + node(2, 2, 0, 0) + "/NODE\n" + node(5, 5, 0, 0) +
                node(1, 1, 1, 0) + node(3, 3, 1, 0) + "/SHELL/2\n" + cells({8, 1, 2, 3, 5}) +
@@ -180,21 +161,15 @@ TEST(Order, IsByFileIdAndRowAndPlacesAreStillThoseOfTheText) {
 
 TEST(Place, OfRepeatedIdsIsFoundByOneWalkOfEachBlock) {
   constexpr int many = 400, repeated = 50;
-  std::string nodes, again, shells, shells_again;
+  std::string nodes = "/NODE\n", again = nodes;
   for (int i = 1; i <= many; ++i) {
-    const std::string line = node(i, i % 20, i / 20, 0);
-    const std::string shell = cells({i, 1, 2, 3, 4});
-    nodes += line;
-    shells += shell;
-    if (i <= many - repeated) continue;
-    again += line;
-    shells_again += shell;
+    nodes += node(i, i % 20, i / 20, 0);
+    if (i > many - repeated) again += node(i, i % 20, i / 20, 0);
   }
   const std::uint64_t before = deck::detail::items_walked();
-  BuiltModel b(parts() + "/NODE\n" + nodes + "/SHELL/1\n" + shells + "/NODE\n" + again +
-               "/SHELL/1\n" + shells_again);
-  EXPECT_EQ(b.findings(RuleId::DK105), 2u * repeated);
-  EXPECT_LE(deck::detail::items_walked() - before, 2u * (many + repeated));
+  BuiltModel b(nodes + again);
+  EXPECT_EQ(b.findings(RuleId::DK105), repeated);
+  EXPECT_LE(deck::detail::items_walked() - before, many + repeated);
   for (const Diagnostic& d : b.diagnostics().all()) {
     if (d.rule != RuleId::DK105) continue;
     const auto id = [&](const Span& s) { return b.model().deck->sources.text(s).substr(0, 10); };
@@ -202,34 +177,8 @@ TEST(Place, OfRepeatedIdsIsFoundByOneWalkOfEachBlock) {
     EXPECT_EQ(id(d.span), id(d.notes[0].first));
     EXPECT_LT(d.notes[0].first.offset, d.span.offset);
     EXPECT_EQ(id(d.span), cells({d.id}).substr(0, 10));
+    EXPECT_NE(d.message.find("same coordinates"), std::string::npos);
   }
-}
-
-TEST(Connectivity, RowsListElementsOnce) {
-  BuiltModel b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) +
-               cells({2, 2, 3, 6, 5}) + "/SHELL/2\n" + cells({3, 4, 5, 5, 7}));
-  const Model& m = b.model();
-  const NodeElements rows = connect_nodes(m.shell4, m.nodes.size());
-  const auto row = rows.row(m.nodes.map.find(5));
-  EXPECT_EQ(std::vector<std::uint32_t>(row.begin(), row.end()),
-            (std::vector<std::uint32_t>{0, 1, 2}));
-}
-
-TEST(Connectivity, ElementsOfAPartAreRuns) {
-  BuiltModel b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) +
-               cells({2, 2, 3, 6, 5}) + "/SHELL/2\n" + cells({3, 4, 5, 8, 7}) + "/SHELL/9\n" +
-               cells({5, 4, 5, 8, 7}) + "/SHELL/1\n" + cells({4, 5, 6, 9, 8}));
-  const Model& m = b.model();
-  const PartElements parts = connect_parts(m.shell4, m.parts.size());
-  const auto runs = [&](std::size_t part) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
-    for (const ElementRun& run : parts.row(part)) out.emplace_back(run.first, run.end);
-    return out;
-  };
-  using Runs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-  EXPECT_EQ(runs(0), (Runs{{0, 3}}));
-  EXPECT_EQ(runs(1), (Runs{{3, 4}}));
-  EXPECT_TRUE(runs(2).empty());
 }
 
 TEST(Model, FindingsAboutElementsAreTheSameForAnyNumberOfThreads) {

@@ -200,6 +200,7 @@ TEST(MissingMembers, AreNamedWithTheMessageOfTheSolver) {
       {group("GRNOD", "SURF", 1, {77}), RuleId::DK151, 193},
       {group("GRNOD", "LINE", 1, {77}), RuleId::DK151, 193},
       {group("GRNOD", "GRSHEL", 1, {77}), RuleId::DK151, 172},
+      {group("GRNOD", "BOX", 1, {77}), RuleId::DK159, 690},
       {group("GRSHEL", "SHEL", 1, {77}), RuleId::DK168, 70},
       {group("GRQUAD", "QUAD", 1, {77}), RuleId::DK168, 0},
       {group("GRSHEL", "GRSHEL", 1, {77}), RuleId::DK151, 172},

@@ -258,14 +258,6 @@ TEST(Set, IsHeldOnceHoweverManyWaysLeadToIt) {
   EXPECT_EQ(b.findings(RuleId::DK332), 0u);
 }
 
-TEST(Set, AChainOfSetsTakesRoomOnlyForWhatTheyHold) {
-  std::string text = deck() + set(1, clause("NODE", {9}));
-  for (int k = 2; k <= 240; ++k)
-    text += set(k, clause("SET", {k - 1}) + clause("NODE", {k % 9 + 1}));
-  BuiltModel b(text);
-  EXPECT_EQ(b.group(240), (Ids{1, 2, 3, 4, 5, 6, 7, 8, 9}));
-}
-
 TEST(SelectionBounds, WhatExceedsTheMemoryIsLeftOutWithOneFinding) {
   std::string text = deck();
   for (int k = 1; k <= 60; ++k)
