@@ -15,10 +15,6 @@
 namespace deck {
 namespace {
 
-TEST(Processors, AreThoseOfTheMachineAndAtLeastOne) {
-  EXPECT_EQ(processors(), static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
-}
-
 TEST(ParallelItems, EveryItemRunsOnceOnAnyNumberOfThreads) {
   for (const int threads : {1, 2, 7, 64}) {
     std::vector<std::atomic<int>> ran(1000);
@@ -98,7 +94,6 @@ TEST(RunWorkers, NobodyIsAtWorkAfterTheCall) {
       std::this_thread::yield();
       ++ended;
     });
-    EXPECT_GE(begun.load(), 1);
     EXPECT_EQ(begun.load(), ended.load());  // who comes later finds the gate closed
   }
 }
@@ -117,18 +112,6 @@ TEST(RunWorkers, OfSeveralExceptionsThatOfTheLowestWorkerIsThrownOn) {
     EXPECT_STREQ(e.what(), "0");
   }
   EXPECT_TRUE(cancel.is_set());
-}
-
-TEST(ParallelParts, BoundsDependOnTheNumberOfThreadsOnly) {
-  for (const std::size_t count : {std::size_t{10}, std::size_t{100'000}}) {
-    std::vector<std::pair<std::size_t, std::size_t>> bounds(4);
-    parallel_parts(4, count, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      bounds[part] = {begin, end};
-    });
-    EXPECT_EQ(bounds.front().first, 0u);
-    EXPECT_EQ(bounds.back().second, count);
-    for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(bounds[k].first, bounds[k - 1].second);
-  }
 }
 
 TEST(ParallelPieces, EveryItemIsInOnePieceAndPiecesHaveTheirOrder) {
