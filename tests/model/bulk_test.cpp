@@ -289,7 +289,7 @@ std::string random_deck(std::uint64_t seed, int items, bool wrong_nodes) {
 /// Reads the blocks by decode() alone, one line after the other.
 struct Slow {
   std::vector<std::int64_t> node_id, element_id, element_cells;
-  std::vector<double> x, y, z;
+  std::vector<double> x, y, z, shell_thickness;
   Diagnostics findings{1 << 30};
 };
 
@@ -318,6 +318,7 @@ Slow by_decode(const Deck& deck) {
       } else {
         for (std::size_t c = 1; c < card.cells.size(); ++c)
           out.element_cells.push_back(card.cells[c].integer);
+        if (block.keyword == "/SHELL") out.shell_thickness.push_back(card.cells.back().real);
       }
     }
   }
@@ -347,6 +348,11 @@ void expect_as_decode(const std::string& body) {
     elements += f->size();
   EXPECT_EQ(elements, slow.element_id.size());
   const Elements& shells = fast.model.shell4;
+  ASSERT_TRUE(shells.thickness.empty() || shells.thickness.size() == slow.shell_thickness.size());
+  for (std::size_t e = 0; e < slow.shell_thickness.size(); ++e)
+    ASSERT_EQ(bits(shells.thickness.empty() ? 0 : shells.thickness[e]),
+              bits(slow.shell_thickness[e]))
+        << e;
   if (nodes.size() == 50 && shells.size() == slow.element_id.size()) {
     const std::size_t cells = slow.element_cells.size() / shells.size();
     for (std::size_t e = 0; e < shells.size(); ++e)
@@ -418,14 +424,6 @@ TEST(BulkAgainstDecode, LinesAsLongAsTheOneBeforeAreTakenByColumnsOnlyIfTheyAreE
     for (int i = 0; i < 300; ++i) shells += nearly_even_line(random, 5, 0, 50);
     expect_as_decode(shells);
   }
-}
-
-TEST(BulkElements, AThicknessStaysWithItsElementWhateverTheOthersHave) {
-  const std::string plain = ids({1, 1, 2, 3, 4}), front = plain.substr(0, 50);
-  const std::string thick = front + std::string(30, ' ') + "                 2.5\n";
-  const Bulk b = bulk("/PART/1\nt\n" + nodes(4) + "/SHELL/1\n" + plain + plain + thick + plain +
-                      thick + plain + "/SHELL/1\n" + thick + plain);
-  EXPECT_THAT(b.model.shell4.thickness, ElementsAre(0, 0, 2.5, 0, 2.5, 0, 2.5, 0));
 }
 
 TEST(BulkElements, CellsBehindTheEndOfALineAreThoseOfNoOtherLine) {

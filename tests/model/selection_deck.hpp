@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -50,15 +51,13 @@ inline std::string node(std::int64_t id, double x, double y, double z) {
 /// A deck with the given blocks between /BEGIN and /END.
 inline std::string deck_text(const std::string& blocks, const char* input_units = "kg mm ms",
                              int version = 2024) {
+  std::istringstream words(input_units);
   std::string mass, length, time;
-  const std::string units = input_units;
-  const auto a = units.find(' '), b = units.rfind(' ');
-  char line[96];
-  std::snprintf(line, sizeof line, "%20s%20s%20s\n", units.substr(0, a).c_str(),
-                units.substr(a + 1, b - a - 1).c_str(), units.substr(b + 1).c_str());
-  char begin[32];
-  std::snprintf(begin, sizeof begin, "%10d         0\n", version);
-  return "#RADIOSS STARTER\n/BEGIN\ntest\n" + std::string(begin) + std::string(line) +
+  words >> mass >> length >> time;
+  char head[128];
+  std::snprintf(head, sizeof head, "%10d         0\n%20s%20s%20s\n", version, mass.c_str(),
+                length.c_str(), time.c_str());
+  return "#RADIOSS STARTER\n/BEGIN\ntest\n" + std::string(head) +
          "                  kg                  mm                  ms\n" + blocks + "/END\n";
 }
 

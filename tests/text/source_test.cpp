@@ -53,15 +53,6 @@ TEST(SourcePosition, CheckpointsAgreeWithCounting) {
                    {text.size(), 262144, 262143, 65536, 65535, 7});
 }
 
-TEST_F(SourceFiles, AFileOverTheLimitIsRefusedBeforeItIsRead) {
-  Limits limits;
-  limits.total_bytes = 10;
-  const auto r = Source::open(file("a", "12345678901"), limits);
-  ASSERT_FALSE(r.ok());
-  EXPECT_EQ(r.error().code, Error::Code::limit);
-  EXPECT_TRUE(Source::open(file("b", "1234567890"), limits).ok());
-}
-
 /// Resident pages of mapped files, in kilobytes.
 long mapped_kilobytes() {
   std::ifstream status("/proc/self/status");
