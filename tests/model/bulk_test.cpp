@@ -427,11 +427,6 @@ TEST(BulkAgainstDecode, LinesAsLongAsTheOneBeforeAreTakenByColumnsOnlyIfTheyAreE
 }
 
 TEST(BulkElements, CellsBehindTheEndOfALineAreThoseOfNoOtherLine) {
-  // Free format holds more cells in as many columns.
-  const std::string even = ids({1, 1, 2, 3, 4}), free = "2,1,2,3,4,,30.0,2.5";
-  const Bulk shells = bulk("/PART/1\nt\n" + nodes(4) + "/SHELL/1\n2,1,2,3,4,,30.0," +
-                           std::string(50 - free.size(), ' ') + "2.5\n" + even + even);
-  EXPECT_THAT(shells.model.shell4.thickness, ElementsAre(2.5, 0, 0));
   // A brick as long as the tetrahedron before it has four nodes, too.
   const std::string brick = ids({1, 1, 2, 3, 4, 5, 6, 7, 8}), tetra = ids({2, 1, 2, 3, 5});
   const Bulk solids = bulk(nodes(8) + "/BRICK/1\n" + brick + brick + "/TETRA4/1\n" + tetra + tetra +

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <type_traits>
 
 #include "lint/shared/example.hpp"
@@ -398,17 +397,6 @@ TEST(InterfaceFields, DefaultCardsNameFieldsOfTheirType) {
     for (const CardSchema& card : SchemaSet::built_in().find(keyword)->cards)
       for (const Field& field : card.fields)
         EXPECT_TRUE(fields.contains(field.name)) << keyword << " " << field.name;
-}
-
-TEST(InterfaceTypes, AreVisitedAsTheirOwnTypeAndNothingElseIs) {
-  InterType11 edges;
-  edges.type = 11;
-  EXPECT_TRUE(
-      visit_interface(edges, []<class T>(const T&) { return std::is_same_v<T, InterType11>; }));
-  InterBase unknown;
-  unknown.type = 23;
-  EXPECT_THROW(visit_interface(unknown, [](const auto&) {}), std::logic_error);
-  EXPECT_EQ(traits_of(23), nullptr);
 }
 
 TEST(InterfaceTypes, NameFieldsOfTheirSchemas) {

@@ -8,18 +8,13 @@ namespace {
 
 std::string quad() { return grid_nodes() + "/SHELL/1\n" + cells({7, 1, 2, 5, 4}); }
 
-TEST(Part, KnowsPropertyAndMaterial) {
-  BuiltModel b(parts() + quad());
-  const Part& p = b.model().parts.at(b.model().part_of_id.at(4));
-  EXPECT_EQ(b.model().properties.at(p.prop).id, 2);
-  EXPECT_EQ(b.model().materials.at(p.mat).id, 1);
-  EXPECT_TRUE(b.diagnostics().all().empty());
-}
-
 TEST(ModelFindings, HaveTheMessageOfTheSolver) {
   const std::string void_part = "/PROP/VOID/1\np\n" + reals({1}) + "/PART/1\np\n";
   const std::string springs = "/PROP/SPRING/1\np\n" + reals({1}) + reals({5}) + "/PART/1\np\n";
   const std::string spring = "/SPRING/1\n" + cells({1, 1, 2});
+  const std::string no_thickness = "/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) +
+                                   "/PROP/SHELL/1\np\n\n\n\n" + "/PART/1\np\n" + cells({1, 1}) +
+                                   grid_nodes() + "/SHELL/1\n";
   constexpr int none = -1;
   struct Row {
     std::string blocks;
@@ -51,6 +46,11 @@ TEST(ModelFindings, HaveTheMessageOfTheSolver) {
       {"/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/TYPE17/1\np\n\n\n\n\n\n" +
            "/PART/1\np\n" + cells({1, 1}) + quad(),
        RuleId::DK106, none},
+      // Its own thickness is enough.
+      {no_thickness + "         7         1         2         5         4" + std::string(30, ' ') +
+           reals({1.5}),
+       RuleId::DK106, none},
+      {no_thickness + cells({7, 1, 2, 5, 4}), RuleId::DK106, 495},
   };
   for (const Row& r : rows) EXPECT_EQ(BuiltModel(r.blocks).message(r.rule), r.message) << r.blocks;
 }
@@ -72,15 +72,6 @@ TEST(ModelFindings, CarryKeywordAndIdOfTheirBlock) {
       EXPECT_EQ(d.id, 7);
     }
   EXPECT_EQ(b.findings(RuleId::DK109), 1u);
-}
-
-TEST(Shell, OwnThicknessIsEnough) {
-  std::string line = cells({7, 1, 2, 5, 4});
-  line.pop_back();
-  line.resize(80, ' ');
-  BuiltModel b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
-               "/PART/1\np\n" + cells({1, 1}) + grid_nodes() + "/SHELL/1\n" + line + reals({1.5}));
-  EXPECT_EQ(b.findings(RuleId::DK106), 0u);
 }
 
 TEST(Property, HasItsValuesInWorkingUnits) {
