@@ -74,11 +74,6 @@ TEST(Parameters, BadExpressionsSayWhatIsWrong) {
   }
 }
 
-TEST(Parameters, DefinitionMayFollowUse) {
-  const Deck d = read(deck_of(expression("E", "&A*2") + real("A", "                  3.")));
-  EXPECT_EQ(parameter(d, "E").real, 6);
-}
-
 TEST(Parameters, CyclesAreErrorsAndDoNotHang) {
   const Deck self = read(deck_of(expression("A", "A+1")));
   EXPECT_THAT(first(self.diagnostics, RuleId::DK019)->message, HasSubstr("refers to itself"));
