@@ -69,18 +69,4 @@ inline std::string plates(const Plates& p = {}) {
   return d.text();
 }
 
-/// Totals of a contact in which no two numbers are the same.
-inline ContactTotals distinct_totals() {
-  ContactTotals t;
-  t.count = {51, 52, 53};
-  t.tied = {54, 55, 0};
-  t.on_segment = {56, 57, 58};
-  t.crossed_elements = 59;
-  t.solver_errors = 60;
-  t.acted = 61;
-  t.max_depth = 0.1875;
-  t.max_ratio = 0.3125;
-  return t;
-}
-
 }  // namespace deck::test

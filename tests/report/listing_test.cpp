@@ -61,30 +61,6 @@ Listing read(const std::string& text) {
   return listing ? std::move(*listing) : Listing{};
 }
 
-TEST(ReadListing, RefusesOtherFiles) {
-  EXPECT_FALSE(read_listing_text("x", "").ok());
-  EXPECT_FALSE(read_listing_text("x", "some text\nof nobody\n").ok());
-  const auto engine = read_listing_text("x", " NC=       0 T= 0.0000E+00 DT= 1.0E-03\n");
-  ASSERT_FALSE(engine.ok());
-  EXPECT_NE(engine.error().message.find("Engine"), std::string::npos);
-  EXPECT_FALSE(read_listing("/nowhere/x_0000.out", {}).ok());
-}
-
-TEST(ReadListing, KeepsTheLastPassOfAContact) {
-  const Listing listing = read(listing_of_plates());
-  ASSERT_EQ(listing.contacts.size(), 1u);
-  const ListedContact& contact = listing.contacts[0];
-  EXPECT_EQ(contact.interface, 1);
-  EXPECT_EQ(contact.type, 7);
-  EXPECT_EQ(contact.total, 4u);
-  ASSERT_EQ(contact.pairs.size(), 4u);
-  EXPECT_EQ(contact.pairs[0].secondary[0], 5);
-  EXPECT_EQ(contact.pairs[0].depth, 0.1);
-  EXPECT_EQ(listing.printout, 5);
-  EXPECT_EQ(listing.errors, 0u);
-  EXPECT_EQ(listing.warnings, 1u);
-}
-
 TEST(CompareListing, MatchesPairByPairAndLeadsToTheCard) {
   Inspected deck(plates());
   const Listing listing = read(listing_of_plates());
@@ -106,23 +82,6 @@ TEST(CompareListing, MatchesPairByPairAndLeadsToTheCard) {
   EXPECT_TRUE(group->places[0].span.valid());
   ASSERT_FALSE(group->places[0].findings.empty());
   EXPECT_EQ(report.findings[group->places[0].findings[0]].rule, RuleId::DK301);
-}
-
-TEST(CompareListing, TellsWhatOnlyOneSideHas) {
-  Inspected deck(plates());
-  std::string text = head(1) + contact_head(1, 7) + pairs_head + row({5, 1, 2, 3, 4}) +
-                     row({99, 1, 2, 3, 4}) + total(1, 2, 2) + contact_head(8, 7) +
-                     contact_head(9, 5) + end;
-  const Listing listing = read(text);
-  const ListingReport report = compare_listing(listing, deck.loaded);
-  EXPECT_FALSE(report.agrees());
-  EXPECT_EQ(report.unnamed_contacts, 1u);
-  ASSERT_EQ(report.contacts.size(), 1u);
-  ASSERT_EQ(report.contacts[0].only_listed.size(), 1u);
-  EXPECT_EQ(report.contacts[0].only_listed[0].secondary[0], 99);
-  EXPECT_EQ(std::count_if(report.contacts[0].pairs.begin(), report.contacts[0].pairs.end(),
-                          [](const ComparedPair& p) { return p.listed; }),
-            1);
 }
 
 TEST(CompareListing, NamesWhatDeckExpectsAndTheListingDoesNotHave) {
