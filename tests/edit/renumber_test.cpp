@@ -94,16 +94,6 @@ TEST(RenumberOne, KeepsRangesTrue) {
   EXPECT_THAT(renamed(*step, "node", 10, 12).refusals, testing::SizeIs(1));
 }
 
-TEST(Renumber, IdsWithoutABlankBetweenThemAreSeenInUndescribedText) {
-  const std::string node = "/NODE\n1000000101                 0.0                 0.0\n";
-  for (const char* ids : {"10000001011000000102", "         010000001019"}) {
-    const auto w = Whole::text(plates().add(node + "/MPC/1\nx\n" + ids + "\n").text());
-    const Rewrite r = numbered(*w, {"node+5"});
-    ASSERT_FALSE(r.refusals.empty()) << ids;
-    EXPECT_NE(r.refusals[0].find("1000000101 may be the node"), std::string::npos) << r.refusals[0];
-  }
-}
-
 TEST(Renumber, SmoothedSurfaceInThePlaceOfTheNodeGroupFollowsAsASurface) {
   const auto w = Whole::text(test::deck_of_version(
       2026,
@@ -124,19 +114,6 @@ TEST(Renumber, SpringGroupOfAnActivationIsNoNodeGroup) {
       text.replace(at, 13, "/GRNOD/PART/7");
     return text;
   }());
-}
-
-/// Their first line looks like a title and holds values.
-TEST(Renumber, BlocksWithoutTitleAreNotSkippedOver) {
-  for (const char* block : {"/DFS/DETLINE/1", "/INISTA", "/SPH/RESERVE/1"}) {
-    const auto w = Whole::text(plates().add(std::string(block) + "\n        10").text());
-    EXPECT_EQ(numbered(*w, {"node+1000"}).refusals.size(), 1u) << block;
-  }
-}
-
-TEST(Renumber, NumbersThatNoIdHasAreNoReasonToRefuse) {
-  const auto w = Whole::text(plates().add("/RBODY/9\nr\n        77         0").text());
-  EXPECT_TRUE(numbered(*w, {"node+1000", "part+1000"}).refusals.empty());
 }
 
 TEST(Renumber, SubmodelsWriteIdsBelowTheirOffset) {

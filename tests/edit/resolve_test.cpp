@@ -1,7 +1,7 @@
 // Effective values on the cards: nothing changes but where they come from.
 #include "edit/shared/resolve.hpp"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <map>
 #include <random>
@@ -10,8 +10,6 @@
 
 namespace deck::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 std::unique_ptr<Whole> resolved(const Whole& before) {
   const Rewrite r = resolve_defaults(before.context());
@@ -100,22 +98,6 @@ TEST(ResolveDefaults, MissingLinesAreAddedAndThoseWithCommasGetFixedColumns) {
     EXPECT_EQ(after->interfaces.type7.at(0).grnd_IDs.value, 5);
     EXPECT_EQ(after->interfaces.type7.at(0).Iform.input, 2);
   }
-}
-
-TEST(ResolveDefaults, ParameterOfZeroIsUndecided) {
-  const auto before = open_text(deck_of_version(
-      2022, "/PARAMETER/GLOBAL/INTEGER/1\np\ni                  0\n" + defaults_7 +
-                card("/INTER/TYPE7", 1, 2022, {{"surf_IDm", "1"}, {"Istf", "&i"}})));
-  ASSERT_EQ(before->interfaces.type7.at(0).Istf.value, 4);
-  const Rewrite refused = resolve_defaults(before->context());
-  EXPECT_TRUE(refused.edits.empty());
-  ASSERT_EQ(refused.refusals.size(), 1u);
-  EXPECT_THAT(refused.refusals[0], HasSubstr("/INTER/TYPE7/1 Istf: the parameter is 0"));
-  const Rewrite r = resolve_defaults(before->context(), {true});
-  const auto open = losses_of(r, Loss::undecided);
-  ASSERT_EQ(open.size(), 1u);
-  EXPECT_EQ(open[0].old_text, "&i");
-  EXPECT_THAT(before->after(r)->main_text(), HasSubstr("&i"));
 }
 
 TEST(ResolveDefaultsProperty, RandomCardsInForeignUnitsKeepEveryBit) {
