@@ -88,7 +88,7 @@ TEST_F(EditSets, APackedFileStaysPackedInPlaceAndInATree) {
   EXPECT_EQ(patch->find(".gz"), std::string::npos) << *patch;
 }
 
-TEST_F(EditSets, TwoTextsForOneFileAreRefusedWithBothPlacesAndUnits) {
+TEST_F(EditSets, TwoTextsForOneFileNameBothPlacesAndUnits) {
   for (const auto& [name, mass] : {std::pair{"a", "kg"}, {"b", "Mg"}}) {
     const std::string row = fmt::format("{:>20}{:>20}{:>20}\n", mass, "mm", "ms");
     folder_.write(fmt::format("{0}/{0}_0000.rad", name),

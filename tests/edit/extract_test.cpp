@@ -167,7 +167,7 @@ TEST(Extract, LeavesThePartsThatGroupsAndSetsName) {
     EXPECT_EQ(left(plates().add(std::string("/SET/GENERAL/5\ns\n") + clause)), parts) << clause;
 }
 
-TEST(Extract, SeveralInterfacesInOneDeckAndAllNodesWhereNoiseCountsThem) {
+TEST(Extract, KeepsSeveralInterfacesAndAllNoisyNodes) {
   const auto w = Whole::text(plates()
                                  .add("/RANDOM\n                0.01")
                                  .add("@/INTER/TYPE7/1 Igap=1 Istf=4 Inacti=5")

@@ -88,7 +88,7 @@ TEST(ResolveDefaults, StiffnessKeepsItsValueWhenTheDefaultGivesItAUnit) {
   EXPECT_EQ(after->interfaces.type7.at(1).Stfac.value, 1);
 }
 
-TEST(ResolveDefaults, MissingLinesAreAddedAndThoseWithCommasGetFixedColumns) {
+TEST(ResolveDefaults, ShortAndFreeFormatBlocksGetFullLines) {
   for (const char* block : {"/INTER/TYPE7/1\nshort\n         5         1\n# end\n",
                             "/INTER/TYPE7/1\nfree\n5,1,,0,1000,0,0\n,,\n\n1.5,0.1,0.3\n"
                             "       110                             5\n\n"}) {

@@ -19,7 +19,7 @@ namespace {
 using namespace testing_support;
 
 /// An edit meant for what one include holds would change the others with it.
-TEST(ApplyEditsOfADeck, ChangeAFileIncludedTwiceOnlyWhereAllCopiesAgree) {
+TEST(ApplyEditsOfADeck, NeedAllCopiesOfAFileToAgree) {
   SourceSet sources;
   sources.add(Source::from_bytes("main", "M"));
   for (int copy = 0; copy < 2; ++copy) sources.add(Source::from_bytes("part", "abc"));

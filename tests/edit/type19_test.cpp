@@ -125,7 +125,7 @@ TEST(ExpandType19, DefaultCardOfType19IsWrittenOut) {
   expect_same_scene(*before, *after, "default card of TYPE19");
 }
 
-TEST(ExpandType19, WhatTheNewInterfacesCannotSayIsRefused) {
+TEST(ExpandType19, RefusesWhatTheNewInterfacesCannotSay) {
   // The solver stops at a TYPE19 with a scaled gap and would not stop at what it is expanded to;
   // version 130 has no cell for the flag of a TYPE7 that says the same as Igap 4.
   for (const auto& [cards, version, why] :

@@ -244,7 +244,7 @@ std::string random_blocks(std::mt19937& random, int version, int oldest,
   return deck_of_version(version, out);
 }
 
-TEST(VersionLayoutProperty, ContactsKeepTheirEffectiveValuesUpAndTheirBytesThereAndBack) {
+TEST(VersionLayoutProperty, ContactsKeepValuesUpAndBytesThereAndBack) {
   std::mt19937 random(20260101);
   int converted = 0, whole = 0;
   for (int round = 0; round < 200; ++round) {
@@ -275,7 +275,7 @@ TEST(VersionLayoutProperty, ContactsKeepTheirEffectiveValuesUpAndTheirBytesThere
   EXPECT_GE(whole, 50);
 }
 
-TEST(VersionLayoutProperty, ContactsLoseOnTheWayDownOnlyWhatIsReported) {
+TEST(VersionLayoutProperty, ContactsLoseDownwardsOnlyWhatIsReported) {
   std::mt19937 random(7);
   int converted = 0;
   for (int round = 0; round < 200; ++round) {

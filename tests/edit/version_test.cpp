@@ -110,7 +110,7 @@ TEST(ToVersion, TextInBlankColumnsDoesNotBecomeAValue) {
   EXPECT_EQ(dropped[0].old_text, "0.7");
 }
 
-TEST(ToVersion, FreeFormatLinesGetTheNewColumnsAndKeepTheirParameters) {
+TEST(ToVersion, FreeFormatGetsNewColumnsAndKeepsParameters) {
   const auto before = open_text(
       deck_of_version(110,
                       "/PARAMETER/GLOBAL/REAL/1\ngap\ngap                      0.75\n"

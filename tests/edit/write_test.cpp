@@ -56,7 +56,7 @@ class AtomicWriting : public testing::Test {
   fs::path dir_;
 };
 
-TEST_F(AtomicWriting, ANewFileHasTheModeOfUmaskAndAReplacedOneKeepsItsOwn) {
+TEST_F(AtomicWriting, NewFilesFollowUmaskReplacedOnesKeepTheirMode) {
   const mode_t old = umask(027);
   const auto written = write_file_atomic(at("a.rad"), "new");
   umask(old);

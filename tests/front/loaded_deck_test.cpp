@@ -171,7 +171,7 @@ TEST(Cycle, HasForcesWhateverTheSceneWasMadeWithout) {
 
 // ---- limits ------------------------------------------------------------------------------------
 
-TEST(Limits, HoldForSelectionsAlsoOfDecksThatAreReadAgainAndOfTheModelAlone) {
+TEST(Limits, HoldForSelectionsOfEveryModel) {
   LoadOptions options;
   options.read.limits.selection_bytes = 1;
   const LoadedDeck loaded = in_memory(plates("Gapmin=0.7"), options);

@@ -180,7 +180,7 @@ TEST(CompareListings, MessagesAreGatheredByWhatTheyName) {
   EXPECT_FALSE(report.messages[1].places.at(0).span.valid());
 }
 
-TEST(CompareListings, WhatDeckExpectsAndTheListingDoesNotHaveIsNamed) {
+TEST(CompareListings, NameFindingsThatTheListingDoesNotHave) {
   Inspected d(plates());
   const Listing listing;
   const ListingReport report = compare_listing(listing, d.loaded);

@@ -30,7 +30,7 @@ std::string text_of(const Verdict& v, std::string_view what) {
   return {};
 }
 
-TEST(Verdict, PairsOfTiesAreTiedAndThoseOfContactsPenetrate) {
+TEST(Verdict, TiePairsAreTiedContactPairsPenetrate) {
   const struct {
     std::string text;
     VerdictLevel level;
