@@ -6,9 +6,8 @@ import os
 import re
 import shutil
 import subprocess
-import tempfile
 
-from common import ROOT, Checks
+from common import ROOT, run_steps
 
 
 def run(command, **more):
@@ -98,20 +97,14 @@ def package(c, tmp, verbs):
     c.check("it needs no MPI", "mpi" not in depends, depends)
 
 
-def main():
-    c = Checks()
-    tmp = tempfile.mkdtemp(prefix="deck-docs-")
-    try:
-        verbs = listed_verbs(c)
-        c.check("verbs are listed", len(verbs) >= 10, " ".join(verbs))
-        pages(c, tmp, verbs)
-        completion(c, verbs)
-        if not c.sanitized:
-            package(c, tmp, verbs)
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
-    c.finish()
+def everything(c, tmp):
+    verbs = listed_verbs(c)
+    c.check("verbs are listed", len(verbs) >= 10, " ".join(verbs))
+    pages(c, tmp, verbs)
+    completion(c, verbs)
+    if not c.sanitized:
+        package(c, tmp, verbs)
 
 
 if __name__ == "__main__":
-    main()
+    run_steps(everything)

@@ -6,35 +6,15 @@ import os
 import random
 import shutil
 import subprocess
-import tempfile
 
-from common import ROOT, Checks
+from common import ROOT, differing, put, read, run_steps, tree
 
 UNITS = (("Mg", "mm", "s"), ("kg", "cm", "ms"), ("kg", "m", "s"))
 
 
-def tree(directory):
-    found = {}
-    for folder, _, names in os.walk(directory):
-        for name in names:
-            full = os.path.join(folder, name)
-            with open(full, "rb") as f:
-                found[os.path.relpath(full, directory)] = f.read()
-    return found
-
-
-def put(directory, files):
-    for name, text in files.items():
-        full = os.path.join(directory, name)
-        os.makedirs(os.path.dirname(full), exist_ok=True)
-        with open(full, "w") as f:
-            f.write(text)
-
-
 def pieces():
     """Parts of a sample that decks can share: what stands before the nodes, the nodes, the groups, the contact."""
-    with open(os.path.join(ROOT, "samples", "too_close_0000.rad")) as f:
-        text = f.read()
+    text = read(os.path.join(ROOT, "samples", "too_close_0000.rad")).decode()
     n, s, i, e = (text.index(k) for k in ("/NODE", "/SURF", "/INTER", "/END"))
     return text[:n], text[n:s], text[s:i], text[i:e]
 
@@ -155,25 +135,10 @@ def case(c, r, number, tmp, counts):
             (call[0], "nothing" if now == before else "done", run.code), 0) + 1
 
 
-def sharing(library, deck):
-    """The decks that share files with this one, directly or by way of others."""
-    found, files = [deck], set(library.trees[deck])
-    while True:
-        more = [d for d in library.decks() if d not in found and files & set(library.trees[d])]
-        if not more:
-            return sorted(found)
-        found += more
-        for d in more:
-            files |= set(library.trees[d])
-
-
-def other_ways(c, r, number, tmp, counts):
-    """The same decks named by their directory, or by one of them with its dependents."""
+def whole_directory(c, r, number, tmp, counts):
+    """The same decks named by their directory."""
     library, call = Library(r), random_call(r)
-    decks = library.decks()
     place = r.choice(("in place", "out")) if call[0] != "lint" else "in place"
-    ways = ["directory"] + (["dependents"] if place == "in place" else [])
-    way = r.choice(ways)
     where = {"lint": []}.get(call[0], ["--in-place"] if place == "in place" else ["-o", "../out"])
 
     def run(*given):
@@ -181,18 +146,15 @@ def other_ways(c, r, number, tmp, counts):
         shutil.rmtree(tmp, ignore_errors=True)
         put(work, library.files)
         one = c.run(*call, *where, "-q", *given, cwd=work)
-        after = tree(work) if place == "in place" or not os.path.isdir(os.path.join(tmp, "out")) else tree(os.path.join(tmp, "out"))
-        return one, after
-    name = "%d: %s of %s, %s, %s" % (number, " ".join(call), " ".join(decks), place, way)
-    group = sharing(library, decks[0]) if way == "dependents" else decks
-    expected, wanted = run(*group)
-    got, now = run(*([decks[0], "--with-dependents", "--root", "."] if way == "dependents" else ["."]))
+        out = os.path.join(tmp, "out")
+        return one, tree(work if place == "in place" or not os.path.isdir(out) else out)
+    expected, wanted = run(*library.decks())
+    got, now = run(".")
     # Below a directory decks keep their place, also where nothing but their place joins them.
     same = now == wanted or (place == "out" and sorted(now.values()) == sorted(wanted.values()))
-    c.check(name, got.code == expected.code and same, "%s, expected %s; %s; %s" % (
-        got.code, expected.code, [k for k in set(now) | set(wanted) if now.get(k) != wanted.get(k)][:5], got.text[-300:].strip()))
-    changed = expected.code <= 1
-    counts[(way, changed)] = counts.get((way, changed), 0) + 1
+    c.check("%d: %s of %s, %s, by their directory" % (number, " ".join(call), " ".join(library.decks()), place), got.code == expected.code and same,
+            "%s, expected %s; %s; %s" % (got.code, expected.code, differing(now, wanted), got.text[-300:].strip()))
+    counts[expected.code <= 1] = counts.get(expected.code <= 1, 0) + 1
 
 
 def first_node(text):
@@ -251,7 +213,6 @@ def other_folders(c, work):
     """A shared file that lies in another folder than the deck, by a link or by its path: the decks beside it are found."""
     head, nodes, groups, contact = pieces()
     for name, line in (("link", "#include mesh.inc\n"), ("path", "#include ../mesh.inc\n")):
-        shutil.rmtree(work, ignore_errors=True)
         put(work, {"own/car_0000.rad": head + line + groups + contact + "/END\n", "mesh.inc": nodes,
                    "other_0000.rad": head + "#include mesh.inc\n" + groups + contact + "/END\n"})
         if name == "link":
@@ -261,37 +222,27 @@ def other_folders(c, work):
         run = subprocess.run(call, cwd=work, capture_output=True)
         c.check("%s: another deck includes the file, nothing is written" % name,
                 run.returncode == 2 and b"other_0000.rad" in run.stderr and tree(work) == before, "%d %s" % (run.returncode, run.stderr[-300:]))
-        run = subprocess.run(call + ["--with-dependents"], cwd=work, capture_output=True)
-        now = tree(work)
-        c.check("%s: with both decks it changes" % name, run.returncode == 0 and now["mesh.inc"] != before["mesh.inc"],
-                "%d %s" % (run.returncode, run.stderr[-300:]))
+        run = subprocess.run(call + ["other_0000.rad"], cwd=work, capture_output=True)
+        c.check("%s: with both decks it changes" % name, run.returncode == 0 and tree(work)["mesh.inc"] != before["mesh.inc"], "%s" % run.stderr[-300:])
 
 
-def main():
-    c = Checks()
-    r = random.Random(20)
-    counts = {}
-    tmp = tempfile.mkdtemp(prefix="deck-together-")
-    try:
-        for number in range(400 if c.options.all else 60):
-            case(c, r, number, os.path.join(tmp, "case"), counts)
-        ways, draw = {}, random.Random(21)
-        for number in range(300 if c.options.all else 40):
-            other_ways(c, draw, number, os.path.join(tmp, "ways"), ways)
-        for way in ("directory", "dependents"):
-            c.check("%s: decks were written in some cases" % way, ways.get((way, True), 0) > 3, str(ways))
-        at_the_same_time(c, os.path.join(tmp, "race"))
-        into_one_folder(c, os.path.join(tmp, "one"))
-        other_folders(c, os.path.join(tmp, "folders"))
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
+def random_libraries(c, tmp):
+    r, counts = random.Random(20), {}
+    for number in range(400 if c.options.all else 60):
+        case(c, r, number, os.path.join(tmp, "case"), counts)
     for verb in ("convert", "fix", "lint"):
         done = sum(n for (v, what, _), n in counts.items() if v == verb and what == "done")
         c.check("%s: something was written in some cases (%d)" % (verb, done), done > 3, str(counts))
     refused = sum(n for (v, what, code), n in counts.items() if code == 2)
     c.check("some calls were refused because decks disagree (%d)" % refused, refused > 3, str(counts))
-    c.finish()
+
+
+def random_directories(c, tmp):
+    r, counts = random.Random(21), {}
+    for number in range(300 if c.options.all else 40):
+        whole_directory(c, r, number, os.path.join(tmp, "case"), counts)
+    c.check("decks were written in some cases", counts.get(True, 0) > 3, str(counts))
 
 
 if __name__ == "__main__":
-    main()
+    run_steps(random_libraries, random_directories, at_the_same_time, into_one_folder, other_folders)
