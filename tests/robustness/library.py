@@ -96,11 +96,9 @@ def divided(c, tmp):
     r = c.run("batch", "-o", out, "--merge")
     merged = {k: v for k, v in results(out).items() if "-of-3" not in k}
     c.check("shards merge into the bytes of one process", r.code == 0 and merged == results(one), differing(merged, results(one)))
-    for args in (("--jobs", "3"), ("--jobs", "1", "--threads", "3")):
-        other = os.path.join(tmp, "other")
-        shutil.rmtree(other, ignore_errors=True)
-        c.run("batch", "-o", other, lib, *verb, *args)
-        c.check("%s: same bytes" % " ".join(args), results(other) == results(one), differing(results(other), results(one)))
+    other = os.path.join(tmp, "other")
+    c.run("batch", "-o", other, lib, *verb, "--jobs", "3", "--threads", "3")
+    c.check("three jobs: same bytes", results(other) == results(one), differing(results(other), results(one)))
     manifest = write(os.path.join(tmp, "list.txt"), os.path.join(lib, "family00[01]", "*", "*_0000.rad") + "\n")
     r = c.run("batch", "-o", os.path.join(tmp, "pattern"), "--manifest", manifest, *verb)
     c.check("a pattern in a manifest", b"6 decks: 6 clean" in r.out, r.text[-200:])
@@ -306,50 +304,5 @@ def read_once(c, tmp):
     c.check("the decks are as they were", tree(lib) == before)
 
 
-def first_interfaces(c, directory):
-    """The decks below a directory by the id of their first interface."""
-    found = {}
-    for name in sorted(tree(directory)):
-        if not name.endswith("_0000.rad"):
-            continue
-        path = os.path.join(directory, name)
-        r = c.run("params", path, "--json", "-", "-q", timeout=300)
-        interfaces = json.loads(r.out)["interfaces"] if r.out else []
-        if interfaces:
-            found.setdefault(interfaces[0]["id"], []).append(path)
-    return found
-
-
-def corpus(c, tmp):
-    """The decks outside the project as one tree: up, units there and back, extract, all verified."""
-    top = os.path.join(c.options.corpus, "corpus")
-    if not c.options.all:
-        return
-    if not os.path.isdir(top):
-        return c.skip("corpus", "no decks under %s (set DECK_CORPUS)" % c.options.corpus)
-
-    def step(out, decks, verb):
-        """One batch; what of it is written."""
-        r = c.run("batch", "-o", out, *decks, "--verb", verb, timeout=3000, memory_mb=16000)
-        c.check("corpus: %s" % verb, r.code in (0, 1, 3) and os.path.exists(os.path.join(out, "summary.json")), r.text[-400:])
-        document = json.loads(read(os.path.join(out, "summary.json")))
-        failed = [d["deck"] + ": " + str(d["error"]) for d in document["decks"] if d["status"] == "failed" or "not the same model" in str(d["error"])]
-        c.check("corpus: %s: no deck fails to verify" % verb, not failed, "; ".join(failed)[:600])
-        return {k: v for k, v in document["totals"].items() if v}
-
-    place = os.path.join(tmp, "corpus")
-    at = top
-    for name, verb in (("up", "convert --version 2026"), ("there", "convert --units g,mm,ms"), ("metres", "convert --units kg,m,s"),
-                       ("back", "convert --units kg,mm,ms")):
-        out = os.path.join(place, name)
-        print("corpus: %s: %s" % (verb, step(out, [at], verb)))
-        at = out
-    totals = {}
-    for number, decks in first_interfaces(c, at).items():
-        for k, v in step(os.path.join(place, "extract", str(number)), decks, "convert --extract-contacts %d" % number).items():
-            totals[k] = totals.get(k, 0) + v
-    print("corpus: convert --extract-contacts, the first of each deck: %s" % totals)
-
-
 if __name__ == "__main__":
-    run_steps(as_by_hand, divided, together_or_not, in_place, unverified, read_once, full_disk, killed, corpus)
+    run_steps(as_by_hand, divided, together_or_not, in_place, unverified, read_once, full_disk, killed)

@@ -69,20 +69,15 @@ def check_sarif(c, files):
     def errors_in(paths):
         # With the rules of GitHub's code scanning.
         r = subprocess.run([tool, "validate", *paths, "--rule-kind", "Sarif;Ghas"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
-        return r.returncode, [x for x in r.stdout.split("\n") if ": error " in x], r.stdout + r.stderr
+        return [x for x in r.stdout.split("\n") if ": error " in x], r.stdout + r.stderr
     # The judge must be able to say no.
     bad = os.path.join(os.path.dirname(files[0]), "bad.sarif")
     write(bad, '{"version":"2.1.0","$schema":"https://json.schemastore.org/sarif-2.1.0.json",'
                '"runs":[{"tool":{"driver":{"name":"x","bogus":1}},"results":[]}]}')
-    _, errors, out = errors_in([bad])
+    errors, out = errors_in([bad])
     if not c.check("the SARIF validator refuses a wrong file", bool(errors), out[-300:]):
         return
-    document = json.loads(read(files[0]))
-    document["runs"][0]["results"] = [{"ruleId": "DK101", "message": {"text": "Nowhere."}}]
-    write(bad, json.dumps(document))
-    _, errors, out = errors_in([bad])
-    c.check("it knows what GitHub wants", any("GH1017" in e for e in errors), out[-300:])
-    _, errors, out = errors_in(files)  # one call: starting it takes longer than a file
+    errors, out = errors_in(files)  # one call: starting it takes longer than a file
     c.check("every SARIF is looked at", "%d files scanned" % len(files) in out, out[-300:])
     for f in files:
         mine = [e for e in errors if e.startswith(f + "(")]
