@@ -90,13 +90,6 @@ def origin(c, tmp):
     c.check("--show-config says that there is none", r.code == 0 and "no .decklint.toml" in r.text, r.text)
 
 
-def mistyped(c, tmp):
-    write("select = [\"DK1O4\"]\n", tmp, ".decklint.toml")
-    for args, where in ((["--no-config", "--select", "dk104"], ""), ([], ".decklint.toml:1: ")):
-        r = c.run("lint", SAMPLE, *args, *([] if where == "" else ["--config", ".decklint.toml"]), cwd=tmp)
-        c.check("a mistyped rule names the closest one %s" % args, r.code == 2 and where in r.text and "did you mean 'DK104'?" in r.text, r.text)
-
-
 def changed(c, tmp):
     """A library in which two of three decks include a file, over another one and packed."""
     text = read(SAMPLE).replace("/END\n", "")
@@ -137,7 +130,7 @@ def changed(c, tmp):
 
 def main():
     c = Checks()
-    for part in (init, origin, mistyped, changed):
+    for part in (init, origin, changed):
         with tempfile.TemporaryDirectory(prefix="deck-settings-") as tmp:
             part(c, os.path.realpath(tmp))
     c.finish()
