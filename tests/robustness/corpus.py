@@ -2,35 +2,11 @@
 """Every deck at hand (samples, and the corpus where it is present) through lint, params, convert:
 no crash, unchanged bytes, effective values as the reference solver printed them."""
 import os
-import re
 import shutil
 import subprocess
 import sys
 
-from common import SAMPLES, read, run_steps
-
-INCLUDE = re.compile(rb"^#include\s+(.*?)\s*$", re.I | re.M)
-
-
-def include_tree(path):
-    """The files of a deck below its own directory, as paths relative to it."""
-    top = os.path.dirname(path)
-    todo, seen = [os.path.basename(path)], []
-    while todo:
-        name = todo.pop()
-        full = os.path.join(top, name)
-        if name in seen or not os.path.isfile(full):
-            continue
-        seen.append(name)
-        with open(full, "rb") as f:
-            for written in INCLUDE.findall(f.read()):
-                written = written.decode("latin-1").strip("'\" ")
-                for base in (os.path.dirname(name), ""):
-                    candidate = os.path.normpath(os.path.join(base, written))
-                    if os.path.isfile(os.path.join(top, candidate)):
-                        todo.append(candidate)
-                        break
-    return seen
+from common import SAMPLES, read, run_steps, tree
 
 
 def decks(c, tmp):
@@ -51,10 +27,10 @@ def decks(c, tmp):
         # An incomplete tree may be refused, but then nothing of it is written.
         if lacking and not os.path.exists(out):
             continue
-        for name in include_tree(path):
-            copy = os.path.join(out, name)
-            c.check("convert %s keeps the bytes of %s" % (stem, name),
-                    os.path.exists(copy) and read(copy) == read(os.path.join(os.path.dirname(path), name)))
+        for name, data in tree(out).items():
+            c.check("convert %s keeps the bytes of %s" % (stem, name), data == read(os.path.join(os.path.dirname(path), name)))
+        # What is not there would be missed.
+        c.no_crash("params of the copy of " + stem, c.run("params", os.path.join(out, os.path.basename(path)), "--no-geometry", "-q"), codes)
         shutil.rmtree(out, ignore_errors=True)
 
 

@@ -102,54 +102,42 @@ def judge(library, call, before, now, alone, code, place):
     return ""
 
 
+def ran(c, library, call, place, tmp, given, *more):
+    """(the run, what was there before where it is written to, what is there now)"""
+    work, where = os.path.join(tmp, "work"), ["--in-place"] if place == "in place" else ["-o", "../out"]
+    shutil.rmtree(tmp, ignore_errors=True)
+    put(work, library.files)
+    before = tree(work)
+    run = c.run(*call, *([] if call[0] == "lint" else where), *more, *given, "-q", cwd=work)
+    if place == "in place":
+        return run, before, tree(work)
+    c.check("-o leaves the sources as they are", tree(work) == before, " ".join(call))
+    return run, {}, tree(os.path.join(tmp, "out"))
+
+
 def case(c, r, number, tmp, counts):
     library, call = Library(r), random_call(r)
-    decks = library.decks()
-    names = "%d: %s of %s" % (number, " ".join(call), " ".join(decks))
-    for place in ("in place", "out"):
-        if place == "out" and call[0] == "lint":
-            continue
-        where = {"lint": []}.get(call[0], ["--in-place"] if place == "in place" else ["-o", "../out"])
-        results = {}
-        for given in [[d] for d in decks] + [decks]:
-            work = os.path.join(tmp, "work")
-            shutil.rmtree(tmp, ignore_errors=True)
-            put(work, library.files)
-            before = tree(work)
-            # Alone, nobody looks for the other decks.
-            root = ["--root", os.path.dirname(given[0])] if place == "in place" and len(given) == 1 else []
-            run = c.run(*call, *where, *root, *given, "-q", cwd=work)
-            after = tree(work) if place == "in place" else tree(os.path.join(tmp, "out"))
-            if place == "out" and tree(work) != before:
-                c.check(names, False, "-o changed the sources")
-            results[tuple(given)] = run, after, before if place == "in place" else {}
-        run, now, before = results[tuple(decks)]
+    for place in ("in place",) if call[0] == "lint" else ("in place", "out"):
         alone = {}
-        for d in decks:
-            one, after, was = results[(d,)]
+        for deck in library.decks():
+            # Alone, nobody looks for the other decks.
+            root = ["--root", os.path.dirname(deck)] if place == "in place" else []
+            one, _, after = ran(c, library, call, place, tmp, [deck], *root)
             # fix ends with 1 where penetrations remain, lint where findings do: they have written all the same.
-            alone[d] = None if one.code > 1 or (one.code == 1 and call[0] == "convert") else after
+            alone[deck] = None if one.code > 1 or (one.code == 1 and call[0] == "convert") else after
+        run, before, now = ran(c, library, call, place, tmp, library.decks())
         why = judge(library, call, before, now, alone, run.code, place)
-        c.check("%s, %s" % (names, place), not why, "%s; %s" % (why, run.text[-300:].strip()))
-        counts[(call[0], "nothing" if now == before else "done", run.code)] = counts.get(
-            (call[0], "nothing" if now == before else "done", run.code), 0) + 1
+        c.check("%d: %s of %s, %s" % (number, " ".join(call), " ".join(library.decks()), place), not why, "%s; %s" % (why, run.text[-300:].strip()))
+        what = call[0], "nothing" if now == before else "done", run.code
+        counts[what] = counts.get(what, 0) + 1
 
 
 def whole_directory(c, r, number, tmp, counts):
     """The same decks named by their directory."""
     library, call = Library(r), random_call(r)
     place = r.choice(("in place", "out")) if call[0] != "lint" else "in place"
-    where = {"lint": []}.get(call[0], ["--in-place"] if place == "in place" else ["-o", "../out"])
-
-    def run(*given):
-        work = os.path.join(tmp, "work")
-        shutil.rmtree(tmp, ignore_errors=True)
-        put(work, library.files)
-        one = c.run(*call, *where, "-q", *given, cwd=work)
-        out = os.path.join(tmp, "out")
-        return one, tree(work if place == "in place" or not os.path.isdir(out) else out)
-    expected, wanted = run(*library.decks())
-    got, now = run(".")
+    expected, _, wanted = ran(c, library, call, place, tmp, library.decks())
+    got, _, now = ran(c, library, call, place, tmp, ["."])
     # Below a directory decks keep their place, also where nothing but their place joins them.
     same = now == wanted or (place == "out" and sorted(now.values()) == sorted(wanted.values()))
     c.check("%d: %s of %s, %s, by their directory" % (number, " ".join(call), " ".join(library.decks()), place), got.code == expected.code and same,
