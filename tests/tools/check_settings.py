@@ -7,10 +7,9 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "tests", "robustness"))
-from common import ROOT, Checks  # noqa: E402
+from common import ROOT, run_steps  # noqa: E402
 
 SAMPLE = os.path.join(ROOT, "samples", "too_close_0000.rad")
 
@@ -128,13 +127,5 @@ def changed(c, tmp):
     c.check("the hook looks at files of every name", "files:" not in hook and "require_serial: true" in hook)
 
 
-def main():
-    c = Checks()
-    for part in (init, origin, changed):
-        with tempfile.TemporaryDirectory(prefix="deck-settings-") as tmp:
-            part(c, os.path.realpath(tmp))
-    c.finish()
-
-
 if __name__ == "__main__":
-    main()
+    run_steps(init, origin, changed)
