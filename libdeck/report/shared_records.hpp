@@ -38,6 +38,14 @@ struct DecisionsRow {
 };
 const Record<DecisionsRow>& record_of(const DecisionsRow*);
 
+/// The entity that a finding is about.
+struct EntityRow {
+  const Diagnostic* d = nullptr;
+};
+const Record<EntityRow>& record_of(const EntityRow*);
+const Record<ReferenceMessage>& record_of(const ReferenceMessage*);
+const Record<NotChecked>& record_of(const NotChecked*);
+
 /// A finding of a gate.
 struct GateFinding {
   const Deck* deck = nullptr;
@@ -71,6 +79,8 @@ template <>
 inline constexpr std::size_t word_count<Accuracy> = 4;
 template <>
 inline constexpr std::size_t word_count<VerdictLevel> = 8;
+template <>
+inline constexpr std::size_t word_count<Severity> = 3;
 
 /// Ids of nodes.
 template <std::size_t N>

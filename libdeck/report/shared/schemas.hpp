@@ -17,5 +17,7 @@ std::string common_schema();
 
 DocumentSchema gaps_schema();
 DocumentSchema gate_schema();
+DocumentSchema lint_schema();
+DocumentSchema rules_schema();
 
 }  // namespace deck
