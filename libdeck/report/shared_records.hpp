@@ -5,6 +5,7 @@
 #include "deck/verdict.hpp"
 #include "report/record.hpp"
 #include "report/shared/gate.hpp"
+#include "report/shared/losses.hpp"
 
 namespace deck {
 
@@ -45,6 +46,7 @@ struct EntityRow {
 const Record<EntityRow>& record_of(const EntityRow*);
 const Record<ReferenceMessage>& record_of(const ReferenceMessage*);
 const Record<NotChecked>& record_of(const NotChecked*);
+const Record<LossEntry>& record_of(const LossEntry*);
 
 /// A finding of a gate.
 struct GateFinding {
