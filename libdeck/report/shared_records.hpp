@@ -5,6 +5,7 @@
 #include "deck/verdict.hpp"
 #include "report/record.hpp"
 #include "report/shared/gate.hpp"
+#include "report/shared/listing.hpp"
 #include "report/shared/losses.hpp"
 
 namespace deck {
@@ -47,6 +48,7 @@ const Record<EntityRow>& record_of(const EntityRow*);
 const Record<ReferenceMessage>& record_of(const ReferenceMessage*);
 const Record<NotChecked>& record_of(const NotChecked*);
 const Record<LossEntry>& record_of(const LossEntry*);
+const Record<StepDifference>& record_of(const StepDifference*);
 
 /// A finding of a gate.
 struct GateFinding {

@@ -16,6 +16,7 @@ const std::vector<DocumentOfVerb>& documents_of_verbs();
 std::string common_schema();
 
 DocumentSchema diff_schema();
+DocumentSchema explain_schema();
 DocumentSchema gaps_schema();
 DocumentSchema gate_schema();
 DocumentSchema lint_schema();
