@@ -34,6 +34,10 @@ def main():
     schemas = {}
     for path in files:
         name = os.path.basename(path).split(".")[0]
+        if name == "batch":  # its lines come from the documents of other verbs
+            with open(path, encoding="utf-8") as f:
+                schemas[os.path.basename(path)] = json.load(f)
+            continue
         printed = c.run("schema", name)
         if os.environ.get("DECK_RECORD") and printed.code == 0:
             with open(path, "w", encoding="utf-8") as f:
@@ -49,8 +53,11 @@ def main():
         except jsonschema.SchemaError as error:
             missing = [error.message]
         for reference in references(schema):
-            file, _, pointer = reference.partition("#/$defs/")
-            if pointer not in schemas.get(file or name, {}).get("$defs", {}):
+            file, _, pointer = reference.partition("#/")
+            place = schemas.get(file or name, {})
+            for key in pointer.split("/"):
+                place = place.get(key, {})
+            if not place:
                 missing.append(reference)
         c.check("%s is a schema and complete" % name, not missing, ", ".join(missing[:5]))
     unknown = c.run("schema", "nothing")
