@@ -34,7 +34,7 @@ def main():
     schemas = {}
     for path in files:
         name = os.path.basename(path).split(".")[0]
-        if name == "batch":  # its lines come from the documents of other verbs
+        if name in ("batch", "deck"):  # written by hand: their documents are no tables
             with open(path, encoding="utf-8") as f:
                 schemas[os.path.basename(path)] = json.load(f)
             continue
