@@ -162,8 +162,8 @@ Result<std::vector<std::pair<const EditSet::File*, EditSet::Claim>>> EditSet::ch
     if (!file.outsider.empty())
       return refuse(first.use->path + " would change for " + decks_[first.deck].name + ", and " +
                     file.outsider +
-                    " includes it too; nothing was written. Change all decks that include it with "
-                    "--with-dependents, or give this deck a file of its own");
+                    " includes it too; nothing was written. Name all decks that include it in "
+                    "one call, or give this deck a file of its own");
     out.emplace_back(&file, first);
   }
   std::sort(out.begin(), out.end(),

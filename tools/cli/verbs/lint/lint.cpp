@@ -104,7 +104,7 @@ Action setup(CommandLine& line) {
   line.flag("--unsafe-fixes", o.unsafe_fixes, "Apply the other fixes too");
   line.flag("--diff", o.diff,
             "Print the fixes as a patch (findings on standard error), write nothing");
-  add_dependent_options(line, o.write);
+  add_root_option(line, o.write);
   line.flag("--ruler", o.ruler, "Show column numbers above each card line");
   add_verbose(line, o.common, "Show every finding in full, without grouping");
   line.flag("--no-group", o.common.verbose, "The same");
