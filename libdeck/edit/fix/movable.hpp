@@ -30,12 +30,9 @@ class MovableDeck {
   MovableDeck& operator=(const MovableDeck&) = delete;
   ~MovableDeck() = default;
 
-  /// The contacts with the nodes where they are now, as the deck puts them (see fix_scene); the
-  /// same object with every call. Only pairs with nodes that moved since the last call are looked
-  /// at again, where the rest of a contact does not depend on places. Ties are those of the first
-  /// call until evaluate_with_ties().
+  /// The contacts and ties with the nodes where they are now, as the deck puts them (see
+  /// fix_scene); one object for all calls.
   const Scene& evaluate();
-  const Scene& evaluate_with_ties();
 
   /// The contacts before anything moves; keeps what may not move and what must not get worse.
   /// Error: bad options, or a wanted interface that cannot be evaluated.
@@ -60,13 +57,8 @@ class MovableDeck {
   PenetrationFix fix_;
 
  private:
-  bool keeps_its_sides(const Contact& contact) const;
-  void build_again(const std::vector<bool>& which);
-  void search_again(Contact& contact, const std::vector<bool>& moved);
-
   Scene scene_;
-  std::vector<bool> of_solids_;  ///< by node
-  bool ties_outdated_ = false;
+  bool outdated_ = true;  ///< nodes were placed since
 };
 
 }  // namespace deck::detail

@@ -163,7 +163,7 @@ class PartMover : MovableDeck {
         why_not_ = "it would cross elements";
         return std::nullopt;
       }
-    const Scene& scene = evaluate_with_ties();
+    const Scene& scene = evaluate();
     if (const auto harm = harm_text(model_, scene, baseline_.harm(scene))) {
       why_not_ = *harm;
       return std::nullopt;

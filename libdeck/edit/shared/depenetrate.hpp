@@ -1,5 +1,5 @@
-// Depenetration: moves nodes out of each other's gap, a share of the depth at a time, until none is
-// left, without making a penetration or a crossed element that was not there before.
+// Depenetration: moves nodes out of each other's gap without making a penetration or a crossed
+// element that was not there before.
 #pragma once
 #include <optional>
 #include <vector>
@@ -22,9 +22,10 @@ struct MoveNodesOptions : FixOptions {
 };
 
 /// Moves nodes of /NODE lines. Verified with the coordinates as printed: the deck is read again
-/// with them. Moves that would make a new penetration, deepen another one, cross elements, turn one
-/// inside out or halve one of its sides are taken back. Penetrations that cannot be solved this way
-/// are in `refused` with the reason. Error: unknown part ids, or the deck cannot be read again.
+/// with them. Nodes whose move would make a new penetration, deepen another one, cross elements,
+/// turn one inside out or halve one of its sides stay where they are. Penetrations that cannot be
+/// solved this way are in `refused` with the reason. Error: unknown part ids, or the deck cannot be
+/// read again.
 Result<PenetrationFix> move_nodes(const LoadedDeck& context, const MoveNodesOptions& options);
 
 }  // namespace deck

@@ -2,9 +2,7 @@
 #include "edit/fix/nodes/depenetrate_cells.hpp"
 
 #include <algorithm>
-#include <iterator>
 
-#include "base/shared/parallel.hpp"
 #include "model/shared/item_spans.hpp"
 #include "text/shared/edits.hpp"
 
@@ -48,13 +46,8 @@ void NodeCells::look_up(std::span<const NodeIndex> nodes) {
   if (unknown.empty()) return;
   const std::vector<Span> spans = node_spans(context_.model(), unknown);
   const NodeBlocks blocks(context_.model());
-  std::vector<Cells> found(unknown.size());
-  parallel_pieces(effective_threads(context_.options().threads), unknown.size(),
-                  [&](std::size_t, std::size_t begin, std::size_t end) {
-                    for (std::size_t i = begin; i < end; ++i)
-                      found[i] = read(unknown[i], *blocks[unknown[i]], spans[i]);
-                  });
-  for (std::size_t i = 0; i < unknown.size(); ++i) known_.emplace(unknown[i], std::move(found[i]));
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    known_.emplace(unknown[i], read(unknown[i], *blocks[unknown[i]], spans[i]));
 }
 
 NodeCells::Cells NodeCells::read(NodeIndex n, const Block& block, const Span& line) const {
@@ -113,39 +106,18 @@ std::optional<NodeCells::Printed> NodeCells::print(NodeIndex n, int axis, double
   return Printed{text->text, read_real(text->text).value * cells.factor + offset};
 }
 
-void NodeCells::write(CellWriter& out, NodeIndex n, int axis, std::string_view text) const {
-  const Cells& cells = known_.at(n);
-  const auto a = static_cast<std::size_t>(axis);
-  if (cells.free_format)
-    out.replace(cells.span[a], text);
-  else
-    out.set(cells.line.whole(), cells.columns[a].first, cells.columns[a].second, text);
-}
-
 std::vector<TextEdit> NodeCells::edits(
     const std::map<std::pair<NodeIndex, int>, std::string>& texts) const {
-  // Nodes follow each other as their lines do, mostly: some at a time need no place in a large map.
-  constexpr std::size_t at_once = 512;
-  std::vector<TextEdit> all;
-  bool in_order = true, free = false;
-  for (auto next = texts.begin(); next != texts.end();) {
-    CellWriter some(context_.deck().sources);
-    for (std::size_t count = 0; next != texts.end(); ++count) {
-      const NodeIndex node = next->first.first;
-      if (count >= at_once && node != std::prev(next)->first.first) break;
-      free |= known_.at(node).free_format;
-      write(some, node, next->first.second, next->second);
-      ++next;
-    }
-    for (TextEdit& edit : some.finish()) {
-      in_order &= all.empty() || std::pair(all.back().span.file, all.back().span.offset) <=
-                                     std::pair(edit.span.file, edit.span.offset);
-      all.push_back(std::move(edit));
-    }
-  }
-  if (in_order && !free) return all;
   CellWriter out(context_.deck().sources);
-  for (const auto& [place, text] : texts) write(out, place.first, place.second, text);
+  for (const auto& [place, text] : texts) {
+    const Cells& cells = known_.at(place.first);
+    const auto axis = static_cast<std::size_t>(place.second);
+    const auto& [first, last] = cells.columns[axis];
+    if (cells.free_format)
+      out.replace(cells.span[axis], text);
+    else
+      out.set(cells.line.whole(), first, last, text);
+  }
   return out.finish();
 }
 

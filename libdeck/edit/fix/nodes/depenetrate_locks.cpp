@@ -62,42 +62,25 @@ Result<void> hold_named(const LoadedDeck& context, const Block& block, Hold hold
 }  // namespace
 
 const char* to_string(Hold hold) {
-  switch (hold) {
-    case Hold::none:
-      return "free";
-    case Hold::locked_part:
-      return "locked part";
-    case Hold::not_selected:
-      return "not of the parts that may move";
-    case Hold::rigid_body:
-      return "node of a rigid body";
-    case Hold::boundary:
-      return "node of a boundary condition";
-    case Hold::not_writable:
-      return "coordinates cannot be changed";
-    case Hold::share:
-      return "stopped by --max-moved";
-    case Hold::displacement:
-      return "moved as far as it may (--max-displacement)";
-    case Hold::crossed:
-      return "belongs to crossed elements: no side is the right one; separate them first";
-    case Hold::would_cross:
-      return "moving it would cross elements";
-    case Hold::would_invert:
-      return "moving it would turn an element inside out";
-    case Hold::would_shrink:
-      return "moving it would make an element side less than half as long";
-    case Hold::would_penetrate:
-      return "moving it would make or deepen another penetration";
-    case Hold::would_untie:
-      return "moving it would change what is tied";
-    case Hold::depth:
-      return "moving it as far as the penetration is deep does not free it (--clearance adds to "
-             "that)";
-    case Hold::bystander:
-      return "not in a penetration";
-  }
-  return "";
+  static constexpr const char* words[] = {
+      // in the order of Hold
+      "free",
+      "locked part",
+      "not of the parts that may move",
+      "node of a rigid body",
+      "node of a boundary condition",
+      "coordinates cannot be changed",
+      "stopped by --max-moved",
+      "moved as far as it may (--max-displacement)",
+      "belongs to crossed elements: no side is the right one; separate them first",
+      "moving it would cross elements",
+      "moving it would turn an element inside out",
+      "moving it would make an element side less than half as long",
+      "moving it would make or deepen another penetration",
+      "moving it would change what is tied",
+      "moving it as far as the penetration is deep does not free it (--clearance adds to that)",
+      "not in a penetration"};
+  return words[static_cast<std::size_t>(hold)];
 }
 
 std::string percent_text(double share) { return fmt::format("{:.3g} %", 100 * share); }

@@ -2,11 +2,9 @@
 #include "edit/fix/nodes/depenetrate_mesh.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <queue>
 
-#include "base/shared/parallel.hpp"
 #include "contact/shared/node_elements.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "deck/contact/crossings.hpp"
@@ -51,43 +49,6 @@ std::vector<std::uint32_t> items_around(const IndexRows& rows, std::span<const N
 /// Slots of a node-defined shape that are part of it: a beam's third node only orients it.
 int shape_slots(const Elements& family) {
   return family.kind == ElementKind::beam ? 2 : family.width;
-}
-
-struct Bounds {
-  std::array<double, 3> low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  void add(const Coordinates& x, NodeIndex n) {
-    const double p[3] = {x.x[n], x.y[n], x.z[n]};
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  }
-  bool meets(const Bounds& b) const {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (low[k] > b.high[k] || b.low[k] > high[k]) return false;
-    return true;
-  }
-};
-
-template <class Item>
-Bounds bounds_of(const Coordinates& x, const Item& item) {
-  Bounds b;
-  for (const NodeIndex n : item) b.add(x, n);
-  return b;
-}
-
-/// Positions below `count` of which `holds` is true, ascending.
-template <class Holds>
-std::vector<std::uint32_t> those_that(int threads, std::size_t count, const Holds& holds) {
-  threads = effective_threads(threads);
-  std::vector<std::vector<std::uint32_t>> pieces(pieces_of(threads, count));
-  parallel_pieces(threads, count, [&](std::size_t piece, std::size_t begin, std::size_t end) {
-    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
-      if (holds(i)) pieces[piece].push_back(i);
-  });
-  std::vector<std::uint32_t> out;
-  for (const auto& piece : pieces) out.insert(out.end(), piece.begin(), piece.end());
-  return out;
 }
 
 }  // namespace
@@ -212,54 +173,21 @@ bool FixMesh::connected_within(const Coordinates& x, NodeIndex from, std::span<c
 std::vector<FixMesh::Crossed> FixMesh::crossings(const Coordinates& x,
                                                  std::span<const NodeIndex> nodes,
                                                  int threads) const {
-  const std::vector<std::uint32_t> moved_edges = items_around(edges_of_, nodes, edges_.size());
-  const std::vector<std::uint32_t> moved_faces = items_around(faces_of_, nodes, faces_.size());
   std::vector<Crossed> out;
-  // Moved edges against all faces near them, then all other edges against the moved faces.
-  const auto pairs = [&](const std::vector<std::uint32_t>& edge_list,
-                         const std::vector<std::uint32_t>& face_list) {
-    std::vector<std::array<NodeIndex, 2>> edges;
-    std::vector<std::array<NodeIndex, 4>> faces;
-    for (const std::uint32_t e : edge_list) edges.push_back(edges_[e]);
-    for (const std::uint32_t f : face_list) faces.push_back(faces_[f]);
-    for (const CandidatePair& p : find_crossing_pairs({x.x, x.y, x.z}, edges, faces, threads))
-      out.emplace_back(edge_list[p.secondary], face_list[p.main]);
-  };
-  const auto near = [&](const auto& items, const Bounds& box) {
-    return those_that(threads, items.size(),
-                      [&](std::uint32_t i) { return bounds_of(x, items[i]).meets(box); });
-  };
-  Bounds edge_box, face_box;
-  for (const std::uint32_t e : moved_edges)
-    for (const NodeIndex n : edges_[e]) edge_box.add(x, n);
-  for (const std::uint32_t f : moved_faces)
-    for (const NodeIndex n : faces_[f]) face_box.add(x, n);
-  pairs(moved_edges, near(faces_, edge_box));
-  std::vector<std::uint32_t> others;
-  const std::vector<std::uint32_t> near_edges = near(edges_, face_box);
-  std::set_difference(near_edges.begin(), near_edges.end(), moved_edges.begin(), moved_edges.end(),
-                      std::back_inserter(others));
-  pairs(others, moved_faces);
+  // Moved edges against all faces, then all edges against the moved faces.
+  std::vector<std::array<NodeIndex, 2>> edges;
+  const std::vector<std::uint32_t> moved_edges = items_around(edges_of_, nodes, edges_.size());
+  for (const std::uint32_t e : moved_edges) edges.push_back(edges_[e]);
+  for (const CandidatePair& p : find_crossing_pairs({x.x, x.y, x.z}, edges, faces_, threads))
+    out.emplace_back(moved_edges[p.secondary], p.main);
+  std::vector<std::array<NodeIndex, 4>> faces;
+  const std::vector<std::uint32_t> moved_faces = items_around(faces_of_, nodes, faces_.size());
+  for (const std::uint32_t f : moved_faces) faces.push_back(faces_[f]);
+  for (const CandidatePair& p : find_crossing_pairs({x.x, x.y, x.z}, edges_, faces, threads))
+    out.emplace_back(p.secondary, moved_faces[p.main]);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
-}
-
-void FixMesh::update_crossings(const Coordinates& x, std::span<const NodeIndex> nodes, int threads,
-                               std::vector<Crossed>& known) const {
-  if (!known.empty()) {
-    std::vector<bool> moved(model_.nodes.size());
-    for (const NodeIndex n : nodes) moved[n] = true;
-    const auto any = [&](const auto& item) {
-      return std::any_of(item.begin(), item.end(), [&](NodeIndex n) { return moved[n]; });
-    };
-    std::erase_if(known,
-                  [&](const Crossed& c) { return any(edges_[c.first]) || any(faces_[c.second]); });
-  }
-  const std::vector<Crossed> now = crossings(x, nodes, threads);
-  const auto before = static_cast<std::ptrdiff_t>(known.size());
-  known.insert(known.end(), now.begin(), now.end());
-  std::inplace_merge(known.begin(), known.begin() + before, known.end());
 }
 
 std::vector<FixMesh::Crossed> FixMesh::all_crossings(const Coordinates& x, int threads) const {
@@ -328,17 +256,13 @@ bool turned_solid(const Coordinates& before, const Coordinates& now, const NodeI
 }  // namespace
 
 std::vector<NodeIndex> FixMesh::inverted(const Coordinates& before, const Coordinates& now,
-                                         std::span<const NodeIndex> nodes, int threads) const {
+                                         std::span<const NodeIndex> nodes) const {
   std::vector<NodeIndex> out;
   const auto look = [&](const IndexRows& rows, const Elements& family, const auto& turned) {
     if (family.size() == 0) return;
-    const std::vector<std::uint32_t> around = items_around(rows, nodes, family.size());
-    for (const std::uint32_t i : those_that(threads, around.size(), [&](std::uint32_t k) {
-           const NodeIndex* n = family.of(around[k]);
-           return complete(n, family.width) && turned(n, around[k]);
-         })) {
-      const NodeIndex* n = family.of(around[i]);
-      out.insert(out.end(), n, n + family.width);
+    for (const std::uint32_t e : items_around(rows, nodes, family.size())) {
+      const NodeIndex* n = family.of(e);
+      if (complete(n, family.width) && turned(n, e)) out.insert(out.end(), n, n + family.width);
     }
   };
   look(shells4_, model_.shell4,
@@ -353,21 +277,13 @@ std::vector<NodeIndex> FixMesh::inverted(const Coordinates& before, const Coordi
   return out;
 }
 
-std::vector<std::pair<NodeIndex, NodeIndex>> FixMesh::shortened(const Coordinates& before,
-                                                                const Coordinates& now,
-                                                                std::span<const NodeIndex> nodes,
-                                                                double least, int threads) const {
-  const auto shorter = [&](NodeIndex n, NodeIndex next) {
-    return distance(now, n, next) < least * distance(before, n, next);
-  };
-  std::vector<std::pair<NodeIndex, NodeIndex>> out;
-  for (const std::uint32_t i : those_that(threads, nodes.size(), [&](std::uint32_t k) {
-         const auto next = neighbours(nodes[k]);
-         return std::any_of(next.begin(), next.end(),
-                            [&](NodeIndex other) { return shorter(nodes[k], other); });
-       }))
-    for (const NodeIndex next : neighbours(nodes[i]))
-      if (shorter(nodes[i], next)) out.emplace_back(nodes[i], next);
+std::vector<NodeIndex> FixMesh::shortened(const Coordinates& before, const Coordinates& now,
+                                          std::span<const NodeIndex> nodes, double least) const {
+  std::vector<NodeIndex> out;
+  for (const NodeIndex n : nodes)
+    for (const NodeIndex next : neighbours(n))
+      if (distance(now, n, next) < least * distance(before, n, next))
+        out.insert(out.end(), {n, next});
   return out;
 }
 
