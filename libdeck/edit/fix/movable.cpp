@@ -50,9 +50,43 @@ void MovableDeck::place(NodeIndex n, const Vec& p) {
   now_.z[n] = model_.nodes.z[n] = p.z;
 }
 
+bool MovableDeck::put(NodeIndex n, const Vec& to) {
+  const double wanted[3] = {to.x, to.y, to.z};
+  double printed[3] = {start_.x[n], start_.y[n], start_.z[n]};
+  bool written = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (wanted[axis] == printed[axis]) continue;
+    const auto text = cells_.print(n, axis, wanted[axis]);
+    if (!text) return false;
+    if (text->value == printed[axis]) continue;
+    printed[axis] = text->value;
+    texts_[{n, axis}] = text->text;
+    written = true;
+  }
+  place(n, {printed[0], printed[1], printed[2]});
+  return written;
+}
+
+void MovableDeck::put_back(NodeIndex n) {
+  place(n, at(start_, n));
+  for (int axis = 0; axis < 3; ++axis) texts_.erase({n, axis});
+}
+
+Result<PenetrationFix> MovableDeck::finish(const Scene& before, const std::vector<NodeIndex>& moved,
+                                           const ReasonOf& reason_of) {
+  fix_.rewrite.edits = cells_.edits(texts_);
+  const auto again = AfterRewrite::read(context_, fix_.rewrite, options_, false, before);
+  if (!again) return again.error();
+  if (const auto why = harm_text(model_, again->scene(), baseline_.harm(again->scene())))
+    return Error{Error::Code::internal, "the deck read again differs: " + *why};
+  report(before, again->scene(), moved, reason_of);
+  note_unevaluated(fix_, again->scene(), options_);
+  fix_.complete = fix_.refused.empty();
+  return std::move(fix_);
+}
+
 void MovableDeck::report(const Scene& before, const Scene& after,
-                         const std::vector<NodeIndex>& moved,
-                         const std::function<Reason(const Scene&, const PairAt&)>& reason_of) {
+                         const std::vector<NodeIndex>& moved, const ReasonOf& reason_of) {
   fix_.crossings_after = find_crossings(after, options_.threads).size();
   set_interfaces(fix_, context_.interfaces(), options_, before, after);
   fix_.moved = moved_list(model_, *mesh_, moved, start_, now_);

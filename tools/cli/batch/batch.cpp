@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "batch/list.hpp"
+#include "batch/record.hpp"
 #include "batch/run.hpp"
 #include "library.hpp"
 #include "writing/changes.hpp"

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "batch/list.hpp"
 #include "batch/pool.hpp"
 #include "batch/record.hpp"
 #include "common.hpp"

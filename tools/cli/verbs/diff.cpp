@@ -10,7 +10,7 @@
 #include "deck/model/coverage.hpp"
 #include "deck/report/html.hpp"
 #include "deck/verdict.hpp"
-#include "verbs/fix_page.hpp"
+#include "verbs/gap_page.hpp"
 #include "verbs/gate/options.hpp"
 #include "verbs/git_deck.hpp"
 

@@ -42,11 +42,13 @@ class Depenetrator : MovableDeck {
   Result<PenetrationFix> run() {
     const auto before = prepare();
     if (!before) return before.error();
+    fix_.strategy = "move-nodes";
     begin(*before);
     if (anything_to_do_) plan();
     print_all();
     drop_needless();
-    return finish(*before);
+    return finish(*before, {moved_.begin(), moved_.end()},
+                  [this](const Scene& scene, const PairAt& at) { return reason_of(scene, at); });
   }
 
  private:
@@ -71,10 +73,7 @@ class Depenetrator : MovableDeck {
   void begin_pair(const Scene& scene, const PairAt& at, const PenetrationRow& row, bool inside) {
     const PairState state = state_of(scene, now_, at);
     std::string why = why_not_movable(*mesh_, now_, state);
-    if (why.empty() && inside)
-      why =
-          "the node is inside a solid: the way out is not the way to its surface; separate "
-          "the parts first";
+    if (why.empty() && inside) why = inside_solid;
     if (!why.empty()) {
       skipped_[key_of(scene, at)] = std::move(why);
       return;
@@ -213,7 +212,7 @@ class Depenetrator : MovableDeck {
     needed_[part] = needed;
     for (NodeIndex n = 0; n < holds_.size(); ++n)
       if (mesh_->part_of(n) == part) {
-        take_back(n, Hold::none);
+        take_back(n, Hold::share);
         hold(n, Hold::share);
       }
   }
@@ -243,31 +242,19 @@ class Depenetrator : MovableDeck {
 
   /// Puts every moved node where its printed coordinates are.
   void print_all() {
-    for (const NodeIndex n : std::vector(moved_.begin(), moved_.end())) {
-      bool written = false;
-      const double to[3] = {now_.x[n], now_.y[n], now_.z[n]};
-      double printed[3] = {start_.x[n], start_.y[n], start_.z[n]};
-      for (int axis = 0; axis < 3; ++axis) {
-        if (to[axis] == printed[axis]) continue;
-        const auto text = cells_.print(n, axis, to[axis]);
-        if (!text || text->value == printed[axis]) continue;
-        printed[axis] = text->value;
-        texts_[{n, axis}] = text->text;
-        written = true;
-      }
-      place(n, {printed[0], printed[1], printed[2]});
-      if (!written) take_back(n, Hold::none);
-    }
+    for (const NodeIndex n : std::vector(moved_.begin(), moved_.end()))
+      if (!put(n, at(now_, n))) take_back(n, Hold::depth);
   }
 
-  /// Puts a node back where it was; false if it has not moved.
-  bool take_back(NodeIndex n, Hold why) {
-    if (moved_.erase(n) == 0) return false;
-    place(n, at(start_, n));
+  /// Puts a node back where it was.
+  void take_back(NodeIndex n, Hold why) {
+    if (moved_.erase(n) == 0) return;
+    put_back(n);
     if (const std::uint32_t part = mesh_->part_of(n); part != no_index) --moved_in_part_[part];
-    for (int axis = 0; axis < 3; ++axis) texts_.erase({n, axis});
-    if (why != Hold::none) holds_[n] = static_cast<std::uint8_t>(why);
-    return true;
+    if (why == Hold::depth)
+      hold(n, why);  // unless something else holds it already
+    else
+      holds_[n] = static_cast<std::uint8_t>(why);
   }
 
   /// Takes back moves that harm, or that free nothing, until those that are left do neither.
@@ -335,32 +322,6 @@ class Depenetrator : MovableDeck {
 
   // ---- the end --------------------------------------------------------------------------------
 
-  Result<PenetrationFix> finish(const Scene& before) {
-    for (;;) {
-      fix_.rewrite.edits = cells_.edits(texts_);
-      const auto again = AfterRewrite::read(context_, fix_.rewrite, options_, false, before);
-      if (!again) return again.error();
-      const Scene& after = again->scene();
-      std::map<NodeIndex, Hold> bad;
-      blame(after, bad);
-      bool taken = false;
-      for (const auto& [n, why] : bad) taken |= take_back(n, why);
-      if (taken) {
-        drop_needless();
-        continue;
-      }
-      const std::vector<Harm> harm = baseline_.harm(after);
-      if (const auto why = harm_text(model_, after, harm))
-        return Error{Error::Code::internal, "the deck read again differs: " + *why};
-      fix_.strategy = "move-nodes";
-      report(before, after, {moved_.begin(), moved_.end()},
-             [this](const Scene& scene, const PairAt& at) { return reason_of(scene, at); });
-      note_unevaluated(fix_, after, options_);
-      fix_.complete = fix_.refused.empty();
-      return std::move(fix_);
-    }
-  }
-
   Reason reason_of(const Scene& scene, const PairAt& at) {
     const auto it = skipped_.find(key_of(scene, at));
     std::string text = it != skipped_.end() ? it->second : what_holds(scene, at);
@@ -426,8 +387,6 @@ class Depenetrator : MovableDeck {
   std::vector<PairAt> active_;                     ///< every pair that was ever too close
   DepthBounds bounds_;                             ///< of the nodes in penetrations
   std::map<std::uint32_t, std::uint32_t> needed_;  ///< nodes, of parts that are left alone
-  std::map<PairKey, std::string> skipped_;         ///< pairs that moving cannot solve, and why
-  std::map<std::pair<NodeIndex, int>, std::string> texts_;
   std::size_t first_left_ = 0;
   bool anything_to_do_ = false;
 };

@@ -106,18 +106,19 @@ std::optional<NodeCells::Printed> NodeCells::print(NodeIndex n, int axis, double
   return Printed{text->text, read_real(text->text).value * cells.factor + offset};
 }
 
+void NodeCells::write(CellWriter& out, NodeIndex n, int axis, std::string_view text) const {
+  const Cells& cells = known_.at(n);
+  const auto a = static_cast<std::size_t>(axis);
+  if (cells.free_format)
+    out.replace(cells.span[a], text);
+  else
+    out.set(cells.line.whole(), cells.columns[a].first, cells.columns[a].second, text);
+}
+
 std::vector<TextEdit> NodeCells::edits(
     const std::map<std::pair<NodeIndex, int>, std::string>& texts) const {
   CellWriter out(context_.deck().sources);
-  for (const auto& [place, text] : texts) {
-    const Cells& cells = known_.at(place.first);
-    const auto axis = static_cast<std::size_t>(place.second);
-    const auto& [first, last] = cells.columns[axis];
-    if (cells.free_format)
-      out.replace(cells.span[axis], text);
-    else
-      out.set(cells.line.whole(), first, last, text);
-  }
+  for (const auto& [place, text] : texts) write(out, place.first, place.second, text);
   return out.finish();
 }
 

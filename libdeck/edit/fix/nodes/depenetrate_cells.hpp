@@ -35,6 +35,8 @@ class NodeCells {
     double value = 0;
   };
   std::optional<Printed> print(NodeIndex n, int axis, double value) const;
+  /// Puts the text of a coordinate into its cell.
+  void write(CellWriter& cells, NodeIndex n, int axis, std::string_view text) const;
   /// Edits for new texts per node and axis.
   std::vector<TextEdit> edits(const std::map<std::pair<NodeIndex, int>, std::string>& texts) const;
 

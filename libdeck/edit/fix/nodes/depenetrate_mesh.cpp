@@ -2,6 +2,7 @@
 #include "edit/fix/nodes/depenetrate_mesh.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <queue>
 
@@ -89,31 +90,20 @@ void FixMesh::collect_edges() {
   };
   for (const ElementKind kind : families_with_edges) {
     const Elements& family = model_.family(kind);
-    for (std::size_t e = 0; e < family.size(); ++e) {
-      const NodeIndex* n = family.of(e);
-      if (kind == ElementKind::solid8) {
-        for (int f = 0; f < 6; ++f) {
-          const Face face = solid_face(n, f);
-          const auto corners = static_cast<std::size_t>(face.corners);
-          for (std::size_t k = 0; k < corners; ++k)
-            add(face.nodes[k], face.nodes[(k + 1) % corners]);
-        }
-      } else if (kind == ElementKind::truss || kind == ElementKind::beam) {
-        add(n[0], n[1]);
-      } else {
-        for (int k = 0; k < family.width; ++k) add(n[k], n[(k + 1) % family.width]);
-      }
-    }
+    for (std::uint32_t e = 0; e < family.size(); ++e)
+      for (const auto& [a, b] : local_edges(family, e)) add(family.of(e)[a], family.of(e)[b]);
   }
   std::sort(edges_.begin(), edges_.end());
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
 }
 
 void FixMesh::collect_faces(const Scene& scene) {
+  // A face from several sources once, whatever node it starts with.
+  std::map<std::array<NodeIndex, 4>, std::array<NodeIndex, 4>> faces;
   const auto add = [&](const std::array<NodeIndex, 4>& face) {
-    for (const NodeIndex n : face)
-      if (n == no_index) return;
-    faces_.push_back(face);
+    std::array<NodeIndex, 4> key = face;
+    std::sort(key.begin(), key.end());
+    if (key.back() != no_index) faces.emplace(key, face);
   };
   for (std::size_t e = 0; e < model_.shell4.size(); ++e) {
     const NodeIndex* n = model_.shell4.of(e);
@@ -132,20 +122,7 @@ void FixMesh::collect_faces(const Scene& scene) {
   }
   for (const Contact& c : scene.contacts)
     for (const MainSegment& m : c.main) add(m.nodes);
-  // The same face from several sources once, whatever node it starts with.
-  std::vector<std::array<NodeIndex, 4>> keys(faces_.size());
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
-    keys[i] = faces_[i];
-    std::sort(keys[i].begin(), keys[i].end());
-  }
-  std::vector<std::uint32_t> order(faces_.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
-  std::vector<std::array<NodeIndex, 4>> unique;
-  for (std::size_t i = 0; i < order.size(); ++i)
-    if (i == 0 || keys[order[i]] != keys[order[i - 1]]) unique.push_back(faces_[order[i]]);
-  faces_ = std::move(unique);
+  for (const auto& [key, face] : faces) faces_.push_back(face);
 }
 
 bool FixMesh::connected_within(const Coordinates& x, NodeIndex from, std::span<const NodeIndex> to,

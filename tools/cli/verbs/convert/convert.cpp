@@ -7,7 +7,6 @@
 #include "base/shared/paths.hpp"
 #include "library.hpp"
 #include "report/shared/losses.hpp"
-#include "verbs/convert/convert_losses.hpp"
 #include "verbs/convert/convert_run.hpp"
 
 namespace deck::cli::verb_convert {

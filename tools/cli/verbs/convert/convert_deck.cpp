@@ -7,7 +7,6 @@
 #include "edit/shared/changed_values.hpp"
 #include "edit/shared/verify.hpp"
 #include "report/shared/losses.hpp"
-#include "verbs/convert/convert_losses.hpp"
 #include "verbs/convert/convert_run.hpp"
 
 namespace deck::cli::verb_convert {

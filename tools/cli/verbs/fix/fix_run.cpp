@@ -13,10 +13,9 @@
 #include "deck/lint/lint.hpp"
 #include "deck/model/coverage.hpp"
 #include "deck/text/number.hpp"
-#include "edit/shared/move_part.hpp"
 #include "library.hpp"
 #include "report/shared/fix.hpp"
-#include "verbs/fix_page.hpp"
+#include "verbs/gap_page.hpp"
 
 namespace deck::cli::verb_fix {
 namespace {

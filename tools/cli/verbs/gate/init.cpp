@@ -15,7 +15,6 @@
 #include "library.hpp"
 #include "lint/shared/config.hpp"
 #include "report/shared/json.hpp"
-#include "verbs/gate/history.hpp"
 #include "verbs/lint/lint_run.hpp"
 
 namespace deck::cli {
