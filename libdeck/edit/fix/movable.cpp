@@ -9,6 +9,7 @@
 #include "edit/fix/nodes/depenetrate_locks.hpp"
 
 namespace deck::detail {
+
 MovableDeck::MovableDeck(const LoadedDeck& context, const MoveNodesOptions& options)
     : context_(context), options_(options), cells_(context) {
   ModelOptions build;
@@ -89,7 +90,16 @@ void MovableDeck::report(const Scene& before, const Scene& after,
                          const std::vector<NodeIndex>& moved, const ReasonOf& reason_of) {
   fix_.crossings_after = find_crossings(after, options_.threads).size();
   set_interfaces(fix_, context_.interfaces(), options_, before, after);
-  fix_.moved = moved_list(model_, *mesh_, moved, start_, now_);
+  for (const NodeIndex n : moved) {
+    const Vec u = at(now_, n) - at(start_, n);
+    const std::uint32_t part = mesh_->part_of(n);
+    fix_.moved.push_back({model_.node_id(n),
+                          part == no_index ? 0 : model_.parts[part].id,
+                          {u.x, u.y, u.z},
+                          norm(u)});
+  }
+  std::sort(fix_.moved.begin(), fix_.moved.end(),
+            [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
   // Every strategy names the depth that a node has in the deck as it was read.
   std::map<std::pair<std::int64_t, std::vector<std::int64_t>>, double> depth;
   for (const Contact& contact : before.contacts)

@@ -120,10 +120,7 @@ int merge(const BatchOptions& o) {
   auto merged = merge_shards(o.directory);
   if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
     merged = config_error("--merge takes no decks: it merges the summaries in DIR");
-  if (!merged) {
-    print_error(o.common, merged.error().message);
-    return exit_usage;
-  }
+  if (!merged) return failed(o.common, merged.error().message);
   remove_strays(o.directory);
   return write_overview(o, {}, *merged, 0);
 }

@@ -4,6 +4,8 @@
 // printed.
 #include "edit/shared/depenetrate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -371,14 +373,15 @@ class Depenetrator : MovableDeck {
 
   /// "stopped by --max-moved 10 %: needs 100 % of part 2 (9 of 9 nodes); nothing done"
   std::string share_text(NodeIndex n) const {
-    std::string text = stopped_by_share(options_);
+    const std::string text =
+        fmt::format("{} {:.3g} %", to_string(Hold::share), 100 * options_.most_moved);
     const std::uint32_t part = mesh_->part_of(n);
     const auto it = needed_.find(part);
     if (it == needed_.end()) return text;
     const std::uint32_t all = mesh_->nodes_of_part(part);
-    return text + ": needs " + percent_text(static_cast<double>(it->second) / all) + " of part " +
-           std::to_string(model_.parts[part].id) + " (" + std::to_string(it->second) + " of " +
-           std::to_string(all) + " nodes); nothing done";
+    return fmt::format("{}: needs {:.3g} % of part {} ({} of {} nodes); nothing done", text,
+                       100 * (static_cast<double>(it->second) / all), model_.parts[part].id,
+                       it->second, all);
   }
 
   std::vector<bool> looked_up_;  ///< by cells_

@@ -1,8 +1,6 @@
 // Reads boundary conditions, rigid bodies and options for the nodes that have to stay.
 #include "edit/fix/nodes/depenetrate_locks.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 
@@ -71,12 +69,6 @@ const char* to_string(Hold hold) {
       "moving it as far as the penetration is deep does not free it (--clearance adds to that)",
       "not in a penetration"};
   return words[static_cast<std::size_t>(hold)];
-}
-
-std::string percent_text(double share) { return fmt::format("{:.3g} %", 100 * share); }
-
-std::string stopped_by_share(const MoveNodesOptions& options) {
-  return to_string(Hold::share) + (" " + percent_text(options.most_moved));
 }
 
 Result<std::vector<std::uint8_t>> make_holds(const LoadedDeck& context,

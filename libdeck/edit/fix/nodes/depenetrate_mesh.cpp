@@ -264,22 +264,4 @@ std::vector<NodeIndex> FixMesh::shortened(const Coordinates& before, const Coord
   return out;
 }
 
-std::vector<MovedNode> moved_list(const Model& model, const FixMesh& mesh,
-                                  const std::vector<NodeIndex>& nodes, const Coordinates& start,
-                                  const Coordinates& now) {
-  std::vector<MovedNode> out;
-  for (const NodeIndex n : nodes) {
-    const Vec u = at(now, n) - at(start, n);
-    MovedNode m;
-    m.id = model.node_id(n);
-    if (const std::uint32_t part = mesh.part_of(n); part != no_index) m.part = model.parts[part].id;
-    m.by = {u.x, u.y, u.z};
-    m.distance = norm(u);
-    out.push_back(m);
-  }
-  std::sort(out.begin(), out.end(),
-            [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
-  return out;
-}
-
 }  // namespace deck::detail

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "deck/contact/scene.hpp"
-#include "deck/edit/fix.hpp"
 #include "model/shared/connectivity.hpp"
 
 namespace deck::detail {
@@ -56,10 +55,5 @@ class FixMesh {
   IndexRows shells4_, shells3_, solids_;
   std::vector<std::uint32_t> part_, part_nodes_;
 };
-
-/// What moved, by id: from `start` to `now`.
-std::vector<MovedNode> moved_list(const Model& model, const FixMesh& mesh,
-                                  const std::vector<NodeIndex>& nodes, const Coordinates& start,
-                                  const Coordinates& now);
 
 }  // namespace deck::detail

@@ -14,10 +14,8 @@
 #include "deck/lint/lint.hpp"
 #include "deck/report/html.hpp"
 #include "deck/text/number.hpp"
-#include "processor.hpp"
 #include "report/shared/cycle.hpp"
 #include "text/shared/gzip.hpp"
-#include "verbs/accuracy_option.hpp"
 #include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_cycle {
@@ -213,10 +211,7 @@ class CycleRun {
   }
 
  private:
-  int usage(const Error& error) const {
-    print_error(o_.common, error.message);
-    return exit_usage;
-  }
+  int usage(const Error& error) const { return failed(o_.common, error.message); }
 
   /// Everything that can be said without a deck.
   Result<void> prepare() {
