@@ -14,6 +14,10 @@ inline constexpr ElementKind families_with_edges[] = {ElementKind::shell4, Eleme
                                                       ElementKind::solid8, ElementKind::truss,
                                                       ElementKind::beam};
 
+/// The edges of an element, each by the slots of its two nodes.
+using LocalEdge = std::array<int, 2>;
+std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t element);
+
 class Connectivity {
  public:
   explicit Connectivity(const Model& model) : model_(model) {}
