@@ -8,7 +8,6 @@
 #include <span>
 
 #include "base/shared/vec.hpp"
-#include "deck/contact/pair_gap.hpp"
 #include "deck/contact/search.hpp"
 
 namespace deck::detail {

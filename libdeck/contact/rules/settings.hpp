@@ -1,7 +1,7 @@
 // What a card says about gaps and initial penetrations, and what the parts of its interface make of
 // it. These rules know nothing of decks: the library and the page of the HTML report compile them.
 #pragma once
-#include "deck/contact/what_if.hpp"
+#include "deck/contact/scene.hpp"
 
 namespace deck::detail {
 
