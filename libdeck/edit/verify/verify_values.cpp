@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "deck/model/coverage.hpp"
+#include "deck/model/interfaces.hpp"
 #include "edit/verify/verify_parts.hpp"
 
 namespace deck::detail {

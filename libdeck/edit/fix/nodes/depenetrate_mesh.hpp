@@ -9,7 +9,7 @@
 
 #include "deck/contact/scene.hpp"
 #include "deck/edit/fix.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 
