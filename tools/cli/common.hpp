@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "deck/base/limits.hpp"
 #include "deck/front/loaded_deck.hpp"
+#include "deck/text/source.hpp"
 #include "edit/shared/write.hpp"
 #include "progress.hpp"
 #include "verb.hpp"

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "base/shared/vec.hpp"
-#include "deck/contact/pair_gap.hpp"
 #include "deck/contact/search.hpp"
 #include "deck/contact/what_if.hpp"
 

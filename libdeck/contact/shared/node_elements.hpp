@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck {
 

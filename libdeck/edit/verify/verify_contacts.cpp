@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "deck/model/coverage.hpp"
+#include "deck/model/interfaces.hpp"
 #include "edit/verify/verify_parts.hpp"
 
 namespace deck::detail {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -19,25 +18,22 @@ void each_secondary_node(Selections& selections, const ContactCard& card, F&& f)
     for (const NodeIndex n : list)
       if (n != no_index) f(n);
   };
-  const auto id = [&](std::string_view field) {
-    return static_cast<std::int64_t>(card.value(field));
-  };
   if (card.type == 7)
-    if (const NodeSet* set = selections.node_group(id("grnd_IDs"))) nodes(set->nodes);
+    if (const NodeSet* set = selections.node_group(card.id("grnd_IDs"))) nodes(set->nodes);
   if (card.type == 11)
-    if (const LineSet* set = selections.line(id("line_IDs")))
+    if (const LineSet* set = selections.line(card.id("line_IDs")))
       for (const Edge& e : set->edges) nodes(e.nodes);
   if (card.type == 19)
     for (const std::string_view field : {"surf_IDs", "surf_IDm"})
-      if (const auto set = selections.outline(id(field)))
+      if (const auto set = selections.outline(card.id(field)))
         set->segments.each([&](const Segment& s) { nodes(s.nodes); });
 }
 
 void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model->spring.size() == 0) return;
-  std::vector<bool> on_spring(c.model->nodes.size(), false);
-  for (const NodeIndex n : c.model->spring.nodes)
-    if (n != no_index) on_spring[n] = true;
+  const std::vector<bool> on_spring = marked(*c.model, [&](auto&& mark) {
+    for (const NodeIndex n : c.model->spring.nodes) mark(n);
+  });
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Inacti") != 3) return;
     NodeIndex found = no_index;
@@ -163,7 +159,7 @@ void check_same_sides(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts) {
     if (card.type == 0 || card.type == 11 || card.flag("Istf") == 1) continue;
-    const auto s = c.selections->outline(static_cast<std::int64_t>(card.value("surf_IDm")));
+    const auto s = c.selections->outline(card.id("surf_IDm"));
     if (!s) continue;
     std::set<std::uint32_t> parts;
     std::uint32_t last = no_index;  // segments of a part mostly follow each other

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -35,8 +34,7 @@ void check_renard(const LintContext& c, const Rule& rule, Reporter& r) {
                                      block.real("C4"), block.real("C5"), block.real("C6")};
     const Cell* at = block.find("C1");
     if (const std::string problem = renard_problem(k); !problem.empty())
-      r.report(rule, *block.block, at ? at->span : block.span(),
-               "/FRICTION " + std::to_string(block.block->id.value) + ": " + problem);
+      r.report(rule, *block.block, at ? at->span : block.span(), name_of(block) + ": " + problem);
   }
 }
 
@@ -66,9 +64,7 @@ void check_times(const LintContext& c, const Rule& rule, Reporter& r) {
 /// The two nodes of the axis are one node, or stand at the same place.
 bool axis_is_a_point(const LintContext& c, const ContactCard& card) {
   if (card.value("node_ID1") == card.value("node_ID2")) return true;
-  const auto place = [&](std::string_view field) {
-    return c.model->find_node(static_cast<std::int64_t>(card.value(field)));
-  };
+  const auto place = [&](std::string_view field) { return c.model->find_node(card.id(field)); };
   const NodeIndex a = place("node_ID1"), b = place("node_ID2");
   if (a == no_index || b == no_index) return false;
   const auto& x = c.model->nodes;
@@ -187,8 +183,7 @@ void check_filter(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string problem =
         filter_problem(block.integer("Ifiltr"), working_value(c.deck, block, *cell));
     if (problem.empty()) continue;
-    Diagnostic* d = r.report(rule, *block.block, cell->span,
-                             "/FRICTION " + std::to_string(block.block->id.value) + ": " + problem);
+    Diagnostic* d = r.report(rule, *block.block, cell->span, name_of(block) + ": " + problem);
     if (d != nullptr) d->reference = rule.message(1591);
   }
 }
@@ -266,7 +261,7 @@ void check_old_heat(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (!card.given("fric_ID")) return;
-    const Friction* f = c.interfaces->friction(static_cast<std::int64_t>(card.value("fric_ID")));
+    const Friction* f = c.interfaces->friction(card.id("fric_ID"));
     if (f == nullptr || f->Ifric == 0) return;
     Diagnostic* d = report_at(
         r, rule, card, "fric_ID",

@@ -7,7 +7,7 @@
 #include "base/shared/count.hpp"
 #include "contact/shared/element_names.hpp"
 #include "deck/contact/ties.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/html/parts.hpp"
 

@@ -10,7 +10,6 @@
 
 #include "base/shared/escape.hpp"
 #include "deck/keyword/deck.hpp"
-#include "deck/model/coverage.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
 #include "deck/text/number.hpp"

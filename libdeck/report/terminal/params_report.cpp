@@ -2,7 +2,7 @@
 #include "report/shared/params_report.hpp"
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
-#include "deck/contact/resolve.hpp"
+#include "deck/contact/scene.hpp"
 
 #include <fmt/format.h>
 

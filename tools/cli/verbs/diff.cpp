@@ -7,7 +7,7 @@
 
 #include "common.hpp"
 #include "deck/contact/view.hpp"
-#include "deck/model/coverage.hpp"
+#include "deck/model/interfaces.hpp"
 #include "deck/report/html.hpp"
 #include "deck/verdict.hpp"
 #include "verbs/gap_page.hpp"

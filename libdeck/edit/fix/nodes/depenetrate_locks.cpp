@@ -6,13 +6,10 @@
 
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 namespace {
-
-constexpr ElementKind all_families[] = {
-    ElementKind::shell4, ElementKind::shell3, ElementKind::solid8, ElementKind::quad,
-    ElementKind::tria,   ElementKind::truss,  ElementKind::beam,   ElementKind::spring};
 
 Result<std::set<std::uint32_t>> parts_of(const Model& model, const std::vector<std::int64_t>& ids) {
   std::set<std::uint32_t> out;

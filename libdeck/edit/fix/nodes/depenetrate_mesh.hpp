@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "deck/contact/scene.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 

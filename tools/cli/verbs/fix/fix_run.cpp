@@ -11,7 +11,7 @@
 #include "base/shared/escape.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/lint/lint.hpp"
-#include "deck/model/coverage.hpp"
+#include "deck/model/interfaces.hpp"
 #include "deck/text/number.hpp"
 #include "library.hpp"
 #include "report/shared/fix.hpp"
