@@ -35,7 +35,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/report/drain.hpp"
+#include "deck/report/gaps.hpp"
 #include "report/shared/json.hpp"
 
 namespace deck {

@@ -10,7 +10,7 @@
 
 #include "base/shared/vec.hpp"
 #include "deck/contact/search.hpp"
-#include "deck/contact/what_if.hpp"
+#include "deck/contact/scene.hpp"
 
 namespace deck::detail {
 
