@@ -38,25 +38,6 @@ void check_title_length(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void check_blank_temperature(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!fixed_temperature(card) || card.given("Tint")) return;
-    note_field(report_at(r, rule, card, "Tint",
-                         name_of(card) + ": Tint is blank, so the secondary side exchanges heat "
-                                         "with a body of temperature 0"),
-               card, "Ithe");
-  });
-}
-
-void check_blank_radiation(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.input("Ithe") != 1 || !card.given("Frad") || card.given("Drad")) return;
-    note_field(
-        report_at(r, rule, card, "Drad", name_of(card) + ": Drad is blank, so nothing radiates"),
-        card, "Frad");
-  });
-}
-
 void check_main_share(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (!fixed_temperature(card)) return;
@@ -68,28 +49,6 @@ void check_main_share(const LintContext& c, const Rule& rule, Reporter& r) {
                                        card.show(field), secondary ? " and fct_IDK" : "")),
                  card, "Ithe_form");
     }
-  });
-}
-
-void check_function_without_heat(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("fct_IDF") || card.given("fric_ID") || card.input("Ithe") == 1) return;
-    note_field(report_at(r, rule, card, "fct_IDF",
-                         name_of(card) + ": fct_IDF is not used, because the interface exchanges "
-                                         "no heat"),
-               card, "Ithe");
-  });
-}
-
-void check_function_form1(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("fct_IDF") || card.given("fric_ID")) return;
-    if (card.input("Ithe") != 1 || card.input("Ithe_form") != 1) return;
-    note_field(
-        report_at(r, rule, card, "fct_IDF",
-                  name_of(card) +
-                      ": with Ithe_form 1 fct_IDF is evaluated at the temperature of another pair"),
-        card, "Ithe_form");
   });
 }
 
@@ -247,13 +206,11 @@ void check_default_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> difference_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK246, check_title_length},          {RuleId::DK247, check_blank_temperature},
-      {RuleId::DK248, check_blank_radiation},       {RuleId::DK249, check_main_share},
-      {RuleId::DK268, check_sensor_times},          {RuleId::DK291, check_function_without_heat},
-      {RuleId::DK293, check_cutoff_filter},         {RuleId::DK294, check_incremental_filter},
-      {RuleId::DK295, check_incremental_stiffness}, {RuleId::DK296, check_half_bounds},
-      {RuleId::DK297, check_edge_limits},           {RuleId::DK298, check_release_column},
-      {RuleId::DK510, check_default_ibag},          {RuleId::DK914, check_function_form1},
+      {RuleId::DK246, check_title_length},       {RuleId::DK249, check_main_share},
+      {RuleId::DK268, check_sensor_times},       {RuleId::DK293, check_cutoff_filter},
+      {RuleId::DK294, check_incremental_filter}, {RuleId::DK295, check_incremental_stiffness},
+      {RuleId::DK296, check_half_bounds},        {RuleId::DK297, check_edge_limits},
+      {RuleId::DK298, check_release_column},     {RuleId::DK510, check_default_ibag},
       {RuleId::DK915, check_tie_trigger},
   };
   return all;

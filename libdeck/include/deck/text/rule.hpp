@@ -3,6 +3,7 @@
 // its page.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,9 @@
 #include "deck/text/rule_id.hpp"
 
 namespace deck {
+namespace detail {
+struct CellRule;
+}
 
 /// Who finds the violations of a rule.
 enum class RuleStage : std::uint8_t {
@@ -58,6 +62,8 @@ struct Rule {
   std::vector<RuleField> fields;  ///< that its findings are about; empty: it is about none
   /// What shows that the solver does what `solver` says: a run, a record, ...; empty: no claim.
   std::string source;
+  /// The condition on cells that is its check; nullptr: its check is code.
+  std::shared_ptr<const detail::CellRule> cells;
 
   Severity severity() const { return severities.front(); }
   /// nullptr: the rule is not about this field.
