@@ -22,12 +22,6 @@ Sides sides_of(const Contact& c, const DecisionDifference& d) {
   return {std::span(&c.secondary[d.secondary].node, 1), c.main[d.main].nodes};
 }
 
-void write_ids(JsonWriter& j, const Model& model, std::span<const NodeIndex> nodes) {
-  j.begin_array(true);
-  for (const NodeIndex n : nodes) j.value(model.node_id(n));
-  j.end_array();
-}
-
 std::string ids_text(const Model& model, std::span<const NodeIndex> nodes, char between) {
   std::string out;
   NodeIndex last = no_index;
@@ -54,36 +48,6 @@ const char* verdict(const DecisionDifference& d) {
 }
 
 }  // namespace
-
-void write_decisions(JsonWriter& j, const Scene& scene) {
-  const DecisionReport& r = scene.decisions;
-  j.key("accuracy").begin_object().field("mode", to_string(r.mode)).field("pairs", r.pairs);
-  j.field("fallback", r.fallback).field("exact", r.exact);
-  for (const auto& [name, count] : {std::pair("decisions_differing", r.contact_differs),
-                                    std::pair("surface_differing", r.surface_differs)}) {
-    j.key(name);
-    counts_differences(r) ? j.value(count) : j.null();
-  }
-  j.key("differences").begin_array();
-  for (const DecisionDifference& d : r.differences) {
-    const Contact& c = scene.contacts[d.contact];
-    const Sides s = sides_of(c, d);
-    const bool edges = c.kind == ContactKind::edge_edge;
-    j.begin_object(true).field("interface", c.inter->id).field("role", to_string(c.role));
-    if (edges) {
-      j.key("edge");
-      write_ids(j, *scene.model, s.secondary);
-    } else {
-      j.field("node", scene.model->node_id(s.secondary[0]));
-    }
-    j.key(edges ? "main_edge" : "segment");
-    write_ids(j, *scene.model, s.main);
-    j.field("about", d.surface ? "on_surface" : "contact").field("exact", d.exact);
-    j.field("solver", !d.exact).field("gap", d.gap).field("solver_distance", d.solver_distance);
-    j.field("exact_distance", d.exact_distance).field("action", to_string(d.action)).end_object();
-  }
-  j.end_array().end_object();
-}
 
 std::string decisions_text(const Scene& scene, std::size_t rows, bool always, bool color,
                            std::size_t width) {

@@ -28,7 +28,5 @@ ElementName segment_element(const Scene& scene, const Crossing& crossing);
 
 /// The members of "summary" and "totals", the same in the document and in the page.
 void write_totals(JsonWriter& json, const ContactTotals& totals);
-/// The member "on_segment".
-void write_on_segment(JsonWriter& json, const ItemCounts& counts);
 
 }  // namespace deck

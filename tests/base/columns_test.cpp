@@ -3,18 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 namespace deck {
 namespace {
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> out;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto nl = std::min(text.find('\n', at), text.size());
-    out.push_back(text.substr(at, nl - at));
-    at = nl + 1;
-  }
-  return out;
-}
 
 std::string without_blanks(std::string text) {
   std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
@@ -70,7 +62,9 @@ TEST(Folded, NoLineIsWiderAndShortOnesStayAsTheyAre) {
       std::string(90, 'x') + "\n  short\n\n\x1b[1mbold text that goes on and on and on\x1b[0m\n";
   for (const std::size_t width : {20u, 30u, 80u}) {
     const std::string out = folded(text, width);
-    for (const std::string& line : lines_of(out)) EXPECT_LE(display_width(line), width) << line;
+    std::istringstream lines(out);
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(display_width(line), width) << line;
     EXPECT_NE(out.find("\n  short\n\n"), std::string::npos);
     EXPECT_EQ(without_blanks(out), without_blanks(text));
   }

@@ -15,10 +15,6 @@
 namespace deck {
 namespace {
 
-TEST(Processors, AreThoseOfTheMachineAndAtLeastOne) {
-  EXPECT_EQ(processors(), static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
-}
-
 TEST(ParallelItems, EveryItemRunsOnceOnAnyNumberOfThreads) {
   for (const int threads : {1, 2, 7, 64}) {
     std::vector<std::atomic<int>> ran(1000);
@@ -27,26 +23,19 @@ TEST(ParallelItems, EveryItemRunsOnceOnAnyNumberOfThreads) {
   }
 }
 
-TEST(ParallelItems, AnExceptionOfAnyThreadComesOutOfTheCall) {
+TEST(ParallelItems, AnExceptionOfAnyThreadComesOutOfTheCallAndNoFurtherItemBegins) {
   for (const int threads : {1, 2, 8})
-    for (const std::size_t bad : {std::size_t{0}, std::size_t{5}, std::size_t{99}})
-      EXPECT_THROW(parallel_items(threads, 100,
+    for (const std::size_t bad : {std::size_t{0}, std::size_t{5}, std::size_t{99}}) {
+      std::atomic<int> after{0};
+      EXPECT_THROW(parallel_items(threads, 1'000'000,
                                   [&](std::size_t i) {
-                                    if (i == bad) throw std::bad_alloc();
+                                    if (i > bad) ++after;
+                                    if (i >= bad) throw std::bad_alloc();
                                   }),
                    std::bad_alloc)
           << threads << " " << bad;
-}
-
-TEST(ParallelItems, NoFurtherItemBeginsAfterAnException) {
-  std::atomic<int> begun{0};
-  EXPECT_THROW(parallel_items(2, 1'000'000,
-                              [&](std::size_t) {
-                                ++begun;
-                                throw std::runtime_error("stop");
-                              }),
-               std::runtime_error);
-  EXPECT_LE(begun.load(), 2);
+      EXPECT_LE(after.load(), threads);
+    }
 }
 
 TEST(SideBySide, EveryItemRunsOnceAndLargeOnesHaveAllThreads) {
@@ -98,7 +87,6 @@ TEST(RunWorkers, NobodyIsAtWorkAfterTheCall) {
       std::this_thread::yield();
       ++ended;
     });
-    EXPECT_GE(begun.load(), 1);
     EXPECT_EQ(begun.load(), ended.load());  // who comes later finds the gate closed
   }
 }
@@ -117,18 +105,6 @@ TEST(RunWorkers, OfSeveralExceptionsThatOfTheLowestWorkerIsThrownOn) {
     EXPECT_STREQ(e.what(), "0");
   }
   EXPECT_TRUE(cancel.is_set());
-}
-
-TEST(ParallelParts, BoundsDependOnTheNumberOfThreadsOnly) {
-  for (const std::size_t count : {std::size_t{10}, std::size_t{100'000}}) {
-    std::vector<std::pair<std::size_t, std::size_t>> bounds(4);
-    parallel_parts(4, count, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      bounds[part] = {begin, end};
-    });
-    EXPECT_EQ(bounds.front().first, 0u);
-    EXPECT_EQ(bounds.back().second, count);
-    for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(bounds[k].first, bounds[k - 1].second);
-  }
 }
 
 TEST(ParallelPieces, EveryItemIsInOnePieceAndPiecesHaveTheirOrder) {

@@ -137,13 +137,6 @@ TEST(CrossingPairs, AgreeWithRationalsFarFromTheOriginAndAcrossScales) {
   }
 }
 
-TEST(CrossingPairs, AllInOnePlaneCrossNowhere) {
-  std::mt19937_64 random(4);
-  Mesh mesh = random_mesh(random, 50, 50, 50, [&] { return double(random() % 16); });
-  std::fill(mesh.z.begin(), mesh.z.end(), 3.0);
-  EXPECT_TRUE(mesh.found().empty());
-}
-
 TEST(CrossingPairs, OneOutlierHidesNothing) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> real(-1, 1);
@@ -154,8 +147,7 @@ TEST(CrossingPairs, OneOutlierHidesNothing) {
 
 TEST(CrossingPairs, TouchingIsNotCrossing) {
   Mesh mesh;
-  for (const auto& p : {Exact{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}})
-    mesh.node(p[0].get_d(), p[1].get_d(), p[2].get_d());
+  mesh.node(0, 0, 0), mesh.node(4, 0, 0), mesh.node(4, 4, 0), mesh.node(0, 4, 0);
   mesh.segments = {{0, 1, 2, 3}};
   const auto edge = [&](double x1, double y1, double z1, double x2, double y2, double z2) {
     const std::uint32_t a = mesh.node(x1, y1, z1), b = mesh.node(x2, y2, z2);
@@ -174,26 +166,14 @@ TEST(CrossingPairs, TouchingIsNotCrossing) {
   EXPECT_EQ(mesh.found(), expected);
 }
 
-TEST(CrossingPairs, NothingToDo) {
-  Mesh mesh;
-  EXPECT_TRUE(mesh.found().empty());
-  mesh.node(0, 0, 0);
-  mesh.segments = {{0, 0, 0, 0}};
-  EXPECT_TRUE(mesh.found().empty());
-}
-
-/// A floor (part 1) and a wall (part 2) that stands through it.
-SmallDeck wall_through_floor(double foot) {
+// A floor (part 1) and a wall (part 2) that stands through it.
+TEST(Crossings, NameEdgeSegmentAndElements) {
   SmallDeck d;
   d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
-  d.node(11, 5, 2, foot).node(12, 5, 8, foot).node(13, 5, 8, 5).node(14, 5, 2, 5);
+  d.node(11, 5, 2, -1).node(12, 5, 8, -1).node(13, 5, 8, 5).node(14, 5, 2, 5);
   d.shell_part(1, 1).shell_part(2, 1).shell(1, 1, 1, 2, 3, 4).shell(2, 2, 11, 12, 13, 14);
-  d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).group("/SURF/PART/3", {1, 2});
-  return d.group("/GRNOD/PART/2", {2});
-}
-
-TEST(Crossings, NameEdgeSegmentAndElements) {
-  const Built b(wall_through_floor(-1).add("@/INTER/TYPE7/1 Gapmin=0.1"));
+  d.group("/SURF/PART/1", {1});
+  const Built b(d.group("/GRNOD/PART/2", {2}).add("@/INTER/TYPE7/1 Gapmin=0.1"));
   const auto found = find_crossings(b.scene);
   ASSERT_EQ(found.size(), 2u);
   const auto ids = [&](const Crossing& c) {
@@ -205,56 +185,6 @@ TEST(Crossings, NameEdgeSegmentAndElements) {
   EXPECT_EQ(b.model.shell4.id[found[0].edge_element], 2);
   EXPECT_EQ(b.model.shell4.id[b.contact().main[found[0].main].element], 1);
   EXPECT_TRUE(b.contact().penetrations.empty()) << "no node is near: only crossings show it";
-}
-
-TEST(Crossings, NoneWhereTheWallEndsAboveOrOnTheFloor) {
-  for (const double foot : {0.0, 1.0}) {
-    const Built b(wall_through_floor(foot).add("@/INTER/TYPE7/1 Gapmin=0.1"));
-    EXPECT_TRUE(find_crossings(b.scene).empty()) << foot;
-  }
-}
-
-TEST(Crossings, AreOfTheSecondarySideAndListedOnceOverAllContacts) {
-  const Built b(wall_through_floor(-1)
-                    .add("@/INTER/TYPE7/1 grnd_IDs=0 surf_IDm=3 Gapmin=0.1")
-                    .add("/GRNOD/NODE/9\nfar\n         1")
-                    .add("@/INTER/TYPE7/2 grnd_IDs=9 surf_IDm=3 Gapmin=0.1")
-                    .add("@/INTER/TYPE19/3 surf_IDs=1 surf_IDm=2"));
-  std::vector<std::uint32_t> per_contact(b.scene.contacts.size());
-  for (const Crossing& c : find_crossings(b.scene)) ++per_contact[c.contact];
-  // The self contact has them. In the second the wall is on the main side alone; the TYPE19 has the
-  // same edges through the same floor once more.
-  EXPECT_EQ(per_contact, (std::vector<std::uint32_t>{2, 0, 0, 0, 0}));
-}
-
-TEST(Crossings, SegmentsOnTheSameNodesAreOnePlace) {
-  const Built b(wall_through_floor(-1)
-                    .segments("/SURF/SEG/4", {{1, 2, 3, 4}, {2, 3, 4, 1}})
-                    .add("@/INTER/TYPE7/1 surf_IDm=4 Gapmin=0.1"));
-  EXPECT_EQ(find_crossings(b.scene).size(), 2u);
-}
-
-TEST(Crossings, AreCountedInTheViewAsTheyAreListed) {
-  const Built b(
-      wall_through_floor(-1).add("@/INTER/TYPE7/1 Gapmin=0.1").add("@/INTER/TYPE7/2 Gapmin=0.2"));
-  const auto found = find_crossings(b.scene);
-  const SceneView view = make_view(b.scene, &found);
-  EXPECT_EQ(view.total.crossed_elements, 2u);
-  EXPECT_EQ(view.contacts[0].crossed_elements, 2u);
-  EXPECT_EQ(view.contacts[1].crossed_elements, 0u);
-  EXPECT_FALSE(make_view(b.scene).total.crossed_elements.has_value()) << "not looked for";
-}
-
-TEST(Crossings, SolidsAndTheirInnerEdges) {
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
-  d.node(21, 3, 3, -1).node(22, 6, 3, -1).node(23, 3, 6, -1).node(24, 3, 3, 2);
-  d.shell_part(1, 1).solid_part(2).shell(1, 1, 1, 2, 3, 4).tetra(2, 5, 21, 22, 23, 24);
-  d.group("/SURF/PART/1", {1}).group("/GRNOD/PART/2", {2});
-  const Built b(d.add("@/INTER/TYPE7/1 Gapmin=0.1"));
-  const auto found = find_crossings(b.scene);
-  EXPECT_EQ(found.size(), 3u);
-  for (const Crossing& c : found) EXPECT_EQ(b.model.node_id(c.edge[1]), 24);
 }
 
 }  // namespace

@@ -113,8 +113,6 @@ TEST(EdgeRule, EdgesThroughSolidsAreJudgedAsExactArithmeticDoes) {
   EXPECT_GT(passes, 30u);
   EXPECT_GT(differ, 0u) << "there are hard cases among them";
   EXPECT_GT(told, all / 2) << "intervals know something";
-  std::cout << told << " of " << all << " told by intervals, " << passes
-            << " pass, double wrong in " << differ << "\n";
 }
 
 /// Inner edges of two folded sheets, 3 apart along (2, -2, 1) / 3, with the sum of their gaps 3.

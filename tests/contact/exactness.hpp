@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iostream>
 #include <random>
 #include <string>
 #include <utility>
@@ -29,8 +28,6 @@ class Judged {
     EXPECT_GT(all_, least);
     EXPECT_GT(differ_, 0u) << "there are hard cases among them";
     EXPECT_GT(sure_, all_ / share) << "the quick way knows something";
-    std::cout << sure_ << " of " << all_ << " decided without exact numbers, double wrong in "
-              << differ_ << "\n";
   }
 
  private:

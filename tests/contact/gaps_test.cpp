@@ -29,65 +29,32 @@ double pair_gap(const Built& b, const Contact& c, std::int64_t node) {
   return s == nullptr ? NAN : c.gap_rule(s->gap, m.gap, s->length, m.length);
 }
 
-TEST(PairGap, GapminWinsOverGapmax) {
-  const PairGap sum = PairGap::from_igap(1, 0.2, 1.0);
-  EXPECT_EQ(sum(0.3, 0.4), 0.7);
-  EXPECT_EQ(sum(0.8, 0.4), 1.0);
-  EXPECT_EQ(sum(0.05, 0.05), 0.2);
-  EXPECT_EQ(PairGap::from_igap(1, 2.0, 1.0)(0.8, 0.4), 2.0);
-  EXPECT_EQ(PairGap::from_igap(3, 0.1, 1.0)(0.4, 0.2, 0.2, 0.3), 0.5);
-  EXPECT_EQ(PairGap::from_igap(0, 0.1, 1.0)(0.8, 0.4), 0.1);
-}
-
-TEST(VariableGap, SumsHalfThicknessAndHalfSection) {
-  const Built b(beam_and_truss().add("@/INTER/TYPE7/1 Igap=1 Gapmin=0.1"));
-  const Contact& c = b.contact();
-  EXPECT_DOUBLE_EQ(c.main.at(0).gap, 1);
-  EXPECT_DOUBLE_EQ(pair_gap(b, c, 141), 2);
-  // The third node of a beam only orients it: the node has the truss alone.
-  EXPECT_DOUBLE_EQ(pair_gap(b, c, 143), 1.75);
-  EXPECT_DOUBLE_EQ(pair_gap(b, c, 145), 1);
-}
-
-TEST(VariableGap, DefaultGapminIsTheSmallestThickness) {
-  const Built b(beam_and_truss().add("@/INTER/TYPE7/1 Igap=1"));
-  const Contact& c = b.contact();
-  EXPECT_DOUBLE_EQ(c.gapmin, 2);
-  EXPECT_EQ(c.gapmin_origin, GapminOrigin::minimum_thickness);
-  for (const int node : {141, 143, 145}) EXPECT_DOUBLE_EQ(pair_gap(b, c, node), 2);
-  EXPECT_NEAR(b.row(c, 143)->depth, 0.4, 1e-15);
-  EXPECT_NEAR(b.row(c, 145)->depth, 1.1, 1e-15);
-  EXPECT_EQ(b.row(c, 141), nullptr);
-}
-
-TEST(VariableGap, Igap2ScalesThicknessesAndTheDefaultButNotTheCard) {
-  const Built b(beam_and_truss()
-                    .add("@/INTER/TYPE7/1 Igap=2 Fscalegap=0.5")
-                    .add("@/INTER/TYPE7/2 Igap=2 Fscalegap=0.5 Gapmin=0.25"));
-  const Contact& c = b.contact(1);
-  EXPECT_DOUBLE_EQ(c.gapmin, 1);
-  EXPECT_DOUBLE_EQ(c.main.at(0).gap, 0.5);
-  for (const int node : {141, 143, 145}) EXPECT_DOUBLE_EQ(pair_gap(b, c, node), 1);
-  EXPECT_EQ(b.row(c, 143), nullptr);
-  EXPECT_NEAR(b.row(c, 145)->depth, 0.1, 1e-15);
-  EXPECT_DOUBLE_EQ(b.contact(2).gapmin, 0.25);
-  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(2), 141), 1);
-  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(2), 145), 0.5);
-}
-
-TEST(VariableGap, Igap1KnowsNoScaleAndNoUpperBound) {
-  const Built b(beam_and_truss().add("@/INTER/TYPE7/1 Igap=1 Fscalegap=0.5 Gapmax=1 Gapmin=0.1"));
-  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(), 141), 2);
-}
-
-TEST(VariableGap, GapmaxLimitsAndGapminWins) {
-  const Built b(beam_and_truss()
-                    .add("@/INTER/TYPE7/1 Igap=2 Gapmax=1.5 Gapmin=0.1")
-                    .add("@/INTER/TYPE7/2 Igap=2 Gapmax=1.5 Gapmin=1.7"));
-  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(1), 141), 1.5);
-  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(1), 145), 1);
-  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(2), 141), 1.7);
-  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(2), 145), 1.7);
+TEST(VariableGap, SumsHalfThicknessAndHalfSectionWithinTheBoundsOfTheCard) {
+  struct Case {
+    const char* fields;
+    double gapmin, beam, truss, free;  ///< the pair gaps of nodes 141, 143 and 145
+  };
+  // The third node of a beam only orients it: node 143 has the truss alone.
+  const Case cases[] = {{"Gapmin=0.3", 0.3, 0.3, 0.3, 0.3},
+                        {"Gapmin=-3", 2, 2, 2, 2},  // counts as none
+                        {"Igap=-1 Gapmin=0.6", 0.6, 0.6, 0.6, 0.6},
+                        {"Igap=1 Gapmin=0.1", 0.1, 2, 1.75, 1},
+                        {"Igap=1", 2, 2, 2, 2},  // the smallest thickness
+                        {"Igap=1 Fscalegap=0.5 Gapmax=1 Gapmin=0.1", 0.1, 2, 1.75, 1},
+                        {"Igap=2 Fscalegap=0.5", 1, 1, 1, 1},
+                        {"Igap=2 Fscalegap=0.5 Gapmin=0.25", 0.25, 1, 0.875, 0.5},
+                        {"Igap=2 Gapmax=1.5 Gapmin=0.1", 0.1, 1.5, 1.5, 1},
+                        {"Igap=2 Gapmax=1.5 Gapmin=1.7", 1.7, 1.7, 1.7, 1.7},  // Gapmin wins
+                        {"Igap=2 Gapmin=0.2 Gapmax=-1", 0.2, 0.2, 0.2, 0.2},   // only 0 is no bound
+                        {"Igap=3 %mesh_size=0.4 Gapmin=0.01", 0.01, 2, 1.75, 1}};
+  for (const Case& c : cases) {
+    const Built b(beam_and_truss().add(std::string("@/INTER/TYPE7/1 ") + c.fields));
+    const Contact& contact = b.contact();
+    EXPECT_DOUBLE_EQ(contact.gapmin, c.gapmin) << c.fields;
+    EXPECT_DOUBLE_EQ(pair_gap(b, contact, 141), c.beam) << c.fields;
+    EXPECT_DOUBLE_EQ(pair_gap(b, contact, 143), c.truss) << c.fields;
+    EXPECT_DOUBLE_EQ(pair_gap(b, contact, 145), c.free) << c.fields;
+  }
 }
 
 TEST(VariableGap, PartThicknessReplacesSectionsAndGivesSpringsAGap) {
@@ -99,21 +66,8 @@ TEST(VariableGap, PartThicknessReplacesSectionsAndGivesSpringsAGap) {
   d.bar("SPRING", 4, 4, 9, 8);
   d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {1, 5, 7, 8, 9});
   const Built b(d.add("@/INTER/TYPE7/1 Igap=1 Gapmin=0.01"));
-  const Contact& c = b.contact();
-  EXPECT_DOUBLE_EQ(b.secondary(c, 1)->gap, 0.35);
-  EXPECT_DOUBLE_EQ(b.secondary(c, 5)->gap, 0.25);
-  EXPECT_DOUBLE_EQ(b.secondary(c, 7)->gap, 0.15);
-  EXPECT_DOUBLE_EQ(b.secondary(c, 8)->gap, 0.15);
-  EXPECT_DOUBLE_EQ(b.secondary(c, 9)->gap, 0);
-}
-
-TEST(VariableGap, ConstantGapStoresNoSideGaps) {
-  const Built b(beam_and_truss().add("@/INTER/TYPE7/1 Gapmin=0.3"));
-  const Contact& c = b.contact();
-  EXPECT_EQ(c.main.at(0).gap, 0);
-  EXPECT_EQ(b.secondary(c, 141)->gap, 0);
-  EXPECT_DOUBLE_EQ(pair_gap(b, c, 141), 0.3);
-  EXPECT_DOUBLE_EQ(c.max_gap, 0.3);
+  for (const auto& [node, gap] : {std::pair(1, 0.35), {5, 0.25}, {7, 0.15}, {8, 0.15}, {9, 0.0}})
+    EXPECT_DOUBLE_EQ(b.secondary(b.contact(), node)->gap, gap) << node;
 }
 
 /// The published solids; a side of the first brick is a segment too.
@@ -121,36 +75,26 @@ SmallDeck solids_and_skin() {
   return published_solids().segments("/SURF/SEG/1", {{5, 6, 7, 8}, {1, 2, 6, 5}});
 }
 
-TEST(DefaultGap, AllSolidMainTakesTenthOfShortestEdge) {
-  const Built b(solids_and_skin()
-                    .add("@/INTER/TYPE7/1 surf_IDm=1")
-                    .add("@/INTER/TYPE7/3 surf_IDm=3")
-                    .add("@/INTER/TYPE7/7 surf_IDm=7 Igap=1"));
-  EXPECT_DOUBLE_EQ(b.contact(1).gapmin, 0.2);
-  EXPECT_EQ(b.contact(1).gapmin_origin, GapminOrigin::solid_edge);
-  EXPECT_DOUBLE_EQ(b.contact(3).gapmin, 0.2);
-  EXPECT_NEAR(b.contact(7).gapmin, 0.3, 1e-15);
-}
-
-TEST(DefaultGap, ShellOnSolidDecidesUnlessOnlyTheSolidIsSelected) {
-  const Built b(solids_and_skin()
-                    .add("@/INTER/TYPE7/2 surf_IDm=2")
-                    .add("@/INTER/TYPE7/3 surf_IDm=3")
-                    .add("@/INTER/TYPE7/6 surf_IDm=6"));
-  EXPECT_DOUBLE_EQ(b.contact(2).gapmin, 0.15);
-  EXPECT_DOUBLE_EQ(b.contact(3).gapmin, 0.2);
-  EXPECT_DOUBLE_EQ(b.contact(6).gapmin, 0.15);
-}
-
-TEST(DefaultGap, ConstantGapTakesTheMeanVariableTheSmallest) {
-  const Built b(solids_and_skin()
-                    .add("@/INTER/TYPE7/5 surf_IDm=5")
-                    .add("@/INTER/TYPE7/6 surf_IDm=5 Igap=1")
-                    .add("@/INTER/TYPE10/8 surf_IDm=5"));
-  EXPECT_DOUBLE_EQ(b.contact(5).gapmin, 2);
-  EXPECT_EQ(b.contact(5).gapmin_origin, GapminOrigin::mean_thickness);
-  EXPECT_DOUBLE_EQ(b.contact(6).gapmin, 1);
-  EXPECT_DOUBLE_EQ(b.contact(8).gapmin, 2);
+TEST(DefaultGap, IsMadeOfThicknessesOrOfTheEdgesOfSolids) {
+  using O = GapminOrigin;
+  struct Case {
+    const char* card;
+    double gapmin;
+    O origin;
+  };
+  const Case cases[] = {{"TYPE7/1 surf_IDm=1", 0.2, O::solid_edge},  // a tenth of the shortest
+                        {"TYPE7/1 surf_IDm=3", 0.2, O::solid_edge},
+                        {"TYPE7/1 surf_IDm=7 Igap=1", 0.3, O::solid_edge},
+                        {"TYPE7/1 surf_IDm=2", 0.15, O::mean_thickness},  // the shell on the solid
+                        {"TYPE7/1 surf_IDm=6", 0.15, O::mean_thickness},
+                        {"TYPE7/1 surf_IDm=5", 2, O::mean_thickness},
+                        {"TYPE7/1 surf_IDm=5 Igap=1", 1, O::minimum_thickness},
+                        {"TYPE10/1 surf_IDm=5", 2, O::mean_thickness}};
+  for (const Case& c : cases) {
+    const Built b(solids_and_skin().add(std::string("@/INTER/") + c.card));
+    EXPECT_NEAR(b.contact().gapmin, c.gapmin, 1e-15) << c.card;
+    EXPECT_EQ(b.contact().gapmin_origin, c.origin) << c.card;
+  }
 }
 
 TEST(DefaultGap, HalfTheShortestMainSideLimitsIt) {
@@ -161,12 +105,6 @@ TEST(DefaultGap, HalfTheShortestMainSideLimitsIt) {
   const Built b(d.add("@/INTER/TYPE7/1"));
   EXPECT_DOUBLE_EQ(b.contact().gapmin, 0.5);
   EXPECT_EQ(b.contact().gapmin_origin, GapminOrigin::half_edge);
-  EXPECT_DOUBLE_EQ(b.contact().shortest_side, 1);
-}
-
-TEST(DefaultGap, NegativeGapminCountsAsNone) {
-  const Built b(beam_and_truss().add("@/INTER/TYPE7/1 Gapmin=-3"));
-  EXPECT_DOUBLE_EQ(b.contact().gapmin, 2);
 }
 
 TEST(GapThickness, PartGoesBeforeElementBeforeProperty) {
@@ -195,13 +133,7 @@ TEST(GapThickness, PartGoesBeforeElementBeforeProperty) {
 
 TEST(MeshSizeGap, FollowsMainSidesAtTheNode) {
   // The end of a strip: sides 0.781 .. 1.118 long; self contact.
-  SmallDeck d;
-  const double x[] = {0, 1, 2, 3, 3.6, 3, 2, 1, 0};
-  const double z[] = {0, 0, 0, 0, 0.5, 1.1, 1.1, 1.1, 1.1};
-  for (int i = 0; i < 9; ++i) d.node(i + 1, x[i], 0, z[i]).node(101 + i, x[i], 2, z[i]);
-  d.shell_part(1, 0.8);
-  for (int i = 1; i < 9; ++i) d.shell(1, i, i, i + 1, 102 + i - 1, 101 + i - 1);
-  d.group("/SURF/PART/1", {1}).group("/GRNOD/SURF/2", {1});
+  SmallDeck d = bent_strip();
   const Built b(d.add("@/INTER/TYPE7/1 Igap=3 %mesh_size=0.4 Gapmin=0.1"));
   const Contact& c = b.contact();
   std::set<long> gaps;
@@ -223,27 +155,21 @@ TEST(MeshSizeGap, OnlyBitesInSelfContactAndSeesLineElements) {
   EXPECT_DOUBLE_EQ(pair_gap(b, c, 141), 2);
 }
 
-TEST(EdgeGap, DefaultIsTheMeanOfBothSides) {
-  const Built b(published_edges()
-                    .add("@/INTER/TYPE11/1 line_IDs=2 line_IDm=1")
-                    .add("@/INTER/TYPE11/3 line_IDs=3 line_IDm=1")
-                    .add("@/INTER/TYPE11/4 line_IDs=4 line_IDm=5"));
-  EXPECT_DOUBLE_EQ(b.contact(1).gapmin, 1.6);
-  EXPECT_DOUBLE_EQ(b.contact(3).gapmin, 2.0);
-  EXPECT_DOUBLE_EQ(b.contact(4).gapmin, 0.25);
-  EXPECT_EQ(b.contact(1).gapmin_origin, GapminOrigin::both_sides);
-}
-
-TEST(EdgeGap, ShortestSideIsThatOfBothLists) {
-  const Built b(published_edges()
-                    .add("@/INTER/TYPE11/3 line_IDs=3 line_IDm=1")
-                    .add("@/INTER/TYPE11/4 line_IDs=4 line_IDm=5")
-                    .add("@/INTER/TYPE11/5 line_IDs=5 line_IDm=4")
-                    .add("@/INTER/TYPE11/6 line_IDs=99 line_IDm=98"));
-  EXPECT_DOUBLE_EQ(b.contact(3).shortest_side, 8);
-  EXPECT_DOUBLE_EQ(b.contact(4).shortest_side, 2);
-  EXPECT_DOUBLE_EQ(b.contact(5).shortest_side, 2);
-  EXPECT_EQ(b.contact(6).shortest_side, 0);
+TEST(EdgeGap, DefaultIsTheMeanAndShortestSideTheLeastOfBothSides) {
+  struct Case {
+    const char* lines;
+    double gapmin, shortest;
+  };
+  const Case cases[] = {{"line_IDs=2 line_IDm=1", 1.6, 8},
+                        {"line_IDs=3 line_IDm=1", 2.0, 8},
+                        {"line_IDs=4 line_IDm=5", 0.25, 2},
+                        {"line_IDs=5 line_IDm=4", 0.25, 2}};
+  for (const Case& c : cases) {
+    const Built b(published_edges().add(std::string("@/INTER/TYPE11/1 ") + c.lines));
+    EXPECT_DOUBLE_EQ(b.contact().gapmin, c.gapmin) << c.lines;
+    EXPECT_DOUBLE_EQ(b.contact().shortest_side, c.shortest) << c.lines;
+    EXPECT_EQ(b.contact().gapmin_origin, GapminOrigin::both_sides);
+  }
 }
 
 TEST(EdgeGap, VariableGapIsTheSumAndAtLeastGapmin) {
@@ -275,19 +201,6 @@ TEST(LargestGap, IsTheSumOfTheThickestOfBothSides) {
   EXPECT_DOUBLE_EQ(b.contact(1).max_gap, 1.0 + 0.5);
   EXPECT_DOUBLE_EQ(b.contact(2).max_gap, 1.0 + 0.5);  // free nodes know no limit
   EXPECT_DOUBLE_EQ(b.contact(3).max_gap, 0.8 + 0.6);
-}
-
-TEST(NegativeValues, CountAsTheSolverComputesWithThem) {
-  const Built b(beam_and_truss()
-                    .add("@/INTER/TYPE7/1 Igap=-1 Gapmin=0.6")
-                    .add("@/INTER/TYPE7/2 Igap=2 Gapmin=0.2 Gapmax=-1")
-                    .add("@/INTER/TYPE7/3 Igap=3 Gapmin=0.2 %mesh_size=-1"));
-  // Thicknesses count from Igap 1 on: a negative one leaves Gapmin alone.
-  EXPECT_EQ(b.contact(1).igap, 0);
-  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(1), 141), 0.6);
-  // Only 0 means no bound, and the default share.
-  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(2), 141), 0.2);
-  EXPECT_DOUBLE_EQ(b.contact(3).main.at(0).length, -10);
 }
 
 TEST(RadiationDistance, DefaultsToTheLargerOfGapAndShortestSide) {

@@ -1,5 +1,5 @@
-// TYPE24 and TYPE25: the worked places of a shell and a cube, sides and gaps, what Inacti stores,
-// edges, what is left open, and the search against looking at all pairs.
+// TYPE24 and TYPE25: the worked places of a shell and a cube, sides and gaps, edges,
+// what is left open, and the search against looking at all pairs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,30 +50,15 @@ double depth(const Built& b, std::int64_t node, std::int64_t inter = 1) {
   return row == nullptr ? 0 : row->depth;
 }
 
-const std::vector<Place> over_shell = {{5, 5, 1.4},      {9.9, 5, 1.4}, {10.3, 5, 0.5},
-                                       {10.3, 5, 1.3},   {5, 5, -1.4},  {10.8, 5, 0.2},
-                                       {10.3, 10.4, 0.6}};
-
-TEST(Type25, PlacesAroundASheet) {
-  SmallDeck d = places(over_shell);
-  d.add("@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
-  d.add("@/INTER/TYPE25/2 surf_ID2=2 grnd_IDs=1 Inacti=5 Ishape=2");
-  const Built b(d);
-  const double square[] = {0.35, 0.35, 0.45, 0.3257359, 0.35, 0, 0.35};
-  const double cylinder[] = {0.35, 0.0856683, 0.3571612, 0, 0.35, 0, 0.2268454};
-  for (int i = 0; i < 7; ++i) {
-    EXPECT_NEAR(depth(b, 101 + i, 1), square[i], 1e-7) << i;
-    EXPECT_NEAR(depth(b, 101 + i, 2), cylinder[i], 1e-7) << i;
-  }
-  const Contact& c = b.contact();
-  ASSERT_EQ(c.segment_kinds.size(), 2u);
-  EXPECT_EQ(c.segment_kinds[1], SegmentKind::shell_opposite);
-  EXPECT_EQ(b.ids(c.main[1].nodes), (std::array<std::int64_t, 4>{2, 1, 4, 3}));
-  const PenetrationRow* below = b.row(c, 105);
-  ASSERT_NE(below, nullptr);
-  EXPECT_EQ(below->main, 1u) << "the mirrored segment sees what is below";
-  EXPECT_DOUBLE_EQ(below->gap, 1.75);
-}
+/// Places around the shell with the penetrations of the worked example: Ishape 1 and 2.
+struct WorkedPlace {
+  Place at;
+  double square, cylinder;
+};
+const WorkedPlace worked[] = {{{5, 5, 1.4}, 0.35, 0.35},           {{9.9, 5, 1.4}, 0.35, 0.0856683},
+                              {{10.3, 5, 0.5}, 0.45, 0.3571612},   {{10.3, 5, 1.3}, 0.3257359, 0},
+                              {{5, 5, -1.4}, 0.35, 0.35},          {{10.8, 5, 0.2}, 0, 0},
+                              {{10.3, 10.4, 0.6}, 0.35, 0.2268454}};
 
 /// The penetration of a node with gap `gs` at (x, y, z) into a lone square sheet of 10 by 10 in
 /// z = 0 with gap `gm`: specification A11 for four free sides, in closed form.
@@ -98,10 +83,11 @@ double into_lone_square(double x, double y, double z, double gs, double gm, int 
   return up < g + over ? -over : std::max(0.0, g - up);
 }
 
-TEST(Type25, RandomPlacesAroundASheetAreThoseOfTheClosedForm) {
+TEST(Type25, PlacesAroundASheetAreThoseOfTheClosedForm) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> along(-1.2, 11.2), up(-1.9, 1.9);
   std::vector<Place> list;
+  for (const WorkedPlace& w : worked) list.push_back(w.at);
   for (int k = 0; k < 400; ++k) {
     Place p{along(random), along(random), up(random)};
     // Most of them near a side.
@@ -113,6 +99,10 @@ TEST(Type25, RandomPlacesAroundASheetAreThoseOfTheClosedForm) {
   d.add("@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
   d.add("@/INTER/TYPE25/2 surf_ID2=2 grnd_IDs=1 Inacti=5 Ishape=2");
   const Built b(d);
+  SceneOptions exactly;
+  exactly.accuracy = Accuracy::exact;
+  const Built exact(d, exactly);
+  EXPECT_GT(exact.scene.decisions.exact, 0u);
   for (const int shape : {1, 2}) {
     std::size_t found = 0;
     for (std::size_t k = 0; k < list.size(); ++k) {
@@ -120,10 +110,17 @@ TEST(Type25, RandomPlacesAroundASheetAreThoseOfTheClosedForm) {
       const double wanted = into_lone_square(p.x, p.y, p.z, 0.75, 1, shape);
       EXPECT_NEAR(depth(b, 101 + static_cast<int>(k), shape), wanted, 1e-9)
           << shape << ": " << p.x << ' ' << p.y << ' ' << p.z;
+      EXPECT_NEAR(depth(exact, 101 + static_cast<int>(k), shape), wanted, 1e-7) << k;
       found += wanted > 0;
+      if (k >= std::size(worked)) continue;
+      EXPECT_NEAR(wanted, shape == 1 ? worked[k].square : worked[k].cylinder, 1e-7) << k;
     }
     EXPECT_GT(found, 150u);
   }
+  const Contact& c = b.contact();
+  EXPECT_EQ(c.segment_kinds.at(1), SegmentKind::shell_opposite);
+  EXPECT_EQ(b.ids(c.main.at(1).nodes), (std::array<std::int64_t, 4>{2, 1, 4, 3}));
+  EXPECT_EQ(b.row(c, 105)->main, 1u) << "the mirrored segment sees what is below";
 }
 
 TEST(Type25, RandomPlacesAroundATriangleAreThoseOfTheClosedForm) {
@@ -184,15 +181,6 @@ TEST(Type25, RandomPlacesInACubeAreAsDeepAsTheNearestFaceIsFarWithinReach) {
   EXPECT_GT(inside, 40u);
 }
 
-TEST(Type24, PlacesAroundASheet) {
-  SmallDeck d = places(over_shell);
-  d.add("@/INTER/TYPE24/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
-  const Built b(d);
-  const double expected[] = {0.35, 0.35, 0, 0, 0.35, 0, 0};
-  for (int i = 0; i < 7; ++i) EXPECT_NEAR(depth(b, 101 + i), expected[i], 1e-12) << i;
-  EXPECT_DOUBLE_EQ(b.contact().largest_accepted, 0.875);
-}
-
 TEST(Type24, RandomPlacesAroundASheetAreThoseOfTheClosedForm) {
   // Specification B6 for a flat square: the gap less the height within the square, nothing beside
   // it; with Inacti up to half of the largest gaps of both sides.
@@ -221,16 +209,11 @@ TEST(Type24, RandomPlacesAroundASheetAreThoseOfTheClosedForm) {
   }
 }
 
-TEST(Modern, PlacesAroundACube) {
+TEST(Type24, PlacesAroundACube) {
   SmallDeck d = places({{35, 5, 9.5}, {35, 5, 10.5}, {41, 5, 9.5}, {39.8, 5, 9.5}}, true);
-  d.add("@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
-  d.add("@/INTER/TYPE24/2 surf_ID2=2 grnd_IDs=1 Inacti=5");
-  const Built b(d);
-  const double of25[] = {1.25, 0, 0, 0.95}, of24[] = {1.25, 0.25, 0, 0.95};
-  for (int i = 0; i < 4; ++i) {
-    EXPECT_NEAR(depth(b, 101 + i, 1), of25[i], 1e-12) << i;
-    EXPECT_NEAR(depth(b, 101 + i, 2), of24[i], 1e-12) << i;
-  }
+  const Built b(d.add("@/INTER/TYPE24/1 surf_ID2=2 grnd_IDs=1 Inacti=5"));
+  const double wanted[] = {1.25, 0.25, 0, 0.95};
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(depth(b, 101 + i), wanted[i], 1e-12) << i;
 }
 
 TEST(Modern, WhatATieHoldsIsNoInitialPenetrationWithIremI2) {
@@ -240,14 +223,13 @@ TEST(Modern, WhatATieHoldsIsNoInitialPenetrationWithIremI2) {
   d.add("@/INTER/TYPE25/1 surf_ID2=2 grnd_IDs=1 Inacti=5");
   d.add("@/INTER/TYPE25/2 surf_ID2=2 grnd_IDs=1 Inacti=5 Irem_i2=1000");
   d.add("@/INTER/TYPE24/3 surf_ID2=2 grnd_IDs=1 Inacti=5");
+  using A = PenetrationAction;
   for (const bool asked_for : {false, true}) {
     SceneOptions options;
     options.ties = asked_for;
     const Built b(d, options);
-    using A = PenetrationAction;
     const auto action = [&](std::int64_t inter, std::int64_t node) {
-      const PenetrationRow* row = b.row(b.contact(inter), node);
-      return row == nullptr ? A::none : row->action;
+      return b.row(b.contact(inter), node)->action;
     };
     EXPECT_EQ(action(1, 101), A::offset_stored) << "the tie does not reach it";
     EXPECT_EQ(action(1, 102), A::removed_tied);
@@ -257,24 +239,17 @@ TEST(Modern, WhatATieHoldsIsNoInitialPenetrationWithIremI2) {
   }
 }
 
-TEST(Modern, InactiDecidesWhatIsStored) {
-  SmallDeck d = places({{5, 5, 1.4}});
-  int id = 0;
-  for (const int type : {25, 24})
-    for (const char* inacti : {"0", "5", "-1"})
-      d.add("@/INTER/TYPE" + std::to_string(type) + "/" + std::to_string(++id) +
-            " surf_ID2=2 grnd_IDs=1 Inacti=" + inacti);
-  const Built b(d);
-  using A = PenetrationAction;
-  const A actions[] = {A::ignored, A::offset_stored, A::initial_force};
-  const double of25[] = {0, 0.35, 0}, of24[] = {0, 0.35, 0.35};
-  for (int i = 0; i < 3; ++i)
-    for (const int type : {25, 24}) {
-      const PenetrationRow* row = b.row(b.contact(i + (type == 25 ? 1 : 4)), 101);
-      ASSERT_NE(row, nullptr);
-      EXPECT_EQ(row->action, actions[i]);
-      EXPECT_NEAR(row->p0, type == 25 ? of25[i] : of24[i], 1e-12) << type << " " << i;
-    }
+/// A sheet of 4 by 4 squares where `has(i, j)`: node 1 + 5 i + j at (step i, step j).
+template <class Has>
+SmallDeck grid(double step, double thickness, const Has& has) {
+  SmallDeck d;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j) d.node(1 + 5 * i + j, step * i, step * j, 0);
+  d.shell_part(1, thickness);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      if (const int a = 1 + 5 * i + j; has(i, j)) d.shell(1, 1 + 4 * i + j, a, a + 5, a + 6, a + 1);
+  return d.group("/SURF/PART/1", {1});
 }
 
 /// Two sheets over each other, quads cut into triangles here and there, warped at random.
@@ -443,16 +418,6 @@ std::vector<std::uint32_t> part_tags(const Laid& l) {
   return out;
 }
 
-// Ipen_max so large that every node lies in the box of every segment.
-TEST(Type24, MorePairsThanThereIsRoomForAreNotEvaluated) {
-  SmallDeck d = blocks(1);
-  d.add("@/INTER/TYPE24/1 surf_ID1=1 surf_ID2=2 Inacti=5 Ipen_max=1000");
-  SceneOptions o;
-  EXPECT_TRUE(Built(d, o).contact().evaluated);
-  o.limits.pair_bytes = 1000;
-  EXPECT_FALSE(Built(d, o).contact().evaluated);
-}
-
 /// `accepted`: the deepest penetration that counts.
 Depths all_pairs24(Laid& l, double accepted) {
   using namespace detail::modern;
@@ -591,29 +556,6 @@ TEST(Type25, NeighboursAreMutualAndBordersFree) {
   EXPECT_EQ(free, 2u * 2u * 24u) << "24 sides of each sheet, front and back";
 }
 
-TEST(Type25, EdgesOfSheetsThatCross) {
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
-  d.node(5, 4, -3, 0.6).node(6, 5, -3, 0.6).node(7, 5, 3, 0.6).node(8, 4, 3, 0.6);
-  d.shell_part(1, 1).shell_part(2, 1).shell(1, 1, 1, 2, 3, 4).shell(2, 2, 5, 6, 7, 8);
-  d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2});
-  d.add("@/INTER/TYPE25/1 surf_ID1=1 surf_ID2=2 Inacti=5 Iedge=2");
-  d.add("@/INTER/TYPE25/2 surf_ID1=1 surf_ID2=2 Inacti=5");
-  d.add("@/INTER/TYPE25/3 surf_ID1=1 surf_ID2=2 Inacti=5 Iedge=12");
-  const Built b(d);
-  const Contact& edges = b.contact(1, ContactRole::edges);
-  EXPECT_EQ(edges.main_edges.size(), 8u);
-  EXPECT_TRUE(edges.evaluated);
-  for (const PenetrationRow& r : edges.penetrations) {
-    EXPECT_DOUBLE_EQ(r.gap, 1);
-    EXPECT_LE(r.depth, 0.4 + 1e-12);
-  }
-  EXPECT_FALSE(edges.penetrations.empty());
-  for (const Contact& c : b.scene.contacts)
-    EXPECT_TRUE(c.inter->id != 2 || c.role == ContactRole::primary) << "no edges without Iedge";
-  EXPECT_TRUE(b.contact(3, ContactRole::edges).evaluated);
-}
-
 // A cube and a sheet whose first side comes through its top, 0.6 from the edge at x = 10, slanting.
 TEST(Type25, EdgesThroughTheFacesOfSolids) {
   SmallDeck d;
@@ -657,20 +599,16 @@ TEST(Type25, SidesOfSolidsSheetsAndCoats) {
   d.add("@/INTER/TYPE25/1 surf_ID1=1").add("@/INTER/TYPE25/2 surf_ID1=2");
   d.add("@/INTER/TYPE24/3 surf_ID1=2");
   const Built b(d);
-  const Contact& solids = b.contact(1);
-  EXPECT_EQ(solids.main.size(), 6u);
-  for (const SegmentKind k : solids.segment_kinds) EXPECT_EQ(k, SegmentKind::solid);
+  const Contact &solids = b.contact(1), &coat = b.contact(2);
+  using K = SegmentKind;
+  EXPECT_EQ(solids.segment_kinds, std::vector<K>(6, K::solid));
   for (const MainSegment& m : solids.main) EXPECT_EQ(m.gap, 0);
-  const MainSegment* top = b.main(solids, {5, 6, 7, 8});
-  ASSERT_NE(top, nullptr);
-  EXPECT_NEAR(top->stiffness, 16 * (500.0 / 3) / 8, 1e-9)
+  EXPECT_NEAR(b.main(solids, {5, 6, 7, 8})->stiffness, 16 * (500.0 / 3) / 8, 1e-9)
       << "S^2 B / V, more than E t of the shell";
-  const Contact& coat = b.contact(2);
-  EXPECT_EQ(coat.segment_kinds,
-            (std::vector<SegmentKind>{SegmentKind::coat, SegmentKind::coat_opposite}));
+  EXPECT_EQ(coat.segment_kinds, (std::vector<K>{K::coat, K::coat_opposite}));
   EXPECT_DOUBLE_EQ(coat.main[0].gap, 0.25);
   EXPECT_NEAR(coat.main[1].stiffness, 200 * 0.5, 1e-9) << "the opposite has the shell's";
-  EXPECT_EQ(b.contact(3).segment_kinds, (std::vector<SegmentKind>{SegmentKind::coat}));
+  EXPECT_EQ(b.contact(3).segment_kinds, (std::vector<K>{K::coat}));
 }
 
 // Three bricks have the nodes 5 to 8. The solver sorts the segments, and merges the two on these.
@@ -695,27 +633,14 @@ TEST(Type25, SegmentsInMoreThanTwoSolidsAreNamedAtTheirPlaceInTheSortedList) {
 }
 
 TEST(Type25, GapZeroOnBordersTakesTheLastSideOfTrianglesForOne) {
-  SmallDeck d;
-  for (int i = 0; i < 5; ++i)
-    for (int j = 0; j < 5; ++j) d.node(1 + 5 * i + j, i, j, 0);
-  d.shell_part(1, 1);
-  int id = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) {
-      const int a = 1 + 5 * i + j, b = a + 5;
-      if (i == 2 && j == 2)
-        d.shell3(1, id + 1, a, b, b + 1).shell3(1, id + 2, a, b + 1, a + 1), id += 2;
-      else
-        d.shell(1, ++id, a, b, b + 1, a + 1);
-    }
-  d.group("/SURF/PART/1", {1}).add("@/INTER/TYPE25/1 surf_ID1=1 Igap0=1");
+  SmallDeck d = grid(1, 1, [](int i, int j) { return i != 2 || j != 2; });
+  d.shell3(1, 21, 13, 18, 19).shell3(1, 22, 13, 19, 14);
+  d.add("@/INTER/TYPE25/1 surf_ID1=1 Igap0=1");
   const Built b(d);
   const auto gap = [&](int i, int j) { return b.secondary(b.contact(), 1 + 5 * i + j)->gap; };
-  EXPECT_EQ(gap(0, 2), 0);
-  EXPECT_EQ(gap(1, 1), 0.5);
-  EXPECT_EQ(gap(2, 1), 0.5);
-  EXPECT_EQ(gap(2, 2), 0) << "the second triangle has its last side from 2 3 to 2 2";
-  EXPECT_EQ(gap(2, 3), 0);
+  for (const auto& [i, j] : {std::pair(0, 2), {2, 2}, {2, 3}})
+    EXPECT_EQ(gap(i, j), 0) << "the second triangle has its last side from 2 3 to 2 2";
+  for (const auto& [i, j] : {std::pair(1, 1), {2, 1}}) EXPECT_EQ(gap(i, j), 0.5);
 }
 
 /// A node of no mesh that is put where a test wants it, over the segments of a scene.
@@ -891,18 +816,10 @@ TEST(Type25, TheNearestOfSomeFacetsIsTheNearestOfEach) {
   }
 }
 
-// A sheet of 4 by 4 squares of 10: the middle of an inner one, and of one at the border.
+// The middle of an inner square of 10, and of one at the border.
 TEST(Type25, NodesOnASegmentOrExactlyAtTheGapAreInNoDoubt) {
-  SmallDeck d;
-  for (int i = 0; i < 5; ++i)
-    for (int j = 0; j < 5; ++j) d.node(1 + 5 * i + j, 10 * i, 10 * j, 0);
-  d.shell_part(1, 2);
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) {
-      const int a = 1 + 5 * i + j;
-      d.shell(1, 1 + 4 * i + j, a, a + 5, a + 6, a + 1);
-    }
-  d.group("/SURF/PART/1", {1}).add("@/INTER/TYPE25/1 surf_ID1=1");
+  SmallDeck d = grid(10, 2, [](int, int) { return true; });
+  d.add("@/INTER/TYPE25/1 surf_ID1=1");
   Laid l(d);
   Probe probe(l);
   const auto doubtful = [&](double x, double y, double z, double node_gap, double corner_gap) {
@@ -920,18 +837,19 @@ TEST(Type25, NodesOnASegmentOrExactlyAtTheGapAreInNoDoubt) {
     ADD_FAILURE() << "no segment there";
     return true;
   };
-  for (const double y : {11.0, 15.5, 13.0}) {
-    EXPECT_FALSE(doubtful(12, y, 0, 0.75, 1)) << "on it";
-    EXPECT_TRUE(doubtful(12, y, 1e-13, 0.75, 1)) << "hardly above it";
-    EXPECT_FALSE(doubtful(12, y, 1e-10, 0.75, 1));
-    EXPECT_FALSE(doubtful(12, y, 1.75, 0.75, 1)) << "at the gap";
-    EXPECT_FALSE(doubtful(12, y, -1.75, 0.75, 1));
-    EXPECT_FALSE(doubtful(12, y, std::nextafter(1.75, 2), 0.75, 1));
-    EXPECT_FALSE(doubtful(12, y, std::nextafter(1.75, 0), 0.75, 1));
-  }
+  const double eps = std::nextafter(1.75, 2) - 1.75, third = std::nextafter(0.3, 0);
+  for (const double y : {11.0, 15.5, 13.0})
+    for (const auto& [z, doubt] : {std::pair(0.0, false),  // on it
+                                   {1e-13, true},          // hardly above it
+                                   {1e-10, false},
+                                   {1.75, false},  // at the gap
+                                   {-1.75, false},
+                                   {1.75 + eps, false},
+                                   {1.75 - eps, false}})
+      EXPECT_EQ(doubtful(12, y, z, 0.75, 1), doubt) << y << ' ' << z;
   // 0.1 + 0.2 is less than the double 0.30000000000000004 and more than 0.3.
   EXPECT_TRUE(doubtful(12, 13, 0.3, 0.1, 0.2));
-  EXPECT_FALSE(doubtful(12, 13, std::nextafter(0.3, 0), 0.1, 0.2));
+  EXPECT_FALSE(doubtful(12, 13, third, 0.1, 0.2));
   EXPECT_FALSE(doubtful(12, 13, 0.1 + 0.2, 0.1, 0.2));
   EXPECT_TRUE(doubtful(2, 15, 1.75, 0.75, 1)) << "beside a border";
   EXPECT_FALSE(doubtful(2, 15, 1.5, 0.75, 1));
@@ -943,15 +861,8 @@ TEST(Type25, NodesOnASegmentOrExactlyAtTheGapAreInNoDoubt) {
 // An L of squares of 10 around (20, 20): what a node hardly beyond its inner corner makes of the
 // square behind. Its overhang is along the mean of both directions there.
 TEST(Type25, AnInnerCornerTakesTheMeanOfTheDirectionsOfItsBorder) {
-  SmallDeck d;
-  for (int i = 0; i < 5; ++i)
-    for (int j = 0; j < 5; ++j) d.node(1 + 5 * i + j, 10 * i, 10 * j, 0);
-  d.shell_part(1, 2);
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j)
-      if (const int a = 1 + 5 * i + j; i < 2 || j < 2)
-        d.shell(1, 1 + 4 * i + j, a, a + 5, a + 6, a + 1);
-  d.group("/SURF/PART/1", {1}).add("@/INTER/TYPE25/1 surf_ID1=1");
+  SmallDeck d = grid(10, 2, [](int i, int j) { return i < 2 || j < 2; });
+  d.add("@/INTER/TYPE25/1 surf_ID1=1");
   Laid l(d);
   Probe probe(l);
   l.s.main_gap.assign(l.s.main_gap.size(), 1.4);
@@ -1033,25 +944,22 @@ TEST(Type25, EdgesOfSolidsAreThoseThatTheTensOfIedgeWant) {
   d.solid_part(1).brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8}).brick(1, 2, {5, 6, 7, 8, 9, 10, 11, 12});
   d.group("/SURF/PART/EXT/1", {1}).add("@/INTER/TYPE25/1 surf_ID1=1 Inacti=5 Iedge=11");
   Laid l(d);
-  const auto counted = [&](int tens, double cos_edge) {
-    l.s.set.iedge = 10 * tens + 1;
-    l.s.set.cos_edge = cos_edge;
-    std::pair<std::size_t, std::size_t> sharp_and_flat;
-    for (const SideEdge& e : edges_of(l))
-      ++(e.kind == 1 ? sharp_and_flat.first : sharp_and_flat.second);
-    return sharp_and_flat;
+  struct Case {
+    int tens;
+    double cos_edge;
+    std::size_t sharp, flat;
   };
-  using Counts = std::pair<std::size_t, std::size_t>;
-  EXPECT_EQ(counted(0, 0.5), (Counts{0, 0}));
-  EXPECT_EQ(counted(1, 0.5), (Counts{16, 4}));
-  EXPECT_EQ(counted(2, 0.5), (Counts{20, 0}));
-  EXPECT_EQ(counted(3, 0.5), (Counts{16, 0}));
-  EXPECT_EQ(counted(4, 0.5), (Counts{0, 0}));
-  EXPECT_EQ(counted(1, 0), (Counts{0, 20})) << "the cosine of a right angle itself";
-  EXPECT_EQ(counted(1, 1e-9), (Counts{16, 4}));
-  EXPECT_EQ(counted(1, 1), (Counts{16, 4}));
-  EXPECT_EQ(counted(1, 1.01), (Counts{20, 0}));
-  EXPECT_EQ(counted(3, -0.5), (Counts{0, 0}));
+  const Case cases[] = {{0, 0.5, 0, 0},   {1, 0.5, 16, 4}, {2, 0.5, 20, 0},  {3, 0.5, 16, 0},
+                        {4, 0.5, 0, 0},   {1, 0, 0, 20},  // the cosine of a right angle itself
+                        {1, 1e-9, 16, 4}, {1, 1, 16, 4},   {1, 1.01, 20, 0}, {3, -0.5, 0, 0}};
+  for (const Case& c : cases) {
+    l.s.set.iedge = 10 * c.tens + 1;
+    l.s.set.cos_edge = c.cos_edge;
+    std::size_t sharp = 0, flat = 0;
+    for (const SideEdge& e : edges_of(l)) ++(e.kind == 1 ? sharp : flat);
+    EXPECT_EQ(sharp, c.sharp) << c.tens << ' ' << c.cos_edge;
+    EXPECT_EQ(flat, c.flat) << c.tens << ' ' << c.cos_edge;
+  }
 }
 
 /// A strip of 2 by 20 quads around a circle that is open by twice `half_open`.

@@ -62,30 +62,6 @@ TEST(PatchRule, HardCasesAreJudgedAsExactArithmeticDoes) {
   judged.expect(1000, 5);
 }
 
-TEST(PatchRule, PlacesBesideATriangleAreJudgedAsExactArithmeticDoes) {
-  std::size_t sure = 0, all = 0;
-  PatchRule r;
-  r.corner = {Vec{1, 2, 0}, Vec{4, 2, 0}, Vec{1, 5, 0}, Vec{1, 5, 0}};
-  r.accepted = r.limit = 1.5;
-  for (const bool solid : {false, true})
-    for (const bool blocks : {false, true})
-      for (int i = -4; i <= 14; ++i)
-        for (int j = -4; j <= 14; ++j)
-          for (const double z : {-0.75, -0.1, 0.1, 0.75, 1.0, 1.25}) {
-            r.solid = solid;
-            r.never_blocks = !blocks;
-            r.node_gap = r.segment_gap = 0.5;
-            r.node = {0.5 * i, 0.5 * j, z};
-            const PatchChoice quick = choose_pair({&r, 1}, true, true);
-            ++all;
-            if (quick.doubtful) continue;
-            ++sure;
-            EXPECT_EQ(quick.penetrates, exact_node({&r, 1}, true, 0).penetrates)
-                << i << " " << j << " " << z;
-          }
-  EXPECT_GT(sure, all / 2);
-}
-
 /// Up to three segments around a place, of sheets and solids with all that may be true of them.
 /// `nearest`: with Inacti; without, parts and directions do not matter and nothing blocks.
 std::vector<PatchRule> any_rules(std::mt19937& random, bool nearest) {

@@ -17,32 +17,19 @@ SmallDeck plate(const std::string& card) {
   return d.add(card);
 }
 
-TEST(Resolve, GivesABlankGapminTheDefaultGapOfTheMesh) {
-  Built b(plate("@/INTER/TYPE7/1"));
-  const EffectiveReal& gapmin = b.interfaces.type7.at(0).Gapmin;
-  EXPECT_EQ(gapmin.origin, Origin::geometry);
-  EXPECT_EQ(gapmin.value, 0);
+TEST(Resolve, GivesABlankGapTheDefaultOfTheMeshAndLeavesThatOfTheCardAlone) {
+  Built b(plate("@/INTER/TYPE7/1\n@/INTER/TYPE7/2 Gapmin=0.5\n@/INTER/TYPE10/3"));
+  const EffectiveReal &blank = b.interfaces.type7.at(0).Gapmin,
+                      &given = b.interfaces.type7.at(1).Gapmin;
+  EXPECT_EQ(std::tuple(blank.origin, blank.value), std::tuple(Origin::geometry, 0.0));
   EXPECT_TRUE(waits_for_geometry(b.interfaces));
   b.loaded.mesh_values();
-  EXPECT_EQ(gapmin.value, 2);
-  EXPECT_EQ(gapmin.before_geometry(), 0);
+  EXPECT_EQ(std::tuple(blank.value, blank.before_geometry()), std::tuple(2.0, 0.0));
+  EXPECT_EQ(std::tuple(given.origin, given.value, given.before_geometry()),
+            std::tuple(Origin::card, 0.5, 0.5));
+  EXPECT_EQ(b.interfaces.type10.at(0).Gap.value, 2);
   EXPECT_TRUE(b.interfaces.type7.at(0).resolved);
   EXPECT_FALSE(waits_for_geometry(b.interfaces));
-}
-
-TEST(Resolve, GivesTheTiedGapItsDefault) {
-  Built b(plate("@/INTER/TYPE10/1"));
-  b.loaded.mesh_values();
-  EXPECT_EQ(b.interfaces.type10.at(0).Gap.value, 2);
-}
-
-TEST(Resolve, LeavesAGapOfTheCardAlone) {
-  Built b(plate("@/INTER/TYPE7/1 Gapmin=0.5"));
-  EXPECT_FALSE(waits_for_geometry(b.interfaces));
-  b.loaded.mesh_values();
-  EXPECT_EQ(b.interfaces.type7.at(0).Gapmin.value, 0.5);
-  EXPECT_EQ(b.interfaces.type7.at(0).Gapmin.origin, Origin::card);
-  EXPECT_EQ(b.interfaces.type7.at(0).Gapmin.before_geometry(), 0.5);
 }
 
 TEST(Resolve, TellsThePartsOfAType19Apart) {

@@ -1,5 +1,5 @@
 // Crossed elements of whole scenes of every kind of element against the definition, looked up edge
-// by edge; and many edges at once against few at a time.
+// by edge.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,15 +24,17 @@ class RandomElements {
     std::uniform_real_distribution<double> at(0, 10);
     for (int n = 1; n <= nodes; ++n) deck_.node(n, at(random), at(random), at(random));
     deck_.shell_part(1, 1).solid_part(2).truss_part(3, 1).beam_part(4, 1).spring_part(5, 1);
-    for (int k = 0; k < quads; ++k) add(ElementKind::shell4, 4, ring(0, 4));
+    using K = ElementKind;
+    for (int k = 0; k < quads; ++k) add(K::shell4, "/SHELL/1", 4, ring(0, 4));
+    const Slots brick = join({ring(0, 4), ring(4, 4), {{0, 4}, {1, 5}, {2, 6}, {3, 7}}});
     for (int k = 0; k < others; ++k) {
-      add(ElementKind::shell3, 3, ring(0, 3));
-      add(ElementKind::solid8, 8, join({ring(0, 4), ring(4, 4), {{0, 4}, {1, 5}, {2, 6}, {3, 7}}}));
-      add(ElementKind::solid8, 6, join({ring(0, 3), ring(3, 3), {{0, 3}, {1, 4}, {2, 5}}}));
-      add(ElementKind::solid8, 4, join({ring(0, 3), {{0, 3}, {1, 3}, {2, 3}}}));
-      add(ElementKind::truss, 2, {{0, 1}});
-      add(ElementKind::beam, 3, {{0, 1}});  // the third node orients it
-      add(ElementKind::spring, 2, {});      // joins what it passes through
+      add(K::shell3, "/SH3N/1", 3, ring(0, 3));
+      add(K::solid8, "/BRICK/2", 8, brick);
+      add(K::solid8, "/PENTA6/2", 6, join({ring(0, 3), ring(3, 3), {{0, 3}, {1, 4}, {2, 5}}}));
+      add(K::solid8, "/TETRA4/2", 4, join({ring(0, 3), {{0, 3}, {1, 3}, {2, 3}}}));
+      add(K::truss, "/TRUSS/3", 2, {{0, 1}});
+      add(K::beam, "/BEAM/4", 3, {{0, 1}});  // the third node orients it
+      add(K::spring, "/SPRING/5", 2, {});    // joins what it passes through
     }
   }
   const SmallDeck& deck() const { return deck_; }
@@ -55,38 +57,16 @@ class RandomElements {
     for (const Slots& l : lists) out.insert(out.end(), l.begin(), l.end());
     return out;
   }
-  void add(ElementKind kind, int count, const Slots& slots) {
+  void add(ElementKind kind, const std::string& header, int count, const Slots& slots) {
     std::set<int> some;
     while (some.size() < static_cast<std::size_t>(count))
       some.insert(1 + static_cast<int>(random_() % static_cast<unsigned>(nodes_)));
     std::vector<int> n(some.begin(), some.end());
     std::shuffle(n.begin(), n.end(), random_);
-    const int id = static_cast<int>(elements_.size()) + 1;
-    switch (count) {
-      case 2:
-        deck_.bar(kind == ElementKind::truss ? "TRUSS" : "SPRING",
-                  kind == ElementKind::truss ? 3 : 5, id, n[0], n[1]);
-        break;
-      case 3:
-        if (kind == ElementKind::beam)
-          deck_.bar("BEAM", 4, id, n[0], n[1], n[2]);
-        else
-          deck_.shell3(1, id, n[0], n[1], n[2]);
-        break;
-      case 4:
-        if (kind == ElementKind::shell4)
-          deck_.shell(1, id, n[0], n[1], n[2], n[3]);
-        else
-          deck_.tetra(2, id, n[0], n[1], n[2], n[3]);
-        break;
-      case 6:
-        deck_.add(fmt::sprintf("/PENTA6/2\n%10d%10d%10d%10d%10d%10d%10d", id, n[0], n[1], n[2],
-                               n[3], n[4], n[5]));
-        break;
-      default:
-        deck_.brick(2, id, {n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]});
-    }
-    Element e{kind, id, {}};
+    Element e{kind, static_cast<int>(elements_.size()) + 1, {}};
+    std::string card = header + fmt::sprintf("\n%10d", e.id);
+    for (const int node : n) card += fmt::sprintf("%10d", node);
+    deck_.add(card);
     for (const auto& [a, b] : slots)
       e.edges.push_back({static_cast<NodeIndex>(n[static_cast<std::size_t>(a)]),
                          static_cast<NodeIndex>(n[static_cast<std::size_t>(b)])});
@@ -168,42 +148,30 @@ std::vector<Row> by_definition(const Scene& scene, const RandomElements& all) {
 }
 
 TEST(SceneCrossings, AreThoseOfTheDefinitionForEveryKindOfElement) {
+  struct Case {
+    std::size_t contacts;  // from three on elements are found by node
+    int nodes, quads, others, secondary, segments;
+  };
   std::set<ElementKind> kinds;
-  for (const std::size_t contacts : {1u, 2u, 5u}) {  // from three on elements are found by node
-    Random random(contacts);
-    const RandomElements all(60, 12, 6, random);
+  for (const Case& c : {Case{1, 60, 12, 6, 30, 8}, Case{2, 60, 12, 6, 35, 8},
+                        Case{5, 60, 12, 6, 40, 8}, Case{1, 400, 1300, 0, 380, 4},
+                        Case{3, 400, 1300, 0, 380, 4}}) {  // more than two pieces of 512
+    Random random(c.contacts);
+    const RandomElements all(c.nodes, c.quads, c.others, random);
     Built b(all.deck());
-    Scene& scene = b.scene;
-    scene.model = &b.model;
-    scene.contacts.clear();
-    for (std::size_t c = 0; c < contacts; ++c)
-      scene.contacts.push_back(random_contact(60, 30 + 5 * static_cast<int>(c), 8, random));
-    const std::vector<Row> wanted = by_definition(scene, all);
+    b.scene.contacts.clear();
+    for (std::size_t k = 0; k < c.contacts; ++k)
+      b.scene.contacts.push_back(random_contact(c.nodes, c.secondary, c.segments, random));
+    const std::vector<Row> wanted = by_definition(b.scene, all);
     EXPECT_GT(wanted.size(), 20u);
     for (const Row& row : wanted) kinds.insert(std::get<2>(row));
     for (const int threads : {1, 3})
-      EXPECT_EQ(rows_of(scene, find_crossings(scene, threads)), wanted) << contacts;
+      EXPECT_EQ(rows_of(b.scene, find_crossings(b.scene, threads)), wanted) << c.contacts;
   }
   EXPECT_EQ(kinds.size(), 5u);
 }
 
-TEST(SceneCrossings, OfManyElementsAreThoseOfTheDefinition) {
-  Random random(77);
-  const RandomElements all(400, 1300, 0, random);  // more than two pieces of 512
-  Built b(all.deck());
-  Scene& scene = b.scene;
-  for (const std::size_t contacts : {1u, 3u}) {
-    scene.contacts.clear();
-    for (std::size_t c = 0; c < contacts; ++c)
-      scene.contacts.push_back(random_contact(400, 380, 4, random));
-    const std::vector<Row> wanted = by_definition(scene, all);
-    EXPECT_GT(wanted.size(), 100u);
-    for (const int threads : {1, 2})
-      EXPECT_EQ(rows_of(scene, find_crossings(scene, threads)), wanted) << contacts;
-  }
-}
-
-TEST(SceneCrossings, NodesBeyondTheMainSideAndWithoutAPlaceCrossNothing) {
+TEST(SceneCrossings, NodesWithoutAPlaceCrossNothing) {
   Random random(5);
   const RandomElements all(60, 20, 3, random);
   Built b(all.deck());
@@ -215,43 +183,6 @@ TEST(SceneCrossings, NodesBeyondTheMainSideAndWithoutAPlaceCrossNothing) {
   scene.coordinates.y[scene.contacts[0].secondary[3].node] = std::nan("");
   EXPECT_EQ(found(), by_definition(scene, all));
   EXPECT_LT(found().size(), before);
-  // The whole main side far away in one direction.
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double way : {100.0, -100.0}) {
-      Coordinates kept = scene.coordinates;
-      Contact apart = scene.contacts[0];
-      for (MainSegment& m : apart.main) m.nodes = {0, 1, 2, 3};
-      apart.secondary.erase(apart.secondary.begin(), apart.secondary.begin() + 6);
-      std::vector<double>* x[] = {&scene.coordinates.x, &scene.coordinates.y, &scene.coordinates.z};
-      for (std::size_t n = 0; n < 4; ++n) (*x[axis])[n] += way;
-      std::swap(apart, scene.contacts[0]);
-      EXPECT_TRUE(find_crossings(scene).empty());
-      std::swap(apart, scene.contacts[0]);
-      scene.coordinates = kept;
-    }
-}
-
-TEST(CrossingPairs, OfManyEdgesAreThoseOfAHundredAtATime) {
-  Random random(9);
-  std::uniform_real_distribution<double> at(0, 10);
-  std::vector<double> x, y, z;
-  for (int n = 0; n < 300; ++n)
-    x.push_back(at(random)), y.push_back(at(random)), z.push_back(at(random));
-  const auto node = [&] { return static_cast<std::uint32_t>(random() % 300); };
-  std::vector<std::array<std::uint32_t, 2>> edges;
-  std::vector<std::array<std::uint32_t, 4>> segments;
-  for (int k = 0; k < 1300; ++k) edges.push_back({node(), node()});
-  for (int k = 0; k < 7; ++k) segments.push_back({node(), node(), node(), node()});
-  std::vector<CandidatePair> wanted;
-  for (std::uint32_t first = 0; first < edges.size(); first += 100) {
-    const auto some =
-        std::span(edges).subspan(first, std::min<std::size_t>(100, edges.size() - first));
-    for (const CandidatePair& p : find_crossing_pairs({x, y, z}, some, segments))
-      wanted.push_back({p.secondary + first, p.main});
-  }
-  EXPECT_GT(wanted.size(), 100u);
-  for (const int threads : {1, 2})
-    EXPECT_EQ(find_crossing_pairs({x, y, z}, edges, segments, threads), wanted);
 }
 
 }  // namespace

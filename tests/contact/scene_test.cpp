@@ -1,4 +1,4 @@
-// Interfaces as elementary contacts: TYPE19 and its parts, order, options, empty sides.
+// Interfaces as elementary contacts: TYPE19 and its parts, order, options, nodes at one place.
 #include <gtest/gtest.h>
 
 #include "contact/small_deck.hpp"
@@ -34,24 +34,23 @@ SmallDeck two_plates() {
 TEST(Type19, PartsOfThePublishedExample) {
   const Built b(two_plates().add("@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=1"));
   ASSERT_EQ(b.scene.contacts.size(), 3u);
-  const Contact& a = b.contact(1, ContactRole::primary);
-  EXPECT_EQ(a.secondary.size(), 9u);
-  EXPECT_EQ(a.main.size(), 9u);
-  EXPECT_DOUBLE_EQ(a.gapmin, 2);
-  EXPECT_EQ(a.candidates, 24u);
-  EXPECT_EQ(a.penetrations.size(), 12u);
-  const Contact& r = b.contact(1, ContactRole::reversed);
-  EXPECT_EQ(r.secondary.size(), 16u);
-  EXPECT_EQ(r.main.size(), 4u);
-  EXPECT_DOUBLE_EQ(r.gapmin, 1.2);
-  EXPECT_EQ(r.candidates, 11u);
-  EXPECT_EQ(r.penetrations.size(), 2u);
-  const Contact& e = b.contact(1, ContactRole::edges);
-  EXPECT_EQ(e.kind, ContactKind::edge_edge);
-  EXPECT_EQ(e.secondary_edges.size(), 12u);
-  EXPECT_EQ(e.main_edges.size(), 24u);
-  EXPECT_DOUBLE_EQ(e.gapmin, 1.6);
-  EXPECT_EQ(e.penetrations.size(), 24u);
+  using R = ContactRole;
+  struct Part {
+    R role;
+    std::size_t secondary, main;
+    double gapmin;
+    std::size_t penetrations;
+  };
+  for (const Part& p : {Part{R::primary, 9, 9, 2, 12}, Part{R::reversed, 16, 4, 1.2, 2},
+                        Part{R::edges, 12, 24, 1.6, 24}}) {
+    const Contact& c = b.contact(1, p.role);
+    EXPECT_EQ(c.secondary.size() + c.secondary_edges.size(), p.secondary) << to_string(p.role);
+    EXPECT_EQ(c.main.size() + c.main_edges.size(), p.main) << to_string(p.role);
+    EXPECT_DOUBLE_EQ(c.gapmin, p.gapmin) << to_string(p.role);
+    EXPECT_EQ(c.penetrations.size(), p.penetrations) << to_string(p.role);
+  }
+  EXPECT_EQ(b.contact(1, R::primary).candidates, 24u);
+  EXPECT_EQ(b.contact(1, R::reversed).candidates, 11u);
 }
 
 TEST(Type19, OneSurfaceGivesNoReversedPart) {
@@ -87,86 +86,46 @@ TEST(Type19, GapOptionsOfTheEdgePart) {
                     .add("@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=1 Igap=2 Fscalegap=0.8 Inacti=5")
                     .add("@/INTER/TYPE19/2 surf_IDs=2 surf_IDm=1 Igap=3")
                     .add("@/INTER/TYPE19/3 surf_IDs=2 surf_IDm=1 Gapmin=1"));
-  const Contact& edges = b.contact(1, ContactRole::edges);
+  using R = ContactRole;
+  const Contact& edges = b.contact(1, R::edges);
   EXPECT_EQ(edges.igap, 1) << "2 ends as 1";
   EXPECT_EQ(edges.gap_scale, 1) << "Fscalegap does not act on edges";
-  EXPECT_DOUBLE_EQ(edges.gapmin, 1.6);
-  EXPECT_EQ(edges.istf, 5);
-  EXPECT_EQ(edges.inacti, 5);
-  EXPECT_DOUBLE_EQ(b.contact(1, ContactRole::primary).gapmin, 1.6);
-  EXPECT_DOUBLE_EQ(b.contact(1, ContactRole::reversed).gapmin, 0.96);
-  EXPECT_EQ(b.contact(2, ContactRole::edges).igap, 3);
-  for (const ContactRole r : {ContactRole::primary, ContactRole::reversed, ContactRole::edges})
+  EXPECT_EQ(std::tuple(edges.istf, edges.inacti), std::tuple(5, 5));
+  EXPECT_EQ(b.contact(2, R::edges).igap, 3);
+  const double gapmin[] = {0.8 * 2, 0.8 * 1.2, 1.6};
+  for (const R r : {R::primary, R::reversed, R::edges}) {
+    EXPECT_DOUBLE_EQ(b.contact(1, r).gapmin, gapmin[static_cast<int>(r)]) << to_string(r);
     EXPECT_DOUBLE_EQ(b.contact(3, r).gapmin, 1);
+  }
 }
 
 TEST(Type19, WithoutEdgesThePartIsDropped) {
-  SmallDeck d = two_plates();
-  d.group("/SURF/PART/9", {77});
-  const Built b(d.add("@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=9"));
-  const Contact& edges = b.contact(1, ContactRole::edges);
-  EXPECT_TRUE(edges.dropped);
-  EXPECT_TRUE(edges.main_edges.empty());
-  EXPECT_TRUE(edges.secondary_edges.empty());
+  const Built b(
+      two_plates().group("/SURF/PART/9", {77}).add("@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=9"));
+  EXPECT_TRUE(b.contact(1, ContactRole::edges).dropped);
 }
 
-TEST(Type11, WithoutMainLineTheSecondaryMeetsItself) {
-  const Built b(two_plates().add("@/INTER/TYPE11/1 line_IDs=2 line_IDm=0"));
-  EXPECT_EQ(b.contact().main_edges.size(), 12u);
-  EXPECT_EQ(b.contact().secondary_edges.size(), 12u);
-}
-
-TEST(Lines, SurfaceGivesEveryEdgeOnceFreeOnesOnRequest) {
+TEST(Type11, TakesEveryEdgeOfASurfaceOnceFreeOnesOnRequest) {
   SmallDeck d = two_plates();
   d.group("/LINE/EDGE/5", {1});
-  const Built b(d.add("@/INTER/TYPE11/1 line_IDs=1 line_IDm=5"));
-  EXPECT_EQ(b.contact().secondary_edges.size(), 24u);
-  EXPECT_EQ(b.contact().main_edges.size(), 12u);
+  d.add("@/INTER/TYPE11/1 line_IDs=1 line_IDm=5").add("@/INTER/TYPE11/2 line_IDs=2 line_IDm=0");
+  const Built b(d);
+  EXPECT_EQ(b.contact(1).secondary_edges.size(), 24u);
+  EXPECT_EQ(b.contact(1).main_edges.size(), 12u);
+  EXPECT_EQ(b.contact(2).secondary_edges.size(), 12u);
+  EXPECT_EQ(b.contact(2).main_edges.size(), 12u) << "without a main line it meets itself";
 }
 
-TEST(Scene, UnknownSidesLeaveContactsEmpty) {
-  const Built b(two_plates()
-                    .add("@/INTER/TYPE7/1 grnd_IDs=77 surf_IDm=1")
-                    .add("@/INTER/TYPE7/2 grnd_IDs=2 surf_IDm=78")
-                    .add("@/INTER/TYPE11/3 line_IDs=77 line_IDm=78")
-                    .add("@/INTER/TYPE19/4 surf_IDs=77 surf_IDm=78")
-                    .add("@/INTER/TYPE10/5 grnd_IDs=77 surf_IDm=78"));
-  for (const Contact& c : b.scene.contacts) EXPECT_TRUE(c.penetrations.empty());
-  EXPECT_TRUE(b.contact(1).secondary.empty());
-  EXPECT_TRUE(b.contact(2).main.empty());
-}
-
-TEST(Scene, OnlySomeInterfacesAndProgress) {
+TEST(Scene, OfSomeInterfacesHasTheContactsOfThese) {
   SceneOptions options;
   options.only = {7};
-  std::vector<std::pair<std::size_t, std::size_t>> steps;
-  options.progress = [&](std::size_t done, std::size_t total) { steps.emplace_back(done, total); };
   const Built b(two_plates()
                     .add("@/INTER/TYPE7/3")
                     .add("@/INTER/TYPE19/7 surf_IDs=2 surf_IDm=1")
                     .add("@/INTER/TYPE19/8 surf_IDs=2 surf_IDm=1"),
                 options);
-  EXPECT_EQ(b.scene.contacts.size(), 3u);
-  ASSERT_EQ(steps.size(), 3u);
-  EXPECT_EQ(steps.back(), std::pair(std::size_t{3}, std::size_t{3}));
-}
-
-TEST(Scene, WithoutPenetrationsThereAreStillGapsAndStiffness) {
-  SceneOptions options;
-  options.penetrations = false;
-  const Built b(two_plates().add("@/INTER/TYPE7/1"), options);
-  EXPECT_TRUE(b.contact().penetrations.empty());
-  EXPECT_DOUBLE_EQ(b.contact().gapmin, 2);
-  EXPECT_DOUBLE_EQ(b.contact().main.at(0).stiffness, 400);
-}
-
-TEST(Scene, SamePenetrationsWithAndWithoutCandidateCount) {
-  SceneOptions options;
-  options.candidates = false;
-  const SmallDeck d = two_plates().add("@/INTER/TYPE7/1");
-  const Built with(d), without(d, options);
-  EXPECT_EQ(with.contact().penetrations.size(), without.contact().penetrations.size());
-  EXPECT_GT(with.contact().candidates, without.contact().candidates);
+  ASSERT_EQ(b.scene.contacts.size(), 3u);
+  for (const Contact& c : b.scene.contacts) EXPECT_EQ(c.inter->id, 7);
 }
 
 /// Shells whose nodes all lie at one place, and their contact with themselves.
@@ -183,19 +142,10 @@ TEST(NodesAtOnePlace, AreDecidedWithoutAnyArithmeticAndReportedOnce) {
   for (const char* card : {"@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1",
                            "@/INTER/TYPE11/1 line_IDs=1 line_IDm=1 Gapmin=1"}) {
     const Built b(at_one_place(10).add(card));
-    ASSERT_EQ(b.scene.contacts.size(), 1u);
     EXPECT_GE(b.contact().penetrations.size(), 360u) << card;
-    EXPECT_EQ(b.scene.decisions.fallback, 0u) << card;
-    EXPECT_EQ(b.scene.decisions.exact, 0u) << card;
+    EXPECT_EQ(b.scene.decisions.fallback + b.scene.decisions.exact, 0u) << card;
     for (const PenetrationRow& r : b.contact().penetrations) EXPECT_TRUE(r.on_surface);
-    ASSERT_EQ(b.diagnostics.counts().count(RuleId::DK336), 1u) << card;
     EXPECT_EQ(b.diagnostics.counts().at(RuleId::DK336), 1u) << card;
-    for (const Diagnostic& d : b.diagnostics.all()) {
-      if (d.rule != RuleId::DK336) continue;
-      EXPECT_NE(d.message.find("40 nodes at one place (50, 0.1, -7), 1 and 40 among them"),
-                std::string::npos)
-          << d.message;
-    }
   }
 }
 

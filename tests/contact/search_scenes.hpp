@@ -77,52 +77,47 @@ void add_sheet(Mesh& mesh, int n, bool triangles, const Place& place) {
   }
 }
 
+inline double at(std::span<const double> v, std::size_t k, double otherwise) {
+  return v.empty() ? otherwise : v[k];
+}
+inline Point3<double> point(const NodeArrays& nodes, std::uint32_t k) {
+  return {nodes.x[k], nodes.y[k], nodes.z[k]};
+}
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
 inline bool within(const NodeSegmentInput& in, const SearchOptions& o, std::size_t i,
                    std::size_t j) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto at = [](std::span<const double> v, std::size_t k, double otherwise) {
-    return v.empty() ? otherwise : v[k];
-  };
   const std::uint32_t node = in.secondary[i];
   const auto& s = in.segments[j];
   if (at(in.secondary_stiffness, i, 1) == 0.0 || at(in.segment_stiffness, j, 1) == 0.0)
     return false;
   if (node == s[0] || node == s[1] || node == s[2] || node == s[3]) return false;
-  const auto point = [&in](std::uint32_t k) {
-    return Point3<double>{in.nodes.x[k], in.nodes.y[k], in.nodes.z[k]};
-  };
-  const std::array<Point3<double>, 4> x{point(s[0]), point(s[1]), point(s[2]), point(s[3])};
+  std::array<Point3<double>, 4> x;
+  for (std::size_t k = 0; k < 4; ++k) x[k] = point(in.nodes, s[k]);
   const double gap =
       o.gap(at(in.secondary_gap, i, 0), at(in.segment_gap, j, 0),
-            at(in.secondary_length, i, infinity), at(in.segment_length, j, infinity));
+            at(in.secondary_length, i, no_limit), at(in.segment_length, j, no_limit));
   const double limit = std::max(o.drad, gap) + o.margin;
+  const Point3<double> p = point(in.nodes, node);
   const bool triangle = s[2] == s[3];
-  if (o.form == Form::reference) {
-    return closest_on_segment<Form::reference>(point(node), x, triangle).distance() < limit;
-  }
-  return closest_on_segment<Form::robust>(point(node), x, triangle).distance() < limit;
+  return (o.form == Form::reference
+              ? closest_on_segment<Form::reference>(p, x, triangle).distance()
+              : closest_on_segment<Form::robust>(p, x, triangle).distance()) < limit;
 }
 
 inline bool within(const EdgeEdgeInput& in, const SearchOptions& o, std::size_t i, std::size_t j) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto at = [](std::span<const double> v, std::size_t k, double otherwise) {
-    return v.empty() ? otherwise : v[k];
-  };
   const auto &s = in.secondary[i], &m = in.main[j];
   if (at(in.secondary_stiffness, i, 1) == 0.0 || at(in.main_stiffness, j, 1) == 0.0) return false;
   if (s[0] == m[0] || s[0] == m[1] || s[1] == m[0] || s[1] == m[1]) return false;
-  const auto point = [&in](std::uint32_t k) {
-    return Point3<double>{in.nodes.x[k], in.nodes.y[k], in.nodes.z[k]};
-  };
   const double gap = o.gap(at(in.secondary_gap, i, 0), at(in.main_gap, j, 0),
-                           at(in.secondary_length, i, infinity), at(in.main_length, j, infinity));
+                           at(in.secondary_length, i, no_limit), at(in.main_length, j, no_limit));
   const double limit = std::max(o.drad, gap) + o.margin;
-  const auto s1 = point(s[0]), s2 = point(s[1]), m1 = point(m[0]), m2 = point(m[1]);
-  if (o.form == Form::reference) {
-    const double d2 = closest_between_edges<Form::reference>(s1, s2, m1, m2).distance_squared;
-    return limit > 0.0 && d2 < limit * limit;
-  }
-  return closest_between_edges<Form::robust>(s1, s2, m1, m2).distance < limit;
+  const auto s1 = point(in.nodes, s[0]), s2 = point(in.nodes, s[1]);
+  const auto m1 = point(in.nodes, m[0]), m2 = point(in.nodes, m[1]);
+  if (o.form == Form::robust)
+    return closest_between_edges<Form::robust>(s1, s2, m1, m2).distance < limit;
+  const double d2 = closest_between_edges<Form::reference>(s1, s2, m1, m2).distance_squared;
+  return limit > 0.0 && d2 < limit * limit;
 }
 
 // Every pair, one by one.

@@ -94,23 +94,6 @@ TEST(Carrier, ThickestShellThenLargerYoungsModulus) {
   EXPECT_DOUBLE_EQ(m.stiffness, 600);
 }
 
-TEST(Carrier, PlainTriangleMaySitOnAQuadShell) {
-  const Built b(plain({{1, 2, 3, 3}}));
-  const MainSegment& m = b.contact().main.at(0);
-  EXPECT_EQ(m.carrier, Carrier::shell4);
-  EXPECT_DOUBLE_EQ(m.stiffness, 400);
-}
-
-TEST(Carrier, NothingHoldsTheSegment) {
-  SmallDeck d = plain({{1, 2, 3, 4}, {1, 2, 98, 97}});
-  d.node(97, 0, 0, 10).node(98, 10, 0, 10);
-  const Built b(d);
-  const Contact& c = b.contact();
-  EXPECT_EQ(c.no_carrier, std::vector<std::uint32_t>{1});
-  EXPECT_EQ(c.main[1].carrier, Carrier::none);
-  EXPECT_EQ(c.main[1].stiffness, 0);
-}
-
 TEST(ShellOnSolid, OneSegmentWhereBothPartsAreSelected) {
   SmallDeck d = bricks();
   d.shell_part(1, 0.15).shell(1, 11, 35, 36, 37, 38);
@@ -121,12 +104,6 @@ TEST(ShellOnSolid, OneSegmentWhereBothPartsAreSelected) {
   EXPECT_EQ(b.contact(6).main.size(), 16u);
   EXPECT_EQ(b.main(b.contact(3), {35, 36, 37, 38})->carrier, Carrier::solid);
   EXPECT_EQ(b.main(b.contact(6), {35, 36, 37, 38})->carrier, Carrier::shell4);
-}
-
-TEST(Type7, WithoutNodeGroupTheMainSurfaceMeetsItself) {
-  SmallDeck d = plain({{1, 2, 3, 4}});
-  const Built b(d.add("@/INTER/TYPE7/2 grnd_IDs=0 Gapmin=1"));
-  EXPECT_EQ(b.contact(2).secondary.size(), 4u);
 }
 
 }  // namespace

@@ -12,53 +12,34 @@ constexpr double bulk = 500.0 / 3;  // E = 200, nu = 0.3
 
 SmallDeck published() { return published_solids().segments("/SURF/SEG/1", {{5, 6, 7, 8}}); }
 
-TEST(MainStiffness, SolidsOfThePublishedExample) {
-  const Built b(published().add("@/INTER/TYPE7/3 surf_IDm=3"));
-  const Contact& c = b.contact(3);
-  EXPECT_NEAR(b.main(c, {5, 6, 7, 8})->stiffness, 16 * bulk / 8, 1e-11);
-  EXPECT_NEAR(b.main(c, {11, 12, 13, 14})->stiffness, 310.0775, 1e-4);
-  EXPECT_NEAR(b.main(c, {15, 16, 17, 18})->stiffness, 324.0310, 1e-4);
-  EXPECT_NEAR(b.main(c, {12, 13, 17, 16})->stiffness, 410.0775, 1e-4);
-}
-
-TEST(MainStiffness, TetrahedronUsesOneAndAHalfTimesItsVolume) {
-  const Built b(published().add("@/INTER/TYPE7/7 surf_IDm=7"));
-  const Contact& c = b.contact(7);
-  EXPECT_NEAR(b.main(c, {21, 22, 23})->stiffness, 500, 1e-9);
-  EXPECT_NEAR(b.main(c, {22, 23, 24})->stiffness, 1500, 1e-9);
-}
-
-TEST(MainStiffness, ShellOnASolidFaceWhereTheSegmentIsPlainOrTheShell) {
-  const Built b(published()
-                    .add("@/INTER/TYPE7/2 surf_IDm=2")
-                    .add("@/INTER/TYPE7/3 surf_IDm=3")
-                    .add("@/INTER/TYPE7/6 surf_IDm=6"));
-  EXPECT_DOUBLE_EQ(b.main(b.contact(2), {15, 16, 17, 18})->stiffness, 30);
-  EXPECT_NEAR(b.main(b.contact(3), {15, 16, 17, 18})->stiffness, 324.0310, 1e-4);
-  EXPECT_DOUBLE_EQ(b.main(b.contact(6), {15, 16, 17, 18})->stiffness, 30);
-}
-
-TEST(MainStiffness, FactorsAndConstants) {
-  const Built b(published()
-                    .add("@/INTER/TYPE7/1 surf_IDm=5")
-                    .add("@/INTER/TYPE7/2 surf_IDm=5 Stfac=0.25")
-                    .add("@/INTER/TYPE7/3 surf_IDm=5 Istf=1 Stfac=50")
-                    .add("@/INTER/TYPE7/4 surf_IDm=5 Istf=5 Stfac=-3")
-                    .add("@/INTER/TYPE10/5 surf_IDm=5 Stfac=0"));
-  const auto both = [&](int id) {
-    const Contact& c = b.contact(id);
-    return std::pair(c.main.at(0).stiffness, c.main.at(1).stiffness);
+TEST(MainStiffness, OfSolidsAndShellsIsThatOfThePublishedExample) {
+  struct Case {
+    const char* card;
+    std::vector<std::int64_t> segment;
+    double stiffness;
   };
-  EXPECT_EQ(both(1), std::pair(200.0, 600.0));
-  EXPECT_EQ(both(2), std::pair(50.0, 150.0));
-  EXPECT_EQ(both(3), std::pair(50.0, 50.0));
-  EXPECT_EQ(both(4), std::pair(3.0, 3.0));
-  EXPECT_EQ(both(5), std::pair(40.0, 120.0));
-}
-
-TEST(MainStiffness, ConstantOnSolidsStoresANegativeProduct) {
-  const Built b(published().add("@/INTER/TYPE7/1 surf_IDm=1 Istf=1 Stfac=2"));
-  EXPECT_NEAR(b.contact(1).main.at(0).stiffness, -2 * 16 * bulk / 8, 1e-11);
+  const Case cases[] = {
+      {"TYPE7/1 surf_IDm=3", {5, 6, 7, 8}, 16 * bulk / 8},
+      {"TYPE7/1 surf_IDm=3", {11, 12, 13, 14}, 310.0775},
+      {"TYPE7/1 surf_IDm=3", {15, 16, 17, 18}, 324.0310},
+      {"TYPE7/1 surf_IDm=3", {12, 13, 17, 16}, 410.0775},
+      {"TYPE7/1 surf_IDm=7", {21, 22, 23}, 500},  // one and a half times a tetrahedron's volume
+      {"TYPE7/1 surf_IDm=7", {22, 23, 24}, 1500},
+      {"TYPE7/1 surf_IDm=2", {15, 16, 17, 18}, 30},  // the shell on the face of the solid
+      {"TYPE7/1 surf_IDm=6", {15, 16, 17, 18}, 30},
+      {"TYPE7/1 surf_IDm=1 Istf=1 Stfac=2", {5, 6, 7, 8}, -2 * 16 * bulk / 8},  // a product
+      {"TYPE7/1 surf_IDm=5", {31, 32, 33, 34}, 200},
+      {"TYPE7/1 surf_IDm=5", {32, 35, 36, 33}, 600},
+      {"TYPE7/1 surf_IDm=5 Stfac=0.25", {32, 35, 36, 33}, 150},
+      {"TYPE7/1 surf_IDm=5 Istf=1 Stfac=50", {32, 35, 36, 33}, 50},
+      {"TYPE7/1 surf_IDm=5 Istf=5 Stfac=-3", {32, 35, 36, 33}, 3},
+      {"TYPE10/1 surf_IDm=5 Stfac=0", {32, 35, 36, 33}, 120}};
+  for (const Case& c : cases) {
+    const Built b(published().add(std::string("@/INTER/") + c.card));
+    const MainSegment* m = b.main(b.contact(), c.segment);
+    ASSERT_NE(m, nullptr) << c.card;
+    EXPECT_NEAR(m->stiffness, c.stiffness, 1e-4) << c.card << ' ' << c.segment[0];
+  }
 }
 
 /// A quad of a void part, and a node 0.2 above it.
@@ -69,71 +50,46 @@ SmallDeck void_quad(double young) {
   return d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {99}).add("@/INTER/TYPE7/1");
 }
 
-TEST(VoidElement, WithStiffnessIsAnOrdinaryShell) {
-  const Built b(void_quad(200));
-  EXPECT_DOUBLE_EQ(b.contact().main.at(0).stiffness, 400);
-  EXPECT_DOUBLE_EQ(b.contact().gapmin, 2);
-  EXPECT_EQ(b.contact().penetrations.size(), 1u);
+TEST(VoidElement, IsAnOrdinaryShellButTakesNoPartWithoutStiffness) {
+  for (const double young : {200.0, 0.0}) {
+    const Built b(void_quad(young));
+    EXPECT_DOUBLE_EQ(b.contact().main.at(0).stiffness, 2 * young);
+    EXPECT_EQ(b.contact().penetrations.size(), young > 0 ? 1u : 0u);
+    EXPECT_DOUBLE_EQ(b.contact().gapmin, 2) << "its thickness makes the gap all the same";
+  }
 }
 
-TEST(VoidElement, WithoutStiffnessTakesNoPart) {
-  const Built b(void_quad(0));
-  EXPECT_EQ(b.contact().main.at(0).stiffness, 0);
-  EXPECT_EQ(b.contact().candidates, 0u);
-  EXPECT_TRUE(b.contact().penetrations.empty());
-  EXPECT_DOUBLE_EQ(b.contact().gapmin, 2) << "its thickness still makes the gap";
-}
-
-/// Shells (t = 2, 1.2), beam, truss and brick as lines.
-SmallDeck lines() {
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 8, 0).node(4, 0, 8, 0);
-  d.node(21, 2, -2, 9.7).node(22, 2.5, 9, 9.9).node(23, 3, 15, 9.5);
-  const double x[8] = {0, 2, 2, 0, 0, 2, 2, 0}, y[8] = {0, 0, 2, 2, 0, 0, 2, 2};
-  for (int i = 0; i < 8; ++i) d.node(31 + i, 40 + x[i], y[i], i < 4 ? 0 : 3);
-  d.node(41, 41, -1, 9).node(42, 41.2, 3, 9).node(51, 60, 0, 0).node(52, 61, 0, 0);
-  d.shell_part(1, 2).beam_part(3, 4).truss_part(4, 0.09).solid_part(5).spring_part(6, 77);
-  d.shell(1, 1, 1, 2, 3, 4).bar("BEAM", 3, 3, 21, 22, 23).bar("TRUSS", 4, 4, 41, 42);
-  d.brick(5, 5, {31, 32, 33, 34, 35, 36, 37, 38}).bar("SPRING", 6, 6, 51, 52);
-  d.segments("/LINE/SEG/1", {{1, 2}, {21, 22}, {41, 42}, {31, 32}, {31, 35}, {51, 52}, {1, 31}});
-  return d.segments("/LINE/SEG/2", {{3, 4}});
-}
-
-TEST(EdgeStiffness, ByCarrier) {
-  const Built b(lines().add("@/INTER/TYPE11/1"));
-  const auto& e = b.contact().main_edges;
-  ASSERT_EQ(e.size(), 7u);
-  EXPECT_DOUBLE_EQ(e[0].stiffness, 400);             // shell: E t
-  EXPECT_DOUBLE_EQ(e[1].stiffness, 400);             // beam: E sqrt(A)
-  EXPECT_NEAR(e[2].stiffness, 60, 1e-12);            // truss
-  EXPECT_NEAR(e[3].stiffness, 12 * bulk / 4, 1e-9);  // brick: V B / L^2
-  EXPECT_NEAR(e[4].stiffness, 12 * bulk / 9, 1e-9);
-  EXPECT_DOUBLE_EQ(e[5].stiffness, 77);
-  EXPECT_EQ(e[6].stiffness, 0);
-  EXPECT_EQ(e[6].carrier, Carrier::none);
-}
-
-TEST(EdgeStiffness, Istf1StoresStfacWhereverSomethingCarriesTheEdge) {
-  const Built b(lines()
-                    .add("@/INTER/TYPE11/1 Istf=1 Stfac=5")
-                    .add("@/INTER/TYPE11/2 Istf=5 Stfac=-4")
-                    .add("@/INTER/TYPE11/3 Stfac=2"));
-  EXPECT_EQ(b.contact(1).main_edges[0].stiffness, 5);
-  EXPECT_EQ(b.contact(1).main_edges[6].stiffness, 0);
-  EXPECT_EQ(b.contact(2).main_edges[0].stiffness, 4);
-  EXPECT_EQ(b.contact(2).istf, 1);
-  EXPECT_EQ(b.contact(3).main_edges[0].stiffness, 800);
-  EXPECT_EQ(b.contact(3).istf, 5) << "nothing given ends as 5";
-}
-
-TEST(EdgeStiffness, LaterRulesOverrideEarlierOnes) {
-  SmallDeck d = lines();
-  d.bar("TRUSS", 4, 14, 1, 2).shell_part(7, 0.5).shell(7, 17, 31, 32, 36, 35);
-  const Built b(d.add("@/INTER/TYPE11/1"));
-  EXPECT_NEAR(b.contact().main_edges[0].stiffness, 60, 1e-12);  // truss over shell
-  EXPECT_DOUBLE_EQ(b.contact().main_edges[3].stiffness, 100);   // shell over brick
-  EXPECT_DOUBLE_EQ(b.contact().main_edges[0].shell, 2);         // the gap knows both
-  EXPECT_NEAR(b.contact().main_edges[0].section, 0.3, 1e-15);
+TEST(EdgeStiffness, ByCarrierAndFactorLaterRulesOverrideEarlierOnes) {
+  SmallDeck d = published_edges();
+  d.node(51, 60, 0, 0).node(52, 61, 0, 0).spring_part(6, 77).bar("SPRING", 6, 6, 51, 52);
+  d.bar("TRUSS", 4, 14, 3, 4)
+      .bar("TRUSS", 4, 15, 2, 51)
+      .shell_part(7, 0.5)
+      .shell(7, 17, 33, 34, 38, 37);
+  d.segments("/LINE/SEG/7",
+             {{1, 2}, {21, 22}, {41, 42}, {31, 32}, {31, 35}, {51, 52}, {1, 31}, {3, 4}, {33, 34}});
+  const Built b(d.add("@/INTER/TYPE11/1 line_IDs=2 line_IDm=7")
+                    .add("@/INTER/TYPE11/2 line_IDs=2 line_IDm=7 Stfac=2")
+                    .add("@/INTER/TYPE11/3 line_IDs=2 line_IDm=7 Istf=1 Stfac=5")
+                    .add("@/INTER/TYPE11/4 line_IDs=2 line_IDm=7 Istf=5 Stfac=-4"));
+  const double wanted[] = {400,            // shell: E t; one node of a truss is none of it
+                           400,            // beam: E sqrt(A)
+                           60,             // truss
+                           12 * bulk / 4,  // brick: V B / L^2
+                           12 * bulk / 9,
+                           77,    // spring
+                           0,     // nothing
+                           60,    // truss over shell
+                           100};  // shell over brick
+  for (std::size_t k = 0; k < std::size(wanted); ++k) {
+    const auto stiffness = [&](int id) { return b.contact(id).main_edges.at(k).stiffness; };
+    EXPECT_NEAR(stiffness(1), wanted[k], 1e-9) << k;
+    EXPECT_NEAR(stiffness(2), 2 * wanted[k], 1e-9) << k;
+    EXPECT_EQ(stiffness(3), k == 6 ? 0 : 5) << k;
+    EXPECT_EQ(stiffness(4), k == 6 ? 0 : 4) << k;
+  }
+  EXPECT_DOUBLE_EQ(b.contact(1).main_edges[7].shell, 2) << "the gap knows both";
+  EXPECT_NEAR(b.contact(1).main_edges[7].section, 0.3, 1e-15);
 }
 
 /// Nodal stiffness of the nodes of a group.
@@ -153,13 +109,26 @@ TEST(NodalStiffness, SolidNodeOfThePublishedExample) {
   EXPECT_NEAR(nodal(d, 21), bulk * std::cbrt(2 * 4.5 / 4), 1e-9);
 }
 
-TEST(NodalStiffness, MeanOverShellsSumOverBars) {
-  SmallDeck d = published();
-  d.truss_part(8, 0.09).bar("TRUSS", 8, 80, 32, 35).spring_part(9, 7).bar("SPRING", 9, 90, 32, 31);
-  d.group("/GRNOD/NODE/9", {32, 31});
+TEST(NodalStiffness, AddsShellsAndLinesAndTheMeanOfItsSolids) {
+  // Two bricks of 30 and 60 of different materials at node 1, with every line at node 1, too.
+  SmallDeck d;
+  d.elastic_material(2, 800);
+  d.node(1, 0, 0, 0).node(2, 2, 0, 0).node(3, 2, 3, 0).node(4, 0, 3, 0);
+  d.node(5, 0, 0, 5).node(6, 2, 0, 5).node(7, 2, 3, 5).node(8, 0, 3, 5);
+  d.node(12, -4, 0, 0).node(13, -4, 3, 0).node(15, -4, 0, 5).node(17, -4, 3, 5);
+  d.node(21, 0, -10, 0).node(22, 0, 0, -5).node(23, 9, 9, 9).node(24, 0, -3, -3);
+  d.node(31, 50, 0, 0).node(32, 60, 0, 0).node(33, 60, 9, 0).node(34, 50, 9, 0);
+  d.solid_part(1).solid_part(2, 2).truss_part(3, 4).beam_part(4, 9).spring_part(5, 7);
+  d.shell_part(6, 1).shell_part(7, 3).shell_part(8, 1);
+  d.brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8}).brick(2, 2, {12, 1, 4, 13, 15, 5, 8, 17});
+  d.bar("TRUSS", 3, 3, 21, 1).bar("BEAM", 4, 4, 1, 22, 23).bar("SPRING", 5, 5, 1, 24);
+  d.shell3(6, 6, 1, 21, 24).shell3(7, 7, 24, 22, 1).shell(8, 8, 31, 32, 33, 34);
+  d.group("/SURF/PART/1", {8}).group("/GRNOD/NODE/9", {1});
   d.add("@/INTER/TYPE7/1 grnd_IDs=9 surf_IDm=1 Istf=2");
-  EXPECT_NEAR(nodal(d, 32), 0.5 * (200 + 600) + 200 * 0.09 / 10 + 7, 1e-12);
-  EXPECT_NEAR(nodal(d, 31), 200 + 7, 1e-12);
+  const double other = 800 / 1.2;
+  const double lines = 200 * 4 / 10.0 + 200 * 9 / 5.0 + 7, shells = 0.5 * (200 + 600);
+  const double volume = (30 + 60) / 8.0, mean = (30 * bulk + 60 * other) / 90;
+  EXPECT_NEAR(nodal(d, 1), lines + shells + mean * std::cbrt(2 * volume), 1e-9);
 }
 
 TEST(NodalStiffness, TheNodeThatOrientsABeamIsNotHeldByIt) {
@@ -172,21 +141,16 @@ TEST(NodalStiffness, TheNodeThatOrientsABeamIsNotHeldByIt) {
 
 TEST(NodalStiffness, AThickShellOfSixteenNodesGivesEachCornerAThirtySecond) {
   SmallDeck d = published();
-  const int middle[8][3] = {{1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0},
-                            {1, 0, 2}, {2, 1, 2}, {1, 2, 2}, {0, 1, 2}};
   std::string cards = "/SHEL16/2\n        50";
-  const auto cell = [](int id) {
-    std::string text = std::to_string(id);
-    return std::string(10 - text.size(), ' ') + text;
-  };
-  for (int i = 0; i < 8; ++i) {
-    const int x = (i % 4 == 1 || i % 4 == 2) ? 2 : 0, y = i % 4 >= 2 ? 2 : 0, z = i >= 4 ? 2 : 0;
-    d.node(400 + i, 100 + x, y, z);
-    d.node(410 + i, 100 + middle[i][0], middle[i][1], middle[i][2]);
-    cards += cell(400 + i);
-  }
-  cards += "\n";
-  for (int i = 0; i < 8; ++i) cards += cell(410 + i) + (i == 3 ? "\n" : "");
+  for (const int first : {400, 410})  // corners; middles of the sides of both faces
+    for (int i = 0; i < 8; ++i) {
+      const int side = i % 4, next = (side + 1) % 4;
+      const auto x = [](int corner) { return corner == 1 || corner == 2 ? 2 : 0; };
+      const auto y = [](int corner) { return corner >= 2 ? 2 : 0; };
+      const int other = first == 400 ? side : next;
+      d.node(first + i, 100 + 0.5 * (x(side) + x(other)), 0.5 * (y(side) + y(other)), i / 4 * 2);
+      cards += fmt::sprintf(first == 410 && i % 4 == 0 ? "\n%10d" : "%10d", first + i);
+    }
   d.add(cards).group("/GRNOD/NODE/9", {400, 410});
   d.add("@/INTER/TYPE7/1 grnd_IDs=9 surf_IDm=1 Istf=2");
   EXPECT_NEAR(nodal(d, 400), bulk * std::cbrt(2 * 8.0 / 32), 1e-9);

@@ -1,9 +1,10 @@
-// Ties: the search finds what looking at every segment finds, and nodes are lost for the reasons
-// that the solver has.
+// Ties: the search finds what looking at every segment finds, nodes are lost for the reasons that
+// the solver has; places on segments and the old search by hand.
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "contact/shared/tie_parts.hpp"
 #include "contact/small_deck.hpp"
@@ -164,61 +165,57 @@ INSTANTIATE_TEST_SUITE_P(Seeds, RandomSheets, testing::Range(1U, 9U));
 // ---- what becomes of nodes (specification 13) ---------------------------------------------------
 
 TEST(Ties, WorkedExamples) {
-  SmallDeck d = sheet({{10, 5, 2},
-                       {31, 15, 1},
-                       {34.9, 15, 0},
-                       {30, 36, 1},
-                       {36, 30, 1},
-                       {30.099, 12, 0},
-                       {30.1, 12, 0},
-                       {0, 0, 9.99},
-                       {0, 0, 10},
-                       {9.999999, 10.000001, 0.25}});
-  const Built built(d.add(tie_card({})), with_ties());
-  EXPECT_EQ(tie_of(built).search_distance, 10);
-  const auto is = [&](int node, std::uint32_t segment, double s, double t, int message) {
-    const TiedNode& n = node_of(built, node);
-    EXPECT_EQ(n.segment, segment) << node;
-    EXPECT_NEAR(n.s, s, 1e-12) << node;
-    EXPECT_NEAR(n.t, t, 1e-12) << node;
-    EXPECT_EQ(n.message, message) << node;
+  struct Case {
+    std::array<double, 3> place;
+    std::uint32_t segment;
+    double s, t;
+    int message;
   };
-  is(101, 0, 1, 0, 0);
-  is(102, 5, 1.2, 0, 1079);
+  const Case cases[] = {{{10, 5, 2}, 0, 1, 0, 0},
+                        {{31, 15, 1}, 5, 1.2, 0, 1079},
+                        {{34.9, 15, 0}, no_index, 0, 0, 1157},
+                        {{30, 36, 1}, 8, 1, 1, 0},
+                        {{36, 30, 1}, no_index, 0, 0, 1157},
+                        {{30.099, 12, 0}, 5, 1.0198, -0.6, 0},
+                        {{30.1, 12, 0}, 5, 1.02, -0.6, 1079},
+                        {{0, 0, 9.99}, 0, -1, -1, 0},
+                        {{0, 0, 10}, no_index, 0, 0, 1157},
+                        {{9.999999, 10.000001, 0.25}, 3, 0.9999998, -0.9999998, 0}};
+  std::vector<std::array<double, 3>> places;
+  for (const Case& c : cases) places.push_back(c.place);
+  const Built built(sheet(places).add(tie_card({})), with_ties());
+  EXPECT_EQ(tie_of(built).search_distance, 10);
+  for (std::size_t k = 0; k < std::size(cases); ++k) {
+    const TiedNode& n = tie_of(built).nodes.at(k);
+    EXPECT_EQ(n.segment, cases[k].segment) << k;
+    EXPECT_NEAR(n.s, cases[k].s, 1e-12) << k;
+    EXPECT_NEAR(n.t, cases[k].t, 1e-12) << k;
+    EXPECT_EQ(n.message, cases[k].message) << k;
+  }
   EXPECT_EQ(node_of(built, 102).distance, 1.4142135623730958);
-  is(103, no_index, 0, 0, 1157);
-  is(104, 8, 1, 1, 0);
   EXPECT_NEAR(node_of(built, 104).distance, 6.082762530298219, 1e-14);
-  is(105, no_index, 0, 0, 1157);
-  is(106, 5, 1.0198, -0.6, 0);
-  is(107, 5, 1.02, -0.6, 1079);
-  is(108, 0, -1, -1, 0);
-  is(109, no_index, 0, 0, 1157);
-  is(110, 3, 0.9999998, -0.9999998, 0);
 }
 
-TEST(Ties, IgnoreDecidesWhetherALostNodeStopsTheSolver) {
-  for (const auto& [ignore, message] : {std::pair(0, 1078), {1000, 1078}, {1, 1157}, {2, 1157}}) {
-    const Built built(sheet({{5, 5, 3}}).add(tie_card({.ignore = ignore, .dsearch = 2})),
-                      with_ties());
+TEST(Ties, IgnoreAndFormulationDecideWhatBecomesOfALostNode) {
+  const std::array<double, 3> above{5, 5, 3}, beside{40, 15, 1};
+  const std::tuple<TieCard, std::array<double, 3>, int> cases[] = {
+      {{.ignore = 0, .dsearch = 2}, above, 1078},  // stops the solver
+      {{.ignore = 1000, .dsearch = 2}, above, 1078},
+      {{.ignore = 1, .dsearch = 2}, above, 1157},
+      {{.ignore = 2, .dsearch = 2}, above, 1157},
+      {{.ignore = 3}, above, 1071},
+      {{.ignore = 0, .spotflag = 28, .dsearch = 30}, beside, 1158}};  // found, and too far outside
+  for (const auto& [card, place, message] : cases) {
+    const Built built(sheet({place}).add(tie_card(card)), with_ties());
     EXPECT_EQ(node_of(built, 101).message, message);
     EXPECT_TRUE(node_of(built, 101).lost());
-    EXPECT_EQ(node_of(built, 101).nearest_distance, 3);
+    EXPECT_EQ(count_ties(tie_of(built)).dropped, message == 1158 ? 1U : 0U);
+    if (message == 1071) {
+      EXPECT_EQ(node_of(built, 101).search, 0.6 * 2);
+    } else if (message != 1158) {
+      EXPECT_EQ(node_of(built, 101).nearest_distance, 3);
+    }
   }
-  const Built pairs(sheet({{5, 5, 3}}).add(tie_card({.ignore = 3})), with_ties());
-  EXPECT_EQ(node_of(pairs, 101).message, 1071);
-  EXPECT_EQ(node_of(pairs, 101).search, 0.6 * 2);
-}
-
-TEST(Ties, PenaltyFormulationsDropWhatIsFarOutsideAlsoWithoutIgnore) {
-  const Built built(
-      sheet({{40, 15, 1}}).add(tie_card({.ignore = 0, .spotflag = 28, .dsearch = 30})),
-      with_ties());
-  EXPECT_EQ(node_of(built, 101).message, 1158);
-  EXPECT_FALSE(node_of(built, 101).tied);
-  const TieCounts counts = count_ties(tie_of(built));
-  EXPECT_EQ(counts.dropped, 1U);
-  EXPECT_EQ(counts.lost(), 1U);
 }
 
 TEST(Ties, TheSameTieTwiceIsKeptOnce) {
@@ -274,36 +271,122 @@ TEST(Ties, TheCornerNumberDecidesWhichShellGivesTheThickness) {
   }
 }
 
-TEST(Ties, TheOldSearchTiesEveryNode) {
-  const Built built(sheet({{5, 5, 200}, {500, 15, 0}}).add(tie_card({.isearch = 1})), with_ties());
-  EXPECT_TRUE(node_of(built, 101).tied);
-  EXPECT_TRUE(node_of(built, 102).tied);
-  EXPECT_NEAR(node_of(built, 101).distance, 200, 1e-9);
+TEST(Ties, SpotflagDecidesWhatIsAPenalty) {
+  for (const int spotflag : {5, 25, 26, 27}) {
+    const Built b(sheet({{5, 5, 1}, {5, 15, 1}, {5, 5, 900}}).add(tie_card({.spotflag = spotflag})),
+                  with_ties());
+    for (const int node : {101, 102, 103}) {
+      EXPECT_EQ(node_of(b, node).tied, node < 103) << spotflag;
+      EXPECT_EQ(node_of(b, node).penalty, node < 103 && (spotflag == 25 || spotflag == 26));
+    }
+  }
 }
 
-TEST(Ties, ALoadedDeckFindsThemWhenAsked) {
-  const Built built(sheet({{5, 5, 1}, {5, 5, 30}}).add(tie_card({})));
-  EXPECT_TRUE(built.scene.ties.empty());  // nobody asked
-  const std::vector<Tie>& ties = built.loaded.ties();
-  ASSERT_EQ(ties.size(), 1U);
-  EXPECT_EQ(count_ties(ties[0]).tied, 1U);
-  EXPECT_EQ(count_ties(ties[0]).not_found, 1U);
+// ---- the old search (Isearch 1), by hand
+// ---------------------------------------------------------
+
+TEST(OldSearch, TakesASegmentAtTheNearestNodeAndThePlaceOnIt) {
+  struct Case {
+    double x, y, z;
+    std::uint32_t segment;
+    double s, t, distance;
+  };
+  const Case cases[] = {
+      {5, 5, 200, 0, 0, 0, 200},  // four nodes are as near: the highest id, its first
+      {7, 6, 3, 0, 0.4, 0.2, 3},  // around node (10, 10) it is in the first segment
+      {12, 6, 3, 1, -0.6, 0.2, 3},
+      {8, 13, 3, 3, 0.6, -0.4, 3},
+      {12, 13, -2, 4, -0.6, -0.4, 2},
+      {23, 28, 2, 8, -0.4, 0.6, 2},
+      {31, 15, 1, 5, 1.2, 0, 1},                     // beyond the rim: as far as it is
+      {30.05, 15, 1, 5, 1, 0, std::hypot(0.05, 1)},  // by little: on the rim
+      {15, -0.05, 1, 1, 0, -1, std::hypot(0.05, 1)}};
+  std::vector<std::array<double, 3>> nodes;
+  for (const Case& c : cases) nodes.push_back({c.x, c.y, c.z});
+  const Built b(sheet(nodes).add(tie_card({.isearch = 1})), with_ties());
+  const Tie& tie = b.scene.ties.at(0);
+  ASSERT_EQ(tie.nodes.size(), std::size(cases));
+  for (std::size_t k = 0; k < tie.nodes.size(); ++k) {
+    const TiedNode& n = tie.nodes[k];
+    EXPECT_TRUE(n.tied);
+    EXPECT_EQ(n.segment, cases[k].segment) << k;
+    EXPECT_NEAR(n.s, cases[k].s, 1e-12) << k;
+    EXPECT_NEAR(n.t, cases[k].t, 1e-12) << k;
+    EXPECT_NEAR(n.distance, cases[k].distance, 1e-9) << k;
+  }
 }
 
-TEST(Ties, WhatIsSaidOfThem) {
-  const Built holds(sheet({{5, 5, 1}}).add(tie_card({})), with_ties());
-  EXPECT_EQ(holds_text(tie_of(holds)), "1 node is tied");
-  EXPECT_EQ(losses_text(tie_of(holds)), "-");
-  const Built loses(sheet({{5, 5, 1}, {5, 5, 30}, {15, 5, 30}}).add(tie_card({})), with_ties());
-  EXPECT_EQ(holds_text(tie_of(loses)), "2 of 3 nodes are not tied");
-  EXPECT_EQ(losses_text(tie_of(loses)), "2 not found");
-  const Built unknown(sheet({{5, 5, 1}}).add(tie_card({.isearch = 3})), with_ties());
-  EXPECT_EQ(holds_text(tie_of(unknown)), "not evaluated: " + tie_of(unknown).not_evaluated);
+TEST(OldSearch, PlacesOnATriangleAreOverTheirFoot) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 0, 10, 0);
+  // The last two are beside the long side and the left one.
+  const double places[][3] = {{2, 3, 4},  {6, 1, 2},       {1, 7, 3},
+                              {3, 3, -5}, {5.05, 5.05, 1}, {-0.05, 4, 1}};
+  std::vector<int> group;
+  for (const auto& p : places) {
+    group.push_back(101 + static_cast<int>(group.size()));
+    d.node(group.back(), p[0], p[1], p[2]);
+  }
+  d.shell_part(1, 2).shell3(1, 1, 1, 2, 3).group("/SURF/PART/1", {1}).group("/GRNOD/NODE/9", group);
+  const Built b(d.add(tie_card({.isearch = 1})), with_ties());
+  const Tie& tie = b.scene.ties.at(0);
+  ASSERT_EQ(tie.nodes.size(), 6u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(tie.nodes[k].distance, std::abs(places[k][2]), 1e-9) << k;
+    EXPECT_LT(std::abs(tie.nodes[k].s), 1) << k;
+  }
+  // On the side: s is its end, t from the height over the base.
+  EXPECT_NEAR(tie.nodes[4].s, 1, 1e-12);
+  EXPECT_NEAR(tie.nodes[4].t, 0.01, 1e-12);
+  EXPECT_NEAR(tie.nodes[4].distance, std::hypot(0.1, 1), 1e-9);
+  EXPECT_NEAR(tie.nodes[5].s, -1, 1e-12);
+  EXPECT_NEAR(tie.nodes[5].t, -0.2, 1e-12);
+  EXPECT_NEAR(tie.nodes[5].distance, std::hypot(0.05, 1), 1e-9);
 }
 
-TEST(Ties, ASearchThatTheSolverDoesNotHaveIsNotEvaluated) {
-  const Built built(sheet({{5, 5, 1}}).add(tie_card({.isearch = 3})), with_ties());
-  EXPECT_FALSE(tie_of(built).not_evaluated.empty());
+// ---- places on segments -------------------------------------------------------------------------
+
+Coordinates with_node(double x, double y, double z) {
+  Coordinates c;
+  c.x = {0, 10, 10, 0, x};
+  c.y = {0, 0, 10, 10, y};
+  c.z = {0, 0, 0, 0, z};
+  return c;
+}
+
+TEST(PlaceOnASegment, IsThatOfTheSquareAlsoBeyondItsRim) {
+  const detail::Corners square{0, 1, 2, 3};
+  for (const double x : {1.0, 4.0, 5.0, 8.5, -2.0, 12.0})
+    for (const double y : {2.0, 5.0, 9.0, -1.0, 11.0}) {
+      const detail::Projection p = detail::project(with_node(x, y, 3), 4, square, 20, false);
+      EXPECT_NEAR(p.s, x / 5 - 1, 1e-12) << x << ' ' << y;
+      EXPECT_NEAR(p.t, y / 5 - 1, 1e-12) << x << ' ' << y;
+      const double beside_x = std::max({0.0, -x, x - 10}), beside_y = std::max({0.0, -y, y - 10});
+      const double away = std::hypot(beside_x, beside_y, 3.0);
+      EXPECT_NEAR(p.depth, 20 - away, 1e-9) << x << ' ' << y;
+      EXPECT_NEAR(detail::distance_from(with_node(x, y, 3), 4, square), away, 1e-9);
+    }
+}
+
+TEST(PlaceOnASegment, OfATriangleRunsFromItsLastCornerAndKnowsTheSideAtIt) {
+  const detail::Corners triangle{0, 1, 3, 3};  // (0, 0), (10, 0), (0, 10)
+  const auto at = [&](double x, double y, bool weights) {
+    const detail::Projection p = detail::project(with_node(x, y, 2), 4, triangle, 5, weights);
+    return std::pair(p.s, p.t);
+  };
+  const auto near = [](std::pair<double, double> got, double s, double t) {
+    EXPECT_NEAR(got.first, s, 1e-12);
+    EXPECT_NEAR(got.second, t, 1e-12);
+  };
+  // Shares 0.5 of the first and 0.2 of the second corner.
+  near(at(2, 3, false), -0.3 / 0.7, 1 - 2 * 0.7);
+  near(at(2, 3, true), 0.5, 0.2);
+  near(at(6, 1, false), 0.3 / 0.9, 1 - 2 * 0.9);
+  near(at(0, 10, false), 0, 1);    // the last corner
+  near(at(1, 10, false), 2, 1);    // beside it
+  near(at(-1, 10, false), -2, 1);  // on the other side
+  near(at(0, 0, false), -1, -1);
+  near(at(10, 0, false), 1, -1);
 }
 
 }  // namespace

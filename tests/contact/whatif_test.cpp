@@ -1,6 +1,8 @@
 // What-if evaluation: other values for one interface give what a deck with them would give.
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "contact/shared/what_if_text.hpp"
 #include "contact/small_deck.hpp"
 
@@ -16,100 +18,58 @@ SmallDeck quad(const std::string& card) {
 }
 
 void expect_same(const Contact& a, const Contact& b) {
-  EXPECT_EQ(a.gapmin, b.gapmin);
-  EXPECT_EQ(a.gapmax, b.gapmax);
-  EXPECT_EQ(a.igap, b.igap);
-  EXPECT_EQ(a.inacti, b.inacti);
-  EXPECT_EQ(a.irem_gap, b.irem_gap);
-  EXPECT_EQ(a.fpenmax, b.fpenmax);
-  EXPECT_EQ(a.gap_scale, b.gap_scale);
+  EXPECT_EQ(std::tie(a.gapmin, a.gapmax, a.igap, a.inacti, a.irem_gap, a.fpenmax, a.gap_scale),
+            std::tie(b.gapmin, b.gapmax, b.igap, b.inacti, b.irem_gap, b.fpenmax, b.gap_scale));
   EXPECT_EQ(a.mesh_fraction, b.mesh_fraction);
   ASSERT_EQ(a.penetrations.size(), b.penetrations.size());
   for (std::size_t i = 0; i < a.penetrations.size(); ++i) {
-    EXPECT_EQ(a.penetrations[i].depth, b.penetrations[i].depth);
-    EXPECT_EQ(a.penetrations[i].gap, b.penetrations[i].gap);
-    EXPECT_EQ(a.penetrations[i].action, b.penetrations[i].action);
-    EXPECT_EQ(a.penetrations[i].gap0, b.penetrations[i].gap0);
+    const PenetrationRow &p = a.penetrations[i], &q = b.penetrations[i];
+    EXPECT_EQ(std::tie(p.depth, p.gap, p.action, p.gap0),
+              std::tie(q.depth, q.gap, q.action, q.gap0));
   }
 }
 
-TEST(WhatIf, EqualsTheDeckWithThatCard) {
-  Built asked(quad("@/INTER/TYPE7/1 Gapmin=1"));
+SceneOptions with(const std::string& what_if) {
   SceneOptions options;
-  WhatIf w;
-  w.interface_id = 1;
-  w.Gapmin = 1.5;
-  w.Inacti = 6;
-  w.Fpenmax = 0.9;
-  options.what_if = {w};
-  asked.build(options);
-  expect_same(asked.contact(),
-              Built(quad("@/INTER/TYPE7/1 Gapmin=1.5 Inacti=6 Fpenmax=0.9")).contact());
-  w = {};
-  w.interface_id = 1;
-  w.Gapmin = 0.1;
-  w.Igap = 2;
-  w.Fscalegap = 0.5;
-  w.Gapmax = 0.45;
-  options.what_if = {w};
-  asked.build(options);
-  expect_same(asked.contact(),
-              Built(quad("@/INTER/TYPE7/1 Gapmin=0.1 Igap=2 Fscalegap=0.5 Gapmax=0.45")).contact());
-  w = {};
-  w.interface_id = 1;
-  w.Igap = 3;
-  w.mesh_size = 0.05;
-  w.Irem_gap = 2;
-  options.what_if = {w};
-  asked.build(options);
-  expect_same(asked.contact(),
-              Built(quad("@/INTER/TYPE7/1 Gapmin=1 Igap=3 %mesh_size=0.05 Irem_gap=2")).contact());
+  options.what_if = {*parse_what_if(what_if)};
+  return options;
 }
 
-TEST(WhatIf, ZeroAsksForTheDefault) {
-  Built asked(quad("@/INTER/TYPE7/1 Gapmin=1 Inacti=6"));
-  SceneOptions options;
-  WhatIf w;
-  w.interface_id = 1;
-  w.Gapmin = 0;
-  w.Inacti = 1000;
-  options.what_if = {w};
-  asked.build(options);
-  EXPECT_DOUBLE_EQ(asked.contact().gapmin, 2);
-  EXPECT_EQ(asked.contact().inacti, 0);
+TEST(WhatIf, EqualsTheDeckWithThatCard) {
+  struct Case {
+    const char *card, *what_if, *same;
+  };
+  const Case cases[] = {
+      {"TYPE7/1 Gapmin=1", "1:Gapmin=1.5,Inacti=6,Fpenmax=0.9",
+       "TYPE7/1 Gapmin=1.5 Inacti=6 Fpenmax=0.9"},
+      {"TYPE7/1 Gapmin=1", "1:Gapmin=0.1,Igap=2,Fscalegap=0.5,Gapmax=0.45",
+       "TYPE7/1 Gapmin=0.1 Igap=2 Fscalegap=0.5 Gapmax=0.45"},
+      {"TYPE7/1 Gapmin=1", "1:Igap=3,%mesh_size=0.05,Irem_gap=2",
+       "TYPE7/1 Gapmin=1 Igap=3 %mesh_size=0.05 Irem_gap=2"},
+      {"TYPE7/1 Gapmin=1 Inacti=6", "1:Gapmin=0,Inacti=1000", "TYPE7/1"},  // the defaults
+      // Factors of the card that only the other Igap uses.
+      {"TYPE7/1 Igap=1 Fscalegap=0.5 Gapmax=0.45 Gapmin=0.1", "1:Igap=2",
+       "TYPE7/1 Igap=2 Fscalegap=0.5 Gapmax=0.45 Gapmin=0.1"},
+      {"TYPE19/1 Igap=4 Gapmin=0.1", "1:Igap=1", "TYPE19/1 Igap=1 Gapmin=0.1"},
+      // Fields that the type does not have.
+      {"TYPE10/1 Gap=1", "1:Inacti=6,Igap=1,Fpenmax=0.1", "TYPE10/1 Gap=1"},
+      {"TYPE19/1 surf_IDs=1 surf_IDm=1", "1:Fpenmax=0.1", "TYPE19/1 surf_IDs=1 surf_IDm=1"}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(std::string(c.card) + " " + c.what_if);
+    const Built asked(quad(std::string("@/INTER/") + c.card), with(c.what_if));
+    const Built written(quad(std::string("@/INTER/") + c.same));
+    ASSERT_EQ(asked.scene.contacts.size(), written.scene.contacts.size());
+    for (std::size_t k = 0; k < asked.scene.contacts.size(); ++k)
+      expect_same(asked.scene.contacts[k], written.scene.contacts[k]);
+  }
 }
 
 TEST(WhatIf, OtherInterfacesAndTheModelStayAsTheyAre) {
   const SmallDeck d = quad("@/INTER/TYPE7/1 Gapmin=1").add("@/INTER/TYPE7/2 Gapmin=1");
-  Built asked(d);
-  const Built plain(d);
-  SceneOptions options;
-  WhatIf w;
-  w.interface_id = 2;
-  w.Inacti = 3;
-  options.what_if = {w};
-  asked.build(options);
+  const Built asked(d, with("2:Inacti=3")), plain(d);
   expect_same(asked.contact(1), plain.contact(1));
   EXPECT_EQ(asked.contact(2).penetrations.at(0).action, PenetrationAction::node_moved);
   EXPECT_EQ(asked.model.nodes.z, plain.model.nodes.z);
-}
-
-TEST(WhatIf, FieldsThatATypeDoesNotHaveChangeNothing) {
-  Built asked(quad("@/INTER/TYPE10/1 Gap=1").add("@/INTER/TYPE19/2 surf_IDs=1 surf_IDm=1"));
-  const Built plain(quad("@/INTER/TYPE10/1 Gap=1").add("@/INTER/TYPE19/2 surf_IDs=1 surf_IDm=1"));
-  SceneOptions options;
-  WhatIf w;
-  w.interface_id = 1;
-  w.Inacti = 6;
-  w.Igap = 1;
-  w.Fpenmax = 0.1;
-  options.what_if = {w, w};
-  options.what_if[1].Inacti.reset();
-  options.what_if[1].Igap.reset();
-  options.what_if[1].interface_id = 2;
-  asked.build(options);
-  expect_same(asked.contact(1), plain.contact(1));
-  expect_same(asked.contact(2), plain.contact(2));
 }
 
 // Their cards have a largest gap for each side, and TYPE25 Gap_scale.
@@ -125,14 +85,9 @@ TEST(WhatIf, GapsOfType24AndType25AreTriedUnderTheNamesOfTheirCards) {
   const auto depth = [&](const std::string& text) {
     const auto w = parse_what_if(text);
     EXPECT_TRUE(w.ok()) << text;
-    for (const InterBase* inter : b.interfaces.ordered) {
-      if (inter->id == w->interface_id) {
-        EXPECT_TRUE(check_what_if(*w, *inter).ok()) << text;
-      }
-    }
-    SceneOptions options;
-    options.what_if = {*w};
-    b.build(options);
+    const auto at = static_cast<std::size_t>(w->interface_id - 1);
+    EXPECT_TRUE(check_what_if(*w, *b.interfaces.ordered.at(at)).ok()) << text;
+    b.build(with(text));
     const PenetrationRow* row = b.row(b.contact(w->interface_id), 11);
     return row == nullptr ? 0 : row->depth;
   };
@@ -143,32 +98,6 @@ TEST(WhatIf, GapsOfType24AndType25AreTriedUnderTheNamesOfTheirCards) {
   const auto refused = check_what_if(*parse_what_if("2:Gap_scale=0.9"), *b.interfaces.ordered[1]);
   ASSERT_FALSE(refused.ok());
   EXPECT_NE(refused.error().message.find("TYPE24 has no field Gap_scale"), std::string::npos);
-}
-
-TEST(WhatIf, AnotherIgapFindsTheFactorThatTheCardHolds) {
-  Built asked(quad("@/INTER/TYPE7/1 Igap=1 Fscalegap=0.5 Gapmax=0.45 Gapmin=0.1"));
-  SceneOptions options;
-  WhatIf w;
-  w.interface_id = 1;
-  w.Igap = 2;
-  options.what_if = {w};
-  asked.build(options);
-  expect_same(asked.contact(),
-              Built(quad("@/INTER/TYPE7/1 Igap=2 Fscalegap=0.5 Gapmax=0.45 Gapmin=0.1")).contact());
-}
-
-TEST(WhatIf, AnotherIgapOfAType19FindsItsIremGap) {
-  Built asked(quad("@/INTER/TYPE19/1 Igap=4 Gapmin=0.1"));
-  EXPECT_EQ(asked.contact().irem_gap, 2);
-  EXPECT_EQ(asked.contact(1, ContactRole::edges).irem_gap, 2);
-  SceneOptions options;
-  WhatIf w;
-  w.interface_id = 1;
-  w.Igap = 1;
-  options.what_if = {w};
-  asked.build(options);
-  EXPECT_EQ(asked.contact().irem_gap, 1);
-  EXPECT_EQ(asked.contact(1, ContactRole::edges).irem_gap, 1);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "contact/published.hpp"
 
 namespace deck::cycle {
@@ -37,75 +39,39 @@ std::unique_ptr<Built> scene_of(const std::string& fields, double distance = 0.5
 }
 
 TEST(CycleCard, BlankDampingIsTheDefaultAndBlankFrictionStaysOff) {
-  const auto b = scene_of("");
-  const ContactCard c = make_card(b->scene, b->contact());
-  EXPECT_EQ(c.kind, ContactKind::node_segment);
-  EXPECT_DOUBLE_EQ(c.viss, 0.05);
-  EXPECT_EQ(c.visf, 0.0);
-  EXPECT_EQ(c.fric, 0.0);
-  EXPECT_EQ(c.iform, 1);
-  EXPECT_EQ(c.istf, 0);
-  EXPECT_EQ(c.inacti, 0);
-  EXPECT_EQ(c.gapmin, 1.0);
+  const auto blank = scene_of(""), rubbing = scene_of("Fric=0.2");
+  const ContactCard c = make_card(blank->scene, blank->contact());
+  EXPECT_EQ(std::tuple(c.kind, c.viss, c.visf, c.fric, c.iform, c.istf, c.inacti, c.gapmin),
+            std::tuple(ContactKind::node_segment, 0.05, 0.0, 0.0, 1, 0, 0, 1.0));
+  const ContactCard r = make_card(rubbing->scene, rubbing->contact());
+  EXPECT_EQ(std::tuple(r.fric, r.visf), std::tuple(0.2, 1.0)) << "friction brings its damping";
 }
 
-TEST(CycleCard, FrictionBringsItsTangentialDamping) {
-  const auto b = scene_of("Fric=0.2");
-  const ContactCard c = make_card(b->scene, b->contact());
-  EXPECT_DOUBLE_EQ(c.fric, 0.2);
-  EXPECT_EQ(c.visf, 1.0);
-}
-
-TEST(CyclePairs, MainStiffnessIsYoungTimesThickness) {
-  const auto b = scene_of("");
-  const ContactCard c = make_card(b->scene, b->contact());
-  const ContactPairs p = make_pairs(b->scene, b->contact(), c, Model::reference);
-  ASSERT_EQ(p.size(), 4u);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    EXPECT_DOUBLE_EQ(p.k0[i], 200.0 * 1.0);
-    EXPECT_EQ(p.gap[i], 1.0);
-    EXPECT_EQ(p.p0[i], 0.0);
+TEST(CyclePairs, HaveTheStiffnessOfTheirSidesAndTheReducedGap) {
+  struct Case {
+    const char* fields;
+    double height;
+    std::size_t pairs;
+    double k0, p0;
+  };
+  const Case cases[] = {{"", 0.5, 4, 200 * 1, 0},  // Young's modulus times thickness
+                        {"Istf=2", 0.5, 4, 0.5 * (200 * 1 + 200 * 2), 0},
+                        {"Inacti=5", 0.5, 4, 200, 0.5},
+                        {"Inacti=1", 0.5, 0, 0, 0},
+                        {"Inacti=2", 0.5, 0, 0, 0},
+                        {"", 1.5, 0, 0, 0}};
+  for (const Case& c : cases) {
+    const auto b = scene_of(c.fields, c.height);
+    const ContactCard card = make_card(b->scene, b->contact());
+    const ContactPairs p = make_pairs(b->scene, b->contact(), card, Model::reference);
+    EXPECT_EQ(p.size(), c.pairs) << c.fields << c.height;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      EXPECT_DOUBLE_EQ(p.k0[i], c.k0) << c.fields;
+      EXPECT_EQ(p.gap[i], 1.0);
+      EXPECT_NEAR(p.p0[i], c.p0, 1e-7) << c.fields;
+    }
+    EXPECT_EQ(make_pairs(b->scene, b->contact(), card, Model::reference, 4).at, p.at);
   }
-}
-
-TEST(CyclePairs, MeanStiffnessTakesBothSides) {
-  const auto b = scene_of("Istf=2");
-  const ContactCard c = make_card(b->scene, b->contact());
-  const ContactPairs p = make_pairs(b->scene, b->contact(), c, Model::reference);
-  ASSERT_EQ(p.size(), 4u);
-  // Main 200 x 1, secondary node in one shell 200 x 2.
-  EXPECT_DOUBLE_EQ(p.k0[0], 300.0);
-}
-
-TEST(CyclePairs, GapReductionStartsWithThePenetration) {
-  const auto b = scene_of("Inacti=5");
-  const ContactCard c = make_card(b->scene, b->contact());
-  const ContactPairs p = make_pairs(b->scene, b->contact(), c, Model::reference);
-  ASSERT_EQ(p.size(), 4u);
-  for (const double p0 : p.p0) EXPECT_NEAR(p0, 0.5, 1e-7);
-}
-
-TEST(CyclePairs, WhatStartUpSwitchedOffTakesNoPart) {
-  for (const char* inacti : {"Inacti=1", "Inacti=2"}) {
-    const auto b = scene_of(inacti);
-    const ContactCard c = make_card(b->scene, b->contact());
-    EXPECT_EQ(make_pairs(b->scene, b->contact(), c, Model::reference).size(), 0u) << inacti;
-  }
-}
-
-TEST(CyclePairs, NodesBeyondTheGapAreOutOfReach) {
-  const auto b = scene_of("", 1.5);
-  const ContactCard c = make_card(b->scene, b->contact());
-  EXPECT_EQ(make_pairs(b->scene, b->contact(), c, Model::reference).size(), 0u);
-}
-
-TEST(CyclePairs, PairsDoNotDependOnThreads) {
-  const auto b = scene_of("Istf=4");
-  const ContactCard c = make_card(b->scene, b->contact());
-  const ContactPairs one = make_pairs(b->scene, b->contact(), c, Model::reference, 1);
-  const ContactPairs four = make_pairs(b->scene, b->contact(), c, Model::reference, 4);
-  EXPECT_EQ(one.at, four.at);
-  EXPECT_EQ(one.k0, four.k0);
 }
 
 /// The pairs that start-up has judged against those of a search, for which a copy of all places
@@ -160,46 +126,20 @@ TEST(CyclePairs, OfContactsThatTheSolverMissesAreNoneOfTheSearch) {
   EXPECT_EQ(make_pairs(b.scene, b.contact(), card, Model::reference).size(), 2u);
 }
 
-TEST(CyclePairs, WhatIremGapKeepsApartMakesNoForce) {
-  // A strip bent over, in contact with itself: as many pairs as start-up counts penetrations.
-  SmallDeck d = deck::test::bent_strip();
-  d.add("@/INTER/TYPE7/1 Gapmin=1.2").add("@/INTER/TYPE7/2 Gapmin=1.2 Irem_gap=2");
-  const Built b(d, with_stiffness());
-  const auto pairs = [&](std::int64_t id) {
-    const auto& contact = b.contact(id);
-    return make_pairs(b.scene, contact, make_card(b.scene, contact), Model::reference).size();
-  };
-  EXPECT_EQ(pairs(1), b.contact(1).penetrations.size());
-  EXPECT_EQ(pairs(2), b.contact(2).penetrations.size());
-  EXPECT_LT(pairs(2), pairs(1));
-}
-
-TEST(CycleCard, EdgesOfATwoSurfaceContactFollowTheEdgeRules) {
+TEST(CyclePairs, EdgesOfATwoSurfaceContactFollowTheEdgeRules) {
   SmallDeck d = plates(0.5);
   d.group("/SURF/PART/3", {2});
-  d.add("@/INTER/TYPE19/1 surf_IDs=3 surf_IDm=2 Gapmin=1 Fric=0.1 Ifric=1 C1=1e-3");
-  const Built b(d, with_stiffness());
-  const ContactCard nodes = make_card(b.scene, b.contact());
-  const ContactCard edges = make_card(b.scene, b.contact(1, ContactRole::edges));
-  EXPECT_EQ(nodes.kind, ContactKind::node_segment);
-  EXPECT_EQ(edges.kind, ContactKind::edge_edge);
-  EXPECT_EQ(nodes.istf, 0);
-  EXPECT_EQ(edges.istf, 5);
-  EXPECT_EQ(nodes.ifric, 1);
-  EXPECT_EQ(edges.ifric, 0);
-  EXPECT_DOUBLE_EQ(edges.fric, 0.1);
-}
-
-TEST(CyclePairs, EdgeStiffnessIsInSeries) {
-  SmallDeck d = plates(0.5);
-  d.group("/SURF/PART/3", {2});
-  d.add("@/INTER/TYPE19/1 surf_IDs=3 surf_IDm=2 Gapmin=4");
+  d.add("@/INTER/TYPE19/1 surf_IDs=3 surf_IDm=2 Gapmin=4 Fric=0.1 Ifric=1 C1=1e-3");
   const Built b(d, with_stiffness());
   const Contact& contact = b.contact(1, ContactRole::edges);
-  const ContactCard c = make_card(b.scene, contact);
-  const ContactPairs p = make_pairs(b.scene, contact, c, Model::reference);
+  const ContactCard nodes = make_card(b.scene, b.contact()), edges = make_card(b.scene, contact);
+  EXPECT_EQ(std::tuple(nodes.kind, nodes.istf, nodes.ifric, nodes.fric),
+            std::tuple(ContactKind::node_segment, 0, 1, 0.1));
+  EXPECT_EQ(std::tuple(edges.kind, edges.istf, edges.ifric, edges.fric),
+            std::tuple(ContactKind::edge_edge, 5, 0, 0.1));
+  const ContactPairs p = make_pairs(b.scene, contact, edges, Model::reference);
   ASSERT_GT(p.size(), 0u);
-  for (const double k : p.k0) EXPECT_DOUBLE_EQ(k, 200.0 * 400.0 / 600.0);
+  for (const double k : p.k0) EXPECT_DOUBLE_EQ(k, 200.0 * 400.0 / 600.0) << "in series";
 }
 
 }  // namespace

@@ -169,7 +169,7 @@ TEST(OrthotropicReturn, LandsOnTheEllipse) {
 // --- lists of an evaluation
 
 /// Nodes over one shell at the given depths below a gap of 1; each in a shell of its own.
-std::unique_ptr<test::Built> nodes_at(const std::vector<double>& heights, const char* fields = "") {
+std::unique_ptr<test::Built> nodes_at(const std::vector<double>& heights) {
   test::SmallDeck d;
   d.node(1, 0, 0, 0).node(2, 1000, 0, 0).node(3, 1000, 1000, 0).node(4, 0, 1000, 0);
   std::vector<int> ids;
@@ -180,7 +180,7 @@ std::unique_ptr<test::Built> nodes_at(const std::vector<double>& heights, const 
   d.shell_part(1, 1.0);
   d.shell(1, 1, 1, 2, 3, 4);
   d.group("/GRNOD/NODE/1", ids).group("/SURF/PART/2", {1});
-  d.add(std::string("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 ") + fields);
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1");
   SceneOptions o;
   o.nodal_stiffness = true;
   return std::make_unique<test::Built>(d, o);
@@ -195,8 +195,6 @@ TEST(NearPairs, AreCountedBelowTheShareAndTheTwentyNearestListed) {
   options.keep_pairs = true;
   const SceneOutcome r = run_cycle(b->scene, make_state(b->scene), options);
   const ContactOutcome& c = r.contacts.at(0);
-  EXPECT_EQ(c.pairs_in_reach, 40u);
-  EXPECT_EQ(c.pairs_with_force, 40u);
   EXPECT_EQ(c.pairs.size(), 40u);
   EXPECT_EQ(c.near_singular_count, 31u);
   ASSERT_EQ(c.near_singular.size(), 20u);
@@ -206,9 +204,6 @@ TEST(NearPairs, AreCountedBelowTheShareAndTheTwentyNearestListed) {
     EXPECT_NEAR(p.distance, static_cast<double>(k + 1) / 64, 1e-9);
     EXPECT_NEAR(p.penetration, 1 - static_cast<double>(k + 1) / 64, 1e-9);
     EXPECT_EQ(heights[p.at.secondary], static_cast<double>(k + 1) / 64);
-    EXPECT_LT(p.normal_force, 0);
-    EXPECT_EQ(p.status & status_contact, status_contact);
-    EXPECT_NEAR(p.weights[0] + p.weights[1] + p.weights[2] + p.weights[3], 1, 1e-12);
   }
   // The nearest one has the largest force: K/2 p / d.
   EXPECT_EQ(c.largest.at.secondary, c.near_singular[0].at.secondary);

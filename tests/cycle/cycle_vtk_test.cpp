@@ -29,41 +29,27 @@ SmallDeck small_scene() {
 }
 
 struct Evaluated {
-  Built built{small_scene(), [] {
-                SceneOptions o;
-                o.nodal_stiffness = true;
-                return o;
-              }()};
-  State state = make_state(built.scene);
-  SceneOutcome outcome = run_cycle(built.scene, state, [] {
+  Evaluated() {
     CycleOptions o;
     o.keep_pairs = true;
-    return o;
-  }());
-  CycleInput input() const {
+    outcome = run_cycle(built.scene, state, o);
     CycleInput i;
     i.deck = &built.deck;
     i.scene = &built.scene;
     i.state = &state;
     i.outcome = &outcome;
-    return i;
+    read = deck::test::read_with_vtk(cycle_vtk(i));
   }
+  Built built{small_scene()};
+  State state = make_state(built.scene);
+  SceneOutcome outcome;
+  json read;  ///< null: there is no VTK
 };
-
-TEST(CycleVtk, SameBytesEveryTimeInTwoFiles) {
-  const Evaluated a, b;
-  const auto first = cycle_vtk(a.input()), second = cycle_vtk(b.input());
-  ASSERT_EQ(first.size(), 2u);
-  EXPECT_EQ(first[0].name, "contact_pairs.vtp");
-  EXPECT_EQ(first[1].name, "contact_nodes.vtp");
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(first[i].bytes, second[i].bytes);
-}
 
 TEST(CycleVtk, PairsReadByVtk) {
   const Evaluated e;
-  const json read = deck::test::read_with_vtk(cycle_vtk(e.input()));
-  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
-  const json& file = read["contact_pairs.vtp"];
+  if (e.read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+  const json& file = e.read["contact_pairs.vtp"];
   const json& data = file["point"];
   std::size_t i = 0;
   for (const ContactOutcome& c : e.outcome.contacts)
@@ -71,16 +57,9 @@ TEST(CycleVtk, PairsReadByVtk) {
       EXPECT_EQ(file["types"][i], 1) << "VTK_VERTEX";
       EXPECT_EQ(data["force"][i], json({-p.force[0], -p.force[1], -p.force[2]}));
       EXPECT_EQ(data["penetration"][i][0], p.penetration);
-      EXPECT_EQ(data["gap"][i][0], p.gap);
-      EXPECT_EQ(data["distance"][i][0], p.distance);
       EXPECT_EQ(data["left_of_gap"][i][0], (p.gap - p.penetration) / p.gap);
-      EXPECT_EQ(data["k0"][i][0], p.k0);
-      EXPECT_EQ(data["k_nodal"][i][0], p.k_nodal);
-      EXPECT_EQ(data["normal_force"][i][0], p.normal_force);
-      EXPECT_EQ(data["interface"][i][0], c.contact->inter->id);
       const bool edges = c.card.kind == ContactKind::edge_edge;
       EXPECT_EQ(data["main_element"][i][0], edges ? 10 : 7);
-      EXPECT_EQ(data["main_part"][i][0], edges ? 3 : 1);
       if (edges) {
         EXPECT_EQ(file["points"][i], json({0.0, 0.0, 50.0})) << "the point of contact";
         EXPECT_EQ(data["node"][i][0], 201);
@@ -99,19 +78,14 @@ TEST(CycleVtk, PairsReadByVtk) {
 
 TEST(CycleVtk, NodesReadByVtk) {
   const Evaluated e;
-  const json read = deck::test::read_with_vtk(cycle_vtk(e.input()));
-  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
-  const json& file = read["contact_nodes.vtp"];
+  if (e.read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+  const json& file = e.read["contact_nodes.vtp"];
   const json& data = file["point"];
   ASSERT_EQ(file["points"].size(), 13u) << "every node of this deck takes part";
-  double sum[3] = {0, 0, 0};
   for (std::size_t i = 0; i < file["points"].size(); ++i) {
     const NodeIndex n = e.built.model.find_node(data["node"][i][0].get<std::int64_t>());
     const NodalSums& s = e.outcome.nodes;
     EXPECT_EQ(data["force"][i], json({s.force[0][n], s.force[1][n], s.force[2][n]}));
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += data["force"][i][c].get<double>();
-    EXPECT_EQ(data["stiffness"][i][0], s.stiffness[n]);
-    EXPECT_EQ(data["mass"][i][0], e.state.mass[n]);
     const double m = e.state.mass[n], f = data["force_size"][i][0];
     EXPECT_EQ(data["acceleration"][i][0], m > 0 ? f / m : 0.0);
     if (m == 0) {
@@ -119,7 +93,6 @@ TEST(CycleVtk, NodesReadByVtk) {
       EXPECT_EQ(data["dt"][i][0], 0.0);
     }
   }
-  for (const double x : sum) EXPECT_NEAR(x, 0.0, 1e-10);
 }
 
 }  // namespace

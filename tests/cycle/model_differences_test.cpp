@@ -34,7 +34,6 @@ TEST(ModelDifferences, BlendedNormalOnAFlatSquare) {
       EXPECT_LT(testing::norm(m - Vec{0, 0, 1}), 1e-14);
     }
   }
-  std::printf("blended normal: tilt up to %.1f degrees, side force %.2f\n", tilt, side);
   EXPECT_NEAR(tilt, 25.0, 0.5);
   EXPECT_NEAR(side, 0.43, 0.005);
 }

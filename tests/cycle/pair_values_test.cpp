@@ -1,12 +1,11 @@
-// Values of pairs by hand: normals of corners, widths of edges for heat, criteria of adaptive
-// meshing, the time step of a pair, ties by the time step, friction by directions.
+// Values of pairs by hand: normals of corners, criteria of adaptive meshing, the time step of a
+// pair, ties by the time step, friction by directions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "contact/small_deck.hpp"
-#include "cycle/adapter/parts.hpp"
 #include "cycle/kernel/effects.hpp"
 #include "cycle/plates.hpp"
 #include "cycle/support.hpp"
@@ -70,75 +69,6 @@ TEST(PairValues, OfQuadsAndTrianglesWithTheirNormals) {
   // Iadm: each facet counts the same, the repeated corner of a triangle twice.
   const Vec q{0, 0, 1}, t{-0.8, 0, 0.6};
   check(found(0, 1), {Vec{}, q, q + t, q + 2.0 * t, q, t});
-}
-
-// --- widths of edges for heat
-
-double width(const Built& b, Carrier rule, std::int64_t first, std::int64_t second) {
-  Contact c;
-  c.kind = deck::ContactKind::edge_edge;
-  ContactEdge e;
-  e.nodes = {b.model.nodes.map.find(first), b.model.nodes.map.find(second)};
-  e.carrier = Carrier::none;
-  ContactEdge last = e;
-  last.carrier = rule;  // it rules for all edges of its side
-  c.secondary_edges = {e, last};
-  c.main_edges = {last};
-  ContactPairs pairs;
-  pairs.at = {{0, 0}};
-  detail::edge_widths(b.scene, c, pairs);
-  EXPECT_EQ(pairs.edge_width[0], pairs.edge_width[1]);
-  return pairs.edge_width[0].at(0);
-}
-
-TEST(WidthsOfEdges, OnSolidsAreSumsOfSharesOfTheirFaces) {
-  // A block of 2 by 3 by 5 and a wedge of the same sizes.
-  test::SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 2, 0, 0).node(3, 2, 3, 0).node(4, 0, 3, 0);
-  d.node(5, 0, 0, 5).node(6, 2, 0, 5).node(7, 2, 3, 5).node(8, 0, 3, 5);
-  d.node(11, 50, 0, 0).node(12, 52, 0, 0).node(13, 50, 3, 0);
-  d.node(15, 50, 0, 5).node(16, 52, 0, 5).node(17, 50, 3, 5);
-  d.solid_part(1).brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8});
-  d.brick(1, 2, {11, 12, 13, 13, 15, 16, 17, 17});
-  const Built b(d);
-  const auto at = [&](int first, int second) { return width(b, Carrier::solid, first, second); };
-  // Faces of 6, 10 and 15; a quarter of each to each of its corners.
-  EXPECT_DOUBLE_EQ(at(1, 2), 2 * (6 + 15 + 10) / 4.0);
-  EXPECT_DOUBLE_EQ(at(3, 2), (6 + 10 + 15 + 10) / 4.0);
-  EXPECT_DOUBLE_EQ(at(6, 2), (6 + 10) / 4.0);
-  for (const auto& [first, second] :
-       {std::pair(2, 1), std::pair(4, 3), std::pair(5, 6), std::pair(8, 2)})
-    EXPECT_EQ(at(first, second), 0) << first;
-  // The front of the wedge is a triangle of area 3, a third of it each.
-  EXPECT_DOUBLE_EQ(at(11, 12), 2 * (1 + 15 / 4.0 + 10 / 4.0));
-}
-
-TEST(WidthsOfEdges, OnShellsAreHalfTheRootOfTheirShares) {
-  test::SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 8, 0).node(4, 0, 8, 0).node(5, 16, 0, 0);
-  d.shell_part(1, 1.5).shell(1, 1, 1, 2, 3, 4).shell3(1, 2, 2, 5, 3);
-  const Built b(d);
-  const auto at = [&](int first, int second) { return width(b, Carrier::shell4, first, second); };
-  EXPECT_DOUBLE_EQ(at(1, 2), 0.5 * std::sqrt(80 / 4.0) + 0.75);
-  EXPECT_DOUBLE_EQ(at(5, 3), 0.5 * std::sqrt(24 / 3.0) + 0.75);
-  EXPECT_DOUBLE_EQ(at(2, 3), 0.5 * std::sqrt(80 / 4.0 + 24 / 3.0));
-  EXPECT_EQ(width(b, Carrier::shell3, 2, 3), at(2, 3));
-  EXPECT_EQ(at(1, 5), 0);
-}
-
-TEST(WidthsOfEdges, OnLinesAreTheRootOfTheMeanSectionAtTheirEnds) {
-  test::SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 20, 0, 0).node(4, 0, 9, 0);
-  d.node(11, 0, 50, 0).node(12, 10, 50, 0).node(13, 20, 50, 0);
-  d.truss_part(1, 4).truss_part(2, 9).beam_part(3, 16).beam_part(4, 25);
-  d.bar("TRUSS", 1, 1, 1, 2).bar("TRUSS", 2, 2, 2, 3);
-  d.bar("BEAM", 3, 3, 11, 12, 4).bar("BEAM", 4, 4, 12, 13, 4);
-  const Built b(d);
-  // Sections of 2 and 3, of 4 and 5: the one in the middle has both elements.
-  EXPECT_DOUBLE_EQ(width(b, Carrier::truss, 1, 2), std::sqrt((2 + 2 + 3) / 3.0));
-  EXPECT_DOUBLE_EQ(width(b, Carrier::truss, 2, 3), std::sqrt((2 + 3 + 3) / 3.0));
-  EXPECT_DOUBLE_EQ(width(b, Carrier::beam, 11, 12), std::sqrt((4 + 4 + 5) / 3.0));
-  EXPECT_EQ(width(b, Carrier::truss, 11, 12), 0);
 }
 
 // --- whole evaluations
@@ -229,74 +159,73 @@ TEST(EdgesGiveBackTheirGap, ByHalfOfTheDepthOfEachCycle) {
 
 // --- limits of single pairs, and ties
 
-TEST(PairStepLimit, IsThatOfTheLightestNodeOfThePairAlone) {
-  ContactCard card = testing::elastic_card();
+/// A pair is deleted where dtmin reaches its time step of half of `limit`, and not before.
+void expect_limit(ContactCard card, const Pair& p, double limit) {
   card.step_factor = 0.5;
+  for (const double off : {1e-12, -1e-12}) {
+    card.dtmin = 0.5 * limit * (1 + off);
+    const auto status = testing::run(card, p).all.status[0];
+    EXPECT_EQ((status & status_step_deleted) != 0, off > 0) << limit;
+  }
+}
+
+TEST(PairStepLimit, IsThatOfTheLightestNodeOfThePairAlone) {
+  const ContactCard card = testing::elastic_card();
   Pair p = testing::quad_pair({4, 3, 0.6});
   for (std::size_t light = 0; light < 5; ++light) {
     p.k0 = light == 0 ? 0.25 : 1e5;  // a soft pair has a step, too
     p.m = {1, 1, 1, 1, 1};
     p.m[light] = 1e-4;
-    card.dtmin = 0;
     const testing::Outcome free = testing::run(card, p);
     double least = 1e30;
     for (std::size_t r = 0; r < 5; ++r) {
       const double share = r == 0 ? 1 : free.weights()[r - 1];
       least = std::min(least, std::sqrt(2 * p.m[r] / (share * free.all.k_nodal[0])));
     }
-    const auto deleted = [&](double dtmin) {
-      card.dtmin = dtmin;
-      return (testing::run(card, p).all.status[0] & status_step_deleted) != 0;
-    };
-    EXPECT_TRUE(deleted(0.5 * least * (1 + 1e-12))) << light;
-    EXPECT_FALSE(deleted(0.5 * least * (1 - 1e-12))) << light;
+    expect_limit(card, p, least);
   }
 }
 
 TEST(PairStepLimit, OfEdgesIsThatOfTheLighterMeanMass) {
   ContactCard card = testing::elastic_card();
   card.kind = ContactKind::edge_edge;
-  card.step_factor = 0.5;
   Pair p;
   // The first at a quarter of its length, the second at five eighths.
   p.x = {Vec{-2, 0, 0.6}, Vec{6, 0, 0.6}, Vec{0, -5, 0}, Vec{0, 3, 0}, Vec{}};
   p.k0 = 1e5;
-  for (const std::array<double, 4>& m :
-       {std::array<double, 4>{2, 3, 50, 70}, std::array<double, 4>{20, 30, 5, 7}}) {
-    for (std::size_t r = 0; r < 4; ++r) p.m[r] = m[r];
-    card.dtmin = 0;
+  for (const std::array<double, 5>& m :
+       {std::array<double, 5>{2, 3, 50, 70, 1}, std::array<double, 5>{20, 30, 5, 7, 1}}) {
+    p.m = m;
     const double k = testing::run(card, p).all.k_nodal[0];
     const double mass = std::min(0.75 * m[0] + 0.25 * m[1], 0.375 * m[2] + 0.625 * m[3]);
-    const double limit = 0.5 * std::sqrt(2 * mass / k);
-    const auto deleted = [&](double dtmin) {
-      card.dtmin = dtmin;
-      return (testing::run(card, p).all.status[0] & status_step_deleted) != 0;
-    };
-    EXPECT_TRUE(deleted(limit * (1 + 1e-12)));
-    EXPECT_FALSE(deleted(limit * (1 - 1e-12)));
+    expect_limit(card, p, std::sqrt(2 * mass / k));
   }
 }
 
-TEST(TiesByTimeStep, BeginWithTheElasticForceOfTheirSideAndPlace) {
+TEST(TiesByTimeStep, BeginWithTheElasticForceOfTheirSideWhereverTheSegmentLies) {
   ContactCard card = testing::elastic_card();
   card.itied = 1;
-  card.dtmin = 1e3;
+  card.stfac = 3e4;
   for (const Model model : {Model::reference, Model::robust})
-    for (const double side : {1.0, -1.0})
-      for (const int istf : {0, 1}) {
-        card.istf = istf;
-        card.stfac = 3e4;
-        Pair p = testing::quad_pair({4, 3, side * 0.6});
-        const testing::Outcome r = testing::run(card, p, 0, 0, model);
-        const double kappa = istf == 1 ? 3e4 : 0.5 * p.k0;
-        EXPECT_NE(r.all.status[0] & status_tied, 0);
-        EXPECT_NEAR(r.all.tie[0][0], -side * kappa * 0.4 / 0.6, 1e-6) << istf;
-        for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(r.all.tie[c + 3][0], r.weights()[c]);
-        EXPECT_NEAR(r.all.tie[6][0], 0.4, 1e-12);
-        // Where the weights point to the node is as far as the height.
-        EXPECT_NEAR(r.all.tie[7][0], side * 0.6, 1e-12);
-        EXPECT_EQ(r.all.dt_kinematic[0], 1e30);
-      }
+    for (const double height : {0.0, 3.0, -40.0})
+      for (const double side : {1.0, -1.0})
+        for (const int istf : {0, 1}) {
+          card.istf = istf;
+          card.dtmin = 1e3;
+          Pair p = testing::quad_pair({4, 3, side * 0.6});
+          for (Vec& x : p.x) x[2] += height;
+          const testing::Outcome r = testing::run(card, p, 0, 0, model);
+          const double kappa = istf == 1 ? 3e4 : 0.5 * p.k0;
+          EXPECT_NE(r.all.status[0] & status_tied, 0);
+          EXPECT_NEAR(r.all.tie[0][0], -side * kappa * 0.4 / 0.6, 1e-6) << istf << ' ' << height;
+          for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(r.all.tie[c + 3][0], r.weights()[c]);
+          EXPECT_NEAR(r.all.tie[6][0], 0.4, 1e-12);
+          // Where the weights point to the node is as far as the height.
+          EXPECT_NEAR(r.all.tie[7][0], side * 0.6, 1e-12) << height;
+          EXPECT_EQ(r.all.dt_kinematic[0], 1e30);
+          card.dtmin = 1e-12;
+          EXPECT_EQ(testing::run(card, p, 0, 0, model).all.status[0] & status_tied, 0);
+        }
 }
 
 TEST(TiesByTimeStep, KeepTheirWeightsAndTheDepthTheyBeganWith) {

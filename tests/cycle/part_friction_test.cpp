@@ -77,21 +77,15 @@ SmallDeck rails(const std::string& friction) {
 }
 
 TEST(PartFriction, EdgesTakeTheCoefficientOfTheirPairOfParts) {
-  for (const Model model : {Model::reference, Model::robust}) {
-    const SmallDeck d =
-        rails("@/FRICTION/5 C1=0.0 Fric=0.3 part_ID1=1 part_ID2=2 C1_pair=0.0 Fric_pair=0.1");
-    const auto s = slide(d, {1e6, 0, 0}, model);
-    ASSERT_EQ(s.size(), 2u);
-    EXPECT_NEAR(s[0].coefficient, 0.1, 1e-12);
-    EXPECT_NEAR(s[1].coefficient, 0.3, 1e-12);
-  }
-}
-
-TEST(PartFriction, EdgesWithoutAnyCoefficientButThatOfTheirPair) {
-  const SmallDeck d = rails("@/FRICTION/5 C1=0.0 part_ID1=1 part_ID2=2 C1_pair=0.0 Fric_pair=0.2");
-  const auto s = slide(d, {1e6, 0, 0});
-  EXPECT_NEAR(s.at(0).coefficient, 0.2, 1e-12);
-  EXPECT_EQ(s.at(1).coefficient, 0.0);
+  for (const Model model : {Model::reference, Model::robust})
+    for (const double other : {0.3, 0.0}) {  // of pairs that are not named
+      const SmallDeck d = rails(fmt::sprintf(
+          "@/FRICTION/5 C1=0.0 Fric=%g part_ID1=1 part_ID2=2 C1_pair=0.0 Fric_pair=0.1", other));
+      const auto s = slide(d, {1e6, 0, 0}, model);
+      ASSERT_EQ(s.size(), 2u);
+      EXPECT_NEAR(s[0].coefficient, 0.1, 1e-12);
+      EXPECT_NEAR(s[1].coefficient, other, 1e-12);
+    }
 }
 
 TEST(PartFriction, DirectionsOfAnOrthotropicPairFollowTheSegment) {
@@ -115,7 +109,7 @@ TEST(PartFriction, DirectionsOfAnOrthotropicPairFollowTheSegment) {
 /// The plate with 0.4 along the first direction and 0.1 across, the direction given by lines of
 /// /FRIC_ORIENT for part 1.
 std::array<double, 2> along_x_and_y(const std::string& before, const std::string& owner,
-                                    const std::array<double, 3>& v, int skew = 0, double phi = 0) {
+                                    const std::array<double, 3>& v, int skew, double phi) {
   char line[128];
   std::snprintf(line, sizeof line, "%20g%20g%20g%10d%20g", v[0], v[1], v[2], skew, phi);
   const SmallDeck d = plate(
@@ -124,43 +118,35 @@ std::array<double, 2> along_x_and_y(const std::string& before, const std::string
       before + "/FRIC_ORIENT/9\ndirections\n" + owner + "\n" + line);
   return {slide(d, {1e5, 0, 0}).at(0).coefficient, slide(d, {0, 1e5, 0}).at(0).coefficient};
 }
-void expect_coefficients(const std::array<double, 2>& got, double x, double y) {
-  EXPECT_NEAR(got[0], x, 1e-9);
-  EXPECT_NEAR(got[1], y, 1e-9);
-}
-const std::string part_1 = "         0         1";
 
-TEST(FrictionOrientation, TheVectorOfAPartIsItsFirstDirection) {
-  expect_coefficients(along_x_and_y("", part_1, {1, 0, 0}), 0.4, 0.1);
-  expect_coefficients(along_x_and_y("", part_1, {0, 3, 0}), 0.1, 0.4);
-}
-
-TEST(FrictionOrientation, OnlyThePartOfTheVectorInTheSegmentCounts) {
-  expect_coefficients(along_x_and_y("", part_1, {0, 1, 5}), 0.1, 0.4);
-  // A vector along the normal says nothing: the first axis of the segment stays.
-  expect_coefficients(along_x_and_y("", part_1, {0, 0, 1}), 0.4, 0.1);
-}
-
-TEST(FrictionOrientation, PhiTurnsAboutTheNormalInDegrees) {
-  expect_coefficients(along_x_and_y("", part_1, {1, 0, 0}, 0, 90), 0.1, 0.4);
-  expect_coefficients(along_x_and_y("", part_1, {1, 1, 0}, 0, 45), 0.1, 0.4);
-  expect_coefficients(along_x_and_y("", part_1, {1, 1, 0}, 0, -45), 0.4, 0.1);
-}
-
-TEST(FrictionOrientation, TheVectorIsWrittenInTheAxesOfItsSkew) {
+TEST(FrictionOrientation, OfAPartIsTheVectorInItsSegmentTurnedByPhi) {
+  const std::string part = "         0         1", group = "         7         0";
   // y' is -x and z' is z: x' is y.
   const std::string skew =
       "/SKEW/FIX/3\naxes\n                   0                   0                   0\n"
       "                  -1                   0                   0\n"
       "                   0                   0                   1\n";
-  expect_coefficients(along_x_and_y(skew, part_1, {1, 0, 0}, 3), 0.1, 0.4);
-}
-
-TEST(FrictionOrientation, PartsMayBeGivenAsAGroup) {
-  const std::string group = "/GRPART/PART/7\nparts\n         1         2\n";
-  expect_coefficients(along_x_and_y(group, "         7         0", {0, 1, 0}), 0.1, 0.4);
-  const std::string other = "/GRPART/PART/7\nparts\n         2         3\n";
-  expect_coefficients(along_x_and_y(other, "         7         0", {0, 1, 0}), 0.4, 0.1);
+  const std::string with = "/GRPART/PART/7\nparts\n         1         2\n",
+                    without = "/GRPART/PART/7\nparts\n         2         3\n";
+  struct Case {
+    std::string before, owner;
+    std::array<double, 3> vector;
+    int skew;
+    double phi;
+    bool along_x;  ///< the first direction is x, otherwise y
+  };
+  const Case cases[] = {
+      {"", part, {1, 0, 0}, 0, 0, true},     {"", part, {0, 3, 0}, 0, 0, false},
+      {"", part, {0, 1, 5}, 0, 0, false},  // only what lies in the segment counts
+      {"", part, {0, 0, 1}, 0, 0, true},   // along the normal: the first axis of the segment stays
+      {"", part, {1, 0, 0}, 0, 90, false},   {"", part, {1, 1, 0}, 0, 45, false},
+      {"", part, {1, 1, 0}, 0, -45, true},   {skew, part, {1, 0, 0}, 3, 0, false},
+      {with, group, {0, 1, 0}, 0, 0, false}, {without, group, {0, 1, 0}, 0, 0, true}};
+  for (const Case& c : cases) {
+    const auto got = along_x_and_y(c.before, c.owner, c.vector, c.skew, c.phi);
+    EXPECT_NEAR(got[0], c.along_x ? 0.4 : 0.1, 1e-9) << &c - cases;
+    EXPECT_NEAR(got[1], c.along_x ? 0.1 : 0.4, 1e-9) << &c - cases;
+  }
 }
 
 }  // namespace

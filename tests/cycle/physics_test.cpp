@@ -64,7 +64,6 @@ TEST(Momentum, MainForcesOfAPairAddUpToTheSecondaryForce) {
       for (std::size_t k = 0; k < 4; ++k) sum = sum + p.h[k] * p.f;
       if (norm(p.f) != 0.0) worst = std::max(worst, norm(sum - p.f) / norm(p.f));
     }
-    std::printf("action-reaction, worst residual: %.2f ulp\n", worst / ulp);
     EXPECT_LE(worst, 2.0 * ulp);
   }
 }
@@ -242,6 +241,19 @@ Scene grid_scene(std::size_t cells, std::size_t points, double height, double ga
   return s;
 }
 
+/// `points` by `points` nodes that move over 9 by 9 uneven quads.
+Scene shaken_grid(std::size_t points, unsigned seed) {
+  Scene s = grid_scene(9, points, 0.05, 0.1);
+  std::mt19937_64 rng(seed);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (std::size_t n = 0; n < s.mass.size(); ++n)
+    for (std::size_t c = 0; c < 3; ++c) {
+      s.v[c][n] = 10.0 * u(rng);
+      s.x[c][n] += 0.01 * u(rng);
+    }
+  return s;
+}
+
 NodalSums evaluate_scene(const Scene& s, const ContactCard& card, Model model, unsigned threads) {
   const KernelPlan plan = make_plan(card, model);
   PacketBuffer buffer;
@@ -259,15 +271,7 @@ NodalSums evaluate_scene(const Scene& s, const ContactCard& card, Model model, u
 }
 
 TEST(Assembly, IsTheSameForAnyNumberOfThreadsAndConservesMomentum) {
-  Scene s = grid_scene(9, 40, 0.05, 0.1);
-  std::mt19937_64 rng(3);
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  for (std::size_t n = 0; n < s.mass.size(); ++n) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      s.v[c][n] = 10.0 * u(rng);
-      s.x[c][n] += 0.01 * u(rng);
-    }
-  }
+  const Scene s = shaken_grid(40, 3);
   for (const Model model : models) {
     const NodalSums one = evaluate_scene(s, rubbing_card(), model, 1);
     double total_abs = 0.0;
@@ -289,14 +293,7 @@ TEST(Assembly, IsTheSameForAnyNumberOfThreadsAndConservesMomentum) {
 }
 
 TEST(Assembly, PiecesInPairOrderGiveTheBitsOfTheWhole) {
-  Scene s = grid_scene(9, 80, 0.05, 0.1);  // 6400 pairs: more than one block of totals
-  std::mt19937_64 rng(5);
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  for (std::size_t n = 0; n < s.mass.size(); ++n)
-    for (std::size_t c = 0; c < 3; ++c) {
-      s.v[c][n] = 10.0 * u(rng);
-      s.x[c][n] += 0.01 * u(rng);
-    }
+  const Scene s = shaken_grid(80, 5);  // 6400 pairs: more than one block of totals
   const KernelPlan plan = make_plan(rubbing_card(), Model::reference);
   const auto run = [&](const PairList& pairs, std::size_t begin, PacketResult& r,
                        RunningTotals& totals) {
@@ -333,11 +330,8 @@ TEST(Assembly, PiecesInPairOrderGiveTheBitsOfTheWhole) {
   EXPECT_EQ(sums.stiffness, expected.stiffness);
   EXPECT_EQ(sums.contact, expected.contact);
   const Totals a = of_whole.all(), b = of_pieces.all();
-  EXPECT_EQ(a.moment, b.moment);
-  EXPECT_EQ(a.tangential, b.tangential);
-  EXPECT_EQ(a.total_abs, b.total_abs);
-  EXPECT_EQ(a.elastic_energy, b.elastic_energy);
-  EXPECT_EQ(a.dt_kinematic_pair, b.dt_kinematic_pair);
+  EXPECT_EQ(std::tie(a.moment, a.tangential, a.total_abs, a.elastic_energy, a.dt_kinematic_pair),
+            std::tie(b.moment, b.tangential, b.total_abs, b.elastic_energy, b.dt_kinematic_pair));
   EXPECT_GT(a.total_abs, 100.0);
 }
 
@@ -375,8 +369,6 @@ TEST(PatchTest, OnePassNodeToSegmentMissesUniformPressureByAKnownAmount) {
     return worst;
   };
   const double coarse = error(4, 7, Model::robust), fine = error(4, 30, Model::robust);
-  std::printf("patch test, worst nodal load error: 7x7 nodes %.3f, 30x30 nodes %.4f\n", coarse,
-              fine);
   // Recorded levels: what the scheme costs, to be beaten by better ones.
   EXPECT_NEAR(coarse, 0.166, 0.001);
   EXPECT_NEAR(fine, 0.0133, 0.0005);
@@ -577,20 +569,6 @@ TEST(HeatExchange, TwoBodiesRelaxExponentially) {
   const double e2 = std::abs(difference(1.0 / 512) - exact);
   EXPECT_LT(e2, 0.02 * exact);
   EXPECT_NEAR(e1 / e2, 2.0, 0.05);  // explicit Euler: first order
-}
-
-TEST(HeatExchange, RadiationFollowsTheFourthPower) {
-  ContactCard card = heat_card();
-  card.frad = 4e-8;
-  card.drad = 5.0;
-  Pair p = quad_pair({4, 6, 2.0});  // beyond the gap of 1, within Drad
-  p.area = 0.01;
-  p.temperature = {400, 900, 900, 900, 900};
-  const Outcome r = run(card, p, 0.5, 0.5);
-  const double exact = 4e-8 * 0.01 * (std::pow(900.0, 4) - std::pow(400.0, 4)) * 0.5;
-  EXPECT_NEAR(r.all.heat[0][0], exact, 1e-12 * exact);
-  p.x[0][2] = 6.0;  // beyond Drad: not a pair any more
-  EXPECT_EQ(run(card, p, 0.5, 0.5).all.heat[0][0], 0.0);
 }
 
 TEST(HeatExchange, FrictionHeatIsTheDissipatedWorkTimesTheShares) {

@@ -390,10 +390,7 @@ TEST(SolverRules, InactiFiveGivesTheGapBackByTheCycleNotByTime) {
 
 TEST(SolverRules, MomentsAreTakenOnTheFarSideOfTheNode) {
   for (const Model m : models) {
-    const testing::Packet packet({inside()});
-    const KernelPlan plan = make_plan(elastic_card(), m);
     PacketResult r;
-    evaluate(plan, packet.view(), r);
     ContactCard rubbing = elastic_card();
     rubbing.fric = 0.5;
     rubbing.iform = 2;

@@ -5,16 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
-#include <numeric>
-#include <sstream>
 
 #include "contact/small_deck.hpp"
 #include "replay/replay.hpp"
+#include "replay/table.hpp"
 #include "where.hpp"
 
 namespace deck::cycle {
@@ -41,91 +39,66 @@ double mass(const Built& b, const State& s, std::int64_t id) {
   return s.mass[b.model.nodes.map.find(id)];
 }
 
-TEST(Masses, QuadsGiveAQuarterToEachNode) {
+TEST(Masses, OfElementsGoToTheirNodesTrianglesByTheirAngles) {
   const Built b(elements());
   const State s = make_state(b.scene);
   for (int id = 1; id <= 4; ++id) EXPECT_DOUBLE_EQ(mass(b, s, id), 1e-6 * 2 * 100 / 4);
-}
-
-TEST(Masses, TrianglesGiveByTheirAngles) {
-  const Built b(elements());
-  const State s = make_state(b.scene);
   EXPECT_DOUBLE_EQ(mass(b, s, 5), 1e-6 * 2 * 50 / 2);  // 90 of 180 degrees
-  EXPECT_DOUBLE_EQ(mass(b, s, 6), 1e-6 * 2 * 50 / 4);
-  EXPECT_DOUBLE_EQ(mass(b, s, 7), 1e-6 * 2 * 50 / 4);
+  for (int id = 6; id <= 7; ++id) EXPECT_DOUBLE_EQ(mass(b, s, id), 1e-6 * 2 * 50 / 4);
+  for (int id = 10; id <= 17; ++id) EXPECT_DOUBLE_EQ(mass(b, s, id), 1e-6 * 1000 / 8);
 }
 
 TEST(Masses, SpringsPerUnitLengthWeighByTheirLength) {
-  for (const char* per_length : {"0", "1"}) {
+  for (const int per_length : {0, 1}) {
     SmallDeck d = elements();
     d.node(31, 60, 0, 0).node(32, 64, 3, 0);
-    d.add("/PROP/SPRING/9\nspring\n" + std::string(17, ' ') + "0.5" + std::string(50, ' ') +
-          std::string(9, ' ') + per_length + "\n" + std::string(17, ' ') + "1.0\n");
+    d.add(fmt::sprintf("/PROP/SPRING/9\nspring\n%20g%60d\n%20g\n", 0.5, per_length, 1.0));
     d.add("/PART/9\nspring\n         9         0         0");
     d.add("/SPRING/9\n        90        31        32");
     const Built b(d);
     const State s = make_state(b.scene);
-    EXPECT_DOUBLE_EQ(mass(b, s, 31), 0.25 * (*per_length == '1' ? 5 : 1));
+    EXPECT_DOUBLE_EQ(mass(b, s, 31), 0.25 * (per_length == 1 ? 5 : 1));
     EXPECT_DOUBLE_EQ(mass(b, s, 32), mass(b, s, 31));
   }
 }
 
-TEST(Masses, BricksGiveAnEighthToEachNode) {
-  const Built b(elements());
-  const State s = make_state(b.scene);
-  for (int id = 10; id <= 17; ++id) EXPECT_DOUBLE_EQ(mass(b, s, id), 1e-6 * 1000 / 8);
-}
-
-/// A block of 2 x 2 x 2 whose mid-side nodes are `middles` of the twelve edges; ids from 1 and 21.
-SmallDeck with_middles(const char* keyword, const std::vector<std::array<int, 3>>& middles) {
+/// A block of 2 x 2 x 2 with nodes 1 to 8 and, from 21 on, one at the middle of each of its edges;
+/// a SHEL16 has none between its faces. A shell far away, so that there is something to touch.
+SmallDeck with_middles(const std::string& keyword) {
   SmallDeck d;
   d.solid_part(1).shell_part(2, 1).group("/GRNOD/PART/1", {1});
-  const auto cell = [](int id) {
-    const std::string text = std::to_string(id);
-    return std::string(10 - text.size(), ' ') + text;
+  const auto corner = [](int k) {
+    return std::array{k % 4 == 1 || k % 4 == 2 ? 2 : 0, k % 4 >= 2 ? 2 : 0, k >= 4 ? 2 : 0};
   };
-  std::string card = std::string(keyword) + "/1\n" + cell(7);
+  std::string card = keyword + "/1\n" + fmt::sprintf("%10d", 7);
   for (int k = 0; k < 8; ++k) {
-    d.node(1 + k, (k % 4 == 1 || k % 4 == 2) ? 2 : 0, k % 4 >= 2 ? 2 : 0, k >= 4 ? 2 : 0);
-    card += cell(1 + k);
+    d.node(1 + k, corner(k)[0], corner(k)[1], corner(k)[2]);
+    card += fmt::sprintf("%10d", 1 + k);
   }
-  const std::size_t first = middles.size() == 12 ? 8 : 4;
-  for (std::size_t k = 0; k < middles.size(); ++k) {
-    d.node(21 + static_cast<int>(k), middles[k][0], middles[k][1], middles[k][2]);
-    card += (k == 0 || k == first ? "\n" : "") + cell(21 + static_cast<int>(k));
+  std::vector<std::array<int, 2>> edges;
+  for (int k = 0; k < 4; ++k) edges.push_back({k, (k + 1) % 4});
+  for (int k = 0; k < 4 && keyword == "/BRIC20"; ++k) edges.push_back({k, k + 4});
+  for (int k = 0; k < 4; ++k) edges.push_back({4 + k, 4 + (k + 1) % 4});
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const auto a = corner(edges[k][0]), b = corner(edges[k][1]);
+    const int id = 21 + static_cast<int>(k);
+    d.node(id, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2]));
+    card += (k == 0 || k == edges.size() - 4 ? "\n" : "") + fmt::sprintf("%10d", id);
   }
-  // A shell far away, so that there is something to touch.
   d.node(91, 0, 0, 50).node(92, 2, 0, 50).node(93, 2, 2, 50).node(94, 0, 2, 50);
-  d.shell(2, 90, 91, 92, 93, 94);
-  return d.add(card);
+  return d.shell(2, 90, 91, 92, 93, 94).add(card);
 }
 
 TEST(Masses, BlocksWithMidSideNodesGiveMostToThese) {
-  const double total = 1e-6 * 8;
-  const Built twenty(with_middles("/BRIC20", {{1, 0, 0},
-                                              {2, 1, 0},
-                                              {1, 2, 0},
-                                              {0, 1, 0},
-                                              {0, 0, 1},
-                                              {2, 0, 1},
-                                              {2, 2, 1},
-                                              {0, 2, 1},
-                                              {1, 0, 2},
-                                              {2, 1, 2},
-                                              {1, 2, 2},
-                                              {0, 1, 2}}));
-  const State a = make_state(twenty.scene);
-  const double q = 8 * 3.0 / 14 + 12;
-  for (int k = 0; k < 8; ++k) EXPECT_NEAR(mass(twenty, a, 1 + k), total * (3.0 / 14) / q, 1e-18);
-  for (int k = 0; k < 12; ++k) EXPECT_NEAR(mass(twenty, a, 21 + k), total / q, 1e-18);
-  const Built sixteen(with_middles(
-      "/SHEL16",
-      {{1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2}, {1, 2, 2}, {0, 1, 2}}));
-  const State b = make_state(sixteen.scene);
+  const double total = 1e-6 * 8, q = 8 * 3.0 / 14 + 12;
+  const Built twenty(with_middles("/BRIC20")), sixteen(with_middles("/SHEL16"));
+  const State a = make_state(twenty.scene), b = make_state(sixteen.scene);
   for (int k = 0; k < 8; ++k) {
+    EXPECT_NEAR(mass(twenty, a, 1 + k), total * (3.0 / 14) / q, 1e-18);
     EXPECT_NEAR(mass(sixteen, b, 1 + k), total / 32, 1e-18);
     EXPECT_NEAR(mass(sixteen, b, 21 + k), total * 3 / 32, 1e-18);
   }
+  for (int k = 0; k < 12; ++k) EXPECT_NEAR(mass(twenty, a, 21 + k), total / q, 1e-18);
 }
 
 TEST(Masses, AddedMassGoesToEveryNodeOrIsSpread) {
@@ -139,58 +112,36 @@ TEST(Masses, AddedMassGoesToEveryNodeOrIsSpread) {
   EXPECT_DOUBLE_EQ(mass(b, s, 3), 5e-5);
 }
 
-TEST(Velocities, OfNodeGroupsAndPartsOnRequest) {
-  SmallDeck d = elements();
-  d.add("/INIVEL/TRA/1\nv\n                 1.0                 2.0                 3.0         1");
-  const Built b(d);
-  const NodeIndex shell = b.model.nodes.map.find(1), solid = b.model.nodes.map.find(10);
-  const State s = make_state(b.scene);
-  EXPECT_TRUE(s.moving);
-  EXPECT_EQ(s.velocity[0][shell], 1.0);
-  EXPECT_EQ(s.velocity[2][shell], 3.0);
-  EXPECT_EQ(s.velocity[0][solid], 0.0);
-  const State t = make_state(b.scene, {{2, {0, 0, -5}}});
-  EXPECT_EQ(t.velocity[2][solid], -5.0);
-  EXPECT_EQ(t.velocity[2][shell], 3.0);
+TEST(Velocities, OfNodeGroupsAlsoInASkewAndOfPartsOnRequest) {
+  const std::string values =
+      "/1\nv\n                 1.0                 2.0                 3.0         1";
+  // Local Y of the skew is global Z, local Z is global X: local X is global Y.
+  const std::pair<std::string, std::array<double, 3>> cases[] = {
+      {"/INIVEL/TRA" + values, {1, 2, 3}},
+      {"/INIVEL/T+G" + values, {1, 2, 3}},
+      {"@/SKEW/FIX/7 Z_Y=1 X_Z=1\n/INIVEL/TRA" + values + "         7", {3, 1, 2}}};
+  for (const auto& [cards, wanted] : cases) {
+    const Built b(elements().add(cards));
+    const NodeIndex shell = b.model.nodes.map.find(1), solid = b.model.nodes.map.find(10);
+    const State s = make_state(b.scene), t = make_state(b.scene, {{2, {0, 0, -5}}});
+    EXPECT_TRUE(s.moving);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_DOUBLE_EQ(s.velocity[c].at(shell), wanted[c]) << cards;
+      EXPECT_EQ(s.velocity[c].at(solid), 0.0);
+    }
+    EXPECT_EQ(t.velocity[2][solid], -5.0);
+    EXPECT_EQ(t.velocity[2][shell], wanted[2]);
+  }
 }
 
-TEST(Velocities, TranslationAndGridCountAsTranslation) {
-  SmallDeck d = elements();
-  d.add("/INIVEL/T+G/1\nv\n                 1.0                 2.0                 3.0         1");
-  const Built b(d);
-  EXPECT_EQ(make_state(b.scene).velocity[1][b.model.nodes.map.find(1)], 2.0);
-}
-
-TEST(Velocities, ASkewTurnsThem) {
-  SmallDeck d = elements();
-  // Local Y is global Z, local Z is global X: local X is global Y.
-  d.add(
-      "@/SKEW/FIX/7 Z_Y=1 X_Z=1\n"
-      "/INIVEL/TRA/1\nv\n                 1.0                 2.0                 3.0         1"
-      "         7");
-  const Built b(d);
-  const State s = make_state(b.scene);
-  const NodeIndex n = b.model.nodes.map.find(1);
-  EXPECT_DOUBLE_EQ(s.velocity[1][n], 1.0);
-  EXPECT_DOUBLE_EQ(s.velocity[2][n], 2.0);
-  EXPECT_DOUBLE_EQ(s.velocity[0][n], 3.0);
-}
-
-TEST(Velocities, AndTemperaturesTakeNoMemoryWhereTheDeckGivesNone) {
-  const Built b(elements());
-  const State s = make_state(b.scene);
-  for (const auto& v : s.velocity) EXPECT_TRUE(v.empty());
-  EXPECT_TRUE(s.temperature.empty());
-}
-
-TEST(Velocities, AMissingGroupIsSaid) {
+TEST(Velocities, OfAMissingGroupAreLeftOutAndSaid) {
   SmallDeck d = elements();
   d.add("/INIVEL/TRA/1\nv\n                 1.0                 2.0                 3.0        99");
   const Built b(d);
   const State s = make_state(b.scene);
   EXPECT_FALSE(s.moving);
+  for (const auto& v : s.velocity) EXPECT_TRUE(v.empty()) << "no memory where there is nothing";
   ASSERT_EQ(s.not_evaluated.size(), 1u);
-  EXPECT_NE(s.not_evaluated[0].find("node group"), std::string::npos);
 }
 
 TEST(Temperatures, OfNodeGroupsOverThoseOfMaterials) {
@@ -215,35 +166,27 @@ TEST(StructureStep, IsNineTenthsOfTheSmallestElementStep) {
 
 /// Largest relative difference of nodal masses from those in a set of records.
 double mass_difference(const std::filesystem::path& deck_file, const std::filesystem::path& file) {
-  auto deck = read_deck(deck_file.string(), SchemaSet::built_in());
-  if (!deck) return INFINITY;
+  const auto deck = read_deck(deck_file.string(), SchemaSet::built_in());
+  std::ifstream in(file, std::ios::binary);
+  const auto text = states_text(std::string{std::istreambuf_iterator<char>(in), {}});
+  detail::Table table;
+  std::string error;
+  if (!deck || !text || !table.read(*text, error)) return INFINITY;
   Diagnostics diagnostics;
   const deck::Model model = build_model(*deck, SchemaSet::built_in(), diagnostics);
   const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
   SceneOptions options;
   options.penetrations = options.candidates = false;
   const State state = make_state(build_scene(model, interfaces, diagnostics, options));
-  std::ifstream in(file, std::ios::binary);
-  const auto text = states_text(std::string{std::istreambuf_iterator<char>(in), {}});
-  if (!text) return INFINITY;
-  std::istringstream lines(*text);
-  std::string line, cell;
-  std::getline(lines, line);
-  std::map<std::string, std::size_t> column;
-  for (std::istringstream header(line); std::getline(header, cell, ',');)
-    column.emplace(cell, column.size());
   double worst = 0;
-  while (std::getline(lines, line)) {
-    std::vector<std::string> row;
-    for (std::istringstream cells(line); std::getline(cells, cell, ',');) row.push_back(cell);
-    for (const auto& [node, m] : {std::pair{"node", "ms"}, std::pair{"n1", "m1"},
-                                  std::pair{"n2", "m2"}, std::pair{"n3", "m3"}}) {
-      const double recorded = std::stod(row[column.at(m)]);
-      const NodeIndex n = model.nodes.map.find(std::stoll(row[column.at(node)]));
+  for (const auto& [node, m] : {std::pair{"node", "ms"}, std::pair{"n1", "m1"},
+                                std::pair{"n2", "m2"}, std::pair{"n3", "m3"}})
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      const double recorded = table.column(m)[row];
+      const NodeIndex n = model.nodes.map.find(static_cast<std::int64_t>(table.column(node)[row]));
       if (n != no_index && recorded > 0)
         worst = std::max(worst, std::fabs(state.mass[n] / recorded - 1));
     }
-  }
   return worst;
 }
 

@@ -1,14 +1,14 @@
-// Steps of prescribed motion: what contacts remember from one evaluation to the next, and what is
-// said about nodes that leave an interface.
+// Steps of prescribed motion: what contacts remember from one evaluation to the next, and which
+// nodes and pairs leave an interface.
 #include "deck/cycle/steps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
-#include "contact/small_deck.hpp"
-#include "report/shared/cycle.hpp"
+#include "cycle/plates.hpp"
 
 namespace deck::cycle {
 namespace {
@@ -35,7 +35,6 @@ struct Stepped {
     outcome = run_steps(built.scene, state, options, steps, {},
                         [&](std::size_t, const SceneOutcome& r, const Coordinates&) {
                           forces.push_back(r.contacts.at(0).totals);
-                          ties.push_back(r.contacts.at(0).pairs_tied);
                         });
   }
   static SceneOptions scene_options() {
@@ -54,7 +53,6 @@ struct Stepped {
   CycleOptions options;
   StepsOutcome outcome;
   std::vector<Totals> forces;
-  std::vector<std::size_t> ties;
 };
 
 CycleOptions with_step(double dt, Model model = Model::robust) {
@@ -65,14 +63,6 @@ CycleOptions with_step(double dt, Model model = Model::robust) {
 }
 
 const char* const plain = "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1";
-
-TEST(Steps, TheFirstIsTheOneCycleCheck) {
-  const Stepped one(over(0.5, plain), with_step(1e-3), 1, {0, 0, -1});
-  const SceneOutcome alone = run_cycle(one.built.scene, one.state, one.options);
-  EXPECT_EQ(one.outcome.last.contacts.at(0).totals.normal, alone.contacts.at(0).totals.normal);
-  EXPECT_GT(alone.contacts[0].pairs_with_force, 0u);
-  EXPECT_EQ(one.outcome.lines.size(), 1u);
-}
 
 TEST(Steps, TheSpringOfFrictionGrowsWithThePathUntilItSlips) {
   const std::string card = std::string(plain) + " Fric=0.2 Iform=2";
@@ -90,15 +80,6 @@ TEST(Steps, TheSpringOfFrictionGrowsWithThePathUntilItSlips) {
               1e-9 * fast.forces.back().normal_abs);
 }
 
-TEST(Steps, ATiedContactTiesAtTheFirstTouchAndPullsBack) {
-  const std::string card = "@/INTER/TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1 Itied=1";
-  const Stepped r(over(1.25, card), with_step(0.1), 10, {0, 0, -1});
-  EXPECT_EQ(r.events(StepEvent::Kind::tied), 4u);
-  EXPECT_EQ(r.outcome.events.front().step, 3u) << "1.25 - 0.3 is the first height within the gap";
-  EXPECT_EQ(r.ties.at(2), 0u);
-  EXPECT_EQ(r.ties.back(), 4u);
-}
-
 TEST(Steps, AnApproachOverManyStepsIsFoundByTheSearch) {
   const Stepped r(over(40.5, plain), with_step(0.1), 410, {0, 0, -1});
   std::size_t first = 0;
@@ -106,15 +87,6 @@ TEST(Steps, AnApproachOverManyStepsIsFoundByTheSearch) {
   EXPECT_EQ(first, 396u) << "height 40.5 - 39.6 = 0.9";
   EXPECT_GT(r.outcome.searches, 5u);
   EXPECT_LT(r.outcome.searches, 100u);
-}
-
-TEST(Steps, ANodeBelowDtminIsGoneFromTheNextStepOn) {
-  const std::string card = std::string(plain) + " dtmin=1000";
-  const Stepped r(over(0.5, card), with_step(1e-4), 3, {0, 0, -1});
-  EXPECT_EQ(r.events(StepEvent::Kind::removed), 4u);
-  for (const StepEvent& e : r.outcome.events) EXPECT_EQ(e.step, 0u);
-  EXPECT_EQ(r.forces.at(1).normal_abs, 0.0);
-  EXPECT_EQ(r.outcome.lines.back().contacts.at(0).removed, 4u);
 }
 
 TEST(Steps, BoundaryConditionsAreReleasedAtTheFirstPenetrationOnce) {
@@ -128,25 +100,21 @@ TEST(Steps, BoundaryConditionsAreReleasedAtTheFirstPenetrationOnce) {
 }
 
 TEST(Steps, InactiFiveGivesTheGapBackWhenANodeMovesAway) {
-  const Stepped r(over(0.5, std::string(plain) + " Inacti=5"), with_step(1e-3), 200, {0, 0, 1});
-  EXPECT_EQ(r.forces.front().normal_abs, 0.0);
-  EXPECT_EQ(r.forces.at(50).normal_abs, 0.0) << "what was taken off the gap is remembered";
   // Out to 0.699, then in again: the gap has grown with it, so the way in pushes.
-  CycleOptions o = with_step(1e-3);
   const Built b(over(0.5, std::string(plain) + " Inacti=5"), Stepped::scene_options());
-  double deepest = 0.0;
-  const StepsOutcome turned = run_steps(
-      b.scene, make_state(b.scene), o, 400,
+  std::vector<double> force;
+  static_cast<void>(run_steps(
+      b.scene, make_state(b.scene), with_step(1e-3), 400,
       [&](std::size_t k, Coordinates& x, State&, CycleOptions&) {
-        const double up =
-            k < 200 ? 0.001 * static_cast<double>(k) : 0.4 - 0.001 * static_cast<double>(k);
+        const double up = 0.001 * static_cast<double>(k < 200 ? k : 400 - k);
         for (const std::int64_t id : {11, 12, 13, 14}) x.z[b.model.nodes.map.find(id)] = 0.5 + up;
       },
-      [&](std::size_t k, const SceneOutcome& s, const Coordinates&) {
-        if (k == 399) deepest = s.contacts.at(0).totals.normal_abs;
-      });
-  EXPECT_GT(deepest, 0.0);
-  EXPECT_EQ(turned.lines.front().contacts.at(0).force_sum, 0.0);
+      [&](std::size_t, const SceneOutcome& s, const Coordinates&) {
+        force.push_back(s.contacts.at(0).totals.normal_abs);
+      }));
+  EXPECT_EQ(force.at(0), 0.0);
+  EXPECT_EQ(force.at(50), 0.0) << "what was taken off the gap is remembered";
+  EXPECT_GT(force.at(399), 0.0);
 }
 
 TEST(Steps, ATornElementTakesItsSegmentAway) {
@@ -187,39 +155,130 @@ TEST(Steps, DoNotDependOnThreads) {
   EXPECT_NE(a.forces.back().normal_abs, 0.0);
 }
 
+// Lines, events and searches by hand.
+
+/// The plates with a height of the upper one in each step.
+struct Heights {
+  std::unique_ptr<Built> built;
+  StepsOutcome outcome;
+  std::vector<std::vector<PairOutcome>> pairs;
+  Heights(const std::string& card, const std::vector<double>& heights, bool moving = true) {
+    const double dt = 0.5;
+    built = testing::plates_in_contact(card, heights[0]);
+    CycleOptions options;
+    options.keep_pairs = true;
+    options.time = 7;
+    options.dt1 = options.dt12 = dt;
+    const auto move = [&](std::size_t k, Coordinates& x, State& state, CycleOptions& o) {
+      o.time = 7 + 10 * static_cast<double>(k);
+      if (state.velocity[2].empty())
+        for (auto& v : state.velocity) v.resize(x.z.size(), 0.0);
+      for (const std::int64_t id : {11, 12, 13, 14}) {
+        const NodeIndex n = built->model.nodes.map.find(id);
+        x.z[n] = heights[k];
+        state.velocity[2][n] = k == 0 || !moving ? 0 : (heights[k] - heights[k - 1]) / dt;
+      }
+    };
+    const auto look = [&](std::size_t, const SceneOutcome& r, const Coordinates&) {
+      pairs.push_back(r.contacts.at(0).pairs);
+    };
+    outcome =
+        run_steps(built->scene, make_state(built->scene), options, heights.size(), move, look);
+  }
+};
+
+TEST(StepLines, HaveTheFiguresOfTheirEvaluation) {
+  const Heights h("@/INTER/TYPE7/1", {0.6, 0.8, 1.5, 0.5}, false);  // at rest: no damping
+  ASSERT_EQ(h.outcome.lines.size(), 4u);
+  const double k0 = h.pairs[0].at(0).k0;
+  const double depths[] = {0.4, 0.2, 0, 0.5}, left[] = {0.6, 0.8, 1, 0.5};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const StepLine& line = h.outcome.lines[k];
+    const StepContact& c = line.contacts.at(0);
+    EXPECT_EQ(line.time, 7 + 10 * static_cast<double>(k));
+    EXPECT_EQ(line.dt1, 0.5);
+    EXPECT_TRUE(c.active);
+    EXPECT_EQ(std::tuple(c.pairs_with_force, c.pairs_tied, c.removed),
+              std::tuple(k == 2 ? 0u : 4u, 0u, 0u));
+    const double force = 4 * 0.5 * k0 * depths[k] / left[k];
+    EXPECT_NEAR(c.force_sum, force, 1e-9 * force + 1e-12) << k;
+    EXPECT_NEAR(c.normal[2], -force, 1e-9 * force + 1e-12) << k;
+    // The potential of the law: K/2 (d - 1 - ln d) for a gap of 1.
+    const double energy = 4 * 0.5 * k0 * (left[k] - 1 - std::log(left[k]));
+    EXPECT_NEAR(c.elastic_energy, energy, 1e-9 * energy + 1e-12) << k;
+    EXPECT_NEAR(c.tangential[0], 0, 1e-9 * force + 1e-12);
+  }
+  EXPECT_TRUE(h.outcome.events.empty());
+  EXPECT_EQ(h.outcome.coordinates.z[h.built->model.nodes.map.find(11)], 0.5);
+}
+
+TEST(StepEvents, OfTiesNameThePairWhenItTiesAndWhenItLetsGo) {
+  // From outside the gap down by 0.12 and 0.1, up by 0.15 and 0.15: there the force turns.
+  const Heights h("@/INTER/TYPE10/1 VISs=0", {1.02, 0.9, 0.8, 0.95, 1.1});
+  ASSERT_EQ(h.outcome.events.size(), 8u);
+  for (std::uint32_t k = 0; k < 8; ++k) {
+    const StepEvent& e = h.outcome.events[k];
+    const bool ties = k < 4;
+    EXPECT_EQ(std::tuple(e.step, e.time, e.contact, e.kind, e.at.secondary, e.at.main),
+              std::tuple(ties ? std::size_t{1} : 4, ties ? 17.0 : 47.0, 0u,
+                         ties ? StepEvent::Kind::tied : StepEvent::Kind::let_go, k % 4, 0u));
+  }
+  const std::size_t tied[] = {0, 4, 4, 4, 0};
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_EQ(h.outcome.lines[k].contacts[0].pairs_tied, tied[k]) << k;
+}
+
+TEST(StepEvents, OfRemovalsComeOnceAndAreCountedOn) {
+  const Heights h("@/INTER/TYPE7/1 dtmin=1000", {0.6, 0.6, 0.6});
+  ASSERT_EQ(h.outcome.events.size(), 4u);
+  for (std::uint32_t s = 0; s < 4; ++s) {
+    const StepEvent& e = h.outcome.events[s];
+    EXPECT_EQ(
+        std::tuple(e.step, e.kind, e.at.secondary, e.at.main, e.because),
+        std::tuple(std::size_t{0}, StepEvent::Kind::removed, s, 0u, Removal::Because::nodal_step));
+  }
+  for (const StepLine& line : h.outcome.lines) EXPECT_EQ(line.contacts[0].removed, 4u);
+  EXPECT_GT(h.outcome.lines[0].contacts[0].force_sum, 0) << "the force of its last cycle stays";
+  EXPECT_EQ(h.outcome.lines[1].contacts[0].force_sum, 0);
+}
+
+TEST(SearchesOverSteps, AreMadeAgainWhenTheMarginIsUsedUp) {
+  const auto searches = [](double margin) {
+    const auto b = testing::plates_in_contact("@/INTER/TYPE7/1", 3);
+    CycleOptions options;
+    options.margin = margin;
+    const auto move = [&](std::size_t k, Coordinates& x, State&, CycleOptions&) {
+      for (const std::int64_t id : {11, 12, 13, 14})
+        x.z[b->model.nodes.map.find(id)] = 3 - 0.25 * static_cast<double>(k);
+    };
+    return run_steps(b->scene, make_state(b->scene), options, 9, move).searches;
+  };
+  // Moves of 0, 0.25, ... 2 from the first place: a margin that is reached is used up.
+  EXPECT_EQ(searches(0.5), 5u);   // at 0, 0.5, 1, 1.5 and 2
+  EXPECT_EQ(searches(0.51), 3u);  // at 0, 0.75 and 1.5
+  EXPECT_EQ(searches(5), 1u);
+}
+
+TEST(SearchesOverSteps, LookTenStepsAheadButNotBeyondGapAndShortestSide) {
+  // Velocity 1, steps of 0.01: a margin of 0.1; with steps of 10 it is 1 + 10.
+  const auto searches = [](double dt, std::size_t steps) {
+    const auto b = testing::plates_in_contact("@/INTER/TYPE7/1", 300);
+    CycleOptions options;
+    options.dt1 = options.dt12 = dt;
+    return run_steps(b->scene, make_state(b->scene, {{2, {0, 0, -1}}}), options, steps).searches;
+  };
+  EXPECT_EQ(searches(1.0 / 128, 21), 3u) << "at 0, 10 and 20";
+  EXPECT_EQ(searches(8, 5), 3u) << "at 0, 16 and 32: one step of 8 is below 11, two are not";
+}
+
 // One evaluation.
-
-std::string text_of(const Built& b, const SceneOutcome& r, const State& s) {
-  CycleInput input;
-  input.path = "deck";
-  input.deck = &b.deck;
-  input.scene = &b.scene;
-  input.state = &s;
-  input.outcome = &r;
-  return cycle_text(input);
-}
-
-TEST(Removal, ByDtminIsSaidWithItsNodesAndCounted) {
-  const Built b(over(0.5, std::string(plain) + " dtmin=1000"), Stepped::scene_options());
-  const State s = make_state(b.scene, {{2, {0, 0, -1}}});
-  const SceneOutcome r = run_cycle(b.scene, s, with_step(1e-4));
-  EXPECT_EQ(r.contacts.at(0).removed.size(), 4u);
-  EXPECT_EQ(r.contacts[0].pairs_with_force, 0u);
-  EXPECT_EQ(r.contacts[0].pairs_switched_off, 4u);
-  const std::string text = text_of(b, r, s);
-  EXPECT_NE(text.find("dtmin is above the time step of 4 nodes"), std::string::npos) << text;
-  EXPECT_NE(text.find("node 11, node 12, node 13"), std::string::npos) << text;
-}
 
 TEST(Cylinder, WithoutAnAxisIsNotComputed) {
   const Built b(over(0.5, std::string(plain) + " Icurv=2 node_ID1=11 node_ID2=11"),
                 Stepped::scene_options());
-  const State s = make_state(b.scene);
-  const SceneOutcome r = run_cycle(b.scene, s, {});
+  const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), {});
   EXPECT_FALSE(r.contacts.at(0).complete);
   EXPECT_EQ(r.contacts[0].pairs_with_force, 0u);
-  ASSERT_FALSE(r.contacts[0].notes.empty());
-  EXPECT_NE(r.contacts[0].notes.back().find("no axis"), std::string::npos);
 }
 
 TEST(Criteria, ATrianglesLastCornerCountsTwiceInTheNormalsOfIadm) {
@@ -234,86 +293,64 @@ TEST(Criteria, ATrianglesLastCornerCountsTwiceInTheNormalsOfIadm) {
     d.group("/GRNOD/NODE/2", {9}).group("/SURF/PART/1", {1}).add("/ADMESH/GLOBAL\n         1");
     d.add(std::string(plain) + " Iadm=1");
     const Built b(d, Stepped::scene_options());
-    const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), {});
     const deck::Contact& c = b.scene.contacts.at(0);
-    ASSERT_EQ(c.main.size(), 2u);
     const ContactPairs pairs = make_pairs(b.scene, c, make_card(b.scene, c), Model::reference);
     ASSERT_EQ(pairs.size(), 1u);
     // Of node 3: (0, 0, 1) and once or twice the triangle's.
     const double once = std::sqrt(0.5), share = last ? 2.0 : 1.0;
-    const std::size_t corner = 2;
-    EXPECT_NEAR(pairs.normal[corner][0].at(0), -share * once, 1e-12);
-    EXPECT_NEAR(pairs.normal[corner][2].at(0), 1 + share * once, 1e-12);
-    ASSERT_EQ(r.contacts.at(0).criteria.size(), 5u) << "the node and four corners";
-    EXPECT_LT(r.contacts[0].criteria.front().radius, 1e3);
+    EXPECT_NEAR(pairs.normal[2][0].at(0), -share * once, 1e-12);
+    EXPECT_NEAR(pairs.normal[2][2].at(0), 1 + share * once, 1e-12);
   }
 }
 
-TEST(IremI2, DropsThePairsOfATiedNodeWithTheSegmentsAroundItsTie) {
-  for (const int flag : {1, 3}) {
-    SmallDeck d = over(0.5, std::string(plain) + " Irem_i2=" + std::to_string(flag));
-    d.add("/INTER/TYPE2/9\nt\n         3         1").group("/GRNOD/NODE/3", {11, 12});
-    const Built b(d, Stepped::scene_options());
-    const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), {});
-    EXPECT_EQ(r.contacts.at(0).pairs_with_force, flag == 1 ? 2u : 4u);
-  }
-}
-
-TEST(IremI2, KeepsThePairsOfATiedNodeWithOtherSegments) {
-  // The nodes are tied to a plate of its own, on the other side.
-  for (const int flag : {1, 3}) {
-    SmallDeck d = over(0.5, std::string(plain) + " Irem_i2=" + std::to_string(flag));
-    d.node(21, 0, 0, 2).node(22, 10, 0, 2).node(23, 10, 10, 2).node(24, 0, 10, 2);
-    d.shell_part(3, 1.0).shell(3, 9, 21, 22, 23, 24).group("/SURF/PART/3", {3});
-    d.add("/INTER/TYPE2/9\nt\n         3         3").group("/GRNOD/NODE/3", {11, 12});
-    const Built b(d, Stepped::scene_options());
-    const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), {});
-    EXPECT_EQ(r.contacts.at(0).pairs_with_force, 4u) << flag;
-  }
-}
-
-TEST(IremI2, DropsThePairsOfSegmentsAtATiedNodeWithTheCornersOfItsTie) {
-  // Node 1 of the main side is tied to the plate of the secondary nodes.
-  for (const int flag : {1, 3}) {
-    SmallDeck d = over(0.5, std::string(plain) + " Irem_i2=" + std::to_string(flag));
-    d.add("/INTER/TYPE2/9\nt\n         3         2").group("/GRNOD/NODE/3", {1});
-    d.group("/SURF/PART/2", {2});
-    const Built b(d, Stepped::scene_options());
-    const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), {});
-    EXPECT_EQ(r.contacts.at(0).pairs_with_force, flag == 1 ? 0u : 4u);
-  }
+TEST(IremI2, DropsThePairsBetweenATiedNodeAndTheSegmentsOfItsTie) {
+  struct Case {
+    std::vector<int> tied;
+    int surface;
+    std::size_t left;
+  };
+  const Case cases[] = {{{11, 12}, 1, 2},  // to the main side of the contact
+                        {{11, 12}, 3, 4},  // to a plate of its own, on the other side
+                        {{1}, 2, 0}};      // a node of the main side, to the secondary plate
+  for (const Case& c : cases)
+    for (const int flag : {1, 3}) {
+      SmallDeck d = over(0.5, std::string(plain) + " Irem_i2=" + std::to_string(flag));
+      d.node(21, 0, 0, 2).node(22, 10, 0, 2).node(23, 10, 10, 2).node(24, 0, 10, 2);
+      d.shell_part(3, 1.0).shell(3, 9, 21, 22, 23, 24).group("/SURF/PART/3", {3});
+      d.group("/SURF/PART/2", {2}).group("/GRNOD/NODE/3", c.tied);
+      d.add("/INTER/TYPE2/9\nt\n         3" + fmt::sprintf("%10d", c.surface));
+      const Built b(d, Stepped::scene_options());
+      const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), {});
+      EXPECT_EQ(r.contacts.at(0).pairs_with_force, flag == 1 ? c.left : 4u) << c.surface;
+    }
 }
 
 TEST(Account, EffectsThatNeverActAreOffWithTheReason) {
   ContactCard card;
   card.fric = 0.2;
-  const auto row = [&](const std::string& name) {
-    for (const EffectState& e : effect_plan(card))
-      if (e.name == name) return e;
-    return EffectState{};
+  const auto expect = [&](const char* name, bool on, const char* reason = "") {
+    for (const EffectState& e : effect_plan(card)) {
+      if (e.name != name) continue;
+      EXPECT_EQ(e.on, on) << name;
+      EXPECT_NE(e.reason.find(reason), std::string::npos) << e.reason;
+    }
   };
   card.itied = 1;
-  EXPECT_FALSE(row("tie-on-time-step").on);
-  EXPECT_NE(row("tie-on-time-step").reason.find("dtmin = 0"), std::string::npos);
+  expect("tie-on-time-step", false, "dtmin = 0");
   card.dtmin = 1e-3;
-  EXPECT_TRUE(row("tie-on-time-step").on);
+  expect("tie-on-time-step", true);
   card.ithe = 1;
   card.fheatm = 0.5;
-  EXPECT_FALSE(row("friction-heat").on);
-  EXPECT_NE(row("friction-heat").reason.find("is lost"), std::string::npos);
+  expect("friction-heat", false, "is lost");
   card.ithe_form = 1;
-  EXPECT_TRUE(row("friction-heat").on);
-  card.ifiltr = 3;
-  card.xfreq = 100;
-  EXPECT_FALSE(row("friction-filter").on);
-  card.ifiltr = 1;
-  card.xfreq = 1.0;
-  EXPECT_FALSE(row("friction-filter").on);
-  card.xfreq = 0.3;
-  EXPECT_TRUE(row("friction-filter").on);
+  expect("friction-heat", true);
+  for (const auto& [ifiltr, xfreq] : {std::pair(3, 100.0), {1, 1.0}, {1, 0.3}}) {
+    card.ifiltr = ifiltr;
+    card.xfreq = xfreq;
+    expect("friction-filter", xfreq == 0.3);
+  }
   card.ascalef = 2;
-  EXPECT_FALSE(row("friction-temperature-scale").on);
-  EXPECT_NE(row("friction-temperature-scale").reason.find("never"), std::string::npos);
+  expect("friction-temperature-scale", false, "never");
 }
 
 }  // namespace

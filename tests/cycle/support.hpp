@@ -1,21 +1,14 @@
-// Small helpers of the cycle tests: packets written out by hand, and where the corpus is.
+// Small helpers of the cycle tests: packets written out by hand.
 #pragma once
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <optional>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "deck/cycle/kernel.hpp"
-#include "where.hpp"
 
 namespace deck::cycle::testing {
 
@@ -222,18 +215,6 @@ void expect_digits(const std::array<double, N>& computed, const std::array<doubl
     EXPECT_NEAR(computed[k], expected[k], 6e-10 * std::max(std::abs(expected[k]), 1e-2 * size))
         << "component " << k;
   }
-}
-
-/// Directory of the reference material, or nothing when it is not there.
-inline std::optional<std::filesystem::path> corpus() {
-  const std::filesystem::path dir = test::shared_dir();
-  if (!std::filesystem::is_directory(dir / "oracle" / "kernel")) return std::nullopt;
-  return dir;
-}
-
-inline std::string slurp(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace deck::cycle::testing

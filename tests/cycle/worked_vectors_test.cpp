@@ -1,7 +1,8 @@
 // Worked numeric vectors of the kernel's rules, to ten digits: geometry, law, damping, friction,
-// filters, edges, ties, heat, gap reduction, time steps, curvature.
+// edges, ties, gap reduction, stiffness, heat, curvature.
 #include <gtest/gtest.h>
 
+#include "cycle/shared/heat.hpp"
 #include "cycle/support.hpp"
 #include "deck/cycle/assemble.hpp"
 
@@ -33,14 +34,6 @@ TEST(Geometry, FlatQuadBetweenFanTriangles) {
   const Outcome r = run(elastic_card(), quad_pair({6, 5.7, 0.4}));
   expect_digits(r.normal(), {0.1628333313, -0.1628333313, 0.9731241506});
   expect_digits(r.weights(), {0.1650000000, 0.2578449781, 0.3350000000, 0.2421550219});
-}
-
-TEST(Geometry, SharedEdgeDoublesTheForceInTheReference) {
-  Pair a = quad_pair({10, 5, 0.4});
-  Pair b = a;
-  b.x = {Vec{9.7, 5, 0.4}, Vec{10, 0, 0}, Vec{20, 0, 0}, Vec{20, 10, 0}, Vec{10, 10, 0}};
-  expect_digits(run(elastic_card(), a).force(), {0, 0, -75000});
-  expect_digits(run(elastic_card(), b).force(), {30000, 0, -40000});
 }
 
 TEST(Geometry, WarpedQuadNodeOutsideAnEdge) {
@@ -81,33 +74,6 @@ TEST(ElasticLaw, StiffensHyperbolically) {
   }
 }
 
-TEST(ElasticLaw, FixedStiffnessHasNoHalf) {
-  ContactCard card = elastic_card();
-  card.istf = 1;
-  card.stfac = 1e5;
-  const Outcome r = run(card, triangle_pair({2, 3, 0.6}));
-  expect_digits(r.all.normal_force[0], -66666.66667);
-  expect_digits(r.all.elastic_energy[0], 11082.56238);
-  expect_digits(r.all.k_nodal[0], 277777.7778);
-}
-
-TEST(ElasticLaw, RobustModelKeepsTheDistanceNearTheMidSurface) {
-  const Pair deep = triangle_pair({2, 3, 1e-7});
-  const Outcome robust = run(elastic_card(), deep, 0, 0, Model::robust);
-  expect_digits(robust.all.normal_force[0], -5e4 * (1.0 - 1e-7) / 1e-7);
-  expect_digits(robust.all.elastic_energy[0], 5e4 * (1e-7 - 1.0 - std::log(1e-7)));
-  EXPECT_GT(
-      std::abs(run(elastic_card(), deep).all.normal_force[0] / robust.all.normal_force[0] - 1.0),
-      1e-11);
-}
-
-TEST(ElasticLaw, AbsoluteFloorHalvesTheReferenceForceInMetres) {
-  Pair p = triangle_pair({2, 3, 5e-11});
-  p.gap = 1e-6;
-  expect_digits(run(elastic_card(), p).all.normal_force[0], -499.975);
-  expect_digits(run(elastic_card(), p, 0, 0, Model::robust).all.normal_force[0], -999.95);
-}
-
 TEST(ElasticLaw, TheNodeIsDroppedAtTheMidSurface) {
   for (const Model model : {Model::reference, Model::robust}) {
     const Outcome closed = run(elastic_card(), triangle_pair({2, 3, 0.5e-10}), 0, 0, model);
@@ -140,16 +106,6 @@ TEST(Damping, ApproachIsStifferThanSeparation) {
   const Outcome away = run(damped(), moving({0, 0, 20}), 1e-6, 1e-6);
   expect_digits(away.all.normal_force[0], -33315.07591);
   expect_digits(away.all.k_nodal[0], 18257418.58);
-}
-
-TEST(Damping, OfANodePullsWhenItLeavesFastEnough) {
-  Pair p = triangle_pair({2, 3, 0.999});
-  p.m[0] = 2e-3;
-  p.v[0] = {0, 0, 20};
-  expect_digits(run(damped(), p, 1e-6, 1e-6).all.normal_force[0], -35.90083805);
-  p.v[0] = {0, 0, 100};
-  expect_digits(run(damped(), p, 1e-6, 1e-6).all.normal_force[0], 20.69600995);
-  expect_digits(run(damped(), p, 1e-6, 1e-6, Model::robust).all.normal_force[0], 20.69600995);
 }
 
 TEST(Damping, IsNoneWithoutVissAlsoWhereFrictionNeedsTheVelocities) {
@@ -223,80 +179,6 @@ TEST(FrictionIncremental, SpringThenLimitWithHeatOfTheLostPath) {
   }
 }
 
-TEST(FrictionLaw, CoefficientsByPressureAndSpeed) {
-  using C = std::array<double, 6>;
-  const auto mu = [](int law, double mu0, const C& c, double v) {
-    return friction_coefficient(law, mu0, c, 300.0, v);
-  };
-  expect_digits(mu(1, 0.1, C{1e-4, 2e-2, 1e-6, 1e-8, 1e-3, 0}, 2.5), 0.1879);
-  expect_digits(mu(2, 0.1, C{1e-7, -0.3, 2e-5, -0.2, 0.05, -0.5}, 2.5), 0.1222157228);
-  const C renard{0.2, 0.15, 0.3, 0.1, 1, 4};
-  expect_digits(mu(3, 0.0, renard, 0.5), 0.275);
-  expect_digits(mu(3, 0.0, renard, 1.0), 0.3);
-  expect_digits(mu(3, 0.0, renard, 2.5), 0.2);
-  expect_digits(mu(3, 0.0, renard, 4.0), 0.1);
-  expect_digits(mu(3, 0.0, renard, 6.0), 0.1083333333);
-}
-
-TEST(FrictionLaw, OrthotropicForceReturnsToTheEllipse) {
-  const auto slip = orthotropic_return(400, 150, 0.3, 0.1, -1000);
-  expect_digits(slip, {293.2412913, 21.10698960});
-  EXPECT_NEAR(std::hypot(slip[0] / 300.0, slip[1] / 100.0), 1.0, 1e-14);
-  EXPECT_EQ(orthotropic_return(10, 5, 0.3, 0.1, -1000)[0], 10.0);
-}
-
-TEST(FrictionLaw, OrthotropicPairsSlipOnTheirEllipse) {
-  ContactCard card = damped();
-  card.viss = 0.0;
-  card.fric_id = card.fric_orthotropic = true;
-  Pair p = triangle_pair({2, 3, 0.6});
-  for (const int iform : {1, 2}) {
-    card.iform = iform;
-    for (const double speed : {1e-9, 1e6}) {
-      p.v[0] = {400 * speed, 150 * speed, 0};
-      const Outcome r = run(card, p, 1e-6, 1e-6, Model::robust);
-      const double fn = r.all.normal_force[0];
-      const Vec ft = r.force() - fn * r.normal();
-      const double level = std::hypot(ft[0] / (0.3 * fn), ft[1] / (0.1 * fn));
-      if (speed > 1.0) {
-        EXPECT_NEAR(level, 1.0, 1e-12);
-        // Iform 1 pushes a sliding pair along.
-        EXPECT_GT((iform == 2 ? 1 : -1) * r.all.friction_heat[0], 0.0);
-        EXPECT_GT((iform == 2 ? 1 : -1) * ft[0], 0.0);
-      } else {
-        EXPECT_LT(level, 1.0);
-        EXPECT_GT(level, 0.0);
-        EXPECT_NEAR(ft[0] / ft[1], 400.0 / 150.0, 1e-9);
-      }
-    }
-    p.ortho_direction = {0.0, 1.0};  // the strong direction along y
-    const Outcome turned = run(card, p, 1e-6, 1e-6, Model::robust);
-    const double fn = turned.all.normal_force[0];
-    const Vec ft = turned.force() - fn * turned.normal();
-    EXPECT_NEAR(std::hypot(ft[0] / (0.1 * fn), ft[1] / (0.3 * fn)), 1.0, 1e-12);
-    p.ortho_direction = {1.0, 0.0};
-  }
-}
-
-TEST(Filter, WeightsByKind) {
-  ContactCard card = damped();
-  card.fric = 10.0;  // never slips: the unfiltered force is the dashpot's
-  Pair p = moving({30, -40, -20});
-  p.ft = {10, -5, 0};
-  const Vec raw = {707.1067812, -942.8090416, 0};
-  const auto filtered = [&](int kind, double xfreq, Model model) {
-    card.ifiltr = kind;
-    card.xfreq = xfreq;
-    return run(card, p, 1e-6, 1e-6, model).memory();
-  };
-  const auto mix = [&](double a) { return a * raw + (1.0 - a) * p.ft; };
-  for (const Model model : {Model::reference, Model::robust}) {
-    expect_digits(filtered(1, 0.3, model), mix(0.3));
-    expect_digits(filtered(2, 40.0, model), mix(0.1570796327));
-    expect_digits(filtered(3, 1000.0, model), raw);  // the weight is never below 1
-  }
-}
-
 Pair edges(const Vec& s1, const Vec& s2, const Vec& m1, const Vec& m2) {
   Pair p;
   p.x = {s1, s2, m1, m2, Vec{}};
@@ -320,19 +202,6 @@ TEST(EdgeGeometry, SkewAndClamped) {
   EXPECT_EQ(end.weights()[0], 0.0);
   EXPECT_EQ(end.weights()[2], 1.0);
   expect_digits(end.all.distance[0], 0.6164414003);
-}
-
-TEST(EdgeGeometry, ParallelEdgesMeetInTheMiddleOnlyInTheRobustModel) {
-  const Pair a = edges({0, 0, 0}, {10, 0, 0}, {2, .5, 0}, {8, .5, 0});
-  const Pair b = edges({0, 0, 0}, {10, 0, 0}, {8, .5, 0}, {2, .5, 0});
-  expect_digits(run(edge_card(), a).weights()[0], 0.2);
-  expect_digits(run(edge_card(), b).weights()[0], 0.8);
-  for (const Pair& p : {a, b}) {
-    const Outcome r = run(edge_card(), p, 0, 0, Model::robust);
-    expect_digits(r.weights()[0], 0.5);
-    expect_digits(r.weights()[2], 0.5);
-    expect_digits(r.all.distance[0], 0.5);
-  }
 }
 
 TEST(EdgeForce, SkewEdgesWithDampingAndFriction) {
@@ -452,36 +321,6 @@ TEST(GapReduction, InactiFiveAndSixFollowThePenetration) {
   }
 }
 
-TEST(TimeStep, KinematicVelocityAndNodal) {
-  expect_digits(velocity_step(1.0, {0, 0, 0}, {20, 30, 40}, {0, 0, 0}, {0, 0, 0}), 0.01671258044);
-  Totals none;
-  NodalSums sums;
-  sums.resize(2);
-  sums.stiffness = {23570226.04, 0.5 * 23570226.04};
-  const double mass[] = {2e-3, 2e-3};
-  const StepLimit limit = step_limit(none, sums, mass);
-  EXPECT_EQ(limit.source, StepLimit::Source::nodal);
-  EXPECT_EQ(limit.index, 0u);
-  expect_digits(limit.dt, 1.172440012e-5);
-}
-
-TEST(TimeStep, PairsBelowDtminAreDeleted) {
-  ContactCard card = damped();
-  card.dtmin = 0.02;
-  const Outcome r = run(card, moving({0, 0, -20}), 1e-6, 1e-6);
-  EXPECT_EQ(r.all.normal_force[0], 0.0);
-  EXPECT_EQ(r.all.status[0], status_step_deleted);
-  card.dtmin = 0.01;
-  EXPECT_NE(run(card, moving({0, 0, -20}), 1e-6, 1e-6).all.normal_force[0], 0.0);
-}
-
-TEST(BoundaryRelease, OnlyPenetratingPairsOfType7Release) {
-  ContactCard card = elastic_card();
-  card.ibc = 5;
-  EXPECT_NE(run(card, triangle_pair({2, 3, 0.6})).all.status[0] & status_bc_release, 0);
-  EXPECT_EQ(run(card, triangle_pair({2, 3, 1.6})).all.status[0] & status_bc_release, 0);
-}
-
 TEST(PairStiffness, CombinesAndClamps) {
   ContactCard card;
   card.stmin = 10;
@@ -499,28 +338,78 @@ TEST(PairStiffness, CombinesAndClamps) {
   EXPECT_EQ(k(4, 400, 2), 10);
 }
 
-TEST(Activity, WindowAndSensor) {
-  ContactCard card;
-  card.tstart = 1.0;
-  card.tstop = 2.0;
-  EXPECT_FALSE(is_active(card, 0.5));
-  EXPECT_TRUE(is_active(card, 1.0));
-  EXPECT_FALSE(is_active(card, 2.5));
-  card.sensor_time = 0.2;
-  EXPECT_FALSE(is_active(card, 0.5));
-  EXPECT_TRUE(is_active(card, 1.5));
-  card.sensor_time = 1.7;
-  EXPECT_FALSE(is_active(card, 1.5));
-  EXPECT_FALSE(is_active(card, 2.5)) << "Tstop ends it also behind a sensor";
+HeatState heat_state(double delta) {
+  HeatState s;
+  s.position = {Vec{2, 3, -delta}, Vec{0, 0, 0}, Vec{10, 0, 0}, Vec{0, 10, 0}, Vec{0, 10, 0}};
+  s.temperature = {350, 600, 620, 650, 650};
+  s.weight = {0.5, 0.2, 0.3, 0.0};
+  s.area = 2e-4;
+  s.dt1 = 1e-6;
+  return s;
 }
 
-TEST(ElementLoss, FollowsIdel) {
-  EXPECT_TRUE(segment_stays(0, 0, false));
-  EXPECT_TRUE(segment_stays(1, 1, false));
-  EXPECT_FALSE(segment_stays(-1, 0, true));
-  EXPECT_FALSE(segment_stays(2, 1, false));
-  EXPECT_FALSE(secondary_stays(2, 0));
-  EXPECT_TRUE(secondary_stays(-2, 0));
+ContactCard heat_card(int form) {
+  ContactCard card;
+  card.ithe = 1;
+  card.ithe_form = form;
+  card.kthe = 500;
+  card.tint = 700;
+  return card;
+}
+
+TEST(Heat, ConductionBetweenSidesAndFromTheInterface) {
+  const HeatFlow both = pair_heat(heat_card(1), heat_state(0));
+  expect_digits(both.q, {2.69e-5, -1.345e-5, -5.38e-6, -8.07e-6, 0});
+  expect_digits(both.conductance, 0.1);
+  expect_digits(pair_heat(heat_card(0), heat_state(-6e-4)).q[0], 3.5e-5);
+  HeatState s = heat_state(6e-4);
+  s.conductivity = 45;
+  const HeatFlow flow = pair_heat(heat_card(0), s);
+  // The plane's normal points to +z, the centroid lies 6e-4 above the node.
+  expect_digits(flow.q[0], 3.476821192e-5);
+  expect_digits(flow.conductance, 0.09933774834);
+}
+
+TEST(Heat, PressureFunctionRadiationAndFriction) {
+  ContactCard card = heat_card(1);
+  card.fct_idk = Curve{{0, 1e8, 3e8}, {0, 1, 1.5}};
+  HeatState s = heat_state(0);
+  s.normal_force = -33357.33023;
+  expect_digits(pair_heat(card, s).q[0], 3.139140229e-5);
+  card = heat_card(1);
+  card.frad = 4e-8;
+  card.drad = 1.0;
+  expect_digits(pair_heat(card, heat_state(0.5)).q[0], 1.054448815e-6);
+  card = heat_card(1);
+  card.kthe = 0;
+  card.fheats = 0.4;
+  card.fheatm = 0.5;
+  s.friction_heat = 33.35733023;
+  expect_digits(pair_heat(card, s).q, {13.34293209, 8.339332558, 3.335733023, 5.003599535, 0});
+}
+
+TEST(Curvature, SphereSeenFromInside) {
+  ContactCard card = elastic_card();
+  card.icurv = 1;
+  Pair p;
+  p.x = {Vec{8.6, .2, .8}, Vec{9, -1, 0}, Vec{9, 1, 0}, Vec{9, 1, 2}, Vec{9, -1, 2}};
+  p.gap = 0.5;
+  p.k0 = 1e5;
+  const Outcome r = run(card, p);
+  EXPECT_NEAR(r.all.penetration[0], 0.08405928844, 1e-10);
+  expect_digits(r.normal(), {-0.9954343793, -0.02314963673, -0.09259854691});
+  expect_digits(r.weights(), {0.25, 0.340824829, 0.25, 0.159175171});
+}
+
+TEST(Curvature, BicubicSurfaceOverAFlatQuad) {
+  ContactCard card = elastic_card();
+  card.icurv = 3;
+  Pair p = quad_pair({5.5, 5, .9});
+  p.normal = {Vec{-.2, 0, 1}, Vec{.2, 0, 1}, Vec{.2, 0, 1}, Vec{-.2, 0, 1}};
+  const Outcome r = run(card, p);
+  expect_digits(r.normal(), {0.01031266832, 0, 0.9999468230});
+  expect_digits(r.all.penetration[0], 0.5961943964);
+  expect_digits(r.weights(), {.2371084791, .2628915209, .2628915209, .2371084791});
 }
 
 }  // namespace

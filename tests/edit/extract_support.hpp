@@ -20,6 +20,7 @@ struct ContactText {
   const Whole& w;
   IdOf id_of = [](std::string_view, std::int64_t id) { return id; };
   std::vector<std::string> lines{};
+  bool with_role = true;
 
   std::int64_t node(NodeIndex n) const { return id_of("node", w.model.node_id(n)); }
   std::string element(Carrier carrier, std::uint32_t e) const {
@@ -52,10 +53,10 @@ struct ContactText {
   void contact(const Contact& c) {
     lines.push_back(fmt::format(
         "contact {} {} {} type {} igap {} istf {} inacti {} factor {:a} gapmin {:a} gapmax {:a} "
-        "max {:a} side {:a} candidates {} removed {} dropped {}",
-        id_of("inter", c.inter->id), to_string(c.kind), to_string(c.role), c.type, c.igap, c.istf,
-        c.inacti, c.factor, c.gapmin, c.gapmax, c.max_gap, c.shortest_side, c.candidates,
-        c.removed_pairs, c.dropped));
+        "max {:a} side {:a} candidates {} removed {} scale {:a} mesh {:a} drad {:a}",
+        id_of("inter", c.inter->id), to_string(c.kind), with_role ? to_string(c.role) : "", c.type,
+        c.igap, c.istf, c.inacti, c.factor, c.gapmin, c.gapmax, c.max_gap, c.shortest_side,
+        c.candidates, c.removed_pairs, c.gap_scale, c.mesh_fraction, c.drad));
     for (const SecondaryNode& s : c.secondary)
       lines.push_back(fmt::format("node {} gap {:a} length {:a} k {:a} x {:a} off {}", node(s.node),
                                   s.gap, s.length, s.nodal_stiffness, s.multiplier, s.off));
@@ -67,39 +68,19 @@ struct ContactText {
     edges("secondary", c.secondary_edges);
     edges("main", c.main_edges);
     for (const PenetrationRow& p : c.penetrations)
-      lines.push_back(fmt::format("penetration {} {} depth {:a} gap {:a} p0 {:a} {}", p.secondary,
-                                  p.main, p.depth, p.gap, p.p0, to_string(p.action)));
-  }
-  template <class T>
-  static std::string shown(const T& value) {
-    if constexpr (std::is_floating_point_v<T>)
-      return fmt::format("{:a}", value);
-    else
-      return fmt::format("{}", value);
-  }
-  /// The effective values, where they came from included.
-  void parameters(const std::set<std::int64_t>& only) {
-    const auto add = [&](const auto& list) {
-      for (const auto& inter : list) {
-        if (!only.empty() && !only.contains(inter.id)) continue;
-        lines.push_back(fmt::format("interface {} type {} '{}'", id_of("inter", inter.id),
-                                    inter.type, inter.title));
-        inter.for_each([&](std::string_view name, const auto& field) {
-          lines.push_back(
-              fmt::format("  {} = {} ({})", name, shown(field.value), to_string(field.origin)));
-        });
-      }
-    };
-    add(w.interfaces.type7);
-    add(w.interfaces.type10);
-    add(w.interfaces.type11);
-    add(w.interfaces.type19);
+      lines.push_back(fmt::format(
+          "penetration {} {} depth {:a} gap {:a} p0 {:a} {} normal {:a} {:a} {:a} moved {:a} {:a} "
+          "{:a}",
+          p.secondary, p.main, p.depth, p.gap, p.p0, to_string(p.action), p.normal[0], p.normal[1],
+          p.normal[2], p.moved_by[0], p.moved_by[1], p.moved_by[2]));
   }
   void scene(const std::set<std::int64_t>& only) {
     Diagnostics diagnostics;
-    const Scene s = build_scene(w.model, w.interfaces, diagnostics);
+    SceneOptions options;
+    options.nodal_stiffness = true;
+    const Scene s = build_scene(w.model, w.interfaces, diagnostics, options);
     for (const Contact& c : s.contacts)
-      if (only.empty() || only.contains(c.inter->id)) contact(c);
+      if (!c.dropped && (only.empty() || only.contains(c.inter->id))) contact(c);
   }
 };
 
@@ -107,7 +88,8 @@ struct ContactText {
 inline std::vector<std::string> contact_text(const Whole& w,
                                              const std::set<std::int64_t>& only = {}) {
   ContactText text{w};
-  text.parameters(only);
+  for (const auto& [name, value] : effective_values(w, true, only))
+    text.lines.push_back(name + " " + value);
   text.scene(only);
   return std::move(text.lines);
 }

@@ -44,77 +44,138 @@ test::SmallDeck plates() {
   return d;
 }
 
-TEST(Extract, KeepsWhatTheInterfaceNeedsAndNothingElse) {
-  const auto w = Whole::text(plates()
-                                 .add("@/INTER/TYPE7/1 Igap=1 Istf=4 Inacti=5")
-                                 .add("@/INTER/TYPE7/2 grnd_IDs=9 surf_IDm=9 Igap=1")
-                                 .text());
-  const auto small = same_contacts(*w, {1});
-  EXPECT_EQ(small->model.nodes.size(), 13u);
-  EXPECT_EQ(small->model.shell4.size(), 5u);
-  EXPECT_EQ(small->model.parts.size(), 2u);
-  EXPECT_EQ(small->model.materials.size(), 1u);
-  EXPECT_EQ(small->interfaces.ordered.size(), 1u);
-  EXPECT_FALSE(small->contains("/SURF/PART/9"));
+/// A deck, and texts that its extracts have and have not.
+struct KeptText {
+  const char* what;
+  test::SmallDeck deck;
+  std::vector<const char*> kept = {}, gone = {};
+};
+
+TEST(Extract, TakesAlongWhatTheContactDependsOn) {
+  const auto curve = [](const char* id) {
+    return std::string("/FUNCT/") + id +
+           "\ncurve\n                 0.0                 0.0\n"
+           "                 1.0                 1.0\n";
+  };
+  const std::string shift = "\nmove\n                 1.0                 2.0\n";
+  const std::string box =
+      "/BOX/RECTA/1\nbox\n\n               -1.00               -1.00               -1.00\n"
+      "               15.00               15.00                2.00\n";
+  const std::string translation =
+      "\nt\n%10d                 0.0                 0.0                0.25";
+  const KeptText cases[] = {
+      {"a group of groups without some members",
+       plates()
+           .group("/GRNOD/NODE/7", {12, 13})
+           .group("/GRNOD/GRNOD/8", {2, -7})
+           .group("/SURF/SURF/8", {1, 9})
+           .add("@/INTER/TYPE7/1 grnd_IDs=8 surf_IDm=8 Igap=1")},
+      {"sets by every kind of clause",
+       plates()
+           .add("@/INTER/TYPE7/1 grnd_IDs=51 surf_IDm=52 Igap=1 Inacti=5")
+           .add("@/INTER/TYPE19/2 surf_IDs=53 surf_IDm=53 Igap=1")
+           .add("/SET/GENERAL/51\nnodes\nNODE              11        12        91\nPART            "
+                "   2\n"
+                "/SET/GENERAL/52\nfaces\nSHELL              1         2\n"
+                "SEG                1         4         5         8         7\nSHELL_D            "
+                "1\n"
+                "/SET/GENERAL/53\nall of them\nSET               51        52\n")},
+      {"a box around an element without a part",
+       plates()
+           .node(201, 400, 0, 0)
+           .node(202, 401, 0, 0)
+           .node(203, 401, 1, 0)
+           .node(204, 400, 1, 0)
+           .shell(77, 201, 201, 202, 203, 204)
+           .add(box)
+           .group("/SURF/BOX/5", {1})
+           .add("@/INTER/TYPE7/1 surf_IDm=5 Igap=1"),
+       {"/SHELL/77"}},
+      {"friction, a function, a sensor and defaults",
+       plates()
+           .add(curve("4") + curve("5") +
+                "/SENSOR/TIME/6\nlate\n                 5.0\n/FRICTION/7\nf\n\n\n"
+                "                                     0.3\n"
+                "                             1         2\n\n                                     "
+                "0.4")
+           .add("@/DEFAULT/INTER/TYPE7 Igap=1 Inacti=5")
+           .add("@/INTER/TYPE7/1 sens_ID=6 fct_IDF=4 fric_ID=7 AscaleF=2"),
+       {"/FUNCT/4\n", "/SENSOR/TIME/6\n", "/FRICTION/7\n", "/DEFAULT/INTER/TYPE7\n"},
+       {"/FUNCT/5\n"}},
+      {"what moves a function, and the functions of a table",
+       plates()
+           .add(curve("4") + curve("5") + curve("8") + "/MOVE_FUNCT/4" + shift + "/MOVE_FUNCT/5" +
+                shift +
+                "/TABLE/1/6\ntable\n         1\n         8\n/TABLE/1/7\nunused\n         1\n       "
+                "  5")
+           .add("@/INTER/TYPE7/1 fct_IDF=4 fct_IDK=6 Ithe=1"),
+       {"/FUNCT/4\n", "/MOVE_FUNCT/4\n", "/TABLE/1/6\n", "/FUNCT/8\n"},
+       {"/FUNCT/5\n", "/MOVE_FUNCT/5\n", "/TABLE/1/7\n"}},
+      {"what moves its nodes",
+       plates()
+           .group("/GRNOD/PART/1", {1})
+           .add("/TRANSFORM/TRA/1" + fmt::sprintf(translation, 1))
+           .add("/TRANSFORM/TRA/2" + fmt::sprintf(translation, 9))
+           .add("@/INTER/TYPE7/1 Igap=1"),
+       {"/TRANSFORM/TRA/1"},
+       {"/TRANSFORM/TRA/2"}},
+      {"switches of the run and failure of its materials, and not of others",
+       plates()
+           .add("/ANALY\n         0\n/IOFLAG\n         1\n/SPMD\n         0\n/AMS\n         1")
+           .add("/MAT/ELAST/5\nm\n               1e-06\n               100.0")
+           .add("/FAIL/JOHNSON/1\n/FAIL/JOHNSON/5\n@/BCS/2 Tx=1 grnod_ID=2")
+           .add("@/INTER/TYPE7/1 Igap=1"),
+       {"/ANALY\n", "/IOFLAG\n", "/SPMD\n", "/FAIL/JOHNSON/1\n"},
+       {"/AMS\n", "/BCS/2", "/FAIL/JOHNSON/5", "/MAT/ELAST/5", "/SURF/PART/9"}}};
+  for (const KeptText& c : cases) {
+    SCOPED_TRACE(c.what);
+    const auto w = Whole::text(c.deck.text());
+    for (const InterBase* inter : w->interfaces.ordered) {
+      const auto small = same_contacts(*w, {inter->id});
+      for (const char* text : c.kept) EXPECT_TRUE(small->contains(text)) << text;
+      for (const char* text : c.gone) EXPECT_FALSE(small->contains(text)) << text;
+    }
+  }
 }
 
-TEST(Extract, SeveralInterfacesInOneDeck) {
+/// Nodes of group or set 5 against part 2: the parts that are left.
+TEST(Extract, LeavesThePartsThatGroupsAndSetsName) {
+  const auto left = [](const test::SmallDeck& d) {
+    const auto w =
+        Whole::text(test::SmallDeck(d).add("@/INTER/TYPE7/1 grnd_IDs=5 surf_IDm=2").text());
+    std::vector<std::int64_t> out;
+    const auto small = same_contacts(*w, {1});
+    for (const Part& p : small->model.parts) out.push_back(p.id);
+    return out;
+  };
+  using Ids = std::vector<std::int64_t>;
+  // All parts have material 1; properties have the numbers of the parts.
+  for (const auto& [header, ids, parts] :
+       {std::tuple{"/GRNOD/GENE/5", std::vector{91, 92}, Ids{2, 9}},
+        {"/GRNOD/GENE/5", {2, 3}, {1, 2}},
+        {"/GRNOD/NODE/5", {93}, {2, 9}},
+        {"/GRNOD/MAT/5", {1}, {1, 2, 9}},
+        {"/GRNOD/PROP/5", {9}, {2, 9}},
+        {"/GRNOD/PART/5", {1}, {1, 2}}})
+    EXPECT_EQ(left(plates().group(header, ids)), parts) << header << ids[0];
+  for (const auto& [clause, parts] : {std::pair{"SHELL             91", Ids{2, 9}},
+                                      {"SHELL_G            1         2         1", {1, 2}},
+                                      {"SHELL_G           90        91         1", {2, 9}},
+                                      {"PART_G             9        99         1", {2, 9}},
+                                      {"NODE_G            91        92         1", {2, 9}},
+                                      {"ALL", {1, 2, 9}}})
+    EXPECT_EQ(left(plates().add(std::string("/SET/GENERAL/5\ns\n") + clause)), parts) << clause;
+}
+
+TEST(Extract, KeepsSeveralInterfacesAndAllNoisyNodes) {
   const auto w = Whole::text(plates()
+                                 .add("/RANDOM\n                0.01")
                                  .add("@/INTER/TYPE7/1 Igap=1 Istf=4 Inacti=5")
                                  .add("@/INTER/TYPE7/2 grnd_IDs=9 surf_IDm=9 Igap=1")
                                  .add("@/INTER/TYPE7/3 grnd_IDs=9 surf_IDm=1 Igap=1")
                                  .text());
   EXPECT_EQ(same_contacts(*w, {2, 1})->interfaces.ordered.size(), 2u);
-}
-
-TEST(Extract, ElementOfAnotherPartAtASharedNodeDecidesTheGap) {
-  // Part 3 hangs on node 11 of the secondary side and is thicker than part 2.
-  const auto w = Whole::text(plates()
-                                 .shell_part(3, 8)
-                                 .node(21, 0, 0, 50)
-                                 .node(22, 9, 0, 50)
-                                 .node(23, 9, 9, 50)
-                                 .shell(3, 31, 11, 21, 22, 23)
-                                 .add("@/INTER/TYPE7/1 Igap=1 Istf=4 Inacti=5")
-                                 .text());
-  const auto small = same_contacts(*w, {1});
-  EXPECT_EQ(small->model.shell4.size(), 6u);
-}
-
-TEST(Extract, PlainSegmentsKeepTheirCarriers) {
-  const auto w = Whole::text(plates()
-                                 .segments("/SURF/SEG/5", {{1, 2, 5, 4}, {2, 3, 6, 5}})
-                                 .group("/GRNOD/NODE/5", {11, 12, 93})
-                                 .add("@/INTER/TYPE7/1 grnd_IDs=5 surf_IDm=5 Igap=1 Inacti=6")
-                                 .text());
-  const auto small = same_contacts(*w, {1});
-  EXPECT_NE(small->model.nodes.map.find(93), no_index);
-}
-
-TEST(Extract, InnerSolidsStaySoThatOuterFacesStayOuter) {
-  test::SmallDeck d = plates();
-  d.solid_part(4);
-  for (int i = 0; i < 64; ++i) d.node(101 + i, i % 4 * 10, i / 4 % 4 * 10, -50 + i / 16 * 10);
-  int id = 100;
-  for (int z = 0; z < 3; ++z)
-    for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 3; ++x) {
-        const int n = 101 + x + 4 * y + 16 * z;
-        d.brick(4, ++id, {n, n + 1, n + 5, n + 4, n + 16, n + 17, n + 21, n + 20});
-      }
-  d.group("/SURF/PART/EXT/4", {4}).add("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=4 Gapmin=1");
-  const auto small = same_contacts(*Whole::text(d.text()), {1});
-  EXPECT_EQ(small->model.solid8.size(), 27u);
-}
-
-TEST(Extract, GroupsOfGroupsAndRemovedMembersStay) {
-  const auto w = Whole::text(plates()
-                                 .group("/GRNOD/NODE/7", {12, 13})
-                                 .group("/GRNOD/GRNOD/8", {2, -7})
-                                 .group("/SURF/SURF/8", {1, 9})
-                                 .add("@/INTER/TYPE7/1 grnd_IDs=8 surf_IDm=8 Igap=1")
-                                 .text());
-  same_contacts(*w, {1});
+  EXPECT_EQ(same_contacts(*w, {1})->model.nodes.size(), w->model.nodes.size());
 }
 
 TEST(Extract, SubsetsSelectTheWholeTree) {
@@ -132,114 +193,6 @@ TEST(Extract, SubsetsSelectTheWholeTree) {
   const auto w = Whole::text(text);
   const auto small = same_contacts(*w, {1});
   EXPECT_TRUE(small->contains("/SUBSET/2"));
-}
-
-TEST(Extract, SetsByEveryKindOfClause) {
-  const std::string sets =
-      "/SET/GENERAL/51\nnodes\nNODE              11        12        91\nPART               2\n"
-      "/SET/GENERAL/52\nfaces\nSHELL              1         2\nSEG                1         4"
-      "         5         8         7\nSHELL_D            1\n"
-      "/SET/GENERAL/53\nall of them\nSET               51        52\n";
-  const auto w = Whole::text(plates()
-                                 .add("@/INTER/TYPE7/1 grnd_IDs=51 surf_IDm=52 Igap=1 Inacti=5")
-                                 .add("@/INTER/TYPE19/2 surf_IDs=53 surf_IDm=53 Igap=1")
-                                 .add(sets)
-                                 .text());
-  same_contacts(*w, {1});
-  same_contacts(*w, {2});
-}
-
-TEST(Extract, BoxSelectionsKeepTheirElements) {
-  const std::string box =
-      "/BOX/RECTA/1\nbox\n\n               -1.00               -1.00               -1.00\n"
-      "               15.00               15.00                2.00\n";
-  const auto w = Whole::text(plates()
-                                 .add(box)
-                                 .group("/SURF/BOX/5", {1})
-                                 .group("/GRNOD/BOX/5", {1})
-                                 .add("@/INTER/TYPE7/1 grnd_IDs=5 surf_IDm=5 Igap=1")
-                                 .text());
-  same_contacts(*w, {1});
-}
-
-TEST(Extract, BoxSelectionsKeepElementsWithoutAPart) {
-  const std::string box =
-      "/BOX/RECTA/1\nbox\n\n               -1.00               -1.00               -1.00\n"
-      "               15.00               15.00                2.00\n";
-  test::SmallDeck d = plates();
-  d.node(201, 400, 0, 0).node(202, 401, 0, 0).node(203, 401, 1, 0).node(204, 400, 1, 0);
-  const auto w = Whole::text(d.shell(77, 201, 201, 202, 203, 204)
-                                 .add(box)
-                                 .group("/SURF/BOX/5", {1})
-                                 .add("@/INTER/TYPE7/1 surf_IDm=5 Igap=1")
-                                 .text());
-  const auto small = same_contacts(*w, {1});
-  EXPECT_TRUE(small->contains("/SHELL/77"));
-}
-
-TEST(Extract, FrictionFunctionsSensorsAndDefaultsComeAlong) {
-  const std::string more =
-      "/FUNCT/4\nramp\n                 0.0                 0.0\n                 1.0"
-      "                 1.0\n/FUNCT/5\nunused\n                 0.0                 0.0\n"
-      "/SENSOR/TIME/6\nlate\n                 5.0\n/FRICTION/7\nf\n\n\n"
-      "                                     0.3\n"
-      "                             1         2\n\n                                     0.4\n";
-  const auto w = Whole::text(plates()
-                                 .add(more)
-                                 .add("@/DEFAULT/INTER/TYPE7 Igap=1 Inacti=5")
-                                 .add("@/INTER/TYPE7/1 sens_ID=6 fct_IDF=4 fric_ID=7 AscaleF=2")
-                                 .text());
-  const auto small = same_contacts(*w, {1});
-  EXPECT_TRUE(small->contains("/FUNCT/4\n"));
-  EXPECT_FALSE(small->contains("/FUNCT/5\n"));
-  EXPECT_TRUE(small->contains("/SENSOR/TIME/6\n"));
-  EXPECT_TRUE(small->contains("/FRICTION/7\n"));
-  EXPECT_TRUE(small->contains("/DEFAULT/INTER/TYPE7\n"));
-}
-
-/// /MOVE_FUNCT changes the function of its id; a cell that names a function may name a table.
-TEST(Extract, FunctionsComeWithWhatMovesThemAndTablesWithTheirFunctions) {
-  const auto ramp = [](const char* id) {
-    return std::string("/FUNCT/") + id +
-           "\nramp\n                 0.0                 0.0\n"
-           "                 1.0                 1.0";
-  };
-  const auto move = [](const char* id) {
-    return std::string("/MOVE_FUNCT/") + id + "\nmove\n                 1.0                 2.0";
-  };
-  const std::string more = ramp("4") + "\n" + ramp("5") + "\n" + ramp("8") + "\n" + move("4") +
-                           "\n" + move("5") +
-                           "\n/TABLE/1/6\ntable\n         1\n         8\n"
-                           "/TABLE/1/7\nunused\n         1\n         5";
-  const auto w =
-      Whole::text(plates().add(more).add("@/INTER/TYPE7/1 fct_IDF=4 fct_IDK=6 Ithe=1").text());
-  const auto small = w->after(extract(*w, {1}));
-  for (const char* kept : {"/FUNCT/4\n", "/MOVE_FUNCT/4\n", "/TABLE/1/6\n", "/FUNCT/8\n"})
-    EXPECT_TRUE(small->contains(kept)) << kept;
-  for (const char* gone : {"/FUNCT/5\n", "/MOVE_FUNCT/5\n", "/TABLE/1/7\n"})
-    EXPECT_FALSE(small->contains(gone)) << gone;
-}
-
-TEST(Extract, TransformationsOfKeptNodesStay) {
-  const auto w = Whole::text(
-      plates()
-          .group("/GRNOD/PART/1", {1})
-          .add("/TRANSFORM/TRA/1\nmove\n         1                 0.0                 0.0"
-               "                0.25")
-          .add("/TRANSFORM/TRA/2\nmove\n         9                 0.0                 0.0"
-               "                0.25")
-          .add("@/INTER/TYPE7/1 Igap=1")
-          .text());
-  const auto small = same_contacts(*w, {1});
-  EXPECT_TRUE(small->contains("/TRANSFORM/TRA/1"));
-  EXPECT_FALSE(small->contains("/TRANSFORM/TRA/2"));
-}
-
-TEST(Extract, NoiseNeedsAllNodesInTheirOrder) {
-  const auto w = Whole::text(
-      plates().add("/RANDOM\n                0.01").add("@/INTER/TYPE7/1 Igap=1").text());
-  ASSERT_TRUE(w->model.has_random);
-  EXPECT_EQ(same_contacts(*w, {1})->model.nodes.size(), w->model.nodes.size());
 }
 
 TEST(Extract, SubmodelsKeepTheirOffsets) {
@@ -307,23 +260,6 @@ TEST(Extract, WorksThroughIncludesAndParameters) {
   EXPECT_EQ(same_contacts(*w, {1})->deck.includes.size(), 0u);
 }
 
-TEST(Extract, NamesWhatWasLeftOut) {
-  const auto w = Whole::text(
-      plates()
-          .add("/RBODY/1\nr\n         1\n/RBODY/2\nr\n         1\n@/INTER/TYPE7/1 Igap=1")
-          .text());
-  const Rewrite r = extract(*w, {1});
-  bool found = false;
-  for (const LossEntry& e : r.losses)
-    if (e.keyword == "/RBODY") {
-      found = true;
-      EXPECT_EQ(e.loss, Loss::dropped);
-      EXPECT_EQ(e.id, 1);
-      EXPECT_EQ(e.note.substr(0, 2), "2 ");
-    }
-  EXPECT_TRUE(found);
-}
-
 TEST(Extract, EarlierInterfaceThatMovesNodesIsNamed) {
   const auto w = Whole::text(plates()
                                  .add("@/INTER/TYPE7/1 Igap=1 Inacti=3")
@@ -368,28 +304,6 @@ TEST(Extract, ATieComesWithWhatItTiesAndAContactWithItsTies) {
       EXPECT_EQ(a[0].nodes[i].distance, b[0].nodes[i].distance);
     }
   }
-}
-
-TEST(Extract, UnknownIdsAreRefusedWithWhatThereIs) {
-  const auto w = Whole::text(plates().add("@/INTER/TYPE7/1 Igap=1").text());
-  const Rewrite r = extract(*w, {1, 77});
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_NE(r.refusals[0].find("77"), std::string::npos);
-  EXPECT_NE(r.refusals[0].find("the deck has 1"), std::string::npos);
-  EXPECT_FALSE(r.new_text.has_value());
-  EXPECT_EQ(extract(*w, {}).refusals.size(), 1u);
-}
-
-TEST(Extract, DanglingReferencesAndLoopsDoNotHurt) {
-  const auto w = Whole::text(plates()
-                                 .group("/GRNOD/GRNOD/7", {8, 2, 555})
-                                 .group("/GRNOD/GRNOD/8", {7})
-                                 .group("/SURF/SURF/7", {7, 1, 444})
-                                 .add("@/INTER/TYPE7/1 grnd_IDs=7 surf_IDm=7 fric_ID=9 sens_ID=8")
-                                 .add("@/INTER/TYPE7/2 grnd_IDs=999 surf_IDm=998")
-                                 .text());
-  EXPECT_TRUE(extract(*w, {1}).new_text.has_value());
-  EXPECT_TRUE(extract(*w, {2}).new_text.has_value());
 }
 
 /// Random meshes of several parts with shells, bricks and beams between shared nodes.
@@ -438,38 +352,6 @@ TEST(Extract, RandomModelsKeepTheirContacts) {
       if (::testing::Test::HasFailure()) FAIL() << "round " << round << " interface " << i;
     }
   }
-}
-
-TEST(Extract, RealDecksKeepTheContactsOfEveryInterface) {
-  const std::string root = edit_test::corpus("README.md");
-  if (root.empty()) GTEST_SKIP() << "no real decks here";
-  std::size_t interfaces = 0;
-  const auto dir = std::filesystem::path(root).parent_path();
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(dir)) {
-    const std::string path = entry.path().string();
-    if (!path.ends_with("_0000.rad") || entry.file_size() > 1500000) continue;
-    const auto w = Whole::read(path);
-    for (const InterBase* inter : w->interfaces.ordered) {
-      same_contacts(*w, {inter->id});
-      ++interfaces;
-      if (::testing::Test::HasFailure()) FAIL() << path << " interface " << inter->id;
-    }
-  }
-  EXPECT_GT(interfaces, 60u);
-}
-
-TEST(Extract, DummyWithSetsKeepsItsContacts) {
-  const std::string path = edit_test::corpus("EuroSID_II/EuroSID_II_0000.rad");
-  if (path.empty()) GTEST_SKIP() << "no real decks here";
-  const auto w = Whole::read(path);
-  for (const std::int64_t id : {15000004, 15000001, 15000011, 15000015, 15000027})
-    EXPECT_LT(same_contacts(*w, {id})->model.nodes.size(), w->model.nodes.size() / 8);
-}
-
-TEST(Extract, SledWithItsIncludedDummy) {
-  const std::string path = edit_test::corpus("EuroSID_II/example_es2_sled_0000.rad");
-  if (path.empty()) GTEST_SKIP() << "no real decks here";
-  same_contacts(*Whole::read(path), {15000007, 15000012});
 }
 
 }  // namespace

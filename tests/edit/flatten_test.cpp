@@ -41,14 +41,6 @@ std::string flat(const Whole& w, bool mark = false) {
   return r.new_text.value_or("");
 }
 
-TEST(Flatten, IncludeIsReplacedByItsBytes) {
-  const auto w = tree({{"main_0000.rad", head + "/NODE\n" + node1 + "#include a.inc\n" + node3 +
-                                             "/END\ntext behind\n"},
-                       {"a.inc", "# comment\t \r\n/NODE\n" + node2}});
-  EXPECT_EQ(flat(*w), head + "/NODE\n" + node1 + "# comment\t \r\n/NODE\n" + node2 + node3 +
-                          "/END\ntext behind\n");
-}
-
 TEST(Flatten, MarksNameTheFile) {
   const auto w = tree({{"main_0000.rad", head + "/NODE\n#include sub/a.inc\n/END\n"},
                        {"sub/a.inc", "/NODE\n" + node1 + "#INCLUDE 'b.inc' +\n+\n"},
@@ -58,69 +50,31 @@ TEST(Flatten, MarksNameTheFile) {
                                 "## end of b.inc\n## end of sub/a.inc\n/END\n");
 }
 
-TEST(Flatten, MissingLastLineEndIsAdded) {
-  const auto w = tree({{"main_0000.rad", head + "/NODE\n#include a.inc\n" + node3 + "/END\n"},
-                       {"a.inc", "#c\r\n/NODE\n" + node1.substr(0, node1.size() - 1)}});
-  EXPECT_EQ(flat(*w), head + "/NODE\n#c\r\n/NODE\n" + node1.substr(0, node1.size() - 1) + "\r\n" +
-                          node3 + "/END\n");
-}
-
-TEST(Flatten, EndAndEnddataOfIncludesGoWithWhatFollows) {
-  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n#include b.inc\n/END\n"},
-                       {"a.inc", "/NODE\n" + node1 + "/END\n" + node3},
-                       {"b.inc", "/NODE\n" + node2 + "#enddata\n/NODE\n" + node3}});
-  EXPECT_EQ(flat(*w), head + "/NODE\n" + node1 + "/NODE\n" + node2 + "/END\n");
-}
-
-TEST(Flatten, LinesBehindTheEndOfAnIncludeStayOutside) {
-  // Behind the include's /END no block is open, so these lines belong to nothing.
-  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n\n" + node2 + "/TITLE\nt\n/END\n"},
-                       {"a.inc", "/NODE\n" + node1 + "/END\n"}});
-  ASSERT_EQ(w->model.nodes.size(), 1u);
-  const auto after = w->after(flatten(w->context()));
-  EXPECT_EQ(after->model.nodes.size(), 1u);
-}
-
-TEST(Flatten, TextOfEveryFileIsKeptWhenIncludedTwice) {
-  const auto w =
-      tree({{"main_0000.rad", head + "/NODE\n" + node1 + "#include note.inc\n/GRNOD/NODE/2\ng\n" +
-                                  "         1\n#include note.inc\n/END\n"},
-            {"note.inc", "/TITLE\nnote\n"}});
-  EXPECT_EQ(flat(*w), head + "/NODE\n" + node1 + "/TITLE\nnote\n/GRNOD/NODE/2\ng\n" +
-                          "         1\n/TITLE\nnote\n/END\n");
-}
-
-TEST(Flatten, LinesBeforeTheFirstKeywordOfAnIncludeStayOutside) {
-  const auto w = tree({{"main_0000.rad", head + "/NODE\n" + node1 + "#include a.inc\n" + node3 +
-                                             "#include b.inc\n/END\n"},
-                       {"a.inc", "# half a block\n" + node2},
-                       {"b.inc", node2 + "#include a.inc\n/TITLE\nnote\n"}});
-  ASSERT_EQ(w->model.nodes.size(), 2u);
-  EXPECT_EQ(flat(*w), head + "/NODE\n" + node1 + "# half a block\n#" + node2 + node3 + "#" + node2 +
-                          "# half a block\n#" + node2 + "/TITLE\nnote\n/END\n");
-  EXPECT_EQ(w->after(flatten(w->context()))->model.nodes.id, w->model.nodes.id);
-}
-
-TEST(Flatten, ACommentMarkMakesNoDirectiveOfDroppedText) {
-  const auto w = tree({{"main_0000.rad", head + "/NODE\n" + node1 + "#include a.inc\n/END\n"},
-                       {"a.inc", "include nothing\nEndData\n/TITLE\nnote\n"}});
-  EXPECT_EQ(flat(*w),
-            head + "/NODE\n" + node1 + "# include nothing\n# EndData\n/TITLE\nnote\n/END\n");
-}
-
-TEST(Flatten, SubmodelsKeepTheirOffsetsAndUnits) {
-  const auto w =
-      tree({{"main_0000.rad", head + "/NODE\n" + node1 + "//SUBMODEL/1\nsub\n       100\n" +
-                                  "#include a.inc\n//ENDSUB\n/END\n"},
-            {"a.inc",
-             "/BEGIN\nsub\n      2024\n                  kg                   m                   "
-             "s\n                  kg                   m                   s\n/NODE\n" +
-                 node2}});
-  ASSERT_EQ(w->model.nodes.id[1], 102);
-  ASSERT_EQ(w->model.nodes.x[1], 2000);
-  const auto after = w->after(flatten(w->context()));
-  EXPECT_EQ(after->deck.includes.size(), 0u);
-  EXPECT_EQ(places(after->model), places(w->model));
+TEST(Flatten, IncludesBecomeTheLinesThatCountOfThem) {
+  struct Case {
+    const char* what;
+    std::string main, a, b, expected;
+  };
+  const std::string cut1 = node1.substr(0, node1.size() - 1);
+  const Case cases[] = {
+      {"a missing last line end is added", "/NODE\n#include a.inc\n" + node3,
+       "# c\t \r\n/NODE\n" + cut1, "", "/NODE\n# c\t \r\n/NODE\n" + cut1 + "\r\n" + node3},
+      {"/END and #enddata go with what follows", "#include a.inc\n#include b.inc\n",
+       "/NODE\n" + node1 + "/END\n" + node3, "/NODE\n" + node2 + "#enddata\n/NODE\n" + node3,
+       "/NODE\n" + node1 + "/NODE\n" + node2},
+      {"lines before the first keyword stay outside",
+       "/NODE\n" + node1 + "#include a.inc\n" + node3 + "#include b.inc\n",
+       "# half a block\n" + node2, node2 + "#include a.inc\n/TITLE\nnote\n",
+       "/NODE\n" + node1 + "# half a block\n#" + node2 + node3 + "#" + node2 + "# half a block\n#" +
+           node2 + "/TITLE\nnote\n"},
+      {"a comment mark makes no directive", "/NODE\n" + node1 + "#include a.inc\n",
+       "include nothing\nEndData\n/TITLE\nnote\n", "",
+       "/NODE\n" + node1 + "# include nothing\n# EndData\n/TITLE\nnote\n"}};
+  for (const Case& c : cases) {
+    const auto w =
+        tree({{"main_0000.rad", head + c.main + "/END\nbehind\n"}, {"a.inc", c.a}, {"b.inc", c.b}});
+    EXPECT_EQ(flat(*w), head + c.expected + "/END\nbehind\n") << c.what;
+  }
 }
 
 TEST(Flatten, BeginOfAnIncludeBecomesAComment) {
@@ -146,26 +100,39 @@ TEST(Flatten, IncludeOfAnotherVersionWithTheSameColumnsIsTaken) {
   EXPECT_EQ(undecided, 1u);  // /FXBODY, once; /RBODY is described in every version
 }
 
-TEST(Flatten, UnreadableIncludeIsRefused) {
-  const auto w = tree({{"main_0000.rad", head + "#include nowhere.inc\n/END\n"}});
-  EXPECT_EQ(flatten(w->context()).refusals.size(), 1u);
-}
-
-TEST(Flatten, DeckWithoutIncludesStays) {
-  const auto w = tree({{"main_0000.rad", head + "/END\n"}});
-  EXPECT_FALSE(flatten(w->context()).new_text.has_value());
-}
-
 const std::string coordinate = "         9                &gap                 0.0\n";
 std::string local(const std::string& value, const char* scope = "LOCAL") {
   return std::string("/PARAMETER/") + scope + "/REAL/1\np\n       gap" +
          std::string(20 - value.size(), ' ') + value + "\n";
 }
 
-TEST(Flatten, LocalParametersOfOneFileStayAsTheyAre) {
-  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n/END\n"},
-                       {"a.inc", local("2.5") + "/NODE\n" + coordinate}});
-  EXPECT_EQ(flat(*w), head + local("2.5") + "/NODE\n" + coordinate + "/END\n");
+TEST(Flatten, NodesAreWhereTheyWere) {
+  const struct {
+    const char* what;
+    std::string main, a;
+    std::map<std::int64_t, std::array<double, 2>> expected;
+  } cases[] = {
+      {"behind the /END of an include no block is open",
+       "#include a.inc\n\n" + node2,
+       "/NODE\n" + node1 + "/END\n",
+       {{1, {1, 0}}}},
+      {"a submodel has its offset and its units",
+       "/NODE\n" + node1 + "//SUBMODEL/1\nsub\n       100\n#include a.inc\n//ENDSUB\n",
+       "/BEGIN\nsub\n      2024\n                  kg                   m                   s\n"
+       "                  kg                   m                   s\n/NODE\n" +
+           node2,
+       {{1, {1, 0}}, {102, {2000, 0}}}},
+      {"what only another file defines is undefined",
+       "#include a.inc\n/NODE\n" + coordinate,
+       local("2.5"),
+       {{9, {0, 0}}}}};
+  for (const auto& c : cases) {
+    const auto w = tree({{"main_0000.rad", head + c.main + "/END\n"}, {"a.inc", c.a}});
+    EXPECT_EQ(places(w->model), c.expected) << c.what;
+    const auto after = w->after(flatten(w->context()));
+    EXPECT_EQ(after->deck.includes.size(), 0u);
+    EXPECT_EQ(places(after->model), c.expected) << c.what;
+  }
 }
 
 TEST(Flatten, LocalParametersThatWouldMeetGetNewNames) {
@@ -185,13 +152,6 @@ TEST(Flatten, LocalParametersThatWouldMeetGetNewNames) {
   EXPECT_EQ(after->deck.includes.size(), 0u);
   EXPECT_EQ(places(after->model), expected);
   EXPECT_EQ(r.notes.size(), 3u);  // two new names and the number of includes
-}
-
-TEST(Flatten, ParameterThatOnlyAnotherFileDefinesStaysUndefined) {
-  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n/NODE\n" + coordinate + "/END\n"},
-                       {"a.inc", local("2.5")}});
-  ASSERT_EQ(w->model.nodes.x[0], 0);
-  EXPECT_EQ(w->after(flatten(w->context()))->model.nodes.x[0], 0);
 }
 
 /// Any cutting of a deck into files comes together again to the same bytes.
@@ -244,20 +204,6 @@ TEST(Flatten, RandomCutsComeTogetherAgain) {
     const Rewrite marked = flatten(w->context());
     edit_test::expect_same(contacts, edit_test::contact_text(*w->after(marked)));
   }
-}
-
-TEST(Flatten, SledWithItsDummyKeepsEveryContact) {
-  const std::string path = edit_test::corpus("EuroSID_II/example_es2_sled_0000.rad");
-  if (path.empty()) GTEST_SKIP() << "no real decks here";
-  const auto w = Whole::read(path);
-  ASSERT_EQ(w->deck.includes.size(), 1u);
-  const auto after = w->after(flatten(w->context()));
-  EXPECT_EQ(after->deck.includes.size(), 0u);
-  EXPECT_EQ(places(after->model), places(w->model));
-  edit_test::ContactText a{*w}, b{*after};
-  a.parameters({});
-  b.parameters({});
-  edit_test::expect_same(a.lines, b.lines);
 }
 
 }  // namespace

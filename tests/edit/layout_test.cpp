@@ -10,12 +10,6 @@ namespace {
 using testing_support::deck_of;
 using testing_support::read;
 
-std::string changed(const Deck& deck, std::vector<TextEdit> edits) {
-  const auto text = apply_edits(deck.sources[0], std::move(edits));
-  EXPECT_TRUE(text.ok());
-  return text ? *text : std::string();
-}
-
 const Block& block(const Deck& deck, std::string_view keyword) {
   for (const Block& b : deck.blocks)
     if (b.header.starts_with(keyword)) return b;
@@ -36,31 +30,6 @@ TEST(NewCard, IsReadWithoutAFindingAndWithAllItsLines) {
       EXPECT_EQ(decoded.title, "mine");
       for (const DecodedCard& line : decoded.cards) EXPECT_FALSE(line.missing()) << card;
     }
-}
-
-TEST(Heading, EndsNamesWhereTheirColumnsEnd) {
-  const Schema* schema = SchemaSet::built_in().find("/INTER/TYPE7");
-  for (const CardSchema& card : schema->cards) {
-    const std::string head = card_heading(card, 2022);
-    if (head.empty()) continue;
-    for (const Field& f : card.fields) {
-      if (!f.in_version(2022) || f.last - f.first < 5) continue;
-      const auto last = static_cast<std::size_t>(f.last);
-      ASSERT_GE(head.size(), last);
-      EXPECT_NE(head[last - 1], ' ') << head << f.name;
-      EXPECT_TRUE(head.size() == last || head[last] == ' ') << head << f.name;
-    }
-  }
-}
-
-TEST(SetCell, MovesNothingElse) {
-  const Deck deck = read(deck_of("/INTER/TYPE7/3\nt\n         1         2         4\n"));
-  const Block& b = block(deck, "/INTER/TYPE7");
-  const auto edit = set_cell(deck, b, "Igap", "3");
-  ASSERT_TRUE(edit.ok());
-  EXPECT_NE(changed(deck, {*edit}).find("\n         1         2         4                   3\n"),
-            std::string::npos)
-      << changed(deck, {*edit});
 }
 
 TEST(SetCell, SaysWhyNot) {

@@ -1,7 +1,7 @@
 // Effective values on the cards: nothing changes but where they come from.
 #include "edit/shared/resolve.hpp"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <map>
 #include <random>
@@ -11,12 +11,10 @@
 namespace deck::test {
 namespace {
 
-using ::testing::HasSubstr;
-
 std::unique_ptr<Whole> resolved(const Whole& before) {
   const Rewrite r = resolve_defaults(before.context());
   EXPECT_TRUE(r.refusals.empty()) << joined(r.refusals);
-  return applied(before, r);
+  return before.after(r);
 }
 
 /// The same text without its /DEFAULT/INTER blocks.
@@ -43,35 +41,6 @@ const std::string defaults_7 = card("/DEFAULT/INTER/TYPE7", 0, 2022,
                                      {"Inacti", "6"},
                                      {"Iform", "2"}});
 
-TEST(ResolveDefaults, DefaultCardValuesComeOntoTheCard) {
-  const auto before = open_text(deck_of_version(
-      2022, defaults_7 + card("/INTER/TYPE7", 1, 2022,
-                              {{"surf_IDm", "1"}, {"Igap", "1000"}, {"Istf", "0"}})));
-  const auto after = resolved(*before);
-  const InterType7& t = after->interfaces.type7.at(0);
-  EXPECT_EQ(t.Istf.input, 4);
-  EXPECT_EQ(t.Istf.origin, Origin::card);
-  EXPECT_EQ(t.Igap.input, 1000);
-  EXPECT_EQ(t.Inacti.input, 6);
-  EXPECT_EQ(t.Iform.input, 2);
-  EXPECT_EQ(difference(effective_values(*before), effective_values(*after)), "");
-  const auto alone = open_text(without_defaults(*after));
-  EXPECT_TRUE(alone->interfaces.defaults.empty());
-  EXPECT_EQ(difference(effective_values(*before), effective_values(*alone)), "");
-}
-
-TEST(ResolveDefaults, BuiltInValuesComeOntoTheCard) {
-  const auto before = open_text(
-      deck_of_version(2022, card("/INTER/TYPE11", 1, 2022, {{"line_IDs", "1"}, {"Fric", "0.1"}})));
-  const auto after = resolved(*before);
-  const InterType11& t = after->interfaces.type11.at(0);
-  EXPECT_EQ(t.Istf.input, 5);
-  EXPECT_EQ(t.VISF.input, 1);
-  EXPECT_EQ(t.Tstop.input, 1e30);
-  EXPECT_EQ(t.VISs.input, 0.05);
-  EXPECT_FALSE(t.fric_ID.has_input);
-}
-
 TEST(ResolveDefaults, GapFromTheMeshStaysBlankAndIsReported) {
   const auto before =
       open_text(deck_of_version(2022, card("/INTER/TYPE7", 1, 2022, {{"surf_IDm", "1"}})));
@@ -80,27 +49,26 @@ TEST(ResolveDefaults, GapFromTheMeshStaysBlankAndIsReported) {
   EXPECT_TRUE(std::any_of(kept.begin(), kept.end(), [](const LossEntry& l) {
     return l.field == "Gapmin" && l.note.find("mesh") != std::string::npos && l.new_text.empty();
   }));
-  EXPECT_FALSE(applied(*before, r)->interfaces.type7.at(0).Gapmin.has_input);
+  EXPECT_FALSE(before->after(r)->interfaces.type7.at(0).Gapmin.has_input);
 }
 
-TEST(ResolveDefaults, OldVersionsWithoutTheCellAreUndecided) {
-  const auto before =
-      open_text(deck_of_version(110, card("/DEFAULT/INTER/TYPE7", 0, 140, {{"Irem_gap", "2"}}) +
-                                         card("/INTER/TYPE7", 1, 110, {{"surf_IDm", "1"}})));
-  ASSERT_EQ(before->interfaces.type7.at(0).Irem_gap.value, 2);
-  const auto open = losses_of(resolve_defaults(before->context(), {true}), Loss::undecided);
-  ASSERT_EQ(open.size(), 1u);
-  EXPECT_EQ(open[0].field, "Irem_gap");
-  EXPECT_EQ(open[0].new_text, "2");
-}
-
-TEST(ResolveDefaults, EdgesOfType19StayWithTheDefaultCard) {
-  const auto before =
-      open_text(deck_of_version(2022, card("/DEFAULT/INTER/TYPE19", 0, 2022, {{"Iedge", "1"}}) +
-                                          card("/INTER/TYPE19", 1, 2022, {{"surf_IDm", "1"}})));
-  const auto open = losses_of(resolve_defaults(before->context(), {true}), Loss::undecided);
-  ASSERT_EQ(open.size(), 1u);
-  EXPECT_EQ(open[0].field, "Iedge");
+TEST(ResolveDefaults, ValuesWithoutACellStayWithTheDefaultCard) {
+  const std::tuple<int, std::string, const char*, const char*> decks[] = {
+      {110,
+       card("/DEFAULT/INTER/TYPE7", 0, 140, {{"Irem_gap", "2"}}) +
+           card("/INTER/TYPE7", 1, 110, {{"surf_IDm", "1"}}),
+       "Irem_gap", "2"},
+      {2022,
+       card("/DEFAULT/INTER/TYPE19", 0, 2022, {{"Iedge", "1"}}) +
+           card("/INTER/TYPE19", 1, 2022, {{"surf_IDm", "1"}}),
+       "Iedge", "1"}};
+  for (const auto& [version, text, field, value] : decks) {
+    const auto before = open_text(deck_of_version(version, text));
+    const auto open = losses_of(resolve_defaults(before->context(), {true}), Loss::undecided);
+    ASSERT_EQ(open.size(), 1u);
+    EXPECT_EQ(open[0].field, field);
+    EXPECT_EQ(open[0].new_text, value);
+  }
 }
 
 TEST(ResolveDefaults, StiffnessKeepsItsValueWhenTheDefaultGivesItAUnit) {
@@ -120,46 +88,15 @@ TEST(ResolveDefaults, StiffnessKeepsItsValueWhenTheDefaultGivesItAUnit) {
   EXPECT_EQ(after->interfaces.type7.at(1).Stfac.value, 1);
 }
 
-TEST(ResolveDefaults, LinesThatTheBlockEndsBeforeAreAdded) {
-  const auto before = open_text(
-      deck_of_version(2022, defaults_7 + "/INTER/TYPE7/1\nshort\n         0         1\n# end\n"));
-  const auto after = resolved(*before);
-  EXPECT_EQ(difference(effective_values(*before), effective_values(*after)), "");
-  EXPECT_EQ(after->interfaces.type7.at(0).Iform.input, 2);
-}
-
-TEST(ResolveDefaults, LinesWithCommasGetFixedColumns) {
-  const auto before = open_text(deck_of_version(
-      2022, defaults_7 + "/INTER/TYPE7/1\nfree\n5,1,,0,1000,0,0\n,,\n\n1.5,0.1,0.3\n"
-                         "       110                             5\n\n"));
-  const auto after = resolved(*before);
-  EXPECT_EQ(difference(effective_values(*before), effective_values(*after)), "");
-  EXPECT_EQ(after->interfaces.type7.at(0).grnd_IDs.value, 5);
-  EXPECT_EQ(after->interfaces.type7.at(0).Inacti.value, 5);
-}
-
-TEST(ResolveDefaults, ParameterOfZeroIsUndecided) {
-  const auto before = open_text(deck_of_version(
-      2022, "/PARAMETER/GLOBAL/INTEGER/1\np\ni                  0\n" + defaults_7 +
-                card("/INTER/TYPE7", 1, 2022, {{"surf_IDm", "1"}, {"Istf", "&i"}})));
-  ASSERT_EQ(before->interfaces.type7.at(0).Istf.value, 4);
-  const Rewrite refused = resolve_defaults(before->context());
-  EXPECT_TRUE(refused.edits.empty());
-  ASSERT_EQ(refused.refusals.size(), 1u);
-  EXPECT_THAT(refused.refusals[0], HasSubstr("/INTER/TYPE7/1 Istf: the parameter is 0"));
-  const Rewrite r = resolve_defaults(before->context(), {true});
-  const auto open = losses_of(r, Loss::undecided);
-  ASSERT_EQ(open.size(), 1u);
-  EXPECT_EQ(open[0].old_text, "&i");
-  EXPECT_THAT(bytes_of(*applied(*before, r)), HasSubstr("&i"));
-}
-
-TEST(ResolveDefaultsProperty, SamplesKeepTheirValuesAndASecondPassFindsNothing) {
-  for (const std::string& path : sample_decks()) {
-    const Whole before(path);
-    const auto after = resolved(before);
-    EXPECT_EQ(difference(effective_values(before), effective_values(*after)), "") << path;
-    EXPECT_TRUE(resolve_defaults(after->context()).edits.empty()) << path;
+TEST(ResolveDefaults, ShortAndFreeFormatBlocksGetFullLines) {
+  for (const char* block : {"/INTER/TYPE7/1\nshort\n         5         1\n# end\n",
+                            "/INTER/TYPE7/1\nfree\n5,1,,0,1000,0,0\n,,\n\n1.5,0.1,0.3\n"
+                            "       110                             5\n\n"}) {
+    const auto before = open_text(deck_of_version(2022, defaults_7 + block));
+    const auto after = resolved(*before);
+    EXPECT_EQ(difference(effective_values(*before), effective_values(*after)), "");
+    EXPECT_EQ(after->interfaces.type7.at(0).grnd_IDs.value, 5);
+    EXPECT_EQ(after->interfaces.type7.at(0).Iform.input, 2);
   }
 }
 
@@ -199,7 +136,7 @@ TEST(ResolveDefaultsProperty, RandomCardsInForeignUnitsKeepEveryBit) {
     const auto before = open_text(text + "/END\n");
     const Rewrite r = resolve_defaults(before->context(), {true});
     ASSERT_TRUE(r.refusals.empty()) << joined(r.refusals);
-    const auto after = applied(*before, r);
+    const auto after = before->after(r);
     auto old_values = effective_values(*before), new_values = effective_values(*after);
     for (const LossEntry& l : losses_of(r, Loss::approximated)) {
       const std::string name =
@@ -210,10 +147,10 @@ TEST(ResolveDefaultsProperty, RandomCardsInForeignUnitsKeepEveryBit) {
       ++approximated;
     }
     exact += static_cast<int>(losses_of(r, Loss::kept).size());
-    EXPECT_EQ(difference(old_values, new_values), "") << bytes_of(*before);
+    EXPECT_EQ(difference(old_values, new_values), "") << before->main_text();
     if (losses_of(r, Loss::undecided).empty() && losses_of(r, Loss::approximated).empty()) {
       const auto alone = open_text(without_defaults(*after));
-      EXPECT_EQ(difference(old_values, effective_values(*alone)), "") << bytes_of(*after);
+      EXPECT_EQ(difference(old_values, effective_values(*alone)), "") << after->main_text();
     }
     if (HasFailure()) return;
   }

@@ -4,89 +4,38 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <random>
 
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
+#include "edit/version_support.hpp"
 #include "keyword/reading.hpp"
 #include "text/shared/edits.hpp"
-#include "where.hpp"
 
 namespace deck {
 namespace {
 
 using namespace testing_support;
-namespace fs = std::filesystem;
 
-std::vector<std::string> samples() {
-  std::vector<std::string> all;
-  for (const auto& entry : fs::directory_iterator(test::source_dir() / "samples"))
-    if (entry.path().string().ends_with("_0000.rad")) all.push_back(entry.path().string());
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
-TEST(ApplyRewrite, WithoutEditsChangesNoFile) {
-  for (const std::string& path : samples()) {
-    const auto deck = read_deck(path, SchemaSet::built_in());
-    ASSERT_TRUE(deck.ok()) << path;
-    EXPECT_TRUE(apply_rewrite(deck->sources, {})->empty()) << path;
-  }
-}
-
-TEST(ApplyEditsOfADeck, ChangeAFileIncludedTwiceOnce) {
+/// An edit meant for what one include holds would change the others with it.
+TEST(ApplyEditsOfADeck, NeedAllCopiesOfAFileToAgree) {
   SourceSet sources;
   sources.add(Source::from_bytes("main", "M"));
-  sources.add(Source::from_bytes("part", "abc"));
-  sources.add(Source::from_bytes("part", "abc"));
-  const TextEdit first{Span{1, 1, 0}, "X"}, second{Span{2, 1, 0}, "X"};
+  for (int copy = 0; copy < 2; ++copy) sources.add(Source::from_bytes("part", "abc"));
+  const TextEdit first{Span{1, 1, 0}, "X"}, second{Span{2, 1, 0}, "X"}, other{Span{2, 1, 0}, "Y"};
   const auto same = apply_edits(sources, {first, second});
   ASSERT_TRUE(same.ok()) << same.error().message;
   EXPECT_EQ(same->size(), 1u);
   EXPECT_EQ(same->at("part"), "Xbc");
-}
-
-TEST(ApplyEditsOfADeck, RefuseTwoDifferentContentsForOneFile) {
-  SourceSet sources;
-  sources.add(Source::from_bytes("main", "M"));
-  sources.add(Source::from_bytes("part", "abc"));
-  sources.add(Source::from_bytes("part", "abc"));
-  const TextEdit first{Span{1, 1, 0}, "X"}, second{Span{2, 1, 0}, "Y"};
-  const auto both = apply_edits(sources, {first, second});
-  ASSERT_FALSE(both.ok());
-  EXPECT_NE(both.error().message.find("part"), std::string::npos);
-}
-
-/// An edit meant for what one include holds would change the others with it.
-TEST(ApplyEditsOfADeck, RefuseAFileOfWhichOneCopyIsToStay) {
-  SourceSet sources;
-  sources.add(Source::from_bytes("main", "M"));
-  for (int copy = 0; copy < 3; ++copy) sources.add(Source::from_bytes("part", "abc"));
-  for (const std::uint32_t copy : {1u, 2u, 3u}) {
-    const auto one = apply_edits(sources, {{Span{copy, 1, 0}, "X"}});
-    ASSERT_FALSE(one.ok()) << copy;
-    EXPECT_NE(one.error().message.find("part"), std::string::npos);
+  for (const auto& edits : {std::vector{first, other}, {first}, {second}}) {
+    const auto refused = apply_edits(sources, edits);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().message.find("part"), std::string::npos);
   }
   // Replaced by what stands there: nothing changes anywhere.
-  const Span same{1, 0, 1};
-  EXPECT_TRUE(apply_edits(sources, {{same, std::string(sources.text(same))}})->empty());
-}
-
-TEST(Overlay, IsReadInsteadOfTheFile) {
-  const std::string path = (test::source_dir() / "samples/include_tree_0000.rad").string();
-  const auto deck = read_deck(path, SchemaSet::built_in());
-  ASSERT_TRUE(deck.ok());
-  ASSERT_GT(deck->sources.size(), 1u);
-  const std::string changed = deck->sources[1].path();
-  const std::map<std::string, std::string> overlay = {{changed, "/UNKNOWN/1\nhello\n"}};
-  ReadOptions options;
-  options.overlay = &overlay;
-  const auto again = read_deck(path, SchemaSet::built_in(), options);
-  ASSERT_TRUE(again.ok());
-  EXPECT_EQ(again->sources[1].path(), changed);
-  EXPECT_EQ(again->sources[1].bytes(), overlay.at(changed));
+  const Span whole{1, 0, 1};
+  EXPECT_TRUE(apply_edits(sources, {{whole, std::string(sources.text(whole))}})->empty());
 }
 
 TEST(Overlay, ThatIncludesItselfIsReportedAsACycle) {
@@ -137,7 +86,7 @@ bool decides_layout(const Deck& deck, const SingleEdit& e) {
 TEST(SingleFieldEdit, ChangesOnlyItsColumnsAndReadsBackTheSame) {
   std::mt19937_64 random(42);
   int edits = 0;
-  for (const std::string& path : samples()) {
+  for (const std::string& path : test::sample_decks()) {
     const auto deck = read_deck(path, SchemaSet::built_in());
     ASSERT_TRUE(deck.ok());
     const auto cells = every_numeric_cell(*deck);

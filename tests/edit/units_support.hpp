@@ -2,17 +2,14 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/model/interfaces.hpp"
-#include "where.hpp"
 
 namespace deck::edit_test {
 
@@ -74,20 +71,6 @@ struct Whole {
   }
 };
 
-/// (keyword, id, field, value) of every real cell, bulk blocks included, in deck order.
-using RealValue = std::tuple<std::string, std::int64_t, std::string, double>;
-inline std::vector<RealValue> real_values(const Deck& deck) {
-  std::vector<RealValue> all;
-  for (const Block& b : deck.blocks) {
-    if (b.schema == nullptr) continue;
-    for (const DecodedCard& card : decode(deck, b).cards)
-      for (const Cell& cell : card.cells)
-        if (cell.field->type == FieldType::real)
-          all.emplace_back(std::string(b.keyword), b.id.value, cell.field->name, cell.real);
-  }
-  return all;
-}
-
 inline const Block* block(const Deck& deck, std::string_view header) {
   for (const Block& b : deck.blocks)
     if (b.header == header) return &b;
@@ -99,12 +82,30 @@ inline double real(const Whole& w, std::string_view header, std::string_view fie
   return b == nullptr ? 0 : decode(w.deck, *b).real(field);
 }
 
-/// Where the real decks are; empty: not here.
-inline std::string corpus(const std::string& file) {
-  const std::filesystem::path root = test::shared_dir();
-  for (const auto& path : {root / "corpus" / file, root / file})
-    if (std::filesystem::exists(path)) return path.string();
-  return {};
+inline std::string as_text(std::int64_t v) { return std::to_string(v); }
+inline std::string as_text(double v) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.17g", v);
+  return buffer;
+}
+inline std::string as_text(const std::string& v) { return v; }
+
+/// "/INTER/TYPE7/3 Istf" -> effective value, with the origin where it is asked for; of these
+/// interfaces, or of all of them.
+inline std::map<std::string, std::string> effective_values(
+    const Whole& o, bool origins = false, const std::set<std::int64_t>& only = {}) {
+  std::map<std::string, std::string> out;
+  for (const InterBase* i : o.interfaces.all) {
+    if (!only.empty() && !only.contains(i->id)) continue;
+    const std::string head =
+        "/INTER/TYPE" + std::to_string(i->type) + "/" + std::to_string(i->id) + " ";
+    out[head] = i->title;
+    for_each_field(*i, [&](std::string_view name, const auto& e) {
+      out[head + std::string(name)] =
+          as_text(e.value) + (origins ? std::string(" ") + to_string(e.origin) : "");
+    });
+  }
+  return out;
 }
 
 }  // namespace deck::edit_test

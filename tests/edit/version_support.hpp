@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -16,44 +14,14 @@
 
 namespace deck::test {
 
+using edit_test::as_text;
+using edit_test::effective_values;
 using edit_test::Files;
 using edit_test::Whole;
 
 inline std::unique_ptr<Whole> open_text(const std::string& text,
                                         const std::string& name = "main_0000.rad") {
   return Whole::text(text, name);
-}
-
-/// The deck with a rewrite applied.
-inline std::unique_ptr<Whole> applied(const Whole& before, const Rewrite& rewrite) {
-  return before.after(rewrite);
-}
-
-inline std::string bytes_of(const Whole& o, std::uint32_t file = 0) {
-  return std::string(o.deck.sources[file].bytes());
-}
-
-inline std::string as_text(std::int64_t v) { return std::to_string(v); }
-inline std::string as_text(double v) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.17g", v);
-  return buffer;
-}
-inline std::string as_text(const std::string& v) { return v; }
-
-/// "/INTER/TYPE7/3 Istf" -> effective value, with the origin where it is asked for.
-inline std::map<std::string, std::string> effective_values(const Whole& o, bool origins = false) {
-  std::map<std::string, std::string> out;
-  for (const InterBase* i : o.interfaces.all) {
-    const std::string head =
-        "/INTER/TYPE" + std::to_string(i->type) + "/" + std::to_string(i->id) + " ";
-    out[head] = i->title;
-    for_each_field(*i, [&](std::string_view name, const auto& e) {
-      out[head + std::string(name)] =
-          as_text(e.value) + (origins ? std::string(" ") + to_string(e.origin) : "");
-    });
-  }
-  return out;
 }
 
 /// The values that differ, one line each; empty if there are none.

@@ -97,19 +97,6 @@ TEST(FindingLists, CountOnWhatWasOnlyCounted) {
   EXPECT_EQ(both.counts().at(RuleId::DK100), 12u);
 }
 
-TEST(FindingLists, KeepOfEachStageAsManyAsTheLimitAllows) {
-  FindingLists lists(Diagnostics{}, 1);
-  for (Diagnostics* list : {&lists.of(Stage::model), &lists.of(Stage::scene), &lists.of_mesh()}) {
-    list->report(finding(RuleId::DK100, "first"));
-    list->report(finding(RuleId::DK100, "second", 2));
-    EXPECT_EQ(messages(*list), Messages{"first"});
-  }
-  lists.forget_scene();
-  for (const char* text : {"first", "second"})
-    lists.of(Stage::scene).report(finding(RuleId::DK100, text));
-  EXPECT_EQ(messages(lists.of(Stage::scene)), Messages{"first"});
-}
-
 /// A deck with these lines.
 Deck deck_of(const std::string& text) {
   auto deck =

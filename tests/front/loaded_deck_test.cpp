@@ -125,13 +125,6 @@ TEST(MeshValues, StayOpenWhereGeometryIsNotAskedFor) {
             open.interfaces().type7.front().Gapmin.value);
 }
 
-TEST(MeshValues, NeedNoContactsWhereTheCardSaysAll) {
-  const LoadedDeck loaded = in_memory(plates("Gapmin=0.7 Drad=1"));
-  if (waits_for_geometry(loaded.interfaces())) GTEST_SKIP() << "a value follows from the mesh";
-  EXPECT_TRUE(loaded.mesh_values().contacts.empty());
-  EXPECT_EQ(loaded.reached(), Stage::interfaces);
-}
-
 TEST(MeshValues, AreThoseOfTheSceneWhereThereIsOne) {
   LoadOptions options;
   options.geometry = false;
@@ -165,28 +158,6 @@ TEST(SceneOptions, AnotherWayMakesTheSceneAnew) {
   EXPECT_TRUE(loaded.scene().contacts.front().penetrations.empty());
 }
 
-TEST(SceneOptions, TiesFoundBeforeTheContactsAreTheirs) {
-  std::string text = plates();
-  text.insert(text.rfind("/END"), "/INTER/TYPE2/9\nt\n         2         1\n");
-  LoadedDeck early = in_memory(text), late = in_memory(text);
-  SceneOptions options = early.scene_options();
-  options.ties = true;
-  for (LoadedDeck* loaded : {&early, &late}) loaded->set_scene_options(options);
-  static_cast<void>(early.kinematics());
-  static_cast<void>(late.scene());
-  static_cast<void>(late.kinematics());
-  ASSERT_EQ(late.scene().ties.size(), 1u);
-  ASSERT_EQ(early.scene().ties.size(), 1u);
-  const Tie &a = early.scene().ties.front(), &b = late.scene().ties.front();
-  EXPECT_EQ(early.scene().examined, late.scene().examined);
-  ASSERT_EQ(a.nodes.size(), 4u);
-  for (std::size_t i = 0; i < a.nodes.size(); ++i) {
-    EXPECT_EQ(a.nodes[i].node, b.nodes[i].node);
-    EXPECT_EQ(a.nodes[i].tied, b.nodes[i].tied);
-    EXPECT_EQ(a.nodes[i].segment, b.nodes[i].segment);
-  }
-}
-
 TEST(Cycle, HasForcesWhateverTheSceneWasMadeWithout) {
   LoadedDeck whole = in_memory(plates("Gapmin=0.7 Istf=4")),
              lean = in_memory(plates("Gapmin=0.7 Istf=4"));
@@ -200,24 +171,20 @@ TEST(Cycle, HasForcesWhateverTheSceneWasMadeWithout) {
 
 // ---- limits ------------------------------------------------------------------------------------
 
-TEST(Limits, HoldForSelections) {
+TEST(Limits, HoldForSelectionsOfEveryModel) {
   LoadOptions options;
   options.read.limits.selection_bytes = 1;
-  const auto loaded = load(sample("too_close_0000.rad"), options);
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  loaded->model().selections->resolve_all();
-  EXPECT_FALSE(loaded->model().selections->complete());
-}
-
-TEST(Limits, HoldForTheModelThatIsBuiltAlone) {
-  const auto deck = read_deck(sample("too_close_0000.rad"), SchemaSet::built_in());
-  ASSERT_TRUE(deck);
-  ModelOptions options;
-  options.limits.selection_bytes = 1;
+  const LoadedDeck loaded = in_memory(plates("Gapmin=0.7"), options);
+  const auto again = loaded.with({});
+  ASSERT_TRUE(again) << again.error().message;
+  ModelOptions how;
+  how.limits.selection_bytes = 1;
   Diagnostics ignored;
-  const Model model = build_model(*deck, SchemaSet::built_in(), ignored, options);
-  model.selections->resolve_all();
-  EXPECT_FALSE(model.selections->complete());
+  const Model alone = build_model(loaded.deck(), SchemaSet::built_in(), ignored, how);
+  for (const Model* model : {&loaded.model(), &again->model(), &alone}) {
+    model->selections->resolve_all();
+    EXPECT_FALSE(model->selections->complete());
+  }
 }
 
 TEST(Limits, HoldForPairs) {
@@ -227,16 +194,6 @@ TEST(Limits, HoldForPairs) {
   EXPECT_FALSE(loaded.scene().contacts.front().evaluated);
   EXPECT_TRUE(has(loaded.findings(), RuleId::DK390));
   EXPECT_EQ(loaded.scene().limits.pair_bytes, 1u);
-}
-
-TEST(Limits, HoldForDecksThatAreReadAgain) {
-  LoadOptions options;
-  options.read.limits.selection_bytes = 1;
-  const LoadedDeck loaded = in_memory(plates("Gapmin=0.7"), options);
-  const auto again = loaded.with({});
-  ASSERT_TRUE(again) << again.error().message;
-  again->model().selections->resolve_all();
-  EXPECT_FALSE(again->model().selections->complete());
 }
 
 TEST(Limits, HoldForFindings) {
@@ -316,29 +273,7 @@ TEST(Findings, TakeWhatOthersReport) {
             1);
 }
 
-TEST(Findings, OfAnotherSceneTakeThePlaceOfThoseOfTheScene) {
-  LoadedDeck loaded = in_memory(plates("Gapmin=0.7"));
-  SceneOptions options = loaded.scene_options();
-  options.limits.pair_bytes = 1;
-  Diagnostics found;
-  EXPECT_FALSE(loaded.scene_with(options, found).contacts.front().evaluated);
-  EXPECT_TRUE(has(loaded.findings_with(found), RuleId::DK390));
-  EXPECT_FALSE(has(loaded.findings(), RuleId::DK390));
-  EXPECT_TRUE(loaded.scene().contacts.front().evaluated);
-}
-
 // ---- other texts -------------------------------------------------------------------------------
-
-TEST(With, ReadsTheDeckAgainWithOtherTexts) {
-  const LoadedDeck loaded = in_memory(plates("Gapmin=0.7"));
-  const auto other = loaded.with({{"small_0000.rad", plates("Gapmin=0.2")}});
-  ASSERT_TRUE(other) << other.error().message;
-  EXPECT_EQ(other->interfaces().type7.front().Gapmin.value, 0.2);
-  EXPECT_EQ(loaded.interfaces().type7.front().Gapmin.value, 0.7);
-  const auto third = other->with({});
-  ASSERT_TRUE(third) << "a text that never lay on a disk is kept";
-  EXPECT_EQ(third->interfaces().type7.front().Gapmin.value, 0.2);
-}
 
 TEST(Load, AMissingDeckIsAnErrorWithItsName) {
   const auto loaded = load("/nowhere/none_0000.rad");

@@ -1,6 +1,8 @@
 // Conversions: each is made and read again. An edit to what is there already changes no byte; there
 // and back gives the effective values of the beginning; default values written out stay the same to
 // the last bit.
+#include <array>
+
 #include "deck/edit/convert.hpp"
 #include "deck/edit/fix.hpp"
 #include "edit/shared/resolve.hpp"
@@ -88,20 +90,31 @@ void renumbered(const Whole& whole, std::uint64_t h) {
 }
 
 void gaps(const Whole& whole, std::uint64_t h) {
-  if (h % 3 == 0) {
-    ReduceGapOptions options;
-    options.read = fuzz::read_options(whole.files);
-    if (const auto fix = reduce_gaps(whole.context(), options)) applied(whole, fix->rewrite);
-  } else if (h % 3 == 1) {
-    InactiOptions options;
-    options.read = fuzz::read_options(whole.files);
-    options.inacti = static_cast<int>(h / 3 % 8);
-    if (const auto fix = set_inacti(whole.context(), options)) applied(whole, fix->rewrite);
-  } else {
-    FpenmaxOptions options;
-    options.read = fuzz::read_options(whole.files);
-    if (const auto fix = set_fpenmax(whole.context(), options)) applied(whole, fix->rewrite);
-  }
+  const auto written = [&](const auto& fix) {
+    if (fix) applied(whole, fix->rewrite);
+  };
+  InactiOptions inacti;
+  inacti.inacti = static_cast<int>(h / 3 % 8);
+  if (h % 3 == 0) written(reduce_gaps(whole.context(), {}));
+  if (h % 3 == 1) written(set_inacti(whole.context(), inacti));
+  if (h % 3 == 2) written(set_fpenmax(whole.context(), {}));
+}
+
+void defaults(const Whole& whole, std::uint64_t) {
+  const Rewrite r = resolve_defaults(whole.context(), {true});
+  const auto again = applied(whole, r);
+  if (again && only_kept(r)) same_values(whole, *again, "default values written out");
+}
+
+void expanded(const Whole& whole, std::uint64_t) { applied(whole, expand_type19(whole.context())); }
+
+void extracted(const Whole& whole, std::uint64_t h) {
+  std::vector<std::int64_t> ids;
+  for (const InterBase* i : whole.interfaces.ordered)
+    if (ids.size() <= h % 3) ids.push_back(i->id);
+  const Rewrite r = extract_contacts(whole.context(), ids);
+  if (r.refusals.empty() && r.new_text)
+    require(fuzz::read_text(*r.new_text) != nullptr, "an extracted deck is a deck");
 }
 
 }  // namespace
@@ -112,36 +125,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto whole = fuzz::read_text(text);
   if (!whole) return 0;
   const std::uint64_t h = fuzz::hash_of(text);
-  switch (h % 7) {
-    case 0:
-      version(*whole, h / 7);
-      break;
-    case 1:
-      units(*whole, h / 7);
-      break;
-    case 2:
-      renumbered(*whole, h / 7);
-      break;
-    case 3: {
-      const Rewrite r = resolve_defaults(whole->context(), {true});
-      const auto again = applied(*whole, r);
-      if (again && only_kept(r)) same_values(*whole, *again, "default values written out");
-      break;
-    }
-    case 4:
-      applied(*whole, expand_type19(whole->context()));
-      break;
-    case 5: {
-      std::vector<std::int64_t> ids;
-      for (const InterBase* i : whole->interfaces.ordered)
-        if (ids.size() <= h / 7 % 3) ids.push_back(i->id);
-      const Rewrite r = extract_contacts(whole->context(), ids);
-      if (r.refusals.empty() && r.new_text)
-        require(fuzz::read_text(*r.new_text) != nullptr, "an extracted deck is a deck");
-      break;
-    }
-    default:
-      gaps(*whole, h / 7);
-  }
+  constexpr auto conversions =
+      std::to_array({version, units, renumbered, defaults, expanded, extracted, gaps});
+  conversions[h % conversions.size()](*whole, h / conversions.size());
   return 0;
 }

@@ -18,104 +18,27 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-constexpr std::string_view numbers[] = {"0",
-                                        "1",
-                                        "-1",
-                                        "2",
-                                        "3",
-                                        "4",
-                                        "5",
-                                        "6",
-                                        "7",
-                                        "8",
-                                        "9",
-                                        "10",
-                                        "11",
-                                        "12",
-                                        "19",
-                                        "25",
-                                        "100",
-                                        "110",
-                                        "1000",
-                                        "1001",
-                                        "2022",
-                                        "2026",
-                                        "51",
-                                        "-2",
-                                        "-1000",
-                                        "99999999",
-                                        "999999999",
-                                        "2147483647",
-                                        "-2147483648",
-                                        "4294967295",
-                                        "4294967299",
-                                        "9223372036854775807",
-                                        "99999999999999999999",
-                                        "0.",
-                                        "-0.",
-                                        ".5",
-                                        "1.",
-                                        "-1.",
-                                        "0.1",
-                                        "1e-3",
-                                        "1e-20",
-                                        "1e-30",
-                                        "1e-154",
-                                        "1e-300",
-                                        "1e-308",
-                                        "5e-324",
-                                        "1e-400",
-                                        "1e20",
-                                        "1e30",
-                                        "1.4e154",
-                                        "1e155",
-                                        "1e300",
-                                        "1.8e308",
-                                        "1e400",
-                                        "-1e30",
-                                        "1.5d3",
-                                        "1+5",
-                                        "1-5",
-                                        "1e",
-                                        "e5",
-                                        ".",
-                                        "-",
-                                        "+",
-                                        "nan",
-                                        "inf",
-                                        "0x10",
-                                        "1,2",
-                                        "&P",
-                                        "&",
-                                        "1.e+03",
-                                        "000000001",
-                                        "1 2",
-                                        "*",
-                                        "'",
-                                        "/",
-                                        "#"};
-constexpr std::string_view lines[] = {"/END",
-                                      "#enddata",
-                                      "#include part.inc",
-                                      "#include",
-                                      "//SUBMODEL/1",
-                                      "//ENDSUB",
-                                      "/UNIT/1",
-                                      "# comment",
-                                      "",
-                                      " ",
-                                      "\t",
-                                      "/",
-                                      "//",
-                                      "/INTER",
-                                      "=== part.inc",
-                                      "# decklint: ignore[DK201:Ibag]",
-                                      "# decklint: ignore",
-                                      "*KEYWORD",
-                                      "*END",
-                                      "*CONTACT_AUTOMATIC_GENERAL",
-                                      "*CONTACT_TIED_NODES_TO_SURFACE",
-                                      "$ comment"};
+/// The pieces between bars.
+Lines pieces(std::string_view text) {
+  Lines out(1);
+  for (const char c : text)
+    if (c == '|')
+      out.emplace_back();
+    else
+      out.back() += c;
+  return out;
+}
+
+const Lines numbers = pieces(
+    "0|1|-1|2|3|4|5|6|7|8|9|10|11|12|19|25|100|110|1000|1001|2022|2026|51|-2|-1000|99999999|"
+    "999999999|2147483647|-2147483648|4294967295|4294967299|9223372036854775807|"
+    "99999999999999999999|0.|-0.|.5|1.|-1.|0.1|1e-3|1e-20|1e-30|1e-154|1e-300|1e-308|5e-324|"
+    "1e-400|1e20|1e30|1.4e154|1e155|1e300|1.8e308|1e400|-1e30|1.5d3|1+5|1-5|1e|e5|.|-|+|nan|inf|"
+    "0x10|1,2|&P|&|1.e+03|000000001|1 2|*|'|/|#");
+const Lines lines = pieces(
+    "/END|#enddata|#include part.inc|#include|//SUBMODEL/1|//ENDSUB|/UNIT/1|# comment|| |\t|/|//|"
+    "/INTER|=== part.inc|# decklint: ignore[DK201:Ibag]|# decklint: ignore|*KEYWORD|*END|"
+    "*CONTACT_AUTOMATIC_GENERAL|*CONTACT_TIED_NODES_TO_SURFACE|$ comment");
 
 class Mutation {
  public:
@@ -129,46 +52,13 @@ class Mutation {
   }
 
   void step() {
-    switch (below(16)) {
-      case 0:
-      case 1:
-      case 2:
-      case 3:
-        cell();
-        break;
-      case 4:
-      case 5:
-      case 6:
-        token();
-        break;
-      case 7:
-        header();
-        break;
-      case 8:
-        repeat_line();
-        break;
-      case 9:
-        lines_.erase(lines_.begin() + at(line_number()));
-        break;
-      case 10:
-        std::swap(lines_[line_number()], lines_[line_number()]);
-        break;
-      case 11:
-        length();
-        break;
-      case 12:
-        lines_.insert(lines_.begin() + at(line_number()), std::string(pick(lines)));
-        break;
-      case 13:
-        block();
-        break;
-      case 14:
-        fresh_block();
-        break;
-      default:
-        copy_cell();
-        break;
-    }
+    using Change = void (Mutation::*)();
+    constexpr Change changes[] = {
+        &Mutation::cell,   &Mutation::cell,        &Mutation::cell,        &Mutation::cell,
+        &Mutation::token,  &Mutation::token,       &Mutation::token,       &Mutation::header,
+        &Mutation::length, &Mutation::repeat_line, &Mutation::remove_line, &Mutation::swap_lines,
+        &Mutation::block,  &Mutation::new_line,    &Mutation::fresh_block, &Mutation::copy_cell};
+    (this->*changes[below(std::size(changes))])();
     if (lines_.empty()) lines_.emplace_back();
   }
 
@@ -192,17 +82,17 @@ class Mutation {
   std::size_t below(std::size_t n) { return n == 0 ? 0 : random_() % n; }
   static std::ptrdiff_t at(std::size_t n) { return static_cast<std::ptrdiff_t>(n); }
   std::size_t line_number() { return below(lines_.size()); }
-  template <class T, std::size_t N>
-  T pick(const T (&list)[N]) {
-    return list[below(N)];
+  template <class List>
+  auto pick(const List& list) {
+    return list[below(std::size(list))];
   }
 
   /// A number: a known troublemaker, one that stands in the text already, or a neighbour of that.
   std::string number() {
-    if (below(2) == 0) return std::string(pick(numbers));
+    if (below(2) == 0) return pick(numbers);
     const std::string& line = lines_[line_number()];
     const auto first = line.find_first_of("0123456789", below(line.size() + 1));
-    if (first == std::string::npos) return std::string(pick(numbers));
+    if (first == std::string::npos) return pick(numbers);
     const auto last = std::min(line.find_first_not_of("0123456789.eE", first), line.size());
     std::string found = line.substr(first, last - first);
     if (below(3) == 0) found.back() = static_cast<char>('0' + below(10));
@@ -275,26 +165,24 @@ class Mutation {
     std::string& line = lines_[some_block().first];
     const auto slash = line.rfind('/');
     if (slash == std::string::npos) return;
-    switch (below(5)) {
-      case 0:
-        line.resize(slash);
-        break;
-      case 1:
-        line += "/" + number();
-        break;
-      case 2:
-        line = std::string(keyword()->keyword) + line.substr(slash);
-        break;
-      default:
-        line = line.substr(0, slash + 1) + number();
-        break;
-    }
+    const std::size_t what = below(5);
+    if (what == 0)
+      line.resize(slash);
+    else if (what == 1)
+      line += "/" + number();
+    else if (what == 2)
+      line = std::string(keyword()->keyword) + line.substr(slash);
+    else
+      line = line.substr(0, slash + 1) + number();
   }
   void repeat_line() {
     const std::size_t n = line_number();
     const std::string copy = lines_[n];
     lines_.insert(lines_.begin() + at(below(2) == 0 ? n : line_number()), 1 + below(3), copy);
   }
+  void remove_line() { lines_.erase(lines_.begin() + at(line_number())); }
+  void swap_lines() { std::swap(lines_[line_number()], lines_[line_number()]); }
+  void new_line() { lines_.insert(lines_.begin() + at(line_number()), pick(lines)); }
   void length() {
     std::string& line = lines_[line_number()];
     if (below(2) == 0)

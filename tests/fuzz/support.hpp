@@ -91,11 +91,46 @@ inline void check_spans(const Deck& deck, const Diagnostics& findings) {
     require(d.span.file < deck.sources.size(), "a finding lies in a file of the deck", d.message);
     require(d.span.offset + d.span.length <= deck.sources[d.span.file].bytes().size(),
             "a finding lies in its file", d.message);
+    deck.sources.where(d.span);
+  }
+}
+
+inline std::string shown(std::int64_t v) { return std::to_string(v); }
+inline std::string shown(const std::string& v) { return v; }
+/// All bits, so that the last one counts.
+inline std::string shown(double v) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%a", v);
+  return text;
+}
+
+template <class Inter>
+void add_values(std::string& out, const std::vector<Inter>& all, bool only_used) {
+  for (const Inter& inter : all) {
+    out += "/INTER/TYPE" + std::to_string(inter.type) + "/" + std::to_string(inter.id) + ":";
+    inter.for_each([&](std::string_view name, const auto& field) {
+      if (only_used && (inter.type == 10 ? name == "Inacti" : name == "Iedge")) return;
+      // 1000 is what old manuals write for 0.
+      if constexpr (std::is_integral_v<std::decay_t<decltype(field.value)>>) {
+        out += " " + std::string(name) + "=" +
+               shown(only_used && field.value == 1000 ? 0 : field.value);
+      } else {
+        out += " " + std::string(name) + "=" + shown(field.value);
+      }
+    });
+    out += "\n";
   }
 }
 
 /// The effective values of all interfaces, one line each, to compare decks by; `only_used`: without
 /// Inacti of a tied contact and Iedge, which are printed and never used.
-std::string effective_values(const Interfaces& interfaces, bool only_used = false);
+inline std::string effective_values(const Interfaces& interfaces, bool only_used = false) {
+  std::string out;
+  add_values(out, interfaces.type7, only_used);
+  add_values(out, interfaces.type10, only_used);
+  add_values(out, interfaces.type11, only_used);
+  add_values(out, interfaces.type19, only_used);
+  return out;
+}
 
 }  // namespace deck::fuzz

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
+#include "contact/search_scenes.hpp"
 #include "contact/shared/exact.hpp"
 
 namespace deck {
@@ -14,17 +14,11 @@ namespace {
 
 using P = Point3<double>;
 
-class Dice {
- public:
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
+struct Dice : scenes::Dice {
+  Dice() : scenes::Dice(7) {}
   P around(const P& centre, double by) {
     return {centre.x + uniform(-by, by), centre.y + uniform(-by, by), centre.z + uniform(-by, by)};
   }
-
- private:
-  std::mt19937_64 engine_{7};
 };
 
 constexpr int pairs = 6000;

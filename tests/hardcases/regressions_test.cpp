@@ -117,19 +117,6 @@ TEST(Filtered, AMeanOfTheCornersThatIsNotOnTheSegmentProvesNothing) {
   EXPECT_EQ(filtered_closest_on_segment(node, quad, false).distance, 0x1.59cb36a28ac59p-49);
 }
 
-// Endless recursion once: a difference that stays infinite however it is scaled.
-TEST(RobustForm, EndsOnInfiniteAndUndefinedCoordinates) {
-  const std::array<P, 4> quad{P{0, 0, 0}, P{1, 0, 0}, P{1, 1, 0}, P{0, 1, 0}};
-  for (const double bad :
-       {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-        std::numeric_limits<double>::quiet_NaN()}) {
-    const double on_quad = closest_on_segment<Form::robust>({bad, 0, 0}, quad, false).distance();
-    EXPECT_FALSE(on_quad < 1e300) << bad;
-    const auto edges = closest_between_edges<Form::robust>(P{bad, 0, 0}, quad[1], quad[2], quad[3]);
-    EXPECT_FALSE(edges.distance < 0.0) << bad;
-  }
-}
-
 // Single precision has a smaller exponent range: one scaling must be enough there too.
 TEST(RobustForm, ScalesOnceAtTheEndsOfTheExponentRange) {
   const auto check = [](auto big) {

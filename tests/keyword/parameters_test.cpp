@@ -1,8 +1,6 @@
 // /PARAMETER blocks: kinds, scopes, expressions and what can be wrong with them.
 #include <gmock/gmock.h>
 
-#include <cmath>
-
 #include "keyword/reading.hpp"
 
 namespace deck {
@@ -28,17 +26,6 @@ const Parameter& parameter(const Deck& d, const char* name) {
   return p ? *p : none;
 }
 
-TEST(Parameters, InFreeFormat) {
-  const Deck d =
-      read(deck_of("/PARAMETER/GLOBAL/REAL/1\nt, u\nA,1.5\n"
-                   "/PARAMETER/GLOBAL/INTEGER/2\nt\n  N , 42\n" +
-                   std::string("/PARAMETER/GLOBAL/REAL_EXPR/3\nt\nE, 2*&A + N\n")));
-  EXPECT_EQ(parameter(d, "A").real, 1.5);
-  EXPECT_EQ(parameter(d, "N").integer, 42);
-  EXPECT_EQ(parameter(d, "E").real, 45);
-  EXPECT_EQ(count(d.diagnostics, RuleId::DK019), 0u);
-}
-
 TEST(Parameters, OfEveryKindAreRead) {
   const Deck d = read(deck_of(real("A", "                 1.5") +
                               "/PARAMETER/GLOBAL/INTEGER/2\nt\n" + cell("N") + "        42\n" +
@@ -51,6 +38,11 @@ TEST(Parameters, OfEveryKindAreRead) {
   EXPECT_EQ(parameter(d, "E").real, 45);
   EXPECT_EQ(parameter(d, "I").integer, 4);
   EXPECT_TRUE(d.diagnostics.all().empty());
+  const Deck free =
+      read(deck_of("/PARAMETER/GLOBAL/REAL/1\nt, u\nA,1.5\n"
+                   "/PARAMETER/GLOBAL/INTEGER/2\nt\n  N , 42\n"
+                   "/PARAMETER/GLOBAL/REAL_EXPR/3\nt\nE, 2*&A + N\n"));
+  EXPECT_EQ(parameter(free, "E").real, 45);
 }
 
 TEST(Parameters, ExpressionsFollowTheUsualRules) {
@@ -82,11 +74,6 @@ TEST(Parameters, BadExpressionsSayWhatIsWrong) {
   }
 }
 
-TEST(Parameters, DefinitionMayFollowUse) {
-  const Deck d = read(deck_of(expression("E", "&A*2") + real("A", "                  3.")));
-  EXPECT_EQ(parameter(d, "E").real, 6);
-}
-
 TEST(Parameters, CyclesAreErrorsAndDoNotHang) {
   const Deck self = read(deck_of(expression("A", "A+1")));
   EXPECT_THAT(first(self.diagnostics, RuleId::DK019)->message, HasSubstr("refers to itself"));
@@ -107,19 +94,6 @@ TEST(Parameters, LongChainsEndInAResultOrAnError) {
   // Far from the end the depth limit speaks, and says so.
   EXPECT_FALSE(parameter(d, "P0").valid);
   EXPECT_THAT(first(d.diagnostics, RuleId::DK019)->message, HasSubstr("too deep"));
-}
-
-TEST(Parameters, DoublingChainsAreEvaluatedOnce) {
-  std::string body;
-  for (int i = 0; i < 60; ++i) {
-    const std::string next = "P" + std::to_string(i + 1);
-    body += expression("P" + std::to_string(i), next + "+" + next);
-  }
-  body += real("P60", "                  1.");
-  EXPECT_EQ(parameter(read(deck_of(body)), "P0").real, std::ldexp(1, 60));
-  // The same without an end: every look-up fails at once.
-  body.erase(body.rfind("/PARAMETER"));
-  EXPECT_FALSE(parameter(read(deck_of(body)), "P0").valid);
 }
 
 class ParameterScopes : public Folder {};
@@ -151,17 +125,14 @@ TEST(Parameters, InHeadersGiveIdsAndUnits) {
   EXPECT_EQ(block(d, "/GRNOD/NODE/&N")->id.value, 42);
   EXPECT_EQ(block(d, "/GRNOD/PART/&NONE")->id.value, 0);
   EXPECT_EQ(count(d.diagnostics, RuleId::DK018), 1u);
+  const Deck huge = read(deck_of(real("A", "               1e300") + "/GRNOD/NODE/&A\nt\n"));
+  EXPECT_GT(block(huge, "/GRNOD/NODE/&A")->id.value, 0);
 }
 
 TEST(Parameters, UnreadableDefinitionsAreNamed) {
   EXPECT_EQ(count(read(deck_of(real("A", "                 abc"))).diagnostics, RuleId::DK019), 1u);
   EXPECT_EQ(count(read(deck_of(real("", "                  1."))).diagnostics, RuleId::DK019), 1u);
   EXPECT_EQ(count(read(deck_of("/PARAMETER/GLOBAL/REAL/1\nt\n")).diagnostics, RuleId::DK019), 1u);
-}
-
-TEST(Parameters, HugeRealsInIntegerPlacesAreCut) {
-  const Deck d = read(deck_of(real("A", "               1e300") + "/GRNOD/NODE/&A\nt\n"));
-  EXPECT_GT(block(d, "/GRNOD/NODE/&A")->id.value, 0);
 }
 
 }  // namespace

@@ -55,10 +55,6 @@ TEST(PlacedLine, NamesTheCellOfAColumn) {
   ASSERT_NE(line.cell_at(45), nullptr);
   EXPECT_EQ(line.cell_at(45)->field->name, "Igap");
   EXPECT_TRUE(line.cell_at(45)->blank());
-}
-
-TEST(PlacedLine, KnowsCellsOfListsAndOfNodes) {
-  const Deck deck = read(deck_of(body));
   const PlacedLine list = at(deck, "         5        60");
   ASSERT_NE(list.cell_at(20), nullptr);
   EXPECT_EQ(list.cell_at(20)->integer, 60);
@@ -81,11 +77,6 @@ TEST(PlacedLine, KnowsWhichLineOfAnElementItIs) {
     ASSERT_NE(line.cell_at(column), nullptr) << text;
     EXPECT_EQ(line.cell_at(column)->field->name, field) << text;
   }
-}
-
-TEST(PlacedLine, TakesADirectiveForWhatItIs) {
-  const Deck deck = read(deck_of("#include nowhere.inc\n/NODE\n"));
-  EXPECT_EQ(at(deck, "#include").what, What::directive);
 }
 
 using PlacedLineOnDisk = testing_support::Folder;

@@ -10,10 +10,9 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "robustness"))
-from common import ROOT, Checks  # noqa: E402
+from common import ROOT, Checks, run_steps  # noqa: E402
 
 MISTAKES = os.path.join(ROOT, "samples", "every_mistake_0000.rad")
 CLEAN = os.path.join(ROOT, "samples", "clean_plates_0000.rad")
@@ -185,51 +184,5 @@ def outputs(c, tmp):
                                         == sorted((x["line"], x["column"]) for x in d["diagnostics"]) for d in documents))
 
 
-def carets(c):
-    """The caret of the human output stands under the text that the JSON points at."""
-    text = c.run("lint", MISTAKES, "--per-rule", "0").stdout.split("\n")
-    bad = []
-    for i, line in enumerate(text[:-1]):
-        m = re.match(r" *\d+ \| (.*)", line)
-        caret = re.match(r" *\| ( *)(\^+)$", text[i + 1])
-        if m and caret:
-            b, e = len(caret.group(1)), len(caret.group(1)) + len(caret.group(2))
-            under = m.group(1)[b:e]
-            # Either it underlines text, or a cell that is blank as a whole.
-            if under.strip() and (under[0] == " " or under[-1] == " "):
-                bad.append((line, under))
-    c.check("carets underline text without padding", not bad, bad[:2])
-
-
-def pages(c):
-    r = c.run("explain", "DK254")
-    c.check("explain a rule", r.returncode == 0 and "1162" in r.stdout and "Inacti" in r.stdout)
-    r = c.run("explain", "/INTER/TYPE7.Igap")
-    c.check("explain a field", r.returncode == 0 and "41-50" in r.stdout, r.stdout)
-    c.check("explain a keyword", "Fscalegap" in c.run("explain", "/INTER/TYPE7").stdout)
-    c.check("explain without the slash, in any case", "Fscalegap" in c.run("explain", "inter/type7").stdout)
-    c.check("explain nonsense: 2", c.run("explain", "DK777").returncode == 2)
-    table = json.loads(c.run("rules", "--json", "-").stdout)["rules"]
-    c.check("at least 90 rules", len(table) >= 90, len(table))
-    bad = [x["id"] for x in table if c.run("explain", x["id"]).returncode != 0]
-    c.check("every rule has a page", not bad, bad)
-
-
-def main():
-    c = Lint()
-    tmp = tempfile.mkdtemp(prefix="deck-lint-")
-    try:
-        exit_codes(c, tmp)
-        configuration(c, tmp)
-        baseline(c, tmp)
-        fixes(c, tmp)
-        outputs(c, tmp)
-        carets(c)
-        pages(c)
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
-    c.finish()
-
-
 if __name__ == "__main__":
-    main()
+    run_steps(exit_codes, configuration, baseline, fixes, outputs, checks=Lint)

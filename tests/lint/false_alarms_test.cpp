@@ -32,12 +32,6 @@ TEST(MissingInclude, DoesNotHideWhatIsWrongInTheFilesThatAreThere) {
   EXPECT_TRUE(run.fires(RuleId::DK221)) << run.list();
 }
 
-/// TYPE25 and TYPE5 have fields of their own in columns 11 to 30 of that line.
-TEST(ReleaseFlags, OfOtherTypesShareTheirLineWithOtherFields) {
-  const Linted run = lint_example("@/INTER/TYPE25/1 surf_ID1=1 IBCX=0 IVIS2=1\n");
-  EXPECT_FALSE(run.fires(RuleId::DK243)) << run.list();
-}
-
 TEST(RepeatedSegments, OfSolidsThatTouchAreCuredByTheirOuterFaces) {
   const Linted run = lint_geometry(
       "/NODE\n"

@@ -1,5 +1,5 @@
-// Geometry rules: every one fires on its bad example and stays silent on its good one, and says
-// where and what.
+// Geometry rules: what they measure, count and leave out. rules_test.cpp asks all for their
+// examples.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -10,66 +10,6 @@
 
 namespace deck::test {
 namespace {
-
-class EveryGeometryRule : public testing::TestWithParam<std::string> {
- protected:
-  const Rule& rule() const { return *find_rule(GetParam()); }
-};
-
-std::vector<std::string> rules_with_examples() {
-  std::vector<std::string> ids;
-  for (const Rule& r : all_rules())
-    if (r.stage == RuleStage::extra && id_number(r.id) / 100 == 3 && !r.bad.empty())
-      ids.emplace_back(id_text(r.id));
-  return ids;
-}
-
-TEST_P(EveryGeometryRule, FiresOnItsBadExample) {
-  const Linted run = lint_geometry(rule().bad);
-  EXPECT_TRUE(run.fires(rule().id))
-      << example_deck(rule().bad, SchemaSet::built_in()).main << run.list();
-}
-
-TEST_P(EveryGeometryRule, StaysSilentOnItsGoodExample) {
-  const Linted run = lint_geometry(rule().good);
-  EXPECT_FALSE(run.fires(rule().id)) << run.list();
-}
-
-TEST_P(EveryGeometryRule, ExamplesNameFieldsThatExistAndAreReadWithoutErrors) {
-  for (const std::string_view text : {rule().bad, rule().good}) {
-    const std::string deck = example_deck(text, SchemaSet::built_in()).main;
-    EXPECT_EQ(deck.find("# unused:"), std::string::npos) << deck;
-    EXPECT_EQ(deck.find("# no schema"), std::string::npos) << deck;
-  }
-  for (const Diagnostic& d : lint_geometry(rule().good).result.diagnostics)
-    EXPECT_NE(d.severity, Severity::error) << id_text(d.rule) << " " << d.message;
-}
-
-TEST_P(EveryGeometryRule, FindingHasPlaceMessageAndHelp) {
-  const Linted run = lint_geometry(rule().bad);
-  const Diagnostic* d = run.find(rule().id);
-  ASSERT_NE(d, nullptr);
-  EXPECT_TRUE(d->span.valid());
-  EXPECT_NE(d->message.find("/INTER/TYPE"), std::string::npos) << d->message;
-  EXPECT_FALSE(d->help.empty());
-  EXPECT_FALSE(d->keyword.empty());
-}
-
-TEST_P(EveryGeometryRule, IsNotCheckedUnlessAskedFor) {
-  EXPECT_FALSE(lint_example(rule().bad).fires(rule().id));
-}
-
-INSTANTIATE_TEST_SUITE_P(Rules, EveryGeometryRule, testing::ValuesIn(rules_with_examples()),
-                         [](const auto& test) { return test.param; });
-
-TEST(GeometryRules, ThereAreExamplesForAllButTheOverflow) {
-  std::vector<RuleId> without;
-  for (const Rule& r : all_rules())
-    if (id_number(r.id) / 100 == 3 && r.bad.empty()) without.push_back(r.id);
-  // What needs gigabytes, or coordinates that are no numbers, has tests of its own.
-  EXPECT_EQ(without, (std::vector{RuleId::DK332, RuleId::DK380, RuleId::DK390}));
-  EXPECT_GE(rules_with_examples().size(), 20u);
-}
 
 TEST(CoordinatesWithoutBounds, LeaveTheContactUnevaluatedWithAFinding) {
   const Linted run = lint_geometry(
@@ -117,46 +57,6 @@ TEST(InitialPenetrations, NameTheWarningWithWhichTheirTypeIsCounted) {
   EXPECT_EQ(lint_geometry("@/INTER/TYPE11/1 Gapmin=4").find(RuleId::DK301)->reference->number, 499);
 }
 
-TEST(InitialPenetrations, OneFindingPerPairOfPartsWithTheDeepestNodes) {
-  const Linted run = lint_geometry(
-      "/NODE\n        21                 5.0                 5.0                1.25\n"
-      "        22                 6.0                 6.0                1.25\n"
-      "        23                 5.0                 6.0                 1.0\n"
-      "/PART/3\nsmall\n         1         1         0\n/SH3N/3\n         9        21        22     "
-      "   23\n"
-      "/GRNOD/PART/3\nboth\n         2         3\n@/INTER/TYPE7/1 grnd_IDs=3 Gapmin=4\n");
-  EXPECT_EQ(run.count(RuleId::DK301), 2u) << run.list();
-  std::vector<std::string> messages;
-  for (const Diagnostic& d : run.result.diagnostics)
-    if (d.rule == RuleId::DK301) messages.push_back(d.message);
-  std::sort(messages.begin(), messages.end());
-  ASSERT_EQ(messages.size(), 2u);
-  EXPECT_EQ(messages[0],
-            "/INTER/TYPE7 1: 3 nodes of part 3 within the gap of part 1 (3 pairs), deepest 3 of a "
-            "gap of 4 between node 23 and segment 1 2 3 4; the solver does nothing about them: "
-            "they start "
-            "with contact forces");
-  EXPECT_EQ(messages[1],
-            "/INTER/TYPE7 1: 4 nodes of part 2 within the gap of part 1 (4 pairs), deepest 1 of a "
-            "gap of 4 between node 11 and segment 1 2 3 4; the solver does nothing about them: "
-            "they start "
-            "with contact forces");
-  const Diagnostic* d = run.find(RuleId::DK301);
-  for (const Diagnostic& each : run.result.diagnostics) {
-    if (each.rule != RuleId::DK301) continue;
-    EXPECT_EQ(each.notes.size(), 3u) << each.message;
-    for (const auto& note : each.notes) EXPECT_TRUE(note.first.valid());
-  }
-  EXPECT_EQ(d->reference->number, 343);
-}
-
-TEST(InitialPenetrations, EdgesHaveTheirOwnMessage) {
-  const Linted run = lint_geometry("@/INTER/TYPE11/1 Gapmin=4\n");
-  const Diagnostic* d = run.find(RuleId::DK301);
-  ASSERT_NE(d, nullptr);
-  EXPECT_EQ(d->reference->number, 499);
-}
-
 TEST(OnSurface, MessageFollowsInacti) {
   const std::string node =
       "/NODE\n        21                 5.0                 5.0                 0.0\n"
@@ -165,20 +65,6 @@ TEST(OnSurface, MessageFollowsInacti) {
   EXPECT_EQ(lint_geometry(node + "0\n").find(RuleId::DK302)->reference->number, 612);
   EXPECT_FALSE(lint_geometry(node + "1\n").fires(RuleId::DK302));
   EXPECT_TRUE(lint_geometry(node + "1\n").fires(RuleId::DK303));
-}
-
-TEST(ShortSides, NameTheSideAndCountSegments) {
-  // A second shell of which one side is 2 long.
-  const Linted run = lint_geometry(
-      "/NODE\n        21                12.0                 0.0                 0.0\n"
-      "        22                12.0                10.0                 0.0\n"
-      "/SHELL/1\n         9         2        21        22         3\n@/INTER/TYPE7/1 Gapmin=1.5\n");
-  const Diagnostic* d = run.find(RuleId::DK310);
-  ASSERT_NE(d, nullptr) << run.list();
-  EXPECT_EQ(d->message,
-            "/INTER/TYPE7 1: Gapmin = 1.5 (from the card) is more than half of side 2 21 of "
-            "segment 2 21 22 3 (element 9 of part 1), which is 2 long; so it is at 1 segment of 2");
-  EXPECT_EQ(d->reference->number, 94);
 }
 
 TEST(ShortSides, OfLinesBothListsCount) {

@@ -114,6 +114,23 @@ inline Linted lint_example(std::string_view example, const LintOptions& options 
   return lint_file(folder.write("deck_0000.rad", deck.main), options, read);
 }
 
+/// What a rule says of an example: a message of the solver (its number), or one of these.
+enum Said : int { silent = -1, fires_without_message = 0 };
+struct Fact {
+  std::string example;
+  RuleId rule;
+  int said;  ///< number of a message, or Said
+};
+
+inline void expect_facts(const std::vector<Fact>& facts) {
+  for (const Fact& fact : facts) {
+    const Linted run = lint_example(fact.example);
+    const Diagnostic* d = run.find(fact.rule);
+    const int said = d == nullptr ? silent : d->reference ? d->reference->number : 0;
+    EXPECT_EQ(said, fact.said) << id_text(fact.rule) << " of\n" << fact.example << run.list();
+  }
+}
+
 /// LoadOptions with other schemas.
 inline LoadOptions with_schemas(const SchemaSet& schemas) {
   LoadOptions how;

@@ -194,6 +194,30 @@ TEST(Held, NodesHaveTheirTypesAndSourcesInTheOrderOfBooking) {
   EXPECT_EQ(h.k.walls[0].nodes.size(), 2u);
 }
 
+TEST(Held, NodesOfRigidBodiesInEveryDirection) {
+  EXPECT_EQ(booked("@/BCS/1 Tx=1 grnod_ID=2\n@/RBODY/4 node_ID=5 grnd_ID=1"),
+            (Rows{{2, 0, 4, 1, true}, {2, 1, 4, 1, true}, {2, 2, 4, 1, true}}));
+  EXPECT_EQ(booked("@/BCS/1 Tx=1 Ty=1 Tz=1 grnod_ID=3\n@/RBODY/4 node_ID=5 grnd_ID=1"), Rows{})
+      << "a condition on the main node";
+  const Held two("@/RBODY/1 node_ID=5 grnd_ID=1\n@/RBODY/2 node_ID=6 grnd_ID=2");
+  EXPECT_EQ(two.k.conflicts, 6u);
+  ASSERT_EQ(two.k.shared.size(), 1u);
+  EXPECT_EQ(two.b.model.node_id(two.k.shared[0].node), 2);
+  EXPECT_FALSE(two.k.shared[0].sensor);
+}
+
+TEST(Held, NodesOfTiesThatFindASegment) {
+  for (const int node : {7, 6}) {  // 0.5 and 8 above the shell
+    const Built b(cards("/GRNOD/NODE/5\ng\n         " + std::to_string(node) +
+                        "\n@/BCS/1 Tx=1 grnod_ID=5\n@/INTER/TYPE2/1 grnd_IDs=5 surf_IDm=1 "
+                        "Ignore=1 dsearch=2"));
+    const Kinematics& k = b.loaded.kinematics();
+    EXPECT_EQ(k.conflicts, node == 7 ? 6u : 0u);
+    EXPECT_EQ(k.of(b.model.find_node(node)).size(), node == 7 ? 2u : 1u);
+    EXPECT_TRUE(k.left_out.empty());
+  }
+}
+
 /// (message, node, the two options) of everything that is refused; and whether it ends the check.
 std::pair<std::vector<std::tuple<int, std::int64_t, std::int64_t, std::int64_t>>, bool> refused(
     const std::string& more) {
@@ -229,6 +253,10 @@ TEST(Refused, RigidElementsThatHangOnOneAnother) {
       << "one of its nodes is enough";
   EXPECT_EQ(refused(rbe3 + "@/INTER/TYPE2/3 grnd_IDs=2 surf_IDm=1"),
             (Refused{{{3096, 2, 9, 3}}, false}));
+  EXPECT_EQ(refused("@/SKEW/FIX/7 Y_Y=1 Z_Z=1\n@/BCS/1 Tx=1 skew_ID=7 grnod_ID=1\n"
+                    "@/BCS/2 Ty=1 grnod_ID=2"),
+            (Refused{{{148, 2, 1, 2}}, false}))
+      << "two skews";
 }
 
 }  // namespace

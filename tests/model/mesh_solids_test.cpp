@@ -14,11 +14,12 @@ const std::array<Vec, 8> hexa{Vec{0, 0, 0},   Vec{10, 1, 0}, Vec{11, 7, 1}, Vec{
 constexpr int hexa_faces[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                   {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
+constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                            {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+
 /// Slope of the eight functions' map by coordinate `k`, by a central difference: they are linear.
 Vec slope(const std::array<Vec, 8>& x, std::array<double, 3> at, std::size_t k) {
   const auto place = [&](const std::array<double, 3>& r) {
-    constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                                {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
     Vec out{};
     for (std::size_t n = 0; n < 8; ++n)
       out = out +
@@ -171,8 +172,6 @@ TEST(Solid, OfIsolid12SharesItsMassByTheVolumeAroundItsCorners) {
   const ElementOutcome o = solid(row, hexa);
   double all = 0;
   for (std::size_t n = 0; n < 8; ++n) {
-    constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                                {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
     double v = 0;
     for (const double a : two)
       for (const double b : two)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "contact/small_deck.hpp"
+#include "model/mesh_elements.hpp"
 
 namespace deck {
 namespace {
@@ -13,8 +14,8 @@ namespace {
 using test::Built;
 using test::SmallDeck;
 
-// Material 1 of SmallDeck: E 200, nu 0.3, density 1e-6.
-constexpr double density = 1e-6, young = 200.0, poisson = 0.3;
+// Of material 1 of SmallDeck.
+constexpr double density = 1e-6;
 
 SmallDeck square() {
   SmallDeck d;
@@ -48,15 +49,6 @@ TEST(ElementStep, OfARigidMaterialLimitsNothingAndThoseOfOtherPartsAreNotGiven) 
   EXPECT_GE(shells.dt[1], 1e29);
   EXPECT_EQ(m.parts[1].not_computed, 0u);
   EXPECT_GT(shells.mass[1], 0.0);
-}
-
-TEST(ElementStep, OfASpringIsTheRootOfMassOverStiffness) {
-  SmallDeck d = square();
-  d.node(31, 60, 0, 0).node(32, 64, 0, 0);
-  d.spring_part(2, 4.0).bar("SPRING", 2, 9, 31, 32);
-  const Built b(d);
-  const Mesh m = make_mesh(b.model);
-  EXPECT_NEAR(m.of(ElementKind::spring).dt[0], 0.5, 1e-15);  // mass 1, stiffness 4
 }
 
 TEST(ElementStep, IsNotGuessedForALawThatIsNotEstablished) {
@@ -103,20 +95,6 @@ TEST(RigidElement, GivesTheMainNodeMassAndStiffnessOnAnArm) {
   EXPECT_EQ(now.stiffness[n], 1e-20);
 }
 
-TEST(RigidBody, WithIspherHasTheMeanOfItsInertia) {
-  SmallDeck d = square();
-  d.node(99, 5, 5, 0);
-  const Built plain(d.add("@/RBODY/1 node_ID=99 grnd_ID=1"));
-  SmallDeck s = square();
-  s.node(99, 5, 5, 0);
-  const Built round(s.add("@/RBODY/1 node_ID=99 grnd_ID=1 Ispher=1"));
-  const NodeIndex main = plain.model.nodes.map.find(99);
-  const double arms = density * 2.0 * 100.0 * 50.0;  // mass times distance squared
-  // Half of it about x and y, all about z; the nodes' own in every direction.
-  const double least = make_mesh(plain.model).nodes.inertia[main];
-  EXPECT_NEAR(make_mesh(round.model).nodes.inertia[main], least + arms / 6.0, 1e-12);
-}
-
 TEST(Damping, RaisesTheStiffnessBySquareOfItsFactor) {
   const Built plain(square());
   const Built b(square().add("@/DAMP/1 Beta=1000 grnod_id=1"));
@@ -125,19 +103,6 @@ TEST(Damping, RaisesTheStiffnessBySquareOfItsFactor) {
   const double f = 1.0 / ((std::sqrt(2.0) - 1.0) * (std::sqrt(2.0) - 1.0));
   EXPECT_NEAR(now.stiffness[0], f * was.stiffness[0], 1e-9 * was.stiffness[0]);
   EXPECT_NEAR(now.dt[0], was.dt[0] / std::sqrt(f), 1e-12);
-}
-
-TEST(PlaneElement, AboutAnAxisHasMassByItsRadius) {
-  SmallDeck d;
-  d.add("/ANALY\n         1");
-  d.node(1, 0, 2, 0).node(2, 0, 4, 0).node(3, 0, 4, 2).node(4, 0, 2, 2);
-  d.solid_part(1).add("/QUAD/1\n         1         1         2         3         4");
-  const Built b(d);
-  const Mesh m = make_mesh(b.model);
-  EXPECT_NEAR(m.parts[0].mass, density * 4.0 * 3.0, 1e-18);  // area times mean radius
-  const double dt = m.of(ElementKind::quad).dt[0];
-  EXPECT_NEAR(m.nodes.mass[0], density * 3.0, 1e-18);
-  EXPECT_NEAR(m.nodes.dt[0], dt, 1e-12);
 }
 
 TEST(MovingWall, MakesTheMassOfItsNodeUnknown) {
@@ -149,16 +114,35 @@ TEST(MovingWall, MakesTheMassOfItsNodeUnknown) {
   ASSERT_EQ(m.left_out.size(), 1u);
 }
 
-TEST(Mesh, IsTheSameForAnyNumberOfThreads) {
-  SmallDeck d = square();
-  d.node(31, 60, 0, 0).node(32, 64, 0, 0);
-  d.spring_part(2, 4.0).bar("SPRING", 2, 9, 31, 32);
+/// Step of the shell of square() of another material.
+double step(const std::string& material, const std::string& more = "") {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.add(material).shell_part(1, 2.0, 0, 7).shell(1, 1, 1, 2, 3, 4).add(more);
   const Built b(d);
-  MeshOptions four;
-  four.threads = 4;
-  const Mesh one = make_mesh(b.model), other = make_mesh(b.model, four);
-  EXPECT_EQ(one.nodes.stiffness, other.nodes.stiffness);
-  EXPECT_EQ(one.parts[0].inertia, other.parts[0].inertia);
+  const Mesh m = make_mesh(b.model);
+  EXPECT_EQ(m.left_out.empty(), !std::isnan(m.of(ElementKind::shell4).dt[0]));
+  return m.of(ElementKind::shell4).dt[0];
+}
+
+TEST(ElementStep, OfRubberTakesItsModulusFromTheSumOfItsShearModuli) {
+  const double e = 2 * 8 * 1.4;
+  test::expect_near(
+      step("/MAT/LAW62/7\nm\n               1e-06\n                 0.4         2         0\n"
+           "                   3                   5\n                   2                   4"),
+      10 / std::sqrt(e / (1 - 0.16) / 1e-6));
+}
+
+TEST(ElementStep, OfRubberIsNotGivenWithAReferenceGeometry) {
+  const std::string geometry =
+      "/XREF/1\nx\n        10\n         1                   0                   0"
+      "                   0";
+  const std::string rubber = "@/MAT/LAW42/7 Rho_I=1e-6 Nu=0.4 mu_1=3 alpha_1=2";
+  const double v = 0.03, shear = 0.5 * 3 * 2;  // of the membrane damping; of the ground
+  test::expect_near(step(rubber), 10 * test::damp(v) / std::sqrt(shear * 1.4 / (1 - 0.16) / 1e-6));
+  EXPECT_TRUE(std::isnan(step(rubber, geometry)));
+  test::expect_near(step("@/MAT/LAW1/7 Rho_I=7.8e-6 E=210 Nu=0.3", geometry),
+                    10 / std::sqrt(210 / 7.8e-6));
 }
 
 }  // namespace

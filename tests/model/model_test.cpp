@@ -1,80 +1,67 @@
 // The model as a whole: parts and what they refer to, properties, run options, places in the file.
 #include "model/selection_deck.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-
-#include "model/shared/connectivity.hpp"
 #include "model/shared/item_spans.hpp"
-#include "where.hpp"
 
 namespace deck::test {
 namespace {
 
 std::string quad() { return grid_nodes() + "/SHELL/1\n" + cells({7, 1, 2, 5, 4}); }
 
-TEST(Part, KnowsPropertyAndMaterial) {
-  BuiltModel b(parts() + quad());
-  const Part& p = b.model().parts.at(b.model().part_of_id.at(4));
-  EXPECT_EQ(b.model().properties.at(p.prop).id, 2);
-  EXPECT_EQ(b.model().materials.at(p.mat).id, 1);
-  EXPECT_TRUE(b.diagnostics().all().empty());
+TEST(ModelFindings, HaveTheMessageOfTheSolver) {
+  const std::string void_part = "/PROP/VOID/1\np\n" + reals({1}) + "/PART/1\np\n";
+  const std::string springs = "/PROP/SPRING/1\np\n" + reals({1}) + reals({5}) + "/PART/1\np\n";
+  const std::string spring = "/SPRING/1\n" + cells({1, 1, 2});
+  const std::string no_thickness = "/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) +
+                                   "/PROP/SHELL/1\np\n\n\n\n" + "/PART/1\np\n" + cells({1, 1}) +
+                                   grid_nodes() + "/SHELL/1\n";
+  constexpr int none = -1;
+  struct Row {
+    std::string blocks;
+    RuleId rule;
+    int message;
+  };
+  const Row rows[] = {
+      // A material is missing where there are elements or a property of shells.
+      {quad() + void_part + cells({1, 9}), RuleId::DK103, 179},
+      {quad() + void_part + cells({1, 0}), RuleId::DK103, 179},
+      {grid_nodes() + void_part + cells({1, 9}), RuleId::DK103, none},
+      {parts() + grid_nodes() + "/PART/7\np\n" + cells({1, 9}), RuleId::DK103, 179},
+      // Springs need none, but one that is named must be there.
+      {grid_nodes() + springs + cells({1, 0}) + spring, RuleId::DK103, none},
+      {quad() + springs + cells({1, 0}), RuleId::DK103, none},
+      {quad() + springs + cells({1, 1}), RuleId::DK103, 179},
+      {parts() + grid_nodes() + "/SHELL/8\n" + cells({1, 1, 2, 5, 4}), RuleId::DK104, 402},
+      // An element that names a node twice.
+      {parts() + quads() + "/SHELL/1\n" + cells({9, 1, 1, 2, 4}), RuleId::DK136, 22},
+      {parts() + quads() + "/SHELL/1\n" + cells({9, 1, 2, 5, 1}), RuleId::DK136, 22},
+      {parts() + quads() + "/SHELL/1\n" + cells({9, 1, 2, 5, 5}), RuleId::DK136, none},
+      {parts() + quads() + "/SPRING/1\n" + cells({1, 1, 1}), RuleId::DK136, 681},
+      {parts() + quads() + spring, RuleId::DK136, none},
+      // A unit system that is not there; the keyword of the nodes is known.
+      {"/NODE/5\n" + node(1, 0, 0, 0), RuleId::DK109, 643},
+      {"/NODE/5\n" + node(1, 0, 0, 0), RuleId::DK040, none},
+      {grid_nodes() + "/SKEW/FIX/1/5\ns\n", RuleId::DK109, 659},
+      // Thickness of the plies of a stack.
+      {"/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/TYPE17/1\np\n\n\n\n\n\n" +
+           "/PART/1\np\n" + cells({1, 1}) + quad(),
+       RuleId::DK106, none},
+      // Its own thickness is enough.
+      {no_thickness + "         7         1         2         5         4" + std::string(30, ' ') +
+           reals({1.5}),
+       RuleId::DK106, none},
+      {no_thickness + cells({7, 1, 2, 5, 4}), RuleId::DK106, 495},
+  };
+  for (const Row& r : rows) EXPECT_EQ(BuiltModel(r.blocks).message(r.rule), r.message) << r.blocks;
 }
 
-TEST(Part, MissingMaterialIsMessage179IfThereAreElementsOrAPropertyOfShells) {
-  const std::string prop = "/PROP/VOID/1\np\n" + reals({1});
-  for (const int material : {9, 0}) {
-    BuiltModel used(quad() + prop + "/PART/1\np\n" + cells({1, material}));
-    EXPECT_EQ(used.message(RuleId::DK103), 179) << material;
-  }
-  BuiltModel empty(grid_nodes() + prop + "/PART/1\np\n" + cells({1, 9}));
-  EXPECT_EQ(empty.findings(RuleId::DK103), 0u);
-  BuiltModel shells(parts() + grid_nodes() + "/PART/7\np\n" + cells({1, 9}));
-  EXPECT_EQ(shells.message(RuleId::DK103), 179);
-}
-
-TEST(Part, SpringsNeedNoMaterial) {
-  BuiltModel b(grid_nodes() + "/PROP/SPRING/1\np\n" + reals({1}) + reals({5}) + "/PART/1\np\n" +
-               cells({1, 0}) + "/SPRING/1\n" + cells({1, 1, 2}));
-  EXPECT_EQ(b.findings(RuleId::DK103), 0u);
-}
-
-TEST(Part, ElementsOfAMissingPartAreOneFindingPerPart) {
+TEST(ModelFindings, OfElementsOfAMissingPartAreOnePerPart) {
   BuiltModel b(parts() + grid_nodes() + "/SHELL/8\n" + cells({1, 1, 2, 5, 4}) +
                cells({2, 2, 3, 6, 5}) + "/SHELL/9\n" + cells({3, 4, 5, 8, 7}));
-  EXPECT_EQ(b.findings(RuleId::DK104), 2u);
-  EXPECT_EQ(b.message(RuleId::DK104), 402);
-}
-
-TEST(Part, AMissingOneCountsItsElementsFromTheFirstOn) {
-  BuiltModel b(parts() + grid_nodes() + "/SHELL/8\n" + cells({1, 1, 2, 5, 4}));
-  ASSERT_EQ(b.findings(RuleId::DK104), 1u);
+  std::vector<std::string> counts;
   for (const Diagnostic& d : b.diagnostics().all())
-    if (d.rule == RuleId::DK104) {
-      EXPECT_EQ(d.message.find("1 "), 0u) << d.message;
-    }
-}
-
-TEST(Part, ASpringPropertyExcusesAMaterialThatIsNotNamedNotOneThatIsMissing) {
-  const auto findings = [](std::int64_t mat) {
-    BuiltModel b(quad() + "/PROP/SPRING/1\np\n" + reals({1}) + reals({5}) + "/PART/1\np\n" +
-                 cells({1, mat}));
-    return b.findings(RuleId::DK103);
-  };
-  EXPECT_EQ(findings(0), 0u);
-  EXPECT_EQ(findings(1), 1u);
-}
-
-TEST(Element, ThatNamesANodeTwiceIsMessage22Or681) {
-  const auto message = [](const std::string& element) {
-    BuiltModel b(parts() + grid_nodes() + element);
-    return b.message(RuleId::DK136);
-  };
-  EXPECT_EQ(message("/SHELL/1\n" + cells({1, 1, 1, 2, 4})), 22);
-  EXPECT_EQ(message("/SHELL/1\n" + cells({1, 1, 2, 5, 1})), 22);
-  EXPECT_EQ(message("/SHELL/1\n" + cells({1, 1, 2, 5, 5})), -1) << "a triangle";
-  EXPECT_EQ(message("/SPRING/1\n" + cells({1, 1, 1})), 681);
-  EXPECT_EQ(message("/SPRING/1\n" + cells({1, 1, 2})), -1);
+    if (d.rule == RuleId::DK104) counts.push_back(d.message.substr(0, 2));
+  EXPECT_EQ(counts, (std::vector<std::string>{"2 ", "1 "}));
 }
 
 TEST(ModelFindings, CarryKeywordAndIdOfTheirBlock) {
@@ -87,52 +74,21 @@ TEST(ModelFindings, CarryKeywordAndIdOfTheirBlock) {
   EXPECT_EQ(b.findings(RuleId::DK109), 1u);
 }
 
-TEST(Shell, OfAStackHasTheThicknessOfItsPlies) {
-  BuiltModel b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/TYPE17/1\np\n\n\n\n\n" +
-               "/PART/1\np\n" + cells({1, 1}) + quad());
-  EXPECT_EQ(b.findings(RuleId::DK106), 0u);
-}
-
-TEST(Shell, OwnThicknessIsEnough) {
-  std::string line = cells({7, 1, 2, 5, 4});
-  line.pop_back();
-  line.resize(80, ' ');
-  BuiltModel b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
-               "/PART/1\np\n" + cells({1, 1}) + grid_nodes() + "/SHELL/1\n" + line + reals({1.5}));
-  EXPECT_EQ(b.findings(RuleId::DK106), 0u);
-}
-
-TEST(Node, SecondUseOfAnIdTellsWhetherTheCoordinatesAgree) {
-  BuiltModel b("/NODE\n" + node(1, 0, 0, 0) + node(1, 0, 0, 0));
-  ASSERT_EQ(b.findings(RuleId::DK105), 1u);
-  std::string message;
-  for (const Diagnostic& d : b.diagnostics().all())
-    if (d.rule == RuleId::DK105) message = d.message;
-  EXPECT_NE(message.find("same coordinates"), std::string::npos);
-}
-
-TEST(Property, ThicknessAndAreaAreInWorkingUnits) {
-  BuiltModel b("/PROP/VOID/1\np\n" + reals({0.002}) + "/PROP/TRUSS/2\np\n" + reals({3e-6}),
+TEST(Property, HasItsValuesInWorkingUnits) {
+  BuiltModel b("/PROP/VOID/1\np\n" + reals({0.002}) + "/PROP/TRUSS/2\np\n" + reals({3e-6}) +
+                   "/PROP/SH_ORTH/3\np\n\n\n\n\n/PROP/TYPE9/4\np\n\n\n\n\n",
                "kg m s");
-  EXPECT_NEAR(b.model().properties[0].thickness, 2, 1e-14);
-  EXPECT_NEAR(b.model().properties[1].area, 3, 1e-14);
-}
-
-TEST(Property, SpringStiffnessIsDividedByItsScale) {
-  BuiltModel b("/PROP/SPRING/1\np\n" + reals({1}) + reals({5, 0, 2}));
-  EXPECT_EQ(b.model().properties[0].stiffness[0], 2.5);
-}
-
-TEST(Property, OfAnAxisymmetricSpringHasTensionAndShear) {
-  BuiltModel b("/PROP/SPR_AXI/1\np\n" + reals({1}) + reals({6, 0, 2}) + "\n\n" + reals({8, 0, 4}));
-  EXPECT_EQ(b.model().properties.at(0).stiffness[0], 3);
-  EXPECT_EQ(b.model().properties.at(0).stiffness[1], 2);
-}
-
-TEST(Property, NumberFollowsFromNameOrType) {
-  BuiltModel b("/PROP/SH_ORTH/1\np\n\n\n\n\n/PROP/TYPE9/2\np\n\n\n\n\n");
-  EXPECT_EQ(b.model().properties[0].number, 9);
-  EXPECT_EQ(b.model().properties[1].number, 9);
+  const auto& p = b.model().properties;
+  EXPECT_NEAR(p.at(0).thickness, 2, 1e-14);
+  EXPECT_NEAR(p.at(1).area, 3, 1e-14);
+  EXPECT_EQ(p.at(2).number, 9);
+  EXPECT_EQ(p.at(3).number, 9);
+  BuiltModel springs("/PROP/SPRING/1\np\n" + reals({1}) + reals({5, 0, 2}) +
+                     "/PROP/SPR_AXI/2\np\n" + reals({1}) + reals({6, 0, 2}) + "\n\n" +
+                     reals({8, 0, 4}));
+  EXPECT_EQ(springs.model().properties.at(0).stiffness[0], 2.5) << "divided by its scale";
+  EXPECT_EQ(springs.model().properties.at(1).stiffness[0], 3) << "tension";
+  EXPECT_EQ(springs.model().properties.at(1).stiffness[1], 2) << "shear";
 }
 
 TEST(Run, OptionsOfTheWholeRun) {
@@ -163,14 +119,6 @@ TEST(ConnectionNode, HasItsToleranceInTheUnitsOfTheDeck) {
   EXPECT_EQ(b.group(1), (Ids{1, 51})) << "a tolerance of 1 mm";
 }
 
-TEST(Unit, UnknownUnitSystemIsOneFindingMessage643ForNodesAnd659Elsewhere) {
-  BuiltModel b("/NODE/5\n" + node(1, 0, 0, 0));
-  EXPECT_EQ(b.message(RuleId::DK109), 643);
-  EXPECT_EQ(b.findings(RuleId::DK040), 0u) << "the keyword is known";
-  BuiltModel g(grid_nodes() + "/SKEW/FIX/1/5\ns\n");
-  EXPECT_EQ(g.message(RuleId::DK109), 659);
-}
-
 TEST(Unit, UnknownUnitSystemIsAnErrorWhereTheSolverLooksItUp) {
   const auto severity = [](const std::string& deck) {
     BuiltModel b(grid_nodes() + deck);
@@ -184,15 +132,6 @@ TEST(Unit, UnknownUnitSystemIsAnErrorWhereTheSolverLooksItUp) {
   for (const char* block : {"/SKEW/FIX/1/5\ns\n", "/SURF/SEG/1/5\ns\n", "/GRAV/1/5\ng\n",
                             "/RWALL/SPHER/1/5\nw\n", "/INTER/TYPE24/1/5\ni\n", "/CONVEC/1/5\nc\n"})
     EXPECT_EQ(severity(block), Severity::error) << block;
-}
-
-TEST(Place, OfANodeAndAnElementIsItsLine) {
-  BuiltModel b(parts() + grid_nodes() + "# a comment\n" + node(50, 1, 2, 3) + "/SHELL/1\n" +
-               cells({7, 1, 2, 5, 4}) + cells({8, 2, 3, 6, 5}));
-  const Model& m = b.model();
-  const auto text = [&](Span s) { return std::string(m.deck->sources.text(s).substr(0, 10)); };
-  EXPECT_EQ(text(m.node_span(m.nodes.map.find(50))), "        50");
-  EXPECT_EQ(text(m.element_span(ElementKind::shell4, m.shell4.map.find(8))), "         8");
 }
 
 TEST(Order, IsByFileIdAndRowAndPlacesAreStillThoseOfTheText) {
@@ -213,21 +152,15 @@ TEST(Order, IsByFileIdAndRowAndPlacesAreStillThoseOfTheText) {
 
 TEST(Place, OfRepeatedIdsIsFoundByOneWalkOfEachBlock) {
   constexpr int many = 400, repeated = 50;
-  std::string nodes, again, shells, shells_again;
+  std::string nodes = "/NODE\n", again = nodes;
   for (int i = 1; i <= many; ++i) {
-    const std::string line = node(i, i % 20, i / 20, 0);
-    const std::string shell = cells({i, 1, 2, 3, 4});
-    nodes += line;
-    shells += shell;
-    if (i <= many - repeated) continue;
-    again += line;
-    shells_again += shell;
+    nodes += node(i, i % 20, i / 20, 0);
+    if (i > many - repeated) again += node(i, i % 20, i / 20, 0);
   }
   const std::uint64_t before = deck::detail::items_walked();
-  BuiltModel b(parts() + "/NODE\n" + nodes + "/SHELL/1\n" + shells + "/NODE\n" + again +
-               "/SHELL/1\n" + shells_again);
-  EXPECT_EQ(b.findings(RuleId::DK105), 2u * repeated);
-  EXPECT_LE(deck::detail::items_walked() - before, 2u * (many + repeated));
+  BuiltModel b(nodes + again);
+  EXPECT_EQ(b.findings(RuleId::DK105), repeated);
+  EXPECT_LE(deck::detail::items_walked() - before, many + repeated);
   for (const Diagnostic& d : b.diagnostics().all()) {
     if (d.rule != RuleId::DK105) continue;
     const auto id = [&](const Span& s) { return b.model().deck->sources.text(s).substr(0, 10); };
@@ -235,34 +168,8 @@ TEST(Place, OfRepeatedIdsIsFoundByOneWalkOfEachBlock) {
     EXPECT_EQ(id(d.span), id(d.notes[0].first));
     EXPECT_LT(d.notes[0].first.offset, d.span.offset);
     EXPECT_EQ(id(d.span), cells({d.id}).substr(0, 10));
+    EXPECT_NE(d.message.find("same coordinates"), std::string::npos);
   }
-}
-
-TEST(Connectivity, RowsListElementsOnce) {
-  BuiltModel b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) +
-               cells({2, 2, 3, 6, 5}) + "/SHELL/2\n" + cells({3, 4, 5, 5, 7}));
-  const Model& m = b.model();
-  const NodeElements rows = connect_nodes(m.shell4, m.nodes.size());
-  const auto row = rows.row(m.nodes.map.find(5));
-  EXPECT_EQ(std::vector<std::uint32_t>(row.begin(), row.end()),
-            (std::vector<std::uint32_t>{0, 1, 2}));
-}
-
-TEST(Connectivity, ElementsOfAPartAreRuns) {
-  BuiltModel b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) +
-               cells({2, 2, 3, 6, 5}) + "/SHELL/2\n" + cells({3, 4, 5, 8, 7}) + "/SHELL/9\n" +
-               cells({5, 4, 5, 8, 7}) + "/SHELL/1\n" + cells({4, 5, 6, 9, 8}));
-  const Model& m = b.model();
-  const PartElements parts = connect_parts(m.shell4, m.parts.size());
-  const auto runs = [&](std::size_t part) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
-    for (const ElementRun& run : parts.row(part)) out.emplace_back(run.first, run.end);
-    return out;
-  };
-  using Runs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-  EXPECT_EQ(runs(0), (Runs{{0, 3}}));
-  EXPECT_EQ(runs(1), (Runs{{3, 4}}));
-  EXPECT_TRUE(runs(2).empty());
 }
 
 TEST(Model, FindingsAboutElementsAreTheSameForAnyNumberOfThreads) {
@@ -290,31 +197,12 @@ TEST(Model, FindingsAboutElementsAreTheSameForAnyNumberOfThreads) {
     if (threads == 1) expected = messages;
     EXPECT_EQ(messages, expected) << threads;
   }
-  const auto has = [&](const std::string& part) {
-    for (const std::string& m : expected)
-      if (m.find(part) != std::string::npos) return true;
-    return false;
-  };
-  EXPECT_TRUE(has("9000 shells of part 9 have no thickness")) << expected.size();
-  EXPECT_TRUE(has("first is element 81001"));
-  EXPECT_TRUE(has("9 shells of part 1 have the same third and fourth node"));
-  EXPECT_TRUE(has("first is element 9700"));
-  EXPECT_TRUE(has("node 18001: Z is 1e+80"));
-}
-
-/// Every id of the groups of a real deck resolves without a finding about groups.
-TEST(Corpus, DummyResolvesWithoutGroupErrors) {
-  const std::string root = test::shared_dir().string();
-  const std::string path = root + "/corpus/EuroSID_II/EuroSID_II_0000.rad";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no corpus at " << root;
-  auto deck = read_deck(path, SchemaSet::built_in());
-  ASSERT_TRUE(deck);
-  Diagnostics found;
-  const Model m = build_model(*deck, SchemaSet::built_in(), found);
-  EXPECT_EQ(m.nodes.size(), 16296u);
-  m.selections->resolve_all();
-  for (const Diagnostic& d : m.selections->diagnostics().all())
-    EXPECT_NE(d.severity, Severity::error) << d.message;
+  for (const char* part : {"9000 shells of part 9 have no thickness", "first is element 81001",
+                           "9 shells of part 1 have the same third and fourth node",
+                           "first is element 9700", "node 18001: Z is 1e+80"})
+    EXPECT_TRUE(std::any_of(expected.begin(), expected.end(), [&](const std::string& m) {
+      return m.find(part) != m.npos;
+    })) << part;
 }
 
 }  // namespace

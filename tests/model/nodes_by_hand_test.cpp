@@ -8,15 +8,9 @@ namespace deck::test {
 namespace {
 
 /// A model of an example's text.
-struct Made {
+struct Made : BuiltModel {
   explicit Made(const std::string& text)
-      : deck(std::make_unique<Result<Deck>>(read_deck_text(
-            "made_0000.rad", example_deck("@bare\n" + text, SchemaSet::built_in()).main,
-            SchemaSet::built_in()))),
-        model(build_model(**deck, SchemaSet::built_in(), found)) {}
-  Diagnostics found;
-  std::unique_ptr<Result<Deck>> deck;
-  Model model;
+      : BuiltModel(example_text("@version 2024\n" + text, SchemaSet::built_in())) {}
 };
 
 // ---- noise -------------------------------------------------------------------------------------
@@ -24,7 +18,7 @@ struct Made {
 TEST(Noise, MovesEveryCoordinateByTheSolversNumbers) {
   std::string nodes = "/NODE\n";
   for (int n = 1; n <= 4; ++n) nodes += node(n, 10 * n, 20 * n, 30 * n);
-  const Made m(nodes + "@/RANDOM Noise=0.5\n");
+  Made m(nodes + "@/RANDOM Noise=0.5\n");
   // r' = (25173 r + 13849) mod 65536 from 0 on: 13849, 54226, 49995 ...
   std::uint64_t r = 0;
   std::vector<double> moved;
@@ -35,9 +29,9 @@ TEST(Noise, MovesEveryCoordinateByTheSolversNumbers) {
   EXPECT_NEAR(moved[0], 0.5 * (2 * 13849.0 / 65536 - 1), 1e-15);
   for (std::size_t n = 0; n < 4; ++n) {
     const double at = static_cast<double>(n + 1);
-    EXPECT_NEAR(m.model.nodes.x[n], 10 * at + moved[3 * n], 1e-13);
-    EXPECT_NEAR(m.model.nodes.y[n], 20 * at + moved[3 * n + 1], 1e-13);
-    EXPECT_NEAR(m.model.nodes.z[n], 30 * at + moved[3 * n + 2], 1e-13);
+    EXPECT_NEAR(m.model().nodes.x[n], 10 * at + moved[3 * n], 1e-13);
+    EXPECT_NEAR(m.model().nodes.y[n], 20 * at + moved[3 * n + 1], 1e-13);
+    EXPECT_NEAR(m.model().nodes.z[n], 30 * at + moved[3 * n + 2], 1e-13);
   }
 }
 
@@ -81,9 +75,9 @@ TEST(ConnectionNodes, FollowOneAnotherToTheLast) {
 TEST(AffineMaps, OfTransformsInGeneralPosition) {
   // Node 1 at (1, 2, 3); the axis runs from (1, 0, 1) along (1, 2, 2) / 3.
   const auto moved = [](const std::string& cards) {
-    const Made m("/NODE\n" + node(1, 1, 2, 3) + node(2, 1, 0, 1) + node(3, 4, 6, 7) +
-                 "/GRNOD/NODE/1\ng\n" + cells({1}) + cards + "\n");
-    return std::array{m.model.nodes.x[0], m.model.nodes.y[0], m.model.nodes.z[0]};
+    Made m("/NODE\n" + node(1, 1, 2, 3) + node(2, 1, 0, 1) + node(3, 4, 6, 7) +
+           "/GRNOD/NODE/1\ng\n" + cells({1}) + cards + "\n");
+    return std::array{m.model().nodes.x[0], m.model().nodes.y[0], m.model().nodes.z[0]};
   };
   const auto near = [](const std::array<double, 3>& got, const std::array<double, 3>& wanted) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], 1e-12) << i;

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -50,15 +51,13 @@ inline std::string node(std::int64_t id, double x, double y, double z) {
 /// A deck with the given blocks between /BEGIN and /END.
 inline std::string deck_text(const std::string& blocks, const char* input_units = "kg mm ms",
                              int version = 2024) {
+  std::istringstream words(input_units);
   std::string mass, length, time;
-  const std::string units = input_units;
-  const auto a = units.find(' '), b = units.rfind(' ');
-  char line[96];
-  std::snprintf(line, sizeof line, "%20s%20s%20s\n", units.substr(0, a).c_str(),
-                units.substr(a + 1, b - a - 1).c_str(), units.substr(b + 1).c_str());
-  char begin[32];
-  std::snprintf(begin, sizeof begin, "%10d         0\n", version);
-  return "#RADIOSS STARTER\n/BEGIN\ntest\n" + std::string(begin) + std::string(line) +
+  words >> mass >> length >> time;
+  char head[128];
+  std::snprintf(head, sizeof head, "%10d         0\n%20s%20s%20s\n", version, mass.c_str(),
+                length.c_str(), time.c_str());
+  return "#RADIOSS STARTER\n/BEGIN\ntest\n" + std::string(head) +
          "                  kg                  mm                  ms\n" + blocks + "/END\n";
 }
 
@@ -96,11 +95,6 @@ class BuiltModel {
     std::vector<Ids> out;
     if (const LineSet* l = selections().line(id))
       for (const Edge& edge : l->edges) out.push_back(ids({edge.nodes.begin(), edge.nodes.end()}));
-    return out;
-  }
-  std::vector<Ids> edges(const std::vector<Edge>& all) const {
-    std::vector<Ids> out;
-    for (const Edge& edge : all) out.push_back(ids({edge.nodes.begin(), edge.nodes.end()}));
     return out;
   }
   /// Findings of `rule` from building and from the selections.
@@ -161,6 +155,12 @@ inline std::string grid_nodes() {
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 3; ++x) out += node(1 + x + 3 * y, 10 * x, 10 * y, 0);
   return out;
+}
+
+/// Shells 1..4 on these nodes, in parts 1 (1, 2) and 2 (3, 4).
+inline std::string quads() {
+  return grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
+         "/SHELL/2\n" + cells({3, 4, 5, 8, 7}) + cells({4, 5, 6, 9, 8});
 }
 
 /// Nodes 101..112 of two unit cubes side by side in x.

@@ -14,34 +14,28 @@ struct Kind {
   Ids parts;
   std::vector<Ids> nodes;
 };
-const std::vector<Kind> kinds{
-    {"GRSHEL",
-     "SHEL",
-     "SHELL",
-     "grshel",
-     {13, 11, 12},
-     {1, 1, 2},
-     {{1, 2, 3, 4}, {3, 4, 5, 6}, {5, 6, 7, 8}}},
-    {"GRSH3N",
-     "SH3N",
-     "SH3N",
-     "grsh3n",
-     {23, 21, 22},
-     {1, 1, 2},
-     {{5, 6, 7}, {7, 8, 9}, {8, 9, 10}}},
-    {"GRBRIC",
-     "BRIC",
-     "BRICK",
-     "grbric",
-     {33, 31, 32},
-     {4, 4, 5},
-     {{11, 12, 13, 14, 15, 16, 17, 18},
-      {15, 16, 17, 18, 19, 20, 21, 22},
-      {19, 20, 21, 22, 23, 24, 25, 26}}},
-    {"GRTRUS", "TRUS", "TRUSS", "grtrus", {43, 41, 42}, {3, 3, 6}, {{1, 9}, {9, 10}, {10, 27}}},
-    {"GRBEAM", "BEAM", "BEAM", "grbeam", {53, 51, 52}, {3, 3, 6}, {{2, 10}, {10, 12}, {12, 28}}},
-    {"GRSPRI", "SPRI", "SPRING", "grspri", {63, 61, 62}, {3, 3, 6}, {{3, 11}, {11, 13}, {13, 29}}},
-};
+std::vector<Kind> make_kinds() {
+  const std::vector<Ids> quads{{1, 2, 3, 4}, {3, 4, 5, 6}, {5, 6, 7, 8}};
+  const std::vector<Ids> triangles{{5, 6, 7}, {7, 8, 9}, {8, 9, 10}};
+  std::vector<Ids> bricks;
+  for (std::int64_t n = 11; n < 23; n += 4)
+    bricks.push_back({n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7});
+  return {
+      {"GRSHEL", "SHEL", "SHELL", "grshel", {13, 11, 12}, {1, 1, 2}, quads},
+      {"GRSH3N", "SH3N", "SH3N", "grsh3n", {23, 21, 22}, {1, 1, 2}, triangles},
+      {"GRBRIC", "BRIC", "BRICK", "grbric", {33, 31, 32}, {4, 4, 5}, bricks},
+      {"GRTRUS", "TRUS", "TRUSS", "grtrus", {43, 41, 42}, {3, 3, 6}, {{1, 9}, {9, 10}, {10, 27}}},
+      {"GRBEAM", "BEAM", "BEAM", "grbeam", {53, 51, 52}, {3, 3, 6}, {{2, 10}, {10, 12}, {12, 28}}},
+      {"GRSPRI",
+       "SPRI",
+       "SPRING",
+       "grspri",
+       {63, 61, 62},
+       {3, 3, 6},
+       {{3, 11}, {11, 13}, {13, 29}}},
+  };
+}
+const std::vector<Kind> kinds = make_kinds();
 
 std::string zoo() {
   std::string out = parts() + "/NODE\n";
@@ -200,6 +194,7 @@ TEST(MissingMembers, AreNamedWithTheMessageOfTheSolver) {
       {group("GRNOD", "SURF", 1, {77}), RuleId::DK151, 193},
       {group("GRNOD", "LINE", 1, {77}), RuleId::DK151, 193},
       {group("GRNOD", "GRSHEL", 1, {77}), RuleId::DK151, 172},
+      {group("GRNOD", "BOX", 1, {77}), RuleId::DK159, 690},
       {group("GRSHEL", "SHEL", 1, {77}), RuleId::DK168, 70},
       {group("GRQUAD", "QUAD", 1, {77}), RuleId::DK168, 0},
       {group("GRSHEL", "GRSHEL", 1, {77}), RuleId::DK151, 172},

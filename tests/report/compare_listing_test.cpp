@@ -2,6 +2,7 @@
 
 #include <cctype>
 
+#include "deck/text/rule_id.hpp"
 #include "model/shared/mesh.hpp"
 #include "report/inspected.hpp"
 #include "report/shared/listing.hpp"
@@ -169,12 +170,33 @@ TEST(CompareListings, MessagesAreGatheredByWhatTheyName) {
   EXPECT_EQ(first.nodes, (std::vector<std::int64_t>{6, 7}));
   EXPECT_EQ(first.lines, (std::vector<std::size_t>{10, 30, 50}));
   EXPECT_EQ(first.span.offset, d.scene.interfaces->ordered[0]->span.offset);
+  ASSERT_FALSE(first.findings.empty());
+  EXPECT_EQ(report.findings[first.findings[0]].rule, RuleId::DK301);
   EXPECT_FALSE(report.messages[2].places[1].span.valid()) << "the deck has no interface 9";
   const MessagePlace& node = report.messages[0].places.at(0);
   EXPECT_EQ(node.id, 5);
   EXPECT_TRUE(node.span.valid());
   EXPECT_EQ(report.messages[1].places.at(0).id, 0) << "of several nodes it is about none alone";
   EXPECT_FALSE(report.messages[1].places.at(0).span.valid());
+}
+
+TEST(CompareListings, NameFindingsThatTheListingDoesNotHave) {
+  Inspected d(plates());
+  const Listing listing;
+  const ListingReport report = compare_listing(listing, d.loaded);
+  EXPECT_TRUE(std::any_of(report.not_listed.begin(), report.not_listed.end(),
+                          [&](std::size_t f) { return report.findings[f].rule == RuleId::DK301; }));
+}
+
+TEST(ExplainListing, BoundsWhatOneDamagedMessageTakes) {
+  std::string text = "CONTROL  PARAMETERS\nERROR ID : 611\n** X\nDESCRIPTION :\n";
+  for (int i = 1; i <= 1000; ++i)
+    text += fmt::format("   -- NODE ID : {}\n   -- INTERFACE ID : {}\n", i, i);
+  const Listing listing = *read_listing_text("a.out", text);
+  const ListingReport report = explain_listing(listing);
+  ASSERT_EQ(report.messages.size(), 1u);
+  ASSERT_EQ(report.messages[0].places.size(), 1u) << "not a thousand, each with a thousand nodes";
+  EXPECT_EQ(report.messages[0].places[0].name, "interface 1 and 999 more");
 }
 
 }  // namespace

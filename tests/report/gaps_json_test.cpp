@@ -69,14 +69,6 @@ TEST(GapsJson, AnEarlierVersionIsRefusedWithTheCommandThatWritesItAnew) {
   EXPECT_THAT(earlier.error().message, testing::HasSubstr("deck gaps a.rad --json old.json"));
 }
 
-TEST(GapsJson, AnEarlierDocumentHasNoTiesToCompareWith) {
-  const Inspected d(tied());
-  const std::string json = gaps_json("test_0000.rad", d.deck, d.scene, d.view, false);
-  const auto earlier = read_earlier_gaps("old.json", json, "test_0000.rad");
-  ASSERT_TRUE(earlier.ok());
-  EXPECT_EQ(earlier->rows.size(), 0u);
-}
-
 /// Nodes of the first deck's ties that the second one has lost.
 std::size_t lost_ties(const std::string& before, const std::string& now) {
   const auto loaded = [](const std::string& text) {
@@ -119,45 +111,24 @@ TEST(GapsJson, NodesThatATypeTwoTiesNoMoreAreLost) {
   EXPECT_EQ(lost_ties(far.text(), far.text()), 0u);
 }
 
-TEST(GapsJson, AnEarlierDocumentHasTheDepthOfEdges) {
-  const Inspected d(edges());
-  const std::string json = gaps_json("test_0000.rad", d.deck, d.scene, d.view, false);
-  const auto earlier = read_earlier_gaps("old.json", json, "test_0000.rad");
-  ASSERT_TRUE(earlier.ok());
-  for (const EarlierGaps::Row& r : earlier->rows) {
-    EXPECT_EQ(r.gap, 2.5);
-  }
-  for (const GapsComparison::Row& r : compare_gaps(*earlier, d.scene, d.view).rows) {
-    EXPECT_EQ(r.trend, Trend::same);
-  }
-  EXPECT_FALSE(earlier->rows.empty());
-}
-
-TEST(GapsJson, AnEarlierDocumentHasTheEdgesOfType25) {
+TEST(GapsJson, AnEarlierDocumentHasEdgesWithTheirDepth) {
   SmallDeck small;  // the borders of two sheets cross
   small.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
   small.node(5, 5, 5, 0.25).node(6, 15, 5, 0.25).node(7, 15, 15, 0.25).node(8, 5, 15, 0.25);
   small.shell_part(1, 2).shell_part(2, 2).shell(1, 1, 1, 2, 3, 4).shell(2, 2, 5, 6, 7, 8);
   small.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2});
   small.add("@/INTER/TYPE25/3 surf_ID1=1 surf_ID2=2 Inacti=5 Iedge=2");
-  const Inspected d(small.text());
-  ASSERT_GT(d.view.total.count.edges, 0u);
-  const std::string json = gaps_json("test_0000.rad", d.deck, d.scene, d.view, false);
-  const auto earlier = read_earlier_gaps("old.json", json, "test_0000.rad");
-  ASSERT_TRUE(earlier.ok());
-  const GapsComparison compared = compare_gaps(*earlier, d.scene, d.view);
-  EXPECT_EQ(compared.count(Trend::same), compared.rows.size());
-  EXPECT_TRUE(compared.solved.empty());
-}
-
-TEST(GapsJson, HasTheVerdict) {
-  const Inspected d(tied());
-  const Verdict v = verdict_of(d.deck, d.scene, d.view);
-  const auto all = document_of(tied());
-  EXPECT_EQ(all["verdict"]["level"], std::string(to_string(v.level)));
-  EXPECT_EQ(all["verdict"]["text"], v.text);
-  EXPECT_EQ(all["verdict"]["sentences"].size(), v.sentences.size());
-  EXPECT_EQ(all["verdict"]["counts"]["tied_pairs"], 4);
+  for (const std::string& text : {edges(), small.text()}) {
+    const Inspected d(text);
+    ASSERT_GT(d.view.total.count.edges, 0u);
+    const std::string json = gaps_json("test_0000.rad", d.deck, d.scene, d.view, false);
+    const auto earlier = read_earlier_gaps("old.json", json, "test_0000.rad");
+    ASSERT_TRUE(earlier.ok());
+    const GapsComparison compared = compare_gaps(*earlier, d.scene, d.view);
+    EXPECT_GT(compared.rows.size(), 0u);
+    EXPECT_EQ(compared.count(Trend::same), compared.rows.size());
+    EXPECT_TRUE(compared.solved.empty());
+  }
 }
 
 }  // namespace

@@ -38,13 +38,6 @@ TEST(GapsText, HasOneRowPerInterfaceAndCleanOnesInOneLine) {
   EXPECT_EQ(text.find("reversed"), std::string::npos) << text;
 }
 
-TEST(GapsText, SaysTheVerdictOnceAndLast) {
-  const Inspected d(several());
-  const std::string verdict = verdict_of(d.deck, d.scene, d.view).text, text = text_of(d);
-  EXPECT_TRUE(text.ends_with("\n\n" + verdict + "\n")) << text;
-  EXPECT_EQ(count_of(text, verdict), 1u) << text;
-}
-
 TEST(GapsText, FitsTheTerminalAndKeepsEveryIdWhole) {
   const Inspected d(several());
   GapsTextOptions options;

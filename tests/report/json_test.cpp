@@ -1,4 +1,4 @@
-// Tests of the JSON writer.
+// Tests of the JSON writer and of text tables.
 #include "report/shared/json.hpp"
 
 #include <gtest/gtest.h>
@@ -79,6 +79,33 @@ TEST(TextTable, AlignsColumnsByCharactersAndLeavesNoBlanksAtTheEnd) {
   table.row({"\xc3\xa9", "12", "x"});
   table.row({"abcdef", "3"});
   EXPECT_EQ(table.render(), "name     n  note\n\xc3\xa9       12  x\nabcdef   3\n");
+  EXPECT_EQ(table.fitted(0), table.render());
+}
+
+TEST(FittedTable, BreaksTextsBeforeItFoldsColumns) {
+  TextTable table({{"id", Align::right}, {"a long text", Align::left}, {"n", Align::right}});
+  table.row({"1", "words that go on and on behind the end", "22"});
+  const std::string text = table.fitted(30);
+  EXPECT_EQ(text.find("\n\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("22"), std::string::npos);
+  for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
+    EXPECT_LE(text.find('\n', at) - at, 30u);
+}
+
+TEST(FittedTable, FoldsColumnsBehindTheFirst) {
+  std::vector<TextTable::Column> columns = {{"id", Align::right}};
+  std::vector<TextTable::Cell> row = {"7"};
+  for (int i = 0; i < 10; ++i) {
+    columns.push_back({"column" + std::to_string(i), Align::right});
+    row.emplace_back(std::to_string(i));
+  }
+  TextTable table(columns);
+  table.row(row);
+  const std::string text = table.fitted(40);
+  EXPECT_NE(text.find("\n\nid"), std::string::npos) << text;
+  EXPECT_NE(text.find("column9"), std::string::npos);
+  for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
+    EXPECT_LE(text.find('\n', at) - at, 40u);
 }
 
 }  // namespace

@@ -77,13 +77,6 @@ TEST(PartsView, CountsElementsByKindAndNamesWhatHasNone) {
   EXPECT_EQ(p.view.unconnected_nodes, 2u) << "98 and 99; the beam has node 58";
 }
 
-TEST(PartsView, KindsHaveNames) {
-  std::vector<std::string> names;
-  for (int k = 0; k < 8; ++k) names.emplace_back(detail::kind_name(static_cast<ElementKind>(k)));
-  EXPECT_EQ(names, (std::vector<std::string>{"shell4", "shell3", "solid", "quad", "tria", "truss",
-                                             "beam", "spring"}));
-}
-
 TEST(PartsView, AnInterfaceSeesThePartsOfItsGroupsSurfacesAndLines) {
   SmallDeck d = ten_parts();
   d.segments("/SURF/SEG/60", {{21, 22, 23, 24}, {31, 32, 33, 34}});

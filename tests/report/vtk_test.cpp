@@ -44,14 +44,6 @@ TEST(Vtk, OneFilePerSideAndThePenetrations) {
   EXPECT_EQ(names(gaps_vtk(b.scene, make_view(b.scene))), expected);
 }
 
-TEST(Vtk, SameBytesEveryTime) {
-  const Built a(scene_deck()), b(scene_deck());
-  const auto first = gaps_vtk(a.scene, make_view(a.scene));
-  const auto second = gaps_vtk(b.scene, make_view(b.scene));
-  ASSERT_EQ(first.size(), second.size());
-  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].bytes, second[i].bytes);
-}
-
 TEST(Vtk, SceneWithoutContactsStillHasAPenetrationFile) {
   SmallDeck d;
   d.node(1, 0, 0, 0);

@@ -3,11 +3,8 @@
 with an exit code from 0 to 4: sets of sets, gaps beyond the mesh, numbers without bounds, settings that
 explode, and every verb under address spaces of many sizes."""
 import os
-import shutil
-import sys
-import tempfile
 
-from common import ROOT, SAMPLES, Checks
+from common import run_steps, write
 from hostile import BEGIN
 
 ORDERLY = (0, 1, 2, 3)
@@ -96,9 +93,8 @@ def cases():
 
 def settings(c, folder):
     """.decklint.toml beside a deck, as a stranger would write it."""
-    deck = os.path.join(folder, "a" * 100 + "_0000.rad")
-    with open(deck, "wb") as f:
-        f.write(BEGIN + PARTS)
+    deck = write(os.path.join(folder, "a" * 100 + "_0000.rad"), BEGIN + PARTS)
+    write(os.path.join(folder, "brackets"), "[" * 1000000)
     config = os.path.join(folder, ".decklint.toml")
     stars = '[per-file-ignores]\n"%s" = ["DK0"]\n' % ("*a" * 60 + "b")
     for name, text, codes in (
@@ -112,23 +108,16 @@ def settings(c, folder):
             ("/dev/zero as a baseline", 'baseline = "/dev/zero"\n', (2,)),
             ("/dev/tty as a baseline", 'baseline = "/dev/tty"\n', (2,)),
             ("a baseline of brackets", 'baseline = "brackets"\n', (2,))):
-        with open(config, "w") as f:
-            f.write(text)
-        with open(os.path.join(folder, "brackets"), "w") as f:
-            f.write("[" * 1000000)
-        r = c.run("lint", deck, timeout=20)
-        c.no_crash("settings: " + name, r, codes)
-    os.remove(config)
+        write(config, text)
+        c.no_crash("settings: " + name, c.run("lint", deck, timeout=20), codes)
 
 
 def memory(c, folder):
     """Every verb under address spaces of many sizes: an answer or exit code 4 (or 3), never a signal."""
     if c.sanitized:
         return c.skip("memory limits", "a sanitizer needs the whole address space")
-    big = os.path.join(folder, "big_0000.rad")
-    with open(big, "wb") as f:
-        f.write(BEGIN + PARTS + sheet(1, 150, 1.0, 0.0, 1) + sheet(100001, 150, 1.0, 0.4, 2) + type7(1, 2, 1, 1.0, irem=1)
-                + type7(2, 2, 2, 3.0, irem=2))
+    big = write(os.path.join(folder, "big_0000.rad"), BEGIN + PARTS + sheet(1, 150, 1.0, 0.0, 1) + sheet(100001, 150, 1.0, 0.4, 2)
+                + type7(1, 2, 1, 1.0, irem=1) + type7(2, 2, 2, 3.0, irem=2))
     needs = os.path.join(folder, "out")
     verbs = [("lint", "--geometry"), ("params",), ("gaps", "--json", needs + ".json", "--all"), ("cycle", "--all", "--json", needs + ".json"),
              ("convert", "--to", "json", "-o", needs), ("fix", "--strategy", "inacti", "--diff"), ("gaps", "--html", needs + ".html"),
@@ -136,8 +125,6 @@ def memory(c, folder):
     failed = 0
     sizes = (24, 32, 40, 48, 56, 64, 80, 96, 112, 128, 160, 192, 256, 384, 512)
     for verb, *options in verbs:
-        if not c.has(verb):
-            continue
         # Where the program is loaded and its own tables just fit or do not, every size is another case.
         just = tuple(range(18, 32)) if verb == "lint" else ()
         for threads in ("1", "4") if c.options.all else ("4",):
@@ -152,28 +139,17 @@ def memory(c, folder):
     c.check("some limits were too small, so that this tests something", failed > 10, "%d runs ran out of memory" % failed)
 
 
-def main():
-    c = Checks()
-    folder = tempfile.mkdtemp(prefix="deck-bounds-")
-    try:
-        verbs = [v for v in (("lint", "--geometry"), ("params",), ("parts",), ("gaps",), ("cycle",), ("fix", "--strategy", "move-nodes"),
-                             ("fix", "--strategy", "reduce-gap"),
-                             ("accuracy", "--samples", "3", "--repeats", "1")) if c.has(v[0])]
-        for name, text, options, texts in cases():
-            deck = os.path.join(folder, "d_0000.rad")
-            with open(deck, "wb") as f:
-                f.write(text)
-            for verb in verbs:
-                r = c.run(*verb, deck, timeout=60)
-                if c.no_crash("%s: %s" % (verb[0], name), r, ORDERLY) and verb[0] == "lint":
-                    for wanted in texts:
-                        c.check("lint: %s names %s" % (name, wanted), wanted in r.text, r.text[-600:].replace("\n", " | "))
-        settings(c, folder)
-        memory(c, folder)
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
-    c.finish()
+def decks(c, folder):
+    verbs = (("lint", "--geometry"), ("params",), ("parts",), ("gaps",), ("cycle",), ("fix", "--strategy", "move-nodes"),
+             ("fix", "--strategy", "reduce-gap"), ("accuracy", "--samples", "3", "--repeats", "1"))
+    for name, text, options, texts in cases():
+        deck = write(os.path.join(folder, "d_0000.rad"), text)
+        for verb in verbs:
+            r = c.run(*verb, deck, timeout=60)
+            if c.no_crash("%s: %s" % (verb[0], name), r, ORDERLY) and verb[0] == "lint":
+                for wanted in texts:
+                    c.check("lint: %s names %s" % (name, wanted), wanted in r.text, r.text[-600:].replace("\n", " | "))
 
 
 if __name__ == "__main__":
-    main()
+    run_steps(decks, settings, memory)

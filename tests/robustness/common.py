@@ -1,21 +1,84 @@
-"""What the checks of the command line share: counting, running `deck` under limits, finding decks.
+"""What the checks of the command line share: counting, running `deck` under limits, files, finding decks.
 
 A check prints one line when it fails and nothing when it passes; the script ends with
 'N passed, N failed' and exits 1 if anything failed."""
 import argparse
 import glob
+import json
 import os
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SAMPLES = sorted(glob.glob(os.path.join(ROOT, "samples", "*_0000.rad")))
 CRASH = re.compile(rb"AddressSanitizer|LeakSanitizer|ThreadSanitizer|UndefinedBehavior|runtime error:|"
                    rb"deck: internal error|terminate called|Assertion")
+
+
+def read(path):
+    with open(path, "rb") as f:
+        return f.read()
+
+
+def write(path, data):
+    """Text or bytes, in a folder that is made for it; returns the path."""
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "wb") as f:
+        f.write(data.encode() if isinstance(data, str) else data)
+    return path
+
+
+def tree(directory):
+    """{relative path: bytes} of all files below a directory."""
+    found = {}
+    for folder, _, names in os.walk(directory):
+        for name in names:
+            full = os.path.join(folder, name)
+            found[os.path.relpath(full, directory)] = read(full)
+    return found
+
+
+def put(directory, files):
+    """A directory that holds these files and no others."""
+    shutil.rmtree(directory, ignore_errors=True)
+    os.makedirs(directory)
+    for name, data in files.items():
+        write(os.path.join(directory, name), data)
+
+
+def differing(a, b):
+    """Names of two trees whose bytes differ."""
+    return ", ".join(sorted(k for k in set(a) | set(b) if a.get(k) != b.get(k))[:8])
+
+
+def wrong_schemas(directory, name):
+    """A folder with a schema of the project by which a change of units writes another Gapmin."""
+    schema = json.loads(read(os.path.join(ROOT, "schemas", "keywords", name)))
+    for card in schema["cards"]:
+        for field in card.get("fields", []):
+            if field.get("name") == "Gapmin":
+                field["dim"] = [1, 0, 0]
+    write(os.path.join(directory, name), json.dumps(schema))
+    return directory
+
+
+def preload_library(source, directory):
+    """A file of C beside this one as a library to be preloaded; None where there is no compiler."""
+    path = os.path.join(directory, source[:-2] + ".so")
+    for compiler in ("cc", "gcc", "clang-14", "clang"):
+        if shutil.which(compiler):
+            r = subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-fno-builtin", "-o", path, os.path.join(ROOT, "tests", "robustness", source), "-ldl"],
+                               capture_output=True, text=True)
+            if r.returncode != 0:
+                sys.exit(source + ": " + r.stderr[-500:])
+            return path
+    return None
 
 
 class Result:
@@ -112,6 +175,20 @@ class Checks:
         return self.check(name, result.code in codes, "exit code %s, expected one of %s; %s" % (
             result.code, list(codes), result.text[-300:].strip().replace("\n", " | ")))
 
+    def preload(self, source, directory):
+        """As preload_library; None, said once, where it cannot be used."""
+        library = None if self.sanitized else preload_library(source, directory)
+        if library is None:
+            self.skip(source, "no C compiler, or a sanitizer, which does not go together with it")
+        return library
+
+    def all_decks(self):
+        """[(stem, path)] of the samples and the decks outside the project that are complete."""
+        corpus = self.corpus_decks()
+        if not corpus:
+            self.skip("corpus", "no decks under %s (set DECK_CORPUS)" % self.options.corpus)
+        return [(os.path.basename(p)[:-9], p) for p in SAMPLES] + [d for d in corpus if "missing_include" not in d[1]]
+
     def corpus_decks(self):
         """[(stem, path)] of the decks outside the project, smallest first; [] where there are none."""
         found = glob.glob(os.path.join(self.options.corpus, "corpus", "**", "*_0000.rad"), recursive=True)
@@ -122,3 +199,12 @@ class Checks:
         tail = ", %d skipped" % self.skipped if self.skipped else ""
         print("%d passed, %d failed%s" % (self.passed, self.failed, tail))
         sys.exit(1 if self.failed else 0)
+
+
+def run_steps(*steps, checks=Checks):
+    """A script: every step gets the checks and a directory of its own."""
+    c = checks()
+    for step in steps:
+        with tempfile.TemporaryDirectory(prefix="deck-", ignore_cleanup_errors=True) as tmp:
+            step(c, os.path.realpath(tmp))
+    c.finish()

@@ -8,10 +8,9 @@ import concurrent.futures
 import json
 import os
 import re
-import shutil
 import tempfile
 
-from common import SAMPLES, Checks
+from common import Checks
 
 PLACES = {"source", "file", "line", "column", "path", "places", "place", "deck", "tool", "schema", "span", "defined_at",
           "input", "origin", "gapmin_origin", "accuracy"}
@@ -178,21 +177,14 @@ def one(job):
     """One deck through everything; returns the counts."""
     stem, path = job
     c = Checks()
-    work = tempfile.mkdtemp(prefix="deck-conversions-")
-    try:
-        deck = Deck(c, stem, path, work)
-        conversions(deck, work)
-    finally:
-        shutil.rmtree(work, ignore_errors=True)
+    with tempfile.TemporaryDirectory(prefix="deck-conversions-") as work:
+        conversions(Deck(c, stem, path, work), work)
     return c.passed, c.failed
 
 
 def main():
     c = Checks()
-    decks = [(os.path.basename(p)[:-9], p) for p in SAMPLES] + c.corpus_decks()
-    if len(decks) == len(SAMPLES):
-        c.skip("corpus", "no decks under %s (set DECK_CORPUS)" % c.options.corpus)
-    decks = [(stem, path) for stem, path in decks if "missing_include" not in path]
+    decks = c.all_decks()
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
         for passed, failed in pool.map(one, reversed(decks)):  # the largest first
             c.passed += passed

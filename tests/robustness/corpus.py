@@ -1,83 +1,37 @@
 #!/usr/bin/env python3
 """Every deck at hand (samples, and the corpus where it is present) through lint, params, convert:
 no crash, unchanged bytes, effective values as the reference solver printed them."""
-import json
 import os
-import re
 import shutil
 import subprocess
 import sys
-import tempfile
 
-from common import SAMPLES, Checks
-
-INCLUDE = re.compile(rb"^#include\s+(.*?)\s*$", re.I | re.M)
+from common import SAMPLES, read, run_steps, tree
 
 
-def include_tree(path):
-    """The files of a deck below its own directory, as paths relative to it."""
-    top = os.path.dirname(path)
-    todo, seen = [os.path.basename(path)], []
-    while todo:
-        name = todo.pop()
-        full = os.path.join(top, name)
-        if name in seen or not os.path.isfile(full):
+def decks(c, tmp):
+    for stem, path in [(os.path.basename(p)[:-9], p) for p in SAMPLES] + c.corpus_decks():
+        lacking = "missing_include" in path
+        codes = (3,) if lacking else (0, 1)
+        r = c.run("lint", path)
+        if c.no_crash("lint " + stem, r, codes) and lacking:
+            for name in (b"Hybrid_III_50TH_0000.rad", b"example_h350_sled_belt_0000.inc", b":21:", b":22:"):
+                c.check("lint %s names %s" % (stem, name.decode()), name in r.out + r.err)
+        target = os.path.join(tmp, stem + ".json")
+        c.no_crash("params " + stem, c.run("params", path, "--json", target), codes)
+        compare_params(c, stem, target)
+        if not lacking:
+            c.no_crash("gaps " + stem, c.run("gaps", path, "--quiet", timeout=600), (0, 1))
+        out = os.path.join(tmp, stem)
+        c.no_crash("convert " + stem, c.run("convert", path, "--to", "rad", "-o", out), codes)
+        # An incomplete tree may be refused, but then nothing of it is written.
+        if lacking and not os.path.exists(out):
             continue
-        seen.append(name)
-        with open(full, "rb") as f:
-            for written in INCLUDE.findall(f.read()):
-                written = written.decode("latin-1").strip("'\" ")
-                for base in (os.path.dirname(name), ""):
-                    candidate = os.path.normpath(os.path.join(base, written))
-                    if os.path.isfile(os.path.join(top, candidate)):
-                        todo.append(candidate)
-                        break
-    return seen
-
-
-def same_bytes(a, b):
-    try:
-        with open(a, "rb") as fa, open(b, "rb") as fb:
-            return fa.read() == fb.read()
-    except OSError:
-        return False
-
-
-def main():
-    c = Checks()
-    decks = [(os.path.basename(p)[:-9], p) for p in SAMPLES] + c.corpus_decks()
-    if len(decks) == len(SAMPLES):
-        c.skip("corpus", "no decks under %s (set DECK_CORPUS)" % c.options.corpus)
-    tmp = tempfile.mkdtemp(prefix="deck-corpus-")
-    try:
-        for stem, path in decks:
-            lacking = "missing_include" in path
-            codes = (3,) if lacking else (0, 1)
-            if c.has("lint"):
-                r = c.run("lint", path)
-                if c.no_crash("lint " + stem, r, codes) and lacking:
-                    for name in (b"Hybrid_III_50TH_0000.rad", b"example_h350_sled_belt_0000.inc", b":21:", b":22:"):
-                        c.check("lint %s names %s" % (stem, name.decode()), name in r.out + r.err)
-            if c.has("params"):
-                target = os.path.join(tmp, stem + ".json")
-                c.no_crash("params " + stem, c.run("params", path, "--json", target), codes)
-                compare_params(c, stem, target)
-            if c.has("gaps") and not lacking:
-                c.no_crash("gaps " + stem, c.run("gaps", path, "--quiet", timeout=600), (0, 1))
-            if c.has("convert"):
-                out = os.path.join(tmp, stem)
-                c.no_crash("convert " + stem, c.run("convert", path, "--to", "rad", "-o", out), codes)
-                # An incomplete tree may be refused, but then nothing of it is written.
-                if lacking and c.check("convert %s writes all that is there or nothing" % stem,
-                                       not os.path.exists(out) or os.listdir(out)) and not os.path.exists(out):
-                    continue
-                for name in include_tree(path):
-                    c.check("convert %s keeps the bytes of %s" % (stem, name),
-                            same_bytes(os.path.join(os.path.dirname(path), name), os.path.join(out, name)))
-                shutil.rmtree(out, ignore_errors=True)
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
-    c.finish()
+        for name, data in tree(out).items():
+            c.check("convert %s keeps the bytes of %s" % (stem, name), data == read(os.path.join(os.path.dirname(path), name)))
+        # What is not there would be missed.
+        c.no_crash("params of the copy of " + stem, c.run("params", os.path.join(out, os.path.basename(path)), "--no-geometry", "-q"), codes)
+        shutil.rmtree(out, ignore_errors=True)
 
 
 def compare_params(c, stem, computed):
@@ -93,4 +47,4 @@ def compare_params(c, stem, computed):
 
 
 if __name__ == "__main__":
-    main()
+    run_steps(decks)

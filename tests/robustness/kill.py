@@ -12,52 +12,12 @@ import os
 import re
 import shutil
 import subprocess
-import sys
-import tempfile
 
-from common import ROOT, SAMPLES, Checks
+from common import ROOT, SAMPLES, differing, put, read, run_steps, tree
 
 TEMPORARY = re.compile(r"^\..+(\.\d+-\d+\.tmp|\.unfinished)$")
 KILLS = ("kill", "half")
 FAILURES = (str(errno.ENOSPC), str(errno.EIO))
-
-
-def read(path):
-    with open(path, "rb") as f:
-        return f.read()
-
-
-def tree(directory):
-    """{relative path: bytes} of all files below a directory."""
-    found = {}
-    for folder, _, names in os.walk(directory):
-        for name in names:
-            full = os.path.join(folder, name)
-            found[os.path.relpath(full, directory)] = read(full)
-    return found
-
-
-def put(directory, files):
-    shutil.rmtree(directory, ignore_errors=True)
-    for name, data in files.items():
-        full = os.path.join(directory, name)
-        os.makedirs(os.path.dirname(full), exist_ok=True)
-        with open(full, "wb") as f:
-            f.write(data)
-    os.makedirs(directory, exist_ok=True)
-
-
-def build_shim(directory):
-    """The preloaded library, or None where there is no compiler."""
-    path = os.path.join(directory, "fault.so")
-    source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "fault.c")
-    for compiler in ("cc", "gcc", "clang-14", "clang"):
-        if shutil.which(compiler):
-            r = subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", path, source, "-ldl"], capture_output=True, text=True)
-            if r.returncode != 0:
-                sys.exit("fault.c: " + r.stderr[-500:])
-            return path
-    return None
 
 
 class Striker:
@@ -240,45 +200,30 @@ def batch(c, s, tmp):
             code, _, text = s.run(0, "none", *args, cwd=work)
             if code not in (0, 1):
                 return "the second run ends with %d: %s" % (code, text[-200:])
-            again = visible(out)
-            return "" if again == new else "the second run does not complete it: " + ", ".join(
-                sorted(k for k in set(again) | set(new) if again.get(k) != new.get(k)))
+            return "" if visible(out) == new else "the second run does not complete it: " + differing(visible(out), new)
         calls, why = s.every(action, prepare, args, work, judge)
         c.check("batch: %s at each of %d calls, completed by a second run" % (action, calls), not why and calls > 30, why or "too few calls")
 
 
-def main():
-    c = Checks()
-    if c.sanitized:
-        c.skip("kill tests", "the preloaded library and a sanitizer do not go together")
-        c.finish()
-    tmp = tempfile.mkdtemp(prefix="deck-kill-")
-    try:
-        shim = build_shim(tmp)
-        if shim is None:
-            c.skip("kill tests", "no C compiler")
-            c.finish()
-        s = Striker(c, shim, tmp)
-        rewriting(c, s, tmp, "lint --fix", ("lint", "car_0000.rad", "--fix", "-q"), two_file_deck())
-        source = os.path.join(tmp, "source")
-        put(source, two_file_deck())
-        copy = ("convert", os.path.join(source, "car_0000.rad"), "-o", ".", "-q")
-        rewriting(c, s, tmp, "convert to an empty directory", copy, {})
-        rewriting(c, s, tmp, "convert over older files", (*copy, "--overwrite"), {"car_0000.rad": b"# older\n" * 1000, "part.inc": b"# older part\n"})
-        if b"--backup" in c.run("convert", "--help").out:
-            rewriting(c, s, tmp, "convert --in-place --backup", ("convert", "car_0000.rad", "--units", "Mg,mm,s", "--in-place", "--backup", "-q"),
-                      split_deck("crash_box", b"/GRNOD"), repeatable=False)
-        rewriting(c, s, tmp, "convert two decks --in-place", ("convert", "car_0000.rad", "second_0000.rad", "--units", "Mg,mm,s", "--in-place", "-q"),
-                  two_decks(), repeatable=False)
-        if c.has("fix"):
-            rewriting(c, s, tmp, "fix --in-place", ("fix", "car_0000.rad", "--strategy", "reduce-gap", "--in-place", "-q"),
-                      {"car_0000.rad": read(os.path.join(ROOT, "samples", "variable_gap_0000.rad"))}, repeatable=False)
-        c.check("convert leaves its source alone", tree(source) == two_file_deck())
-        batch(c, s, tmp)
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
-    c.finish()
+def strikes(c, tmp):
+    shim = c.preload("fault.c", tmp)
+    if shim is None:
+        return
+    s = Striker(c, shim, tmp)
+    rewriting(c, s, tmp, "lint --fix", ("lint", "car_0000.rad", "--fix", "-q"), two_file_deck())
+    source = os.path.join(tmp, "source")
+    put(source, two_file_deck())
+    copy = ("convert", os.path.join(source, "car_0000.rad"), "-o", ".", "-q")
+    rewriting(c, s, tmp, "convert to an empty directory", copy, {})
+    rewriting(c, s, tmp, "convert over older files", (*copy, "--overwrite"), {"car_0000.rad": b"# older\n" * 1000, "part.inc": b"# older part\n"})
+    c.check("convert leaves its source alone", tree(source) == two_file_deck())
+    units = ("--units", "Mg,mm,s", "--in-place", "-q")
+    rewriting(c, s, tmp, "convert --in-place --backup", ("convert", "car_0000.rad", "--backup", *units), split_deck("crash_box", b"/GRNOD"), repeatable=False)
+    rewriting(c, s, tmp, "convert two decks --in-place", ("convert", "car_0000.rad", "second_0000.rad", *units), two_decks(), repeatable=False)
+    rewriting(c, s, tmp, "fix --in-place", ("fix", "car_0000.rad", "--strategy", "reduce-gap", "--in-place", "-q"),
+              {"car_0000.rad": read(os.path.join(ROOT, "samples", "variable_gap_0000.rad"))}, repeatable=False)
+    batch(c, s, tmp)
 
 
 if __name__ == "__main__":
-    main()
+    run_steps(strikes)

@@ -9,12 +9,11 @@ import random
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 
-from common import ROOT, Checks
-from kill import FAILURES, Striker, build_shim, whole_or_old
-from together import pieces, put, tree
+from common import ROOT, differing, put, read, run_steps, tree, write, wrong_schemas
+from kill import FAILURES, Striker, whole_or_old
+from together import pieces
 
 
 def grid(first, height, side):
@@ -59,13 +58,12 @@ def decks_of(directory):
     return {k: v for k, v in results(directory).items() if k not in ("summary.json", "index.html", "losses.json")}
 
 
+def summary(directory, name="summary.json"):
+    return json.loads(read(os.path.join(directory, name)))["decks"]
+
+
 def entries(directory):
-    with open(os.path.join(directory, "summary.json")) as f:
-        return {os.path.basename(d["deck"]): d for d in reversed(json.load(f)["decks"])}
-
-
-def differing(a, b):
-    return ", ".join(sorted(k for k in set(a) | set(b) if a.get(k) != b.get(k))[:8])
+    return {os.path.basename(d["deck"]): d for d in reversed(summary(directory))}
 
 
 def as_by_hand(c, tmp):
@@ -93,20 +91,15 @@ def divided(c, tmp):
     c.run("batch", "-o", one, lib, *verb)
     for i in (1, 2, 3):
         r = c.run("batch", "-o", out, lib, *verb, "--shard", "%d/3" % i)
-        with open(os.path.join(out, "summary-%d-of-3.json" % i)) as f:
-            part = [d["deck"].split(os.sep + "family")[1][:3] for d in json.load(f)["decks"]]
+        part = [d["deck"].split(os.sep + "family")[1][:3] for d in summary(out, "summary-%d-of-3.json" % i)]
         c.check("shard %d: whole families" % i, r.code == 0 and all(part.count(f) == 3 for f in part), str(part))
     r = c.run("batch", "-o", out, "--merge")
     merged = {k: v for k, v in results(out).items() if "-of-3" not in k}
     c.check("shards merge into the bytes of one process", r.code == 0 and merged == results(one), differing(merged, results(one)))
-    for args in (("--jobs", "3"), ("--jobs", "1", "--threads", "3")):
-        other = os.path.join(tmp, "other")
-        shutil.rmtree(other, ignore_errors=True)
-        c.run("batch", "-o", other, lib, *verb, *args)
-        c.check("%s: same bytes" % " ".join(args), results(other) == results(one), differing(results(other), results(one)))
-    manifest = os.path.join(tmp, "list.txt")
-    with open(manifest, "w") as f:
-        f.write(os.path.join(lib, "family00[01]", "*", "*_0000.rad") + "\n")
+    other = os.path.join(tmp, "other")
+    c.run("batch", "-o", other, lib, *verb, "--jobs", "3", "--threads", "3")
+    c.check("three jobs: same bytes", results(other) == results(one), differing(results(other), results(one)))
+    manifest = write(os.path.join(tmp, "list.txt"), os.path.join(lib, "family00[01]", "*", "*_0000.rad") + "\n")
     r = c.run("batch", "-o", os.path.join(tmp, "pattern"), "--manifest", manifest, *verb)
     c.check("a pattern in a manifest", b"6 decks: 6 clean" in r.out, r.text[-200:])
 
@@ -116,47 +109,38 @@ def together_or_not(c, tmp):
     lib, out = os.path.join(tmp, "tlib"), os.path.join(tmp, "tout")
     library(lib, 2, 3)
     bad = os.path.join(lib, "family000", "deck01", "car01_0000.rad")
-    good = open(bad).read()
-    open(bad, "w").write(good.replace("/END", "/UNHEARD/OF/1\nx\n       1.0       2.0\n/END"))
-    verb = ("--verb", "convert --units kg,m,s")
-    r = c.run("batch", "-o", out, lib, *verb)
-    with open(os.path.join(out, "summary.json")) as f:
-        states = [d["status"] for d in json.load(f)["decks"]]
+    good = read(bad)
+
+    def converted(text, units="kg,m,s"):
+        write(bad, text)
+        return c.run("batch", "-o", out, lib, "--verb", "convert --units " + units)
+    r = converted(good.replace(b"/END", b"/UNHEARD/OF/1\nx\n       1.0       2.0\n/END"))
+    states = [d["status"] for d in summary(out)]
     c.check("one refused, two skipped, the other family written", r.code == 1 and states == ["skipped", "failed", "skipped"] + 3 * ["clean"], str(states))
     c.check("nothing of that family", not any(k.startswith("family000") for k in results(out)), str(list(results(out))))
-    with open(os.path.join(out, "losses.json")) as f:
-        open_ = json.load(f)["undecided"]
+    open_ = json.loads(read(os.path.join(out, "losses.json")))["undecided"]
     c.check("the loss report names the place", len(open_) == 1 and open_[0]["file"].endswith("car01_0000.rad"), str(open_))
     # Two unit systems over one include.
-    other = good.replace("                  kg                  mm                  ms\n" * 2, "                  Mg                  mm                   s\n" * 2)
+    other = good.replace(b"                  kg                  mm                  ms\n" * 2, b"                  Mg                  mm                   s\n" * 2)
     c.check("the sample has the units that this changes", other != good)
-    open(bad, "w").write(other)
-    r = c.run("batch", "-o", out, lib, "--verb", "convert --units kg,m,ms")
+    r = converted(other, "kg,m,ms")
     entry = entries(out)["car01_0000.rad"]
-    text = json.dumps(entry)
-    c.check("an include in two unit systems: both decks are named, with their units", r.code == 2 and "car00_0000.rad" in text and "car01_0000.rad" in text and
-            "Mg, mm, s" in text and "kg, mm, ms" in text and entry["status"] == "failed", text)
-    open(bad, "w").write(good)
-    r = c.run("batch", "-o", out, lib, *verb)
+    c.check("an include in two unit systems: both decks are named, with their units", r.code == 2 and entry["status"] == "failed" and
+            all(word in json.dumps(entry) for word in ("car00_0000.rad", "car01_0000.rad", "Mg, mm, s", "kg, mm, ms")), str(entry))
+    r = converted(good)
     c.check("mended: converted", r.code == 0 and any(k.startswith("family000") for k in results(out)), r.text[-200:])
     # Refused after it was written: its files are still the batch's own, and are replaced when it is mended.
-    open(bad, "w").write(other)
-    refused = c.run("batch", "-o", out, lib, *verb)
-    open(bad, "w").write(good.replace("/END", "/TITLE\nnewer\n/END"))
-    r = c.run("batch", "-o", out, lib, *verb)
-    with open(os.path.join(out, "family000", "deck01", "car01_0000.rad")) as f:
-        c.check("refused and mended again: replaced", refused.code == 2 and r.code == 0 and "newer" in f.read(), "%s; %s" % (refused.code, r.text[-200:]))
+    written = os.path.join(out, "family000", "deck01", "car01_0000.rad")
+    refused, r = converted(other), converted(good.replace(b"/END", b"/TITLE\nnewer\n/END"))
+    c.check("refused and mended again: replaced", refused.code == 2 and r.code == 0 and b"newer" in read(written), "%s; %s" % (refused.code, r.text[-200:]))
     # A file that somebody edited is not the batch's own any more.
-    edited = os.path.join(out, "family000", "deck01", "car01_0000.rad")
-    with open(edited, "a") as f:
-        f.write("# edited\n")
-    by_hand = open(edited).read()
-    open(bad, "w").write(good)
-    r = c.run("batch", "-o", out, lib, *verb)
-    c.check("a result that somebody edited is not replaced", r.code == 2 and "--overwrite" in r.text and open(edited).read() == by_hand, r.text[-300:])
-    os.remove(edited)
+    by_hand = read(written) + b"# edited\n"
+    write(written, by_hand)
+    r = converted(good)
+    c.check("a result that somebody edited is not replaced", r.code == 2 and "--overwrite" in r.text and read(written) == by_hand, r.text[-300:])
+    os.remove(written)
     shutil.rmtree(os.path.join(lib, "family001"))
-    r = c.run("batch", "-o", out, lib, *verb)
+    r = converted(good)
     c.check("decks that are gone leave the summary; no deck is deleted", r.code == 0 and len(entries(out)) == 3 and any(
         k.startswith("family001") for k in results(out)), str(list(results(out))))
 
@@ -177,18 +161,15 @@ def in_place(c, tmp):
     c.check("backups hold what was there", all(once[k + ".orig"] == before[k] for k in before if once[k] != before[k]))
     r = c.run("batch", "-o", out, lib, *verb)
     c.check("again: nothing is done twice", r.code == 0 and b"3 were finished before" in r.out and tree(lib) == once, r.text[-200:])
-    with open(deck, "a") as f:
-        f.write("# edited\n")
+    write(deck, read(deck) + b"# edited\n")
     edited = tree(lib)
     r = c.run("batch", "-o", out, lib, *verb)
     c.check("edited since: said, not converted twice", r.code == 2 and b"--force" in r.err and tree(lib) == edited, r.text[-200:])
     r = c.run("batch", "-o", out, lib, *verb, "--force")
+    c.check("--force converts again and numbers the backups", r.code == 0 and any(k.endswith(".orig.2") for k in tree(lib)), r.text[-200:])
     # Decks that are not in the list any more are no results of earlier, though they lie where results go.
-    beside = os.path.join(tmp, "beside")
-    os.makedirs(beside)
-    names = ("too_close_0000.rad", "crash_box_0000.rad")
-    for name in names:
-        shutil.copy(os.path.join(ROOT, "samples", name), beside)
+    beside, names = os.path.join(tmp, "beside"), ("too_close_0000.rad", "crash_box_0000.rad")
+    put(beside, {name: read(os.path.join(ROOT, "samples", name)) for name in names})
     for verb in ("convert --renumber node+1000 --in-place", "fix --strategy inacti --in-place"):
         c.run("batch", "-o", ".", *names, "--verb", verb, "--force", cwd=beside)
         c.run("batch", "-o", ".", names[0], "--verb", verb, "--force", cwd=beside)
@@ -198,41 +179,25 @@ def in_place(c, tmp):
     library(broken, 1, 2)
     shared = os.path.join(broken, "family000", "common", "mat.inc")
     os.remove(shared)
-    with open(shared + ".gz", "wb") as f:
-        f.write(b"\x1f\x8b cut off")
+    write(shared + ".gz", b"\x1f\x8b cut off")
     before = tree(broken)
     p = c.run("batch", "-o", os.path.join(tmp, "bout"), broken, "--verb", "convert --renumber node+1000 --in-place")
     c.check("in place, a file that cannot be read: said, nothing is written", p.code == 2 and b"mat.inc.gz" in p.err and b"nothing was written" in p.err and
             tree(broken) == before, p.text[-300:])
     # What a conversion had no effect on may be edited.
     other, plain = os.path.join(tmp, "other"), os.path.join(tmp, "plain", "car_0000.rad")
-    os.makedirs(os.path.dirname(plain))
-    shutil.copy(os.path.join(ROOT, "samples", "too_close_0000.rad"), plain)
+    write(plain, read(os.path.join(ROOT, "samples", "too_close_0000.rad")))
     for turn in range(2):
         p = c.run("batch", "-o", other, plain, "--verb", "convert --in-place")
         c.check("nothing to convert in place, turn %d" % turn, p.code == 0 and b"finished before" not in p.out, p.text[-200:])
-        with open(plain, "a") as f:
-            f.write("# edited\n")
-    c.check("--force converts again and numbers the backups", r.code == 0 and any(k.endswith(".orig.2") for k in tree(lib)), r.text[-200:])
+        write(plain, read(plain) + b"# edited\n")
 
 
 def unverified(c, tmp):
     """A conversion that does something else (here by a wrong schema) is not written, and the difference is named."""
-    lib, out, schemas = (os.path.join(tmp, n) for n in ("vlib", "vout", "schemas"))
+    lib, out = (os.path.join(tmp, n) for n in ("vlib", "vout"))
     library(lib, 2, 1)
-    os.makedirs(schemas)
-    with open(os.path.join(ROOT, "schemas", "keywords", "inter_type7.json")) as f:
-        text = f.read()
-    schema = json.loads(text)
-    changed = 0
-    for card in schema["cards"]:
-        for field in card.get("fields", []):
-            if field.get("name") == "Gapmin":
-                field["dim"] = [1, 0, 0]
-                changed += 1
-    with open(os.path.join(schemas, "inter_type7.json"), "w") as f:
-        json.dump(schema, f)
-    c.check("the sample schema has Gapmin", changed > 0)
+    schemas = wrong_schemas(os.path.join(tmp, "schemas"), "inter_type7.json")
     r = c.run("batch", "-o", out, lib, "--schemas", schemas, "--verb", "convert --units kg,m,s")
     text = json.dumps(entries(out)) if r.code in (0, 1) else ""
     c.check("what does not verify is not written and named", r.code == 1 and not decks_of(out) and "not the same model" in text, "%s; %s" % (r.code, r.text[-300:] + text[:500]))
@@ -240,19 +205,23 @@ def unverified(c, tmp):
     c.check("--no-verify writes it", r.code == 0 and len(decks_of(out)) == 8, r.text[-300:])
 
 
-def killed(c, tmp, families, each, kills, command, target, name):
-    """Killed at random, resumed: the bytes of an undisturbed run. Returns its seconds."""
+def killed(c, tmp):
+    """Killed at random, resumed: the bytes of an undisturbed run."""
+    families, each, kills = (250, 4, 20) if c.options.all else (12, 3, 6)
+    for name, target, verb in (("below another directory", "out", "convert --units kg,m,s"), ("in place", ".", "convert --renumber node+1000 --in-place")):
+        strikes(c, os.path.join(tmp, target), families, each, kills, ["batch", "-o", "out", ".", "--verb", verb, "--jobs", "2"], target, name)
+
+
+def strikes(c, tmp, families, each, kills, command, target, name):
     r = random.Random(7)
     calm, lib = os.path.join(tmp, "calm"), os.path.join(tmp, "klib")
-    for path in (calm, lib):
-        shutil.rmtree(path, ignore_errors=True)
     library(calm, families, each)
     library(lib, families, each)
     start = time.monotonic()
     first = c.run(*command, cwd=calm, timeout=900)
     took = time.monotonic() - start
     if not c.check("%s: undisturbed" % name, first.code == 0, first.text[-300:]):
-        return took
+        return
     struck = 0
     for _ in range(kills):
         process = subprocess.Popen([c.program, *command], cwd=lib, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
@@ -269,12 +238,11 @@ def killed(c, tmp, families, each, kills, command, target, name):
     again = c.run(*command, cwd=lib, timeout=900)
     c.check("%s: then nothing is left to do" % name, b"%d were finished before" % (families * each) in again.out, again.text[-200:])
     print("%s: %d decks in %.2f s, killed %d times" % (name, families * each, took, struck))
-    return took
 
 
-def full_disk(c, tmp, shim, strikes):
+def full_disk(c, tmp):
     """A disk that is full, or breaks, at any call: what is there is whole, it is said, and the next run completes it."""
-    r = random.Random(9)
+    r, strikes, shim = random.Random(9), 40 if c.options.all else 8, c.preload("fault.c", tmp)
     for verb, target in (("convert --units kg,m,s", "out"), ("fix --strategy inacti", "out"), ("convert --renumber node+1000 --in-place", ".")):
         command = ["batch", "-o", "out", ".", "--verb", verb, "--jobs", "1"]
         lib = os.path.join(tmp, "full")
@@ -303,8 +271,7 @@ def full_disk(c, tmp, shim, strikes):
         small = c.run(*command, cwd=lib, file_bytes=max(len(v) for v in before.values()) // 2)
         c.check("%s, a file does not fit: it is said which" % verb, small.code >= 2 and "mesh.inc" in small.text, "%s; %s" % (small.code, small.text[-400:]))
         afterwards("%s, a file does not fit: the next run completes it" % verb, small.code, small.text)
-        if shim is None or c.sanitized:
-            c.skip("%s on a full disk" % verb, "no preloaded library")
+        if shim is None:
             continue
         s, struck = Striker(c, shim, tmp), 0
         for number in sorted(r.sample(range(1, 160), strikes)):
@@ -316,10 +283,11 @@ def full_disk(c, tmp, shim, strikes):
         c.check("%s: the errors met calls that touch files (%d)" % (verb, struck), struck >= strikes // 3)
 
 
-def read_once(c, tmp, shim):
+def read_once(c, tmp):
     """An include that can be read when a deck is, but not when its result is: nothing is written, by whatever conversion."""
-    if shim is None or c.sanitized:
-        return c.skip("includes that can be read once", "no preloaded library")
+    shim = c.preload("fault.c", tmp)
+    if shim is None:
+        return
     lib, out = (os.path.join(tmp, n) for n in ("olib", "oout"))
     library(lib, 1, 1)
     deck, before = os.path.join(lib, "family000", "deck00", "car00_0000.rad"), tree(lib)
@@ -336,72 +304,5 @@ def read_once(c, tmp, shim):
     c.check("the decks are as they were", tree(lib) == before)
 
 
-def first_interfaces(c, directory):
-    """The decks below a directory by the id of their first interface."""
-    found = {}
-    for name in sorted(tree(directory)):
-        if not name.endswith("_0000.rad"):
-            continue
-        path = os.path.join(directory, name)
-        r = c.run("params", path, "--json", "-", "-q", timeout=300)
-        interfaces = json.loads(r.out)["interfaces"] if r.out else []
-        if interfaces:
-            found.setdefault(interfaces[0]["id"], []).append(path)
-    return found
-
-
-def corpus(c, tmp):
-    """The decks outside the project as one tree: up, units there and back, extract, all verified."""
-    top = os.path.join(c.options.corpus, "corpus")
-    if not os.path.isdir(top):
-        return c.skip("corpus", "no decks under %s (set DECK_CORPUS)" % c.options.corpus)
-
-    def step(out, decks, verb):
-        """One batch; what of it is written."""
-        r = c.run("batch", "-o", out, *decks, "--verb", verb, timeout=3000, memory_mb=16000)
-        c.check("corpus: %s" % verb, r.code in (0, 1, 3) and os.path.exists(os.path.join(out, "summary.json")), r.text[-400:])
-        with open(os.path.join(out, "summary.json")) as f:
-            document = json.load(f)
-        failed = [d["deck"] + ": " + str(d["error"]) for d in document["decks"] if d["status"] == "failed" or "not the same model" in str(d["error"])]
-        c.check("corpus: %s: no deck fails to verify" % verb, not failed, "; ".join(failed)[:600])
-        return {k: v for k, v in document["totals"].items() if v}
-
-    place = os.path.join(tmp, "corpus")
-    at = top
-    for name, verb in (("up", "convert --version 2026"), ("there", "convert --units g,mm,ms"), ("metres", "convert --units kg,m,s"),
-                       ("back", "convert --units kg,mm,ms")):
-        out = os.path.join(place, name)
-        print("corpus: %s: %s" % (verb, step(out, [at], verb)))
-        at = out
-    totals = {}
-    for number, decks in first_interfaces(c, at).items():
-        for k, v in step(os.path.join(place, "extract", str(number)), decks, "convert --extract-contacts %d" % number).items():
-            totals[k] = totals.get(k, 0) + v
-    print("corpus: convert --extract-contacts, the first of each deck: %s" % totals)
-
-
-def main():
-    c = Checks()
-    tmp = tempfile.mkdtemp(prefix="deck-library-")
-    try:
-        as_by_hand(c, tmp)
-        divided(c, tmp)
-        together_or_not(c, tmp)
-        in_place(c, tmp)
-        unverified(c, tmp)
-        shim = build_shim(tmp)
-        read_once(c, tmp, shim)
-        full_disk(c, tmp, shim, 40 if c.options.all else 8)
-        big = c.options.all
-        families, each, kills = (250, 4, 20) if big else (12, 3, 6)
-        killed(c, tmp, families, each, kills, ["batch", "-o", "out", ".", "--verb", "convert --units kg,m,s", "--jobs", "2"], "out", "below another directory")
-        killed(c, tmp, families, each, kills, ["batch", "-o", "out", ".", "--verb", "convert --renumber node+1000 --in-place", "--jobs", "2"], ".", "in place")
-        if big:
-            corpus(c, tmp)
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
-    c.finish()
-
-
 if __name__ == "__main__":
-    main()
+    run_steps(as_by_hand, divided, together_or_not, in_place, unverified, read_once, full_disk, killed)

@@ -7,7 +7,7 @@ import random
 import re
 import tempfile
 
-from common import SAMPLES, Checks
+from common import SAMPLES, run_steps
 
 BULK = ("/NODE", "/SHELL/", "/SH3N/", "/BRICK/", "/TETRA4/", "/PENTA6/", "/TRUSS/", "/BEAM/", "/SPRING/")
 FIRST = ("/BEGIN", "/UNIT", "/PARAMETER", "/IOFLAG", "/ANALY", "/TITLE")  # and what keeps the order of the text
@@ -85,8 +85,7 @@ def text(blocks):
     return "".join(line for block in blocks for line in block)
 
 
-def main():
-    checks = Checks()
+def shuffled(checks, _):
     for path in SAMPLES:
         name = os.path.basename(path)
         if name == "every_mistake_0000.rad" or "//SUBMODEL" in open(path).read():  # its blocks belong together
@@ -125,8 +124,7 @@ def main():
             renamed = [[re.sub(r"/\d+(\s*)$", "/%d\\1" % n, b[0])] + b[1:] for n, b in zip(ids, inter[half:] + inter[:half])]
             one = deck("x_0000.rad", head, renamed, others, "/END\n")
             checks.check(name + " by files", split == answer(checks, one, ids))
-    checks.finish()
 
 
 if __name__ == "__main__":
-    main()
+    run_steps(shuffled)

@@ -6,24 +6,10 @@ import json
 import os
 import shutil
 import subprocess
-import sys
-import tempfile
 import xml.dom.minidom
 
-from common import ROOT, SAMPLES, Checks
-
-try:
-    import jsonschema
-except ImportError:
-    jsonschema = None
-
-
-def schema_of(verb):
-    found = glob.glob(os.path.join(ROOT, "schemas", "output", verb + "*.schema.json"))
-    if not found:
-        return None
-    with open(found[0]) as f:
-        return json.load(f)
+import jsonschema
+from common import ROOT, SAMPLES, read, run_steps, write
 
 
 def strict(text):
@@ -33,17 +19,17 @@ def strict(text):
     return json.loads(text, parse_constant=refuse)
 
 
-def validator_of(c, verb):
-    schema = schema_of(verb)
-    if not c.check("schema of %s is there" % verb, schema is not None, "schemas/output/%s*.schema.json" % verb):
-        return None
+def validators_of(c, verb):
+    """Of the schema as it is, and of its draft-7 subset, which is what is promised."""
+    found = glob.glob(os.path.join(ROOT, "schemas", "output", verb + ".schema.json"))
+    if not c.check("schema of %s is there" % verb, found):
+        return []
+    schema = json.loads(read(found[0]))
     kind = jsonschema.validators.validator_for(schema)
     try:
         kind.check_schema(schema)
-        c.check("schema of %s is a schema" % verb, True)
     except jsonschema.SchemaError as e:
         c.check("schema of %s is a schema" % verb, False, e.message)
-    # The promise is the draft-7 subset: the same documents must pass when read that way.
     return [kind(schema), jsonschema.Draft7Validator(schema)]
 
 
@@ -51,20 +37,14 @@ def check_document(c, name, text, validators):
     try:
         document = strict(text)
     except ValueError as e:
-        c.check(name + " is JSON", False, str(e))
-        return
-    c.check(name + " is JSON", True)
-    for v in validators or ():
+        return c.check(name + " is JSON", False, str(e))
+    for v in validators:
         errors = sorted(v.iter_errors(document), key=lambda e: list(map(str, e.path)))
         c.check("%s against its schema (%s)" % (name, type(v).__name__), not errors,
                 "; ".join("%s: %s" % ("/".join(map(str, e.path)), e.message[:150]) for e in errors[:3]))
 
 
-def verbs_with_json(c):
-    for verb, extra in (("params", []), ("gaps", []), ("gaps", ["--all"]), ("cycle", []), ("cycle", ["--all"]),
-                        ("cycle", ["--costs"]), ("fix", ["--strategy", "move-nodes"])):
-        if c.has(verb):
-            yield verb, extra
+VERBS_WITH_JSON = (("params",), ("gaps",), ("gaps", "--all"), ("cycle",), ("cycle", "--all"), ("cycle", "--costs"), ("fix", "--strategy", "move-nodes"))
 
 
 def sarif_tool():
@@ -72,9 +52,7 @@ def sarif_tool():
     folder = os.path.join(ROOT, "build", "sarif-tool")
     program = os.path.join(folder, "node_modules", "@microsoft", "sarif-multitool-linux", "Sarif.Multitool")
     if not os.path.exists(program) and shutil.which("npm"):
-        os.makedirs(folder, exist_ok=True)
-        with open(os.path.join(folder, "package.json"), "w") as f:
-            f.write('{"name": "sarif-tool", "private": true}\n')
+        write(os.path.join(folder, "package.json"), '{"name": "sarif-tool", "private": true}\n')
         subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--silent", "@microsoft/sarif-multitool@5.7.0"],
                        cwd=folder, capture_output=True, timeout=300, stdin=subprocess.DEVNULL)
     if not os.path.exists(program):
@@ -91,23 +69,15 @@ def check_sarif(c, files):
     def errors_in(paths):
         # With the rules of GitHub's code scanning.
         r = subprocess.run([tool, "validate", *paths, "--rule-kind", "Sarif;Ghas"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
-        return r.returncode, [x for x in r.stdout.split("\n") if ": error " in x], r.stdout + r.stderr
+        return [x for x in r.stdout.split("\n") if ": error " in x], r.stdout + r.stderr
     # The judge must be able to say no.
     bad = os.path.join(os.path.dirname(files[0]), "bad.sarif")
-    with open(bad, "w") as f:
-        f.write('{"version":"2.1.0","$schema":"https://json.schemastore.org/sarif-2.1.0.json",'
-                '"runs":[{"tool":{"driver":{"name":"x","bogus":1}},"results":[]}]}')
-    _, errors, out = errors_in([bad])
+    write(bad, '{"version":"2.1.0","$schema":"https://json.schemastore.org/sarif-2.1.0.json",'
+               '"runs":[{"tool":{"driver":{"name":"x","bogus":1}},"results":[]}]}')
+    errors, out = errors_in([bad])
     if not c.check("the SARIF validator refuses a wrong file", bool(errors), out[-300:]):
         return
-    with open(files[0]) as f:
-        document = json.load(f)
-    document["runs"][0]["results"] = [{"ruleId": "DK101", "message": {"text": "Nowhere."}}]
-    with open(bad, "w") as f:
-        json.dump(document, f)
-    _, errors, out = errors_in([bad])
-    c.check("it knows what GitHub wants", any("GH1017" in e for e in errors), out[-300:])
-    _, errors, out = errors_in(files)  # one call: starting it takes longer than a file
+    errors, out = errors_in(files)  # one call: starting it takes longer than a file
     c.check("every SARIF is looked at", "%d files scanned" % len(files) in out, out[-300:])
     for f in files:
         mine = [e for e in errors if e.startswith(f + "(")]
@@ -156,18 +126,17 @@ def lint_formats(c, tmp):
     c.check("the JUnit check refuses a wrong file", junit_errors('<testsuites><testsuite name="a" tests="2" failures="0" errors="0">'
             '<testcase name="x"/><case/></testsuite></testsuites>') == ["case in testsuite", "<case> is no element", "tests=2 of 1"])
     sarifs = []
-    validators = validator_of(c, "lint")
+    validators = validators_of(c, "lint")
     for path in SAMPLES:
         stem = os.path.basename(path)[:-9]
         out = {k: os.path.join(tmp, stem + "." + k) for k in ("json", "sarif", "junit")}
         r = c.run("lint", path, *[a for k, v in out.items() for a in ("-o", k + "=" + v)])
         if not c.no_crash("lint -o of " + stem, r, (0, 1, 3)):
             continue
-        check_document(c, "lint json of " + stem, open(out["json"]).read(), validators)
+        check_document(c, "lint json of " + stem, read(out["json"]), validators)
         sarifs.append(out["sarif"])
         try:
-            with open(out["junit"], "rb") as f:
-                errors = junit_errors(f.read())
+            errors = junit_errors(read(out["junit"]))
             c.check("junit of " + stem, not errors, "; ".join(errors[:3]))
         except Exception as e:  # any parser error
             c.check("junit of " + stem, False, str(e))
@@ -175,49 +144,45 @@ def lint_formats(c, tmp):
             one = c.run("lint", path, "--format", fmt)
             c.check("--format %s keeps the exit code of %s" % (fmt, stem), one.code == r.code, "%s, was %s" % (one.code, r.code))
             if fmt == "gitlab":
-                check_document(c, "gitlab report of " + stem, one.out.decode(), None)
+                check_document(c, "gitlab report of " + stem, one.out, [])
     if sarifs:
         check_sarif(c, sarifs)
 
 
 def edit_documents(c, tmp):
-    """The deck as JSON, the loss report and the report of a fix."""
-    decks, losses, fixes, gates = (validator_of(c, name) for name in ("deck", "losses", "fix", "gate"))
+    """The deck as JSON, the loss report, the report of a fix and of a gate."""
     report = os.path.join(tmp, "report.json")
+    calls = (("deck", (0,), ("convert", "--to", "json")),
+             ("losses", (0, 1), ("convert", "--units", "kg,m,s", "--partial", "--diff", "--report", report)),
+             ("fix", (0, 1), ("fix", "--strategy", "reduce-gap", "--json", "-")),
+             ("fix", (0, 1), ("fix", "--json", "-")),
+             ("gate", (0, 1), ("gate", "--max-depth", "0.3", "--json", "-")))
+    validators = {schema: validators_of(c, schema) for schema, _, _ in calls}
     for path in SAMPLES:
-        stem = os.path.basename(path)[:-9]
-        r = c.run("convert", path, "--to", "json")
-        if c.no_crash("convert --to json of " + stem, r, (0,)):
-            check_document(c, "deck of " + stem, r.out.decode(), decks)
-        r = c.run("convert", path, "--units", "kg,m,s", "--partial", "--diff", "--report", report)
-        if c.no_crash("convert --report of " + stem, r, (0, 1)):
-            check_document(c, "losses of " + stem, open(report).read(), losses)
-        r = c.run("fix", path, "--strategy", "reduce-gap", "--json", "-")
-        if c.no_crash("fix --json of " + stem, r, (0, 1)):
-            check_document(c, "fix of " + stem, r.out.decode(), fixes)
-        r = c.run("gate", path, "--max-depth", "0.3", "--json", "-")
-        if c.no_crash("gate --json of " + stem, r, (0, 1)):
-            check_document(c, "gate of " + stem, r.out.decode(), gates)
-            c.check("exit code of gate of " + stem, r.code == (0 if strict(r.out.decode())["passed"] else 1), r.code)
-        r = c.run("fix", path, "--json", "-")
-        if c.no_crash("fix --json of %s without a strategy" % stem, r, (0, 1)):
-            check_document(c, "proposals for " + stem, r.out.decode(), fixes)
+        for schema, codes, (verb, *options) in calls:
+            name = "%s of %s" % (" ".join([verb] + options[:3]), os.path.basename(path)[:-9])
+            r = c.run(verb, path, *options)
+            if c.no_crash(name, r, codes):
+                document = read(report) if schema == "losses" else r.out
+                check_document(c, name, document, validators[schema])
+                if schema == "gate":
+                    c.check("exit code of " + name, r.code == (0 if strict(document)["passed"] else 1), r.code)
 
 
 def looks(c, tmp):
     """What `show` and `diff` say, and that a deck written anew with other ids is the same deck."""
-    shows, diffs = (validator_of(c, name) for name in ("show", "diff"))
+    shows, diffs = (validators_of(c, name) for name in ("show", "diff"))
     for path in SAMPLES:
         stem = os.path.basename(path)[:-9]
         for what in ("1", "part:1", "mat:1", "node:2", "shell:1", "node:999999999"):
             name = "show %s of %s" % (what, stem)
             r = c.run("show", path, what, "--json", "-")
             if c.no_crash(name, r, (0, 2)) and r.code == 0:
-                check_document(c, name, r.out.decode(), shows)
+                check_document(c, name, r.out, shows)
         r = c.run("diff", SAMPLES[0], path, "--json", "-")
         if c.no_crash("diff with " + stem, r, (0, 1)):
-            check_document(c, "diff with " + stem, r.out.decode(), diffs)
-            c.check("exit code of diff with " + stem, r.code == (0 if strict(r.out.decode())["equal"] else 1), r.code)
+            check_document(c, "diff with " + stem, r.out, diffs)
+            c.check("exit code of diff with " + stem, r.code == (0 if strict(r.out)["equal"] else 1), r.code)
         c.check("%s equals itself" % stem, c.run("diff", path, path, "--quiet").code == 0)
         copy = os.path.join(tmp, stem)
         if c.run("convert", path, "--renumber", "all=1001", "-o", copy).code == 0:
@@ -229,45 +194,27 @@ def looks(c, tmp):
 
 
 def same_bytes(c, tmp):
-    decks = list(SAMPLES)
-    runs = [(v, ["--json", "-", *extra]) for v, extra in verbs_with_json(c) if "--costs" not in extra]  # times differ
-    if c.has("lint"):
-        runs += [("lint", ["--format", "json"]), ("lint", ["--format", "human"])]
-    for verb, extra in runs:
+    runs = [(*words, "--json", "-") for words in VERBS_WITH_JSON if "--costs" not in words]  # times differ
+    for words in runs + [("lint", "--format", "json"), ("lint", "--format", "human")]:
         first = None
         for threads, locale in ((1, "C"), (2, "C.UTF-8"), (7, "de_DE.UTF-8")):
-            r = c.run(verb, *decks, *extra, "--threads", threads, env={"LC_ALL": locale})
+            r = c.run(*words, *SAMPLES, "--threads", threads, env={"LC_ALL": locale})
             first = r if first is None else first
-            c.check("%s %s: same bytes with %d threads" % (verb, extra[1], threads), r.out == first.out and r.code == first.code)
+            c.check("%s: same bytes with %d threads" % (" ".join(words), threads), r.out == first.out and r.code == first.code)
 
 
-def main():
-    c = Checks()
-    if jsonschema is None:
-        sys.exit("python3-jsonschema is missing: run tools/setup --test")
-    tmp = tempfile.mkdtemp(prefix="deck-outputs-")
-    try:
-        for verb, extra in verbs_with_json(c):
-            validators = validator_of(c, verb)
-            for path in SAMPLES:
-                name = " ".join([verb, *extra, os.path.basename(path)[:-9]])
-                r = c.run(verb, path, "--json", "-", *extra)
-                if c.no_crash(name, r, (0, 1)):
-                    check_document(c, name, r.out.decode(), validators)
-        edit_documents(c, tmp)
-        looks(c, tmp)
-        if c.has("lint"):
-            lint_formats(c, tmp)
-        for verb in ("rules",):
-            if c.has(verb):
-                r = c.run(verb, "--json", "-")
-                if c.no_crash("rules --json", r, (0,)):
-                    check_document(c, "rules", r.out.decode(), validator_of(c, "rules"))
-        same_bytes(c, tmp)
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
-    c.finish()
+def documents(c, tmp):
+    for words in VERBS_WITH_JSON:
+        validators = validators_of(c, words[0])
+        for path in SAMPLES:
+            name = " ".join(words + (os.path.basename(path)[:-9],))
+            r = c.run(*words, path, "--json", "-")
+            if c.no_crash(name, r, (0, 1)):
+                check_document(c, name, r.out, validators)
+    r = c.run("rules", "--json", "-")
+    if c.no_crash("rules --json", r, (0,)):
+        check_document(c, "rules", r.out, validators_of(c, "rules"))
 
 
 if __name__ == "__main__":
-    main()
+    run_steps(documents, edit_documents, looks, lint_formats, same_bytes)

@@ -5,11 +5,9 @@ that shows in the model. ParaView itself is not needed, and its picture not look
 
     python3 tests/robustness/paraview.py DECK"""
 import os
-import shutil
 import subprocess
-import tempfile
 
-from common import ROOT, Checks
+from common import ROOT, run_steps, write
 
 STUB = '''
 import os
@@ -82,41 +80,27 @@ def Render(view): print(COUNT["files"], COUNT["arrows"], COUNT["colours"])
 '''
 
 
-def main():
-    c = Checks()
+def scripts(c, tmp):
     python = "/usr/bin/python3"
     if subprocess.run([python, "-c", "import vtkmodules.vtkIOXML"], capture_output=True).returncode:
-        c.skip("open.py", "no python3 with VTK (Debian: python3-vtk9)")
-        return c.finish()
-    tmp = tempfile.mkdtemp(prefix="deck-paraview-")
-    try:
-        os.makedirs(os.path.join(tmp, "lib", "paraview"))
-        open(os.path.join(tmp, "lib", "paraview", "__init__.py"), "w").close()
-        with open(os.path.join(tmp, "lib", "paraview", "simple.py"), "w") as f:
-            f.write(STUB)
-        crash, clean = (os.path.join(ROOT, "samples", n + "_0000.rad") for n in ("crash_box", "clean_plates"))
-        moved = ["--velocity", "2=0,0,-5", "--dt", "1e-3", "--steps", "3"]
-        for name, call in (("gaps", ["gaps", crash]), ("without a penetration", ["gaps", clean]), ("cycle", ["cycle", crash]),
-                           ("without a force", ["cycle", clean]), ("steps", ["cycle", crash, *moved])):
-            folder = os.path.join(tmp, name)
-            c.no_crash(name, c.run(*call, "--quiet", "--vtk", folder), (0, 1))
-            r = subprocess.run([python, "open.py"], cwd=folder, capture_output=True, text=True,
-                               env={**os.environ, "PYTHONPATH": os.path.join(tmp, "lib"), "PYTHONDONTWRITEBYTECODE": "1"})
+        return c.skip("open.py", "no python3 with VTK (Debian: python3-vtk9)")
+    write(os.path.join(tmp, "lib", "paraview", "__init__.py"), "")
+    write(os.path.join(tmp, "lib", "paraview", "simple.py"), STUB)
+    env = {**os.environ, "PYTHONPATH": os.path.join(tmp, "lib"), "PYTHONDONTWRITEBYTECODE": "1"}
+    crash, clean = (os.path.join(ROOT, "samples", n + "_0000.rad") for n in ("crash_box", "clean_plates"))
+    for name, *call in (("gaps", "gaps", crash), ("without a penetration", "gaps", clean), ("cycle", "cycle", crash), ("without a force", "cycle", clean),
+                        ("steps", "cycle", crash, "--velocity", "2=0,0,-5", "--dt", "1e-3", "--steps", "3")):
+        folder = os.path.join(tmp, name)
+        c.no_crash(name, c.run(*call, "--quiet", "--vtk", folder), (0, 1))
+        for place in (folder, "/"):  # beside its files, and from elsewhere, as ParaView would
+            r = subprocess.run([python, os.path.join(folder, "open.py")], cwd=place, capture_output=True, text=True, env=env)
             if not c.check("%s: open.py runs, and what it names is there" % name, r.returncode == 0, r.stderr[-400:]):
                 continue
             files, arrows, colours = map(int, r.stdout.split())
             vtp = [f for f in os.listdir(folder) if f.endswith(".vtp")]
             c.check("%s: every file is opened" % name, files == len(vtp), "%d of %d" % (files, len(vtp)))
-            c.check("%s: arrows where there is something to show" % name,
-                    (arrows > 0) == ("without" not in name) and colours >= 1, "%d arrows" % arrows)
-            # From elsewhere, as ParaView would.
-            r = subprocess.run([python, os.path.join(folder, "open.py")], cwd="/", capture_output=True, text=True,
-                               env={**os.environ, "PYTHONPATH": os.path.join(tmp, "lib"), "PYTHONDONTWRITEBYTECODE": "1"})
-            c.check("%s: open.py runs from any folder" % name, r.returncode == 0, r.stderr[-400:])
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
-    c.finish()
+            c.check("%s: arrows where there is something to show" % name, (arrows > 0) == ("without" not in name) and colours >= 1, "%d arrows" % arrows)
 
 
 if __name__ == "__main__":
-    main()
+    run_steps(scripts)

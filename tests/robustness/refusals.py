@@ -9,7 +9,7 @@ import os
 import re
 import tempfile
 
-from common import ROOT, SAMPLES, Checks
+from common import ROOT, SAMPLES, read, run_steps, write
 
 CONVERSIONS = (("--version", "2026"), ("--units", "g,cm,ms"), ("--units", "Mg,mm,s"),
                ("--renumber", "node+1"), ("--renumber", "part+1"))
@@ -22,8 +22,7 @@ def described():
     known = set()
     folder = os.path.join(ROOT, "schemas", "keywords")
     for name in os.listdir(folder):
-        with open(os.path.join(folder, name), encoding="utf-8") as f:
-            document = json.load(f)
+        document = json.loads(read(os.path.join(folder, name)))
         for s in document.get("schemas", [document]):
             fields = [f for card in s.get("cards", []) for f in card.get("fields", [])]
             open_units = any(f.get("dim_unknown") or (f.get("ref") in ("funct", "table") and not f.get("axes")) for f in fields)
@@ -43,8 +42,7 @@ BY_SCHEMA = re.compile(r"not known|described|has columns|in working units, which
 
 
 def undecided(report):
-    with open(report, encoding="utf-8") as f:
-        return json.load(f)["undecided"]
+    return json.loads(read(report))["undecided"]
 
 
 def one(c, known, stem, path, tmp, conversion):
@@ -66,41 +64,29 @@ def one(c, known, stem, path, tmp, conversion):
     return True
 
 
-def undecided_by_choice(c):
+def undecided_by_choice(c, tmp):
     """A deck of a keyword that nobody describes: refused, and written with exit code 1 where that is accepted."""
-    for conversion in CONVERSIONS:
-        with tempfile.TemporaryDirectory(prefix="deck-refusals-") as tmp:
-            with open(SAMPLES[0], "rb") as f:
-                text = f.read()
-            path = os.path.join(tmp, "open_0000.rad")
-            with open(path, "wb") as f:
-                f.write(text.replace(b"\n/END", b"\n/FXBODY/7\nbody\n         1         2\n                 3.5\n/END"))
-            name = " ".join(conversion)
-            refused = c.run("convert", path, "-o", os.path.join(tmp, "a"), *conversion)
-            c.check(name + " refuses what nobody describes", refused.code == 1 and not os.path.exists(os.path.join(tmp, "a")), refused.text)
-            written = c.run("convert", path, "-o", os.path.join(tmp, "b"), *conversion, *ACCEPT[conversion[0]])
-            c.check(name + " writes it where that is accepted", os.path.exists(os.path.join(tmp, "b", "open_0000.rad")), written.text)
-            c.check(name + " ends with exit code 1 then", written.code == 1, "exit code %s" % written.code)
+    text = read(SAMPLES[0]).replace(b"\n/END", b"\n/FXBODY/7\nbody\n         1         2\n                 3.5\n/END")
+    path = write(os.path.join(tmp, "open_0000.rad"), text)
+    for n, conversion in enumerate(CONVERSIONS):
+        name, out = " ".join(conversion), os.path.join(tmp, "out%d" % n)
+        refused = c.run("convert", path, "-o", out, *conversion)
+        c.check(name + " refuses what nobody describes", refused.code == 1 and not os.path.exists(out), refused.text)
+        written = c.run("convert", path, "-o", out, *conversion, *ACCEPT[conversion[0]])
+        c.check(name + " writes it where that is accepted, with exit code 1",
+                written.code == 1 and os.path.exists(os.path.join(out, "open_0000.rad")), "%s %s" % (written.code, written.text))
 
 
-def main():
-    c = Checks()
-    undecided_by_choice(c)
-    known = described()
-    decks = [(os.path.basename(p)[:-9], p) for p in SAMPLES] + c.corpus_decks()
-    if len(decks) == len(SAMPLES):
-        c.skip("corpus", "no decks under %s (set DECK_CORPUS)" % c.options.corpus)
-    decks = [(stem, path) for stem, path in decks if "missing_include" not in path]
+def refusals(c, tmp):
+    known, decks = described(), c.all_decks()
     for conversion in CONVERSIONS:
         refused = []
         for stem, path in decks:
-            with tempfile.TemporaryDirectory(prefix="deck-refusals-") as tmp:
-                if one(c, known, stem, path, tmp, conversion):
+            with tempfile.TemporaryDirectory(dir=tmp) as work:
+                if one(c, known, stem, path, work, conversion):
                     refused.append(stem)
-        print("%s: %d of %d decks are refused%s" % (" ".join(conversion), len(refused), len(decks),
-                                                  ": " + ", ".join(refused) if refused else ""))
-    c.finish()
+        print("%s: %d of %d decks are refused%s" % (" ".join(conversion), len(refused), len(decks), ": " + ", ".join(refused) if refused else ""))
 
 
 if __name__ == "__main__":
-    main()
+    run_steps(undecided_by_choice, refusals)

@@ -8,30 +8,14 @@ import json
 import os
 import random
 import select
-import shutil
 import subprocess
-import sys
-import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-from common import ROOT, Checks
-from kill import TEMPORARY, put, read, tree
+from common import ROOT, put, read, run_steps, tree
+from kill import TEMPORARY
 
 FIRST, SAMPLED, MOST = 20, 20, 6000  # by default the first and so many others; with --all at most so many
-
-
-def build_shim(directory):
-    path = os.path.join(directory, "shortage.so")
-    source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "shortage.c")
-    for compiler in ("cc", "gcc", "clang-14", "clang"):
-        if shutil.which(compiler):
-            r = subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-fno-builtin", "-o", path, source, "-ldl"],
-                               capture_output=True, text=True)
-            if r.returncode != 0:
-                sys.exit("shortage.c: " + r.stderr[-500:])
-            return path
-    return None
 
 
 def sample(name):
@@ -198,13 +182,10 @@ class Shortage:
 
         def one(at):
             work = "%s.%d" % (base, at % 2)  # two workers, never the same number at a time
-
-            def attempt(directory):
-                put(directory, old)
-                code, out, _ = self.run(args, directory, of, at)
-                why = self.judge(code, out, usual, old, tree(directory), new)
-                return why and "%s at %d of %d: %s (%s)" % (of, at, total, why, out[-160:].strip().replace("\n", " | "))
-            return attempt(work)
+            put(work, old)
+            code, out, _ = self.run(args, work, of, at)
+            why = self.judge(code, out, usual, old, tree(work), new)
+            return why and "%s at %d of %d: %s (%s)" % (of, at, total, why, out[-160:].strip().replace("\n", " | "))
         places = self.places(total)
         with ThreadPoolExecutor(2) as pool:
             halves = pool.map(lambda parity: [one(n) for n in places if n % 2 == parity], (0, 1))
@@ -213,25 +194,15 @@ class Shortage:
                      "%d faults; first: %s" % (len(faults), "; ".join(faults[:3])))
 
 
-def main():
-    c = Checks()
-    if c.sanitized:
-        c.skip("shortages", "the preloaded library and a sanitizer do not go together")
-        c.finish()
-    tmp = tempfile.mkdtemp(prefix="deck-shortage-")
-    try:
-        shim = build_shim(tmp)
-        if shim is None:
-            c.skip("shortages", "no C compiler")
-            c.finish()
-        s = Shortage(c, shim, tmp)
-        for of in ("memory", "calls"):
-            for name, args, files in verbs():
-                s.verb(name, args, files, of)
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
-    c.finish()
+def shortages(c, tmp):
+    shim = c.preload("shortage.c", tmp)
+    if shim is None:
+        return
+    s = Shortage(c, shim, tmp)
+    for of in ("memory", "calls"):
+        for name, args, files in verbs():
+            s.verb(name, args, files, of)
 
 
 if __name__ == "__main__":
-    main()
+    run_steps(shortages)

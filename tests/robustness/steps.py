@@ -4,12 +4,10 @@
 Every step is verified against the deck before it, so that none refuses what the other steps have changed, and none lets
 pass what it has changed itself."""
 import itertools
-import json
 import os
 import shutil
-import tempfile
 
-from common import ROOT, Checks
+from common import ROOT, run_steps, tree, wrong_schemas
 
 # In the order in which they are done.
 STEPS = {
@@ -29,33 +27,9 @@ DECKS = (  # sample, units that it is put into first, interface to extract, unit
 )
 
 
-def tree(directory):
-    found = {}
-    for folder, _, names in os.walk(directory):
-        for name in names:
-            with open(os.path.join(folder, name), "rb") as f:
-                found[name] = f.read()
-    return found
-
-
 def words(steps, interface, units):
     own = {"--extract-contacts": [interface], "--units": [units]}
     return [w for s in steps for w in [s] + own.get(s, STEPS[s])]
-
-
-def wrong_schema(tmp):
-    """A schema by which a change of units writes another gap."""
-    with open(os.path.join(ROOT, "schemas", "keywords", "inter_type19.json")) as f:
-        schema = json.load(f)
-    for card in schema["cards"]:
-        for field in card.get("fields", []):
-            if field.get("name") == "Gapmin":
-                field["dim"] = [1, 0, 0]
-    folder = os.path.join(tmp, "schemas")
-    os.makedirs(folder)
-    with open(os.path.join(folder, "inter_type19.json"), "w") as f:
-        json.dump(schema, f)
-    return folder
 
 
 def all_steps(c, tmp):
@@ -78,7 +52,7 @@ def all_steps(c, tmp):
 
 def wrong_result(c, tmp):
     """A step that does harm is named by itself, after other steps and before them."""
-    schemas, deck = wrong_schema(tmp), os.path.join(ROOT, "samples", "two_surfaces_0000.rad")
+    schemas, deck = wrong_schemas(os.path.join(tmp, "schemas"), "inter_type19.json"), os.path.join(ROOT, "samples", "two_surfaces_0000.rad")
     for n in (0, 1, 2):
         for others in itertools.combinations([s for s in STEPS if s not in ("--units", "--extract-contacts", "--expand-type19")], n):
             asked = words(["--units", *others], "1", "kg,m,s")
@@ -88,16 +62,5 @@ def wrong_result(c, tmp):
                         "Gapmin" in r.text and not os.path.exists(os.path.join(tmp, "wrong")), "%s %s" % (r.code, r.text[-300:]))
 
 
-def main():
-    c = Checks()
-    tmp = tempfile.mkdtemp(prefix="deck-steps-")
-    try:
-        all_steps(c, tmp)
-        wrong_result(c, tmp)
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
-    c.finish()
-
-
 if __name__ == "__main__":
-    main()
+    run_steps(all_steps, wrong_result)

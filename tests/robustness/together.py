@@ -6,35 +6,15 @@ import os
 import random
 import shutil
 import subprocess
-import tempfile
 
-from common import ROOT, Checks
+from common import ROOT, differing, put, read, run_steps, tree
 
 UNITS = (("Mg", "mm", "s"), ("kg", "cm", "ms"), ("kg", "m", "s"))
 
 
-def tree(directory):
-    found = {}
-    for folder, _, names in os.walk(directory):
-        for name in names:
-            full = os.path.join(folder, name)
-            with open(full, "rb") as f:
-                found[os.path.relpath(full, directory)] = f.read()
-    return found
-
-
-def put(directory, files):
-    for name, text in files.items():
-        full = os.path.join(directory, name)
-        os.makedirs(os.path.dirname(full), exist_ok=True)
-        with open(full, "w") as f:
-            f.write(text)
-
-
 def pieces():
     """Parts of a sample that decks can share: what stands before the nodes, the nodes, the groups, the contact."""
-    with open(os.path.join(ROOT, "samples", "too_close_0000.rad")) as f:
-        text = f.read()
+    text = read(os.path.join(ROOT, "samples", "too_close_0000.rad")).decode()
     n, s, i, e = (text.index(k) for k in ("/NODE", "/SURF", "/INTER", "/END"))
     return text[:n], text[n:s], text[s:i], text[i:e]
 
@@ -122,77 +102,47 @@ def judge(library, call, before, now, alone, code, place):
     return ""
 
 
+def ran(c, library, call, place, tmp, given, *more):
+    """(the run, what was there before where it is written to, what is there now)"""
+    work, where = os.path.join(tmp, "work"), ["--in-place"] if place == "in place" else ["-o", "../out"]
+    shutil.rmtree(tmp, ignore_errors=True)
+    put(work, library.files)
+    before = tree(work)
+    run = c.run(*call, *([] if call[0] == "lint" else where), *more, *given, "-q", cwd=work)
+    if place == "in place":
+        return run, before, tree(work)
+    c.check("-o leaves the sources as they are", tree(work) == before, " ".join(call))
+    return run, {}, tree(os.path.join(tmp, "out"))
+
+
 def case(c, r, number, tmp, counts):
     library, call = Library(r), random_call(r)
-    decks = library.decks()
-    names = "%d: %s of %s" % (number, " ".join(call), " ".join(decks))
-    for place in ("in place", "out"):
-        if place == "out" and call[0] == "lint":
-            continue
-        where = {"lint": []}.get(call[0], ["--in-place"] if place == "in place" else ["-o", "../out"])
-        results = {}
-        for given in [[d] for d in decks] + [decks]:
-            work = os.path.join(tmp, "work")
-            shutil.rmtree(tmp, ignore_errors=True)
-            put(work, library.files)
-            before = tree(work)
-            # Alone, nobody looks for the other decks.
-            root = ["--root", os.path.dirname(given[0])] if place == "in place" and len(given) == 1 else []
-            run = c.run(*call, *where, *root, *given, "-q", cwd=work)
-            after = tree(work) if place == "in place" else tree(os.path.join(tmp, "out"))
-            if place == "out" and tree(work) != before:
-                c.check(names, False, "-o changed the sources")
-            results[tuple(given)] = run, after, before if place == "in place" else {}
-        run, now, before = results[tuple(decks)]
+    for place in ("in place",) if call[0] == "lint" else ("in place", "out"):
         alone = {}
-        for d in decks:
-            one, after, was = results[(d,)]
+        for deck in library.decks():
+            # Alone, nobody looks for the other decks.
+            root = ["--root", os.path.dirname(deck)] if place == "in place" else []
+            one, _, after = ran(c, library, call, place, tmp, [deck], *root)
             # fix ends with 1 where penetrations remain, lint where findings do: they have written all the same.
-            alone[d] = None if one.code > 1 or (one.code == 1 and call[0] == "convert") else after
+            alone[deck] = None if one.code > 1 or (one.code == 1 and call[0] == "convert") else after
+        run, before, now = ran(c, library, call, place, tmp, library.decks())
         why = judge(library, call, before, now, alone, run.code, place)
-        c.check("%s, %s" % (names, place), not why, "%s; %s" % (why, run.text[-300:].strip()))
-        counts[(call[0], "nothing" if now == before else "done", run.code)] = counts.get(
-            (call[0], "nothing" if now == before else "done", run.code), 0) + 1
+        c.check("%d: %s of %s, %s" % (number, " ".join(call), " ".join(library.decks()), place), not why, "%s; %s" % (why, run.text[-300:].strip()))
+        what = call[0], "nothing" if now == before else "done", run.code
+        counts[what] = counts.get(what, 0) + 1
 
 
-def sharing(library, deck):
-    """The decks that share files with this one, directly or by way of others."""
-    found, files = [deck], set(library.trees[deck])
-    while True:
-        more = [d for d in library.decks() if d not in found and files & set(library.trees[d])]
-        if not more:
-            return sorted(found)
-        found += more
-        for d in more:
-            files |= set(library.trees[d])
-
-
-def other_ways(c, r, number, tmp, counts):
-    """The same decks named by their directory, or by one of them with its dependents."""
+def whole_directory(c, r, number, tmp, counts):
+    """The same decks named by their directory."""
     library, call = Library(r), random_call(r)
-    decks = library.decks()
     place = r.choice(("in place", "out")) if call[0] != "lint" else "in place"
-    ways = ["directory"] + (["dependents"] if place == "in place" else [])
-    way = r.choice(ways)
-    where = {"lint": []}.get(call[0], ["--in-place"] if place == "in place" else ["-o", "../out"])
-
-    def run(*given):
-        work = os.path.join(tmp, "work")
-        shutil.rmtree(tmp, ignore_errors=True)
-        put(work, library.files)
-        one = c.run(*call, *where, "-q", *given, cwd=work)
-        after = tree(work) if place == "in place" or not os.path.isdir(os.path.join(tmp, "out")) else tree(os.path.join(tmp, "out"))
-        return one, after
-    name = "%d: %s of %s, %s, %s" % (number, " ".join(call), " ".join(decks), place, way)
-    group = sharing(library, decks[0]) if way == "dependents" else decks
-    expected, wanted = run(*group)
-    got, now = run(*([decks[0], "--with-dependents", "--root", "."] if way == "dependents" else ["."]))
+    expected, _, wanted = ran(c, library, call, place, tmp, library.decks())
+    got, _, now = ran(c, library, call, place, tmp, ["."])
     # Below a directory decks keep their place, also where nothing but their place joins them.
     same = now == wanted or (place == "out" and sorted(now.values()) == sorted(wanted.values()))
-    c.check(name, got.code == expected.code and same, "%s, expected %s; %s; %s" % (
-        got.code, expected.code, [k for k in set(now) | set(wanted) if now.get(k) != wanted.get(k)][:5], got.text[-300:].strip()))
-    changed = expected.code <= 1
-    counts[(way, changed)] = counts.get((way, changed), 0) + 1
+    c.check("%d: %s of %s, %s, by their directory" % (number, " ".join(call), " ".join(library.decks()), place), got.code == expected.code and same,
+            "%s, expected %s; %s; %s" % (got.code, expected.code, differing(now, wanted), got.text[-300:].strip()))
+    counts[expected.code <= 1] = counts.get(expected.code <= 1, 0) + 1
 
 
 def first_node(text):
@@ -251,7 +201,6 @@ def other_folders(c, work):
     """A shared file that lies in another folder than the deck, by a link or by its path: the decks beside it are found."""
     head, nodes, groups, contact = pieces()
     for name, line in (("link", "#include mesh.inc\n"), ("path", "#include ../mesh.inc\n")):
-        shutil.rmtree(work, ignore_errors=True)
         put(work, {"own/car_0000.rad": head + line + groups + contact + "/END\n", "mesh.inc": nodes,
                    "other_0000.rad": head + "#include mesh.inc\n" + groups + contact + "/END\n"})
         if name == "link":
@@ -261,37 +210,27 @@ def other_folders(c, work):
         run = subprocess.run(call, cwd=work, capture_output=True)
         c.check("%s: another deck includes the file, nothing is written" % name,
                 run.returncode == 2 and b"other_0000.rad" in run.stderr and tree(work) == before, "%d %s" % (run.returncode, run.stderr[-300:]))
-        run = subprocess.run(call + ["--with-dependents"], cwd=work, capture_output=True)
-        now = tree(work)
-        c.check("%s: with both decks it changes" % name, run.returncode == 0 and now["mesh.inc"] != before["mesh.inc"],
-                "%d %s" % (run.returncode, run.stderr[-300:]))
+        run = subprocess.run(call + ["other_0000.rad"], cwd=work, capture_output=True)
+        c.check("%s: with both decks it changes" % name, run.returncode == 0 and tree(work)["mesh.inc"] != before["mesh.inc"], "%s" % run.stderr[-300:])
 
 
-def main():
-    c = Checks()
-    r = random.Random(20)
-    counts = {}
-    tmp = tempfile.mkdtemp(prefix="deck-together-")
-    try:
-        for number in range(400 if c.options.all else 60):
-            case(c, r, number, os.path.join(tmp, "case"), counts)
-        ways, draw = {}, random.Random(21)
-        for number in range(300 if c.options.all else 40):
-            other_ways(c, draw, number, os.path.join(tmp, "ways"), ways)
-        for way in ("directory", "dependents"):
-            c.check("%s: decks were written in some cases" % way, ways.get((way, True), 0) > 3, str(ways))
-        at_the_same_time(c, os.path.join(tmp, "race"))
-        into_one_folder(c, os.path.join(tmp, "one"))
-        other_folders(c, os.path.join(tmp, "folders"))
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
+def random_libraries(c, tmp):
+    r, counts = random.Random(20), {}
+    for number in range(400 if c.options.all else 60):
+        case(c, r, number, os.path.join(tmp, "case"), counts)
     for verb in ("convert", "fix", "lint"):
         done = sum(n for (v, what, _), n in counts.items() if v == verb and what == "done")
         c.check("%s: something was written in some cases (%d)" % (verb, done), done > 3, str(counts))
     refused = sum(n for (v, what, code), n in counts.items() if code == 2)
     c.check("some calls were refused because decks disagree (%d)" % refused, refused > 3, str(counts))
-    c.finish()
+
+
+def random_directories(c, tmp):
+    r, counts = random.Random(21), {}
+    for number in range(300 if c.options.all else 40):
+        whole_directory(c, r, number, os.path.join(tmp, "case"), counts)
+    c.check("decks were written in some cases", counts.get(True, 0) > 3, str(counts))
 
 
 if __name__ == "__main__":
-    main()
+    run_steps(random_libraries, random_directories, at_the_same_time, into_one_folder, other_folders)

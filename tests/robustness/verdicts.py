@@ -8,34 +8,29 @@ import os
 import random
 import re
 import shutil
-import tempfile
 import xml.dom.minidom
 
-from common import SAMPLES, Checks
+from common import SAMPLES, read, run_steps, write
 
 SAMPLE = {os.path.basename(p)[:-len("_0000.rad")]: p for p in SAMPLES}
 
 
-def write(path, data):
-    with open(path, "wb") as f:
-        f.write(data)
-    return path
-
-
-def read(path):
-    with open(path, "rb") as f:
-        return f.read()
-
-
-def verbs(c, deck, tmp):
+def verbs(deck, tmp):
     """(verb, arguments) for every verb that reads a deck."""
     out = os.path.join(tmp, "out")
     for verb, *rest in (("lint",), ("lint", "--geometry"), ("params",), ("gaps",), ("cycle",), ("accuracy",),
                         ("convert", "-o", out), ("convert", "--version", "2022", "--diff"), ("convert", "--to", "json"),
                         ("fix", "--strategy", "move-nodes")):
-        if not c.has(verb):
-            continue
         yield (verb, deck, *rest)
+
+
+def batch_of(c, tmp, path, *options):
+    """The run, the entry of the one deck, the totals."""
+    out = os.path.join(tmp, "batch")
+    r = c.run("batch", "-o", out, *options, path)
+    document = json.loads(read(os.path.join(out, "summary.json")))
+    shutil.rmtree(out)
+    return r, document["decks"][0], document["totals"]
 
 
 # ---- what is no Starter deck ---------------------------------------------------------------------
@@ -65,20 +60,17 @@ def no_decks():
 def not_a_deck(c, tmp):
     for name, data, word in no_decks():
         path = write(os.path.join(tmp, "x_0000.rad"), data)
-        for args in verbs(c, path, tmp):
+        for args in verbs(path, tmp):
             r = c.run(*args)
             title = "%s: deck %s" % (name, " ".join(a for a in args if not a.startswith(tmp)))
             if c.check(title + " ends with 3", r.code == 3, "%s; %s" % (r.code, r.text[-200:])):
                 c.check(title + " says what it is", word in r.text and "x_0000.rad" in r.text, r.text[-300:])
             c.check(title + " gives no verdict", "No initial penetration" not in r.text and "0 errors" not in r.text, r.text[-200:])
-        out = os.path.join(tmp, "batch")
-        r = c.run("batch", "-o", out, path)
-        entry = json.loads(read(os.path.join(out, "summary.json")))["decks"][0]
+        r, entry, _ = batch_of(c, tmp, path)
         c.check(name + ": batch", r.code == 3 and entry["status"] == "unreadable" and word in entry["error"], str(entry))
-        shutil.rmtree(out)
     directory = os.path.join(tmp, "dir_0000.rad")
     os.makedirs(directory)
-    for args in verbs(c, directory, tmp):
+    for args in verbs(directory, tmp):
         r = c.run(*args)
         c.check("directory: deck %s" % args[0], r.code == 3 and "directory" in r.text, "%s; %s" % (r.code, r.text[-200:]))
 
@@ -96,8 +88,10 @@ def incomplete(c, tmp):
 
 # ---- what was not examined -----------------------------------------------------------------------
 
-def without_contacts(data):
-    return data[:data.index(b"/INTER/")]
+def before_and_contact():
+    data = read(SAMPLE["too_close"])
+    at = data.index(b"/INTER/")
+    return data[:at], data[at:].replace(b"/END\n", b"")
 
 
 def page_text(path):
@@ -105,12 +99,11 @@ def page_text(path):
     html = read(path).decode()
     blocks = dict(re.findall(r'<script type="[^"]*" id="([^"]*)">(.*?)</script>', html, re.S))
     static = html[html.index('<main id="static">'):html.index("</main>")]
-    return static, json.loads(blocks["deck-meta"].replace("\\u003c", "<")), blocks
+    return static, json.loads(blocks["deck-meta"].replace("\\u003c", "<"))
 
 
 def not_examined(c, tmp):
-    base = without_contacts(read(SAMPLE["too_close"]))
-    contact = read(SAMPLE["too_close"])[len(base):].replace(b"/END\n", b"")
+    base, contact = before_and_contact()
     others = b"".join(b"/INTER/TYPE23/%d\nother\n         1         2\n" % i for i in (4, 5, 6))
     decks = {"others": base + others + b"/END\n", "mixed": base + contact + others + b"/INTER/TYPE18/9\nother\n/END\n", "none": base + b"/END\n"}
     says = {"others": "3 interfaces of TYPE23 (ids 4, 5, 6)", "mixed": "1 interface of TYPE18 (id 9), 3 interfaces of TYPE23 (ids 4, 5, 6)",
@@ -133,22 +126,18 @@ def not_examined(c, tmp):
                 c.check("%s: %s without it" % (name, verb), plain == 0, str(plain))
         html = os.path.join(tmp, "page.html")
         if c.run("gaps", path, "--html", html, "--quiet").code in (0, 1):
-            static, meta, _ = page_text(html)
+            static, meta = page_text(html)
             c.check("%s: the page names them" % name, says[name] in static and says[name] in meta["verdict"]["text"], static[:300])
-        out = os.path.join(tmp, "batch")
         for verb in ("gaps", "cycle", "params", "lint"):
             for strict in (False, True):
-                r = c.run("batch", "-o", out, "--verb", verb, path, *(["--require-examined"] if strict else []))
-                s = json.loads(read(os.path.join(out, "summary.json")))
-                entry = s["decks"][0]
+                r, entry, totals = batch_of(c, tmp, path, "--verb", verb, *(["--require-examined"] if strict else []))
                 title = "%s: batch %s%s" % (name, verb, " --require-examined" if strict else "")
                 if name == "mixed" or verb == "lint":
                     c.check(title + ": not what was examined", (entry["status"] == "not-examined") == (name == "others" and r.code <= 1 and not entry["counts"].get("errors")
                             and not entry["counts"].get("warnings")), str(entry)[:200])
                 else:
-                    c.check(title, entry["status"] == "not-examined" and s["totals"]["not_examined"] == 1 and s["totals"]["clean"] == 0
+                    c.check(title, entry["status"] == "not-examined" and totals["not_examined"] == 1 and totals["clean"] == 0
                             and r.code == int(strict), "%s %s" % (r.code, str(entry)[:200]))
-                shutil.rmtree(out)
 
 
 # ---- errors of the deck --------------------------------------------------------------------------
@@ -156,33 +145,23 @@ def not_examined(c, tmp):
 def errors_of_the_deck(c, tmp):
     """Where the solver stops before it comes to the contacts, no verdict about them is clean."""
     base = read(SAMPLE["clean_plates"])
-    end = base.rindex(b"/END")
     inserted = {
         "whole": b"",
-        "a node of a group": b"/GRNOD/NODE/991\ng\n%10d%10d\n/GRNOD/GRNOD/990\ng\n%10d\n" % (101, 99999, 991),
+        "a node of a group": b"/GRNOD/NODE/991\ng\n%10d%10d\n/GRNOD/GRNOD/2\ng\n%10d\n" % (101, 99999, 991),
         "a number": b"/FRICTION/9\nf\n         x\n",
         "a property": b"/PART/77\np\n%10d%10d\n" % (88, 1),
     }
     for name, lines in inserted.items():
-        data = base[:end] + lines + base[end:]
-        if name == "a node of a group":
-            card = data.index(b"\n", data.index(b"\n", data.index(b"/INTER/TYPE7")) + 1) + 1
-            while data[card:card + 1] == b"#":
-                card = data.index(b"\n", card) + 1
-            data = data[:card] + b"%10d" % 990 + data[card + 10:]
-        path = write(os.path.join(tmp, "e_0000.rad"), data)
+        data = base.replace(b"/GRNOD/PART/2\n", b"/GRNOD/PART/3\n") if b"/GRNOD/GRNOD/2" in lines else base
+        path = write(os.path.join(tmp, "e_0000.rad"), data[:data.rindex(b"/END")] + lines + b"/END\n")
+        stops = name != "whole"
         for verb in ("gaps", "cycle"):
             r = c.run(verb, path)
-            c.check("%s does not exist: %s" % (name, verb), r.code == int(name != "whole")
-                    and ("The solver stops first: 1 error in the deck" in r.out.decode()) == (name != "whole"), "%d %s" % (r.code, r.text[-400:]))
-            unreadable = c.run("params", path, "--quiet").code
-            c.check("%s does not exist: params" % name, unreadable == int(name not in ("whole", "a node of a group")), str(unreadable))
+            c.check("%s does not exist: %s" % (name, verb), r.code == int(stops) and (b"The solver stops first: 1 error in the deck" in r.out) == stops,
+                    "%d %s" % (r.code, r.text[-400:]))
             c.check("%s does not exist: %s --fail-on never" % (name, verb), c.run(verb, path, "--fail-on", "never", "--quiet").code == 0)
-        out = os.path.join(tmp, "batch")
-        c.run("batch", "-o", out, "--verb", "gaps", path)
-        entry = json.loads(read(os.path.join(out, "summary.json")))["decks"][0]
-        c.check("%s does not exist: batch" % name, (entry["status"] == "clean") == (name == "whole"), str(entry)[:200])
-        shutil.rmtree(out)
+        entry = batch_of(c, tmp, path, "--verb", "gaps")[1]
+        c.check("%s does not exist: batch" % name, (entry["status"] == "clean") != stops, str(entry)[:200])
 
 
 # ---- counts --------------------------------------------------------------------------------------
@@ -251,6 +230,14 @@ def scan(c, title, data, commands=True):
         c.check(title + " holds no command", not found, found and repr(text[max(0, found.start() - 40):found.start() + 60]))
 
 
+def scan_xml(c, title, document):
+    scan(c, title + ": XML", document)
+    try:
+        xml.dom.minidom.parseString(document)
+    except Exception as e:  # any parser error
+        c.check(title + ": well-formed XML", False, str(e))
+
+
 def outputs_of(c, path, tmp, title, cwd=None):
     """Every verb and every format over one deck; what is printed and written is scanned."""
     runs = [("lint", path), ("lint", path, "--color", "never", "--per-rule", "0", "--geometry"), ("params", path), ("gaps", path, "--crossings"), ("cycle", path, "--effects"),
@@ -272,7 +259,7 @@ def outputs_of(c, path, tmp, title, cwd=None):
     r = c.run("lint", path, "--format", "github", cwd=cwd)
     scan(c, title + ": workflow commands", r.out, commands=False)
     c.check(title + ": each line is one of our commands", all(re.match(rb"::(error|warning|notice) (file|title)=", x) for x in r.out.splitlines()), r.text[:300])
-    documents = [c.run("lint", path, "--format", "junit", cwd=cwd).out]
+    scan_xml(c, title, c.run("lint", path, "--format", "junit", cwd=cwd).out)
     page, html = (os.path.join(tmp, n) for n in ("a.html", "g.html"))
     c.run("accuracy", path, "--samples", "1", "--repeats", "1", "--quiet", "--html", page, cwd=cwd)
     c.run("gaps", path, "--quiet", "--html", html, cwd=cwd)
@@ -283,13 +270,6 @@ def outputs_of(c, path, tmp, title, cwd=None):
                 data = data[:data.index(b"<style>")] + data[data.index(b"<main"):data.index(b"</main>")]
             scan(c, title + ": " + os.path.basename(f), data, commands=f != html)
             os.remove(f)
-    for document in documents:
-        scan(c, title + ": XML", document)
-        try:
-            xml.dom.minidom.parseString(document)
-            c.check(title + ": well-formed XML", True)
-        except Exception as e:  # any parser error
-            c.check(title + ": well-formed XML", False, str(e))
     shutil.rmtree(os.path.join(tmp, "batch"), ignore_errors=True)
     shutil.rmtree(os.path.join(tmp, "converted"), ignore_errors=True)
 
@@ -301,8 +281,7 @@ def all_pairs():
 
 
 def titles(c, tmp):
-    data = read(SAMPLE["too_close"])
-    head, contact = data[:data.index(b"/INTER/")], data[data.index(b"/INTER/"):].replace(b"/END\n", b"")
+    data, (head, contact) = read(SAMPLE["too_close"]), before_and_contact()
     many = head
     for i, title in enumerate(all_pairs(), 1):
         many += contact.replace(b"/INTER/TYPE7/1\n", b"/INTER/TYPE7/%d\n" % i).replace(b"upper on lower", title)
@@ -311,13 +290,7 @@ def titles(c, tmp):
         r = c.run(*args, timeout=300)
         if c.no_crash("all pairs of bytes: deck %s" % " ".join(args[:1] + args[2:]), r, (0, 1, 3)):
             scan(c, "all pairs of bytes: deck %s" % " ".join(args[:1] + args[2:]), r.out)
-    junit = c.run("lint", path, "--format", "junit", timeout=300).out
-    scan(c, "all pairs of bytes: JUnit", junit)
-    try:
-        xml.dom.minidom.parseString(junit)
-        c.check("all pairs of bytes: JUnit is XML", True)
-    except Exception as e:  # any parser error
-        c.check("all pairs of bytes: JUnit is XML", False, str(e))
+    scan_xml(c, "all pairs of bytes", c.run("lint", path, "--format", "junit", timeout=300).out)
     evil = [b"\x1b]0;owned\x07\x1b[2J", b"\xed\xa0\x80\xc0\xaf\xef\xbf\xbf\xef\xb7\x90\xf4\x90\x80\x80", "\u202enimda \u2066x\u2069\u009b31m".encode(),
             b"::error::x ##[error]y ##vso[z]", b"]]>&amp;<script>alert(1)</script>", b"\r::error file=a::b", b"tr\xe4ger\x85\x9b2J"]
     rng = random.Random(11)
@@ -355,17 +328,5 @@ def file_names(c, tmp):
         scan(c, "configuration %r" % text, r.out + r.err)
 
 
-def main():
-    c = Checks()
-    steps = (not_a_deck, incomplete, not_examined, errors_of_the_deck, counts, titles, file_names)
-    for step in steps:
-        tmp = tempfile.mkdtemp(prefix="verdicts-")
-        try:
-            step(c, tmp)
-        finally:
-            shutil.rmtree(tmp, ignore_errors=True)
-    c.finish()
-
-
 if __name__ == "__main__":
-    main()
+    run_steps(not_a_deck, incomplete, not_examined, errors_of_the_deck, counts, titles, file_names)

@@ -21,16 +21,10 @@ TEST(ApplyEdits, LeaveAllOtherBytesAsTheyAre) {
   const auto s = source("abc\r\ndef\tg \n\xff\xfehi");
   EXPECT_EQ(*apply_edits(*s, {edit(5, 3, "DEF"), edit(0, 1, "A")}), "Abc\r\nDEF\tg \n\xff\xfehi");
   EXPECT_EQ(*apply_edits(*s, {}), s->bytes());
-}
-
-TEST(ApplyEdits, MakeTheSameReplacementOnce) {
-  const auto s = source("abcdef");
-  EXPECT_EQ(*apply_edits(*s, {edit(1, 2, "X"), edit(1, 2, "X")}), "aXdef");
-}
-
-TEST(ApplyEdits, KeepTheOrderOfInsertionsAtOnePlace) {
-  const auto s = source("abc");
-  EXPECT_EQ(*apply_edits(*s, {edit(1, 0, "1"), edit(1, 0, "2"), edit(1, 1, "B")}), "a12Bc");
+  const auto letters = source("abcdef");
+  EXPECT_EQ(*apply_edits(*letters, {edit(1, 2, "X"), edit(1, 2, "X")}), "aXdef") << "once";
+  EXPECT_EQ(*apply_edits(*letters, {edit(1, 0, "1"), edit(1, 0, "2"), edit(1, 1, "B")}), "a12Bcdef")
+      << "insertions keep their order";
 }
 
 TEST(ApplyEdits, RefuseWhatOverlapsAndSayWhere) {
@@ -47,22 +41,6 @@ struct Lines {
   std::string after(CellWriter& cells) const { return *apply_edits(sources[0], cells.finish()); }
   SourceSet sources;
 };
-
-TEST(CellWriter, GrowAShortLineOnceForSeveralCells) {
-  const Lines l("ab\nnext\n");
-  CellWriter cells(l.sources);
-  cells.set({0, 0, 0}, 21, 25, "7");
-  cells.set({0, 0, 0}, 6, 10, "5");
-  EXPECT_EQ(l.after(cells), "ab       5              7\nnext\n");
-}
-
-TEST(CellWriter, GoOnBehindACellThatTheEndOfTheLineCuts) {
-  const Lines l("0123456\r\nnext\n");
-  CellWriter cells(l.sources);
-  cells.set({0, 0, 0}, 6, 10, "5");
-  cells.set({0, 0, 0}, 11, 15, "9");
-  EXPECT_EQ(l.after(cells), "01234    5    9\r\nnext\n");
-}
 
 TEST(CellWriter, PutATextAtTheRightOfItsColumns) {
   const auto put = [](std::string line, int first, int last, std::string_view text) {
@@ -117,23 +95,6 @@ TEST(CellWriter, ChangeNothingButTheirColumns) {
   }
 }
 
-TEST(UnifiedDiff, OfOneLineMoreHoldsThatLineAloneWhereverItIs) {
-  const std::string text = "1\n2\n3\n4\n5\n";
-  for (const std::size_t at : {0u, 4u, 10u}) {
-    std::string more = text;
-    more.insert(at, "new\n");
-    for (const bool added : {true, false}) {
-      const std::string diff =
-          added ? unified_diff("a", text, more) : unified_diff("a", more, text);
-      EXPECT_NE(diff.find(added ? "\n+new\n" : "\n-new\n"), std::string::npos) << diff;
-      std::size_t changed = 0;
-      for (std::size_t n = diff.find("\n@@") + 1; (n = diff.find('\n', n)) != diff.npos; ++n)
-        changed += n + 1 < diff.size() && (diff[n + 1] == '+' || diff[n + 1] == '-') ? 1 : 0;
-      EXPECT_EQ(changed, 1u) << diff;
-    }
-  }
-}
-
 TEST(UnifiedDiff, HasThreeLinesOfContextAndJoinsWhatIsNear) {
   const auto lines = [](int n, const std::vector<int>& changed) {
     std::string text;
@@ -150,6 +111,8 @@ TEST(UnifiedDiff, HasThreeLinesOfContextAndJoinsWhatIsNear) {
   EXPECT_EQ(unified_diff("f", "", "1\n"), "--- a/f\n+++ b/f\n@@ -0,0 +1 @@\n+1\n");
   EXPECT_EQ(unified_diff("f", "1\n", ""), "--- a/f\n+++ b/f\n@@ -1 +0,0 @@\n-1\n");
   EXPECT_EQ(unified_diff("f", "1\n", "1\n"), "");
+  const std::string quoted = unified_diff("parts/\x1b[1m\"a\\.inc", "1\n", "2\n");
+  EXPECT_EQ(quoted.substr(0, quoted.find('\n')), R"(--- "a/parts/\033[1m\042a\134.inc")");
   const auto pieces = [&](int second) {
     const std::string diff = unified_diff("f", lines(20, {}), lines(20, {5, second}));
     std::size_t n = 0;
@@ -158,11 +121,6 @@ TEST(UnifiedDiff, HasThreeLinesOfContextAndJoinsWhatIsNear) {
   };
   EXPECT_EQ(pieces(12), 1u) << "six lines between: their contexts touch";
   EXPECT_EQ(pieces(13), 2u);
-}
-
-TEST(UnifiedDiff, ANameThatCannotBeShownIsQuotedInOctalAsGitDoes) {
-  const std::string diff = unified_diff("parts/\x1b[1m\"a\\.inc", "1\n", "2\n");
-  EXPECT_EQ(diff.substr(0, diff.find('\n')), R"(--- "a/parts/\033[1m\042a\134.inc")");
 }
 
 }  // namespace

@@ -1,29 +1,19 @@
 // Files whose name is nearly the wanted one.
 #include "text/shared/similar_file.hpp"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
+#include "keyword/reading.hpp"
 
 namespace deck {
 namespace {
 
-namespace fs = std::filesystem;
-
-class SimilarFile : public testing::Test {
- protected:
+struct SimilarFile : testing_support::Folder {
   void SetUp() override {
-    for (const char* name : {"Mesh/Front.inc", "Mesh/front_rail.inc", "a_0000.rad"}) {
-      fs::create_directories((dir_ / name).parent_path());
-      std::ofstream(dir_ / name) << "x";
-    }
-    fs::create_directories(dir_ / "b_0000.rad");
+    Folder::SetUp();
+    for (const char* name : {"Mesh/Front.inc", "Mesh/front_rail.inc", "a_0000.rad"})
+      file(name, "x");
+    std::filesystem::create_directories(dir_ / "b_0000.rad");
   }
-  void TearDown() override { fs::remove_all(dir_); }
   std::string path(const char* name) const { return (dir_ / name).string(); }
-  fs::path dir_ = fs::temp_directory_path() / ("deck_similar_" + std::to_string(getpid()));
 };
 
 TEST_F(SimilarFile, IsFoundInAnotherCaseInEveryPartOfItsPath) {

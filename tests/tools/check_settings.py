@@ -7,10 +7,9 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "tests", "robustness"))
-from common import ROOT, Checks  # noqa: E402
+from common import ROOT, run_steps  # noqa: E402
 
 SAMPLE = os.path.join(ROOT, "samples", "too_close_0000.rad")
 
@@ -90,13 +89,6 @@ def origin(c, tmp):
     c.check("--show-config says that there is none", r.code == 0 and "no .decklint.toml" in r.text, r.text)
 
 
-def mistyped(c, tmp):
-    write("select = [\"DK1O4\"]\n", tmp, ".decklint.toml")
-    for args, where in ((["--no-config", "--select", "dk104"], ""), ([], ".decklint.toml:1: ")):
-        r = c.run("lint", SAMPLE, *args, *([] if where == "" else ["--config", ".decklint.toml"]), cwd=tmp)
-        c.check("a mistyped rule names the closest one %s" % args, r.code == 2 and where in r.text and "did you mean 'DK104'?" in r.text, r.text)
-
-
 def changed(c, tmp):
     """A library in which two of three decks include a file, over another one and packed."""
     text = read(SAMPLE).replace("/END\n", "")
@@ -135,13 +127,5 @@ def changed(c, tmp):
     c.check("the hook looks at files of every name", "files:" not in hook and "require_serial: true" in hook)
 
 
-def main():
-    c = Checks()
-    for part in (init, origin, mistyped, changed):
-        with tempfile.TemporaryDirectory(prefix="deck-settings-") as tmp:
-            part(c, os.path.realpath(tmp))
-    c.finish()
-
-
 if __name__ == "__main__":
-    main()
+    run_steps(init, origin, changed)

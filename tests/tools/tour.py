@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 """A tour through the verbs in a pseudo-terminal: what a person sees at 80 columns is compared with the screens in
-tests/tools/screens, and no line of any screen is wider than the terminal, at 80, 120 and 200 columns, over the samples
+tests/tools/screens, one a verb, and no line of any screen is wider than the terminal, at 80, 120 and 200 columns, over the samples
 and, where they are there, decks outside of the project (whose screens are measured, not kept).
 
     python3 tests/tools/tour.py DECK            compares
     python3 tests/tools/tour.py DECK --record   writes the screens anew; look at the difference before you commit it
 
-A file of screens has a command behind '$', then its screen. Verbs whose output depends on the machine are only
-measured. It ends with 'N passed, N failed'."""
+A file has a command behind '$', then its screen. Other calls are only measured. It ends with 'N passed, N failed'."""
 import argparse
 import difflib
 import fcntl
@@ -28,52 +27,17 @@ SCREENS = os.path.join(ROOT, "tests", "tools", "screens")
 KEPT, MEASURED = 80, (80, 120, 200)
 ESCAPES = re.compile(r"\x1b\[[0-9;]*[mK]")
 
-# One file of screens each: commands as they are typed in a directory with samples/ and the decks made below.
+# One screen for each verb: a command as it is typed in a directory with samples/ and the decks made below.
 TOUR = {
-    "gaps": [
-        "gaps samples/crash_box_0000.rad --worst 4",
-        "gaps samples/crash_box_0000.rad --worst 2 -v",
-        "gaps wide_0000.rad --worst 2",
-    ],
-    "gate": [
-        "gaps samples/too_close_0000.rad --json old.json --quiet",
-        "gaps samples/too_close_0000.rad --compare old.json --fail-on new,worse --worst 0",
-        "gaps worse_0000.rad --compare old.json --fail-on new,worse --worst 1",
-        "gate samples/too_close_0000.rad samples/clean_plates_0000.rad --max-depth 0.3",
-    ],
-    "cycle": [
-        "cycle samples/crash_box_0000.rad",
-        "cycle samples/too_close_0000.rad --velocity 2=0,0,-5 --dt 1e-3 --steps 3",
-    ],
-    "lint": [
-        "lint samples/every_mistake_0000.rad --select DK171,DK242,DK201:Istf,DK240",
-        "lint samples/clean_plates_0000.rad samples/too_close_0000.rad samples/absent_0000.rad",
-        "lint alike_0000.rad --select DK201",
-    ],
-    "params": [
-        "params samples/tied_layer_0000.rad",
-        "params samples/variable_gap_0000.rad --changed",
-        "params samples/crash_box_0000.rad --matrix",
-    ],
-    "show": [
-        "show samples/crash_box_0000.rad 2",
-        "show samples/crash_box_0000.rad node:804",
-    ],
-    "diff": [
-        "diff samples/clean_plates_0000.rad samples/too_close_0000.rad",
-    ],
-    "explain": [
-        "explain DK203",
-        "explain Gapmin",
-        "explain 611",
-        "explain Gapmim",
-        "explain car_0000.out",
-    ],
-    "fix": [
-        "fix samples/crash_box_0000.rad",
-        "fix samples/too_close_0000.rad --strategy move-nodes",
-        "fix samples/welds_0000.rad --strategy tie",
-    ],
+    "gaps": "gaps samples/crash_box_0000.rad --worst 4",
+    "gate": "gate samples/too_close_0000.rad samples/clean_plates_0000.rad --max-depth 0.3",
+    "cycle": "cycle samples/too_close_0000.rad --velocity 2=0,0,-5 --dt 1e-3 --steps 3",
+    "lint": "lint samples/every_mistake_0000.rad --select DK242,DK201:Istf",
+    "params": "params samples/crash_box_0000.rad --matrix",
+    "show": "show samples/crash_box_0000.rad node:804",
+    "diff": "diff samples/clean_plates_0000.rad samples/too_close_0000.rad",
+    "explain": "explain DK203",
+    "fix": "fix samples/crash_box_0000.rad",
 }
 # What the Starter prints of the sample too_close, as far as it is read.
 LISTING = """* INPUT READING PROCESS
@@ -109,21 +73,24 @@ DESCRIPTION :
               0 ERROR(S)
               2 WARNING(S)
 """
-# Not kept: times and processors are in them, or every new rule. A batch has a directory per width.
+# Measured, not kept: wide characters, long names, many findings of a kind, times. A batch has a directory per width.
 UNKEPT = [
     "--help", "gaps --help", "lint --help", "convert --help",
     "rules",
-    "explain DK1",
-    "explain TYPE7",
+    "explain DK1", "explain TYPE7", "explain Gapmin", "explain 611", "explain Gapmim", "explain car_0000.out", "explain /INTER/TYPE19.Gapmin",
     "accuracy samples/crash_box_0000.rad --samples 5 --repeats 1",
     "accuracy --samples 5 --repeats 1",
-    "gaps long_0000.rad --worst 2", "gaps samples/crash_box_0000.rad --worst 0 --crossings",
+    "gaps samples/too_close_0000.rad --json old.json --quiet",
+    "gaps worse_0000.rad --compare old.json --fail-on new,worse --worst 1",
     "gaps better_0000.rad --compare old.json --fail-on new,worse --worst 1",
-    "cycle samples/two_surfaces_0000.rad -v", "cycle samples/too_close_0000.rad --effects",
-    "lint wide_0000.rad", "lint samples/every_mistake_0000.rad --select DK171 --ruler", "params long_0000.rad --changed",
-    "show samples/include_tree_0000.rad part:1", "explain /INTER/TYPE19.Gapmin",
+    "gaps wide_0000.rad --worst 2", "gaps long_0000.rad --worst 2", "gaps samples/crash_box_0000.rad --worst 2 --crossings -v",
+    "cycle samples/crash_box_0000.rad", "cycle samples/two_surfaces_0000.rad -v", "cycle samples/too_close_0000.rad --effects",
+    "lint samples/clean_plates_0000.rad samples/too_close_0000.rad samples/absent_0000.rad", "lint alike_0000.rad --select DK201",
+    "lint wide_0000.rad", "lint samples/every_mistake_0000.rad --select DK171 --ruler",
+    "params samples/tied_layer_0000.rad", "params long_0000.rad --changed",
+    "show samples/crash_box_0000.rad 2", "show samples/include_tree_0000.rad part:1",
     "diff samples/too_close_0000.rad %s/too_close_0000.rad" % "/".join(["a_folder_with_a_rather_long_name"] * 3),
-    "fix samples/too_close_0000.rad",
+    "fix samples/too_close_0000.rad --strategy move-nodes", "fix samples/welds_0000.rad --strategy tie",
     "batch --verb gaps -o batch-{columns} samples/clean_plates_0000.rad samples/too_close_0000.rad",
     "convert samples --version 110 --check",
     "convert samples/two_surfaces_0000.rad -o converted-{columns} --expand-type19",
@@ -239,36 +206,31 @@ class Tour:
         long = [line for line in screen.split("\n") if columns_of(line) > columns]
         self.check("%s at %d columns has no wider line" % (name, columns), not long, "%d lines, such as %r" % (len(long), (long or [""])[0]))
 
-    def file(self, name, commands, folder):
-        """The text of one file of screens. Commands of a file follow each other: some need what others wrote."""
-        text = []
-        for command in commands:
-            text.append("$ deck %s" % command)
-            for columns in MEASURED:
-                screen, code = seen(self.program, command.split(), columns, folder)
-                self.measure("deck " + command, screen, columns)
-                if columns == KEPT:
-                    text += ["---- exit code %d" % code, screen]
-                self.check("deck %s at %d shows no path of this machine" % (command, columns), folder not in screen and ROOT not in screen)
-            screen, _ = seen(self.program, command.split(), 80, folder, color=True)
-            self.measure("coloured deck " + command, screen, 80)
-        return "\n".join(text)
+    def screen(self, command, folder):
+        """The text of a kept screen; at the other widths it is measured."""
+        text = ""
+        for columns in MEASURED:
+            screen, code = seen(self.program, command.split(), columns, folder)
+            self.measure("deck " + command, screen, columns, code)
+            if columns == KEPT:
+                text = "$ deck %s\n---- exit code %d\n%s" % (command, code, screen)
+            self.check("deck %s at %d shows no path of this machine" % (command, columns), folder not in screen and ROOT not in screen)
+        screen, _ = seen(self.program, command.split(), KEPT, folder, color=True)
+        self.measure("coloured deck " + command, screen, KEPT)
+        return text
 
     def screens(self, folder):
-        for name, commands in TOUR.items():
+        for name, command in TOUR.items():
             if self.options.only and name != self.options.only:
                 continue
-            text, path = self.file(name, commands, folder), os.path.join(SCREENS, name + ".txt")
+            text, path = self.screen(command, folder), os.path.join(SCREENS, name + ".txt")
             if self.options.record:
                 with open(path, "w", encoding="utf-8") as f:
                     f.write(text)
-                continue
-            kept = ""
-            if os.path.exists(path):
-                with open(path, encoding="utf-8") as f:
-                    kept = f.read()
+            with open(path, encoding="utf-8") as f:
+                kept = f.read()
             difference = "\n".join(list(difflib.unified_diff(kept.split("\n"), text.split("\n"), "kept", "seen", lineterm="", n=1))[:20])
-            self.check("the screens of %s are those that were kept" % name, kept == text, "\n" + difference)
+            self.check("the screen of %s is the one that was kept" % name, kept == text, "\n" + difference)
 
     def outside(self, folder):
         """Decks that are not the project's: measured only."""
@@ -288,7 +250,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("deck", nargs="?", default=os.path.join(ROOT, "build", "dev", "tools", "deck"))
     parser.add_argument("--record", action="store_true", help="write the screens anew")
-    parser.add_argument("--only", help="one file of screens, such as gaps")
+    parser.add_argument("--only", help="one screen, such as gaps")
     parser.add_argument("--all", action="store_true", help="all decks outside of the project, not the smallest alone")
     parser.add_argument("--corpus", default=os.environ.get("DECK_CORPUS") or os.path.join(ROOT, os.pardir, "shared"))
     tour = Tour(parser.parse_args())

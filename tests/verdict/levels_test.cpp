@@ -66,6 +66,12 @@ TEST(VerdictLevels, TheWorstFactDecides) {
 
 TEST(VerdictLevels, EachFactAloneHasItsLevel) {
   using Row = std::pair<std::function<void(Facts&)>, VerdictLevel>;
+  const auto lint = [](const LintFacts& facts, std::size_t pairs = 0) {
+    return [facts, pairs](Facts& f) {
+      f.in.lint = facts;
+      f.contacts().total.count.pairs = pairs;
+    };
+  };
   const Row rows[] = {
       {[](Facts& f) { f.contacts().not_evaluated = 1; }, VerdictLevel::not_examined},
       {[](Facts& f) { f.contacts().total.untied = 1; }, VerdictLevel::untied},
@@ -79,23 +85,17 @@ TEST(VerdictLevels, EachFactAloneHasItsLevel) {
       {[](Facts& f) { f.error(RuleId::DK100); }, VerdictLevel::stops},
       {[](Facts& f) { f.error(RuleId::DK100, Severity::warning); }, VerdictLevel::clean},
       {[](Facts& f) { f.in.contacts.reset(); }, VerdictLevel::clean},
-      {[](Facts& f) { f.in.lint = LintFacts{}; }, VerdictLevel::clean},
+      {lint({}), VerdictLevel::clean},
+      {lint({0, 0, 0, true}), VerdictLevel::clean},
+      {lint({0, 0, 1, false}), VerdictLevel::remarks},
+      {lint({0, 1, 0, false}), VerdictLevel::warnings},
+      {lint({0, 1, 1, false}, 1), VerdictLevel::penetrates},
+      {lint({1, 0, 0, false}), VerdictLevel::stops},
       {[](Facts& f) {
-         f.in.lint = LintFacts{};
+         f.in.lint = LintFacts{0, 0, 0, true};
          f.in.contacts.reset();
-         f.in.lint->contacts_left_out = true;
        },
        VerdictLevel::not_examined},
-      {[](Facts& f) {
-         f.in.lint = LintFacts{};
-         f.in.lint->contacts_left_out = true;
-       },
-       VerdictLevel::clean},
-      {[](Facts& f) {
-         f.in.lint = LintFacts{0, 1, 1, false};
-         f.contacts().total.count.pairs = 1;
-       },
-       VerdictLevel::penetrates},
       // Lint has said it in its errors, or was told not to.
       {[](Facts& f) {
          f.in.lint = LintFacts{};
@@ -108,18 +108,6 @@ TEST(VerdictLevels, EachFactAloneHasItsLevel) {
          f.error(RuleId::DK100);
        },
        VerdictLevel::clean},
-      {[](Facts& f) {
-         f.in.lint = LintFacts{0, 0, 1, false};
-       },
-       VerdictLevel::remarks},
-      {[](Facts& f) {
-         f.in.lint = LintFacts{0, 1, 0, false};
-       },
-       VerdictLevel::warnings},
-      {[](Facts& f) {
-         f.in.lint = LintFacts{1, 0, 0, false};
-       },
-       VerdictLevel::stops},
       // Without any interface nothing was examined; lint has a rule for that.
       {[](Facts& f) { f.in.interfaces = nullptr; }, VerdictLevel::not_examined},
       {[](Facts& f) {
@@ -163,13 +151,6 @@ TEST(VerdictLevels, WhatWarnsAndWhatIsOpen) {
   EXPECT_EQ(flags(lint({0, 0, 1, false}, 1)), (Flags{false, false, false})) << "a quick look";
   EXPECT_EQ(flags(lint({0, 1, 0, false})), (Flags{false, true, true}));
   EXPECT_EQ(flags(lint({1, 0, 0, false})), (Flags{true, true, false}));
-}
-
-TEST(VerdictLevels, HaveTheirNames) {
-  const std::string_view names[] = {"stops",        "penetrates", "crossed", "untied",
-                                    "not-examined", "warnings",   "remarks", "clean"};
-  for (std::size_t i = 0; i < std::size(names); ++i)
-    EXPECT_EQ(to_string(static_cast<VerdictLevel>(i)), names[i]);
 }
 
 TEST(ExitCode, FollowsFromLevelFlagsAndRules) {

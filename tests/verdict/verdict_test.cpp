@@ -30,12 +30,30 @@ std::string text_of(const Verdict& v, std::string_view what) {
   return {};
 }
 
-TEST(Verdict, PenetrationsThatAreNoTies) {
-  const Verdict v = of(plates());
-  EXPECT_EQ(v.level, VerdictLevel::penetrates) << v.text;
-  EXPECT_EQ(v.count("pairs"), 4u);
-  EXPECT_EQ(v.count("nodes"), 4u);
-  EXPECT_EQ(v.count("tied_pairs"), 0u);
+TEST(Verdict, TiePairsAreTiedContactPairsPenetrate) {
+  const struct {
+    std::string text;
+    VerdictLevel level;
+    std::size_t pairs, tied, untied;
+    const char *what, *sentence;
+  } cases[] = {{plates(), VerdictLevel::penetrates, 4, 0, 0, "ties", ""},
+               // ITIED acts in the Engine, where a time step gets too small.
+               {tie("TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1 ITIED=1 dtmin=1.e-9"),
+                VerdictLevel::penetrates, 3, 0, 0, "ties", ""},
+               {tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1"), VerdictLevel::clean, 0, 3, 0, "ties",
+                "3 pairs tied (3 nodes)."},
+               {tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 0.4, 1.5), VerdictLevel::untied, 0, 2,
+                1, "untied", "1 of 3 nodes of TYPE10 1 is not tied."},
+               {tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 1.5, 1.5), VerdictLevel::untied, 0, 0,
+                3, "untied", "TYPE10 1 ties none of its 3 nodes."}};
+  for (const auto& c : cases) {
+    const Verdict v = of(c.text);
+    EXPECT_EQ(v.level, c.level) << v.text;
+    EXPECT_EQ(v.count("pairs"), c.pairs) << v.text;
+    EXPECT_EQ(v.count("tied_pairs"), c.tied) << v.text;
+    EXPECT_EQ(v.count("untied_nodes"), c.untied) << v.text;
+    EXPECT_EQ(text_of(v, c.what), c.sentence);
+  }
 }
 
 // Behind faces of solids there is a depth, and no gap that it could be a share of.
@@ -55,36 +73,6 @@ TEST(Verdict, NothingFoundIsClean) {
   const Verdict v = of(plates(p));
   EXPECT_EQ(v.level, VerdictLevel::clean) << v.text;
   EXPECT_EQ(v.text, "No initial penetration in 1 contact.");
-}
-
-TEST(Verdict, PairsOfType10AreTied) {
-  const Verdict v = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1"));
-  EXPECT_EQ(v.level, VerdictLevel::clean) << v.text;
-  EXPECT_EQ(v.count("pairs"), 0u);
-  EXPECT_EQ(v.count("tied_pairs"), 3u);
-  EXPECT_EQ(v.count("tied_nodes"), 3u);
-  EXPECT_EQ(text_of(v, "ties"), "3 pairs tied (3 nodes).");
-}
-
-// ITIED acts in the Engine, where a time step gets too small.
-TEST(Verdict, PairsOfType7WithItiedPenetrate) {
-  const Verdict v = of(tie("TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1 ITIED=1 dtmin=1.e-9"));
-  EXPECT_EQ(v.level, VerdictLevel::penetrates) << v.text;
-  EXPECT_EQ(v.count("pairs"), 3u);
-  EXPECT_EQ(v.count("tied_pairs"), 0u);
-}
-
-TEST(Verdict, TiesThatTieNothingAreNamed) {
-  EXPECT_EQ(text_of(of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 1.5, 1.5)), "untied"),
-            "TYPE10 1 ties none of its 3 nodes.");
-}
-
-TEST(Verdict, NodesOfATieThatNothingIsWithinReachOf) {
-  const Verdict v = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 0.4, 1.5));
-  EXPECT_EQ(v.level, VerdictLevel::untied) << v.text;
-  EXPECT_EQ(v.count("untied_nodes"), 1u);
-  EXPECT_EQ(v.count("tied_nodes"), 2u);
-  EXPECT_EQ(text_of(v, "untied"), "1 of 3 nodes of TYPE10 1 is not tied.");
 }
 
 TEST(Verdict, ANodeOnASegmentStopsTheSolverTiedOrNot) {
@@ -175,35 +163,6 @@ TEST(Verdict, TheTextIsItsSentences) {
   std::string all;
   for (const VerdictSentence& s : v.sentences) all += (all.empty() ? "" : " ") + s.text;
   EXPECT_EQ(v.text, all);
-}
-
-TEST(Verdict, LintDecidesByItsOwnErrorsAndWarnings) {
-  Inspected d(plates());
-  VerdictInput in;
-  in.deck = &d.deck;
-  in.interfaces = &d.interfaces;
-  in.lint = LintFacts{0, 2, 1, false};
-  EXPECT_EQ(make_verdict(in).level, VerdictLevel::warnings);
-  EXPECT_EQ(make_verdict(in).text, "0 errors, 2 warnings, 1 remark.");
-  in.lint = LintFacts{1, 0, 0, false};
-  EXPECT_EQ(make_verdict(in).level, VerdictLevel::stops);
-  in.lint = LintFacts{0, 0, 3, false};
-  EXPECT_EQ(make_verdict(in).level, VerdictLevel::remarks);
-  EXPECT_EQ(make_verdict(in).text, "clean (3 remarks: -v).");
-}
-
-TEST(Verdict, ExitCodesFollowFromTheLevel) {
-  const Verdict penetrates = of(plates());
-  EXPECT_EQ(exit_code_of(penetrates), 0);
-  EXPECT_EQ(exit_code_of(penetrates, {.on_warning = true}), 1);
-  EXPECT_EQ(exit_code_of(penetrates, {.on_warning = true, .pairs_accepted = true}), 0);
-  const Verdict untied = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 0.4, 1.5));
-  EXPECT_EQ(exit_code_of(untied), 0);
-  EXPECT_EQ(exit_code_of(untied, {.on_warning = true}), 1);
-  const Verdict tied = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1"));
-  EXPECT_EQ(exit_code_of(tied, {.on_warning = true}), 0);
-  const Verdict stops = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 0.4, 0));
-  EXPECT_EQ(exit_code_of(stops, {.never = true}), 0);
 }
 
 }  // namespace

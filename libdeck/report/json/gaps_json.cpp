@@ -1,111 +1,43 @@
-// The JSON of `deck gaps`. All members of a pair are lengths, for edges as for nodes; what the
-// solver stores of two edges, the square of the gap and what is left of it, stands in "solver".
+// The document of `deck gaps --json`. Members of a pair are lengths, for edges as for nodes; what
+// the solver stores of two edges, the square of the gap and what is left of it, is in "solver".
 #include "deck/report/gaps.hpp"
 #include "model/shared/item_spans.hpp"
-#include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
 #include "report/json/ties_json.hpp"
-#include "report/shared/gate.hpp"
-#include "report/shared/json.hpp"
-#include "report/shared/verdict.hpp"
+#include "report/shared/schemas.hpp"
+#include "report/shared_records.hpp"
 #include "verdict/shared/of_interface.hpp"
 
 namespace deck {
 namespace {
 
-void write_vector(JsonWriter& j, const std::array<double, 3>& v) {
-  j.begin_array(true);
-  for (const double x : v) j.value(x);
-  j.end_array();
-}
-
-/// A document under way: after every row it may leave.
-struct Rows {
-  JsonWriter& json;
-  std::string& text;
-  const TextDrain& drain;
-  void end_row() const {
-    json.end_object();
-    drain_text(drain, text);
-  }
-};
-
-void write_sides(const Rows& rows, const Model& model, const Contact& c) {
-  JsonWriter& j = rows.json;
-  if (c.kind == ContactKind::node_segment) {
-    j.key("secondary").begin_array();
-    for (const SecondaryNode& s : c.secondary) {
-      j.begin_object(true).field("node", model.node_id(s.node)).field("stiffness", s.multiplier);
-      j.field("gap", s.gap);
-      if (c.istf >= 2) j.field("nodal_stiffness", s.nodal_stiffness);
-      rows.end_row();
-    }
-    j.end_array().key("main").begin_array();
-    for (const MainSegment& m : c.main) {
-      j.begin_object(true).key("nodes");
-      write_nodes(j, model, m.nodes.data(), 4);
-      j.field("stiffness", m.stiffness).field("gap", m.gap);
-      rows.end_row();
-    }
-    j.end_array();
-    return;
-  }
-  const auto side = [&](const char* name, const std::vector<ContactEdge>& edges) {
-    j.key(name).begin_array();
-    for (const ContactEdge& e : edges) {
-      j.begin_object(true).key("edge");
-      write_nodes(j, model, e.nodes.data(), 2);
-      j.field("stiffness", e.stiffness).field("gap", e.gap);
-      rows.end_row();
-    }
-    j.end_array();
-  };
-  side("secondary", c.secondary_edges);
-  side("main", c.main_edges);
-}
-
-/// TYPE24 and TYPE25: nodes and segments with what they are; edges of its other contact.
-void write_modern_sides(const Rows& rows, const Model& model, const Contact& c,
-                        const Contact* edges) {
-  JsonWriter& j = rows.json;
-  j.key("secondary").begin_array();
-  for (const SecondaryNode& s : c.secondary) {
-    j.begin_object(true).field("node", model.node_id(s.node)).field("stiffness", s.multiplier);
-    j.field("gap", s.gap);
-    rows.end_row();
-  }
-  j.end_array().key("main").begin_array();
-  for (std::size_t i = 0; i < c.main.size(); ++i) {
-    const MainSegment& m = c.main[i];
-    j.begin_object(true).key("nodes");
-    write_nodes(j, model, m.nodes.data(), 4);
-    j.field("stiffness", m.stiffness).field("gap", m.gap);
-    j.field("kind", to_string(c.segment_kinds[i]));
-    rows.end_row();
-  }
-  j.end_array().key("edges").begin_array();
-  for (std::size_t i = 0; edges != nullptr && i < edges->main_edges.size(); ++i) {
-    const ContactEdge& e = edges->main_edges[i];
-    j.begin_object(true).key("edge");
-    write_nodes(j, model, e.nodes.data(), 2);
-    j.field("stiffness", e.stiffness).field("gap", e.gap);
-    j.field("kind", edges->edge_kinds[i] == 1   ? "solid"
-                    : edges->edge_kinds[i] == 2 ? "shell"
-                                                : "solid-flat");
-    rows.end_row();
-  }
-  j.end_array();
-}
+using Ids2 = std::array<std::int64_t, 2>;
+using Ids4 = std::array<std::int64_t, 4>;
+using Vector = std::array<double, 3>;
 
 /// A row of the view, and the line of its secondary node.
 struct PlacedRow {
   const NamedPenetration* named = nullptr;
   Span span;
 };
+using PlacedRows = std::vector<PlacedRow>;
+
+/// The arguments of gaps_json().
+struct GapsDocument {
+  std::string_view path;
+  const Deck& deck;
+  const Scene& scene;
+  const SceneView& view;
+  bool all = false;
+  const std::vector<Crossing>* crossings = nullptr;
+  const GateReport* gate = nullptr;
+  std::vector<PlacedRows> rows;  ///< of each contact in the solver's order, ties included
+  const PlacedRows none;
+};
 
 /// Rows of each contact in the solver's order, penetrations and ties.
-std::vector<std::vector<PlacedRow>> rows_of_contacts(const Scene& scene, const SceneView& view) {
-  std::vector<std::vector<PlacedRow>> out(scene.contacts.size());
+std::vector<PlacedRows> rows_of_contacts(const Scene& scene, const SceneView& view) {
+  std::vector<PlacedRows> out(scene.contacts.size());
   for (std::size_t c = 0; c < scene.contacts.size(); ++c)
     out[c].resize(scene.contacts[c].penetrations.size());
   for (const auto* list : {&view.penetrations, &view.ties}) {
@@ -118,219 +50,475 @@ std::vector<std::vector<PlacedRow>> rows_of_contacts(const Scene& scene, const S
   return out;
 }
 
-void write_penetrations(const Rows& rows, const Deck& deck, const Scene& scene,
-                        const std::vector<PlacedRow>& named, const Contact& c,
-                        const char* list = "penetrations") {
-  const Model& model = *scene.model;
-  JsonWriter& j = rows.json;
-  j.key(list).begin_array();
-  for (const auto& [p, span] : named) {
-    const PenetrationRow& r = c.penetrations[p->row];
-    const bool edges = c.kind == ContactKind::edge_edge;
-    j.begin_object(true);
-    NodeIndex first = no_index;
-    if (edges) {
-      const ContactEdge& s = c.secondary_edges[r.secondary];
-      first = s.nodes[0];
-      j.key("edge");
-      write_nodes(j, model, s.nodes.data(), 2);
-      j.key("main_edge");
-      write_nodes(j, model, c.main_edges[r.main].nodes.data(), 2);
-    } else {
-      first = c.secondary[r.secondary].node;
-      j.field("node", model.node_id(first)).key("segment");
-      write_nodes(j, model, c.main[r.main].nodes.data(), 4);
-    }
-    j.field("penetration", r.depth).field("gap", r.gap).field("distance", r.distance);
-    if (edges) {
-      j.key("solver").begin_object(true);
-      j.field("penetration", r.gap * r.gap - r.distance).field("gap", r.gap * r.gap).end_object();
-    }
-    if (is_modern(c.type)) j.field("stored", r.p0);
-    j.key("normal");
-    write_vector(j, r.normal);
-    j.field("on_surface", r.on_surface).field("in_contact", r.in_contact);
-    j.field("action", to_string(r.action));
-    j.key("gap0");
-    r.has_gap0 ? j.value(r.gap0) : j.null();
-    j.key("p0");
-    r.has_gap0 ? j.value(r.p0) : j.null();
-    j.key("moved_by");
-    if (r.action == PenetrationAction::node_moved)
-      write_vector(j, r.moved_by);
-    else
-      j.null();
-    j.key("at");
-    write_vector(j, p->at);
-    const auto element = [&](const char* name, const ElementName& e) {
-      j.key(name);
-      if (!e.valid())
-        j.null();
-      else
-        j.begin_object(true).field("id", e.id).field("part", e.part).end_object();
-    };
-    element("secondary_element", p->secondary_element);
-    element("main_element", p->main_element);
-    j.key("source");
-    write_json_place(j, deck, span);
-    rows.end_row();
-  }
-  j.end_array();
+/// A node, segment or edge of a side, with --all.
+struct SideRow {
+  std::optional<std::int64_t> node = {};
+  std::optional<Ids4> nodes = {};
+  std::optional<Ids2> edge = {};
+  double stiffness = 0, gap = 0;
+  std::optional<double> nodal_stiffness = {};
+  std::optional<std::string_view> kind = {};
+};
+const Record<SideRow>& record_of(const SideRow*) {
+  using Row = SideRow;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("node", "", [](const Row& r) { return IfAny<std::int64_t>{r.node}; }),
+      column<Row>("nodes", "Of a segment; triangles repeat the last",
+                  [](const Row& r) { return IfAny<Ids4>{r.nodes}; }),
+      column<Row>("edge", "", [](const Row& r) { return IfAny<Ids2>{r.edge}; }),
+      column<&SideRow::stiffness>("stiffness"),
+      column<&SideRow::gap>("gap"),
+      column<Row>("nodal_stiffness", "Istf 2 to 5",
+                  [](const Row& r) { return IfAny<double>{r.nodal_stiffness}; }),
+      column<Row>("kind", "TYPE24 and TYPE25: solid, solid-flat, shell, shell-opposite, coat, ...",
+                  [](const Row& r) { return IfAny<std::string_view>{r.kind}; })};
+  static const Record<Row> record{"side", "A secondary node, main segment or edge (with --all).",
+                                  columns, true};
+  return record;
 }
 
-/// Edges of a TYPE25 through its solids.
-void write_edges_through(const Rows& rows, const Model& model, const Contact& c,
-                         const Contact& edges) {
-  JsonWriter& j = rows.json;
-  j.key("edge_solid_penetrations").begin_array();
-  for (const EdgeThroughSegment& e : edges.edges_through_segments) {
-    j.begin_object(true).key("edge");
-    write_nodes(j, model, edges.main_edges[e.edge].nodes.data(), 2);
-    j.key("segment");
-    write_nodes(j, model, c.main[e.main].nodes.data(), 4);
-    j.field("side", e.side).field("penetration", e.depth);
-    rows.end_row();
-  }
-  j.end_array();
+/// What the solver stores of two edges.
+struct SquaredRow {
+  double penetration = 0, gap = 0;
+};
+const Record<SquaredRow>& record_of(const SquaredRow*) {
+  using Row = SquaredRow;
+  static constexpr Column<Row> columns[] = {
+      column<&SquaredRow::penetration>("penetration", "Gap squared - distance"),
+      column<&SquaredRow::gap>("gap", "Gap squared")};
+  static const Record<Row> record{"squared", "What the solver stores of two edges.", columns, true};
+  return record;
 }
 
-void write_crossings(JsonWriter& j, const Scene& scene, const std::vector<Crossing>& crossings,
-                     std::uint32_t contact) {
-  const Model& model = *scene.model;
-  const Contact& c = scene.contacts[contact];
-  const auto id = [&](const ElementName& e, std::int64_t v) { e.valid() ? j.value(v) : j.null(); };
-  j.key("crossings").begin_array();
-  for (const Crossing& x : crossings) {
-    if (x.contact != contact) continue;
-    const ElementName edge = edge_element(model, x), segment = segment_element(scene, x);
-    j.begin_object(true).key("edge");
-    write_nodes(j, model, x.edge.data(), 2);
-    j.key("segment");
-    write_nodes(j, model, c.main[x.main].nodes.data(), 4);
-    j.key("edge_element");
-    id(edge, edge.id);
-    j.key("segment_element");
-    id(segment, segment.id);
-    j.key("parts").begin_array(true);
-    id(edge, edge.part);
-    id(segment, segment.part);
-    j.end_array().end_object();
-  }
-  j.end_array();
+struct PairRow {
+  const GapsDocument& document;
+  const Contact& contact;
+  const PlacedRow* placed;
+  const PenetrationRow* row;
+  bool edges() const { return contact.kind == ContactKind::edge_edge; }
+  const Model& model() const { return *document.scene.model; }
+};
+const Record<PairRow>& record_of(const PairRow*) {
+  using Row = PairRow;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("edge", "Secondary edge",
+                  [](const Row& r) {
+                    if (!r.edges()) return IfAny<Ids2>{};
+                    const ContactEdge& e = r.contact.secondary_edges[r.row->secondary];
+                    return IfAny<Ids2>{node_ids(r.model(), e.nodes)};
+                  }),
+      column<Row>("main_edge", "",
+                  [](const Row& r) {
+                    if (!r.edges()) return IfAny<Ids2>{};
+                    return IfAny<Ids2>{
+                        node_ids(r.model(), r.contact.main_edges[r.row->main].nodes)};
+                  }),
+      column<Row>("node", "Secondary node",
+                  [](const Row& r) {
+                    if (r.edges()) return IfAny<std::int64_t>{};
+                    return IfAny<std::int64_t>{
+                        r.model().node_id(r.contact.secondary[r.row->secondary].node)};
+                  }),
+      column<Row>("segment", "Main segment; triangles repeat the last node",
+                  [](const Row& r) {
+                    if (r.edges()) return IfAny<Ids4>{};
+                    return IfAny<Ids4>{node_ids(r.model(), r.contact.main[r.row->main].nodes)};
+                  }),
+      column<&PairRow::row, &PenetrationRow::depth>("penetration",
+                                                    "Pair gap - distance, of edges as of nodes"),
+      column<&PairRow::row, &PenetrationRow::gap>("gap", "The pair gap"),
+      column<&PairRow::row, &PenetrationRow::distance>("distance"),
+      column<Row>("solver", "",
+                  [](const Row& r) {
+                    const double squared = r.row->gap * r.row->gap;
+                    return if_any(r.edges(), SquaredRow{squared - r.row->distance, squared});
+                  }),
+      column<Row>("stored", "TYPE24 and TYPE25: the penetration that the solver keeps",
+                  [](const Row& r) { return if_any(is_modern(r.contact.type), r.row->p0); }),
+      column<Row>("normal", "Unit vector from main to secondary; zeros on the surface",
+                  [](const Row& r) { return Vector(r.row->normal); }),
+      column<&PairRow::row, &PenetrationRow::on_surface>("on_surface", "Exactly on the segment"),
+      column<&PairRow::row, &PenetrationRow::in_contact>(
+          "in_contact",
+          "false (--accuracy robust): no nearer than its gap; only the round-off of the solver's "
+          "formula makes it a penetration"),
+      column<&PairRow::row, &PenetrationRow::action>("action", "What the solver does with it"),
+      column<Row>("gap0", "Gap left by Inacti 5 or 6",
+                  [](const Row& r) { return known(r.row->has_gap0, r.row->gap0); }),
+      column<Row>("p0", "", [](const Row& r) { return known(r.row->has_gap0, r.row->p0); }),
+      column<Row>("moved_by", "Inacti 3",
+                  [](const Row& r) {
+                    return known(r.row->action == PenetrationAction::node_moved,
+                                 Vector(r.row->moved_by));
+                  }),
+      column<&PairRow::placed, &PlacedRow::named, &NamedPenetration::at>(
+          "at", "Secondary node, or closest point of the edge"),
+      column<Row>("secondary_element", "",
+                  [](const Row& r) {
+                    const ElementName& e = r.placed->named->secondary_element;
+                    return known(e.valid(), e);
+                  }),
+      column<Row>("main_element", "",
+                  [](const Row& r) {
+                    const ElementName& e = r.placed->named->main_element;
+                    return known(e.valid(), e);
+                  }),
+      column<Row>("source", "The line of the secondary node",
+                  [](const Row& r) { return place_of(r.document.deck, r.placed->span); })};
+  static const Record<Row> record{"penetration", "A pair that is nearer than its gap.", columns,
+                                  true};
+  return record;
 }
+
+struct ThroughRow {
+  const Model& model;
+  const Contact &contact, &edges;
+  const EdgeThroughSegment* through;
+};
+const Record<ThroughRow>& record_of(const ThroughRow*) {
+  using Row = ThroughRow;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("edge", "",
+                  [](const Row& r) {
+                    return node_ids(r.model, r.edges.main_edges[r.through->edge].nodes);
+                  }),
+      column<Row>(
+          "segment", "",
+          [](const Row& r) { return node_ids(r.model, r.contact.main[r.through->main].nodes); }),
+      column<&ThroughRow::through, &EdgeThroughSegment::side>(
+          "side", "1 to 4: from that corner of the segment to the next"),
+      column<&ThroughRow::through, &EdgeThroughSegment::depth>("penetration")};
+  static const Record<Row> record{"edge_through_segment",
+                                  "An edge through a segment of a solid, beside one of its sides.",
+                                  columns, true};
+  return record;
+}
+
+struct CrossingRow {
+  const Scene& scene;
+  const Crossing& crossing;
+  ElementName edge, segment;
+};
+const Record<CrossingRow>& record_of(const CrossingRow*) {
+  using Row = CrossingRow;
+  using Id = std::optional<std::int64_t>;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("edge", "",
+                  [](const Row& r) { return node_ids(*r.scene.model, r.crossing.edge); }),
+      column<Row>("segment", "",
+                  [](const Row& r) {
+                    const Contact& c = r.scene.contacts[r.crossing.contact];
+                    return node_ids(*r.scene.model, c.main[r.crossing.main].nodes);
+                  }),
+      column<Row>("edge_element", "",
+                  [](const Row& r) { return known(r.edge.valid(), r.edge.id); }),
+      column<Row>("segment_element", "",
+                  [](const Row& r) { return known(r.segment.valid(), r.segment.id); }),
+      column<Row>("parts", "Of edge and segment", [](const Row& r) {
+        return std::array<Id, 2>{known(r.edge.valid(), r.edge.part),
+                                 known(r.segment.valid(), r.segment.part)};
+      })};
+  static const Record<Row> record{
+      "crossing",
+      "An edge of a secondary element that passes through a main segment (with --crossings).",
+      columns, true};
+  return record;
+}
+
+struct ContactRow {
+  const GapsDocument& document;
+  std::size_t index;     ///< in Scene::contacts
+  const Contact* edges;  ///< TYPE24, TYPE25: the contact of its edges; nullptr: none
+  const Contact& contact() const { return document.scene.contacts[index]; }
+  const Model& model() const { return *document.scene.model; }
+  bool modern() const { return is_modern(contact().type); }
+  bool of_nodes() const { return contact().kind == ContactKind::node_segment; }
+
+  Rows<PairRow> pairs(const Contact& c, const PlacedRows& rows) const {
+    return {[&document = document, &c, &rows](const auto& add) {
+      for (const PlacedRow& r : rows) add({document, c, &r, &c.penetrations[r.named->row]});
+    }};
+  }
+  SideRow side(const ContactEdge& e) const {
+    return {.edge = node_ids(model(), e.nodes), .stiffness = e.stiffness, .gap = e.gap};
+  }
+};
+
+void each_edge(const ContactRow& r, const std::vector<ContactEdge>& edges,
+               const std::function<void(const SideRow&)>& add) {
+  for (const ContactEdge& e : edges) add(r.side(e));
+}
+
+void each_secondary(const ContactRow& r, const std::function<void(const SideRow&)>& add) {
+  const Contact& c = r.contact();
+  if (!r.of_nodes()) return each_edge(r, c.secondary_edges, add);
+  for (const SecondaryNode& s : c.secondary)
+    add({.node = r.model().node_id(s.node),
+         .stiffness = s.multiplier,
+         .gap = s.gap,
+         .nodal_stiffness = known(!r.modern() && c.istf >= 2, s.nodal_stiffness)});
+}
+
+void each_main(const ContactRow& r, const std::function<void(const SideRow&)>& add) {
+  const Contact& c = r.contact();
+  if (!r.of_nodes()) return each_edge(r, c.main_edges, add);
+  for (std::size_t i = 0; i < c.main.size(); ++i) {
+    SideRow row{.nodes = node_ids(r.model(), c.main[i].nodes),
+                .stiffness = c.main[i].stiffness,
+                .gap = c.main[i].gap};
+    if (r.modern()) row.kind = to_string(c.segment_kinds[i]);
+    add(row);
+  }
+}
+
+void each_modern_edge(const ContactRow& r, const std::function<void(const SideRow&)>& add) {
+  for (std::size_t i = 0; r.edges != nullptr && i < r.edges->main_edges.size(); ++i) {
+    SideRow row = r.side(r.edges->main_edges[i]);
+    const int kind = r.edges->edge_kinds[i];
+    row.kind = kind == 1 ? "solid" : kind == 2 ? "shell" : "solid-flat";
+    add(row);
+  }
+}
+
+const Record<ContactRow>& record_of(const ContactRow*) {
+  using Row = ContactRow;
+  static constexpr Column<Row> columns[] = {
+      column<&ContactRow::contact, &Contact::kind>("kind"),
+      column<&ContactRow::contact, &Contact::role>(
+          "role", "primary: all of it but the contacts that TYPE19 adds"),
+      column<Row>("igap", "",
+                  [](const Row& r) { return r.contact().igap == 0 ? 1000 : r.contact().igap; }),
+      column<&ContactRow::contact, &Contact::gapmin>("gapmin"),
+      column<&ContactRow::contact, &Contact::gapmax>("gapmax"),
+      column<&ContactRow::contact, &Contact::drad>("drad"),
+      column<Row>("gapmin_origin", "card or derived",
+                  [](const Row& r) {
+                    return r.contact().gapmin_origin == GapminOrigin::card ? "card" : "derived";
+                  }),
+      column<Row>("gapmin_from", "How Gapmin was derived",
+                  [](const Row& r) { return to_string(r.contact().gapmin_origin); }),
+      column<&ContactRow::contact, &Contact::inacti>("inacti"),
+      column<&ContactRow::contact, &Contact::candidates>("candidates",
+                                                         "Pairs within gap and margin"),
+      column<&ContactRow::contact, &Contact::evaluated>(
+          "evaluated",
+          "false: too many pairs, or coordinates that are not numbers; whether anything penetrates "
+          "is not known"),
+      column<Row>("obstacle",
+                  "Why a contact with 0 penetrations is not reported as clean: empty_main, "
+                  "empty_secondary, no_gap, no_area, no_element or no_stiffness",
+                  [](const Row& r) {
+                    const Obstacle o = obstacle_of(r.contact());
+                    return known(o != Obstacle::none, to_string(o));
+                  }),
+      column<&ContactRow::contact, &Contact::removed_pairs>("removed_pairs",
+                                                            "Taken out by Irem_gap 2"),
+      column<&ContactRow::contact, &Contact::max_gap>(
+          "max_gap", "Largest pair gap that the solver's search expects"),
+      column<&ContactRow::contact, &Contact::shortest_side>("shortest_main_side"),
+      column<Row>("totals", "", [](const Row& r) { return r.document.view.contacts[r.index]; }),
+      column<Row>("secondary", "With --all",
+                  [](const Row& r) {
+                    return if_any(r.document.all,
+                                  Rows<SideRow>{[&r](const auto& add) { each_secondary(r, add); }});
+                  }),
+      column<Row>("main", "With --all",
+                  [](const Row& r) {
+                    return if_any(r.document.all,
+                                  Rows<SideRow>{[&r](const auto& add) { each_main(r, add); }});
+                  }),
+      column<Row>("edges", "With --all: TYPE24 and TYPE25",
+                  [](const Row& r) {
+                    return if_any(
+                        r.document.all && r.modern(),
+                        Rows<SideRow>{[&r](const auto& add) { each_modern_edge(r, add); }});
+                  }),
+      column<Row>("penetrations", "Without ties",
+                  [](const Row& r) {
+                    const Contact& c = r.contact();
+                    return r.pairs(c, c.ties() ? r.document.none : r.document.rows[r.index]);
+                  }),
+      column<Row>("tied_pairs",
+                  "TYPE10: the pairs that it ties; the solver lists them as penetrations",
+                  [](const Row& r) {
+                    const Contact& c = r.contact();
+                    return if_any(c.ties(), r.pairs(c, r.document.rows[r.index]));
+                  }),
+      column<Row>("untied_nodes", "TYPE10: nodes that it does not tie",
+                  [](const Row& r) {
+                    const Contact& c = r.contact();
+                    std::vector<std::int64_t> ids;
+                    if (c.ties())
+                      for (const std::uint32_t s : untied_secondary(c))
+                        ids.push_back(r.model().node_id(c.secondary[s].node));
+                    return if_any(c.ties(), ids);
+                  }),
+      column<Row>("edges_evaluated",
+                  "TYPE24 and TYPE25 with Iedge; false: with Igap 2, edges against faces of solids "
+                  "or points on edges were not evaluated",
+                  [](const Row& r) {
+                    return if_any(r.edges != nullptr, r.edges != nullptr && r.edges->evaluated);
+                  }),
+      column<Row>("edge_totals", "TYPE25 with Iedge: of edge_penetrations",
+                  [](const Row& r) {
+                    return r.edges == nullptr
+                               ? IfAny<ContactTotals>{}
+                               : IfAny<ContactTotals>{r.document.view.contacts[r.index + 1]};
+                  }),
+      column<Row>("edge_penetrations", "TYPE25 with Iedge",
+                  [](const Row& r) {
+                    return r.edges == nullptr ? IfAny<Rows<PairRow>>{}
+                                              : IfAny<Rows<PairRow>>{r.pairs(
+                                                    *r.edges, r.document.rows[r.index + 1])};
+                  }),
+      column<Row>("edge_solid_penetrations", "TYPE25 with Iedge of two digits",
+                  [](const Row& r) {
+                    return if_any(r.edges != nullptr, Rows<ThroughRow>{[&r](const auto& add) {
+                                    for (const auto& e : r.edges->edges_through_segments)
+                                      add({r.model(), r.contact(), *r.edges, &e});
+                                  }});
+                  }),
+      column<Row>("crossings", "With --crossings", [](const Row& r) {
+        return if_any(
+            r.document.crossings != nullptr, Rows<CrossingRow>{[&r](const auto& add) {
+              const Scene& scene = r.document.scene;
+              for (const Crossing& x : *r.document.crossings)
+                if (x.contact == r.index)
+                  add({scene, x, edge_element(*scene.model, x), segment_element(scene, x)});
+            }});
+      })};
+  static const Record<Row> record{"contact", "", columns};
+  return record;
+}
+
+struct InterfaceRow {
+  const GapsDocument& document;
+  const InterBase* inter;
+  InterfaceVerdict verdict;
+};
+
+void each_contact(const InterfaceRow& r, const std::function<void(const ContactRow&)>& add) {
+  const std::vector<Contact>& contacts = r.document.scene.contacts;
+  for (const ContactRole role : {ContactRole::primary, ContactRole::reversed, ContactRole::edges})
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const Contact& c = contacts[i];
+      if (c.inter != r.inter || c.role != role || c.dropped) continue;
+      // The edges of a TYPE24 or TYPE25 stand with its nodes.
+      if (is_modern(c.type) && role == ContactRole::edges) continue;
+      const bool with_edges =
+          is_modern(c.type) && i + 1 < contacts.size() && contacts[i + 1].inter == r.inter;
+      add({r.document, i, with_edges ? &contacts[i + 1] : nullptr});
+    }
+}
+
+const Record<InterfaceRow>& record_of(const InterfaceRow*) {
+  using Row = InterfaceRow;
+  static constexpr Column<Row> columns[] = {
+      column<&InterfaceRow::inter, &InterBase::id>("id"),
+      column<&InterfaceRow::inter, &InterBase::type>("type", "7, 10, 11, 19, 24 or 25"),
+      column<&InterfaceRow::inter, &InterBase::title>("title"),
+      column<Row>("source", "",
+                  [](const Row& r) { return place_of(r.document.deck, r.inter->span); }),
+      column<&InterfaceRow::verdict, &InterfaceVerdict::level>(
+          "level",
+          "What the verdict would be if the deck held this interface alone and had no other "
+          "errors"),
+      column<&InterfaceRow::verdict, &InterfaceVerdict::max_depth>("max_depth", "Of its contacts"),
+      column<&InterfaceRow::verdict, &InterfaceVerdict::max_ratio>("max_ratio",
+                                                                   "Of its contacts: depth to gap"),
+      column<Row>("contacts", "", [](const Row& r) {
+        return Rows<ContactRow>{[&r](const auto& add) { each_contact(r, add); }};
+      })};
+  static const Record<Row> record{"interface", "", columns};
+  return record;
+}
+
+const Record<GapsDocument>& record_of(const GapsDocument*) {
+  using Row = GapsDocument;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("deck", "",
+                  [](const Row& r) {
+                    return DeckRow{r.path, &r.deck, r.scene.model, r.scene.interfaces};
+                  }),
+      column<Row>("verdict", "", [](const Row& r) { return verdict_of(r.deck, r.scene, r.view); }),
+      column<Row>("summary", "Of all contacts", [](const Row& r) { return r.view.total; }),
+      column<Row>("gate", "null: no bounds were given",
+                  [](const Row& r) {
+                    return if_any(r.gate != nullptr, known(r.gate != nullptr && r.gate->asked,
+                                                           GateRow{&r.deck, r.gate}));
+                  }),
+      column<Row>("compared", "null: nothing was compared",
+                  [](const Row& r) {
+                    return if_any(r.gate != nullptr,
+                                  known(r.gate != nullptr && r.gate->earlier != nullptr,
+                                        ComparedRow{&r.scene, &r.view, r.gate}));
+                  }),
+      column<Row>("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25",
+                  [](const Row& r) {
+                    return coverage_of(r.deck, *r.scene.interfaces, r.scene.examined).examined;
+                  }),
+      column<Row>("not_examined", "Interfaces of other types, by keyword",
+                  [](const Row& r) {
+                    return Rows<NotExamined>{[&r](const auto& add) {
+                      const Coverage c = coverage_of(r.deck, *r.scene.interfaces, r.scene.examined);
+                      for (const NotExamined& n : c.not_examined) add(n);
+                    }};
+                  }),
+      column<Row>("accuracy", "", [](const Row& r) { return DecisionsRow{&r.scene}; }),
+      column<Row>("part_pairs", "Deepest first",
+                  [](const Row& r) {
+                    return Rows<PartPair>{[&r](const auto& add) {
+                      for (const PartPair& p : r.view.part_pairs) add(p);
+                    }};
+                  }),
+      column<Row>("interfaces", "",
+                  [](const Row& r) {
+                    return Rows<InterfaceRow>{[&r](const auto& add) {
+                      for (const InterBase* inter : r.scene.interfaces->ordered)
+                        add({r, inter, verdict_of_interface(r.scene, r.view, *inter)});
+                    }};
+                  }),
+      column<Row>("ties", "Every /INTER/TYPE2", [](const Row& r) {
+        return Rows<TieRow>{[&r](const auto& add) {
+          for (const Tie& tie : r.scene.ties) add({*r.scene.model, &tie, r.all});
+        }};
+      })};
+  static const Record<Row> record{"document", "", columns};
+  return record;
+}
+
+constexpr DocumentHead head{
+    "deck/gaps", gaps_version,
+    "Written by deck gaps --json; with --all also every secondary node, main segment and edge. "
+    "Lengths in working units. null stands for a number that is not finite."};
 
 }  // namespace
 
-void write_on_segment(JsonWriter& j, const ItemCounts& c) {
-  j.key("on_segment").begin_object(true);
-  j.field("nodes", c.nodes).field("edges", c.edges).field("pairs", c.pairs).end_object();
+const Record<PartPair>& record_of(const PartPair*) {
+  using Row = PartPair;
+  static constexpr Column<Row> columns[] = {
+      column<&PartPair::secondary>("secondary", "Part id; 0: no part"),
+      column<&PartPair::main>("main"),
+      column<&PartPair::count, &ItemCounts::pairs>("pairs"),
+      column<&PartPair::count, &ItemCounts::nodes>("nodes"),
+      column<&PartPair::count, &ItemCounts::edges>("edges"),
+      column<&PartPair::on_segment>("on_segment", "Those exactly on a segment"),
+      column<&PartPair::max_depth>("max_depth"),
+      column<&PartPair::mean_depth>("mean_depth"),
+      column<&PartPair::p95_depth>("p95_depth"),
+      column<&PartPair::max_ratio>("max_ratio", "Depth to gap")};
+  static const Record<Row> record{"part_pair", "Penetrations between two parts.", columns, true};
+  return record;
 }
 
-void write_totals(JsonWriter& j, const ContactTotals& t) {
-  j.field("pairs", t.count.pairs).field("nodes", t.count.nodes).field("edges", t.count.edges);
-  j.key("tied").begin_object(true).field("nodes", t.tied.nodes);
-  j.field("pairs", t.tied.pairs).end_object();
-  write_on_segment(j, t.on_segment);
-  j.key("crossed_elements");
-  t.crossed_elements ? j.value(*t.crossed_elements) : j.null();
-  j.field("solver_errors", t.solver_errors).field("acted", t.acted);
-  j.field("max_depth", t.max_depth).field("max_ratio", t.max_ratio);
-}
+DocumentSchema gaps_schema() { return document_schema<GapsDocument>(head); }
 
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
                       const SceneView& view, bool all, const std::vector<Crossing>* crossings,
                       const GateReport* gate, const TextDrain& drain) {
-  std::string out;
-  JsonWriter j(out);
-  const Rows rows{j, out, drain};
-  j.begin_object();
-  write_json_head(j, "deck/gaps", gaps_version);
-  write_json_deck(j, path, deck, scene.model, scene.interfaces);
-  write_verdict(j, verdict_of(deck, scene, view));
-  j.key("summary").begin_object(true);
-  write_totals(j, view.total);
-  j.end_object();
-  if (gate != nullptr) write_gate(j, deck, scene, view, *gate);
-  write_json_coverage(j, coverage_of(deck, *scene.interfaces, scene.examined));
-  write_decisions(j, scene);
-  j.key("part_pairs").begin_array();
-  for (const PartPair& p : view.part_pairs) {
-    j.begin_object(true).field("secondary", p.secondary).field("main", p.main);
-    j.field("pairs", p.count.pairs).field("nodes", p.count.nodes).field("edges", p.count.edges);
-    write_on_segment(j, p.on_segment);
-    j.field("max_depth", p.max_depth).field("mean_depth", p.mean_depth);
-    j.field("p95_depth", p.p95_depth).field("max_ratio", p.max_ratio).end_object();
-  }
-  j.end_array();
-  const std::vector<std::vector<PlacedRow>> named = rows_of_contacts(scene, view);
-  j.key("interfaces").begin_array();
-  for (const InterBase* inter : scene.interfaces->ordered) {
-    j.begin_object().field("id", inter->id).field("type", inter->type);
-    j.field("title", inter->title).key("source");
-    write_json_place(j, deck, inter->span);
-    const InterfaceVerdict own = verdict_of_interface(scene, view, *inter);
-    j.field("level", to_string(own.level)).field("max_depth", own.max_depth);
-    j.field("max_ratio", own.max_ratio).key("contacts").begin_array();
-    for (const ContactRole role :
-         {ContactRole::primary, ContactRole::reversed, ContactRole::edges}) {
-      for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-        const Contact& c = scene.contacts[i];
-        if (c.inter != inter || c.role != role || c.dropped) continue;
-        // The edges of a TYPE25 stand with its nodes.
-        const bool modern = is_modern(c.type);
-        if (modern && role == ContactRole::edges) continue;
-        const Contact* const edges =
-            modern && i + 1 < scene.contacts.size() && scene.contacts[i + 1].inter == inter
-                ? &scene.contacts[i + 1]
-                : nullptr;
-        j.begin_object().field("kind", to_string(c.kind));
-        // A TYPE11 of the user is the primary contact of its interface; that of a TYPE19 its edges.
-        j.field("role", to_string(c.role)).field("igap", c.igap == 0 ? 1000 : c.igap);
-        j.field("gapmin", c.gapmin).field("gapmax", c.gapmax).field("drad", c.drad);
-        j.field("gapmin_origin", c.gapmin_origin == GapminOrigin::card ? "card" : "derived");
-        j.field("gapmin_from", to_string(c.gapmin_origin));
-        j.field("inacti", c.inacti).field("candidates", c.candidates);
-        j.field("evaluated", c.evaluated).key("obstacle");
-        if (const Obstacle o = obstacle_of(c); o == Obstacle::none)
-          j.null();
-        else
-          j.value(to_string(o));
-        j.field("removed_pairs", c.removed_pairs).field("max_gap", c.max_gap);
-        j.field("shortest_main_side", c.shortest_side).key("totals").begin_object(true);
-        write_totals(j, view.contacts[i]);
-        j.end_object();
-        if (all && modern)
-          write_modern_sides(rows, *scene.model, c, edges);
-        else if (all)
-          write_sides(rows, *scene.model, c);
-        // The pairs of a tie are listed by the solver, but penetrate nothing.
-        write_penetrations(rows, deck, scene, c.ties() ? std::vector<PlacedRow>() : named[i], c);
-        if (c.ties()) {
-          write_penetrations(rows, deck, scene, named[i], c, "tied_pairs");
-          j.key("untied_nodes").begin_array(true);
-          for (const std::uint32_t s : untied_secondary(c))
-            j.value(scene.model->node_id(c.secondary[s].node));
-          j.end_array();
-        }
-        if (edges != nullptr) {
-          j.field("edges_evaluated", edges->evaluated).key("edge_totals").begin_object(true);
-          write_totals(j, view.contacts[i + 1]);
-          j.end_object();
-          write_penetrations(rows, deck, scene, named[i + 1], *edges, "edge_penetrations");
-          write_edges_through(rows, *scene.model, c, *edges);
-        }
-        if (crossings != nullptr)
-          write_crossings(j, scene, *crossings, static_cast<std::uint32_t>(i));
-        j.end_object();
-      }
-    }
-    j.end_array().end_object();
-  }
-  j.end_array();
-  detail::write_ties(j, scene, all);
-  j.end_object();
-  out += '\n';
-  return out;
+  const GapsDocument document{
+      path, deck, scene, view, all, crossings, gate, rows_of_contacts(scene, view), {}};
+  return write_document(head, document, drain) + '\n';
 }
 
 }  // namespace deck

@@ -1,67 +1,85 @@
-// The gate and the comparison with an earlier run as members of a JSON document.
+// The report of a gate, and the document of `deck gate --json`.
 #include <algorithm>
 
-#include "report/diagnostics_common.hpp"
 #include "report/shared/gate.hpp"
+#include "report/shared/schemas.hpp"
 #include "report/shared/verdict.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
 namespace {
 
-void write_finding(JsonWriter& j, const Deck& deck, const Diagnostic& d) {
-  j.begin_object().field("rule", id_text(d.rule)).field("severity", to_string(d.severity));
-  j.field("message", d.message).key("source");
-  write_json_place(j, deck, d.span);
-  j.key("entity");
-  if (d.keyword.empty())
-    j.null();
-  else
-    j.begin_object(true).field("keyword", d.keyword).field("id", d.id).end_object();
-  j.end_object();
+/// The arguments of gate_json().
+struct GateDocument {
+  const LintedDeck* linted = nullptr;
+  const GateReport* gate = nullptr;
+  const std::vector<const Diagnostic*>* stops = nullptr;
+  bool passed = false;
+};
+
+/// The comparison in numbers.
+struct Compared {
+  const GateReport* gate = nullptr;
+};
+const Record<Compared>& record_of(const Compared*) {
+  using Row = Compared;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::gate, &GateReport::earlier, &EarlierGaps::path>("with"),
+      column<&Row::gate, &GateReport::earlier, &EarlierGaps::deck_path>("deck"),
+      column<Row>("new", "", [](const Row& r) { return r.gate->comparison.count(Trend::fresh); }),
+      column<Row>("worse", "", [](const Row& r) { return r.gate->comparison.count(Trend::worse); }),
+      column<Row>("better", "",
+                  [](const Row& r) { return r.gate->comparison.count(Trend::better); }),
+      column<Row>("same", "", [](const Row& r) { return r.gate->comparison.count(Trend::same); }),
+      column<Row>("solved", "", [](const Row& r) { return r.gate->comparison.solved.size(); })};
+  static const Record<Row> record{
+      "compared", "Nodes and edges, each by its deepest pair, against the earlier document.",
+      columns, true};
+  return record;
 }
 
-void write_ids(JsonWriter& j, const std::array<std::int64_t, 2>& secondary) {
-  if (secondary[1] == 0) {
-    j.field("node", secondary[0]);
-    return;
-  }
-  j.key("edge").begin_array(true).value(secondary[0]).value(secondary[1]).end_array();
+struct Summary {
+  const LintResult* result = nullptr;
+};
+const Record<Summary>& record_of(const Summary*) {
+  using Row = Summary;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::result, &LintResult::errors>("errors"),
+      column<&Row::result, &LintResult::warnings>("warnings"),
+      column<&Row::result, &LintResult::infos>("infos"),
+      column<&Row::result, &LintResult::baselined>("baselined", "Known from the baseline")};
+  static const Record<Row> record{"summary", "Findings of lint.", columns, true};
+  return record;
 }
 
-void write_counts(JsonWriter& j, const GateReport& gate) {
-  j.field("with", gate.earlier->path).field("deck", gate.earlier->deck_path);
-  for (const Trend t : {Trend::fresh, Trend::worse, Trend::better, Trend::same})
-    j.field(to_string(t), gate.comparison.count(t));
-  j.field("solved", std::uint64_t{gate.comparison.solved.size()});
+const Record<GateDocument>& record_of(const GateDocument*) {
+  using Row = GateDocument;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("deck", "",
+                  [](const Row& r) {
+                    return DeckRow{r.linted->path, r.linted->deck, nullptr, nullptr};
+                  }),
+      column<Row>("verdict", "",
+                  [](const Row& r) {
+                    return r.linted->verdict ? *r.linted->verdict : lint_verdict(*r.linted);
+                  }),
+      column<&Row::passed>("passed"),
+      column<&Row::gate, &GateReport::undecided>("undecided",
+                                                 "Contacts that could not be evaluated"),
+      column<Row>("findings", "Those that fail the gate",
+                  [](const Row& r) {
+                    return Rows<GateFinding>{[&r](const auto& add) {
+                      for (const Diagnostic* d : *r.stops) add({r.linted->deck, d});
+                    }};
+                  }),
+      column<Row>("compared", "null: nothing was compared",
+                  [](const Row& r) { return known(r.gate->earlier != nullptr, Compared{r.gate}); }),
+      column<Row>("summary", "", [](const Row& r) { return Summary{r.linted->result}; })};
+  static const Record<Row> record{"document", "", columns};
+  return record;
 }
 
-void write_comparison(JsonWriter& j, const Scene& scene, const SceneView& view,
-                      const GateReport& gate) {
-  const EarlierGaps& earlier = *gate.earlier;
-  const GapsComparison& c = gate.comparison;
-  j.begin_object();
-  write_counts(j, gate);
-  j.key("rows").begin_array();
-  for (const GapsComparison::Row& r : c.rows) {
-    if (r.trend == Trend::same) continue;
-    const NamedPenetration& p = view.penetrations[r.penetration];
-    const Contact& contact = scene.contacts[p.contact];
-    j.begin_object(true).field("change", to_string(r.trend)).field("interface", contact.inter->id);
-    j.field("role", to_string(contact.role));
-    write_ids(j, p.secondary);
-    j.field("depth", contact.penetrations[p.row].depth).key("was");
-    r.earlier == no_index ? j.null() : j.value(earlier.rows[r.earlier].depth);
-    j.end_object();
-  }
-  for (const std::uint32_t i : c.solved) {
-    const EarlierGaps::Row& row = earlier.rows[i];
-    j.begin_object(true).field("change", "solved").field("interface", row.interface_id);
-    j.field("role", row.role);
-    write_ids(j, row.secondary);
-    j.key("depth").null().field("was", row.depth).end_object();
-  }
-  j.end_array().end_object();
-}
+constexpr DocumentHead head{"deck/gate", 1, "Written by deck gate --json."};
 
 }  // namespace
 
@@ -85,45 +103,11 @@ GateReport gate_report(const Gate& gate, const Scene& scene, const SceneView& vi
   return report;
 }
 
-void write_gate(JsonWriter& j, const Deck& deck, const Scene& scene, const SceneView& view,
-                const GateReport& gate) {
-  j.key("gate");
-  if (!gate.asked) {
-    j.null();
-  } else {
-    j.begin_object().field("passed", gate.passed());
-    j.field("undecided", std::uint64_t{gate.undecided}).key("findings").begin_array();
-    for (const Diagnostic& d : gate.findings) write_finding(j, deck, d);
-    j.end_array().end_object();
-  }
-  j.key("compared");
-  gate.earlier != nullptr ? write_comparison(j, scene, view, gate) : void(j.null());
-}
+DocumentSchema gate_schema() { return document_schema<GateDocument>(head); }
 
 std::string gate_json(const LintedDeck& deck, const GateReport& gate,
                       const std::vector<const Diagnostic*>& stops, bool passed) {
-  std::string out;
-  JsonWriter j(out);
-  j.begin_object();
-  write_json_head(j, "deck/gate", 1);
-  write_json_deck(j, deck.path, *deck.deck, nullptr, nullptr);
-  write_verdict(j, deck.verdict ? *deck.verdict : lint_verdict(deck));
-  j.field("passed", passed).field("undecided", std::uint64_t{gate.undecided});
-  j.key("findings").begin_array();
-  for (const Diagnostic* d : stops) write_finding(j, *deck.deck, *d);
-  j.end_array().key("compared");
-  if (gate.earlier == nullptr) {
-    j.null();
-  } else {
-    j.begin_object(true);
-    write_counts(j, gate);
-    j.end_object();
-  }
-  const LintResult& r = *deck.result;
-  j.key("summary").begin_object(true).field("errors", r.errors).field("warnings", r.warnings);
-  j.field("infos", r.infos).field("baselined", r.baselined).end_object();
-  j.end_object();
-  return out + "\n";
+  return write_document(head, GateDocument{&deck, &gate, &stops, passed}) + "\n";
 }
 
 }  // namespace deck

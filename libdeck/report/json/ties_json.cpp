@@ -1,68 +1,130 @@
-// Ties of /INTER/TYPE2 as JSON.
+// Ties of /INTER/TYPE2 in documents.
 #include "report/json/ties_json.hpp"
 
-#include "deck/contact/ties.hpp"
+#include "report/shared_records.hpp"
 #include "verdict/shared/of_interface.hpp"
 
-namespace deck::detail {
+namespace deck {
 namespace {
 
-void write_node(JsonWriter& j, const Model& model, const Tie& tie, const TiedNode& n) {
-  const bool found = n.segment != no_index;
-  j.begin_object(true).field("node", model.nodes.id[n.node]).field("tied", n.tied).key("segment");
-  if (found) {
-    j.begin_array(true);
-    for (const NodeIndex corner : tie.main[n.segment]) j.value(model.nodes.id[corner]);
-    j.end_array();
-  } else {
-    j.null();
+using Corners = std::array<std::int64_t, 4>;
+
+struct NodeRow {
+  const Model& model;
+  const Tie& tie;
+  const TiedNode* node;
+  bool found() const { return node->segment != no_index; }
+  Corners corners(std::uint32_t segment) const {
+    return segment == no_index ? Corners{} : node_ids(model, tie.main[segment]);
   }
-  const auto number = [&](const char* name, bool known, double v) {
-    j.key(name);
-    known ? j.value(v) : j.null();
-  };
-  number("s", found, n.s);
-  number("t", found, n.t);
-  number("distance", found, n.distance);
-  const double search = n.search != 0 ? n.search : tie.search_distance;
-  number("search", search != 0, search);
-  j.key("message");
-  n.message != 0 ? j.value(n.message) : j.null();
-  j.field("penalty", n.penalty).field("why", why_text(tie, n));
-  if (!found && n.nearest != no_index) {
-    j.key("nearest").begin_object(true).key("segment").begin_array(true);
-    for (const NodeIndex corner : tie.main[n.nearest]) j.value(model.nodes.id[corner]);
-    j.end_array().field("distance", n.nearest_distance).end_object();
-  }
-  j.end_object();
+  double search() const { return node->search != 0 ? node->search : tie.search_distance; }
+};
+
+struct NearestRow {
+  Corners segment{};
+  double distance = 0;
+};
+const Record<NearestRow>& record_of(const NearestRow*) {
+  using Row = NearestRow;
+  static constexpr Column<Row> columns[] = {column<&NearestRow::segment>("segment"),
+                                            column<&NearestRow::distance>("distance")};
+  static const Record<Row> record{"nearest_segment", "", columns, true};
+  return record;
+}
+
+const Record<NodeRow>& record_of(const NodeRow*) {
+  using Row = NodeRow;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("node", "", [](const Row& r) { return r.model.nodes.id[r.node->node]; }),
+      column<&NodeRow::node, &TiedNode::tied>("tied"),
+      column<Row>("segment", "Node ids; triangles repeat the last",
+                  [](const Row& r) { return known(r.found(), r.corners(r.node->segment)); }),
+      column<Row>(
+          "s",
+          "Place on the segment, -1 to 1 within it; on triangles with Spotflag 27 the weight "
+          "of the first corner",
+          [](const Row& r) { return known(r.found(), r.node->s); }),
+      column<Row>("t", "", [](const Row& r) { return known(r.found(), r.node->t); }),
+      column<Row>("distance", "", [](const Row& r) { return known(r.found(), r.node->distance); }),
+      column<Row>("search",
+                  "How far the solver searches with this segment, or with the nearest one",
+                  [](const Row& r) { return known(r.search() != 0, r.search()); }),
+      column<Row>("message", "Message of the solver that lists the node",
+                  [](const Row& r) { return known(r.node->message != 0, r.node->message); }),
+      column<&NodeRow::node, &TiedNode::penalty>("penalty", "Tied by penalty"),
+      column<Row>("why", "A sentence", [](const Row& r) { return why_text(r.tie, *r.node); }),
+      column<Row>("nearest", "Without a segment: the nearest one", [](const Row& r) {
+        return if_any(!r.found() && r.node->nearest != no_index,
+                      NearestRow{r.corners(r.node->nearest), r.node->nearest_distance});
+      })};
+  static const Record<Row> record{"tied_node", "A secondary node of a tie.", columns, true};
+  return record;
 }
 
 }  // namespace
 
-void write_ties(JsonWriter& j, const Scene& scene, bool all) {
-  j.key("ties").begin_array();
-  for (const Tie& tie : scene.ties) {
-    j.begin_object().field("id", tie.inter->id).field("type", tie.inter->type);
-    j.field("title", tie.inter->title).field("level", to_string(level_of_tie(tie)));
-    j.key("search_distance");
-    tie.search_distance != 0 ? j.value(tie.search_distance) : j.null();
-    j.key("not_evaluated");
-    tie.not_evaluated.empty() ? j.null() : j.value(tie.not_evaluated);
-    j.key("nodes").begin_array();
-    for (const TiedNode& n : tie.nodes)
-      if (all || !n.tied || n.message != 0) write_node(j, *scene.model, tie, n);
-    j.end_array().key("repeated").begin_array(true);
-    for (const RepeatedTies& r : tie.repeated)
-      j.begin_object(true).field("interface", r.interface_id).field("nodes", r.count).end_object();
-    j.end_array().key("main_and_tied").begin_array(true);
-    for (const NodeIndex n : tie.main_and_tied) j.value(scene.model->nodes.id[n]);
-    const TieCounts count = count_ties(tie);
-    j.end_array().key("summary").begin_object(true).field("nodes", count.nodes);
-    j.field("tied", count.tied).field("not_found", count.not_found);
-    j.field("dropped", count.dropped).field("elsewhere", count.elsewhere);
-    j.field("outside", count.outside).end_object().end_object();
-  }
-  j.end_array();
+const Record<RepeatedTies>& record_of(const RepeatedTies*) {
+  using Row = RepeatedTies;
+  static constexpr Column<Row> columns[] = {column<&RepeatedTies::interface_id>("interface"),
+                                            column<&RepeatedTies::count>("nodes")};
+  static const Record<Row> record{"repeated_ties", "", columns, true};
+  return record;
 }
 
-}  // namespace deck::detail
+const Record<TieCounts>& record_of(const TieCounts*) {
+  using Row = TieCounts;
+  static constexpr Column<Row> columns[] = {
+      column<&TieCounts::nodes>("nodes"),
+      column<&TieCounts::tied>("tied"),
+      column<&TieCounts::not_found>("not_found", "No segment within reach"),
+      column<&TieCounts::dropped>("dropped", "A segment was found, and the node dropped"),
+      column<&TieCounts::elsewhere>("elsewhere", "Taken out because something else holds them"),
+      column<&TieCounts::outside>("outside", "Tied from beyond the rim of their segment")};
+  static const Record<Row> record{"tie_counts", "", columns, true};
+  return record;
+}
+
+const Record<TieRow>& record_of(const TieRow*) {
+  using Row = TieRow;
+  static constexpr Column<Row> columns[] = {
+      column<&TieRow::tie, &Tie::inter, &InterType2::id>("id"),
+      column<&TieRow::tie, &Tie::inter, &InterType2::type>("type", "2"),
+      column<&TieRow::tie, &Tie::inter, &InterType2::title>("title"),
+      column<Row>("level", "As of an interface", [](const Row& r) { return level_of_tie(*r.tie); }),
+      column<Row>(
+          "search_distance", "null: every pair has its own, or there is none",
+          [](const Row& r) { return known(r.tie->search_distance != 0, r.tie->search_distance); }),
+      column<Row>(
+          "not_evaluated", "Why no segments were searched; null: they were",
+          [](const Row& r) { return known(!r.tie->not_evaluated.empty(), r.tie->not_evaluated); }),
+      column<Row>("nodes",
+                  "With --all every secondary node, else those that are not tied, or tied from "
+                  "beyond a rim",
+                  [](const Row& r) {
+                    return Rows<NodeRow>{[&r](const auto& add) {
+                      for (const TiedNode& n : r.tie->nodes)
+                        if (r.all || !n.tied || n.message != 0) add({r.model, *r.tie, &n});
+                    }};
+                  }),
+      column<Row>("repeated", "Ties that an earlier interface makes already (message 1630)",
+                  [](const Row& r) {
+                    return Rows<RepeatedTies>{[&r](const auto& add) {
+                                                for (const RepeatedTies& t : r.tie->repeated)
+                                                  add(t);
+                                              },
+                                              true};
+                  }),
+      column<Row>("main_and_tied",
+                  "Main nodes in use that are tied themselves: the solver stops (message 556)",
+                  [](const Row& r) {
+                    std::vector<std::int64_t> ids;
+                    for (const NodeIndex n : r.tie->main_and_tied)
+                      ids.push_back(r.model.nodes.id[n]);
+                    return ids;
+                  }),
+      column<Row>("summary", "", [](const Row& r) { return count_ties(*r.tie); })};
+  static const Record<Row> record{"tie", "A TYPE2 at start-up.", columns};
+  return record;
+}
+
+}  // namespace deck

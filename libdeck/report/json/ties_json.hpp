@@ -1,11 +1,18 @@
-// The member "ties" of deck/gaps documents.
+// Ties of /INTER/TYPE2 in documents.
 #pragma once
-#include "deck/contact/scene.hpp"
-#include "report/shared/json.hpp"
+#include "deck/contact/ties.hpp"
+#include "report/record.hpp"
 
-namespace deck::detail {
+namespace deck {
 
-/// `all`: every secondary node; else those that are not tied, or tied from outside their segment.
-void write_ties(JsonWriter& json, const Scene& scene, bool all);
+const Record<RepeatedTies>& record_of(const RepeatedTies*);
+const Record<TieCounts>& record_of(const TieCounts*);
+/// With `all` every secondary node, else those that are not tied or that the solver lists.
+struct TieRow {
+  const Model& model;
+  const Tie* tie;
+  bool all = false;
+};
+const Record<TieRow>& record_of(const TieRow*);
 
-}  // namespace deck::detail
+}  // namespace deck

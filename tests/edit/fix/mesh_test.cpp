@@ -1,4 +1,4 @@
-// Which elements count as turned inside out when nodes have moved: also those pressed flat.
+// Which elements count as turned inside out, or crossed, when nodes have moved.
 #include "edit/fix/nodes/depenetrate_mesh.hpp"
 
 #include <gmock/gmock.h>
@@ -57,27 +57,10 @@ SmallDeck cube() {
   return d.solid_part(1).brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8});
 }
 
-TEST(InvertedElements, AShellThatKeepsItsSideIsNone) {
-  EXPECT_THAT(turned(square(), {{3, {6, 6, 3}}}), IsEmpty());
-}
-
-TEST(InvertedElements, AShellWhoseCornerBecomesStraightIsOne) {
-  EXPECT_THAT(turned(square(), {{3, {4, 4, 0}}}), ElementsAre(1, 2, 3, 4));
-}
-
-TEST(InvertedElements, AShellWhoseCornerTurnsOverIsOne) {
-  EXPECT_THAT(turned(square(), {{3, {1, 1, 0}}}), ElementsAre(1, 2, 3, 4));
-}
-
 TEST(InvertedElements, AnElementThatNoMovedNodeTouchesIsNotLookedAt) {
   SmallDeck d = square();
   d.node(5, 20, 0, 0);
   EXPECT_THAT(turned(d, {{5, {1, 1, 0}}}), IsEmpty());
-}
-
-TEST(InvertedElements, ATetrahedronPressedFlatIsOne) {
-  EXPECT_THAT(turned(tetra(), {{4, {0, 0, 0.5}}}), IsEmpty());
-  EXPECT_THAT(turned(tetra(), {{4, {1, 1, 0}}}), ElementsAre(1, 2, 3, 4));
 }
 
 TEST(InvertedElements, ATetrahedronThatWasInsideOutAlreadyMayTurnBackOnlyByPassingFlat) {
@@ -89,10 +72,28 @@ TEST(InvertedElements, ATetrahedronThatWasInsideOutAlreadyMayTurnBackOnlyByPassi
   EXPECT_THAT(turned(d, {{4, {0, 0, 1}}}), ElementsAre(1, 2, 3, 4));
 }
 
-TEST(InvertedElements, ABrickWithAFlatCornerIsOne) {
-  EXPECT_THAT(turned(cube(), {{7, {7, 7, 7}}}), IsEmpty());
-  // Node 7 in the plane of its neighbours 3, 6 and 8.
-  EXPECT_THAT(turned(cube(), {{7, {8, 8, 0}}}), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+TEST(CrossedElements, AreFoundWhereNodesMoved) {
+  SmallDeck d = square();  // and a triangle over it
+  d.node(5, 4, 4, 3).node(6, 7, 4, 3).node(7, 5, 7, 3).node(8, 20, 0, 0);
+  d.shell_part(2, 1.0).shell3(2, 2, 5, 6, 7);
+  const Built b(d.group("/SURF/PART/1", {1})
+                    .group("/GRNOD/PART/2", {2})
+                    .add("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=4"));
+  const detail::FixMesh mesh(b.scene);
+  const Coordinates apart{b.model.nodes.x, b.model.nodes.y, b.model.nodes.z};
+  const std::vector<NodeIndex> five{b.model.find_node(5)}, six{b.model.find_node(6)};
+  Coordinates below = apart;
+  below.z[five[0]] = -1;
+  EXPECT_THAT(mesh.all_crossings(apart, 1), IsEmpty());
+  const auto all = mesh.all_crossings(below, 1);
+  ASSERT_EQ(all.size(), 2u) << "both edges of node 5";
+  EXPECT_EQ(mesh.crossings(below, five, 1), all);
+  EXPECT_EQ(mesh.crossings(below, six, 1).size(), 1u);
+  std::vector<detail::FixMesh::Crossed> kept;
+  mesh.update_crossings(below, five, 1, kept);
+  EXPECT_EQ(kept, all);
+  mesh.update_crossings(apart, five, 1, kept);
+  EXPECT_THAT(kept, IsEmpty());
 }
 
 /// Moves each corner of an element along a straight line: up to a share of it the element keeps its

@@ -16,10 +16,6 @@ PenetrationFix moved(const Built& b, const MoveNodesOptions& options = {}) {
   return std::move(*fix);
 }
 
-bool says(const PenetrationFix& fix, const char* text) {
-  return !fix.refused.empty() && fix.refused.front().reason.find(text) != std::string::npos;
-}
-
 TEST(Translations, AreTheShortestThatFreeAll) {
   const auto one = translations_for({{{0, 0, 1}, 0.35, true}, {{0, 0, 1}, 0.2, true}}, 1, 5);
   ASSERT_FALSE(one.empty());
@@ -37,24 +33,6 @@ TEST(Translations, AreTheShortestThatFreeAll) {
   ASSERT_FALSE(bounded.empty());
   EXPECT_EQ(bounded[0].frees, 1u);
   EXPECT_LE(norm(bounded[0].by), 0.45);
-}
-
-TEST(Translations, AreNoMoreThanAsked) {
-  const std::vector<WayOut> walls = {
-      {{1, 0, 0}, 0.3, true}, {{0, 1, 0}, 0.4, true}, {{0, 0, 1}, 0.5, true}};
-  const auto all = translations_for(walls, 1, 50);
-  ASSERT_GT(all.size(), 3u);
-  for (const std::size_t most : {1u, 2u, 3u}) {
-    const auto some = translations_for(walls, 1, most);
-    ASSERT_EQ(some.size(), most);
-    for (std::size_t i = 0; i < most; ++i) EXPECT_EQ(norm(some[i].by - all[i].by), 0);
-  }
-  for (std::size_t i = 1; i < all.size(); ++i) {
-    EXPECT_GE(all[i - 1].frees, all[i].frees);
-    if (all[i - 1].frees == all[i].frees) {
-      EXPECT_LE(norm(all[i - 1].by), norm(all[i].by) * (1 + 1e-9));
-    }
-  }
 }
 
 TEST(Translations, NeverGoAgainstANormal) {

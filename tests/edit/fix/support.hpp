@@ -195,6 +195,39 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+inline PenetrationFix reduced(const Built& b, ReduceGapOptions options = {}, double least = 0.1) {
+  options.least_share = least;
+  auto fix = reduce_gaps(context_of(b), options);
+  EXPECT_TRUE(fix.ok()) << fix.error().message;
+  return std::move(*fix);
+}
+
+inline const FieldChange* change(const PenetrationFix& fix, std::string_view field) {
+  for (const FixedInterface& i : fix.interfaces)
+    for (const FieldChange& c : i.changes)
+      if (c.field == field) return &c;
+  return nullptr;
+}
+
+/// The text with the sixth digit of a new value raised.
+inline std::string with_more(std::string text, const FieldChange& c) {
+  const double step = std::pow(10.0, std::floor(std::log10(c.new_value)) - 5);
+  char larger[64];
+  std::snprintf(larger, sizeof larger, "%.6g", c.new_value + 2 * step);
+  for (auto at = text.find(" " + c.new_text); at != std::string::npos;
+       at = text.find(" " + c.new_text, at + 1)) {
+    const std::size_t end = at + 1 + c.new_text.size(), size = std::string(larger).size();
+    text.replace(end - size, size, larger);
+  }
+  return text;
+}
+
+/// True if a reason for what is not done has this text.
+inline bool says(const PenetrationFix& fix, const std::string& text) {
+  return std::any_of(fix.refused.begin(), fix.refused.end(),
+                     [&](const FixRefusal& r) { return r.reason.find(text) != std::string::npos; });
+}
+
 /// True if pairs of TYPE10 interface `id` are in the deck.
 inline bool ties(const Built& b, std::int64_t id) {
   return std::any_of(b.interfaces.ordered.begin(), b.interfaces.ordered.end(),
@@ -332,42 +365,6 @@ inline SmallDeck hairpin(unsigned seed, const std::string& interface_card) {
   return d;
 }
 
-/// The corner of a box of three shells dips into the gap of a plate near the plate's own corner.
-inline SmallDeck box_corner(unsigned seed, const std::string& interface_card) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> noise(-0.02, 0.02);
-  SmallDeck d;
-  d.shell_part(1, 1.0).shell_part(2, 1.0);
-  add_sheet(d, 1, 1, 4, 4, [&](int i, int j) { return P{2.0 * i, 2.0 * j, noise(random)}; });
-  // Corner at (0.4, 0.4, 0.5) with faces rising in three directions, tilted on its tip.
-  const P tip{0.4, 0.4, 0.5 + noise(random)};
-  const std::array<P, 3> axis{P{0.8, 0.1, 0.6}, P{0.1, 0.8, 0.6}, P{-0.6, -0.5, 0.7}};
-  const auto at = [&](double a, double b, double c) {
-    return tip + (2 * a) * axis[0] + (2 * b) * axis[1] + (2 * c) * axis[2];
-  };
-  int n = 101;
-  std::map<std::array<int, 3>, int> id;
-  for (int a = 0; a <= 2; ++a)
-    for (int b = 0; b <= 2; ++b)
-      for (int c = 0; c <= 2; ++c) {
-        if (a != 0 && b != 0 && c != 0) continue;
-        const P p = at(a, b, c);
-        id[{a, b, c}] = n;
-        d.node(n++, p[0], p[1], p[2]);
-      }
-  int e = 101;
-  for (int u = 0; u < 2; ++u)
-    for (int v = 0; v < 2; ++v) {
-      d.shell(2, e++, id[{u, v, 0}], id[{u + 1, v, 0}], id[{u + 1, v + 1, 0}], id[{u, v + 1, 0}]);
-      d.shell(2, e++, id[{0, u, v}], id[{0, u + 1, v}], id[{0, u + 1, v + 1}], id[{0, u, v + 1}]);
-      d.shell(2, e++, id[{u, 0, v}], id[{u, 0, v + 1}], id[{u + 1, 0, v + 1}], id[{u + 1, 0, v}]);
-    }
-  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2});
-  d.group("/LINE/SURF/1", {1}).group("/LINE/SURF/2", {2});
-  d.add(interface_card);
-  return d;
-}
-
 /// Two blocks of bricks of different meshes with rough faces, `apart`.
 inline SmallDeck two_blocks(unsigned seed, double apart, const std::string& interface_card) {
   std::mt19937 random(seed);
@@ -397,26 +394,6 @@ inline SmallDeck two_blocks(unsigned seed, double apart, const std::string& inte
   return d.add(interface_card);
 }
 
-/// Two crossed layers of rods.
-inline SmallDeck two_grids_of_rods(unsigned seed, const std::string& interface_card) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> noise(0, 0.3);
-  SmallDeck d;
-  d.truss_part(1, 0.5).truss_part(2, 0.5);
-  int first = 1;
-  for (int layer = 0; layer < 2; ++layer)
-    for (int rod = 0; rod < 5; ++rod, first += 6) {
-      for (int i = 0; i < 6; ++i) {
-        const double across = 0.8 + 1.6 * rod + noise(random), along = 1.8 * i;
-        d.node(first + i, layer == 0 ? along : across, layer == 0 ? across : along,
-               0.5 * layer + noise(random) / 2);
-      }
-      for (int i = 0; i < 5; ++i) d.bar("TRUSS", layer + 1, first + i, first + i, first + i + 1);
-    }
-  d.group("/LINE/PART/1", {1}).group("/LINE/PART/2", {2});
-  return d.add(interface_card);
-}
-
 /// Sheets above one another, 0.6 apart, in self-contact.
 inline SmallDeck stack_of_sheets(unsigned seed, int layers, const std::string& interface_card) {
   std::mt19937 random(seed);
@@ -433,11 +410,6 @@ inline SmallDeck stack_of_sheets(unsigned seed, int layers, const std::string& i
   }
   d.group("/GRNOD/PART/1", parts).group("/SURF/PART/1", parts);
   return d.add(interface_card);
-}
-
-/// Samples of the project that read without errors, by file name.
-inline std::string sample(const std::string& name) {
-  return (test::source_dir() / "samples" / (name + "_0000.rad")).string();
 }
 
 }  // namespace deck::test

@@ -67,18 +67,16 @@ TEST(TieFix, RaisesDsearchToWhatTheNodesNeedAndRoundsItUp) {
   EXPECT_TRUE(tied(Built(text_after(b, fix))).rewrite.edits.empty()) << "nothing is left to do";
 }
 
-TEST(TieFix, ANodeAtExactlyARoundDistanceNeedsTheNextOne) {
-  const Built b(sheet({{5, 5, 3}}).add(tie_card({.dsearch = 2})));
-  const PenetrationFix fix = tied(b);
-  EXPECT_EQ(new_dsearch(fix), 3.1);
-  EXPECT_THAT(tied_after(b, fix), ElementsAre(101));
-}
-
-TEST(TieFix, SmallLengthsKeepTheirDigits) {
-  const Built b(sheet({{5, 5, 0.00321}}).add(tie_card({.dsearch = 0.002})));
-  const PenetrationFix fix = tied(b);
-  EXPECT_DOUBLE_EQ(new_dsearch(fix), 0.0033);
-  EXPECT_THAT(tied_after(b, fix), ElementsAre(101));
+TEST(TieFix, RoundsUpAndKeepsTheDigitsOfSmallLengths) {
+  for (const auto& [height, dsearch, now] :
+       {std::tuple{3.0, 2.0, 3.1}, {0.00321, 0.002, 0.0033}, {3.0, 0.0, 3.1}}) {
+    // Ignore 3 without dsearch: 0.6 times the thickness of 2, so 1.2.
+    const Built b(sheet({{5, 5, height}})
+                      .add(tie_card({.ignore = dsearch == 0 ? 3 : 1, .dsearch = dsearch})));
+    const PenetrationFix fix = tied(b);
+    EXPECT_DOUBLE_EQ(new_dsearch(fix), now);
+    EXPECT_THAT(tied_after(b, fix), ElementsAre(101));
+  }
 }
 
 /// The tie is in metres, the deck in millimetres: the cell is written in metres, the figures are in
@@ -109,16 +107,6 @@ TEST(TieFix, NodesOutOfReachStayAndAreNamed) {
   EXPECT_THAT(reason_of(near, 103), HasSubstr("--reach"));
   // By itself as far as the mean side, 10.
   EXPECT_THAT(tied_after(b, tied(b)), ElementsAre(101, 102));
-}
-
-TEST(TieFix, ThicknessesGiveWayToDsearch) {
-  // Ignore 3 without dsearch: 0.6 times the thickness of 2, so 1.2.
-  const Built b(sheet({{5, 5, 1.1}, {15, 15, 3}}).add(tie_card({.ignore = 3})), with_ties());
-  ASSERT_THAT(tied_ids(b), ElementsAre(101));
-  const PenetrationFix fix = tied(b);
-  EXPECT_EQ(new_dsearch(fix), 3.1);
-  EXPECT_EQ(fix.ties[0].changes[0].old_value, 0);
-  EXPECT_THAT(tied_after(b, fix), ElementsAre(101, 102));
 }
 
 TEST(TieFix, AKeptNodeFartherAwayDecidesToo) {
@@ -296,36 +284,6 @@ TEST(TieHarm, AType2MayNotComeOffNorTakeAnotherSegment) {
   EXPECT_TRUE(harm({5, 5, 1}, {5, 5, 3})[0].tie);
   EXPECT_EQ(harm({5, 5, 3}, {5, 5, 1}).size(), 1u) << "tied, and was not";
   EXPECT_EQ(harm({9, 5, 1}, {11, 5, 1}).size(), 2u) << "another segment";
-}
-
-TEST(TieHarm, MoveNodesLeavesATiedNodeOnItsSegment) {
-  // Two sheets 0.5 apart in contact and glued at the corners: the way out of the gap of 1 leads out
-  // of the reach of the tie.
-  const auto deck_with = [](double dsearch) {
-    SmallDeck d;
-    d.shell_part(1, 1.0).shell_part(2, 1.0);
-    add_sheet(d, 1, 1, 2, 1, [](int i, int j) { return P{4.0 * i, 4.0 * j, 0}; });
-    add_sheet(d, 2, 101, 2, 101, [](int i, int j) { return P{1 + 3.0 * i, 1 + 3.0 * j, 0.5}; });
-    d.group("/SURF/PART/1", {1}).group("/GRNOD/PART/2", {2});
-    d.add("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1.0");
-    return d.add(tie_card({.id = 2, .grnd = 2, .surf = 1, .dsearch = dsearch}));
-  };
-  MoveNodesOptions options;
-  options.most_moved = 1;
-  options.secondary_only = true;
-  const Built tight(deck_with(0.6), with_ties());
-  ASSERT_FALSE(tied_ids(tight, 2).empty());
-  const auto held = move_nodes(context_of(tight), options);
-  ASSERT_TRUE(held.ok());
-  EXPECT_FALSE(held->complete);
-  EXPECT_EQ(tied_after(tight, *held, 2), tied_ids(tight, 2));
-  EXPECT_THAT(held->refused.at(0).reason, HasSubstr("would change what is tied"));
-  EXPECT_EQ(held->tied_nodes, tied_ids(tight, 2).size());
-  const Built wide(deck_with(3), with_ties());
-  const auto freed = move_nodes(context_of(wide), options);
-  ASSERT_TRUE(freed.ok());
-  EXPECT_TRUE(freed->complete) << "the tie reaches far enough";
-  EXPECT_EQ(tied_after(wide, *freed, 2), tied_ids(wide, 2));
 }
 
 }  // namespace

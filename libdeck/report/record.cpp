@@ -1,0 +1,167 @@
+// JSON schemas of records and documents.
+#include "report/record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/shared/escape.hpp"
+#include "report/shared/schemas.hpp"
+
+namespace deck {
+namespace {
+
+std::string quoted(std::string_view text) {
+  std::string out;
+  append_json_string(out, text);
+  return out;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + quoted(word);
+  return out;
+}
+
+std::string definitions_text(const std::map<std::string, std::string>& definitions) {
+  std::string out;
+  for (const auto& [name, form] : definitions)
+    out += fmt::format("{}    {}: {}", out.empty() ? "" : ",\n", quoted(name), form);
+  return out;
+}
+
+}  // namespace
+
+JsonForm JsonForm::or_null() const {
+  if (type.empty()) return {"", fmt::format(R"("oneOf": [{{ "type": "null" }}, {{ {} }}])", rest)};
+  return {"", fmt::format(R"("type": ["{}", "null"]{}{})", type, rest.empty() ? "" : ", ", rest)};
+}
+
+std::string JsonForm::members() const {
+  if (type.empty()) return rest;
+  return fmt::format(R"("type": "{}"{}{})", type, rest.empty() ? "" : ", ", rest);
+}
+
+JsonForm Definitions::reference(const char* name, bool common,
+                                const std::function<std::string()>& form) {
+  auto& definitions = common ? common_ : own_;
+  if (definitions.emplace(name, "").second) definitions[name] = form();
+  return {"", fmt::format(R"("$ref": "{}#/$defs/{}")", common ? "common.schema.json" : "", name)};
+}
+
+std::string object_form(std::string_view says,
+                        const std::vector<std::pair<std::string, std::string>>& members,
+                        const std::vector<std::string>& required) {
+  std::string out = "{\n";
+  if (!says.empty()) out += fmt::format("      \"description\": {},\n", quoted(says));
+  out += "      \"type\": \"object\", \"additionalProperties\": false,\n";
+  if (!required.empty()) out += fmt::format("      \"required\": [{}],\n", joined(required));
+  out += "      \"properties\": {\n";
+  for (std::size_t i = 0; i < members.size(); ++i)
+    out += fmt::format("        {}: {}{}\n", quoted(members[i].first), members[i].second,
+                       i + 1 < members.size() ? "," : "");
+  return out + "      } }";
+}
+
+std::string described(const char* says, const JsonForm& form) {
+  if (*says == 0) return fmt::format("{{ {} }}", form.members());
+  return fmt::format(R"({{ "description": {}, {} }})", quoted(says), form.members());
+}
+
+JsonForm list_form(const JsonForm& items, std::size_t size) {
+  std::string rest = fmt::format(R"("items": {{ {} }})", items.members());
+  if (size > 0) rest += fmt::format(R"(, "minItems": {0}, "maxItems": {0})", size);
+  return {"array", rest};
+}
+
+JsonForm words_form(const std::vector<std::string>& words) {
+  return {"", fmt::format(R"("enum": [{}])", joined(words))};
+}
+
+void Value<Counts>::write(JsonOut& out, const Counts& counts) {
+  out.json.begin_object(true);
+  for (const auto& [name, n] : counts) out.json.field(name, n);
+  out.json.end_object();
+}
+
+void Value<TallCounts>::write(JsonOut& out, const TallCounts& tall) {
+  out.json.begin_object();
+  for (const auto& [name, n] : tall.counts) out.json.field(name, n);
+  out.json.end_object();
+}
+
+JsonForm Value<Counts>::form(Definitions&) {
+  return {"object", R"("additionalProperties": { "type": "integer", "minimum": 0 })"};
+}
+
+DocumentSchema document_schema(const DocumentHead& head, const Definitions& definitions,
+                               const std::string& record) {
+  const std::string common = R"({ "$ref": "common.schema.json#/$defs/tool" })";
+  std::string document = definitions.own().at(record);
+  const auto insert = [&](std::string_view before, std::string_view text) {
+    document.insert(document.find(before) + before.size(), text);
+  };
+  insert("\"required\": [", R"("schema", "tool", )");
+  insert("\"properties\": {\n", R"(        "schema": { "$ref": "#/$defs/schema" },
+        "tool": { "$ref": "common.schema.json#/$defs/tool" },
+)");
+  auto own = definitions.own();
+  own[record] = document;
+  own["schema"] = fmt::format(
+      R"({{ "type": "object", "required": ["id", "version"], "additionalProperties": false, "properties": {{ "id": {{ "const": "{}" }}, "version": {{ "const": {} }} }} }})",
+      head.id, head.version);
+  std::string body = fmt::format("  \"$ref\": \"#/$defs/{}\",\n", record);
+  if (head.several) {
+    own["several"] = object_form(
+        "Several decks.",
+        {{"schema", R"({ "$ref": "#/$defs/schema" })"},
+         {"tool", common},
+         {"decks",
+          fmt::format(R"({{ "type": "array", "items": {{ "$ref": "#/$defs/{}" }} }})", record)}},
+        {"schema", "tool", "decks"});
+    body = fmt::format(R"(  "oneOf": [{{ "$ref": "#/$defs/{}" }}, {{ "$ref": "#/$defs/several" }}],
+)",
+                       record);
+  }
+  const std::string text = fmt::format(
+      R"({{
+  "$schema": "https://json-schema.org/draft/2020-12/schema",
+  "title": "deck {} --json, version {}",
+  "description": {},
+{}  "$defs": {{
+{}
+  }}
+}}
+)",
+      std::string_view(head.id).substr(5), head.version, quoted(head.says), body,
+      definitions_text(own));
+  return {text, definitions.common()};
+}
+
+std::string common_schema() {
+  std::map<std::string, std::string> all;
+  for (const DocumentOfVerb& document : documents_of_verbs())
+    for (const auto& definition : document.schema().common) all.insert(definition);
+  all["tool"] =
+      object_form("", {{"name", R"({ "const": "deck" })"}, {"version", R"({ "type": "string" })"}},
+                  {"name", "version"});
+  return fmt::format(R"({{
+  "$schema": "https://json-schema.org/draft/2020-12/schema",
+  "title": "Definitions that the documents of deck share",
+  "$defs": {{
+{}
+  }}
+}}
+)",
+                     definitions_text(all));
+}
+
+const std::vector<DocumentOfVerb>& documents_of_verbs() {
+  static const std::vector<DocumentOfVerb> documents = {
+      {"diff", diff_schema},  {"explain", explain_schema}, {"gaps", gaps_schema},
+      {"gate", gate_schema},  {"lint", lint_schema},       {"losses", losses_schema},
+      {"rules", rules_schema}};
+  return documents;
+}
+
+}  // namespace deck

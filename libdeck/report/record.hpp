@@ -1,0 +1,346 @@
+// Records: the members of a JSON object, written once as a table of columns. From a table come the
+// object in a document and its JSON schema.
+//
+// A type becomes a record by a function next to it:
+//
+//   const Record<Crossing>& record_of(const Crossing*) {
+//     static constexpr Column<Crossing> columns[] = {
+//         column<&Crossing::edge>("edge", "Node ids"),
+//         column<Crossing>("side", "1 to 4", [](const Crossing& c) { return c.side + 1; })};
+//     static const Record<Crossing> record{"crossing", "An edge through a segment.", columns};
+//     return record;
+//   }
+//
+// The type that a column's function returns decides the form of the member:
+//
+//   double                       a number; null if it is not finite
+//   integers, bool, texts        as they are; an unsigned integer is 0 or more
+//   enumerations                 to_string() of it: one of the first word_count<E> words
+//   std::optional<T>             a T, or null
+//   IfAny<T>                     a T, or the object does not have the member
+//   std::array, std::vector      a list on one line
+//   Counts                       an object of names and counts; TallCounts: one a line
+//   a type that has record_of()  an object
+//   Rows<T>                      a list of such objects, each written as it comes
+#pragma once
+#include <array>
+#include <concepts>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "deck/report/drain.hpp"
+#include "report/shared/json.hpp"
+
+namespace deck {
+
+/// A JSON document under way; after each object of a list the text may leave by the drain.
+struct JsonOut {
+  JsonWriter& json;
+  std::string& text;
+  TextDrain drain;
+};
+
+/// The form of a value as JSON schema.
+struct JsonForm {
+  std::string type;  ///< "integer"; empty if `rest` says everything
+  std::string rest;  ///< further members, as "minimum": 0
+
+  JsonForm or_null() const;
+  std::string members() const;  ///< what stands between the braces
+};
+
+/// Records that the forms of a document refer to, by name: their JSON schemas.
+class Definitions {
+ public:
+  /// A reference to a record, which is described by `form` when it is met for the first time.
+  /// `common`: it stands in the file that all documents share.
+  JsonForm reference(const char* name, bool common, const std::function<std::string()>& form);
+  const std::map<std::string, std::string>& own() const { return own_; }
+  const std::map<std::string, std::string>& common() const { return common_; }
+
+ private:
+  std::map<std::string, std::string> own_, common_;
+};
+
+template <class Row>
+struct Column {
+  const char* name;
+  const char* says;  ///< description in the schema; may be empty
+  bool required;
+  void (*write)(JsonOut&, std::string_view name, const Row&);
+  JsonForm (*form)(Definitions&);
+};
+
+template <class Row>
+struct Record {
+  const char* name;
+  const char* says;
+  std::span<const Column<Row>> columns;
+  bool line = false;    ///< the object stands on one line
+  bool common = false;  ///< its schema stands in the file that all documents share
+};
+
+template <class T>
+struct IfAny {
+  std::optional<T> value;
+};
+
+template <class T>
+struct Rows {
+  /// Calls its argument with each row.
+  std::function<void(const std::function<void(const T&)>&)> each;
+  bool line = false;  ///< the list stands on one line
+};
+
+using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
+struct TallCounts {
+  Counts counts;
+};
+
+/// How many values of an enumeration, from 0 on, have a word.
+template <class E>
+inline constexpr std::size_t word_count = 0;
+
+// ---- one form for each type -------------------------------------------------------------------
+
+template <class T>
+concept HasRecord = requires(const T* t) {
+  record_of(t);
+};
+
+template <class Row>
+void write_members(JsonOut& out, const Row& row) {
+  for (const Column<Row>& c : record_of(&row).columns) c.write(out, c.name, row);
+}
+
+/// The JSON schema of a record, its columns one a line.
+std::string object_form(std::string_view says,
+                        const std::vector<std::pair<std::string, std::string>>& members,
+                        const std::vector<std::string>& required);
+std::string described(const char* says, const JsonForm& form);
+JsonForm list_form(const JsonForm& items, std::size_t size = 0);
+JsonForm words_form(const std::vector<std::string>& words);
+
+template <class Row>
+JsonForm record_form(Definitions& definitions) {
+  const Record<Row>& record = record_of(static_cast<const Row*>(nullptr));
+  return definitions.reference(record.name, record.common, [&] {
+    std::vector<std::pair<std::string, std::string>> members;
+    std::vector<std::string> required;
+    for (const Column<Row>& c : record.columns) {
+      members.emplace_back(c.name, described(c.says, c.form(definitions)));
+      if (c.required) required.emplace_back(c.name);
+    }
+    return object_form(record.says, members, required);
+  });
+}
+
+template <class T>
+struct Value {
+  static void write(JsonOut& out, const T& v) {
+    if constexpr (HasRecord<T>) {
+      out.json.begin_object(record_of(&v).line);
+      write_members(out, v);
+      out.json.end_object();
+    } else if constexpr (std::is_enum_v<T>) {
+      out.json.value(to_string(v));
+    } else {
+      out.json.value(v);
+    }
+  }
+  static JsonForm form(Definitions& definitions) {
+    if constexpr (HasRecord<T>) {
+      return record_form<T>(definitions);
+    } else if constexpr (std::is_enum_v<T>) {
+      static_assert(word_count<T> > 0, "word_count<E> says how many words the enumeration has");
+      std::vector<std::string> words;
+      for (std::size_t i = 0; i < word_count<T>; ++i)
+        words.emplace_back(to_string(static_cast<T>(i)));
+      return words_form(words);
+    } else if constexpr (std::same_as<T, bool>) {
+      return {"boolean", ""};
+    } else if constexpr (std::unsigned_integral<T>) {
+      return {"integer", "\"minimum\": 0"};
+    } else if constexpr (std::integral<T>) {
+      return {"integer", ""};
+    } else if constexpr (std::floating_point<T>) {
+      return JsonForm{"number", ""}.or_null();
+    } else {
+      return {"string", ""};
+    }
+  }
+};
+
+template <class T>
+struct Value<std::optional<T>> {
+  static void write(JsonOut& out, const std::optional<T>& v) {
+    v ? Value<T>::write(out, *v) : void(out.json.null());
+  }
+  static JsonForm form(Definitions& d) { return Value<T>::form(d).or_null(); }
+};
+
+template <class List>
+void write_list(JsonOut& out, const List& list) {
+  out.json.begin_array(true);
+  for (const auto& v : list) Value<std::remove_cvref_t<decltype(v)>>::write(out, v);
+  out.json.end_array();
+}
+
+template <class T, std::size_t N>
+struct Value<std::array<T, N>> {
+  static void write(JsonOut& out, const std::array<T, N>& v) { write_list(out, v); }
+  static JsonForm form(Definitions& d) { return list_form(Value<T>::form(d), N); }
+};
+
+template <class T>
+struct Value<std::vector<T>> {
+  static void write(JsonOut& out, const std::vector<T>& v) { write_list(out, v); }
+  static JsonForm form(Definitions& d) { return list_form(Value<T>::form(d)); }
+};
+
+template <>
+struct Value<Counts> {
+  static void write(JsonOut& out, const Counts& counts);
+  static JsonForm form(Definitions& d);
+};
+
+template <>
+struct Value<TallCounts> {
+  static void write(JsonOut& out, const TallCounts& tall);
+  static JsonForm form(Definitions& d) { return Value<Counts>::form(d); }
+};
+
+template <class T>
+struct Value<Rows<T>> {
+  static void write(JsonOut& out, const Rows<T>& rows) {
+    out.json.begin_array(rows.line);
+    rows.each([&](const T& row) {
+      Value<T>::write(out, row);
+      drain_text(out.drain, out.text);
+    });
+    out.json.end_array();
+  }
+  static JsonForm form(Definitions& d) { return list_form(Value<T>::form(d)); }
+};
+
+template <class T>
+struct Value<IfAny<T>> {
+  static JsonForm form(Definitions& d) { return Value<T>::form(d); }
+};
+
+template <class T>
+inline constexpr bool is_if_any = false;
+template <class T>
+inline constexpr bool is_if_any<IfAny<T>> = true;
+
+/// A column; `get` is a lambda without captures from a row to the value.
+template <class Row, class Get>
+requires std::is_empty_v<Get>
+constexpr Column<Row> column(const char* name, const char* says, Get) {
+  using T = std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>;
+  return {name, says, !is_if_any<T>,
+          [](JsonOut& out, std::string_view key, const Row& row) {
+            const auto& value = Get{}(row);
+            if constexpr (is_if_any<T>) {
+              if (!value.value) return;
+              out.json.key(key);
+              Value<std::remove_cvref_t<decltype(*value.value)>>::write(out, *value.value);
+            } else {
+              out.json.key(key);
+              Value<T>::write(out, value);
+            }
+          },
+          [](Definitions& d) { return Value<T>::form(d); }};
+}
+
+/// What a path of members and functions gives for a row; pointers on the way are followed.
+template <auto Get, auto... Rest, class Row>
+constexpr decltype(auto) value_at(const Row& row) {
+  if constexpr (std::is_pointer_v<Row>)
+    return value_at<Get, Rest...>(*row);
+  else if constexpr (sizeof...(Rest) == 0)
+    return std::invoke(Get, row);
+  else
+    return value_at<Rest...>(std::invoke(Get, row));
+}
+
+template <class Row, class T>
+Row row_type(T Row::*);
+template <class Row, class T>
+Row row_type(T (*)(const Row&));
+
+/// A column that is a member of the row, a function of it, or a path of these:
+/// column<&Row::pair, &Pair::gap>("gap", "The pair gap").
+template <auto First, auto... Rest>
+constexpr auto column(const char* name, const char* says = "") {
+  using Row = decltype(row_type(First));
+  return column<Row>(
+      name, says, [](const Row& row) -> decltype(auto) { return value_at<First, Rest...>(row); });
+}
+
+/// A value, and a record without its braces, where no list is long.
+template <class T>
+void write_value(JsonWriter& json, const T& value) {
+  std::string text;
+  JsonOut out{json, text, {}};
+  Value<T>::write(out, value);
+}
+template <class Row>
+void write_members(JsonWriter& json, const Row& row) {
+  std::string text;
+  JsonOut out{json, text, {}};
+  write_members(out, row);
+}
+
+// ---- documents --------------------------------------------------------------------------------
+
+/// What the schema of a document begins with.
+struct DocumentHead {
+  const char* id;  ///< "deck/gaps"
+  int version;
+  const char* says;
+  bool several = true;  ///< several decks: {schema, tool, decks: [document, ...]}
+};
+
+/// The JSON schema of a document whose members, after "schema" and "tool", are a record.
+struct DocumentSchema {
+  std::string text;
+  std::map<std::string, std::string> common;  ///< definitions that it shares with others
+};
+DocumentSchema document_schema(const DocumentHead& head, const Definitions& definitions,
+                               const std::string& record);
+template <class Row>
+DocumentSchema document_schema(const DocumentHead& head) {
+  Definitions definitions;
+  record_form<Row>(definitions);
+  return document_schema(head, definitions, record_of(static_cast<const Row*>(nullptr)).name);
+}
+
+/// A document, and its text alone.
+template <class Row>
+void write_document(JsonWriter& json, const DocumentHead& head, const Row& row) {
+  json.begin_object();
+  write_json_head(json, head.id, head.version);
+  write_members(json, row);
+  json.end_object();
+}
+template <class Row>
+std::string write_document(const DocumentHead& head, const Row& row, const TextDrain& drain = {}) {
+  std::string text;
+  JsonWriter json(text);
+  JsonOut out{json, text, drain};
+  json.begin_object();
+  write_json_head(json, head.id, head.version);
+  write_members(out, row);
+  json.end_object();
+  return text;
+}
+
+}  // namespace deck

@@ -1,0 +1,108 @@
+// Records that several documents have: the deck, places in it, the verdict, counts, decisions,
+// gate.
+#pragma once
+#include "deck/contact/view.hpp"
+#include "deck/verdict.hpp"
+#include "report/record.hpp"
+#include "report/shared/gate.hpp"
+#include "report/shared/listing.hpp"
+#include "report/shared/losses.hpp"
+
+namespace deck {
+
+/// A place in the text of a deck.
+struct Place {
+  std::string_view file;
+  std::size_t line = 0, column = 0;
+};
+const Record<Place>& record_of(const Place*);
+/// nullopt: the span is not valid.
+std::optional<Place> place_of(const Deck& deck, const Span& span);
+
+/// The member "deck". `model` and `interfaces` may be nullptr where they were not built.
+struct DeckRow {
+  std::string_view path;
+  const Deck* deck = nullptr;
+  const Model* model = nullptr;
+  const Interfaces* interfaces = nullptr;
+};
+const Record<DeckRow>& record_of(const DeckRow*);
+
+const Record<NotExamined>& record_of(const NotExamined*);
+const Record<Verdict>& record_of(const Verdict*);
+const Record<ItemCounts>& record_of(const ItemCounts*);
+const Record<PartPair>& record_of(const PartPair*);
+const Record<ContactTotals>& record_of(const ContactTotals*);
+
+/// The member "accuracy": how decisions were made.
+struct DecisionsRow {
+  const Scene* scene = nullptr;
+};
+const Record<DecisionsRow>& record_of(const DecisionsRow*);
+
+/// The entity that a finding is about.
+struct EntityRow {
+  const Diagnostic* d = nullptr;
+};
+const Record<EntityRow>& record_of(const EntityRow*);
+const Record<ReferenceMessage>& record_of(const ReferenceMessage*);
+const Record<NotChecked>& record_of(const NotChecked*);
+const Record<LossEntry>& record_of(const LossEntry*);
+const Record<StepDifference>& record_of(const StepDifference*);
+
+/// A finding of a gate.
+struct GateFinding {
+  const Deck* deck = nullptr;
+  const Diagnostic* d = nullptr;
+};
+const Record<GateFinding>& record_of(const GateFinding*);
+/// The members "gate" and "compared".
+struct GateRow {
+  const Deck* deck = nullptr;
+  const GateReport* gate = nullptr;
+};
+const Record<GateRow>& record_of(const GateRow*);
+struct ComparedRow {
+  const Scene* scene = nullptr;
+  const SceneView* view = nullptr;
+  const GateReport* gate = nullptr;
+};
+const Record<ComparedRow>& record_of(const ComparedRow*);
+/// An element and its part.
+const Record<ElementName>& record_of(const ElementName*);
+
+template <>
+inline constexpr std::size_t word_count<ContactKind> = 2;
+template <>
+inline constexpr std::size_t word_count<ContactRole> = 3;
+template <>
+inline constexpr std::size_t word_count<PenetrationAction> = penetration_actions;
+template <>
+inline constexpr std::size_t word_count<SegmentKind> = 5;
+template <>
+inline constexpr std::size_t word_count<Accuracy> = 4;
+template <>
+inline constexpr std::size_t word_count<VerdictLevel> = 8;
+template <>
+inline constexpr std::size_t word_count<Severity> = 3;
+
+/// Ids of nodes.
+template <std::size_t N>
+std::array<std::int64_t, N> node_ids(const Model& model, const std::array<NodeIndex, N>& nodes) {
+  std::array<std::int64_t, N> ids{};
+  for (std::size_t i = 0; i < N; ++i) ids[i] = model.node_id(nodes[i]);
+  return ids;
+}
+
+/// A value where it is known, else null.
+template <class T>
+std::optional<T> known(bool is_known, const T& value) {
+  return is_known ? std::optional<T>(value) : std::nullopt;
+}
+/// A value where the object has it, else no member.
+template <class T>
+IfAny<T> if_any(bool is_there, const T& value) {
+  return {known(is_there, value)};
+}
+
+}  // namespace deck
