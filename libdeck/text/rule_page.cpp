@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <memory>
 #include <optional>
-
-#include "text/shared/cell_rule.hpp"
 
 namespace deck::detail {
 namespace {
@@ -133,9 +130,6 @@ class PageReader {
       if (!read_key(key, value)) fail("'" + std::string(line) + "' is not understood");
     }
     next();
-    if (cells_ && (cells_->when.nodes.empty() || cells_->at.empty() || cells_->message.empty()))
-      fail("a rule of cells has 'when', 'at' and a message");
-    rule_.cells = cells_;
     if (!id || rule_.title.empty() || rule_.severities.empty() || !stage_)
       fail("a page has an id, a title, a severity and found_by");
   }
@@ -169,10 +163,9 @@ class PageReader {
       rule_.stage = stage_.value_or(RuleStage::check);
       return stage_.has_value();
     }
-    if (key == "message" && value.starts_with('"')) {
-      cells().message = value.substr(1, value.size() - 2);
-      return value.size() > 2 && value.ends_with('"');
-    }
+    const bool text = value.size() > 2 && value.starts_with('"') && value.ends_with('"');
+    if (key == "when" || key == "at" || key == "note" || key == "fix" || (key == "message" && text))
+      return rule_.cells.emplace(key, text ? value.substr(1, value.size() - 2) : value).second;
     if (key == "message")
       return each_item(value, [&](std::string_view item) {
         const auto blank = std::min(item.find(' '), item.size());
@@ -192,27 +185,6 @@ class PageReader {
     if (key == "fixable") {
       rule_.fixable = value == "safe" ? Fixable::safe : Fixable::unsafe;
       return value == "safe" || value == "unsafe";
-    }
-    if (key == "when") {
-      auto when = detail::Predicate::parse(value);
-      if (when)
-        cells().when = std::move(*when);
-      else
-        fail(when.error().message);
-      return true;
-    }
-    if (key == "at") {
-      cells().at = value;
-      return true;
-    }
-    if (key == "note")
-      return each_item(value, [&](std::string_view item) {
-        cells().notes.emplace_back(item);
-        return true;
-      });
-    if (key == "fix") {
-      cells().fix = detail::read_repair(value);
-      return cells().fix.has_value();
     }
     if (key == "fields") return read_fields(value, rule_.id);
     if (key == "was") {
@@ -360,14 +332,8 @@ class PageReader {
     return true;
   }
 
-  CellRule& cells() {
-    if (!cells_) cells_ = std::make_shared<CellRule>();
-    return *cells_;
-  }
-
   std::string_view name_, rest_;
   Rule rule_;
-  std::shared_ptr<CellRule> cells_;
   std::optional<RuleStage> stage_;
   std::string problem_;
   int line_ = 0, problem_line_ = 0;
@@ -386,3 +352,13 @@ Result<Rule> parse_rule_page(std::string_view name, std::string_view text) {
 }
 
 }  // namespace deck::detail
+
+namespace deck {
+
+const RuleField* Rule::field(std::string_view name) const {
+  const auto it = std::find_if(fields.begin(), fields.end(),
+                               [&](const RuleField& f) { return f.name == name; });
+  return it == fields.end() ? nullptr : &*it;
+}
+
+}  // namespace deck

@@ -1,9 +1,10 @@
 // Rules whose condition is a predicate of cells, as their pages say.
-#include <algorithm>
+#include <map>
+#include <stdexcept>
 
+#include "lint/cell_rule.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
-#include "text/shared/cell_rule.hpp"
 
 namespace deck::detail {
 namespace {
@@ -56,8 +57,25 @@ std::string message_of(const CellRule& rule, const ContactCard& card) {
   return out;
 }
 
+/// Conditions of all rules that are data. The tests read every page, so a tested library never
+/// throws here.
+const std::map<RuleId, CellRule>& cell_rules() {
+  static const std::map<RuleId, CellRule> all = [] {
+    std::map<RuleId, CellRule> out;
+    for (const Rule& rule : all_rules()) {
+      if (rule.cells.empty()) continue;
+      auto cells = CellRule::read(rule.cells);
+      if (!cells)
+        throw std::logic_error(std::string(id_text(rule.id)) + ": " + cells.error().message);
+      out.emplace(rule.id, std::move(*cells));
+    }
+    return out;
+  }();
+  return all;
+}
+
 void check_cells(const LintContext& c, const Rule& rule, Reporter& r) {
-  const CellRule& cells = *rule.cells;
+  const CellRule& cells = cell_rules().at(rule.id);
   each(c, rule, [&](const ContactCard& card) {
     if (cells.when.evaluate([&](const Predicate::Node& n) { return leaf(c, card, n); }) == 0)
       return;
@@ -73,8 +91,7 @@ void check_cells(const LintContext& c, const Rule& rule, Reporter& r) {
 std::span<const Checked> cell_checks() {
   static const std::vector<Checked> all = [] {
     std::vector<Checked> out;
-    for (const Rule& rule : all_rules())
-      if (rule.cells != nullptr) out.push_back({rule.id, check_cells});
+    for (const auto& [id, cells] : cell_rules()) out.push_back({id, check_cells});
     return out;
   }();
   return all;

@@ -3,7 +3,8 @@
 // its page.
 #pragma once
 #include <cstdint>
-#include <memory>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,10 +14,6 @@
 #include "deck/text/rule_id.hpp"
 
 namespace deck {
-namespace detail {
-struct CellRule;
-}
-
 /// Who finds the violations of a rule.
 enum class RuleStage : std::uint8_t {
   reading,  ///< bytes to blocks, cells to values
@@ -62,8 +59,8 @@ struct Rule {
   std::vector<RuleField> fields;  ///< that its findings are about; empty: it is about none
   /// What shows that the solver does what `solver` says: a run, a record, ...; empty: no claim.
   std::string source;
-  /// The condition on cells that is its check; nullptr: its check is code.
-  std::shared_ptr<const detail::CellRule> cells;
+  /// Keys when, at, message, note and fix of a rule that is a predicate of cells; else empty.
+  std::map<std::string, std::string, std::less<>> cells;
 
   Severity severity() const { return severities.front(); }
   /// nullptr: the rule is not about this field.

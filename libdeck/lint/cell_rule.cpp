@@ -1,5 +1,5 @@
 // Parser of predicates, messages and fixes of rules that are data.
-#include "text/shared/cell_rule.hpp"
+#include "lint/cell_rule.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -73,7 +73,14 @@ class Parser {
     return left;
   }
   std::size_t negated() {
-    if (take("not")) return add({Op::negated, 0, {}, negated(), 0});
+    if (++depth_ > deepest) fail("less nesting");
+    const std::size_t node = !problem_.empty() ? 0
+                             : take("not")     ? add({Op::negated, 0, {}, negated(), 0})
+                                               : compared();
+    --depth_;
+    return node;
+  }
+  std::size_t compared() {
     const std::size_t left = leaf();
     for (const auto& [token, op] : comparisons)
       if (take(token)) return add({op, 0, {}, left, leaf()});
@@ -109,6 +116,8 @@ class Parser {
     return 0;
   }
 
+  static constexpr int deepest = 50;
+  int depth_ = 0;
   std::string_view rest_;
   Predicate out_;
   std::string problem_;
@@ -120,37 +129,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-}  // namespace
-
-Result<Predicate> Predicate::parse(std::string_view text) { return Parser(text).run(); }
-
-std::vector<MessagePiece> pieces_of(std::string_view message) {
-  std::vector<MessagePiece> out;
-  while (!message.empty()) {
-    const auto open = std::min(message.find('{'), message.size());
-    if (open > 0) out.push_back({{}, message.substr(0, open)});
-    message.remove_prefix(open);
-    if (message.empty()) break;
-    const auto close = std::min(message.find('}'), message.size());
-    const std::string_view inside = message.substr(1, close - 1);
-    const auto blank = std::min(inside.find(' '), inside.size());
-    out.push_back({inside.substr(0, blank), trimmed(inside.substr(blank))});
-    message.remove_prefix(std::min(close + 1, message.size()));
-  }
-  return out;
-}
-
-std::vector<std::string> CellRule::fields() const {
-  std::vector<std::string> out = notes;
-  out.push_back(at);
-  if (fix) out.push_back(fix->field);
-  for (const Predicate::Node& n : when.nodes)
-    if (!n.name.empty() && n.op != Op::deck) out.push_back(n.name);
-  for (const MessagePiece& p : pieces_of(message))
-    if (!p.what.empty() && p.what != "name") out.emplace_back(p.field);
-  return out;
-}
-
+/// "{Istf: 1000, safe: false, title: ...}"; nullopt: not of that form.
 std::optional<CellRule::Repair> read_repair(std::string_view text) {
   if (!text.starts_with('{') || !text.ends_with('}')) return std::nullopt;
   text = text.substr(1, text.size() - 2);
@@ -177,6 +156,58 @@ std::optional<CellRule::Repair> read_repair(std::string_view text) {
     }
   }
   if (out.field.empty() || out.title.empty() || !safe_given) return std::nullopt;
+  return out;
+}
+
+}  // namespace
+
+Result<Predicate> Predicate::parse(std::string_view text) { return Parser(text).run(); }
+
+std::vector<MessagePiece> pieces_of(std::string_view message) {
+  std::vector<MessagePiece> out;
+  while (!message.empty()) {
+    const auto open = std::min(message.find('{'), message.size());
+    if (open > 0) out.push_back({{}, message.substr(0, open)});
+    message.remove_prefix(open);
+    if (message.empty()) break;
+    const auto close = std::min(message.find('}'), message.size());
+    const std::string_view inside = message.substr(1, close - 1);
+    const auto blank = std::min(inside.find(' '), inside.size());
+    out.push_back({inside.substr(0, blank), trimmed(inside.substr(blank))});
+    message.remove_prefix(std::min(close + 1, message.size()));
+  }
+  return out;
+}
+
+Result<CellRule> CellRule::read(const std::map<std::string, std::string, std::less<>>& keys) {
+  const auto text = [&](std::string_view key) {
+    const auto found = keys.find(key);
+    return found == keys.end() ? std::string() : found->second;
+  };
+  auto when = Predicate::parse(text("when"));
+  if (!when) return Error{Error::Code::config, "when: " + when.error().message};
+  CellRule out{std::move(*when), text("at"), text("message"), {}, read_repair(text("fix"))};
+  if (out.at.empty() || out.message.empty())
+    return Error{Error::Code::config, "a rule of cells has 'when', 'at' and a message in quotes"};
+  if (!out.fix && keys.contains("fix"))
+    return Error{Error::Code::config, "fix: expected {FIELD: TEXT, safe: BOOL, title: WORDS}"};
+  for (std::string_view rest = keys.contains("note") ? keys.find("note")->second : "";
+       !rest.empty();) {
+    const auto end = std::min(rest.find(','), rest.size());
+    out.notes.emplace_back(trimmed(rest.substr(0, end)));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return out;
+}
+
+std::vector<std::string> CellRule::fields() const {
+  std::vector<std::string> out = notes;
+  out.push_back(at);
+  if (fix) out.push_back(fix->field);
+  for (const Predicate::Node& n : when.nodes)
+    if (!n.name.empty() && n.op != Op::deck) out.push_back(n.name);
+  for (const MessagePiece& p : pieces_of(message))
+    if (!p.what.empty() && p.what != "name") out.emplace_back(p.field);
   return out;
 }
 

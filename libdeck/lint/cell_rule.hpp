@@ -10,6 +10,7 @@
 // `message` has {name}, the interface, and {show F}, {input F}, {value F} of its fields F.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -105,6 +106,8 @@ struct CellRule {
   };
   std::optional<Repair> fix;
 
+  /// From the keys of a page. Error: the key, what was expected, and the text from there on.
+  static Result<CellRule> read(const std::map<std::string, std::string, std::less<>>& keys);
   /// Fields that the rule names.
   std::vector<std::string> fields() const;
 };
@@ -114,8 +117,5 @@ struct MessagePiece {
   std::string_view what, field;  ///< what empty: `field` is text
 };
 std::vector<MessagePiece> pieces_of(std::string_view message);
-
-/// "{Istf: 1000, safe: false, title: ...}"; nullopt: not of that form.
-std::optional<CellRule::Repair> read_repair(std::string_view text);
 
 }  // namespace deck::detail
