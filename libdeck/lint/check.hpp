@@ -158,6 +158,7 @@ struct Checked {
   void (*check)(const LintContext&, const Rule&, Reporter&);
 };
 
+std::span<const Checked> cell_checks();         // predicates of cells, on the pages of rules
 std::span<const Checked> header_checks();       // keywords, titles, versions
 std::span<const Checked> target_checks();       // ids of loads
 std::span<const Checked> history_checks();      // time histories

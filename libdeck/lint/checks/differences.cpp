@@ -38,25 +38,6 @@ void check_title_length(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void check_blank_temperature(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!fixed_temperature(card) || card.given("Tint")) return;
-    note_field(report_at(r, rule, card, "Tint",
-                         name_of(card) + ": Tint is blank, so the secondary side exchanges heat "
-                                         "with a body of temperature 0"),
-               card, "Ithe");
-  });
-}
-
-void check_blank_radiation(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.input("Ithe") != 1 || !card.given("Frad") || card.given("Drad")) return;
-    note_field(
-        report_at(r, rule, card, "Drad", name_of(card) + ": Drad is blank, so nothing radiates"),
-        card, "Frad");
-  });
-}
-
 void check_main_share(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (!fixed_temperature(card)) return;
@@ -68,28 +49,6 @@ void check_main_share(const LintContext& c, const Rule& rule, Reporter& r) {
                                        card.show(field), secondary ? " and fct_IDK" : "")),
                  card, "Ithe_form");
     }
-  });
-}
-
-void check_function_without_heat(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("fct_IDF") || card.given("fric_ID") || card.input("Ithe") == 1) return;
-    note_field(report_at(r, rule, card, "fct_IDF",
-                         name_of(card) + ": fct_IDF is not used, because the interface exchanges "
-                                         "no heat"),
-               card, "Ithe");
-  });
-}
-
-void check_function_form1(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("fct_IDF") || card.given("fric_ID")) return;
-    if (card.input("Ithe") != 1 || card.input("Ithe_form") != 1) return;
-    note_field(
-        report_at(r, rule, card, "fct_IDF",
-                  name_of(card) +
-                      ": with Ithe_form 1 fct_IDF is evaluated at the temperature of another pair"),
-        card, "Ithe_form");
   });
 }
 
@@ -238,77 +197,6 @@ void check_default_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
 
 // ---- decks that rely on a manual ----------------------------------------------------------------
 
-void check_type19_istf(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.input("Istf") != 6) return;
-    Diagnostic* d =
-        report_at(r, rule, card, "Istf", name_of(card) + " has Istf = 6, a code of old manuals");
-    fix_field(d, c, card, "Istf", "1000", false, "write Istf 1000 (main side stiffness)");
-  });
-}
-
-void check_type19_idel(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.input("Idel") != 3) return;
-    Diagnostic* d =
-        report_at(r, rule, card, "Idel", name_of(card) + " has Idel = 3, a code of old manuals");
-    fix_field(d, c, card, "Idel", "1000", true, "write Idel 1000 (no deletion)");
-  });
-}
-
-void check_type19_igap(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.flag("Igap") == 4)
-      report_at(r, rule, card, "Igap",
-                name_of(card) + " has Igap = 4, which manuals do not describe");
-  });
-}
-
-void check_type19_edges(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    // A default of 2 stays 2 and stops the solver: DK512.
-    const FieldView* igap = card.find("Igap");
-    if (igap != nullptr && igap->value == 2 && igap->origin != Origin::default_block)
-      report_at(r, rule, card, "Igap",
-                name_of(card) + ": its edge contact does not use the gap scale of Igap = 2");
-  });
-}
-
-void check_type19_stfac(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("Stfac") && card.flag("Istf") != 1)
-      report_at(r, rule, card, "Stfac",
-                name_of(card) + " leaves Stfac blank: the factor is 1, not 0 as old manuals say");
-  });
-}
-
-void check_inacti(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.flag("Inacti") == 4)
-      report_at(r, rule, card, "Inacti",
-                name_of(card) + ": " + card.show("Inacti") + " is not described in manuals");
-  });
-}
-
-void check_ifric(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.input("Ifric") == 4)
-      report_at(r, rule, card, "Ifric", name_of(card) + ": Ifric = 4 is not described in manuals");
-  });
-}
-
-void check_fric_function(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    // With fric_ID nothing of the card's friction is used.
-    if (!card.given("fct_IDF") || card.given("Fric") || card.given("fric_ID")) return;
-    Diagnostic* d =
-        report_at(r, rule, card, "Fric",
-                  name_of(card) + ": Fric is blank, so the friction of fct_IDF is scaled by 0");
-    note_field(d, card, "fct_IDF");
-    fix_field(d, c, card, "Fric", "1.0", false, "write Fric 1.0, as the manual intends");
-  });
-}
-
 void check_filter_off(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (!card.given("Ifiltr") || card.given("Xfreq") || card.given("fric_ID")) return;
@@ -324,17 +212,6 @@ void check_filter_off(const LintContext& c, const Rule& rule, Reporter& r) {
              fmt::format("{}: Ifiltr = {}, but Xfreq is 0: there is no filter", name_of(block),
                          cell->integer));
   }
-}
-
-void check_ibag_value(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (!c.model->has_monitored_volume) return;
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.flag("Ibag") == 2)
-      report_at(r, rule, card, "Ibag",
-                name_of(card) +
-                    ": Ibag = 2 closes vent holes here, although manuals say it does "
-                    "not");
-  });
 }
 
 void check_edge_istf(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -354,32 +231,13 @@ void check_edge_istf(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> difference_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK246, check_title_length},
-      {RuleId::DK247, check_blank_temperature},
-      {RuleId::DK248, check_blank_radiation},
-      {RuleId::DK249, check_main_share},
-      {RuleId::DK268, check_sensor_times},
-      {RuleId::DK291, check_function_without_heat},
-      {RuleId::DK293, check_cutoff_filter},
-      {RuleId::DK294, check_incremental_filter},
-      {RuleId::DK295, check_incremental_stiffness},
-      {RuleId::DK296, check_half_bounds},
-      {RuleId::DK297, check_edge_limits},
-      {RuleId::DK298, check_release_column},
-      {RuleId::DK510, check_default_ibag},
-      {RuleId::DK914, check_function_form1},
-      {RuleId::DK915, check_tie_trigger},
-      {RuleId::DK281, check_type19_istf},
-      {RuleId::DK282, check_type19_idel},
-      {RuleId::DK283, check_type19_igap},
-      {RuleId::DK284, check_inacti},
-      {RuleId::DK285, check_ifric},
-      {RuleId::DK286, check_fric_function},
-      {RuleId::DK287, check_filter_off},
-      {RuleId::DK288, check_ibag_value},
+      {RuleId::DK246, check_title_length},       {RuleId::DK249, check_main_share},
+      {RuleId::DK268, check_sensor_times},       {RuleId::DK293, check_cutoff_filter},
+      {RuleId::DK294, check_incremental_filter}, {RuleId::DK295, check_incremental_stiffness},
+      {RuleId::DK296, check_half_bounds},        {RuleId::DK297, check_edge_limits},
+      {RuleId::DK298, check_release_column},     {RuleId::DK510, check_default_ibag},
+      {RuleId::DK915, check_tie_trigger},        {RuleId::DK287, check_filter_off},
       {RuleId::DK289, check_edge_istf},
-      {RuleId::DK290, check_type19_edges},
-      {RuleId::DK292, check_type19_stfac},
   };
   return all;
 }
