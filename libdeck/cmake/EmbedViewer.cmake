@@ -24,8 +24,7 @@ if(mode STREQUAL "OFF")
   set(why "it was configured without npm or with LIBDECK_VIEWER=OFF. Install npm and build again")
   configure_file(${CMAKE_CURRENT_LIST_DIR}/no_viewer.cpp.in ${DECK_EMBEDDED_VIEWER} @ONLY)
 else()
-  file(GLOB_RECURSE viewer_sources CONFIGURE_DEPENDS ${viewer_dir}/src/*.ts ${viewer_dir}/src/*.css
-       ${viewer_dir}/wasm/*.wasm)
+  file(GLOB_RECURSE viewer_sources CONFIGURE_DEPENDS ${viewer_dir}/src/*.ts ${viewer_dir}/src/*.css)
   add_custom_command(
     OUTPUT ${DECK_EMBEDDED_VIEWER}
     COMMAND ${CMAKE_COMMAND} -DMODE=${mode} -DNPM=${DECK_NPM} -DNODE=${DECK_NODE}

@@ -25,10 +25,10 @@ export async function largeModel(browser, scratch, timings) {
   });
   const p = await open(context, file, { viewport: { width: 1440, height: 900 } });
   check("the model is decoded beside the page", await p.evaluate(() => window.deckReport.beside));
-  check("what the page's thread evaluated is the program's", await p.evaluate(() => window.deckReport.report.verified));
+  check("what the page counts is what the program counts", await p.evaluate(() => window.deckReport.report.verified));
   const said = await p.evaluate(() => window.said);
   const shares = said.map((s) => parseFloat(s));
-  check("the page says how far it is, and never less than before", said.some((s) => s.includes("Evaluating the contacts")) && shares.every((v, i) => i === 0 || v >= shares[i - 1]), said.join(" | "));
+  check("the page says how far it is, and never less than before", said.some((s) => s.includes("Reading the contacts")) && shares.every((v, i) => i === 0 || v >= shares[i - 1]), said.join(" | "));
   await settled(p);
   const drawn = await p.evaluate(() => {
     const { view } = window.deckReport.viewport;
@@ -112,7 +112,7 @@ export async function largeModel(browser, scratch, timings) {
   for (let i = 0; i < 3; i++) runs.push(await beforeThePicture(browser, file));
   const { there, rows } = runs[0];
   check("the first picture is there before a row of a table is", there.triangles > 1000 && there.rows === 0 && there.ready === "no" && rows > 10, JSON.stringify(runs[0]));
-  same("its programs were compiled while the model was decoded, and the rules by the thread that decodes", [there.programs, there.rules], [0, 0]);
+  same("its programs were compiled while the model was decoded", there.programs, 0);
   timings.large.picture_ms = median(runs.map((r) => Math.round(r.picture)));
   timings.large.ready_ms = median(runs.map((r) => Math.round(r.ready)));
   const share = median(runs.map((r) => r.picture / r.ready));

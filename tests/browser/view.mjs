@@ -141,7 +141,7 @@ export async function nearest(browser, page, shot) {
   await p.waitForSelector(".nearest-table .vt-row");
   const row = await p.evaluate(() => {
     const { report } = window.deckReport;
-    const r = report.evaluator.core.nearest(0, {});
+    const r = report.evaluator.nearest(0, report.results[0].setting);
     return { distance: r.distance, gap: r.gap, text: document.querySelector(".nearest-said").textContent, node: report.secondaryText(r) };
   });
   const at = (distance) => gaps(path, "--what-if", `1:Igap=0,Gapmin=${distance}`).interfaces[0].contacts[0].totals.pairs;

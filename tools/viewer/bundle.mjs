@@ -1,14 +1,5 @@
 // How the sources of the page become one script: also for tests that run parts of them in node.
-import { readFileSync } from "node:fs";
 import { resolve } from "node:path";
-import { deflateSync } from "node:zlib";
-
-/** WebAssembly modules become packed bytes in the script. */
-const packed = {
-  name: "packed",
-  setup: (build) =>
-    build.onLoad({ filter: /\.wasm$/ }, (file) => ({ contents: deflateSync(readFileSync(file.path), { level: 9 }), loader: "binary" })),
-};
 
 /** `./x.ts?text` is the bundled script of a thread, as a text. */
 const threads = (esbuild, modules, options) => ({
@@ -31,6 +22,6 @@ export const bundle = (esbuild, modules, options) =>
     legalComments: "inline",
     nodePaths: [modules],
     logLevel: "warning",
-    plugins: [packed, threads(esbuild, modules, options)],
+    plugins: [threads(esbuild, modules, options)],
     ...options,
   });

@@ -1,5 +1,5 @@
 // What a card says about gaps and initial penetrations, and what the parts of its interface make of
-// it. These rules know nothing of decks: the library and the page of the HTML report compile them.
+// it. These rules know nothing of decks; the page of the HTML report follows them (what_if.ts).
 #pragma once
 #include "deck/contact/what_if.hpp"
 

@@ -181,7 +181,7 @@ std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContac
         of_main(edges ? c.main_edges.size() : c.main.size(), -2);
     std::set<std::pair<int, int>> seen;
     std::pair<int, int> last{-2, -2};  // neighbours mostly have the same parts
-    for (const CandidatePair& p : page.contacts[i].pairs) {
+    for (const CandidatePair& p : page.contacts[i].near) {
       int& s = of_secondary[p.secondary];
       int& m = of_main[p.main];
       if (s == -2)
