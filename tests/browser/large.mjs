@@ -3,13 +3,12 @@
 import { execFileSync } from "node:child_process";
 import { join } from "node:path";
 import { beforeThePicture, median, spent } from "./first_picture.mjs";
-import { check, deck, open, ROOT, same, settled } from "./support.mjs";
+import { check, open, page, ROOT, same, scratch, settled } from "./support.mjs";
 
-export async function largeModel(browser, scratch, timings) {
+export async function largeModel(browser, timings) {
   const path = join(scratch, "sheets_0000.rad");
   execFileSync("python3", [join(ROOT, "samples/generate.py"), "--sheets", "300", path], { stdio: "ignore" });
-  const file = join(scratch, "sheets.html");
-  deck("gaps", path, "--quiet", "--html", file);
+  const file = page("sheets", path);
 
   const context = await browser.newContext();
   // What the page says while it decodes, and what its first picture is made of.

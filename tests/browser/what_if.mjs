@@ -1,8 +1,20 @@
 // Settings under test: what the page computes is, to the last bit, what `deck gaps --what-if` prints.
-import { difference } from "./difference.mjs";
 import { median } from "./first_picture.mjs";
 import { join } from "node:path";
-import { check, gapsLater, open, random, run, same, sample, WORK } from "./support.mjs";
+import { check, done, gaps, gapsLater, open, page, random, run, same, sample, WORK } from "./support.mjs";
+
+/** First difference of two values compared bit for bit (0 and -0 print alike in JSON: as numbers). */
+function difference(a, b, path) {
+  if (typeof a === "number" && typeof b === "number") return a === b ? null : `${path}: ${a} is not ${b}`;
+  if (a === null || b === null || typeof a !== "object" || typeof b !== "object")
+    return a === b ? null : `${path}: ${JSON.stringify(a)} is not ${JSON.stringify(b)}`;
+  const keys = new Set([...Object.keys(a), ...Object.keys(b)]);
+  for (const k of keys) {
+    const d = difference(a[k], b[k], `${path}.${k}`);
+    if (d) return d;
+  }
+  return null;
+}
 
 /** Rows of a contact in the JSON, as the page names them. */
 function rowsOf(contact) {
@@ -60,14 +72,14 @@ function setting(next, inter) {
 
 /** Tries `count` settings on one deck; returns how many were compared. */
 export async function tryDeck(browser, path, html, count, seed) {
-  const [page, document] = await Promise.all([open(browser, html), gapsLater(path)]);
+  const [p, document] = await Promise.all([open(browser, html), gapsLater(path)]);
   const next = random(seed);
-  const tried = await page.evaluate(() => window.deckReport.report.meta.interfaces.filter((_, i) => window.deckReport.report.evaluator.fixed(i) === "").map((i) => i.id));
+  const tried = await p.evaluate(() => window.deckReport.report.meta.interfaces.filter((_, i) => window.deckReport.report.evaluator.fixed(i) === "").map((i) => i.id));
   const inters = document.interfaces.filter((i) => i.contacts.length > 0 && tried.includes(i.id));
   let compared = 0;
   let beyond = 0;
   let unlike = "";
-  let d = compare(document, await page.evaluate(() => window.deckReport.whatIf(-1, {})));
+  let d = compare(document, await p.evaluate(() => window.deckReport.whatIf(-1, {})));
   check(`the rows of the page of ${path} are those of the JSON`, d === null, d ?? "");
   for (let i = 0; i < count && inters.length > 0 && !unlike; i++) {
     const inter = inters[Math.floor(next() * inters.length)];
@@ -78,7 +90,7 @@ export async function tryDeck(browser, path, html, count, seed) {
       continue;
     }
     const [mine, theirs] = await Promise.all([
-      page.evaluate(([id, f]) => window.deckReport.whatIf(id, f), [inter.id, fields]), gapsLater(path, "--what-if", `${inter.id}:${text}`),
+      p.evaluate(([id, f]) => window.deckReport.whatIf(id, f), [inter.id, fields]), gapsLater(path, "--what-if", `${inter.id}:${text}`),
     ]);
     d = compare(theirs, mine);
     if (d === "beyond") beyond++;
@@ -86,13 +98,24 @@ export async function tryDeck(browser, path, html, count, seed) {
     else compared++;
   }
   check(`what-if settings of ${path} are those of the program`, unlike === "", unlike);
-  check(`nothing went wrong in the page of ${path}`, page.trouble.length === 0, page.trouble.join("; "));
-  await page.close();
+  await done(p, `page of ${path}`);
   return { compared, beyond };
 }
 
+/** A page that was written with other settings has their rows, and without them those of the deck. */
+export async function startedWith(browser) {
+  const path = sample("crash_box");
+  const started = ["--what-if", "1:Gapmin=2,Igap=0"];
+  const p = await open(browser, page("started", path, ...started));
+  const rows = () => p.evaluate(() => window.deckReport.whatIf(-1, {}));
+  same("written with --what-if the page has the rows of that", compare(gaps(path, ...started), await rows()), null);
+  await p.evaluate(() => window.deckReport.report.clearOverrides(null));
+  same("and reset those of the deck", compare(gaps(path), await rows()), null);
+  await done(p, "written with --what-if");
+}
+
 /** Where the page tries nothing the panel writes the command, and the command is one that deck knows. */
-export async function panelsWrite(browser, page) {
+export async function panelsWrite(browser) {
   let p = await open(browser, page("panel", sample("crash_box")));
   const at = await p.evaluate(() => {
     const { report } = window.deckReport;

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "base/shared/parallel.hpp"
+#include "contact/shared/element_names.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
 #include "deck/contact/closest.hpp"
 #include "deck/contact/search.hpp"
-#include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/html/parts.hpp"
 
@@ -222,32 +222,6 @@ std::vector<std::uint32_t> distinct(const std::vector<CandidatePair>& pairs,
   return out;
 }
 
-struct Owner {
-  int kind = 0;  ///< ElementKind + 1, 0: none
-  std::int64_t id = 0;
-  std::uint32_t part = no_index;
-};
-
-Owner owner(const Model& model, ElementKind kind, std::uint32_t e) {
-  const Elements& family = model.family(kind);
-  return {static_cast<int>(kind) + 1, family.id[e], family.part[e]};
-}
-
-Owner owner(const Model& model, Carrier carrier, std::uint32_t e) {
-  const auto family = family_of_carrier(carrier);
-  return family && e != no_index ? owner(model, *family, e) : Owner{};
-}
-
-/// Same rule as the views of a scene: the first family that has an element at the node.
-Owner owner_of_node(const Model& model, Connectivity& connectivity, NodeIndex node) {
-  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
-                                 ElementKind::beam, ElementKind::truss, ElementKind::spring}) {
-    const std::uint32_t e = connectivity.first(kind, node);
-    if (e != no_index) return owner(model, kind, e);
-  }
-  return {};
-}
-
 /// The segments or edges of all contacts, numbered as they come, those alike once: contacts share
 /// surfaces.
 template <class Item>
@@ -349,10 +323,13 @@ class Writer {
     std::vector<std::uint32_t> secondary, main;
   };
 
-  /// The node by which a chosen item of the secondary side is found in the deck.
-  static NodeIndex named_by(const Contact& c, std::uint32_t secondary) {
-    return c.kind == ContactKind::node_segment ? c.secondary[secondary].node
-                                               : c.secondary_edges[secondary].nodes[0];
+  static std::span<const NodeIndex> secondary_nodes(const Contact& c, std::uint32_t s) {
+    if (c.kind == ContactKind::node_segment) return {&c.secondary[s].node, 1};
+    return c.secondary_edges[s].nodes;
+  }
+  static std::span<const NodeIndex> main_nodes(const Contact& c, std::uint32_t m) {
+    if (c.kind == ContactKind::node_segment) return c.main[m].nodes;
+    return c.main_edges[m].nodes;
   }
 
   void find_places() {
@@ -370,17 +347,10 @@ class Writer {
     const auto use = [&](NodeIndex n) { wanted[nodes_[n]] = 1; };
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       const Contact& c = input_.scene->contacts[i];
-      const auto use_items = [&](const auto& items, const std::vector<std::uint32_t>& positions) {
-        for (const std::uint32_t k : positions)
-          for (const NodeIndex n : items[k].nodes) use(n);
-      };
-      if (c.kind == ContactKind::node_segment) {
-        for (const std::uint32_t s : chosen_[i].secondary) use(c.secondary[s].node);
-        use_items(c.main, chosen_[i].main);
-      } else {
-        use_items(c.secondary_edges, chosen_[i].secondary);
-        use_items(c.main_edges, chosen_[i].main);
-      }
+      for (const std::uint32_t k : chosen_[i].secondary)
+        for (const NodeIndex n : secondary_nodes(c, k)) use(n);
+      for (const std::uint32_t k : chosen_[i].main)
+        for (const NodeIndex n : main_nodes(c, k)) use(n);
     }
     for (const NodeIndex n : of_ties_) use(n);
     std::vector<double> values;
@@ -403,22 +373,22 @@ class Writer {
     out_.f64(values);
   }
 
-  static void owners(ByteStream& out, const std::vector<Owner>& all) {
+  void owners(ByteStream& out, const std::vector<ElementName>& all) const {
     Delta part, id;
-    for (const Owner& o : all) out.byte(static_cast<unsigned>(o.kind));
-    for (const Owner& o : all) out.s(id(o.id));
-    for (const Owner& o : all) out.s(part(o.part == no_index ? 0 : std::int64_t{o.part} + 1));
+    for (const ElementName& e : all) out.byte(e.valid() ? static_cast<unsigned>(e.kind) + 1 : 0);
+    for (const ElementName& e : all) out.s(id(e.id));
+    for (const ElementName& e : all) out.s(part(part_position(model_, e) + 1));
   }
 
   /// Segments or edges with their elements; contacts name them by number.
   template <class Keys>
   void shared_items(ByteStream& out, const Keys& all) const {
     Delta corner;
-    std::vector<Owner> of;
+    std::vector<ElementName> of;
     out.u(all.size());
     for (const auto& item : all) {
       for (const NodeIndex n : item.nodes) out.s(corner(nodes_[n]));
-      of.push_back(owner(model_, item.carrier, item.element));
+      of.push_back(carrier_name(model_, item.carrier, item.element));
     }
     owners(out, of);
   }
@@ -432,7 +402,7 @@ class Writer {
   void places(const Contact& c, const std::vector<std::uint32_t>& secondary) {
     Delta file, line;
     for (const std::uint32_t s : secondary) {
-      const ItemPlace& at = places_[named_by(c, s)];
+      const ItemPlace& at = places_[secondary_nodes(c, s)[0]];
       out_.s(file(at.file == Span::no_file ? -1 : std::int64_t{at.file}));
       out_.s(line(at.line));
     }
@@ -447,9 +417,9 @@ class Writer {
                  [&](double half) { return formed ? half : node_gap(half, 1); });
     numbers(main_[i]);
     out_.palette(c.main, [&](const MainSegment& m) { return formed ? m.gap : thickness_of(m); });
-    std::vector<Owner> of;
+    std::vector<ElementName> of;
     for (const std::uint32_t s : chosen_[i].secondary)
-      of.push_back(owner_of_node(model_, connectivity_, c.secondary[s].node));
+      of.push_back(element_at(model_, connectivity_, c.secondary[s].node));
     owners(out_, of);
   }
 

@@ -16,8 +16,9 @@
 #include "report/shared/json.hpp"
 
 namespace deck {
-struct Mesh;  // model/shared/mesh.hpp
-}
+struct Mesh;            // model/shared/mesh.hpp
+struct AccuracyChoice;  // accuracy/shared/choice.hpp
+}  // namespace deck
 
 namespace deck::detail {
 
@@ -41,6 +42,12 @@ class PageNodes {
   std::vector<std::uint32_t> number_;
   std::vector<NodeIndex> list_;
 };
+
+/// Position of its part in Model::parts, -1: no part.
+inline std::int64_t part_position(const Model& model, const ElementName& e) {
+  const std::uint32_t part = e.valid() ? model.family(e.kind).part[e.index] : no_index;
+  return part == no_index ? -1 : std::int64_t{part};
+}
 
 // mesh.cpp — the picture
 struct MeshGroup {
@@ -153,5 +160,10 @@ std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycl
 void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes);
 std::string crossings_block(const Model& model, const std::vector<Crossing>& crossings,
                             const PageNodes& nodes);
+
+// accuracy_choices.cpp — advice, the choices, when to take which, the kinds of hard cases
+std::string accuracy_first_screen(const std::vector<AccuracyChoice>& choices);
+// accuracy_motion.cpp — a node passes a sliver: a chart, and a sentence for every jump
+std::string accuracy_motion();
 
 }  // namespace deck::detail
