@@ -30,7 +30,7 @@ else()
     COMMAND ${CMAKE_COMMAND} -DMODE=${mode} -DNPM=${DECK_NPM} -DNODE=${DECK_NODE}
             -DSOURCE=${viewer_dir} -DWORK=${CMAKE_CURRENT_BINARY_DIR}/viewer
             -DOUT=${DECK_EMBEDDED_VIEWER} -P ${CMAKE_CURRENT_LIST_DIR}/BuildViewer.cmake
-    DEPENDS ${viewer_sources} ${viewer_dir}/build.mjs ${viewer_dir}/bundle.mjs ${viewer_dir}/package.json
+    DEPENDS ${viewer_sources} ${viewer_dir}/build.mjs ${viewer_dir}/package.json
             ${viewer_dir}/package-lock.json ${CMAKE_CURRENT_LIST_DIR}/BuildViewer.cmake
             ${CMAKE_CURRENT_LIST_DIR}/no_viewer.cpp.in
     COMMENT "Bundling the viewer of the HTML report")

@@ -48,11 +48,9 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     const PageContact& own = page.contacts[i];
     const PlainSides& plain = own.plain;
     const bool edges = c.kind == ContactKind::edge_edge;
-    double longest_main = 0, longest_node = 0;
-    if (!edges) {
-      for (const double l : plain.main_length) longest_main = std::max(longest_main, l);
-      for (const double l : plain.secondary_length) longest_node = std::max(longest_node, l);
-    }
+    const auto longest = [&](const std::vector<double>& lengths) {
+      return edges || lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
+    };
     j.begin_object();
     j.field("interface", static_cast<std::int64_t>(std::find(order.begin(), order.end(), c.inter) -
                                                    order.begin()));
@@ -63,7 +61,8 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     j.field("fpenmax", c.fpenmax).field("gap_scale", c.gap_scale);
     j.field("gapmin", c.gapmin).field("gapmin_from", to_string(c.gapmin_origin));
     j.field("gapmax", c.gapmax).field("max_gap", c.max_gap);
-    j.field("longest_main", longest_main).field("longest_node", longest_node);
+    j.field("longest_main", longest(plain.main_length));
+    j.field("longest_node", longest(plain.secondary_length));
     j.field("secondary", edges ? c.secondary_edges.size() : c.secondary.size());
     j.field("main", edges ? c.main_edges.size() : c.main.size());
     j.field("repaired", c.repaired_segments).field("degenerate", c.degenerate_segments);

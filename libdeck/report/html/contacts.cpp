@@ -36,7 +36,7 @@ double thickness_of(const ContactEdge& e) { return std::max(e.shell, e.section);
 double expected_gap(const Contact& contact, const PlainSides& plain) {
   double s = 0, m = 0;
   if (contact.type != 10) {
-    for (const double half : plain.half_thickness) s = std::max(s, node_gap(half, 1));
+    for (const double half : plain.half_thickness) s = std::max(s, half);
     for (const MainSegment& n : contact.main) m = std::max(m, segment_gap(thickness_of(n), 1));
     for (const ContactEdge& n : contact.secondary_edges) s = std::max(s, edge_gap(thickness_of(n)));
     for (const ContactEdge& n : contact.main_edges) m = std::max(m, edge_gap(thickness_of(n)));
@@ -44,22 +44,17 @@ double expected_gap(const Contact& contact, const PlainSides& plain) {
   return std::max({contact.max_gap, contact.gapmin, s + m});
 }
 
-std::vector<std::uint32_t> everything(std::size_t count) {
-  std::vector<std::uint32_t> out(count);
-  std::iota(out.begin(), out.end(), 0u);
-  return out;
-}
-
-/// Rows of what penetrates; of too many the deepest, and `all` is set to false.
-std::vector<std::uint32_t> deepest_rows(const Contact& contact, bool& all) {
+/// Rows of what penetrates; of more than `most` the deepest, and `all` is set to false.
+std::vector<std::uint32_t> deepest_rows(const Contact& contact, std::size_t most, bool& all) {
   const auto& found = contact.penetrations;
-  std::vector<std::uint32_t> rows = everything(found.size());
-  if (rows.size() <= penetrations_kept) return rows;
+  std::vector<std::uint32_t> rows(found.size());
+  std::iota(rows.begin(), rows.end(), 0u);
+  if (rows.size() <= most) return rows;
   all = false;
   std::stable_sort(rows.begin(), rows.end(), [&](std::uint32_t a, std::uint32_t b) {
     return found[a].depth > found[b].depth;
   });
-  rows.resize(penetrations_kept);
+  rows.resize(most);
   return rows;
 }
 
@@ -155,23 +150,35 @@ Measured measured(const Contact& c, const Coordinates& x, const CandidatePair& p
 /// least room beyond its gap.
 void carry_pairs(const Contact& contact, const Coordinates& x, int threads, PageContact& page) {
   constexpr std::size_t at_once = 4096;
-  std::vector<Measured> all(page.near.size());
-  parallel_items(threads, (all.size() + at_once - 1) / at_once, [&](std::size_t piece) {
-    const std::size_t end = std::min(all.size(), (piece + 1) * at_once);
+  CandidatePair nearest;
+  double room = std::numeric_limits<double>::infinity(), distance = 0;
+  const auto measure = [&](std::size_t piece, std::vector<Measured>& out) {
+    out.clear();
+    const std::size_t end = std::min(page.near.size(), (piece + 1) * at_once);
     for (std::size_t i = piece * at_once; i < end; ++i)
-      all[i] = measured(contact, x, page.near[i], page.reach);
-  });
-  const auto least = std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    return a.distance - a.gap < b.distance - b.gap;
-  });
-  const bool clean = contact.penetrations.empty();
-  for (auto m = all.begin(); m != all.end(); ++m) {
-    if (!(m->distance < page.reach) && !(clean && m == least)) continue;
-    for (const double d : m->others)
-      page.others.emplace_back(static_cast<std::uint32_t>(page.pairs.size()), d);
-    page.pairs.push_back(page.near[static_cast<std::size_t>(m - all.begin())]);
-    page.distance.push_back(m->distance);
-  }
+      out.push_back(measured(contact, x, page.near[i], page.reach));
+  };
+  const auto take = [&](std::size_t piece, const std::vector<Measured>& all) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Measured& m = all[k];
+      const CandidatePair& pair = page.near[piece * at_once + k];
+      if (m.distance - m.gap < room) {
+        room = m.distance - m.gap;
+        nearest = pair;
+        distance = m.distance;
+      }
+      if (!(m.distance < page.reach)) continue;
+      for (const double d : m.others)
+        page.others.emplace_back(static_cast<std::uint32_t>(page.pairs.size()), d);
+      page.pairs.push_back(pair);
+      page.distance.push_back(m.distance);
+    }
+  };
+  run_in_order<std::vector<Measured>>((page.near.size() + at_once - 1) / at_once, threads, measure,
+                                      take);
+  if (!contact.penetrations.empty() || page.near.empty() || distance < page.reach) return;
+  page.pairs.push_back(nearest);
+  page.distance.push_back(distance);
 }
 
 /// Carries the penetrations, and their pairs where they are not carried yet.
@@ -205,8 +212,8 @@ PageContact page_contact(const Contact& contact, PlainSides plain, const Coordin
       page.fixed = "it has too many pairs for a page, or a gap without bound";
   }
   if (*page.fixed == 0 && !contact.dropped) carry_pairs(contact, x, threads, page);
-  page.rows = *page.fixed == 0 ? everything(contact.penetrations.size())
-                               : deepest_rows(contact, page.complete);
+  const std::size_t most = *page.fixed == 0 ? contact.penetrations.size() : penetrations_kept;
+  page.rows = deepest_rows(contact, most, page.complete);
   carry_rows(contact, page);
   return page;
 }
@@ -413,8 +420,7 @@ class Writer {
     out_.u(c.secondary.size());
     for (const SecondaryNode& s : c.secondary) out_.s(n(nodes_[s.node]));
     const bool formed = is_modern(c.type);  // the gaps stand in place of thicknesses
-    out_.palette(page_.contacts[i].plain.half_thickness,
-                 [&](double half) { return formed ? half : node_gap(half, 1); });
+    out_.palette(page_.contacts[i].plain.half_thickness, [](double half) { return half; });
     numbers(main_[i]);
     out_.palette(c.main, [&](const MainSegment& m) { return formed ? m.gap : thickness_of(m); });
     std::vector<ElementName> of;
@@ -502,8 +508,8 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
     page.before_moves = {nodes_of_deck.x, nodes_of_deck.y, nodes_of_deck.z};
   const Coordinates& start = page.start(scene);
   std::vector<PlainSides> plain(scene.contacts.size());
+  const int threads = effective_threads(input.threads);
   {
-    const int threads = effective_threads(input.threads);
     Connectivity connectivity(*scene.model);
     ShellsAtNodes shells;
     const std::vector<double> lines = shortest_line_elements(*scene.model, start);
@@ -523,7 +529,7 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
     const Contact& c = scene.contacts[i];
     moves |= c.kind == ContactKind::node_segment && !is_modern(c.type) && c.inacti == 3;
     const std::size_t share = left / (scene.contacts.size() - i);
-    page.contacts.push_back(page_contact(c, std::move(plain[i]), start, input.threads,
+    page.contacts.push_back(page_contact(c, std::move(plain[i]), start, threads,
                                          std::clamp(4 * share, pairs_at_least, pairs_at_most),
                                          why_fixed(c, input.what_if, moves)));
     left -= std::min(left, page.contacts.back().near.size());

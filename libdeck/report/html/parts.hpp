@@ -84,7 +84,7 @@ std::string steps_block(const Model& model, const Mesh& mesh, const PageNodes& n
 // contacts.cpp — penetrations, and the pairs that settings can be tried on
 struct PageContact {
   std::vector<CandidatePair> near;   ///< within about three gaps: who touches whom
-  std::vector<CandidatePair> pairs;  ///< what the page carries, sorted where others can be tried
+  std::vector<CandidatePair> pairs;  ///< what the page carries
   std::vector<double> distance;      ///< of these
   /// Distances that stand in for that of a pair where they give the same depth, by pair.
   std::vector<std::pair<std::uint32_t, double>> others;
