@@ -25,7 +25,7 @@ constexpr std::size_t pairs_at_least = 60000;  // per contact
 constexpr std::size_t pairs_at_most = 3000000;
 constexpr std::size_t penetrations_kept = 200000;  // per contact where all pairs are too many
 constexpr double near_factors[] = {3, 2, 1.5, 1.1};
-constexpr double reach_factor = 2;  // of the largest gap: a distance takes ten bytes of a page
+constexpr double reach_factor = 1.5;  // of the largest gap: a distance takes ten bytes of a page
 
 double thickness_of(const MainSegment& m) {
   return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
