@@ -32,14 +32,12 @@ std::string definitions_text(const std::map<std::string, std::string>& definitio
 
 }  // namespace
 
-JsonForm JsonForm::or_null() const {
-  if (type.empty()) return {"", fmt::format(R"("oneOf": [{{ "type": "null" }}, {{ {} }}])", rest)};
-  return {"", fmt::format(R"("type": ["{}", "null"]{}{})", type, rest.empty() ? "" : ", ", rest)};
-}
-
 std::string JsonForm::members() const {
-  if (type.empty()) return rest;
-  return fmt::format(R"("type": "{}"{}{})", type, rest.empty() ? "" : ", ", rest);
+  if (type.empty())
+    return null ? fmt::format(R"("oneOf": [{{ "type": "null" }}, {{ {} }}])", rest) : rest;
+  return fmt::format(R"("type": {}{}{})",
+                     null ? fmt::format(R"(["{}", "null"])", type) : quoted(type),
+                     rest.empty() ? "" : ", ", rest);
 }
 
 JsonForm Definitions::reference(const char* name, bool common,
@@ -151,8 +149,8 @@ std::string common_schema() {
 }
 
 const std::vector<DocumentOfVerb>& documents_of_verbs() {
-  static const std::vector<DocumentOfVerb> documents = {{"gaps", gaps_schema},
-                                                        {"gate", gate_schema}};
+  static const std::vector<DocumentOfVerb> documents = {
+      {"gaps", gaps_schema}, {"gate", gate_schema}, {"parts", parts_schema}};
   return documents;
 }
 

@@ -20,6 +20,8 @@
 //   IfAny<T>                     a T, or the object does not have the member
 //   std::array, std::vector      a list on one line
 //   Counts                       an object of names and counts
+//   Scalar                       a number or a text
+//   Named<T>                     an object whose names are data, each with a T
 //   a type that has record_of()  an object
 //   Rows<T>                      a list of such objects, each written as it comes
 #pragma once
@@ -31,8 +33,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "deck/report/drain.hpp"
@@ -49,10 +53,11 @@ struct JsonOut {
 
 /// The form of a value as JSON schema.
 struct JsonForm {
-  std::string type;  ///< "integer"; empty if `rest` says everything
-  std::string rest;  ///< further members, as "minimum": 0
+  std::string type;   ///< "integer"; empty if `rest` says everything
+  std::string rest;   ///< further members, as "minimum": 0
+  bool null = false;  ///< null is allowed as well
 
-  JsonForm or_null() const;
+  JsonForm or_null() const { return {type, rest, true}; }
   std::string members() const;  ///< what stands between the braces
 };
 
@@ -99,7 +104,25 @@ struct Rows {
   bool line = false;  ///< the list stands on one line
 };
 
+/// The rows that `make` gives for the values of a list. A temporary list is kept, any other must
+/// outlive the rows.
+template <class List, class Make = std::identity>
+auto rows_of(List&& list, Make make = {}) {
+  using T = std::remove_cvref_t<decltype(make(*list.begin()))>;
+  return Rows<T>{[kept = std::tuple<List>(std::forward<List>(list)), make](const auto& add) {
+    for (const auto& value : std::get<0>(kept)) add(make(value));
+  }};
+}
+
+template <class T>
+struct Named {
+  /// Calls its argument with each name and value.
+  std::function<void(const std::function<void(std::string_view, const T&)>&)> each;
+  bool line = false;  ///< the object stands on one line
+};
+
 using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
+using Scalar = std::variant<std::int64_t, double, std::string>;
 
 /// How many values of an enumeration, from 0 on, have a word.
 template <class E>
@@ -206,6 +229,29 @@ template <>
 struct Value<Counts> {
   static void write(JsonOut& out, const Counts& counts);
   static JsonForm form(Definitions& d);
+};
+
+template <>
+struct Value<Scalar> {
+  static void write(JsonOut& out, const Scalar& scalar) {
+    std::visit([&](const auto& v) { out.json.value(v); }, scalar);
+  }
+  static JsonForm form(Definitions&) { return {"", R"("type": ["number", "string"])", true}; }
+};
+
+template <class T>
+struct Value<Named<T>> {
+  static void write(JsonOut& out, const Named<T>& members) {
+    out.json.begin_object(members.line);
+    members.each([&](std::string_view name, const T& value) {
+      out.json.key(name);
+      Value<T>::write(out, value);
+    });
+    out.json.end_object();
+  }
+  static JsonForm form(Definitions& d) {
+    return {"object", "\"additionalProperties\": { " + Value<T>::form(d).members() + " }"};
+  }
 };
 
 template <class T>

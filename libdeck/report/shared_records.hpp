@@ -8,6 +8,8 @@
 
 namespace deck {
 
+class LoadedDeck;
+
 /// A place in the text of a deck.
 struct Place {
   std::string_view file;
@@ -25,6 +27,8 @@ struct DeckRow {
   const Interfaces* interfaces = nullptr;
 };
 const Record<DeckRow>& record_of(const DeckRow*);
+/// With its model and interfaces.
+DeckRow deck_row(const LoadedDeck& loaded);
 
 const Record<NotExamined>& record_of(const NotExamined*);
 const Record<Verdict>& record_of(const Verdict*);

@@ -1,6 +1,7 @@
 // Tables of the records that several documents have.
 #include "report/shared_records.hpp"
 
+#include "deck/front/loaded_deck.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/diagnostics_common.hpp"
 #include "report/gaps_names.hpp"
@@ -234,6 +235,10 @@ const Record<DeckRow>& record_of(const DeckRow*) {
       })};
   static const Record<Row> record{"deck", "", columns, false, true};
   return record;
+}
+
+DeckRow deck_row(const LoadedDeck& loaded) {
+  return {loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces()};
 }
 
 const Record<NotExamined>& record_of(const NotExamined*) {

@@ -17,5 +17,6 @@ std::string common_schema();
 
 DocumentSchema gaps_schema();
 DocumentSchema gate_schema();
+DocumentSchema parts_schema();
 
 }  // namespace deck
