@@ -1,47 +1,66 @@
-// The loss report as a JSON array.
+// The loss report: what a conversion cannot keep.
 #include "report/shared/losses.hpp"
 
-#include "report/shared/json.hpp"
+#include "report/shared/schemas.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
+namespace {
+
+struct LossLists {
+  const std::vector<LossEntry>* losses = nullptr;
+  Rows<LossEntry> of(Loss loss) const {
+    return {[this, loss](const auto& add) {
+      for (const LossEntry& e : *losses)
+        if (e.loss == loss) add(e);
+    }};
+  }
+};
+const Record<LossLists>& record_of(const LossLists*) {
+  using Row = LossLists;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("kept", "", [](const Row& r) { return r.of(Loss::kept); }),
+      column<Row>("approximated", "", [](const Row& r) { return r.of(Loss::approximated); }),
+      column<Row>("dropped", "", [](const Row& r) { return r.of(Loss::dropped); }),
+      column<Row>("undecided", "", [](const Row& r) { return r.of(Loss::undecided); })};
+  static const Record<Row> record{"document", "", columns};
+  return record;
+}
+
+constexpr DocumentHead head{"deck/losses", 1,
+                            "Written by deck convert --report: cells and blocks that the "
+                            "conversion changed in a way worth knowing.",
+                            false};
+
+}  // namespace
+
+const Record<LossEntry>& record_of(const LossEntry*) {
+  using Row = LossEntry;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::file>("file"),
+      column<&Row::line>("line"),
+      column<Row>("column", "First column of the text that changed; not of a whole block",
+                  [](const Row& r) { return if_any(r.column > 0, r.column); }),
+      column<Row>("end_column", "Last column of the text that was there",
+                  [](const Row& r) { return if_any(r.column > 0, r.end_column); }),
+      column<&Row::keyword>("keyword"),
+      column<&Row::id>("id"),
+      column<&Row::field>("field", "Empty: the block as a whole"),
+      column<&Row::old_text>("old"),
+      column<&Row::new_text>("new"),
+      column<&Row::note>("note")};
+  static const Record<Row> record{"entry", "", columns};
+  return record;
+}
+
+DocumentSchema losses_schema() { return document_schema<LossLists>(head); }
 
 void write_loss_lists(JsonWriter& json, const std::vector<LossEntry>& losses) {
-  constexpr std::pair<Loss, std::string_view> groups[] = {{Loss::kept, "kept"},
-                                                          {Loss::approximated, "approximated"},
-                                                          {Loss::dropped, "dropped"},
-                                                          {Loss::undecided, "undecided"}};
-  for (const auto& [loss, name] : groups) {
-    json.key(name).begin_array();
-    for (const LossEntry& e : losses) {
-      if (e.loss != loss) continue;
-      json.begin_object();
-      json.key("file").value(e.file);
-      json.key("line").value(e.line);
-      if (e.column > 0) {
-        json.key("column").value(e.column);
-        json.key("end_column").value(e.end_column);
-      }
-      json.key("keyword").value(e.keyword);
-      json.key("id").value(e.id);
-      json.key("field").value(e.field);
-      json.key("old").value(e.old_text);
-      json.key("new").value(e.new_text);
-      json.key("note").value(e.note);
-      json.end_object();
-    }
-    json.end_array();
-  }
+  write_members(json, LossLists{&losses});
 }
 
 std::string losses_json(const std::vector<LossEntry>& losses) {
-  std::string text;
-  JsonWriter json(text);
-  json.begin_object();
-  write_json_head(json, "deck/losses", 1);
-  write_loss_lists(json, losses);
-  json.end_object();
-  text += '\n';
-  return text;
+  return write_document(head, LossLists{&losses}) + '\n';
 }
 
 }  // namespace deck

@@ -82,6 +82,12 @@ void Value<Counts>::write(JsonOut& out, const Counts& counts) {
   out.json.end_object();
 }
 
+void Value<TallCounts>::write(JsonOut& out, const TallCounts& tall) {
+  out.json.begin_object();
+  for (const auto& [name, n] : tall.counts) out.json.field(name, n);
+  out.json.end_object();
+}
+
 JsonForm Value<Counts>::form(Definitions&) {
   return {"object", R"("additionalProperties": { "type": "integer", "minimum": 0 })"};
 }
@@ -150,7 +156,9 @@ std::string common_schema() {
 
 const std::vector<DocumentOfVerb>& documents_of_verbs() {
   static const std::vector<DocumentOfVerb> documents = {
-      {"gaps", gaps_schema}, {"gate", gate_schema}, {"parts", parts_schema}};
+      {"diff", diff_schema},   {"explain", explain_schema}, {"gaps", gaps_schema},
+      {"gate", gate_schema},   {"lint", lint_schema},       {"losses", losses_schema},
+      {"parts", parts_schema}, {"rules", rules_schema}};
   return documents;
 }
 

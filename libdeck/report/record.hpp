@@ -19,7 +19,7 @@
 //   std::optional<T>             a T, or null
 //   IfAny<T>                     a T, or the object does not have the member
 //   std::array, std::vector      a list on one line
-//   Counts                       an object of names and counts
+//   Counts                       an object of names and counts; TallCounts: one a line
 //   Scalar                       a number or a text
 //   Named<T>                     an object whose names are data, each with a T
 //   a type that has record_of()  an object
@@ -123,6 +123,9 @@ struct Named {
 
 using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
 using Scalar = std::variant<std::int64_t, double, std::string>;
+struct TallCounts {
+  Counts counts;
+};
 
 /// How many values of an enumeration, from 0 on, have a word.
 template <class E>
@@ -254,6 +257,12 @@ struct Value<Named<T>> {
   }
 };
 
+template <>
+struct Value<TallCounts> {
+  static void write(JsonOut& out, const TallCounts& tall);
+  static JsonForm form(Definitions& d) { return Value<Counts>::form(d); }
+};
+
 template <class T>
 struct Value<Rows<T>> {
   static void write(JsonOut& out, const Rows<T>& rows) {
@@ -360,7 +369,14 @@ DocumentSchema document_schema(const DocumentHead& head) {
   return document_schema(head, definitions, record_of(static_cast<const Row*>(nullptr)).name);
 }
 
-/// The text of a document.
+/// A document, and its text alone.
+template <class Row>
+void write_document(JsonWriter& json, const DocumentHead& head, const Row& row) {
+  json.begin_object();
+  write_json_head(json, head.id, head.version);
+  write_members(json, row);
+  json.end_object();
+}
 template <class Row>
 std::string write_document(const DocumentHead& head, const Row& row, const TextDrain& drain = {}) {
   std::string text;

@@ -5,6 +5,8 @@
 #include "deck/verdict.hpp"
 #include "report/record.hpp"
 #include "report/shared/gate.hpp"
+#include "report/shared/listing.hpp"
+#include "report/shared/losses.hpp"
 
 namespace deck {
 
@@ -42,6 +44,16 @@ struct DecisionsRow {
 };
 const Record<DecisionsRow>& record_of(const DecisionsRow*);
 
+/// The entity that a finding is about.
+struct EntityRow {
+  const Diagnostic* d = nullptr;
+};
+const Record<EntityRow>& record_of(const EntityRow*);
+const Record<ReferenceMessage>& record_of(const ReferenceMessage*);
+const Record<NotChecked>& record_of(const NotChecked*);
+const Record<LossEntry>& record_of(const LossEntry*);
+const Record<StepDifference>& record_of(const StepDifference*);
+
 /// A finding of a gate.
 struct GateFinding {
   const Deck* deck = nullptr;
@@ -75,6 +87,8 @@ template <>
 inline constexpr std::size_t word_count<Accuracy> = 4;
 template <>
 inline constexpr std::size_t word_count<VerdictLevel> = 8;
+template <>
+inline constexpr std::size_t word_count<Severity> = 3;
 
 /// Ids of nodes.
 template <std::size_t N>

@@ -1,115 +1,192 @@
 // Findings as the project's own JSON document.
 #include "base/shared/columns.hpp"
 #include "report/diagnostics_common.hpp"
+#include "report/shared/schemas.hpp"
 #include "report/shared/verdict.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
 namespace {
 
-void write_edits(JsonWriter& json, const LintedDeck& deck, const Fix& fix) {
-  json.begin_object();
-  json.field("title", fix.title).field("safe", fix.safe).key("edits").begin_array();
-  for (const TextEdit& e : fix.edits) {
-    const detail::Place at = detail::place_of(deck, e.span);
-    const Source& source = deck.deck->sources[e.span.file];
-    const Position end = source.position(e.span.offset + e.span.length);
-    json.begin_object(true)
-        .field("file", at.file)
-        .field("line", at.line)
-        .field("column", at.column)
-        .field("end_line", end.line)
-        .field("end_column", end.column)
-        .field("text", e.text)
-        .end_object();
+struct EditRow {
+  const LintedDeck* deck = nullptr;
+  const TextEdit* edit = nullptr;
+  detail::Place at() const { return detail::place_of(*deck, edit->span); }
+  Position end() const {
+    return deck->deck->sources[edit->span.file].position(edit->span.offset + edit->span.length);
   }
-  json.end_array().end_object();
+};
+const Record<EditRow>& record_of(const EditRow*) {
+  using Row = EditRow;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("file", "", [](const Row& r) { return r.at().file; }),
+      column<Row>("line", "", [](const Row& r) { return r.at().line; }),
+      column<Row>("column", "", [](const Row& r) { return r.at().column; }),
+      column<Row>("end_line", "", [](const Row& r) { return r.end().line; }),
+      column<Row>("end_column", "", [](const Row& r) { return r.end().column; }),
+      column<&Row::edit, &TextEdit::text>("text")};
+  static const Record<Row> record{
+      "edit", "Replace the bytes from line:column up to, not including, end_line:end_column.",
+      columns, true};
+  return record;
 }
 
-void write_diagnostic(JsonWriter& json, const LintedDeck& deck, const Diagnostic& d,
-                      const std::string& print) {
-  const detail::Place at = detail::place_of(deck, d.span);
-  json.begin_object();
-  json.field("rule", id_text(d.rule))
-      .field("field", d.field)
-      .field("severity", to_string(d.severity))
-      .field("file", at.file)
-      .field("line", at.line)
-      .field("column", at.column)
-      .field("end_column", at.end_column)
-      .field("message", d.message)
-      .field("reference_behaviour", d.reference_behaviour)
-      .field("help", d.help);
-  json.key("reference");
-  if (d.reference)
-    json.begin_object(true)
-        .field("message", d.reference->number)
-        .field("severity", to_string(d.reference->severity))
-        .end_object();
-  else
-    json.null();
-  json.key("entity");
-  if (!d.keyword.empty())
-    json.begin_object(true).field("keyword", d.keyword).field("id", d.id).end_object();
-  else
-    json.null();
-  json.key("notes").begin_array();
-  for (const auto& [span, text] : d.notes) {
-    const detail::Place note = detail::place_of(deck, span);
-    json.begin_object(true)
-        .field("file", note.file)
-        .field("line", note.line)
-        .field("column", note.column)
-        .field("end_column", note.end_column)
-        .field("message", text)
-        .end_object();
+struct FixRow {
+  const LintedDeck* deck = nullptr;
+  const Fix* fix = nullptr;
+  Rows<EditRow> edits() const {
+    return {[this](const auto& add) {
+      for (const TextEdit& e : fix->edits) add({deck, &e});
+    }};
   }
-  json.end_array();
-  json.key("fix");
-  if (d.fix)
-    write_edits(json, deck, *d.fix);
-  else
-    json.null();
-  json.field("fingerprint", print);
-  json.end_object();
+};
+const Record<FixRow>& record_of(const FixRow*) {
+  using Row = FixRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::fix, &Fix::title>("title"),
+      column<&Row::fix, &Fix::safe>("safe", "The solver does the same with the repaired deck"),
+      column<&Row::edits>("edits")};
+  static const Record<Row> record{"fix", "", columns};
+  return record;
 }
 
-void write_document(JsonWriter& json, const LintedDeck& deck) {
-  const LintResult& r = *deck.result;
-  json.begin_object();
-  write_json_head(json, "deck/lint", 1);
-  write_json_deck(json, deck.path, *deck.deck, nullptr, nullptr);
-  write_verdict(json, deck.verdict ? *deck.verdict : lint_verdict(deck));
-  json.key("diagnostics").begin_array();
-  for (std::size_t i = 0; i < r.diagnostics.size(); ++i)
-    write_diagnostic(json, deck, r.diagnostics[i], r.fingerprints[i]);
-  json.end_array();
-  json.key("summary")
-      .begin_object(true)
-      .field("errors", r.errors)
-      .field("warnings", r.warnings)
-      .field("infos", r.infos)
-      .field("suppressed", r.suppressed)
-      .field("baselined", r.baselined)
-      .end_object();
-  json.key("baseline_stale").begin_array();
-  for (const auto& [key, count] : r.stale)
-    json.begin_object(true)
-        .field("rule", key.rule)
-        .field("file", key.file)
-        .field("entity", key.entity)
-        .field("field", key.field)
-        .field("count", count)
-        .end_object();
-  json.end_array();
-  json.key("counts").begin_object();
-  for (const auto& [rule, count] : r.counts) json.field(id_text(rule), count);
-  json.end_object();
-  json.key("not_checked").begin_array();
-  for (const NotChecked& n : r.not_checked)
-    json.begin_object(true).field("what", n.what).field("why", n.why).end_object();
-  json.end_array();
-  if (const auto coverage = detail::coverage_of(deck)) write_json_coverage(json, *coverage);
-  json.end_object();
+struct NoteRow {
+  detail::Place at;
+  std::string_view message;
+};
+const Record<NoteRow>& record_of(const NoteRow*) {
+  using Row = NoteRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::at, &detail::Place::file>("file"),
+      column<&Row::at, &detail::Place::line>("line"),
+      column<&Row::at, &detail::Place::column>("column"),
+      column<&Row::at, &detail::Place::end_column>("end_column"), column<&Row::message>("message")};
+  static const Record<Row> record{"note", "A second place of a finding.", columns, true};
+  return record;
+}
+
+struct FindingRow {
+  const LintedDeck* deck = nullptr;
+  const Diagnostic* d = nullptr;
+  std::string_view fingerprint;
+  detail::Place at = detail::place_of(*deck, d->span);
+  std::optional<EntityRow> entity() const { return known(!d->keyword.empty(), EntityRow{d}); }
+  std::optional<FixRow> fix() const {
+    return d->fix ? std::optional<FixRow>({deck, &*d->fix}) : std::nullopt;
+  }
+  Rows<NoteRow> notes() const {
+    return {[this](const auto& add) {
+      for (const auto& [span, text] : d->notes) add({detail::place_of(*deck, span), text});
+    }};
+  }
+};
+const Record<FindingRow>& record_of(const FindingRow*) {
+  using Row = FindingRow;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("rule", "", [](const Row& r) { return id_text(r.d->rule); }),
+      column<&Row::d, &Diagnostic::field>(
+          "field", "Of a rule that covers several fields (DK201); else empty"),
+      column<&Row::d, &Diagnostic::severity>("severity"),
+      column<&Row::at, &detail::Place::file>("file"),
+      column<&Row::at, &detail::Place::line>("line"),
+      column<&Row::at, &detail::Place::column>("column"),
+      column<&Row::at, &detail::Place::end_column>("end_column", "First column behind the text"),
+      column<&Row::d, &Diagnostic::message>("message", "What was read"),
+      column<&Row::d, &Diagnostic::reference_behaviour>("reference_behaviour",
+                                                        "What the solver does with it"),
+      column<&Row::d, &Diagnostic::help>("help", "How to fix it"),
+      column<&Row::d, &Diagnostic::reference>("reference"),
+      column<&Row::entity>("entity"),
+      column<&Row::notes>("notes"),
+      column<&Row::fix>("fix"),
+      column<&Row::fingerprint>(
+          "fingerprint", "Of rule, entity and card text; it stays the same when lines move")};
+  static const Record<Row> record{"finding", "", columns};
+  return record;
+}
+
+using Stale = std::pair<const FindingKey, std::uint64_t>;
+struct StaleRow {
+  const Stale* stale = nullptr;
+};
+const Record<StaleRow>& record_of(const StaleRow*) {
+  using Row = StaleRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::stale, &Stale::first, &FindingKey::rule>("rule"),
+      column<&Row::stale, &Stale::first, &FindingKey::file>("file"),
+      column<&Row::stale, &Stale::first, &FindingKey::entity>("entity"),
+      column<&Row::stale, &Stale::first, &FindingKey::field>("field"),
+      column<&Row::stale, &Stale::second>("count")};
+  static const Record<Row> record{"stale", "An entry of the baseline that no finding matches.",
+                                  columns, true};
+  return record;
+}
+
+struct SummaryRow {
+  const LintResult* result = nullptr;
+};
+const Record<SummaryRow>& record_of(const SummaryRow*) {
+  using Row = SummaryRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::result, &LintResult::errors>("errors"),
+      column<&Row::result, &LintResult::warnings>("warnings"),
+      column<&Row::result, &LintResult::infos>("infos"),
+      column<&Row::result, &LintResult::suppressed>("suppressed"),
+      column<&Row::result, &LintResult::baselined>("baselined")};
+  static const Record<Row> record{"summary", "Numbers of findings.", columns, true};
+  return record;
+}
+
+struct LintDocument {
+  const LintedDeck* linted = nullptr;
+  std::optional<Coverage> coverage = detail::coverage_of(*linted);
+  const LintResult& result() const { return *linted->result; }
+  DeckRow deck() const { return {linted->path, linted->deck, nullptr, nullptr}; }
+  Verdict verdict() const { return linted->verdict ? *linted->verdict : lint_verdict(*linted); }
+  Rows<FindingRow> findings() const {
+    return {[this](const auto& add) {
+      for (std::size_t i = 0; i < result().diagnostics.size(); ++i)
+        add({linted, &result().diagnostics[i], result().fingerprints[i]});
+    }};
+  }
+  Rows<StaleRow> stale() const {
+    return {[this](const auto& add) {
+      for (const Stale& s : result().stale) add({&s});
+    }};
+  }
+  TallCounts counts() const {
+    TallCounts out;
+    for (const auto& [rule, count] : result().counts) out.counts.emplace_back(id_text(rule), count);
+    return out;
+  }
+  Rows<NotChecked> not_checked() const {
+    return {[this](const auto& add) {
+      for (const NotChecked& n : result().not_checked) add(n);
+    }};
+  }
+  IfAny<std::size_t> examined() const {
+    return if_any(coverage.has_value(), coverage ? coverage->examined : 0);
+  }
+  IfAny<Rows<NotExamined>> not_examined() const {
+    return if_any(coverage.has_value(), Rows<NotExamined>{[this](const auto& add) {
+                    for (const NotExamined& n : coverage->not_examined) add(n);
+                  }});
+  }
+};
+const Record<LintDocument>& record_of(const LintDocument*) {
+  using Row = LintDocument;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::deck>("deck"),
+      column<&Row::verdict>("verdict"),
+      column<&Row::findings>("diagnostics", "Ordered by file, line, column, rule"),
+      column<Row>("summary", "", [](const Row& r) { return SummaryRow{&r.result()}; }),
+      column<&Row::stale>("baseline_stale"),
+      column<&Row::counts>("counts", "Findings per rule, those beyond the bound included"),
+      column<&Row::not_checked>("not_checked"),
+      column<&Row::examined>("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25"),
+      column<&Row::not_examined>("not_examined", "Interfaces of other types, by keyword")};
+  static const Record<Row> record{"document", "", columns};
+  return record;
 }
 
 const char* stage_name(RuleStage stage) {
@@ -134,69 +211,113 @@ const char* fix_name(Fixable fixable) {
   return fixable == Fixable::no ? "no" : fixable == Fixable::safe ? "safe" : "unsafe";
 }
 
-}  // namespace
-
-std::string lint_json(const std::vector<LintedDeck>& decks) {
-  std::string out;
-  JsonWriter json(out);
-  if (decks.size() == 1) {
-    if (decks[0].result != nullptr) write_document(json, decks[0]);
-  } else {
-    json.begin_object();
-    write_json_head(json, "deck/lint", 1);
-    json.key("decks").begin_array();
-    for (const LintedDeck& deck : decks)
-      if (deck.result != nullptr) write_document(json, deck);
-    json.end_array().end_object();
-  }
-  if (!out.empty() && out.back() != '\n') out += '\n';
-  return out;
+struct RuleFieldRow {
+  const Rule* rule = nullptr;
+  const RuleField* field = nullptr;
+};
+const Record<RuleFieldRow>& record_of(const RuleFieldRow*) {
+  using Row = RuleFieldRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::field, &RuleField::name>("name"),
+      column<Row>("was", "The rule that it was in earlier versions",
+                  [](const Row& r) { return id_text(r.field->was); }),
+      column<Row>("severity", "",
+                  [](const Row& r) { return r.field->severity.value_or(r.rule->severity()); }),
+      column<&Row::field, &RuleField::note>("note"),
+      column<Row>(
+          "reference_behaviour", "What the solver does",
+          [](const Row& r) { return r.field->solver.empty() ? r.rule->solver : r.field->solver; }),
+      column<Row>("fix", "How to fix it",
+                  [](const Row& r) { return r.field->fix.empty() ? r.rule->fix : r.field->fix; })};
+  static const Record<Row> record{"field", "A field of a rule that covers several.", columns, true};
+  return record;
 }
 
-std::string rules_json() {
+struct RuleRow {
+  const Rule* rule = nullptr;
+  std::optional<ReferenceMessage> reference() const {
+    return rule->messages.empty() ? std::nullopt : std::optional(rule->messages.front());
+  }
+  Rows<RuleFieldRow> fields() const {
+    return {[this](const auto& add) {
+      for (const RuleField& f : rule->fields) add({rule, &f});
+    }};
+  }
+};
+const Record<RuleRow>& record_of(const RuleRow*) {
+  using Row = RuleRow;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("id", "", [](const Row& r) { return id_text(r.rule->id); }),
+      column<&Row::rule, &Rule::title>("title"),
+      column<Row>("family", "", [](const Row& r) { return family_of(r.rule->id); }),
+      column<Row>("severity", "", [](const Row& r) { return r.rule->severity(); }),
+      column<Row>("found_by", "reading, model, check, geometry, gate or linter",
+                  [](const Row& r) { return stage_name(r.rule->stage); }),
+      column<Row>("fixable", "no, safe or unsafe",
+                  [](const Row& r) { return fix_name(r.rule->fixable); }),
+      column<&Row::rule, &Rule::problem>("problem"),
+      column<&Row::rule, &Rule::why>("why"),
+      column<&Row::rule, &Rule::solver>("reference_behaviour", "What the solver does"),
+      column<&Row::rule, &Rule::source>("known_from", "Source of that; empty: nothing is claimed"),
+      column<&Row::reference>("reference", "Message of the solver; null: it has none"),
+      column<&Row::rule, &Rule::fix>("fix"),
+      column<&Row::rule, &Rule::ignore>("ignore_when"),
+      column<&Row::fields>("fields")};
+  static const Record<Row> record{"rule", "", columns};
+  return record;
+}
+
+struct RulesDocument {
+  Rows<RuleRow> rules() const {
+    return {[](const auto& add) {
+      for (const Rule& r : all_rules()) add({&r});
+    }};
+  }
+};
+const Record<RulesDocument>& record_of(const RulesDocument*) {
+  static constexpr Column<RulesDocument> columns[] = {column<&RulesDocument::rules>("rules")};
+  static const Record<RulesDocument> record{"document", "", columns};
+  return record;
+}
+
+constexpr DocumentHead lint_head{"deck/lint", 1, "Written by deck lint --json."};
+constexpr DocumentHead rules_head{"deck/rules", 1, "Written by deck rules --json.", false};
+
+}  // namespace
+
+const Record<ReferenceMessage>& record_of(const ReferenceMessage*) {
+  using Row = ReferenceMessage;
+  static constexpr Column<Row> columns[] = {column<&Row::number>("message"),
+                                            column<&Row::severity>("severity")};
+  static const Record<Row> record{"reference", "A message of the solver.", columns, true};
+  return record;
+}
+
+const Record<NotChecked>& record_of(const NotChecked*) {
+  using Row = NotChecked;
+  static constexpr Column<Row> columns[] = {column<&Row::what>("what"), column<&Row::why>("why")};
+  static const Record<Row> record{"not_checked", "", columns, true};
+  return record;
+}
+
+DocumentSchema lint_schema() { return document_schema<LintDocument>(lint_head); }
+DocumentSchema rules_schema() { return document_schema<RulesDocument>(rules_head); }
+
+std::string lint_json(const std::vector<LintedDeck>& decks) {
+  if (decks.size() == 1)
+    return decks[0].result == nullptr ? "" : write_document(lint_head, LintDocument{&decks[0]});
   std::string out;
   JsonWriter json(out);
   json.begin_object();
-  write_json_head(json, "deck/rules", 1);
-  json.key("rules").begin_array();
-  for (const Rule& r : all_rules()) {
-    json.begin_object();
-    json.field("id", id_text(r.id))
-        .field("title", r.title)
-        .field("family", family_of(r.id))
-        .field("severity", to_string(r.severity()))
-        .field("found_by", stage_name(r.stage))
-        .field("fixable", fix_name(r.fixable))
-        .field("problem", r.problem)
-        .field("why", r.why)
-        .field("reference_behaviour", r.solver)
-        .field("known_from", r.source);
-    json.key("reference");
-    if (!r.messages.empty())
-      json.begin_object(true)
-          .field("message", r.messages.front().number)
-          .field("severity", to_string(r.messages.front().severity))
-          .end_object();
-    else
-      json.null();
-    json.field("fix", r.fix).field("ignore_when", r.ignore);
-    json.key("fields").begin_array();
-    for (const RuleField& f : r.fields)
-      json.begin_object(true)
-          .field("name", f.name)
-          .field("was", id_text(f.was))
-          .field("severity", to_string(f.severity.value_or(r.severity())))
-          .field("note", f.note)
-          .field("reference_behaviour", f.solver.empty() ? r.solver : f.solver)
-          .field("fix", f.fix.empty() ? r.fix : f.fix)
-          .end_object();
-    json.end_array();
-    json.end_object();
-  }
+  write_json_head(json, lint_head.id, lint_head.version);
+  json.key("decks").begin_array();
+  for (const LintedDeck& deck : decks)
+    if (deck.result != nullptr) write_document(json, lint_head, LintDocument{&deck});
   json.end_array().end_object();
-  if (out.back() != '\n') out += '\n';
   return out;
 }
+
+std::string rules_json() { return write_document(rules_head, RulesDocument{}); }
 
 std::string rules_table(bool color, std::size_t width) {
   std::string out;

@@ -1,109 +1,194 @@
 // The document of `deck diff --json`.
 #include "report/shared/diff.hpp"
-#include "report/shared/json.hpp"
-#include "report/shared/verdict.hpp"
+#include "report/shared/schemas.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
+
+/// A number, a text or coordinates; null: blank.
+template <>
+struct Value<DiffValue> {
+  static void write(JsonOut& out, const DiffValue& value) {
+    std::visit(
+        [&](const auto& v) {
+          using T = std::remove_cvref_t<decltype(v)>;
+          if constexpr (std::same_as<T, std::monostate>)
+            out.json.null();
+          else
+            Value<T>::write(out, v);
+        },
+        value);
+  }
+  static JsonForm form(Definitions&) {
+    return {"",
+            R"("oneOf": [{ "type": ["number", "string", "null"] }, )"
+            R"({ "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 }])"};
+  }
+};
+
 namespace {
 
-void write(JsonWriter& json, const DiffValue& value) {
-  if (const auto* n = std::get_if<std::int64_t>(&value)) {
-    json.value(*n);
-  } else if (const auto* x = std::get_if<double>(&value)) {
-    json.value(*x);
-  } else if (const auto* t = std::get_if<std::string>(&value)) {
-    json.value(*t);
-  } else if (const auto* p = std::get_if<std::array<double, 3>>(&value)) {
-    json.begin_array(true).value((*p)[0]).value((*p)[1]).value((*p)[2]).end_array();
-  } else {
-    json.null();
-  }
+using Ids = std::vector<std::int64_t>;
+
+struct EntityOfChange {
+  const Change* change = nullptr;
+};
+const Record<EntityOfChange>& record_of(const EntityOfChange*) {
+  using Row = EntityOfChange;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::change, &Change::keyword>("keyword"),
+      column<Row>("id", "In the first deck; of an added entity in the second",
+                  [](const Row& r) { return known(r.change->id != 0, r.change->id); }),
+      column<Row>("id_b", "In the second deck, if it differs",
+                  [](const Row& r) { return if_any(r.change->id_b != 0, r.change->id_b); }),
+      column<&Row::change, &Change::title>("title")};
+  static const Record<Row> record{"changed_entity", "", columns, true};
+  return record;
 }
 
-void write_id_list(JsonWriter& json, const char* name, const std::vector<std::int64_t>& ids) {
-  json.key(name).begin_array(true);
-  for (const std::int64_t id : ids) json.value(id);
-  json.end_array();
+struct ChangeRow {
+  const Deck &deck_a, &deck_b;
+  const Change* change = nullptr;
+  EntityOfChange entity() const { return {change}; }
+  std::optional<std::string> field() const { return known(!change->field.empty(), change->field); }
+  std::optional<Place> a() const { return place_of(deck_a, change->a); }
+  std::optional<Place> b() const { return place_of(deck_b, change->b); }
+  template <class T>
+  IfAny<T> evaluated(const T& value) const {
+    return if_any(change->evaluated, value);
+  }
+  IfAny<Ids> members(const Ids& ids) const {
+    return if_any(!change->gained.empty() || !change->lost.empty() || !change->altered.empty(),
+                  ids);
+  }
+};
+const Record<ChangeRow>& record_of(const ChangeRow*) {
+  using Row = ChangeRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::change, &Change::kind>("kind"),
+      column<&Row::change, &Change::group>(
+          "group", "deck, interface, group, part, property, material, node or other"),
+      column<&Row::entity>("entity"),
+      column<&Row::field>("field", "null: the entity as a whole was added or removed"),
+      column<&Row::change, &Change::old_value>(
+          "old", "As on the card; of lists the number of members; null: blank"),
+      column<&Row::change, &Change::new_value>("new"),
+      column<Row>("effective_old", "Of a field of a contact",
+                  [](const Row& r) { return r.evaluated(r.change->effective_old); }),
+      column<Row>("effective_new", "",
+                  [](const Row& r) { return r.evaluated(r.change->effective_new); }),
+      column<Row>("why",
+                  "Origin of the new effective value: card, default-block, built-in, derived",
+                  [](const Row& r) { return r.evaluated(r.change->why); }),
+      column<Row>("gained", "Ids of members",
+                  [](const Row& r) { return r.members(r.change->gained); }),
+      column<Row>("lost", "", [](const Row& r) { return r.members(r.change->lost); }),
+      column<Row>("altered", "", [](const Row& r) { return r.members(r.change->altered); }),
+      column<&Row::a>("a", "Place in the first deck"),
+      column<&Row::b>("b", "Place in the second deck")};
+  static const Record<Row> record{"change", "", columns};
+  return record;
 }
 
-void write(JsonWriter& json, const DiffSide& a, const DiffSide& b, const Change& c) {
-  json.begin_object();
-  json.field("kind", to_string(c.kind)).field("group", c.group);
-  json.key("entity").begin_object(true);
-  json.field("keyword", c.keyword).key("id");
-  if (c.id == 0)
-    json.null();
-  else
-    json.value(c.id);
-  if (c.id_b != 0) json.field("id_b", c.id_b);
-  json.field("title", c.title).end_object();
-  json.key("field");
-  if (c.field.empty())
-    json.null();
-  else
-    json.value(c.field);
-  write(json.key("old"), c.old_value);
-  write(json.key("new"), c.new_value);
-  if (c.evaluated) {
-    write(json.key("effective_old"), c.effective_old);
-    write(json.key("effective_new"), c.effective_new);
-    json.field("why", c.why);
+struct SideOfDiff {
+  const DiffSide* side = nullptr;
+  DeckRow deck() const {
+    const LoadedDeck& loaded = side->loaded;
+    return {loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces()};
   }
-  if (!c.gained.empty() || !c.lost.empty() || !c.altered.empty()) {
-    write_id_list(json, "gained", c.gained);
-    write_id_list(json, "lost", c.lost);
-    write_id_list(json, "altered", c.altered);
+  IfAny<Verdict> verdict() const {
+    return side->verdict == nullptr ? IfAny<Verdict>{} : IfAny<Verdict>{*side->verdict};
   }
-  write_json_place(json.key("a"), a.loaded.deck(), c.a);
-  write_json_place(json.key("b"), b.loaded.deck(), c.b);
-  json.end_object();
+};
+const Record<SideOfDiff>& record_of(const SideOfDiff*) {
+  using Row = SideOfDiff;
+  static constexpr Column<Row> columns[] = {column<&Row::deck>("deck"),
+                                            column<&Row::verdict>("verdict")};
+  static const Record<Row> record{"side", "", columns};
+  return record;
 }
 
-void write(JsonWriter& json, const char* name, const std::vector<PenetrationChange>& list) {
-  json.key(name).begin_array();
-  for (const PenetrationChange& p : list) {
-    json.begin_object(true).field("interface", p.interface_id).field("role", p.role);
-    if (p.secondary[1] == 0)
-      json.field("node", p.secondary[0]);
-    else
-      json.key("edge").begin_array().value(p.secondary[0]).value(p.secondary[1]).end_array();
-    json.field("depth_old", p.depth_old).field("depth_new", p.depth_new);
-    json.field("gap_old", p.gap_old).field("gap_new", p.gap_new).end_object();
+struct PenetrationsRow {
+  const DeckDiff* diff = nullptr;
+  static Rows<PenetrationChange> rows(const std::vector<PenetrationChange>& list) {
+    return {[&list](const auto& add) {
+      for (const PenetrationChange& p : list) add(p);
+    }};
   }
-  json.end_array();
+};
+const Record<PenetrationsRow>& record_of(const PenetrationsRow*) {
+  using Row = PenetrationsRow;
+  static constexpr Column<Row> columns[] = {
+      column<Row>("new", "", [](const Row& r) { return Row::rows(r.diff->appeared); }),
+      column<Row>("gone", "", [](const Row& r) { return Row::rows(r.diff->gone); }),
+      column<Row>("worse", "", [](const Row& r) { return Row::rows(r.diff->worse); }),
+      column<Row>("better", "", [](const Row& r) { return Row::rows(r.diff->better); }),
+      column<Row>("same", "How many", [](const Row& r) { return r.diff->same.size(); })};
+  static const Record<Row> record{"penetrations", "", columns};
+  return record;
 }
+
+struct DiffDocument {
+  const DiffSide &side_a, &side_b;
+  const DeckDiff& diff;
+  SideOfDiff a() const { return {&side_a}; }
+  SideOfDiff b() const { return {&side_b}; }
+  bool equal() const { return diff.equal(); }
+  std::string text() const { return diff_verdict(diff); }
+  Rows<std::string> notes() const {
+    return {[this](const auto& add) {
+      for (const std::string& note : diff.notes) add(note);
+    }};
+  }
+  Rows<ChangeRow> changes() const {
+    return {[this](const auto& add) {
+      for (const Change& c : diff.changes) add({side_a.loaded.deck(), side_b.loaded.deck(), &c});
+    }};
+  }
+  PenetrationsRow penetrations() const { return {&diff}; }
+};
+const Record<DiffDocument>& record_of(const DiffDocument*) {
+  using Row = DiffDocument;
+  static constexpr Column<Row> columns[] = {column<&Row::a>("a"),
+                                            column<&Row::b>("b"),
+                                            column<&Row::equal>("equal"),
+                                            column<&Row::text>("text", "The result as a sentence"),
+                                            column<&Row::notes>("notes"),
+                                            column<&Row::changes>("changes"),
+                                            column<&Row::penetrations>("penetrations")};
+  static const Record<Row> record{"document", "", columns};
+  return record;
+}
+
+constexpr DocumentHead head{"deck/diff", 1, "Written by deck diff A B --json.", false};
 
 }  // namespace
 
+template <>
+inline constexpr std::size_t word_count<ChangeKind> = 4;
+
+const Record<PenetrationChange>& record_of(const PenetrationChange*) {
+  using Row = PenetrationChange;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::interface_id>("interface"),
+      column<&Row::role>("role"),
+      column<Row>("node", "Secondary node",
+                  [](const Row& r) { return if_any(r.secondary[1] == 0, r.secondary[0]); }),
+      column<Row>("edge", "Secondary edge",
+                  [](const Row& r) { return if_any(r.secondary[1] != 0, r.secondary); }),
+      column<&Row::depth_old>("depth_old"),
+      column<&Row::depth_new>("depth_new"),
+      column<&Row::gap_old>("gap_old"),
+      column<&Row::gap_new>("gap_new")};
+  static const Record<Row> record{"changed_penetration", "A node or edge, by its deepest pair.",
+                                  columns, true};
+  return record;
+}
+
+DocumentSchema diff_schema() { return document_schema<DiffDocument>(head); }
+
 std::string diff_json(const DiffSide& a, const DiffSide& b, const DeckDiff& diff) {
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object();
-  write_json_head(json, "deck/diff", 1);
-  json.key("a").begin_object();
-  write_json_deck(json, a.loaded.path(), a.loaded.deck(), &a.loaded.model(),
-                  &a.loaded.interfaces());
-  if (a.verdict != nullptr) write_verdict(json, *a.verdict);
-  json.end_object().key("b").begin_object();
-  write_json_deck(json, b.loaded.path(), b.loaded.deck(), &b.loaded.model(),
-                  &b.loaded.interfaces());
-  if (b.verdict != nullptr) write_verdict(json, *b.verdict);
-  json.end_object();
-  json.field("equal", diff.equal()).field("text", diff_verdict(diff));
-  json.key("notes").begin_array();
-  for (const std::string& note : diff.notes) json.value(note);
-  json.end_array();
-  json.key("changes").begin_array();
-  for (const Change& c : diff.changes) write(json, a, b, c);
-  json.end_array();
-  json.key("penetrations").begin_object();
-  write(json, "new", diff.appeared);
-  write(json, "gone", diff.gone);
-  write(json, "worse", diff.worse);
-  write(json, "better", diff.better);
-  json.field("same", diff.same.size()).end_object();
-  json.end_object();
-  return out;
+  return write_document(head, DiffDocument{a, b, diff});
 }
 
 }  // namespace deck

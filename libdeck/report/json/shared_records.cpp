@@ -126,9 +126,8 @@ std::optional<std::uint64_t> differing(const DecisionReport& r, std::uint64_t co
   return known(r.mode == Accuracy::robust || r.mode == Accuracy::exact, count);
 }
 
-struct EntityRow {
-  const Diagnostic* d = nullptr;
-};
+}  // namespace
+
 const Record<EntityRow>& record_of(const EntityRow*) {
   using Row = EntityRow;
   static constexpr Column<Row> columns[] = {column<&EntityRow::d, &Diagnostic::keyword>("keyword"),
@@ -136,8 +135,6 @@ const Record<EntityRow>& record_of(const EntityRow*) {
   static const Record<Row> record{"entity", "", columns, true, true};
   return record;
 }
-
-}  // namespace
 
 const Record<GateFinding>& record_of(const GateFinding*) {
   using Row = GateFinding;

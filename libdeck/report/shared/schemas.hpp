@@ -15,8 +15,13 @@ const std::vector<DocumentOfVerb>& documents_of_verbs();
 /// What the schemas of documents refer to as common.schema.json.
 std::string common_schema();
 
+DocumentSchema diff_schema();
+DocumentSchema explain_schema();
 DocumentSchema gaps_schema();
 DocumentSchema gate_schema();
+DocumentSchema lint_schema();
+DocumentSchema losses_schema();
 DocumentSchema parts_schema();
+DocumentSchema rules_schema();
 
 }  // namespace deck
