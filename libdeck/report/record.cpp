@@ -156,9 +156,9 @@ std::string common_schema() {
 
 const std::vector<DocumentOfVerb>& documents_of_verbs() {
   static const std::vector<DocumentOfVerb> documents = {
-      {"diff", diff_schema},   {"explain", explain_schema}, {"gaps", gaps_schema},
-      {"gate", gate_schema},   {"lint", lint_schema},       {"losses", losses_schema},
-      {"parts", parts_schema}, {"rules", rules_schema}};
+      {"cycle", cycle_schema},   {"diff", diff_schema},   {"explain", explain_schema},
+      {"gaps", gaps_schema},     {"gate", gate_schema},   {"lint", lint_schema},
+      {"losses", losses_schema}, {"parts", parts_schema}, {"rules", rules_schema}};
   return documents;
 }
 

@@ -24,6 +24,8 @@
 //   Named<T>                     an object whose names are data, each with a T
 //   a type that has record_of()  an object
 //   Rows<T>                      a list of such objects, each written as it comes
+//
+// group<record>("name") is an object of further columns of the same row.
 #pragma once
 #include <array>
 #include <concepts>
@@ -152,8 +154,8 @@ JsonForm list_form(const JsonForm& items, std::size_t size = 0);
 JsonForm words_form(const std::vector<std::string>& words);
 
 template <class Row>
-JsonForm record_form(Definitions& definitions) {
-  const Record<Row>& record = record_of(static_cast<const Row*>(nullptr));
+JsonForm record_form(Definitions& definitions,
+                     const Record<Row>& record = record_of(static_cast<const Row*>(nullptr))) {
   return definitions.reference(record.name, record.common, [&] {
     std::vector<std::pair<std::string, std::string>> members;
     std::vector<std::string> required;
@@ -304,6 +306,22 @@ constexpr Column<Row> column(const char* name, const char* says, Get) {
             }
           },
           [](Definitions& d) { return Value<T>::form(d); }};
+}
+
+template <class Row>
+Row row_type(const Record<Row>&);
+
+/// A member that is an object of other columns of the row, those of the record `Group`.
+template <const auto& Group>
+constexpr auto group(const char* name, const char* says = "") {
+  using Row = decltype(row_type(Group));
+  return Column<Row>{name, says, true,
+                     [](JsonOut& out, std::string_view key, const Row& row) {
+                       out.json.key(key).begin_object(Group.line);
+                       for (const Column<Row>& c : Group.columns) c.write(out, c.name, row);
+                       out.json.end_object();
+                     },
+                     [](Definitions& d) { return record_form(d, Group); }};
 }
 
 /// What a path of members and functions gives for a row; pointers on the way are followed.

@@ -72,6 +72,10 @@ struct ComparedRow {
   const GateReport* gate = nullptr;
 };
 const Record<ComparedRow>& record_of(const ComparedRow*);
+/// Of the gate that was asked for: null without bounds, no member without a gate.
+IfAny<std::optional<GateRow>> gate_of(const Deck& deck, const GateReport* gate);
+IfAny<std::optional<ComparedRow>> comparison_of(const Scene& scene, const SceneView& view,
+                                                const GateReport* gate);
 /// An element and its part.
 const Record<ElementName>& record_of(const ElementName*);
 

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using deck::test::corpus;
 using deck::test::deck_for;
+using deck::test::follows_schema;
 using deck::test::quote;
 using deck::test::Scratch;
 using deck::test::shell;

@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::corpus;
 using test::deck_for;
+using test::follows_schema;
 using test::quote;
 using test::Scratch;
 using test::shell;

@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::corpus;
+using test::follows_schema;
 using test::quote;
 using test::Scratch;
 using test::shell;

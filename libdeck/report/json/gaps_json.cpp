@@ -443,16 +443,9 @@ const Record<GapsDocument>& record_of(const GapsDocument*) {
       column<Row>("verdict", "", [](const Row& r) { return verdict_of(r.deck, r.scene, r.view); }),
       column<Row>("summary", "Of all contacts", [](const Row& r) { return r.view.total; }),
       column<Row>("gate", "null: no bounds were given",
-                  [](const Row& r) {
-                    return if_any(r.gate != nullptr, known(r.gate != nullptr && r.gate->asked,
-                                                           GateRow{&r.deck, r.gate}));
-                  }),
+                  [](const Row& r) { return gate_of(r.deck, r.gate); }),
       column<Row>("compared", "null: nothing was compared",
-                  [](const Row& r) {
-                    return if_any(r.gate != nullptr,
-                                  known(r.gate != nullptr && r.gate->earlier != nullptr,
-                                        ComparedRow{&r.scene, &r.view, r.gate}));
-                  }),
+                  [](const Row& r) { return comparison_of(r.scene, r.view, r.gate); }),
       column<Row>("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25",
                   [](const Row& r) {
                     return coverage_of(r.deck, *r.scene.interfaces, r.scene.examined).examined;

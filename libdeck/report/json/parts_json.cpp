@@ -174,31 +174,6 @@ const Record<HeldNode>& record_of(const HeldNode*) {
   return record;
 }
 
-struct KinematicsRow {
-  const Model& model;
-  const Kinematics& conditions;
-
-  HeldNode held(NodeIndex n) const {
-    HeldNode row{model.node_id(n), {}};
-    for (std::size_t t = 0; t < condition_types; ++t)
-      if ((conditions.types[n] >> t & 1) != 0) row.types.push_back(static_cast<ConditionType>(t));
-    return row;
-  }
-};
-const Record<KinematicsRow>& record_of(const KinematicsRow*) {
-  using Row = KinematicsRow;
-  static constexpr Column<Row> columns[] = {
-      column<Row>("conflicts", "The number of message 312; null: the solver stops before",
-                  [](const Row& r) { return known(!r.conditions.stops, r.conditions.conflicts); }),
-      column<Row>("nodes", "Nodes with several conditions", [](const Row& r) {
-        static const std::vector<NodeIndex> none;
-        return rows_of(r.conditions.stops ? none : r.conditions.several,
-                       [&r](NodeIndex n) { return r.held(n); });
-      })};
-  static const Record<Row> record{"kinematics", "Kinematic conditions.", columns};
-  return record;
-}
-
 struct PartsDocument {
   const LoadedDeck& loaded;
   bool all;
@@ -214,6 +189,12 @@ struct PartsDocument {
     return {model.nodes.id[n], step_of(mesh.nodes.dt[n]), mesh.nodes.mass[n],
             mesh.nodes.stiffness[n]};
   }
+  HeldNode held_node(NodeIndex n) const {
+    HeldNode row{model.node_id(n), {}};
+    for (std::size_t t = 0; t < condition_types; ++t)
+      if ((kinematics.types[n] >> t & 1) != 0) row.types.push_back(static_cast<ConditionType>(t));
+    return row;
+  }
 };
 
 void each_element(const PartsDocument& r, const std::function<void(const ElementRow&)>& add) {
@@ -227,6 +208,15 @@ void each_element(const PartsDocument& r, const std::function<void(const Element
 
 const Record<PartsDocument>& record_of(const PartsDocument*) {
   using Row = PartsDocument;
+  static constexpr Column<Row> of_kinematics[] = {
+      column<Row>("conflicts", "The number of message 312; null: the solver stops before",
+                  [](const Row& r) { return known(!r.kinematics.stops, r.kinematics.conflicts); }),
+      column<Row>("nodes", "Nodes with several conditions", [](const Row& r) {
+        static const std::vector<NodeIndex> none;
+        return rows_of(r.kinematics.stops ? none : r.kinematics.several,
+                       [&r](NodeIndex n) { return r.held_node(n); });
+      })};
+  static constexpr Record<Row> kinematics{"kinematics", "Kinematic conditions.", of_kinematics};
   static constexpr Column<Row> columns[] = {
       column<Row>("deck", "", [](const Row& r) { return deck_row(r.loaded); }),
       column<Row>("parts", "",
@@ -254,10 +244,7 @@ const Record<PartsDocument>& record_of(const PartsDocument*) {
                                   rows_of(std::views::iota(std::size_t{0}, r.model.nodes.size()),
                                           [&r](std::size_t n) { return r.node(n); }));
                   }),
-      column<Row>("kinematics", "",
-                  [](const Row& r) {
-                    return KinematicsRow{r.model, r.kinematics};
-                  }),
+      group<kinematics>("kinematics"),
       column<Row>("not_computed", "", [](const Row& r) {
         std::vector<LeftOut> all = r.mesh.left_out;
         all.insert(all.end(), r.kinematics.left_out.begin(), r.kinematics.left_out.end());

@@ -399,6 +399,17 @@ const Record<ComparedRow>& record_of(const ComparedRow*) {
   return record;
 }
 
+IfAny<std::optional<GateRow>> gate_of(const Deck& deck, const GateReport* gate) {
+  if (gate == nullptr) return {};
+  return {known(gate->asked, GateRow{&deck, gate})};
+}
+
+IfAny<std::optional<ComparedRow>> comparison_of(const Scene& scene, const SceneView& view,
+                                                const GateReport* gate) {
+  if (gate == nullptr) return {};
+  return {known(gate->earlier != nullptr, ComparedRow{&scene, &view, gate})};
+}
+
 const Record<ElementName>& record_of(const ElementName*) {
   using Row = ElementName;
   static constexpr Column<Row> columns[] = {column<&ElementName::id>("id"),

@@ -15,6 +15,7 @@ const std::vector<DocumentOfVerb>& documents_of_verbs();
 /// What the schemas of documents refer to as common.schema.json.
 std::string common_schema();
 
+DocumentSchema cycle_schema();
 DocumentSchema diff_schema();
 DocumentSchema explain_schema();
 DocumentSchema gaps_schema();
