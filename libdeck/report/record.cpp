@@ -40,8 +40,8 @@ std::string JsonForm::members() const {
                      rest.empty() ? "" : ", ", rest);
 }
 
-JsonForm Definitions::reference(const char* name, bool common,
-                                const std::function<std::string()>& form) {
+JsonForm SchemaDefinitions::reference(const char* name, bool common,
+                                      const std::function<std::string()>& form) {
   auto& definitions = common ? common_ : own_;
   if (definitions.emplace(name, "").second) definitions[name] = form();
   return {"", fmt::format(R"("$ref": "{}#/$defs/{}")", common ? "common.schema.json" : "", name)};
@@ -88,11 +88,11 @@ void Value<TallCounts>::write(JsonOut& out, const TallCounts& tall) {
   out.json.end_object();
 }
 
-JsonForm Value<Counts>::form(Definitions&) {
+JsonForm Value<Counts>::form(SchemaDefinitions&) {
   return {"object", R"("additionalProperties": { "type": "integer", "minimum": 0 })"};
 }
 
-DocumentSchema document_schema(const DocumentHead& head, const Definitions& definitions,
+DocumentSchema document_schema(const DocumentHead& head, const SchemaDefinitions& definitions,
                                const std::string& record) {
   const std::string common = R"({ "$ref": "common.schema.json#/$defs/tool" })";
   std::string document = definitions.own().at(record);
@@ -145,7 +145,7 @@ std::string common_schema() {
                   {"name", "version"});
   return fmt::format(R"({{
   "$schema": "https://json-schema.org/draft/2020-12/schema",
-  "title": "Definitions that the documents of deck share",
+  "title": "SchemaDefinitions that the documents of deck share",
   "$defs": {{
 {}
   }}
@@ -156,9 +156,10 @@ std::string common_schema() {
 
 const std::vector<DocumentOfVerb>& documents_of_verbs() {
   static const std::vector<DocumentOfVerb> documents = {
-      {"cycle", cycle_schema},   {"diff", diff_schema},   {"explain", explain_schema},
-      {"gaps", gaps_schema},     {"gate", gate_schema},   {"lint", lint_schema},
-      {"losses", losses_schema}, {"parts", parts_schema}, {"rules", rules_schema}};
+      {"accuracy", accuracy_schema}, {"cycle", cycle_schema},   {"diff", diff_schema},
+      {"explain", explain_schema},   {"gaps", gaps_schema},     {"gate", gate_schema},
+      {"lint", lint_schema},         {"losses", losses_schema}, {"params", params_schema},
+      {"parts", parts_schema},       {"rules", rules_schema},   {"show", show_schema}};
   return documents;
 }
 

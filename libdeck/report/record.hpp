@@ -64,7 +64,7 @@ struct JsonForm {
 };
 
 /// Records that the forms of a document refer to, by name: their JSON schemas.
-class Definitions {
+class SchemaDefinitions {
  public:
   /// A reference to a record, which is described by `form` when it is met for the first time.
   /// `common`: it stands in the file that all documents share.
@@ -82,7 +82,7 @@ struct Column {
   const char* says;  ///< description in the schema; may be empty
   bool required;
   void (*write)(JsonOut&, std::string_view name, const Row&);
-  JsonForm (*form)(Definitions&);
+  JsonForm (*form)(SchemaDefinitions&);
 };
 
 template <class Row>
@@ -154,7 +154,7 @@ JsonForm list_form(const JsonForm& items, std::size_t size = 0);
 JsonForm words_form(const std::vector<std::string>& words);
 
 template <class Row>
-JsonForm record_form(Definitions& definitions,
+JsonForm record_form(SchemaDefinitions& definitions,
                      const Record<Row>& record = record_of(static_cast<const Row*>(nullptr))) {
   return definitions.reference(record.name, record.common, [&] {
     std::vector<std::pair<std::string, std::string>> members;
@@ -180,7 +180,7 @@ struct Value {
       out.json.value(v);
     }
   }
-  static JsonForm form(Definitions& definitions) {
+  static JsonForm form(SchemaDefinitions& definitions) {
     if constexpr (HasRecord<T>) {
       return record_form<T>(definitions);
     } else if constexpr (std::is_enum_v<T>) {
@@ -208,7 +208,7 @@ struct Value<std::optional<T>> {
   static void write(JsonOut& out, const std::optional<T>& v) {
     v ? Value<T>::write(out, *v) : void(out.json.null());
   }
-  static JsonForm form(Definitions& d) { return Value<T>::form(d).or_null(); }
+  static JsonForm form(SchemaDefinitions& d) { return Value<T>::form(d).or_null(); }
 };
 
 template <class List>
@@ -221,19 +221,19 @@ void write_list(JsonOut& out, const List& list) {
 template <class T, std::size_t N>
 struct Value<std::array<T, N>> {
   static void write(JsonOut& out, const std::array<T, N>& v) { write_list(out, v); }
-  static JsonForm form(Definitions& d) { return list_form(Value<T>::form(d), N); }
+  static JsonForm form(SchemaDefinitions& d) { return list_form(Value<T>::form(d), N); }
 };
 
 template <class T>
 struct Value<std::vector<T>> {
   static void write(JsonOut& out, const std::vector<T>& v) { write_list(out, v); }
-  static JsonForm form(Definitions& d) { return list_form(Value<T>::form(d)); }
+  static JsonForm form(SchemaDefinitions& d) { return list_form(Value<T>::form(d)); }
 };
 
 template <>
 struct Value<Counts> {
   static void write(JsonOut& out, const Counts& counts);
-  static JsonForm form(Definitions& d);
+  static JsonForm form(SchemaDefinitions& d);
 };
 
 template <>
@@ -241,7 +241,7 @@ struct Value<Scalar> {
   static void write(JsonOut& out, const Scalar& scalar) {
     std::visit([&](const auto& v) { out.json.value(v); }, scalar);
   }
-  static JsonForm form(Definitions&) { return {"", R"("type": ["number", "string"])", true}; }
+  static JsonForm form(SchemaDefinitions&) { return {"", R"("type": ["number", "string"])", true}; }
 };
 
 template <class T>
@@ -254,7 +254,7 @@ struct Value<Named<T>> {
     });
     out.json.end_object();
   }
-  static JsonForm form(Definitions& d) {
+  static JsonForm form(SchemaDefinitions& d) {
     return {"object", "\"additionalProperties\": { " + Value<T>::form(d).members() + " }"};
   }
 };
@@ -262,7 +262,7 @@ struct Value<Named<T>> {
 template <>
 struct Value<TallCounts> {
   static void write(JsonOut& out, const TallCounts& tall);
-  static JsonForm form(Definitions& d) { return Value<Counts>::form(d); }
+  static JsonForm form(SchemaDefinitions& d) { return Value<Counts>::form(d); }
 };
 
 template <class T>
@@ -275,12 +275,12 @@ struct Value<Rows<T>> {
     });
     out.json.end_array();
   }
-  static JsonForm form(Definitions& d) { return list_form(Value<T>::form(d)); }
+  static JsonForm form(SchemaDefinitions& d) { return list_form(Value<T>::form(d)); }
 };
 
 template <class T>
 struct Value<IfAny<T>> {
-  static JsonForm form(Definitions& d) { return Value<T>::form(d); }
+  static JsonForm form(SchemaDefinitions& d) { return Value<T>::form(d); }
 };
 
 template <class T>
@@ -305,7 +305,7 @@ constexpr Column<Row> column(const char* name, const char* says, Get) {
               Value<T>::write(out, value);
             }
           },
-          [](Definitions& d) { return Value<T>::form(d); }};
+          [](SchemaDefinitions& d) { return Value<T>::form(d); }};
 }
 
 template <class Row>
@@ -321,7 +321,7 @@ constexpr auto group(const char* name, const char* says = "") {
                        for (const Column<Row>& c : Group.columns) c.write(out, c.name, row);
                        out.json.end_object();
                      },
-                     [](Definitions& d) { return record_form(d, Group); }};
+                     [](SchemaDefinitions& d) { return record_form(d, Group); }};
 }
 
 /// What a path of members and functions gives for a row; pointers on the way are followed.
@@ -378,11 +378,11 @@ struct DocumentSchema {
   std::string text;
   std::map<std::string, std::string> common;  ///< definitions that it shares with others
 };
-DocumentSchema document_schema(const DocumentHead& head, const Definitions& definitions,
+DocumentSchema document_schema(const DocumentHead& head, const SchemaDefinitions& definitions,
                                const std::string& record);
 template <class Row>
 DocumentSchema document_schema(const DocumentHead& head) {
-  Definitions definitions;
+  SchemaDefinitions definitions;
   record_form<Row>(definitions);
   return document_schema(head, definitions, record_of(static_cast<const Row*>(nullptr)).name);
 }

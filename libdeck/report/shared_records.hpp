@@ -16,6 +16,7 @@ class LoadedDeck;
 struct Place {
   std::string_view file;
   std::size_t line = 0, column = 0;
+  IfAny<std::size_t> end_column = {};
 };
 const Record<Place>& record_of(const Place*);
 /// nullopt: the span is not valid.

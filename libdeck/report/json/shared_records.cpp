@@ -198,9 +198,10 @@ void each_changed(const ComparedRow& r, const std::function<void(const ChangedRo
 
 const Record<Place>& record_of(const Place*) {
   using Row = Place;
-  static constexpr Column<Row> columns[] = {column<&Place::file>("file"),
-                                            column<&Place::line>("line", "From 1 on"),
-                                            column<&Place::column>("column", "From 1 on")};
+  static constexpr Column<Row> columns[] = {
+      column<&Place::file>("file"), column<&Place::line>("line", "From 1 on"),
+      column<&Place::column>("column", "From 1 on"),
+      column<&Place::end_column>("end_column", "Of a cell: the first column behind it")};
   static const Record<Row> record{"place", "A place in the text of a deck.", columns, true, true};
   return record;
 }
