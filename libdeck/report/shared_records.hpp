@@ -103,6 +103,19 @@ std::array<std::int64_t, N> node_ids(const Model& model, const std::array<NodeIn
   return ids;
 }
 
+/// The ids of a pair: of two edges, or of a node and a segment.
+struct PairSides {
+  const Model* model = nullptr;
+  const Contact* contact = nullptr;
+  std::uint32_t secondary = 0, main = 0;
+
+  bool edges() const { return contact->kind == ContactKind::edge_edge; }
+  IfAny<std::array<std::int64_t, 2>> edge() const;
+  IfAny<std::array<std::int64_t, 2>> main_edge() const;
+  IfAny<std::int64_t> node() const;
+  IfAny<std::array<std::int64_t, 4>> segment() const;
+};
+
 /// A value where it is known, else null.
 template <class T>
 std::optional<T> known(bool is_known, const T& value) {

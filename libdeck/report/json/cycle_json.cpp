@@ -37,43 +37,18 @@ constexpr const char* reasons =
     "mid-surface reached, dtmin (time to the mid-surface), dtmin (stiffness against mass) or no "
     "element left (Idel)";
 
-/// The ids of both sides of a pair.
-struct Sides {
-  const Model& model;
-  const Contact& contact;
-  CandidatePair at;
-
-  bool edges() const { return contact.kind == ContactKind::edge_edge; }
-  IfAny<Ids2> edge() const {
-    if (!edges()) return {};
-    return {node_ids(model, contact.secondary_edges[at.secondary].nodes)};
-  }
-  IfAny<Ids2> main_edge() const {
-    if (!edges()) return {};
-    return {node_ids(model, contact.main_edges[at.main].nodes)};
-  }
-  IfAny<std::int64_t> node() const {
-    if (edges()) return {};
-    return {model.node_id(contact.secondary[at.secondary].node)};
-  }
-  IfAny<Ids4> segment() const {
-    if (edges()) return {};
-    return {node_ids(model, contact.main[at.main].nodes)};
-  }
-};
-
 struct PairRow {
-  Sides sides;
+  PairSides sides;
   const cycle::PairOutcome* pair;
 };
 const Record<PairRow>& record_of(const PairRow*) {
   using Row = PairRow;
   using Pair = cycle::PairOutcome;
   static constexpr Column<Row> columns[] = {
-      column<&Row::sides, &Sides::edge>("edge"),
-      column<&Row::sides, &Sides::main_edge>("main_edge"),
-      column<&Row::sides, &Sides::node>("node"),
-      column<&Row::sides, &Sides::segment>("segment"),
+      column<&Row::sides, &PairSides::edge>("edge"),
+      column<&Row::sides, &PairSides::main_edge>("main_edge"),
+      column<&Row::sides, &PairSides::node>("node"),
+      column<&Row::sides, &PairSides::segment>("segment"),
       column<&Row::pair, &Pair::weights>("weights", "H1..H4; edges: h_s, 1-h_s, h_m, 1-h_m"),
       column<&Row::pair, &Pair::force>("force",
                                        "On the main side; the secondary side gets the opposite"),
@@ -88,26 +63,26 @@ const Record<PairRow>& record_of(const PairRow*) {
 }
 
 struct RemovedRow {
-  Sides sides;
+  PairSides sides;
   cycle::Removal::Because because;
 };
 const Record<RemovedRow>& record_of(const RemovedRow*) {
   using Row = RemovedRow;
   static constexpr Column<Row> columns[] = {
-      column<&Row::sides, &Sides::edge>("edge"), column<&Row::sides, &Sides::node>("node"),
+      column<&Row::sides, &PairSides::edge>("edge"), column<&Row::sides, &PairSides::node>("node"),
       column<Row>("because", reasons, [](const Row& r) { return to_string(r.because); })};
   static const Record<Row> record{"removed", "", columns, true};
   return record;
 }
 
 struct TieRow {
-  Sides sides;
+  PairSides sides;
   bool tied;
 };
 const Record<TieRow>& record_of(const TieRow*) {
   using Row = TieRow;
-  static constexpr Column<Row> columns[] = {column<&Row::sides, &Sides::node>("node"),
-                                            column<&Row::sides, &Sides::segment>("segment"),
+  static constexpr Column<Row> columns[] = {column<&Row::sides, &PairSides::node>("node"),
+                                            column<&Row::sides, &PairSides::segment>("segment"),
                                             column<&Row::tied>("tied", "false: it lets go")};
   static const Record<Row> record{"tie_change", "", columns, true};
   return record;
@@ -159,7 +134,9 @@ struct ContactRow {
   const ContactOutcome* o;
 
   const Model& model() const { return document.model(); }
-  Sides sides(const CandidatePair& at) const { return {model(), *o->contact, at}; }
+  PairSides sides(const CandidatePair& at) const {
+    return {&model(), o->contact, at.secondary, at.main};
+  }
   PairRow row(const cycle::PairOutcome& p) const { return {sides(p.at), &p}; }
   RemovedRow row(const cycle::Removal& r) const { return {sides({r.secondary, 0}), r.because}; }
   TieRow row(const cycle::TieChange& t) const { return {sides(t.at), t.tied}; }
@@ -262,6 +239,7 @@ const Record<EffectRow>& record_of(const EffectRow*) {
 struct InterfaceRow {
   const CycleDocument& document;
   const InterBase* inter;
+  const Deck* deck() const { return document.input->deck; }
 };
 
 void each_contact(const InterfaceRow& r, const std::function<void(const ContactRow&)>& add) {
@@ -276,14 +254,12 @@ const Record<InterfaceRow>& record_of(const InterfaceRow*) {
       column<&Row::inter, &InterBase::id>("id"),
       column<&Row::inter, &InterBase::type>("type", "7, 10, 11, 19, 24 or 25"),
       column<&Row::inter, &InterBase::title>("title"),
-      column<Row>("source", "",
-                  [](const Row& r) { return place_of(*r.document.input->deck, r.inter->span); }),
+      column<Row>("source", "", [](const Row& r) { return place_of(*r.deck(), r.inter->span); }),
       column<Row>("effects", "",
                   [](const Row& r) {
-                    const Deck& deck = *r.document.input->deck;
-                    return rows_of(effect_lines(deck, *r.document.outcome, *r.inter),
-                                   [&deck](const EffectLine& e) {
-                                     return EffectRow{deck, &e};
+                    return rows_of(effect_lines(*r.deck(), *r.document.outcome, *r.inter),
+                                   [&r](const EffectLine& e) {
+                                     return EffectRow{*r.deck(), &e};
                                    });
                   }),
       column<Row>("contacts", "", [](const Row& r) {
@@ -405,7 +381,7 @@ const Record<StepRow>& record_of(const StepRow*) {
 
 struct EventRow {
   const StepEvent* event;
-  Sides sides;
+  PairSides sides;
 
   bool is(StepEvent::Kind kind) const { return event->kind == kind; }
   bool released() const { return is(StepEvent::Kind::released); }
@@ -417,7 +393,7 @@ struct EventRow {
   IfAny<Ids2> edge() const { return released() ? IfAny<Ids2>{} : sides.edge(); }
   IfAny<std::int64_t> node() const {
     if (!released()) return sides.node();
-    return {sides.model.node_id(event->release.node)};
+    return {sides.model->node_id(event->release.node)};
   }
   IfAny<Ids4> segment() const {
     return released() || is(StepEvent::Kind::removed) ? IfAny<Ids4>{} : sides.segment();
@@ -428,8 +404,8 @@ const Record<EventRow>& record_of(const EventRow*) {
   static constexpr Column<Row> columns[] = {
       column<&Row::event, &StepEvent::step>("step"),
       column<&Row::event, &StepEvent::time>("time"),
-      column<Row>("interface", "", [](const Row& r) { return r.sides.contact.inter->id; }),
-      column<Row>("role", "", [](const Row& r) { return r.sides.contact.role; }),
+      column<&Row::sides, &PairSides::contact, &Contact::inter, &InterBase::id>("interface"),
+      column<&Row::sides, &PairSides::contact, &Contact::role>("role"),
       column<&Row::name>("event", "removed, tied, let-go or released"),
       column<&Row::edge>("edge"),
       column<&Row::node>("node"),
@@ -467,7 +443,8 @@ const Record<StepsRow>& record_of(const StepsRow*) {
                   }),
       column<Row>("events", "", [](const Row& r) {
         return rows_of(r.of->events, [&r](const StepEvent& e) {
-          return EventRow{&e, {*r.scene.model, r.scene.contacts[e.contact], e.at}};
+          const Contact& contact = r.scene.contacts[e.contact];
+          return EventRow{&e, {r.scene.model, &contact, e.at.secondary, e.at.main}};
         });
       })};
   static const Record<Row> record{"steps", "", columns};
