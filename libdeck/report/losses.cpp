@@ -9,12 +9,7 @@ namespace {
 
 struct LossLists {
   const std::vector<LossEntry>* losses = nullptr;
-  Rows<LossEntry> of(Loss loss) const {
-    return {[this, loss](const auto& add) {
-      for (const LossEntry& e : *losses)
-        if (e.loss == loss) add(e);
-    }};
-  }
+  Rows<LossEntry> of(Loss loss) const { return rows_of(*losses) if (e.loss == loss); }
 };
 Record<LossLists> record_of(const LossLists*) {
   using Row = LossLists;

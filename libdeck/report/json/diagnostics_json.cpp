@@ -33,9 +33,7 @@ struct FixRow {
   const LintedDeck* deck = nullptr;
   const Fix* fix = nullptr;
   Rows<EditRow> edits() const {
-    return {[this](const auto& add) {
-      for (const TextEdit& e : fix->edits) add({deck, &e});
-    }};
+    return rows_of(fix->edits, [this](const TextEdit& e) { return EditRow{deck, &e}; });
   }
 };
 Record<FixRow> record_of(const FixRow*) {
@@ -139,27 +137,20 @@ struct LintDocument {
     }};
   }
   Rows<StaleRow> stale() const {
-    return {[this](const auto& add) {
-      for (const Stale& s : result().stale) add({&s});
-    }};
+    return rows_of(result().stale, [this](const Stale& s) { return StaleRow{&s}; });
   }
   TallCounts counts() const {
     TallCounts out;
     for (const auto& [rule, count] : result().counts) out.counts.emplace_back(id_text(rule), count);
     return out;
   }
-  Rows<NotChecked> not_checked() const {
-    return {[this](const auto& add) {
-      for (const NotChecked& n : result().not_checked) add(n);
-    }};
-  }
+  Rows<NotChecked> not_checked() const { return rows_of(result().not_checked); }
   IfAny<std::size_t> examined() const {
     return if_any(coverage.has_value(), coverage ? coverage->examined : 0);
   }
-  IfAny<Rows<NotExamined>> not_examined() const {
-    return if_any(coverage.has_value(), Rows<NotExamined>{[this](const auto& add) {
-                    for (const NotExamined& n : coverage->not_examined) add(n);
-                  }});
+  IfAny<std::vector<NotExamined>> not_examined() const {
+    return coverage ? IfAny<std::vector<NotExamined>>{coverage->not_examined}
+                    : IfAny<std::vector<NotExamined>>{};
   }
 };
 Record<LintDocument> record_of(const LintDocument*) {
@@ -226,9 +217,7 @@ struct RuleRow {
     return rule->messages.empty() ? std::nullopt : std::optional(rule->messages.front());
   }
   Rows<RuleFieldRow> fields() const {
-    return {[this](const auto& add) {
-      for (const RuleField& f : rule->fields) add({rule, &f});
-    }};
+    return rows_of(rule->fields, [this](const RuleField& f) { return RuleFieldRow{rule, &f}; });
   }
 };
 Record<RuleRow> record_of(const RuleRow*) {
@@ -255,9 +244,7 @@ Record<RuleRow> record_of(const RuleRow*) {
 
 struct RulesDocument {
   Rows<RuleRow> rules() const {
-    return {[](const auto& add) {
-      for (const Rule& r : all_rules()) add({&r});
-    }};
+    return rows_of(all_rules(), [](const Rule& r) { return RuleRow{&r}; });
   }
 };
 Record<RulesDocument> record_of(const RulesDocument*) {

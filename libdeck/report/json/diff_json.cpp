@@ -104,9 +104,7 @@ Record<SideOfDiff> record_of(const SideOfDiff*) {
 struct PenetrationsRow {
   const DeckDiff* diff = nullptr;
   static Rows<PenetrationChange> rows(const std::vector<PenetrationChange>& list) {
-    return {[&list](const auto& add) {
-      for (const PenetrationChange& p : list) add(p);
-    }};
+    return rows_of(list);
   }
 };
 Record<PenetrationsRow> record_of(const PenetrationsRow*) {
@@ -127,15 +125,11 @@ struct DiffDocument {
   SideOfDiff b() const { return {&side_b}; }
   bool equal() const { return diff.equal(); }
   std::string text() const { return diff_verdict(diff); }
-  Rows<std::string> notes() const {
-    return {[this](const auto& add) {
-      for (const std::string& note : diff.notes) add(note);
-    }};
-  }
+  Rows<std::string> notes() const { return rows_of(diff.notes); }
   Rows<ChangeRow> changes() const {
-    return {[this](const auto& add) {
-      for (const Change& c : diff.changes) add({side_a.loaded.deck(), side_b.loaded.deck(), &c});
-    }};
+    return rows_of(diff.changes, [this](const Change& c) {
+      return ChangeRow{side_a.loaded.deck(), side_b.loaded.deck(), &c};
+    });
   }
   PenetrationsRow penetrations() const { return {&diff}; }
 };

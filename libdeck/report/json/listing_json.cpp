@@ -92,9 +92,9 @@ struct MessageRow {
   const ListingDocument* document = nullptr;
   const MessageGroup* group = nullptr;
   Rows<PlaceRow> places() const {
-    return {[this](const auto& add) {
-      for (const MessagePlace& place : group->places) add({document, &place});
-    }};
+    return rows_of(group->places, [this](const MessagePlace& place) {
+      return PlaceRow{document, &place};
+    });
   }
   Rows<FindingOfListing> own_findings() const { return findings(document, group->findings); }
 };
@@ -162,14 +162,12 @@ struct ContactOfListing {
     return out;
   }
   Rows<PairOfListing> pairs() const {
-    return {[this](const auto& add) {
-      for (const ComparedPair& p : c->pairs) add({c, &p, &contact->penetrations[p.pair.row]});
-    }};
+    return rows_of(c->pairs, [this](const ComparedPair& p) {
+      return PairOfListing{c, &p, &contact->penetrations[p.pair.row]};
+    });
   }
   Rows<ListedOnly> listed_only() const {
-    return {[this](const auto& add) {
-      for (const ListedPair& p : c->only_listed) add({&p});
-    }};
+    return rows_of(c->only_listed, [this](const ListedPair& p) { return ListedOnly{&p}; });
   }
 };
 Record<ContactOfListing> record_of(const ContactOfListing*) {
@@ -199,11 +197,7 @@ struct StepsRow {
     return s->kind ? std::string_view(detail::kind_name(*s->kind)) : "node";
   }
   std::optional<double> smallest() const { return finite_step(s->smallest); }
-  Rows<StepDifference> different() const {
-    return {[this](const auto& add) {
-      for (const StepDifference& d : s->different) add(d);
-    }};
-  }
+  Rows<StepDifference> different() const { return rows_of(s->different); }
 };
 Record<StepsRow> record_of(const StepsRow*) {
   static constexpr Column<StepsRow> columns[] = {
@@ -220,20 +214,17 @@ Record<StepsRow> record_of(const StepsRow*) {
 }
 
 Rows<MessageRow> messages(const ListingDocument& r) {
-  return {[&r](const auto& add) {
-    for (const MessageGroup& group : r.report.messages) add({&r, &group});
-  }};
+  return rows_of(r.report.messages, [&r](const MessageGroup& group) {
+    return MessageRow{&r, &group};
+  });
 }
 Rows<ContactOfListing> contacts(const ListingDocument& r) {
-  return {[&r](const auto& add) {
-    for (const ComparedContact& c : r.report.contacts)
-      add({&r.loaded->scene().contacts[c.contact], &c});
-  }};
+  return rows_of(r.report.contacts, [&r](const ComparedContact& c) {
+    return ContactOfListing{&r.loaded->scene().contacts[c.contact], &c};
+  });
 }
 Rows<StepsRow> steps(const ListingDocument& r) {
-  return {[&r](const auto& add) {
-    for (const ComparedSteps& s : r.report.steps) add({&s});
-  }};
+  return rows_of(r.report.steps, [&r](const ComparedSteps& s) { return StepsRow{&s}; });
 }
 std::optional<DeckRow> deck_of(const ListingDocument& r) {
   if (r.loaded == nullptr) return std::nullopt;
