@@ -1,5 +1,4 @@
 // The JSON of `deck cycle`.
-#include "report/accuracy_decisions.hpp"
 #include "report/cycle_costs.hpp"
 #include "report/gaps_names.hpp"
 #include "report/shared/cycle.hpp"

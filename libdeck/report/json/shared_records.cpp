@@ -1,7 +1,6 @@
 // Tables of the records that several documents have.
 #include "report/shared_records.hpp"
 
-#include "report/accuracy_decisions.hpp"
 #include "report/diagnostics_common.hpp"
 #include "report/gaps_names.hpp"
 #include "report/shared/verdict.hpp"

@@ -9,7 +9,6 @@
 #include "base/shared/length_text.hpp"
 #include "deck/report/gaps.hpp"
 #include "model/shared/item_spans.hpp"
-#include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/text_table.hpp"
