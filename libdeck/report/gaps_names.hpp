@@ -11,14 +11,6 @@
 
 namespace deck {
 
-/// Ids of nodes as a JSON array.
-inline void write_nodes(JsonWriter& j, const Model& model, const NodeIndex* nodes,
-                        std::size_t count) {
-  j.begin_array(true);
-  for (std::size_t i = 0; i < count; ++i) j.value(model.node_id(nodes[i]));
-  j.end_array();
-}
-
 /// Ids of nodes as text; the node that a triangle repeats is there once.
 std::string ids_text(const Model& model, std::span<const NodeIndex> nodes, char between);
 
@@ -39,10 +31,6 @@ ElementName segment_element(const Scene& scene, const Crossing& crossing);
 
 /// The members of "summary" and "totals", the same in the document and in the page.
 void write_totals(JsonWriter& json, const ContactTotals& totals);
-
-/// The member "accuracy": mode, pairs, how many needed more than double, and the pairs about which
-/// the solver's arithmetic decides otherwise.
-void write_decisions(JsonWriter& j, const Scene& scene);
 
 /// Where the solver's arithmetic decides otherwise about contact, or with `always`: one sentence,
 /// and a table of the first `rows` differences, fitted to `width`. Else "".

@@ -10,10 +10,13 @@
 
 namespace deck {
 
+class LoadedDeck;
+
 /// A place in the text of a deck.
 struct Place {
   std::string_view file;
   std::size_t line = 0, column = 0;
+  IfAny<std::size_t> end_column = {};
 };
 const Record<Place>& record_of(const Place*);
 /// nullopt: the span is not valid.
@@ -27,6 +30,8 @@ struct DeckRow {
   const Interfaces* interfaces = nullptr;
 };
 const Record<DeckRow>& record_of(const DeckRow*);
+/// With its model and interfaces.
+DeckRow deck_row(const LoadedDeck& loaded);
 
 const Record<NotExamined>& record_of(const NotExamined*);
 const Record<Verdict>& record_of(const Verdict*);
@@ -68,6 +73,10 @@ struct ComparedRow {
   const GateReport* gate = nullptr;
 };
 const Record<ComparedRow>& record_of(const ComparedRow*);
+/// Of the gate that was asked for: null without bounds, no member without a gate.
+IfAny<std::optional<GateRow>> gate_of(const Deck& deck, const GateReport* gate);
+IfAny<std::optional<ComparedRow>> comparison_of(const Scene& scene, const SceneView& view,
+                                                const GateReport* gate);
 /// An element and its part.
 const Record<ElementName>& record_of(const ElementName*);
 
@@ -93,6 +102,19 @@ std::array<std::int64_t, N> node_ids(const Model& model, const std::array<NodeIn
   for (std::size_t i = 0; i < N; ++i) ids[i] = model.node_id(nodes[i]);
   return ids;
 }
+
+/// The ids of a pair: of two edges, or of a node and a segment.
+struct PairSides {
+  const Model* model = nullptr;
+  const Contact* contact = nullptr;
+  std::uint32_t secondary = 0, main = 0;
+
+  bool edges() const { return contact->kind == ContactKind::edge_edge; }
+  IfAny<std::array<std::int64_t, 2>> edge() const;
+  IfAny<std::array<std::int64_t, 2>> main_edge() const;
+  IfAny<std::int64_t> node() const;
+  IfAny<std::array<std::int64_t, 4>> segment() const;
+};
 
 /// A value where it is known, else null.
 template <class T>

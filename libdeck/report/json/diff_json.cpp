@@ -19,7 +19,7 @@ struct Value<DiffValue> {
         },
         value);
   }
-  static JsonForm form(Definitions&) {
+  static JsonForm form(SchemaDefinitions&) {
     return {"",
             R"("oneOf": [{ "type": ["number", "string", "null"] }, )"
             R"({ "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 }])"};

@@ -95,44 +95,26 @@ struct PairRow {
   const Contact& contact;
   const PlacedRow* placed;
   const PenetrationRow* row;
-  bool edges() const { return contact.kind == ContactKind::edge_edge; }
-  const Model& model() const { return *document.scene.model; }
+  PairSides sides() const { return {document.scene.model, &contact, row->secondary, row->main}; }
 };
 const Record<PairRow>& record_of(const PairRow*) {
   using Row = PairRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("edge", "Secondary edge",
-                  [](const Row& r) {
-                    if (!r.edges()) return IfAny<Ids2>{};
-                    const ContactEdge& e = r.contact.secondary_edges[r.row->secondary];
-                    return IfAny<Ids2>{node_ids(r.model(), e.nodes)};
-                  }),
-      column<Row>("main_edge", "",
-                  [](const Row& r) {
-                    if (!r.edges()) return IfAny<Ids2>{};
-                    return IfAny<Ids2>{
-                        node_ids(r.model(), r.contact.main_edges[r.row->main].nodes)};
-                  }),
-      column<Row>("node", "Secondary node",
-                  [](const Row& r) {
-                    if (r.edges()) return IfAny<std::int64_t>{};
-                    return IfAny<std::int64_t>{
-                        r.model().node_id(r.contact.secondary[r.row->secondary].node)};
-                  }),
-      column<Row>("segment", "Main segment; triangles repeat the last node",
-                  [](const Row& r) {
-                    if (r.edges()) return IfAny<Ids4>{};
-                    return IfAny<Ids4>{node_ids(r.model(), r.contact.main[r.row->main].nodes)};
-                  }),
+      column<&Row::sides, &PairSides::edge>("edge", "Secondary edge"),
+      column<&Row::sides, &PairSides::main_edge>("main_edge"),
+      column<&Row::sides, &PairSides::node>("node", "Secondary node"),
+      column<&Row::sides, &PairSides::segment>("segment",
+                                               "Main segment; triangles repeat the last node"),
       column<&PairRow::row, &PenetrationRow::depth>("penetration",
                                                     "Pair gap - distance, of edges as of nodes"),
       column<&PairRow::row, &PenetrationRow::gap>("gap", "The pair gap"),
       column<&PairRow::row, &PenetrationRow::distance>("distance"),
-      column<Row>("solver", "",
-                  [](const Row& r) {
-                    const double squared = r.row->gap * r.row->gap;
-                    return if_any(r.edges(), SquaredRow{squared - r.row->distance, squared});
-                  }),
+      column<Row>(
+          "solver", "",
+          [](const Row& r) {
+            const double squared = r.row->gap * r.row->gap;
+            return if_any(r.sides().edges(), SquaredRow{squared - r.row->distance, squared});
+          }),
       column<Row>("stored", "TYPE24 and TYPE25: the penetration that the solver keeps",
                   [](const Row& r) { return if_any(is_modern(r.contact.type), r.row->p0); }),
       column<Row>("normal", "Unit vector from main to secondary; zeros on the surface",
@@ -235,9 +217,9 @@ struct ContactRow {
   bool of_nodes() const { return contact().kind == ContactKind::node_segment; }
 
   Rows<PairRow> pairs(const Contact& c, const PlacedRows& rows) const {
-    return {[&document = document, &c, &rows](const auto& add) {
-      for (const PlacedRow& r : rows) add({document, c, &r, &c.penetrations[r.named->row]});
-    }};
+    return rows_of(rows, [&document = document, &c](const PlacedRow& r) {
+      return PairRow{document, c, &r, &c.penetrations[r.named->row]};
+    });
   }
   SideRow side(const ContactEdge& e) const {
     return {.edge = node_ids(model(), e.nodes), .stiffness = e.stiffness, .gap = e.gap};
@@ -443,45 +425,31 @@ const Record<GapsDocument>& record_of(const GapsDocument*) {
       column<Row>("verdict", "", [](const Row& r) { return verdict_of(r.deck, r.scene, r.view); }),
       column<Row>("summary", "Of all contacts", [](const Row& r) { return r.view.total; }),
       column<Row>("gate", "null: no bounds were given",
-                  [](const Row& r) {
-                    return if_any(r.gate != nullptr, known(r.gate != nullptr && r.gate->asked,
-                                                           GateRow{&r.deck, r.gate}));
-                  }),
+                  [](const Row& r) { return gate_of(r.deck, r.gate); }),
       column<Row>("compared", "null: nothing was compared",
-                  [](const Row& r) {
-                    return if_any(r.gate != nullptr,
-                                  known(r.gate != nullptr && r.gate->earlier != nullptr,
-                                        ComparedRow{&r.scene, &r.view, r.gate}));
-                  }),
+                  [](const Row& r) { return comparison_of(r.scene, r.view, r.gate); }),
       column<Row>("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25",
                   [](const Row& r) {
                     return coverage_of(r.deck, *r.scene.interfaces, r.scene.examined).examined;
                   }),
       column<Row>("not_examined", "Interfaces of other types, by keyword",
                   [](const Row& r) {
-                    return Rows<NotExamined>{[&r](const auto& add) {
-                      const Coverage c = coverage_of(r.deck, *r.scene.interfaces, r.scene.examined);
-                      for (const NotExamined& n : c.not_examined) add(n);
-                    }};
+                    return rows_of(
+                        coverage_of(r.deck, *r.scene.interfaces, r.scene.examined).not_examined);
                   }),
       column<Row>("accuracy", "", [](const Row& r) { return DecisionsRow{&r.scene}; }),
       column<Row>("part_pairs", "Deepest first",
-                  [](const Row& r) {
-                    return Rows<PartPair>{[&r](const auto& add) {
-                      for (const PartPair& p : r.view.part_pairs) add(p);
-                    }};
-                  }),
+                  [](const Row& r) { return rows_of(r.view.part_pairs); }),
       column<Row>("interfaces", "",
                   [](const Row& r) {
-                    return Rows<InterfaceRow>{[&r](const auto& add) {
-                      for (const InterBase* inter : r.scene.interfaces->ordered)
-                        add({r, inter, verdict_of_interface(r.scene, r.view, *inter)});
-                    }};
+                    return rows_of(r.scene.interfaces->ordered, [&r](const InterBase* inter) {
+                      return InterfaceRow{r, inter, verdict_of_interface(r.scene, r.view, *inter)};
+                    });
                   }),
       column<Row>("ties", "Every /INTER/TYPE2", [](const Row& r) {
-        return Rows<TieRow>{[&r](const auto& add) {
-          for (const Tie& tie : r.scene.ties) add({*r.scene.model, &tie, r.all});
-        }};
+        return rows_of(r.scene.ties, [&r](const Tie& tie) {
+          return TieRow{*r.scene.model, &tie, r.all};
+        });
       })};
   static const Record<Row> record{"document", "", columns};
   return record;

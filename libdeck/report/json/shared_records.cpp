@@ -1,6 +1,7 @@
 // Tables of the records that several documents have.
 #include "report/shared_records.hpp"
 
+#include "deck/front/loaded_deck.hpp"
 #include "report/diagnostics_common.hpp"
 #include "report/gaps_names.hpp"
 #include "report/shared/verdict.hpp"
@@ -69,41 +70,17 @@ struct DifferenceRow {
   const Scene* scene = nullptr;
   const DecisionDifference* d = nullptr;
   const Contact& contact() const { return scene->contacts[d->contact]; }
-  bool edges() const { return contact().kind == ContactKind::edge_edge; }
-  template <std::size_t N>
-  std::array<std::int64_t, N> ids(const std::array<NodeIndex, N>& nodes) const {
-    return node_ids(*scene->model, nodes);
-  }
+  PairSides sides() const { return {scene->model, &contact(), d->secondary, d->main}; }
 };
 const Record<DifferenceRow>& record_of(const DifferenceRow*) {
   using Row = DifferenceRow;
-  using Ids2 = std::array<std::int64_t, 2>;
-  using Ids4 = std::array<std::int64_t, 4>;
   static constexpr Column<Row> columns[] = {
-      column<Row>("interface", "", [](const Row& r) { return r.contact().inter->id; }),
-      column<Row>("role", "", [](const Row& r) { return r.contact().role; }),
-      column<Row>(
-          "edge", "Secondary edge",
-          [](const Row& r) {
-            return r.edges() ? IfAny<Ids2>{r.ids(r.contact().secondary_edges[r.d->secondary].nodes)}
-                             : IfAny<Ids2>{};
-          }),
-      column<Row>("node", "Secondary node",
-                  [](const Row& r) {
-                    return r.edges() ? IfAny<std::int64_t>{}
-                                     : IfAny<std::int64_t>{r.scene->model->node_id(
-                                           r.contact().secondary[r.d->secondary].node)};
-                  }),
-      column<Row>("main_edge", "",
-                  [](const Row& r) {
-                    return r.edges() ? IfAny<Ids2>{r.ids(r.contact().main_edges[r.d->main].nodes)}
-                                     : IfAny<Ids2>{};
-                  }),
-      column<Row>("segment", "Main segment",
-                  [](const Row& r) {
-                    return r.edges() ? IfAny<Ids4>{}
-                                     : IfAny<Ids4>{r.ids(r.contact().main[r.d->main].nodes)};
-                  }),
+      column<&Row::contact, &Contact::inter, &InterBase::id>("interface"),
+      column<&Row::contact, &Contact::role>("role"),
+      column<&Row::sides, &PairSides::edge>("edge", "Secondary edge"),
+      column<&Row::sides, &PairSides::node>("node", "Secondary node"),
+      column<&Row::sides, &PairSides::main_edge>("main_edge"),
+      column<&Row::sides, &PairSides::segment>("segment", "Main segment"),
       column<Row>("about", "\"contact\" (nearer than the gap) or \"on_surface\"",
                   [](const Row& r) { return r.d->surface ? "on_surface" : "contact"; }),
       column<&DifferenceRow::d, &DecisionDifference::exact>("exact", "What is true"),
@@ -194,11 +171,32 @@ void each_changed(const ComparedRow& r, const std::function<void(const ChangedRo
 
 }  // namespace
 
+IfAny<std::array<std::int64_t, 2>> PairSides::edge() const {
+  if (!edges()) return {};
+  return {node_ids(*model, contact->secondary_edges[secondary].nodes)};
+}
+
+IfAny<std::array<std::int64_t, 2>> PairSides::main_edge() const {
+  if (!edges()) return {};
+  return {node_ids(*model, contact->main_edges[main].nodes)};
+}
+
+IfAny<std::int64_t> PairSides::node() const {
+  if (edges()) return {};
+  return {model->node_id(contact->secondary[secondary].node)};
+}
+
+IfAny<std::array<std::int64_t, 4>> PairSides::segment() const {
+  if (edges()) return {};
+  return {node_ids(*model, contact->main[main].nodes)};
+}
+
 const Record<Place>& record_of(const Place*) {
   using Row = Place;
-  static constexpr Column<Row> columns[] = {column<&Place::file>("file"),
-                                            column<&Place::line>("line", "From 1 on"),
-                                            column<&Place::column>("column", "From 1 on")};
+  static constexpr Column<Row> columns[] = {
+      column<&Place::file>("file"), column<&Place::line>("line", "From 1 on"),
+      column<&Place::column>("column", "From 1 on"),
+      column<&Place::end_column>("end_column", "Of a cell: the first column behind it")};
   static const Record<Row> record{"place", "A place in the text of a deck.", columns, true, true};
   return record;
 }
@@ -224,12 +222,16 @@ const Record<DeckRow>& record_of(const DeckRow*) {
           }),
       column<counts_of>("counts"),
       column<Row>("includes", "", [](const Row& r) {
-        return Rows<IncludeRow>{[&r](const auto& add) {
-          for (const IncludeEdge& e : r.deck->includes) add({r.deck, &e});
-        }};
+        return rows_of(r.deck->includes, [&r](const IncludeEdge& e) {
+          return IncludeRow{r.deck, &e};
+        });
       })};
   static const Record<Row> record{"deck", "", columns, false, true};
   return record;
+}
+
+DeckRow deck_row(const LoadedDeck& loaded) {
+  return {loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces()};
 }
 
 const Record<NotExamined>& record_of(const NotExamined*) {
@@ -256,12 +258,7 @@ const Record<Verdict>& record_of(const Verdict*) {
   static constexpr Column<Row> columns[] = {
       column<&Verdict::level>("level", "The first that applies"),
       column<&Verdict::text>("text", "All sentences"),
-      column<Row>("sentences", "",
-                  [](const Row& r) {
-                    return Rows<VerdictSentence>{[&r](const auto& add) {
-                      for (const VerdictSentence& s : r.sentences) add(s);
-                    }};
-                  }),
+      column<Row>("sentences", "", [](const Row& r) { return rows_of(r.sentences); }),
       column<&Verdict::counts>("counts", "Of all sentences, and those that are 0")};
   static const Record<Row> record{"verdict", "The verdict on the deck, equal in every document.",
                                   columns, false, true};
@@ -343,9 +340,9 @@ const Record<DecisionsRow>& record_of(const DecisionsRow*) {
                     return differing(r.scene->decisions, r.scene->decisions.surface_differs);
                   }),
       column<Row>("differences", "The first 1000 of both kinds", [](const Row& r) {
-        return Rows<DifferenceRow>{[&r](const auto& add) {
-          for (const DecisionDifference& d : r.scene->decisions.differences) add({r.scene, &d});
-        }};
+        return rows_of(r.scene->decisions.differences, [&r](const DecisionDifference& d) {
+          return DifferenceRow{r.scene, &d};
+        });
       })};
   static const Record<Row> record{
       "accuracy",
@@ -361,9 +358,9 @@ const Record<GateRow>& record_of(const GateRow*) {
       column<&GateRow::gate, &GateReport::undecided>("undecided",
                                                      "Contacts that could not be evaluated"),
       column<Row>("findings", "", [](const Row& r) {
-        return Rows<GateFinding>{[&r](const auto& add) {
-          for (const Diagnostic& d : r.gate->findings) add({r.deck, &d});
-        }};
+        return rows_of(r.gate->findings, [&r](const Diagnostic& d) {
+          return GateFinding{r.deck, &d};
+        });
       })};
   static const Record<Row> record{
       "gate", "Result of the bounds of --max-depth and its like, or of [gate] in .decklint.toml.",
@@ -393,6 +390,17 @@ const Record<ComparedRow>& record_of(const ComparedRow*) {
   return record;
 }
 
+IfAny<std::optional<GateRow>> gate_of(const Deck& deck, const GateReport* gate) {
+  if (gate == nullptr) return {};
+  return {known(gate->asked, GateRow{&deck, gate})};
+}
+
+IfAny<std::optional<ComparedRow>> comparison_of(const Scene& scene, const SceneView& view,
+                                                const GateReport* gate) {
+  if (gate == nullptr) return {};
+  return {known(gate->earlier != nullptr, ComparedRow{&scene, &view, gate})};
+}
+
 const Record<ElementName>& record_of(const ElementName*) {
   using Row = ElementName;
   static constexpr Column<Row> columns[] = {column<&ElementName::id>("id"),
@@ -412,10 +420,6 @@ void write_json_coverage(JsonWriter& json, const Coverage& coverage) {
   json.end_array();
 }
 
-void write_json_place(JsonWriter& json, const Deck& deck, const Span& span) {
-  write_value(json, place_of(deck, span));
-}
-
 void write_verdict(JsonWriter& json, const Verdict& verdict) {
   write_value(json.key("verdict"), verdict);
 }
@@ -425,10 +429,6 @@ std::string verdict_json(const Verdict& verdict) {
   JsonWriter json(text);
   write_value(json, verdict);
   return text;
-}
-
-void write_decisions(JsonWriter& json, const Scene& scene) {
-  write_value(json.key("accuracy"), DecisionsRow{&scene});
 }
 
 void write_totals(JsonWriter& json, const ContactTotals& totals) { write_members(json, totals); }

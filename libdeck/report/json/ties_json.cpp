@@ -106,14 +106,8 @@ const Record<TieRow>& record_of(const TieRow*) {
                         if (r.all || !n.tied || n.message != 0) add({r.model, *r.tie, &n});
                     }};
                   }),
-      column<Row>("repeated", "Ties that an earlier interface makes already (message 1630)",
-                  [](const Row& r) {
-                    return Rows<RepeatedTies>{[&r](const auto& add) {
-                                                for (const RepeatedTies& t : r.tie->repeated)
-                                                  add(t);
-                                              },
-                                              true};
-                  }),
+      column<&TieRow::tie, &Tie::repeated>(
+          "repeated", "Ties that an earlier interface makes already (message 1630)"),
       column<Row>("main_and_tied",
                   "Main nodes in use that are tied themselves: the solver stops (message 556)",
                   [](const Row& r) {

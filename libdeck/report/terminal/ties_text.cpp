@@ -6,7 +6,7 @@
 #include "contact/shared/element_names.hpp"
 #include "deck/contact/ties.hpp"
 #include "deck/contact/view.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/terminal/words.hpp"
 
