@@ -1,7 +1,7 @@
 // The result of `deck fix` as a JSON document.
 #include "report/shared/fix.hpp"
+#include "report/shared/gate.hpp"
 #include "report/shared/json.hpp"
-#include "report/shared/verdict.hpp"
 
 namespace deck {
 namespace {

@@ -13,7 +13,6 @@
 #include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/text_table.hpp"
-#include "report/shared/verdict.hpp"
 #include "report/terminal/cycle_effects_text.hpp"
 #include "report/terminal/words.hpp"
 

@@ -12,7 +12,6 @@
 #include "report/gaps_names.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/text_table.hpp"
-#include "report/shared/verdict.hpp"
 #include "report/terminal/ties_text.hpp"
 #include "report/terminal/words.hpp"
 
