@@ -89,40 +89,39 @@ std::string accuracy_text(const AccuracyChoices& choices, const AccuracyContext&
          fmt::format("\n{}; {}\n", terminal_text(context.processor), accuracy_compiler());
 }
 
-const Record<AccuracyChoice::OnDeck>& record_of(const AccuracyChoice::OnDeck*) {
+Record<AccuracyChoice::OnDeck> record_of(const AccuracyChoice::OnDeck*) {
   using Row = AccuracyChoice::OnDeck;
   static constexpr Column<Row> columns[] = {
       column<&Row::seconds>("seconds", "Whole deck gaps"),
       column<&Row::ratio, &TimeRatio::value>("ratio", "Time against fast"),
       column<&Row::ratio, &TimeRatio::spread>("spread", "Of both times, as a share"),
-      column<&Row::pairs>("pairs"),
-      column<Row>("wrong", "", [](const Row& r) { return r.wrong.size(); })};
-  static const Record<Row> record{"on_deck", "", columns, true};
-  return record;
+      column<&Row::pairs>("pairs"), column("wrong", [](const Row& r) { return r.wrong.size(); })};
+  return {"on_deck", "", columns, true};
 }
 
-const Record<AccuracyChoice::OnHardCases>& record_of(const AccuracyChoice::OnHardCases*) {
-  using Row = AccuracyChoice::OnHardCases;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::ns_per_pair>("ns_per_pair"),
-      column<&Row::ratio, &TimeRatio::value>("ratio", "Time against fast"),
-      column<&Row::ratio, &TimeRatio::spread>("spread", "Of both times, as a share"),
-      column<&Row::pairs>("pairs"),
-      column<&Row::wrong>("wrong"),
-      column<&Row::rewritten>("rewritten", "Pairs written down in other ways"),
-      column<&Row::other_answer>("other_answer", "Of these: the answer changed"),
-      column<&Row::kinds_never_wrong>("kinds_never_wrong", "Of the members of families")};
-  static const Record<Row> record{"on_hard_cases", "", columns, true};
-  return record;
+Record<AccuracyChoice::OnHardCases> record_of(const AccuracyChoice::OnHardCases*) {
+  static constexpr Column<AccuracyChoice::OnHardCases> columns[] = {
+      column<&AccuracyChoice::OnHardCases::ns_per_pair>("ns_per_pair"),
+      column<&AccuracyChoice::OnHardCases::ratio, &TimeRatio::value>("ratio", "Time against fast"),
+      column<&AccuracyChoice::OnHardCases::ratio, &TimeRatio::spread>("spread",
+                                                                      "Of both times, as a share"),
+      column<&AccuracyChoice::OnHardCases::pairs>("pairs"),
+      column<&AccuracyChoice::OnHardCases::wrong>("wrong"),
+      column<&AccuracyChoice::OnHardCases::rewritten>("rewritten",
+                                                      "Pairs written down in other ways"),
+      column<&AccuracyChoice::OnHardCases::other_answer>("other_answer",
+                                                         "Of these: the answer changed"),
+      column<&AccuracyChoice::OnHardCases::kinds_never_wrong>("kinds_never_wrong",
+                                                              "Of the members of families")};
+  return {"on_hard_cases", "", columns, true};
 }
 
-const Record<AccuracyChoice>& record_of(const AccuracyChoice*) {
-  using Row = AccuracyChoice;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::accuracy>("word"), column<&Row::deck>("deck", "null: no deck, or no pair in it"),
-      column<&Row::hard>("hard")};
-  static const Record<Row> record{"choice", "What a word of --accuracy costs and gives.", columns};
-  return record;
+Record<AccuracyChoice> record_of(const AccuracyChoice*) {
+  static constexpr Column<AccuracyChoice> columns[] = {
+      column<&AccuracyChoice::accuracy>("word"),
+      column<&AccuracyChoice::deck>("deck", "null: no deck, or no pair in it"),
+      column<&AccuracyChoice::hard>("hard")};
+  return {"choice", "What a word of --accuracy costs and gives.", columns};
 }
 
 namespace {
@@ -141,21 +140,19 @@ struct WorstRow {
     return out;
   }
 };
-const Record<WorstRow>& record_of(const WorstRow*) {
-  using Row = WorstRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::word>("word"),
-      column<&Row::kind>("kind", "node_segment or edge_edge"),
-      column<&Row::of, &KindResult::worst, &PairSample::triangle>("triangle"),
-      column<&Row::points>("points",
-                           "Corners and node, or both nodes of the secondary and of the main edge"),
-      column<&Row::of, &KindResult::worst, &PairSample::gap>("gap"),
-      column<&Row::of, &KindResult::exact>("exact", "The distance, rounded once"),
-      column<&Row::of, &KindResult::computed>("computed",
-                                              "The distance by the formula of the word"),
-      column<&Row::of, &KindResult::in_contact>("in_contact", "The right answer")};
-  static const Record<Row> record{"pair", "A wrong decision about a hard case.", columns, true};
-  return record;
+Record<WorstRow> record_of(const WorstRow*) {
+  static constexpr Column<WorstRow> columns[] = {
+      column<&WorstRow::word>("word"),
+      column<&WorstRow::kind>("kind", "node_segment or edge_edge"),
+      column<&WorstRow::of, &KindResult::worst, &PairSample::triangle>("triangle"),
+      column<&WorstRow::points>(
+          "points", "Corners and node, or both nodes of the secondary and of the main edge"),
+      column<&WorstRow::of, &KindResult::worst, &PairSample::gap>("gap"),
+      column<&WorstRow::of, &KindResult::exact>("exact", "The distance, rounded once"),
+      column<&WorstRow::of, &KindResult::computed>("computed",
+                                                   "The distance by the formula of the word"),
+      column<&WorstRow::of, &KindResult::in_contact>("in_contact", "The right answer")};
+  return {"pair", "A wrong decision about a hard case.", columns, true};
 }
 
 struct FamilyRow {
@@ -176,7 +173,7 @@ void each_worst(const FamilyRow& r, const std::function<void(const WorstRow&)>& 
     if (const KindResult& kind = c.hard.kinds[r.index]; kind.wrong > 0) add({c.accuracy, &kind});
 }
 
-const Record<FamilyRow>& record_of(const FamilyRow*) {
+Record<FamilyRow> record_of(const FamilyRow*) {
   using Row = FamilyRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::first, &KindResult::kind, &HardFamily::id>("id"),
@@ -185,67 +182,61 @@ const Record<FamilyRow>& record_of(const FamilyRow*) {
       column<&Row::first, &KindResult::kind, &HardFamily::expected>("expected"),
       column<&Row::first, &KindResult::pairs>("pairs"),
       column<&Row::wrong>("wrong", "Wrong decisions of each word"),
-      column<Row>("worst", "Of each word that is wrong: the wrong decision with the largest error",
-                  [](const Row& r) {
-                    return Rows<WorstRow>{[&r](const auto& add) { each_worst(r, add); }};
-                  })};
-  static const Record<Row> record{"family", "A kind of hard cases.", columns};
-  return record;
+      column("worst", "Of each word that is wrong: the wrong decision with the largest error",
+             [](const Row& r) {
+               return Rows<WorstRow>{[&r](const auto& add) { each_worst(r, add); }};
+             })};
+  return {"family", "A kind of hard cases.", columns};
 }
 
 struct WrongRow {
   Accuracy word;
   const WrongPair* pair;
 };
-const Record<WrongRow>& record_of(const WrongRow*) {
-  using Row = WrongRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::word>("word"),
-      column<&Row::pair, &WrongPair::interface>("interface"),
-      column<&Row::pair, &WrongPair::secondary>("secondary", "Node ids"),
-      column<&Row::pair, &WrongPair::main>("main"),
-      column<&Row::pair, &WrongPair::gap>("gap"),
-      column<&Row::pair, &WrongPair::exact>(
+Record<WrongRow> record_of(const WrongRow*) {
+  static constexpr Column<WrongRow> columns[] = {
+      column<&WrongRow::word>("word"),
+      column<&WrongRow::pair, &WrongPair::interface>("interface"),
+      column<&WrongRow::pair, &WrongPair::secondary>("secondary", "Node ids"),
+      column<&WrongRow::pair, &WrongPair::main>("main"),
+      column<&WrongRow::pair, &WrongPair::gap>("gap"),
+      column<&WrongRow::pair, &WrongPair::exact>(
           "exact", "The distance; null: the interface has other rules, or moves nodes"),
-      column<&Row::pair, &WrongPair::computed>("computed",
-                                               "The distance by the formula of the word")};
-  static const Record<Row> record{"wrong_pair", "A wrong decision about a pair of the deck.",
-                                  columns, true};
-  return record;
+      column<&WrongRow::pair, &WrongPair::computed>("computed",
+                                                    "The distance by the formula of the word")};
+  return {"wrong_pair", "A wrong decision about a pair of the deck.", columns, true};
 }
 
 }  // namespace
 
-const Record<HardMotion::Line>& record_of(const HardMotion::Line*) {
-  using Row = HardMotion::Line;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::accuracy>("word"), column<&Row::depth>("depth", "By step"),
-      column<&Row::force>("force", "By step: the elastic force of a stiffness of 1"),
-      column<&Row::jumps>("jumps", "Steps where the depth changes by more than the way")};
-  static const Record<Row> record{"line", "", columns};
-  return record;
+Record<HardMotion::Line> record_of(const HardMotion::Line*) {
+  static constexpr Column<HardMotion::Line> columns[] = {
+      column<&HardMotion::Line::accuracy>("word"),
+      column<&HardMotion::Line::depth>("depth", "By step"),
+      column<&HardMotion::Line::force>("force", "By step: the elastic force of a stiffness of 1"),
+      column<&HardMotion::Line::jumps>("jumps",
+                                       "Steps where the depth changes by more than the way")};
+  return {"line", "", columns};
 }
 
-const Record<HardMotion>& record_of(const HardMotion*) {
+Record<HardMotion> record_of(const HardMotion*) {
   using Row = HardMotion;
   static constexpr Column<Row> columns[] = {
-      column<Row>(
-          "corners", "",
-          [](const Row& r) {
-            return std::array{point(r.corners[0]), point(r.corners[1]), point(r.corners[2])};
-          }),
+      column("corners",
+             [](const Row& r) {
+               return std::array{point(r.corners[0]), point(r.corners[1]), point(r.corners[2])};
+             }),
       column<&Row::from, &point>("from"),
       column<&Row::to, &point>("to"),
       column<&Row::gap>("gap"),
       column<&Row::way>("way", "Of the node in one step"),
-      column<Row>("lines", "", [](const Row& r) { return rows_of(r.lines); }),
-      column<Row>("sentences", "", [](const Row& r) { return rows_of(motion_sentences(r)); })};
-  static const Record<Row> record{
+      column("lines", [](const Row& r) { return rows_of(r.lines); }),
+      column("sentences", [](const Row& r) { return rows_of(motion_sentences(r)); })};
+  return {
       "motion",
       "One hard case in motion: a node passes a triangle of hardly any area in straight steps of "
       "equal length.",
       columns};
-  return record;
 }
 
 namespace {
@@ -262,38 +253,37 @@ void each_wrong_pair(const AccuracyDocument& r, const std::function<void(const W
       for (const WrongPair& p : c.deck->wrong) add({c.accuracy, &p});
 }
 
-const Record<AccuracyDocument>& record_of(const AccuracyDocument*) {
+Record<AccuracyDocument> record_of(const AccuracyDocument*) {
   using Row = AccuracyDocument;
   static constexpr Column<Row> of_machine[] = {
       column<&Row::context, &AccuracyContext::processor>("processor"),
-      column<Row>("compiler", "", [](const Row&) { return accuracy_compiler(); }),
+      column("compiler", [](const Row&) { return accuracy_compiler(); }),
       column<&Row::context, &AccuracyContext::command>("command")};
   static constexpr Record<Row> machine{"machine", "", of_machine, true};
   static constexpr Column<Row> columns[] = {
-      column<Row>("deck", "",
-                  [](const Row& r) {
-                    return if_any(r.context->deck != nullptr,
-                                  DeckRow{r.context->path, r.context->deck, nullptr, nullptr});
-                  }),
+      column("deck",
+             [](const Row& r) {
+               return if_any(r.context->deck != nullptr,
+                             DeckRow{r.context->path, r.context->deck, nullptr, nullptr});
+             }),
       group<machine>("machine"),
-      column<Row>("advice", "Two sentences: which accuracy to keep, and why",
-                  [](const Row& r) { return rows_of(accuracy_advice(*r.choices)); }),
-      column<Row>("choices", "reference, fast, robust, exact",
-                  [](const Row& r) { return rows_of(*r.choices); }),
-      column<Row>("families", "",
-                  [](const Row& r) {
-                    return rows_of(r.choices->front().hard.kinds, [&r](const KindResult& k) {
-                      const auto& first = r.choices->front().hard.kinds;
-                      return FamilyRow{*r.choices, static_cast<std::size_t>(&k - first.data()), &k};
-                    });
-                  }),
-      column<Row>("wrong_pairs", "",
-                  [](const Row& r) {
-                    return Rows<WrongRow>{[&r](const auto& add) { each_wrong_pair(r, add); }};
-                  }),
+      column("advice", "Two sentences: which accuracy to keep, and why",
+             [](const Row& r) { return rows_of(accuracy_advice(*r.choices)); }),
+      column("choices", "reference, fast, robust, exact",
+             [](const Row& r) { return rows_of(*r.choices); }),
+      column("families",
+             [](const Row& r) {
+               return rows_of(r.choices->front().hard.kinds, [&r](const KindResult& k) {
+                 const auto& first = r.choices->front().hard.kinds;
+                 return FamilyRow{*r.choices, static_cast<std::size_t>(&k - first.data()), &k};
+               });
+             }),
+      column("wrong_pairs",
+             [](const Row& r) {
+               return Rows<WrongRow>{[&r](const auto& add) { each_wrong_pair(r, add); }};
+             }),
       column<&Row::motion>("motion")};
-  static const Record<Row> record{"document", "", columns};
-  return record;
+  return {"document", "", columns};
 }
 
 constexpr DocumentHead head{

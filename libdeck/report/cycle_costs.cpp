@@ -134,25 +134,24 @@ std::string cost_sentence(const CycleInput& input) {
   return out + ".";
 }
 
-const Record<EffectCost>& record_of(const EffectCost*) {
+Record<EffectCost> record_of(const EffectCost*) {
   using Row = EffectCost;
   static constexpr Column<Row> columns[] = {
       column<&Row::name>("name"),
       column<&Row::on>("on", "The card asks for it"),
-      column<Row>("why_not", "Why there are no times",
-                  [](const Row& r) { return if_any(!r.why_not.empty(), r.why_not); }),
-      column<Row>("against", "What the card of the other loop says",
-                  [](const Row& r) { return if_any(r.why_not.empty(), r.other); }),
-      column<Row>("ns", "What it adds, or would add: median",
-                  [](const Row& r) { return if_any(r.why_not.empty(), r.ns); }),
-      column<Row>("low", "Lower quartile",
-                  [](const Row& r) { return if_any(r.why_not.empty(), r.low); }),
-      column<Row>("high", "Upper quartile",
-                  [](const Row& r) { return if_any(r.why_not.empty(), r.high); }),
-      column<Row>("change", "Largest difference of a pair force over the largest pair force",
-                  [](const Row& r) { return if_any(r.why_not.empty(), r.change); })};
-  static const Record<Row> record{"effect_cost", "", columns, true};
-  return record;
+      column("why_not", "Why there are no times",
+             [](const Row& r) { return if_any(!r.why_not.empty(), r.why_not); }),
+      column("against", "What the card of the other loop says",
+             [](const Row& r) { return if_any(r.why_not.empty(), r.other); }),
+      column("ns", "What it adds, or would add: median",
+             [](const Row& r) { return if_any(r.why_not.empty(), r.ns); }),
+      column("low", "Lower quartile",
+             [](const Row& r) { return if_any(r.why_not.empty(), r.low); }),
+      column("high", "Upper quartile",
+             [](const Row& r) { return if_any(r.why_not.empty(), r.high); }),
+      column("change", "Largest difference of a pair force over the largest pair force",
+             [](const Row& r) { return if_any(r.why_not.empty(), r.change); })};
+  return {"effect_cost", "", columns, true};
 }
 
 std::optional<ContactCost> measured_cost(const CycleInput& input,
@@ -161,7 +160,7 @@ std::optional<ContactCost> measured_cost(const CycleInput& input,
   return cost == nullptr ? std::nullopt : std::optional(*cost);
 }
 
-const Record<ContactCost>& record_of(const ContactCost*) {
+Record<ContactCost> record_of(const ContactCost*) {
   using Row = ContactCost;
   static constexpr Column<Row> columns[] = {
       column<&Row::pairs>("pairs"),
@@ -174,11 +173,9 @@ const Record<ContactCost>& record_of(const ContactCost*) {
       column<&Row::all_ns>(
           "all_ns", "Every effect that this kind of contact can have together; 0: no such loop"),
       column<&Row::all>("all", "What the card of that loop says in addition"),
-      column<Row>("effects", "", [](const Row& r) { return rows_of(r.effects); })};
-  static const Record<Row> record{
-      "cost", "The loop over pairs of this contact, in nanoseconds of processor time per pair.",
-      columns};
-  return record;
+      column("effects", [](const Row& r) { return rows_of(r.effects); })};
+  return {"cost", "The loop over pairs of this contact, in nanoseconds of processor time per pair.",
+          columns};
 }
 
 std::optional<CostsRow> measured_costs(const CycleInput& input) {
@@ -186,10 +183,10 @@ std::optional<CostsRow> measured_costs(const CycleInput& input) {
   return CostsRow{&input, summarize_costs(input)};
 }
 
-const Record<CostsRow>& record_of(const CostsRow*) {
+Record<CostsRow> record_of(const CostsRow*) {
   using Row = CostsRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("verdict", "", [](const Row& r) { return cost_sentence(*r.input); }),
+      column("verdict", [](const Row& r) { return cost_sentence(*r.input); }),
       column<&Row::sums, &CostSummary::contacts>("contacts"),
       column<&Row::sums, &CostSummary::pairs>("pairs"),
       column<&Row::sums, &CostSummary::on>("effects_on"),
@@ -199,9 +196,8 @@ const Record<CostsRow>& record_of(const CostsRow*) {
       column<&Row::sums, &CostSummary::all_ns>("all_ns"),
       column<&Row::input, &CycleInput::cost_repeats>("repeats"),
       column<&Row::input, &CycleInput::processor>("processor"),
-      column<Row>("compiler", "", [](const Row&) { return accuracy_compiler(); })};
-  static const Record<Row> record{"costs", "All contacts together, by their pairs.", columns};
-  return record;
+      column("compiler", [](const Row&) { return accuracy_compiler(); })};
+  return {"costs", "All contacts together, by their pairs.", columns};
 }
 
 std::string cost_text(const CycleInput& input, const CycleTextOptions& options) {

@@ -27,14 +27,14 @@ std::string cost_sentence(const CycleInput& input);
 /// The loop over the pairs of one contact; null where nothing was measured.
 std::optional<ContactCost> measured_cost(const CycleInput& input,
                                          const cycle::ContactOutcome& contact);
-const Record<ContactCost>& record_of(const ContactCost*);
+Record<ContactCost> record_of(const ContactCost*);
 /// Of all contacts together; null where nothing was measured.
 struct CostsRow {
   const CycleInput* input = nullptr;
   CostSummary sums;
 };
 std::optional<CostsRow> measured_costs(const CycleInput& input);
-const Record<CostsRow>& record_of(const CostsRow*);
+Record<CostsRow> record_of(const CostsRow*);
 /// A table of contacts, and one of the effects that run; empty: nothing was measured.
 std::string cost_text(const CycleInput& input, const CycleTextOptions& options);
 /// The tables of the page for readers without scripts.

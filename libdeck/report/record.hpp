@@ -3,12 +3,11 @@
 //
 // A type becomes a record by a function next to it:
 //
-//   const Record<Crossing>& record_of(const Crossing*) {
+//   Record<Crossing> record_of(const Crossing*) {
 //     static constexpr Column<Crossing> columns[] = {
 //         column<&Crossing::edge>("edge", "Node ids"),
-//         column<Crossing>("side", "1 to 4", [](const Crossing& c) { return c.side + 1; })};
-//     static const Record<Crossing> record{"crossing", "An edge through a segment.", columns};
-//     return record;
+//         column("side", "1 to 4", [](const Crossing& c) { return c.side + 1; })};
+//     return {"crossing", "An edge through a segment.", columns};
 //   }
 //
 // The type that a column's function returns decides the form of the member:
@@ -18,7 +17,7 @@
 //   enumerations                 to_string() of it: one of the first word_count<E> words
 //   std::optional<T>             a T, or null
 //   IfAny<T>                     a T, or the object does not have the member
-//   std::array, std::vector      a list on one line
+//   std::array, std::vector      a list on one line; of records: as Rows
 //   Counts                       an object of names and counts; TallCounts: one a line
 //   Scalar                       a number or a text
 //   Named<T>                     an object whose names are data, each with a T
@@ -226,7 +225,12 @@ struct Value<std::array<T, N>> {
 
 template <class T>
 struct Value<std::vector<T>> {
-  static void write(JsonOut& out, const std::vector<T>& v) { write_list(out, v); }
+  static void write(JsonOut& out, const std::vector<T>& v) {
+    if constexpr (HasRecord<T>)
+      Value<Rows<T>>::write(out, rows_of(v));
+    else
+      write_list(out, v);
+  }
   static JsonForm form(SchemaDefinitions& d) { return list_form(Value<T>::form(d)); }
 };
 
@@ -288,8 +292,17 @@ inline constexpr bool is_if_any = false;
 template <class T>
 inline constexpr bool is_if_any<IfAny<T>> = true;
 
+template <class Row, class T>
+Row row_type(T Row::*);
+template <class Row, class T>
+Row row_type(T (*)(const Row&));
+template <class Get, class Row, class T>
+Row row_type(T (Get::*)(const Row&) const);
+template <class Get>
+using RowOf = decltype(row_type(&Get::operator()));
+
 /// A column; `get` is a lambda without captures from a row to the value.
-template <class Row, class Get>
+template <class Get, class Row = RowOf<Get>>
 requires std::is_empty_v<Get>
 constexpr Column<Row> column(const char* name, const char* says, Get) {
   using T = std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>;
@@ -306,6 +319,11 @@ constexpr Column<Row> column(const char* name, const char* says, Get) {
             }
           },
           [](SchemaDefinitions& d) { return Value<T>::form(d); }};
+}
+
+template <class Get>
+constexpr auto column(const char* name, Get get) {
+  return column(name, "", get);
 }
 
 template <class Row>
@@ -335,18 +353,13 @@ constexpr decltype(auto) value_at(const Row& row) {
     return value_at<Rest...>(std::invoke(Get, row));
 }
 
-template <class Row, class T>
-Row row_type(T Row::*);
-template <class Row, class T>
-Row row_type(T (*)(const Row&));
-
 /// A column that is a member of the row, a function of it, or a path of these:
 /// column<&Row::pair, &Pair::gap>("gap", "The pair gap").
 template <auto First, auto... Rest>
 constexpr auto column(const char* name, const char* says = "") {
   using Row = decltype(row_type(First));
-  return column<Row>(
-      name, says, [](const Row& row) -> decltype(auto) { return value_at<First, Rest...>(row); });
+  return column(name, says,
+                [](const Row& row) -> decltype(auto) { return value_at<First, Rest...>(row); });
 }
 
 /// A value, and a record without its braces, where no list is long.

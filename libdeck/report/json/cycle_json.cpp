@@ -41,65 +41,58 @@ struct PairRow {
   PairSides sides;
   const cycle::PairOutcome* pair;
 };
-const Record<PairRow>& record_of(const PairRow*) {
-  using Row = PairRow;
+Record<PairRow> record_of(const PairRow*) {
   using Pair = cycle::PairOutcome;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::sides, &PairSides::edge>("edge"),
-      column<&Row::sides, &PairSides::main_edge>("main_edge"),
-      column<&Row::sides, &PairSides::node>("node"),
-      column<&Row::sides, &PairSides::segment>("segment"),
-      column<&Row::pair, &Pair::weights>("weights", "H1..H4; edges: h_s, 1-h_s, h_m, 1-h_m"),
-      column<&Row::pair, &Pair::force>("force",
-                                       "On the main side; the secondary side gets the opposite"),
-      column<&Row::pair, &Pair::penetration>("penetration", "Effective, after Inacti"),
-      column<&Row::pair, &Pair::gap>("gap", "Effective, after Inacti"),
-      column<&Row::pair, &Pair::distance>("distance"),
-      column<&Row::pair, &Pair::k0>("k0", "Pair stiffness before the 1/2 of the law"),
-      column<&Row::pair, &Pair::k_nodal>("k_nodal")};
-  static const Record<Row> record{"pair", "A pair that has a penetration or a force.", columns,
-                                  true};
-  return record;
+  static constexpr Column<PairRow> columns[] = {
+      column<&PairRow::sides, &PairSides::edge>("edge"),
+      column<&PairRow::sides, &PairSides::main_edge>("main_edge"),
+      column<&PairRow::sides, &PairSides::node>("node"),
+      column<&PairRow::sides, &PairSides::segment>("segment"),
+      column<&PairRow::pair, &Pair::weights>("weights", "H1..H4; edges: h_s, 1-h_s, h_m, 1-h_m"),
+      column<&PairRow::pair, &Pair::force>(
+          "force", "On the main side; the secondary side gets the opposite"),
+      column<&PairRow::pair, &Pair::penetration>("penetration", "Effective, after Inacti"),
+      column<&PairRow::pair, &Pair::gap>("gap", "Effective, after Inacti"),
+      column<&PairRow::pair, &Pair::distance>("distance"),
+      column<&PairRow::pair, &Pair::k0>("k0", "Pair stiffness before the 1/2 of the law"),
+      column<&PairRow::pair, &Pair::k_nodal>("k_nodal")};
+  return {"pair", "A pair that has a penetration or a force.", columns, true};
 }
 
 struct RemovedRow {
   PairSides sides;
   cycle::Removal::Because because;
 };
-const Record<RemovedRow>& record_of(const RemovedRow*) {
+Record<RemovedRow> record_of(const RemovedRow*) {
   using Row = RemovedRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::sides, &PairSides::edge>("edge"), column<&Row::sides, &PairSides::node>("node"),
-      column<Row>("because", reasons, [](const Row& r) { return to_string(r.because); })};
-  static const Record<Row> record{"removed", "", columns, true};
-  return record;
+      column("because", reasons, [](const Row& r) { return to_string(r.because); })};
+  return {"removed", "", columns, true};
 }
 
 struct TieRow {
   PairSides sides;
   bool tied;
 };
-const Record<TieRow>& record_of(const TieRow*) {
-  using Row = TieRow;
-  static constexpr Column<Row> columns[] = {column<&Row::sides, &PairSides::node>("node"),
-                                            column<&Row::sides, &PairSides::segment>("segment"),
-                                            column<&Row::tied>("tied", "false: it lets go")};
-  static const Record<Row> record{"tie_change", "", columns, true};
-  return record;
+Record<TieRow> record_of(const TieRow*) {
+  static constexpr Column<TieRow> columns[] = {
+      column<&TieRow::sides, &PairSides::node>("node"),
+      column<&TieRow::sides, &PairSides::segment>("segment"),
+      column<&TieRow::tied>("tied", "false: it lets go")};
+  return {"tie_change", "", columns, true};
 }
 
 struct ReleaseRow {
   std::int64_t node;
   unsigned before, after;
 };
-const Record<ReleaseRow>& record_of(const ReleaseRow*) {
-  using Row = ReleaseRow;
-  static constexpr Column<Row> columns[] = {column<&Row::node>("node"),
-                                            column<&Row::before>("before", "Bits 4 X + 2 Y + Z"),
-                                            column<&Row::after>("after")};
-  static const Record<Row> record{"release", "Fixed translations of a node that IBC frees.",
-                                  columns, true};
-  return record;
+Record<ReleaseRow> record_of(const ReleaseRow*) {
+  static constexpr Column<ReleaseRow> columns[] = {
+      column<&ReleaseRow::node>("node"),
+      column<&ReleaseRow::before>("before", "Bits 4 X + 2 Y + Z"),
+      column<&ReleaseRow::after>("after")};
+  return {"release", "Fixed translations of a node that IBC frees.", columns, true};
 }
 
 struct CriteriaRow {
@@ -107,18 +100,17 @@ struct CriteriaRow {
   double radius, penetration;
   std::optional<double> angle;
 };
-const Record<CriteriaRow>& record_of(const CriteriaRow*) {
-  using Row = CriteriaRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::node>("node"), column<&Row::radius>("radius", "Smallest radius of curvature"),
-      column<&Row::penetration>("penetration",
-                                "Secondary side: the deepest over Padm times the gap"),
-      column<&Row::angle>(
+Record<CriteriaRow> record_of(const CriteriaRow*) {
+  static constexpr Column<CriteriaRow> columns[] = {
+      column<&CriteriaRow::node>("node"),
+      column<&CriteriaRow::radius>("radius", "Smallest radius of curvature"),
+      column<&CriteriaRow::penetration>("penetration",
+                                        "Secondary side: the deepest over Padm times the gap"),
+      column<&CriteriaRow::angle>(
           "angle",
           "Secondary side: smallest cosine between the normals of a segment and of its corners "
           "over that of Angladm; below 1 the angle is exceeded")};
-  static const Record<Row> record{"criteria", "What Iadm asks of a node.", columns, true};
-  return record;
+  return {"criteria", "What Iadm asks of a node.", columns, true};
 }
 
 struct CycleDocument {
@@ -151,7 +143,7 @@ struct ContactRow {
     return rows_of(list, [this](const T& value) { return row(value); });
   }
 };
-const Record<ContactRow>& record_of(const ContactRow*) {
+Record<ContactRow> record_of(const ContactRow*) {
   using Row = ContactRow;
   using O = ContactOutcome;
   using Totals = cycle::Totals;
@@ -172,14 +164,13 @@ const Record<ContactRow>& record_of(const ContactRow*) {
   static constexpr Record<Row> heat{"heat", "Given to each side in this cycle.", of_heat, true};
   static constexpr Column<Row> of_acceleration[] = {
       column<&Row::o, &O::largest_acceleration>("max"),
-      column<Row>("node", "",
-                  [](const Row& r) { return id_of(r.model(), r.o->acceleration_node); }),
+      column("node", [](const Row& r) { return id_of(r.model(), r.o->acceleration_node); }),
       column<&Row::o, &O::massless_nodes>("massless_nodes", "With a force")};
   static constexpr Record<Row> acceleration{"acceleration", "", of_acceleration, true};
   static constexpr Column<Row> of_singular[] = {
       column<&Row::o, &O::near_singular_count>("count"),
       column<&Row::o, &O::gap_closed>("gap_closed", "Pairs at their mid-surface"),
-      column<Row>("worst", "At most 20", [](const Row& r) { return r.rows(r.o->near_singular); })};
+      column("worst", "At most 20", [](const Row& r) { return r.rows(r.o->near_singular); })};
   static constexpr Record<Row> near_singular{"near_singular", "Hardly any gap left.", of_singular};
   static constexpr Column<Row> columns[] = {
       column<&Row::o, &O::contact, &Contact::kind>("kind"),
@@ -199,41 +190,39 @@ const Record<ContactRow>& record_of(const ContactRow*) {
       group<heat>("heat"),
       column<&Row::o, &O::step, &cycle::StepLimit::dt, &limit>("dt_contact", "null: no limit"),
       column<&Row::o, &O::step, &cycle::StepLimit::source, &source_name>("dt_because", sources),
-      column<Row>("dt_node", "", [](const Row& r) { return id_of(r.model(), r.o->step_node); }),
-      column<Row>("largest_pair", "null: no pair has a force",
-                  [](const Row& r) { return known(r.o->largest_force > 0, r.row(r.o->largest)); }),
+      column("dt_node", [](const Row& r) { return id_of(r.model(), r.o->step_node); }),
+      column("largest_pair", "null: no pair has a force",
+             [](const Row& r) { return known(r.o->largest_force > 0, r.row(r.o->largest)); }),
       group<acceleration>("acceleration"),
       group<near_singular>("near_singular"),
       column<&Row::o, &O::pairs_tied>("pairs_tied"),
-      column<Row>("removed", "What leaves the interface for good after this evaluation",
-                  [](const Row& r) { return r.rows(r.o->removed); }),
-      column<Row>("ties", "Pairs that tie or let go in this evaluation",
-                  [](const Row& r) { return r.rows(r.o->ties); }),
-      column<Row>("released", "", [](const Row& r) { return r.rows(r.o->released); }),
-      column<Row>("criteria", "With Iadm", [](const Row& r) { return r.rows(r.o->criteria); }),
-      column<Row>("notes", "What the card asks for and was left out",
-                  [](const Row& r) { return rows_of(r.o->notes); }),
-      column<Row>("cost", "With --costs or --html; null: not measured",
-                  [](const Row& r) { return measured_cost(*r.document.input, *r.o); }),
-      column<Row>("pairs", "With --all: every pair that has a penetration",
-                  [](const Row& r) { return if_any(r.document.all, r.rows(r.o->pairs)); })};
-  static const Record<Row> record{"contact", "", columns};
-  return record;
+      column("removed", "What leaves the interface for good after this evaluation",
+             [](const Row& r) { return r.rows(r.o->removed); }),
+      column("ties", "Pairs that tie or let go in this evaluation",
+             [](const Row& r) { return r.rows(r.o->ties); }),
+      column("released", [](const Row& r) { return r.rows(r.o->released); }),
+      column("criteria", "With Iadm", [](const Row& r) { return r.rows(r.o->criteria); }),
+      column("notes", "What the card asks for and was left out",
+             [](const Row& r) { return rows_of(r.o->notes); }),
+      column("cost", "With --costs or --html; null: not measured",
+             [](const Row& r) { return measured_cost(*r.document.input, *r.o); }),
+      column("pairs", "With --all: every pair that has a penetration",
+             [](const Row& r) { return if_any(r.document.all, r.rows(r.o->pairs)); })};
+  return {"contact", "", columns};
 }
 
 struct EffectRow {
   const Deck& deck;
   const EffectLine* line;
 };
-const Record<EffectRow>& record_of(const EffectRow*) {
+Record<EffectRow> record_of(const EffectRow*) {
   using Row = EffectRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::line, &EffectLine::name>("name"), column<&Row::line, &EffectLine::on>("on"),
       column<&Row::line, &EffectLine::because>("because"),
-      column<Row>("source", "The cell that decides",
-                  [](const Row& r) { return place_of(r.deck, r.line->span); })};
-  static const Record<Row> record{"effect", "", columns, true};
-  return record;
+      column("source", "The cell that decides",
+             [](const Row& r) { return place_of(r.deck, r.line->span); })};
+  return {"effect", "", columns, true};
 }
 
 struct InterfaceRow {
@@ -248,115 +237,105 @@ void each_contact(const InterfaceRow& r, const std::function<void(const ContactR
       if (c.contact->inter == r.inter && c.contact->role == role) add({r.document, &c});
 }
 
-const Record<InterfaceRow>& record_of(const InterfaceRow*) {
+Record<InterfaceRow> record_of(const InterfaceRow*) {
   using Row = InterfaceRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::inter, &InterBase::id>("id"),
       column<&Row::inter, &InterBase::type>("type", "7, 10, 11, 19, 24 or 25"),
       column<&Row::inter, &InterBase::title>("title"),
-      column<Row>("source", "", [](const Row& r) { return place_of(*r.deck(), r.inter->span); }),
-      column<Row>("effects", "",
-                  [](const Row& r) {
-                    return rows_of(effect_lines(*r.deck(), *r.document.outcome, *r.inter),
-                                   [&r](const EffectLine& e) {
-                                     return EffectRow{*r.deck(), &e};
-                                   });
-                  }),
-      column<Row>("contacts", "", [](const Row& r) {
+      column("source", [](const Row& r) { return place_of(*r.deck(), r.inter->span); }),
+      column("effects",
+             [](const Row& r) {
+               return rows_of(effect_lines(*r.deck(), *r.document.outcome, *r.inter),
+                              [&r](const EffectLine& e) {
+                                return EffectRow{*r.deck(), &e};
+                              });
+             }),
+      column("contacts", [](const Row& r) {
         return Rows<ContactRow>{[&r](const auto& add) { each_contact(r, add); }};
       })};
-  static const Record<Row> record{"interface", "", columns};
-  return record;
+  return {"interface", "", columns};
 }
 
 struct SummaryRow {
   const cycle::InterfaceSummary* sums;
 };
-const Record<SummaryRow>& record_of(const SummaryRow*) {
-  using Row = SummaryRow;
+Record<SummaryRow> record_of(const SummaryRow*) {
   using Sums = cycle::InterfaceSummary;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::sums, &Sums::id>("id"),
-      column<&Row::sums, &Sums::pairs_with_force>("pairs_with_force"),
-      column<&Row::sums, &Sums::force_sum>("force_sum", "Of the sizes of the pair forces"),
-      column<&Row::sums, &Sums::elastic_energy>("elastic_energy"),
-      column<&Row::sums, &Sums::friction_energy>("friction_energy"),
-      column<&Row::sums, &Sums::damping_energy>("damping_energy"),
-      column<&Row::sums, &Sums::contact_dt, &limit>("contact_dt")};
-  static const Record<Row> record{"interface_sums", "", columns, true};
-  return record;
+  static constexpr Column<SummaryRow> columns[] = {
+      column<&SummaryRow::sums, &Sums::id>("id"),
+      column<&SummaryRow::sums, &Sums::pairs_with_force>("pairs_with_force"),
+      column<&SummaryRow::sums, &Sums::force_sum>("force_sum", "Of the sizes of the pair forces"),
+      column<&SummaryRow::sums, &Sums::elastic_energy>("elastic_energy"),
+      column<&SummaryRow::sums, &Sums::friction_energy>("friction_energy"),
+      column<&SummaryRow::sums, &Sums::damping_energy>("damping_energy"),
+      column<&SummaryRow::sums, &Sums::contact_dt, &limit>("contact_dt")};
+  return {"interface_sums", "", columns, true};
 }
 
 struct WithoutRow {
   const CycleInput* input;
 };
-const Record<WithoutRow>& record_of(const WithoutRow*) {
+Record<WithoutRow> record_of(const WithoutRow*) {
   using Row = WithoutRow;
   using Outcome = cycle::SceneOutcome;
   static constexpr Column<Row> columns[] = {
       column<&Row::input, &CycleInput::without_effect>("effect"),
-      column<Row>("interfaces", "",
-                  [](const Row& r) {
-                    return rows_of(cycle::summarize(*r.input->scene, *r.input->without),
-                                   [](const auto& sums) { return SummaryRow{&sums}; });
-                  }),
+      column("interfaces",
+             [](const Row& r) {
+               return rows_of(cycle::summarize(*r.input->scene, *r.input->without),
+                              [](const auto& sums) { return SummaryRow{&sums}; });
+             }),
       column<&Row::input, &CycleInput::without, &Outcome::largest_nodal_force>(
           "largest_nodal_force"),
       column<&Row::input, &CycleInput::without, &Outcome::contact_dt, &limit>("contact_dt")};
-  static const Record<Row> record{"without", "The evaluation without an effect.", columns};
-  return record;
+  return {"without", "The evaluation without an effect.", columns};
 }
 
 struct ActedRow {
   std::int64_t node;
   cycle::ActedNode of;
 };
-const Record<ActedRow>& record_of(const ActedRow*) {
-  using Row = ActedRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::node>("node"),
-      column<&Row::of, &cycle::ActedNode::force>("force", "On the node"),
-      column<&Row::of, &cycle::ActedNode::stiffness>("stiffness"),
-      column<&Row::of, &cycle::ActedNode::dt, &limit>(
+Record<ActedRow> record_of(const ActedRow*) {
+  static constexpr Column<ActedRow> columns[] = {
+      column<&ActedRow::node>("node"),
+      column<&ActedRow::of, &cycle::ActedNode::force>("force", "On the node"),
+      column<&ActedRow::of, &cycle::ActedNode::stiffness>("stiffness"),
+      column<&ActedRow::of, &cycle::ActedNode::dt, &limit>(
           "dt", "0.9 sqrt(2 m / stiffness); null: no mass or no stiffness")};
-  static const Record<Row> record{"acted_node", "Of all contacts together.", columns, true};
-  return record;
+  return {"acted_node", "Of all contacts together.", columns, true};
 }
 
 struct LimitingRow {
   std::int64_t interface_id;
   NodeId node;
 };
-const Record<LimitingRow>& record_of(const LimitingRow*) {
-  using Row = LimitingRow;
-  static constexpr Column<Row> columns[] = {column<&Row::interface_id>("interface"),
-                                            column<&Row::node>("node")};
-  static const Record<Row> record{"limiting", "", columns, true};
-  return record;
+Record<LimitingRow> record_of(const LimitingRow*) {
+  static constexpr Column<LimitingRow> columns[] = {column<&LimitingRow::interface_id>("interface"),
+                                                    column<&LimitingRow::node>("node")};
+  return {"limiting", "", columns, true};
 }
 
 struct StepContactRow {
   const Contact* contact;
   const cycle::StepContact* of;
 };
-const Record<StepContactRow>& record_of(const StepContactRow*) {
-  using Row = StepContactRow;
+Record<StepContactRow> record_of(const StepContactRow*) {
   using Of = cycle::StepContact;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::contact, &Contact::inter, &InterBase::id>("interface"),
-      column<&Row::contact, &Contact::role>("role"),
-      column<&Row::of, &Of::active>("active"),
-      column<&Row::of, &Of::pairs_with_force>("pairs_with_force"),
-      column<&Row::of, &Of::pairs_tied>("pairs_tied"),
-      column<&Row::of, &Of::removed>("removed", "Secondary nodes or edges, so far"),
-      column<&Row::of, &Of::normal>("normal"),
-      column<&Row::of, &Of::tangential>("tangential"),
-      column<&Row::of, &Of::force_sum>("sizes"),
-      column<&Row::of, &Of::elastic_energy>("elastic"),
-      column<&Row::of, &Of::friction_energy>("friction"),
-      column<&Row::of, &Of::damping_energy>("damping")};
-  static const Record<Row> record{"step_contact", "", columns, true};
-  return record;
+  static constexpr Column<StepContactRow> columns[] = {
+      column<&StepContactRow::contact, &Contact::inter, &InterBase::id>("interface"),
+      column<&StepContactRow::contact, &Contact::role>("role"),
+      column<&StepContactRow::of, &Of::active>("active"),
+      column<&StepContactRow::of, &Of::pairs_with_force>("pairs_with_force"),
+      column<&StepContactRow::of, &Of::pairs_tied>("pairs_tied"),
+      column<&StepContactRow::of, &Of::removed>("removed", "Secondary nodes or edges, so far"),
+      column<&StepContactRow::of, &Of::normal>("normal"),
+      column<&StepContactRow::of, &Of::tangential>("tangential"),
+      column<&StepContactRow::of, &Of::force_sum>("sizes"),
+      column<&StepContactRow::of, &Of::elastic_energy>("elastic"),
+      column<&StepContactRow::of, &Of::friction_energy>("friction"),
+      column<&StepContactRow::of, &Of::damping_energy>("damping")};
+  return {"step_contact", "", columns, true};
 }
 
 struct StepRow {
@@ -364,19 +343,17 @@ struct StepRow {
   std::size_t step;
   const cycle::StepLine* line;
 };
-const Record<StepRow>& record_of(const StepRow*) {
+Record<StepRow> record_of(const StepRow*) {
   using Row = StepRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::step>("step", "From 0 on"), column<&Row::line, &cycle::StepLine::time>("time"),
-      column<&Row::line, &cycle::StepLine::dt1>("dt1"),
-      column<Row>("contacts", "", [](const Row& r) {
+      column<&Row::line, &cycle::StepLine::dt1>("dt1"), column("contacts", [](const Row& r) {
         return rows_of(r.line->contacts, [&r](const cycle::StepContact& c) {
           const auto i = static_cast<std::size_t>(&c - r.line->contacts.data());
           return StepContactRow{&r.scene.contacts[i], &c};
         });
       })};
-  static const Record<Row> record{"step", "", columns};
-  return record;
+  return {"step", "", columns};
 }
 
 struct EventRow {
@@ -399,7 +376,7 @@ struct EventRow {
     return released() || is(StepEvent::Kind::removed) ? IfAny<Ids4>{} : sides.segment();
   }
 };
-const Record<EventRow>& record_of(const EventRow*) {
+Record<EventRow> record_of(const EventRow*) {
   using Row = EventRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::event, &StepEvent::step>("step"),
@@ -410,45 +387,42 @@ const Record<EventRow>& record_of(const EventRow*) {
       column<&Row::edge>("edge"),
       column<&Row::node>("node"),
       column<&Row::segment>("segment"),
-      column<Row>("because", reasons,
-                  [](const Row& r) {
-                    return if_any(r.is(StepEvent::Kind::removed), to_string(r.event->because));
-                  }),
-      column<Row>("before", "Bits 4 X + 2 Y + Z of fixed translations",
-                  [](const Row& r) { return if_any(r.released(), r.event->release.before); }),
-      column<Row>("after", "",
-                  [](const Row& r) { return if_any(r.released(), r.event->release.after); })};
-  static const Record<Row> record{"event", "Something that stays.", columns, true};
-  return record;
+      column("because", reasons,
+             [](const Row& r) {
+               return if_any(r.is(StepEvent::Kind::removed), to_string(r.event->because));
+             }),
+      column("before", "Bits 4 X + 2 Y + Z of fixed translations",
+             [](const Row& r) { return if_any(r.released(), r.event->release.before); }),
+      column("after", [](const Row& r) { return if_any(r.released(), r.event->release.after); })};
+  return {"event", "Something that stays.", columns, true};
 }
 
 struct StepsRow {
   const Scene& scene;
   const cycle::StepsOutcome* of;
 };
-const Record<StepsRow>& record_of(const StepsRow*) {
+Record<StepsRow> record_of(const StepsRow*) {
   using Row = StepsRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("count", "", [](const Row& r) { return r.of->lines.size(); }),
-      column<Row>("motion", "prescribed: contact forces move nothing",
-                  [](const Row&) { return "prescribed"; }),
+      column("count", [](const Row& r) { return r.of->lines.size(); }),
+      column("motion", "prescribed: contact forces move nothing",
+             [](const Row&) { return "prescribed"; }),
       column<&Row::of, &cycle::StepsOutcome::searches>(
           "searches", "How often the pairs of a contact were searched"),
-      column<Row>("history", "",
-                  [](const Row& r) {
-                    return rows_of(r.of->lines, [&r](const cycle::StepLine& line) {
-                      const auto step = static_cast<std::size_t>(&line - r.of->lines.data());
-                      return StepRow{r.scene, step, &line};
-                    });
-                  }),
-      column<Row>("events", "", [](const Row& r) {
+      column("history",
+             [](const Row& r) {
+               return rows_of(r.of->lines, [&r](const cycle::StepLine& line) {
+                 const auto step = static_cast<std::size_t>(&line - r.of->lines.data());
+                 return StepRow{r.scene, step, &line};
+               });
+             }),
+      column("events", [](const Row& r) {
         return rows_of(r.of->events, [&r](const StepEvent& e) {
           const Contact& contact = r.scene.contacts[e.contact];
           return EventRow{&e, {r.scene.model, &contact, e.at.secondary, e.at.main}};
         });
       })};
-  static const Record<Row> record{"steps", "", columns};
-  return record;
+  return {"steps", "", columns};
 }
 
 void each_interface(const CycleDocument& r, const std::function<void(const InterfaceRow&)>& add) {
@@ -478,15 +452,14 @@ std::optional<std::int64_t> structure_element(const CycleDocument& r) {
   return r.model().family(s.kind).id[s.element];
 }
 
-const Record<CycleDocument>& record_of(const CycleDocument*) {
+Record<CycleDocument> record_of(const CycleDocument*) {
   using Row = CycleDocument;
   using In = CycleInput;
   using Out = cycle::SceneOutcome;
   using Options = cycle::CycleOptions;
   static constexpr Column<Row> of_force[] = {
       column<&Row::outcome, &Out::largest_nodal_force>("max"),
-      column<Row>("node", "",
-                  [](const Row& r) { return id_of(r.model(), r.outcome->force_node); })};
+      column("node", [](const Row& r) { return id_of(r.model(), r.outcome->force_node); })};
   static constexpr Record<Row> nodal_force{"nodal_force", "The largest.", of_force, true};
   static constexpr Column<Row> of_dt[] = {
       column<&Row::outcome, &Out::structure, &cycle::StructureStep::dt, &limit>(
@@ -497,55 +470,53 @@ const Record<CycleDocument>& record_of(const CycleDocument*) {
       column<&structure_element>("structure_element")};
   static constexpr Record<Row> dt{"dt", "Time steps.", of_dt};
   static constexpr Column<Row> columns[] = {
-      column<Row>("deck", "",
-                  [](const Row& r) {
-                    const Scene& scene = *r.input->scene;
-                    return DeckRow{r.input->path, r.input->deck, scene.model, scene.interfaces};
-                  }),
-      column<Row>("verdict", "", [](const Row& r) { return cycle_verdict(*r.input); }),
-      column<Row>("gate", "null: no bounds were given",
-                  [](const Row& r) { return gate_of(*r.input->deck, r.input->gate); }),
-      column<Row>("compared", "null: nothing was compared",
-                  [](const Row& r) {
-                    return comparison_of(*r.input->scene, *r.input->view, r.input->gate);
-                  }),
+      column("deck",
+             [](const Row& r) {
+               const Scene& scene = *r.input->scene;
+               return DeckRow{r.input->path, r.input->deck, scene.model, scene.interfaces};
+             }),
+      column("verdict", [](const Row& r) { return cycle_verdict(*r.input); }),
+      column("gate", "null: no bounds were given",
+             [](const Row& r) { return gate_of(*r.input->deck, r.input->gate); }),
+      column("compared", "null: nothing was compared",
+             [](const Row& r) {
+               return comparison_of(*r.input->scene, *r.input->view, r.input->gate);
+             }),
       column<&Row::coverage, &Coverage::examined>("examined",
                                                   "Interfaces of TYPE7, 10, 11, 19, 24 and 25"),
-      column<Row>("not_examined", "Interfaces of other types, by keyword",
-                  [](const Row& r) { return rows_of(r.coverage.not_examined); }),
+      column("not_examined", "Interfaces of other types, by keyword",
+             [](const Row& r) { return rows_of(r.coverage.not_examined); }),
       column<&Row::input, &In::options, &Options::dt1>("dt1", "Last step"),
       column<&Row::input, &In::options, &Options::dt12>("dt12", "Mid-step interval"),
       column<&Row::input, &In::options, &Options::time>("time"),
-      column<Row>("model", "",
-                  [](const Row& r) {
-                    return r.input->options.model == cycle::Model::robust ? "robust" : "reference";
-                  }),
-      column<Row>("accuracy", "", [](const Row& r) { return DecisionsRow{r.input->scene}; }),
-      column<Row>("interfaces", "",
-                  [](const Row& r) {
-                    return Rows<InterfaceRow>{[&r](const auto& add) { each_interface(r, add); }};
-                  }),
-      column<Row>("costs", "With --costs or --html; null: not measured",
-                  [](const Row& r) { return measured_costs(*r.input); }),
-      column<Row>(
-          "without", "With --without EFFECT",
-          [](const Row& r) { return if_any(r.input->without != nullptr, WithoutRow{r.input}); }),
-      column<Row>("nodes", "With --all: nodes that some contact pushes or stiffens",
-                  [](const Row& r) {
-                    return if_any(
-                        r.all, Rows<ActedRow>{[&r](const auto& add) { each_acted_node(r, add); }});
-                  }),
+      column("model",
+             [](const Row& r) {
+               return r.input->options.model == cycle::Model::robust ? "robust" : "reference";
+             }),
+      column("accuracy", [](const Row& r) { return DecisionsRow{r.input->scene}; }),
+      column("interfaces",
+             [](const Row& r) {
+               return Rows<InterfaceRow>{[&r](const auto& add) { each_interface(r, add); }};
+             }),
+      column("costs", "With --costs or --html; null: not measured",
+             [](const Row& r) { return measured_costs(*r.input); }),
+      column("without", "With --without EFFECT",
+             [](const Row& r) { return if_any(r.input->without != nullptr, WithoutRow{r.input}); }),
+      column("nodes", "With --all: nodes that some contact pushes or stiffens",
+             [](const Row& r) {
+               return if_any(r.all,
+                             Rows<ActedRow>{[&r](const auto& add) { each_acted_node(r, add); }});
+             }),
       group<nodal_force>("nodal_force"),
       group<dt>("dt"),
-      column<Row>(
-          "steps", "With --steps; the rest of the document is the last step. null: one evaluation",
-          [](const Row& r) {
-            return known(r.input->steps != nullptr, StepsRow{*r.input->scene, r.input->steps});
-          }),
-      column<Row>("not_evaluated", "What the deck says about its initial state and was left out",
-                  [](const Row& r) { return rows_of(r.input->state->not_evaluated); })};
-  static const Record<Row> record{"document", "", columns};
-  return record;
+      column("steps",
+             "With --steps; the rest of the document is the last step. null: one evaluation",
+             [](const Row& r) {
+               return known(r.input->steps != nullptr, StepsRow{*r.input->scene, r.input->steps});
+             }),
+      column("not_evaluated", "What the deck says about its initial state and was left out",
+             [](const Row& r) { return rows_of(r.input->state->not_evaluated); })};
+  return {"document", "", columns};
 }
 
 constexpr DocumentHead head{

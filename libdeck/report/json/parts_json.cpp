@@ -1,6 +1,4 @@
 // The document of deck parts: parts, totals, steps of elements and nodes, kinematic conditions.
-#include <ranges>
-
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
 #include "report/parts_rows.hpp"
@@ -13,24 +11,21 @@ namespace deck {
 template <>
 inline constexpr std::size_t word_count<ConditionType> = condition_types;
 
-const Record<LeftOut>& record_of(const LeftOut*) {
+Record<LeftOut> record_of(const LeftOut*) {
   static constexpr Column<LeftOut> columns[] = {column<&LeftOut::what>("what"),
                                                 column<&LeftOut::why>("why"),
                                                 column<&LeftOut::count>("count")};
-  static const Record<LeftOut> record{"left_out", "Figures that are not computed.", columns, true};
-  return record;
+  return {"left_out", "Figures that are not computed.", columns, true};
 }
 
 namespace detail {
 
-const Record<PartsView>& record_of(const PartsView*) {
-  using Row = PartsView;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::unconnected_nodes>("nodes", "Nodes without an element"),
-      column<&Row::empty_parts>("parts", "Parts without elements"),
-      column<&Row::unseen_parts>("unseen_parts", "Parts that no contact and no tie sees")};
-  static const Record<Row> record{"unconnected", "", columns, true};
-  return record;
+Record<PartsView> record_of(const PartsView*) {
+  static constexpr Column<PartsView> columns[] = {
+      column<&PartsView::unconnected_nodes>("nodes", "Nodes without an element"),
+      column<&PartsView::empty_parts>("parts", "Parts without elements"),
+      column<&PartsView::unseen_parts>("unseen_parts", "Parts that no contact and no tie sees")};
+  return {"unconnected", "", columns, true};
 }
 
 }  // namespace detail
@@ -46,14 +41,12 @@ struct ElementRow {
   IfAny<std::optional<double>> dt = {};
   std::string_view word() const { return detail::kind_name(kind); }
 };
-const Record<ElementRow>& record_of(const ElementRow*) {
-  using Row = ElementRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::word>("kind", "shell4, shell3, solid, quad, tria, truss, beam or spring"),
-      column<&Row::id>("id"),
-      column<&Row::dt>("dt", "In 'elements'; null: limits nothing, or not computed")};
-  static const Record<Row> record{"element", "", columns, true};
-  return record;
+Record<ElementRow> record_of(const ElementRow*) {
+  static constexpr Column<ElementRow> columns[] = {
+      column<&ElementRow::word>("kind", "shell4, shell3, solid, quad, tria, truss, beam or spring"),
+      column<&ElementRow::id>("id"),
+      column<&ElementRow::dt>("dt", "In 'elements'; null: limits nothing, or not computed")};
+  return {"element", "", columns, true};
 }
 
 /// What a part, or all of them, adds up to.
@@ -75,25 +68,21 @@ struct StepRow {
     return ElementRow{e.kind, sums.model->family(e.kind).id[e.element]};
   }
 };
-const Record<StepRow>& record_of(const StepRow*) {
-  using Row = StepRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::min>("min", "null: no element limits the step, or none is computed"),
-      column<&Row::element>("element", "The element that gives it"),
-      column<&Row::sums, &Sums::of, &PartFigures::not_computed>(
+Record<StepRow> record_of(const StepRow*) {
+  static constexpr Column<StepRow> columns[] = {
+      column<&StepRow::min>("min", "null: no element limits the step, or none is computed"),
+      column<&StepRow::element>("element", "The element that gives it"),
+      column<&StepRow::sums, &Sums::of, &PartFigures::not_computed>(
           "not_computed", "Elements without an established step")};
-  static const Record<Row> record{"step", "Smallest time step of elements.", columns, true};
-  return record;
+  return {"step", "Smallest time step of elements.", columns, true};
 }
 
-const Record<Sums>& record_of(const Sums*) {
+Record<Sums> record_of(const Sums*) {
   using Row = Sums;
   static constexpr Column<Row> columns[] = {
       column<&Row::of, &PartFigures::mass>("mass"), column<&Row::centre>("centre"),
-      column<&Row::inertia>("inertia"),
-      column<Row>("dt", "", [](const Row& r) { return StepRow{r}; })};
-  static const Record<Row> record{"total", "All elements; members as of a part.", columns};
-  return record;
+      column<&Row::inertia>("inertia"), column("dt", [](const Row& r) { return StepRow{r}; })};
+  return {"total", "All elements; members as of a part.", columns};
 }
 
 struct PartRow {
@@ -112,7 +101,7 @@ struct PartRow {
     return known(seen->rigid_body != 0, seen->rigid_body);
   }
 };
-const Record<PartRow>& record_of(const PartRow*) {
+Record<PartRow> record_of(const PartRow*) {
   using Row = PartRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::part, &Part::id>("id"),
@@ -126,27 +115,25 @@ const Record<PartRow>& record_of(const PartRow*) {
       column<&Row::sums, &Sums::inertia>(
           "inertia",
           "About the centre: xx yy zz xy yz zx, of masses and rotational inertia of the nodes"),
-      column<Row>("dt", "", [](const Row& r) { return StepRow{r.sums}; }),
+      column("dt", [](const Row& r) { return StepRow{r.sums}; }),
       column<&Row::seen, &detail::PartView::interfaces>(
           "interfaces", "Contacts and ties that have an element of the part"),
       column<&Row::rigid_body>("rigid_body", "The rigid body that has all nodes of the part")};
-  static const Record<Row> record{"part", "", columns};
-  return record;
+  return {"part", "", columns};
 }
 
 struct RepeatedRow {
   const detail::RepeatedContacts* repeated;
   std::array<std::int64_t, 2> parts() const { return {repeated->part, repeated->other}; }
 };
-const Record<RepeatedRow>& record_of(const RepeatedRow*) {
-  using Row = RepeatedRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::repeated, &detail::RepeatedContacts::interfaces>("interfaces", "Two or more"),
-      column<&Row::repeated, &detail::RepeatedContacts::pairs>("pairs", "Of parts that all have"),
-      column<&Row::parts>("parts", "The first of these pairs")};
-  static const Record<Row> record{
-      "repeated_contacts", "Contacts (no ties) that let the same parts touch.", columns, true};
-  return record;
+Record<RepeatedRow> record_of(const RepeatedRow*) {
+  static constexpr Column<RepeatedRow> columns[] = {
+      column<&RepeatedRow::repeated, &detail::RepeatedContacts::interfaces>("interfaces",
+                                                                            "Two or more"),
+      column<&RepeatedRow::repeated, &detail::RepeatedContacts::pairs>("pairs",
+                                                                       "Of parts that all have"),
+      column<&RepeatedRow::parts>("parts", "The first of these pairs")};
+  return {"repeated_contacts", "Contacts (no ties) that let the same parts touch.", columns, true};
 }
 
 struct NodeRow {
@@ -154,24 +141,21 @@ struct NodeRow {
   std::optional<double> dt;
   double mass, stiffness;
 };
-const Record<NodeRow>& record_of(const NodeRow*) {
-  using Row = NodeRow;
-  static constexpr Column<Row> columns[] = {column<&Row::node>("node"), column<&Row::dt>("dt"),
-                                            column<&Row::mass>("mass"),
-                                            column<&Row::stiffness>("stiffness")};
-  static const Record<Row> record{"node", "", columns, true};
-  return record;
+Record<NodeRow> record_of(const NodeRow*) {
+  static constexpr Column<NodeRow> columns[] = {
+      column<&NodeRow::node>("node"), column<&NodeRow::dt>("dt"), column<&NodeRow::mass>("mass"),
+      column<&NodeRow::stiffness>("stiffness")};
+  return {"node", "", columns, true};
 }
 
 struct HeldNode {
   std::int64_t node;
   std::vector<ConditionType> types;
 };
-const Record<HeldNode>& record_of(const HeldNode*) {
+Record<HeldNode> record_of(const HeldNode*) {
   static constexpr Column<HeldNode> columns[] = {column<&HeldNode::node>("node"),
                                                  column<&HeldNode::types>("types")};
-  static const Record<HeldNode> record{"held_node", "", columns, true};
-  return record;
+  return {"held_node", "", columns, true};
 }
 
 struct PartsDocument {
@@ -206,52 +190,53 @@ void each_element(const PartsDocument& r, const std::function<void(const Element
   }
 }
 
-const Record<PartsDocument>& record_of(const PartsDocument*) {
+Record<PartsDocument> record_of(const PartsDocument*) {
   using Row = PartsDocument;
   static constexpr Column<Row> of_kinematics[] = {
-      column<Row>("conflicts", "The number of message 312; null: the solver stops before",
-                  [](const Row& r) { return known(!r.kinematics.stops, r.kinematics.conflicts); }),
-      column<Row>("nodes", "Nodes with several conditions", [](const Row& r) {
+      column("conflicts", "The number of message 312; null: the solver stops before",
+             [](const Row& r) { return known(!r.kinematics.stops, r.kinematics.conflicts); }),
+      column("nodes", "Nodes with several conditions", [](const Row& r) {
         static const std::vector<NodeIndex> none;
         return rows_of(r.kinematics.stops ? none : r.kinematics.several,
                        [&r](NodeIndex n) { return r.held_node(n); });
       })};
   static constexpr Record<Row> kinematics{"kinematics", "Kinematic conditions.", of_kinematics};
   static constexpr Column<Row> columns[] = {
-      column<Row>("deck", "", [](const Row& r) { return deck_row(r.loaded); }),
-      column<Row>("parts", "",
-                  [](const Row& r) {
-                    return rows_of(std::views::iota(std::size_t{0}, r.model.parts.size()),
-                                   [&r](std::size_t p) { return r.part(p); });
-                  }),
-      column<Row>("total", "",
-                  [](const Row& r) {
-                    return Sums{&r.model, &r.mesh.total};
-                  }),
+      column("deck", [](const Row& r) { return deck_row(r.loaded); }),
+      column("parts",
+             [](const Row& r) {
+               return Rows<PartRow>{[&r](const auto& add) {
+                 for (std::size_t p = 0; p < r.model.parts.size(); ++p) add(r.part(p));
+               }};
+             }),
+      column("total",
+             [](const Row& r) {
+               return Sums{&r.model, &r.mesh.total};
+             }),
       column<&Row::view>("unconnected"),
-      column<Row>("repeated_contacts", "Not more than 1000",
-                  [](const Row& r) {
-                    return rows_of(r.view.repeated, [](const auto& c) { return RepeatedRow{&c}; });
-                  }),
-      column<Row>("elements", "With --all",
-                  [](const Row& r) {
-                    return if_any(
-                        r.all, Rows<ElementRow>{[&r](const auto& add) { each_element(r, add); }});
-                  }),
-      column<Row>("nodes", "With --all",
-                  [](const Row& r) {
-                    return if_any(r.all,
-                                  rows_of(std::views::iota(std::size_t{0}, r.model.nodes.size()),
-                                          [&r](std::size_t n) { return r.node(n); }));
-                  }),
+      column("repeated_contacts", "Not more than 1000",
+             [](const Row& r) {
+               return rows_of(r.view.repeated, [](const auto& c) { return RepeatedRow{&c}; });
+             }),
+      column("elements", "With --all",
+             [](const Row& r) {
+               return if_any(r.all,
+                             Rows<ElementRow>{[&r](const auto& add) { each_element(r, add); }});
+             }),
+      column("nodes", "With --all",
+             [](const Row& r) {
+               return if_any(r.all, Rows<NodeRow>{[&r](const auto& add) {
+                               for (std::size_t n = 0; n < r.model.nodes.size(); ++n)
+                                 add(r.node(n));
+                             }});
+             }),
       group<kinematics>("kinematics"),
-      column<Row>("not_computed", "", [](const Row& r) {
+      column("not_computed", [](const Row& r) {
         std::vector<LeftOut> all = r.mesh.left_out;
         all.insert(all.end(), r.kinematics.left_out.begin(), r.kinematics.left_out.end());
         return rows_of(std::move(all));
       })};
-  static const Record<Row> record{"document", "", columns};
-  return record;
+  return {"document", "", columns};
 }
 
 constexpr DocumentHead head{

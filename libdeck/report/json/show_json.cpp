@@ -9,13 +9,12 @@
 
 namespace deck {
 
-const Record<Entity>& record_of(const Entity*) {
+Record<Entity> record_of(const Entity*) {
   static constexpr Column<Entity> columns[] = {
       column<&Entity::keyword>("keyword"),
       column<&Entity::kind>("kind", "inter, part, node, shell, grnod, surf, set, mat ..."),
       column<&Entity::id>("id"), column<&Entity::title>("title")};
-  static const Record<Entity> record{"entity", "", columns, true};
-  return record;
+  return {"entity", "", columns, true};
 }
 
 namespace {
@@ -39,15 +38,13 @@ struct CellRow {
     }
   }
 };
-const Record<CellRow>& record_of(const CellRow*) {
-  using Row = CellRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::cell, &Cell::field, &Field::name>("field"),
-      column<&Row::columns>("columns", "First and last, from 1 on"),
-      column<&Row::cell, &Cell::text>("text"),
-      column<&Row::value>("value", "null: blank; a text: a parameter, a name or no number")};
-  static const Record<Row> record{"cell", "", columns, true};
-  return record;
+Record<CellRow> record_of(const CellRow*) {
+  static constexpr Column<CellRow> columns[] = {
+      column<&CellRow::cell, &Cell::field, &Field::name>("field"),
+      column<&CellRow::columns>("columns", "First and last, from 1 on"),
+      column<&CellRow::cell, &Cell::text>("text"),
+      column<&CellRow::value>("value", "null: blank; a text: a parameter, a name or no number")};
+  return {"cell", "", columns, true};
 }
 
 struct CardRow {
@@ -68,46 +65,40 @@ struct CardRow {
     return {{at.first, std::max(at.first, at.last)}, &c};
   }
 };
-const Record<CardRow>& record_of(const CardRow*) {
+Record<CardRow> record_of(const CardRow*) {
   using Row = CardRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("line", "From 1 on",
-                  [](const Row& r) { return r.deck.sources.position(r.card->line.whole()).line; }),
-      column<Row>("file", "",
-                  [](const Row& r) { return r.deck.sources[r.card->line.file].path(); }),
+      column("line", "From 1 on",
+             [](const Row& r) { return r.deck.sources.position(r.card->line.whole()).line; }),
+      column("file", [](const Row& r) { return r.deck.sources[r.card->line.file].path(); }),
       column<&Row::name>("card", "What the line is: a card, title, or empty without a schema"),
-      column<&Row::card, &ShownCard::line, &Line::text>("text"),
-      column<Row>("cells", "", [](const Row& r) {
+      column<&Row::card, &ShownCard::line, &Line::text>("text"), column("cells", [](const Row& r) {
         return rows_of(r.card->cells, [&r](const Cell& c) { return r.cell(c); });
       })};
-  static const Record<Row> record{"card", "", columns};
-  return record;
+  return {"card", "", columns};
 }
 
 struct LinkRow {
   const Link* link;
   std::optional<Place> place;
 };
-const Record<LinkRow>& record_of(const LinkRow*) {
+Record<LinkRow> record_of(const LinkRow*) {
   using Row = LinkRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::link, &Link::field>("field", "The cell, clause or list that names the other"),
       column<&Row::link, &Link::keyword>("keyword", "Empty: there is no such entity"),
       column<&Row::link, &Link::kind>("kind"),
-      column<Row>("id", "", [](const Row& r) { return known(r.link->id != 0, r.link->id); }),
-      column<Row>("last", "Last id of a range",
-                  [](const Row& r) { return if_any(r.link->last > 0, r.link->last); }),
-      column<Row>("count", "How many, such as the elements of a part",
-                  [](const Row& r) { return if_any(r.link->count > 1, r.link->count); }),
+      column("id", [](const Row& r) { return known(r.link->id != 0, r.link->id); }),
+      column("last", "Last id of a range",
+             [](const Row& r) { return if_any(r.link->last > 0, r.link->last); }),
+      column("count", "How many, such as the elements of a part",
+             [](const Row& r) { return if_any(r.link->count > 1, r.link->count); }),
       column<&Row::link, &Link::title>("title"),
-      column<Row>(
-          "file", "",
-          [](const Row& r) { return r.place ? std::optional(r.place->file) : std::nullopt; }),
-      column<Row>("line", "", [](const Row& r) {
-        return r.place ? std::optional(r.place->line) : std::nullopt;
-      })};
-  static const Record<Row> record{"link", "", columns, true};
-  return record;
+      column("file",
+             [](const Row& r) { return r.place ? std::optional(r.place->file) : std::nullopt; }),
+      column("line",
+             [](const Row& r) { return r.place ? std::optional(r.place->line) : std::nullopt; })};
+  return {"link", "", columns, true};
 }
 
 struct ShowDocument {
@@ -119,42 +110,40 @@ struct ShowDocument {
     return rows_of(list, [this](const Link& l) { return LinkRow{&l, place_of(deck, l.span)}; });
   }
 };
-const Record<ShowDocument>& record_of(const ShowDocument*) {
+Record<ShowDocument> record_of(const ShowDocument*) {
   using Row = ShowDocument;
   static constexpr Column<Row> columns[] = {
-      column<Row>("deck", "", [](const Row& r) { return deck_row(r.in.loaded); }),
-      column<Row>("entity", "", [](const Row& r) -> const Entity& { return r.view.entity; }),
-      column<Row>("source", "", [](const Row& r) { return place_of(r.deck, r.view.entity.span); }),
-      column<Row>("included_by", "Include directives from the main file down to its file",
-                  [](const Row& r) {
-                    return rows_of(r.view.includes,
-                                   [&r](const Span& s) { return place_of(r.deck, s); });
-                  }),
-      column<Row>("cards", "Its data lines",
-                  [](const Row& r) {
-                    return rows_of(r.view.cards, [&r](const ShownCard& c) {
-                      return CardRow{r.deck, &c};
-                    });
-                  }),
-      column<Row>("parameters", "Of an interface, by the names of the manual",
-                  [](const Row& r) {
-                    if (r.view.inter == nullptr) return IfAny<Named<ParameterRow>>{};
-                    return IfAny<Named<ParameterRow>>{parameters_of(r.in, *r.view.inter)};
-                  }),
-      column<Row>("model", "What the model makes of it: counts of members, coordinates ...",
-                  [](const Row& r) {
-                    return Named<Scalar>{[&r](const auto& add) {
-                      for (const auto& [name, value] : r.view.facts) add(name, value);
-                    }};
-                  }),
-      column<Row>("refers_to", "What it names; the place is that of the target's definition",
-                  [](const Row& r) { return r.links(r.view.refers_to); }),
-      column<Row>("used_by", "What names it; the place is that of the cell",
-                  [](const Row& r) { return r.links(r.view.used_by); }),
-      column<Row>("contacts", "Contacts that reach it over other entities or as a member of a side",
-                  [](const Row& r) { return r.links(r.view.interfaces); })};
-  static const Record<Row> record{"document", "", columns};
-  return record;
+      column("deck", [](const Row& r) { return deck_row(r.in.loaded); }),
+      column("entity", [](const Row& r) -> const Entity& { return r.view.entity; }),
+      column("source", [](const Row& r) { return place_of(r.deck, r.view.entity.span); }),
+      column("included_by", "Include directives from the main file down to its file",
+             [](const Row& r) {
+               return rows_of(r.view.includes, [&r](const Span& s) { return place_of(r.deck, s); });
+             }),
+      column("cards", "Its data lines",
+             [](const Row& r) {
+               return rows_of(r.view.cards, [&r](const ShownCard& c) {
+                 return CardRow{r.deck, &c};
+               });
+             }),
+      column("parameters", "Of an interface, by the names of the manual",
+             [](const Row& r) {
+               if (r.view.inter == nullptr) return IfAny<Named<ParameterRow>>{};
+               return IfAny<Named<ParameterRow>>{parameters_of(r.in, *r.view.inter)};
+             }),
+      column("model", "What the model makes of it: counts of members, coordinates ...",
+             [](const Row& r) {
+               return Named<Scalar>{[&r](const auto& add) {
+                 for (const auto& [name, value] : r.view.facts) add(name, value);
+               }};
+             }),
+      column("refers_to", "What it names; the place is that of the target's definition",
+             [](const Row& r) { return r.links(r.view.refers_to); }),
+      column("used_by", "What names it; the place is that of the cell",
+             [](const Row& r) { return r.links(r.view.used_by); }),
+      column("contacts", "Contacts that reach it over other entities or as a member of a side",
+             [](const Row& r) { return r.links(r.view.interfaces); })};
+  return {"document", "", columns};
 }
 
 constexpr DocumentHead head{

@@ -51,7 +51,7 @@ struct ParameterRow {
   IfAny<Named<double>> by_role;
   std::optional<Place> source;
 };
-const Record<ParameterRow>& record_of(const ParameterRow*);
+Record<ParameterRow> record_of(const ParameterRow*);
 /// All fields of one interface. `input` and `inter` must outlive the result.
 Named<ParameterRow> parameters_of(const ParamsInput& input, const InterBase& inter);
 /// Value of a field for people: "0.5"; where the geometry decides, of every part of a TYPE19.

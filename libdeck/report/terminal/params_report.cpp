@@ -324,20 +324,21 @@ std::string params_matrix_csv(const ParamsInput& in, const ParamsTextOptions& op
   return out;
 }
 
-const Record<ParameterRow>& record_of(const ParameterRow*) {
-  using Row = ParameterRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::input>("input",
-                          "What the card says; a cell without a finite number as it is written "
-                          "(\"NaN\"); null: blank cell, or no such cell in this version"),
-      column<&Row::value>("value",
-                          "What the solver uses; 1000 is 'nothing'; null: follows from the mesh "
-                          "and was not derived, or is no finite number"),
-      column<&Row::origin>("origin"),
-      column<&Row::by_role>("by_role", "Derived gaps of the parts of a TYPE19"),
-      column<&Row::source>("source", "The columns of the value, also where they are blank")};
-  static const Record<Row> record{"parameter", "", columns, true, true};
-  return record;
+Record<ParameterRow> record_of(const ParameterRow*) {
+  static constexpr Column<ParameterRow> columns[] = {
+      column<&ParameterRow::input>(
+          "input",
+          "What the card says; a cell without a finite number as it is written "
+          "(\"NaN\"); null: blank cell, or no such cell in this version"),
+      column<&ParameterRow::value>(
+          "value",
+          "What the solver uses; 1000 is 'nothing'; null: follows from the mesh "
+          "and was not derived, or is no finite number"),
+      column<&ParameterRow::origin>("origin"),
+      column<&ParameterRow::by_role>("by_role", "Derived gaps of the parts of a TYPE19"),
+      column<&ParameterRow::source>("source",
+                                    "The columns of the value, also where they are blank")};
+  return {"parameter", "", columns, true, true};
 }
 
 Named<ParameterRow> parameters_of(const ParamsInput& in, const InterBase& inter) {
@@ -390,33 +391,29 @@ struct InterfaceRow {
   const ParamsInput& in;
   const InterBase* inter;
 };
-const Record<InterfaceRow>& record_of(const InterfaceRow*) {
+Record<InterfaceRow> record_of(const InterfaceRow*) {
   using Row = InterfaceRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::inter, &InterBase::id>("id"),
       column<&Row::inter, &InterBase::type>("type", "2, 7, 10, 11, 19, 24 or 25"),
       column<&Row::inter, &InterBase::title>("title"),
-      column<Row>("source", "",
-                  [](const Row& r) { return place_of(r.in.loaded.deck(), r.inter->span); }),
-      column<Row>("parameters", "By the names of the manual",
-                  [](const Row& r) { return parameters_of(r.in, *r.inter); })};
-  static const Record<Row> record{"interface", "", columns};
-  return record;
+      column("source", [](const Row& r) { return place_of(r.in.loaded.deck(), r.inter->span); }),
+      column("parameters", "By the names of the manual",
+             [](const Row& r) { return parameters_of(r.in, *r.inter); })};
+  return {"interface", "", columns};
 }
 
 struct OtherRow {
   const Deck& deck;
   const Block* block;
 };
-const Record<OtherRow>& record_of(const OtherRow*) {
+Record<OtherRow> record_of(const OtherRow*) {
   using Row = OtherRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("keyword", "", [](const Row& r) { return keyword_of(*r.block); }),
-      column<Row>("id", "", [](const Row& r) { return r.block->id.value; }),
-      column<Row>("source", "",
-                  [](const Row& r) { return place_of(r.deck, r.block->header_span); })};
-  static const Record<Row> record{"other_interface", "", columns, true};
-  return record;
+      column("keyword", [](const Row& r) { return keyword_of(*r.block); }),
+      column("id", [](const Row& r) { return r.block->id.value; }),
+      column("source", [](const Row& r) { return place_of(r.deck, r.block->header_span); })};
+  return {"other_interface", "", columns, true};
 }
 
 struct ParamsDocument {
@@ -430,27 +427,26 @@ void each_interface(const ParamsDocument& r, const std::function<void(const Inte
     if (wanted(r.options, *inter)) add({r.in, inter});
 }
 
-const Record<ParamsDocument>& record_of(const ParamsDocument*) {
+Record<ParamsDocument> record_of(const ParamsDocument*) {
   using Row = ParamsDocument;
   static constexpr Column<Row> columns[] = {
-      column<Row>("deck", "", [](const Row& r) { return deck_row(r.in.loaded); }),
+      column("deck", [](const Row& r) { return deck_row(r.in.loaded); }),
       column<&Row::coverage, &Coverage::examined>("examined",
                                                   "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25"),
-      column<Row>("not_examined", "Interfaces of other types, by keyword",
-                  [](const Row& r) { return rows_of(r.coverage.not_examined); }),
-      column<Row>("interfaces", "",
-                  [](const Row& r) {
-                    return Rows<InterfaceRow>{[&r](const auto& add) { each_interface(r, add); }};
-                  }),
-      column<Row>("not_evaluated", "Interfaces of other types, which are not in 'interfaces'",
-                  [](const Row& r) {
-                    const Deck& deck = r.in.loaded.deck();
-                    return rows_of(not_evaluated(r.in), [&deck](const Block* b) {
-                      return OtherRow{deck, b};
-                    });
-                  })};
-  static const Record<Row> record{"document", "", columns};
-  return record;
+      column("not_examined", "Interfaces of other types, by keyword",
+             [](const Row& r) { return rows_of(r.coverage.not_examined); }),
+      column("interfaces",
+             [](const Row& r) {
+               return Rows<InterfaceRow>{[&r](const auto& add) { each_interface(r, add); }};
+             }),
+      column("not_evaluated", "Interfaces of other types, which are not in 'interfaces'",
+             [](const Row& r) {
+               const Deck& deck = r.in.loaded.deck();
+               return rows_of(not_evaluated(r.in), [&deck](const Block* b) {
+                 return OtherRow{deck, b};
+               });
+             })};
+  return {"document", "", columns};
 }
 
 constexpr DocumentHead head{
