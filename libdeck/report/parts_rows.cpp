@@ -1,5 +1,5 @@
 // Counts the elements of each part, and finds out which interfaces and rigid bodies have them.
-#include "report/parts_rows.hpp"
+#include "report/shared/parts.hpp"
 
 #include <algorithm>
 #include <array>
