@@ -26,14 +26,14 @@ const Coordinates& evaluated(const CycleInput& input) {
 }
 
 /// A pair beside its contact.
-struct PairRow {
+struct VtkPairRow {
   const Contact* contact;
   const cycle::PairOutcome* pair;
   std::array<NodeIndex, 2> ends;  ///< the secondary node, or both of an edge
   ElementName main;
 };
 
-PairRow row_of(const Model& model, const Contact& c, const cycle::PairOutcome& p) {
+VtkPairRow row_of(const Model& model, const Contact& c, const cycle::PairOutcome& p) {
   if (c.kind == ContactKind::edge_edge) {
     const ContactEdge& main = c.main_edges[p.at.main];
     return {&c, &p, c.secondary_edges[p.at.secondary].nodes,
@@ -47,7 +47,7 @@ PairRow row_of(const Model& model, const Contact& c, const cycle::PairOutcome& p
 }
 
 /// Its secondary node; of edges the point of contact.
-std::array<double, 3> place_of(const PairRow& r, const Coordinates& now) {
+std::array<double, 3> place_of(const VtkPairRow& r, const Coordinates& now) {
   std::array<double, 3> x = at(now, r.ends[0]);
   if (r.ends[1] == no_index) return x;
   const std::array<double, 3> other = at(now, r.ends[1]);
@@ -59,14 +59,14 @@ std::array<double, 3> place_of(const PairRow& r, const Coordinates& now) {
 std::string pairs_file(const CycleInput& input) {
   VtkPolyData out(Cells::vertices);
   const Model& model = *input.scene->model;
-  std::vector<PairRow> rows;
+  std::vector<VtkPairRow> rows;
   for (const cycle::ContactOutcome& o : input.outcome->contacts)
     for (const cycle::PairOutcome& p : o.pairs) {
       rows.push_back(row_of(model, *o.contact, p));
       out.add_vertex(place_of(rows.back(), evaluated(input)));
     }
   const auto of_pair = [&](const char* name, auto value_of) {
-    out.point_data(name, rows, [&](const PairRow& r) { return value_of(*r.pair); });
+    out.point_data(name, rows, [&](const VtkPairRow& r) { return value_of(*r.pair); });
   };
   using Pair = cycle::PairOutcome;
   // The outcome holds the force on the main side.
@@ -83,7 +83,7 @@ std::string pairs_file(const CycleInput& input) {
   of_pair("k0", [](const Pair& p) { return p.k0; });
   of_pair("k_nodal", [](const Pair& p) { return p.k_nodal; });
   of_pair("status", [](const Pair& p) { return p.status; });
-  using Row = PairRow;
+  using Row = VtkPairRow;
   const auto id = [&](NodeIndex n) { return n == no_index ? 0 : model.node_id(n); };
   out.point_data("interface", rows, [](const Row& r) { return r.contact->inter->id; });
   out.point_data("role", rows, [](const Row& r) { return static_cast<int>(r.contact->role); });
