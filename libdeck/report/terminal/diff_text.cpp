@@ -3,7 +3,7 @@
 
 #include "base/shared/escape.hpp"
 #include "report/diff_rows.hpp"
-#include "report/shared/text_table.hpp"
+#include "report/terminal/words.hpp"
 
 namespace deck {
 namespace {
@@ -29,16 +29,12 @@ std::string diff_text(const DiffSide& a, const DiffSide& b, const DeckDiff& diff
   for (const std::string& note : diff.notes) out += "note: " + terminal_text(note) + "\n";
   const auto tables = diff_tables(a, b, diff, options.rows);
   for (const DiffTable& t : tables) {
-    out += "\n" + toned(t.title, Tone::bold, options.color) + "\n";
     std::vector<TextTable::Column> columns;
-    for (const std::string& name : t.columns) columns.push_back({name, Align::left});
+    for (const std::string& name : t.columns) columns.push_back({name});
     TextTable table(columns);
-    for (const auto& row : t.rows) {
-      std::vector<TextTable::Cell> cells(row.begin(), row.end());
-      table.row(std::move(cells));
-    }
-    out += table.fitted(options.width, options.color, 2);
-    if (t.left_out > 0) out += fmt::format("  … and {} more (--rows N, --json)\n", t.left_out);
+    for (const auto& row : t.rows) table.row({row.begin(), row.end()});
+    out += section(t.title, table.fitted(options.width, options.color, 2), options.color);
+    out += more_line(t.left_out, 0, " (--rows N, --json)");
   }
   if (!tables.empty()) out += "\n" + verdict;
   return out;
@@ -50,9 +46,7 @@ std::string diff_markdown(const DiffSide& a, const DiffSide& b, const DeckDiff& 
                                 markdown_cell(b.loaded.path()), markdown_cell(diff_verdict(diff)));
   for (const std::string& note : diff.notes) out += fmt::format("\n> {}\n", markdown_cell(note));
   for (const DiffTable& t : diff_tables(a, b, diff, options.rows)) {
-    out += fmt::format("\n#### {}\n\n|", t.title);
-    for (const std::string& name : t.columns) out += fmt::format(" {} |", name);
-    out += "\n|";
+    out += fmt::format("\n#### {}\n\n| {} |\n|", t.title, fmt::join(t.columns, " | "));
     for (std::size_t i = 0; i < t.columns.size(); ++i) out += " --- |";
     out += "\n";
     for (const auto& row : t.rows) {

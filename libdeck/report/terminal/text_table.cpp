@@ -1,6 +1,8 @@
 // Measures the columns of a table and prints it.
 #include "report/shared/text_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/shared/columns.hpp"
@@ -9,36 +11,30 @@
 namespace deck {
 
 std::string toned(std::string_view text, Tone tone, bool color) {
-  const char* code = "";
-  switch (tone) {
-    case Tone::plain:
-      break;
-    case Tone::bold:
-      code = "\x1b[1m";
-      break;
-    case Tone::dim:
-      code = "\x1b[2m";
-      break;
-    case Tone::red:
-      code = "\x1b[1;31m";
-      break;
-    case Tone::yellow:
-      code = "\x1b[33m";
-      break;
-    case Tone::green:
-      code = "\x1b[32m";
-      break;
-    case Tone::cyan:
-      code = "\x1b[36m";
-      break;
-  }
-  if (!color || *code == '\0' || text.empty()) return std::string(text);
-  return code + std::string(text) + "\x1b[0m";
+  static constexpr const char* codes[] = {"", "1", "2", "1;31", "33", "32", "36"};
+  if (!color || tone == Tone::plain || text.empty()) return std::string(text);
+  return fmt::format("\x1b[{}m{}\x1b[0m", codes[static_cast<std::size_t>(tone)], text);
 }
 
+TextTable::TextTable(std::initializer_list<const char*> titles, bool all) {
+  for (std::string_view title : titles) {
+    const bool detail = title.starts_with('+');
+    if (detail) title.remove_prefix(1);
+    left_out_.push_back(detail && !all);
+    if (left_out_.back()) continue;
+    const bool right = title.starts_with('>'), whole = title.starts_with('=');
+    if (right || whole) title.remove_prefix(1);
+    columns_.push_back({std::string(title), right ? Align::right : Align::left, whole});
+  }
+}
+
+TextTable::Cell::Cell(double v) : text(fmt::format("{:.6g}", v)) {}
+
 void TextTable::row(std::vector<Cell> cells) {
-  for (Cell& cell : cells) cell.text = terminal_text(cell.text);
-  rows_.push_back(std::move(cells));
+  std::vector<Cell>& shown = rows_.emplace_back();
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (i >= left_out_.size() || !left_out_[i])
+      shown.emplace_back(terminal_text(cells[i].text), cells[i].tone);
 }
 
 namespace {
@@ -98,10 +94,6 @@ std::string TextTable::part(const std::vector<std::size_t>& columns,
   line(titles);
   for (const auto& cells : rows_) line(cells);
   return out;
-}
-
-std::string TextTable::render(bool color, std::size_t indent) const {
-  return fitted(0, color, indent);
 }
 
 std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent,
