@@ -320,20 +320,24 @@ std::vector<InterfaceEffects> effects_by_interface(const CycleInput& input) {
   return out;
 }
 
-/// The names of all effects, in the order in which they occur.
-std::vector<std::string> effect_names(const std::vector<InterfaceEffects>& all) {
-  std::vector<std::string> names;
-  for (const InterfaceEffects& one : all)
-    for (const EffectLine& line : one.lines)
-      if (std::find(names.begin(), names.end(), line.name) == names.end())
-        names.push_back(line.name);
-  return names;
-}
+/// An effect with what it is on each interface; nullptr: not an effect of its type.
+struct EffectOfAll {
+  std::string name;
+  std::vector<const EffectLine*> lines;
+};
 
-const EffectLine* line_of(const InterfaceEffects& one, const std::string& name) {
-  for (const EffectLine& line : one.lines)
-    if (line.name == name) return &line;
-  return nullptr;
+/// In the order in which the effects occur.
+std::vector<EffectOfAll> effects_of(const std::vector<InterfaceEffects>& all) {
+  std::vector<EffectOfAll> out;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (const EffectLine& line : all[i].lines) {
+      auto it = std::find_if(out.begin(), out.end(),
+                             [&](const EffectOfAll& e) { return e.name == line.name; });
+      if (it == out.end())
+        it = out.insert(it, {line.name, std::vector<const EffectLine*>(all.size())});
+      if (it->lines[i] == nullptr) it->lines[i] = &line;
+    }
+  return out;
 }
 
 /// Effects that run somewhere down, interfaces across, with the field that asks for each.
@@ -343,22 +347,18 @@ std::string effect_matrix(const std::vector<InterfaceEffects>& all,
   for (const InterfaceEffects& one : all)
     columns.push_back({fmt::format("{} {}", one.inter->id, type_name(*one.inter))});
   TextTable table(columns);
-  for (const std::string& name : effect_names(all)) {
-    std::vector<TextTable::Cell> cells{{name}};
-    for (const InterfaceEffects& one : all) {
-      const EffectLine* line = line_of(one, name);
-      if (line == nullptr)
-        cells.emplace_back("");
-      else if (line->on)
+  for (const EffectOfAll& effect : effects_of(all)) {
+    std::vector<TextTable::Cell> cells{{effect.name}};
+    bool runs = false;
+    for (const EffectLine* line : effect.lines) {
+      const bool on = line != nullptr && line->on;
+      runs = runs || on;
+      if (on)
         cells.emplace_back(line->field.empty() ? "on" : line->reason, Tone::green);
       else
-        cells.emplace_back("-", Tone::dim);
+        cells.emplace_back(line == nullptr ? "" : "-", Tone::dim);
     }
-    if (std::any_of(all.begin(), all.end(), [&](const InterfaceEffects& one) {
-          const EffectLine* line = line_of(one, name);
-          return line != nullptr && line->on;
-        }))
-      table.row(std::move(cells));
+    if (runs) table.row(std::move(cells));
   }
   return table.fitted(options.width, options.color, 2);
 }
@@ -366,21 +366,21 @@ std::string effect_matrix(const std::vector<InterfaceEffects>& all,
 /// "friction-law: Ifric = 0 (1, 2)", one line for each effect that is off somewhere.
 std::string off_lines(const std::vector<InterfaceEffects>& all) {
   std::string out;
-  for (const std::string& name : effect_names(all)) {
+  for (const EffectOfAll& effect : effects_of(all)) {
     std::vector<std::pair<std::string, std::string>> reasons;  // with ids
-    for (const InterfaceEffects& one : all) {
-      const EffectLine* line = line_of(one, name);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const EffectLine* line = effect.lines[i];
       if (line == nullptr || (line->on && line->not_edges.empty())) continue;
       const std::string why = line->on ? "not between edges: " + line->not_edges : line->reason;
       auto known = std::find_if(reasons.begin(), reasons.end(),
                                 [&](const auto& r) { return r.first == why; });
       if (known == reasons.end()) known = reasons.insert(known, {why, ""});
-      append(known->second, ", ", std::to_string(one.inter->id));
+      append(known->second, ", ", std::to_string(all[i].inter->id));
     }
     std::string text;
     for (const auto& [reason, ids] : reasons)
       append(text, "; ", fmt::format("{} ({})", reason, ids));
-    if (!text.empty()) out += fmt::format("  {}: {}\n", name, terminal_text(text));
+    if (!text.empty()) out += fmt::format("  {}: {}\n", effect.name, terminal_text(text));
   }
   return out;
 }
@@ -407,7 +407,7 @@ std::string effects_text(const CycleInput& input, const CycleTextOptions& option
   std::string out = "  " + short_cost_sentence(input) + "\n";
   if (options.effects) {
     out += effect_matrix(all, options);
-    out += section("Effects that do not run, and why (interfaces)", off_lines(all), false);
+    out += titled("Effects that do not run, and why (interfaces)", off_lines(all), false);
     if (!options.verbose) return out;
     out += "\nFields and lines\n";
   }
@@ -497,7 +497,7 @@ const char* to_string(cycle::Removal::Because because) {
 
 std::string cycle_text(const CycleInput& input, const CycleTextOptions& options) {
   const auto below = [&](std::string_view title, const std::string& text) {
-    return section(title, text, options.color);
+    return titled(title, text, options.color);
   };
   std::string out;
   if (options.several) out += toned(terminal_text(input.path), Tone::cyan, options.color) + "\n";

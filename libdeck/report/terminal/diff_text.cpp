@@ -33,7 +33,7 @@ std::string diff_text(const DiffSide& a, const DiffSide& b, const DeckDiff& diff
     for (const std::string& name : t.columns) columns.push_back({name});
     TextTable table(columns);
     for (const auto& row : t.rows) table.row({row.begin(), row.end()});
-    out += section(t.title, table.fitted(options.width, options.color, 2), options.color);
+    out += titled(t.title, table.fitted(options.width, options.color, 2), options.color);
     out += more_line(t.left_out, 0, " (--rows N, --json)");
   }
   if (!tables.empty()) out += "\n" + verdict;

@@ -18,9 +18,7 @@ FixCount total(const PenetrationFix& fix, FixCount FixedInterface::*which) {
   for (const FixedInterface& i : fix.interfaces) {
     const FixCount& c = i.*which;
     sum.pairs += c.pairs;
-    sum.nodes += c.nodes;
     sum.untreated += c.untreated;
-    sum.on_surface += c.on_surface;
     sum.deepest = std::max(sum.deepest, c.deepest);
   }
   return sum;
@@ -242,6 +240,71 @@ std::string tie_table(const PenetrationFix& fix, const FixTextOptions& options) 
   return table.below_heading(options);
 }
 
+/// "5 nodes moved by up to 0.3"; nothing if none was moved.
+std::string moves_of(const PenetrationFix& fix) {
+  double far = 0;
+  for (const MovedNode& m : fix.moved) far = std::max(far, m.distance);
+  return fix.moved.empty() ? std::string()
+                           : fmt::format("{} moved by up to {:.4g}",
+                                         count(fix.moved.size(), "node", "nodes"), far);
+}
+
+/// What Inacti 1, Inacti 2 and Fpenmax cost: "28 nodes lose the contact for the whole run".
+std::string price_text(const PenetrationFix& fix) {
+  std::string text;
+  std::size_t all = 0;
+  const auto add = [&](PenetrationAction action, auto side, const char* one, const char* many) {
+    std::set<std::pair<std::int64_t, std::vector<std::int64_t>>> off;
+    for (const FixAction& a : fix.actions)
+      if (a.after != a.before && a.after == action) off.insert({a.interface_id, a.*side});
+    all += off.size();
+    if (!off.empty()) append(text, " and ", count(off.size(), one, many));
+  };
+  add(PenetrationAction::node_stiffness_zero, &FixAction::secondary, "node", "nodes");
+  add(PenetrationAction::segment_stiffness_zero, &FixAction::main, "segment", "segments");
+  add(PenetrationAction::edge_stiffness_zero, &FixAction::secondary, "edge", "edges");
+  if (all == 0) return text;
+  return text + (all == 1 ? " loses" : " lose") + " the contact for the whole run";
+}
+
+std::string crossings_text(std::uint64_t crossings, const FixTextOptions& options) {
+  if (crossings == 0) return {};
+  return "\n" + count(crossings, "crossed element stays", "crossed elements stay") +
+         ": no fix separates crossed elements; separate their parts in the mesh. This lists them:\n"
+         "  deck gaps " +
+         terminal_text(options.deck) + " --crossings\n";
+}
+
+/// "Gapmin 1.25 -> 0.9" of one interface or of how many, and how many nodes move how far.
+std::string changes_of(const PenetrationFix& fix) {
+  std::size_t interfaces = 0;
+  std::string text;
+  for (const FixedInterface& i : fix.interfaces) {
+    interfaces += !i.changes.empty();
+    if (text.empty()) text = change_text(i.changes);
+  }
+  if (interfaces > 1) text += fmt::format(", ... of {} interfaces", interfaces);
+  if (const std::string price = price_text(fix); !price.empty()) append(text, "; ", price);
+  return or_dash(text + moves_of(fix));
+}
+
+/// What the strategy tie would do, behind what is said of penetrations.
+std::string tie_proposal(const std::vector<PenetrationFix>& proposals,
+                         const std::function<std::string(std::string_view)>& command,
+                         const FixTextOptions& options, std::string text) {
+  for (const PenetrationFix& fix : proposals) {
+    if (fix.strategy != "tie" || (fix.ties.empty() && fix.refused.empty())) continue;
+    if (!text.ends_with('\n')) text += "\n";
+    text += "\n" +
+            toned(untied_text(fix, &FixedTie::before) + " of TYPE2 are not tied", Tone::yellow,
+                  options.color) +
+            "\n" + tie_table(fix, options) + refused_text({fix}, options);
+    if (score_of(fix).solved > 0)
+      text += fmt::format("\nto tie them:\n  {}\n", terminal_text(command("tie")));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<RefusedGroup> refused_groups(const std::vector<PenetrationFix>& fixes,
@@ -291,37 +354,6 @@ std::string starter_text(const Verdict& verdict, const Scene& scene, bool fixed)
   return text;
 }
 
-namespace {
-
-/// "5 nodes moved by up to 0.3"; nothing if none was moved.
-std::string moves_of(const PenetrationFix& fix) {
-  double far = 0;
-  for (const MovedNode& m : fix.moved) far = std::max(far, m.distance);
-  return fix.moved.empty() ? std::string()
-                           : fmt::format("{} moved by up to {:.4g}",
-                                         count(fix.moved.size(), "node", "nodes"), far);
-}
-
-/// What Inacti 1, Inacti 2 and Fpenmax cost: "28 nodes lose the contact for the whole run".
-std::string price_text(const PenetrationFix& fix) {
-  std::string text;
-  std::size_t all = 0;
-  const auto add = [&](PenetrationAction action, auto side, const char* one, const char* many) {
-    std::set<std::pair<std::int64_t, std::vector<std::int64_t>>> off;
-    for (const FixAction& a : fix.actions)
-      if (a.after != a.before && a.after == action) off.insert({a.interface_id, a.*side});
-    all += off.size();
-    if (!off.empty()) append(text, " and ", count(off.size(), one, many));
-  };
-  add(PenetrationAction::node_stiffness_zero, &FixAction::secondary, "node", "nodes");
-  add(PenetrationAction::segment_stiffness_zero, &FixAction::main, "segment", "segments");
-  add(PenetrationAction::edge_stiffness_zero, &FixAction::secondary, "edge", "edges");
-  if (all == 0) return text;
-  return text + (all == 1 ? " loses" : " lose") + " the contact for the whole run";
-}
-
-}  // namespace
-
 std::string fix_verdict(const PenetrationFix& fix) {
   const FixCount before = total(fix, &FixedInterface::before),
                  after = total(fix, &FixedInterface::after);
@@ -348,66 +380,17 @@ std::string fix_verdict(const PenetrationFix& fix) {
   return text + ties;
 }
 
-namespace {
-
-std::string crossings_text(std::uint64_t crossings, const FixTextOptions& options) {
-  if (crossings == 0) return {};
-  return "\n" + count(crossings, "crossed element stays", "crossed elements stay") +
-         ": no fix separates crossed elements; separate their parts in the mesh. This lists them:\n"
-         "  deck gaps " +
-         terminal_text(options.deck) + " --crossings\n";
-}
-
-}  // namespace
-
 std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
   const Tone tone = fix.complete && price_text(fix).empty() ? Tone::green : Tone::yellow;
   const bool nothing = !options.examined && fix.interfaces.empty() && fix.ties.empty();
   std::string text =
       toned(nothing ? nothing_evaluated : fix_verdict(fix), tone, options.color) + "\n";
-  if (!fix.interfaces.empty()) text += "\n" + interface_table(fix, options);
-  if (!fix.ties.empty()) text += "\n" + tie_table(fix, options);
+  for (const std::string& table : {interface_table(fix, options), tie_table(fix, options)})
+    if (!table.empty()) text += "\n" + table;
   if (fix.tied_pairs > 0) text += "\n" + tied_text(fix) + ", as before\n";
-  text += moved_text(fix, options);
-  text += actions_text(fix, options);
-  text += refused_text({fix}, options);
-  text += crossings_text(fix.crossings_after, options);
-  return text;
+  text += moved_text(fix, options) + actions_text(fix, options);
+  return text + refused_text({fix}, options) + crossings_text(fix.crossings_after, options);
 }
-
-namespace {
-
-/// "Gapmin 1.25 -> 0.9" of one interface or of how many, and how many nodes move how far.
-std::string changes_of(const PenetrationFix& fix) {
-  std::size_t interfaces = 0;
-  std::string text;
-  for (const FixedInterface& i : fix.interfaces) {
-    interfaces += !i.changes.empty();
-    if (text.empty()) text = change_text(i.changes);
-  }
-  if (interfaces > 1) text += fmt::format(", ... of {} interfaces", interfaces);
-  if (const std::string price = price_text(fix); !price.empty()) append(text, "; ", price);
-  return or_dash(text + moves_of(fix));
-}
-
-/// What the strategy tie would do, behind what is said of penetrations.
-std::string tie_proposal(const std::vector<PenetrationFix>& proposals,
-                         const std::function<std::string(std::string_view)>& command,
-                         const FixTextOptions& options, std::string text) {
-  for (const PenetrationFix& fix : proposals) {
-    if (fix.strategy != "tie" || (fix.ties.empty() && fix.refused.empty())) continue;
-    if (!text.ends_with('\n')) text += "\n";
-    text += "\n" +
-            toned(untied_text(fix, &FixedTie::before) + " of TYPE2 are not tied", Tone::yellow,
-                  options.color) +
-            "\n" + tie_table(fix, options) + refused_text({fix}, options);
-    if (score_of(fix).solved > 0)
-      text += fmt::format("\nto tie them:\n  {}\n", terminal_text(command("tie")));
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
                                const std::function<std::string(std::string_view)>& command,
@@ -421,12 +404,11 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
     const auto it = std::find_if(proposals.begin(), proposals.end(), [](const PenetrationFix& fix) {
       return fix.strategy != "tie" && !fix.refused.empty();
     });
-    if (it == proposals.end())
-      return tie_proposal(proposals, command, options,
-                          toned(nothing_to_fix, Tone::green, options.color));
-    return tie_proposal(proposals, command, options,
-                        toned(nothing_evaluated, Tone::yellow, options.color) + "\n" +
-                            refused_text({*it}, options));
+    const std::string text = it == proposals.end()
+                                 ? toned(nothing_to_fix, Tone::green, options.color)
+                                 : toned(nothing_evaluated, Tone::yellow, options.color) + "\n" +
+                                       refused_text({*it}, options);
+    return tie_proposal(proposals, command, options, text);
   }
   std::string text = count(found.pairs, "penetration", "penetrations");
   if (found.pairs > 0) text += fmt::format(" (deepest {:.4g})", found.deepest);

@@ -333,22 +333,21 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
   if (!options.name.empty()) out += toned(terminal_text(options.name), Tone::cyan, color) + "\n";
   if (!scene.contacts.empty()) {
     const std::string interfaces =
-        section("Interfaces", interface_table(scene, view, options), color);
+        titled("Interfaces", interface_table(scene, view, options), color);
     out += out.empty() ? interfaces.substr(1) : interfaces;
     if (!view.penetrations.empty())
-      out += section("Part pairs", part_pairs_text(scene, view, options), color) +
-             section("Deepest, one row per node or edge", worst_text(deck, scene, view, options),
-                     color);
+      out += titled("Part pairs", part_pairs_text(scene, view, options), color) +
+             titled("Deepest, one row per node or edge", worst_text(deck, scene, view, options),
+                    color);
     if (options.crossings != nullptr) out += crossings_text(scene, *options.crossings, options);
     if (const std::string text = decisions_text(scene, 5, options.verbose, color, options.width);
         !text.empty())
       out += "\n" + text;
     out += "\n";
   }
-  if (!scene.ties.empty())
-    out += section("Ties", tie_table(scene, options), color).substr(1) + "\n";
+  if (!scene.ties.empty()) out += titled("Ties", tie_table(scene, options), color).substr(1) + "\n";
   if (const std::string untied = untied_text(deck, scene, options); !untied.empty())
-    out += section("Nodes that are not tied", untied, color).substr(1) + "\n";
+    out += titled("Nodes that are not tied", untied, color).substr(1) + "\n";
   out += verdict_text(verdict_of(deck, scene, view), color);
   if (options.gate != nullptr) out += gate_text(*options.gate);
   return out;

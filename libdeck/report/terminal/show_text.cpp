@@ -50,7 +50,7 @@ class ShowText {
   std::string bold(std::string_view text) const { return toned(text, Tone::bold, options_.color); }
   std::string dim(std::string_view text) const { return toned(text, Tone::dim, options_.color); }
   void heading(const char* title, const std::string& text) {
-    out_ += section(title, text, options_.color);
+    out_ += titled(title, text, options_.color);
   }
 
   void head() {

@@ -58,7 +58,7 @@ TextTable::Cell known_cell(bool known, const T& number) {
 }
 
 /// A text below its title; "" without a text.
-inline std::string section(std::string_view title, const std::string& text, bool color) {
+inline std::string titled(std::string_view title, const std::string& text, bool color) {
   return text.empty() ? text : fmt::format("\n{}\n{}", toned(title, Tone::bold, color), text);
 }
 
