@@ -47,8 +47,8 @@ std::string secondary_text(const Model& model, const Contact& c, const cycle::Pa
 }
 
 std::string main_text(const Model& model, const Contact& c, std::uint32_t main) {
-  return c.kind == ContactKind::edge_edge ? node_ids(model, c.main_edges[main].nodes)
-                                          : node_ids(model, c.main[main].nodes);
+  return c.kind == ContactKind::edge_edge ? corner_ids(model, c.main_edges[main].nodes)
+                                          : corner_ids(model, c.main[main].nodes);
 }
 
 /// "interface 3 TYPE7: ", behind two blanks

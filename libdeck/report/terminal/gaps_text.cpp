@@ -284,7 +284,7 @@ UntiedNode untied_node(const Model& model, const Tie& tie, const TiedNode& n) {
   const double search = n.search != 0 ? n.search : tie.search_distance;
   return {tie.inter,
           n.node,
-          known ? node_ids(model, tie.main[segment]) : "-",
+          known ? corner_ids(model, tie.main[segment]) : "-",
           known_cell(known, found ? n.distance : n.nearest_distance),
           known_cell(search != 0, search),
           short_reason(tie, n)};

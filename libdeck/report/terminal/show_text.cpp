@@ -124,24 +124,24 @@ class ShowText {
         out_ += std::string(margin, ' ') + dim(line) + "\n";
         line.clear();
       }
-      line += (line.empty() ? "" : ", ") + item;
+      append(line, ", ", item);
     }
     if (!line.empty()) out_ += std::string(margin, ' ') + dim(line) + "\n";
   }
 
   struct Column {
-    int first = 0, last = 0;
+    int last = 0;
     std::string name;
   };
 
   void fixed(const ShownCard& card, const std::string& number, bool names) {
     std::vector<Column> columns;
     for (const Cell& c : card.cells) {
-      const int first = static_cast<int>(c.span.offset - card.line.offset) + 1;
       const bool list =
           card.schema->repeat == Repeat::ids && c.field == &card.schema->fields.back();
-      const int start = list ? first : c.field->first;
-      columns.push_back({start, start + c.field->last - c.field->first, c.field->name});
+      const int start =
+          list ? static_cast<int>(c.span.offset - card.line.offset) + 1 : c.field->first;
+      columns.push_back({start + c.field->last - c.field->first, c.field->name});
     }
     // Cells behind what fits go to lines of their own.
     const int room =
@@ -155,13 +155,10 @@ class ShowText {
       if (end == columns.size())
         last = std::max<int>(
             last, std::min<int>(static_cast<int>(card.line.text.size()), from + room - 1));
-      const std::vector<Column> part(columns.begin() + static_cast<std::ptrdiff_t>(at),
-                                     columns.begin() + static_cast<std::ptrdiff_t>(end));
-      if (names) name_lines(part, from);
+      if (names) name_lines(std::span(columns).subspan(at, end - at), from);
       out_ += at == 0 ? dim(number) : dim(fmt::format("{:>6}  ", "…"));
-      std::string text = terminal_columns(detail::columns(card.line.text, from, last));
-      while (text.ends_with(' ')) text.pop_back();
-      out_ += text + "\n";
+      const std::string text = terminal_columns(detail::columns(card.line.text, from, last));
+      out_ += text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
       if (end == columns.size()) break;
       at = end;
       begin = static_cast<std::size_t>(last) + 1;
@@ -169,7 +166,7 @@ class ShowText {
   }
 
   /// Names end where their columns end; one that would run into its neighbour goes a line up.
-  void name_lines(const std::vector<Column>& columns, int from) {
+  void name_lines(std::span<const Column> columns, int from) {
     std::vector<std::string> lines(1);
     for (const Column& c : columns) {
       const auto end = static_cast<std::size_t>(c.last - from + 1);

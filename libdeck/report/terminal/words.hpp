@@ -44,7 +44,7 @@ std::string first_of(const List& list, std::size_t most, const Text& text = {}) 
 }
 
 /// "1 2 3": the nodes of a segment or an edge. A triangle repeats its last node.
-inline std::string node_ids(const Model& model, std::span<const NodeIndex> nodes) {
+inline std::string corner_ids(const Model& model, std::span<const NodeIndex> nodes) {
   if (nodes.size() == 4 && nodes[2] == nodes[3]) nodes = nodes.first(3);
   std::string out;
   for (const NodeIndex n : nodes) append(out, " ", std::to_string(model.node_id(n)));
