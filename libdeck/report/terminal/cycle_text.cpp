@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
@@ -63,18 +64,13 @@ std::string lasting_lines(const CycleInput& input) {
   for (const cycle::ContactOutcome& o : input.outcome->contacts) {
     const Contact& c = *o.contact;
     const std::string head = line_head(c);
-    for (const auto because :
-         {cycle::Removal::Because::mid_surface, cycle::Removal::Because::kinematic_step,
-          cycle::Removal::Because::nodal_step, cycle::Removal::Because::no_element_left}) {
-      std::vector<cycle::Removal> list;
-      for (const cycle::Removal& r : o.removed)
-        if (r.because == because) list.push_back(r);
-      if (!list.empty())
-        out += fmt::format("{}removed for good, {}: {}\n", head, to_string(because),
-                           first_of(list, 10, [&](const cycle::Removal& r) {
-                             return secondary_name(model, c, r.secondary);
-                           }));
-    }
+    std::map<cycle::Removal::Because, std::vector<cycle::Removal>> removed;
+    for (const cycle::Removal& r : o.removed) removed[r.because].push_back(r);
+    for (const auto& [because, list] : removed)
+      out += fmt::format("{}removed for good, {}: {}\n", head, to_string(because),
+                         first_of(list, 10, [&](const cycle::Removal& r) {
+                           return secondary_name(model, c, r.secondary);
+                         }));
     std::size_t tied = 0, let_go = 0;
     for (const cycle::TieChange& t : o.ties) ++(t.tied ? tied : let_go);
     if (tied > 0) out += head + count(tied, "pair is tied\n", "pairs are tied\n");
@@ -192,7 +188,7 @@ std::vector<TextTable::Cell> contact_row(const CycleInput& input,
   const bool known = std::any_of(list.begin(), list.end(),
                                  [](const cycle::ContactOutcome* o) { return o->complete; });
   const auto figure = [&](double v) { return known ? figure_text(v) : "-"; };
-  const double other_energy = s.friction_energy + s.damping_energy;
+  const double energy = s.elastic_energy + s.friction_energy + s.damping_energy;
   return {c.inter->id,
           part ? kind_name(c) : type_name(*c.inter),
           part ? "" : c.inter->title,
@@ -200,7 +196,7 @@ std::vector<TextTable::Cell> contact_row(const CycleInput& input,
           known_cell(known, s.pairs_with_force),
           figure(s.force_sum),
           figure(s.largest_pair_force),
-          figure(all ? s.elastic_energy : s.elastic_energy + other_energy),
+          figure(all ? s.elastic_energy : energy),
           figure(s.friction_energy),
           figure(s.damping_energy),
           figure(s.largest_acceleration),
@@ -222,11 +218,8 @@ std::string contact_table(const CycleInput& input, const CycleTextOptions& optio
        all ? "of node" : "node", "+>near singular", "note"},
       all);
   std::vector<std::int64_t> quiet;
-  for (const auto& places :
-       by_interface(input.outcome->contacts,
-                    [](const cycle::ContactOutcome& o) { return o.contact->inter; })) {
-    std::vector<const cycle::ContactOutcome*> list;
-    for (const std::size_t i : places) list.push_back(&input.outcome->contacts[i]);
+  for (const auto& list :
+       by_interface(input.outcome->contacts, [](const auto& o) { return o.contact->inter; })) {
     const bool idle = std::all_of(list.begin(), list.end(), [](const cycle::ContactOutcome* o) {
       return o->pairs_in_reach == 0 && is_no_limit(o->step.dt) &&
              (o->contact->dropped || state_words(*o).empty());
@@ -292,12 +285,11 @@ std::string step_lines(const CycleInput& input) {
                        o.structure.dt);
   out += "  contact    ";
   if (is_no_limit(o.contact_dt)) return out + no_limit_text(o) + "\n";
-  const char* why = o.contact_dt_source == cycle::StepLimit::Source::nodal
-                        ? "contact stiffness against nodal mass"
-                    : o.contact_dt_source == cycle::StepLimit::Source::kinematic
-                        ? "half the time to the mid-surface"
-                        : "gap over the largest relative velocity";
-  out += fmt::format("{:.4g}, {}", o.contact_dt, why);
+  static constexpr const char* sources[] = {"", "half the time to the mid-surface",
+                                            "contact stiffness against nodal mass",
+                                            "gap over the largest relative velocity"};
+  out += fmt::format("{:.4g}, {}", o.contact_dt,
+                     sources[static_cast<std::size_t>(o.contact_dt_source)]);
   if (o.limiting_contact != SIZE_MAX)
     out += fmt::format(", interface {}", o.contacts[o.limiting_contact].contact->inter->id);
   if (o.limiting_node != no_index) out += fmt::format(", node {}", model.node_id(o.limiting_node));
@@ -483,16 +475,10 @@ std::string heat_lines(const cycle::SceneOutcome& outcome) {
 }  // namespace
 
 const char* to_string(cycle::Removal::Because because) {
-  switch (because) {
-    case cycle::Removal::Because::kinematic_step:
-      return "dtmin (time to the mid-surface)";
-    case cycle::Removal::Because::nodal_step:
-      return "dtmin (stiffness against mass)";
-    case cycle::Removal::Because::no_element_left:
-      return "no element left (Idel)";
-    default:
-      return "mid-surface reached";
-  }
+  static constexpr const char* words[] = {"mid-surface reached", "dtmin (time to the mid-surface)",
+                                          "dtmin (stiffness against mass)",
+                                          "no element left (Idel)"};
+  return words[static_cast<std::size_t>(because)];
 }
 
 std::string cycle_text(const CycleInput& input, const CycleTextOptions& options) {

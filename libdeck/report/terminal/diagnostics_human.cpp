@@ -40,6 +40,16 @@ std::vector<Glyph> glyphs_of(std::string_view line, std::string_view shown, std:
   return out;
 }
 
+/// The text of a cell from byte `first` to `last` of a line, without the blanks that pad it.
+std::pair<std::size_t, std::size_t> text_of_cell(std::string_view line, std::size_t first,
+                                                 std::size_t last) {
+  const auto is_blank = [&](std::size_t i) { return static_cast<unsigned char>(line[i]) <= ' '; };
+  std::size_t begin = first, end = std::min(last, line.size());
+  while (begin < end && is_blank(begin)) ++begin;
+  while (end > begin && is_blank(end - 1)) --end;
+  return begin < end ? std::pair(begin, end) : std::pair(first, last);
+}
+
 /// Remarks that tell how the solver works rather than what is particular about the deck: nearly
 /// every deck with a contact has them.
 bool is_of_every_deck(const Diagnostic& d) {
@@ -72,13 +82,13 @@ class Human {
     for (const Diagnostic* d : all) {
       const auto& alike = of_kind[{d->rule, d->field, d->severity}];
       int& n = shown[{d->rule, d->field, d->severity}];
-      if (options_.group && folds(*d, alike.size())) {
+      if (options_.group && alike.size() > most_alike) {
         if (n++ > 0) continue;
-        out += folded(*d, alike.size() + hidden[d->rule]);
-        hidden.erase(d->rule);
-      } else if (options_.group && alike.size() > most_alike) {
-        if (n++ > 0) continue;
-        out += one(*d, group({alike.begin() + 1, alike.end()}, hidden[d->rule]));
+        const std::uint64_t dropped = hidden[d->rule];
+        // Remarks, of which a deck can have hundreds, are one line.
+        out += d->severity == Severity::info
+                   ? folded(*d, alike.size() + dropped)
+                   : one(*d, group({alike.begin() + 1, alike.end()}, dropped));
         hidden.erase(d->rule);
       } else if (options_.per_rule > 0 && n >= options_.per_rule) {
         ++hidden[d->rule];
@@ -148,11 +158,6 @@ class Human {
                        [&](const Block& b) { return b.header_span.file == file; });
   }
 
-  /// True if the findings of that kind are one line: remarks, of which a deck can have hundreds.
-  static bool folds(const Diagnostic& d, std::size_t alike) {
-    return d.severity == Severity::info && alike > most_alike;
-  }
-
   /// All findings of a kind in a line with their number, and the place of the first.
   std::string folded(const Diagnostic& first, std::uint64_t count) const {
     std::string out = title(first, fmt::format("{} places: {}", count, rule_of(first.rule).title));
@@ -211,14 +216,8 @@ class Human {
   std::string card(const Diagnostic& d, const detail::Place& at, const std::string& number,
                    const std::string& bar) const {
     const std::string_view line = deck_.deck->sources[d.span.file].line_at(d.span.offset);
-    std::size_t first = static_cast<std::size_t>(at.column) - 1;
-    std::size_t last = static_cast<std::size_t>(at.end_column) - 1;
-    // Point at the text of a cell, not at the blanks that pad it.
-    const auto is_blank = [&](std::size_t i) { return static_cast<unsigned char>(line[i]) <= ' '; };
-    std::size_t b = first, e = std::min(last, line.size());
-    while (b < e && is_blank(b)) ++b;
-    while (e > b && is_blank(e - 1)) --e;
-    if (b < e) std::tie(first, last) = std::pair(b, e);
+    const auto [first, last] = text_of_cell(line, static_cast<std::size_t>(at.column) - 1,
+                                            static_cast<std::size_t>(at.end_column) - 1);
     // Of a very long line only what can be near the caret.
     constexpr std::size_t most = 2000;
     std::size_t start = std::min(first, line.size()) > most ? first - most : 0;

@@ -26,24 +26,17 @@ const PenetrationRow& row_of(const Scene& scene, const NamedPenetration& p) {
 
 /// Why a contact with 0 penetrations is not reported as clean; empty: it is.
 std::string obstacle(const Contact& c) {
-  switch (obstacle_of(c)) {
-    case Obstacle::empty_main:
-      return "main side is empty";
-    case Obstacle::empty_secondary:
-      return "secondary side is empty";
-    case Obstacle::no_gap:
-      return "there is no gap";
-    case Obstacle::no_area:
-      return fmt::format("{} without area", count(static_cast<std::size_t>(c.degenerate_segments),
-                                                  "segment", "segments"));
-    case Obstacle::no_element:
-      return "segments or edges without element";
-    case Obstacle::no_stiffness:
-      return "main side has no stiffness";
-    case Obstacle::none:
-      break;
-  }
-  return {};
+  static constexpr const char* words[] = {"",
+                                          "main side is empty",
+                                          "secondary side is empty",
+                                          "there is no gap",
+                                          "without area",
+                                          "segments or edges without element",
+                                          "main side has no stiffness"};
+  const Obstacle why = obstacle_of(c);
+  const std::string text = words[static_cast<std::size_t>(why)];
+  if (why != Obstacle::no_area) return text;
+  return count(static_cast<std::uint64_t>(c.degenerate_segments), "segment ", "segments ") + text;
 }
 
 /// What a contact that ties does.
@@ -92,10 +85,12 @@ std::string secondary_text(const NamedPenetration& p) {
                              : fmt::format("{}-{}", p.secondary[0], p.secondary[1]);
 }
 
-/// Totals of several contacts of one interface: a node that is in two of them counts in both.
-ContactTotals sum_of(const std::vector<ContactTotals>& all) {
+/// Totals of contacts of one interface: a node that is in two of them counts in both.
+ContactTotals sum_of(const Scene& scene, const SceneView& view,
+                     const std::vector<const Contact*>& contacts) {
   ContactTotals sum;
-  for (const ContactTotals& t : all) {
+  for (const Contact* c : contacts) {
+    const ContactTotals& t = view.contacts[static_cast<std::size_t>(c - scene.contacts.data())];
     sum.count.pairs += t.count.pairs;
     sum.count.nodes += t.count.nodes;
     sum.count.edges += t.count.edges;
@@ -160,23 +155,20 @@ std::string interface_table(const Scene& scene, const SceneView& view,
                    all ? ">edges in" : ">edges", ">deepest", ">of gap", "action"},
                   all);
   std::vector<std::int64_t> clean;
-  for (const auto& list : by_interface(scene.contacts, [](const Contact& c) { return c.inter; })) {
-    std::vector<const Contact*> contacts;
-    std::vector<ContactTotals> totals;
-    bool open = false;
-    for (const std::size_t i : list) {
-      contacts.push_back(&scene.contacts[i]);
-      totals.push_back(view.contacts[i]);
-      open = open || !scene.contacts[i].evaluated || !obstacle(scene.contacts[i]).empty();
-    }
-    const ContactTotals sum = sum_of(totals);
+  for (const auto& contacts :
+       by_interface(scene.contacts, [](const Contact& c) { return c.inter; })) {
+    const bool open = std::any_of(contacts.begin(), contacts.end(), [](const Contact* c) {
+      return !c->evaluated || !obstacle(*c).empty();
+    });
+    const ContactTotals sum = sum_of(scene, view, contacts);
     if (!all && !open && sum.count.pairs + sum.tied.pairs + sum.untied == 0) {
       clean.push_back(contacts.front()->inter->id);
       continue;
     }
     table.row(interface_row(contacts, sum, false, largest));
-    for (std::size_t k = 0; all && contacts.size() > 1 && k < contacts.size(); ++k)
-      table.row(interface_row({contacts[k]}, totals[k], true, largest));
+    if (all && contacts.size() > 1)
+      for (const Contact* c : contacts)
+        table.row(interface_row({c}, sum_of(scene, view, {c}), true, largest));
   }
   return table.below_heading(options) + folded_ids(clean, "clean interface", "clean interfaces");
 }

@@ -67,17 +67,17 @@ inline std::string more_line(std::size_t all, std::size_t shown, std::string_vie
   return all <= shown ? std::string() : fmt::format("  … and {} more{}\n", all - shown, where);
 }
 
-/// Positions in `list` of the contacts of each interface, in the order in which the interfaces
-/// first occur; `interface_of` gives that of an element.
-template <class List, class InterfaceOf>
-std::vector<std::vector<std::size_t>> by_interface(const List& list,
-                                                   const InterfaceOf& interface_of) {
-  std::vector<std::vector<std::size_t>> out;
+/// The contacts of each interface, in the order in which the interfaces first occur;
+/// `interface_of` gives that of an element of `list`.
+template <class T, class InterfaceOf>
+std::vector<std::vector<const T*>> by_interface(const std::vector<T>& list,
+                                                const InterfaceOf& interface_of) {
+  std::vector<std::vector<const T*>> out;
   std::map<const InterBase*, std::size_t> place;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const auto [it, first] = place.try_emplace(interface_of(list[i]), out.size());
+  for (const T& contact : list) {
+    const auto [it, first] = place.try_emplace(interface_of(contact), out.size());
     if (first) out.emplace_back();
-    out[it->second].push_back(i);
+    out[it->second].push_back(&contact);
   }
   return out;
 }
