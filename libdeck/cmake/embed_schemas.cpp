@@ -1,19 +1,48 @@
 // Build tool: reads the files of keyword schemas, checks them as `--schemas DIR` does, and writes
-// them as a C++ file that defines embedded_schemas(): one entry for each keyword.
-//   embed_schemas OUT FILE...
+// them as a C++ file that defines embedded_schemas(): one entry for each keyword. Checks the pages
+// of rules, and that the rules that are predicates of cells name fields that their interfaces have.
+//   embed_schemas OUT SCHEMAS.json... RULE.md...
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "keyword/schema/json.hpp"
+#include "lint/cell_rule.hpp"
+#include "text/shared/rule_page.hpp"
 
 namespace {
 
 /// As literals of one line: a compiler reads them faster than a number for each byte.
 std::string literal(const std::string& text) { return nlohmann::json(text).dump(); }
+
+std::string contents(const char* path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Field names of each keyword.
+using Fields = std::map<std::string, std::set<std::string>>;
+
+/// What is wrong with the page of a rule; empty: nothing.
+std::string problem_of_page(const char* path, const Fields& fields) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  const auto rule = deck::detail::parse_rule_page(name, contents(path));
+  if (!rule) return rule.error().message;
+  if (rule->cells.empty()) return {};
+  const auto cells = deck::detail::CellRule::read(rule->cells);
+  if (!cells) return name + ": " + cells.error().message;
+  for (const std::string& field : cells->fields()) {
+    bool known = false;
+    for (const int type : rule->types)
+      known = known || fields.at("/INTER/TYPE" + std::to_string(type)).contains(field);
+    if (!known) return name + ": no interface of its types has a field " + field;
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -21,16 +50,24 @@ int main(int argc, char** argv) {
   if (argc < 3) return 2;
   std::string rows;
   std::set<std::string> known;
+  Fields fields;
   for (int k = 2; k < argc; ++k) {
-    std::ifstream in(argv[k], std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    const auto read = deck::detail::read_schemas(argv[k], text);
+    if (std::string_view(argv[k]).ends_with(".md")) {
+      if (const std::string problem = problem_of_page(argv[k], fields); !problem.empty()) {
+        std::cerr << problem << '\n';
+        return 1;
+      }
+      continue;
+    }
+    const auto read = deck::detail::read_schemas(argv[k], contents(argv[k]));
     if (!read) {
       std::cerr << read.error().message << '\n';
       return 1;
     }
     const std::string file = std::filesystem::path(argv[k]).filename().string();
     for (const auto& [schema, json] : *read) {
+      for (const auto& card : schema.cards)
+        for (const auto& field : card.fields) fields[schema.keyword].insert(field.name);
       auto keywords = schema.aliases;
       keywords.insert(keywords.begin(), schema.keyword);
       std::string names;

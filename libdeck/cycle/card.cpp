@@ -1,5 +1,5 @@
 // Turns the effective values of an interface into the plain numbers of the force kernel.
-#include "deck/cycle/card.hpp"
+#include "deck/cycle/packet.hpp"
 
 #include <algorithm>
 #include <cstdlib>

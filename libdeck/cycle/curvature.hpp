@@ -2,7 +2,6 @@
 #pragma once
 #include <cstddef>
 
-#include "deck/cycle/card.hpp"
 #include "deck/cycle/packet.hpp"
 
 namespace deck::cycle::detail {

@@ -10,22 +10,13 @@
 
 #include "deck/verdict.hpp"
 #include "keyword/shared/references.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck {
 
 const char* to_string(ChangeKind kind) {
-  switch (kind) {
-    case ChangeKind::added:
-      return "added";
-    case ChangeKind::removed:
-      return "removed";
-    case ChangeKind::changed:
-      return "changed";
-    case ChangeKind::moved:
-      break;
-  }
-  return "moved";
+  constexpr const char* names[] = {"added", "removed", "changed", "moved"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 namespace detail {
@@ -43,13 +34,25 @@ double extent_of(const Nodes& nodes) {
 constexpr std::string_view selections[] = {"grnod",  "surf",   "line",   "set",    "grpart",
                                            "grshel", "grsh3n", "grbric", "grquad", "grtria",
                                            "grtrus", "grbeam", "grspri"};
-}  // namespace
 
+/// True for the kinds of keywords that select nodes, segments, edges, parts or elements.
 bool is_selection_kind(std::string_view kind) {
   return std::find(std::begin(selections), std::end(selections), kind) != std::end(selections);
 }
 
-namespace {
+bool is_function(const Block& b) {
+  return b.schema != nullptr && (b.schema->kind == "funct" || b.schema->keyword == "/MOVE_FUNCT");
+}
+
+std::int64_t function_id(const DiffSide& side, const Block& b) {
+  return b.id.value + side.loaded.deck().offset_of(b, "funct");
+}
+
+const InterBase* inter_of(const DiffSide& side, const Block& block) {
+  for (const InterBase* i : side.loaded.interfaces().all)
+    if (i->block == &block) return i;
+  return nullptr;
+}
 
 std::string group_of_kind(std::string_view kind) {
   if (kind == "inter" || kind == "default_inter" || kind == "friction") return "interface";
@@ -104,8 +107,10 @@ Change& Differ::add(ChangeKind kind, const Item& a, const Item* b, std::string f
   Change c;
   c.kind = kind;
   c.group = a.block->schema != nullptr ? group_of_kind(a.block->schema->kind) : "other";
-  c.keyword = a.block->schema != nullptr ? a.block->schema->keyword : std::string(a.block->keyword);
+  c.keyword = shown_keyword(*a.block);
   c.id = a.id;
+  c.a = a.block->header_span;
+  if (b != nullptr) c.b = b->block->header_span;
   if (b != nullptr && b->id != a.id) c.id_b = b->id;
   c.title = a.title;
   c.field = std::move(field);
@@ -119,21 +124,13 @@ void Differ::added_and_removed() {
     if (pairs_.block_to_b[i] != no_index)
       used[pairs_.block_to_b[i]] = 1;
     else if (!only_a_copy(a_, pairs_.items_a[i]))
-      add(ChangeKind::removed, pairs_.items_a[i], nullptr, "").a =
-          pairs_.items_a[i].block->header_span;
+      add(ChangeKind::removed, pairs_.items_a[i], nullptr, "");
   }
   for (std::size_t i = 0; i < pairs_.items_b.size(); ++i)
-    if (used[i] == 0 && !only_a_copy(b_, pairs_.items_b[i]))
-      add(ChangeKind::added, pairs_.items_b[i], nullptr, "").b =
-          pairs_.items_b[i].block->header_span;
-}
-
-bool Differ::is_function(const Block& b) {
-  return b.schema != nullptr && (b.schema->kind == "funct" || b.schema->keyword == "/MOVE_FUNCT");
-}
-
-std::int64_t Differ::function_id(const DiffSide& side, const Block& b) {
-  return b.id.value + side.loaded.deck().offset_of(b, "funct");
+    if (used[i] == 0 && !only_a_copy(b_, pairs_.items_b[i])) {
+      Change& c = add(ChangeKind::added, pairs_.items_b[i], nullptr, "");
+      std::swap(c.a, c.b);
+    }
 }
 
 bool Differ::only_a_copy(const DiffSide& side, const Item& item) const {
@@ -146,19 +143,13 @@ void Differ::item(const Item& a, const Item& b) {
     Change& c = add(ChangeKind::changed, a, &b, "title");
     c.old_value = a.title;
     c.new_value = b.title;
-    c.a = a.block->header_span;
-    c.b = b.block->header_span;
   }
   const std::string kind = a.block->schema != nullptr ? a.block->schema->kind : "";
   if (is_selection_kind(kind)) return members(a, b, kind);
   if (a.block->schema != b.block->schema) {
     Change& c = add(ChangeKind::changed, a, &b, "keyword");
-    c.old_value =
-        a.block->schema != nullptr ? a.block->schema->keyword : std::string(a.block->keyword);
-    c.new_value =
-        b.block->schema != nullptr ? b.block->schema->keyword : std::string(b.block->keyword);
-    c.a = a.block->header_span;
-    c.b = b.block->header_span;
+    c.old_value = shown_keyword(*a.block);
+    c.new_value = shown_keyword(*b.block);
     return;
   }
   if (is_function(*a.block) &&
@@ -168,12 +159,6 @@ void Differ::item(const Item& a, const Item& b) {
   const InterBase* ib = inter_of(b_, *b.block);
   if (ia != nullptr && ib != nullptr && ia->type == ib->type) return contact(a, b, *ia, *ib);
   cells(a, b);
-}
-
-const InterBase* Differ::inter_of(const DiffSide& side, const Block& block) {
-  for (const InterBase* i : side.loaded.interfaces().all)
-    if (i->block == &block) return i;
-  return nullptr;
 }
 
 auto Differ::deepest(const DiffSide& side) const -> std::map<PenetrationKey, Depth> {

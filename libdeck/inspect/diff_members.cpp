@@ -11,40 +11,35 @@ namespace deck::detail {
 
 NodeIndex Differ::to_b(NodeIndex n) const { return n == no_index ? no_index : pairs_.node_to_b[n]; }
 
-auto Differ::turned(Tuple t) -> Tuple {
-  if (t.size() == 4 && t[3] == t[2]) t.pop_back();
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
-}
-
-std::int64_t Differ::element_id(const Model& m, Carrier carrier, std::uint32_t e) const {
-  const Elements* elements = elements_of(m, carrier);
-  return elements == nullptr || e >= elements->size() ? 0 : elements->id[e];
-}
-
-auto Differ::segments(const DiffSide& side, const std::vector<Segment>& list) const
+/// Members of a list whose items have nodes and an element; in_order(nodes) makes those comparable.
+template <class Items, class F>
+auto Differ::by_nodes(const DiffSide& side, const Items& list, F&& in_order) const
     -> std::vector<Member> {
   std::vector<Member> out;
-  for (const Segment& s : list) {
+  for (const auto& s : list) {
     Tuple t(s.nodes.begin(), s.nodes.end());
     if (&side == &a_)
       std::transform(t.begin(), t.end(), t.begin(), [&](NodeIndex n) { return to_b(n); });
-    out.push_back({turned(std::move(t)), element_id(side.loaded.model(), s.carrier, s.element)});
+    in_order(t);
+    const Elements* elements = elements_of(side.loaded.model(), s.carrier);
+    const bool known = elements != nullptr && s.element < elements->size();
+    out.push_back({std::move(t), known ? elements->id[s.element] : 0});
   }
   return out;
+}
+
+/// With their sense of rotation, whatever node they begin with.
+auto Differ::segments(const DiffSide& side, const std::vector<Segment>& list) const
+    -> std::vector<Member> {
+  return by_nodes(side, list, [](Tuple& t) {
+    if (t.size() == 4 && t[3] == t[2]) t.pop_back();
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  });
 }
 
 auto Differ::edges(const DiffSide& side, const std::vector<Edge>& list) const
     -> std::vector<Member> {
-  std::vector<Member> out;
-  for (const Edge& s : list) {
-    Tuple t(s.nodes.begin(), s.nodes.end());
-    if (&side == &a_)
-      std::transform(t.begin(), t.end(), t.begin(), [&](NodeIndex n) { return to_b(n); });
-    std::sort(t.begin(), t.end());
-    out.push_back({std::move(t), element_id(side.loaded.model(), s.carrier, s.element)});
-  }
-  return out;
+  return by_nodes(side, list, [](Tuple& t) { std::sort(t.begin(), t.end()); });
 }
 
 auto Differ::nodes(const DiffSide& side, const std::vector<NodeIndex>& list) const
@@ -79,22 +74,20 @@ auto Differ::parts(const DiffSide& side, const std::vector<std::uint32_t>& list)
 auto Differ::lists_of(const DiffSide& side, const Item& item, std::string_view kind) const
     -> std::vector<std::pair<std::string, std::vector<Member>>> {
   Selections& s = *side.loaded.model().selections;
-  if (kind == "grnod") {
-    const NodeSet* g = s.node_group(item.id);
-    return {{"nodes", g == nullptr ? std::vector<Member>() : nodes(side, g->nodes)}};
-  }
-  if (kind == "surf") {
-    const Surface* g = s.surface(item.id);
-    return {{"segments", g == nullptr ? std::vector<Member>() : segments(side, g->segments)}};
-  }
-  if (kind == "line") {
-    const LineSet* g = s.line(item.id);
-    return {{"edges", g == nullptr ? std::vector<Member>() : edges(side, g->edges)}};
-  }
-  if (kind == "grpart") {
-    const auto* g = s.part_group(item.id);
-    return {{"parts", g == nullptr ? std::vector<Member>() : parts(side, *g)}};
-  }
+  using Lists = std::vector<std::pair<std::string, std::vector<Member>>>;
+  const auto one = [](const char* name, const auto* group, auto&& members) -> Lists {
+    return {{name, group == nullptr ? std::vector<Member>() : members(*group)}};
+  };
+  if (kind == "grnod")
+    return one("nodes", s.node_group(item.id),
+               [&](const NodeSet& g) { return nodes(side, g.nodes); });
+  if (kind == "surf")
+    return one("segments", s.surface(item.id),
+               [&](const Surface& g) { return segments(side, g.segments); });
+  if (kind == "line")
+    return one("edges", s.line(item.id), [&](const LineSet& g) { return edges(side, g.edges); });
+  if (kind == "grpart")
+    return one("parts", s.part_group(item.id), [&](const auto& g) { return parts(side, g); });
   if (kind == "set") {
     const SetGeneral* g = s.set(item.id);
     if (g == nullptr) return {};
@@ -103,10 +96,9 @@ auto Differ::lists_of(const DiffSide& side, const Item& item, std::string_view k
             {"edges", edges(side, g->edges)},
             {"parts", parts(side, g->parts)}};
   }
-  if (const auto family = family_of_group(kind)) {
-    const auto* g = s.element_group(kind, item.id);
-    return {{"elements", g == nullptr ? std::vector<Member>() : items(side, *family, *g)}};
-  }
+  if (const auto family = family_of_group(kind))
+    return one("elements", s.element_group(kind, item.id),
+               [&](const auto& g) { return items(side, *family, g); });
   return {};
 }
 
@@ -135,8 +127,6 @@ void Differ::members(const Item& a, const Item& b, std::string_view kind) {
     };
     c.lost = ids(lost);
     c.gained = ids(gained);
-    c.a = a.block->header_span;
-    c.b = b.block->header_span;
   }
 }
 

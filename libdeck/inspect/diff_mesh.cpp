@@ -5,7 +5,6 @@
 #include <map>
 
 #include "deck/text/number.hpp"
-#include "model/shared/connectivity.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {

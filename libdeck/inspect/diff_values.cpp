@@ -14,13 +14,10 @@
 
 namespace deck::detail {
 
-DiffValue Differ::value_of(std::int64_t v) { return v; }
+namespace {
 
-DiffValue Differ::value_of(double v) { return v; }
-
-DiffValue Differ::value_of(const std::string& v) { return v; }
-
-bool Differ::is_scale(const Schema& schema, std::string_view name) {
+/// Some axis of a function is scaled by the field of that name.
+bool is_scale(const Schema& schema, std::string_view name) {
   for (const CardSchema& card : schema.cards)
     for (const Field& f : card.fields)
       for (const Axis& axis : f.axes)
@@ -28,6 +25,49 @@ bool Differ::is_scale(const Schema& schema, std::string_view name) {
           return true;
   return false;
 }
+
+/// A number that the solver multiplies by that of another cell, with it (Field::over).
+std::optional<double> product_of(const DecodedBlock& d, const DecodedCard& card, const Cell& cell,
+                                 double value) {
+  const Field& f = *cell.field;
+  if (f.over.empty() || !holds(f.over_when, d, &card)) return std::nullopt;
+  const Cell* scale = cell_beside(d, card, cell, f.over);
+  return scale == nullptr || scale->real == 0 ? value : value * scale->real;
+}
+
+std::string field_name(const CellKey& key) {
+  const auto& [field, round, which] = key;
+  std::string out = field;
+  if (round > 1) out += fmt::format(" [{}]", round);
+  if (which > 0) out += fmt::format(" ({})", which + 1);
+  return out;
+}
+
+/// The number that counts, in working units. Blank may be 1 in the units of the block; other
+/// defaults are in working units already, and matter where these differ.
+double real_of(const Deck& deck, const DecodedBlock& d, const DecodedCard& card, const Cell& cell,
+               bool one, bool other_units) {
+  Cell c = cell;
+  if (c.real == 0 && one) c.real = 1;
+  if (c.real != 0 || !other_units) return working_value(deck, d, c, &card);
+  return ordinary_default(*c.field).value_or(0);
+}
+
+using Words = std::vector<std::pair<std::string, Span>>;
+
+void words_of(const Line& line, Words& out) {
+  const std::string_view text = line.text;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto begin = text.find_first_not_of(" \t,", at);
+    if (begin == text.npos) break;
+    const auto end = std::min(text.find_first_of(" \t,", begin), text.size());
+    out.emplace_back(text.substr(begin, end - begin),
+                     line.columns(static_cast<int>(begin) + 1, static_cast<int>(end)));
+    at = end;
+  }
+}
+
+}  // namespace
 
 auto Differ::fields_of(const DiffSide& side, const InterBase& inter) const
     -> std::vector<FieldValue> {
@@ -46,10 +86,10 @@ auto Differ::fields_of(const DiffSide& side, const InterBase& inter) const
       FieldValue f;
       f.name = name;
       f.has_input = e.has_input;
-      if (e.has_input) f.input = value_of(e.input);
+      if (e.has_input) f.input = e.input;
       // Nothing, where the mesh decides and was not asked.
       const bool waits = e.origin == Origin::geometry && !inter.resolved;
-      f.effective = waits ? DiffValue() : value_of(e.value);
+      f.effective = waits ? DiffValue() : DiffValue(e.value);
       f.why = to_string(e.origin);
       f.span = e.span;
       if (const Field* field = inter.block->schema->find_field(name)) {
@@ -126,26 +166,6 @@ void Differ::contact(const Item& a, const Item& b, const InterBase& ia, const In
   }
 }
 
-void Differ::words_of(const Line& line, Contents& out) const {
-  const std::string_view text = line.text;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto begin = text.find_first_not_of(" \t,", at);
-    if (begin == text.npos) break;
-    const auto end = std::min(text.find_first_of(" \t,", begin), text.size());
-    out.words.emplace_back(text.substr(begin, end - begin),
-                           line.columns(static_cast<int>(begin) + 1, static_cast<int>(end)));
-    at = end;
-  }
-}
-
-double Differ::real_of(const Deck& deck, const DecodedBlock& d, const DecodedCard& card,
-                       const Cell& cell, bool one) const {
-  Cell c = cell;
-  if (c.real == 0 && one) c.real = 1;
-  if (c.real != 0 || !other_units_) return working_value(deck, d, c, &card);
-  return ordinary_default(*c.field).value_or(0);
-}
-
 void Differ::absent_ones(const DiffSide& side, const DecodedBlock& d, const ImpliedOnes& ones,
                          bool rounded, Contents& out) const {
   for (const CardSchema& card : d.block->schema->cards) {
@@ -175,7 +195,7 @@ auto Differ::contents_of(const DiffSide& side, const Block& block) const -> Cont
   const Deck& deck = side.loaded.deck();
   if (block.opaque || block.schema == nullptr) {
     LineCursor cursor(deck.sources, block);
-    for (Line line = cursor.next(); line.valid(); line = cursor.next()) words_of(line, out);
+    for (Line line = cursor.next(); line.valid(); line = cursor.next()) words_of(line, out.words);
     return out;
   }
   const DecodedBlock d = decode(deck, block);
@@ -201,7 +221,7 @@ auto Differ::contents_of(const DiffSide& side, const Block& block) const -> Cont
       v.span = cell.span;
       v.field = &f;
       if (f.type == FieldType::real) {
-        const double x = real_of(deck, d, card, cell, ones.cells.contains(&cell));
+        const double x = real_of(deck, d, card, cell, ones.cells.contains(&cell), other_units_);
         if (x == 0) continue;  // the same as blank
         v.rounded = rounded;
         const Dimension dimension = dimension_of(f, d, &card);
@@ -222,26 +242,10 @@ auto Differ::contents_of(const DiffSide& side, const Block& block) const -> Cont
       out.cells.emplace(key, std::move(v));
     }
     if (!block.schema->layout_known() && card.cells.empty() && !card.missing())
-      words_of(card.line, out);
+      words_of(card.line, out.words);
   }
   absent_ones(side, d, ones, rounded, out);
-  for (const Line& line : d.extra) words_of(line, out);
-  return out;
-}
-
-std::optional<double> Differ::product_of(const DecodedBlock& d, const DecodedCard& card,
-                                         const Cell& cell, double value) {
-  const Field& f = *cell.field;
-  if (f.over.empty() || !holds(f.over_when, d, &card)) return std::nullopt;
-  const Cell* scale = cell_beside(d, card, cell, f.over);
-  return scale == nullptr || scale->real == 0 ? value : value * scale->real;
-}
-
-std::string Differ::field_name(const CellKey& key) {
-  const auto& [field, round, which] = key;
-  std::string out = field;
-  if (round > 1) out += fmt::format(" [{}]", round);
-  if (which > 0) out += fmt::format(" ({})", which + 1);
+  for (const Line& line : d.extra) words_of(line, out.words);
   return out;
 }
 
@@ -337,8 +341,6 @@ void Differ::id_lists(const Item& a, const Item& b, const std::string& name, con
   Change& c = add(ChangeKind::changed, a, &b, name);
   c.lost = std::move(lost);
   c.gained.assign(now.begin(), now.end());
-  c.a = a.block->header_span;
-  c.b = b.block->header_span;
 }
 
 }  // namespace deck::detail

@@ -11,10 +11,6 @@
 #include <vector>
 
 #include "deck/keyword/decode.hpp"
-#include "inspect/cell_key.hpp"
-#include "inspect/element_cells.hpp"
-#include "inspect/equal_numbers.hpp"
-#include "inspect/function_uses.hpp"
 #include "inspect/match.hpp"
 #include "inspect/shared/diff.hpp"
 #include "keyword/shared/implied_one.hpp"
@@ -30,23 +26,15 @@ class Differ {
  private:
   static constexpr Dimension length_dimension{0, 1, 0, 0};
 
+  /// At the headers of both.
   Change& add(ChangeKind kind, const Item& a, const Item* b, std::string field);
-
   void added_and_removed();
-
-  static bool is_function(const Block& b);
-
-  static std::int64_t function_id(const DiffSide& side, const Block& b);
-
   /// A function that only one deck has, for uses that the other gives the same curve by another.
   bool only_a_copy(const DiffSide& side, const Item& item) const;
 
   // one entity
 
   void item(const Item& a, const Item& b);
-
-  static const InterBase* inter_of(const DiffSide& side, const Block& block);
-
   // contacts
 
   struct FieldValue {
@@ -60,26 +48,14 @@ class Differ {
     bool counts = false;  ///< its default is a number that other units change
   };
 
-  static DiffValue value_of(std::int64_t v);
-  static DiffValue value_of(double v);
-  static DiffValue value_of(const std::string& v);
-
-  /// Some axis of a function is scaled by the field of that name.
-  static bool is_scale(const Schema& schema, std::string_view name);
-
   std::vector<FieldValue> fields_of(const DiffSide& side, const InterBase& inter) const;
-
   /// A value of the second deck in the working units of the first.
   DiffValue in_first_units(DiffValue v, const Dimension& d) const;
-
   /// What values of a dimension are measured against: lengths against the model.
   double size_of(const Dimension& d) const;
-
   bool same_value(const DiffValue& x, const DiffValue& y, std::string_view ref, double size,
                   bool rounded);
-
   bool same_id(std::string_view kind, std::int64_t x, std::int64_t y) const;
-
   void contact(const Item& a, const Item& b, const InterBase& ia, const InterBase& ib);
 
   // cells
@@ -101,34 +77,15 @@ class Differ {
     std::vector<std::pair<std::string, Span>> words;  ///< of lines that no schema describes
   };
 
-  void words_of(const Line& line, Contents& out) const;
-
-  /// The number that counts, in working units. Blank may be 1 in the units of the block; other
-  /// defaults are in working units already, and matter where these differ.
-  double real_of(const Deck& deck, const DecodedBlock& d, const DecodedCard& card, const Cell& cell,
-                 bool one) const;
-
   /// Scales whose line is missing are 1 as well.
   void absent_ones(const DiffSide& side, const DecodedBlock& d, const ImpliedOnes& ones,
                    bool rounded, Contents& out) const;
-
   Contents contents_of(const DiffSide& side, const Block& block) const;
-
-  /// A number that the solver multiplies by that of another cell, with it (Field::over).
-  static std::optional<double> product_of(const DecodedBlock& d, const DecodedCard& card,
-                                          const Cell& cell, double value);
-
-  static std::string field_name(const CellKey& key);
-
   /// What the solver uses where nothing is written.
   static bool is_default(const CellValue& v);
-
   bool same_cell(const CellValue& x, const CellValue& y);
-
   void cells(const Item& a, const Item& b);
-
   bool same_word(const std::string& x, const std::string& y);
-
   void id_lists(const Item& a, const Item& b, const std::string& name, const Contents& ca,
                 const Contents& cb);
 
@@ -137,18 +94,14 @@ class Differ {
   using Tuple = std::vector<NodeIndex>;  ///< nodes of a member, in the second deck's indices
 
   NodeIndex to_b(NodeIndex n) const;
-
-  /// A segment with its sense of rotation, whatever node it begins with.
-  static Tuple turned(Tuple t);
-
   struct Member {
     Tuple nodes;
     std::int64_t id = 0;  ///< for people: of the node or of the element behind it
     friend bool operator<(const Member& x, const Member& y) { return x.nodes < y.nodes; }
   };
 
-  std::int64_t element_id(const Model& m, Carrier carrier, std::uint32_t e) const;
-
+  template <class Items, class F>
+  std::vector<Member> by_nodes(const DiffSide& side, const Items& list, F&& in_order) const;
   std::vector<Member> segments(const DiffSide& side, const std::vector<Segment>& list) const;
   std::vector<Member> edges(const DiffSide& side, const std::vector<Edge>& list) const;
   std::vector<Member> nodes(const DiffSide& side, const std::vector<NodeIndex>& list) const;
@@ -160,15 +113,12 @@ class Differ {
   std::vector<std::pair<std::string, std::vector<Member>>> lists_of(const DiffSide& side,
                                                                     const Item& item,
                                                                     std::string_view kind) const;
-
   void members(const Item& a, const Item& b, std::string_view kind);
 
   // nodes and elements
 
   Change& loose(ChangeKind kind, std::string group, std::string keyword, std::int64_t id);
-
   void nodes();
-
   /// A length of either deck, each in its own units.
   bool same_length(double x, double y);
 
@@ -179,7 +129,6 @@ class Differ {
 
   /// Within these distances /CNODE merges its nodes with others.
   std::vector<Tolerance> tolerances_of(const DiffSide& side) const;
-
   void tolerances();
 
   struct PartElements {
@@ -189,16 +138,13 @@ class Differ {
 
   /// Elements by the part that has them, in the first deck where it is there.
   void elements();
-
   bool same_element(const Elements& fa, std::uint32_t e, const Elements& fb, std::uint32_t f);
-
   bool same_mid_nodes(const Elements& fa, std::uint32_t e, const Elements& fb,
                       std::uint32_t f) const;
 
   using RowCells = std::vector<ElementCell>;
 
   static const RowCells& cells_of(const ElementCells& all, ElementKind kind, std::uint32_t e);
-
   /// Angles and directions have no dimension.
   bool same_cells(const RowCells& x, const RowCells& y);
 
@@ -212,16 +158,13 @@ class Differ {
   using PenetrationKey = std::tuple<std::int64_t, std::string, std::array<std::int64_t, 2>>;
 
   std::map<PenetrationKey, Depth> deepest(const DiffSide& side) const;
-
   void penetrations();
-
   /// A deck that was renumbered is compared in vain by ids.
   void hint();
-
   void note_number_differences();
 
-  static constexpr std::size_t most_places =
-      1000;  ///< lines of moved nodes: found by reading again
+  /// Lines of moved nodes: found by reading again.
+  static constexpr std::size_t most_places = 1000;
 
   const DiffSide& a_;
   const DiffSide& b_;
@@ -237,8 +180,5 @@ class Differ {
   std::size_t placed_ = 0;
   DeckDiff out_;
 };
-
-/// True for the kinds of keywords that select nodes, segments, edges, parts or elements.
-bool is_selection_kind(std::string_view kind);
 
 }  // namespace deck::detail

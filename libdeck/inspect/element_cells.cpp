@@ -1,9 +1,7 @@
 // Collects the cells of element rows that the model has no place for.
-#include "inspect/element_cells.hpp"
+#include "inspect/match.hpp"
 
 #include <algorithm>
-
-#include "inspect/families.hpp"
 
 namespace deck::detail {
 namespace {

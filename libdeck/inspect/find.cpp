@@ -6,33 +6,17 @@
 
 #include "base/shared/spelling.hpp"
 #include "deck/text/number.hpp"
-#include "inspect/families.hpp"
+#include "inspect/match.hpp"
 #include "inspect/shared/show.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck {
-
-namespace detail {
-
-const Block* bulk_block(const std::vector<BulkBlock>& blocks, std::uint32_t block) {
-  return block < blocks.size() ? blocks[block].block : nullptr;
-}
-
-}  // namespace detail
-
 namespace {
 
 std::string in_lower_case(std::string_view text) {
   std::string out(text);
   for (char& c : out)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  return out;
-}
-
-std::string in_upper_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
   return out;
 }
 
@@ -103,8 +87,8 @@ class Finder {
       const std::uint32_t i = elements.map.find(id);
       if (i == no_index) return false;
       e.index = i;
-      e.block = detail::bulk_block(model_.element_blocks,
-                                   i < elements.block.size() ? elements.block[i] : no_index);
+      const std::uint32_t block = i < elements.block.size() ? elements.block[i] : no_index;
+      if (block < model_.element_blocks.size()) e.block = model_.element_blocks[block].block;
       e.kind = e.block != nullptr && e.block->schema != nullptr ? e.block->schema->kind
                                                                 : std::string(kind);
       e.span = model_.element_span(*family, i);
@@ -131,11 +115,9 @@ class Finder {
   Result<Entity> by_kind(std::string_view what, const std::string& kind, std::int64_t id) const {
     Entity e;
     if (item(kind, id, e)) return e;
-    constexpr std::string_view elements[] = {"shell", "sh3n",  "brick", "quad",
-                                             "tria",  "truss", "beam",  "spring"};
     if (kind == "element")
-      for (const std::string_view k : elements)
-        if (item(k, id, e)) return e;
+      for (const detail::FamilyName& family : detail::family_names())
+        if (item(family.id_kind, id, e)) return e;
     bool known = kind == "node" || kind == "element" || detail::family_of_kind(kind).has_value();
     for (const Block& b : deck_.blocks) {
       if (b.schema == nullptr || b.schema->bulk || b.schema->kind != kind) continue;
@@ -146,18 +128,16 @@ class Finder {
                       : known         ? fmt::format("there is no {} {}", kind, id)
                                       : fmt::format("the deck has no entity of kind '{}'", kind);
     if (!known) why += meant(kind, of_schemas(&Schema::kind));
-    if (const std::string others = with_id(id); !others.empty())
-      why += fmt::format("; {} is the id of {}", id, others);
-    return bad(what, why);
+    return bad(what, why + with_id(id));
   }
 
   Result<Entity> by_keyword(std::string_view what, std::string_view keyword,
                             std::int64_t id) const {
-    std::string wanted = in_upper_case(keyword);
+    std::string wanted = in_capitals(keyword);
     if (!wanted.starts_with('/')) wanted.insert(0, "/");
     const auto named = [&](const Schema& s) {
       const auto fits = [&](std::string_view k) {
-        return detail::is_below(k, wanted) || in_upper_case(k).ends_with(wanted);
+        return detail::is_below(k, wanted) || in_capitals(k).ends_with(wanted);
       };
       return fits(s.keyword) || std::any_of(s.aliases.begin(), s.aliases.end(), fits);
     };
@@ -175,22 +155,21 @@ class Finder {
     if (std::none_of(keywords.begin(), keywords.end(),
                      [&](const std::string& k) { return detail::is_below(k, wanted); }))
       why += meant(wanted, keywords);
-    if (const std::string others = with_id(id); !others.empty())
-      why += fmt::format("; {} is the id of {}", id, others);
-    return bad(what, why);
+    return bad(what, why + with_id(id));
   }
 
-  /// Everything with that id, as it can be asked for.
+  /// "; 3 is the id of part:3, mat:3": everything with that id, as it can be asked for.
   std::string with_id(std::int64_t id) const {
     std::string out;
     for (const auto& [kind, block] : Definitions(deck_).with_id(id))
       if (kind != "other") out += fmt::format("{}{}:{}", out.empty() ? "" : ", ", kind, id);
-    constexpr std::string_view items[] = {"node", "shell", "sh3n", "brick", "quad",
-                                          "tria", "truss", "beam", "spring"};
-    for (const std::string_view kind : items)
+    const auto add = [&](std::string_view kind) {
       if (Entity e; item(kind, id, e))
         out += fmt::format("{}{}:{}", out.empty() ? "" : ", ", kind, id);
-    return out;
+    };
+    add("node");
+    for (const detail::FamilyName& family : detail::family_names()) add(family.id_kind);
+    return out.empty() ? out : fmt::format("; {} is the id of {}", id, out);
   }
 
   const Deck& deck_;

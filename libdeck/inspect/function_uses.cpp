@@ -1,5 +1,5 @@
 // Pairs the uses of functions in two decks and compares the curves that they come to.
-#include "inspect/function_uses.hpp"
+#include "inspect/match.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +21,13 @@ Dimension plus(Dimension a, const Dimension& b, int sign = 1) {
   return a;
 }
 
+bool worth_reading(const Schema& s) {
+  for (const CardSchema& card : s.cards)
+    for (const Field& f : card.fields)
+      if (f.type == FieldType::id && f.ref == "funct") return true;
+  return false;
+}
+
 }  // namespace
 
 /// A number in working units of its deck.
@@ -40,17 +47,6 @@ struct FunctionUses::Quantity {
     dimension = plus(dimension, q.dimension, -1);
   }
 };
-
-namespace {
-
-bool worth_reading(const Schema& s) {
-  for (const CardSchema& card : s.cards)
-    for (const Field& f : card.fields)
-      if (f.type == FieldType::id && f.ref == "funct") return true;
-  return false;
-}
-
-}  // namespace
 
 /// One block with the names of its cells.
 struct FunctionUses::Named {

@@ -43,10 +43,6 @@ std::vector<Item> items_of(const Deck& deck) {
   return out;
 }
 
-constexpr std::array<ElementKind, 8> kinds = {
-    ElementKind::shell4, ElementKind::shell3, ElementKind::solid8, ElementKind::quad,
-    ElementKind::tria,   ElementKind::truss,  ElementKind::beam,   ElementKind::spring};
-
 class Matcher {
  public:
   Matcher(const DiffSide& a, const DiffSide& b, MatchBy match, double length)
@@ -59,11 +55,11 @@ class Matcher {
     blocks();
     out_.node_to_b.assign(a_.nodes.size(), no_index);
     used_node_.assign(b_.nodes.size(), 0);
-    for (const ElementKind k : kinds)
+    for (const ElementKind k : all_families)
       out_.element_to_b[at(k)].assign(a_.family(k).size(), no_index);
     if (match_ != MatchBy::position) {
       by_id(a_.nodes.id, b_.nodes.id, [&](NodeIndex n, NodeIndex m) { pair_nodes(n, m); });
-      for (const ElementKind k : kinds)
+      for (const ElementKind k : all_families)
         by_id(a_.family(k).id, b_.family(k).id,
               [&](std::uint32_t e, std::uint32_t f) { out_.element_to_b[at(k)][e] = f; });
     } else {
@@ -128,12 +124,13 @@ class Matcher {
       for (auto& [space, lists] : left) {
         auto& [la, lb] = lists;
         if (la.size() != lb.size()) continue;
-        std::stable_sort(la.begin(), la.end(), [&](std::uint32_t x, std::uint32_t y) {
-          return out_.items_a[x].id < out_.items_a[y].id;
-        });
-        std::stable_sort(lb.begin(), lb.end(), [&](std::uint32_t x, std::uint32_t y) {
-          return out_.items_b[x].id < out_.items_b[y].id;
-        });
+        const auto sort = [](std::vector<std::uint32_t>& list, const std::vector<Item>& items) {
+          std::stable_sort(list.begin(), list.end(), [&](std::uint32_t x, std::uint32_t y) {
+            return items[x].id < items[y].id;
+          });
+        };
+        sort(la, out_.items_a);
+        sort(lb, out_.items_b);
         for (std::size_t i = 0; i < la.size(); ++i) {
           out_.block_to_b[la[i]] = lb[i];
           used_[lb[i]] = 1;
@@ -187,20 +184,19 @@ class Matcher {
       return std::tuple(std::get<0>(k), std::get<1>(k), std::get<2>(k));
     };
     for (std::size_t i = 0, j = 0; i < ka.size() && j < kb.size();) {
-      if (place(ka[i]) < place(kb[j])) {
+      if (place(ka[i]) < place(kb[j]))
         ++i;
-      } else if (place(kb[j]) < place(ka[i])) {
+      else if (place(kb[j]) < place(ka[i]))
         ++j;
-      } else {
+      else
         pair_nodes(std::get<4>(ka[i++]), std::get<4>(kb[j++]));
-      }
     }
   }
 
   /// A node that moved: its elements have a counterpart that is the same but for such nodes.
   bool nodes_by_elements() {
     bool found = false;
-    for (const ElementKind k : kinds) {
+    for (const ElementKind k : all_families) {
       const Elements& fa = a_.family(k);
       const Elements& fb = b_.family(k);
       std::map<std::vector<NodeIndex>, std::pair<int, std::uint32_t>> of_b;
@@ -247,7 +243,7 @@ class Matcher {
   }
 
   void elements_by_nodes() {
-    for (const ElementKind k : kinds) {
+    for (const ElementKind k : all_families) {
       const Elements& fa = a_.family(k);
       const Elements& fb = b_.family(k);
       using Key = std::pair<std::vector<NodeIndex>, std::uint32_t>;

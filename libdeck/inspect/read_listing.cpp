@@ -7,26 +7,18 @@
 #include "deck/text/number.hpp"
 #include "deck/text/source.hpp"
 #include "inspect/shared/listing.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace listing_reading {
 namespace {
 
+using detail::words_of;
+
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == text.npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
-}
-
-std::vector<std::string_view> words_of(std::string_view text) {
-  std::vector<std::string_view> out;
-  std::size_t at = 0;
-  while ((at = text.find_first_not_of(' ', at)) != text.npos) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    out.push_back(text.substr(at, end - at));
-    at = end;
-  }
-  return out;
 }
 
 std::optional<std::int64_t> whole(std::string_view text) {

@@ -6,18 +6,15 @@
 #include <tuple>
 
 #include "deck/model/selection.hpp"
-#include "inspect/families.hpp"
+#include "inspect/match.hpp"
 #include "inspect/shared/show.hpp"
-#include "model/shared/connectivity.hpp"
 #include "model/shared/families.hpp"
 #include "model/shared/kinematics.hpp"
 
 namespace deck {
 namespace {
 
-std::string shown_keyword(const Block& b) {
-  return b.schema != nullptr ? b.schema->keyword : std::string(b.keyword);
-}
+using detail::shown_keyword;
 
 class Viewer {
  public:
@@ -229,20 +226,19 @@ class Viewer {
     for (const Block& b : deck_.blocks) {
       if (b.schema == nullptr || b.schema->kind != "inter") continue;
       for (const Reference& r : references_of(deck_, b)) {
+        const auto has_one = [&](const auto& list) {
+          return std::any_of(list.begin(), list.end(), [&](const auto& x) {
+            return has_carrier(x.carrier, x.element, x.nodes);
+          });
+        };
         bool in = false;
         if (r.kind == "grnod") {
           if (const NodeSet* s = selections_.node_group(r.id))
             in = std::any_of(s->nodes.begin(), s->nodes.end(), has_node);
         } else if (r.kind == "surf") {
-          if (const Surface* s = selections_.surface(r.id))
-            in = std::any_of(s->segments.begin(), s->segments.end(), [&](const Segment& x) {
-              return has_carrier(x.carrier, x.element, x.nodes);
-            });
+          if (const Surface* s = selections_.surface(r.id)) in = has_one(s->segments);
         } else if (r.kind == "line") {
-          if (const LineSet* s = selections_.line(r.id))
-            in = std::any_of(s->edges.begin(), s->edges.end(), [&](const Edge& x) {
-              return has_carrier(x.carrier, x.element, x.nodes);
-            });
+          if (const LineSet* s = selections_.line(r.id)) in = has_one(s->edges);
         }
         if (in) view_.interfaces.push_back(user(b, r.field, r.span));
       }
@@ -295,20 +291,19 @@ class Viewer {
   /// What holds a node, in the order in which the solver books it.
   void conditions(NodeIndex n) {
     const Kinematics k = read_kinematics(model_);
+    const auto name = [&](std::uint32_t source) {
+      const ConditionSource& c = k.sources[source];
+      return c.block->schema->keyword + " " + std::to_string(c.id);
+    };
     for (const std::uint32_t s : k.of(n)) {
-      const ConditionSource& c = k.sources[s];
       // Whether a tie holds the node is for the search of ties to say.
-      const bool tie = c.block->schema->keyword == "/INTER/TYPE2";
-      fact("kinematic condition", c.block->schema->keyword + " " + std::to_string(c.id) +
-                                      (tie ? " (if it finds a segment)" : ""));
+      const bool tie = k.sources[s].block->schema->keyword == "/INTER/TYPE2";
+      fact("kinematic condition", name(s) + (tie ? " (if it finds a segment)" : ""));
     }
     std::set<std::pair<std::uint32_t, std::uint32_t>> told;  // a pair conflicts in each direction
     for (const KinematicConflict& b : k.bookings) {
       if (b.node != n || !told.emplace(b.earlier, b.later).second) continue;
-      fact("kinematic conflict", k.sources[b.earlier].block->schema->keyword + " " +
-                                     std::to_string(k.sources[b.earlier].id) + " and " +
-                                     k.sources[b.later].block->schema->keyword + " " +
-                                     std::to_string(k.sources[b.later].id));
+      fact("kinematic conflict", name(b.earlier) + " and " + name(b.later));
     }
   }
 

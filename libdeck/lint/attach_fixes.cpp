@@ -1,10 +1,9 @@
 // Adds the edits that mend findings of the reader.
-#include "lint/attach_fixes.hpp"
+#include "lint/shared/fix.hpp"
 
 #include <algorithm>
 
 #include "keyword/shared/reader.hpp"
-#include "lint/shared/fix.hpp"
 
 namespace deck::detail {
 namespace {

@@ -1,16 +1,36 @@
-// Small helpers that the checks share. Private to the lint stage.
+// What the checks share: the context they look at, names and places for findings, targets of ids,
+// limits of values, and which function looks for the violations of which rule. Private to the lint
+// stage.
 #pragma once
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "deck/keyword/schema.hpp"
 #include "deck/lint/lint.hpp"
-#include "lint/context.hpp"
+#include "deck/text/diagnostic.hpp"
 #include "lint/shared/fix.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
+
+/// Decodes every block that has a schema and is not read by the fast path; findings go to `sink`.
+LintContext build_context(const LoadedDeck& loaded, Diagnostics& sink);
+
+/// Formats a value the way people write it: whole numbers without a point, else up to six digits.
+std::string number_text(double value);
+
+/// The beginning of a text that may be arbitrarily long.
+inline std::string clipped(std::string_view text, std::size_t longest = 60) {
+  return std::string(text.substr(0, longest)) + (text.size() > longest ? "…" : "");
+}
 
 /// Calls f(card) for the interfaces of the types that the rule is true for.
 template <class F>
@@ -20,10 +40,67 @@ void each(const LintContext& c, const Rule& rule, F&& f) {
       if (card.type == type) f(card);
 }
 
-/// "/INTER/TYPE7 3"
-inline std::string name_of(const ContactCard& card) {
-  return card.decoded.block->schema->keyword + " " + std::to_string(card.block->id.value);
+/// "/INTER/TYPE7 3", of a block with a schema.
+inline std::string name_of(const DecodedBlock& d) {
+  return d.block->schema->keyword + " " + std::to_string(d.block->id.value);
 }
+inline std::string name_of(const ContactCard& card) { return name_of(card.decoded); }
+
+/// Of a cell with a number.
+inline double number_of(const Cell& cell) {
+  return cell.field->type == FieldType::real ? cell.real : static_cast<double>(cell.integer);
+}
+
+/// The columns of a cell, or the header where it or its line is missing.
+inline Span place_of(const DecodedBlock& d, const Cell* cell) {
+  return cell != nullptr && cell->span.valid() ? cell->span : d.block->header_span;
+}
+inline Span place_of(const DecodedBlock& d, std::string_view field) {
+  return place_of(d, d.find(field));
+}
+
+/// Calls f(card, cell) for the cells of a block.
+template <class F>
+void each_cell(const DecodedBlock& d, F&& f) {
+  for (const DecodedCard& card : d.cards)
+    for (const Cell& cell : card.cells) f(card, cell);
+}
+
+/// Calls f(block) for the blocks of a keyword that can be read.
+template <class F>
+void each_block(const LintContext& c, std::string_view keyword, F&& f) {
+  for (const Block& b : c.deck.blocks)
+    if (b.schema != nullptr && !b.opaque && b.schema->keyword == keyword) f(b);
+}
+
+/// The Ipri cell of /IOFLAG: how detailed the solver's listing is; its value is 0 where there is
+/// none.
+Cell printout_level(const LintContext& c);
+
+/// By node: one of those that `each(f)` calls f(node) for.
+template <class Each>
+std::vector<bool> marked(const Model& model, Each&& each) {
+  std::vector<bool> out(model.nodes.size(), false);
+  each([&](NodeIndex n) {
+    if (n != no_index) out[n] = true;
+  });
+  return out;
+}
+
+/// The first of several interfaces that one finding is about.
+struct FirstCard {
+  const ContactCard* card = nullptr;
+  std::size_t others = 0;
+  /// True for the first one.
+  bool add(const ContactCard& c) {
+    if (card != nullptr) {
+      ++others;
+      return false;
+    }
+    card = &c;
+    return true;
+  }
+};
 
 /// Legal values of a flag: "0, 1 or 4".
 inline std::string list_of(const std::vector<std::int64_t>& values) {
@@ -67,5 +144,107 @@ inline void fix_field(Diagnostic* d, const LintContext& c, const ContactCard& ca
   }
   d->fix = std::move(fix);
 }
+
+/// True if f(field) holds for a field of the rule; f("") for a rule without fields.
+template <class F>
+bool any_name(const Rule& rule, F&& f) {
+  if (rule.fields.empty()) return f(std::string_view());
+  return std::any_of(rule.fields.begin(), rule.fields.end(),
+                     [&](const RuleField& field) { return f(std::string_view(field.name)); });
+}
+
+struct Checked {
+  RuleId id;
+  void (*check)(const LintContext&, const Rule&, Reporter&);
+};
+
+std::span<const Checked> cell_checks();         // predicates of cells, on the pages of rules
+std::span<const Checked> header_checks();       // keywords, titles, versions
+std::span<const Checked> target_checks();       // ids of loads
+std::span<const Checked> history_checks();      // time histories
+std::span<const Checked> physics_checks();      // density, stiffness, mass
+std::span<const Checked> element_checks();      // elements, functions
+std::span<const Checked> reference_checks();    // what interfaces and frictions refer to
+std::span<const Checked> value_checks();        // flags and ranges of numbers
+std::span<const Checked> load_checks();         // loads, walls, particles (SPH)
+std::span<const Checked> line_checks();         // optional lines
+std::span<const Checked> combination_checks();  // fields that contradict
+std::span<const Checked> ignored_checks();      // fields without effect
+std::span<const Checked> difference_checks();   // where manual and solver differ
+std::span<const Checked> companion_checks();    // what belongs beside a contact
+std::span<const Checked> default_checks();      // /DEFAULT/INTER
+std::span<const Checked> advice_checks();       // known traps
+std::span<const Checked> engine_checks();       // Engine files beside the deck
+std::span<const Checked> kinematic_checks();    // conditions that hold the same node
+std::span<const Checked> sense_checks();        // units, volumes, masses of the model
+std::span<const Checked> listing_checks();      // what the solver says in its listing only
+
+/// All of them, ordered by id.
+const std::vector<Checked>& all_checks();
+
+/// A check of single blocks. Every block is decoded once for all the checks that want its keyword.
+struct BlockChecked {
+  RuleId id;
+  bool (*wants)(const Rule&, const Schema&);
+  void (*check)(const LintContext&, const Rule&, Reporter&, const DecodedBlock&);
+};
+
+std::span<const BlockChecked> limit_checks();  // values of which the solver speaks
+std::span<const BlockChecked> bound_checks();  // what schemas allow elsewhere
+
+const std::vector<BlockChecked>& all_block_checks();
+
+/// "/GRNOD" for "grnod", "node" for "node": how people name the kind of an entity.
+std::string_view kind_name(std::string_view kind);
+
+/// A /GRNOD, /SURF or /LINE (`kind` "grnod", "surf", "line"), or a /SET in its place.
+bool selection_exists(const LintContext& c, std::string_view kind, std::int64_t id);
+
+/// "/GRNOD 5" where there is one, else "/SET 5".
+std::string selection_name(const LintContext& c, std::string_view kind, std::int64_t id);
+
+/// Nodes, segments or edges of such a selection.
+std::size_t selection_size(const LintContext& c, std::string_view kind, std::int64_t id);
+
+/// False if members were left out (DK332): the selection may have members.
+bool selection_is_empty(const LintContext& c, std::string_view kind, std::int64_t id);
+
+/// Whether the entity exists; no value: not known (no model, or a kind without a table).
+std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id);
+
+/// The field of a block that names what it acts on, and whether that is there; nullptr: no such
+/// field.
+std::pair<const Field*, bool> acts_on(const LintContext& c, const DecodedBlock& d);
+
+/// The field that names what the block acts on, where the solver passes over the block and checks
+/// nothing of it: its target is 0, or there is none and no such block has any. Else nullptr.
+const Field* acts_on_nothing(const LintContext& c, const DecodedBlock& d);
+
+/// A number in a cell of that name. A cell that is blank or not there is 0.
+struct NumberTest {
+  std::string field;
+  std::vector<double> is, is_not;  ///< one of these (empty: not tested), and none of these
+  std::optional<double> above, below, at_least, at_most;
+  bool holds(double value) const;
+};
+
+/// Values of one cell, while all of `when` hold. Without a cell the solver speaks of the keyword.
+struct Limit {
+  std::string keyword;
+  NumberTest of;
+  bool sum = false;   ///< the sum of all cells of that name is tested
+  std::string not_a;  ///< an id: what it names exists, and is no such keyword ("/MAT/GAS")
+  std::vector<NumberTest> when;
+  Severity severity = Severity::error;  ///< info: only some builds of the solver speak of it
+  int message = 0;
+  std::string rule;        ///< rule that reports it
+  std::string says;        ///< what the message says, one line
+  std::string fix;         ///< what to write instead, where that is more than the legal range
+  std::string known_from;  ///< what shows that the solver does so
+};
+
+const std::vector<Limit>& all_limits();
+/// Those of a keyword.
+const std::vector<const Limit*>& limits_of(const Schema& schema);
 
 }  // namespace deck::detail

@@ -61,19 +61,30 @@ Error config_error(const std::string& path, std::uint64_t line, const std::strin
 
 std::uint64_t line_of(const toml::node& node) { return node.source().begin.line; }
 
-/// A list of strings; `rules`: each must select a known rule.
-Result<std::vector<std::string>> string_list(const toml::node& node, const std::string& path,
-                                             std::string_view key) {
+/// Thrown from where a value is read to where the file is.
+struct ConfigProblem {
+  std::uint64_t line;
+  std::string what;
+};
+
+[[noreturn]] void fail(const toml::node& node, std::string what) {
+  throw ConfigProblem{line_of(node), std::move(what)};
+}
+
+const toml::table& table_of(const toml::node& node, std::string what) {
+  if (const toml::table* table = node.as_table()) return *table;
+  fail(node, std::move(what));
+}
+
+/// A list of strings that select known rules.
+std::vector<std::string> string_list(const toml::node& node, std::string_view key) {
   const toml::array* array = node.as_array();
-  if (array == nullptr)
-    return config_error(path, line_of(node), "'" + std::string(key) + "' is not a list of strings");
+  if (array == nullptr) fail(node, "'" + std::string(key) + "' is not a list of strings");
   std::vector<std::string> out;
   for (const toml::node& item : *array) {
     const auto text = item.value<std::string>();
-    if (!text)
-      return config_error(path, line_of(item),
-                          "'" + std::string(key) + "' holds something that is not a string");
-    if (!known_selector(*text)) return config_error(path, line_of(item), unknown_selector(*text));
+    if (!text) fail(item, "'" + std::string(key) + "' holds something that is not a string");
+    if (!known_selector(*text)) fail(item, unknown_selector(*text));
     out.push_back(*text);
   }
   return out;
@@ -86,32 +97,23 @@ std::optional<Severity> severity_of(std::string_view text) {
   return std::nullopt;
 }
 
-Result<void> read_severity(const toml::node& node, LintConfig& config) {
-  const toml::table* table = node.as_table();
-  if (table == nullptr)
-    return config_error(config.path, line_of(node), "'severity' is not a table");
-  for (const auto& [key, value] : *table) {
+void read_severity(const toml::node& node, LintConfig& config) {
+  for (const auto& [key, value] : table_of(node, "'severity' is not a table")) {
     const auto text = value.value<std::string>();
     const auto severity = text ? severity_of(*text) : std::nullopt;
-    if (!severity)
-      return config_error(config.path, line_of(value),
-                          "a severity is \"error\", \"warning\" or \"info\"");
-    if (!known_selector(key.str()))
-      return config_error(config.path, line_of(value), unknown_selector(key.str()));
+    if (!severity) fail(value, "a severity is \"error\", \"warning\" or \"info\"");
+    if (!known_selector(key.str())) fail(value, unknown_selector(key.str()));
     config.severity[std::string(key.str())] = *severity;
     config.lines["severity." + std::string(key.str())] = line_of(value);
   }
-  return {};
 }
 
 /// A bound of the gate; false: `name` is none.
-Result<bool> read_bound(std::string_view name, const toml::node& node, const std::string& path,
-                        GateLimits& limits) {
+bool read_bound(std::string_view name, const toml::node& node, GateLimits& limits) {
   if (name == "max-count" || name == "max-untied") {
     const auto count = node.value<std::int64_t>();
     if (!node.is_integer() || *count < 0)
-      return config_error(path, line_of(node),
-                          "'" + std::string(name) + "' is a whole number, 0 or more");
+      fail(node, "'" + std::string(name) + "' is a whole number, 0 or more");
     (name == "max-count" ? limits.max_count : limits.max_untied) =
         static_cast<std::uint64_t>(*count);
     return true;
@@ -123,24 +125,20 @@ Result<bool> read_bound(std::string_view name, const toml::node& node, const std
   if (bound == nullptr) return false;
   const auto number = node.value<double>();
   if (!node.is_number() || !(*number >= 0))
-    return config_error(path, line_of(node), "'" + std::string(name) + "' is a number, 0 or more");
+    fail(node, "'" + std::string(name) + "' is a number, 0 or more");
   // Nothing would ever be beyond a share of more than the whole: 30 % is 0.3.
   if (*number > 1 && name != "max-depth")
-    return config_error(path, line_of(node), "'" + std::string(name) + "' is a share from 0 to 1");
+    fail(node, "'" + std::string(name) + "' is a share from 0 to 1");
   *bound = *number;
   return true;
 }
 
 /// One table of [[gate.interface]] (`patterns` 1) or [[gate.part-pair]] (2).
-Result<GateScope> read_scope(const toml::node& node, const std::string& path,
-                             std::size_t patterns) {
-  const toml::table* table = node.as_table();
+GateScope read_scope(const toml::node& node, std::size_t patterns) {
   const std::string form = patterns == 1 ? "a pattern of the id or title of an interface"
                                          : "a list of two patterns of ids or titles of parts";
-  if (table == nullptr)
-    return config_error(path, line_of(node), "this is not a table with 'match' and bounds");
   GateScope scope;
-  for (const auto& [key, value] : *table) {
+  for (const auto& [key, value] : table_of(node, "this is not a table with 'match' and bounds")) {
     if (key.str() == "match") {
       if (const auto text = value.value<std::string>()) {
         scope.match = {*text};
@@ -148,39 +146,30 @@ Result<GateScope> read_scope(const toml::node& node, const std::string& path,
         for (const toml::node& item : *list)
           if (const auto text_of = item.value<std::string>()) scope.match.push_back(*text_of);
       }
-      if (scope.match.size() != patterns)
-        return config_error(path, line_of(value), "'match' is " + form);
+      if (scope.match.size() != patterns) fail(value, "'match' is " + form);
       continue;
     }
-    const auto known = read_bound(key.str(), value, path, scope.limits);
-    if (!known) return known.error();
-    if (!*known || (patterns == 2 && key.str() == "max-dt-loss"))
-      return config_error(
-          path, line_of(value),
-          "unknown key '" + std::string(key.str()) + "'; known: " +
-              known_config_keys(patterns == 1 ? "gate.interface" : "gate.part-pair"));
+    const bool known = read_bound(key.str(), value, scope.limits);
+    if (!known || (patterns == 2 && key.str() == "max-dt-loss"))
+      fail(value, "unknown key '" + std::string(key.str()) + "'; known: " +
+                      known_config_keys(patterns == 1 ? "gate.interface" : "gate.part-pair"));
   }
-  if (scope.match.empty()) return config_error(path, line_of(node), "'match' is missing: " + form);
+  if (scope.match.empty()) fail(node, "'match' is missing: " + form);
   return scope;
 }
 
-Result<void> read_gate(const toml::node& node, LintConfig& config) {
-  const toml::table* table = node.as_table();
-  if (table == nullptr) return config_error(config.path, line_of(node), "'gate' is not a table");
-  for (const auto& [key, value] : *table) {
+void read_gate(const toml::node& node, LintConfig& config) {
+  for (const auto& [key, value] : table_of(node, "'gate' is not a table")) {
     const bool of_interface = key.str() == "interface";
     if (of_interface || key.str() == "part-pair") {
       const toml::array* list = value.as_array();
       if (list == nullptr)
-        return config_error(config.path, line_of(value),
-                            "expected [[gate." + std::string(key.str()) + "]], a list of tables");
+        fail(value, "expected [[gate." + std::string(key.str()) + "]], a list of tables");
       for (const toml::node& item : *list) {
-        auto scope = read_scope(item, config.path, of_interface ? 1 : 2);
-        if (!scope) return scope.error();
         auto& scopes = of_interface ? config.gate.interfaces : config.gate.part_pairs;
         config.lines["gate." + std::string(key.str()) + "[" + std::to_string(scopes.size()) + "]"] =
             line_of(item);
-        scopes.push_back(std::move(*scope));
+        scopes.push_back(read_scope(item, of_interface ? 1 : 2));
       }
       continue;
     }
@@ -193,16 +182,12 @@ Result<void> read_gate(const toml::node& node, LintConfig& config) {
         legal = word == "new" || word == "worse";
         (word == "new" ? config.gate.on_fresh : config.gate.on_worse) = true;
       }
-      if (!legal)
-        return config_error(config.path, line_of(value),
-                            "'fail-on' of the gate is a list of \"new\" and \"worse\"");
+      if (!legal) fail(value, "'fail-on' of the gate is a list of \"new\" and \"worse\"");
       continue;
     }
     if (key.str() == "compare" || key.str() == "baseline") {
       const auto text = value.value<std::string>();
-      if (!text)
-        return config_error(config.path, line_of(value),
-                            "'" + std::string(key.str()) + "' is not a path");
+      if (!text) fail(value, "'" + std::string(key.str()) + "' is not a path");
       const bool compare = key.str() == "compare";
       // "git:REV" is the deck at a revision, no file.
       (compare ? config.compare : config.accepted) =
@@ -211,65 +196,47 @@ Result<void> read_gate(const toml::node& node, LintConfig& config) {
               : (fs::path(config.path).parent_path() / *text).string();
       continue;
     }
-    const auto known = read_bound(key.str(), value, config.path, config.gate.general);
-    if (!known) return known.error();
-    if (!*known)
-      return config_error(
-          config.path, line_of(value),
-          "unknown key '" + std::string(key.str()) + "'; known: " + known_config_keys("gate"));
+    if (!read_bound(key.str(), value, config.gate.general))
+      fail(value,
+           "unknown key '" + std::string(key.str()) + "'; known: " + known_config_keys("gate"));
   }
-  return {};
 }
 
-Result<void> read_key(std::string_view key, const toml::node& node, LintConfig& config) {
+void read_key(std::string_view key, const toml::node& node, LintConfig& config) {
   config.lines[std::string(key)] = line_of(node);
   if (key == "select" || key == "ignore") {
-    auto list = string_list(node, config.path, key);
-    if (!list) return list.error();
-    (key == "select" ? config.select : config.ignore) = std::move(*list);
-    return {};
+    (key == "select" ? config.select : config.ignore) = string_list(node, key);
+    return;
   }
   if (key == "fail-on") {
     const auto text = node.value<std::string>();
     if (!text || (*text != "error" && *text != "warning" && *text != "never"))
-      return config_error(config.path, line_of(node),
-                          "'fail-on' is \"error\", \"warning\" or \"never\"");
+      fail(node, "'fail-on' is \"error\", \"warning\" or \"never\"");
     config.fail_on = *text;
-    return {};
+    return;
   }
   if (key == "baseline") {
     const auto text = node.value<std::string>();
-    if (!text) return config_error(config.path, line_of(node), "'baseline' is not a path");
+    if (!text) fail(node, "'baseline' is not a path");
     config.baseline = (fs::path(config.path).parent_path() / *text).string();
-    return {};
+    return;
   }
   if (key == "geometry") {
     config.geometry = node.value_exact<bool>();
-    if (!config.geometry)
-      return config_error(config.path, line_of(node), "'geometry' is true or false");
-    return {};
+    if (!config.geometry) fail(node, "'geometry' is true or false");
+    return;
   }
   if (key == "severity") return read_severity(node, config);
   if (key == "gate") return read_gate(node, config);
   if (key == "per-file-ignores") {
-    const toml::table* table = node.as_table();
-    if (table == nullptr)
-      return config_error(config.path, line_of(node), "'per-file-ignores' is not a table");
-    for (const auto& [glob, rules] : *table) {
-      auto list = string_list(rules, config.path, glob.str());
-      if (!list) return list.error();
-      config.per_file_ignores.emplace_back(std::string(glob.str()), std::move(*list));
+    for (const auto& [glob, rules] : table_of(node, "'per-file-ignores' is not a table")) {
+      config.per_file_ignores.emplace_back(std::string(glob.str()), string_list(rules, glob.str()));
       config.lines["per-file-ignores." + std::string(glob.str())] = line_of(rules);
     }
-    return {};
+    return;
   }
-  return config_error(config.path, line_of(node),
-                      "unknown key '" + std::string(key) + "'; known: " + known_config_keys(""));
+  fail(node, "unknown key '" + std::string(key) + "'; known: " + known_config_keys(""));
 }
-
-}  // namespace
-
-namespace {
 
 struct Unreadable {
   std::uint64_t line = 0;  ///< 0: none
@@ -328,12 +295,13 @@ Result<LintConfig> parse_lint_config(std::string_view text, const std::string& p
                         std::string(parsed.error().description()));
   LintConfig config;
   config.path = path;
-  for (const auto& [key, node] : parsed.table())
-    if (auto done = read_key(key.str(), node, config); !done) return done.error();
+  for (const auto& [key, node] : parsed.table()) read_key(key.str(), node, config);
   if (config.geometry == false && config.gated())
     return config_error(path, config.lines["geometry"],
                         "'geometry = false' would switch off the gate of [gate]");
   return config;
+} catch (const ConfigProblem& problem) {
+  return config_error(path, problem.line, problem.what);
 } catch (const ParserLost&) {
   return config_error(
       path, 0, "is not TOML: a table or key begins with a character that is not allowed there");

@@ -1,5 +1,5 @@
 // Collects what the rules share: decoded cards, what is defined and what is referred to.
-#include "lint/context.hpp"
+#include "lint/check.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 
 #include "base/shared/length_text.hpp"
 #include "keyword/shared/references.hpp"
-#include "lint/targets.hpp"
 
 namespace deck {
 namespace {
@@ -60,8 +59,7 @@ void add_plain_fields(ContactCard& card) {
       if (card.find(cell.field->name) != nullptr) continue;
       FieldView v;
       v.name = cell.field->name;
-      v.value = v.input =
-          cell.field->type == FieldType::real ? cell.real : static_cast<double>(cell.integer);
+      v.value = v.input = detail::number_of(cell);
       v.has_input = !cell.blank();
       v.origin = Origin::card;
       v.span = cell.span;
@@ -92,7 +90,7 @@ double ContactCard::value(std::string_view name) const {
 }
 
 std::int64_t ContactCard::flag(std::string_view name) const {
-  const auto v = static_cast<std::int64_t>(value(name));
+  const std::int64_t v = id(name);
   return v == 1000 ? 0 : v;
 }
 
@@ -124,17 +122,21 @@ std::string ContactCard::show(std::string_view name) const {
   return head + detail::number_text(f->value) + source;
 }
 
-std::int64_t LintContext::resolved(const Block& block, std::string_view kind,
-                                   std::int64_t id) const {
-  return id > 0 ? id + deck.offset_of(block, kind) : id;
-}
-
 namespace detail {
 
 std::string number_text(double value) {
   if (value == std::floor(value) && std::fabs(value) < 1e15)
     return std::to_string(static_cast<std::int64_t>(value));
   return length_text(value);
+}
+
+Cell printout_level(const LintContext& c) {
+  for (const Block& b : c.deck.blocks) {
+    if (b.schema == nullptr || b.schema->keyword != "/IOFLAG") continue;
+    const DecodedBlock d = decode(c.deck, b);
+    if (const Cell* cell = d.find("Ipri")) return *cell;
+  }
+  return {};
 }
 
 namespace {

@@ -11,11 +11,10 @@
 
 #include "base/shared/count.hpp"
 #include "base/shared/paths.hpp"
-#include "deck/model/coverage.hpp"
-#include "lint/attach_fixes.hpp"
-#include "lint/check_tables.hpp"
-#include "lint/context.hpp"
+#include "deck/model/interfaces.hpp"
+#include "lint/check.hpp"
 #include "lint/shared/config.hpp"
+#include "lint/shared/fix.hpp"
 #include "lint/suppress.hpp"
 
 namespace deck {

@@ -1,7 +1,7 @@
 // Families and selectors of rules; the list of all checks.
 #include <algorithm>
 
-#include "lint/check_tables.hpp"
+#include "lint/check.hpp"
 
 namespace deck {
 
@@ -62,12 +62,11 @@ const std::vector<detail::Checked>& detail::all_checks() {
   static const std::vector<Checked> checks = [] {
     std::vector<Checked> out;
     for (const auto table :
-         {header_checks(),    target_checks(),  load_checks(),       history_checks(),
-          physics_checks(),   element_checks(), reference_checks(),  friction_checks(),
-          flag_checks(),      value_checks(),   line_checks(),       combination_checks(),
-          ignored_checks(),   manual_checks(),  difference_checks(), companion_checks(),
-          default_checks(),   advice_checks(),  engine_checks(),     listing_checks(),
-          kinematic_checks(), sense_checks()})
+         {cell_checks(),       header_checks(),    target_checks(),      load_checks(),
+          history_checks(),    physics_checks(),   element_checks(),     reference_checks(),
+          value_checks(),      line_checks(),      combination_checks(), ignored_checks(),
+          difference_checks(), companion_checks(), default_checks(),     advice_checks(),
+          engine_checks(),     listing_checks(),   kinematic_checks(),   sense_checks()})
       out.insert(out.end(), table.begin(), table.end());
     std::sort(out.begin(), out.end(),
               [](const Checked& a, const Checked& b) { return a.id < b.id; });

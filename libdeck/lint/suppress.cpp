@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "lint/context.hpp"
+#include "lint/check.hpp"
 
 namespace deck::detail {
 namespace {

@@ -10,7 +10,7 @@
 namespace deck::detail {
 
 struct Suppression {
-  std::vector<std::string> rules;  ///< selectors (deck/lint/rule.hpp)
+  std::vector<std::string> rules;  ///< selectors (deck/lint/lint.hpp)
   std::string reason;
   bool whole_file = false;
   std::uint32_t file = 0;

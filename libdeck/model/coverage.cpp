@@ -1,5 +1,5 @@
 // Interfaces that are examined and those that are not, and the words for it.
-#include "deck/model/coverage.hpp"
+#include "deck/model/interfaces.hpp"
 #include "deck/text/rule_id.hpp"
 
 #include <algorithm>
@@ -63,8 +63,7 @@ Coverage coverage_of(const Deck& deck, const Interfaces& interfaces, Examined ex
     if (!b.header.starts_with("/INTER/") || b.header.starts_with("/INTER/SUB") ||
         known.contains(&b))
       continue;
-    const std::int64_t id = b.id.value;
-    left[keyword_of(b)].push_back(id > 0 ? id + deck.offset_of(b, "inter") : id);
+    left[keyword_of(b)].push_back(deck.shifted_id(b, "inter", b.id.value));
   }
   for (auto& [keyword, ids] : left) out.not_examined.push_back({keyword, std::move(ids)});
   std::set<std::string> missing;

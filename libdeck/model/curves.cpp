@@ -5,24 +5,27 @@
 namespace deck::detail {
 namespace {
 
+void scale_and_shift(Curve& curve, const DecodedBlock& d) {
+  const double scale_x = d.real("Ascale_x") != 0 ? d.real("Ascale_x") : 1;
+  const double scale_y = d.real("Ascale_y") != 0 ? d.real("Ascale_y") : 1;
+  for (double& x : curve.x) x = scale_x * x + d.real("Ashift_x");
+  for (double& y : curve.y) y = scale_y * y + d.real("Ashift_y");
+}
+
 void read_curve(BuildContext& c, const Block& block) {
   const DecodedBlock d = decode(c.deck, block);
   Curve curve;
   curve.id = c.own_id(block, "funct");
   curve.title = d.title;
   curve.span = block.header_span;
-  const bool smooth = header_starts(block, "/FUNCT_SMOOTH");
-  const double scale_x = smooth && d.real("Ascale_x") != 0 ? d.real("Ascale_x") : 1;
-  const double scale_y = smooth && d.real("Ascale_y") != 0 ? d.real("Ascale_y") : 1;
-  const double shift_x = smooth ? d.real("Ashift_x") : 0;
-  const double shift_y = smooth ? d.real("Ashift_y") : 0;
   for (const DecodedCard& card : d.cards) {
     if (card.cells.size() < 2 || card.cells[0].field->name != "X") continue;
     // A blank line inside a curve is no point.
     if (card.cells[0].blank() && card.cells[1].blank()) continue;
-    curve.x.push_back(scale_x * card.cells[0].real + shift_x);
-    curve.y.push_back(scale_y * card.cells[1].real + shift_y);
+    curve.x.push_back(card.cells[0].real);
+    curve.y.push_back(card.cells[1].real);
   }
+  if (header_starts(block, "/FUNCT_SMOOTH")) scale_and_shift(curve, d);
   c.model.curves.emplace(curve.id, std::move(curve));
 }
 
@@ -30,11 +33,7 @@ void read_curve(BuildContext& c, const Block& block) {
 void move_curve(BuildContext& c, const Block& block) {
   const auto it = c.model.curves.find(c.own_id(block, "funct"));
   if (it == c.model.curves.end()) return;
-  const DecodedBlock d = decode(c.deck, block);
-  const double scale_x = d.real("Ascale_x") != 0 ? d.real("Ascale_x") : 1;
-  const double scale_y = d.real("Ascale_y") != 0 ? d.real("Ascale_y") : 1;
-  for (double& x : it->second.x) x = scale_x * x + d.real("Ashift_x");
-  for (double& y : it->second.y) y = scale_y * y + d.real("Ashift_y");
+  scale_and_shift(it->second, decode(c.deck, block));
 }
 
 void read_subset(BuildContext& c, const Block& block) {
@@ -42,7 +41,7 @@ void read_subset(BuildContext& c, const Block& block) {
   auto& children = c.model.subset_children[c.own_id(block, "subset")];
   for (const DecodedCard& card : d.cards)
     for (const Cell& cell : card.cells)
-      if (cell.integer != 0) children.push_back(c.shift(block, "subset", cell.integer));
+      if (cell.integer != 0) children.push_back(c.deck.shifted_id(block, "subset", cell.integer));
 }
 
 void check_subset_children(BuildContext& c) {
@@ -88,16 +87,16 @@ void read_other_entities(BuildContext& c) {
   }
   for (const Block& block : c.deck.blocks)
     if (header_starts(block, "/MOVE_FUNCT")) move_curve(c, block);
-  for (const Submodel& s : c.deck.submodels) {
-    const std::int64_t above =
-        s.parent < 0 ? 0 : c.deck.submodels[static_cast<std::size_t>(s.parent)].submodels;
-    m.submodels.emplace(s.id + above, s.span);
-  }
+  for (const Submodel& s : c.deck.submodels) m.submodels.emplace(submodel_id(c.deck, s), s.span);
   check_subset_children(c);
 }
 
 void read_run_options(BuildContext& c) {
   Model& m = c.model;
+  static constexpr std::pair<std::string_view, bool ModelData::*> flags[] = {
+      {"/IMPLICIT", &ModelData::implicit},        {"/MONVOL", &ModelData::has_monitored_volume},
+      {"/ALE/MAT", &ModelData::has_ale},          {"/EULER/MAT", &ModelData::has_ale},
+      {"/ADMESH", &ModelData::has_adaptive_mesh}, {"/CAA", &ModelData::has_acoustics}};
   const Block* thickness = nullptr;
   for (const Block& block : c.deck.blocks) {
     if (header_starts(block, "/ANALY")) {
@@ -124,17 +123,9 @@ void read_run_options(BuildContext& c) {
         m.has_random = true;
         m.random_noise = noise;
       }
-    } else if (header_starts(block, "/IMPLICIT")) {
-      m.implicit = true;
-    } else if (header_starts(block, "/MONVOL")) {
-      m.has_monitored_volume = true;
-    } else if (header_starts(block, "/ALE/MAT") || header_starts(block, "/EULER/MAT")) {
-      m.has_ale = true;
-    } else if (header_starts(block, "/ADMESH")) {
-      m.has_adaptive_mesh = true;
-    } else if (header_starts(block, "/CAA")) {
-      m.has_acoustics = true;
     }
+    for (const auto& [keyword, flag] : flags)
+      if (header_starts(block, keyword)) m.*flag = true;
   }
 }
 

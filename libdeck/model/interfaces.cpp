@@ -6,7 +6,6 @@
 
 #include "deck/text/rule.hpp"
 #include "keyword/shared/solver_order.hpp"
-#include "model/defaults.hpp"
 #include "model/interfaces_card.hpp"
 
 namespace deck {

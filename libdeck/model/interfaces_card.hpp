@@ -1,7 +1,8 @@
-// The card of one interface: fills typed fields with what the cells say, in working units and with
-// submodel offsets, before any rule of the solver is applied.
+// What the cards say of interfaces, in working units and with submodel offsets, before any rule of
+// the solver is applied: fields of an interface, /DEFAULT/INTER/TYPEn, /FRICTION.
 #pragma once
 #include <string_view>
+#include <vector>
 
 #include "deck/keyword/decode.hpp"
 #include "deck/model/interfaces.hpp"
@@ -28,12 +29,17 @@ class InterfaceCard {
 
  private:
   const Cell* find(std::string_view field) const;
+  template <class Value, class F>
+  void read_cell(std::string_view field, Effective<Value>& out, F&& value_of) const;
   const Deck& deck_;
   DecodedBlock decoded_;
 };
 
-/// Submodel offset applied: only ids above 0 are shifted.
-std::int64_t shifted_id(const Deck& deck, const Block& block, std::string_view kind,
-                        std::int64_t id);
+/// The default blocks that the reference solver honours: outside submodels, the first of each type,
+/// wherever it stands. Reports the others.
+std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnostics);
+
+/// All /FRICTION with their effective values, in the solver's order.
+std::vector<Friction> read_frictions(const Deck& deck);
 
 }  // namespace deck::detail

@@ -9,6 +9,7 @@
 #include "deck/model/selection.hpp"
 #include "model/bulk/bulk.hpp"
 #include "model/model_build.hpp"
+#include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 #include "text/shared/columns.hpp"
 
@@ -24,6 +25,25 @@ Diagnostic make_diagnostic(Finding f) {
 
 void report(Diagnostics& diagnostics, Finding f) {
   if (diagnostics.wants(f.rule)) diagnostics.add(make_diagnostic(std::move(f)));
+}
+
+std::string name_of(const Block& block) {
+  return std::string(block.keyword) + " " + std::to_string(block.id.value);
+}
+
+Finding finding_about(const Block& block, RuleId rule, std::string message, Case particular) {
+  return {rule,           block.header_span,    std::move(message), std::string(block.keyword),
+          block.id.value, std::move(particular)};
+}
+
+int number_of_digits(std::string_view digits) {
+  if (digits.empty() || digits.size() > 4) return -1;
+  int value = 0;
+  for (const char ch : digits) {
+    if (ch < '0' || ch > '9') return -1;
+    value = value * 10 + (ch - '0');
+  }
+  return value;
 }
 
 std::vector<std::string_view> header_fields(const Block& block) {
@@ -77,6 +97,14 @@ std::vector<std::uint32_t> duplicates_to_report(BuildContext& c, const IdMap& ma
   return list;
 }
 
+void report_twice(BuildContext& c, Span span, Span first, std::string message, std::string keyword,
+                  std::int64_t id, const char* fix) {
+  Diagnostic d = make_diagnostic(
+      {RuleId::DK105, span, std::move(message), std::move(keyword), id, {.fix = fix}});
+  d.notes.emplace_back(first, "first defined here");
+  c.diagnostics.add(std::move(d));
+}
+
 /// Duplicate ids of nodes and elements. Nodes written twice with the same coordinates are legal
 /// decks' most frequent slip, so the message tells the two cases apart.
 void check_duplicates(BuildContext& c) {
@@ -87,35 +115,22 @@ void check_duplicates(BuildContext& c) {
     const NodeIndex n = nodes[i], first = nodes[count + i];
     const bool same = m.nodes.x[n] == m.nodes.x[first] && m.nodes.y[n] == m.nodes.y[first] &&
                       m.nodes.z[n] == m.nodes.z[first];
-    Diagnostic d =
-        make_diagnostic({RuleId::DK105,
-                         lines[i],
-                         "node " + std::to_string(m.nodes.id[n]) + " is defined twice" +
-                             (same ? " with the same coordinates" : " with different coordinates"),
-                         "/NODE",
-                         m.nodes.id[n],
-                         {.fix = "remove one of the two lines"}});
-    d.notes.emplace_back(lines[count + i], "first defined here");
-    c.diagnostics.add(std::move(d));
+    report_twice(c, lines[i], lines[count + i],
+                 "node " + std::to_string(m.nodes.id[n]) + " is defined twice" +
+                     (same ? " with the same coordinates" : " with different coordinates"),
+                 "/NODE", m.nodes.id[n], "remove one of the two lines");
   }
-  for (const ElementKind kind :
-       {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8, ElementKind::quad,
-        ElementKind::tria, ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
+  for (const ElementKind kind : all_families) {
     const Elements& family = m.family(kind);
     const std::vector<std::uint32_t> elements = duplicates_to_report(c, family.map, family.id);
     const std::vector<Span> of = element_spans(m, kind, elements);
     for (std::size_t i = 0, count = elements.size() / 2; i < count; ++i) {
       const std::uint32_t e = elements[i];
-      const Block* block = m.element_blocks[family.block[e]].block;
-      Diagnostic d = make_diagnostic({RuleId::DK105,
-                                      of[i],
-                                      "element " + std::to_string(family.id[e]) + " of " +
-                                          std::string(block->keyword) + " is defined twice",
-                                      std::string(block->keyword),
-                                      family.id[e],
-                                      {.fix = "give one of them another id"}});
-      d.notes.emplace_back(of[count + i], "first defined here");
-      c.diagnostics.add(std::move(d));
+      const std::string keyword(m.element_blocks[family.block[e]].block->keyword);
+      report_twice(
+          c, of[i], of[count + i],
+          "element " + std::to_string(family.id[e]) + " of " + keyword + " is defined twice",
+          keyword, family.id[e], "give one of them another id");
     }
   }
 }
@@ -127,17 +142,16 @@ void check_units(BuildContext& c) {
     const std::optional<int> message = block.schema->stops_without_unit();
     if (!message) continue;
     const bool stops = *message != 0;
-    report(c.diagnostics,
-           {RuleId::DK109,
-            block.unit_id.span,
-            std::string(block.keyword) + " names unit system " +
-                std::to_string(block.unit_id.value) + ", which does not exist",
-            std::string(block.keyword),
-            block.id.value,
-            {.severity = stops ? Severity::error : Severity::warning,
-             .message = *message,
-             .solver = stops ? "it stops with an error; deck takes the values in working units"
-                             : "it continues: it does not look up the unit system here"}});
+    Finding f = finding_about(
+        block, RuleId::DK109,
+        std::string(block.keyword) + " names unit system " + std::to_string(block.unit_id.value) +
+            ", which does not exist",
+        {.severity = stops ? Severity::error : Severity::warning,
+         .message = *message,
+         .solver = stops ? "it stops with an error; deck takes the values in working units"
+                         : "it continues: it does not look up the unit system here"});
+    f.span = block.unit_id.span;
+    report(c.diagnostics, std::move(f));
   }
 }
 
@@ -145,18 +159,8 @@ void check_units(BuildContext& c) {
 }  // namespace detail
 
 const char* to_string(Origin origin) {
-  switch (origin) {
-    case Origin::card:
-      return "card";
-    case Origin::default_block:
-      return "default-block";
-    case Origin::built_in:
-      return "built-in";
-    case Origin::derived:
-    case Origin::geometry:
-      return "derived";
-  }
-  return "built-in";
+  constexpr const char* names[] = {"card", "default-block", "built-in", "derived", "derived"};
+  return names[static_cast<std::size_t>(origin)];
 }
 
 Model::Model(Model&& other) noexcept : ModelData(std::move(other)) {

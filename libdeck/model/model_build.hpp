@@ -1,9 +1,12 @@
 // What the parts of build_model share: the deck being read, the model being filled, and short ways
 // to decode a block with submodel offsets, unit conversion and findings.
 #pragma once
+#include <algorithm>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
+#include "deck/keyword/decode.hpp"
 #include "deck/model/model.hpp"
 #include "deck/text/rule.hpp"
 
@@ -20,6 +23,10 @@ struct Finding {
 };
 Diagnostic make_diagnostic(Finding f);
 void report(Diagnostics& diagnostics, Finding f);
+/// "/SURF/PART 3": a block as findings call it, by the id in its header.
+std::string name_of(const Block& block);
+/// A finding about a block, at its header.
+Finding finding_about(const Block& block, RuleId rule, std::string message, Case particular = {});
 
 /// Header fields of a block up to its id, without the leading slash: "/SURF/PART/EXT/3" gives
 /// {"SURF", "PART", "EXT"}; the meaningless field ADDD is dropped.
@@ -29,6 +36,38 @@ inline bool header_starts(const Block& block, std::string_view prefix) {
          (block.header.size() == prefix.size() || block.header[prefix.size()] == '/');
 }
 
+/// Cells of a block in working units.
+class BlockCells {
+ public:
+  BlockCells(const Deck& deck, const Block& block) : deck_(deck), d_(decode(deck, block)) {}
+  double real(std::string_view name) const { return working_value(deck_, d_, name); }
+  double real_or(std::string_view name, double otherwise) const {
+    const double v = real(name);
+    return v != 0.0 ? v : otherwise;
+  }
+  int integer(std::string_view name) const { return static_cast<int>(d_.integer(name)); }
+  std::int64_t id(std::string_view name, std::string_view kind) const {
+    return deck_.shifted_id(*d_.block, kind, d_.integer(name));
+  }
+  bool has(std::string_view name) const { return d_.find(name) != nullptr; }
+  /// Calls f(value) for every cell of that name.
+  template <class F>
+  void each(std::string_view name, F f) const {
+    for (const DecodedCard& card : d_.cards)
+      for (const Cell& c : card.cells)
+        if (c.field->name == name) f(c, working_value(deck_, d_, c));
+  }
+  double largest(std::initializer_list<std::string_view> names) const {
+    double most = 0;
+    for (const std::string_view n : names) most = std::max(most, real(n));
+    return most;
+  }
+
+ private:
+  const Deck& deck_;
+  DecodedBlock d_;
+};
+
 struct BuildContext {
   const Deck& deck;
   Diagnostics& diagnostics;
@@ -37,21 +76,16 @@ struct BuildContext {
 
   /// The block's own id with its submodel's offset for `kind`.
   std::int64_t own_id(const Block& block, std::string_view kind) const {
-    return shift(block, kind, block.id.value);
-  }
-  /// A reference to another entity: ids above 0 are shifted, 0 and below stay.
-  std::int64_t shift(const Block& block, std::string_view kind, std::int64_t id) const {
-    return id > 0 ? id + deck.offset_of(block, kind) : id;
+    return deck.shifted_id(block, kind, block.id.value);
   }
   /// Reference in field `name`; its kind decides the offset.
   std::int64_t reference(const DecodedBlock& d, std::string_view name,
                          std::string_view kind) const {
-    return shift(*d.block, kind, d.integer(name));
+    return deck.shifted_id(*d.block, kind, d.integer(name));
   }
   /// Real field in working units, 0 if absent.
   double value(const DecodedBlock& d, std::string_view name) const {
-    const Cell* cell = d.find(name);
-    return cell ? working_value(deck, d, *cell) : 0;
+    return working_value(deck, d, name);
   }
 };
 
@@ -81,8 +115,25 @@ void check_coordinates(BuildContext& context);
 /// /RANDOM: the solver's noise on all coordinates, reproduced for seed 0.
 void apply_random_noise(BuildContext& context);
 
+/// The id of a submodel with the offset of those above it.
+inline std::int64_t submodel_id(const Deck& deck, const Submodel& s) {
+  return s.id + (s.parent < 0 ? 0 : deck.submodels[static_cast<std::size_t>(s.parent)].submodels);
+}
+
+/// The number that digits write; -1: there are none, more than four, or something else.
+int number_of_digits(std::string_view digits);
+
 /// Adds `index` to `map` under `id`; the first object of an id wins, the second is a finding.
 void register_id(BuildContext& context, std::map<std::int64_t, std::uint32_t>& map, std::int64_t id,
                  std::uint32_t index, const Block& block, Span first);
+/// The same of an object that is added to a list.
+template <class T>
+void add_object(BuildContext& context, std::vector<T>& list,
+                std::map<std::int64_t, std::uint32_t>& map, const Block& block, T object) {
+  const auto known = map.find(object.id);
+  register_id(context, map, object.id, static_cast<std::uint32_t>(list.size()), block,
+              known == map.end() ? Span{} : list[known->second].span);
+  list.push_back(std::move(object));
+}
 
 }  // namespace deck::detail

@@ -10,7 +10,9 @@
 #include "base/shared/length3.hpp"
 #include "base/shared/parallel.hpp"
 #include "deck/text/number.hpp"
+#include "model/bulk/bulk.hpp"
 #include "model/model_build.hpp"
+#include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 
 namespace deck {
@@ -153,9 +155,8 @@ void redirect_elements(BuildContext& c) {
   std::vector<NodeIndex> target(m.nodes.size());
   for (NodeIndex n = 0; n < target.size(); ++n) target[n] = n;
   for (const auto& [node, other] : m.merged_nodes) target[node] = other;
-  for (Elements* family :
-       {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring})
-    for (auto* list : {&family->nodes, &family->extra_nodes})
+  for (const ElementKind kind : all_families)
+    for (auto* list : {&family_of(m, kind).nodes, &family_of(m, kind).extra_nodes})
       for (NodeIndex& n : *list)
         if (n != no_index) n = target[n];
 }

@@ -6,6 +6,7 @@
 #include "base/shared/parallel.hpp"
 #include "keyword/shared/solver_order.hpp"
 #include "model/model_build.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 namespace {
@@ -46,17 +47,25 @@ double own_thickness(const Elements& shells, std::size_t e) {
 /// leave no area, which another rule says.
 bool names_node_twice(const NodeIndex* n) { return n[0] == n[1] || n[1] == n[2] || n[0] == n[3]; }
 
-void report_node_twice(BuildContext& c, const Elements& family, const char* what, std::int64_t part,
-                       const PartTally& found, int message) {
-  report(c.diagnostics,
-         {RuleId::DK136,
+/// "3 shells of part 2 have ...; the first is element 7", at that element.
+Finding about_elements(const BuildContext& c, const Elements& family, const char* what,
+                       std::int64_t part, const PartTally& found, RuleId rule,
+                       const std::string& one, const std::string& many, Case particular = {}) {
+  return {rule,
           c.model.element_span(family.kind, found.first),
-          plural(found.count, what) + " of part " + std::to_string(part) +
-              (found.count == 1 ? " names" : " name") + " a node twice; the first is element " +
+          plural(found.count, what) + " of part " + std::to_string(part) + " " +
+              (found.count == 1 ? one : many) + "; the first is element " +
               std::to_string(family.id[found.first]),
           "/PART",
           part,
-          {.message = message}});
+          std::move(particular)};
+}
+
+void report_node_twice(BuildContext& c, const Elements& family, const char* what, std::int64_t part,
+                       const PartTally& found, int message) {
+  report(c.diagnostics,
+         about_elements(c, family, what, part, found, RuleId::DK136, "names a node twice",
+                        "name a node twice", {.message = message}));
 }
 
 void check_springs(BuildContext& c) {
@@ -104,26 +113,18 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
   for (std::size_t p = 0; p < m.parts.size(); ++p) {
     const Part& part = m.parts[p];
     if (thin[p].count > 0 && c.diagnostics.wants(RuleId::DK106)) {
-      Diagnostic d =
-          make_diagnostic({RuleId::DK106, m.element_span(shells.kind, thin[p].first),
-                           plural(thin[p].count, what) + " of part " + std::to_string(part.id) +
-                               (thin[p].count == 1 ? " has" : " have") +
-                               " no thickness: neither on the element nor in property " +
-                               std::to_string(part.prop_id) + "; the first is element " +
-                               std::to_string(shells.id[thin[p].first]),
-                           "/PART", part.id});
+      const std::string lack =
+          " no thickness: neither on the element nor in property " + std::to_string(part.prop_id);
+      Diagnostic d = make_diagnostic(about_elements(c, shells, what, part.id, thin[p],
+                                                    RuleId::DK106, "has" + lack, "have" + lack));
       d.notes.emplace_back(m.properties[part.prop].span, "the property");
       c.diagnostics.add(std::move(d));
     }
     if (twice[p].count > 0) report_node_twice(c, shells, what, part.id, twice[p], 22);
     if (collapsed[p].count > 0)
-      report(c.diagnostics,
-             {RuleId::DK107, m.element_span(shells.kind, collapsed[p].first),
-              plural(collapsed[p].count, what) + " of part " + std::to_string(part.id) +
-                  (collapsed[p].count == 1 ? " has" : " have") +
-                  " the same third and fourth node; the first is element " +
-                  std::to_string(shells.id[collapsed[p].first]),
-              "/PART", part.id});
+      report(c.diagnostics, about_elements(c, shells, what, part.id, collapsed[p], RuleId::DK107,
+                                           "has the same third and fourth node",
+                                           "have the same third and fourth node"));
   }
 }
 
@@ -161,23 +162,18 @@ void read_parts(BuildContext& c) {
     part.thickness = c.value(d, "Thick");
     part.submodel = block.submodel;
     part.span = block.header_span;
-    const auto index = static_cast<std::uint32_t>(m.parts.size());
-    const auto known = m.part_of_id.find(part.id);
-    register_id(c, m.part_of_id, part.id, index, block,
-                known == m.part_of_id.end() ? Span{} : m.parts[known->second].span);
-    m.parts.push_back(std::move(part));
+    add_object(c, m.parts, m.part_of_id, block, std::move(part));
   }
 }
 
 void link_parts(BuildContext& c) {
   Model& m = c.model;
   std::vector<std::uint8_t> used(m.parts.size());  // bit 0: any element, bit 1: other than springs
-  for (const Elements* f :
-       {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring}) {
+  for (const ElementKind kind : all_families) {
     std::uint32_t last = no_index;  // elements of a part mostly follow each other
-    for (const std::uint32_t p : f->part) {
+    for (const std::uint32_t p : m.family(kind).part) {
       if (p == last || p == no_index) continue;
-      used[p] |= f->kind == ElementKind::spring ? 1 : 3;
+      used[p] |= kind == ElementKind::spring ? 1 : 3;
       last = p;
     }
   }
@@ -185,13 +181,17 @@ void link_parts(BuildContext& c) {
     report(c.diagnostics, {RuleId::DK111, c.deck.begin.span, "the deck has no part"});
   for (std::size_t i = 0; i < m.parts.size(); ++i) {
     Part& part = m.parts[i];
+    const auto say = [&](RuleId rule, const std::string& what, Case particular = {}) {
+      report(c.diagnostics, {rule, part.span, "part " + std::to_string(part.id) + what, "/PART",
+                             part.id, std::move(particular)});
+    };
+    const auto absent = [](std::int64_t id) {
+      return std::to_string(id) + ", which does not exist";
+    };
     if (const auto it = m.property_of_id.find(part.prop_id); it != m.property_of_id.end())
       part.prop = it->second;
     else
-      report(c.diagnostics, {RuleId::DK102, part.span,
-                             "part " + std::to_string(part.id) + " refers to property " +
-                                 std::to_string(part.prop_id) + ", which does not exist",
-                             "/PART", part.id});
+      say(RuleId::DK102, " refers to property " + absent(part.prop_id));
     if (const auto it = m.material_of_id.find(part.mat_id); it != m.material_of_id.end())
       part.mat = it->second;
     const bool spring = part.prop != no_index && is_spring_property(m.properties[part.prop].number);
@@ -200,34 +200,21 @@ void link_parts(BuildContext& c) {
     const bool named =
         part.mat_id != 0 && part.prop != no_index && !spring && m.properties[part.prop].number != 0;
     if (part.mat == no_index && ((used[i] & 2) != 0 || named) && !(spring && part.mat_id == 0))
-      report(c.diagnostics,
-             {RuleId::DK103, part.span,
-              "part " + std::to_string(part.id) +
-                  (part.mat_id == 0 ? " has elements but names no material"
-                                    : " refers to material " + std::to_string(part.mat_id) +
-                                          ", which does not exist"),
-              "/PART", part.id});
+      say(RuleId::DK103, part.mat_id == 0 ? " has elements but names no material"
+                                          : " refers to material " + absent(part.mat_id));
     if (part.subset_id > 0 && m.subset_children.count(part.subset_id) == 0)
-      report(c.diagnostics, {RuleId::DK108,
-                             part.span,
-                             "part " + std::to_string(part.id) + " names subset " +
-                                 std::to_string(part.subset_id) + ", which does not exist",
-                             "/PART",
-                             part.id,
-                             {.fix = "define the subset or leave the cell blank"}});
+      say(RuleId::DK108, " names subset " + absent(part.subset_id),
+          {.fix = "define the subset or leave the cell blank"});
   }
 }
 
 void check_elements(BuildContext& c) {
   const Model& m = c.model;
-  check_orphans(c, m.shell4, "shell");
-  check_orphans(c, m.shell3, "triangular shell");
-  check_orphans(c, m.solid8, "solid");
-  check_orphans(c, m.quad, "plane quadrangle");
-  check_orphans(c, m.tria, "plane triangle");
-  check_orphans(c, m.truss, "truss element");
-  check_orphans(c, m.beam, "beam");
-  check_orphans(c, m.spring, "spring");
+  constexpr const char* names[] = {
+      "shell",          "triangular shell", "solid", "plane quadrangle",
+      "plane triangle", "truss element",    "beam",  "spring"};
+  for (const ElementKind kind : all_families)
+    check_orphans(c, m.family(kind), names[static_cast<std::size_t>(kind)]);
   check_shells(c, m.shell4, "shell");
   check_shells(c, m.shell3, "triangular shell");
   check_springs(c);

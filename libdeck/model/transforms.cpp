@@ -1,5 +1,6 @@
-// /TRANSFORM: every type is one affine map; submodel transforms move the nodes of their submodel
-// right after reading, the others move a node group after all groups are known.
+// What moves nodes. /TRANSFORM: every type is one affine map; submodel transforms move the nodes of
+// their submodel right after reading, the others move a node group after all groups are known.
+// /RANDOM: noise on all coordinates.
 #include <Eigen/Core>
 #include <cmath>
 #include <numbers>
@@ -113,10 +114,8 @@ class TransformReader {
   }
 
   std::nullopt_t fail(const std::string& what, Case particular) {
-    report(c_.diagnostics,
-           {RuleId::DK110, d_.span(),
-            std::string(d_.block->keyword) + " " + std::to_string(d_.block->id.value) + ": " + what,
-            std::string(d_.block->keyword), d_.block->id.value, std::move(particular)});
+    report(c_.diagnostics, finding_about(*d_.block, RuleId::DK110, name_of(*d_.block) + ": " + what,
+                                         std::move(particular)));
     return std::nullopt;
   }
   /// What this program does not evaluate, and the reference solver does.
@@ -160,10 +159,9 @@ class TransformReader {
   std::optional<AffineMap> translation() {
     AffineMap map;
     if (has_nodes()) {
-      const auto p = node("node_ID1");
-      const auto q = node("node_ID2");
-      if (!p || !q) return std::nullopt;
-      map.shift = plain(*q - *p);
+      const auto points = two_points();
+      if (!points) return std::nullopt;
+      map.shift = plain(points->second);
       return map;
     }
     if (d_.integer("skew_ID") != 0)
@@ -216,12 +214,8 @@ bool inside(const Deck& deck, std::int32_t submodel, std::int32_t ancestor) {
 }
 
 std::int32_t find_submodel(const Deck& deck, std::int64_t id) {
-  for (std::size_t i = 0; i < deck.submodels.size(); ++i) {
-    const Submodel& s = deck.submodels[i];
-    const std::int64_t above =
-        s.parent < 0 ? 0 : deck.submodels[static_cast<std::size_t>(s.parent)].submodels;
-    if (s.id + above == id) return static_cast<std::int32_t>(i);
-  }
+  for (std::size_t i = 0; i < deck.submodels.size(); ++i)
+    if (submodel_id(deck, deck.submodels[i]) == id) return static_cast<std::int32_t>(i);
   return -1;
 }
 
@@ -230,22 +224,18 @@ void missing_target(BuildContext& c, const DecodedBlock& d, const std::string& w
   const std::string that =
       id == 0 ? " names no " + what + " to move"
               : " moves " + what + " " + std::to_string(id) + ", which does not exist";
-  report(c.diagnostics,
-         {RuleId::DK110,
-          d.span(),
-          std::string(d.block->keyword) + " " + std::to_string(d.block->id.value) + that,
-          std::string(d.block->keyword),
-          d.block->id.value,
-          {.fix = "correct the id"}});
+  report(c.diagnostics, finding_about(*d.block, RuleId::DK110, name_of(*d.block) + that,
+                                      {.fix = "correct the id"}));
 }
 
 void two_targets(BuildContext& c, const DecodedBlock& d) {
   const Cell* const cell = d.find("SUBMODEL");
-  report(c.diagnostics, {RuleId::DK062, cell->span,
-                         std::string(d.block->keyword) + " " + std::to_string(d.block->id.value) +
-                             " names node group " + std::to_string(d.integer("GR_NODE")) +
-                             " and submodel " + std::to_string(cell->integer),
-                         std::string(d.block->keyword), d.block->id.value});
+  Finding f = finding_about(*d.block, RuleId::DK062,
+                            name_of(*d.block) + " names node group " +
+                                std::to_string(d.integer("GR_NODE")) + " and submodel " +
+                                std::to_string(cell->integer));
+  f.span = cell->span;
+  report(c.diagnostics, std::move(f));
 }
 
 }  // namespace
@@ -292,6 +282,24 @@ void apply_group_transforms(BuildContext& c) {
     const auto map = reader.map();
     if (!map) continue;
     for (const NodeIndex n : group->nodes) move_node(m.nodes, n, *map);
+  }
+}
+
+/// The generator was recovered from recorded coordinates: r' = (25173 r + 13849) mod 65536, r = 0
+/// at the start, one number per coordinate in the order x y z of each node as read; the coordinate
+/// moves by noise * (2 r / 65536 - 1).
+void apply_random_noise(BuildContext& context) {
+  Model& m = context.model;
+  if (!m.has_random) return;
+  std::uint32_t state = 0;
+  const auto next = [&] {
+    state = (25173 * state + 13849) % 65536;
+    return m.random_noise * (2 * (state / 65536.0) - 1);
+  };
+  for (std::size_t n = 0; n < m.nodes.size(); ++n) {
+    m.nodes.x[n] += next();
+    m.nodes.y[n] += next();
+    m.nodes.z[n] += next();
   }
 }
 

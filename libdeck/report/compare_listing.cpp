@@ -10,7 +10,7 @@
 #include "deck/lint/lint.hpp"
 #include "keyword/shared/references.hpp"
 #include "lint/shared/geometry.hpp"
-#include "lint/shared/messages.hpp"
+#include "lint/shared/topics.hpp"
 #include "model/shared/mesh.hpp"
 #include "report/shared/listing.hpp"
 

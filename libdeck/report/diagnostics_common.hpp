@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "deck/model/coverage.hpp"
+#include "deck/model/interfaces.hpp"
 #include "report/shared/diagnostics.hpp"
 
 namespace deck::detail {

@@ -11,7 +11,6 @@
 
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
-#include "model/shared/connectivity.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {

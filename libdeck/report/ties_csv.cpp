@@ -7,7 +7,7 @@
 #include "contact/shared/element_names.hpp"
 #include "deck/contact/ties.hpp"
 #include "deck/report/gaps.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 
 namespace deck {

@@ -48,12 +48,6 @@ const Rule* find_successor(std::string_view id) {
   return nullptr;
 }
 
-const RuleField* Rule::field(std::string_view name) const {
-  const auto it = std::find_if(fields.begin(), fields.end(),
-                               [&](const RuleField& f) { return f.name == name; });
-  return it == fields.end() ? nullptr : &*it;
-}
-
 ReferenceMessage Rule::message(int number) const {
   const auto it = std::find_if(messages.begin(), messages.end(),
                                [&](const ReferenceMessage& m) { return m.number == number; });

@@ -163,6 +163,9 @@ class PageReader {
       rule_.stage = stage_.value_or(RuleStage::check);
       return stage_.has_value();
     }
+    const bool text = value.size() > 2 && value.starts_with('"') && value.ends_with('"');
+    if (key == "when" || key == "at" || key == "note" || key == "fix" || (key == "message" && text))
+      return rule_.cells.emplace(key, text ? value.substr(1, value.size() - 2) : value).second;
     if (key == "message")
       return each_item(value, [&](std::string_view item) {
         const auto blank = std::min(item.find(' '), item.size());
@@ -349,3 +352,13 @@ Result<Rule> parse_rule_page(std::string_view name, std::string_view text) {
 }
 
 }  // namespace deck::detail
+
+namespace deck {
+
+const RuleField* Rule::field(std::string_view name) const {
+  const auto it = std::find_if(fields.begin(), fields.end(),
+                               [&](const RuleField& f) { return f.name == name; });
+  return it == fields.end() ? nullptr : &*it;
+}
+
+}  // namespace deck

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "deck/lint/rule.hpp"
+#include "deck/lint/lint.hpp"
 #include "lint/shared/example.hpp"
 
 namespace {

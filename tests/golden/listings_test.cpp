@@ -9,7 +9,7 @@
 
 #include "deck/text/source.hpp"
 #include "golden/reference.hpp"
-#include "lint/shared/messages.hpp"
+#include "lint/shared/topics.hpp"
 #include "report/shared/listing.hpp"
 
 namespace deck {

@@ -1,5 +1,5 @@
 // Lines that a change touched, and findings that move there.
-#include "lint/shared/changed_lines.hpp"
+#include "lint/shared/gate.hpp"
 
 #include <gtest/gtest.h>
 

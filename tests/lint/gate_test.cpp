@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "deck/contact/earlier.hpp"
+#include "deck/contact/view.hpp"
 #include "lint/support.hpp"
 
 namespace deck::test {

@@ -1,12 +1,11 @@
 // Messages of the solver by number and by words.
-#include "lint/shared/messages.hpp"
+#include "lint/shared/topics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "deck/text/rule.hpp"
-#include "lint/shared/topics.hpp"
 
 namespace deck {
 namespace {

@@ -5,8 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "lint/check_tables.hpp"
-#include "lint/limits.hpp"
+#include "lint/check.hpp"
 #include "lint/support.hpp"
 #include "text/shared/rule_page.hpp"
 #include "where.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/shared/columns.hpp"
-#include "deck/lint/rule.hpp"
+#include "deck/lint/lint.hpp"
 
 namespace deck {
 namespace {

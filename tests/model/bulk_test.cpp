@@ -9,7 +9,6 @@
 
 #include "deck/text/rule_id.hpp"
 #include "keyword/reading.hpp"
-#include "model/bulk/bulk_plan.hpp"
 
 namespace deck {
 namespace {

@@ -1,6 +1,7 @@
 // The model as a whole: parts and what they refer to, properties, run options, places in the file.
 #include "model/selection_deck.hpp"
 
+#include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 
 namespace deck::test {

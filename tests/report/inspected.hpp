@@ -6,7 +6,7 @@
 #include <string>
 
 #include "contact/small_deck.hpp"
-#include "deck/contact/resolve.hpp"
+#include "deck/contact/scene.hpp"
 
 namespace deck::test {
 

@@ -233,38 +233,15 @@ std::string unexpected(const CLI::App& app) {
   return "unknown option '" + word + "'" + did_you_mean(word, names);
 }
 
-/// How the help calls the value of an option, or an argument without a name.
+/// How the help calls the value of an option.
 std::string value_name(const CLI::Option* option) {
-  if (option == nullptr) return {};
-  std::string text = option->get_option_text();  // "DECK STATES"
-  if (text.empty()) text = option->get_type_name();
+  const std::string text = option->get_type_name();
   return text.substr(0, text.find(':'));
 }
 
-/// Wrong usage in the words of all other errors. `app` is the verb.
+/// What the parser says; `app` is the verb. What it could not place has a closest word.
 std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unexpected(app);
-  const std::string text = error.what();
-  // All messages begin with the name of the option, or have it behind a colon.
-  constexpr std::string_view no_number = "Could not convert: ";
-  if (text.starts_with(no_number)) {
-    const auto equal = text.find(" = ");
-    if (equal != text.npos)
-      return text.substr(no_number.size(), equal - no_number.size()) + ": '" +
-             text.substr(equal + 3) + "' is not a number";
-  }
-  const std::string name = text.substr(0, text.find_first_of(": "));
-  const CLI::Option* option = app.get_option_no_throw(name);
-  const std::string value = value_name(option);
-  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && option != nullptr)
-    return option->nonpositional() ? name + " " + value + " is missing"
-                                   : (value.empty() ? name : value) + " is missing";
-  if (text.find(": At Most 1 required") != text.npos && option != nullptr &&
-      option->nonpositional())
-    return name + " takes one value but is given more than once";
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && option != nullptr)
-    return option->nonpositional() ? name + " needs a value: " + value : "expected " + value;
-  return text;
+  return dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ? unexpected(app) : error.what();
 }
 
 /// The parser gives an option the next word, whatever it is: "--json --threads 1" would write into

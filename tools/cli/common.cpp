@@ -12,13 +12,14 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include "base/shared/columns.hpp"
 #include "base/shared/escape.hpp"
 #include "base/shared/spelling.hpp"
-#include "deck/contact/resolve.hpp"
-#include "deck/model/coverage.hpp"
+#include "deck/contact/scene.hpp"
+#include "deck/model/interfaces.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
 #include "keyword/shared/recognise.hpp"
@@ -127,10 +128,7 @@ void allow_directories(CommandLine& line) {
 
 int open_directories(CommonOptions& options) {
   auto decks = decks_in_directories(options.decks);
-  if (!decks) {
-    print_error(options, decks.error().message);
-    return exit_input;
-  }
+  if (!decks) return failed(options, decks.error().message, exit_input);
   options.decks = std::move(*decks);
   return exit_clean;
 }
@@ -143,6 +141,30 @@ void add_require_examined(CommandLine& line, CommonOptions& options) {
 
 void add_verbose(CommandLine& line, CommonOptions& options, const std::string& what) {
   line.flag("-v,--verbose", options.verbose, what);
+}
+
+void add_accuracy(CommandLine& line, std::string& value) {
+  line.option("--accuracy", value,
+              "How contact of a pair is decided: fast (plain double), reference (the solver's "
+              "formula), robust (never decides wrongly, filtered), exact (rationals)")
+      .one_of({"fast", "reference", "robust", "exact"})
+      .show_default();
+}
+
+Accuracy accuracy_of(const std::string& value) {
+  for (const Accuracy a : {Accuracy::fast, Accuracy::reference, Accuracy::exact})
+    if (value == to_string(a)) return a;
+  return Accuracy::robust;
+}
+
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    const auto colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos)
+      return line.substr(colon + 2);
+  }
+  return "unknown processor";
 }
 
 // ---- loading --------------------------------------------------------------------------------
@@ -256,10 +278,7 @@ Result<LoadedDeck> load(const std::string& given, const SchemaSet& schemas,
 
 int for_each_deck(const CommonOptions& options, const std::function<int(LoadedDeck&)>& body) {
   const auto schemas = load_schemas(options);
-  if (!schemas) {
-    print_error(options, schemas.error().message);
-    return exit_usage;
-  }
+  if (!schemas) return failed(options, schemas.error().message);
   if (const int refused = check_outputs(options, {options.json}); refused != exit_clean)
     return refused;
   int worst = exit_clean;
@@ -362,6 +381,11 @@ void print_error(const CommonOptions& options, std::string_view message) {
   print_messages(fmt::format("deck: {}error:{} {}\n", color ? "\x1b[1;31m" : "",
                              color ? "\x1b[0m" : "", terminal_text(message)));
   if (BatchFrame* frame = options.session->frame) frame->note_error(message);
+}
+
+int failed(const CommonOptions& options, std::string_view message, int code) {
+  print_error(options, message);
+  return code;
 }
 
 std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options,

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "deck/base/limits.hpp"
 #include "deck/front/loaded_deck.hpp"
+#include "deck/text/source.hpp"
 #include "edit/shared/write.hpp"
 #include "progress.hpp"
 #include "verb.hpp"
@@ -83,6 +83,13 @@ void add_require_examined(CommandLine& line, CommonOptions& options);
 /// Adds -v, for verbs whose text folds things.
 void add_verbose(CommandLine& line, CommonOptions& options, const std::string& what);
 
+/// Adds --accuracy, for verbs that decide about contact; `value` keeps the word.
+void add_accuracy(CommandLine& line, std::string& value);
+Accuracy accuracy_of(const std::string& value);
+
+/// The processor that a time was measured on, for the reports that say one.
+std::string processor_name();
+
 /// LoadedDeck::mesh_values() with progress on the terminal.
 const Scene& resolve_geometry(const LoadedDeck& loaded, const CommonOptions& options);
 
@@ -127,6 +134,8 @@ std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& opti
 
 /// "deck: error: ..." on standard error. The message is one line, whatever it quotes.
 void print_error(const CommonOptions& options, std::string_view message);
+/// The same; returns `code`, the exit code.
+int failed(const CommonOptions& options, std::string_view message, int code = exit_usage);
 
 /// Prints results on standard output. A failure (full disk) is noticed at the end of the program.
 void print_text(std::string_view text);

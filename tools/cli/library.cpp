@@ -176,7 +176,7 @@ fs::path git_work_tree(const fs::path& file) {
 
 /// Adds where other decks may lie that include a file of this tree. Where only the root of the file
 /// system holds all of it, the folder of each file is taken: nobody searches a whole disk.
-void add_roots(const std::vector<IncludeScan::File>& tree, Dependents& out) {
+void add_roots(const std::vector<IncludeScan::File>& tree, SharedFiles& out) {
   std::vector<std::string> folders;
   for (const IncludeScan::File& f : tree) {
     std::error_code ec;
@@ -204,7 +204,7 @@ std::string library_root(const std::string& deck) {
   return (work_tree.empty() ? file.parent_path() : work_tree).string();
 }
 
-std::string Dependents::where() const {
+std::string SharedFiles::where() const {
   if (!guessed) return {};
   std::string list;
   for (const std::string& root : roots) list += (list.empty() ? "" : ", ") + root;
@@ -212,54 +212,32 @@ std::string Dependents::where() const {
          "; --root DIR sets another folder";
 }
 
-Result<Dependents> find_dependents(const std::vector<std::string>& decks, const std::string& root,
-                                   const std::vector<std::string>& include_paths) {
-  Dependents out;
+Result<SharedFiles> find_shared_files(const std::vector<std::string>& decks,
+                                      const std::string& root,
+                                      const std::vector<std::string>& include_paths) {
+  SharedFiles out;
   IncludeScan scan(include_paths);
   std::set<FileIdentity> files, mains;
-  const auto take = [&](const std::vector<IncludeScan::File>& tree) {
-    for (const IncludeScan::File& f : tree) files.insert(f.identity);
-  };
   if (!root.empty()) out.roots.insert(root);
   for (const std::string& deck : decks) {
     const auto tree = scan.files(deck);
     if (tree.empty()) continue;
     mains.insert(tree.front().identity);
-    take(tree);
+    for (const IncludeScan::File& f : tree) files.insert(f.identity);
     if (root.empty()) add_roots(tree, out);
   }
-  const std::set<FileIdentity> own = files;
-  std::vector<std::pair<std::string, std::vector<IncludeScan::File>>> others;
   for (const std::string& directory : out.roots) {
     const auto below = files_below(
         directory, {},
         root.empty() ? fs::directory_options::skip_permission_denied : fs::directory_options::none);
     if (!below) return below.error();
     for (const std::string& deck : *below) {
-      auto tree = scan.files(deck);
-      if (!tree.empty() && mains.insert(tree.front().identity).second)
-        others.emplace_back(deck, std::move(tree));
+      const auto tree = scan.files(deck);
+      if (tree.empty() || !mains.insert(tree.front().identity).second) continue;
+      for (const IncludeScan::File& f : tree)
+        if (files.contains(f.identity)) out.others.emplace(f.identity, deck);
     }
   }
-  // A deck that shares a file with a dependent is one itself: they change together.
-  for (bool more = true; more;) {
-    more = false;
-    for (auto it = others.begin(); it != others.end();) {
-      const bool shares = std::any_of(it->second.begin(), it->second.end(),
-                                      [&](const auto& f) { return files.contains(f.identity); });
-      if (!shares) {
-        ++it;
-        continue;
-      }
-      for (const IncludeScan::File& f : it->second)
-        if (own.contains(f.identity)) out.shared.emplace(f.identity, it->first);
-      take(it->second);
-      out.decks.push_back(it->first);
-      it = others.erase(it);
-      more = true;
-    }
-  }
-  std::sort(out.decks.begin(), out.decks.end());
   return out;
 }
 

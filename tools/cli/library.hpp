@@ -49,19 +49,19 @@ std::string common_root(const std::vector<std::string>& given,
 /// The git work tree that holds a file, else its folder.
 std::string library_root(const std::string& deck);
 
-/// The decks below `roots` that are not among `decks` and include one of their files.
-struct Dependents {
+/// Files of some decks that other decks below `roots` include, too.
+struct SharedFiles {
   std::set<std::string> roots;
   bool guessed = false;  ///< some of `roots` are neither given nor git work trees
   /// Where was looked, for people; empty: where they expect it.
   std::string where() const;
-  std::vector<std::string> decks;              ///< sorted; those that follow from others included
-  std::map<FileIdentity, std::string> shared;  ///< file of `decks` -> a deck that includes it, too
+  std::map<FileIdentity, std::string> others;  ///< file -> another deck that includes it
 };
 /// `root` empty: the git work trees of the files; for files in none the deepest folder that holds
 /// those of their deck.
-Result<Dependents> find_dependents(const std::vector<std::string>& decks, const std::string& root,
-                                   const std::vector<std::string>& include_paths);
+Result<SharedFiles> find_shared_files(const std::vector<std::string>& decks,
+                                      const std::string& root,
+                                      const std::vector<std::string>& include_paths);
 
 /// The decks that changed files belong to, sorted: a deck itself, and for every other file those
 /// below `root` (empty: library_root of the file) that include it. Error: a directory that cannot

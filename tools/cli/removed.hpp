@@ -11,6 +11,9 @@ struct Removed {
   std::string_view instead;
 };
 
+inline constexpr std::string_view naming_all =
+    "the names of all decks that include the file, or of their directory";
+
 inline constexpr std::array removed_words = {
     Removed{"fix", "--smooth", "--max-moved 100%, or --strategy move-part"},
     Removed{"fix", "--step", "deck fix without it"},
@@ -20,6 +23,9 @@ inline constexpr std::array removed_words = {
     Removed{"accuracy", "-v", "--json, or bench_distance of tools/bench for number types"},
     Removed{"convert", "--from", "libdeck in Python, or deck::Edit in C++"},
     Removed{"convert", "--round", "libdeck in Python, or deck::Edit in C++"},
+    Removed{"convert", "--with-dependents", naming_all},
+    Removed{"fix", "--with-dependents", naming_all},
+    Removed{"lint", "--with-dependents", naming_all},
     Removed{"completion", "", "the file deck.bash that is installed with the program"},
     Removed{"replay", "", "the program replay of tools/bench, which is built with the tests"},
     Removed{"man", "", "the installed man pages, or deck help VERB"},

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "deck/report/drain.hpp"
+#include "deck/report/gaps.hpp"
 #include "deck/text/result.hpp"
 #include "deck/text/source.hpp"
 #include "edit/shared/write.hpp"

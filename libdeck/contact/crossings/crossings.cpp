@@ -12,9 +12,9 @@
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "base/shared/side_by_side.hpp"
-#include "contact/crossings/crossings_exact.hpp"
 #include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
+#include "contact/shared/exact.hpp"
 
 namespace deck {
 namespace {
@@ -154,7 +154,6 @@ std::vector<CandidatePair> find_crossing_pairs(
 
 namespace {
 
-using LocalEdge = std::array<int, 2>;
 constexpr LocalEdge bar_edges[] = {{0, 1}};
 constexpr LocalEdge triangle_edges[] = {{0, 1}, {1, 2}, {2, 0}};
 constexpr LocalEdge quad_edges[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
@@ -164,6 +163,8 @@ constexpr LocalEdge penta_edges[] = {{0, 1}, {1, 2}, {2, 0}, {4, 5}, {5, 6},
                                      {6, 4}, {0, 4}, {1, 5}, {2, 6}};
 // The slots of a tetrahedron are n1 n1 n2 n2 n4 n3 n3 n4.
 constexpr LocalEdge tetra_edges[] = {{0, 2}, {2, 5}, {5, 0}, {0, 4}, {2, 4}, {5, 4}};
+
+}  // namespace
 
 std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t e) {
   switch (family.kind) {
@@ -188,6 +189,8 @@ std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t e) 
       return {};
   }
 }
+
+namespace {
 
 /// What is known of a node: 0: it is no secondary node. Else beside this bit one for each side of
 /// the box of the main segments beyond which it lies.

@@ -1,7 +1,8 @@
 // Exact distances: the closest-point templates on CGAL's exact numbers. Regions are chosen by
-// intervals where these suffice.
+// intervals where these suffice. And whether an edge passes through a triangle.
 #include "contact/shared/exact.hpp"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/number_utils.h>
 
 #include "contact/shared/exact_number.hpp"
@@ -105,5 +106,25 @@ int exact_compare_distance(const Point3<double>& s1, const Point3<double>& s2,
                            const Point3<double>& m1, const Point3<double>& m2, double limit) {
   return compare(exact_edges(s1, s2, m1, m2).distance_squared, limit);
 }
+
+namespace detail {
+
+bool passes_through(const Point3<double>& p, const Point3<double>& q, const Point3<double>& a,
+                    const Point3<double>& b, const Point3<double>& c) {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  const auto to = [](const Point3<double>& v) { return Kernel::Point_3(v.x, v.y, v.z); };
+  const Kernel::Point_3 kp = to(p), kq = to(q), ka = to(a), kb = to(b), kc = to(c);
+  const int side_p = CGAL::orientation(ka, kb, kc, kp);
+  const int side_q = CGAL::orientation(ka, kb, kc, kq);
+  if (side_p * side_q >= 0) return false;
+  // The line meets the triangle if it has all three sides on the same hand; 0: it meets the side.
+  const int s1 = CGAL::orientation(kp, kq, ka, kb);
+  const int s2 = CGAL::orientation(kp, kq, kb, kc);
+  if (s1 * s2 < 0) return false;
+  const int s3 = CGAL::orientation(kp, kq, kc, ka);
+  return s1 * s3 >= 0 && s2 * s3 >= 0;
+}
+
+}  // namespace detail
 
 }  // namespace deck

@@ -1,9 +1,12 @@
-// What the card of a TYPE24 or TYPE25 asks for, with what is tried out in place of it.
+// What the card of a TYPE24 or TYPE25 asks for, with what is tried out in place of it, and which
+// initial penetrations a tie (/INTER/TYPE2) of the deck holds already (Irem_i2 = 1).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "contact/modern/parts.hpp"
+#include "contact/shared/tie_parts.hpp"
 
 namespace deck::detail::modern {
 namespace {
@@ -68,6 +71,27 @@ Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if)
     s.mesh_fraction = mesh_fraction_of(s.mesh_fraction);
   }
   return s;
+}
+
+std::vector<bool> held_by_ties(SceneContext& c, const Sides& s,
+                               const std::vector<NodePenetration>& penetrations) {
+  std::vector<std::pair<NodeIndex, NodeIndex>> pairs;  // tied node, corner of its main segment
+  for (const Tie& tie : ties_of(c))
+    for (const TiedNode& n : tie.nodes)
+      if (n.tied)
+        for (const NodeIndex corner : tie.main[n.segment]) pairs.emplace_back(n.node, corner);
+  std::vector<bool> held(penetrations.size(), false);
+  if (pairs.empty()) return held;
+  std::sort(pairs.begin(), pairs.end());
+  const auto tied = [&](NodeIndex node, NodeIndex corner) {
+    return std::binary_search(pairs.begin(), pairs.end(), std::pair{node, corner});
+  };
+  for (std::size_t i = 0; i < penetrations.size(); ++i) {
+    const NodeIndex n = s.nodes[penetrations[i].node].node;
+    for (const NodeIndex corner : s.nodes_of(penetrations[i].face))
+      if (tied(n, corner) || tied(corner, n)) held[i] = true;
+  }
+  return held;
 }
 
 }  // namespace deck::detail::modern

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/shared/vec.hpp"
-#include "deck/contact/penetration.hpp"
+#include "deck/contact/scene.hpp"
 
 namespace deck::detail {
 

@@ -1,4 +1,5 @@
-// Gaps of the two sides of a contact, its default gap, and the largest gap its pairs can have.
+// Settings of a card, gaps of the two sides of a contact, its default gap, and the largest gap that
+// its pairs can have.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -8,10 +9,37 @@
 #include <span>
 
 #include "base/shared/vec.hpp"
-#include "deck/contact/pair_gap.hpp"
 #include "deck/contact/search.hpp"
+#include "deck/contact/scene.hpp"
 
 namespace deck::detail {
+
+// What a card says about gaps and initial penetrations, and what the parts of its interface make of
+// it. These rules know nothing of decks.
+
+constexpr double no_gap_limit = 1e30;  ///< the solver's "no limit"
+
+/// As the card and the defaults have it; flags with 1000 ("explicitly nothing") as 0.
+struct CardSettings {
+  int igap = 0, inacti = 0, irem_gap = 1;
+  double gapmin = 0;  ///< 0: follows from the mesh
+  double gap_scale = 1, gapmax = no_gap_limit, fpenmax = 0;
+  double mesh_fraction = 0.4, drad = 0;
+  bool thermal = false;
+};
+
+/// Takes over what the card of that type hands on to its contacts; the rest has no effect there.
+void apply(const WhatIf& change, int interface_type, CardSettings& card);
+/// The value of a cell that may be blank.
+double mesh_fraction_of(double cell);
+
+/// What the node-to-surface parts of a TYPE19 make of its card, and its edge part.
+void adapt_to_type19_nodes(CardSettings& card);
+void adapt_to_type19_edges(CardSettings& card, double edge_scale_gap);
+
+/// Factor of the thicknesses and largest gap; edges know neither.
+double gap_scale_of(const CardSettings& card, bool edges);
+double gapmax_of(const CardSettings& card, bool edges);
 
 /// Thicknesses that a default gap is formed of.
 struct ThicknessSamples {

@@ -1,5 +1,5 @@
 // Finds for every penetration of a scene the one that an earlier run had there.
-#include "deck/contact/earlier.hpp"
+#include "deck/contact/view.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include <unordered_map>
 
 #include "base/shared/length_text.hpp"
-#include "deck/contact/view.hpp"
 
 namespace deck {
 namespace {

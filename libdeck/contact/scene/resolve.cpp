@@ -1,5 +1,5 @@
 // Hands what the contacts of a scene derived from the mesh back to the fields of their interfaces.
-#include "deck/contact/resolve.hpp"
+#include "deck/contact/scene.hpp"
 
 #include <type_traits>
 

@@ -6,7 +6,6 @@
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/search/margin.hpp"
-#include "contact/search/short_loops.hpp"
 
 namespace deck::detail {
 

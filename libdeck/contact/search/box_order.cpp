@@ -1,6 +1,8 @@
-// Hilbert curve by state table, radix sort of its keys, and the ordering built on them.
+// Hilbert curve by state table, radix sort of its keys, the ordering built on them, and the box
+// tree built on that.
 #include "contact/search/box_order.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -8,7 +10,8 @@
 #include <numeric>
 #include <utility>
 
-#include "contact/search/short_loops.hpp"
+#include "contact/search/box_tree.hpp"
+#include "contact/search/margin.hpp"
 
 namespace deck::order_detail {
 namespace {
@@ -256,6 +259,34 @@ std::vector<std::uint32_t> order_in_space(std::size_t count, const PlacesOf& pla
   order_detail::Scratch scratch;
   order_detail::order_range(ids, places, scratch, threads_for(count, threads), 0);
   return ids;
+}
+
+// ---- the box tree, bottom up ------------------------------------------------------------------
+
+void BoxTree::set_origin(const Box& box) {
+  for (std::size_t k = 0; k < 3; ++k) origin_[k] = std::isfinite(box.low[k]) ? box.low[k] : 0.0;
+}
+
+void BoxTree::add_levels(std::vector<BoxBlock> leaves, int threads) {
+  levels_.push_back(std::move(leaves));
+  while (levels_.back().size() > 1) {
+    const std::vector<BoxBlock>& below = levels_.back();
+    constexpr std::size_t width = BoxBlock::width;
+    std::vector<BoxBlock> above((below.size() + width - 1) / width);
+    parallel_pieces(threads, above.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t last = std::min(below.size(), (i + 1) * width);
+        for (std::size_t j = i * width; j < last; ++j) above[i].set(j % width, below[j].bounds());
+      }
+    });
+    levels_.push_back(std::move(above));
+  }
+}
+
+std::size_t BoxTree::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& level : levels_) sum += level.size() * sizeof(BoxBlock);
+  return sum;
 }
 
 }  // namespace deck

@@ -1,6 +1,11 @@
 // Search margins of the reference solver.
 #include "contact/search/margin.hpp"
 
+#include <algorithm>
+#include <vector>
+
+#include "base/shared/parallel.hpp"
+
 namespace deck {
 
 double candidate_margin(const NodeArrays& nodes,
@@ -9,6 +14,29 @@ double candidate_margin(const NodeArrays& nodes,
   double sum = 0.0;
   for (const auto& s : segments)
     for (std::size_t k = 0; k < 4; ++k) sum += detail::edge_length(nodes, s[k], s[(k + 1) % 4]);
+  return detail::margin_of(sum, 4 * segments.size());
+}
+
+// Lengths take time and are formed on all threads; their sum has an order.
+double candidate_margin(const NodeArrays& nodes,
+                        std::span<const std::array<std::uint32_t, 4>> segments, int threads) {
+  threads = threads_for(segments.size(), threads);
+  if (threads <= 1 || segments.empty()) return candidate_margin(nodes, segments);
+  constexpr std::size_t at_once = 1024;
+  using Lengths = std::vector<double>;
+  double sum = 0.0;
+  run_in_order<Lengths>(
+      (segments.size() + at_once - 1) / at_once, threads,
+      [&](std::size_t piece, Lengths& out) {
+        out.clear();
+        const std::size_t first = piece * at_once;
+        for (const auto& s : segments.subspan(first, std::min(at_once, segments.size() - first)))
+          for (std::size_t k = 0; k < 4; ++k)
+            out.push_back(detail::edge_length(nodes, s[k], s[(k + 1) % 4]));
+      },
+      [&](std::size_t, const Lengths& lengths) {
+        for (const double length : lengths) sum += length;
+      });
   return detail::margin_of(sum, 4 * segments.size());
 }
 

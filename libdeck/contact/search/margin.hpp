@@ -1,9 +1,17 @@
 // What search margins are formed of, and the margin of a long list of segments on several threads.
 // Private to the library.
 #pragma once
+#include <cstddef>
+
 #include "deck/contact/search.hpp"
 
 namespace deck {
+
+// Threads for a loop that does little for each of `count` things. A thread takes as long to start
+// as some thousand of them, and to wait for it where other programs have the processors much
+// longer.
+inline int threads_for(std::size_t count, int threads) { return count < 32768 ? 1 : threads; }
+
 namespace detail {
 
 /// Length of the edge between nodes a and b; the squares of its parts may overflow.

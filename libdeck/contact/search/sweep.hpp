@@ -111,7 +111,7 @@ struct Found {
 // The margin of a sweep that decides in one form only.
 inline constexpr double one_form = -1.0;
 
-// Everything a sweep over the main side reads. Filled by nodes.cpp and edges.cpp.
+// Everything a sweep over the main side reads. Filled by nodes.cpp.
 struct NodeSweep {
   const NodeSegmentInput* input = nullptr;
   const SearchOptions* options = nullptr;

@@ -50,4 +50,13 @@ int exact_compare_distance(const Point3<double>& p, const std::array<Point3<doub
 int exact_compare_distance(const Point3<double>& s1, const Point3<double>& s2,
                            const Point3<double>& m1, const Point3<double>& m2, double limit);
 
+namespace detail {
+
+// True if p and q lie strictly on either side of the plane of abc and pq meets the closed
+// triangle.
+bool passes_through(const Point3<double>& p, const Point3<double>& q, const Point3<double>& a,
+                    const Point3<double>& b, const Point3<double>& c);
+
+}  // namespace detail
+
 }  // namespace deck

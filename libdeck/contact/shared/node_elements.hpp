@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck {
 
@@ -13,6 +13,10 @@ namespace deck {
 inline constexpr ElementKind families_with_edges[] = {ElementKind::shell4, ElementKind::shell3,
                                                       ElementKind::solid8, ElementKind::truss,
                                                       ElementKind::beam};
+
+/// The edges of an element, each by the slots of its two nodes.
+using LocalEdge = std::array<int, 2>;
+std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t element);
 
 class Connectivity {
  public:

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "deck/contact/pair_gap.hpp"
 #include "deck/contact/search.hpp"
 
 namespace deck::detail {

@@ -7,7 +7,6 @@
 
 #include "base/shared/vec.hpp"
 #include "contact/rules/gaps.hpp"
-#include "contact/rules/settings.hpp"
 #include "contact/shared/node_elements.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/model/selection.hpp"
@@ -93,7 +92,7 @@ double part_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 double solid_volume(const Coordinates& x, const NodeIndex* slots);
 double spring_stiffness(const Model& model, std::uint32_t spring);
 
-// one_place.cpp
+// penetrations.cpp
 /// Reports (DK336) where many secondary nodes that touch the main side lie at one place.
 void report_one_place(SceneContext& context, const Contact& contact);
 

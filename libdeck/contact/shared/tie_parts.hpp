@@ -27,7 +27,7 @@ Projection project(const Coordinates& x, NodeIndex node, const Corners& segment,
 /// The distance by itself.
 double distance_from(const Coordinates& x, NodeIndex node, const Corners& segment);
 
-// nearest.cpp
+// distance.cpp
 /// Answers which of some segments is nearest to a node that is no corner of it.
 class NearestSegments {
  public:

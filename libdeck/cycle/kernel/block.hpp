@@ -7,9 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "deck/cycle/card.hpp"
+#include "deck/cycle/kernel.hpp"
 #include "deck/cycle/packet.hpp"
-#include "deck/cycle/plan.hpp"
 
 namespace deck::cycle::detail {
 

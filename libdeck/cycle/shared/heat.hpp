@@ -3,7 +3,7 @@
 #pragma once
 #include <array>
 
-#include "deck/cycle/card.hpp"
+#include "deck/cycle/packet.hpp"
 
 namespace deck::cycle {
 

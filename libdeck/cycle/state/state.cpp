@@ -1,6 +1,6 @@
 // Masses, velocities and temperatures of all nodes, gathered from elements, added masses and
 // initial conditions.
-#include "deck/cycle/state.hpp"
+#include "deck/cycle/scene_cycle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 
 #include "deck/text/number.hpp"
 #include "edit/convert/version_cards.hpp"
-#include "edit/convert/version_layout.hpp"
 #include "keyword/shared/older_decks.hpp"
 #include "text/shared/columns.hpp"
 

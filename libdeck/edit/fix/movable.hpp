@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,6 +23,10 @@ struct Reason {
   std::string text, next = {};
 };
 
+inline constexpr const char* inside_solid =
+    "the node is inside a solid: the way out is not the way to its surface; separate the parts "
+    "first";
+
 /// A deck with a model of its own, whose nodes move; the deck itself stays as it is.
 class MovableDeck {
  protected:
@@ -30,21 +35,24 @@ class MovableDeck {
   MovableDeck& operator=(const MovableDeck&) = delete;
   ~MovableDeck() = default;
 
-  /// The contacts with the nodes where they are now, as the deck puts them (see fix_scene); the
-  /// same object with every call. Only pairs with nodes that moved since the last call are looked
-  /// at again, where the rest of a contact does not depend on places. Ties are those of the first
-  /// call until evaluate_with_ties().
+  /// The contacts and ties with the nodes where they are now, as the deck puts them (see
+  /// fix_scene); one object for all calls.
   const Scene& evaluate();
-  const Scene& evaluate_with_ties();
 
   /// The contacts before anything moves; keeps what may not move and what must not get worse.
   /// Error: bad options, or a wanted interface that cannot be evaluated.
   Result<Scene> prepare();
   void place(NodeIndex n, const Vec& p);
-  /// Fills in what the repair leaves behind: counts, moved nodes, and one line per secondary node
-  /// or edge that still penetrates, with the reason of its deepest pair.
-  void report(const Scene& before, const Scene& after, const std::vector<NodeIndex>& moved,
-              const std::function<Reason(const Scene&, const PairAt&)>& reason_of);
+  /// Prints new coordinates of a node and places it where they are when they are read. False: one
+  /// does not fit its cell, or none is new.
+  bool put(NodeIndex n, const Vec& to);
+  void put_back(NodeIndex n);
+  using ReasonOf = std::function<Reason(const Scene&, const PairAt&)>;
+  /// Reads the deck again with what was printed. The fix has counts, moved nodes, and one line per
+  /// secondary node or edge that still penetrates, with the reason of its deepest pair. Error: the
+  /// deck cannot be read, or is worse than before.
+  Result<PenetrationFix> finish(const Scene& before, const std::vector<NodeIndex>& moved,
+                                const ReasonOf& reason_of);
 
   const LoadedDeck& context_;
   const MoveNodesOptions& options_;
@@ -57,16 +65,16 @@ class MovableDeck {
   Baseline baseline_;                        ///< penetrations and ties before
   std::vector<Crossing> crossed_;            ///< before: of edges with main segments
   std::vector<FixMesh::Crossed> crossings_;  ///< before: of the whole mesh
+  std::map<PairKey, std::string> skipped_;   ///< pairs that moving cannot solve, and why
   PenetrationFix fix_;
 
  private:
-  bool keeps_its_sides(const Contact& contact) const;
-  void build_again(const std::vector<bool>& which);
-  void search_again(Contact& contact, const std::vector<bool>& moved);
+  void report(const Scene& before, const Scene& after, const std::vector<NodeIndex>& moved,
+              const ReasonOf& reason_of);
 
+  std::map<std::pair<NodeIndex, int>, std::string> texts_;  ///< of new coordinates
   Scene scene_;
-  std::vector<bool> of_solids_;  ///< by node
-  bool ties_outdated_ = false;
+  bool outdated_ = true;  ///< nodes were placed since
 };
 
 }  // namespace deck::detail

@@ -1,5 +1,5 @@
 // Tries translations of whole parts and keeps the one that frees the most.
-#include "edit/shared/move_part.hpp"
+#include "edit/shared/depenetrate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,9 @@ class PartMover : MovableDeck {
     fix_.strategy = "move-part";
     collect(*before);
     try_all(*before);
-    return finish(*before);
+    return finish(*before, moved_, [this](const Scene& scene, const PairAt& at) {
+      return Reason{reason_of(key_of(scene, at)), "deck fix DECK --strategy move-nodes"};
+    });
   }
 
  private:
@@ -43,7 +45,6 @@ class PartMover : MovableDeck {
     std::uint32_t group = 0;
     Translation translation;
   };
-  using Texts = std::map<std::pair<NodeIndex, int>, std::string>;
 
   /// The penetrations as ways out for the parts on both sides.
   void collect(const Scene& scene) {
@@ -64,8 +65,7 @@ class PartMover : MovableDeck {
     const PairState state = state_of(scene, now_, at);
     const PairKey key = key_of(scene, at);
     std::string why = why_not_movable(*mesh_, now_, state);
-    if (why.empty() && inside)
-      why = "the node is inside a solid: the way out is not the way to its surface";
+    if (why.empty() && inside) why = inside_solid;
     const std::uint32_t a = groups_->of(state.nodes[0]);
     const std::uint32_t b =
         groups_->of(state.nodes[static_cast<std::size_t>(state.secondary_count)]);
@@ -124,29 +124,12 @@ class PartMover : MovableDeck {
     return out;
   }
 
-  /// Puts the nodes where their printed coordinates are. False: a coordinate does not fit.
-  bool move(const std::vector<NodeIndex>& nodes, const Vec& by, Texts& texts) {
-    const double step[3] = {by.x, by.y, by.z};
-    for (const NodeIndex n : nodes) {
-      std::array<double, 3> to = {start_.x[n], start_.y[n], start_.z[n]};
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto k = static_cast<std::size_t>(axis);
-        if (step[axis] == 0) continue;
-        const auto text = cells_.print(n, axis, to[k] + step[axis]);
-        if (!text) {
-          why_not_ = "a new coordinate does not fit into its cell";
-          return false;
-        }
-        to[k] = text->value;
-        texts[{n, axis}] = text->text;
-      }
-      place(n, {to[0], to[1], to[2]});
-    }
-    return true;
-  }
-
-  void take_back(const std::vector<NodeIndex>& nodes) {
-    for (const NodeIndex n : nodes) place(n, {start_.x[n], start_.y[n], start_.z[n]});
+  /// False: a coordinate does not fit.
+  bool move(const std::vector<NodeIndex>& nodes, const Vec& by) {
+    const bool all = std::all_of(nodes.begin(), nodes.end(),
+                                 [&](NodeIndex n) { return put(n, at(start_, n) + by); });
+    if (!all) why_not_ = "a new coordinate does not fit into its cell";
+    return all;
   }
 
   static std::size_t wanted_pairs(const Scene& scene, const FixOptions& options) {
@@ -163,7 +146,7 @@ class PartMover : MovableDeck {
         why_not_ = "it would cross elements";
         return std::nullopt;
       }
-    const Scene& scene = evaluate_with_ties();
+    const Scene& scene = evaluate();
     if (const auto harm = harm_text(model_, scene, baseline_.harm(scene))) {
       why_not_ = *harm;
       return std::nullopt;
@@ -178,34 +161,17 @@ class PartMover : MovableDeck {
     for (const Candidate& candidate : all) {
       if (options_.progress) options_.progress("moving parts", done++, all.size());
       const std::vector<NodeIndex> nodes = groups_->nodes_of(candidate.group);
-      Texts texts;
-      if (move(nodes, candidate.translation.by, texts))
+      if (move(nodes, candidate.translation.by))
         if (const auto left = left_now(nodes); left && *left < best) {
           best = *left;
-          texts_ = std::move(texts);
           chosen_ = candidate;
         }
-      take_back(nodes);
+      for (const NodeIndex n : nodes) put_back(n);
       if (best == 0) break;
     }
     if (!chosen_) return;
     moved_ = groups_->nodes_of(chosen_->group);
-    Texts again;
-    move(moved_, chosen_->translation.by, again);
-  }
-
-  Result<PenetrationFix> finish(const Scene& before) {
-    fix_.rewrite.edits = cells_.edits(texts_);
-    const auto again = AfterRewrite::read(context_, fix_.rewrite, options_, false, before);
-    if (!again) return again.error();
-    const Scene& after = again->scene();
-    if (const auto why = harm_text(model_, after, baseline_.harm(after)))
-      return Error{Error::Code::internal, "the deck read again differs: " + *why};
-    report(before, after, moved_, [this](const Scene& scene, const PairAt& at) {
-      return Reason{reason_of(key_of(scene, at)), "deck fix DECK --strategy move-nodes"};
-    });
-    fix_.complete = fix_.refused.empty();
-    return std::move(fix_);
+    move(moved_, chosen_->translation.by);
   }
 
   std::string reason_of(const PairKey& key) const {
@@ -224,12 +190,10 @@ class PartMover : MovableDeck {
   std::optional<PartGroups> groups_;
   std::map<std::uint32_t, std::vector<WayOut>> ways_;                 ///< by group
   std::map<PairKey, std::pair<std::uint32_t, std::uint32_t>> sides_;  ///< groups of both sides
-  std::map<PairKey, std::string> skipped_;
   std::map<std::uint32_t, std::string> obstacles_;  ///< by group: why it may not move
   double deepest_ = 0;
   std::optional<Candidate> chosen_;
   std::vector<NodeIndex> moved_;
-  Texts texts_;
   std::string why_not_;  ///< of the last translation that would harm
 };
 

@@ -16,7 +16,7 @@
 #include "deck/cycle/steps.hpp"
 #include "deck/front/loaded_deck.hpp"
 #include "deck/keyword/deck.hpp"
-#include "deck/model/coverage.hpp"
+#include "deck/model/interfaces.hpp"
 
 namespace deck {
 

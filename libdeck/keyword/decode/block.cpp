@@ -327,4 +327,9 @@ double working_value(const Deck& deck, const DecodedBlock& block, const Cell& ce
                                        own ? *f.solver_dimension : dimension_of(f, block, card));
 }
 
+double working_value(const Deck& deck, const DecodedBlock& block, std::string_view field) {
+  const Cell* cell = block.find(field);
+  return cell == nullptr ? 0 : working_value(deck, block, *cell);
+}
+
 }  // namespace deck

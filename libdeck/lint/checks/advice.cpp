@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -19,25 +18,22 @@ void each_secondary_node(Selections& selections, const ContactCard& card, F&& f)
     for (const NodeIndex n : list)
       if (n != no_index) f(n);
   };
-  const auto id = [&](std::string_view field) {
-    return static_cast<std::int64_t>(card.value(field));
-  };
   if (card.type == 7)
-    if (const NodeSet* set = selections.node_group(id("grnd_IDs"))) nodes(set->nodes);
+    if (const NodeSet* set = selections.node_group(card.id("grnd_IDs"))) nodes(set->nodes);
   if (card.type == 11)
-    if (const LineSet* set = selections.line(id("line_IDs")))
+    if (const LineSet* set = selections.line(card.id("line_IDs")))
       for (const Edge& e : set->edges) nodes(e.nodes);
   if (card.type == 19)
     for (const std::string_view field : {"surf_IDs", "surf_IDm"})
-      if (const auto set = selections.outline(id(field)))
+      if (const auto set = selections.outline(card.id(field)))
         set->segments.each([&](const Segment& s) { nodes(s.nodes); });
 }
 
 void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model->spring.size() == 0) return;
-  std::vector<bool> on_spring(c.model->nodes.size(), false);
-  for (const NodeIndex n : c.model->spring.nodes)
-    if (n != no_index) on_spring[n] = true;
+  const std::vector<bool> on_spring = marked(*c.model, [&](auto&& mark) {
+    for (const NodeIndex n : c.model->spring.nodes) mark(n);
+  });
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Inacti") != 3) return;
     NodeIndex found = no_index;
@@ -51,29 +47,6 @@ void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_inacti5(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    // Airbag unfolding is what 5 is made for.
-    if (card.flag("Ibag") != 0 && c.model->has_monitored_volume) return;
-    if (card.flag("Inacti") == 5)
-      report_at(r, rule, card, "Inacti", name_of(card) + " has " + card.show("Inacti"));
-  });
-}
-
-void check_dtmin(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.input("dtmin") > 0)
-      report_at(r, rule, card, "dtmin", name_of(card) + " has " + card.show("dtmin"));
-  });
-}
-
-void check_idel(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (std::abs(card.flag("Idel")) == 1)
-      report_at(r, rule, card, "Idel", name_of(card) + " has " + card.show("Idel"));
-  });
-}
-
 void check_edge_removal(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Irem_gap") != 2) return;
@@ -83,13 +56,6 @@ void check_edge_removal(const LintContext& c, const Rule& rule, Reporter& r) {
                                                 : "";
     note_field(report_at(r, rule, card, "Irem_gap", name_of(card) + " has Irem_gap = 2" + where),
                card, "Igap");
-  });
-}
-
-void check_icurv3(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.flag("Icurv") == 3)
-      report_at(r, rule, card, "Icurv", name_of(card) + " has Icurv = 3 (bicubic surface)");
   });
 }
 
@@ -112,17 +78,6 @@ void check_sph(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_large_factor(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    const double factor = card.input("Stfac");
-    if (card.flag("Istf") == 1 || !(factor > 100)) return;
-    note_field(report_at(r, rule, card, "Stfac",
-                         fmt::format("{}: Stfac = {} multiplies the computed stiffness",
-                                     name_of(card), number_text(factor))),
-               card, "Istf");
-  });
-}
-
 void check_small_stiffness(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Istf") != 1) return;
@@ -132,13 +87,6 @@ void check_small_stiffness(const LintContext& c, const Rule& rule, Reporter& r) 
     note_field(report_at(r, rule, card, "Stfac",
                          name_of(card) + ": Istf = 1 makes 1.0 the stiffness of the contact"),
                card, "Istf");
-  });
-}
-
-void check_bumult(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (const double b = card.input("Bumult"); b > 1)
-      report_at(r, rule, card, "Bumult", name_of(card) + " has Bumult = " + number_text(b));
   });
 }
 
@@ -163,7 +111,7 @@ void check_same_sides(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts) {
     if (card.type == 0 || card.type == 11 || card.flag("Istf") == 1) continue;
-    const auto s = c.selections->outline(static_cast<std::int64_t>(card.value("surf_IDm")));
+    const auto s = c.selections->outline(card.id("surf_IDm"));
     if (!s) continue;
     std::set<std::uint32_t> parts;
     std::uint32_t last = no_index;  // segments of a part mostly follow each other
@@ -196,12 +144,12 @@ void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> advice_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK901, check_inacti3},      {RuleId::DK902, check_inacti5},
-      {RuleId::DK903, check_dtmin},        {RuleId::DK904, check_idel},
-      {RuleId::DK905, check_edge_removal}, {RuleId::DK906, check_icurv3},
-      {RuleId::DK907, check_tied_lever},   {RuleId::DK908, check_sph},
-      {RuleId::DK909, check_large_factor}, {RuleId::DK910, check_small_stiffness},
-      {RuleId::DK911, check_bumult},       {RuleId::DK912, check_same_sides},
+      {RuleId::DK901, check_inacti3},
+      {RuleId::DK905, check_edge_removal},
+      {RuleId::DK907, check_tied_lever},
+      {RuleId::DK908, check_sph},
+      {RuleId::DK910, check_small_stiffness},
+      {RuleId::DK912, check_same_sides},
       {RuleId::DK913, check_void},
   };
   return all;

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -35,8 +34,7 @@ void check_renard(const LintContext& c, const Rule& rule, Reporter& r) {
                                      block.real("C4"), block.real("C5"), block.real("C6")};
     const Cell* at = block.find("C1");
     if (const std::string problem = renard_problem(k); !problem.empty())
-      r.report(rule, *block.block, at ? at->span : block.span(),
-               "/FRICTION " + std::to_string(block.block->id.value) + ": " + problem);
+      r.report(rule, *block.block, at ? at->span : block.span(), name_of(block) + ": " + problem);
   }
 }
 
@@ -51,24 +49,10 @@ void check_heat_sum(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_times(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("Tstop") || card.input("Tstop") < 0) return;
-    if (card.value("Tstart") < card.value("Tstop")) return;
-    Diagnostic* d =
-        report_at(r, rule, card, "Tstop",
-                  fmt::format("{} starts at {} and stops at {}", name_of(card),
-                              number_text(card.value("Tstart")), number_text(card.value("Tstop"))));
-    note_field(d, card, "Tstart");
-  });
-}
-
 /// The two nodes of the axis are one node, or stand at the same place.
 bool axis_is_a_point(const LintContext& c, const ContactCard& card) {
   if (card.value("node_ID1") == card.value("node_ID2")) return true;
-  const auto place = [&](std::string_view field) {
-    return c.model->find_node(static_cast<std::int64_t>(card.value(field)));
-  };
+  const auto place = [&](std::string_view field) { return c.model->find_node(card.id(field)); };
   const NodeIndex a = place("node_ID1"), b = place("node_ID2");
   if (a == no_index || b == no_index) return false;
   const auto& x = c.model->nodes;
@@ -99,14 +83,6 @@ void check_curvature_nodes(const LintContext& c, const Rule& rule, Reporter& r) 
   });
 }
 
-void check_type10_inacti(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.input("Inacti") != 5) return;
-    Diagnostic* d = report_at(r, rule, card, "Inacti", name_of(card) + " has Inacti = 5");
-    fix_field(d, c, card, "Inacti", "0", false, "write Inacti 0");
-  });
-}
-
 void check_type11_igap(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Igap") != 2) return;
@@ -114,46 +90,6 @@ void check_type11_igap(const LintContext& c, const Rule& rule, Reporter& r) {
         report_at(r, rule, card, "Igap",
                   name_of(card) + ": " + card.show("Igap") + ", which edge contact does not have");
     if (card.input("Igap") == 2) fix_field(d, c, card, "Igap", "1", false, "write Igap 1");
-  });
-}
-
-void check_iadm_icurv(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("Iadm") || !card.given("Icurv")) return;
-    note_field(report_at(r, rule, card, "Iadm",
-                         name_of(card) + ": " + card.show("Iadm") + " together with " +
-                             card.show("Icurv")),
-               card, "Icurv");
-  });
-}
-
-void check_iadm(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model->has_adaptive_mesh) return;
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.given("Iadm"))
-      report_at(r, rule, card, "Iadm",
-                name_of(card) + ": " + card.show("Iadm") + ", but the deck has no adaptive mesh");
-  });
-}
-
-void check_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model->has_monitored_volume || c.model->has_ale || c.model->has_sol2sph) return;
-  each(c, rule, [&](const ContactCard& card) {
-    if (const double v = card.input("Ibag"); v == 0 || v == 1000) return;
-    Diagnostic* d = report_at(r, rule, card, "Ibag",
-                              name_of(card) + ": " + card.show("Ibag") +
-                                  ", but the deck has no airbag (/MONVOL), ALE or Sol2SPH");
-    fix_field(d, c, card, "Ibag", "1000", true, "write Ibag 1000 (no closure)");
-  });
-}
-
-void check_thermal_material(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.model->has_thermal_material) return;
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.given("Ithe"))
-      report_at(r, rule, card, "Ithe",
-                name_of(card) + ": Ithe = " + number_text(card.input("Ithe")) +
-                    ", but no material has thermal data (/HEAT/MAT)");
   });
 }
 
@@ -187,32 +123,9 @@ void check_filter(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string problem =
         filter_problem(block.integer("Ifiltr"), working_value(c.deck, block, *cell));
     if (problem.empty()) continue;
-    Diagnostic* d = r.report(rule, *block.block, cell->span,
-                             "/FRICTION " + std::to_string(block.block->id.value) + ": " + problem);
+    Diagnostic* d = r.report(rule, *block.block, cell->span, name_of(block) + ": " + problem);
     if (d != nullptr) d->reference = rule.message(1591);
   }
-}
-
-void check_gap_order(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    const double low = card.input("Gapmin"), high = card.input("Gapmax");
-    if (card.flag("Igap") < 2 || !(low > 0) || !(high > 0) || !(low > high)) return;
-    note_field(report_at(r, rule, card, "Gapmax",
-                         fmt::format("{}: Gapmax ({}) is below Gapmin ({})", name_of(card),
-                                     number_text(high), number_text(low))),
-               card, "Gapmin");
-  });
-}
-
-void check_stiffness_order(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    const double low = card.input("Stmin"), high = card.input("Stmax");
-    if (!(low > 0) || !(high > 0) || !(low > high)) return;
-    note_field(report_at(r, rule, card, "Stmax",
-                         fmt::format("{}: Stmax ({}) is below Stmin ({})", name_of(card),
-                                     number_text(high), number_text(low))),
-               card, "Stmin");
-  });
 }
 
 void check_no_stfac(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -230,31 +143,6 @@ void check_no_stfac(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_no_law(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    const double law = card.input("Ifric");
-    if (card.given("fric_ID") || law <= 0 || law == 3) return;
-    for (const std::string_view k : {"C1", "C2", "C3", "C4", "C5", "C6"})
-      if (card.given(k)) return;
-    report_at(r, rule, card, "Ifric",
-              fmt::format("{}: Ifric = {} with all coefficients 0 leaves mu = {}", name_of(card),
-                          number_text(law), number_text(card.value("Fric"))));
-  });
-}
-
-void check_no_sink(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("Ithe") || (card.find("Kthe") == nullptr && card.find("Rthe") == nullptr))
-      return;
-    for (const std::string_view k : {"Kthe", "Rthe", "fct_IDK", "Frad", "Fheats", "Fheatm"})
-      if (card.given(k)) return;
-    report_at(r, rule, card, "Ithe",
-              name_of(card) +
-                  ": heat exchange is on, but there is no conductance, radiation or "
-                  "friction heat");
-  });
-}
-
 void check_old_heat(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts)
     if (card.type == 7 && card.block->version >= 90 && card.block->version < 100 &&
@@ -266,7 +154,7 @@ void check_old_heat(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (!card.given("fric_ID")) return;
-    const Friction* f = c.interfaces->friction(static_cast<std::int64_t>(card.value("fric_ID")));
+    const Friction* f = c.interfaces->friction(card.id("fric_ID"));
     if (f == nullptr || f->Ifric == 0) return;
     Diagnostic* d = report_at(
         r, rule, card, "fric_ID",
@@ -279,24 +167,10 @@ void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> combination_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK219, check_no_stfac},
-      {RuleId::DK220, check_gap_order},
-      {RuleId::DK245, check_stiffness_order},
-      {RuleId::DK250, check_renard},
-      {RuleId::DK251, check_heat_sum},
-      {RuleId::DK252, check_times},
-      {RuleId::DK253, check_curvature_nodes},
-      {RuleId::DK254, check_type10_inacti},
-      {RuleId::DK255, check_type11_igap},
-      {RuleId::DK256, check_iadm_icurv},
-      {RuleId::DK257, check_iadm},
-      {RuleId::DK258, check_ibag},
-      {RuleId::DK259, check_thermal_material},
-      {RuleId::DK260, check_filter},
-      {RuleId::DK261, check_no_sink},
-      {RuleId::DK262, check_no_law},
-      {RuleId::DK263, check_old_heat},
-      {RuleId::DK264, check_angles},
+      {RuleId::DK219, check_no_stfac},    {RuleId::DK250, check_renard},
+      {RuleId::DK251, check_heat_sum},    {RuleId::DK253, check_curvature_nodes},
+      {RuleId::DK255, check_type11_igap}, {RuleId::DK260, check_filter},
+      {RuleId::DK263, check_old_heat},    {RuleId::DK264, check_angles},
   };
   return all;
 }

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -114,12 +113,10 @@ void check_range(const LintContext& c, const Rule& rule, Reporter& r) {
         if (f.values.empty() || cell.blank() || f.name == "Iedge") continue;
         if (cell.status == NumberStatus::not_a_number) continue;
         if (std::find(f.values.begin(), f.values.end(), cell.integer) != f.values.end()) continue;
-        std::string legal;
-        for (const std::int64_t v : f.values)
-          legal += (legal.empty() ? "" : ", ") + std::to_string(v);
-        r.report(rule, *block.block, cell.span,
-                 fmt::format("{} of {} is {}; legal values are {}", f.name,
-                             block.block->schema->keyword, cell.integer, legal));
+        r.report(
+            rule, *block.block, cell.span,
+            fmt::format("{} of {} is {}; legal values are {}", f.name, block.block->schema->keyword,
+                        cell.integer, fmt::join(f.values, ", ")));
       }
 }
 

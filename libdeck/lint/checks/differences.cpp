@@ -1,6 +1,6 @@
-// Options of a contact for which the solver silently differs from its manuals. One check per rule.
+// Where the published manuals and the reference solver differ: options for which the solver does so
+// silently, and decks that rely on the manual. One check per rule.
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -38,25 +38,6 @@ void check_title_length(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void check_blank_temperature(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!fixed_temperature(card) || card.given("Tint")) return;
-    note_field(report_at(r, rule, card, "Tint",
-                         name_of(card) + ": Tint is blank, so the secondary side exchanges heat "
-                                         "with a body of temperature 0"),
-               card, "Ithe");
-  });
-}
-
-void check_blank_radiation(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.input("Ithe") != 1 || !card.given("Frad") || card.given("Drad")) return;
-    note_field(
-        report_at(r, rule, card, "Drad", name_of(card) + ": Drad is blank, so nothing radiates"),
-        card, "Frad");
-  });
-}
-
 void check_main_share(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (!fixed_temperature(card)) return;
@@ -71,28 +52,6 @@ void check_main_share(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_function_without_heat(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("fct_IDF") || card.given("fric_ID") || card.input("Ithe") == 1) return;
-    note_field(report_at(r, rule, card, "fct_IDF",
-                         name_of(card) + ": fct_IDF is not used, because the interface exchanges "
-                                         "no heat"),
-               card, "Ithe");
-  });
-}
-
-void check_function_form1(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("fct_IDF") || card.given("fric_ID")) return;
-    if (card.input("Ithe") != 1 || card.input("Ithe_form") != 1) return;
-    note_field(
-        report_at(r, rule, card, "fct_IDF",
-                  name_of(card) +
-                      ": with Ithe_form 1 fct_IDF is evaluated at the temperature of another pair"),
-        card, "Ithe_form");
-  });
-}
-
 /// Calls f(block, span, name, Ifiltr, Xfreq, Iform) for every friction filter that is on.
 template <class F>
 void each_filter(const LintContext& c, const Rule& rule, F&& f) {
@@ -103,8 +62,7 @@ void each_filter(const LintContext& c, const Rule& rule, F&& f) {
   for (const DecodedBlock& block : c.frictions) {
     const Cell* cell = block.find("Ifiltr");
     if (cell == nullptr || cell->integer == 0 || block.real("Xfreq") == 0) continue;
-    f(*block.block, cell->span, fmt::format("/FRICTION {}", block.block->id.value), cell->integer,
-      block.integer("Iform"));
+    f(*block.block, cell->span, name_of(block), cell->integer, block.integer("Iform"));
   }
 }
 
@@ -150,7 +108,7 @@ void check_incremental_stiffness(const LintContext& c, const Rule& rule, Reporte
   });
   for (const DecodedBlock& block : c.frictions)
     if (const Cell* cell = block.find("Iform"); cell != nullptr && cell->integer == 2)
-      add(*block.block, cell->span, fmt::format("/FRICTION {}", block.block->id.value));
+      add(*block.block, cell->span, name_of(block));
   if (first == nullptr) return;
   r.report(rule, *first, span,
            fmt::format("{}{}: friction sticks with twice the stiffness of the normal force", name,
@@ -159,34 +117,28 @@ void check_incremental_stiffness(const LintContext& c, const Rule& rule, Reporte
 
 /// One finding for the deck, at the first interface with a bound.
 void check_half_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
-  const ContactCard* first = nullptr;
-  std::string_view field;
-  std::size_t others = 0;
+  FirstCard first;
   each(c, rule, [&](const ContactCard& card) {
     // Edges have the series stiffness, Istf 5, by default.
     const auto istf = card.flag("Istf");
-    if (istf < 2 || istf > 5 || !(card.bounds("Stmin") || card.bounds("Stmax"))) return;
-    if (first != nullptr) {
-      ++others;
-      return;
-    }
-    first = &card;
-    field = card.bounds("Stmax") ? "Stmax" : "Stmin";
+    if (istf >= 2 && istf <= 5 && (card.bounds("Stmin") || card.bounds("Stmax"))) first.add(card);
   });
-  if (first == nullptr) return;
-  note_field(
-      report_at(
-          r, rule, *first, field,
-          fmt::format("{}: {} bounds the stored stiffness; half of it acts, so the acting "
-                      "stiffness is bounded by {}{}",
-                      name_of(*first), first->show(field), number_text(0.5 * first->value(field)),
-                      others == 0 ? "" : fmt::format(" (and {} more interfaces)", others))),
-      *first, "Istf");
+  if (first.card == nullptr) return;
+  const ContactCard& card = *first.card;
+  const std::string_view field = card.bounds("Stmax") ? "Stmax" : "Stmin";
+  const std::string others =
+      first.others == 0 ? "" : fmt::format(" (and {} more interfaces)", first.others);
+  note_field(report_at(r, rule, card, field,
+                       fmt::format("{}: {} bounds the stored stiffness; half of it acts, so the "
+                                   "acting stiffness is bounded by {}{}",
+                                   name_of(card), card.show(field),
+                                   number_text(0.5 * card.value(field)), others)),
+             card, "Istf");
 }
 
 /// fric_ID names a /FRICTION without a law, which holds for edges as well.
 bool plain_friction(const LintContext& c, const ContactCard& card) {
-  const Friction* f = c.interfaces->friction(static_cast<std::int64_t>(card.value("fric_ID")));
+  const Friction* f = c.interfaces->friction(card.id("fric_ID"));
   return f == nullptr || f->Ifric == 0;
 }
 
@@ -243,18 +195,49 @@ void check_default_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
+// ---- decks that rely on a manual ----------------------------------------------------------------
+
+void check_filter_off(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, rule, [&](const ContactCard& card) {
+    if (!card.given("Ifiltr") || card.given("Xfreq") || card.given("fric_ID")) return;
+    Diagnostic* d = report_at(
+        r, rule, card, "Ifiltr",
+        name_of(card) + ": " + card.show("Ifiltr") + ", but Xfreq is 0: there is no filter");
+    note_field(d, card, "Xfreq");
+  });
+  for (const DecodedBlock& block : c.frictions) {
+    const Cell* cell = block.find("Ifiltr");
+    if (cell == nullptr || cell->integer == 0 || block.real("Xfreq") != 0) continue;
+    r.report(rule, *block.block, cell->span,
+             fmt::format("{}: Ifiltr = {}, but Xfreq is 0: there is no filter", name_of(block),
+                         cell->integer));
+  }
+}
+
+void check_edge_istf(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, rule, [&](const ContactCard& card) {
+    if (card.flag("Istf") != 1 || !card.given("Stfac")) return;
+    note_field(report_at(r, rule, card, "Stfac",
+                         fmt::format("{}: Stfac = {} is the stiffness of each line{}; a pair of "
+                                     "lines has {}, and half of it acts",
+                                     name_of(card), number_text(card.input("Stfac")),
+                                     card.type == 19 ? " of its edge contact" : "",
+                                     number_text(card.input("Stfac") / 2))),
+               card, "Istf");
+  });
+}
+
 }  // namespace
 
 std::span<const Checked> difference_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK246, check_title_length},          {RuleId::DK247, check_blank_temperature},
-      {RuleId::DK248, check_blank_radiation},       {RuleId::DK249, check_main_share},
-      {RuleId::DK268, check_sensor_times},          {RuleId::DK291, check_function_without_heat},
-      {RuleId::DK293, check_cutoff_filter},         {RuleId::DK294, check_incremental_filter},
-      {RuleId::DK295, check_incremental_stiffness}, {RuleId::DK296, check_half_bounds},
-      {RuleId::DK297, check_edge_limits},           {RuleId::DK298, check_release_column},
-      {RuleId::DK510, check_default_ibag},          {RuleId::DK914, check_function_form1},
-      {RuleId::DK915, check_tie_trigger},
+      {RuleId::DK246, check_title_length},       {RuleId::DK249, check_main_share},
+      {RuleId::DK268, check_sensor_times},       {RuleId::DK293, check_cutoff_filter},
+      {RuleId::DK294, check_incremental_filter}, {RuleId::DK295, check_incremental_stiffness},
+      {RuleId::DK296, check_half_bounds},        {RuleId::DK297, check_edge_limits},
+      {RuleId::DK298, check_release_column},     {RuleId::DK510, check_default_ibag},
+      {RuleId::DK915, check_tie_trigger},        {RuleId::DK287, check_filter_off},
+      {RuleId::DK289, check_edge_istf},
   };
   return all;
 }

@@ -13,7 +13,6 @@
 #include "base/shared/length3.hpp"
 #include "deck/base/point3.hpp"
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 #include "model/shared/item_spans.hpp"
 
 namespace deck::detail {
@@ -192,28 +191,24 @@ void check_curves(const LintContext& c, const Rule& rule, Reporter& r) {
       const Cell& x = card.cells[0];
       if (x.blank() && card.cells[1].blank()) continue;
       if (last != nullptr && !(x.real > last->real)) {
-        r.report(rule, block, x.span.valid() ? x.span : block.header_span,
-                 fmt::format("abscissa {2} of {0} {1} is not above the previous one, {3}",
-                             block.schema->keyword, block.id.value, number_text(x.real),
-                             number_text(last->real)));
+        r.report(rule, block, place_of(d, &x),
+                 fmt::format("abscissa {} of {} is not above the previous one, {}",
+                             number_text(x.real), name_of(d), number_text(last->real)));
         break;
       }
       last = &x;
     }
-    if (last == nullptr)
-      r.report(rule, block, block.header_span,
-               fmt::format("{} {} has no point", block.schema->keyword, block.id.value));
+    if (last == nullptr) r.report(rule, block, block.header_span, name_of(d) + " has no point");
   }
 }
 
 void check_table(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const Block& block : c.deck.blocks) {
-    if (block.schema == nullptr || block.schema->keyword != "/TABLE" || block.opaque) continue;
+  each_block(c, "/TABLE", [&](const Block& block) {
     LineCursor cursor(c.deck.sources, block);
     cursor.next();  // the title
     if (!cursor.next().valid())
       r.report(rule, block, block.header_span, std::string(block.header) + " has no data");
-  }
+  });
 }
 
 /// A shell's row, with what the solver leaves in its place when it sorts ids and nodes.

@@ -9,7 +9,6 @@
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {

@@ -7,7 +7,6 @@
 #include "base/shared/spelling.hpp"
 #include "keyword/shared/older_decks.hpp"
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -37,6 +36,10 @@ std::string_view closest_keyword(const LintContext& c, std::string_view keyword)
   return best;
 }
 
+Span keyword_span(const Block& b) {
+  return {b.header_span.file, static_cast<std::uint32_t>(b.keyword.size()), b.header_span.offset};
+}
+
 void check_unknown(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<std::string_view, std::string_view> seen;
   for (const Block& b : c.deck.blocks) {
@@ -52,16 +55,9 @@ void check_unknown(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string_view close = it->second;
     std::string message = "keyword " + clipped(b.keyword) + " is unknown";
     if (!close.empty()) message += "; did you mean " + std::string(close) + "?";
-    Diagnostic* d = r.report(
-        rule, b,
-        {b.header_span.file, static_cast<std::uint32_t>(b.keyword.size()), b.header_span.offset},
-        std::move(message));
+    Diagnostic* d = r.report(rule, b, keyword_span(b), std::move(message));
     if (d != nullptr && !close.empty())
-      d->fix = Fix{"write " + std::string(close),
-                   false,
-                   {{Span{b.header_span.file, static_cast<std::uint32_t>(b.keyword.size()),
-                          b.header_span.offset},
-                     std::string(close)}}};
+      d->fix = Fix{"write " + std::string(close), false, {{keyword_span(b), std::string(close)}}};
   }
 }
 
@@ -70,11 +66,9 @@ void check_lower_case(const LintContext& c, const Rule& rule, Reporter& r) {
     if (b.schema != nullptr) continue;
     const std::string big = in_capitals(b.keyword);
     if (big == b.keyword || c.schemas.match(in_capitals(b.header)) == nullptr) continue;
-    const Span span{b.header_span.file, static_cast<std::uint32_t>(b.keyword.size()),
-                    b.header_span.offset};
-    if (Diagnostic* d =
-            r.report(rule, b, span, "keyword " + clipped(b.keyword) + " is not in upper case"))
-      d->fix = Fix{"write " + big, false, {{span, big}}};
+    if (Diagnostic* d = r.report(rule, b, keyword_span(b),
+                                 "keyword " + clipped(b.keyword) + " is not in upper case"))
+      d->fix = Fix{"write " + big, false, {{keyword_span(b), big}}};
   }
 }
 

@@ -8,16 +8,10 @@
 
 #include "keyword/shared/words.hpp"
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
-#include "lint/targets.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {
 namespace {
-
-std::string history_name(const DecodedBlock& d) {
-  return fmt::format("{} {}", d.block->schema->keyword, d.block->id.value);
-}
 
 /// A cell that fixed columns do not tell: the line has a comma, or a parameter stands for the word.
 bool open_word(const DecodedCard& card, const Cell& cell) {
@@ -85,9 +79,7 @@ void check_no_variable(const LintContext& c, const Rule& rule, Reporter& r) {
       any = any || legal_words(schema).empty() || open_word(card, cell) ||
             judge(c, schema, cell.text) != Word::unknown;
     });
-    if (!any)
-      r.report(rule, *d.block, d.block->header_span,
-               fmt::format("{} asks for no variable", history_name(d)));
+    if (!any) r.report(rule, *d.block, d.block->header_span, name_of(d) + " asks for no variable");
   }
 }
 
@@ -132,7 +124,7 @@ class MissingObjects {
     if (zeros > 0)
       report(d, first_zero, true, 1610,
              fmt::format("{} cell{} of {} hold{} 0, and no part has that id", zeros,
-                         zeros == 1 ? "" : "s", history_name(d), zeros == 1 ? "s" : ""));
+                         zeros == 1 ? "" : "s", name_of(d), zeros == 1 ? "s" : ""));
   }
 
  private:
@@ -143,9 +135,9 @@ class MissingObjects {
     const bool placed = cell.span.valid() && cell.span.length > 0;
     const Span span = placed ? cell.span : card.line.whole();
     std::string text =
-        id == 0 ? fmt::format("a line of {} names no {}", history_name(d), kind_name(kind))
-                : fmt::format("{} names {} {}, which does not exist", history_name(d),
-                              kind_name(kind), id);
+        id == 0
+            ? fmt::format("a line of {} names no {}", name_of(d), kind_name(kind))
+            : fmt::format("{} names {} {}, which does not exist", name_of(d), kind_name(kind), id);
     if (id == 0 && !cell.text.empty()) text += fmt::format(": '{}' is read as 0", cell.text);
     report(d, span, card.schema->repeat == Repeat::ids, *cell.field->missing, std::move(text));
   }
@@ -190,7 +182,7 @@ void check_two_histories(const LintContext& c, const Rule& rule, Reporter& r) {
         if (other == &d) continue;
         Diagnostic* found = r.report(rule, *d.block, cell.span,
                                      fmt::format("{} {} is in {} and in {}", kind_name(kind), id,
-                                                 history_name(*other), history_name(d)));
+                                                 name_of(*other), name_of(d)));
         if (found != nullptr) found->notes.emplace_back(it->second->span, "the other one is here");
       }
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -38,14 +37,13 @@ class Ignored {
 
 /// Some secondary node belongs to the main surface (TYPE7); also where one of them is unknown.
 bool share_nodes(const LintContext& c, const ContactCard& card) {
-  const NodeSet* group =
-      c.selections->node_group(static_cast<std::int64_t>(card.value("grnd_IDs")));
-  const auto main = c.selections->outline(static_cast<std::int64_t>(card.value("surf_IDm")));
+  const NodeSet* group = c.selections->node_group(card.id("grnd_IDs"));
+  const auto main = c.selections->outline(card.id("surf_IDm"));
   if (group == nullptr || !main) return true;
-  std::vector<bool> on_main(c.model->nodes.size(), false);
-  main->segments.each([&](const Segment& s) {
-    for (const NodeIndex n : s.nodes)
-      if (n != no_index) on_main[n] = true;
+  const std::vector<bool> on_main = marked(*c.model, [&](auto&& mark) {
+    main->segments.each([&](const Segment& s) {
+      for (const NodeIndex n : s.nodes) mark(n);
+    });
   });
   return std::any_of(group->nodes.begin(), group->nodes.end(),
                      [&](NodeIndex n) { return n != no_index && on_main[n]; });

@@ -1,13 +1,89 @@
 // Values of which the reference solver speaks: those with which it stops, those of which it warns,
-// and those of which only some of its builds warn.
-#include "lint/limits.hpp"
-
+// and those of which only some of its builds warn. The embedded table of limits is checked against
+// its JSON schema and the keyword schemas by tests, not here.
 #include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
 
+#include "base/shared/embedded.hpp"
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
+namespace {
+
+using Json = nlohmann::json;
+
+NumberTest test_of(const Json& json, std::string field) {
+  NumberTest out;
+  out.field = std::move(field);
+  const auto bound = [&](const char* key) {
+    const auto it = json.find(key);
+    return it == json.end() ? std::nullopt : std::optional(it->get<double>());
+  };
+  out.is = json.value("is", std::vector<double>());
+  out.is_not = json.value("is_not", std::vector<double>());
+  out.above = bound("above");
+  out.below = bound("below");
+  out.at_least = bound("at_least");
+  out.at_most = bound("at_most");
+  return out;
+}
+
+Limit limit_of(const Json& json, std::string keyword, std::string field) {
+  Limit out;
+  out.keyword = std::move(keyword);
+  out.of = test_of(json, std::move(field));
+  out.sum = json.value("sum", false);
+  out.not_a = json.value("not_a", "");
+  if (const auto when = json.find("when"); when != json.end())
+    for (const Json& test : *when) out.when.push_back(test_of(test, test.value("field", "")));
+  const bool error = json.contains("error"), warning = json.contains("warning");
+  out.severity = error ? Severity::error : warning ? Severity::warning : Severity::info;
+  out.message = json.value(error ? "error" : warning ? "warning" : "info", 0);
+  const RuleId general = error ? RuleId::DK640 : warning ? RuleId::DK641 : RuleId::DK642;
+  out.rule = json.value("rule", std::string(id_text(general)));
+  out.says = json.value("says", "");
+  out.fix = json.value("fix", "");
+  out.known_from = json.value("known_from", "");
+  return out;
+}
+
+}  // namespace
+
+bool NumberTest::holds(double value) const {
+  if (!is.empty() && std::find(is.begin(), is.end(), value) == is.end()) return false;
+  if (std::find(is_not.begin(), is_not.end(), value) != is_not.end()) return false;
+  return (!above || value > *above) && (!below || value < *below) &&
+         (!at_least || value >= *at_least) && (!at_most || value <= *at_most);
+}
+
+const std::vector<Limit>& all_limits() {
+  static const std::vector<Limit> limits = [] {
+    std::vector<Limit> out;
+    for (const EmbeddedFile& file : embedded_limits()) {
+      const Json json = Json::parse(file.text);
+      for (const Json& entry : json.at("limits"))
+        for (const Json& keyword : entry.at("keywords"))
+          for (const Json& field : entry.value("of", Json::array({""})))
+            out.push_back(limit_of(entry, keyword.get<std::string>(), field.get<std::string>()));
+    }
+    return out;
+  }();
+  return limits;
+}
+
+const std::vector<const Limit*>& limits_of(const Schema& schema) {
+  using ByKeyword = std::map<std::string_view, std::vector<const Limit*>>;
+  static const ByKeyword by_keyword = [] {
+    ByKeyword out;
+    for (const Limit& limit : all_limits()) out[limit.keyword].push_back(&limit);
+    return out;
+  }();
+  static const std::vector<const Limit*> none;
+  const auto it = by_keyword.find(schema.keyword);
+  return it == by_keyword.end() ? none : it->second;
+}
+
 namespace {
 
 /// Where a number was read, and what it is.
@@ -17,10 +93,7 @@ struct Reading {
   double value = 0;
 };
 
-double number_in(const Cell* cell) {
-  if (cell == nullptr) return 0;
-  return cell->field->type == FieldType::real ? cell->real : static_cast<double>(cell->integer);
-}
+double number_in(const Cell* cell) { return cell == nullptr ? 0 : number_of(*cell); }
 
 /// The cell of that name that goes with a line: on it, in its round, or where nothing repeats.
 const Cell* cell_beside(const DecodedBlock& d, const DecodedCard* line, std::string_view field) {
@@ -99,7 +172,7 @@ std::string circumstances(const DecodedBlock& d, const Limit& limit, const Decod
 }
 
 std::string message_of(const DecodedBlock& d, const Limit& limit, const Reading& at) {
-  const std::string name = fmt::format("{} {}", d.block->schema->keyword, d.block->id.value);
+  const std::string name = name_of(d);
   if (limit.of.field.empty()) return name + ": " + limit.says;
   const bool blank = at.cell == nullptr || at.cell->blank();
   std::string out =
@@ -144,14 +217,11 @@ bool has_limits(const Rule& rule, const Schema& schema) {
 }
 
 void check_limits(const LintContext& c, const Rule& rule, Reporter& r, const DecodedBlock& d) {
-  const Block& block = *d.block;
-  for (const Limit* limit : limits_of(*block.schema)) {
+  for (const Limit* limit : limits_of(*d.block->schema)) {
     if (limit->rule != id_text(rule.id)) continue;
     for (const Reading& at : readings_of(d, *limit)) {
       if (!applies(c, d, *limit, at)) continue;
-      const bool placed = at.cell != nullptr && at.cell->span.valid();
-      Diagnostic* found = r.report(rule, block, placed ? at.cell->span : block.header_span,
-                                   message_of(d, *limit, at));
+      Diagnostic* found = r.report(rule, *d.block, place_of(d, at.cell), message_of(d, *limit, at));
       if (found == nullptr) continue;
       const Severity theirs =
           limit->severity == Severity::info ? Severity::warning : limit->severity;

@@ -9,17 +9,9 @@
 
 #include "base/shared/paths.hpp"
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
-
-/// Blocks of a keyword, by the keyword of their schema.
-template <class F>
-void each_block(const LintContext& c, std::string_view keyword, F&& f) {
-  for (const Block& b : c.deck.blocks)
-    if (b.schema != nullptr && !b.opaque && b.schema->keyword == keyword) f(b);
-}
 
 /// Parts of the model that have shell elements.
 std::vector<bool> parts_with_shells(const Model& m) {
@@ -54,12 +46,6 @@ void each_shell_pair(const LintContext& c, F&& f) {
     const DecodedBlock d = decode(c.deck, *p.block);
     for (const std::uint32_t mat : materials) f(p, m.materials[mat], d);
   }
-}
-
-/// The columns of a cell, or the header where its line is missing.
-Span place_of(const DecodedBlock& d, std::string_view field) {
-  const Cell* cell = d.find(field);
-  return cell != nullptr && cell->span.valid() ? cell->span : d.block->header_span;
 }
 
 void check_global_integration(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -128,7 +114,7 @@ void check_vents(const LintContext& c, const Rule& rule, Reporter& r) {
       if (surface == nullptr || area == nullptr) continue;
       ++place;
       if (surface->integer != 0 || surface->parameter || area->real != 0) continue;
-      r.report(rule, b, area->span.valid() ? area->span : b.header_span,
+      r.report(rule, b, place_of(d, area),
                fmt::format("vent hole {} of {} has no surface and the area 0", place,
                            clipped(b.header)));
     }

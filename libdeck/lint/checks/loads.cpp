@@ -5,8 +5,6 @@
 #include <set>
 
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
-#include "lint/targets.hpp"
 
 namespace deck::detail {
 namespace {
@@ -24,26 +22,19 @@ std::string legal_codes(const Cell& cell) {
 void check_codes(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& d : c.loads) {
     if (acts_on_nothing(c, d) != nullptr) continue;  // DK138 says so
-    for (const DecodedCard& card : d.cards)
-      for (const Cell& cell : card.cells) {
-        if (!cell.field->wrong || card.missing()) continue;
-        const std::string legal = legal_codes(cell);
-        if (legal.empty()) continue;
-        Diagnostic* found = r.report(
-            rule, *d.block, cell.span.valid() ? cell.span : d.block->header_span,
-            fmt::format("{} of {} {} is {}; legal: {}", cell.field->name, d.block->schema->keyword,
-                        d.block->id.value,
-                        cell.blank() ? "blank" : fmt::format("'{}'", clipped(trim(cell.text))),
-                        legal));
-        if (found != nullptr && *cell.field->wrong > 0)
-          found->reference = {*cell.field->wrong, Severity::error};
-      }
+    each_cell(d, [&](const DecodedCard& card, const Cell& cell) {
+      if (!cell.field->wrong || card.missing()) return;
+      const std::string legal = legal_codes(cell);
+      if (legal.empty()) return;
+      Diagnostic* found = r.report(
+          rule, *d.block, place_of(d, &cell),
+          fmt::format("{} of {} is {}; legal: {}", cell.field->name, name_of(d),
+                      cell.blank() ? "blank" : fmt::format("'{}'", clipped(trim(cell.text))),
+                      legal));
+      if (found != nullptr && *cell.field->wrong > 0)
+        found->reference = {*cell.field->wrong, Severity::error};
+    });
   }
-}
-
-double real_of(const DecodedBlock& d, std::string_view field) {
-  const Cell* cell = d.find(field);
-  return cell != nullptr ? cell->real : 0;
 }
 
 void check_normal(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -52,15 +43,13 @@ void check_normal(const LintContext& c, const Rule& rule, Reporter& r) {
     if (keyword != "/RWALL/PLANE" && keyword != "/RWALL/CYL") continue;
     // A wall that moves has its first point in a node.
     if (const Cell* node = d.find("node_ID"); node == nullptr || node->integer != 0) continue;
-    if (real_of(d, "XM") != real_of(d, "XM1") || real_of(d, "YM") != real_of(d, "YM1") ||
-        real_of(d, "ZM") != real_of(d, "ZM1"))
+    if (d.real("XM") != d.real("XM1") || d.real("YM") != d.real("YM1") ||
+        d.real("ZM") != d.real("ZM1"))
       continue;
-    const Cell* second = d.find("XM1");
-    r.report(rule, *d.block,
-             second != nullptr && second->span.valid() ? second->span : d.block->header_span,
-             fmt::format("both points of {} {} are at ({}, {}, {})", keyword, d.block->id.value,
-                         number_text(real_of(d, "XM")), number_text(real_of(d, "YM")),
-                         number_text(real_of(d, "ZM"))));
+    r.report(
+        rule, *d.block, place_of(d, "XM1"),
+        fmt::format("both points of {} are at ({}, {}, {})", name_of(d), number_text(d.real("XM")),
+                    number_text(d.real("YM")), number_text(d.real("ZM"))));
   }
 }
 
@@ -70,16 +59,15 @@ constexpr int most_boundaries = 2;
 void check_corners(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<NodeIndex, int> boundaries;
   const Block* last = nullptr;
-  for (const Block& block : c.deck.blocks) {
-    if (block.schema == nullptr || block.schema->keyword != "/SPHBCS" || block.opaque) continue;
+  each_block(c, "/SPHBCS", [&](const Block& block) {
     const DecodedBlock d = decode(c.deck, block);
     const NodeSet* group =
         c.selections->node_group(c.resolved(block, "grnod", d.integer("grnod_ID")));
-    if (group == nullptr) continue;
+    if (group == nullptr) return;
     last = &block;
     for (const NodeIndex n : std::set<NodeIndex>(group->nodes.begin(), group->nodes.end()))
       ++boundaries[n];
-  }
+  });
   std::size_t count = 0;
   NodeIndex first = no_index;
   for (const auto& [node, times] : boundaries) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 namespace {
@@ -42,11 +42,10 @@ void check_not_positive(const LintContext& c, const Rule& rule, Reporter& r,
       // A line that is not there counts as blank.
       const Cell* cell = d.find(field);
       if (cell != nullptr && (cell->real > 0 || cell->parameter)) continue;
-      const bool placed = cell != nullptr && cell->span.valid();
-      Diagnostic* found =
-          r.report(rule, *m.block, placed ? cell->span : m.block->header_span,
-                   fmt::format("{} of {} {} is {}", field, m.type, m.id,
-                               placed && !cell->blank() ? std::string(trim(cell->text)) : "blank"));
+      const bool written = cell != nullptr && cell->span.valid() && !cell->blank();
+      Diagnostic* found = r.report(rule, *m.block, place_of(d, cell),
+                                   fmt::format("{} of {} {} is {}", field, m.type, m.id,
+                                               written ? trim(cell->text) : "blank"));
       if (found == nullptr || stops) continue;
       found->severity = Severity::warning;
       found->reference.reset();
@@ -94,9 +93,7 @@ void check_no_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
 class MassiveNodes {
  public:
   explicit MassiveNodes(const Model& m) : m_(m), massive_(m.nodes.size(), false) {
-    for (const Elements* family :
-         {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring})
-      take(*family);
+    for (const ElementKind kind : all_families) take(m.family(kind));
   }
   bool operator()(NodeIndex n) const { return n < massive_.size() && massive_[n]; }
 
@@ -151,9 +148,7 @@ void check_rigid_mass(const LintContext& c, const Rule& rule, Reporter& r) {
     const NodeSet* set = group > 0 ? c.selections->node_group(group) : nullptr;
     if (group > 0 && set == nullptr) continue;  // DK120 says so
     if (set != nullptr && std::any_of(set->nodes.begin(), set->nodes.end(), massive)) continue;
-    const Cell* cell = d.find("grnd_ID");
-    r.report(rule, *d.block,
-             cell != nullptr && cell->span.valid() ? cell->span : d.block->header_span,
+    r.report(rule, *d.block, place_of(d, "grnd_ID"),
              fmt::format("/RBODY {} has neither mass nor inertia: {}", d.block->id.value,
                          set == nullptr || set->nodes.empty()
                              ? "it has no secondary node"

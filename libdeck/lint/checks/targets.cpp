@@ -1,29 +1,95 @@
 // Ids on boundary conditions, loads, constraints and sensors: the schemas say which targets the
 // reference solver asks for; here the deck is held against them.
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
-#include "lint/targets.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
-namespace {
 
-std::string block_name(const DecodedBlock& d) {
-  return fmt::format("{} {}", d.block->schema->keyword, d.block->id.value);
+std::string_view kind_name(std::string_view kind) {
+  using Name = std::pair<std::string_view, std::string_view>;
+  static constexpr std::array<Name, 14> names = {
+      Name{"grnod", "/GRNOD"},       Name{"surf", "/SURF"},     Name{"line", "/LINE"},
+      Name{"funct", "/FUNCT"},       Name{"sensor", "/SENSOR"}, Name{"skew", "/SKEW"},
+      Name{"frame", "/FRAME"},       Name{"prop", "/PROP"},     Name{"mat", "/MAT"},
+      Name{"friction", "/FRICTION"}, Name{"part", "/PART"},     Name{"node", "node"},
+      Name{"subset", "/SUBSET"},     Name{"inter", "/INTER"}};
+  if (family_of_kind(kind)) return kind;
+  const auto it =
+      std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.first == kind; });
+  return it == names.end() ? "/SET" : it->second;
 }
 
-ReferenceMessage stops_with(int message) { return {message, Severity::error}; }
+bool selection_exists(const LintContext& c, std::string_view kind, std::int64_t id) {
+  return c.selections->is_plain(kind, id) || c.selections->where("set", id).has_value();
+}
+
+std::string selection_name(const LintContext& c, std::string_view kind, std::int64_t id) {
+  const std::string_view name = c.selections->is_plain(kind, id) ? kind_name(kind) : "/SET";
+  return std::string(name) + " " + std::to_string(id);
+}
+
+std::size_t selection_size(const LintContext& c, std::string_view kind, std::int64_t id) {
+  if (kind == "grnod") {
+    const NodeSet* s = c.selections->node_group(id);
+    return s ? s->nodes.size() : 0;
+  }
+  if (kind == "surf") {
+    const auto s = c.selections->outline(id);
+    return s ? (s->analytical ? 1 : s->segments.size()) : 0;
+  }
+  const LineSet* s = c.selections->line(id);
+  return s ? s->edges.size() : 0;
+}
+
+bool selection_is_empty(const LintContext& c, std::string_view kind, std::int64_t id) {
+  return selection_size(c, kind, id) == 0 && c.selections->complete();
+}
+
+std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id) {
+  if (kind == "grnod" || kind == "surf" || kind == "line") return selection_exists(c, kind, id);
+  if (kind == "node") return c.model->find_node(id) != no_index;
+  if (const auto family = family_of_kind(kind))
+    return c.model->family(*family).map.find(id) != no_index;
+  if (kind_name(kind) == "/SET") return std::nullopt;
+  const auto all = c.defined.find(kind);
+  return all != c.defined.end() && all->second.count(id) > 0;
+}
+
+std::pair<const Field*, bool> acts_on(const LintContext& c, const DecodedBlock& d) {
+  const int version = d.block->version;
+  for (const CardSchema& card : d.block->schema->cards)
+    for (const Field& field : card.fields) {
+      if (!field.acts_on || !card.in_version(version) || !field.in_version(version)) continue;
+      const Cell* cell = d.find(field.name);
+      const std::int64_t id = cell != nullptr ? c.resolved(*d.block, field.ref, cell->integer) : 0;
+      return {&field, id != 0 && target_exists(c, field.ref, id).value_or(true)};
+    }
+  return {nullptr, false};
+}
+
+const Field* acts_on_nothing(const LintContext& c, const DecodedBlock& d) {
+  const auto [field, found] = acts_on(c, d);
+  if (field == nullptr || found) return nullptr;
+  const Cell* cell = d.find(field->name);
+  if (cell == nullptr || cell->integer == 0) return field;
+  // One wrong group is an error; without a single node the solver does not look at such blocks.
+  return c.any_acts ? nullptr : field;
+}
+
+namespace {
 
 /// Says with which message the solver stops; 0: not known, the finding then names none.
 void set_message(Diagnostic* d, int message) {
   if (d == nullptr) return;
   if (message > 0)
-    d->reference = stops_with(message);
+    d->reference = ReferenceMessage{message, Severity::error};
   else
     d->reference.reset();
 }
@@ -75,7 +141,7 @@ void check_missing_target(const LintContext& c, const Rule& rule, Reporter& r) {
                 const bool group = kind == "grnod" || kind == "surf" || kind == "line";
                 std::string message =
                     fmt::format("{} of {} is {}, and there is no {}{} of that id", cell.field->name,
-                                block_name(d), id, kind_name(kind), group ? " or /SET" : "");
+                                name_of(d), id, kind_name(kind), group ? " or /SET" : "");
                 const std::int64_t offset = c.deck.offset_of(*d.block, kind);
                 if (offset != 0 && target_exists(c, kind, id - offset).value_or(false))
                   message += fmt::format("; {} exists outside the submodel, whose offset is {}",
@@ -89,13 +155,12 @@ void check_acts_on_nothing(const LintContext& c, const Rule& rule, Reporter& r) 
     const Field* field = acts_on_nothing(c, d);
     if (field == nullptr) continue;
     const Cell* cell = d.find(field->name);
-    const bool placed = cell != nullptr && cell->span.valid();
     r.report(
-        rule, *d.block, placed ? cell->span : d.block->header_span,
+        rule, *d.block, place_of(d, cell),
         cell == nullptr || cell->integer == 0
-            ? fmt::format("{} of {} names no {}", field->name, block_name(d), kind_name(field->ref))
+            ? fmt::format("{} of {} names no {}", field->name, name_of(d), kind_name(field->ref))
             : fmt::format("{} of {} is {}, and there is no {} or /SET of that id", field->name,
-                          block_name(d), c.resolved(*d.block, field->ref, cell->integer),
+                          name_of(d), c.resolved(*d.block, field->ref, cell->integer),
                           kind_name(field->ref)));
   }
 }
@@ -109,7 +174,7 @@ void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
                 Diagnostic* found =
                     r.report(rule, *d.block, cell.span,
                              fmt::format("{} of {} is {}, and {} is empty", cell.field->name,
-                                         block_name(d), id, selection_name(c, kind, id)));
+                                         name_of(d), id, selection_name(c, kind, id)));
                 set_message(found, message_id);
                 if (found == nullptr) return;
                 const bool plain = c.selections->is_plain(kind, id);
@@ -127,10 +192,9 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
         if (!field.required || !card.in_version(version) || !field.in_version(version)) continue;
         const Cell* cell = d.find(field.name);
         if (cell != nullptr && cell->integer != 0) continue;
-        const bool placed = cell != nullptr && cell->span.valid();
         Diagnostic* found = r.report(
-            rule, *d.block, placed ? cell->span : d.block->header_span,
-            fmt::format("{} of {} names no {}", field.name, block_name(d), kind_name(field.ref)));
+            rule, *d.block, place_of(d, cell),
+            fmt::format("{} of {} names no {}", field.name, name_of(d), kind_name(field.ref)));
         set_message(found, *field.required);
       }
 }

@@ -9,23 +9,13 @@
 
 #include "base/shared/columns.hpp"
 #include "deck/lint/lint.hpp"
+#include "text/shared/columns.hpp"
 #include "text/shared/gzip.hpp"
 
 namespace deck {
 namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
-
-std::vector<std::string_view> words(std::string_view line) {
-  std::vector<std::string_view> out;
-  for (std::size_t at = 0; at < line.size();) {
-    at = std::min(line.find_first_not_of(' ', at), line.size());
-    const auto end = std::min(line.find(' ', at), line.size());
-    if (end > at) out.push_back(line.substr(at, end - at));
-    at = end;
-  }
-  return out;
-}
 
 /// Two plates of shells with everything an interface needs; four nodes apart by a gap.
 constexpr std::string_view model_text = R"(/MAT/ELAST/1
@@ -81,7 +71,7 @@ late
 )";
 
 std::string render_at_line(std::string_view line, int version, const SchemaSet& schemas) {
-  const auto parts = words(line.substr(1));
+  const auto parts = detail::words_of(line.substr(1));
   const std::string_view header = parts.empty() ? std::string_view() : parts[0];
   Values values;
   for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -125,7 +115,7 @@ Parsed parse(std::string_view example, const SchemaSet& schemas) {
     const std::string_view line = example.substr(0, nl);
     const bool ended = nl < example.size();
     example.remove_prefix(std::min(nl + 1, example.size()));
-    const auto parts = words(line);
+    const auto parts = detail::words_of(line);
     const std::string_view first = parts.empty() ? std::string_view() : parts[0];
     const auto number = [&](std::size_t i) {
       int v = 0;

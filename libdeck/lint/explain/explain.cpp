@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/shared/columns.hpp"
-#include "deck/lint/rule.hpp"
-#include "lint/context.hpp"
+#include "deck/lint/lint.hpp"
+#include "lint/check.hpp"
 #include "lint/shared/example.hpp"
 #include "lint/shared/topics.hpp"
 #include "text/shared/rule_page.hpp"

@@ -1,5 +1,5 @@
 // The catalogue of solver messages, and what deck explain says of a number or of words.
-#include "lint/shared/messages.hpp"
+#include "lint/shared/topics.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,7 @@
 #include "base/shared/spelling.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule.hpp"
-#include "lint/limits.hpp"
-#include "lint/shared/topics.hpp"
+#include "lint/check.hpp"
 
 namespace deck {
 namespace solver_message {

@@ -8,8 +8,7 @@
 
 #include "base/shared/columns.hpp"
 #include "base/shared/spelling.hpp"
-#include "deck/lint/rule.hpp"
-#include "lint/shared/messages.hpp"
+#include "deck/lint/lint.hpp"
 
 namespace deck {
 namespace {

@@ -1,5 +1,5 @@
 // The lines of a deck that a change touched, and the findings that move there.
-#include "lint/shared/changed_lines.hpp"
+#include "lint/shared/gate.hpp"
 
 #include <algorithm>
 #include <charconv>

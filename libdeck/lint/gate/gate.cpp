@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "base/shared/count.hpp"
 #include "base/shared/length_text.hpp"
 #include "deck/text/number.hpp"
-#include "lint/gate/gate_places.hpp"
 #include "lint/shared/config.hpp"
 
 namespace deck {
@@ -58,6 +59,145 @@ struct Items {
     const std::size_t nodes = all.size() - edges;
     return nodes_and_edges(nodes, edges);
   }
+};
+
+std::string name_of(const InterBase* inter) {
+  return fmt::format("/INTER/TYPE{} {}", inter->type, inter->id);
+}
+
+/// "node 57", "edge 3-4"
+std::string item_text(const NamedPenetration& p) {
+  return p.secondary[1] == 0 ? fmt::format("node {}", p.secondary[0])
+                             : fmt::format("edge {}-{}", p.secondary[0], p.secondary[1]);
+}
+
+/// Penetrations whose lines are looked at; the others are less deep.
+constexpr std::size_t most_rows = 10'000;
+
+std::vector<std::uint32_t> deepest(const std::vector<std::uint32_t>& rows) {
+  return {rows.begin(),
+          rows.begin() + static_cast<std::ptrdiff_t>(std::min(most_rows, rows.size()))};
+}
+
+/// Where in the deck a finding of the gate comes from: its deepest place, and among all that it
+/// depends on the line that a change touched.
+class GatePlaces {
+ public:
+  using Notes = std::vector<std::pair<Span, std::string>>;
+
+  /// `lines` may be nullptr: no change is known.
+  GatePlaces(const Scene& scene, const SceneView& view, const ChangedLines* lines)
+      : scene_(scene), view_(view), model_(*scene.model) {
+    if (lines != nullptr && !lines->empty()) changed_.emplace(*lines, model_.deck->sources);
+  }
+
+  /// Of penetrations (positions in SceneView::penetrations, the deepest first) of an interface, or
+  /// of the deck (nullptr).
+  Notes of_penetrations(const InterBase* inter, const std::vector<std::uint32_t>& all) {
+    Notes notes;
+    if (all.empty()) return notes;
+    const NamedPenetration& first = view_.penetrations[all.front()];
+    if (const NodeIndex n = model_.find_node(first.secondary[0]); n != no_index) {
+      const PenetrationRow& row = scene_.contacts[first.contact].penetrations[first.row];
+      notes.emplace_back(model_.node_span(n),
+                         fmt::format("{} is {} deep", item_text(first), length_text(row.depth)));
+    }
+    if (!changed_) return notes;
+    const std::vector<std::uint32_t> rows = deepest(all);
+    for (const std::uint32_t i : rows)
+      for (const std::int64_t id : view_.penetrations[i].secondary)
+        if (add_node(notes, id, "node")) return notes;
+    for (const std::uint32_t i : rows)
+      for (const std::int64_t id : view_.penetrations[i].main)
+        if (add_node(notes, id, "node of the main side,")) return notes;
+    if (inter != nullptr && add_changed(notes, inter->block, name_of(inter))) return notes;
+    if (!add_parts(notes, rows)) add_elements(notes, rows);
+    return notes;
+  }
+
+  /// Of nodes by their ids.
+  Notes of_nodes(const InterBase* inter, const std::vector<std::int64_t>& nodes) {
+    Notes notes;
+    if (!nodes.empty())
+      if (const NodeIndex n = model_.find_node(nodes.front()); n != no_index)
+        notes.emplace_back(model_.node_span(n), fmt::format("node {}", nodes.front()));
+    if (!changed_) return notes;
+    for (std::size_t i = 0; i < std::min(most_rows, nodes.size()); ++i)
+      if (add_node(notes, nodes[i], "node")) return notes;
+    for (auto& note : of_interface(inter)) notes.push_back(std::move(note));
+    return notes;
+  }
+
+  /// The interface's own card alone.
+  Notes of_interface(const InterBase* inter) {
+    Notes notes;
+    if (changed_ && inter != nullptr) add_changed(notes, inter->block, name_of(inter));
+    return notes;
+  }
+
+ private:
+  bool add_changed(Notes& notes, const Span& span, const std::string& what) {
+    const Span line = changed_->first_in(span);
+    if (!line.valid()) return false;
+    notes.emplace_back(line, what + " was changed");
+    return true;
+  }
+
+  bool add_changed(Notes& notes, const Block* block, const std::string& what) {
+    if (block == nullptr) return false;
+    // Long blocks are in no way among these: interfaces, parts, properties, materials.
+    for (const Piece& piece : block->body)
+      if (add_changed(
+              notes, {piece.file, static_cast<std::uint32_t>(piece.end - piece.begin), piece.begin},
+              what))
+        return true;
+    return add_changed(notes, block->header_span, what);
+  }
+
+  bool add_node(Notes& notes, std::int64_t id, const char* what) {
+    const NodeIndex n = id == 0 ? no_index : model_.find_node(id);
+    return n != no_index && add_changed(notes, model_.node_span(n), fmt::format("{} {}", what, id));
+  }
+
+  bool add_elements(Notes& notes, const std::vector<std::uint32_t>& rows) {
+    for (const std::uint32_t i : rows)
+      for (const ElementName& e :
+           {view_.penetrations[i].secondary_element, view_.penetrations[i].main_element})
+        if (e.valid() && add_changed(notes, model_.element_span(e.kind, e.index),
+                                     fmt::format("element {}", e.id)))
+          return true;
+    return false;
+  }
+
+  bool add_parts(Notes& notes, const std::vector<std::uint32_t>& rows) {
+    std::set<std::int64_t> ids;
+    for (const std::uint32_t i : rows) {
+      ids.insert(view_.penetrations[i].secondary_element.part);
+      ids.insert(view_.penetrations[i].main_element.part);
+    }
+    for (const std::int64_t id : ids) {
+      const auto it = model_.part_of_id.find(id);
+      if (it == model_.part_of_id.end()) continue;
+      const Part& part = model_.parts[it->second];
+      if (part.prop != no_index) {
+        const Property& property = model_.properties[part.prop];
+        if (add_changed(notes, property.block, fmt::format("{} {}", property.type, property.id)))
+          return true;
+      }
+      if (part.mat != no_index) {
+        const Material& material = model_.materials[part.mat];
+        if (add_changed(notes, material.block, fmt::format("{} {}", material.type, material.id)))
+          return true;
+      }
+      if (add_changed(notes, part.span, fmt::format("part {}", id))) return true;
+    }
+    return false;
+  }
+
+  const Scene& scene_;
+  const SceneView& view_;
+  const Model& model_;
+  std::optional<ChangedPlaces> changed_;
 };
 
 class Check {
@@ -113,25 +253,14 @@ class Check {
                fmt::format("{}: {} deeper than the {} of the gap that the gate allows; deepest {}",
                            name_of(inter), items.text(), bound, pair_text(items.deepest())),
                places_.of_penetrations(inter, items.rows));
-      if (const auto most = limits_.at(inter).max_count;
-          most && of_interface[inter].all.size() > *most)
-        report(RuleId::DK372, inter,
-               fmt::format("{}: {}, the gate allows {}", name_of(inter),
-                           of_interface[inter].penetrating(), *most),
-               places_.of_penetrations(inter, of_interface[inter].rows));
+      count(inter, name_of(inter), of_interface[inter], limits_.at(inter).max_count);
     }
-    for (std::size_t k = 0; k < of_pair.size(); ++k)
-      if (const auto most = gate_.part_pairs[k].limits.max_count;
-          most && of_pair[k].all.size() > *most)
-        report(
-            RuleId::DK372, nullptr,
-            fmt::format("parts '{}' and '{}': {}, the gate allows {}", gate_.part_pairs[k].match[0],
-                        gate_.part_pairs[k].match[1], of_pair[k].penetrating(), *most),
-            places_.of_penetrations(nullptr, of_pair[k].rows));
-    if (const auto most = gate_.general.max_count; most && of_deck.all.size() > *most)
-      report(RuleId::DK372, nullptr,
-             fmt::format("the deck: {}, the gate allows {}", of_deck.penetrating(), *most),
-             places_.of_penetrations(nullptr, of_deck.rows));
+    for (std::size_t k = 0; k < of_pair.size(); ++k) {
+      const GateScope& pair = gate_.part_pairs[k];
+      count(nullptr, fmt::format("parts '{}' and '{}'", pair.match[0], pair.match[1]), of_pair[k],
+            pair.limits.max_count);
+    }
+    count(nullptr, "the deck", of_deck, gate_.general.max_count);
   }
 
   void ties() {
@@ -183,7 +312,7 @@ class Check {
           gate_.on_fresh && it != comparison.lost_ties.end())
         report(RuleId::DK374, inter,
                fmt::format("{}: {} not tied {} {}; first is node {}", name_of(inter),
-                           count(it->second.size(), "node is", "nodes are"),
+                           deck::count(it->second.size(), "node is", "nodes are"),
                            earlier.accepts ? "and not accepted in" : "now that was tied in",
                            earlier.path, it->second.front()),
                places_.of_nodes(inter, it->second));
@@ -205,24 +334,25 @@ class Check {
   std::vector<Diagnostic> found;
 
  private:
-  static std::string name_of(const InterBase* inter) {
-    return fmt::format("/INTER/TYPE{} {}", inter->type, inter->id);
+  void count(const InterBase* inter, const std::string& of, const Items& items,
+             const std::optional<std::uint64_t>& most) {
+    if (most && items.all.size() > *most)
+      report(RuleId::DK372, inter,
+             fmt::format("{}: {}, the gate allows {}", of, items.penetrating(), *most),
+             places_.of_penetrations(inter, items.rows));
   }
 
   static std::string untied_text(const std::string& of, std::size_t lost, std::uint64_t most) {
     return fmt::format("{}: {} not tied, the gate allows {}", of,
-                       count(lost, "node is", "nodes are"), most);
+                       deck::count(lost, "node is", "nodes are"), most);
   }
 
   /// "node 57 by 0.4 of a gap of 1.2"
   std::string pair_text(std::uint32_t at) const {
     const NamedPenetration& p = view_.penetrations[at];
     const PenetrationRow& row = scene_.contacts[p.contact].penetrations[p.row];
-    return fmt::format("{} by {} (gap {})",
-                       p.secondary[1] == 0
-                           ? fmt::format("node {}", p.secondary[0])
-                           : fmt::format("edge {}-{}", p.secondary[0], p.secondary[1]),
-                       length_text(row.depth), length_text(row.gap));
+    return fmt::format("{} by {} (gap {})", item_text(p), length_text(row.depth),
+                       length_text(row.gap));
   }
 
   /// The last scope of Gate::part_pairs that the parts of the pair match; one past the end: none.
@@ -246,8 +376,7 @@ class Check {
     return it->second;
   }
 
-  void report(RuleId rule, const InterBase* inter, std::string message,
-              detail::GatePlaces::Notes notes) {
+  void report(RuleId rule, const InterBase* inter, std::string message, GatePlaces::Notes notes) {
     Diagnostic d =
         finding_of(rule, inter != nullptr ? inter->span : Span{0, 0, 0}, std::move(message));
     if (inter != nullptr) {
@@ -261,7 +390,7 @@ class Check {
   const Gate& gate_;
   const Scene& scene_;
   const SceneView& view_;
-  detail::GatePlaces places_;
+  GatePlaces places_;
   std::map<const InterBase*, GateLimits> limits_;
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> pair_scopes_;
 };

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/contact/earlier.hpp"
+#include "deck/contact/view.hpp"
 #include "deck/lint/lint.hpp"
 #include "deck/text/result.hpp"
 

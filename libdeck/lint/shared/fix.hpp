@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "deck/lint/lint.hpp"
 #include "deck/text/diagnostic.hpp"
 #include "deck/text/source.hpp"
 #include "text/shared/edits.hpp"
@@ -52,3 +53,10 @@ struct AgreedFixes {
 AgreedFixes agree_on_fixes(const std::vector<FixedDeck>& decks, bool unsafe);
 
 }  // namespace deck
+
+namespace deck::detail {
+
+/// Gives `d` a fix where its rule has a mechanical one and it has none yet.
+void attach_fix(const LintContext& context, Diagnostic& d);
+
+}  // namespace deck::detail

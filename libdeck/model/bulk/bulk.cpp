@@ -10,9 +10,8 @@
 #include "base/shared/parallel.hpp"
 #include "deck/text/rule.hpp"
 #include "keyword/shared/solver_order.hpp"
-#include "model/bulk/bulk_order.hpp"
-#include "model/bulk/bulk_plan.hpp"
 #include "model/bulk/bulk_read.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 namespace {
@@ -157,29 +156,13 @@ void extend_ranges(const Chunk& chunk, const std::vector<std::uint32_t>& counts,
 
 /// The nodes of a chunk. The arrays are longer than `size` while it is read: one check per node
 /// instead of four.
-struct NodeRows {
+struct NodeSink {
   std::vector<std::int64_t> id;
   std::vector<double> x, y, z;
   std::size_t size = 0;
   std::vector<std::uint32_t> counts;  ///< per segment
   std::vector<Problem> problems;
-};
 
-/// The elements of a chunk; part and block are those of their segment. The arrays of ids and nodes
-/// may be longer than `size` says.
-struct ElementRows {
-  std::vector<std::int64_t> id;
-  std::vector<std::uint32_t> extra;
-  std::vector<NodeIndex> nodes, extra_nodes;
-  std::vector<double> thickness;  ///< up to the last element that has its own
-  std::vector<SolidShape> shape;
-  std::size_t size = 0, width = 0;
-  std::vector<std::uint32_t> counts;  ///< per segment
-  std::vector<bool> thick;            ///< per segment: an element has its own thickness
-  std::vector<Problem> problems;
-};
-
-struct NodeSink : NodeRows {
   void clear(const Chunk& chunk) {
     size = 0;
     problems.clear();
@@ -243,7 +226,18 @@ class NodeFinder {
   std::int64_t first_ = 0;
 };
 
-struct ElementSink : ElementRows {
+/// The elements of a chunk; part and block are those of their segment. The arrays of ids and nodes
+/// may be longer than `size` says.
+struct ElementSink {
+  std::vector<std::int64_t> id;
+  std::vector<std::uint32_t> extra;
+  std::vector<NodeIndex> nodes, extra_nodes;
+  std::vector<double> thickness;  ///< up to the last element that has its own
+  std::vector<SolidShape> shape;
+  std::size_t size = 0, width = 0;
+  std::vector<std::uint32_t> counts;  ///< per segment
+  std::vector<bool> thick;            ///< per segment: an element has its own thickness
+  std::vector<Problem> problems;
   NodeFinder node;
 
   void clear(const Chunk& next) {
@@ -362,7 +356,7 @@ void report_thickness(const Block& block, Diagnostics& diagnostics) {
 }
 
 void append_elements(const Chunk& chunk, const std::vector<BlockPlan>& plans,
-                     std::uint32_t first_block, const ElementRows& from, Elements& to, Room& room) {
+                     std::uint32_t first_block, const ElementSink& from, Elements& to, Room& room) {
   const std::size_t have = to.size(), more = from.size;
   room.make(chunk.bytes, more, to.id, to.part, to.block);
   // Slots per element instead of elements.
@@ -395,17 +389,13 @@ void append_elements(const Chunk& chunk, const std::vector<BlockPlan>& plans,
   to.thickness.resize(have + more, 0.0);
 }
 
-constexpr ElementKind all_kinds[] = {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
-                                     ElementKind::quad,   ElementKind::tria,   ElementKind::truss,
-                                     ElementKind::beam,   ElementKind::spring};
+}  // namespace
 
 Elements& family_of(Model& model, ElementKind kind) {
   Elements* const families[] = {&model.shell4, &model.shell3, &model.solid8, &model.quad,
                                 &model.tria,   &model.truss,  &model.beam,   &model.spring};
   return *families[static_cast<std::size_t>(kind)];
 }
-
-}  // namespace
 
 std::vector<const Block*> node_blocks(const Deck& deck) {
   return in_solver_order(deck, [](const Block& b) { return is_node_block(b); });
@@ -461,7 +451,7 @@ void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes
 
 void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Model& model,
                    Diagnostics& diagnostics, int threads) {
-  for (const ElementKind kind : all_kinds) {
+  for (const ElementKind kind : all_families) {
     family_of(model, kind).kind = kind;
     family_of(model, kind).width = element_width(kind);
   }
@@ -480,7 +470,7 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
   const std::vector<Chunk> chunks = cut_chunks(deck, plans, chunk_bytes);
   const auto first_range = static_cast<std::uint32_t>(model.element_blocks.size());
   for (const Block* block : blocks) model.element_blocks.push_back({block, 0, 0});
-  std::array<Room, std::size(all_kinds)> rooms;
+  std::array<Room, std::size(all_families)> rooms;
   for (const Chunk& chunk : chunks)
     rooms[static_cast<std::size_t>(chunk.kind)].total += chunk.bytes;
   std::vector<bool> reported(plans.size(), false);
@@ -512,50 +502,8 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
         append_elements(chunk, plans, first_range, rows, family,
                         rooms[static_cast<std::size_t>(chunk.kind)]);
       });
-  for (const ElementKind kind : all_kinds)
+  for (const ElementKind kind : all_families)
     family_of(model, kind).map.build(family_of(model, kind).id);
-}
-
-void put_nodes_in_order(Nodes& nodes, std::vector<BulkBlock>& ranges) {
-  const std::vector<std::uint32_t> places = order_by_id(nodes.id, ranges_of_files(ranges));
-  if (places.empty()) return;
-  put_in_order(places, 1, nodes.id, nodes.x, nodes.y, nodes.z);
-  std::vector<std::uint32_t> items;
-  std::vector<BulkBlock> runs;
-  for (const BulkBlock& b : ranges) add_runs(b, places, items, runs);
-  ranges = std::move(runs);
-  nodes.map.build(nodes.id);
-}
-
-void put_elements_in_order(Model& model) {
-  std::array<std::vector<std::uint32_t>, std::size(all_kinds)> places, items;
-  const auto kind_of = [](const BulkBlock& b) { return element_format(*b.block)->kind; };
-  for (const ElementKind kind : all_kinds) {
-    Elements& family = family_of(model, kind);
-    std::vector<BulkBlock> blocks;
-    std::copy_if(model.element_blocks.begin(), model.element_blocks.end(),
-                 std::back_inserter(blocks),
-                 [&](const BulkBlock& b) { return kind_of(b) == kind; });
-    std::vector<std::uint32_t>& order = places[static_cast<std::size_t>(kind)];
-    order = order_by_id(family.id, blocks);
-    put_in_order(order, 1, family.id, family.thickness, family.shape, family.extra);
-    put_in_order(order, static_cast<std::size_t>(family.width), family.nodes);
-  }
-  if (std::all_of(places.begin(), places.end(), [](const auto& p) { return p.empty(); })) return;
-  std::vector<BulkBlock> runs;
-  for (const BulkBlock& b : model.element_blocks) {
-    const auto kind = static_cast<std::size_t>(kind_of(b));
-    std::size_t r = runs.size();
-    add_runs(b, places[kind], items[kind], runs);
-    for (; r < runs.size(); ++r)
-      std::fill_n(
-          family_of(model, kind_of(b)).block.begin() + static_cast<std::ptrdiff_t>(runs[r].first),
-          runs[r].count, static_cast<std::uint32_t>(r));
-  }
-  model.element_blocks = std::move(runs);
-  for (const ElementKind kind : all_kinds)
-    if (!places[static_cast<std::size_t>(kind)].empty())
-      family_of(model, kind).map.build(family_of(model, kind).id);
 }
 
 }  // namespace deck::detail

@@ -1,5 +1,5 @@
 // Works out once per block where its cells are.
-#include "model/bulk/bulk_plan.hpp"
+#include "model/bulk/bulk.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/bulk/bulk_plan.hpp"
+#include "model/bulk/bulk.hpp"
 #include "text/shared/number_scan.hpp"
 
 namespace deck::detail {

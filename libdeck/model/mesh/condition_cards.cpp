@@ -1,4 +1,4 @@
-// Reads the options that put kinematic conditions on nodes.
+// Reads the options that put kinematic conditions on nodes, rigid bodies among them.
 #include "model/mesh/condition_cards.hpp"
 
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include "deck/text/number.hpp"
 #include "keyword/shared/solver_order.hpp"
 #include "model/mesh/mesh_parts.hpp"
-#include "model/mesh/rigid_bodies.hpp"
 
 namespace deck::detail {
 namespace {
@@ -21,6 +20,29 @@ constexpr std::int64_t skew_base = 10, frame_base = std::int64_t{1} << 40,
                        wall_base = std::int64_t{1} << 41;
 
 std::int64_t skew_system(std::int64_t id) { return id > 0 ? skew_base + id : 1; }
+
+/// The line below the title.
+Line first_data_line(const Deck& deck, const Block& block) {
+  LineCursor lines(deck.sources, block);
+  if (block.schema->has_title) lines.next();
+  return lines.next();
+}
+
+/// A cell of ten columns that begins behind `first` of them.
+std::int64_t integer_at(const Line& line, std::size_t first) {
+  if (!line.valid() || line.text.size() <= first) return 0;
+  return read_integer(line.text.substr(first, 10)).value;
+}
+
+template <class Body>
+void take_nodes(const Model& model, std::int64_t group, Body& body) {
+  const NodeSet* set = group_of(model, *body.block, group);
+  if (set == nullptr) return;
+  for (const NodeIndex n : set->nodes)
+    if (n != no_index && n != body.main) body.nodes.push_back(n);
+  std::sort(body.nodes.begin(), body.nodes.end());
+  body.nodes.erase(std::unique(body.nodes.begin(), body.nodes.end()), body.nodes.end());
+}
 
 class Reader {
  public:
@@ -75,18 +97,13 @@ class Reader {
          "this option is not booked", 1});
   }
 
-  std::int64_t shifted(const Block& b, std::string_view kind, std::int64_t id) const {
-    return id > 0 ? id + deck_.offset_of(b, kind) : id;
-  }
-
   void group(const Block& b, std::int64_t id, std::vector<NodeIndex>& to) const {
-    if (id == 0 || model_.selections == nullptr) return;
-    const NodeSet* set = model_.selections->node_group(shifted(b, "grnod", id));
-    if (set != nullptr) to.insert(to.end(), set->nodes.begin(), set->nodes.end());
+    if (const NodeSet* set = group_of(model_, b, id))
+      to.insert(to.end(), set->nodes.begin(), set->nodes.end());
   }
 
   NodeIndex node(const Block& b, std::int64_t id) const {
-    return id > 0 ? model_.find_node(shifted(b, "node", id)) : no_index;
+    return id > 0 ? model_.find_node(deck_.shifted_id(b, "node", id)) : no_index;
   }
 
   ConditionCard& add(const Block& b, ConditionType type, Turn turn, int rank, const char* kind) {
@@ -95,7 +112,8 @@ class Reader {
     c.turn = turn;
     c.rank = rank;
     c.block = &b;
-    c.id = shifted(b, kind, b.id.value);
+    c.id = deck_.shifted_id(b, kind, b.id.value);
+    c.directions = all_six;
     return c;
   }
 
@@ -115,18 +133,16 @@ class Reader {
 
   void boundary(const Block& b, bool lagrange) {
     if (lagrange) {
-      const Line line = data_line(b, 0);
       ConditionCard& c = add(b, ConditionType::lagmul, Turn::before_ties, 7, "bcs");
       c.lagrange = true;
-      c.directions = all_six;
-      group(b, integer_at(line, 30), c.nodes);
+      group(b, integer_at(first_data_line(deck_, b), 30), c.nodes);
       unique(c.nodes);
       return;
     }
     const DecodedBlock d = decode(deck_, b);
     ConditionCard& c = add(b, ConditionType::bcs, Turn::before_ties, 0, "bcs");
     c.directions = flags(d);
-    c.system = skew_system(shifted(b, "skew", d.integer("skew_ID")));
+    c.system = skew_system(deck_.shifted_id(b, "skew", d.integer("skew_ID")));
     group(b, d.integer("grnod_ID"), c.nodes);
     unique(c.nodes);
   }
@@ -150,8 +166,8 @@ class Reader {
     const int at = (axis == 'Y' ? 1 : axis == 'Z' ? 2 : 0) + (text.size() > 1 ? 3 : 0);
     c.directions = static_cast<std::uint8_t>(1u << at);
     const std::int64_t frame = first_of({"frame_ID", "Iframe", "Frame"});
-    c.system = frame > 0 ? frame_base + shifted(b, "frame", frame)
-                         : skew_system(shifted(b, "skew", first_of({"skew_ID", "Iskew"})));
+    c.system = frame > 0 ? frame_base + deck_.shifted_id(b, "frame", frame)
+                         : skew_system(deck_.shifted_id(b, "skew", first_of({"skew_ID", "Iskew"})));
     group(b, first_of({"grnod_ID", "Gnod_id"}), c.nodes);
     unique(c.nodes);
   }
@@ -159,22 +175,8 @@ class Reader {
   void link(const Block& b) {
     const DecodedBlock d = decode(deck_, b);
     ConditionCard& c = add(b, ConditionType::rlink, Turn::before_ties, 5, "rlink");
-    c.directions = all_six;
     group(b, d.integer("grnd_ID"), c.nodes);
     unique(c.nodes);
-  }
-
-  /// Data line `n` of a block, its title not counted.
-  Line data_line(const Block& b, int n) const {
-    LineCursor lines(deck_.sources, b);
-    if (b.schema->has_title) lines.next();
-    Line line = lines.next();
-    for (; n > 0 && line.valid(); --n) line = lines.next();
-    return line;
-  }
-  static std::int64_t integer_at(const Line& line, std::size_t first) {
-    if (!line.valid() || line.text.size() <= first) return 0;
-    return read_integer(line.text.substr(first, 10)).value;
   }
 
   void rigid_link(const Block& b) {
@@ -190,7 +192,6 @@ class Reader {
   void weighted_element(const Block& b) {
     const DecodedBlock d = decode(deck_, b);
     ConditionCard& c = add(b, ConditionType::rbe3, Turn::before_ties, 7, "rbe3");
-    c.directions = all_six;
     c.main = node(b, d.integer("node_IDr"));
     if (c.main != no_index) c.nodes.push_back(c.main);
     for (const DecodedCard& card : d.cards)
@@ -202,7 +203,6 @@ class Reader {
   void multi_point(const Block& b) {
     ConditionCard& c = add(b, ConditionType::lagmul, Turn::before_ties, 8, "mpc");
     c.lagrange = true;
-    c.directions = all_six;
     LineCursor lines(deck_.sources, b);
     if (b.schema->has_title) lines.next();
     for (Line line = lines.next(); line.valid(); line = lines.next())
@@ -217,12 +217,12 @@ class Reader {
         add(b, lagrange ? ConditionType::lagmul : ConditionType::rwall,
             lagrange ? Turn::before_ties : Turn::walls_and_bodies, lagrange ? 9 : 10, "rwall");
     c.lagrange = lagrange;
-    c.directions = lagrange ? all_six : 1;
+    if (!lagrange) c.directions = 1;
     c.system = wall_base + static_cast<std::int64_t>(out_.cards.size());
     c.penalty = d.integer("Iform") > 1;
     std::vector<NodeIndex> without;
     if (lagrange) {
-      const Line line = data_line(b, 0);
+      const Line line = first_data_line(deck_, b);
       group(b, integer_at(line, 20), c.nodes);
       group(b, integer_at(line, 30), without);
     } else {
@@ -241,10 +241,7 @@ class Reader {
   /// Nodes within the search distance of a wall.
   void near_wall(const Block& b, const DecodedBlock& d, std::string_view keyword,
                  std::vector<NodeIndex>& to) {
-    const auto real = [&](const char* name) {
-      const Cell* cell = d.find(name);
-      return cell == nullptr ? 0.0 : working_value(deck_, d, *cell);
-    };
+    const auto real = [&](const char* name) { return working_value(deck_, d, name); };
     const double reach = real("d");
     if (!(reach > 0.0)) return;
     const std::size_t size = model_.nodes.size();
@@ -277,16 +274,12 @@ class Reader {
 
   void tie(const Block& b) {
     const DecodedBlock d = decode(deck_, b);
-    const TiedNodes* found = nullptr;
-    if (ties_ != nullptr)
-      for (const TiedNodes& t : *ties_)
-        if (t.block == &b && t.evaluated) found = &t;
+    const TiedNodes* found = tie_of(ties_, b);
     const std::int64_t flag = found != nullptr ? found->spotflag : d.integer("Spotflag");
     if (flag == 25 || flag == 26) return;
     const bool late = flag == 27 || flag == 28;
     ConditionCard& c =
         add(b, ConditionType::tied, late ? Turn::late_ties : Turn::ties, 13, "inter");
-    c.directions = all_six;
     c.twice = !late;
     if (found != nullptr) {
       for (const TiedNodes::Row& row : found->rows)
@@ -311,7 +304,7 @@ class Reader {
 
   void surface_nodes(const Block& b, std::int64_t id, std::vector<NodeIndex>& to) const {
     if (model_.selections == nullptr) return;
-    if (const auto outline = model_.selections->outline(shifted(b, "surf", id)))
+    if (const auto outline = model_.selections->outline(deck_.shifted_id(b, "surf", id)))
       outline->segments.each(
           [&](const Segment& s) { to.insert(to.end(), s.nodes.begin(), s.nodes.end()); });
     unique(to);
@@ -320,7 +313,6 @@ class Reader {
   void cylinder(const Block& b) {
     const DecodedBlock d = decode(deck_, b);
     ConditionCard& c = add(b, ConditionType::cyl_joint, Turn::joints, 14, "cyl_joint");
-    c.directions = all_six;
     c.nodes = {node(b, d.integer("node_ID1")), node(b, d.integer("node_ID2"))};
     group(b, d.integer("grnd_ID"), c.nodes);
     unique(c.nodes);
@@ -332,7 +324,6 @@ class Reader {
           add(*body.block, body.lagrange ? ConditionType::lagmul : ConditionType::rbody,
               Turn::walls_and_bodies, body.lagrange ? 12 : 11, "rbody");
       c.lagrange = body.lagrange;
-      c.directions = all_six;
       c.nodes = std::move(body.nodes);
       c.main = body.main;
       c.sensor = body.sensor != 0;
@@ -367,6 +358,74 @@ class Reader {
 };
 
 }  // namespace
+
+const NodeSet* group_of(const Model& model, const Block& block, std::int64_t id) {
+  if (id == 0 || model.selections == nullptr) return nullptr;
+  return model.selections->node_group(model.deck->shifted_id(block, "grnod", id));
+}
+
+const TiedNodes* tie_of(const std::vector<TiedNodes>* ties, const Block& block) {
+  if (ties == nullptr) return nullptr;
+  const auto is_evaluated = [&](const TiedNodes& t) { return t.block == &block && t.evaluated; };
+  const auto it = std::find_if(ties->begin(), ties->end(), is_evaluated);
+  return it == ties->end() ? nullptr : &*it;
+}
+
+std::vector<RigidBody> rigid_bodies(const Model& model) {
+  std::vector<RigidBody> out;
+  const Deck& deck = *model.deck;
+  for (const Block* const at : in_solver_order(deck, "/RBODY")) {
+    const Block& block = *at;
+    if (block.schema == nullptr || block.opaque) continue;
+    RigidBody body;
+    body.lagrange = block.schema->keyword == "/RBODY/LAGMUL";
+    if (!body.lagrange && block.schema->keyword != "/RBODY") continue;
+    body.block = &block;
+    body.id = block.id.value + deck.offset_of(block, "rbody");
+    if (body.lagrange) {
+      // Main node and group stand where /RBODY has them.
+      const Line line = first_data_line(deck, block);
+      if (!line.valid()) continue;
+      if (const std::int64_t main = integer_at(line, 0); main > 0)
+        body.main = model.find_node(main + deck.offset_of(block, "node"));
+      take_nodes(model, integer_at(line, 60), body);
+      out.push_back(std::move(body));
+      continue;
+    }
+    const DecodedBlock d = decode(deck, block);
+    const std::int64_t main = d.integer("node_ID");
+    if (main > 0) body.main = model.find_node(main + deck.offset_of(block, "node"));
+    body.sensor = d.integer("sens_ID");
+    body.ikrem = static_cast<int>(d.integer("Ikrem"));
+    if (const auto c = static_cast<int>(d.integer("ICoG")); c != 0) body.centre = c;
+    body.spherical = d.integer("Ispher") == 1;
+    body.mass = working_value(deck, d, "Mass");
+    constexpr std::array<std::string_view, 6> names{"Jxx", "Jyy", "Jzz", "Jxy", "Jyz", "Jxz"};
+    for (std::size_t i = 0; i < 6; ++i) body.inertia[i] = working_value(deck, d, names[i]);
+    take_nodes(model, d.integer("grnd_ID"), body);
+    out.push_back(std::move(body));
+  }
+  return out;
+}
+
+/// Main node, flags like those of /BCS, skew and group in fields of ten columns.
+std::optional<RigidElement> rigid_element(const Model& model, const Block& block) {
+  const Deck& deck = *model.deck;
+  const Line line = first_data_line(deck, block);
+  if (!line.valid()) return std::nullopt;
+  RigidElement out;
+  out.block = &block;
+  constexpr std::size_t columns[] = {13, 14, 15, 17, 18, 19};
+  for (unsigned i = 0; i < 6; ++i)
+    if (line.text.size() > columns[i] && line.text[columns[i]] == '1')
+      out.directions = static_cast<std::uint8_t>(out.directions | 1u << i);
+  if (const std::int64_t skew = integer_at(line, 20); skew > 0)
+    out.skew = skew + deck.offset_of(block, "skew");
+  if (const std::int64_t main = integer_at(line, 0); main > 0)
+    out.main = model.find_node(main + deck.offset_of(block, "node"));
+  take_nodes(model, integer_at(line, 30), out);
+  return out;
+}
 
 std::vector<std::size_t> ConditionCards::order(Turn turn) const {
   std::vector<std::size_t> out;
@@ -426,18 +485,12 @@ std::vector<Refusal> ConditionCards::refusals(const Model& model) {
       check(806, c.main, rbe2[c.main], true);
     } else if (c.type == ConditionType::rbe3 && c.main != no_index) {
       check(3115, c.main, bcs[c.main], false);
-      bool penalty = false;
-      for (const NodeIndex n : c.leaders)
-        if (check(3100, n, rbe2[n], false)) {
-          penalty = true;
-          break;
-        }
-      for (const NodeIndex n : c.leaders)
-        if (check(3096, n, tied[n], false)) {
-          penalty = true;
-          break;
-        }
-      if (penalty) penalty_elements.push_back(i);
+      const auto first_of = [&](int message, const std::vector<std::uint32_t>& other) {
+        return std::any_of(c.leaders.begin(), c.leaders.end(),
+                           [&](NodeIndex n) { return check(message, n, other[n], false); });
+      };
+      const bool follows = first_of(3100, rbe2), is_tied = first_of(3096, tied);
+      if (follows || is_tied) penalty_elements.push_back(i);
     }
   }
   return out;

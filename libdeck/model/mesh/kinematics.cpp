@@ -58,10 +58,8 @@ class Booking {
     refusals();
     for (const std::size_t i : cards_.order(Turn::before_ties)) book(i, true);
     first_pass_of_ties();
-    for (const std::size_t i : cards_.order(Turn::walls_and_bodies)) book(i, true);
-    for (const std::size_t i : cards_.order(Turn::ties)) book(i, true);
-    for (const std::size_t i : cards_.order(Turn::joints)) book(i, true);
-    for (const std::size_t i : cards_.order(Turn::late_ties)) book(i, true);
+    for (const Turn turn : {Turn::walls_and_bodies, Turn::ties, Turn::joints, Turn::late_ties})
+      for (const std::size_t i : cards_.order(turn)) book(i, true);
     shared_bodies();
     walls();
     finish();

@@ -9,8 +9,7 @@
 #include "base/shared/parallel.hpp"
 #include "deck/keyword/decode.hpp"
 #include "model/mesh/mesh_parts.hpp"
-#include "model/mesh/node_sums.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck {
 namespace {
@@ -46,12 +45,7 @@ struct Sums {
     const Vec d = x - origin;
     mass += m;
     first = first + m * d;
-    second[0] += m * (d.y * d.y + d.z * d.z);
-    second[1] += m * (d.z * d.z + d.x * d.x);
-    second[2] += m * (d.x * d.x + d.y * d.y);
-    second[3] -= m * d.x * d.y;
-    second[4] -= m * d.y * d.z;
-    second[5] -= m * d.z * d.x;
+    add_point(second, m, d);
   }
   void finish(PartFigures& out) const {
     out.mass = mass;
@@ -61,12 +55,8 @@ struct Sums {
     }
     const Vec d = (1.0 / mass) * first, c = origin + d;
     out.centre = {c.x, c.y, c.z};
-    out.inertia = {second[0] - mass * (d.y * d.y + d.z * d.z),
-                   second[1] - mass * (d.z * d.z + d.x * d.x),
-                   second[2] - mass * (d.x * d.x + d.y * d.y),
-                   second[3] + mass * d.x * d.y,
-                   second[4] + mass * d.y * d.z,
-                   second[5] + mass * d.z * d.x};
+    out.inertia = second;
+    add_point(out.inertia, -mass, d);
     for (std::size_t i = 0; i < 3; ++i) out.inertia[i] += spin;
   }
 };
@@ -118,20 +108,8 @@ class Assembly {
 
   /// Corners that all have to be there.
   static int corners(ElementKind kind, const PartRow& row) {
-    switch (kind) {
-      case ElementKind::shell4:
-      case ElementKind::quad:
-        return 4;
-      case ElementKind::shell3:
-      case ElementKind::tria:
-        return 3;
-      case ElementKind::solid8:
-        return 8;
-      case ElementKind::spring:
-        return row.property.type == 12 ? 3 : 2;
-      default:
-        return 2;
-    }
+    const bool pulley = kind == ElementKind::spring && row.property.type == 12;
+    return pulley ? 3 : carrying_nodes(kind);
   }
 
   void solid(const Elements& f, std::uint32_t e, const PartRow& row, ElementOutcome& out) const {
@@ -338,6 +316,15 @@ class Assembly {
 };
 
 }  // namespace
+
+void detail::add_point(std::array<double, 6>& t, double m, const Vec& d) {
+  t[0] += m * (d.y * d.y + d.z * d.z);
+  t[1] += m * (d.z * d.z + d.x * d.x);
+  t[2] += m * (d.x * d.x + d.y * d.y);
+  t[3] -= m * d.x * d.y;
+  t[4] -= m * d.y * d.z;
+  t[5] -= m * d.z * d.x;
+}
 
 Mesh make_mesh(const Model& model, const MeshOptions& options) {
   return Assembly(model, options).run();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/shared/vec.hpp"
+#include "model/mesh/condition_cards.hpp"
 #include "model/shared/mesh.hpp"
 
 namespace deck::detail {
@@ -88,9 +89,84 @@ void beam_outcome(const PartRow& row, double length, ElementOutcome& out);
 /// `on_body`: an end is a secondary node of a rigid body.
 void spring_outcome(const PartRow& row, double length, bool on_body, ElementOutcome& out);
 
+/// The node group of that id in the block's submodel; nullptr: there is none.
+const NodeSet* group_of(const Model& model, const Block& block, std::int64_t id);
+/// What the tie of a block holds; nullptr: that is not known.
+const TiedNodes* tie_of(const std::vector<TiedNodes>* ties, const Block& block);
+
+/// Sums of xx yy zz xy yz zx.
+template <class Vectors>
+std::array<double, 6> products(const Vectors& vectors) {
+  std::array<double, 6> out{};
+  for (const Vec& d : vectors) {
+    out[0] += d.x * d.x;
+    out[1] += d.y * d.y;
+    out[2] += d.z * d.z;
+    out[3] += d.x * d.y;
+    out[4] += d.y * d.z;
+    out[5] += d.z * d.x;
+  }
+  return out;
+}
+
 /// sqrt(1 + v^2) - v
 double damping_factor(double v);
+/// Adds m (d^2 1 - d d) to a tensor xx yy zz xy yz zx.
+void add_point(std::array<double, 6>& tensor, double m, const Vec& d);
 /// Step of solids and quads from a length and a size (edge of a cube of its volume).
 double bulk_step(const PartRow& row, double length, double size);
+
+/// Where every node starts, and what is no stiffness.
+inline constexpr double no_stiffness = 1e-20;
+
+class NodeSums {
+ public:
+  NodeSums(const Model& model, const MeshOptions& options, NodeFigures& to);
+  /// True for secondary nodes of rigid bodies.
+  bool on_body(NodeIndex n) const { return on_body_[n]; }
+  void add(NodeIndex n, double mass, double stiffness) {
+    to_.mass[n] += mass;
+    to_.stiffness[n] += stiffness;
+  }
+  void add_rotation(NodeIndex n, double inertia, double stiffness) {
+    to_.inertia[n] += inertia;
+    to_.rotational_stiffness[n] += stiffness;
+  }
+  /// After the last element.
+  void finish(const Places& places);
+
+  std::vector<LeftOut> left_out;
+
+ private:
+  void added_masses();
+  void walls();
+  void body(const RigidBody& body, const Places& places);
+  void rigid_elements(const Places& places);
+  void rigid_element(const RigidElement& element, const Places& places, std::uint64_t& left);
+  void damping();
+  void damp(const NodeSet& group, double alpha, double beta);
+  double least_step() const;
+  double step(std::size_t n) const;
+  void steps();
+  void forget(NodeIndex n, std::uint64_t& count);
+
+  // node_ties.cpp
+  struct TieCounts {
+    std::uint64_t penalty = 0, other = 0;  ///< nodes that are not computed
+  };
+  void ties(const std::vector<TiedNodes>* ties, const Places& places);
+  void tie(const TiedNodes& tie, const Places& places, TieCounts& counts);
+  void carry(const TiedNodes& tie, const TiedNodes::Row& row);
+  void carry_moments(const TiedNodes& tie, const TiedNodes::Row& row, const Places& places);
+  void forget_tie(const Block& block, std::uint64_t& count);
+  void clear(NodeIndex n);
+
+  const Model& model_;
+  const MeshOptions& options_;
+  NodeFigures& to_;
+  std::vector<RigidBody> bodies_;
+  std::vector<char> on_body_;
+  std::uint64_t massless_ = 0;  ///< main nodes of bodies without mass
+};
 
 }  // namespace deck::detail

@@ -274,15 +274,7 @@ Quadratic quadratic(const Tetra& t, const std::array<Vec, 6>& middle) {
 
 /// Itetra10 2: the largest eigenvalue of the corner tetrahedron, from its polynomial.
 double condensed_length(const Tetra& t, double ratio) {
-  double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
-  for (const Vec& g : t.gradient) {
-    xx += g.x * g.x;
-    yy += g.y * g.y;
-    zz += g.z * g.z;
-    xy += g.x * g.y;
-    yz += g.y * g.z;
-    zx += g.z * g.x;
-  }
+  const auto [xx, yy, zz, xy, yz, zx] = products(t.gradient);
   const double a = -(xx + yy + zz);
   const double minors = xx * yy - xy * xy + yy * zz - yz * yz + zz * xx - zx * zx;
   const double p = ratio * minors - a * a / 3.0;

@@ -9,51 +9,10 @@
 
 #include "deck/keyword/decode.hpp"
 #include "model/mesh/mesh_parts.hpp"
+#include "model/model_build.hpp"
 
 namespace deck::detail {
 namespace {
-
-/// Cells of a block in working units.
-class Cells {
- public:
-  Cells(const Deck& deck, const Block& block) : deck_(deck), d_(decode(deck, block)) {}
-  double real(std::string_view name) const {
-    const Cell* c = d_.find(name);
-    return c == nullptr ? 0.0 : working_value(deck_, d_, *c);
-  }
-  double real_or(std::string_view name, double otherwise) const {
-    const double v = real(name);
-    return v != 0.0 ? v : otherwise;
-  }
-  int integer(std::string_view name) const { return static_cast<int>(d_.integer(name)); }
-  std::int64_t id(std::string_view name, std::string_view kind) const {
-    const std::int64_t v = d_.integer(name);
-    return v > 0 ? v + deck_.offset_of(*d_.block, kind) : v;
-  }
-  bool blank(std::string_view name) const {
-    const Cell* c = d_.find(name);
-    return c == nullptr || c->blank();
-  }
-  bool has(std::string_view name) const { return d_.find(name) != nullptr; }
-  /// Calls f(value) for every cell of that name.
-  template <class F>
-  void each(std::string_view name, F f) const {
-    for (const DecodedCard& card : d_.cards)
-      for (const Cell& c : card.cells)
-        if (c.field->name == name) f(c, working_value(deck_, d_, c));
-  }
-  double largest(std::initializer_list<std::string_view> names) const {
-    double most = 0;
-    for (const std::string_view n : names) most = std::max(most, real(n));
-    return most;
-  }
-  const DecodedBlock& block() const { return d_; }
-  const Deck& deck() const { return deck_; }
-
- private:
-  const Deck& deck_;
-  DecodedBlock d_;
-};
 
 /// Steepest positive slope of a curve; 0 where there is none.
 double steepest(const Model& model, std::int64_t id) {
@@ -67,7 +26,7 @@ double steepest(const Model& model, std::int64_t id) {
 }
 
 /// Sum of mu_i alpha_i over two is the ground shear modulus.
-double ground_shear(const Cells& c) {
+double ground_shear(const BlockCells& c) {
   double sum = 0;
   for (int i = 1; i <= 10; ++i)
     sum += c.real("mu_" + std::to_string(i)) * c.real("alpha_" + std::to_string(i));
@@ -75,7 +34,7 @@ double ground_shear(const Cells& c) {
 }
 
 /// Largest entry of the stiffness of an orthotropic solid.
-double orthotropic_largest(const Cells& c) {
+double orthotropic_largest(const BlockCells& c) {
   const auto ratio = [&](const char* low, const char* high) {
     return c.has(low) ? c.real(low) : c.real(high);
   };
@@ -221,7 +180,7 @@ class MaterialFiller {
   double bulk_of_state() const {
     const Block* block = state_equation(model_, from_.id);
     if (block == nullptr || block->schema == nullptr) return not_known;
-    const Cells c(*model_.deck, *block);
+    const BlockCells c(*model_.deck, *block);
     if (block->schema->keyword == "/EOS/POLYNOMIAL" && c.real("C1") != 0 &&
         (c.real("E0") == 0 || (c.real("C4") == 0 && c.real("C5") == 0)))
       return std::abs(c.real("C1"));
@@ -311,7 +270,7 @@ class MaterialFiller {
   const Model& model_;
   const Material& from_;
   MaterialFigures& m_;
-  Cells c_;
+  BlockCells c_;
   double shear_ = 0;
 };
 
@@ -324,11 +283,11 @@ Formulations default_formulations(const Deck& deck) {
   for (const Block& b : deck.blocks) {
     if (b.schema == nullptr) continue;
     if (b.schema->keyword == "/DEF_SHELL") {
-      const Cells c(deck, b);
+      const BlockCells c(deck, b);
       out.ishell = c.integer("Ishell");
       if (const int i = c.integer("Ish3n"); i != 0) out.ish3n = i;
     } else if (b.schema->keyword == "/DEF_SOLID") {
-      const Cells c(deck, b);
+      const BlockCells c(deck, b);
       out.isolid = c.integer("Isolid");
       out.itetra10 = c.integer("Itetra10");
     }
@@ -421,7 +380,7 @@ class PropertyFiller {
   const Formulations& blank_;
   const Property& from_;
   PropertyFigures& p_;
-  Cells c_;
+  BlockCells c_;
 };
 
 /// True if the file that /REFSTA names is there: else the solver has no reference geometry.

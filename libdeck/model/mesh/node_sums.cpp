@@ -1,6 +1,6 @@
 // What added masses, rigid bodies, rigid elements, ties and damping make of the sums at nodes, and
 // the steps that follow.
-#include "model/mesh/node_sums.hpp"
+#include "model/mesh/mesh_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,15 +16,6 @@
 namespace deck::detail {
 namespace {
 
-double value(const Deck& deck, const DecodedBlock& d, std::string_view name) {
-  const Cell* c = d.find(name);
-  return c == nullptr ? 0.0 : working_value(deck, d, *c);
-}
-
-std::int64_t shifted(const Deck& deck, const Block& block, std::string_view kind, std::int64_t id) {
-  return id > 0 ? id + deck.offset_of(block, kind) : id;
-}
-
 /// Smallest eigenvalue of a symmetric tensor xx yy zz xy yz zx.
 double smallest_principal(const std::array<double, 6>& t) {
   const double mean = (t[0] + t[1] + t[2]) / 3.0;
@@ -36,16 +27,6 @@ double smallest_principal(const std::array<double, 6>& t) {
       a * (b * c - t[4] * t[4]) - t[3] * (t[3] * c - t[4] * t[5]) + t[5] * (t[3] * t[4] - b * t[5]);
   const double r = std::clamp(det / (2.0 * p * p * p), -1.0, 1.0);
   return mean + 2.0 * p * std::cos(std::acos(r) / 3.0 + 2.0 * std::numbers::pi / 3.0);
-}
-
-/// Adds m (d^2 1 - d d) to a tensor.
-void add_point(std::array<double, 6>& t, double m, const Vec& d) {
-  t[0] += m * (d.y * d.y + d.z * d.z);
-  t[1] += m * (d.z * d.z + d.x * d.x);
-  t[2] += m * (d.x * d.x + d.y * d.y);
-  t[3] -= m * d.x * d.y;
-  t[4] -= m * d.y * d.z;
-  t[5] -= m * d.z * d.x;
 }
 
 }  // namespace
@@ -114,13 +95,11 @@ void NodeSums::added_masses() {
       }
       if (id == 0) continue;
       if (type == '5') {
-        const NodeIndex n = model_.find_node(shifted(deck, block, "node", id));
+        const NodeIndex n = model_.find_node(deck.shifted_id(block, "node", id));
         if (n != no_index) to_.mass[n] += m;
         continue;
       }
-      const NodeSet* set = model_.selections == nullptr
-                               ? nullptr
-                               : model_.selections->node_group(shifted(deck, block, "grnod", id));
+      const NodeSet* set = group_of(model_, block, id);
       if (set == nullptr || set->nodes.empty()) {
         left("its node group does not exist");
         continue;
@@ -140,8 +119,8 @@ void NodeSums::walls() {
     if (!block.header.starts_with("/RWALL/") || block.schema == nullptr || block.opaque) continue;
     const DecodedBlock d = decode(deck, block);
     const std::int64_t node = d.integer("node_ID");
-    if (node <= 0 || value(deck, d, "Mass") == 0.0) continue;
-    const NodeIndex n = model_.find_node(shifted(deck, block, "node", node));
+    if (node <= 0 || working_value(deck, d, "Mass") == 0.0) continue;
+    const NodeIndex n = model_.find_node(deck.shifted_id(block, "node", node));
     if (n == no_index) continue;
     to_.mass[n] = not_known;
     ++count;
@@ -253,8 +232,7 @@ void NodeSums::damping() {
   for (const Block& block : deck.blocks) {
     if (block.schema == nullptr || block.schema->keyword != "/DAMP" || block.opaque) continue;
     const DecodedBlock d = decode(deck, block);
-    const NodeSet* set =
-        model_.selections->node_group(shifted(deck, block, "grnod", d.integer("grnod_id")));
+    const NodeSet* set = group_of(model_, block, d.integer("grnod_id"));
     double alpha = 0, beta = 0;
     for (const DecodedCard& card : d.cards)
       for (const Cell& c : card.cells) {

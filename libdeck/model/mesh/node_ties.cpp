@@ -6,7 +6,7 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
 #include "keyword/shared/solver_order.hpp"
-#include "model/mesh/node_sums.hpp"
+#include "model/mesh/mesh_parts.hpp"
 
 namespace deck::detail {
 namespace {
@@ -55,19 +55,9 @@ Shares shares_of(const TiedNodes& tie, const TiedNodes::Row& row) {
 
 /// What a unit of moment about the middle of four nodes gives each of them, as the solver bounds
 /// it.
-double moment_ratio(const std::array<Vec, 4>& x) {
-  Vec middle{};
-  for (const Vec& p : x) middle = middle + 0.25 * p;
-  double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
-  for (const Vec& p : x) {
-    const Vec d = p - middle;
-    xx += d.x * d.x;
-    yy += d.y * d.y;
-    zz += d.z * d.z;
-    xy += d.x * d.y;
-    yz += d.y * d.z;
-    zx += d.z * d.x;
-  }
+double moment_ratio(std::array<Vec, 4> x, const Vec& middle) {
+  for (Vec& p : x) p = p - middle;
+  const auto [xx, yy, zz, xy, yz, zx] = products(x);
   const double a = yy + zz, b = zz + xx, c = xx + yy;
   const double det = a * b * c - a * yz * yz - b * zx * zx - c * xy * xy - 2.0 * xy * yz * zx;
   const double b1 = c * b - yz * yz, b2 = a * c - zx * zx, b3 = b * a - xy * xy;
@@ -109,7 +99,7 @@ void NodeSums::carry_moments(const TiedNodes& tie, const TiedNodes::Row& row,
     middle = middle + 0.25 * x[i];
   }
   const Vec arm = places.at(row.node) - middle;
-  const double d = dot(arm, arm), r = moment_ratio(x);
+  const double d = dot(arm, arm), r = moment_ratio(x, middle);
   const NodeIndex n = row.node;
   const double m = to_.mass[n], spin = to_.inertia[n] + m * d;
   const double k = to_.stiffness[n], turn = to_.rotational_stiffness[n] + k * d;
@@ -152,13 +142,10 @@ void NodeSums::forget_tie(const Block& block, std::uint64_t& count) {
   const Deck& deck = *model_.deck;
   const DecodedBlock d = decode(deck, block);
   if (carries_nothing(static_cast<int>(d.integer("Spotflag")))) return;
-  const auto shifted = [&](const char* field, const char* kind) {
-    const std::int64_t id = d.integer(field);
-    return id > 0 ? id + deck.offset_of(block, kind) : id;
-  };
-  if (const NodeSet* set = model_.selections->node_group(shifted("grnd_IDs", "grnod")))
+  if (const NodeSet* set = group_of(model_, block, d.integer("grnd_IDs")))
     for (const NodeIndex n : set->nodes) forget(n, count);
-  if (const auto outline = model_.selections->outline(shifted("surf_IDm", "surf")))
+  const std::int64_t main = deck.shifted_id(block, "surf", d.integer("surf_IDm"));
+  if (const auto outline = model_.selections->outline(main))
     outline->segments.each([&](const Segment& s) {
       for (const NodeIndex n : s.nodes) forget(n, count);
     });
@@ -169,11 +156,7 @@ void NodeSums::ties(const std::vector<TiedNodes>* ties, const Places& places) {
   for (const Block* const at : in_solver_order(*model_.deck, "/INTER")) {
     const Block& block = *at;
     if (block.schema == nullptr || block.schema->keyword != "/INTER/TYPE2") continue;
-    const TiedNodes* found = nullptr;
-    if (ties != nullptr)
-      for (const TiedNodes& t : *ties)
-        if (t.block == &block && t.evaluated) found = &t;
-    if (found != nullptr)
+    if (const TiedNodes* found = tie_of(ties, block))
       tie(*found, places, counts);
     else
       forget_tie(block, counts.other);

@@ -1,9 +1,8 @@
 // /BOX: reading and the inside test. Boxes see the coordinates before the /TRANSFORM of node
 // groups.
-#include "model/selection/boxes.hpp"
+#include "model/selection/selection_impl.hpp"
 
 #include "base/shared/length3.hpp"
-#include "model/selection/selection_impl.hpp"
 
 namespace deck {
 
@@ -70,30 +69,36 @@ std::array<double, 3> Selections::Impl::box_point(NodeIndex n) const {
   return {nodes.x[n], nodes.y[n], nodes.z[n]};
 }
 
+detail::Indices Selections::Impl::nodes_in(const BoxVolume& box) const {
+  detail::Indices out;
+  for (NodeIndex n = 0; n < model->nodes.size(); ++n) {
+    const auto [x, y, z] = box_point(n);
+    if (box.contains(x, y, z)) out.push_back(n);
+  }
+  return out;
+}
+
 const BoxVolume* Selections::Impl::box(std::int64_t id, const Block& from, int missing_number) {
-  if (const auto it = boxes.find(id); it != boxes.end()) return &it->second;
-  const Definition* def = definition("box", id);
-  if (def == nullptr) {
+  if (definition("box", id) == nullptr) {
     // A node group of missing boxes is merely empty.
     const bool goes_on = from.schema != nullptr && from.schema->kind == "grnod";
-    report({RuleId::DK159,
-            from.header_span,
-            std::string(from.keyword) + " " + std::to_string(from.id.value) + " refers to box " +
-                std::to_string(id) + ", which does not exist",
-            std::string(from.keyword),
-            from.id.value,
-            {.severity = goes_on ? Severity::warning : Severity::error,
-             .message = goes_on ? 690 : missing_number,
-             .solver = goes_on ? "It ignores the entry, and warns if the group becomes empty."
-                               : "it stops with an error"}});
+    report(
+        from, RuleId::DK159,
+        detail::name_of(from) + " refers to box " + std::to_string(id) + ", which does not exist",
+        {.severity = goes_on ? Severity::warning : Severity::error,
+         .message = goes_on ? 690 : missing_number,
+         .solver = goes_on ? "It ignores the entry, and warns if the group becomes empty."
+                           : "it stops with an error"});
     return nullptr;
   }
-  if (recursive("box", id, *def->block, 797)) return nullptr;
-  const auto guard = open.emplace("box", id).first;
-  BoxVolume b;
-  fill_box(b, *def, decode(deck(), *def->block));
-  open.erase(guard);
-  return &boxes.emplace(id, std::move(b)).first->second;
+  return resolved(
+      boxes, "box", id, 797,
+      [&](const Definition& def, const DecodedBlock& d) {
+        BoxVolume b;
+        fill_box(b, def, d);
+        return b;
+      },
+      [](const auto&, const Block&) { return BoxVolume(); });
 }
 
 /// Rows of `axes` are the axes of skew `id`, with the coordinates the boxes see.
@@ -117,7 +122,7 @@ bool Selections::Impl::skew_axes(std::int64_t id, std::array<Vec, 3>& axes) {
     std::array<Vec, 3> p;
     constexpr const char* names[3] = {"N1", "N2", "N3"};
     for (std::size_t i = 0; i < 3; ++i) {
-      const NodeIndex n = node(shift(*def->block, "node", d.integer(names[i])));
+      const NodeIndex n = node(deck().shifted_id(*def->block, "node", d.integer(names[i])));
       if (n == no_index) return false;
       p[i] = to_vec(box_point(n));
     }
@@ -135,12 +140,8 @@ bool Selections::Impl::skew_axes(std::int64_t id, std::array<Vec, 3>& axes) {
 
 void Selections::Impl::report_box(const Block& block, std::string what, std::string help,
                                   int number) {
-  report({RuleId::DK159,
-          block.header_span,
-          std::string(block.keyword) + " " + std::to_string(block.id.value) + ": " + what,
-          std::string(block.keyword),
-          block.id.value,
-          {.message = number, .solver = "it stops with an error", .fix = std::move(help)}});
+  report(block, RuleId::DK159, detail::name_of(block) + ": " + what,
+         {.message = number, .solver = "it stops with an error", .fix = std::move(help)});
 }
 
 /// /BOX/BOX: a union of others, less some.
@@ -166,15 +167,12 @@ void Selections::Impl::fill_box(BoxVolume& b, const Definition& def, const Decod
                                                       model->submodel_motions.size()
                                ? model->submodel_motions[static_cast<std::size_t>(block.submodel)]
                                : AffineMap{};
-  const auto value = [&](const char* name) {
-    const Cell* cell = d.find(name);
-    return cell == nullptr ? 0 : working_value(deck(), d, *cell);
-  };
+  const auto value = [&](const char* name) { return working_value(deck(), d, name); };
   // A point from its node if one is named, else from its coordinates.
   const auto point = [&](const char* node_field, const char* x, const char* y, const char* z,
                          bool use_node) -> Vec {
     if (use_node) {
-      const std::int64_t id = shift(block, "node", d.integer(node_field));
+      const std::int64_t id = deck().shifted_id(block, "node", d.integer(node_field));
       if (const NodeIndex n = node(id); n != no_index) return to_vec(box_point(n));
       fail("node " + std::to_string(id) + " does not exist", "correct the node id", 78);
       return {};
@@ -200,7 +198,7 @@ void Selections::Impl::fill_box(BoxVolume& b, const Definition& def, const Decod
     b.type = BoxVolume::Type::cylinder;
   } else {
     b.type = BoxVolume::Type::rectangle;
-    const std::int64_t skew = shift(block, "skew", d.integer("skew_ID"));
+    const std::int64_t skew = deck().shifted_id(block, "skew", d.integer("skew_ID"));
     if (skew != 0) {
       b.global = false;
       if (!skew_axes(skew, b.axes))

@@ -29,40 +29,10 @@ void append(Indices& v, std::span<const ElementRun> runs) {
   }
 }
 
-const std::vector<FamilyName>& family_names() {
-  static const std::vector<FamilyName> names = {
-      {ElementKind::shell4, "grshel", "GRSHEL", "SHEL", "shell", Carrier::shell4},
-      {ElementKind::shell3, "grsh3n", "GRSH3N", "SH3N", "sh3n", Carrier::shell3},
-      {ElementKind::solid8, "grbric", "GRBRIC", "BRIC", "brick", Carrier::solid},
-      {ElementKind::quad, "grquad", "GRQUAD", "QUAD", "quad", Carrier::quad},
-      {ElementKind::tria, "grtria", "GRTRIA", "TRIA", "tria", Carrier::shell3},
-      {ElementKind::truss, "grtrus", "GRTRUS", "TRUS", "truss", Carrier::truss},
-      {ElementKind::beam, "grbeam", "GRBEAM", "BEAM", "beam", Carrier::beam},
-      {ElementKind::spring, "grspri", "GRSPRI", "SPRI", "spring", Carrier::spring},
-  };
-  return names;
-}
-
-const FamilyName& family_name(ElementKind kind) {
-  return family_names()[static_cast<std::size_t>(kind)];
-}
-
-int carrying_nodes(ElementKind kind) {
-  switch (kind) {
-    case ElementKind::shell4:
-    case ElementKind::quad:
-      return 4;
-    case ElementKind::shell3:
-    case ElementKind::tria:
-      return 3;
-    case ElementKind::solid8:
-      return 8;
-    case ElementKind::truss:
-    case ElementKind::beam:
-    case ElementKind::spring:
-      return 2;
-  }
-  return 0;
+Indices without(const Indices& all, const Indices& some) {
+  Indices out;
+  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(out));
+  return out;
 }
 
 }  // namespace detail
@@ -73,12 +43,12 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s, const Limits& l)
   for (const detail::FamilyName& name : detail::family_names())
     members += 8 * m.family(name.kind).size();
   most_members = 16 * members + m.deck->total_bytes;  // rows of the deck may be members, too
-  static constexpr std::string_view kinds[] = {"grnod",  "surf",   "line",   "set",    "box",
-                                               "skew",   "grshel", "grsh3n", "grbric", "grquad",
-                                               "grtria", "grtrus", "grbeam", "grspri", "grpart"};
+  static constexpr std::string_view kinds[] = {"grnod", "surf", "line",  "set",
+                                               "box",   "skew", "grpart"};
   const auto is_group = [](const Block& b) {
     return b.schema != nullptr &&
-           std::find(std::begin(kinds), std::end(kinds), b.schema->kind) != std::end(kinds);
+           (std::find(std::begin(kinds), std::end(kinds), b.schema->kind) != std::end(kinds) ||
+            detail::family_of_group(b.schema->kind));
   };
   for (const Block* const at : detail::in_solver_order(*m.deck, is_group)) {
     const Block& block = *at;
@@ -86,7 +56,7 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s, const Limits& l)
     const auto fields = detail::header_fields(block);
     Definition def{&block, fields.size() > 1 ? fields[1] : std::string_view(),
                    fields.size() > 2 ? fields[2] : std::string_view()};
-    const std::int64_t id = own_id(block, kind);
+    const std::int64_t id = deck().shifted_id(block, kind, block.id.value);
     auto& table = tables[kind];
     auto& list = table.by_id[id];
     if (list.empty()) table.order.push_back(id);
@@ -127,15 +97,6 @@ const Definition* Selections::Impl::definition(std::string_view kind, std::int64
   if (table == tables.end()) return nullptr;
   const auto it = table->second.by_id.find(id);
   return it == table->second.by_id.end() ? nullptr : &it->second.front();
-}
-
-std::int64_t Selections::Impl::own_id(const Block& block, std::string_view kind) const {
-  return shift(block, kind, block.id.value);
-}
-
-std::int64_t Selections::Impl::shift(const Block& block, std::string_view kind,
-                                     std::int64_t id) const {
-  return id > 0 ? id + deck().offset_of(block, kind) : id;
 }
 
 IdList Selections::Impl::id_list(const DecodedBlock& d) const {
@@ -182,14 +143,13 @@ void Selections::Impl::report_missing(RuleId rule, const Block& block, const std
   for (std::size_t i = 0; i < std::min(shown, missing.size()); ++i)
     ids += (i > 0 ? ", " : "") + std::to_string(missing[i].id);
   if (missing.size() > shown) ids += " and " + std::to_string(missing.size() - shown) + " more";
-  Diagnostic d = detail::make_diagnostic(
-      {rule,
-       missing.front().span,
-       std::string(block.keyword) + " " + std::to_string(block.id.value) + " lists " + what + " " +
-           ids + (missing.size() == 1 ? ", which does not exist" : ", which do not exist"),
-       std::string(block.keyword),
-       block.id.value,
-       {.message = number}});
+  detail::Finding f = detail::finding_about(
+      block, rule,
+      detail::name_of(block) + " lists " + what + " " + ids +
+          (missing.size() == 1 ? ", which does not exist" : ", which do not exist"),
+      {.message = number});
+  f.span = missing.front().span;
+  Diagnostic d = detail::make_diagnostic(std::move(f));
   if (number == 0) d.severity = Severity::warning;  // the solver goes on
   found.add(std::move(d));
 }
@@ -199,26 +159,18 @@ bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const B
   // Deeper nesting than any deck needs would only exhaust the stack.
   constexpr std::size_t deepest = 250;
   if (open.size() >= deepest) {
-    report({RuleId::DK152,
-            from.header_span,
-            std::string(from.keyword) + " " + std::to_string(from.id.value) +
-                " is nested more than " + std::to_string(deepest) +
-                " levels deep; its members are left out",
-            std::string(from.keyword),
-            from.id.value,
-            {.message = number,
-             .solver = "It resolves the references level by level.",
-             .fix = "flatten the references"}});
+    report(from, RuleId::DK152,
+           detail::name_of(from) + " is nested more than " + std::to_string(deepest) +
+               " levels deep; its members are left out",
+           {.message = number,
+            .solver = "It resolves the references level by level.",
+            .fix = "flatten the references"});
     return true;
   }
   if (open.count({std::string(kind), id}) == 0) return false;
-  report({RuleId::DK152,
-          from.header_span,
-          std::string(from.keyword) + " " + std::to_string(from.id.value) +
-              " contains itself, directly or through others",
-          std::string(from.keyword),
-          from.id.value,
-          {.message = number, .fix = "remove one of these references"}});
+  report(from, RuleId::DK152,
+         detail::name_of(from) + " contains itself, directly or through others",
+         {.message = number, .fix = "remove one of these references"});
   return true;
 }
 
@@ -229,15 +181,14 @@ bool Selections::Impl::fits(std::size_t count, std::size_t size, const Block& bl
   const bool sensible = count <= most_members;
   if (all_held && room && sensible) return true;
   if (all_held)
-    report({RuleId::DK332, block.header_span,
-            std::string(block.keyword) + " " + std::to_string(block.id.value) +
-                (sensible ? ": the members of all groups, surfaces, lines and sets together would "
-                            "take more than " +
-                                std::to_string(limits.selection_bytes >> 20) + " MB"
-                          : " lists the same members many times: more than " +
-                                std::to_string(most_members)) +
-                "; from here on members are left out, and so are contacts that use them",
-            std::string(block.keyword), block.id.value});
+    report(block, RuleId::DK332,
+           detail::name_of(block) +
+               (sensible ? ": the members of all groups, surfaces, lines and sets together would "
+                           "take more than " +
+                               std::to_string(limits.selection_bytes >> 20) + " MB"
+                         : " lists the same members many times: more than " +
+                               std::to_string(most_members)) +
+               "; from here on members are left out, and so are contacts that use them");
   all_held = false;
   return false;
 }
@@ -286,7 +237,7 @@ std::vector<std::int64_t> Selections::ids(std::string_view kind) const {
   return table == impl_->tables.end() ? std::vector<std::int64_t>() : table->second.order;
 }
 
-std::vector<Edge> Selections::edges_of(const std::vector<Segment>& segments, bool free_only) const {
+std::vector<Edge> Selections::edges_of(std::span<const Segment> segments, bool free_only) const {
   return impl_->edges_of(segments, free_only);
 }
 

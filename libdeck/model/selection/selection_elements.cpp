@@ -30,12 +30,9 @@ void collect_subsets(const Model& model, std::int64_t id, std::set<std::int64_t>
 }
 
 bool in_submodel(const Deck& deck, std::int32_t submodel, std::int64_t id) {
-  for (; submodel >= 0; submodel = deck.submodels[static_cast<std::size_t>(submodel)].parent) {
-    const Submodel& s = deck.submodels[static_cast<std::size_t>(submodel)];
-    const std::int64_t above =
-        s.parent < 0 ? 0 : deck.submodels[static_cast<std::size_t>(s.parent)].submodels;
-    if (s.id + above == id) return true;
-  }
+  for (; submodel >= 0; submodel = deck.submodels[static_cast<std::size_t>(submodel)].parent)
+    if (detail::submodel_id(deck, deck.submodels[static_cast<std::size_t>(submodel)]) == id)
+      return true;
   return false;
 }
 
@@ -73,11 +70,9 @@ void Selections::Impl::report_unread(const Block& block, const Indices& parts) {
   const auto hit = std::find_if(parts.begin(), parts.end(),
                                 [&](std::uint32_t p) { return (*parts_with_unread)[p]; });
   if (hit == parts.end()) return;
-  report({RuleId::DK164, block.header_span,
-          std::string(block.keyword) + " " + std::to_string(block.id.value) + ": part " +
-              std::to_string(model->parts[*hit].id) +
-              " has particles (/SPHCEL) or strands (/XELEM), which deck does not evaluate",
-          std::string(block.keyword), block.id.value});
+  report(block, RuleId::DK164,
+         detail::name_of(block) + ": part " + std::to_string(model->parts[*hit].id) +
+             " has particles (/SPHCEL) or strands (/XELEM), which deck does not evaluate");
 }
 
 bool Selections::Impl::is_part_type(std::string_view type) {
@@ -135,8 +130,8 @@ std::vector<std::int8_t> Selections::Impl::part_tags(const Block& block, std::st
   report_missing(RuleId::DK151, block, lower_name(type), missing, 194);
   if (!hollow.empty())
     report({RuleId::DK166, hollow.front().span,
-            std::string(block.keyword) + " " + std::to_string(block.id.value) + " lists subset " +
-                std::to_string(hollow.front().id) + ", which holds no part",
+            detail::name_of(block) + " lists subset " + std::to_string(hollow.front().id) +
+                ", which holds no part",
             std::string(block.keyword), block.id.value});
   return tags;
 }
@@ -147,29 +142,25 @@ std::int64_t Selections::Impl::element_id(Carrier carrier, std::uint32_t e) cons
 }
 
 const Indices* Selections::Impl::element_group(const FamilyName& name, std::int64_t id) {
-  const std::pair<std::string, std::int64_t> key(name.group, id);
-  if (const auto it = element_groups.find(key); it != element_groups.end()) return &it->second;
-  const Definition* def = definition(name.group, id);
-  if (def == nullptr) {
-    const detail::SetState* state = set_state(id);
-    if (state == nullptr) return nullptr;
-    Indices members;
-    const Block& block = *definition("set", id)->block;
-    state->each_group([&](const detail::SetGroup& group) {
-      const Indices& some = group.elements[static_cast<std::size_t>(name.kind)];
-      if (fits(members.size() + some.size(), sizeof some[0], block))
-        members.insert(members.end(), some.begin(), some.end());
-    });
-    detail::normalise(members);
-    keep(members, block);
-    return &element_groups.emplace(key, std::move(members)).first->second;
-  }
-  if (recursive(name.group, id, *def->block, 176)) return nullptr;
-  const auto guard = open.insert(key).first;
-  Indices members = resolve_elements(name, *def, decode(deck(), *def->block));
-  open.erase(guard);
-  keep(members, *def->block);
-  return &element_groups.emplace(key, std::move(members)).first->second;
+  const auto family = static_cast<std::size_t>(name.kind);
+  return resolved(
+      element_groups[family], name.group, id, 176,
+      [&](const Definition& def, const DecodedBlock& d) {
+        Indices members = resolve_elements(name, def, d);
+        keep(members, *def.block);
+        return members;
+      },
+      [&](const detail::SetState& state, const Block& block) {
+        Indices members;
+        state.each_group([&](const detail::SetGroup& group) {
+          const Indices& some = group.elements[family];
+          if (fits(members.size() + some.size(), sizeof some[0], block))
+            members.insert(members.end(), some.begin(), some.end());
+        });
+        detail::normalise(members);
+        keep(members, block);
+        return members;
+      });
 }
 
 Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definition& def,
@@ -201,11 +192,9 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
       if (tags[p] > 0) detail::append(out, rows.row(p));
   } else if (def.type == "BOX" || def.type == "BOX2") {
     const IdList list = id_list(d);
-    out = elements_in_boxes(block, list.positive, name.kind, def.type == "BOX2", 798);
-    const Indices gone =
-        elements_in_boxes(block, list.negative, name.kind, def.type == "BOX2", 798);
-    std::erase_if(out,
-                  [&](std::uint32_t e) { return std::binary_search(gone.begin(), gone.end(), e); });
+    const bool any_node = def.type == "BOX2";
+    out = elements_in_boxes(block, list.positive, name.kind, any_node, 798);
+    out = detail::without(out, elements_in_boxes(block, list.negative, name.kind, any_node, 798));
   } else if (def.type == "GENE" || def.type == "GEN_INCR") {
     for (const detail::IdRange& range : id_ranges(d, name.id_kind)) {
       // A pair counts only if it ascends.
@@ -215,23 +204,14 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
       if (!fits(out.size(), sizeof out[0], block)) break;
     }
   } else if (def.type == name.keyword) {
-    Indices gone;
-    const auto collect = [&](const std::vector<IdRef>& refs, Indices& into) {
-      for (const IdRef& ref : refs) {
-        const Indices* group = element_group(name, ref.id);
-        if (group == nullptr)
-          missing.push_back(ref);
-        else if (fits(into.size() + group->size(), sizeof(*group)[0], block))
-          into.insert(into.end(), group->begin(), group->end());
-      }
-    };
     const IdList list = id_list(d);
-    collect(list.positive, out);
-    collect(list.negative, gone);
+    const auto get = [&](std::int64_t id) { return element_group(name, id); };
+    out = joined(list.positive, missing, block, get);
+    Indices gone = joined(list.negative, missing, block, get);
     report_missing(RuleId::DK151, block, "element group", missing, 172);
+    detail::normalise(out);
     detail::normalise(gone);
-    std::erase_if(out,
-                  [&](std::uint32_t e) { return std::binary_search(gone.begin(), gone.end(), e); });
+    out = detail::without(out, gone);
   }
   detail::normalise(out);
   return out;
@@ -270,19 +250,14 @@ Indices Selections::Impl::elements_in_boxes(const Block& block, const std::vecto
 }
 
 const Indices* Selections::Impl::part_group(std::int64_t id) {
-  if (const auto it = part_groups.find(id); it != part_groups.end()) return &it->second;
-  const Definition* def = definition("grpart", id);
-  if (def == nullptr) {
-    const detail::SetState* state = set_state(id);
-    if (state == nullptr) return nullptr;
-    return &part_groups.emplace(id, state->parts).first->second;
-  }
-  if (recursive("grpart", id, *def->block, 176)) return nullptr;
-  const auto guard = open.emplace("grpart", id).first;
-  Indices parts = resolve_part_group(*def, decode(deck(), *def->block));
-  open.erase(guard);
-  keep(parts, *def->block);
-  return &part_groups.emplace(id, std::move(parts)).first->second;
+  return resolved(
+      part_groups, "grpart", id, 176,
+      [&](const Definition& def, const DecodedBlock& d) {
+        Indices parts = resolve_part_group(def, d);
+        keep(parts, *def.block);
+        return parts;
+      },
+      [](const detail::SetState& state, const Block&) { return state.parts; });
 }
 
 Indices Selections::Impl::resolve_part_group(const Definition& def, const DecodedBlock& d) {
@@ -298,25 +273,15 @@ Indices Selections::Impl::resolve_part_group(const Definition& def, const Decode
         if (range.holds(model->parts[p].id)) out.push_back(p);
   } else if (def.type == "GRPART") {
     std::vector<IdRef> missing;
-    const auto collect = [&](const std::vector<IdRef>& refs, Indices& into) {
-      for (const IdRef& ref : refs) {
-        const Indices* group = part_group(ref.id);
-        if (group == nullptr)
-          missing.push_back(ref);
-        else if (fits(into.size() + group->size(), sizeof(*group)[0], block))
-          into.insert(into.end(), group->begin(), group->end());
-      }
-    };
     const IdList list = id_list(d);
-    collect(list.positive, out);
-    collect(list.negative, gone);
+    const auto get = [&](std::int64_t id) { return part_group(id); };
+    out = joined(list.positive, missing, block, get);
+    gone = joined(list.negative, missing, block, get);
     report_missing(RuleId::DK151, block, "part group", missing, 172);
   }
   detail::normalise(out);
   detail::normalise(gone);
-  std::erase_if(out,
-                [&](std::uint32_t p) { return std::binary_search(gone.begin(), gone.end(), p); });
-  return out;
+  return detail::without(out, gone);
 }
 
 }  // namespace deck

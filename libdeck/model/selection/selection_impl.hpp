@@ -1,6 +1,9 @@
 // Inside of Selections: where definitions are, the lists they hold, the results kept, and the
 // resolvers, which are spread over the selection_*.cpp files by kind.
 #pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <memory>
@@ -12,11 +15,29 @@
 #include <utility>
 #include <vector>
 
+#include "base/shared/vec.hpp"
 #include "deck/model/selection.hpp"
 #include "model/model_build.hpp"
-#include "model/selection/boxes.hpp"
-#include "model/shared/connectivity.hpp"
 #include "model/shared/faces.hpp"
+#include "model/shared/families.hpp"
+
+namespace deck::detail {
+
+struct BoxVolume {
+  enum class Type { none, rectangle, cylinder, sphere } type = Type::none;
+  /// Rectangle: the two corners in the axes of the skew. Cylinder: base and end. Sphere: centre.
+  Vec p, q;
+  std::array<Vec, 3> axes{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};  ///< of the skew
+  bool global = true;                                                 ///< axes are the global ones
+  double diameter = 0;
+  std::vector<const BoxVolume*> members;  ///< box of boxes
+  std::vector<bool> subtracted;           ///< per member: listed with a negative id
+
+  /// The boundary belongs to the box.
+  bool contains(double x, double y, double z) const;
+};
+
+}  // namespace deck::detail
 
 namespace deck {
 
@@ -52,24 +73,13 @@ struct DefinitionTable {
 using Indices = std::vector<std::uint32_t>;
 /// Sorts and removes repetitions.
 void normalise(Indices& v);
+/// What is in `all` and not in `some`; both ascend.
+Indices without(const Indices& all, const Indices& some);
 /// Adds the elements of the runs behind the others.
 void append(Indices& v, std::span<const ElementRun> runs);
 
-/// How elements of a family name themselves in groups.
-struct FamilyName {
-  ElementKind kind;
-  std::string_view group;    ///< "grshel"
-  std::string_view keyword;  ///< "GRSHEL"
-  std::string_view member;   ///< type keyword of the id list: "SHEL"
-  std::string_view id_kind;  ///< for the submodel offset
-  Carrier carrier;
-};
-const std::vector<FamilyName>& family_names();
-const FamilyName& family_name(ElementKind kind);
 /// The segment of a shell.
 Segment shell_segment(const Elements& shells, std::uint32_t e, bool reversed);
-/// Nodes that carry the element: for beams and springs without the orientation nodes.
-int carrying_nodes(ElementKind kind);
 
 /// What one or more clauses of a /SET select.
 struct SetGroup {
@@ -85,7 +95,7 @@ struct SetGroup {
   /// of parts and of solids, whose own members are the only neighbours.
   bool against_all = false;
   /// True if it changes nothing wherever it is added.
-  bool empty() const;
+  bool empty() const { return !external && size() == 0; }
   std::size_t size() const;  ///< members, counted as 32-bit numbers
 };
 /// A /SET while its clauses are evaluated. Every group has projections of its own: exterior faces
@@ -116,6 +126,16 @@ struct SegmentsOfGroup {
 }  // namespace detail
 
 struct Selections::Impl {
+  using BoxVolume = detail::BoxVolume;
+  using Definition = detail::Definition;
+  using FamilyName = detail::FamilyName;
+  using IdList = detail::IdList;
+  using IdRange = detail::IdRange;
+  using IdRef = detail::IdRef;
+  using Indices = detail::Indices;
+  using SetGroup = detail::SetGroup;
+  using SetState = detail::SetState;
+
   const Model* model = nullptr;
   const SchemaSet* schemas = nullptr;
   Diagnostics found;
@@ -123,29 +143,26 @@ struct Selections::Impl {
   std::map<std::string, detail::DefinitionTable, std::less<>> tables;
   std::set<std::pair<std::string, std::int64_t>> open;  ///< being resolved now
 
+  // Under the id of a set that nothing plain has: what the set is of that kind.
   std::map<std::int64_t, NodeSet> node_groups;
   std::map<std::int64_t, Surface> surfaces;
-  std::map<std::int64_t, std::vector<ShellRun>> run_surfaces;  ///< see outline()
   std::map<std::int64_t, LineSet> lines;
+  std::array<std::map<std::int64_t, Indices>, 8> element_groups;  ///< by ElementKind
+  std::map<std::int64_t, Indices> part_groups;
+  std::map<std::int64_t, std::vector<ShellRun>> run_surfaces;  ///< see outline()
   std::map<std::int64_t, SetGeneral> sets;
-  std::map<std::int64_t, detail::SetState> set_states;
-  std::deque<detail::SetGroup> clause_groups;  ///< what SetState::others points to, beside `own`
-  std::map<std::int64_t, detail::BoxVolume> boxes;
-  std::map<std::pair<std::string, std::int64_t>, detail::Indices> element_groups;
-  std::map<std::int64_t, detail::Indices> part_groups;
-  // Views of sets as other kinds.
-  std::map<std::int64_t, NodeSet> set_nodes;
-  std::map<std::int64_t, Surface> set_surfaces;
-  std::map<std::int64_t, LineSet> set_lines;
+  std::map<std::int64_t, SetState> set_states;
+  std::deque<SetGroup> clause_groups;  ///< what SetState::others points to, beside `own`
+  std::map<std::int64_t, BoxVolume> boxes;
 
   // ---- built once, when first needed ------------------------------------------------------------
-  std::array<PartElements, detail::SetGroup::families> part_elements_cache;
-  std::array<bool, detail::SetGroup::families> part_elements_ready{};
+  std::array<PartElements, SetGroup::families> part_elements_cache;
+  std::array<bool, SetGroup::families> part_elements_ready{};
   const PartElements& elements_of_parts(ElementKind kind);
   /// Parts with elements that no family holds (SPH particles, /XELEM); built once.
   std::optional<std::vector<bool>> parts_with_unread;
   /// Says of a list of nodes or lines that what these parts have besides is left out (DK164).
-  void report_unread(const Block& block, const detail::Indices& parts);
+  void report_unread(const Block& block, const Indices& parts);
   std::unique_ptr<detail::ShellCover> shell_cover;
   detail::ShellCover& cover();
   std::unique_ptr<detail::SolidFaces> all_solid_faces;
@@ -176,32 +193,74 @@ struct Selections::Impl {
   const Deck& deck() const { return *model->deck; }
 
   // ---- definitions and lists (selection.cpp)
-  // ------------------------------------------------------
-  const detail::Definition* definition(std::string_view kind, std::int64_t id) const;
-  std::int64_t own_id(const Block& block, std::string_view kind) const;
-  std::int64_t shift(const Block& block, std::string_view kind, std::int64_t id) const;
+  const Definition* definition(std::string_view kind, std::int64_t id) const;
+  /// What is defined of a kind under an id, else what the set of that id has of it; nullptr: the id
+  /// names nothing, or is being resolved (which message `circle` is about). Results are `kept`.
+  /// from_cards(definition, decoded block), from_set(state, its block).
+  template <class List, class FromCards, class FromSet>
+  const List* resolved(std::map<std::int64_t, List>& kept, std::string_view kind, std::int64_t id,
+                       int circle, const FromCards& from_cards, const FromSet& from_set) {
+    if (const auto it = kept.find(id); it != kept.end()) return &it->second;
+    const Definition* def = definition(kind, id);
+    if (def == nullptr) {
+      const SetState* state = set_state(id);
+      if (state == nullptr) return nullptr;
+      return &kept.emplace(id, from_set(*state, *definition("set", id)->block)).first->second;
+    }
+    if (recursive(kind, id, *def->block, circle)) return nullptr;
+    const auto guard = open.emplace(kind, id).first;
+    List list = from_cards(*def, decode(deck(), *def->block));
+    open.erase(guard);
+    return &kept.emplace(id, std::move(list)).first->second;
+  }
   /// Ids of the block's list; their kind is that of the schema's field.
-  detail::IdList id_list(const DecodedBlock& d) const;
+  IdList id_list(const DecodedBlock& d) const;
   /// Ranges of /GENE (pairs) and /GEN_INCR (triples) with an increment above 0.
-  std::vector<detail::IdRange> id_ranges(const DecodedBlock& d, std::string_view kind) const;
+  std::vector<IdRange> id_ranges(const DecodedBlock& d, std::string_view kind) const;
   void report(detail::Finding f) { detail::report(found, std::move(f)); }
+  void report(const Block& block, RuleId rule, std::string message, Case particular = {}) {
+    report(detail::finding_about(block, rule, std::move(message), std::move(particular)));
+  }
+  /// What get(id) gives for the ids of a list; those that name nothing go to `missing`.
+  template <class Get>
+  static auto named(const std::vector<IdRef>& refs, std::vector<IdRef>& missing, const Get& get) {
+    std::vector<decltype(get(std::int64_t{}))> out;
+    for (const IdRef& ref : refs) {
+      if (auto found = get(ref.id))
+        out.push_back(std::move(found));
+      else
+        missing.push_back(ref);
+    }
+    return out;
+  }
+  /// Members of the groups that get(id) gives, one group behind the other, as far as they fit.
+  template <class Get>
+  Indices joined(const std::vector<IdRef>& refs, std::vector<IdRef>& missing, const Block& block,
+                 const Get& get) {
+    Indices out;
+    for (const IdRef& ref : refs) {
+      const Indices* group = get(ref.id);
+      if (group == nullptr)
+        missing.push_back(ref);
+      else if (fits(out.size() + group->size(), sizeof out[0], block))
+        out.insert(out.end(), group->begin(), group->end());
+    }
+    return out;
+  }
   /// Members of a list that do not exist, in one finding per list.
   void report_missing(RuleId rule, const Block& block, const std::string& what,
-                      const std::vector<detail::IdRef>& missing, int number);
+                      const std::vector<IdRef>& missing, int number);
   /// True if (kind, id) is being resolved already, which is reported.
   bool recursive(std::string_view kind, std::int64_t id, const Block& from, int number);
 
   // ---- nodes (selection_nodes.cpp)
-  // ------------------------------------------------------------------
   NodeIndex node(std::int64_t id) const { return model->find_node(id); }
   /// Appends the nodes that are not yet marked in this generation.
   void start_marks();
   void mark(NodeIndex n, std::vector<NodeIndex>& out);
-  /// Puts the nodes of this generation into ascending order: `nodes` are all of them.
-  void sort_marked(std::vector<NodeIndex>& nodes) const;
   const NodeSet* node_group(std::int64_t id);
-  std::vector<NodeIndex> resolve_nodes(const detail::Definition& def, const DecodedBlock& d);
-  std::vector<NodeIndex> nodes_by_id(const detail::Definition& def, const DecodedBlock& d);
+  std::vector<NodeIndex> resolve_nodes(const Definition& def, const DecodedBlock& d);
+  std::vector<NodeIndex> nodes_by_id(const Definition& def, const DecodedBlock& d);
   std::vector<NodeIndex> nodes_of_ranges(const DecodedBlock& d);
   std::vector<NodeIndex> nodes_of_parts(const Block& block, std::string_view type,
                                         const DecodedBlock& d);
@@ -215,102 +274,137 @@ struct Selections::Impl {
   void add_element_nodes(const Elements& family, std::uint32_t e, std::vector<NodeIndex>& out);
 
   // ---- parts and elements (selection_elements.cpp)
-  // -------------------------------------------------
   /// +1, -1 or 0 per part for a list of the given type (PART, MAT, PROP, SUBSET, SUBMODEL).
-  std::vector<std::int8_t> part_tags(const Block& block, std::string_view type,
-                                     const detail::IdList& list);
+  std::vector<std::int8_t> part_tags(const Block& block, std::string_view type, const IdList& list);
   /// Parts named by one id of that type; empty where the id names nothing.
-  detail::Indices parts_of(std::string_view type, std::int64_t id, bool& known) const;
+  Indices parts_of(std::string_view type, std::int64_t id, bool& known) const;
   static bool is_part_type(std::string_view type);
-  const detail::Indices* element_group(const detail::FamilyName& name, std::int64_t id);
-  detail::Indices resolve_elements(const detail::FamilyName& name, const detail::Definition& def,
-                                   const DecodedBlock& d);
-  const detail::Indices* part_group(std::int64_t id);
-  detail::Indices resolve_part_group(const detail::Definition& def, const DecodedBlock& d);
+  const Indices* element_group(const FamilyName& name, std::int64_t id);
+  Indices resolve_elements(const FamilyName& name, const Definition& def, const DecodedBlock& d);
+  const Indices* part_group(std::int64_t id);
+  Indices resolve_part_group(const Definition& def, const DecodedBlock& d);
   /// Elements of a family whose nodes are all (or, for BOX2, any of them) in one of the boxes.
-  detail::Indices elements_in_boxes(const Block& block, const std::vector<detail::IdRef>& ids,
-                                    ElementKind kind, bool any_node, int missing_number);
-  detail::Indices elements_in_box(const detail::BoxVolume& box, ElementKind kind,
-                                  bool any_node) const;
+  Indices elements_in_boxes(const Block& block, const std::vector<IdRef>& ids, ElementKind kind,
+                            bool any_node, int missing_number);
+  Indices elements_in_box(const BoxVolume& box, ElementKind kind, bool any_node) const;
   std::int64_t element_id(Carrier carrier, std::uint32_t e) const;
 
   // ---- surfaces (selection_surfaces.cpp)
-  // --------------------------------------------------------------
   const Surface* surface(std::int64_t id);
-  std::vector<Segment> resolve_surface(const detail::Definition& def, const DecodedBlock& d,
+  std::vector<Segment> resolve_surface(const Definition& def, const DecodedBlock& d,
                                        bool& analytical);
   std::vector<Segment> segments_by_nodes(const Block& block, const DecodedBlock& d);
   /// `tags`: see part_tags().
-  std::vector<Segment> segments_of_parts(const detail::Definition& def,
+  std::vector<Segment> segments_of_parts(const Definition& def,
                                          const std::vector<std::int8_t>& tags);
-  std::vector<Segment> segments_in_boxes(const detail::Definition& def, const DecodedBlock& d);
-  std::vector<Segment> segments_of_groups(const detail::Definition& def, const DecodedBlock& d);
+  std::vector<Segment> segments_in_boxes(const Definition& def, const DecodedBlock& d);
+  std::vector<Segment> segments_of_groups(const Definition& def, const DecodedBlock& d);
   std::vector<Segment> segments_of_surfaces(const Block& block, const DecodedBlock& d);
   std::vector<Segment> difference_of_surfaces(const Block& block, const DecodedBlock& d);
-  void add_shells(const Elements& shells, const detail::Indices& members, bool reversed,
+  void add_shells(const Elements& shells, const Indices& members, bool reversed,
                   std::vector<Segment>& out) const;
-  void add_solids(const Block& block, std::string_view option, detail::Indices solids,
+  void add_solids(const Block& block, std::string_view option, Indices solids,
                   std::vector<Segment>& out);
   /// Faces that /SURF/GRBRIC leaves out under shells that are not in the surface.
   void report_lost_faces(const Block& block, const std::vector<detail::LostFace>& lost);
   /// Cuts a plain triangle that lies on the face of a 10-node tetrahedron.
   void add_plain_segment(const Segment& s, std::vector<Segment>& out);
   void sort_segments(std::vector<Segment>& segments) const;
-  const std::vector<Segment>* listed_surface(const Block& block, const detail::IdRef& ref,
-                                             std::vector<detail::IdRef>& missing);
+  const std::vector<Segment>* listed_surface(const Block& block, const IdRef& ref,
+                                             std::vector<IdRef>& missing);
 
-  // ---- surfaces by runs of elements (selection_runs.cpp)
-  // ------------------------------------------------------------------
+  // ---- surfaces by runs of elements (selection_surfaces.cpp)
   std::optional<SurfaceOutline> outline(std::int64_t id);
   /// Runs that name the segments of segments_of_parts() in the order of sort_segments(); nullopt:
   /// they do not.
   std::optional<std::vector<ShellRun>> shell_runs(const std::vector<std::int8_t>& tags);
-  /// Counts the segments as held, sorts them and keeps the surface.
-  const Surface& finish_surface(Surface surface, const Block& block);
-  /// The surface that outline() has found before, with its segments; nullptr: it has not.
-  const Surface* surface_of_runs(std::int64_t id, const Block& block);
+  /// Forms the segments of a surface that outline() has found before.
+  void hold_runs(std::int64_t id);
 
   // ---- lines (selection_lines.cpp)
-  // ------------------------------------------------------------------
   const LineSet* line(std::int64_t id);
-  std::vector<Edge> resolve_line(const detail::Definition& def, const DecodedBlock& d);
+  std::vector<Edge> resolve_line(const Definition& def, const DecodedBlock& d);
   std::vector<Edge> listed_edges(const Block& block, const DecodedBlock& d);
-  std::vector<Edge> edges_of(const std::vector<Segment>& segments, bool free_only) const;
-  void add_line_elements(ElementKind kind, const detail::Indices& members,
-                         std::vector<Edge>& out) const;
+  std::vector<Edge> edges_of(std::span<const Segment> segments, bool free_only) const;
+  void add_line_elements(ElementKind kind, const Indices& members, std::vector<Edge>& out) const;
 
   // ---- boxes (boxes.cpp)
-  // ------------------------------------------------------------------------------
-  const detail::BoxVolume* box(std::int64_t id, const Block& from, int missing_number);
-  void fill_box(detail::BoxVolume& b, const detail::Definition& def, const DecodedBlock& d);
-  void collect_boxes(detail::BoxVolume& b, const Block& block, const DecodedBlock& d);
+  const BoxVolume* box(std::int64_t id, const Block& from, int missing_number);
+  void fill_box(BoxVolume& b, const Definition& def, const DecodedBlock& d);
+  void collect_boxes(BoxVolume& b, const Block& block, const DecodedBlock& d);
   void report_box(const Block& block, std::string what, std::string help, int number);
   bool skew_axes(std::int64_t id, std::array<Vec, 3>& axes);
   std::array<double, 3> box_point(NodeIndex n) const;
+  /// Ascending.
+  Indices nodes_in(const BoxVolume& box) const;
 
   // ---- sets (sets.cpp, selection_set_views.cpp)
-  // ---------------------------------------------------
   const SetGeneral* set(std::int64_t id);
-  const detail::SetState* set_state(std::int64_t id);
+  const SetState* set_state(std::int64_t id);
   using LastGroup = detail::SegmentsOfGroup;
-  std::vector<Segment> group_segments(const detail::SetGroup& group);
-  const std::vector<Segment>& group_segments(const detail::SetGroup& group, LastGroup& last);
-  std::vector<Edge> group_edges(const detail::SetGroup& group, LastGroup& last);
-  detail::Indices group_nodes(const detail::SetGroup& group, LastGroup& last);
-  std::vector<NodeIndex> set_node_list(const detail::SetState& state, const Block& block,
-                                       LastGroup& last);
-  std::vector<Segment> set_segment_list(const detail::SetState& state, const Block& block,
-                                        LastGroup& last);
-  std::vector<Edge> set_edge_list(const detail::SetState& state, const Block& block,
-                                  LastGroup& last);
+  std::vector<Segment> group_segments(const SetGroup& group);
+  const std::vector<Segment>& group_segments(const SetGroup& group, LastGroup& last);
+  std::vector<Edge> group_edges(const SetGroup& group, LastGroup& last);
+  Indices group_nodes(const SetGroup& group, LastGroup& last);
+  template <class Item, class Get>
+  std::vector<Item> of_groups(const SetState& state, const Block& block, const Get& get);
+  std::vector<NodeIndex> set_node_list(const SetState& state, const Block& block, LastGroup& last);
+  std::vector<Segment> set_segment_list(const SetState& state, const Block& block, LastGroup& last);
+  std::vector<Edge> set_edge_list(const SetState& state, const Block& block, LastGroup& last);
   /// Adds groups that the set does not hold yet.
-  void share_groups(detail::SetState& set, const std::vector<const detail::SetGroup*>& groups,
-                    const Block& block);
-  /// Title and place of a set.
-  std::pair<std::string, Span> set_heading(std::int64_t id) const;
+  void share_groups(SetState& set, const std::vector<const SetGroup*>& groups, const Block& block);
+  /// Title of a set.
+  std::string set_title(const Block& block) const;
   /// Sorts by nodes and merges what is the same segment (edge) of the same element.
   void merge_segments(std::vector<Segment>& segments) const;
   void merge_edges(std::vector<Edge>& edges) const;
 };
 
 }  // namespace deck
+
+namespace deck::detail {
+
+/// Sorts `v` by bucket(x) ascending, equal ones by `before`; stable.
+template <class T, class Bucket, class Before>
+void sort_by_bucket(std::vector<T>& v, Bucket bucket, Before before) {
+  if (v.size() < 2) return;
+  std::uint32_t low = 0xffffffffu, high = 0;
+  for (const T& x : v) {
+    const std::uint32_t b = bucket(x);
+    low = std::min(low, b);
+    high = std::max(high, b);
+  }
+  const std::size_t range = std::size_t{high} - low + 1;
+  if (range > v.size() * 16) {
+    std::stable_sort(v.begin(), v.end(), [&](const T& a, const T& b) {
+      return bucket(a) != bucket(b) ? bucket(a) < bucket(b) : before(a, b);
+    });
+    return;
+  }
+  std::vector<std::uint32_t> start(range + 1, 0);
+  for (const T& x : v) ++start[bucket(x) - low + 1];
+  for (std::size_t i = 0; i < range; ++i) start[i + 1] += start[i];
+  std::vector<T> sorted(v.size());
+  std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+  for (const T& x : v) sorted[next[bucket(x) - low]++] = x;
+  for (std::size_t i = 0; i < range; ++i) {
+    const auto first = sorted.begin() + start[i], last = sorted.begin() + start[i + 1];
+    if (last - first < 2) continue;
+    if (last - first > 24) {
+      std::stable_sort(first, last, before);
+      continue;
+    }
+    for (auto it = first + 1; it != last; ++it) {
+      T x = *it;
+      auto at = it;
+      while (at != first && before(x, *(at - 1))) {
+        *at = *(at - 1);
+        --at;
+      }
+      *at = x;
+    }
+  }
+  v = std::move(sorted);
+}
+
+}  // namespace deck::detail

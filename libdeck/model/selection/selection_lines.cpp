@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "model/selection/selection_impl.hpp"
-#include "model/selection/selection_sort.hpp"
 
 namespace deck {
 
@@ -11,30 +10,24 @@ using detail::IdRef;
 using detail::Indices;
 
 const LineSet* Selections::Impl::line(std::int64_t id) {
-  if (const auto it = lines.find(id); it != lines.end()) return &it->second;
-  const Definition* def = definition("line", id);
-  if (def == nullptr) {
-    if (const auto it = set_lines.find(id); it != set_lines.end()) return &it->second;
-    const detail::SetState* state = set_state(id);
-    if (state == nullptr) return nullptr;
-    const auto [title, span] = set_heading(id);
-    const Block& block = *definition("set", id)->block;
-    detail::SegmentsOfGroup last;
-    LineSet view{id, title, set_edge_list(*state, block, last), span};
-    keep(view.edges, block);
-    return &set_lines.emplace(id, std::move(view)).first->second;
-  }
-  if (recursive("line", id, *def->block, 176)) return nullptr;
-  const auto guard = open.emplace("line", id).first;
-  const DecodedBlock d = decode(deck(), *def->block);
-  LineSet l{id, d.title, resolve_line(*def, d), def->block->header_span};
-  open.erase(guard);
-  keep(l.edges, *def->block);
-  if (l.edges.empty() && all_held)
-    report({RuleId::DK154, l.span,
-            std::string(def->block->keyword) + " " + std::to_string(id) + " has no edge",
-            std::string(def->block->keyword), id});
-  return &lines.emplace(id, std::move(l)).first->second;
+  return resolved(
+      lines, "line", id, 176,
+      [&](const Definition& def, const DecodedBlock& d) {
+        const Block& block = *def.block;
+        LineSet l{id, d.title, resolve_line(def, d), block.header_span};
+        keep(l.edges, block);
+        if (l.edges.empty() && all_held)
+          report({RuleId::DK154, l.span,
+                  std::string(block.keyword) + " " + std::to_string(id) + " has no edge",
+                  std::string(block.keyword), id});
+        return l;
+      },
+      [&](const detail::SetState& state, const Block& block) {
+        detail::SegmentsOfGroup last;
+        LineSet view{id, set_title(block), set_edge_list(state, block, last), block.header_span};
+        keep(view.edges, block);
+        return view;
+      });
 }
 
 void Selections::Impl::add_line_elements(ElementKind kind, const Indices& members,
@@ -58,7 +51,7 @@ std::vector<Edge> Selections::Impl::listed_edges(const Block& block, const Decod
     bool complete = true;
     for (const Cell& cell : card.cells) {
       if (cell.field->ref != "node" || at >= 2) continue;
-      const std::int64_t id = shift(block, "node", cell.integer);
+      const std::int64_t id = deck().shifted_id(block, "node", cell.integer);
       edge.nodes[at] = node(id);
       if (edge.nodes[at] == no_index) {
         complete = false;
@@ -131,16 +124,12 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
         add_line_elements(kind, *group, out);
     return out;
   }
-  report({RuleId::DK165,
-          block.header_span,
-          std::string(block.header) + " is not a combination that defines a line",
-          std::string(block.keyword),
-          block.id.value,
-          {.message = 688}});
+  report(block, RuleId::DK165,
+         std::string(block.header) + " is not a combination that defines a line", {.message = 688});
   return out;
 }
 
-std::vector<Edge> Selections::Impl::edges_of(const std::vector<Segment>& segments,
+std::vector<Edge> Selections::Impl::edges_of(std::span<const Segment> segments,
                                              bool free_only) const {
   struct Side {
     NodeIndex late = 0, early = 0;

@@ -28,43 +28,25 @@ void Selections::Impl::mark(NodeIndex n, std::vector<NodeIndex>& out) {
   out.push_back(n);
 }
 
-void Selections::Impl::sort_marked(std::vector<NodeIndex>& nodes) const {
-  if (nodes.empty()) return;
-  const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end());
-  constexpr std::size_t steps = 16;  // a walk over so many nodes takes as long as to sort one
-  if (*high - *low > steps * nodes.size()) return std::sort(nodes.begin(), nodes.end());
-  NodeIndex n = *low;
-  for (NodeIndex& out : nodes) {
-    while (stamp[n] != generation) ++n;
-    out = n++;
-  }
-}
-
 const NodeSet* Selections::Impl::node_group(std::int64_t id) {
-  if (const auto it = node_groups.find(id); it != node_groups.end()) return &it->second;
-  const Definition* def = definition("grnod", id);
-  if (def == nullptr) {
-    if (const auto it = set_nodes.find(id); it != set_nodes.end()) return &it->second;
-    const detail::SetState* state = set_state(id);
-    if (state == nullptr) return nullptr;
-    const auto [title, span] = set_heading(id);
-    const Block& block = *definition("set", id)->block;
-    detail::SegmentsOfGroup last;
-    NodeSet view{id, title, set_node_list(*state, block, last), span};
-    keep(view.nodes, block);
-    return &set_nodes.emplace(id, std::move(view)).first->second;
-  }
-  if (recursive("grnod", id, *def->block, 176)) return nullptr;
-  const auto key = open.emplace("grnod", id).first;
-  const DecodedBlock d = decode(deck(), *def->block);
-  NodeSet group{id, d.title, resolve_nodes(*def, d), def->block->header_span};
-  open.erase(key);
-  keep(group.nodes, *def->block);
-  if (group.nodes.empty() && all_held)
-    report({RuleId::DK153, group.span,
-            std::string(def->block->keyword) + " " + std::to_string(id) + " has no node",
-            std::string(def->block->keyword), id});
-  return &node_groups.emplace(id, std::move(group)).first->second;
+  return resolved(
+      node_groups, "grnod", id, 176,
+      [&](const Definition& def, const DecodedBlock& d) {
+        const Block& block = *def.block;
+        NodeSet group{id, d.title, resolve_nodes(def, d), block.header_span};
+        keep(group.nodes, block);
+        if (group.nodes.empty() && all_held)
+          report({RuleId::DK153, group.span,
+                  std::string(block.keyword) + " " + std::to_string(id) + " has no node",
+                  std::string(block.keyword), id});
+        return group;
+      },
+      [&](const detail::SetState& state, const Block& block) {
+        detail::SegmentsOfGroup last;
+        NodeSet view{id, set_title(block), set_node_list(state, block, last), block.header_span};
+        keep(view.nodes, block);
+        return view;
+      });
 }
 
 std::vector<NodeIndex> Selections::Impl::resolve_nodes(const Definition& def,
@@ -200,10 +182,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_in_boxes(const Block& block, cons
     for (const IdRef& ref : refs) {
       const detail::BoxVolume* b = box(ref.id, block, 794);
       if (b == nullptr) continue;
-      for (NodeIndex n = 0; n < model->nodes.size(); ++n) {
-        const auto p = box_point(n);
-        if (b->contains(p[0], p[1], p[2])) in[n] = value;
-      }
+      for (const NodeIndex n : nodes_in(*b)) in[n] = value;
     }
   };
   apply(list.positive, 1);
@@ -250,34 +229,22 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_groups(const Block& block, con
 
 std::vector<NodeIndex> Selections::Impl::nodes_of_surfaces(const Block& block,
                                                            const DecodedBlock& d) {
-  std::vector<SegmentList> all;
   std::vector<IdRef> missing;
-  for (const IdRef& ref : id_list(d).positive) {
-    if (const auto s = outline(ref.id))
-      all.push_back(s->segments);
-    else
-      missing.push_back(ref);
-  }
+  const auto all =
+      named(id_list(d).positive, missing, [&](std::int64_t id) { return outline(id); });
   report_missing(RuleId::DK151, block, "surface", missing, 193);
   std::vector<NodeIndex> nodes;
   start_marks();
-  for (const SegmentList& segments : all)
-    segments.each([&](const Segment& segment) {
+  for (const auto& surface : all)
+    surface->segments.each([&](const Segment& segment) {
       for (const NodeIndex n : segment.nodes) mark(n, nodes);
     });
   return nodes;
 }
 
 std::vector<NodeIndex> Selections::Impl::nodes_of_lines(const Block& block, const DecodedBlock& d) {
-  std::vector<const LineSet*> all;
   std::vector<IdRef> missing;
-  for (const IdRef& ref : id_list(d).positive) {
-    const LineSet* l = line(ref.id);
-    if (l == nullptr)
-      missing.push_back(ref);
-    else
-      all.push_back(l);
-  }
+  const auto all = named(id_list(d).positive, missing, [&](std::int64_t id) { return line(id); });
   report_missing(RuleId::DK151, block, "line", missing, 193);
   std::vector<NodeIndex> nodes;
   start_marks();
@@ -292,21 +259,11 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_elements(const Block& block,
                                                            ElementKind kind) {
   const detail::FamilyName& name = detail::family_name(kind);
   const Elements& family = model->family(kind);
-  std::vector<const Indices*> added;
-  std::vector<const Indices*> removed;
   std::vector<IdRef> missing;
   const IdList list = id_list(d);
-  const auto collect = [&](const std::vector<IdRef>& refs, std::vector<const Indices*>& out) {
-    for (const IdRef& ref : refs) {
-      const Indices* group = element_group(name, ref.id);
-      if (group == nullptr)
-        missing.push_back(ref);
-      else
-        out.push_back(group);
-    }
-  };
-  collect(list.positive, added);
-  collect(list.negative, removed);
+  const auto get = [&](std::int64_t id) { return element_group(name, id); };
+  const auto added = named(list.positive, missing, get);
+  const auto removed = named(list.negative, missing, get);
   report_missing(RuleId::DK151, block, "element group", missing, 172);
   std::vector<NodeIndex> nodes;
   start_marks();

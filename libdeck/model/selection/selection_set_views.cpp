@@ -1,9 +1,7 @@
 // The three projections of a set: nodes, surface, lines.
 #include <algorithm>
-#include <tuple>
 
 #include "model/selection/selection_impl.hpp"
-#include "model/selection/selection_sort.hpp"
 
 namespace deck {
 
@@ -14,12 +12,6 @@ using detail::SetState;
 namespace {
 
 std::size_t at(ElementKind kind) { return static_cast<std::size_t>(kind); }
-
-Indices without(const Indices& all, const Indices& some) {
-  Indices out;
-  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(out));
-  return out;
-}
 
 Indices common(const Indices& a, const Indices& b) {
   Indices out;
@@ -55,7 +47,7 @@ std::vector<Segment> Selections::Impl::group_segments(const SetGroup& group) {
       add_shells(shells, members, false, out);
       continue;
     }
-    add_shells(shells, without(members, turned), false, out);
+    add_shells(shells, detail::without(members, turned), false, out);
     add_shells(shells, turned, true, out);
   }
   return out;
@@ -94,7 +86,7 @@ Indices Selections::Impl::group_nodes(const SetGroup& group, LastGroup& last) {
   for (const Edge& e : group.row_edges)
     for (const NodeIndex n : e.nodes) mark(n, nodes);
   for (const NodeIndex n : group.named) mark(n, nodes);
-  sort_marked(nodes);
+  sort_nodes(nodes);
   return nodes;
 }
 
@@ -169,66 +161,64 @@ constexpr std::size_t bytes_of_a_group = 256;
 
 }  // namespace
 
+/// What get(group) gives for all groups, one behind the other, as far as it fits.
+template <class Item, class Get>
+std::vector<Item> Selections::Impl::of_groups(const SetState& state, const Block& block,
+                                              const Get& get) {
+  std::vector<Item> out;
+  if (!hold(state.others.size(), bytes_of_a_group, block)) return out;
+  state.each_group([&](const SetGroup& group) {
+    const std::vector<Item>& some = get(group);
+    if (fits(out.size() + some.size(), sizeof(Item), block))
+      out.insert(out.end(), some.begin(), some.end());
+  });
+  return out;
+}
+
 std::vector<NodeIndex> Selections::Impl::set_node_list(const SetState& state, const Block& block,
                                                        LastGroup& last) {
-  Indices nodes;
-  if (!hold(state.others.size(), bytes_of_a_group, block)) return nodes;
-  state.each_group([&](const SetGroup& group) {
-    const Indices some = group_nodes(group, last);
-    if (fits(nodes.size() + some.size(), sizeof some[0], block))
-      nodes.insert(nodes.end(), some.begin(), some.end());
-  });
+  Indices nodes = of_groups<NodeIndex>(
+      state, block, [&](const SetGroup& group) { return group_nodes(group, last); });
   detail::normalise(nodes);
-  if (!state.removed.empty()) nodes = without(nodes, state.removed);
+  if (!state.removed.empty()) nodes = detail::without(nodes, state.removed);
   sort_nodes(nodes);
   return nodes;
 }
 
 std::vector<Segment> Selections::Impl::set_segment_list(const SetState& state, const Block& block,
                                                         LastGroup& last) {
-  std::vector<Segment> out;
-  if (!hold(state.others.size(), bytes_of_a_group, block)) return out;
-  state.each_group([&](const SetGroup& group) {
-    const auto& some = group_segments(group, last);
-    if (fits(out.size() + some.size(), sizeof(Segment), block))
-      out.insert(out.end(), some.begin(), some.end());
-  });
+  auto out = of_groups<Segment>(
+      state, block, [&](const SetGroup& group) -> auto& { return group_segments(group, last); });
   merge_segments(out);
   return out;
 }
 
 std::vector<Edge> Selections::Impl::set_edge_list(const SetState& state, const Block& block,
                                                   LastGroup& last) {
-  std::vector<Edge> out;
-  if (!hold(state.others.size(), bytes_of_a_group, block)) return out;
-  state.each_group([&](const SetGroup& group) {
-    const auto some = group_edges(group, last);
-    if (fits(out.size() + some.size(), sizeof(Edge), block))
-      out.insert(out.end(), some.begin(), some.end());
-  });
+  auto out = of_groups<Edge>(state, block,
+                             [&](const SetGroup& group) { return group_edges(group, last); });
   merge_edges(out);
   return out;
 }
 
-std::pair<std::string, Span> Selections::Impl::set_heading(std::int64_t id) const {
-  const Block& block = *definition("set", id)->block;
-  return {std::string(LineCursor(deck().sources, block).next().text.substr(0, 100)),
-          block.header_span};
+std::string Selections::Impl::set_title(const Block& block) const {
+  return std::string(LineCursor(deck().sources, block).next().text.substr(0, 100));
 }
 
 const SetGeneral* Selections::Impl::set(std::int64_t id) {
   if (const auto it = sets.find(id); it != sets.end()) return &it->second;
   const SetState* state = set_state(id);
   if (state == nullptr) return nullptr;
+  const Block& block = *definition("set", id)->block;
   SetGeneral s;
   s.id = id;
-  std::tie(s.title, s.span) = set_heading(id);
-  const Block& block = *definition("set", id)->block;
+  s.title = set_title(block);
+  s.span = block.header_span;
   LastGroup last;
   s.nodes = set_node_list(*state, block, last);
-  const auto view = set_surfaces.find(id);
+  const auto view = definition("surf", id) == nullptr ? surfaces.find(id) : surfaces.end();
   s.segments =
-      view != set_surfaces.end() ? view->second.segments : set_segment_list(*state, block, last);
+      view != surfaces.end() ? view->second.segments : set_segment_list(*state, block, last);
   s.edges = set_edge_list(*state, block, last);
   s.parts = state->parts;
   keep(s.nodes, block);

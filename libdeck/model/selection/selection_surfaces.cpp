@@ -1,11 +1,11 @@
 // Surfaces: /SURF of every type, in the creation order of the reference solver and with its final
-// sort by carrier and element id.
+// sort by carrier and element id. Those of shells of parts are runs of elements: their segments are
+// formed where they are looked at, and held only for those who ask for all of them at once.
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "model/selection/selection_impl.hpp"
-#include "model/selection/selection_sort.hpp"
 
 namespace deck {
 
@@ -36,34 +36,38 @@ std::array<NodeIndex, 4> from_smallest(const std::array<NodeIndex, 4>& n) {
   return out;
 }
 
+/// Shell `e` of these nodes.
+Segment segment_of(const NodeIndex* n, bool quadrangle, Carrier carrier, std::uint32_t e,
+                   bool reversed) {
+  if (!reversed) return {{n[0], n[1], n[2], quadrangle ? n[3] : n[2]}, carrier, e};
+  // A quadrangle is turned as one even where its last two nodes coincide.
+  if (quadrangle) return {{n[3], n[2], n[1], n[0]}, carrier, e};
+  return {{n[2], n[1], n[0], n[0]}, carrier, e};
+}
+
 }  // namespace
 
 const Surface* Selections::Impl::surface(std::int64_t id) {
-  if (const auto it = surfaces.find(id); it != surfaces.end()) return &it->second;
-  const Definition* def = definition("surf", id);
-  if (def == nullptr) {
-    if (const auto it = set_surfaces.find(id); it != set_surfaces.end()) return &it->second;
-    const detail::SetState* state = set_state(id);
-    if (state == nullptr) return nullptr;
-    const auto [title, span] = set_heading(id);
-    const Block& block = *definition("set", id)->block;
-    detail::SegmentsOfGroup last;
-    const auto resolved = sets.find(id);
-    Surface view{
-        id, title,
-        resolved != sets.end() ? resolved->second.segments : set_segment_list(*state, block, last),
-        false, span};
-    keep(view.segments, block);
-    return &set_surfaces.emplace(id, std::move(view)).first->second;
-  }
-  if (const Surface* s = surface_of_runs(id, *def->block)) return s;
-  if (recursive("surf", id, *def->block, 189)) return nullptr;
-  const auto guard = open.emplace("surf", id).first;
-  const DecodedBlock d = decode(deck(), *def->block);
-  Surface s{id, d.title, {}, false, def->block->header_span};
-  s.segments = resolve_surface(*def, d, s.analytical);
-  open.erase(guard);
-  return &finish_surface(std::move(s), *def->block);
+  hold_runs(id);
+  return resolved(
+      surfaces, "surf", id, 189,
+      [&](const Definition& def, const DecodedBlock& d) {
+        Surface s{id, d.title, {}, false, def.block->header_span};
+        s.segments = resolve_surface(def, d, s.analytical);
+        keep(s.segments, *def.block);
+        sort_segments(s.segments);
+        return s;
+      },
+      [&](const detail::SetState& state, const Block& block) {
+        detail::SegmentsOfGroup last;
+        const auto whole = sets.find(id);
+        Surface view{
+            id, set_title(block),
+            whole != sets.end() ? whole->second.segments : set_segment_list(state, block, last),
+            false, block.header_span};
+        keep(view.segments, block);
+        return view;
+      });
 }
 
 std::vector<Segment> Selections::Impl::resolve_surface(const Definition& def, const DecodedBlock& d,
@@ -79,9 +83,8 @@ std::vector<Segment> Selections::Impl::resolve_surface(const Definition& def, co
   if (type == "DSURF") return difference_of_surfaces(block, d);
   analytical = type == "PLANE" || type == "ELLIPS" || type == "MDELLIPS";
   if (!analytical)
-    report({RuleId::DK165, block.header_span,
-            std::string(block.header) + " is not a combination that defines a surface",
-            std::string(block.keyword), block.id.value});
+    report(block, RuleId::DK165,
+           std::string(block.header) + " is not a combination that defines a surface");
   return {};
 }
 
@@ -134,7 +137,7 @@ std::vector<Segment> Selections::Impl::segments_by_nodes(const Block& block,
         // Only the fourth node may be left out; in two dimensions a segment has two nodes.
         if (at < fewest) complete = false;
       } else {
-        const std::int64_t id = shift(block, "node", cell.integer);
+        const std::int64_t id = deck().shifted_id(block, "node", cell.integer);
         s.nodes[have] = node(id);
         if (s.nodes[have] == no_index) {
           missing.push_back({id, cell.span});
@@ -223,34 +226,29 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
   if (option.empty()) {
     const std::uint32_t e = members.front();
     const std::uint32_t p = solids.part[e];
-    Diagnostic d = detail::make_diagnostic(
-        {RuleId::DK155,
-         block.header_span,
-         std::string(block.keyword) + " " + std::to_string(block.id.value) + " selects " +
-             std::to_string(members.size()) + (members.size() == 1 ? " solid" : " solids") +
-             " but does not say which faces; the first is solid " + std::to_string(solids.id[e]) +
-             (p == no_index ? std::string() : " of part " + std::to_string(model->parts[p].id)),
-         std::string(block.keyword),
-         block.id.value,
-         {.fix = "write " + std::string(block.keyword) +
-                 "/EXT for the exterior faces or /ALL for all"}});
+    Diagnostic d = detail::make_diagnostic(detail::finding_about(
+        block, RuleId::DK155,
+        detail::name_of(block) + " selects " + std::to_string(members.size()) +
+            (members.size() == 1 ? " solid" : " solids") +
+            " but does not say which faces; the first is solid " + std::to_string(solids.id[e]) +
+            (p == no_index ? std::string() : " of part " + std::to_string(model->parts[p].id)),
+        {.fix = "write " + std::string(block.keyword) +
+                "/EXT for the exterior faces or /ALL for all"}));
     d.notes.emplace_back(model->element_span(ElementKind::solid8, e), "the solid");
     found.report(std::move(d));
     return;
   }
-  const auto quadratic = std::find_if(members.begin(), members.end(), [&](std::uint32_t e) {
+  const auto is_quadratic = [&](std::uint32_t e) {
     return solids.shape[e] == SolidShape::brick20 || solids.shape[e] == SolidShape::thick16;
-  });
+  };
+  const auto quadratic = std::find_if(members.begin(), members.end(), is_quadratic);
   if (quadratic != members.end()) {
-    report({RuleId::DK156, block.header_span,
-            std::string(block.keyword) + " " + std::to_string(block.id.value) +
-                " selects solids with 20 or 16 nodes, whose faces have mid-side nodes; the first "
-                "is solid " +
-                std::to_string(solids.id[*quadratic]),
-            std::string(block.keyword), block.id.value});
-    std::erase_if(members, [&](std::uint32_t e) {
-      return solids.shape[e] == SolidShape::brick20 || solids.shape[e] == SolidShape::thick16;
-    });
+    report(block, RuleId::DK156,
+           detail::name_of(block) +
+               " selects solids with 20 or 16 nodes, whose faces have mid-side nodes; the first "
+               "is solid " +
+               std::to_string(solids.id[*quadratic]));
+    std::erase_if(members, is_quadratic);
   }
   Indices shells4, shells3;
   for (const Segment& s : out)
@@ -283,18 +281,15 @@ void Selections::Impl::report_lost_faces(const Block& block,
   const std::uint32_t part = model->solid8.part[solid];
   const std::string body =
       part == no_index ? "the solids" : "part " + std::to_string(model->parts[part].id);
-  Diagnostic d = detail::make_diagnostic(
-      {RuleId::DK063,
-       block.header_span,
-       std::string(block.keyword) + " " + std::to_string(block.id.value) + " lacks " +
-           (lost.size() == 1 ? "1 face" : std::to_string(lost.size()) + " faces") +
-           " of its solids; the first is the face of solid " +
-           std::to_string(model->solid8.id[solid]) + " under shell " +
-           std::to_string(shells.id[shell.element]) + " of part " + std::to_string(skin),
-       std::string(block.keyword),
-       block.id.value,
-       {.fix = "name " + body + " in a /SURF/PART/EXT; with part " + std::to_string(skin) +
-               " added, the shells replace the faces"}});
+  Diagnostic d = detail::make_diagnostic(detail::finding_about(
+      block, RuleId::DK063,
+      detail::name_of(block) + " lacks " +
+          (lost.size() == 1 ? "1 face" : std::to_string(lost.size()) + " faces") +
+          " of its solids; the first is the face of solid " +
+          std::to_string(model->solid8.id[solid]) + " under shell " +
+          std::to_string(shells.id[shell.element]) + " of part " + std::to_string(skin),
+      {.fix = "name " + body + " in a /SURF/PART/EXT; with part " + std::to_string(skin) +
+              " added, the shells replace the faces"}));
   d.notes.emplace_back(model->element_span(ElementKind::solid8, solid), "the solid");
   d.notes.emplace_back(
       model->element_span(shell.four ? ElementKind::shell4 : ElementKind::shell3, shell.element),
@@ -378,9 +373,8 @@ std::vector<Segment> Selections::Impl::segments_of_groups(const Definition& def,
   report_missing(RuleId::DK151, block, "element group", missing, 192);
   if (kind != ElementKind::solid8) return out;
   if (def.option.empty()) {
-    report({RuleId::DK157, block.header_span,
-            "/SURF/GRBRIC " + std::to_string(block.id.value) + " does not say which faces",
-            std::string(block.keyword), block.id.value});
+    report(block, RuleId::DK157,
+           "/SURF/GRBRIC " + std::to_string(block.id.value) + " does not say which faces");
     return out;
   }
   add_solids(block, def.option, std::move(solids), out);
@@ -397,8 +391,8 @@ const std::vector<Segment>* Selections::Impl::listed_surface(const Block& block,
   }
   if (s->analytical) {
     report({RuleId::DK158, ref.span,
-            std::string(block.keyword) + " " + std::to_string(block.id.value) + " lists surface " +
-                std::to_string(ref.id) + ", which is analytical",
+            detail::name_of(block) + " lists surface " + std::to_string(ref.id) +
+                ", which is analytical",
             std::string(block.keyword), block.id.value});
     return nullptr;
   }
@@ -410,14 +404,14 @@ std::vector<Segment> Selections::Impl::segments_of_surfaces(const Block& block,
   const IdList list = id_list(d);
   std::vector<Segment> out;
   std::vector<IdRef> missing;
-  for (const IdRef& ref : list.positive)
-    if (const auto* segments = listed_surface(block, ref, missing);
-        segments != nullptr && fits(out.size() + segments->size(), sizeof(Segment), block))
-      out.insert(out.end(), segments->begin(), segments->end());
-  for (const IdRef& ref : list.negative)
-    if (const auto* segments = listed_surface(block, ref, missing);
-        segments != nullptr && fits(out.size() + segments->size(), sizeof(Segment), block))
-      std::transform(segments->begin(), segments->end(), std::back_inserter(out), turned);
+  const auto collect = [&](const std::vector<IdRef>& refs, auto&& as) {
+    for (const IdRef& ref : refs)
+      if (const auto* segments = listed_surface(block, ref, missing);
+          segments != nullptr && fits(out.size() + segments->size(), sizeof(Segment), block))
+        std::transform(segments->begin(), segments->end(), std::back_inserter(out), as);
+  };
+  collect(list.positive, [](const Segment& s) { return s; });
+  collect(list.negative, turned);
   report_missing(RuleId::DK151, block, "surface", missing, 188);
   return out;
 }
@@ -450,6 +444,101 @@ std::vector<Segment> Selections::Impl::difference_of_surfaces(const Block& block
     return std::binary_search(gone.begin(), gone.end(), s, before);
   });
   return out;
+}
+
+// ---- surfaces of shells of parts by runs of elements --------------------------------------------
+
+std::span<const Segment> SegmentList::some(std::size_t begin, std::size_t end,
+                                           std::vector<Segment>& room) const {
+  if (held_ != nullptr) return {held_->data() + begin, end - begin};
+  room.resize(end - begin);
+  auto run = std::upper_bound(runs_->begin(), runs_->end(), begin,
+                              [](std::size_t at, const ShellRun& r) { return at < r.end; });
+  for (std::size_t at = begin; at < end; ++run) {
+    const Elements& shells = model_->family(run->kind);
+    const Carrier carrier = detail::family_name(run->kind).carrier;
+    const bool quadrangles = shells.width == 4, reversed = run->reversed;
+    const std::size_t start = run == runs_->begin() ? 0 : (run - 1)->end;
+    auto e = run->first + static_cast<std::uint32_t>(at - start);
+    for (const std::size_t stop = std::min(end, run->end); at < stop; ++at, ++e)
+      room[at - begin] = segment_of(shells.of(e), quadrangles, carrier, e, reversed);
+  }
+  return room;
+}
+
+Segment detail::shell_segment(const Elements& shells, std::uint32_t e, bool reversed) {
+  return segment_of(shells.of(e), shells.width == 4, family_name(shells.kind).carrier, e, reversed);
+}
+
+std::optional<std::vector<ShellRun>> Selections::Impl::shell_runs(
+    const std::vector<std::int8_t>& tags) {
+  const auto selects = [&](ElementKind kind) {
+    if (model->family(kind).size() == 0) return false;
+    const PartElements& rows = elements_of_parts(kind);
+    for (std::size_t p = 0; p < tags.size(); ++p)
+      if (tags[p] != 0 && !rows.row(p).empty()) return true;
+    return false;
+  };
+  if (selects(ElementKind::solid8)) return std::nullopt;  // which faces: more than a run says
+  std::vector<ShellRun> out;
+  std::size_t count = 0;
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+    if (!selects(kind)) continue;
+    const Elements& shells = model->family(kind);
+    const PartElements& rows = elements_of_parts(kind);
+    const std::int64_t* last = nullptr;  // id of the element before
+    for (std::size_t p = 0; p < tags.size(); ++p) {
+      if (tags[p] == 0) continue;
+      for (const ElementRun& run : rows.row(p)) {
+        const NodeIndex* const nodes = shells.of(run.first);
+        const NodeIndex* const nodes_end = shells.of(run.end);
+        if (std::find(nodes, nodes_end, no_index) != nodes_end) return std::nullopt;
+        const std::int64_t* const ids = shells.id.data() + run.first;
+        if (last != nullptr && *ids < *last) return std::nullopt;
+        if (!std::is_sorted(ids, ids + run.size())) return std::nullopt;
+        last = ids + run.size() - 1;
+        count += run.size();
+        out.push_back({kind, tags[p] < 0, run.first, count});
+      }
+    }
+  }
+  return out;
+}
+
+std::optional<SurfaceOutline> Selections::Impl::outline(std::int64_t id) {
+  const detail::Definition* def = definition("surf", id);
+  const bool by_runs = def != nullptr && is_part_type(def->type) && !surfaces.contains(id);
+  if (by_runs && !run_surfaces.contains(id)) {
+    const Block& block = *def->block;
+    if (recursive("surf", id, block, 189)) return std::nullopt;
+    const DecodedBlock d = decode(deck(), block);
+    const std::vector<std::int8_t> tags = part_tags(block, def->type, id_list(d));
+    if (auto runs = shell_runs(tags)) {
+      // They count as held, as if somebody had asked for all of them.
+      if (!hold(runs->empty() ? 0 : runs->back().end, sizeof(Segment), block)) runs->clear();
+      run_surfaces.emplace(id, std::move(*runs));
+    } else {
+      Surface s{id, d.title, segments_of_parts(*def, tags), false, block.header_span};
+      keep(s.segments, block);
+      sort_segments(s.segments);
+      surfaces.emplace(id, std::move(s));
+    }
+  }
+  if (const auto it = run_surfaces.find(id); by_runs && it != run_surfaces.end())
+    return SurfaceOutline{{*model, it->second}, false};
+  const Surface* s = surface(id);
+  if (s == nullptr) return std::nullopt;
+  return SurfaceOutline{{*model, s->segments}, s->analytical};
+}
+
+void Selections::Impl::hold_runs(std::int64_t id) {
+  const auto it = run_surfaces.find(id);
+  if (it == run_surfaces.end() || surfaces.contains(id)) return;
+  const Block& block = *definition("surf", id)->block;
+  Surface s{id, decode(deck(), block).title, {}, false, block.header_span};
+  const SegmentList list(*model, it->second);
+  list.some(0, list.size(), s.segments);
+  surfaces.emplace(id, std::move(s));
 }
 
 }  // namespace deck

@@ -145,14 +145,12 @@ void join(Selections::Impl& all, SetState& set, SetState clause, bool of_parts,
   all.share_groups(set, clause.others, block);
 }
 
-struct ElementClause {
-  std::string_view keyword;
-  ElementKind kind;
-};
-constexpr ElementClause element_clauses[] = {
-    {"SHELL", ElementKind::shell4}, {"SH3N", ElementKind::shell3},  {"SOLID", ElementKind::solid8},
-    {"QUAD", ElementKind::quad},    {"TRIA", ElementKind::tria},    {"BEAM", ElementKind::beam},
-    {"TRUSS", ElementKind::truss},  {"SPRING", ElementKind::spring}};
+/// The elements of a clause by its kind; nullopt: it is not about elements.
+std::optional<ElementKind> family_of_clause(std::string_view kind) {
+  for (const FamilyName& name : family_names())
+    if (name.clause == kind) return name.kind;
+  return std::nullopt;
+}
 
 /// Evaluates one clause into an own state.
 class ClauseReader {
@@ -174,31 +172,26 @@ class ClauseReader {
       segments();
     } else if (kind == "ALL") {
       everything();
-    } else if (const auto* e = element_clause(kind)) {
-      elements(e->kind);
+    } else if (const auto family = family_of_clause(kind)) {
+      elements(*family);
     } else if (kind == "PLANE" || kind == "ELLIPS") {
       // Analytical surfaces have neither nodes nor segments.
     } else if (kind == "RBODY") {
       unsupported("deck does not evaluate clauses of rigid bodies");
     } else {
-      all_.report({RuleId::DK160, clause_.span, "'" + std::string(kind) + "' is no clause of a set",
-                   std::string(block_.keyword), block_.id.value});
+      report(RuleId::DK160, "'" + std::string(kind) + "' is no clause of a set");
     }
     finish();
     return std::move(state_);
   }
 
  private:
-  static const ElementClause* element_clause(std::string_view kind) {
-    for (const ElementClause& e : element_clauses)
-      if (e.keyword == kind) return &e;
-    return nullptr;
+  void report(RuleId rule, std::string what) {
+    all_.report(
+        {rule, clause_.span, std::move(what), std::string(block_.keyword), block_.id.value});
   }
-
   void unsupported(const std::string& what) {
-    all_.report({RuleId::DK164, clause_.span,
-                 std::string(block_.keyword) + " " + std::to_string(block_.id.value) + ": " + what,
-                 std::string(block_.keyword), block_.id.value});
+    report(RuleId::DK164, name_of(block_) + ": " + what);
   }
 
   /// What the options change after the members are known.
@@ -270,17 +263,14 @@ class ClauseReader {
   }
 
   void parts() {
-    const std::string_view type = clause_.kind == "PART"   ? "PART"
-                                  : clause_.kind == "SUBS" ? "SUBSET"
-                                                           : "SUBMODEL";
-    const std::string_view kind = clause_.kind == "PART"   ? "part"
-                                  : clause_.kind == "SUBS" ? "subset"
-                                                           : "submodel";
+    const auto [type, kind] = clause_.kind == "PART"   ? std::pair("PART", "part")
+                              : clause_.kind == "SUBS" ? std::pair("SUBSET", "subset")
+                                                       : std::pair("SUBMODEL", "submodel");
     std::vector<std::int64_t> existing;
     if (clause_.has('G')) {
-      if (kind == "part")
+      if (clause_.kind == "PART")
         for (const Part& p : all_.model->parts) existing.push_back(p.id);
-      else if (kind == "subset")
+      else if (clause_.kind == "SUBS")
         for (const auto& [id, children] : all_.model->subset_children) existing.push_back(id);
       else
         for (const auto& [id, span] : all_.model->submodels) existing.push_back(id);
@@ -309,11 +299,8 @@ class ClauseReader {
   void elements(ElementKind kind) {
     const Elements& family = all_.model->family(kind);
     if (family.size() == 0) {
-      all_.report({RuleId::DK163, clause_.span,
-                   std::string(block_.keyword) + " " + std::to_string(block_.id.value) +
-                       " has a clause " + std::string(clause_.kind) +
-                       ", but the model has no such element",
-                   std::string(block_.keyword), block_.id.value});
+      report(RuleId::DK163, name_of(block_) + " has a clause " + std::string(clause_.kind) +
+                                ", but the model has no such element");
       return;
     }
     std::vector<IdRef> absent;
@@ -365,12 +352,8 @@ class ClauseReader {
         const Indices in = all_.elements_in_box(*b, static_cast<ElementKind>(k), any_node);
         group().elements[k] = combine(group().elements[k], in, Operator::add);
       }
-      for (NodeIndex n = 0; n < all_.model->nodes.size(); ++n) {
-        const auto p = all_.box_point(n);
-        if (b->contains(p[0], p[1], p[2])) group().named.push_back(n);
-      }
+      group().named = combine(group().named, all_.nodes_in(*b), Operator::add);
     }
-    normalise(group().named);
   }
 
   void segments() {
@@ -407,12 +390,6 @@ class ClauseReader {
 };
 
 }  // namespace
-
-bool SetGroup::empty() const {
-  return !external && reversed4.empty() && reversed3.empty() && all_faces.empty() &&
-         named.empty() && rows.empty() && row_edges.empty() &&
-         std::all_of(elements.begin(), elements.end(), [](const Indices& e) { return e.empty(); });
-}
 
 std::size_t SetGroup::size() const {
   std::size_t sum = reversed4.size() + reversed3.size() + all_faces.size() + named.size() +

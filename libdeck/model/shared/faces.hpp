@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "deck/model/model.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 

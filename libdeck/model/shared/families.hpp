@@ -1,8 +1,11 @@
 // The families of elements by the names that keywords and groups have for them. Shared with the
 // stages to the right.
 #pragma once
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "deck/model/model.hpp"
 
@@ -14,27 +17,70 @@ std::optional<ElementKind> family_of_kind(std::string_view kind);
 /// The same for a group of elements ("grshel").
 std::optional<ElementKind> family_of_group(std::string_view kind);
 
+/// How elements of a family name themselves in groups.
+struct FamilyName {
+  ElementKind kind;
+  std::string_view group;    ///< "grshel"
+  std::string_view keyword;  ///< "GRSHEL"
+  std::string_view member;   ///< type keyword of the id list: "SHEL"
+  std::string_view id_kind;  ///< for the submodel offset
+  std::string_view clause;   ///< of a set
+  Carrier carrier;
+};
+const std::vector<FamilyName>& family_names();
+const FamilyName& family_name(ElementKind kind);
+/// Nodes that carry the element: for beams and springs without the orientation nodes.
+int carrying_nodes(ElementKind kind);
+
+/// All of them, in their order.
+inline constexpr ElementKind all_families[] = {
+    ElementKind::shell4, ElementKind::shell3, ElementKind::solid8, ElementKind::quad,
+    ElementKind::tria,   ElementKind::truss,  ElementKind::beam,   ElementKind::spring};
+
 /// Family of the element that has a segment, an edge or a face; nullopt: none has it.
 constexpr std::optional<ElementKind> family_of_carrier(Carrier carrier) {
-  switch (carrier) {
-    case Carrier::none:
-      return std::nullopt;
-    case Carrier::solid:
-      return ElementKind::solid8;
-    case Carrier::quad:
-      return ElementKind::quad;
-    case Carrier::shell4:
-      return ElementKind::shell4;
-    case Carrier::truss:
-      return ElementKind::truss;
-    case Carrier::beam:
-      return ElementKind::beam;
-    case Carrier::spring:
-      return ElementKind::spring;
-    case Carrier::shell3:
-      return ElementKind::shell3;
-  }
-  return std::nullopt;
+  constexpr ElementKind of[] = {ElementKind::solid8, ElementKind::quad, ElementKind::shell4,
+                                ElementKind::truss,  ElementKind::beam, ElementKind::spring,
+                                ElementKind::shell3};
+  if (carrier == Carrier::none) return std::nullopt;
+  return of[static_cast<std::size_t>(carrier) - 1];
 }
 
 }  // namespace deck::detail
+
+namespace deck {
+
+/// Rows of entries: row i is entries[first[i] .. first[i + 1]).
+template <class Entry>
+struct CompressedRows {
+  std::vector<std::uint32_t> first;  ///< size rows + 1; empty if nothing was built
+  std::vector<Entry> entries;
+  std::size_t rows() const { return first.empty() ? 0 : first.size() - 1; }
+  std::span<const Entry> row(std::size_t i) const {
+    return {entries.data() + first[i], entries.data() + first[i + 1]};
+  }
+};
+using IndexRows = CompressedRows<std::uint32_t>;  ///< each ascending
+
+/// Elements of each node. An element appears once per node, however often it repeats it.
+using NodeElements = IndexRows;
+/// Elements first ... end-1 of a family.
+struct ElementRun {
+  std::uint32_t first = 0, end = 0;
+  std::uint32_t size() const { return end - first; }
+};
+/// Elements of each part, ascending, in runs as long as possible: those of a part mostly follow
+/// each other.
+using PartElements = CompressedRows<ElementRun>;
+
+/// `slots` of every element are looked at; 0: all of them. Mid-side nodes of 10-, 16- and 20-node
+/// solids count if `mid_nodes` is set. Missing nodes are skipped.
+NodeElements connect_nodes(const Elements& family, std::size_t node_count, int slots = 0,
+                           bool mid_nodes = false);
+/// Elements whose part is missing are in no run.
+PartElements connect_parts(const Elements& family, std::size_t part_count);
+
+/// Number of mid-side node slots of a solid shape.
+int extra_node_count(SolidShape shape);
+
+}  // namespace deck

@@ -9,7 +9,6 @@
 
 #include "deck/model/model.hpp"
 #include "model/shared/mesh.hpp"
-#include "model/shared/tied_nodes.hpp"
 
 namespace deck {
 

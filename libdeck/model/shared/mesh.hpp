@@ -9,9 +9,25 @@
 
 #include "deck/keyword/engine_file.hpp"
 #include "deck/model/model.hpp"
-#include "model/shared/tied_nodes.hpp"
 
 namespace deck {
+
+/// The nodes that one /INTER/TYPE2 holds at the start.
+struct TiedNodes {
+  struct Row {
+    NodeIndex node = no_index;
+    std::array<NodeIndex, 4> main{};  ///< triangle: last repeated
+    /// Place on the segment, -1 to 1 within it. Triangles with Spotflag 27: weights of corners
+    /// 1, 2.
+    double s = 0, t = 0;
+    bool penalty = false;
+  };
+  const Block* block = nullptr;
+  int spotflag = 0;       ///< effective; 0 is the standard formulation
+  bool rim = false;       ///< masses of nodes beyond the rim go to the rim (Iproj 1)
+  bool evaluated = true;  ///< false: which nodes it holds is not known
+  std::vector<Row> rows;  ///< ascending node id
+};
 
 /// A step that limits nothing.
 inline constexpr double no_step = 1e30;

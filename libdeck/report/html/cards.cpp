@@ -2,7 +2,7 @@
 // cards with the columns that a changed value goes to.
 #include <algorithm>
 
-#include "deck/contact/resolve.hpp"
+#include "deck/contact/scene.hpp"
 #include "deck/keyword/decode.hpp"
 #include "report/html/parts.hpp"
 #include "verdict/shared/of_interface.hpp"

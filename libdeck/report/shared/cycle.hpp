@@ -9,7 +9,7 @@
 #include "deck/cycle/steps.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
-#include "deck/report/drain.hpp"
+#include "deck/report/gaps.hpp"
 #include "deck/verdict.hpp"
 #include "report/shared/vtk.hpp"
 

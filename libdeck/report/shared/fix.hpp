@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "deck/edit/fix.hpp"
-#include "deck/model/coverage.hpp"
+#include "deck/model/interfaces.hpp"
 #include "deck/verdict.hpp"
 
 namespace deck {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/contact/earlier.hpp"
+#include "deck/contact/view.hpp"
 #include "deck/keyword/deck.hpp"
 #include "lint/shared/gate.hpp"
 #include "report/shared/diagnostics.hpp"

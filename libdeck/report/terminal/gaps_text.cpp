@@ -9,7 +9,7 @@
 #include "contact/shared/element_names.hpp"
 #include "deck/contact/ties.hpp"
 #include "deck/report/gaps.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"

@@ -1,8 +1,10 @@
 // Text of a line by its columns, and without the blanks around it.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace deck::detail {
 
@@ -30,6 +32,16 @@ inline std::string_view columns(std::string_view line, int first, int last) {
   const auto begin = static_cast<std::size_t>(first - 1);
   if (begin >= line.size()) return {};
   return line.substr(begin, static_cast<std::size_t>(last - first + 1));
+}
+/// The words of a line, parted by blanks.
+inline std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> out;
+  for (std::size_t at = line.find_first_not_of(' '); at < line.size();) {
+    const std::size_t end = std::min(line.find(' ', at), line.size());
+    out.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(' ', end);
+  }
+  return out;
 }
 /// True for a header of this keyword or of one below it: "/INTER" of "/INTER/TYPE7/1".
 inline bool is_below(std::string_view header, std::string_view keyword) {

@@ -33,7 +33,7 @@ std::vector<std::int64_t> turned(const SmallDeck& small,
     now.z[n] = x[2];
   }
   std::vector<std::int64_t> out;
-  for (const NodeIndex n : mesh.inverted(before, now, nodes, 1)) out.push_back(b.model.node_id(n));
+  for (const NodeIndex n : mesh.inverted(before, now, nodes)) out.push_back(b.model.node_id(n));
   std::sort(out.begin(), out.end());
   return out;
 }

@@ -1,5 +1,5 @@
 // Tests of moving a whole part.
-#include "edit/shared/move_part.hpp"
+#include "edit/shared/depenetrate.hpp"
 
 #include "edit/fix/support.hpp"
 #include "edit/fix/translations.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/cycle/plan.hpp"
+#include "deck/cycle/kernel.hpp"
 
 namespace deck {
 struct Scene;

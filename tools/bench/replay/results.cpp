@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "cycle/adapter/parts.hpp"
@@ -54,85 +55,54 @@ Groups all_groups(const std::string& kind) {
 }
 
 /// One number of a pair, by the name of its column.
-using Getter = double (*)(const PacketResult&, std::size_t);
+using Getter = std::function<double(const PacketResult&, std::size_t)>;
+using Getters = std::map<std::string, Getter>;
 
-template <std::size_t K>
-double weight(const PacketResult& r, std::size_t i) {
-  return r.weights[K][i];
-}
-template <std::size_t C>
-double force(const PacketResult& r, std::size_t i) {
-  return r.force[C][i];
-}
-template <std::size_t C>
-double memory(const PacketResult& r, std::size_t i) {
-  return r.ft[C][i];
-}
-template <std::size_t K>
-double tie(const PacketResult& r, std::size_t i) {
-  return r.tie[K][i];
-}
-template <std::size_t K>
-double criterion(const PacketResult& r, std::size_t i) {
-  return r.criteria[K][i];
-}
-/// Share of the main side's force that goes to end E of both edges.
-template <std::size_t E, std::size_t C>
-double end_force(const PacketResult& r, std::size_t i) {
-  return (E < 2 ? -r.weights[E][i] : r.weights[E][i]) * r.force[C][i];
+/// The arrays of a member under their names, from the first one on.
+template <class Arrays>
+void add_arrays(Getters& out, Arrays PacketResult::*member, const std::vector<std::string>& names) {
+  for (std::size_t k = 0; k < names.size(); ++k)
+    out[names[k]] = [member, k](const PacketResult& r, std::size_t i) { return (r.*member)[k][i]; };
 }
 
-const std::map<std::string, Getter>& getters(const std::string& kind) {
-  static const std::map<std::string, Getter> nodes{
-      {"H1", weight<0>},
-      {"H2", weight<1>},
-      {"H3", weight<2>},
-      {"H4", weight<3>},
-      {"F_x", force<0>},
-      {"F_y", force<1>},
-      {"F_z", force<2>},
-      {"ft_out_x", memory<0>},
-      {"ft_out_y", memory<1>},
-      {"ft_out_z", memory<2>},
-      {"tie_out_Fn", tie<0>},
-      {"tie_out_Ft1", tie<1>},
-      {"tie_out_Ft2", tie<2>},
-      {"tie_out_H1", tie<3>},
-      {"tie_out_H2", tie<4>},
-      {"tie_out_H3", tie<5>},
-      {"tie_out_pen", tie<6>},
-      {"tie_out_side", tie<7>},
-      {"R_seg", criterion<0>},
-      {"A_ind", criterion<2>},
-      {"Fn_out", tie<0>},
-      {"Ft1_out", tie<1>},
-      {"Ft2_out", tie<2>},
-      {"H1_out", tie<3>},
-      {"H2_out", tie<4>},
-      {"H3_out", tie<5>},
-      {"K_nodal", [](const PacketResult& r, std::size_t i) { return r.k_nodal[i]; }},
-      {"P0_out", [](const PacketResult& r, std::size_t i) { return r.p0[i]; }}};
-  static const std::map<std::string, Getter> edges{
-      {"hs1", weight<0>},
-      {"hs2", weight<1>},
-      {"hm1", weight<2>},
-      {"hm2", weight<3>},
-      {"ft_out_x", memory<0>},
-      {"ft_out_y", memory<1>},
-      {"ft_out_z", memory<2>},
-      {"f1_x", end_force<0, 0>},
-      {"f1_y", end_force<0, 1>},
-      {"f1_z", end_force<0, 2>},
-      {"f2_x", end_force<1, 0>},
-      {"f2_y", end_force<1, 1>},
-      {"f2_z", end_force<1, 2>},
-      {"f3_x", end_force<2, 0>},
-      {"f3_y", end_force<2, 1>},
-      {"f3_z", end_force<2, 2>},
-      {"f4_x", end_force<3, 0>},
-      {"f4_y", end_force<3, 1>},
-      {"f4_z", end_force<3, 2>},
-      {"K_nodal", [](const PacketResult& r, std::size_t i) { return r.k_nodal[i]; }}};
+Getters getters_of_nodes() {
+  Getters out;
+  add_arrays(out, &PacketResult::weights, {"H1", "H2", "H3", "H4"});
+  add_arrays(out, &PacketResult::force, three("F"));
+  add_arrays(out, &PacketResult::ft, three("ft_out"));
+  add_arrays(out, &PacketResult::tie,
+             {"tie_out_Fn", "tie_out_Ft1", "tie_out_Ft2", "tie_out_H1", "tie_out_H2", "tie_out_H3",
+              "tie_out_pen", "tie_out_side"});
+  add_arrays(out, &PacketResult::tie,
+             {"Fn_out", "Ft1_out", "Ft2_out", "H1_out", "H2_out", "H3_out"});
+  out["R_seg"] = [](const PacketResult& r, std::size_t i) { return r.criteria[0][i]; };
+  out["A_ind"] = [](const PacketResult& r, std::size_t i) { return r.criteria[2][i]; };
+  out["P0_out"] = [](const PacketResult& r, std::size_t i) { return r.p0[i]; };
+  return out;
+}
+
+Getters getters_of_edges() {
+  Getters out;
+  add_arrays(out, &PacketResult::weights, {"hs1", "hs2", "hm1", "hm2"});
+  add_arrays(out, &PacketResult::ft, three("ft_out"));
+  for (std::size_t end = 0; end < 4; ++end) {
+    const std::vector<std::string> names = three("f" + std::to_string(end + 1));
+    // Share of the main side's force that goes to this end of both edges.
+    for (std::size_t c = 0; c < 3; ++c)
+      out[names[c]] = [end, c](const PacketResult& r, std::size_t i) {
+        return (end < 2 ? -r.weights[end][i] : r.weights[end][i]) * r.force[c][i];
+      };
+  }
+  return out;
+}
+
+const Getters& getters(const std::string& kind) {
+  const auto with_stiffness = [](Getters out) {
+    out["K_nodal"] = [](const PacketResult& r, std::size_t i) { return r.k_nodal[i]; };
+    return out;
+  };
+  static const Getters nodes = with_stiffness(getters_of_nodes());
+  static const Getters edges = with_stiffness(getters_of_edges());
   return kind == "edge_edge" ? edges : nodes;
 }
 

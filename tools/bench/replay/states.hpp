@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "deck/cycle/adapter.hpp"
-#include "deck/cycle/card.hpp"
 #include "deck/cycle/packet.hpp"
 #include "replay/table.hpp"
 

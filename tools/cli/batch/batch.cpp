@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "batch/list.hpp"
+#include "batch/record.hpp"
 #include "batch/run.hpp"
 #include "library.hpp"
 #include "writing/changes.hpp"
@@ -38,7 +38,6 @@ void parse_writing(BatchTask& task, const CommandLine& line) {
                 line.given("--unsafe-fixes");
   if (!task.writes) return;
   task.in_place = task.verb.name == "lint" || line.given("--in-place");
-  task.with_dependents = line.given("--with-dependents");
   task.root = value_among(task.words, "--root");
 }
 
@@ -57,7 +56,7 @@ Result<BatchTask> parse_task(const BatchOptions& o) {
   if (task.verb.setup == nullptr)
     return refuse("expected lint, params, gaps, cycle, convert or fix");
   task.words.assign(words.begin() + 1, words.end());
-  CommandLine line("", "", *o.common.session);
+  CommandLine line("", std::string(task.verb.name), *o.common.session);
   const Action action = task.verb.setup(line);  // holds what the options are stored in
   std::vector<std::string> arguments = task.words;
   arguments.insert(arguments.end(), {"--", "deck"});
@@ -73,22 +72,15 @@ Result<BatchTask> parse_task(const BatchOptions& o) {
   return task;
 }
 
-/// In place: decks that depend on the same files join the list, or their files are outsiders'.
-Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, BatchList& list) {
+/// In place: files that decks outside the list include must stay as they are.
+Result<void> prepare_in_place(const BatchOptions& o, BatchTask& task, const BatchList& list) {
   CommonOptions common = o.common;
   common.rewrites = true;
-  WriteChoice choice;
-  choice.root = task.root;
-  choice.with_dependents = task.with_dependents;
   std::vector<std::string> paths;
   for (const BatchDeck& d : list.decks) paths.push_back(d.path);
-  auto outsiders = look_after(paths, choice, common);
+  auto outsiders = look_after(paths, task.root, common);
   if (!outsiders) return outsiders.error();
   task.outsiders = std::move(*outsiders);
-  IncludeScan scan(o.common.include_paths);
-  auto more = list_decks(paths, "", o.directory, scan);
-  if (!more) return more.error();
-  list.decks = std::move(more->decks);
   return {};
 }
 
@@ -128,10 +120,7 @@ int merge(const BatchOptions& o) {
   auto merged = merge_shards(o.directory);
   if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
     merged = config_error("--merge takes no decks: it merges the summaries in DIR");
-  if (!merged) {
-    print_error(o.common, merged.error().message);
-    return exit_usage;
-  }
+  if (!merged) return failed(o.common, merged.error().message);
   remove_strays(o.directory);
   return write_overview(o, {}, *merged, 0);
 }

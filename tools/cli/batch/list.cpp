@@ -1,5 +1,5 @@
 // Walks directories and manifests and names the results.
-#include "batch/list.hpp"
+#include "batch/record.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,7 +10,6 @@
 
 #include "base/shared/hash.hpp"
 #include "base/shared/paths.hpp"
-#include "batch/record.hpp"
 #include "deck/text/number.hpp"
 #include "library.hpp"
 #include "text/shared/gzip.hpp"

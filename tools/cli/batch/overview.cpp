@@ -10,7 +10,7 @@
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
-#include "batch/summary.hpp"
+#include "batch/record.hpp"
 #include "report/shared/text_table.hpp"
 
 namespace deck::cli {

@@ -114,10 +114,7 @@ int write_overview(const BatchOptions& o, const Shard& shard, const Json& s, std
     if (written) written = write_result(o, file, text, true);
   if (written && !o.common.json.empty())
     written = o.common.session->write_output(o.common.json, documents[name]);
-  if (!written) {
-    print_error(o.common, written.error().message);
-    return exit_usage;
-  }
+  if (!written) return failed(o.common, written.error().message);
   if (o.common.wants_text()) {
     const Json& totals = s.at("totals");
     const auto number = [&](const char* status) { return totals.value(status, std::size_t{0}); };

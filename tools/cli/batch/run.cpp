@@ -230,10 +230,7 @@ Json summary_of(const BatchRun& run) {
 }  // namespace
 
 int run_batch(BatchRun run) {
-  const auto fail = [&](const Error& error) {
-    print_error(run.o.common, error.message);
-    return exit_usage;
-  };
+  const auto fail = [&](const Error& error) { return failed(run.o.common, error.message); };
   if (auto prepared = prepare(run); !prepared) return fail(prepared.error());
   std::size_t kept = 0;
   const auto signal = work(run, kept);

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "batch/list.hpp"
 #include "batch/pool.hpp"
 #include "batch/record.hpp"
 #include "common.hpp"
@@ -36,8 +35,8 @@ struct BatchTask {
   // Verbs that write decks.
   bool writes = false;
   bool in_place = false;  ///< else below the output directory
-  bool to_json = false, with_dependents = false;
-  std::string root;        ///< where to look for decks that depend on the same files
+  bool to_json = false;
+  std::string root;        ///< where to look for decks that include the same files
   std::string frame_root;  ///< decks are written where they lie below it
   std::map<FileIdentity, std::string> outsiders;  ///< see BatchFrame
 

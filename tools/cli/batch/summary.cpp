@@ -1,5 +1,5 @@
 // Lines of decks, the document that lists them, and one document of those of all shards.
-#include "batch/summary.hpp"
+#include "batch/record.hpp"
 
 #include <algorithm>
 #include <filesystem>

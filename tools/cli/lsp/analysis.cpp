@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "deck/contact/resolve.hpp"
+#include "deck/contact/scene.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule.hpp"
 #include "keyword/shared/recognise.hpp"

@@ -16,16 +16,12 @@ struct Options {
 
 int run(const Options& o) {
   const auto schemas = load_schemas(o.common);
-  if (!schemas) {
-    print_error(o.common, schemas.error().message);
-    return exit_usage;
-  }
-  if (isatty(0) == 1) {
-    print_error(o.common,
-                "deck lsp is started by an editor and speaks the Language Server Protocol; do not "
-                "type here");
-    return exit_usage;
-  }
+  if (!schemas) return failed(o.common, schemas.error().message);
+  if (isatty(0) == 1)
+    return failed(
+        o.common,
+        "deck lsp is started by an editor and speaks the Language Server Protocol; do not "
+        "type here");
   lsp::Settings settings;
   settings.include_paths = o.common.include_paths;
   settings.limits = o.common.limits;

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "common.hpp"
-#include "processor.hpp"
 #include "report/shared/accuracy.hpp"
 
 namespace deck::cli::verb_accuracy {
@@ -74,8 +73,7 @@ int show(const Options& o, const AccuracyChoices& choices, const AccuracyContext
     if (const auto written =
             o.common.session->write_output(o.html, accuracy_html(choices, context));
         !written) {
-      print_error(o.common, written.error().message);
-      return exit_usage;
+      return failed(o.common, written.error().message);
     }
   if (o.common.wants_text() && o.html != "-")
     print_lines(accuracy_text(choices, context, o.common.color_on(1), text_width()));
@@ -89,10 +87,8 @@ int run(const Options& o) {
   AccuracyContext context;
   context.processor = processor_name();
   context.command = command_of(o);
-  if (!o.html.empty() && o.common.decks.size() > 1) {
-    print_error(o.common, "--html takes one deck at a time");
-    return exit_usage;
-  }
+  if (!o.html.empty() && o.common.decks.size() > 1)
+    return failed(o.common, "--html takes one deck at a time");
   Progress progress(!o.common.quiet);
   AccuracyChoices choices = time_hard_cases(o, progress);
   progress.clear();

@@ -7,10 +7,10 @@
 
 #include "common.hpp"
 #include "deck/contact/view.hpp"
-#include "deck/model/coverage.hpp"
+#include "deck/model/interfaces.hpp"
 #include "deck/report/html.hpp"
 #include "deck/verdict.hpp"
-#include "verbs/fix_page.hpp"
+#include "verbs/gap_page.hpp"
 #include "verbs/gate/options.hpp"
 #include "verbs/git_deck.hpp"
 
@@ -103,10 +103,7 @@ int run(const Options& o) {
   if (!o.html.empty() && o.no_geometry)
     return wrong_usage("diff", "--html shows contacts: leave out --no-geometry");
   const auto schemas = load_schemas(o.common);
-  if (!schemas) {
-    print_error(o.common, schemas.error().message);
-    return exit_usage;
-  }
+  if (!schemas) return failed(o.common, schemas.error().message);
   auto a = read_old(o, *schemas);
   auto b = a ? read_side(o, o.common.decks.back(), *schemas) : Result<Side>(a.error());
   if (!a || !b) {
@@ -115,11 +112,12 @@ int run(const Options& o) {
     const bool pipe =
         std::any_of(o.common.decks.begin(), o.common.decks.end(),
                     [&](const std::string& deck) { return std::filesystem::is_fifo(deck, ec); });
-    print_error(o.common,
-                error.message + (pipe ? "; 'deck diff --git REV DECK' reads the old side from git, "
-                                        "with its includes"
-                                      : ""));
-    return error.code == Error::Code::config ? exit_usage : exit_input;
+    return failed(
+        o.common,
+        error.message + (pipe ? "; 'deck diff --git REV DECK' reads the old side from git, "
+                                "with its includes"
+                              : ""),
+        error.code == Error::Code::config ? exit_usage : exit_input);
   }
   for (const Side* side : {&*a, &*b}) {
     print_findings(side->loaded, o.common);
@@ -138,10 +136,8 @@ int run(const Options& o) {
   const int code = diff.equal() ? exit_clean : exit_findings;
   if (!o.common.json.empty())
     if (auto written = o.common.session->write_output(o.common.json, diff_json(sa, sb, diff));
-        !written) {
-      print_error(o.common, written.error().message);
-      return exit_usage;
-    }
+        !written)
+      return failed(o.common, written.error().message);
   if (o.common.wants_text() && o.html != "-") {
     DiffTextOptions text;
     text.rows = o.rows;
@@ -161,10 +157,7 @@ int run(const Options& o) {
     const auto page = difference_page(a->loaded, b->loaded, "diff", path, {}, &trends);
     const auto written =
         page ? o.common.session->write_output(o.html, *page) : Result<void>(page.error());
-    if (!written) {
-      print_error(o.common, written.error().message);
-      return exit_usage;
-    }
+    if (!written) return failed(o.common, written.error().message);
   }
   return code;
 }

@@ -41,10 +41,7 @@ std::string deck_beside(const std::string& listing) {
 int explain_one_listing(const Options& o, const std::string& path, const SchemaSet& schemas,
                         JsonOutput& json, bool first) {
   const auto listing = read_listing(path, o.common.limits);
-  if (!listing) {
-    print_error(o.common, listing.error().message);
-    return exit_input;
-  }
+  if (!listing) return failed(o.common, listing.error().message, exit_input);
   o.common.session->remember_read(path);
   const std::string deck = o.deck.empty() ? deck_beside(path) : o.deck;
   std::optional<LoadedDeck> loaded;
@@ -54,10 +51,7 @@ int explain_one_listing(const Options& o, const std::string& path, const SchemaS
                  "; its messages are explained alone (--deck DECK)");
   } else {
     auto read = load(deck, schemas, o.common);
-    if (!read) {
-      print_error(o.common, read.error().message);
-      return exit_input;
-    }
+    if (!read) return failed(o.common, read.error().message, exit_input);
     loaded.emplace(std::move(*read));
   }
   ListingReport report;
@@ -87,10 +81,8 @@ int explain_one_listing(const Options& o, const std::string& path, const SchemaS
 }
 
 int explain_listings(const Options& o, const SchemaSet& schemas) {
-  if (!o.deck.empty() && o.common.decks.size() > 1) {
-    print_error(o.common, "--deck takes one listing at a time");
-    return exit_usage;
-  }
+  if (!o.deck.empty() && o.common.decks.size() > 1)
+    return failed(o.common, "--deck takes one listing at a time");
   if (const int bad = check_outputs(o.common, {o.common.json}); bad != exit_clean) return bad;
   JsonOutput json(o.common, "deck/explain", 1);
   int worst = exit_clean;
@@ -103,10 +95,8 @@ int explain_listings(const Options& o, const SchemaSet& schemas) {
 }
 
 int explain_topics(const Options& options, const SchemaSet& schemas) {
-  if (!options.common.json.empty() || !options.deck.empty()) {
-    print_error(options.common, "--json and --deck go with a listing (car_0000.out)");
-    return exit_usage;
-  }
+  if (!options.common.json.empty() || !options.deck.empty())
+    return failed(options.common, "--json and --deck go with a listing (car_0000.out)");
   bool first = true;
   for (const std::string& topic : options.common.decks) {
     const std::string page = explain_topic(topic, schemas, text_width());
@@ -114,12 +104,11 @@ int explain_topics(const Options& options, const SchemaSet& schemas) {
       std::string near;
       for (const std::string& name : similar_topics(topic, schemas))
         near += (near.empty() ? "; did you mean " : ", ") + name;
-      print_error(options.common,
-                  "nothing is known about '" + topic + "'" + near +
-                      "; expected a rule (DK104) or a family of them (DK2), a keyword "
-                      "(TYPE7), a field (Igap, TYPE7.Igap), the number or words of a solver "
-                      "message (611, 'initial penetrations') or a listing (car_0000.out)");
-      return exit_usage;
+      return failed(options.common,
+                    "nothing is known about '" + topic + "'" + near +
+                        "; expected a rule (DK104) or a family of them (DK2), a keyword "
+                        "(TYPE7), a field (Igap, TYPE7.Igap), the number or words of a solver "
+                        "message (611, 'initial penetrations') or a listing (car_0000.out)");
     }
     print_lines((first ? "" : "\n") + terminal_lines(page));
     first = false;
@@ -129,16 +118,12 @@ int explain_topics(const Options& options, const SchemaSet& schemas) {
 
 int run(const Options& options) {
   const auto schemas = load_schemas(options.common);
-  if (!schemas) {
-    print_error(options.common, schemas.error().message);
-    return exit_usage;
-  }
+  if (!schemas) return failed(options.common, schemas.error().message);
   const auto listings = static_cast<std::size_t>(
       std::count_if(options.common.decks.begin(), options.common.decks.end(), names_listing));
   if (listings == options.common.decks.size()) return explain_listings(options, *schemas);
   if (listings == 0) return explain_topics(options, *schemas);
-  print_error(options.common, "listings and topics cannot be explained in one call");
-  return exit_usage;
+  return failed(options.common, "listings and topics cannot be explained in one call");
 }
 
 Action setup(CommandLine& line) {

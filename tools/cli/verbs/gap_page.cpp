@@ -1,7 +1,12 @@
-// Adds crossings and forces to the scene of a deck and hands it to the report.
+// Adds crossings and forces to the scene of a deck and hands it to the report, alone or with the
+// deck as it was before.
 #include "verbs/gap_page.hpp"
 
+#include <utility>
+
 #include "deck/contact/crossings.hpp"
+#include "deck/report/gaps.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck::cli {
 
@@ -29,6 +34,50 @@ Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input, const std::ato
   input.acted = acted_in_page(forces.state, forces.outcome);
   input.crossings = &crossings;
   return gaps_html(input);
+}
+
+namespace {
+
+Result<EarlierGaps> gaps_before(const LoadedDeck& before, int threads) {
+  SceneOptions options = before.scene_options();
+  options.ties = true;
+  Diagnostics ignored;
+  const Scene scene = before.scene_with(options, ignored);
+  const std::vector<Crossing> crossings = find_crossings(scene, threads);
+  const std::string document =
+      gaps_json(before.path(), before.deck(), scene, make_view(scene, &crossings), false);
+  return read_earlier_gaps("as it was", document, before.path());
+}
+
+}  // namespace
+
+Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after, const char* verb,
+                                    std::string_view path, std::string_view repair,
+                                    const std::vector<PageTrend>* trends) {
+  EarlierGaps named;
+  named.path = "as it was";
+  named.deck_path = before.path();
+  const auto earlier = trends != nullptr ? Result<EarlierGaps>(std::move(named))
+                                         : gaps_before(before, after.options().threads);
+  if (!earlier) return earlier.error();
+  HtmlInput input;
+  input.trends = trends;
+  input.path = path;
+  input.verb = verb;
+  input.earlier = &*earlier;
+  input.before = &before.model();
+  input.repair = repair;
+  return gap_page(after, input);
+}
+
+Result<std::string> fix_page(const LoadedDeck& before, const ChangedFiles& changed,
+                             std::string_view repair, const CommonOptions& options) {
+  Overlay overlay(changed.begin(), changed.end());
+  const std::string& main = before.deck().sources[0].path();
+  overlay.try_emplace(main, before.deck().sources[0].bytes());  // standard input is no file
+  auto after = load(main, load_options(options, before.schemas(), &overlay));
+  if (!after) return after.error();
+  return difference_page(before, *after, "fix", before.path(), repair);
 }
 
 }  // namespace deck::cli

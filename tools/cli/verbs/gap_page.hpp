@@ -1,8 +1,12 @@
-// The page of `deck gaps --html` for verbs that have a scene and show it: one way to prepare it.
+// The page of `deck gaps --html` for verbs that have a scene and show it, and the report of two
+// states of a deck: penetrations as they are now against those before, and the nodes that moved.
 #pragma once
 #include <atomic>
 #include <string>
+#include <string_view>
 
+#include "common.hpp"
+#include "deck/edit/rewrite.hpp"
 #include "deck/front/loaded_deck.hpp"
 #include "deck/report/html.hpp"
 
@@ -13,5 +17,18 @@ namespace deck::cli {
 /// the deck. Error: the viewer is not there, or `stop` was set meanwhile ("cancelled").
 Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input,
                              const std::atomic<bool>* stop = nullptr);
+
+/// The page of `deck diff --html`, and with the verb "fix" of `deck fix --html`: the later deck
+/// with what is new, solved or deeper than in the earlier one. `path`: name of the deck in the
+/// page. `trends`: HtmlInput::trends; nullptr: both decks are compared as --compare does it.
+Result<std::string> difference_page(const LoadedDeck& before, LoadedDeck& after, const char* verb,
+                                    std::string_view path, std::string_view repair = {},
+                                    const std::vector<PageTrend>* trends = nullptr);
+
+/// The page of `deck fix --html` of the deck with `changed` texts, against the deck as
+/// it was read. `repair`: HtmlInput::repair. Error: it cannot be read again, or the viewer is not
+/// there.
+Result<std::string> fix_page(const LoadedDeck& before, const ChangedFiles& changed,
+                             std::string_view repair, const CommonOptions& options);
 
 }  // namespace deck::cli

@@ -14,7 +14,6 @@
 #include "report/shared/json.hpp"
 #include "report/shared/vtk.hpp"
 #include "text/shared/gzip.hpp"
-#include "verbs/accuracy_option.hpp"
 #include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_gaps {
@@ -119,10 +118,7 @@ class GapsRun {
 
  private:
   bool writes_baseline() const { return !o_.write_baseline.empty(); }
-  int usage(const Error& error) const {
-    print_error(o_.common, error.message);
-    return exit_usage;
-  }
+  int usage(const Error& error) const { return failed(o_.common, error.message); }
 
   /// Everything that can be said without a deck.
   Result<void> prepare() {

@@ -1,15 +1,10 @@
 // Asks git for the files of a deck at a revision, for changed lines and for commits.
 #include "verbs/git_deck.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <climits>
-#include <cstring>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -19,8 +14,6 @@
 #include "keyword/shared/include_scan.hpp"
 #include "library.hpp"
 #include "report/shared/json.hpp"
-
-extern char** environ;
 
 namespace deck::cli {
 namespace asking_git {
@@ -37,59 +30,23 @@ struct Answer {
 constexpr const char* harmless[] = {"--no-optional-locks",      "-c", "core.fsmonitor=false", "-c",
                                     "core.hooksPath=/dev/null", "-c", "protocol.allow=never"};
 
-/// Standard output of a git command; what it says on standard error is not shown. It reads `input`,
-/// a line or less.
+/// Standard output of a git command; what it says on standard error is not shown. It reads `input`.
 Result<Answer> run_git(const std::vector<std::string>& words, const std::string& input = {}) {
-  const auto failed = [](int number) {
-    return Error{Error::Code::config, std::string("git cannot be run: ") + std::strerror(number)};
-  };
-  int ends[2], in[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return failed(errno);
-  if (pipe2(in, O_CLOEXEC) != 0) {
-    const int number = errno;
-    close(ends[0]);
-    close(ends[1]);
-    return failed(number);
-  }
-  // A pipe takes so little at once.
-  const bool told = input.size() <= PIPE_BUF && ::write(in[1], input.data(), input.size()) ==
-                                                    static_cast<ssize_t>(input.size());
-  close(in[1]);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
-  posix_spawn_file_actions_adddup2(&actions, in[0], 0);
-  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-  std::string program = "git";
-  std::vector<std::string> texts(std::begin(harmless), std::end(harmless));
-  texts.insert(texts.end(), words.begin(), words.end());
-  std::vector<char*> arguments = {program.data()};
-  for (std::string& text : texts) arguments.push_back(text.data());
-  arguments.push_back(nullptr);
-  pid_t pid = 0;
-  const int wrong =
-      told ? posix_spawnp(&pid, program.c_str(), &actions, nullptr, arguments.data(), environ)
-           : ENAMETOOLONG;
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  close(in[0]);
-  if (wrong != 0) {
-    close(ends[0]);
-    return failed(wrong);
-  }
+  std::string call = "printf %s " + shell_word(input) + " | git";
+  for (const char* word : harmless) call += " " + shell_word(word);
+  for (const std::string& word : words) call += " " + shell_word(word);
+  FILE* const pipe = popen((call + " 2>/dev/null").c_str(), "re");
+  constexpr int not_found = 127;  // the shell's code
   Answer answer;
   char buffer[65536];
-  for (;;) {
-    const ssize_t n = read(ends[0], buffer, sizeof buffer);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) break;
-    answer.out.append(buffer, static_cast<std::size_t>(n));
+  while (pipe != nullptr) {
+    const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe);
+    if (n == 0) break;
+    answer.out.append(buffer, n);
   }
-  close(ends[0]);
-  int status = 0;
-  while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-  }
-  answer.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  const int status = pipe == nullptr ? -1 : pclose(pipe);
+  answer.code = status < 0 ? not_found : WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  if (answer.code == not_found) return Error{Error::Code::config, "git cannot be run"};
   return answer;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "lint/shared/changed_lines.hpp"
+#include "lint/shared/gate.hpp"
 
 namespace deck::cli {
 

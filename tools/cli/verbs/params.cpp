@@ -18,19 +18,15 @@ struct Options {
 };
 
 int write(const Options& o, const std::string& text) {
-  if (auto written = o.common.session->write_output(o.csv, text); !written) {
-    print_error(o.common, written.error().message);
-    return exit_usage;
-  }
+  if (auto written = o.common.session->write_output(o.csv, text); !written)
+    return failed(o.common, written.error().message);
   return exit_clean;
 }
 
 int run(const Options& options) {
   const CommonOptions& common = options.common;
-  if (!options.csv.empty() && common.decks.size() > 1 && options.csv != "-") {
-    print_error(common, "--csv FILE takes one deck at a time");
-    return exit_usage;
-  }
+  if (!options.csv.empty() && common.decks.size() > 1 && options.csv != "-")
+    return failed(common, "--csv FILE takes one deck at a time");
   if (const int bad = check_outputs(common, {common.json, options.csv}); bad != exit_clean)
     return bad;
   JsonOutput json(common, "deck/params", 1);
@@ -38,8 +34,7 @@ int run(const Options& options) {
     if (auto known =
             check_interfaces(loaded, options.only, "--interface", Examined::contacts_and_ties);
         !known) {
-      print_error(common, known.error().message);
-      return static_cast<int>(exit_usage);
+      return failed(common, known.error().message);
     }
     ParamsInput input{loaded};
     if (!options.no_geometry) input.scene = &resolve_geometry(loaded, common);

@@ -36,10 +36,8 @@ Result<void> check_options(const Options& o) {
 
 int run(const Options& options) {
   const CommonOptions& common = options.common;
-  if (const auto legal = check_options(options); !legal) {
-    print_error(common, legal.error().message);
-    return exit_usage;
-  }
+  if (const auto legal = check_options(options); !legal)
+    return failed(common, legal.error().message);
   if (const int bad = check_outputs(common, {common.json, options.csv, options.html});
       bad != exit_clean)
     return bad;
@@ -50,15 +48,11 @@ int run(const Options& options) {
     if (json.wanted()) json.add(parts_json(loaded, options.all));
     if (!options.csv.empty())
       if (auto written = options.common.session->write_output(options.csv, parts_csv(loaded));
-          !written) {
-        print_error(common, written.error().message);
-        return static_cast<int>(exit_usage);
-      }
+          !written)
+        return failed(common, written.error().message);
     if (!options.html.empty())
-      if (auto written = write_html(options, loaded); !written) {
-        print_error(common, written.error().message);
-        return static_cast<int>(exit_usage);
-      }
+      if (auto written = write_html(options, loaded); !written)
+        return failed(common, written.error().message);
     if (common.wants_text() && options.csv != "-" && options.html != "-") {
       PartsTextOptions text;
       text.color = common.color_on(1);

@@ -21,15 +21,10 @@ constexpr std::string_view pair_prefix = "pair:";
 /// "pair:57/30-38-44-31": its equation, or with --svg its side view.
 int show_pair(const Options& o) {
   const auto name = parse_pair(std::string_view(o.what).substr(pair_prefix.size()));
-  if (!name) {
-    print_error(o.common, name.error().message);
-    return exit_usage;
-  }
-  if (!o.common.json.empty()) {
-    print_error(o.common,
-                "a pair is in the JSON of deck gaps --all; show has its side view (--svg)");
-    return exit_usage;
-  }
+  if (!name) return failed(o.common, name.error().message);
+  if (!o.common.json.empty())
+    return failed(o.common,
+                  "a pair is in the JSON of deck gaps --all; show has its side view (--svg)");
   return for_each_deck(o.common, [&](LoadedDeck& loaded) {
     SceneOptions options = loaded.scene_options();
     if (o.interface != 0) options.only = {o.interface};
@@ -37,10 +32,7 @@ int show_pair(const Options& o) {
     loaded.set_scene_options(options);
     const Scene& scene = loaded.scene();
     const auto pair = find_pair(scene, *name, o.interface);
-    if (!pair) {
-      print_error(o.common, loaded.path() + ": " + o.what + ": " + pair.error().message);
-      return static_cast<int>(exit_usage);
-    }
+    if (!pair) return failed(o.common, loaded.path() + ": " + o.what + ": " + pair.error().message);
     if (!o.common.wants_text()) return static_cast<int>(exit_clean);
     if (o.svg)
       print_text(side_view_svg(scene, *pair));
@@ -54,18 +46,13 @@ int run(Options& o) {
   o.what = o.common.decks.back();
   o.common.decks.pop_back();
   if (o.what.starts_with(pair_prefix)) return show_pair(o);
-  if (o.svg || o.interface != 0) {
-    print_error(o.common, std::string(o.svg ? "--svg" : "--interface") +
-                              " belongs to a pair, such as pair:57/30-38-44-31");
-    return exit_usage;
-  }
+  if (o.svg || o.interface != 0)
+    return failed(o.common, std::string(o.svg ? "--svg" : "--interface") +
+                                " belongs to a pair, such as pair:57/30-38-44-31");
   JsonOutput json(o.common, "deck/show", 1);
   const int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
     const auto entity = find_entity(loaded.deck(), loaded.model(), o.what);
-    if (!entity) {
-      print_error(o.common, loaded.path() + ": " + entity.error().message);
-      return static_cast<int>(exit_usage);
-    }
+    if (!entity) return failed(o.common, loaded.path() + ": " + entity.error().message);
     const EntityView view =
         view_entity(loaded.deck(), loaded.model(), loaded.interfaces(), *entity);
     ParamsInput params{loaded};

@@ -1,4 +1,4 @@
-// Expands the decks of a call, looks for others that depend on their files, and writes.
+// Expands the decks of a call, looks for others that include their files, and writes.
 #include "writing/changes.hpp"
 
 #include <fmt/format.h>
@@ -29,18 +29,15 @@ void add_write_options(CommandLine& line, WriteChoice& choice) {
             "backup is never replaced, the next one is .orig.2");
   line.flag("--diff", choice.diff,
             "Write nothing; print the changes as a unified diff that git apply takes");
-  add_dependent_options(line, choice);
+  add_root_option(line, choice);
 }
 
-void add_dependent_options(CommandLine& line, WriteChoice& choice) {
-  CommandLine group = line.group("Decks that share files, with --in-place");
-  group
+void add_root_option(CommandLine& line, WriteChoice& choice) {
+  line.group("Decks that share files, with --in-place")
       .option("--root", choice.root,
               "Where to look for other decks that include the same files (default: the git work "
               "tree, else the deepest folder that holds the deck and its includes)")
       .value("DIR");
-  group.flag("--with-dependents", choice.with_dependents,
-             "Also change all other decks that include a file of these decks");
 }
 
 std::string usage_error(const WriteChoice& choice) {
@@ -49,7 +46,6 @@ std::string usage_error(const WriteChoice& choice) {
     return "--in-place goes with neither -o nor --diff";
   if (choice.overwrite && choice.directory.empty()) return "--overwrite goes with -o";
   if (!choice.backup_suffix.empty() && !choice.in_place) return "--backup goes with --in-place";
-  if (choice.with_dependents && !changes) return "--with-dependents goes with --in-place or --diff";
   if (!choice.root.empty() && !changes) return "--root goes with --in-place or --diff";
   std::error_code ec;
   if (!choice.root.empty() && !fs::is_directory(choice.root, ec))
@@ -86,16 +82,12 @@ Result<std::size_t> finish_interrupted(const std::string& main,
 
 }  // namespace
 
-Result<std::map<FileIdentity, std::string>> look_after(std::vector<std::string>& decks,
-                                                       const WriteChoice& choice,
+Result<std::map<FileIdentity, std::string>> look_after(const std::vector<std::string>& decks,
+                                                       const std::string& root,
                                                        const CommonOptions& common) {
-  const std::vector<std::string> named = decks;
   while (true) {
-    auto dependents = find_dependents(named, choice.root, common.include_paths);
-    if (!dependents) return dependents.error();
-    decks = named;
-    if (choice.with_dependents)
-      decks.insert(decks.end(), dependents->decks.begin(), dependents->decks.end());
+    auto shared = find_shared_files(decks, root, common.include_paths);
+    if (!shared) return shared.error();
     std::size_t changed = 0;
     for (const std::string& deck : decks) {
       const auto done = common.rewrites ? finish_interrupted(deck, decks, common) : 0;
@@ -103,10 +95,9 @@ Result<std::map<FileIdentity, std::string>> look_after(std::vector<std::string>&
       changed += *done;
     }
     if (changed > 0) continue;  // other files lie there now
-    if (const std::string where = dependents->where(); !where.empty() && !common.quiet)
+    if (const std::string where = shared->where(); !where.empty() && !common.quiet)
       print_note(where);
-    if (choice.with_dependents) dependents->shared.clear();
-    return std::move(dependents->shared);
+    return std::move(shared->others);
   }
 }
 
@@ -124,8 +115,8 @@ Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& 
     for (const std::string& deck : *all)
       for (const IncludeScan::File& f : scan.files(deck)) files.push_back(f.path);
     root_ = common_root(given, files);
-  } else if (choice_.in_place || choice_.with_dependents) {
-    auto outsiders = look_after(*all, choice_, common_);
+  } else if (choice_.in_place) {
+    auto outsiders = look_after(*all, choice_.root, common_);
     if (!outsiders) return outsiders.error();
     outsiders_ = std::move(*outsiders);
   }

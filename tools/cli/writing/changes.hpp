@@ -14,19 +14,18 @@ namespace deck::cli {
 struct WriteChoice {
   std::string directory, backup_suffix, root;
   bool in_place = false, diff = false, overwrite = false;
-  bool with_dependents = false;
   bool read_back = false;  ///< what was planned is read as it will lie there before it is written
 };
-/// Options that fill a choice, and of them --root and --with-dependents alone.
+/// Options that fill a choice, and of them --root alone.
 void add_write_options(CommandLine& line, WriteChoice& choice);
-void add_dependent_options(CommandLine& line, WriteChoice& choice);
+void add_root_option(CommandLine& line, WriteChoice& choice);
 /// What is wrong with the combination; empty: nothing.
 std::string usage_error(const WriteChoice& choice);
 
-/// Before decks are changed in place: what a kill left half written of them is finished, and those
-/// that depend on the same files join them, or their files are returned, each with such a deck.
-Result<std::map<FileIdentity, std::string>> look_after(std::vector<std::string>& decks,
-                                                       const WriteChoice& choice,
+/// Before decks are changed in place: finishes what a kill left half written of them, and returns
+/// their files that other decks include, each with such a deck.
+Result<std::map<FileIdentity, std::string>> look_after(const std::vector<std::string>& decks,
+                                                       const std::string& root,
                                                        const CommonOptions& common);
 
 class Changes {
@@ -34,9 +33,8 @@ class Changes {
   Changes(const CommonOptions& common, const WriteChoice& choice)
       : common_(common), choice_(choice) {}
 
-  /// The decks to work on: `given` with directories and patterns expanded and, where they are asked
-  /// for, with those that depend on the same files. What a kill left half written of them is
-  /// finished first. Call before anything else.
+  /// The decks to work on: `given` with directories and patterns expanded. What a kill left half
+  /// written of them is finished first. Call before anything else.
   Result<std::vector<std::string>> decks(const std::vector<std::string>& given);
   /// The directory below which decks keep their place; empty: decks are written at the top.
   const std::string& root() const { return root_; }

@@ -5,8 +5,8 @@
 
 #include "deck/edit/convert.hpp"
 #include "deck/edit/fix.hpp"
+#include "edit/shared/depenetrate.hpp"
 #include "edit/shared/edit_set.hpp"
-#include "edit/shared/move_part.hpp"
 #include "edit/shared/resolve.hpp"
 #include "edit/shared/verify.hpp"
 #include "edit/shared/write.hpp"

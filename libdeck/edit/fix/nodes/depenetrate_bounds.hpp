@@ -1,10 +1,10 @@
 // How far and which way a node may move: out of the penetrations it is in, along their normals, and
 // by no more than the depth that it repairs there. Private to the stage.
 #pragma once
+#include <unordered_map>
 #include <vector>
 
 #include "edit/fix/nodes/depenetrate_rows.hpp"
-#include "edit/fix/nodes/node_table.hpp"
 
 namespace deck::detail {
 
@@ -32,9 +32,8 @@ class DepthBounds {
     std::vector<Vec> directions;  ///< unit, all different
     std::vector<PairKey> pairs;
   };
-  /// A sum of shares, shortened to the reach.
-  static Place within(const Bound& bound, const Vec& by);
-  NodeTable<Bound> nodes_;
+  static Place closest_place(const Bound& bound, const Vec& wanted);
+  std::unordered_map<NodeIndex, Bound> nodes_;
 };
 
 }  // namespace deck::detail

@@ -2,9 +2,7 @@
 #include "edit/fix/nodes/depenetrate_cells.hpp"
 
 #include <algorithm>
-#include <iterator>
 
-#include "base/shared/parallel.hpp"
 #include "model/shared/item_spans.hpp"
 #include "text/shared/edits.hpp"
 
@@ -48,13 +46,8 @@ void NodeCells::look_up(std::span<const NodeIndex> nodes) {
   if (unknown.empty()) return;
   const std::vector<Span> spans = node_spans(context_.model(), unknown);
   const NodeBlocks blocks(context_.model());
-  std::vector<Cells> found(unknown.size());
-  parallel_pieces(effective_threads(context_.options().threads), unknown.size(),
-                  [&](std::size_t, std::size_t begin, std::size_t end) {
-                    for (std::size_t i = begin; i < end; ++i)
-                      found[i] = read(unknown[i], *blocks[unknown[i]], spans[i]);
-                  });
-  for (std::size_t i = 0; i < unknown.size(); ++i) known_.emplace(unknown[i], std::move(found[i]));
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    known_.emplace(unknown[i], read(unknown[i], *blocks[unknown[i]], spans[i]));
 }
 
 NodeCells::Cells NodeCells::read(NodeIndex n, const Block& block, const Span& line) const {
@@ -124,26 +117,6 @@ void NodeCells::write(CellWriter& out, NodeIndex n, int axis, std::string_view t
 
 std::vector<TextEdit> NodeCells::edits(
     const std::map<std::pair<NodeIndex, int>, std::string>& texts) const {
-  // Nodes follow each other as their lines do, mostly: some at a time need no place in a large map.
-  constexpr std::size_t at_once = 512;
-  std::vector<TextEdit> all;
-  bool in_order = true, free = false;
-  for (auto next = texts.begin(); next != texts.end();) {
-    CellWriter some(context_.deck().sources);
-    for (std::size_t count = 0; next != texts.end(); ++count) {
-      const NodeIndex node = next->first.first;
-      if (count >= at_once && node != std::prev(next)->first.first) break;
-      free |= known_.at(node).free_format;
-      write(some, node, next->first.second, next->second);
-      ++next;
-    }
-    for (TextEdit& edit : some.finish()) {
-      in_order &= all.empty() || std::pair(all.back().span.file, all.back().span.offset) <=
-                                     std::pair(edit.span.file, edit.span.offset);
-      all.push_back(std::move(edit));
-    }
-  }
-  if (in_order && !free) return all;
   CellWriter out(context_.deck().sources);
   for (const auto& [place, text] : texts) write(out, place.first, place.second, text);
   return out.finish();

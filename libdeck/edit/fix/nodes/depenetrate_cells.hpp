@@ -6,11 +6,11 @@
 #include <set>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/decode.hpp"
-#include "edit/fix/nodes/node_table.hpp"
 #include "text/shared/edits.hpp"
 
 namespace deck::detail {
@@ -52,7 +52,7 @@ class NodeCells {
   };
   Cells read(NodeIndex n, const Block& block, const Span& line) const;
   const LoadedDeck& context_;
-  NodeTable<Cells> known_;
+  std::unordered_map<NodeIndex, Cells> known_;
   std::set<std::string> twice_;  ///< files included more than once
   std::set<NodeIndex> merged_;   ///< nodes that /CNODE merges with another
   bool noise_only_ = false;      ///< /RANDOM is all that moves nodes from where their lines say

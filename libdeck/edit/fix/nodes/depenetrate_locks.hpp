@@ -28,12 +28,8 @@ enum class Hold : std::uint8_t {
   bystander,  ///< in no penetration: stays
 };
 const char* to_string(Hold hold);
-/// "stopped by --max-moved 10 %"
-std::string stopped_by_share(const MoveNodesOptions& options);
-/// 0.1 as "10 %"
-std::string percent_text(double share);
 
-/// Holds from the options. Error: an unknown part, or cards that cannot be read for their nodes.
+/// Holds from the options. Error: an unknown part, or a card with commas.
 Result<std::vector<std::uint8_t>> make_holds(const LoadedDeck& context,
                                              const MoveNodesOptions& options);
 

@@ -2,11 +2,10 @@
 #include "edit/fix/nodes/depenetrate_mesh.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <map>
 #include <numeric>
 #include <queue>
 
-#include "base/shared/parallel.hpp"
 #include "contact/shared/node_elements.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "deck/contact/crossings.hpp"
@@ -53,43 +52,6 @@ int shape_slots(const Elements& family) {
   return family.kind == ElementKind::beam ? 2 : family.width;
 }
 
-struct Bounds {
-  std::array<double, 3> low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  void add(const Coordinates& x, NodeIndex n) {
-    const double p[3] = {x.x[n], x.y[n], x.z[n]};
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  }
-  bool meets(const Bounds& b) const {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (low[k] > b.high[k] || b.low[k] > high[k]) return false;
-    return true;
-  }
-};
-
-template <class Item>
-Bounds bounds_of(const Coordinates& x, const Item& item) {
-  Bounds b;
-  for (const NodeIndex n : item) b.add(x, n);
-  return b;
-}
-
-/// Positions below `count` of which `holds` is true, ascending.
-template <class Holds>
-std::vector<std::uint32_t> those_that(int threads, std::size_t count, const Holds& holds) {
-  threads = effective_threads(threads);
-  std::vector<std::vector<std::uint32_t>> pieces(pieces_of(threads, count));
-  parallel_pieces(threads, count, [&](std::size_t piece, std::size_t begin, std::size_t end) {
-    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
-      if (holds(i)) pieces[piece].push_back(i);
-  });
-  std::vector<std::uint32_t> out;
-  for (const auto& piece : pieces) out.insert(out.end(), piece.begin(), piece.end());
-  return out;
-}
-
 }  // namespace
 
 FixMesh::FixMesh(const Scene& scene) : model_(*scene.model) {
@@ -128,31 +90,20 @@ void FixMesh::collect_edges() {
   };
   for (const ElementKind kind : families_with_edges) {
     const Elements& family = model_.family(kind);
-    for (std::size_t e = 0; e < family.size(); ++e) {
-      const NodeIndex* n = family.of(e);
-      if (kind == ElementKind::solid8) {
-        for (int f = 0; f < 6; ++f) {
-          const Face face = solid_face(n, f);
-          const auto corners = static_cast<std::size_t>(face.corners);
-          for (std::size_t k = 0; k < corners; ++k)
-            add(face.nodes[k], face.nodes[(k + 1) % corners]);
-        }
-      } else if (kind == ElementKind::truss || kind == ElementKind::beam) {
-        add(n[0], n[1]);
-      } else {
-        for (int k = 0; k < family.width; ++k) add(n[k], n[(k + 1) % family.width]);
-      }
-    }
+    for (std::uint32_t e = 0; e < family.size(); ++e)
+      for (const auto& [a, b] : local_edges(family, e)) add(family.of(e)[a], family.of(e)[b]);
   }
   std::sort(edges_.begin(), edges_.end());
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
 }
 
 void FixMesh::collect_faces(const Scene& scene) {
+  // A face from several sources once, whatever node it starts with.
+  std::map<std::array<NodeIndex, 4>, std::array<NodeIndex, 4>> faces;
   const auto add = [&](const std::array<NodeIndex, 4>& face) {
-    for (const NodeIndex n : face)
-      if (n == no_index) return;
-    faces_.push_back(face);
+    std::array<NodeIndex, 4> key = face;
+    std::sort(key.begin(), key.end());
+    if (key.back() != no_index) faces.emplace(key, face);
   };
   for (std::size_t e = 0; e < model_.shell4.size(); ++e) {
     const NodeIndex* n = model_.shell4.of(e);
@@ -171,20 +122,7 @@ void FixMesh::collect_faces(const Scene& scene) {
   }
   for (const Contact& c : scene.contacts)
     for (const MainSegment& m : c.main) add(m.nodes);
-  // The same face from several sources once, whatever node it starts with.
-  std::vector<std::array<NodeIndex, 4>> keys(faces_.size());
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
-    keys[i] = faces_[i];
-    std::sort(keys[i].begin(), keys[i].end());
-  }
-  std::vector<std::uint32_t> order(faces_.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
-  std::vector<std::array<NodeIndex, 4>> unique;
-  for (std::size_t i = 0; i < order.size(); ++i)
-    if (i == 0 || keys[order[i]] != keys[order[i - 1]]) unique.push_back(faces_[order[i]]);
-  faces_ = std::move(unique);
+  for (const auto& [key, face] : faces) faces_.push_back(face);
 }
 
 bool FixMesh::connected_within(const Coordinates& x, NodeIndex from, std::span<const NodeIndex> to,
@@ -212,54 +150,21 @@ bool FixMesh::connected_within(const Coordinates& x, NodeIndex from, std::span<c
 std::vector<FixMesh::Crossed> FixMesh::crossings(const Coordinates& x,
                                                  std::span<const NodeIndex> nodes,
                                                  int threads) const {
-  const std::vector<std::uint32_t> moved_edges = items_around(edges_of_, nodes, edges_.size());
-  const std::vector<std::uint32_t> moved_faces = items_around(faces_of_, nodes, faces_.size());
   std::vector<Crossed> out;
-  // Moved edges against all faces near them, then all other edges against the moved faces.
-  const auto pairs = [&](const std::vector<std::uint32_t>& edge_list,
-                         const std::vector<std::uint32_t>& face_list) {
-    std::vector<std::array<NodeIndex, 2>> edges;
-    std::vector<std::array<NodeIndex, 4>> faces;
-    for (const std::uint32_t e : edge_list) edges.push_back(edges_[e]);
-    for (const std::uint32_t f : face_list) faces.push_back(faces_[f]);
-    for (const CandidatePair& p : find_crossing_pairs({x.x, x.y, x.z}, edges, faces, threads))
-      out.emplace_back(edge_list[p.secondary], face_list[p.main]);
-  };
-  const auto near = [&](const auto& items, const Bounds& box) {
-    return those_that(threads, items.size(),
-                      [&](std::uint32_t i) { return bounds_of(x, items[i]).meets(box); });
-  };
-  Bounds edge_box, face_box;
-  for (const std::uint32_t e : moved_edges)
-    for (const NodeIndex n : edges_[e]) edge_box.add(x, n);
-  for (const std::uint32_t f : moved_faces)
-    for (const NodeIndex n : faces_[f]) face_box.add(x, n);
-  pairs(moved_edges, near(faces_, edge_box));
-  std::vector<std::uint32_t> others;
-  const std::vector<std::uint32_t> near_edges = near(edges_, face_box);
-  std::set_difference(near_edges.begin(), near_edges.end(), moved_edges.begin(), moved_edges.end(),
-                      std::back_inserter(others));
-  pairs(others, moved_faces);
+  // Moved edges against all faces, then all edges against the moved faces.
+  std::vector<std::array<NodeIndex, 2>> edges;
+  const std::vector<std::uint32_t> moved_edges = items_around(edges_of_, nodes, edges_.size());
+  for (const std::uint32_t e : moved_edges) edges.push_back(edges_[e]);
+  for (const CandidatePair& p : find_crossing_pairs({x.x, x.y, x.z}, edges, faces_, threads))
+    out.emplace_back(moved_edges[p.secondary], p.main);
+  std::vector<std::array<NodeIndex, 4>> faces;
+  const std::vector<std::uint32_t> moved_faces = items_around(faces_of_, nodes, faces_.size());
+  for (const std::uint32_t f : moved_faces) faces.push_back(faces_[f]);
+  for (const CandidatePair& p : find_crossing_pairs({x.x, x.y, x.z}, edges_, faces, threads))
+    out.emplace_back(p.secondary, moved_faces[p.main]);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
-}
-
-void FixMesh::update_crossings(const Coordinates& x, std::span<const NodeIndex> nodes, int threads,
-                               std::vector<Crossed>& known) const {
-  if (!known.empty()) {
-    std::vector<bool> moved(model_.nodes.size());
-    for (const NodeIndex n : nodes) moved[n] = true;
-    const auto any = [&](const auto& item) {
-      return std::any_of(item.begin(), item.end(), [&](NodeIndex n) { return moved[n]; });
-    };
-    std::erase_if(known,
-                  [&](const Crossed& c) { return any(edges_[c.first]) || any(faces_[c.second]); });
-  }
-  const std::vector<Crossed> now = crossings(x, nodes, threads);
-  const auto before = static_cast<std::ptrdiff_t>(known.size());
-  known.insert(known.end(), now.begin(), now.end());
-  std::inplace_merge(known.begin(), known.begin() + before, known.end());
 }
 
 std::vector<FixMesh::Crossed> FixMesh::all_crossings(const Coordinates& x, int threads) const {
@@ -328,17 +233,13 @@ bool turned_solid(const Coordinates& before, const Coordinates& now, const NodeI
 }  // namespace
 
 std::vector<NodeIndex> FixMesh::inverted(const Coordinates& before, const Coordinates& now,
-                                         std::span<const NodeIndex> nodes, int threads) const {
+                                         std::span<const NodeIndex> nodes) const {
   std::vector<NodeIndex> out;
   const auto look = [&](const IndexRows& rows, const Elements& family, const auto& turned) {
     if (family.size() == 0) return;
-    const std::vector<std::uint32_t> around = items_around(rows, nodes, family.size());
-    for (const std::uint32_t i : those_that(threads, around.size(), [&](std::uint32_t k) {
-           const NodeIndex* n = family.of(around[k]);
-           return complete(n, family.width) && turned(n, around[k]);
-         })) {
-      const NodeIndex* n = family.of(around[i]);
-      out.insert(out.end(), n, n + family.width);
+    for (const std::uint32_t e : items_around(rows, nodes, family.size())) {
+      const NodeIndex* n = family.of(e);
+      if (complete(n, family.width) && turned(n, e)) out.insert(out.end(), n, n + family.width);
     }
   };
   look(shells4_, model_.shell4,
@@ -353,39 +254,13 @@ std::vector<NodeIndex> FixMesh::inverted(const Coordinates& before, const Coordi
   return out;
 }
 
-std::vector<std::pair<NodeIndex, NodeIndex>> FixMesh::shortened(const Coordinates& before,
-                                                                const Coordinates& now,
-                                                                std::span<const NodeIndex> nodes,
-                                                                double least, int threads) const {
-  const auto shorter = [&](NodeIndex n, NodeIndex next) {
-    return distance(now, n, next) < least * distance(before, n, next);
-  };
-  std::vector<std::pair<NodeIndex, NodeIndex>> out;
-  for (const std::uint32_t i : those_that(threads, nodes.size(), [&](std::uint32_t k) {
-         const auto next = neighbours(nodes[k]);
-         return std::any_of(next.begin(), next.end(),
-                            [&](NodeIndex other) { return shorter(nodes[k], other); });
-       }))
-    for (const NodeIndex next : neighbours(nodes[i]))
-      if (shorter(nodes[i], next)) out.emplace_back(nodes[i], next);
-  return out;
-}
-
-std::vector<MovedNode> moved_list(const Model& model, const FixMesh& mesh,
-                                  const std::vector<NodeIndex>& nodes, const Coordinates& start,
-                                  const Coordinates& now) {
-  std::vector<MovedNode> out;
-  for (const NodeIndex n : nodes) {
-    const Vec u = at(now, n) - at(start, n);
-    MovedNode m;
-    m.id = model.node_id(n);
-    if (const std::uint32_t part = mesh.part_of(n); part != no_index) m.part = model.parts[part].id;
-    m.by = {u.x, u.y, u.z};
-    m.distance = norm(u);
-    out.push_back(m);
-  }
-  std::sort(out.begin(), out.end(),
-            [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
+std::vector<NodeIndex> FixMesh::shortened(const Coordinates& before, const Coordinates& now,
+                                          std::span<const NodeIndex> nodes, double least) const {
+  std::vector<NodeIndex> out;
+  for (const NodeIndex n : nodes)
+    for (const NodeIndex next : neighbours(n))
+      if (distance(now, n, next) < least * distance(before, n, next))
+        out.insert(out.end(), {n, next});
   return out;
 }
 

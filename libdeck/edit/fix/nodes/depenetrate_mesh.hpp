@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "deck/contact/scene.hpp"
-#include "deck/edit/fix.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 
@@ -34,22 +33,17 @@ class FixMesh {
   /// Those that touch one of `nodes`, sorted.
   std::vector<Crossed> crossings(const Coordinates& x, std::span<const NodeIndex> nodes,
                                  int threads) const;
-  /// Of what crosses where `nodes` were, to where they are.
-  void update_crossings(const Coordinates& x, std::span<const NodeIndex> nodes, int threads,
-                        std::vector<Crossed>& crossings) const;
   std::vector<Crossed> all_crossings(const Coordinates& x, int threads) const;
   std::vector<NodeIndex> nodes_of(const Crossed& crossing) const;
 
   /// Nodes of the elements touching `nodes` that are turned inside out at a corner at `now` but not
   /// at `before`.
   std::vector<NodeIndex> inverted(const Coordinates& before, const Coordinates& now,
-                                  std::span<const NodeIndex> nodes, int threads) const;
-  /// Neighbours, one of them of `nodes`, that are closer at `now` than `least` of the distance
-  /// `before`.
-  std::vector<std::pair<NodeIndex, NodeIndex>> shortened(const Coordinates& before,
-                                                         const Coordinates& now,
-                                                         std::span<const NodeIndex> nodes,
-                                                         double least, int threads) const;
+                                  std::span<const NodeIndex> nodes) const;
+  /// Nodes, one of them of `nodes`, of element edges that are shorter at `now` than `least` of
+  /// their length `before`.
+  std::vector<NodeIndex> shortened(const Coordinates& before, const Coordinates& now,
+                                   std::span<const NodeIndex> nodes, double least) const;
 
  private:
   void collect_faces(const Scene& scene);
@@ -61,10 +55,5 @@ class FixMesh {
   IndexRows shells4_, shells3_, solids_;
   std::vector<std::uint32_t> part_, part_nodes_;
 };
-
-/// What moved, by id: from `start` to `now`.
-std::vector<MovedNode> moved_list(const Model& model, const FixMesh& mesh,
-                                  const std::vector<NodeIndex>& nodes, const Coordinates& start,
-                                  const Coordinates& now);
 
 }  // namespace deck::detail

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/shared/parallel.hpp"
 #include "deck/contact/closest.hpp"
 #include "edit/fix/type_rules.hpp"
 
@@ -155,29 +154,6 @@ std::vector<const PairNow*> strictest(const std::vector<PairNow>& pairs) {
   return out;
 }
 
-std::vector<const PairNow*> turned_round(const Scene& scene, const Coordinates& x,
-                                         const std::vector<PairNow>& pairs,
-                                         const std::vector<NodeIndex>& moved, int threads) {
-  NodeMarks marks;
-  for (const NodeIndex n : moved) marks.insert(n);
-  const auto turned = [&](const PairNow& pair) {
-    const PairState& was = pair.state;
-    return std::any_of(was.nodes.begin(), was.nodes.begin() + was.count,
-                       [&](NodeIndex n) { return marks.contains(n); }) &&
-           has_direction(was) && dot(state_of(scene, x, pair.at).normal, was.normal) < 0;
-  };
-  threads = effective_threads(threads);
-  std::vector<std::vector<const PairNow*>> pieces(pieces_of(threads, pairs.size()));
-  parallel_pieces(threads, pairs.size(),
-                  [&](std::size_t piece, std::size_t begin, std::size_t end) {
-                    for (std::size_t i = begin; i < end; ++i)
-                      if (turned(pairs[i])) pieces[piece].push_back(&pairs[i]);
-                  });
-  std::vector<const PairNow*> out;
-  for (const auto& piece : pieces) out.insert(out.end(), piece.begin(), piece.end());
-  return out;
-}
-
 std::string why_not_movable(const FixMesh& mesh, const Coordinates& x, const PairState& state) {
   const auto begin = state.nodes.begin();
   const std::vector<NodeIndex> main(begin + state.secondary_count, begin + state.count);
@@ -185,8 +161,7 @@ std::string why_not_movable(const FixMesh& mesh, const Coordinates& x, const Pai
     if (mesh.connected_within(x, state.nodes[static_cast<std::size_t>(i)], main,
                               std::sqrt(2.0) * state.gap))
       return "both sides are one mesh, less than 1.42 gaps apart along it: the gap is too large "
-             "for "
-             "this mesh; reduce it, or set Irem_gap to 2";
+             "for this mesh; reduce it, or set Irem_gap to 2";
   return {};
 }
 

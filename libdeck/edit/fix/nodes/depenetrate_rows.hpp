@@ -5,15 +5,15 @@
 #include <cstdint>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "contact/shared/scene_parts.hpp"
 #include "edit/fix/nodes/depenetrate_mesh.hpp"
-#include "edit/fix/nodes/node_table.hpp"
 
 namespace deck::detail {
 
-/// Positions in a scene's lists: a pair that is looked at again in the next iteration.
+/// Positions in a scene's lists: a pair that is looked at again in the next pass.
 struct PairAt {
   std::uint32_t contact = 0, secondary = 0, main = 0;
   friend auto operator<=>(const PairAt&, const PairAt&) = default;
@@ -61,11 +61,6 @@ struct PairNow {
 /// the closest pair of the same secondary node says better.
 std::vector<const PairNow*> strictest(const std::vector<PairNow>& pairs);
 
-/// Of pairs as they were those with one of the nodes `moved` whose direction has turned round.
-std::vector<const PairNow*> turned_round(const Scene& scene, const Coordinates& x,
-                                         const std::vector<PairNow>& pairs,
-                                         const std::vector<NodeIndex>& moved, int threads);
-
 /// Why a pair is no task for moving nodes; empty: it is one.
 std::string why_not_movable(const FixMesh& mesh, const Coordinates& x, const PairState& state);
 /// Secondary nodes that are inside a solid, judged by their closest solid segment, per contact.
@@ -78,6 +73,9 @@ struct Wish {
   double by = 0;  ///< negative: it may shrink by that much
   bool main_gives_way = true;
 };
+
+/// Moves of nodes, each once, ascending.
+using NodeMoves = std::vector<std::pair<NodeIndex, Vec>>;
 
 /// The smallest displacements (sum of squares) that fulfil the wishes, approached in `sweeps`
 /// passes over them in the order given; nodes with held[n] != 0 stay. Where wishes contradict each

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "deck/base/length.hpp"
 #include "deck/base/point3.hpp"
 
 namespace deck {

@@ -9,8 +9,8 @@
 
 #include "deck/contact/scene.hpp"
 #include "deck/cycle/assemble.hpp"
-#include "deck/cycle/card.hpp"
-#include "deck/cycle/plan.hpp"
+#include "deck/cycle/kernel.hpp"
+#include "deck/cycle/packet.hpp"
 
 namespace deck::cycle {
 

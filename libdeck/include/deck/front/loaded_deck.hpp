@@ -12,7 +12,6 @@
 #include <memory>
 #include <string>
 
-#include "deck/contact/resolve.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"

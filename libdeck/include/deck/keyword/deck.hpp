@@ -163,6 +163,10 @@ struct Deck {
   /// Unit system the fields of a block are written in. nullptr: unknown unit id.
   const UnitSystem* units_of(const Block& block) const;
   std::int64_t offset_of(const Block& block, std::string_view kind) const;
+  /// An id on a card of the block with the offset of its submodel; 0 and below stay.
+  std::int64_t shifted_id(const Block& block, std::string_view kind, std::int64_t id) const {
+    return id > 0 ? id + offset_of(block, kind) : id;
+  }
   /// There are blocks whose header begins so: "/TABLE".
   bool has(std::string_view header) const;
   /// Parent of a file in the include tree (no_file for the main file).

@@ -65,6 +65,8 @@ Dimension dimension_of(const Field& field, const DecodedBlock& block,
 /// Value of a real cell in working units; `card`: its line, where that decides on the dimension.
 double working_value(const Deck& deck, const DecodedBlock& block, const Cell& cell,
                      const DecodedCard* card = nullptr);
+/// The same of the first cell of that name; 0 where there is none.
+double working_value(const Deck& deck, const DecodedBlock& block, std::string_view field);
 
 /// Cells of one line. Free format if the line holds a comma (titles never are). Conditions of cells
 /// can look at this line only: where they test another field they count as true.

@@ -13,13 +13,32 @@
 #include "deck/front/loaded_deck.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/keyword/engine_file.hpp"
-#include "deck/lint/rule.hpp"
+#include "deck/keyword/schema.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/diagnostic.hpp"
+#include "deck/text/rule.hpp"
 
 namespace deck {
+
+/// Family of a rule by the leading digit of its id: "syntax, columns, version" for DK0xx, and so
+/// on.
+std::string_view family_of(RuleId id);
+/// True if `selector` names the finding: "all", an id ("DK104") or its beginning ("DK1"), a field
+/// of a rule ("DK201:Igap"), or the id that this field had as a rule of its own ("DK202").
+bool selects(std::string_view selector, RuleId id, std::string_view field = {});
+/// True if the selector names a finding that a rule can have.
+bool known_selector(std::string_view selector);
+/// "DK202 is now DK201:Igap", for the id of a rule that has become the field of another one; empty
+/// for every other selector.
+std::string renamed_selector(std::string_view selector);
+
+/// The explain page of a rule as plain text.
+std::string explain_rule(const Rule& rule, const SchemaSet& schemas);
+/// The page of a keyword, or of one of its fields if `field` is not empty: columns per version,
+/// type, legal values, default, dimension, notes. Empty string: no such field.
+std::string explain_keyword(const Schema& schema, std::string_view field = {});
 
 /// One field of an interface as the rules see it; integers are exact in `value`.
 struct FieldView {
@@ -44,6 +63,8 @@ struct ContactCard {
   const FieldView* find(std::string_view name) const;
   /// Effective value; 0 if there is no such field.
   double value(std::string_view name) const;
+  /// The same of an id.
+  std::int64_t id(std::string_view name) const { return static_cast<std::int64_t>(value(name)); }
   /// The same for a flag, with 1000 ("explicitly nothing") as 0.
   std::int64_t flag(std::string_view name) const;
   /// Value on the card; 0 if blank or absent.
@@ -83,7 +104,9 @@ class LintContext {
   bool any_acts = false;  ///< one of `loads` at least acts on something (Field::acts_on)
 
   /// Id of a reference as the model knows it (submodel offset added).
-  std::int64_t resolved(const Block& block, std::string_view kind, std::int64_t id) const;
+  std::int64_t resolved(const Block& block, std::string_view kind, std::int64_t id) const {
+    return deck.shifted_id(block, kind, id);
+  }
   std::string_view text(const Span& span) const { return deck.sources.text(span); }
 };
 
@@ -120,7 +143,7 @@ using AcceptedFindings = std::map<FindingKey, std::vector<double>>;
 /// None of the settings reaches the findings of a gate (is_gate_rule): what a team has agreed on is
 /// switched off in [gate] alone.
 struct LintOptions {
-  std::vector<std::string> select;  ///< selectors (deck/lint/rule.hpp); empty: all
+  std::vector<std::string> select;  ///< selectors; empty: all
   std::vector<std::string> ignore;
   std::map<std::string, Severity> severity;                                        ///< per selector
   std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;  ///< glob, rules

@@ -32,7 +32,7 @@ struct InterBase {
   std::string title;
   const Block* block = nullptr;
   Span span;              ///< header
-  bool resolved = false;  ///< values of Origin::geometry are filled in (deck/contact/resolve.hpp)
+  bool resolved = false;  ///< values of Origin::geometry are filled in (deck/contact/scene.hpp)
 };
 
 /// An interface with its fields, which are those of its schema (deck/model/interface_fields.hpp).
@@ -182,7 +182,7 @@ inline int level_of(std::int64_t surf_ID1, std::int64_t surf_ID2) {
 /// Decodes the interface blocks and forms the effective values in the reference solver's order of
 /// evaluation. `model` supplies what some defaults depend on (thermal materials, adaptive meshing,
 /// monitored volumes, number of nodes). What follows from the mesh (Origin::geometry) is left at 0:
-/// `resolve` (deck/contact/resolve.hpp) fills it in. Reading-level findings go to `diagnostics`.
+/// `resolve` (deck/contact/scene.hpp) fills it in. Reading-level findings go to `diagnostics`.
 Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 /// Calls f(contact) with the contact as its own type; `base` must be in Interfaces::ordered.
@@ -209,5 +209,37 @@ template <class F>
 void for_each_field(const InterBase& base, F&& f) {
   visit_any_interface(base, [&](const auto& inter) { inter.for_each(f); });
 }
+
+/// Interfaces of one keyword that are not examined.
+struct NotExamined {
+  std::string keyword;  ///< "/INTER/TYPE25"
+  std::vector<std::int64_t> ids;
+};
+
+/// What a verdict covers: every medium that says "clean" says this too.
+struct Coverage {
+  std::size_t examined = 0;               ///< contacts and, where they are examined, ties
+  std::vector<NotExamined> not_examined;  ///< by keyword
+  std::vector<std::string> missing;       ///< included files that were not read, as written
+
+  bool complete() const { return missing.empty(); }
+  bool nothing() const { return examined == 0; }
+};
+
+/// What was looked at: contacts alone, or the ties of /INTER/TYPE2 as well.
+enum class Examined : std::uint8_t { contacts, contacts_and_ties };
+/// "TYPE7, 10, 11, 19, 24 and 25", with 2 where ties are looked at.
+std::string examined_types(Examined examined);
+Coverage coverage_of(const Deck& deck, const Interfaces& interfaces,
+                     Examined examined = Examined::contacts);
+
+/// "3 interfaces of TYPE25 (ids 4, 5, 6), 1 interface of TYPE2 (id 9)"; empty: nothing was left
+/// out.
+std::string not_examined_text(const Coverage& coverage);
+/// What stands in place of a verdict where there is none: "No verdict: ..." over an incomplete
+/// model, "Nothing examined: ..." without any interface that is examined; else empty.
+std::string coverage_lead(const Coverage& coverage);
+/// What is added to a verdict: " Not examined: ...", or nothing.
+std::string coverage_tail(const Coverage& coverage);
 
 }  // namespace deck

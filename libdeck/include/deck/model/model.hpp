@@ -119,7 +119,7 @@ enum class Origin : std::uint8_t {
   default_block,  ///< /DEFAULT/INTER
   built_in,
   derived,  ///< follows from other values or from /FRICTION
-  geometry  ///< follows from the mesh: 0 until `resolve` (deck/contact/resolve.hpp) fills it in
+  geometry  ///< follows from the mesh: 0 until `resolve` (deck/contact/scene.hpp) fills it in
 };
 /// "card", "default-block", "built-in", "derived"; what follows from the mesh is "derived" too.
 const char* to_string(Origin origin);

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/base/limits.hpp"
 #include "deck/model/model.hpp"
+#include "deck/text/source.hpp"
 
 namespace deck {
 
@@ -116,7 +116,7 @@ class Selections {
   std::vector<std::int64_t> ids(std::string_view kind) const;
 
   /// Edges of a surface as /LINE/SURF (all) or /LINE/EDGE (free) would give them.
-  std::vector<Edge> edges_of(const std::vector<Segment>& segments, bool free_only) const;
+  std::vector<Edge> edges_of(std::span<const Segment> segments, bool free_only) const;
   /// Nodes of a surface, unique, in the reference solver's internal order: ascending ids.
   std::vector<NodeIndex> nodes_of(const SegmentList& segments) const;
 

@@ -2,17 +2,26 @@
 // about them, as text for people, JSON and CSV. Pure functions from a scene to bytes.
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 
 #include "deck/contact/crossings.hpp"
-#include "deck/contact/earlier.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/keyword/deck.hpp"
-#include "deck/report/drain.hpp"
 #include "deck/text/result.hpp"
 
 namespace deck {
+
+/// Takes the text so far out of the string, which is empty afterwards. A function that is given one
+/// calls it between rows and returns the rest; with an empty one it returns the whole document.
+using TextDrain = std::function<void(std::string& text)>;
+
+/// Calls it when there is enough text to be worth it.
+inline void drain_text(const TextDrain& drain, std::string& text) {
+  constexpr std::size_t enough = std::size_t{1} << 20;
+  if (drain && text.size() >= enough) drain(text);
+}
 
 struct GateReport;  // report/shared/gate.hpp
 

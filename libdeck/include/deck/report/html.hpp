@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "deck/contact/crossings.hpp"
-#include "deck/contact/earlier.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 #include "deck/keyword/deck.hpp"

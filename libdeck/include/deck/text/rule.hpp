@@ -3,6 +3,8 @@
 // its page.
 #pragma once
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,7 +14,6 @@
 #include "deck/text/rule_id.hpp"
 
 namespace deck {
-
 /// Who finds the violations of a rule.
 enum class RuleStage : std::uint8_t {
   reading,  ///< bytes to blocks, cells to values
@@ -58,6 +59,8 @@ struct Rule {
   std::vector<RuleField> fields;  ///< that its findings are about; empty: it is about none
   /// What shows that the solver does what `solver` says: a run, a record, ...; empty: no claim.
   std::string source;
+  /// Keys when, at, message, note and fix of a rule that is a predicate of cells; else empty.
+  std::map<std::string, std::string, std::less<>> cells;
 
   Severity severity() const { return severities.front(); }
   /// nullptr: the rule is not about this field.

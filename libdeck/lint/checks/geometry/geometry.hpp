@@ -49,7 +49,6 @@ void check_penetrations(const GeometryRun& run);     // penetrations.cpp
 void check_segments(const GeometryRun& run);         // segments.cpp
 void check_gaps(const GeometryRun& run);             // gaps.cpp
 void check_manual_geometry(const GeometryRun& run);  // manual.cpp
-void check_tables(const GeometryRun& run);           // tables.cpp
 void check_ties(const GeometryRun& run);             // ties.cpp
 /// Also gives the forces that it evaluated.
 cycle::SceneOutcome check_cycle(const GeometryRun& run);

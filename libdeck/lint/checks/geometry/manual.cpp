@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lint/checks/geometry/geometry.hpp"
-#include "model/shared/connectivity.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 namespace {

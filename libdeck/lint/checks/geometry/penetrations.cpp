@@ -236,6 +236,35 @@ void check_deep_edges(const GeometryRun& run, const Contact& c) {
              static_cast<double>(edges));
 }
 
+/// Tables that the solver's listing has because Ipri asks for details.
+void check_tables(const GeometryRun& run) {
+  constexpr std::int64_t pairs_from = 5, segments_from = 10;  // Ipri
+  const Cell level = printout_level(run.context);
+  if (level.integer < pairs_from) return;
+  const auto report = [&](const Contact& c, int message, std::string what) {
+    Diagnostic* d = run.report(RuleId::DK606, c, "", std::move(what));
+    if (d == nullptr) return;
+    d->reference = rule_of(RuleId::DK606).message(message);
+    d->notes.emplace_back(level.span, "asks for the table");
+  };
+  for (const Contact& c : run.scene.contacts) {
+    const bool edges = c.kind == ContactKind::edge_edge;
+    const auto pairs = std::count_if(c.penetrations.begin(), c.penetrations.end(),
+                                     [](const PenetrationRow& r) { return !r.on_surface; });
+    if (!edges && pairs > 0)
+      report(c, 1164,
+             fmt::format("{}: the listing has a table of its {} (Ipri = {})", name_of(run, c),
+                         count_text(static_cast<std::size_t>(pairs), "penetrating pair"),
+                         level.integer));
+    if (level.integer >= segments_from && c.reoriented_segments > 0)
+      report(c, 3024,
+             fmt::format(
+                 "{}: the listing has a table of its {} (Ipri = {})", name_of(run, c),
+                 count_text(static_cast<std::size_t>(c.reoriented_segments), "turned main segment"),
+                 level.integer));
+  }
+}
+
 }  // namespace
 
 void check_penetrations(const GeometryRun& run) {
@@ -248,6 +277,7 @@ void check_penetrations(const GeometryRun& run) {
     check_moved_springs(run, c);
     check_deep_edges(run, c);
   }
+  check_tables(run);
 }
 
 }  // namespace deck::detail

@@ -159,7 +159,6 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   detail::check_gaps(run);
   detail::check_segments(run);
   detail::check_manual_geometry(run);
-  detail::check_tables(run);
   detail::check_ties(run);
   const cycle::SceneOutcome forces = detail::check_cycle(run);
   if (chosen.gate == nullptr) return left_out;

@@ -4,38 +4,29 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "base/shared/count.hpp"
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
 
-/// The conditions of the deck; those of the loaded deck where there is one.
+/// The conditions of the deck, with names for what puts them on nodes.
 class Conditions {
  public:
-  explicit Conditions(const LintContext& c) : context_(c) {
-    if (c.loaded != nullptr)
-      shown_ = &c.loaded->kinematics();
-    else if (c.model != nullptr)
-      shown_ = &own_.emplace(read_kinematics(*c.model));
-  }
-  explicit operator bool() const { return shown_ != nullptr; }
-  const Kinematics* operator->() const { return shown_; }
+  explicit Conditions(const LintContext& c) : model_(*c.model), shown_(c.loaded->kinematics()) {}
+  const Kinematics* operator->() const { return &shown_; }
 
-  const Block& block(std::uint32_t source) const { return *shown_->sources[source].block; }
+  const Block& block(std::uint32_t source) const { return *shown_.sources[source].block; }
   std::string name(std::uint32_t source) const {
-    return fmt::format("{} {}", block(source).schema->keyword, shown_->sources[source].id);
+    return fmt::format("{} {}", block(source).schema->keyword, shown_.sources[source].id);
   }
-  std::int64_t node(NodeIndex n) const { return context_.model->node_id(n); }
+  std::int64_t node(NodeIndex n) const { return model_.node_id(n); }
 
  private:
-  const LintContext& context_;
-  std::optional<Kinematics> own_;
-  const Kinematics* shown_ = nullptr;
+  const Model& model_;
+  const Kinematics& shown_;
 };
 
 const char* direction_name(int direction) {
@@ -58,18 +49,9 @@ std::string directions_text(std::uint8_t mask) {
   return out;
 }
 
-/// The solver lists every conflict where its output is that detailed.
-bool lists_all(const LintContext& c) {
-  constexpr std::int64_t detailed = 5;
-  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(), [&](const Block& b) {
-    return b.schema != nullptr && b.schema->keyword == "/IOFLAG" &&
-           decode(c.deck, b).integer("Ipri") >= detailed;
-  });
-}
-
 void check_conflicts(const LintContext& c, const Rule& rule, Reporter& r) {
   const Conditions k(c);
-  if (!k || k->stops || k->conflicts == 0) return;
+  if (k->stops || k->conflicts == 0) return;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Pair> pairs;
   std::set<NodeIndex> nodes;
   for (const KinematicConflict& b : k->bookings) {
@@ -83,7 +65,8 @@ void check_conflicts(const LintContext& c, const Rule& rule, Reporter& r) {
   }
   if (pairs.empty()) return;
   const Block& head = k.block(pairs.begin()->first.second);
-  const bool each_pair = lists_all(c);
+  constexpr std::int64_t detailed = 5;  // the solver then lists every conflict
+  const bool each_pair = printout_level(c).integer >= detailed;
   if (each_pair || pairs.size() > 1)
     r.report(rule, head, head.header_span,
              fmt::format("{} on {} (the solver counts per node and direction)",
@@ -109,7 +92,7 @@ void check_conflicts(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_walls(const LintContext& c, const Rule& rule, Reporter& r) {
   const Conditions k(c);
-  if (!k || k->stops) return;
+  if (k->stops) return;
   for (const WallCorrection& w : k->walls) {
     const NodeIndex n = w.nodes.front();
     // What holds the node beside the wall.
@@ -141,7 +124,7 @@ bool bodies_end(const LintContext& c) {
 
 void check_shared_bodies(const LintContext& c, const Rule& rule, Reporter& r) {
   const Conditions k(c);
-  if (!k || bodies_end(c)) return;
+  if (bodies_end(c)) return;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const SharedBody*>> pairs;
   for (const SharedBody& s : k->shared) pairs[{s.first, s.second}].push_back(&s);
   for (const auto& [key, shared] : pairs) {
@@ -180,7 +163,6 @@ const char* what_happens(int message) {
 
 void check_refused(const LintContext& c, const Rule& rule, Reporter& r) {
   const Conditions k(c);
-  if (!k) return;
   std::map<std::array<std::uint32_t, 3>, std::vector<NodeIndex>> cases;
   for (const ForbiddenCondition& f : k->forbidden)
     cases[{static_cast<std::uint32_t>(f.message), f.first, f.second}].push_back(f.node);

@@ -11,45 +11,23 @@
 #include "deck/base/point3.hpp"
 #include "deck/text/number.hpp"
 #include "lint/check.hpp"
-#include "lint/check_tables.hpp"
+#include "model/shared/families.hpp"
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
 
 namespace deck::detail {
 namespace {
 
-/// Mesh and conditions of the loaded deck; of the model alone where there is none.
-class MeshOfLint {
- public:
-  explicit MeshOfLint(const LintContext& c) : c_(c) {}
-  const Mesh& mesh() {
-    if (c_.loaded != nullptr) return c_.loaded->mesh();
-    if (!mesh_) mesh_ = make_mesh(*c_.model);
-    return *mesh_;
-  }
-  const Kinematics& conditions() {
-    if (c_.loaded != nullptr) return c_.loaded->kinematics();
-    if (!conditions_) conditions_ = read_kinematics(*c_.model);
-    return *conditions_;
-  }
-  /// The node follows something else, whatever its own mass.
-  bool follows(NodeIndex n) {
-    constexpr unsigned carriers = 1u << static_cast<unsigned>(ConditionType::rbody) |
-                                  1u << static_cast<unsigned>(ConditionType::rbe2) |
-                                  1u << static_cast<unsigned>(ConditionType::rbe3) |
-                                  1u << static_cast<unsigned>(ConditionType::rlink) |
-                                  1u << static_cast<unsigned>(ConditionType::tied) |
-                                  1u << static_cast<unsigned>(ConditionType::lagmul) |
-                                  1u << static_cast<unsigned>(ConditionType::imposed) |
-                                  1u << static_cast<unsigned>(ConditionType::bcs);
-    return (conditions().types[n] & carriers) != 0;
-  }
-
- private:
-  const LintContext& c_;
-  std::optional<Mesh> mesh_;
-  std::optional<Kinematics> conditions_;
-};
+/// The node follows something else, whatever its own mass.
+bool follows(const LintContext& c, NodeIndex n) {
+  constexpr ConditionType carriers[] = {
+      ConditionType::rbody, ConditionType::rbe2,   ConditionType::rbe3,    ConditionType::rlink,
+      ConditionType::tied,  ConditionType::lagmul, ConditionType::imposed, ConditionType::bcs};
+  const unsigned types = c.loaded->kinematics().types[n];
+  return std::any_of(std::begin(carriers), std::end(carriers), [&](ConditionType t) {
+    return (types & 1u << static_cast<unsigned>(t)) != 0;
+  });
+}
 
 struct KnownMaterial {
   const char* name;
@@ -99,14 +77,13 @@ void check_units(const LintContext& c, const Rule& rule, Reporter& r) {
       const DecodedBlock card = decode(c.deck, *m.block);
       const Cell* cell = card.find(*d != 0 ? "Rho_I" : "E");
       if (weight.empty()) {
-        const double mass = MeshOfLint(c).mesh().total.mass;
+        const double mass = c.loaded->mesh().total.mass;
         weight = std::isnan(mass)
                      ? " "
                      : fmt::format("; the whole model weighs {:.4g} kg",
                                    mass * conversion_factor(working, si, {1, 0, 0, 0}));
       }
-      r.report(rule, *m.block,
-               cell != nullptr && cell->span.valid() ? cell->span : m.block->header_span,
+      r.report(rule, *m.block, place_of(card, cell),
                fmt::format("{} {} looks like {} in other units: its density is {} ({:.4g} kg/m3), "
                            "its Young's modulus {} ({:.4g} Pa) with {}, {}, {}{}",
                            m.type, m.id, known.name, off_by(*d), density, off_by(*e), young,
@@ -270,13 +247,12 @@ std::vector<char> ends_of_massless_springs(const LintContext& c) {
 void check_massless(const LintContext& c, const Rule& rule, Reporter& r) {
   const std::vector<char> ends = ends_of_massless_springs(c);
   if (ends.empty()) return;
-  MeshOfLint of(c);
-  const NodeFigures& nodes = of.mesh().nodes;
+  const NodeFigures& nodes = c.loaded->mesh().nodes;
   std::uint64_t found = 0;
   NodeIndex first = no_index;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const auto n = static_cast<NodeIndex>(i);
-    if (ends[i] == 0 || nodes.mass[i] != 0.0 || !(nodes.stiffness[i] > 1e-20) || of.follows(n))
+    if (ends[i] == 0 || nodes.mass[i] != 0.0 || !(nodes.stiffness[i] > 1e-20) || follows(c, n))
       continue;
     if (found++ == 0) first = n;
   }
@@ -289,13 +265,10 @@ void check_massless(const LintContext& c, const Rule& rule, Reporter& r) {
 /// Nodes that an element has.
 std::vector<char> nodes_of_elements(const Model& m) {
   std::vector<char> out(m.nodes.size(), 0);
-  for (const Elements* f :
-       {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring}) {
-    for (const NodeIndex n : f->nodes)
-      if (n < out.size()) out[n] = 1;
-    for (const NodeIndex n : f->extra_nodes)
-      if (n < out.size()) out[n] = 1;
-  }
+  for (const ElementKind kind : all_families)
+    for (const auto* nodes : {&m.family(kind).nodes, &m.family(kind).extra_nodes})
+      for (const NodeIndex n : *nodes)
+        if (n < out.size()) out[n] = 1;
   return out;
 }
 
@@ -309,7 +282,6 @@ void check_free_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.contacts.empty() || has_particles(c)) return;
   const std::vector<char> used = nodes_of_elements(*c.model);
   if (std::find(used.begin(), used.end(), 0) == used.end()) return;
-  MeshOfLint of(c);
   for (const ContactCard& card : c.contacts) {
     const Cell* cell = card.decoded.find("grnd_IDs");
     if (cell == nullptr || cell->integer <= 0) continue;
@@ -319,8 +291,7 @@ void check_free_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
     NodeIndex first = no_index;
     for (const NodeIndex n : set->nodes) {
       if (n >= used.size() || used[n] != 0) continue;
-      const double mass = of.mesh().nodes.mass[n];
-      if (mass != 0.0 || of.follows(n)) continue;
+      if (c.loaded->mesh().nodes.mass[n] != 0.0 || follows(c, n)) continue;
       if (found++ == 0) first = n;
     }
     if (found > 0)

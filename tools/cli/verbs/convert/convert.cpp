@@ -7,7 +7,6 @@
 #include "base/shared/paths.hpp"
 #include "library.hpp"
 #include "report/shared/losses.hpp"
-#include "verbs/convert/convert_losses.hpp"
 #include "verbs/convert/convert_run.hpp"
 
 namespace deck::cli::verb_convert {
@@ -27,10 +26,7 @@ void unite(std::vector<LossEntry>& losses) {
 }
 
 int check(const ConvertOptions& options) {
-  const auto refuse = [&](std::string_view why) {
-    print_error(options.common, why);
-    return static_cast<int>(exit_usage);
-  };
+  const auto refuse = [&](std::string_view why) { return failed(options.common, why); };
   if (const std::string wrong = usage_error(options.write); !wrong.empty()) return refuse(wrong);
   if (options.write.diff && !options.write.directory.empty())
     return refuse("-o and --diff exclude each other");
@@ -65,24 +61,17 @@ void tell_of_all(const ConvertRun& run) {
 int run(ConvertOptions& options) {
   if (const int bad = check(options); bad != exit_clean) return bad;
   const auto schemas = load_schemas(options.common);
-  if (!schemas) {
-    print_error(options.common, schemas.error().message);
-    return exit_usage;
-  }
+  if (!schemas) return failed(options.common, schemas.error().message);
   auto steps = make_steps(options.steps);
-  if (!steps) {
-    print_error(options.common, steps.error().message);
-    return exit_usage;
-  }
+  if (!steps) return failed(options.common, steps.error().message);
   if (const int bad = check_outputs(options.common, {options.report}); bad != exit_clean)
     return bad;
   ConvertRun work{options, std::move(*steps), Changes(options.common, options.write),
                   Progress(!options.common.quiet)};
   const auto decks = work.changes.decks(options.common.decks);
-  if (!decks) {
-    print_error(options.common, decks.error().message);
-    return decks.error().code == Error::Code::config ? exit_usage : exit_input;
-  }
+  if (!decks)
+    return failed(options.common, decks.error().message,
+                  decks.error().code == Error::Code::config ? exit_usage : exit_input);
   work.together =
       decks->size() > 1 && options.common.session->frame == nullptr && options.to == "rad";
   int worst = exit_clean;

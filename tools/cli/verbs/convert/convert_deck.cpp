@@ -7,7 +7,6 @@
 #include "edit/shared/changed_values.hpp"
 #include "edit/shared/verify.hpp"
 #include "report/shared/losses.hpp"
-#include "verbs/convert/convert_losses.hpp"
 #include "verbs/convert/convert_run.hpp"
 
 namespace deck::cli::verb_convert {
@@ -87,23 +86,18 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
     for (const std::string& note : rewrite.notes)
       print_note(std::string(step.option) + ": " + note);
   auto files = apply_rewrite(c.now.deck().sources, rewrite);
-  if (!files) {
-    print_error(common, files.error().message);
-    return exit_findings;
-  }
+  if (!files) return failed(common, files.error().message, exit_findings);
   if (files->empty()) return exit_clean;
   if (c.now.path() == "-" && !c.changed.contains("-"))  // it cannot be read twice
     c.changed["-"] = std::string(c.now.deck().sources[0].bytes());
   for (auto& [path, text] : *files) c.changed[path] = std::move(text);
   auto again = load(c.now.path(), schemas, common, Stage::interfaces, &c.changed);
-  if (!again) {
-    print_error(common, again.error().message);
-    return exit_internal;
-  }
+  if (!again) return failed(common, again.error().message, exit_internal);
   if (again->incomplete()) {
     print_findings(*again, common);
-    print_error(common, c.now.path() + ": not written, a file could be read before, but not again");
-    return exit_input;
+    return failed(common,
+                  c.now.path() + ": not written, a file could be read before, but not again",
+                  exit_input);
   }
   const int code =
       options.verifies() ? verify(c, *again, step, losses, options, progress) : exit_clean;
@@ -135,10 +129,9 @@ int add_result(ConvertRun& run, std::size_t member, Conversion& c) {
       print_contents(c.now.deck().sources[0].bytes());
       return exit_clean;
     }
-    print_error(options.common,
-                "a deck from standard input has no name to write it to; without -o a deck of one "
-                "file goes to standard output");
-    return exit_usage;
+    return failed(options.common,
+                  "a deck from standard input has no name to write it to; without -o a deck of one "
+                  "file goes to standard output");
   }
   run.changes.propose(member, c.now.deck(), c.changed);
   return exit_clean;
@@ -154,8 +147,8 @@ int convert(ConvertRun& run, const std::string& name, LoadedDeck loaded, const S
       return exit_input;
     }
     print_findings(loaded, options.common);
-    print_error(options.common, loaded.path() + ": not written, the include tree is not complete");
-    return exit_input;
+    return failed(options.common, loaded.path() + ": not written, the include tree is not complete",
+                  exit_input);
   }
   const auto member = run.changes.add(loaded, name);
   if (!member) {

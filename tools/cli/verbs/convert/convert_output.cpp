@@ -68,8 +68,7 @@ int write_documents(ConvertRun& run) {
 }  // namespace
 
 int fail(const ConvertRun& run, const Error& error) {
-  print_error(run.options.common, error.message);
-  return exit_usage;
+  return failed(run.options.common, error.message);
 }
 
 int write_all(ConvertRun& run) {

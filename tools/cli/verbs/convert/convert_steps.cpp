@@ -1,5 +1,5 @@
 // Adds the options of the conversions and turns them into steps.
-#include "verbs/convert/convert_steps.hpp"
+#include "verbs/convert/convert_run.hpp"
 
 #include "deck/edit/convert.hpp"
 #include "edit/shared/resolve.hpp"

@@ -1,13 +1,40 @@
 // deck cycle: contact forces, energies, time steps and effects at the start, or over some steps of
-// prescribed motion. Its options.
-#include <algorithm>
+// prescribed motion: of each deck evaluated, written as pages and VTK files, judged by the gate.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "accuracy/shared/effect_cost.hpp"
+#include "common.hpp"
+#include "deck/contact/crossings.hpp"
+#include "deck/lint/lint.hpp"
+#include "deck/report/html.hpp"
 #include "deck/text/number.hpp"
-#include "verbs/accuracy_option.hpp"
-#include "verbs/cycle/cycle_run.hpp"
+#include "report/shared/cycle.hpp"
+#include "text/shared/gzip.hpp"
+#include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_cycle {
+namespace {
 
+struct Options {
+  CommonOptions common;
+  bool all = false, effects = false, costs = false, fail = false;
+  bool measures() const { return costs || !html.empty(); }
+  std::string model = "robust", accuracy = "robust";
+  double dt = 0, time = 0;
+  std::vector<std::int64_t> only;
+  std::vector<std::string> velocities, gone;
+  std::string vtk, html, without;
+  int steps = 1;
+  GateOptions gate;
+};
+
+/// "KIND:ID" or "KIND:ID@TIME": an element that is gone from a time on.
 Result<cycle::DeadElement> parse_gone(const Model& model, const std::string& text) {
   const auto bad = [&](const std::string& why) {
     return Error{Error::Code::config,
@@ -51,6 +78,7 @@ Result<cycle::DeadElement> parse_gone(const Model& model, const std::string& tex
   return dead;
 }
 
+/// "PART=vx,vy,vz".
 Result<cycle::PartVelocity> parse_velocity(const std::string& text) {
   const auto bad = [&](const std::string& why) {
     return Error{Error::Code::config,
@@ -75,7 +103,295 @@ Result<cycle::PartVelocity> parse_velocity(const std::string& text) {
   return v;
 }
 
-namespace {
+/// The largest component of any node's velocity.
+double fastest(const cycle::State& state) {
+  double most = 0;
+  for (const std::vector<double>& component : state.velocity)
+    for (const double v : component) most = std::max(most, std::abs(v));
+  return most;
+}
+
+/// Writes VTK files: into the directory itself, or one below it per deck if there are several.
+/// Several steps bring their own script.
+Result<void> write_vtk(const Options& o, std::string_view path, const std::vector<VtkFile>& vtk,
+                       const std::optional<VtkFile>& script = {}) {
+  std::filesystem::path directory = o.vtk;
+  if (o.common.decks.size() > 1) directory /= std::filesystem::path(without_gz(path)).stem();
+  std::vector<OutputFile> files;
+  for (const VtkFile& f : vtk) files.push_back({(directory / f.name).string(), f.bytes});
+  if (script) files.push_back({(directory / script->name).string(), script->bytes});
+  return o.common.session->write_outputs(files, {}, {"", true, true, true, o.vtk});
+}
+
+/// Writes the page: the report of `deck gaps` with the effects and their costs first.
+Result<void> write_html(const Options& o, const CycleInput& cycle, const SceneView& view) {
+  HtmlInput input;
+  input.path = cycle.path;
+  input.deck = cycle.deck;
+  input.scene = cycle.scene;
+  input.view = &view;
+  input.only = o.only;
+  input.cycle = cycle.outcome;
+  input.acted = acted_in_page(*cycle.state, *cycle.outcome);
+  input.effects = &cycle;
+  input.threads = cycle.options.threads;
+  auto page = gaps_html(input);
+  if (!page) return page.error();
+  return o.common.session->write_output(o.html, *page);
+}
+
+/// Options that do not go together.
+Result<void> check_page(const Options& o) {
+  if (o.measures() && o.steps > 1)
+    return Error{Error::Code::config, std::string(o.html.empty() ? "--costs" : "--html") +
+                                          " shows one evaluation: leave out --steps"};
+  const std::vector<std::string> effects = effects_to_take();
+  if (!o.without.empty() && std::find(effects.begin(), effects.end(), o.without) == effects.end())
+    return Error{Error::Code::config,
+                 fmt::format("--without {}: no effect that can be left out; these can: {}",
+                             o.without, fmt::join(effects, ", "))};
+  if (!o.without.empty() && o.steps > 1)
+    return Error{Error::Code::config, "--without compares one evaluation: leave out --steps"};
+  if (o.html.empty()) return {};
+  if (std::string why; !html_available(&why))
+    return Error{Error::Code::config, "--html: this build has no viewer: " + why};
+  if (o.common.decks.size() > 1)
+    return Error{Error::Code::config, "--html takes one deck at a time"};
+  return {};
+}
+
+/// The evaluation again with cards that do not ask for an effect.
+Result<cycle::SceneOutcome> evaluate_without(const Options& o, const CycleInput& input) {
+  bool taken = false;
+  cycle::CycleOptions options = input.options;
+  options.keep_pairs = false;
+  options.change_card = [&](cycle::ContactCard& card) {
+    taken = take_effect(o.without, card) || taken;
+  };
+  // In the way of the evaluation that it stands beside.
+  cycle::StepsOutcome steps = cycle::run_steps(*input.scene, *input.state, options, 1);
+  if (!taken)
+    return Error{Error::Code::config, fmt::format("--without {}: no contact of {} has this effect",
+                                                  o.without, input.path)};
+  return std::move(steps.last);
+}
+
+/// What the loops take, for the sentence that is always said; one contact after the other.
+std::vector<ContactCost> time_loops(const CycleInput& input) {
+  EffectCostOptions how;
+  how.loops_only = true;
+  how.repeats = 3;
+  return measure_effects(*input.scene, *input.state, *input.outcome, input.options, how);
+}
+
+std::string suffix_of(std::size_t step) { return fmt::format("_{:04}", step); }
+
+/// The evaluation of one deck with all that is said of it.
+struct Evaluation {
+  cycle::State state;
+  cycle::StepsOutcome steps;
+  cycle::SceneOutcome without;
+  std::vector<Crossing> crossings;
+  SceneView view;
+  GateReport report;
+  std::vector<ContactCost> costs, loops;
+  CycleInput input;                        ///< refers to the others
+  bool pushed = false, undecided = false;  ///< at any step
+};
+
+class CycleRun {
+ public:
+  explicit CycleRun(const Options& options) : o_(options), json_(options.common, "deck/cycle", 1) {}
+
+  int run() {
+    if (auto ready = prepare(); !ready) return usage(ready.error());
+    if (const int bad = check_outputs(o_.common, {o_.common.json, o_.html}); bad != exit_clean)
+      return bad;
+    return json_.finish(for_each_deck(o_.common, [&](LoadedDeck& loaded) { return one(loaded); }));
+  }
+
+ private:
+  int usage(const Error& error) const { return failed(o_.common, error.message); }
+
+  /// Everything that can be said without a deck.
+  Result<void> prepare() {
+    options_.model = o_.model == "reference" ? cycle::Model::reference : cycle::Model::robust;
+    options_.dt1 = options_.dt12 = o_.dt;
+    options_.time = o_.time;
+    options_.threads = o_.common.thread_count();
+    options_.keep_pairs = (o_.all && json_.wanted()) || !o_.vtk.empty() || !o_.html.empty();
+    for (const std::string& text : o_.velocities) {
+      auto v = parse_velocity(text);
+      if (!v) return v.error();
+      velocities_.push_back(*v);
+    }
+    if (o_.steps > 1 && !(o_.dt > 0))
+      return Error{Error::Code::config, "--steps needs --dt: how long is a step?"};
+    if (auto legal = check_fail_on(o_.gate); !legal) return legal;
+    if (auto fits = check_page(o_); !fits) return fits;
+    if (o_.fail && (o_.gate.fails_on("never") || o_.gate.fails_on("error")))
+      return Error{Error::Code::config,
+                   "--fail-on-force and --fail-on " + o_.gate.level() + " contradict one another"};
+    return {};
+  }
+
+  int one(LoadedDeck& loaded) {
+    auto gate = ask(loaded);
+    if (!gate) return std::max(usage(gate.error()), gate_error_code(gate.error()));
+    Evaluation e;
+    Result<void> written = evaluate(loaded, e);
+    if (!written && e.input.outcome == nullptr) return usage(written.error());
+    report_solver_errors(loaded);
+    loaded.findings();
+    const Scene& scene = loaded.scene();
+    e.crossings = find_crossings(scene, options_.threads);
+    e.view = make_view(scene, &e.crossings, options_.threads);
+    e.report = gate->look(loaded, scene, e.view, &e.steps.last, o_.common);
+    e.input.view = &e.view;
+    e.input.gate = &e.report;
+    measure(scene, e);
+    if (!o_.without.empty()) {
+      auto other = evaluate_without(o_, e.input);
+      if (!other) return usage(other.error());
+      e.without = std::move(*other);
+      e.input.without = &e.without;
+      e.input.without_effect = o_.without;
+    }
+    if (!o_.html.empty() && written) written = write_html(o_, e.input, e.view);
+    print_findings(loaded, o_.common);
+    if (json_.wanted())
+      json_.add([&](const TextDrain& drain) { return cycle_json(e.input, o_.all, drain); });
+    if (!written) return usage(written.error());
+    print(e.input);
+    const bool fails = (o_.fail || o_.gate.fails_on("warning")) && e.pushed;
+    const bool found = verdict_code(cycle_verdict(e.input), o_.gate, o_.common) != exit_clean ||
+                       (!o_.gate.fails_on("never") && (fails || e.undecided)) || !e.report.passed();
+    return found ? exit_findings : exit_clean;
+  }
+
+  /// What the options name in this deck, and its gate.
+  Result<DeckGate> ask(LoadedDeck& loaded) {
+    std::vector<std::int64_t> parts;
+    for (const cycle::PartVelocity& v : velocities_) parts.push_back(v.part);
+    for (const auto& known : {check_interfaces(loaded, o_.only, "--interface"),
+                              check_parts(loaded, parts, "--velocity")})
+      if (!known) return known.error();
+    auto gate = gate_of(o_.gate, loaded, o_.common);
+    if (!gate) return gate;
+    options_.dead.clear();
+    for (const std::string& text : o_.gone) {
+      auto dead = parse_gone(loaded.model(), text);
+      if (!dead) return dead.error();
+      options_.dead.push_back(*dead);
+    }
+    return gate;
+  }
+
+  SceneOptions scene_options() const {
+    SceneOptions options;
+    options.threads = options_.threads;
+    options.candidates = !o_.html.empty();  // the page counts them
+    options.nodal_stiffness = true;
+    options.ties = true;  // for the verdict, the same as of gaps
+    options.only = o_.only;
+    options.accuracy = accuracy_of(o_.accuracy);
+    options.limits = o_.common.limits;
+    return options;
+  }
+
+  /// Forces of all steps; VTK files as they are asked for. Error: of a file, or of the options if
+  /// nothing was evaluated.
+  Result<void> evaluate(LoadedDeck& loaded, Evaluation& e) {
+    Progress progress(!o_.common.quiet);
+    progress.step("contacts");
+    const auto update = [&](std::size_t done, std::size_t total) { progress.update(done, total); };
+    SceneOptions of_scene = scene_options();
+    of_scene.progress = update;
+    loaded.set_scene_options(of_scene);
+    const Scene& scene = loaded.scene();
+    progress.step("forces");
+    e.state = cycle::make_state(scene, velocities_);
+    options_.progress = update;
+    CycleInput& input = e.input;
+    input.path = loaded.path();
+    input.deck = &loaded.deck();
+    input.scene = &scene;
+    input.state = &e.state;
+    input.options = options_;
+    // Beyond this the squares of distances are no numbers any more.
+    constexpr double farthest = 1e150;
+    if (const double way = fastest(e.state) * o_.dt * (o_.steps - 1); !(way < farthest))
+      return Error{Error::Code::config,
+                   fmt::format("--steps {} --dt {}: nodes would move by {:.3g}, too far to compute "
+                               "with; give a shorter step or lower velocities",
+                               o_.steps, o_.dt, way)};
+    Result<void> written;
+    const bool series = o_.steps > 1 && !o_.vtk.empty();
+    const auto watch = [&](std::size_t step, const cycle::SceneOutcome& now, const Coordinates& x) {
+      for (const cycle::ContactOutcome& c : now.contacts) {
+        e.pushed = e.pushed || c.pairs_with_force > 0;
+        e.undecided = e.undecided || c.undecided();
+      }
+      if (!series || !written) return;
+      CycleInput one = input;
+      one.outcome = &now;
+      one.coordinates = &x;
+      written = write_vtk(o_, loaded.path(), cycle_vtk(one, suffix_of(step)));
+    };
+    e.steps =
+        cycle::run_steps(scene, e.state, options_, static_cast<std::size_t>(o_.steps), {}, watch);
+    input.outcome = &e.steps.last;
+    if (o_.steps > 1) {
+      input.steps = &e.steps;
+      input.coordinates = &e.steps.coordinates;
+    }
+    return o_.vtk.empty() || !written ? written : write_rest(loaded.path(), e, series);
+  }
+
+  /// The VTK files that stand for all steps, or those of the only one.
+  Result<void> write_rest(std::string_view path, const Evaluation& e, bool series) const {
+    if (!series) {
+      const std::vector<VtkFile> files = cycle_vtk(e.input);
+      return write_vtk(o_, path, files, paraview_script(files));
+    }
+    std::vector<std::string> suffixes;
+    for (std::size_t k = 0; k < e.steps.lines.size(); ++k) suffixes.push_back(suffix_of(k));
+    const std::vector<VtkFile> collections = cycle_vtk_series(e.steps, suffixes);
+    return write_vtk(o_, path, collections, paraview_script(collections));
+  }
+
+  /// What effects cost: as asked for, or what the text always says.
+  void measure(const Scene& scene, Evaluation& e) const {
+    if (o_.measures()) {
+      const EffectCostOptions how;
+      e.costs = measure_effects(scene, e.state, e.steps.last, options_, how);
+      e.input.costs = &e.costs;
+      e.input.cost_repeats = how.repeats;
+      e.input.processor = processor_name();
+    } else if (o_.common.wants_text() && o_.steps == 1 && enough_pairs_to_time(e.steps.last)) {
+      e.loops = time_loops(e.input);
+      e.input.loops = &e.loops;
+    }
+  }
+
+  void print(const CycleInput& input) {
+    if (!o_.common.wants_text()) return;
+    CycleTextOptions text;
+    text.color = o_.common.color_on(1);
+    text.effects = o_.effects;
+    text.verbose = o_.common.verbose;
+    text.several = o_.common.decks.size() > 1;
+    text.width = text_width();
+    print_lines((first_ ? "" : "\n") + cycle_text(input, text));
+    first_ = false;
+  }
+
+  const Options& o_;
+  JsonOutput json_;
+  cycle::CycleOptions options_;
+  std::vector<cycle::PartVelocity> velocities_;
+  bool first_ = true;
+};
 
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
@@ -136,7 +452,7 @@ Action setup(CommandLine& line) {
                        "any contact pushes, or as for gaps");
   return [options] {
     const int wrong = open_directories(options->common);
-    return wrong != exit_clean ? wrong : run_cycle_verb(*options);
+    return wrong != exit_clean ? wrong : CycleRun(*options).run();
   };
 }
 
@@ -152,4 +468,5 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+
 }  // namespace deck::cli::verb_cycle

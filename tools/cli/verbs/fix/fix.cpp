@@ -137,10 +137,8 @@ Action setup(CommandLine& line) {
   add_card_options(line, o);
   return [options] {
     options->common.rewrites = options->write.in_place;
-    if (const std::string wrong = wrong_usage(*options); !wrong.empty()) {
-      print_error(options->common, wrong);
-      return static_cast<int>(exit_usage);
-    }
+    if (const std::string wrong = wrong_usage(*options); !wrong.empty())
+      return failed(options->common, wrong);
     return run(*options);
   };
 }

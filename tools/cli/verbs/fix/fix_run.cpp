@@ -11,12 +11,11 @@
 #include "base/shared/escape.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/lint/lint.hpp"
-#include "deck/model/coverage.hpp"
+#include "deck/model/interfaces.hpp"
 #include "deck/text/number.hpp"
-#include "edit/shared/move_part.hpp"
 #include "library.hpp"
 #include "report/shared/fix.hpp"
-#include "verbs/fix_page.hpp"
+#include "verbs/gap_page.hpp"
 
 namespace deck::cli::verb_fix {
 namespace {
@@ -32,10 +31,9 @@ class FixRun {
   int one(LoadedDeck& loaded) {
     const bool errors = print_findings(loaded, o_.common) > 0;
     report_solver_errors(loaded);  // what the Starter does follows from them too
-    if (loaded.incomplete()) {
-      print_error(o_.common, loaded.path() + ": not fixed, the include tree is not complete");
-      return exit_input;
-    }
+    if (loaded.incomplete())
+      return failed(o_.common, loaded.path() + ": not fixed, the include tree is not complete",
+                    exit_input);
     for (const auto& known :
          {check_interfaces(loaded, o_.interfaces, "--interface", Examined::contacts_and_ties),
           check_parts(loaded, o_.move.lock, "--lock"), check_parts(loaded, o_.move.move, "--only")})
@@ -115,10 +113,7 @@ class FixRun {
   }
 
  private:
-  int usage(const Error& error) const {
-    print_error(o_.common, error.message);
-    return exit_usage;
-  }
+  int usage(const Error& error) const { return failed(o_.common, error.message); }
   int fail(const Error& error) const {
     print_error(o_.common, error.message);
     switch (error.code) {
@@ -412,10 +407,9 @@ int run(const Options& o) {
   JsonOutput json(o.common, "deck/fix", 1);
   FixRun fix(o, json);
   const auto decks = fix.decks();
-  if (!decks) {
-    print_error(o.common, decks.error().message);
-    return decks.error().code == Error::Code::config ? exit_usage : exit_input;
-  }
+  if (!decks)
+    return failed(o.common, decks.error().message,
+                  decks.error().code == Error::Code::config ? exit_usage : exit_input);
   CommonOptions common = o.common;
   common.decks = *decks;
   const int code = for_each_deck(common, [&](LoadedDeck& loaded) { return fix.one(loaded); });

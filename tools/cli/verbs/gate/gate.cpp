@@ -161,10 +161,8 @@ int run(Options& o) {
   if (const int wrong = open_directories(common); wrong != exit_clean) return wrong;
   for (std::string& deck : common.decks)  // without the default directory "." in front
     if (deck.starts_with("./")) deck.erase(0, 2);
-  if (auto set = o.lint.accept ? Result<void>() : check_gates(o.lint); !set) {
-    print_error(common, set.error().message);
-    return exit_usage;
-  }
+  if (auto set = o.lint.accept ? Result<void>() : check_gates(o.lint); !set)
+    return failed(common, set.error().message);
   LintRun lint(o.lint, [&](const LintJobs& jobs, const SchemaSet& schemas) {
     return print(o, jobs, schemas);
   });

@@ -1,6 +1,6 @@
 // What a gate would have said of the last commits of a deck: each is read as git has it, linted,
 // and held against the commit before.
-#include "verbs/gate/history.hpp"
+#include "verbs/gate/init.hpp"
 
 #include <fmt/format.h>
 

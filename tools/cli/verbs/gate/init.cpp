@@ -15,7 +15,6 @@
 #include "library.hpp"
 #include "lint/shared/config.hpp"
 #include "report/shared/json.hpp"
-#include "verbs/gate/history.hpp"
 #include "verbs/lint/lint_run.hpp"
 
 namespace deck::cli {
@@ -123,9 +122,10 @@ int look(const CommonOptions& common, const SchemaSet& schemas, Today& out) {
     auto loaded = load(path, schemas, common);
     if (!loaded || loaded->incomplete()) {
       if (loaded) print_findings(*loaded, common);
-      print_error(common, (loaded ? path + ": an include is missing" : loaded.error().message) +
-                              "; nothing was written");
-      return exit_input;
+      return failed(common,
+                    (loaded ? path + ": an include is missing" : loaded.error().message) +
+                        "; nothing was written",
+                    exit_input);
     }
     const LintResult result =
         lint_loaded(*loaded, {}, Geometry::all, {}, [&](const Scene& scene, const SceneView& view) {
@@ -236,8 +236,7 @@ void tell(const Today& today, const std::vector<NewFile>& files, const fs::path&
 int init_gate(const CommonOptions& given, const GateInit& init) {
   using namespace writing_gate;
   const auto fail = [&](const std::string& message, int code = exit_usage) {
-    print_error(given, message);
-    return code;
+    return failed(given, message, code);
   };
   CommonOptions common = given;
   const auto decks = decks_in_directories(given.decks);

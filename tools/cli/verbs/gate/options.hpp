@@ -12,7 +12,6 @@
 #include "deck/contact/view.hpp"
 #include "deck/verdict.hpp"
 #include "lint/shared/baseline.hpp"
-#include "lint/shared/changed_lines.hpp"
 #include "lint/shared/config.hpp"
 #include "lint/shared/gate.hpp"
 #include "report/shared/gate.hpp"

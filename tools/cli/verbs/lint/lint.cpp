@@ -13,10 +13,7 @@ int init(const LintChoice& options) {
   const auto path = common.decks.size() > 1
                         ? Error{Error::Code::config, "--init takes one directory"}
                         : write_settings_file(common.decks.empty() ? "" : common.decks.front());
-  if (!path) {
-    print_error(common, path.error().message);
-    return exit_usage;
-  }
+  if (!path) return failed(common, path.error().message);
   if (!common.quiet) print_text("wrote " + terminal_text(*path) + "\n");
   return exit_clean;
 }
@@ -31,10 +28,7 @@ int show_config(const LintChoice& options) {
   const std::vector<std::string>& decks = options.common.decks;
   for (const std::string& deck : decks.empty() ? std::vector<std::string>{"-"} : decks) {
     const auto config = config_of(options.gate, deck);
-    if (!config) {
-      print_error(options.common, config.error().message);
-      return exit_usage;
-    }
+    if (!config) return failed(options.common, config.error().message);
     const std::string of = deck == "-" ? "the current directory" : deck;
     print_text(terminal_text(
                    of + ": " +
@@ -104,7 +98,7 @@ Action setup(CommandLine& line) {
   line.flag("--unsafe-fixes", o.unsafe_fixes, "Apply the other fixes too");
   line.flag("--diff", o.diff,
             "Print the fixes as a patch (findings on standard error), write nothing");
-  add_dependent_options(line, o.write);
+  add_root_option(line, o.write);
   line.flag("--ruler", o.ruler, "Show column numbers above each card line");
   add_verbose(line, o.common, "Show every finding in full, without grouping");
   line.flag("--no-group", o.common.verbose, "The same");
@@ -118,10 +112,8 @@ Action setup(CommandLine& line) {
     options->write.diff = options->diff;
     WriteChoice checked = options->write;
     if (options->changed) checked.root.clear();  // which goes with that as well
-    if (const std::string wrong = usage_error(checked); !wrong.empty()) {
-      print_error(options->common, wrong);
-      return static_cast<int>(exit_usage);
-    }
+    if (const std::string wrong = usage_error(checked); !wrong.empty())
+      return failed(options->common, wrong);
     // What is fixed, or counted as fixable, has to be kept.
     constexpr int most_fixes_of_a_rule = 1'000'000;
     if (options->fix || options->unsafe_fixes || options->diff || options->statistics)

@@ -128,10 +128,9 @@ int LintRun::run() {
   } else if (!rewrites)
     decks = decks_in_directories(common_.decks);
   if (rewrites && decks) decks = changes_.decks(*decks);
-  if (!decks) {
-    print_error(common_, decks.error().message);
-    return decks.error().code == Error::Code::config ? exit_usage : exit_input;
-  }
+  if (!decks)
+    return failed(common_, decks.error().message,
+                  decks.error().code == Error::Code::config ? exit_usage : exit_input);
   for (const std::string& path : *decks) {
     if (BatchFrame* frame = common_.session->frame) frame->begin(path);
     const int code = lint_one(path);
@@ -150,10 +149,7 @@ int LintRun::run() {
   return options_.accept ? accept(worst) : std::max(worst, write());
 }
 
-int LintRun::usage(const std::string& message) {
-  print_error(common_, message);
-  return exit_usage;
-}
+int LintRun::usage(const std::string& message) { return failed(common_, message); }
 
 int LintRun::none_changed() const {
   if (!common_.quiet) print_note("no deck includes any of these files; nothing to lint");

@@ -1,0 +1,214 @@
+// Parser of predicates, messages and fixes of rules that are data.
+#include "lint/cell_rule.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+namespace deck::detail {
+namespace {
+
+using Op = Predicate::Op;
+
+constexpr std::pair<std::string_view, Op> functions[] = {
+    {"input", Op::input}, {"value", Op::value},          {"flag", Op::flag}, {"given", Op::given},
+    {"has", Op::has},     {"default", Op::from_default}, {"deck", Op::deck}};
+constexpr std::pair<std::string_view, Op> comparisons[] = {
+    {"==", Op::equal},         {"!=", Op::not_equal}, {"<=", Op::less_equal},
+    {">=", Op::greater_equal}, {"<", Op::less},       {">", Op::greater}};
+
+bool is_word(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '%';
+}
+
+/// Recursive descent: either > both > negated > comparison > leaf.
+class Parser {
+ public:
+  explicit Parser(std::string_view text) : rest_(text) {}
+
+  Result<Predicate> run() {
+    either();
+    if (skip(); problem_.empty() && !rest_.empty()) fail("'and', 'or' or the end");
+    if (!problem_.empty()) return Error{Error::Code::config, problem_};
+    return std::move(out_);
+  }
+
+ private:
+  void fail(std::string_view expected) {
+    if (problem_.empty())
+      problem_ = "expected " + std::string(expected) + " at '" + std::string(rest_) + "'";
+  }
+  void skip() {
+    while (rest_.starts_with(' ')) rest_.remove_prefix(1);
+  }
+  bool take(std::string_view token) {
+    skip();
+    if (!rest_.starts_with(token)) return false;
+    if (is_word(token.back()) && rest_.size() > token.size() && is_word(rest_[token.size()]))
+      return false;
+    rest_.remove_prefix(token.size());
+    return true;
+  }
+  std::string word() {
+    skip();
+    const auto end = std::find_if_not(rest_.begin(), rest_.end(), is_word);
+    std::string out(rest_.begin(), end);
+    rest_.remove_prefix(out.size());
+    return out;
+  }
+  std::size_t add(Predicate::Node node) {
+    out_.nodes.push_back(std::move(node));
+    return out_.nodes.size() - 1;
+  }
+
+  std::size_t either() {
+    std::size_t left = both();
+    while (take("or")) left = add({Op::either, 0, {}, left, both()});
+    return left;
+  }
+  std::size_t both() {
+    std::size_t left = negated();
+    while (take("and")) left = add({Op::both, 0, {}, left, negated()});
+    return left;
+  }
+  std::size_t negated() {
+    if (++depth_ > deepest) fail("less nesting");
+    const std::size_t node = !problem_.empty() ? 0
+                             : take("not")     ? add({Op::negated, 0, {}, negated(), 0})
+                                               : compared();
+    --depth_;
+    return node;
+  }
+  std::size_t compared() {
+    const std::size_t left = leaf();
+    for (const auto& [token, op] : comparisons)
+      if (take(token)) return add({op, 0, {}, left, leaf()});
+    return left;
+  }
+  std::size_t leaf() {
+    if (!problem_.empty()) return 0;
+    if (take("(")) {
+      const std::size_t inner = either();
+      if (!take(")")) fail("')'");
+      return inner;
+    }
+    skip();
+    double number = 0;
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), number);
+    if (error == std::errc()) {
+      rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+      return add({Op::number, number, {}, 0, 0});
+    }
+    if (take("type")) return add({Op::type, 0, {}, 0, 0});
+    for (const auto& [name, op] : functions)
+      if (take(name)) {
+        if (!take("(")) fail("'('");
+        std::string field = word();
+        if (field.empty()) fail("a name");
+        if (op == Op::deck &&
+            std::find(std::begin(deck_facts), std::end(deck_facts), field) == std::end(deck_facts))
+          fail("a fact of the deck, not " + field);
+        if (!take(")")) fail("')'");
+        return add({op, 0, std::move(field), 0, 0});
+      }
+    fail("a number, a function or '('");
+    return 0;
+  }
+
+  static constexpr int deepest = 50;
+  int depth_ = 0;
+  std::string_view rest_;
+  Predicate out_;
+  std::string problem_;
+};
+
+std::string_view trimmed(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return text;
+}
+
+/// "{Istf: 1000, safe: false, title: ...}"; nullopt: not of that form.
+std::optional<CellRule::Repair> read_repair(std::string_view text) {
+  if (!text.starts_with('{') || !text.ends_with('}')) return std::nullopt;
+  text = text.substr(1, text.size() - 2);
+  CellRule::Repair out;
+  bool safe_given = false;
+  while (!text.empty()) {
+    const auto colon = text.find(':');
+    if (colon == std::string_view::npos) return std::nullopt;
+    const std::string_view key = trimmed(text.substr(0, colon));
+    text.remove_prefix(colon + 1);
+    // The title is the last key: it may have commas.
+    const auto end = key == "title" ? text.size() : std::min(text.find(','), text.size());
+    const std::string_view value = trimmed(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (key == "title") {
+      out.title = value;
+    } else if (key == "safe") {
+      if (value != "true" && value != "false") return std::nullopt;
+      out.safe = value == "true";
+      safe_given = true;
+    } else {
+      out.field = key;
+      out.text = value == "blank" ? "" : value;
+    }
+  }
+  if (out.field.empty() || out.title.empty() || !safe_given) return std::nullopt;
+  return out;
+}
+
+}  // namespace
+
+Result<Predicate> Predicate::parse(std::string_view text) { return Parser(text).run(); }
+
+std::vector<MessagePiece> pieces_of(std::string_view message) {
+  std::vector<MessagePiece> out;
+  while (!message.empty()) {
+    const auto open = std::min(message.find('{'), message.size());
+    if (open > 0) out.push_back({{}, message.substr(0, open)});
+    message.remove_prefix(open);
+    if (message.empty()) break;
+    const auto close = std::min(message.find('}'), message.size());
+    const std::string_view inside = message.substr(1, close - 1);
+    const auto blank = std::min(inside.find(' '), inside.size());
+    out.push_back({inside.substr(0, blank), trimmed(inside.substr(blank))});
+    message.remove_prefix(std::min(close + 1, message.size()));
+  }
+  return out;
+}
+
+Result<CellRule> CellRule::read(const std::map<std::string, std::string, std::less<>>& keys) {
+  const auto text = [&](std::string_view key) {
+    const auto found = keys.find(key);
+    return found == keys.end() ? std::string() : found->second;
+  };
+  auto when = Predicate::parse(text("when"));
+  if (!when) return Error{Error::Code::config, "when: " + when.error().message};
+  CellRule out{std::move(*when), text("at"), text("message"), {}, read_repair(text("fix"))};
+  if (out.at.empty() || out.message.empty())
+    return Error{Error::Code::config, "a rule of cells has 'when', 'at' and a message in quotes"};
+  if (!out.fix && keys.contains("fix"))
+    return Error{Error::Code::config, "fix: expected {FIELD: TEXT, safe: BOOL, title: WORDS}"};
+  for (std::string_view rest = keys.contains("note") ? keys.find("note")->second : "";
+       !rest.empty();) {
+    const auto end = std::min(rest.find(','), rest.size());
+    out.notes.emplace_back(trimmed(rest.substr(0, end)));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return out;
+}
+
+std::vector<std::string> CellRule::fields() const {
+  std::vector<std::string> out = notes;
+  out.push_back(at);
+  if (fix) out.push_back(fix->field);
+  for (const Predicate::Node& n : when.nodes)
+    if (!n.name.empty() && n.op != Op::deck) out.push_back(n.name);
+  for (const MessagePiece& p : pieces_of(message))
+    if (!p.what.empty() && p.what != "name") out.emplace_back(p.field);
+  return out;
+}
+
+}  // namespace deck::detail
