@@ -119,28 +119,24 @@ class Sarif {
     json_.end_object();
   }
 
-  void region(const LintedDeck& deck, const Span& span, bool with_end_line = false) {
+  /// `deleted`: what a fix takes out, which may end on another line.
+  void region(const LintedDeck& deck, const Span& span, bool deleted = false) {
     const Source& source = deck.deck->sources[span.file];
     const detail::Place at = detail::place_of(deck, span);
-    const Position end = source.position(span.offset + span.length);
     // SARIF columns count characters, spans count bytes.
     const auto characters = [&](std::uint64_t offset, std::uint64_t column) {
-      const std::string_view line = source.line_at(offset);
-      const auto upto = std::min<std::size_t>(static_cast<std::size_t>(column) - 1, line.size());
-      const auto inner = static_cast<std::uint64_t>(
-          std::count_if(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(upto),
-                        [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }));
-      return column - inner;
+      const auto before = source.line_at(offset).substr(0, static_cast<std::size_t>(column) - 1);
+      return column -
+             static_cast<std::uint64_t>(std::count_if(before.begin(), before.end(), [](char c) {
+               return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
+             }));
     };
-    json_.key(with_end_line ? "deletedRegion" : "region").begin_object(true);
+    json_.key(deleted ? "deletedRegion" : "region").begin_object(true);
     json_.field("startLine", at.line).field("startColumn", characters(span.offset, at.column));
-    if (with_end_line) {
-      json_.field("endLine", end.line);
-      json_.field("endColumn", characters(span.offset + span.length, end.column));
-    } else {
-      json_.field("endColumn", characters(span.offset, at.end_column));
-    }
-    json_.end_object();
+    const std::uint64_t last = span.offset + (deleted ? span.length : 0);
+    const Position end = source.position(last);
+    if (deleted) json_.field("endLine", end.line);
+    json_.field("endColumn", characters(last, deleted ? end.column : at.end_column)).end_object();
   }
 
   /// Of a finding, or of a note with its message.

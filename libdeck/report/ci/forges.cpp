@@ -1,11 +1,13 @@
-// Findings as workflow commands of GitHub Actions.
+// Findings for forges: workflow commands of GitHub Actions, a Code Quality report of GitLab.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "base/shared/escape.hpp"
 #include "report/diagnostics_common.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck {
 
@@ -45,6 +47,34 @@ std::string lint_github(const std::vector<LintedDeck>& decks, const std::string&
                                         d->message + ". " + detail::details(*d));
   }
   return out + leads + notices + tails;
+}
+
+std::string lint_gitlab(const std::vector<LintedDeck>& decks, const std::string& source_root) {
+  std::string out;
+  JsonWriter json(out);
+  json.begin_array();
+  std::map<std::string, int> seen;
+  const detail::SourceRoot root(source_root);
+  for (const LintedDeck& deck : decks) {
+    if (deck.result == nullptr) continue;
+    for (std::size_t i = 0; i < deck.result->diagnostics.size(); ++i) {
+      const Diagnostic& d = deck.result->diagnostics[i];
+      const detail::Place at = detail::place_of(deck, d.span);
+      // Fingerprints must be unique in a report; equal findings get a number.
+      std::string print = deck.result->fingerprints[i];
+      if (const int n = seen[print]++; n > 0) print += "-" + std::to_string(n);
+      static constexpr const char* severities[] = {"major", "minor", "info"};
+      json.begin_object().field("description", d.message + ". " + detail::details(d));
+      json.field("check_name", finding_name(d)).field("fingerprint", print);
+      json.field("severity", severities[static_cast<std::size_t>(d.severity)]);
+      json.key("location").begin_object().field("path", root.place(at.file));
+      json.key("lines").begin_object(true).field("begin", at.line).end_object();
+      json.end_object().end_object();
+    }
+  }
+  json.end_array();
+  if (out.back() != '\n') out += '\n';
+  return out;
 }
 
 }  // namespace deck
