@@ -1,9 +1,13 @@
-// Which effects of an interface run, and because of which field on which line.
+// Which effects of an interface run, and because of which field on which line. The verdict of a
+// cycle, and verdicts as a line of text.
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "base/shared/escape.hpp"
 #include "report/shared/cycle.hpp"
+#include "report/shared/text_table.hpp"
+#include "report/shared/verdict.hpp"
 
 namespace deck {
 namespace {
@@ -16,11 +20,10 @@ std::string because_of(const Deck& deck, const InterBase& inter, const cycle::Ef
   if (!place) return e.reason;
   span = place->span;
   std::string where;
-  if (place->span.valid()) {  // in the main file its line is enough
-    const auto line = deck.sources.position(place->span).line;
-    where = place->span.file == 0
-                ? fmt::format("line {}", line)
-                : fmt::format("{}:{}", deck.sources[place->span.file].path(), line);
+  if (span.valid()) {  // in the main file its line is enough
+    const auto line = deck.sources.position(span).line;
+    where = span.file == 0 ? fmt::format("line {}", line)
+                           : fmt::format("{}:{}", deck.sources[span.file].path(), line);
   }
   if (place->origin != Origin::card) {
     if (!where.empty()) where += ", ";
@@ -64,6 +67,23 @@ std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome
     }
   }
   return lines;
+}
+
+Verdict cycle_verdict(const CycleInput& input) {
+  VerdictInput in;
+  in.deck = input.deck;
+  in.interfaces = input.scene->interfaces;
+  in.contacts = contact_facts(*input.scene, input.view ? *input.view : make_view(*input.scene));
+  in.model = input.scene->model;
+  in.cycle = input.outcome;
+  in.steps = input.steps;
+  return make_verdict(in);
+}
+
+std::string verdict_text(const Verdict& v, bool color) {
+  const bool good = v.level == VerdictLevel::clean || v.level == VerdictLevel::remarks;
+  const Tone tone = v.level == VerdictLevel::stops ? Tone::red : good ? Tone::green : Tone::yellow;
+  return toned(terminal_text(v.text), tone, color) + "\n";
 }
 
 }  // namespace deck

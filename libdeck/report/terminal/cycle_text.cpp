@@ -9,8 +9,8 @@
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
 #include "cycle/shared/step_scale.hpp"
-#include "report/accuracy_decisions.hpp"
 #include "report/cycle_costs.hpp"
+#include "report/gaps_names.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/verdict.hpp"
 #include "report/terminal/words.hpp"
@@ -37,19 +37,6 @@ std::string step_text(double dt) { return is_no_limit(dt) ? "-" : figure_text(dt
 
 double size(const std::array<double, 3>& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
-/// "node" or "edge" of a pair.
-std::string secondary_text(const Model& model, const Contact& c, const cycle::PairOutcome& p) {
-  if (c.kind == ContactKind::node_segment)
-    return node_text(model, c.secondary[p.at.secondary].node);
-  const auto& n = c.secondary_edges[p.at.secondary].nodes;
-  return fmt::format("{}-{}", model.node_id(n[0]), model.node_id(n[1]));
-}
-
-std::string main_text(const Model& model, const Contact& c, std::uint32_t main) {
-  return c.kind == ContactKind::edge_edge ? corner_ids(model, c.main_edges[main].nodes)
-                                          : corner_ids(model, c.main[main].nodes);
 }
 
 /// "interface 3 TYPE7: ", behind two blanks
@@ -117,7 +104,7 @@ std::string event_text(const CycleInput& input, const cycle::StepEvent& e) {
     return head + fmt::format("{} removed, {}\n", name, to_string(e.because));
   return head + fmt::format("{} {} {}\n", name,
                             e.kind == cycle::StepEvent::Kind::tied ? "tied to" : "lets go of",
-                            main_text(model, c, e.at.main));
+                            ids_text(model, pair_nodes(c, e.at.secondary, e.at.main).main, ' '));
 }
 
 /// The history in at most twenty lines, and the first events.
@@ -250,9 +237,10 @@ std::string singular_table(const CycleInput& input, const CycleTextOptions& opti
                    "node/edge", "segment/edge"});
   for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 10); ++i) {
     const auto& [o, p] = all[i];
+    const PairNodes nodes = pair_nodes(*o->contact, p->at.secondary, p->at.main);
     table.row({fmt::format("{:.3g} %", 100 * left(*p)), p->gap, p->distance,
                figure_text(size(p->force)), figure_text(p->k_nodal), o->contact->inter->id,
-               secondary_text(model, *o->contact, *p), main_text(model, *o->contact, p->at.main)});
+               ids_text(model, nodes.secondary, '-'), ids_text(model, nodes.main, ' ')});
   }
   return table.below_heading(options);
 }

@@ -11,7 +11,6 @@
 #include "deck/report/gaps.hpp"
 #include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
-#include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/verdict.hpp"
@@ -276,7 +275,7 @@ UntiedNode untied_node(const Model& model, const Tie& tie, const TiedNode& n) {
   const double search = n.search != 0 ? n.search : tie.search_distance;
   return {tie.inter,
           n.node,
-          known ? corner_ids(model, tie.main[segment]) : "-",
+          known ? ids_text(model, tie.main[segment], ' ') : "-",
           known_cell(known, found ? n.distance : n.nearest_distance),
           known_cell(search != 0, search),
           short_reason(tie, n)};

@@ -43,14 +43,6 @@ std::string first_of(const List& list, std::size_t most, const Text& text = {}) 
   return out;
 }
 
-/// "1 2 3": the nodes of a segment or an edge. A triangle repeats its last node.
-inline std::string corner_ids(const Model& model, std::span<const NodeIndex> nodes) {
-  if (nodes.size() == 4 && nodes[2] == nodes[3]) nodes = nodes.first(3);
-  std::string out;
-  for (const NodeIndex n : nodes) append(out, " ", std::to_string(model.node_id(n)));
-  return out;
-}
-
 /// A number, or a dash where it is not known.
 template <class T>
 TextTable::Cell known_cell(bool known, const T& number) {
