@@ -9,7 +9,12 @@ namespace {
 
 struct LossLists {
   const std::vector<LossEntry>* losses = nullptr;
-  Rows<LossEntry> of(Loss loss) const { return rows_of(*losses) if (e.loss == loss); }
+  Rows<LossEntry> of(Loss loss) const {
+    return {[this, loss](const auto& add) {
+      for (const LossEntry& e : *losses)
+        if (e.loss == loss) add(e);
+    }};
+  }
 };
 Record<LossLists> record_of(const LossLists*) {
   using Row = LossLists;

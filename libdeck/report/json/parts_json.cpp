@@ -1,6 +1,4 @@
 // The document of deck parts: parts, totals, steps of elements and nodes, kinematic conditions.
-#include <ranges>
-
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
 #include "report/parts_rows.hpp"
@@ -207,8 +205,9 @@ Record<PartsDocument> record_of(const PartsDocument*) {
       column("deck", [](const Row& r) { return deck_row(r.loaded); }),
       column("parts",
              [](const Row& r) {
-               return rows_of(std::views::iota(std::size_t{0}, r.model.parts.size()),
-                              [&r](std::size_t p) { return r.part(p); });
+               return Rows<PartRow>{[&r](const auto& add) {
+                 for (std::size_t p = 0; p < r.model.parts.size(); ++p) add(r.part(p));
+               }};
              }),
       column("total",
              [](const Row& r) {
@@ -226,8 +225,10 @@ Record<PartsDocument> record_of(const PartsDocument*) {
              }),
       column("nodes", "With --all",
              [](const Row& r) {
-               return if_any(r.all, rows_of(std::views::iota(std::size_t{0}, r.model.nodes.size()),
-                                            [&r](std::size_t n) { return r.node(n); }));
+               return if_any(r.all, Rows<NodeRow>{[&r](const auto& add) {
+                               for (std::size_t n = 0; n < r.model.nodes.size(); ++n)
+                                 add(r.node(n));
+                             }});
              }),
       group<kinematics>("kinematics"),
       column("not_computed", [](const Row& r) {

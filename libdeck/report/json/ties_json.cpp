@@ -92,10 +92,10 @@ Record<TieRow> record_of(const TieRow*) {
              "With --all every secondary node, else those that are not tied, or tied from beyond a "
              "rim",
              [](const Row& r) {
-               return rows_of(r.tie->nodes) if (r.all || !n.tied || n.message != 0,
-                                                [&r](const TiedNode& n) {
-                                                  return NodeRow{r.model, *r.tie, &n};
-                                                });
+               return Rows<NodeRow>{[&r](const auto& add) {
+                 for (const TiedNode& n : r.tie->nodes)
+                   if (r.all || !n.tied || n.message != 0) add({r.model, *r.tie, &n});
+               }};
              }),
       column<&TieRow::tie, &Tie::repeated>(
           "repeated", "Ties that an earlier interface makes already (message 1630)"),
