@@ -169,13 +169,12 @@ class Comparison {
   }
 
   /// What deck says with the number of a message, at its places where it is about them.
-  void say(MessageGroup& group, std::set<std::size_t>& used) {
+  void say(MessageGroup& group) {
     std::vector<std::size_t> same;
     for (std::size_t f = 0; f < out_.findings.size(); ++f)
       if (out_.findings[f].reference && out_.findings[f].reference->number == group.number)
         same.push_back(f);
     if (same.empty()) return;
-    used.insert(same.begin(), same.end());
     std::vector<const Block*> blocks;
     for (const MessagePlace& place : group.places) blocks.push_back(block_at(place.span));
     for (const std::size_t f : same) {
@@ -191,13 +190,16 @@ class Comparison {
   }
 
   void findings() {
-    std::set<std::size_t> used;
-    for (MessageGroup& group : out_.messages) say(group, used);
+    std::set<int> listed;
+    for (MessageGroup& group : out_.messages) {
+      say(group);
+      listed.insert(group.number);
+    }
     for (std::size_t f = 0; f < out_.findings.size(); ++f) {
       const auto& reference = out_.findings[f].reference;
       // The messages of the reader are printed by official programs only.
       if (reference && reference->severity != Severity::info && reference->number < 100000 &&
-          !used.contains(f))
+          !listed.contains(reference->number))
         out_.not_listed.push_back(f);
     }
   }
@@ -207,33 +209,32 @@ class Comparison {
   void contacts() {
     const Scene& scene = loaded_->scene();
     view_ = make_view(scene);
-    std::vector<const ListedContact*> of(scene.contacts.size(), nullptr);
-    assign(scene, of);
+    const std::vector<const ListedContact*> listed = listed_contacts(scene);
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
-      if (!scene.contacts[c].dropped) contact(c, of[c]);
+      if (!scene.contacts[c].dropped) contact(c, listed[c]);
   }
 
   /// Contacts with a header belong to the first part of their interface, those without one to the
   /// other parts, in the order of work.
-  void assign(const Scene& scene, std::vector<const ListedContact*>& of) {
+  std::vector<const ListedContact*> listed_contacts(const Scene& scene) {
+    std::vector<const ListedContact*> of(scene.contacts.size(), nullptr);
+    // Ties and other types are no contacts of the scene; 0 is a later part of a TYPE19.
+    static const std::set<int> compared{0, 7, 10, 11, 19, 24, 25};
     for (const ListedContact& listed : listing_.contacts) {
-      // Ties and other types are no contacts of the scene; 0 is a later part of a TYPE19.
-      constexpr int compared[] = {0, 7, 10, 11, 19, 24, 25};
-      if (std::find(std::begin(compared), std::end(compared), listed.type) == std::end(compared))
-        continue;
-      std::size_t c = 0;
-      for (; c < scene.contacts.size(); ++c) {
-        const Contact& contact = scene.contacts[c];
-        if (contact.dropped || of[c] != nullptr) continue;
+      if (!compared.contains(listed.type)) continue;
+      const auto fits = [&](const Contact& contact) {
         const bool later_part = contact.inter->type == 19 && contact.role != ContactRole::primary;
-        const bool fits_id = listed.interface == 0 || contact.inter->id == listed.interface;
-        if (fits_id && later_part == (listed.type == 0)) break;
-      }
-      if (c == scene.contacts.size())
+        return !contact.dropped && later_part == (listed.type == 0) &&
+               (listed.interface == 0 || contact.inter->id == listed.interface);
+      };
+      std::size_t c = 0;
+      while (c < of.size() && (of[c] != nullptr || !fits(scene.contacts[c]))) ++c;
+      if (c == of.size())
         ++out_.unnamed_contacts;
       else
         of[c] = &listed;
     }
+    return of;
   }
 
   /// The pairs that a listing shows as penetrations: from level 6 on it shows other pairs, too.

@@ -6,8 +6,8 @@
 
 #include "base/shared/escape.hpp"
 #include "report/shared/cycle.hpp"
+#include "report/shared/gate.hpp"
 #include "report/shared/text_table.hpp"
-#include "report/shared/verdict.hpp"
 
 namespace deck {
 namespace {
@@ -49,21 +49,21 @@ std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome
   for (const cycle::ContactOutcome& c : outcome.contacts) {
     if (c.contact->inter != &inter) continue;
     for (const cycle::EffectState& e : c.effects) {
-      const auto known = std::find_if(lines.begin(), lines.end(),
-                                      [&](const EffectLine& l) { return l.name == e.name; });
-      // On in one part of a TYPE19 and off in another: both are said.
-      if (known != lines.end() && known->on && !e.on && c.contact->role == ContactRole::edges &&
-          wanted_by_card(inter, e)) {
-        known->because += fmt::format("; not between edges: {}", e.reason);
-        known->not_edges = e.reason;
+      auto line = std::find_if(lines.begin(), lines.end(),
+                               [&](const EffectLine& l) { return l.name == e.name; });
+      if (line == lines.end()) {
+        line = lines.emplace(line);
+      } else if (line->on || !e.on) {
+        // On in one part of a TYPE19 and off in another: both are said.
+        if (line->on && !e.on && c.contact->role == ContactRole::edges &&
+            wanted_by_card(inter, e)) {
+          line->because += fmt::format("; not between edges: {}", e.reason);
+          line->not_edges = e.reason;
+        }
+        continue;
       }
-      if (known != lines.end() && (known->on || !e.on)) continue;
-      EffectLine line{e.name, e.on, {}, e.field, e.reason, {}, {}};
-      line.because = because_of(deck, inter, e, line.span);
-      if (known == lines.end())
-        lines.push_back(std::move(line));
-      else
-        *known = std::move(line);
+      *line = {e.name, e.on, {}, e.field, e.reason, {}, {}};
+      line->because = because_of(deck, inter, e, line->span);
     }
   }
   return lines;

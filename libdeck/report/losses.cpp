@@ -1,6 +1,5 @@
 // The loss report: what a conversion cannot keep.
-#include "report/shared/losses.hpp"
-
+#include "report/shared/deck_json.hpp"
 #include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 
@@ -52,10 +51,6 @@ Record<LossEntry> record_of(const LossEntry*) {
 }
 
 DocumentSchema losses_schema() { return document_schema<LossLists>(head); }
-
-void write_loss_lists(JsonWriter& json, const std::vector<LossEntry>& losses) {
-  write_members(json, LossLists{&losses});
-}
 
 std::string losses_json(const std::vector<LossEntry>& losses) {
   return write_document(head, LossLists{&losses}) + '\n';

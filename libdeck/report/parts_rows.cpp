@@ -1,5 +1,5 @@
 // Counts the elements of each part, and finds out which interfaces and rigid bodies have them.
-#include "report/parts_rows.hpp"
+#include "report/shared/parts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -164,11 +164,10 @@ class Interfaces2Parts {
 
   void interface(const Block& block) {
     const DecodedBlock d = decode(deck_, block);
-    PartSides& sides = sides_.emplace_back(block.id.value + deck_.offset_of(block, "inter"),
+    PartSides& sides = sides_.emplace_back(deck_.shifted_id(block, "inter", block.id.value),
                                            is_tie(block), model_.parts.size());
     const auto id_in = [&](const char* field, const char* kind) {
-      const std::int64_t v = d.integer(field);
-      return v > 0 ? v + deck_.offset_of(block, kind) : 0;
+      return std::max<std::int64_t>(0, deck_.shifted_id(block, kind, d.integer(field)));
     };
     const auto surface = [&](const char* field, PartBits& side, bool& named) {
       const std::int64_t id = id_in(field, "surf");
@@ -297,13 +296,13 @@ void find_bodies(const LoadedDeck& loaded, PartsView& view) {
     const DecodedBlock d = decode(deck, block);
     const std::int64_t group = d.integer("grnd_ID"), main = d.integer("node_ID");
     const NodeSet* set =
-        group > 0 ? model.selections->node_group(group + deck.offset_of(block, "grnod")) : nullptr;
+        group > 0 ? model.selections->node_group(deck.shifted_id(block, "grnod", group)) : nullptr;
     if (set == nullptr) continue;
     std::vector<NodeIndex> nodes = set->nodes;
-    if (main > 0) nodes.push_back(model.find_node(main + deck.offset_of(block, "node")));
+    if (main > 0) nodes.push_back(model.find_node(deck.shifted_id(block, "node", main)));
     for (const NodeIndex n : nodes)
       if (n != no_index) of_node[n] |= SetBits{1} << ids.size();
-    ids.push_back(block.id.value + deck.offset_of(block, "rbody"));
+    ids.push_back(deck.shifted_id(block, "rbody", block.id.value));
     if (ids.size() == sets_at_once) flush();
   }
   if (!ids.empty()) flush();

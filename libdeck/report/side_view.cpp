@@ -20,22 +20,15 @@ namespace {
 constexpr double view_width = 420, view_height = 230, view_left = 10, view_right = 250,
                  view_top = 30, view_bottom = 190;
 
-Error no_pair(std::string_view text) {
-  return {
-      Error::Code::config,
-      fmt::format("{}: expected a node or edge and a segment or edge, by the ids of their nodes, "
-                  "such as pair:57/30-38-44-31 or pair:11-12/30-31",
-                  text)};
-}
-
-/// False: something is no id.
-bool read_ids(std::string_view text, std::vector<std::int64_t>& ids) {
+/// Empty: something is no id.
+std::vector<std::int64_t> read_ids(std::string_view text) {
+  std::vector<std::int64_t> ids;
   while (true) {
     const auto end = std::min(text.find('-'), text.size());
     const IntegerCell id = read_integer(text.substr(0, end));
-    if (id.status != NumberStatus::ok) return false;
+    if (id.status != NumberStatus::ok) return {};
     if (ids.empty() || ids.back() != id.value) ids.push_back(id.value);
-    if (end == text.size()) return true;
+    if (end == text.size()) return ids;
     text.remove_prefix(end + 1);
   }
 }
@@ -181,15 +174,17 @@ std::string title_of(const Scene& scene, const Contact& c, const PenetrationRow&
 }  // namespace
 
 Result<PairName> parse_pair(std::string_view text) {
-  const auto slash = text.find('/');
-  PairName out;
-  if (slash == text.npos || !read_ids(text.substr(0, slash), out.secondary) ||
-      !read_ids(text.substr(slash + 1), out.main))
-    return no_pair(text);
+  const auto slash = std::min(text.find('/'), text.size());
+  PairName out{read_ids(text.substr(0, slash)), {}};
+  if (slash < text.size()) out.main = read_ids(text.substr(slash + 1));
   const bool edges = out.secondary.size() == 2 && out.main.size() == 2;
   const bool node = out.secondary.size() == 1 && (out.main.size() == 3 || out.main.size() == 4);
-  if (!edges && !node) return no_pair(text);
-  return out;
+  if (edges || node) return out;
+  return Error{
+      Error::Code::config,
+      fmt::format("{}: expected a node or edge and a segment or edge, by the ids of their nodes, "
+                  "such as pair:57/30-38-44-31 or pair:11-12/30-31",
+                  text)};
 }
 
 Result<FoundPair> find_pair(const Scene& scene, const PairName& name, std::int64_t interface) {

@@ -16,8 +16,8 @@
 #include "report/gaps_names.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/cycle.hpp"
+#include "report/shared/gate.hpp"
 #include "report/shared/parts.hpp"
-#include "report/shared/verdict.hpp"
 
 namespace deck {
 

@@ -3,7 +3,6 @@
 
 #include "report/shared/gate.hpp"
 #include "report/shared/schemas.hpp"
-#include "report/shared/verdict.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {

@@ -1,7 +1,6 @@
 // The document of deck parts: parts, totals, steps of elements and nodes, kinematic conditions.
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
-#include "report/parts_rows.hpp"
 #include "report/shared/parts.hpp"
 #include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"

@@ -4,7 +4,6 @@
 #include "deck/front/loaded_deck.hpp"
 #include "report/diagnostics_common.hpp"
 #include "report/gaps_names.hpp"
-#include "report/shared/verdict.hpp"
 
 namespace deck {
 namespace {

@@ -12,7 +12,6 @@
 #include "report/cycle_costs.hpp"
 #include "report/gaps_names.hpp"
 #include "report/shared/gate.hpp"
-#include "report/shared/verdict.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {

@@ -13,7 +13,6 @@
 #include "model/shared/item_spans.hpp"
 #include "report/gaps_names.hpp"
 #include "report/shared/gate.hpp"
-#include "report/shared/verdict.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {
