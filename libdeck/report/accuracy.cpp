@@ -27,28 +27,20 @@ std::string choice_text(const AccuracyChoices& choices, bool color, std::size_t 
     out += (out.empty() ? "" : " ") + sentence;
   out += "\n\n";
   const bool deck = choices.front().deck.has_value();
-  std::vector<TextTable::Column> columns{{"--accuracy"}};
-  if (deck) {
-    columns.push_back({"on this deck", Align::right});
-    columns.push_back({"wrong", Align::right});
-  }
-  for (const char* title : {"hard cases", "wrong there", "other answer", "kinds"})
-    columns.push_back({title, Align::right});
-  TextTable table(columns);
+  TextTable table({"--accuracy", "+>on this deck", "+>wrong", ">hard cases", ">wrong there",
+                   ">other answer", ">kinds"},
+                  deck);
   for (const AccuracyChoice& c : choices) {
     const Tone own = c.accuracy == Accuracy::robust ? Tone::bold : Tone::plain;
-    std::vector<TextTable::Cell> cells{{to_string(c.accuracy), own}};
-    if (deck) {
-      cells.emplace_back(seconds_text(c.deck->seconds), own);
-      cells.push_back(wrong_cell(c.deck->wrong.size(), c.deck->pairs));
-    }
-    cells.emplace_back(ratio_text(c.hard.ratio.value), own);
-    cells.push_back(wrong_cell(c.hard.wrong, c.hard.pairs));
-    cells.push_back(wrong_cell(c.hard.other_answer, c.hard.rewritten));
     const std::size_t right = c.hard.kinds_never_wrong();
-    cells.emplace_back(fmt::format("{} of {}", right, c.hard.kinds.size()),
-                       right == c.hard.kinds.size() ? Tone::green : Tone::red);
-    table.row(std::move(cells));
+    table.row({{to_string(c.accuracy), own},
+               {deck ? seconds_text(c.deck->seconds) : "", own},
+               deck ? wrong_cell(c.deck->wrong.size(), c.deck->pairs) : "",
+               {ratio_text(c.hard.ratio.value), own},
+               wrong_cell(c.hard.wrong, c.hard.pairs),
+               wrong_cell(c.hard.other_answer, c.hard.rewritten),
+               {fmt::format("{} of {}", right, c.hard.kinds.size()),
+                right == c.hard.kinds.size() ? Tone::green : Tone::red}});
   }
   out += table.fitted(width, color);
   const AccuracyChoice::OnHardCases& hard = choices.front().hard;

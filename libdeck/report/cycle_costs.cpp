@@ -202,31 +202,20 @@ Record<CostsRow> record_of(const CostsRow*) {
 
 std::string cost_text(const CycleInput& input, const CycleTextOptions& options) {
   if (input.costs == nullptr) return {};
-  TextTable table({{"interface", Align::right},
-                   {""},
-                   {"pairs", Align::right},
-                   {"ns/pair", Align::right},
-                   {"with flags", Align::right},
-                   {"with everything", Align::right}});
-  TextTable effects({{"interface", Align::right},
-                     {""},
-                     {"effect"},
-                     {"adds ns/pair", Align::right},
-                     {"against"},
-                     {"moves a force by"}});
+  TextTable table({">interface", "", ">pairs", ">ns/pair", ">with flags", ">with everything"});
+  TextTable effects({">interface", "", "effect", ">adds ns/pair", "against", "moves a force by"});
   each_timed(input, [&](const cycle::ContactOutcome& c, const ContactCost& cost) {
-    const std::string id = std::to_string(c.contact->inter->id), name = name_of(*c.contact);
-    table.row({id, name, std::to_string(cost.pairs), nanoseconds(cost.loop_ns),
-               nanoseconds(cost.flags_ns),
-               cost.all_ns > 0 ? nanoseconds(cost.all_ns) : std::string("-")});
+    const std::int64_t id = c.contact->inter->id;
+    const std::string name = name_of(*c.contact);
+    table.row({id, name, cost.pairs, nanoseconds(cost.loop_ns), nanoseconds(cost.flags_ns),
+               cost.all_ns > 0 ? nanoseconds(cost.all_ns) : "-"});
     for (const EffectCost& e : cost.effects)
       if (e.on && e.why_not.empty())
         effects.row({id, name, e.name, added_text(e), e.other, change_text(e.change)});
   });
   std::string out = cost_sentence(input) + "\n";
-  if (table.size() > 0) out += table.fitted(options.width, options.color, 2);
-  if (effects.size() > 0)
-    out += "Effects that run\n" + effects.fitted(options.width, options.color, 2, 3);
+  out += table.below_heading(options);
+  if (effects.size() > 0) out += "Effects that run\n" + effects.below_heading(options, 3);
   return out + fmt::format("  {} timings each, in turn; {}; {}\n", input.cost_repeats,
                            terminal_text(input.processor), accuracy_compiler());
 }

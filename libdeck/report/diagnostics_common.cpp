@@ -1,6 +1,8 @@
 // Place, severity and details of a finding as all writers of lint results show them.
 #include "report/diagnostics_common.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -57,6 +59,10 @@ Place place_of(const LintedDeck& linted, const Span& span) {
                                              std::max(end_of_line, begin.column));
   out.known = true;
   return out;
+}
+
+std::string Place::text() const {
+  return known ? fmt::format("{}:{}:{}", file, line, column) : file;
 }
 
 std::string details(const Diagnostic& d) {

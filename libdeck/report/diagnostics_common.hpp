@@ -14,6 +14,8 @@ struct Place {
   std::string file;
   std::uint64_t line = 1, column = 1, end_column = 1;
   bool known = false;
+  /// "car.rad:3:1", or the file alone.
+  std::string text() const;
 };
 Place place_of(const LintedDeck& deck, const Span& span);
 

@@ -63,9 +63,8 @@ std::string crossings_text(const Scene& scene, const std::vector<Crossing>& cros
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<const Crossing*>> by_parts;
   for (const Crossing& x : crossings)
     by_parts[{edge_element(model, x).part, segment_element(scene, x).part}].push_back(&x);
-  TextTable table =
-      make_table({">part", ">through part", ">crossings", ">interface", "for example edge",
-                  ">of element", "through segment", ">of element"});
+  TextTable table({">part", ">through part", ">crossings", ">interface", "for example edge",
+                   ">of element", "through segment", ">of element"});
   for (const auto& [parts, list] : by_parts) {
     const Crossing& x = *list.front();
     const Contact& c = scene.contacts[x.contact];
@@ -103,8 +102,8 @@ std::string decisions_text(const Scene& scene, std::size_t rows, bool always, bo
       " The solver's arithmetic decides {} otherwise: {} about contact, {} about "
       "nodes exactly on a segment.\n",
       differ, r.contact_differs, r.surface_differs);
-  TextTable table = make_table({">interface", "node/edge", "segment/edge", "exactly", ">gap",
-                                ">distance", ">the solver's", "action"});
+  TextTable table({">interface", "node/edge", "segment/edge", "exactly", ">gap", ">distance",
+                   ">the solver's", "action"});
   const std::size_t shown = std::min(rows, r.differences.size());
   for (std::size_t k = 0; k < shown; ++k) {
     const DecisionDifference& d = r.differences[k];

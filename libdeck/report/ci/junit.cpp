@@ -1,6 +1,9 @@
 // Findings as JUnit XML: a suite for each deck, a case for what was found or could not be read.
 // Only errors are failures. The names of cases hold no lines, so that a server knows them again
 // after an edit elsewhere.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <map>
 
 #include "base/shared/escape.hpp"
@@ -9,20 +12,14 @@
 namespace deck {
 namespace {
 
-std::string attribute(std::string_view name, std::string_view value) {
-  return " " + std::string(name) + "=\"" + xml_text(value) + "\"";
-}
-
 /// "DK171 /INTER/TYPE7/31", and "... (2)" for the second of a name in a file.
 std::string case_name(const Diagnostic& d, const std::string& file,
                       std::map<std::string, int>& seen) {
   std::string name = finding_name(d);
-  if (!d.keyword.empty()) {
-    name += " " + d.keyword;
-    if (d.id != 0) name += "/" + std::to_string(d.id);
-  }
+  if (!d.keyword.empty()) name += " " + d.keyword;
+  if (!d.keyword.empty() && d.id != 0) name += fmt::format("/{}", d.id);
   const int number = ++seen[file + '\n' + name];
-  return number == 1 ? name : name + " (" + std::to_string(number) + ")";
+  return number == 1 ? name : fmt::format("{} ({})", name, number);
 }
 
 }  // namespace
@@ -30,46 +27,47 @@ std::string case_name(const Diagnostic& d, const std::string& file,
 std::string lint_junit(const std::vector<LintedDeck>& decks) {
   std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"deck lint\">\n";
   for (const LintedDeck& deck : decks) {
+    const std::string path = xml_text(deck.path);
     if (deck.result == nullptr) {
-      out += "  <testsuite" + attribute("name", deck.path) +
-             " tests=\"1\" failures=\"0\" errors=\"1\">\n    <testcase name=\"read\"" +
-             attribute("classname", deck.path) + "><error" + attribute("message", deck.error) +
-             "/></testcase>\n  </testsuite>\n";
+      out += fmt::format(
+          "  <testsuite name=\"{0}\" tests=\"1\" failures=\"0\" errors=\"1\">\n"
+          "    <testcase name=\"read\" classname=\"{0}\"><error message=\"{1}\"/></testcase>\n"
+          "  </testsuite>\n",
+          path, xml_text(deck.error));
       continue;
     }
-    const LintResult& r = *deck.result;
+    const std::vector<Diagnostic>& found = deck.result->diagnostics;
     std::string left_out;
     if (const auto coverage = detail::coverage_of(deck))
       left_out = coverage_lead(*coverage) + coverage_tail(*coverage);
-    const std::size_t skipped = left_out.empty() ? 0 : 1;
-    const std::size_t count = (r.diagnostics.empty() ? 1 : r.diagnostics.size()) + skipped;
-    std::size_t failures = 0;
-    for (const Diagnostic& d : r.diagnostics) failures += d.severity == Severity::error;
-    out += "  <testsuite" + attribute("name", deck.path) + " tests=\"" + std::to_string(count) +
-           "\" failures=\"" + std::to_string(failures) + "\" errors=\"0\" skipped=\"" +
-           std::to_string(skipped) + "\">\n";
-    if (r.diagnostics.empty())
-      out += "    <testcase name=\"lint\"" + attribute("classname", deck.path) + "/>\n";
+    const int skipped = left_out.empty() ? 0 : 1;
+    const auto failures = std::count_if(found.begin(), found.end(), [](const Diagnostic& d) {
+      return d.severity == Severity::error;
+    });
+    out += fmt::format(
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n",
+        path, std::max<std::size_t>(1, found.size()) + static_cast<std::size_t>(skipped), failures,
+        skipped);
+    if (found.empty()) out += fmt::format("    <testcase name=\"lint\" classname=\"{}\"/>\n", path);
     if (skipped > 0)
-      out += "    <testcase name=\"not examined\"" + attribute("classname", deck.path) +
-             "><skipped" + attribute("message", left_out.substr(left_out.find_first_not_of(' '))) +
-             "/></testcase>\n";
+      out += fmt::format(
+          "    <testcase name=\"not examined\" classname=\"{}\"><skipped message=\"{}\"/>"
+          "</testcase>\n",
+          path, xml_text(left_out.substr(left_out.find_first_not_of(' '))));
     std::map<std::string, int> seen;
-    for (const Diagnostic& d : r.diagnostics) {
+    for (const Diagnostic& d : found) {
       const detail::Place at = detail::place_of(deck, d.span);
-      const std::string where =
-          at.file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
-      out += "    <testcase" + attribute("name", case_name(d, at.file, seen)) +
-             attribute("classname", at.file) + attribute("file", at.file) + " line=\"" +
-             std::to_string(at.line) + "\">";
-      const std::string body = where + "\n" + detail::details(d);
+      out += fmt::format("    <testcase name=\"{0}\" classname=\"{1}\" file=\"{1}\" line=\"{2}\">",
+                         xml_text(case_name(d, at.file, seen)), xml_text(at.file), at.line);
+      const std::string body =
+          fmt::format("{}:{}:{}\n{}", at.file, at.line, at.column, detail::details(d));
       if (d.severity != Severity::error)
-        out += "<system-out>" +
-               xml_text(std::string(to_string(d.severity)) + ": " + d.message + "\n" + body) +
-               "</system-out>";
+        out += fmt::format(
+            "<system-out>{}</system-out>",
+            xml_text(fmt::format("{}: {}\n{}", to_string(d.severity), d.message, body)));
       else
-        out += "<failure" + attribute("type", to_string(d.severity)) +
-               attribute("message", d.message) + ">" + xml_text(body) + "</failure>";
+        out += fmt::format("<failure type=\"error\" message=\"{}\">{}</failure>",
+                           xml_text(d.message), xml_text(body));
       out += "</testcase>\n";
     }
     out += "  </testsuite>\n";

@@ -1,4 +1,6 @@
 // Findings as SARIF 2.1.0, with rules, fixes and suppressions.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -9,27 +11,19 @@ namespace deck {
 namespace {
 
 const char* level_of(Severity severity) {
-  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
+  return severity == Severity::info ? "note" : to_string(severity);
 }
 
 constexpr std::string_view root_id = "%SRCROOT%";
 
 /// Percent-encodes what may not stand in a URI reference.
 std::string uri_of(std::string_view path) {
-  constexpr char hex[] = "0123456789ABCDEF";
-  const bool absolute = path.starts_with('/');
-  std::string out = absolute ? "file://" : "";
+  std::string out = path.starts_with('/') ? "file://" : "";
   for (const char c : path) {
     const auto u = static_cast<unsigned char>(c);
     const bool plain = (u >= 'a' && u <= 'z') || (u >= 'A' && u <= 'Z') || (u >= '0' && u <= '9') ||
                        std::string_view("-._~/!$&'()*+,;=@").find(c) != std::string_view::npos;
-    if (plain) {
-      out += c;
-    } else {
-      out += '%';
-      out += hex[u >> 4];
-      out += hex[u & 15];
-    }
+    out += plain ? std::string(1, c) : fmt::format("%{:02X}", u);
   }
   return out;
 }
@@ -41,11 +35,8 @@ class Sarif {
 
   void write(const std::vector<LintedDeck>& decks) {
     json_.begin_object();
-    json_.field("$schema", "https://json.schemastore.org/sarif-2.1.0.json")
-        .field("version", "2.1.0")
-        .key("runs")
-        .begin_array()
-        .begin_object();
+    json_.field("$schema", "https://json.schemastore.org/sarif-2.1.0.json");
+    json_.field("version", "2.1.0").key("runs").begin_array().begin_object();
     tool();
     json_.field("columnKind", "unicodeCodePoints");
     if (!root_.path().empty()) source_root();
@@ -59,14 +50,17 @@ class Sarif {
   }
 
  private:
-  void text(std::string_view name, std::string_view content) {
-    json_.key(name).begin_object(true).field("text", content).end_object();
+  /// An object of one member on a line.
+  template <class T>
+  void object(std::string_view name, std::string_view member, const T& value) {
+    json_.key(name).begin_object(true).field(member, value).end_object();
   }
+  void text(std::string_view name, std::string_view content) { object(name, "text", content); }
 
   void source_root() {
-    json_.key("originalUriBaseIds").begin_object().key(root_id).begin_object(true);
-    json_.field("uri", uri_of(root_.path() + (root_.path().ends_with('/') ? "" : "/")));
-    json_.end_object().end_object();
+    json_.key("originalUriBaseIds").begin_object();
+    object(root_id, "uri", uri_of(root_.path() + (root_.path().ends_with('/') ? "" : "/")));
+    json_.end_object();
   }
 
   void tool() {
@@ -79,10 +73,7 @@ class Sarif {
       text("shortDescription", r.title);
       text("fullDescription", r.problem);
       text("help", explain_rule(r, schemas_));
-      json_.key("defaultConfiguration")
-          .begin_object(true)
-          .field("level", level_of(r.severity()))
-          .end_object();
+      object("defaultConfiguration", "level", level_of(r.severity()));
       json_.key("properties").begin_object(true).key("tags").begin_array(true);
       json_.value(family_of(r.id)).end_array().end_object();
       json_.end_object();
@@ -128,30 +119,27 @@ class Sarif {
     json_.end_object();
   }
 
-  void region(const LintedDeck& deck, const Span& span, bool with_end_line = false) {
+  /// `deleted`: what a fix takes out, which may end on another line.
+  void region(const LintedDeck& deck, const Span& span, bool deleted = false) {
     const Source& source = deck.deck->sources[span.file];
     const detail::Place at = detail::place_of(deck, span);
-    const Position end = source.position(span.offset + span.length);
     // SARIF columns count characters, spans count bytes.
     const auto characters = [&](std::uint64_t offset, std::uint64_t column) {
-      const std::string_view line = source.line_at(offset);
-      const auto upto = std::min<std::size_t>(static_cast<std::size_t>(column) - 1, line.size());
-      const auto inner = static_cast<std::uint64_t>(
-          std::count_if(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(upto),
-                        [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }));
-      return column - inner;
+      const auto before = source.line_at(offset).substr(0, static_cast<std::size_t>(column) - 1);
+      return column -
+             static_cast<std::uint64_t>(std::count_if(before.begin(), before.end(), [](char c) {
+               return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
+             }));
     };
-    json_.key(with_end_line ? "deletedRegion" : "region").begin_object(true);
+    json_.key(deleted ? "deletedRegion" : "region").begin_object(true);
     json_.field("startLine", at.line).field("startColumn", characters(span.offset, at.column));
-    if (with_end_line) {
-      json_.field("endLine", end.line);
-      json_.field("endColumn", characters(span.offset + span.length, end.column));
-    } else {
-      json_.field("endColumn", characters(span.offset, at.end_column));
-    }
-    json_.end_object();
+    const std::uint64_t last = span.offset + (deleted ? span.length : 0);
+    const Position end = source.position(last);
+    if (deleted) json_.field("endLine", end.line);
+    json_.field("endColumn", characters(last, deleted ? end.column : at.end_column)).end_object();
   }
 
+  /// Of a finding, or of a note with its message.
   void location(const LintedDeck& deck, const Diagnostic* d, const Span& span,
                 const std::string* message) {
     const detail::Place at = detail::place_of(deck, span);
@@ -162,16 +150,13 @@ class Sarif {
     if (at.known)
       region(deck, span);
     else  // code scanning shows nothing without a line
-      json_.key("region").begin_object(true).field("startLine", at.line).end_object();
+      object("region", "startLine", at.line);
     json_.end_object();
-    if (d != nullptr && !d->keyword.empty())
-      json_.key("logicalLocations")
-          .begin_array()
-          .begin_object(true)
-          .field("fullyQualifiedName", d->keyword + "/" + std::to_string(d->id))
-          .field("kind", "object")
-          .end_object()
-          .end_array();
+    if (d != nullptr && !d->keyword.empty()) {
+      json_.key("logicalLocations").begin_array().begin_object(true);
+      json_.field("fullyQualifiedName", d->keyword + "/" + std::to_string(d->id));
+      json_.field("kind", "object").end_object().end_array();
+    }
     json_.end_object();
   }
 
@@ -211,9 +196,8 @@ class Sarif {
       for (const auto& [span, message] : d.notes) location(deck, nullptr, span, &message);
       json_.end_array();
     }
-    if (!d.field.empty())
-      json_.key("properties").begin_object(true).field("field", d.field).end_object();
-    json_.key("partialFingerprints").begin_object(true).field("deckFinding/v1", print).end_object();
+    if (!d.field.empty()) object("properties", "field", d.field);
+    object("partialFingerprints", "deckFinding/v1", print);
     if (d.fix && d.fix->safe) fixes(deck, *d.fix);
     json_.end_object();
   }

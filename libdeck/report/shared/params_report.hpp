@@ -58,9 +58,5 @@ Named<ParameterRow> parameters_of(const ParamsInput& input, const InterBase& int
 template <class T>
 std::string effective_text(const ParamsInput& input, const InterBase& inter, std::string_view name,
                            const Effective<T>& field);
-/// True if the field is written on the card with something else than what a blank would give.
-template <class T>
-bool changed_on_card(const ParamsInput& input, const InterBase& inter, std::string_view name,
-                     const Effective<T>& field);
 
 }  // namespace deck

@@ -1,19 +1,17 @@
-// `deck cycle` for people: what the first force evaluation does, contact by contact.
+// `deck cycle` for people: what the first force evaluation does, contact by contact, and which
+// effects run.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
+#include <map>
 
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
 #include "cycle/shared/step_scale.hpp"
 #include "report/cycle_costs.hpp"
 #include "report/gaps_names.hpp"
-#include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"
-#include "report/shared/text_table.hpp"
-#include "report/terminal/cycle_effects_text.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {
@@ -24,7 +22,7 @@ std::string directions(int bits) {
   std::string text;
   const char* const names[] = {"X", "Y", "Z"};
   for (int k = 0; k < 3; ++k)
-    if ((bits & (4 >> k)) != 0) text += (text.empty() ? "" : ", ") + std::string(names[k]);
+    if ((bits & (4 >> k)) != 0) append(text, ", ", names[k]);
   return text.empty() ? "none" : text;
 }
 
@@ -40,36 +38,9 @@ double size(const std::array<double, 3>& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/// "node" or "edge" of a pair.
-std::string secondary_text(const Model& model, const Contact& c, const cycle::PairOutcome& p) {
-  if (c.kind == ContactKind::node_segment)
-    return node_text(model, c.secondary[p.at.secondary].node);
-  const auto& n = c.secondary_edges[p.at.secondary].nodes;
-  return fmt::format("{}-{}", model.node_id(n[0]), model.node_id(n[1]));
-}
-
-std::string main_text(const Model& model, const Contact& c, const cycle::PairOutcome& p) {
-  std::string text;
-  const auto add = [&](NodeIndex n) {
-    text += fmt::format("{}{}", text.empty() ? "" : " ", model.node_id(n));
-  };
-  if (c.kind == ContactKind::edge_edge) {
-    for (const NodeIndex n : c.main_edges[p.at.main].nodes) add(n);
-  } else {
-    const auto& n = c.main[p.at.main].nodes;
-    for (std::size_t k = 0; k < (n[2] == n[3] ? 3u : 4u); ++k) add(n[k]);
-  }
-  return text;
-}
-
-/// "node 1, node 2, … and 5 more" of those that leave an interface.
-std::string names_of(const Model& model, const Contact& c, const std::vector<cycle::Removal>& list,
-                     std::size_t most) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, list.size()); ++i)
-    text += (i == 0 ? "" : ", ") + secondary_name(model, c, list[i].secondary);
-  if (list.size() > most) text += fmt::format(" and {} more", list.size() - most);
-  return text;
+/// "interface 3 TYPE7: ", behind two blanks
+std::string line_head(const Contact& c) {
+  return fmt::format("  interface {} {}: ", c.inter->id, kind_name(c));
 }
 
 /// Who leaves its interface for good, ties, or is released in this cycle.
@@ -77,31 +48,26 @@ std::string lasting_lines(const CycleInput& input) {
   const Model& model = *input.scene->model;
   std::string out;
   for (const cycle::ContactOutcome& o : input.outcome->contacts) {
-    const std::string head =
-        fmt::format("  interface {} {}: ", o.contact->inter->id, kind_name(*o.contact));
-    for (const auto because :
-         {cycle::Removal::Because::mid_surface, cycle::Removal::Because::kinematic_step,
-          cycle::Removal::Because::nodal_step, cycle::Removal::Because::no_element_left}) {
-      std::vector<cycle::Removal> list;
-      for (const cycle::Removal& r : o.removed)
-        if (r.because == because) list.push_back(r);
-      if (!list.empty())
-        out += fmt::format("{}removed for good, {}: {}\n", head, to_string(because),
-                           names_of(model, *o.contact, list, 10));
-    }
+    const Contact& c = *o.contact;
+    const std::string head = line_head(c);
+    std::map<cycle::Removal::Because, std::vector<cycle::Removal>> removed;
+    for (const cycle::Removal& r : o.removed) removed[r.because].push_back(r);
+    for (const auto& [because, list] : removed)
+      out += fmt::format("{}removed for good, {}: {}\n", head, to_string(because),
+                         first_of(list, 10, [&](const cycle::Removal& r) {
+                           return secondary_name(model, c, r.secondary);
+                         }));
     std::size_t tied = 0, let_go = 0;
     for (const cycle::TieChange& t : o.ties) ++(t.tied ? tied : let_go);
     if (tied > 0) out += head + count(tied, "pair is tied\n", "pairs are tied\n");
     if (let_go > 0) out += head + count(let_go, "pair lets go\n", "pairs let go\n");
-    if (!o.released.empty()) {
-      out += head + "boundary conditions released (IBC) at ";
-      for (std::size_t i = 0; i < std::min<std::size_t>(10, o.released.size()); ++i)
-        out += fmt::format("{}node {}: {} -> {}", i == 0 ? "" : ", ",
-                           model.node_id(o.released[i].node), directions(o.released[i].before),
-                           directions(o.released[i].after));
-      if (o.released.size() > 10) out += fmt::format(" and {} more", o.released.size() - 10);
-      out += "\n";
-    }
+    const auto released = [&](const auto& r) {
+      return fmt::format("node {}: {} -> {}", model.node_id(r.node), directions(r.before),
+                         directions(r.after));
+    };
+    if (!o.released.empty())
+      out += head + "boundary conditions released (IBC) at " + first_of(o.released, 10, released) +
+             "\n";
   }
   return out;
 }
@@ -110,47 +76,41 @@ std::string lasting_lines(const CycleInput& input) {
 /// segment and of its corner differ by more than Angladm.
 std::string criteria_table(const CycleInput& input, const CycleTextOptions& options) {
   const Model& model = *input.scene->model;
-  TextTable table = make_table(
+  TextTable table(
       {">interface", ">node", ">radius", ">penetration / (Padm gap)", ">cos / cos Angladm"});
   for (const cycle::ContactOutcome& o : input.outcome->contacts) {
     std::vector<cycle::NodeCriteria> list = o.criteria;
     std::stable_sort(list.begin(), list.end(),
                      [](const auto& a, const auto& b) { return a.radius < b.radius; });
     for (std::size_t i = 0; i < std::min<std::size_t>(10, list.size()); ++i)
-      table.row({fmt::format("{}", o.contact->inter->id), node_text(model, list[i].node),
-                 fmt::format("{:.6g}", list[i].radius), figure_text(list[i].penetration),
-                 list[i].angle < 1e30 ? fmt::format("{:.6g}", list[i].angle) : "-"});
+      table.row({o.contact->inter->id, node_text(model, list[i].node), list[i].radius,
+                 figure_text(list[i].penetration),
+                 known_cell(list[i].angle < 1e30, list[i].angle)});
   }
-  return table.size() > 0 ? table.fitted(options.width, options.color, 2) : std::string();
+  return table.below_heading(options);
 }
 
 std::string event_text(const CycleInput& input, const cycle::StepEvent& e) {
   const Model& model = *input.scene->model;
   const Contact& c = input.scene->contacts[e.contact];
-  std::string text = fmt::format("  step {} ({:.6g}): interface {} {}: ", e.step, e.time,
-                                 c.inter->id, kind_name(c));
-  switch (e.kind) {
-    case cycle::StepEvent::Kind::removed:
-      return text + fmt::format("{} removed, {}\n", secondary_name(model, c, e.at.secondary),
-                                to_string(e.because));
-    case cycle::StepEvent::Kind::released:
-      return text + fmt::format("node {} fixed in {} -> {}\n", model.node_id(e.release.node),
-                                directions(e.release.before), directions(e.release.after));
-    default: {
-      cycle::PairOutcome pair;
-      pair.at = e.at;
-      return text + fmt::format("{} {} {}\n", secondary_name(model, c, e.at.secondary),
-                                e.kind == cycle::StepEvent::Kind::tied ? "tied to" : "lets go of",
-                                main_text(model, c, pair));
-    }
-  }
+  const std::string head =
+      fmt::format("  step {} ({:.6g}): {}", e.step, e.time, line_head(c).substr(2));
+  if (e.kind == cycle::StepEvent::Kind::released)
+    return head + fmt::format("node {} fixed in {} -> {}\n", model.node_id(e.release.node),
+                              directions(e.release.before), directions(e.release.after));
+  const std::string name = secondary_name(model, c, e.at.secondary);
+  if (e.kind == cycle::StepEvent::Kind::removed)
+    return head + fmt::format("{} removed, {}\n", name, to_string(e.because));
+  return head + fmt::format("{} {} {}\n", name,
+                            e.kind == cycle::StepEvent::Kind::tied ? "tied to" : "lets go of",
+                            ids_text(model, pair_nodes(c, e.at.secondary, e.at.main).main, ' '));
 }
 
 /// The history in at most twenty lines, and the first events.
 std::string steps_text(const CycleInput& input, const CycleTextOptions& options) {
   const cycle::StepsOutcome& s = *input.steps;
-  TextTable table = make_table({">step", ">time", ">pairs with force", ">sum of |F|",
-                                ">elastic energy", ">tied", ">removed so far"});
+  TextTable table({">step", ">time", ">pairs with force", ">sum of |F|", ">elastic energy", ">tied",
+                   ">removed so far"});
   const std::size_t n = s.lines.size(), shown = std::min<std::size_t>(n, 20);
   for (std::size_t r = 0; r < shown; ++r) {
     const std::size_t k = shown < 2 ? 0 : r * (n - 1) / (shown - 1);
@@ -162,15 +122,12 @@ std::string steps_text(const CycleInput& input, const CycleTextOptions& options)
       sum.force_sum += c.force_sum;
       sum.elastic_energy += c.elastic_energy;
     }
-    table.row({fmt::format("{}", k), fmt::format("{:.6g}", s.lines[k].time),
-               fmt::format("{}", sum.pairs_with_force), figure_text(sum.force_sum),
-               figure_text(sum.elastic_energy), fmt::format("{}", sum.pairs_tied),
-               fmt::format("{}", sum.removed)});
+    table.row({k, s.lines[k].time, sum.pairs_with_force, figure_text(sum.force_sum),
+               figure_text(sum.elastic_energy), sum.pairs_tied, sum.removed});
   }
   std::string out =
       "  prescribed motion only: nodes keep their given velocities, no structure answers and "
-      "contact "
-      "forces move nothing\n" +
+      "contact forces move nothing\n" +
       table.fitted(options.width, options.color, 2);
   for (std::size_t i = 0; i < std::min<std::size_t>(20, s.events.size()); ++i)
     out += event_text(input, s.events[i]);
@@ -185,13 +142,12 @@ std::string state_words(const cycle::ContactOutcome& o) {
   if (!o.complete) return o.notes.empty() ? "too many pairs" : "not evaluated";
   std::string text;
   const auto add = [&](std::size_t n, const char* what) {
-    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, what);
+    if (n > 0) append(text, ", ", fmt::format("{} {}", n, what));
   };
   add(o.gap_closed, "at the mid-surface");
   add(removed_by_step(o), "removed by dtmin");
   add(o.pairs_tied, "tied");
-  if (o.massless_nodes > 0)
-    text += fmt::format("{}{} without mass", text.empty() ? "" : ", ", o.massless_nodes);
+  add(o.massless_nodes, "without mass");
   return text;
 }
 
@@ -200,61 +156,56 @@ std::string note_of(const std::vector<const cycle::ContactOutcome*>& list) {
   std::string note;
   for (const cycle::ContactOutcome* o : list) {
     const std::string words = state_words(*o);
-    if (words.empty()) continue;
-    note += note.empty() ? "" : "; ";
-    note += list.size() > 1 ? fmt::format("{}: {}", to_string(o->contact->role), words) : words;
+    if (!words.empty())
+      append(note, "; ",
+             list.size() > 1 ? fmt::format("{}: {}", to_string(o->contact->role), words) : words);
   }
   return note;
+}
+
+/// Some contacts of an interface; `part`: one of several. `all`: in the longer table.
+std::vector<TextTable::Cell> contact_row(const CycleInput& input,
+                                         const std::vector<const cycle::ContactOutcome*>& list,
+                                         bool part, bool all) {
+  const Model& model = *input.scene->model;
+  const cycle::InterfaceSummary s = cycle::summarize(list, input.outcome->structure);
+  const Contact& c = *list.front()->contact;
+  // Where nothing was evaluated no figure is known.
+  const bool known = std::any_of(list.begin(), list.end(),
+                                 [](const cycle::ContactOutcome* o) { return o->complete; });
+  const auto figure = [&](double v) { return known ? figure_text(v) : "-"; };
+  const double energy = s.elastic_energy + s.friction_energy + s.damping_energy;
+  return {c.inter->id,
+          part ? kind_name(c) : type_name(*c.inter),
+          part ? "" : c.inter->title,
+          known_cell(known, s.pairs_in_reach),
+          known_cell(known, s.pairs_with_force),
+          figure(s.force_sum),
+          figure(s.largest_pair_force),
+          figure(all ? s.elastic_energy : energy),
+          figure(s.friction_energy),
+          figure(s.damping_energy),
+          figure(s.largest_acceleration),
+          node_text(model, s.acceleration_node),
+          {step_text(s.contact_dt), s.contact_dt < s.structure_dt ? Tone::yellow : Tone::plain},
+          node_text(model, s.contact_dt_node),
+          known_cell(known, s.near_singular),
+          {note_of(list), s.gap_closed > 0 ? Tone::red : Tone::plain}};
 }
 
 /// One row per interface; those without a pair in reach in one line. With `verbose` all of them,
 /// every contact of a TYPE19 in a row of its own below, and more columns.
 std::string contact_table(const CycleInput& input, const CycleTextOptions& options) {
-  const Model& model = *input.scene->model;
   const bool all = options.verbose;
-  TextTable table =
-      all ? make_table({">id", "type", "title", ">in reach", ">with force", ">sum of |F|",
-                        ">largest |F|", ">elastic energy", ">friction", ">damping", ">acceleration",
-                        "of node", ">contact dt", "of node", ">near singular", "note"})
-          : make_table(
-                {">id", "type", "title", ">pairs", ">sum |F|", ">energy", ">dt", "node", "note"});
-  const auto add = [&](const std::vector<const cycle::ContactOutcome*>& list, bool part) {
-    const cycle::InterfaceSummary s = cycle::summarize(list, input.outcome->structure);
-    const Contact& c = *list.front()->contact;
-    std::vector<TextTable::Cell> cells = {
-        fmt::format("{}", c.inter->id), part ? kind_name(c) : fmt::format("TYPE{}", c.inter->type),
-        part ? "" : c.inter->title};
-    // Where nothing was evaluated no figure is known.
-    const bool known = std::any_of(list.begin(), list.end(),
-                                   [](const cycle::ContactOutcome* o) { return o->complete; });
-    const auto count = [&](std::size_t n) {
-      cells.emplace_back(known ? fmt::format("{}", n) : "-");
-    };
-    const auto figure = [&](double v) { cells.emplace_back(known ? figure_text(v) : "-"); };
-    if (all) count(s.pairs_in_reach);
-    count(s.pairs_with_force);
-    figure(s.force_sum);
-    if (all) figure(s.largest_pair_force);
-    figure(all ? s.elastic_energy : s.elastic_energy + s.friction_energy + s.damping_energy);
-    if (all) {
-      figure(s.friction_energy);
-      figure(s.damping_energy);
-      figure(s.largest_acceleration);
-      cells.emplace_back(node_text(model, s.acceleration_node));
-    }
-    const bool limits = s.contact_dt < s.structure_dt;
-    cells.emplace_back(step_text(s.contact_dt), limits ? Tone::yellow : Tone::plain);
-    cells.emplace_back(node_text(model, s.contact_dt_node));
-    if (all) count(s.near_singular);
-    cells.emplace_back(note_of(list), s.gap_closed > 0 ? Tone::red : Tone::plain);
-    table.row(std::move(cells));
-  };
+  TextTable table(
+      {">id", "type", "title", "+>in reach", all ? ">with force" : ">pairs",
+       all ? ">sum of |F|" : ">sum |F|", "+>largest |F|", all ? ">elastic energy" : ">energy",
+       "+>friction", "+>damping", "+>acceleration", "+of node", all ? ">contact dt" : ">dt",
+       all ? "of node" : "node", "+>near singular", "note"},
+      all);
   std::vector<std::int64_t> quiet;
-  for (const auto& places :
-       by_interface(input.outcome->contacts,
-                    [](const cycle::ContactOutcome& o) { return o.contact->inter; })) {
-    std::vector<const cycle::ContactOutcome*> list;
-    for (const std::size_t i : places) list.push_back(&input.outcome->contacts[i]);
+  for (const auto& list :
+       by_interface(input.outcome->contacts, [](const auto& o) { return o.contact->inter; })) {
     const bool idle = std::all_of(list.begin(), list.end(), [](const cycle::ContactOutcome* o) {
       return o->pairs_in_reach == 0 && is_no_limit(o->step.dt) &&
              (o->contact->dropped || state_words(*o).empty());
@@ -263,14 +214,12 @@ std::string contact_table(const CycleInput& input, const CycleTextOptions& optio
       quiet.push_back(list.front()->contact->inter->id);
       continue;
     }
-    add(list, false);
+    table.row(contact_row(input, list, false, all));
     if (all && list.size() > 1)
-      for (const cycle::ContactOutcome* o : list) add({o}, true);
+      for (const cycle::ContactOutcome* o : list) table.row(contact_row(input, {o}, true, all));
   }
-  std::string out;
-  if (table.size() > 0) out = table.fitted(options.width, options.color, 2);
-  return out + folded_ids(quiet, "interface without a pair in reach",
-                          "interfaces without a pair in reach");
+  return table.below_heading(options) + folded_ids(quiet, "interface without a pair in reach",
+                                                   "interfaces without a pair in reach");
 }
 
 std::string singular_table(const CycleInput& input, const CycleTextOptions& options) {
@@ -278,41 +227,27 @@ std::string singular_table(const CycleInput& input, const CycleTextOptions& opti
   std::vector<std::pair<const cycle::ContactOutcome*, const cycle::PairOutcome*>> all;
   for (const cycle::ContactOutcome& o : input.outcome->contacts)
     for (const cycle::PairOutcome& p : o.near_singular) all.emplace_back(&o, &p);
-  if (all.empty()) return {};
   const auto left = [](const cycle::PairOutcome& p) {
     return p.gap > 0 ? (p.gap - p.penetration) / p.gap : 1.0;
   };
   std::stable_sort(all.begin(), all.end(),
                    [&](const auto& a, const auto& b) { return left(*a.second) < left(*b.second); });
-  TextTable table = make_table({">left of gap", ">gap", ">distance", ">|F|", ">stiffness",
-                                ">interface", "node/edge", "segment/edge"});
+  TextTable table({">left of gap", ">gap", ">distance", ">|F|", ">stiffness", ">interface",
+                   "node/edge", "segment/edge"});
   for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 10); ++i) {
     const auto& [o, p] = all[i];
-    table.row({fmt::format("{:.3g} %", 100 * left(*p)), fmt::format("{:.6g}", p->gap),
-               fmt::format("{:.6g}", p->distance), figure_text(size(p->force)),
-               figure_text(p->k_nodal), fmt::format("{}", o->contact->inter->id),
-               secondary_text(model, *o->contact, *p), main_text(model, *o->contact, *p)});
+    const PairNodes nodes = pair_nodes(*o->contact, p->at.secondary, p->at.main);
+    table.row({fmt::format("{:.3g} %", 100 * left(*p)), p->gap, p->distance,
+               figure_text(size(p->force)), figure_text(p->k_nodal), o->contact->inter->id,
+               ids_text(model, nodes.secondary, '-'), ids_text(model, nodes.main, ' ')});
   }
-  return table.fitted(options.width, options.color, 2);
+  return table.below_heading(options);
 }
 
 const char* element_name(ElementKind kind) {
-  switch (kind) {
-    case ElementKind::shell4:
-      return "shell";
-    case ElementKind::shell3:
-      return "3-node shell";
-    case ElementKind::solid8:
-      return "solid";
-    case ElementKind::truss:
-      return "truss";
-    case ElementKind::beam:
-      return "beam";
-    case ElementKind::spring:
-      return "spring";
-    default:
-      return "element";
-  }
+  static constexpr const char* names[] = {"shell",   "3-node shell", "solid", "element",
+                                          "element", "truss",        "beam",  "spring"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 /// What it means that no contact gives a step.
@@ -337,74 +272,222 @@ std::string step_lines(const CycleInput& input) {
                        o.structure.dt);
   out += "  contact    ";
   if (is_no_limit(o.contact_dt)) return out + no_limit_text(o) + "\n";
-  const char* why = o.contact_dt_source == cycle::StepLimit::Source::nodal
-                        ? "contact stiffness against nodal mass"
-                    : o.contact_dt_source == cycle::StepLimit::Source::kinematic
-                        ? "half the time to the mid-surface"
-                        : "gap over the largest relative velocity";
-  out += fmt::format("{:.4g}, {}", o.contact_dt, why);
+  static constexpr const char* sources[] = {"", "half the time to the mid-surface",
+                                            "contact stiffness against nodal mass",
+                                            "gap over the largest relative velocity"};
+  out += fmt::format("{:.4g}, {}", o.contact_dt,
+                     sources[static_cast<std::size_t>(o.contact_dt_source)]);
   if (o.limiting_contact != SIZE_MAX)
     out += fmt::format(", interface {}", o.contacts[o.limiting_contact].contact->inter->id);
   if (o.limiting_node != no_index) out += fmt::format(", node {}", model.node_id(o.limiting_node));
   return out + "\n";
 }
 
+// ---- effects ----------------------------------------------------------------------------------
+
+/// An interface with its effects.
+struct InterfaceEffects {
+  const InterBase* inter = nullptr;
+  std::vector<EffectLine> lines;
+};
+
+std::vector<InterfaceEffects> effects_by_interface(const CycleInput& input) {
+  std::vector<InterfaceEffects> out;
+  for (const InterBase* inter : input.scene->interfaces->ordered)
+    if (auto lines = effect_lines(*input.deck, *input.outcome, *inter); !lines.empty())
+      out.push_back({inter, std::move(lines)});
+  return out;
+}
+
+/// An effect with what it is on each interface; nullptr: not an effect of its type.
+struct EffectOfAll {
+  std::string name;
+  std::vector<const EffectLine*> lines;
+};
+
+/// In the order in which the effects occur.
+std::vector<EffectOfAll> effects_of(const std::vector<InterfaceEffects>& all) {
+  std::vector<EffectOfAll> out;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (const EffectLine& line : all[i].lines) {
+      auto it = std::find_if(out.begin(), out.end(),
+                             [&](const EffectOfAll& e) { return e.name == line.name; });
+      if (it == out.end())
+        it = out.insert(it, {line.name, std::vector<const EffectLine*>(all.size())});
+      if (it->lines[i] == nullptr) it->lines[i] = &line;
+    }
+  return out;
+}
+
+/// Effects that run somewhere down, interfaces across, with the field that asks for each.
+std::string effect_matrix(const std::vector<InterfaceEffects>& all,
+                          const CycleTextOptions& options) {
+  std::vector<TextTable::Column> columns{{"effect"}};
+  for (const InterfaceEffects& one : all)
+    columns.push_back({fmt::format("{} {}", one.inter->id, type_name(*one.inter))});
+  TextTable table(columns);
+  for (const EffectOfAll& effect : effects_of(all)) {
+    std::vector<TextTable::Cell> cells{{effect.name}};
+    bool runs = false;
+    for (const EffectLine* line : effect.lines) {
+      const bool on = line != nullptr && line->on;
+      runs = runs || on;
+      if (on)
+        cells.emplace_back(line->field.empty() ? "on" : line->reason, Tone::green);
+      else
+        cells.emplace_back(line == nullptr ? "" : "-", Tone::dim);
+    }
+    if (runs) table.row(std::move(cells));
+  }
+  return table.fitted(options.width, options.color, 2);
+}
+
+/// "friction-law: Ifric = 0 (1, 2)", one line for each effect that is off somewhere.
+std::string off_lines(const std::vector<InterfaceEffects>& all) {
+  std::string out;
+  for (const EffectOfAll& effect : effects_of(all)) {
+    std::vector<std::pair<std::string, std::string>> reasons;  // with ids
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const EffectLine* line = effect.lines[i];
+      if (line == nullptr || (line->on && line->not_edges.empty())) continue;
+      const std::string why = line->on ? "not between edges: " + line->not_edges : line->reason;
+      auto known = std::find_if(reasons.begin(), reasons.end(),
+                                [&](const auto& r) { return r.first == why; });
+      if (known == reasons.end()) known = reasons.insert(known, {why, ""});
+      append(known->second, ", ", std::to_string(all[i].inter->id));
+    }
+    std::string text;
+    for (const auto& [reason, ids] : reasons)
+      append(text, "; ", fmt::format("{} ({})", reason, ids));
+    if (!text.empty()) out += fmt::format("  {}: {}\n", effect.name, terminal_text(text));
+  }
+  return out;
+}
+
+std::string joined_effects(const std::vector<EffectLine>& lines) {
+  std::string text;
+  for (const EffectLine& e : lines)
+    if (e.on)
+      append(text, "; ", e.because == "always" ? e.name : fmt::format("{}: {}", e.name, e.because));
+  return text;
+}
+
+std::string change_of(double with, double without) {
+  if (with == without) return "same";
+  if (!std::isfinite(with) || !std::isfinite(without)) return std::string(not_computed);
+  if (with == 0.0) return "new";
+  return fmt::format("{:+.2g} %", 100.0 * (without - with) / with);
+}
+
+/// "9 of 29 effects run; they take 42 ns a pair, all would take 174", then the effects by
+/// interface.
+std::string effects_text(const CycleInput& input, const CycleTextOptions& options) {
+  const std::vector<InterfaceEffects> all = effects_by_interface(input);
+  std::string out = "  " + short_cost_sentence(input) + "\n";
+  if (options.effects) {
+    out += effect_matrix(all, options);
+    out += titled("Effects that do not run, and why (interfaces)", off_lines(all), false);
+    if (!options.verbose) return out;
+    out += "\nFields and lines\n";
+  }
+  for (const InterfaceEffects& one : all)
+    out += fmt::format("  {} {} on: {}\n", one.inter->id, type_name(*one.inter),
+                       terminal_text(joined_effects(one.lines)));
+  return options.effects ? out : out + "  (--effects shows what is off, and why)\n";
+}
+
+/// Force, energy and time step with and without an effect; "" where that was not asked for.
+std::string without_text(const CycleInput& input, const CycleTextOptions& options) {
+  if (input.without == nullptr) return {};
+  const auto with = cycle::summarize(*input.scene, *input.outcome);
+  const auto without = cycle::summarize(*input.scene, *input.without);
+  TextTable table({">id", "type", "", ">sum |F|", ">energy", ">dt", ">acceleration"});
+  const auto row = [&](const cycle::InterfaceSummary& s, bool first) {
+    const double energy = s.elastic_energy + s.friction_energy + s.damping_energy;
+    table.row({first ? std::to_string(s.id) : "", first ? type_name(*s.inter) : "",
+               first ? "with" : "without", figure_text(s.force_sum), figure_text(energy),
+               s.contact_dt < 1e30 ? figure_text(s.contact_dt) : "-",
+               figure_text(s.largest_acceleration)});
+  };
+  std::vector<std::int64_t> same;
+  for (std::size_t k = 0; k < with.size(); ++k) {
+    const cycle::InterfaceSummary &a = with[k], &b = without[k];
+    if (a.force_sum == b.force_sum && a.elastic_energy == b.elastic_energy &&
+        a.friction_energy == b.friction_energy && a.damping_energy == b.damping_energy &&
+        a.contact_dt == b.contact_dt && a.largest_acceleration == b.largest_acceleration) {
+      same.push_back(a.id);
+      continue;
+    }
+    row(a, true);
+    row(b, false);
+  }
+  std::string out = table.below_heading(options) +
+                    folded_ids(same, "interface has the same force, energy and step",
+                               "interfaces have the same force, energy and step");
+  if (table.size() == 0 && input.options.dt12 == 0.0)
+    out += "  (what slides or rubs shows with --dt and --velocity)\n";
+  const cycle::SceneOutcome &a = *input.outcome, &b = *input.without;
+  out += fmt::format("  largest nodal force {}, without {} ({})\n",
+                     figure_text(a.largest_nodal_force), figure_text(b.largest_nodal_force),
+                     change_of(a.largest_nodal_force, b.largest_nodal_force));
+  if (a.contact_dt < 1e30 || b.contact_dt < 1e30)
+    out += fmt::format("  time step of contact {:.4g}, without {:.4g} ({})\n", a.contact_dt,
+                       b.contact_dt, change_of(a.contact_dt, b.contact_dt));
+  return out;
+}
+
+/// What was not evaluated, and why; nodes and edges of a TYPE25 give the same line.
+std::string not_evaluated_lines(const CycleInput& input) {
+  std::string out;
+  for (const std::string& text : input.state->not_evaluated)
+    out += "  " + terminal_text(text) + "\n";
+  for (const cycle::ContactOutcome& o : input.outcome->contacts)
+    for (const std::string& text : o.notes) {
+      const std::string line = line_head(*o.contact) + terminal_text(text) + "\n";
+      if (out.find(line) == std::string::npos) out += line;
+    }
+  return out;
+}
+
+std::string heat_lines(const cycle::SceneOutcome& outcome) {
+  std::string out;
+  for (const cycle::ContactOutcome& o : outcome.contacts)
+    if (o.heat_secondary != 0 || o.heat_main != 0)
+      out += fmt::format(
+          "{}heat in this cycle {:.4g} to the secondary side, {:.4g} to the main side\n",
+          line_head(*o.contact), o.heat_secondary, o.heat_main);
+  return out;
+}
+
 }  // namespace
 
 const char* to_string(cycle::Removal::Because because) {
-  switch (because) {
-    case cycle::Removal::Because::kinematic_step:
-      return "dtmin (time to the mid-surface)";
-    case cycle::Removal::Because::nodal_step:
-      return "dtmin (stiffness against mass)";
-    case cycle::Removal::Because::no_element_left:
-      return "no element left (Idel)";
-    default:
-      return "mid-surface reached";
-  }
+  static constexpr const char* words[] = {"mid-surface reached", "dtmin (time to the mid-surface)",
+                                          "dtmin (stiffness against mass)",
+                                          "no element left (Idel)"};
+  return words[static_cast<std::size_t>(because)];
 }
 
 std::string cycle_text(const CycleInput& input, const CycleTextOptions& options) {
-  const char* bold = options.color ? "\033[1m" : "";
-  const char* plain = options.color ? "\033[0m" : "";
+  const auto below = [&](std::string_view title, const std::string& text) {
+    return titled(title, text, options.color);
+  };
   std::string out;
   if (options.several) out += toned(terminal_text(input.path), Tone::cyan, options.color) + "\n";
   const std::string verdict = verdict_text(cycle_verdict(input), options.color) +
                               (input.gate == nullptr ? std::string() : gate_text(*input.gate));
   if (input.scene->contacts.empty()) return out + verdict;
-  out += fmt::format("{}{}Interfaces{}\n{}", out.empty() ? "" : "\n", bold, plain,
-                     contact_table(input, options));
-  if (const std::string text = lasting_lines(input); !text.empty() && input.steps == nullptr)
-    out += fmt::format("\n{}From now on{}\n{}", bold, plain, text);
-  if (input.steps != nullptr)
-    out += fmt::format("\n{}Steps{}\n{}", bold, plain, steps_text(input, options));
-  if (const std::string text = criteria_table(input, options); !text.empty())
-    out += fmt::format("\n{}Criteria of adaptive meshing, sharpest first{}\n{}", bold, plain, text);
-  out += fmt::format("\n{}Time step{}\n{}", bold, plain, step_lines(input));
-  for (const cycle::ContactOutcome& o : input.outcome->contacts)
-    if (o.heat_secondary != 0 || o.heat_main != 0)
-      out += fmt::format(
-          "  interface {} {}: heat in this cycle {:.4g} to the secondary side, {:.4g} "
-          "to the main side\n",
-          o.contact->inter->id, kind_name(*o.contact), o.heat_secondary, o.heat_main);
-  if (const std::string table = singular_table(input, options); !table.empty())
-    out += fmt::format("\n{}Nearest to the mid-surface{}\n{}", bold, plain, table);
-  out += fmt::format("\n{}Effects{}\n{}", bold, plain, effects_text(input, options));
-  if (const std::string text = without_text(input, options); !text.empty())
-    out += fmt::format("\n{}With and without {}{}\n{}", bold, input.without_effect, plain, text);
-  if (const std::string text = cost_text(input, options); !text.empty())
-    out += fmt::format("\n{}What effects cost{}\n{}", bold, plain, text);
-  std::string left_out;
-  for (const std::string& text : input.state->not_evaluated)
-    left_out += "  " + terminal_text(text) + "\n";
-  for (const cycle::ContactOutcome& o : input.outcome->contacts)
-    for (const std::string& text : o.notes) {
-      const std::string line = fmt::format("  interface {} {}: {}\n", o.contact->inter->id,
-                                           kind_name(*o.contact), terminal_text(text));
-      // Nodes and edges of a TYPE25 say the same.
-      if (left_out.find(line) == std::string::npos) left_out += line;
-    }
-  if (!left_out.empty()) out += fmt::format("\n{}Not evaluated{}\n{}", bold, plain, left_out);
+  const std::string interfaces = below("Interfaces", contact_table(input, options));
+  out += out.empty() ? interfaces.substr(1) : interfaces;
+  out += input.steps == nullptr ? below("From now on", lasting_lines(input))
+                                : below("Steps", steps_text(input, options));
+  out += below("Criteria of adaptive meshing, sharpest first", criteria_table(input, options));
+  out += below("Time step", step_lines(input)) + heat_lines(*input.outcome);
+  out += below("Nearest to the mid-surface", singular_table(input, options));
+  out += below("Effects", effects_text(input, options));
+  out += below("With and without " + input.without_effect, without_text(input, options));
+  out += below("What effects cost", cost_text(input, options));
+  out += below("Not evaluated", not_evaluated_lines(input));
   if (const std::string text =
           decisions_text(*input.scene, 3, options.verbose, options.color, options.width);
       !text.empty())

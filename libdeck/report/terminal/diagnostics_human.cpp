@@ -10,7 +10,6 @@
 #include "base/shared/escape.hpp"
 #include "base/shared/paths.hpp"
 #include "report/diagnostics_common.hpp"
-#include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
 #include "text/shared/rule_page.hpp"
 
@@ -19,13 +18,6 @@ namespace {
 
 constexpr std::size_t usual_window = 110;  ///< columns of a card line that are shown
 constexpr std::size_t most_alike = 3;      ///< findings of a rule that are shown in full
-
-struct Colors {
-  const char *error, *warning, *info, *bold, *blue, *off;
-};
-constexpr Colors no_colors = {"", "", "", "", "", ""};
-constexpr Colors ansi = {"\x1b[1;31m", "\x1b[1;33m", "\x1b[1;36m",
-                         "\x1b[1m",    "\x1b[1;34m", "\x1b[0m"};
 
 /// A character of a card line: where it stands in the file, and what is shown for it.
 struct Glyph {
@@ -48,21 +40,27 @@ std::vector<Glyph> glyphs_of(std::string_view line, std::string_view shown, std:
   return out;
 }
 
-/// Remarks that tell how the solver works rather than what is particular about the deck: nearly
-/// every deck with a contact has them.
-constexpr RuleId of_every_deck[] = {RuleId::DK292, RuleId::DK295, RuleId::DK296, RuleId::DK307};
-bool is_of_every_deck(const Diagnostic& d) {
-  return d.severity == Severity::info &&
-         std::find(std::begin(of_every_deck), std::end(of_every_deck), d.rule) !=
-             std::end(of_every_deck);
+/// The text of a cell from byte `first` to `last` of a line, without the blanks that pad it.
+std::pair<std::size_t, std::size_t> text_of_cell(std::string_view line, std::size_t first,
+                                                 std::size_t last) {
+  const auto is_blank = [&](std::size_t i) { return static_cast<unsigned char>(line[i]) <= ' '; };
+  std::size_t begin = first, end = std::min(last, line.size());
+  while (begin < end && is_blank(begin)) ++begin;
+  while (end > begin && is_blank(end - 1)) --end;
+  return begin < end ? std::pair(begin, end) : std::pair(first, last);
 }
 
-int rank(Severity s) { return s == Severity::error ? 0 : s == Severity::warning ? 1 : 2; }
+/// Remarks that tell how the solver works rather than what is particular about the deck: nearly
+/// every deck with a contact has them.
+bool is_of_every_deck(const Diagnostic& d) {
+  static constexpr RuleId rules[] = {RuleId::DK292, RuleId::DK295, RuleId::DK296, RuleId::DK307};
+  return d.severity == Severity::info &&
+         std::find(std::begin(rules), std::end(rules), d.rule) != std::end(rules);
+}
 
 class Human {
  public:
-  Human(const LintedDeck& deck, const HumanOptions& options)
-      : deck_(deck), options_(options), c_(options.color ? ansi : no_colors) {}
+  Human(const LintedDeck& deck, const HumanOptions& options) : deck_(deck), options_(options) {}
 
   /// Errors first; rules in the order in which they first occur, their findings together where
   /// there are more than a few.
@@ -76,7 +74,7 @@ class Human {
       of_kind[{d.rule, d.field, d.severity}].push_back(&d);
     }
     std::stable_sort(all.begin(), all.end(), [](const Diagnostic* a, const Diagnostic* b) {
-      return rank(a->severity) < rank(b->severity);
+      return a->severity < b->severity;
     });
     std::string out;
     std::map<Kind, int> shown;
@@ -84,13 +82,13 @@ class Human {
     for (const Diagnostic* d : all) {
       const auto& alike = of_kind[{d->rule, d->field, d->severity}];
       int& n = shown[{d->rule, d->field, d->severity}];
-      if (options_.group && folds(*d, alike.size())) {
+      if (options_.group && alike.size() > most_alike) {
         if (n++ > 0) continue;
-        out += folded(*d, alike.size() + hidden[d->rule]);
-        hidden.erase(d->rule);
-      } else if (options_.group && alike.size() > most_alike) {
-        if (n++ > 0) continue;
-        out += one(*d, group({alike.begin() + 1, alike.end()}, hidden[d->rule]));
+        const std::uint64_t dropped = hidden[d->rule];
+        // Remarks, of which a deck can have hundreds, are one line.
+        out += d->severity == Severity::info
+                   ? folded(*d, alike.size() + dropped)
+                   : one(*d, group({alike.begin() + 1, alike.end()}, dropped));
         hidden.erase(d->rule);
       } else if (options_.per_rule > 0 && n >= options_.per_rule) {
         ++hidden[d->rule];
@@ -100,8 +98,8 @@ class Human {
       }
     }
     for (const auto& [rule, count] : hidden)
-      out += fmt::format("{}...{} {} more findings of {}{}{}: {}\n", c_.bold, c_.off, count,
-                         c_.bold, id_text(rule), c_.off, rule_of(rule).title);
+      out += fmt::format("{} {} more findings of {}: {}\n", paint(bold, "..."), count,
+                         paint(bold, id_text(rule)), rule_of(rule).title);
     if (!hidden.empty()) out += "\n";
     return out;
   }
@@ -109,12 +107,12 @@ class Human {
   std::string summary() {
     const LintResult& r = *deck_.result;
     const Verdict verdict = deck_.verdict ? *deck_.verdict : lint_verdict(deck_);
-    std::string out = fmt::format("{}{}{}: ", c_.bold, terminal_text(deck_.path), c_.off), rest;
+    std::string out = paint(bold, terminal_text(deck_.path)) + ": ", rest;
     for (const VerdictSentence& s : verdict.sentences) {
       if (&s == &verdict.sentences.front())
         out += s.text.substr(0, s.text.size() - 1);  // without its full stop
       else
-        rest += (rest.empty() ? "" : " ") + s.text;
+        append(rest, " ", s.text);
     }
     std::uint64_t of_gate = 0;  // which is not counted among the errors of the deck
     for (const auto& [rule, n] : r.counts) of_gate += is_gate_rule(rule) ? n : 0;
@@ -127,11 +125,27 @@ class Human {
     if (safe > 0) out += fmt::format("; --fix repairs {}", safe);
     if (unsafe > 0) out += fmt::format("{} --unsafe-fixes {} more", safe > 0 ? "," : ";", unsafe);
     out += "\n";
-    if (!rest.empty()) out += c_.bold + terminal_text(rest) + c_.off + "\n";
+    if (!rest.empty()) out += paint(bold, terminal_text(rest)) + "\n";
     return out;
   }
 
  private:
+  static constexpr const char *bold = "1", *blue = "1;34";
+
+  std::string paint(const char* code, std::string_view text) const {
+    return options_.color ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : std::string(text);
+  }
+  std::string paint(Severity severity, std::string_view text) const {
+    static constexpr const char* codes[] = {"1;31", "1;33", "1;36"};
+    return paint(codes[static_cast<std::size_t>(severity)], text);
+  }
+
+  /// "error[DK171]: " and what was found
+  std::string title(const Diagnostic& d, std::string_view found) const {
+    return paint(d.severity, fmt::format("{}[{}]", to_string(d.severity), finding_name(d))) +
+           paint(bold, fmt::format(": {}", found));
+  }
+
   /// False for a file outside the deck's folder that holds no keyword: an #include can name any
   /// file of this machine, and its lines are not for the log of a build.
   bool is_of_deck(std::uint32_t file) const {
@@ -144,28 +158,14 @@ class Human {
                        [&](const Block& b) { return b.header_span.file == file; });
   }
 
-  const char* color(Severity s) const {
-    return s == Severity::error ? c_.error : s == Severity::warning ? c_.warning : c_.info;
-  }
-
-  /// True if the findings of that kind are one line: remarks, of which a deck can have hundreds.
-  static bool folds(const Diagnostic& d, std::size_t alike) {
-    return d.severity == Severity::info && alike > most_alike;
-  }
-
   /// All findings of a kind in a line with their number, and the place of the first.
   std::string folded(const Diagnostic& first, std::uint64_t count) const {
-    std::string out = fmt::format("{}{}[{}]{}{}: {} places: {}{}", color(first.severity),
-                                  to_string(first.severity), finding_name(first), c_.off, c_.bold,
-                                  count, rule_of(first.rule).title, c_.off);
+    std::string out = title(first, fmt::format("{} places: {}", count, rule_of(first.rule).title));
     if (first.reference)
       out += fmt::format(" (solver: {} {})", to_string(first.reference->severity),
                          first.reference->number);
-    const detail::Place at = detail::place_of(deck_, first.span);
-    return out +
-           fmt::format("\n {}-->{} {}, the first of them; -v shows all\n\n", c_.blue, c_.off,
-                       terminal_text(at.known ? fmt::format("{}:{}:{}", at.file, at.line, at.column)
-                                              : at.file));
+    return out + fmt::format("\n {} {}, the first of them; -v shows all\n\n", paint(blue, "-->"),
+                             terminal_text(detail::place_of(deck_, first.span).text()));
   }
 
   /// The other findings of a rule, a line each; `dropped` more were not kept.
@@ -174,16 +174,14 @@ class Human {
         options_.per_rule == 0
             ? others.size()
             : std::min(others.size(), static_cast<std::size_t>(options_.per_rule) - 1);
+    const Diagnostic& first = *others.front();
     std::string out =
-        fmt::format("{}{} more of {}{}: {}\n", c_.bold, others.size() + dropped,
-                    finding_name(*others.front()), c_.off, rule_of(others.front()->rule).title);
+        paint(bold, fmt::format("{} more of {}", others.size() + dropped, finding_name(first))) +
+        fmt::format(": {}\n", rule_of(first.rule).title);
     for (std::size_t i = 0; i < shown; ++i) {
       const Diagnostic& d = *others[i];
-      const detail::Place at = detail::place_of(deck_, d.span);
-      const std::string place =
-          at.known ? fmt::format("{}:{}:{}", at.file, at.line, at.column) : at.file;
-      out += fmt::format("  {}{}{}: {}\n", c_.blue, terminal_text(place), c_.off,
-                         terminal_text(d.message));
+      const std::string place = detail::place_of(deck_, d.span).text();
+      out += fmt::format("  {}: {}\n", paint(blue, terminal_text(place)), terminal_text(d.message));
     }
     if (const std::uint64_t more = others.size() - shown + dropped; more > 0)
       out += fmt::format("  … and {} more (-v shows all that are kept, in full)\n", more);
@@ -192,24 +190,19 @@ class Human {
 
   /// A finding in full, and below it what else belongs to it.
   std::string one(const Diagnostic& d, const std::string& others) {
-    std::string out =
-        fmt::format("{}{}[{}]{}{}: {}{}\n", color(d.severity), to_string(d.severity),
-                    finding_name(d), c_.off, c_.bold, terminal_text(d.message), c_.off);
     const detail::Place at = detail::place_of(deck_, d.span);
     const std::string number = std::to_string(at.line);
     const std::string gutter(number.size(), ' ');
-    const std::string bar = fmt::format("{}{} |{}", c_.blue, gutter, c_.off);
-    if (!at.known) {
-      out += fmt::format("{}{}-->{} {}\n", gutter, c_.blue, c_.off, terminal_text(at.file));
-    } else {
-      out += fmt::format("{}{}-->{} {}:{}:{}\n{}\n", gutter, c_.blue, c_.off,
-                         terminal_text(at.file), at.line, at.column, bar);
-      if (is_of_deck(d.span.file)) out += card(d, at, number, bar) + bar + "\n";
-    }
+    const std::string bar = paint(blue, gutter + " |");
+    std::string out =
+        title(d, terminal_text(d.message)) +
+        fmt::format("\n{}{} {}\n", gutter, paint(blue, "-->"), terminal_text(at.text()));
+    if (at.known) out += bar + "\n";
+    if (at.known && is_of_deck(d.span.file)) out += card(d, at, number, bar) + bar + "\n";
     const auto note = [&](std::string_view label, const std::string& text) {
       if (!text.empty())
-        out += fmt::format("{} {}={} {}{}:{} {}\n", gutter, c_.blue, c_.off, c_.bold, label, c_.off,
-                           terminal_text(text));
+        out += fmt::format("{} {} {} {}\n", gutter, paint(blue, "="),
+                           paint(bold, fmt::format("{}:", label)), terminal_text(text));
     };
     note("solver", detail::with_message(d.reference_behaviour, d.reference));
     note("help", d.help);
@@ -223,16 +216,8 @@ class Human {
   std::string card(const Diagnostic& d, const detail::Place& at, const std::string& number,
                    const std::string& bar) const {
     const std::string_view line = deck_.deck->sources[d.span.file].line_at(d.span.offset);
-    std::size_t first = static_cast<std::size_t>(at.column) - 1;
-    std::size_t last = static_cast<std::size_t>(at.end_column) - 1;
-    // Point at the text of a cell, not at the blanks that pad it.
-    std::size_t b = first, e = std::min(last, line.size());
-    while (b < e && static_cast<unsigned char>(line[b]) <= ' ') ++b;
-    while (e > b && static_cast<unsigned char>(line[e - 1]) <= ' ') --e;
-    if (b < e) {
-      first = b;
-      last = e;
-    }
+    const auto [first, last] = text_of_cell(line, static_cast<std::size_t>(at.column) - 1,
+                                            static_cast<std::size_t>(at.end_column) - 1);
     // Of a very long line only what can be near the caret.
     constexpr std::size_t most = 2000;
     std::size_t start = std::min(first, line.size()) > most ? first - most : 0;
@@ -249,10 +234,10 @@ class Human {
     std::vector<std::size_t> columns = {0};  // before each of them
     for (const Glyph& g : glyphs) columns.push_back(columns.back() + g.columns);
     const auto index_at = [&](std::size_t byte) {  // the first one that begins there or later
-      return static_cast<std::size_t>(
+      const auto it =
           std::lower_bound(glyphs.begin(), glyphs.end(), byte,
-                           [](const Glyph& g, std::size_t wanted) { return g.at < wanted; }) -
-          glyphs.begin());
+                           [](const Glyph& g, std::size_t wanted) { return g.at < wanted; });
+      return static_cast<std::size_t>(it - glyphs.begin());
     };
     const auto width_of = [&](std::size_t from, std::size_t to) {
       return columns[std::min(to, glyphs.size())] - columns[from];
@@ -284,22 +269,16 @@ class Human {
       out += fmt::format("{} {}{}\n", bar, margin, ruler);
     }
     for (std::size_t k = begin; k < std::min(end, text_end); ++k) text += glyphs[k].shown;
-    out += fmt::format("{}{} |{} {}{}{}\n", c_.blue, number, c_.off, cut_before ? "…" : "", text,
+    out += fmt::format("{} {}{}{}\n", paint(blue, number + " |"), cut_before ? "…" : "", text,
                        cut_behind ? "…" : "");
     const std::size_t length = std::max<std::size_t>(1, width_of(caret, std::min(caret_end, end)));
-    out += fmt::format("{} {}{}{}{}{}\n", bar, margin, std::string(width_of(begin, caret), ' '),
-                       color(d.severity), std::string(length, '^'), c_.off);
-    return out;
+    return out + fmt::format("{} {}{}{}\n", bar, margin, std::string(width_of(begin, caret), ' '),
+                             paint(d.severity, std::string(length, '^')));
   }
 
   const LintedDeck& deck_;
   const HumanOptions& options_;
-  const Colors& c_;
 };
-
-}  // namespace
-
-namespace {
 
 /// What no deck was checked for, each once, with the decks that it is about if not about all.
 std::string not_checked_text(const std::vector<LintedDeck>& decks) {
@@ -313,7 +292,7 @@ std::string not_checked_text(const std::vector<LintedDeck>& decks) {
         return entry.first->what == n.what && entry.first->why == n.why;
       });
       if (it == all.end()) it = all.insert(all.end(), {&n, {}});
-      it->second.push_back(deck.path);
+      it->second.push_back(terminal_text(deck.path));
     }
   }
   if (all.empty()) return {};
@@ -322,9 +301,8 @@ std::string not_checked_text(const std::vector<LintedDeck>& decks) {
   for (const auto& [n, paths] : all) {
     out += fmt::format("  - {}: {}", terminal_text(n->what), terminal_text(n->why));
     if (paths.size() < read) {
-      out += " [";
-      for (std::size_t i = 0; i < std::min(most, paths.size()); ++i)
-        out += (i == 0 ? "" : ", ") + terminal_text(paths[i]);
+      out += fmt::format(" [{}",
+                         fmt::join(std::span(paths).first(std::min(most, paths.size())), ", "));
       out += paths.size() > most ? fmt::format(", … and {} more decks]", paths.size() - most) : "]";
     }
     out += "\n";
@@ -345,9 +323,8 @@ std::string grand_total(const std::vector<LintedDeck>& decks, bool color) {
     if (deck.result->errors + deck.result->warnings == 0) ++clean;
   }
   std::string out = toned(fmt::format("{} decks: ", decks.size()), Tone::bold, color) +
-                    count(errors, "error", "errors") + ", " +
-                    count(warnings, "warning", "warnings");
-  out += fmt::format("; {} without either", clean);
+                    fmt::format("{}, {}; {} without either", count(errors, "error", "errors"),
+                                count(warnings, "warning", "warnings"), clean);
   if (unread > 0) out += fmt::format("; {} could not be read", unread);
   return out + "\n";
 }

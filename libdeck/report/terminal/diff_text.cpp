@@ -4,13 +4,12 @@
 
 #include <algorithm>
 
-#include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "base/shared/length3.hpp"
 #include "base/shared/length_text.hpp"
 #include "deck/text/number.hpp"
 #include "report/shared/diff.hpp"
-#include "report/shared/text_table.hpp"
+#include "report/terminal/words.hpp"
 
 namespace deck {
 namespace {
@@ -217,13 +216,12 @@ std::string diff_text(const DiffSide& a, const DiffSide& b, const DeckDiff& diff
   for (const std::string& note : diff.notes) out += "note: " + terminal_text(note) + "\n";
   const auto tables = diff_tables(a, b, diff, options.rows);
   for (const DiffTable& t : tables) {
-    out += "\n" + toned(t.title, Tone::bold, options.color) + "\n";
     std::vector<TextTable::Column> columns;
-    for (const std::string& name : t.columns) columns.push_back({name, Align::left});
+    for (const std::string& name : t.columns) columns.push_back({name});
     TextTable table(columns);
     for (const auto& row : t.rows) table.row({row.begin(), row.end()});
-    out += table.fitted(options.width, options.color, 2);
-    if (t.left_out > 0) out += fmt::format("  … and {} more (--rows N, --json)\n", t.left_out);
+    out += titled(t.title, table.fitted(options.width, options.color, 2), options.color);
+    out += more_line(t.left_out, 0, " (--rows N, --json)");
   }
   if (!tables.empty()) out += "\n" + verdict;
   return out;

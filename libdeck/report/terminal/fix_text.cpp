@@ -5,11 +5,9 @@
 #include <map>
 #include <set>
 
-#include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "deck/contact/view.hpp"
 #include "report/shared/fix.hpp"
-#include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {
@@ -20,9 +18,7 @@ FixCount total(const PenetrationFix& fix, FixCount FixedInterface::*which) {
   for (const FixedInterface& i : fix.interfaces) {
     const FixCount& c = i.*which;
     sum.pairs += c.pairs;
-    sum.nodes += c.nodes;
     sum.untreated += c.untreated;
-    sum.on_surface += c.on_surface;
     sum.deepest = std::max(sum.deepest, c.deepest);
   }
   return sum;
@@ -30,12 +26,6 @@ FixCount total(const PenetrationFix& fix, FixCount FixedInterface::*which) {
 
 bool changes_flags(const PenetrationFix& fix) {
   return fix.strategy == "inacti" || fix.strategy == "fpenmax";
-}
-
-std::string names(const std::vector<std::int64_t>& ids) {
-  std::string text;
-  for (const std::int64_t id : ids) text += fmt::format("{}{}", text.empty() ? "" : "-", id);
-  return text;
 }
 
 /// "Gapmin 1.25 -> 0.9"; a blank cell with what is in effect in brackets.
@@ -46,45 +36,31 @@ std::string change_text(const std::vector<FieldChange>& changes) {
     const std::string old = !c.old_text.empty() ? c.old_text
                             : by_pair           ? "(by pair)"
                                                 : fmt::format("({:.6g})", c.old_value);
-    text += fmt::format("{}{} {} -> {}", text.empty() ? "" : ", ", c.field, old, c.new_text);
+    append(text, ", ", fmt::format("{} {} -> {}", c.field, old, c.new_text));
   }
   return text;
 }
 
+std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
+
 std::string interface_table(const PenetrationFix& fix, const FixTextOptions& options) {
   const bool flags = changes_flags(fix);
-  TextTable table({{"interface", Align::right},
-                   {"type"},
-                   {flags ? "pairs" : "pairs before", Align::right},
-                   {flags ? "untreated before" : "after", Align::right},
-                   {flags ? "after" : "deepest before", Align::right},
-                   {flags ? "deepest" : "after", Align::right},
-                   {"changed"},
-                   {"title"}});
+  TextTable table({">interface", "type", flags ? ">pairs" : ">pairs before",
+                   flags ? ">untreated before" : ">after", flags ? ">after" : ">deepest before",
+                   flags ? ">deepest" : ">after", "changed", "title"});
   for (const FixedInterface& i : fix.interfaces) {
-    const std::string changed = change_text(i.changes);
+    const std::string type = fmt::format("TYPE{}", i.type),
+                      changed = or_dash(change_text(i.changes));
+    const std::string deepest = fmt::format("{:.4g}", i.after.deepest);
     const std::uint64_t left = flags ? i.after.untreated : i.after.pairs;
-    const Tone tone = left == 0 ? Tone::green : Tone::yellow;
+    const TextTable::Cell after(left, left == 0 ? Tone::green : Tone::yellow);
     if (flags)
-      table.row({fmt::format("{}", i.id),
-                 fmt::format("TYPE{}", i.type),
-                 fmt::format("{}", i.after.pairs),
-                 fmt::format("{}", i.before.untreated),
-                 {fmt::format("{}", left), tone},
-                 fmt::format("{:.4g}", i.after.deepest),
-                 changed.empty() ? "-" : changed,
-                 i.title});
+      table.row({i.id, type, i.after.pairs, i.before.untreated, after, deepest, changed, i.title});
     else
-      table.row({fmt::format("{}", i.id),
-                 fmt::format("TYPE{}", i.type),
-                 fmt::format("{}", i.before.pairs),
-                 {fmt::format("{}", left), tone},
-                 fmt::format("{:.4g}", i.before.deepest),
-                 fmt::format("{:.4g}", i.after.deepest),
-                 changed.empty() ? "-" : changed,
-                 i.title});
+      table.row({i.id, type, i.before.pairs, after, fmt::format("{:.4g}", i.before.deepest),
+                 deepest, changed, i.title});
   }
-  return table.fitted(options.width, options.color, 2);
+  return table.below_heading(options);
 }
 
 std::string moved_text(const PenetrationFix& fix, const FixTextOptions& options) {
@@ -98,28 +74,20 @@ std::string moved_text(const PenetrationFix& fix, const FixTextOptions& options)
   std::stable_sort(order.begin(), order.end(), [](const MovedNode* a, const MovedNode* b) {
     return a->distance > b->distance;
   });
-  std::string text = "\nmoved, by part:";
-  std::size_t shown = 0;
-  for (const auto& [part, n] : parts) {
-    if (shown++ == options.rows) {
-      text += fmt::format(" and {} more parts", parts.size() - options.rows);
-      break;
-    }
-    text += part == 0 ? fmt::format("{} {} of no part", shown > 1 ? "," : "", n)
-                      : fmt::format("{} {} of part {}", shown > 1 ? "," : "", n, part);
-  }
+  std::string text =
+      "\nmoved, by part:" + std::string(options.rows > 0 ? " " : "") +
+      first_of(parts, options.rows, [](const auto& of_part) {
+        const auto& [part, n] = of_part;
+        return part == 0 ? fmt::format("{} of no part", n) : fmt::format("{} of part {}", n, part);
+      });
+  if (parts.size() > options.rows) text += " parts";
   text += "\nfarthest moves:\n";
-  TextTable table({{"node", Align::right},
-                   {"part", Align::right},
-                   {"distance", Align::right},
-                   {"x", Align::right},
-                   {"y", Align::right},
-                   {"z", Align::right}});
+  TextTable table({">node", ">part", ">distance", ">x", ">y", ">z"});
+  const auto figure = [](double v) { return fmt::format("{:.4g}", v); };
   for (std::size_t i = 0; i < order.size() && i < options.rows; ++i) {
     const MovedNode& m = *order[i];
-    table.row({fmt::format("{}", m.id), m.part == 0 ? "-" : fmt::format("{}", m.part),
-               fmt::format("{:.4g}", m.distance), fmt::format("{:.4g}", m.by[0]),
-               fmt::format("{:.4g}", m.by[1]), fmt::format("{:.4g}", m.by[2])});
+    table.row({m.id, known_cell(m.part != 0, m.part), figure(m.distance), figure(m.by[0]),
+               figure(m.by[1]), figure(m.by[2])});
   }
   text += table.fitted(options.width, options.color, 2);
   if (order.size() > options.rows)
@@ -127,39 +95,33 @@ std::string moved_text(const PenetrationFix& fix, const FixTextOptions& options)
   return text;
 }
 
-/// A group of refusals on its way to a RefusedGroup.
+/// Refusals of one strategy for one reason.
 struct Gathered {
-  std::string strategy, alike;  ///< the reason without its numbers
-  std::string reason, next;     ///< of the first
+  std::string strategy;
+  std::string reason, next;  ///< of the first
   std::set<std::int64_t> interfaces;
   std::size_t count = 0;
   double deepest = 0, farthest = 0;
   std::vector<std::string> examples;
 };
 
-std::string without_numbers(std::string_view text) {
-  std::string out;
-  for (const char c : text)
-    if (c < '0' || c > '9') out += c;
-  return out;
-}
-
+/// Those whose reasons differ only in their numbers together; the largest groups first.
 std::vector<Gathered> gathered(const std::vector<PenetrationFix>& fixes) {
   std::vector<Gathered> groups;
   std::map<std::pair<std::string, std::string>, std::size_t> places;
   for (const PenetrationFix& fix : fixes)
     for (const FixRefusal& r : fix.refused) {
-      std::string alike = without_numbers(r.reason);
+      std::string alike = r.reason;
+      std::erase_if(alike, [](char c) { return c >= '0' && c <= '9'; });
       const auto [at, fresh] = places.try_emplace({fix.strategy, alike}, groups.size());
-      if (fresh)
-        groups.push_back({fix.strategy, std::move(alike), r.reason, r.next, {}, 0, 0, 0, {}});
+      if (fresh) groups.push_back({fix.strategy, r.reason, r.next, {}, 0, 0, 0, {}});
       Gathered& g = groups[at->second];
       g.interfaces.insert(r.interface_id);
       g.deepest = std::max(g.deepest, r.depth);
       g.farthest = std::max(g.farthest, r.distance);
       if (r.nodes.empty()) continue;
       ++g.count;
-      if (g.examples.size() < 5) g.examples.push_back(names(r.nodes));
+      if (g.examples.size() < 5) g.examples.push_back(fmt::format("{}", fmt::join(r.nodes, "-")));
     }
   std::stable_sort(groups.begin(), groups.end(),
                    [](const Gathered& a, const Gathered& b) { return a.count > b.count; });
@@ -169,26 +131,16 @@ std::vector<Gathered> gathered(const std::vector<PenetrationFix>& fixes) {
 std::string text_of(const Gathered& g, bool with_strategy) {
   std::string text = with_strategy ? g.strategy + ", " : std::string();
   text += g.interfaces.size() == 1 ? "interface " : "interfaces ";
-  std::size_t shown = 0;
-  for (const std::int64_t id : g.interfaces) {
-    if (shown == 5) {
-      text += fmt::format(" and {} more", g.interfaces.size() - shown);
-      break;
-    }
-    text += fmt::format("{}{}", shown++ == 0 ? "" : ", ", id);
-  }
+  text += first_of(g.interfaces, 5);
   if (g.count > 0)
     text += ", " + (g.farthest > 0 ? count(g.count, "node", "nodes")
                                    : count(g.count, "node or edge", "nodes or edges"));
   if (g.farthest > 0) text += fmt::format(", up to {:.6g} away", g.farthest);
   if (g.deepest > 0) text += fmt::format(", up to {:.4g} deep", g.deepest);
   text += ": " + terminal_text(g.reason);
-  if (g.count > 0) {
-    text += " (";
-    for (std::size_t k = 0; k < g.examples.size(); ++k)
-      text += (k == 0 ? "" : ", ") + g.examples[k];
-    text += g.count > g.examples.size() ? ", ...)" : ")";
-  }
+  if (g.count > 0)
+    text += fmt::format(" ({}{})", fmt::join(g.examples, ", "),
+                        g.count > g.examples.size() ? ", ..." : "");
   return text;
 }
 
@@ -212,29 +164,26 @@ std::string tied_text(const PenetrationFix& fix) {
 }
 
 std::string actions_text(const PenetrationFix& fix, const FixTextOptions& options) {
+  static constexpr const char* words[] = {"do nothing",
+                                          "switch the node off for the whole interface",
+                                          "switch the segment off",
+                                          "move the node",
+                                          "reduce the gap",
+                                          "switch the edge off",
+                                          "ignore the penetration",
+                                          "take the penetration off from then on",
+                                          "start with a force",
+                                          "leave the pair to its tie",
+                                          "stop with error 611",
+                                          "stop with error 612"};
+  static_assert(std::size(words) == penetration_actions);
   if (fix.actions.empty()) return {};
   std::map<std::pair<std::int64_t, PenetrationAction>, std::size_t> counts;
   for (const FixAction& a : fix.actions) ++counts[{a.interface_id, a.after}];
   std::string text = "\nthe solver will then:\n";
   std::size_t shown = 0;
   for (const auto& [key, n] : counts) {
-    if (shown++ == options.rows) {
-      text += "  ... (--json lists every pair)\n";
-      break;
-    }
-    static constexpr const char* words[] = {"do nothing",
-                                            "switch the node off for the whole interface",
-                                            "switch the segment off",
-                                            "move the node",
-                                            "reduce the gap",
-                                            "switch the edge off",
-                                            "ignore the penetration",
-                                            "take the penetration off from then on",
-                                            "start with a force",
-                                            "leave the pair to its tie",
-                                            "stop with error 611",
-                                            "stop with error 612"};
-    static_assert(std::size(words) == penetration_actions);
+    if (shown++ == options.rows) return text + "  ... (--json lists every pair)\n";
     text += fmt::format("  interface {}: {} for {}\n", key.first,
                         words[static_cast<std::size_t>(key.second)], count(n, "pair", "pairs"));
   }
@@ -277,21 +226,83 @@ std::string tie_verdict(const PenetrationFix& fix) {
 }
 
 std::string tie_table(const PenetrationFix& fix, const FixTextOptions& options) {
-  if (fix.ties.empty()) return {};
-  TextTable table(make_table({">interface", ">nodes", ">not tied before", ">after", ">reach",
-                              ">farthest tied", "changed", "title"}));
-  for (const FixedTie& tie : fix.ties) {
-    const Tone tone = tie.after.lost() == 0 ? Tone::green : Tone::yellow;
-    table.row({fmt::format("{}", tie.id),
-               fmt::format("{}", tie.before.nodes),
-               fmt::format("{}", tie.before.lost()),
-               {fmt::format("{}", tie.after.lost()), tone},
-               fmt::format("{:.6g}", tie.reach),
-               tie.nodes.empty() ? "-" : fmt::format("{:.6g}", tie.needed),
-               tie.changes.empty() ? "-" : change_text(tie.changes),
+  TextTable table({">interface", ">nodes", ">not tied before", ">after", ">reach", ">farthest tied",
+                   "changed", "title"});
+  for (const FixedTie& tie : fix.ties)
+    table.row({tie.id,
+               tie.before.nodes,
+               tie.before.lost(),
+               {tie.after.lost(), tie.after.lost() == 0 ? Tone::green : Tone::yellow},
+               tie.reach,
+               known_cell(!tie.nodes.empty(), tie.needed),
+               or_dash(change_text(tie.changes)),
                tie.title});
+  return table.below_heading(options);
+}
+
+/// "5 nodes moved by up to 0.3"; nothing if none was moved.
+std::string moves_of(const PenetrationFix& fix) {
+  double far = 0;
+  for (const MovedNode& m : fix.moved) far = std::max(far, m.distance);
+  return fix.moved.empty() ? std::string()
+                           : fmt::format("{} moved by up to {:.4g}",
+                                         count(fix.moved.size(), "node", "nodes"), far);
+}
+
+/// What Inacti 1, Inacti 2 and Fpenmax cost: "28 nodes lose the contact for the whole run".
+std::string price_text(const PenetrationFix& fix) {
+  std::string text;
+  std::size_t all = 0;
+  const auto add = [&](PenetrationAction action, auto side, const char* one, const char* many) {
+    std::set<std::pair<std::int64_t, std::vector<std::int64_t>>> off;
+    for (const FixAction& a : fix.actions)
+      if (a.after != a.before && a.after == action) off.insert({a.interface_id, a.*side});
+    all += off.size();
+    if (!off.empty()) append(text, " and ", count(off.size(), one, many));
+  };
+  add(PenetrationAction::node_stiffness_zero, &FixAction::secondary, "node", "nodes");
+  add(PenetrationAction::segment_stiffness_zero, &FixAction::main, "segment", "segments");
+  add(PenetrationAction::edge_stiffness_zero, &FixAction::secondary, "edge", "edges");
+  if (all == 0) return text;
+  return text + (all == 1 ? " loses" : " lose") + " the contact for the whole run";
+}
+
+std::string crossings_text(std::uint64_t crossings, const FixTextOptions& options) {
+  if (crossings == 0) return {};
+  return "\n" + count(crossings, "crossed element stays", "crossed elements stay") +
+         ": no fix separates crossed elements; separate their parts in the mesh. This lists them:\n"
+         "  deck gaps " +
+         terminal_text(options.deck) + " --crossings\n";
+}
+
+/// "Gapmin 1.25 -> 0.9" of one interface or of how many, and how many nodes move how far.
+std::string changes_of(const PenetrationFix& fix) {
+  std::size_t interfaces = 0;
+  std::string text;
+  for (const FixedInterface& i : fix.interfaces) {
+    interfaces += !i.changes.empty();
+    if (text.empty()) text = change_text(i.changes);
   }
-  return table.fitted(options.width, options.color, 2);
+  if (interfaces > 1) text += fmt::format(", ... of {} interfaces", interfaces);
+  if (const std::string price = price_text(fix); !price.empty()) append(text, "; ", price);
+  return or_dash(text + moves_of(fix));
+}
+
+/// What the strategy tie would do, behind what is said of penetrations.
+std::string tie_proposal(const std::vector<PenetrationFix>& proposals,
+                         const std::function<std::string(std::string_view)>& command,
+                         const FixTextOptions& options, std::string text) {
+  for (const PenetrationFix& fix : proposals) {
+    if (fix.strategy != "tie" || (fix.ties.empty() && fix.refused.empty())) continue;
+    if (!text.ends_with('\n')) text += "\n";
+    text += "\n" +
+            toned(untied_text(fix, &FixedTie::before) + " of TYPE2 are not tied", Tone::yellow,
+                  options.color) +
+            "\n" + tie_table(fix, options) + refused_text({fix}, options);
+    if (score_of(fix).solved > 0)
+      text += fmt::format("\nto tie them:\n  {}\n", terminal_text(command("tie")));
+  }
+  return text;
 }
 
 }  // namespace
@@ -322,16 +333,17 @@ std::string starter_text(const Verdict& verdict, const Scene& scene, bool fixed)
     if (const int error = on_surface_error(c); error != 0)
       for (const PenetrationRow& row : c.penetrations)
         if (row.on_surface) nodes[{c.inter->id, error}].insert(c.secondary[row.secondary].node);
+  std::vector<std::string> places;
+  for (const auto& [where, of] : nodes)
+    places.push_back(fmt::format("{} on a segment of interface {}, error {}",
+                                 count(of.size(), "node", "nodes"), where.first, where.second));
+  constexpr std::size_t most = 3;
   std::string text = fixed ? "The Starter will still stop" : "The Starter will stop";
-  std::size_t shown = 0;
-  for (const auto& [where, of] : nodes) {
-    if (shown == 3) {
-      text += fmt::format("; and at {} more interfaces", nodes.size() - shown);
-      break;
-    }
-    text += fmt::format("{}{} on a segment of interface {}, error {}", shown++ == 0 ? ": " : "; ",
-                        count(of.size(), "node", "nodes"), where.first, where.second);
-  }
+  if (!places.empty())
+    text += fmt::format(": {}",
+                        fmt::join(std::span(places).first(std::min(most, places.size())), "; "));
+  if (places.size() > most)
+    text += fmt::format("; and at {} more interfaces", places.size() - most);
   text += ".";
   static constexpr std::string_view others[] = {"errors",       "empty_sides",     "without_gap",
                                                 "without_area", "without_element", "ties_stop",
@@ -341,34 +353,6 @@ std::string starter_text(const Verdict& verdict, const Scene& scene, bool fixed)
       text += " " + s.text;
   return text;
 }
-
-namespace {
-
-/// What Inacti 1, Inacti 2 and Fpenmax cost: "28 nodes lose the contact for the whole run".
-std::string price_text(const PenetrationFix& fix) {
-  std::set<std::pair<std::int64_t, std::vector<std::int64_t>>> nodes, segments, edges;
-  for (const FixAction& a : fix.actions) {
-    if (a.after == a.before) continue;
-    if (a.after == PenetrationAction::node_stiffness_zero)
-      nodes.insert({a.interface_id, a.secondary});
-    if (a.after == PenetrationAction::segment_stiffness_zero)
-      segments.insert({a.interface_id, a.main});
-    if (a.after == PenetrationAction::edge_stiffness_zero)
-      edges.insert({a.interface_id, a.secondary});
-  }
-  std::string text;
-  const auto add = [&](std::size_t n, std::string_view one, std::string_view many) {
-    if (n > 0) text += (text.empty() ? "" : " and ") + count(n, one, many);
-  };
-  add(nodes.size(), "node", "nodes");
-  add(segments.size(), "segment", "segments");
-  add(edges.size(), "edge", "edges");
-  if (text.empty()) return text;
-  return text + (nodes.size() + segments.size() + edges.size() == 1 ? " loses" : " lose") +
-         " the contact for the whole run";
-}
-
-}  // namespace
 
 std::string fix_verdict(const PenetrationFix& fix) {
   const FixCount before = total(fix, &FixedInterface::before),
@@ -389,83 +373,24 @@ std::string fix_verdict(const PenetrationFix& fix) {
     if (after.pairs > 0) text += fmt::format(" (deepest {:.4g})", after.deepest);
   }
   if (!fix.moved.empty()) {
-    double far = 0;
-    for (const MovedNode& m : fix.moved) far = std::max(far, m.distance);
-    text +=
-        fmt::format("; {} moved by up to {:.4g}", count(fix.moved.size(), "node", "nodes"), far);
+    text += "; " + moves_of(fix);
     if (fix.iterations > 0)
       text += " in " + count(static_cast<std::uint64_t>(fix.iterations), "iteration", "iterations");
   }
   return text + ties;
 }
 
-namespace {
-
-std::string crossings_text(std::uint64_t crossings, const FixTextOptions& options) {
-  if (crossings == 0) return {};
-  return "\n" + count(crossings, "crossed element stays", "crossed elements stay") +
-         ": no fix separates crossed elements; separate their parts in the mesh. This lists them:\n"
-         "  deck gaps " +
-         terminal_text(options.deck) + " --crossings\n";
-}
-
-}  // namespace
-
 std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
   const Tone tone = fix.complete && price_text(fix).empty() ? Tone::green : Tone::yellow;
   const bool nothing = !options.examined && fix.interfaces.empty() && fix.ties.empty();
   std::string text =
       toned(nothing ? nothing_evaluated : fix_verdict(fix), tone, options.color) + "\n";
-  if (!fix.interfaces.empty()) text += "\n" + interface_table(fix, options);
-  if (!fix.ties.empty()) text += "\n" + tie_table(fix, options);
+  for (const std::string& table : {interface_table(fix, options), tie_table(fix, options)})
+    if (!table.empty()) text += "\n" + table;
   if (fix.tied_pairs > 0) text += "\n" + tied_text(fix) + ", as before\n";
-  text += moved_text(fix, options);
-  text += actions_text(fix, options);
-  text += refused_text({fix}, options);
-  text += crossings_text(fix.crossings_after, options);
-  return text;
+  text += moved_text(fix, options) + actions_text(fix, options);
+  return text + refused_text({fix}, options) + crossings_text(fix.crossings_after, options);
 }
-
-namespace {
-
-/// "Gapmin 1.25 -> 0.9" of one interface or of how many, and how many nodes move how far.
-std::string changes_of(const PenetrationFix& fix) {
-  std::size_t interfaces = 0;
-  std::string first;
-  for (const FixedInterface& i : fix.interfaces) {
-    interfaces += !i.changes.empty();
-    if (!first.empty()) continue;
-    first = change_text(i.changes);
-  }
-  if (interfaces > 1) first += fmt::format(", ... of {} interfaces", interfaces);
-  if (const std::string price = price_text(fix); !price.empty())
-    first += (first.empty() ? "" : "; ") + price;
-  if (!fix.moved.empty()) {
-    double far = 0;
-    for (const MovedNode& m : fix.moved) far = std::max(far, m.distance);
-    first += fmt::format("{} moved by up to {:.4g}", count(fix.moved.size(), "node", "nodes"), far);
-  }
-  return first.empty() ? "-" : first;
-}
-
-/// What the strategy tie would do, behind what is said of penetrations.
-std::string tie_proposal(const std::vector<PenetrationFix>& proposals,
-                         const std::function<std::string(std::string_view)>& command,
-                         const FixTextOptions& options, std::string text) {
-  for (const PenetrationFix& fix : proposals) {
-    if (fix.strategy != "tie" || (fix.ties.empty() && fix.refused.empty())) continue;
-    if (!text.ends_with('\n')) text += "\n";
-    text += "\n" +
-            toned(untied_text(fix, &FixedTie::before) + " of TYPE2 are not tied", Tone::yellow,
-                  options.color) +
-            "\n" + tie_table(fix, options) + refused_text({fix}, options);
-    if (score_of(fix).solved > 0)
-      text += fmt::format("\nto tie them:\n  {}\n", terminal_text(command("tie")));
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
                                const std::function<std::string(std::string_view)>& command,
@@ -479,12 +404,11 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
     const auto it = std::find_if(proposals.begin(), proposals.end(), [](const PenetrationFix& fix) {
       return fix.strategy != "tie" && !fix.refused.empty();
     });
-    if (it == proposals.end())
-      return tie_proposal(proposals, command, options,
-                          toned(nothing_to_fix, Tone::green, options.color));
-    return tie_proposal(proposals, command, options,
-                        toned(nothing_evaluated, Tone::yellow, options.color) + "\n" +
-                            refused_text({*it}, options));
+    const std::string text = it == proposals.end()
+                                 ? toned(nothing_to_fix, Tone::green, options.color)
+                                 : toned(nothing_evaluated, Tone::yellow, options.color) + "\n" +
+                                       refused_text({*it}, options);
+    return tie_proposal(proposals, command, options, text);
   }
   std::string text = count(found.pairs, "penetration", "penetrations");
   if (found.pairs > 0) text += fmt::format(" (deepest {:.4g})", found.deepest);
@@ -492,18 +416,16 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
     text += ", " + count(now.crossings_before, "crossed element", "crossed elements");
   if (now.tied_pairs > 0) text += "; " + tied_text(now) + ", left alone";
   text = toned(text, Tone::yellow, options.color) + "\n\nwhat each strategy would do:\n";
-  TextTable table(
-      make_table({"strategy", ">solved", ">left", ">not treated", ">treated already", "changes"}));
+  TextTable table({"strategy", ">solved", ">left", ">not treated", ">treated already", "changes"});
   std::vector<PenetrationFix> of_contacts;
   for (const PenetrationFix& fix : proposals) {
     if (fix.strategy == "tie") continue;
     const FixScore s = score_of(fix);
-    const Tone tone = s.open() > 0 ? Tone::yellow : Tone::green;
     table.row({fix.strategy,
-               fmt::format("{}", s.solved),
-               fmt::format("{}", s.left),
-               {fmt::format("{}", s.not_treated), tone},
-               fmt::format("{}", s.treated_already),
+               s.solved,
+               s.left,
+               {s.not_treated, s.open() > 0 ? Tone::yellow : Tone::green},
+               s.treated_already,
                changes_of(fix)});
     of_contacts.push_back(fix);
   }

@@ -1,18 +1,18 @@
-// Verdict and tables of `deck gaps`.
+// Verdict and tables of `deck gaps`: interfaces, part pairs, the deepest penetrations, ties.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <iterator>
 
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
+#include "contact/shared/element_names.hpp"
+#include "deck/contact/ties.hpp"
 #include "deck/report/gaps.hpp"
+#include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/gaps_names.hpp"
 #include "report/shared/gate.hpp"
-#include "report/shared/text_table.hpp"
-#include "report/terminal/ties_text.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {
@@ -22,26 +22,19 @@ const PenetrationRow& row_of(const Scene& scene, const NamedPenetration& p) {
   return scene.contacts[p.contact].penetrations[p.row];
 }
 
-/// Why a contact without penetrations is no clean one, in words; empty: it is.
+/// Why a contact with 0 penetrations is not reported as clean; empty: it is.
 std::string obstacle(const Contact& c) {
-  switch (obstacle_of(c)) {
-    case Obstacle::empty_main:
-      return "main side is empty";
-    case Obstacle::empty_secondary:
-      return "secondary side is empty";
-    case Obstacle::no_gap:
-      return "there is no gap";
-    case Obstacle::no_area:
-      return fmt::format("{} without area", count(static_cast<std::size_t>(c.degenerate_segments),
-                                                  "segment", "segments"));
-    case Obstacle::no_element:
-      return "segments or edges without element";
-    case Obstacle::no_stiffness:
-      return "main side has no stiffness";
-    case Obstacle::none:
-      break;
-  }
-  return {};
+  static constexpr const char* words[] = {"",
+                                          "main side is empty",
+                                          "secondary side is empty",
+                                          "there is no gap",
+                                          "without area",
+                                          "segments or edges without element",
+                                          "main side has no stiffness"};
+  const Obstacle why = obstacle_of(c);
+  const std::string text = words[static_cast<std::size_t>(why)];
+  if (why != Obstacle::no_area) return text;
+  return count(static_cast<std::uint64_t>(c.degenerate_segments), "segment ", "segments ") + text;
 }
 
 /// What a contact that ties does.
@@ -57,8 +50,8 @@ std::string action_words(const std::vector<const Contact*>& contacts) {
   for (const Contact* c : contacts) {
     if (!c->evaluated) {
       if (contacts.size() == 1) return "not evaluated";
-      left_out += fmt::format("{}{} not evaluated", left_out.empty() ? "" : ", ",
-                              c->role == ContactRole::primary ? "nodes" : to_string(c->role));
+      append(left_out, ", ", c->role == ContactRole::primary ? "nodes" : to_string(c->role));
+      left_out += " not evaluated";
       continue;
     }
     if (why.empty()) why = obstacle(*c);
@@ -68,24 +61,20 @@ std::string action_words(const std::vector<const Contact*>& contacts) {
   }
   if (all == 0) return !left_out.empty() ? left_out : why.empty() ? "-" : why;
   std::string text;
-  const auto add = [&](bool stops) {
+  for (const bool stops : {true, false})
     for (std::size_t a = 0; a < std::size(by_action); ++a) {
       const auto action = static_cast<PenetrationAction>(a);
       if (by_action[a] == 0 || stops_solver(action) != stops) continue;
       const char* const words = action_words(action, by_action[a]);
-      if (!text.empty()) text += ", ";
-      text += by_action[a] == all ? words : fmt::format("{} {}", by_action[a], words);
+      append(text, ", ", by_action[a] == all ? words : fmt::format("{} {}", by_action[a], words));
     }
-  };
-  add(true);
-  add(false);
   return text + (left_out.empty() ? "" : "; " + left_out);
 }
 
 std::string segment_text(const NamedPenetration& p) {
   std::string text;
   for (const std::int64_t n : p.main)
-    if (n != 0) text += fmt::format("{}{}", text.empty() ? "" : " ", n);
+    if (n != 0) append(text, " ", std::to_string(n));
   return text;
 }
 
@@ -94,10 +83,12 @@ std::string secondary_text(const NamedPenetration& p) {
                              : fmt::format("{}-{}", p.secondary[0], p.secondary[1]);
 }
 
-/// Totals of several contacts of one interface: a node that is in two of them counts in both.
-ContactTotals sum_of(const std::vector<ContactTotals>& all) {
+/// Totals of contacts of one interface: a node that is in two of them counts in both.
+ContactTotals sum_of(const Scene& scene, const SceneView& view,
+                     const std::vector<const Contact*>& contacts) {
   ContactTotals sum;
-  for (const ContactTotals& t : all) {
+  for (const Contact* c : contacts) {
+    const ContactTotals& t = view.contacts[static_cast<std::size_t>(c - scene.contacts.data())];
     sum.count.pairs += t.count.pairs;
     sum.count.nodes += t.count.nodes;
     sum.count.edges += t.count.edges;
@@ -115,95 +106,70 @@ std::string share_text(double ratio) {
   return ratio > 0 ? fmt::format("{:.0f} %", 100 * ratio) : "-";
 }
 
+/// Some contacts of an interface; `part`: one of several.
+std::vector<TextTable::Cell> interface_row(const std::vector<const Contact*>& contacts,
+                                           const ContactTotals& t, bool part, double largest) {
+  const Contact& c = *contacts.front();
+  const bool modern = is_modern(c.type), one = contacts.size() == 1;
+  const bool edges = c.kind == ContactKind::edge_edge;
+  std::uint64_t reach = 0;
+  bool of_nodes = false, of_edges = false;  // where nothing was evaluated no figure is known
+  for (const Contact* x : contacts) {
+    reach += x->candidates;
+    bool& of_kind = x->kind == ContactKind::edge_edge ? of_edges : of_nodes;
+    of_kind = of_kind || x->evaluated;
+  }
+  const bool known = of_nodes || of_edges;
+  const auto size = [&](std::size_t n) { return one ? TextTable::Cell(n) : TextTable::Cell(""); };
+  const bool tied = c.ties() && known && obstacle(c).empty() && t.solver_errors == 0;
+  const Tone tone = t.solver_errors > 0            ? Tone::red
+                    : t.count.pairs + t.untied > 0 ? Tone::yellow
+                                                   : Tone::plain;
+  return {c.inter->id,
+          part ? kind_name(c) : type_name(*c.inter),
+          part ? "" : c.inter->title,
+          c.igap,
+          modern ? "-" : length_text(c.gapmin, 6, largest),  // they have none
+          modern ? "-" : to_string(c.gapmin_origin),
+          size(edges ? c.secondary_edges.size() : c.secondary.size()),
+          size(edges ? c.main_edges.size() : c.main.size()),
+          known_cell(known, reach),
+          known_cell(known, t.count.pairs),
+          known_cell(of_nodes, t.count.nodes),
+          known_cell(of_edges, t.count.edges),
+          t.count.pairs ? length_text(t.max_depth, 6, largest) : "-",
+          share_text(t.max_ratio),
+          {tied ? tied_words(c, t) : action_words(contacts), tone}};
+}
+
 /// One row per interface; those without penetrations in one line. With `verbose` all of them, every
 /// contact of a TYPE19 in a row of its own below, and what their sides and gaps are.
-class InterfaceTable {
- public:
-  InterfaceTable(const Scene& scene, const SceneView& view, const GapsTextOptions& options)
-      : scene_(scene),
-        view_(view),
-        options_(options),
-        table_(options.verbose
-                   ? make_table({">id", "type", "title", ">Igap", ">Gapmin", "Gapmin from",
-                                 ">nodes", ">segments", ">in reach", ">pairs", ">nodes in",
-                                 ">edges in", ">deepest", ">of gap", "action"})
-                   : make_table({">id", "type", "title", ">Gapmin", ">pairs", ">nodes", ">edges",
-                                 ">deepest", ">of gap", "action"})) {}
-
-  std::string run() {
-    std::vector<std::int64_t> clean;
-    for (const auto& list :
-         by_interface(scene_.contacts, [](const Contact& c) { return c.inter; })) {
-      std::vector<const Contact*> contacts;
-      std::vector<ContactTotals> totals;
-      bool open = false;
-      for (const std::size_t i : list) {
-        contacts.push_back(&scene_.contacts[i]);
-        totals.push_back(view_.contacts[i]);
-        open = open || !scene_.contacts[i].evaluated || !obstacle(scene_.contacts[i]).empty();
-      }
-      const ContactTotals sum = sum_of(totals);
-      if (!options_.verbose && !open && sum.count.pairs + sum.tied.pairs + sum.untied == 0) {
-        clean.push_back(contacts.front()->inter->id);
-        continue;
-      }
-      row(contacts, sum, false);
-      if (options_.verbose && contacts.size() > 1)
-        for (std::size_t k = 0; k < contacts.size(); ++k) row({contacts[k]}, totals[k], true);
+std::string interface_table(const Scene& scene, const SceneView& view,
+                            const GapsTextOptions& options) {
+  const bool all = options.verbose;
+  const double largest = largest_bounded_gap(*scene.model);
+  TextTable table({">id", "type", "title", "+>Igap", ">Gapmin", "+Gapmin from", "+>nodes",
+                   "+>segments", "+>in reach", ">pairs", all ? ">nodes in" : ">nodes",
+                   all ? ">edges in" : ">edges", ">deepest", ">of gap", "action"},
+                  all);
+  std::vector<std::int64_t> clean;
+  for (const auto& contacts :
+       by_interface(scene.contacts, [](const Contact& c) { return c.inter; })) {
+    const bool open = std::any_of(contacts.begin(), contacts.end(), [](const Contact* c) {
+      return !c->evaluated || !obstacle(*c).empty();
+    });
+    const ContactTotals sum = sum_of(scene, view, contacts);
+    if (!all && !open && sum.count.pairs + sum.tied.pairs + sum.untied == 0) {
+      clean.push_back(contacts.front()->inter->id);
+      continue;
     }
-    std::string out;
-    if (table_.size() > 0) out = table_.fitted(options_.width, options_.color, 2);
-    return out + folded_ids(clean, "clean interface", "clean interfaces");
+    table.row(interface_row(contacts, sum, false, largest));
+    if (all && contacts.size() > 1)
+      for (const Contact* c : contacts)
+        table.row(interface_row({c}, sum_of(scene, view, {c}), true, largest));
   }
-
- private:
-  void row(const std::vector<const Contact*>& contacts, const ContactTotals& t, bool part) {
-    const Contact& c = *contacts.front();
-    std::vector<TextTable::Cell> cells;
-    const auto add = [&](std::string text) { cells.emplace_back(std::move(text)); };
-    const auto number = [](std::uint64_t n) { return fmt::format("{}", n); };
-    // Where nothing was evaluated no figure is known.
-    const bool known = std::any_of(contacts.begin(), contacts.end(),
-                                   [](const Contact* x) { return x->evaluated; });
-    add(fmt::format("{}", c.inter->id));
-    add(part ? kind_name(c) : fmt::format("TYPE{}", c.inter->type));
-    add(part ? "" : c.inter->title);
-    if (options_.verbose) add(fmt::format("{}", c.igap));
-    add(is_modern(c.type) ? "-" : length_text(c.gapmin, 6, largest_));  // they have none
-    if (options_.verbose) {
-      const bool one = contacts.size() == 1, edges = c.kind == ContactKind::edge_edge;
-      std::uint64_t reach = 0;
-      for (const Contact* x : contacts) reach += x->candidates;
-      add(is_modern(c.type) ? "-" : to_string(c.gapmin_origin));
-      add(one ? number(edges ? c.secondary_edges.size() : c.secondary.size()) : "");
-      add(one ? number(edges ? c.main_edges.size() : c.main.size()) : "");
-      add(known ? number(reach) : "-");
-      add(known ? number(t.count.pairs) : "-");
-    } else {
-      add(known ? number(t.count.pairs) : "-");
-    }
-    const auto has = [&](ContactKind kind) {
-      return std::any_of(contacts.begin(), contacts.end(),
-                         [&](const Contact* x) { return x->kind == kind && x->evaluated; });
-    };
-    add(has(ContactKind::node_segment) ? number(t.count.nodes) : "-");
-    add(has(ContactKind::edge_edge) ? number(t.count.edges) : "-");
-    add(t.count.pairs ? length_text(t.max_depth, 6, largest_) : "-");
-    add(share_text(t.max_ratio));
-    const bool tied = c.ties() && known && obstacle(c).empty() && t.solver_errors == 0;
-    cells.emplace_back(tied ? tied_words(c, t) : action_words(contacts),
-                       t.solver_errors > 0            ? Tone::red
-                       : t.count.pairs + t.untied > 0 ? Tone::yellow
-                                                      : Tone::plain);
-    table_.row(std::move(cells));
-  }
-
-  const Scene& scene_;
-  const SceneView& view_;
-  const GapsTextOptions& options_;
-  const double largest_ = largest_bounded_gap(*scene_.model);
-  TextTable table_;
-};
+  return table.below_heading(options) + folded_ids(clean, "clean interface", "clean interfaces");
+}
 
 std::string part_name(const Model& model, std::int64_t id) {
   const auto it = model.part_of_id.find(id);
@@ -216,34 +182,26 @@ std::string part_name(const Model& model, std::int64_t id) {
 std::string part_pairs_text(const Scene& scene, const SceneView& view,
                             const GapsTextOptions& options) {
   const Model& model = *scene.model;
-  TextTable pairs = make_table(
+  TextTable pairs(
       {"secondary", "main", ">pairs", ">nodes", ">edges", ">deepest", ">mean", ">p95", ">of gap"});
   const double largest = largest_bounded_gap(model);
   const std::size_t shown = std::min(options.part_pairs, view.part_pairs.size());
-  for (std::size_t i = 0; i < shown; ++i) {
-    const PartPair& p = view.part_pairs[i];
-    pairs.row({part_name(model, p.secondary), part_name(model, p.main),
-               fmt::format("{}", p.count.pairs), fmt::format("{}", p.count.nodes),
-               fmt::format("{}", p.count.edges), length_text(p.max_depth, 6, largest),
+  for (const PartPair& p : std::span(view.part_pairs).first(shown))
+    pairs.row({part_name(model, p.secondary), part_name(model, p.main), p.count.pairs,
+               p.count.nodes, p.count.edges, length_text(p.max_depth, 6, largest),
                length_text(p.mean_depth, 4, largest), length_text(p.p95_depth, 4, largest),
                share_text(p.max_ratio)});
-  }
-  std::string out = pairs.fitted(options.width, options.color, 2, 2);
-  if (shown < view.part_pairs.size())
-    out += fmt::format("  … and {} more\n", view.part_pairs.size() - shown);
-  return out;
+  return pairs.fitted(options.width, options.color, 2, 2) +
+         more_line(view.part_pairs.size(), shown);
 }
 
 std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& view,
                        const GapsTextOptions& options) {
   // Where a line has no room for all of it, elements and position give way to the rest.
   constexpr std::size_t room = 150;
-  const bool all = options.verbose || options.width == 0 || options.width >= room;
-  TextTable worst =
-      all ? make_table({">interface", "node/edge", ">depth", ">gap", ">distance", "segment/edge",
-                        "elements", "action", "position", "=defined at"})
-          : make_table({">interface", "node/edge", ">depth", ">gap", ">distance", "segment/edge",
-                        "action", "=defined at"});
+  TextTable worst({">interface", "node/edge", ">depth", ">gap", ">distance", "segment/edge",
+                   "+elements", "action", "+position", "=defined at"},
+                  options.verbose || options.width == 0 || options.width >= room);
   const std::size_t rows = std::min(options.worst, view.deepest_per_node.size());
   const double largest = largest_bounded_gap(*scene.model);
   std::vector<NodeIndex> nodes;
@@ -252,62 +210,135 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
   const std::vector<Span> spans = detail::node_spans(*scene.model, nodes);
   for (std::size_t i = 0; i < rows; ++i) {
     const NamedPenetration& p = view.penetrations[view.deepest_per_node[i]];
-    const Contact& c = scene.contacts[p.contact];
     const PenetrationRow& row = row_of(scene, p);
-    const bool stops = stops_solver(row.action);
     std::string action = action_words(row.action, 1);
     if (row.action == PenetrationAction::gap_reduced && !is_unbounded(row.gap0))
       action += fmt::format(" to {:.4g}", row.gap0);
     if (!row.in_contact) action += " (round-off)";
-    const Tone tone = stops                                   ? Tone::red
+    const Tone tone = stops_solver(row.action)                ? Tone::red
                       : row.action == PenetrationAction::none ? Tone::plain
                                                               : Tone::yellow;
-    std::vector<TextTable::Cell> cells{
-        fmt::format("{}", c.inter->id),      secondary_text(p),
-        length_text(row.depth, 6, largest),  length_text(row.gap, 6, largest),
-        fmt::format("{:.6g}", row.distance), segment_text(p)};
-    if (all) cells.emplace_back(fmt::format("{} / {}", p.secondary_element.id, p.main_element.id));
-    cells.emplace_back(action, tone);
-    if (all) cells.emplace_back(fmt::format("({:.5g}, {:.5g}, {:.5g})", p.at[0], p.at[1], p.at[2]));
-    cells.emplace_back(deck.sources.where(spans[i]));
-    worst.row(std::move(cells));
+    worst.row({scene.contacts[p.contact].inter->id,
+               secondary_text(p),
+               length_text(row.depth, 6, largest),
+               length_text(row.gap, 6, largest),
+               row.distance,
+               segment_text(p),
+               fmt::format("{} / {}", p.secondary_element.id, p.main_element.id),
+               {action, tone},
+               fmt::format("({:.5g}, {:.5g}, {:.5g})", p.at[0], p.at[1], p.at[2]),
+               deck.sources.where(spans[i])});
   }
-  std::string out = rows == 0 ? std::string() : worst.fitted(options.width, options.color, 2, 2);
-  if (rows < view.deepest_per_node.size())
-    out += fmt::format("  … and {} more (--worst N, --csv, --json)\n",
-                       view.deepest_per_node.size() - rows);
+  return worst.below_heading(options, 2) +
+         more_line(view.deepest_per_node.size(), rows, " (--worst N, --csv, --json)");
+}
+
+// ---- ties -------------------------------------------------------------------------------------
+
+/// One row per tie; those that lose nothing in one line, unless `verbose`.
+std::string tie_table(const Scene& scene, const GapsTextOptions& options) {
+  TextTable table({">id", "type", "title", ">nodes", ">tied", ">not tied", ">search distance",
+                   ">farthest", "what happens"});
+  std::vector<std::int64_t> clean;
+  for (const Tie& tie : scene.ties) {
+    const TieCounts n = count_ties(tie);
+    const std::string happens = losses_text(tie);
+    if (!options.verbose && happens == "-" && n.nodes > 0) {
+      clean.push_back(tie.inter->id);
+      continue;
+    }
+    double farthest = 0;
+    for (const TiedNode& node : tie.nodes)
+      if (node.tied) farthest = std::max(farthest, node.distance);
+    const double search = tie.search_distance;
+    table.row({tie.inter->id, "TYPE2", tie.inter->title, n.nodes, n.tied, n.lost(),
+               search != 0 ? TextTable::Cell(search) : TextTable::Cell("by pair"),
+               known_cell(n.tied > 0, farthest), happens});
+  }
+  return table.below_heading(options) + folded_ids(clean, "tie that holds", "ties that hold");
+}
+
+/// A node that is not tied.
+struct UntiedNode {
+  const InterBase* inter = nullptr;
+  NodeIndex node = no_index;
+  std::string segment;
+  TextTable::Cell distance, search;
+  std::string why;
+};
+
+UntiedNode untied_node(const Model& model, const Tie& tie, const TiedNode& n) {
+  const bool found = n.segment != no_index;
+  const std::uint32_t segment = found ? n.segment : n.nearest;
+  const bool known = segment != no_index;
+  const double search = n.search != 0 ? n.search : tie.search_distance;
+  return {tie.inter,
+          n.node,
+          known ? ids_text(model, tie.main[segment], ' ') : "-",
+          known_cell(known, found ? n.distance : n.nearest_distance),
+          known_cell(search != 0, search),
+          short_reason(tie, n)};
+}
+
+/// The first `most` of all ties; `all`: how many there are.
+std::vector<UntiedNode> untied_nodes(const Scene& scene, std::size_t most, std::size_t& all) {
+  std::vector<UntiedNode> out;
+  for (const Tie& tie : scene.ties)
+    for (const TiedNode& n : tie.nodes)
+      if (tie.not_evaluated.empty() && n.lost() && ++all <= most)
+        out.push_back(untied_node(*scene.model, tie, n));
+  for (const Contact& c : scene.contacts)
+    for (const std::uint32_t i : untied_secondary(c))
+      if (++all <= most)
+        out.push_back({c.inter, c.secondary[i].node, "-", "-", c.gapmin, "no segment"});
   return out;
+}
+
+/// Nodes that are not tied: which segment is nearest, how far it is, how far the solver looks.
+std::string untied_text(const Deck& deck, const Scene& scene, const GapsTextOptions& options) {
+  const Model& model = *scene.model;
+  std::size_t all = 0;
+  const std::vector<UntiedNode> rows = untied_nodes(scene, options.worst, all);
+  TextTable table({">interface", ">node", ">part", "nearest segment", ">distance",
+                   ">search distance", "why", "=defined at"});
+  std::vector<NodeIndex> nodes;
+  for (const UntiedNode& row : rows) nodes.push_back(row.node);
+  const std::vector<Span> spans = detail::node_spans(model, nodes);
+  Connectivity connectivity(model);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const UntiedNode& row = rows[i];
+    const std::int64_t part = element_at(model, connectivity, row.node).part;
+    table.row({row.inter->id, model.node_id(row.node), known_cell(part != 0, part), row.segment,
+               row.distance, row.search, row.why, deck.sources.where(spans[i])});
+  }
+  return table.below_heading(options) + more_line(all, rows.size(), " (--worst N, --json)");
 }
 
 }  // namespace
 
 std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
                       const GapsTextOptions& options) {
+  const bool color = options.color;
   std::string out;
-  if (!options.name.empty())
-    out += toned(terminal_text(options.name), Tone::cyan, options.color) + "\n";
-  const auto heading = [&](const char* title) {
-    return "\n" + toned(title, Tone::bold, options.color) + "\n";
-  };
+  if (!options.name.empty()) out += toned(terminal_text(options.name), Tone::cyan, color) + "\n";
   if (!scene.contacts.empty()) {
-    out += (out.empty() ? heading("Interfaces").substr(1) : heading("Interfaces")) +
-           InterfaceTable(scene, view, options).run();
-    if (!view.penetrations.empty()) {
-      out += heading("Part pairs") + part_pairs_text(scene, view, options);
-      out += heading("Deepest, one row per node or edge") + worst_text(deck, scene, view, options);
-    }
+    const std::string interfaces =
+        titled("Interfaces", interface_table(scene, view, options), color);
+    out += out.empty() ? interfaces.substr(1) : interfaces;
+    if (!view.penetrations.empty())
+      out += titled("Part pairs", part_pairs_text(scene, view, options), color) +
+             titled("Deepest, one row per node or edge", worst_text(deck, scene, view, options),
+                    color);
     if (options.crossings != nullptr) out += crossings_text(scene, *options.crossings, options);
-    if (const std::string text =
-            decisions_text(scene, 5, options.verbose, options.color, options.width);
+    if (const std::string text = decisions_text(scene, 5, options.verbose, color, options.width);
         !text.empty())
       out += "\n" + text;
     out += "\n";
   }
-  if (!scene.ties.empty())
-    out += heading("Ties").substr(1) + detail::tie_table(scene, options) + "\n";
-  if (const std::string untied = detail::untied_text(deck, scene, options); !untied.empty())
-    out += heading("Nodes that are not tied").substr(1) + untied + "\n";
-  out += verdict_text(verdict_of(deck, scene, view), options.color);
+  if (!scene.ties.empty()) out += titled("Ties", tie_table(scene, options), color).substr(1) + "\n";
+  if (const std::string untied = untied_text(deck, scene, options); !untied.empty())
+    out += titled("Nodes that are not tied", untied, color).substr(1) + "\n";
+  out += verdict_text(verdict_of(deck, scene, view), color);
   if (options.gate != nullptr) out += gate_text(*options.gate);
   return out;
 }

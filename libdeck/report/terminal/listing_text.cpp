@@ -5,11 +5,9 @@
 #include <cmath>
 
 #include "base/shared/columns.hpp"
-#include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "report/shared/listing.hpp"
 #include "report/shared/parts.hpp"
-#include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {
@@ -20,15 +18,11 @@ Tone tone_of(Severity s) {
   return s == Severity::error ? Tone::red : s == Severity::warning ? Tone::yellow : Tone::cyan;
 }
 
-template <class List>
-std::string first_of(const List& list, std::size_t most) {
-  std::string out;
-  for (std::size_t i = 0; i < std::min(most, list.size()); ++i)
-    out += (i == 0 ? "" : ", ") + std::to_string(list[i]);
-  return list.size() > most ? fmt::format("{} and {} more", out, list.size() - most) : out;
-}
-
 std::string figure(double v) { return fmt::format("{:.6g}", v); }
+
+std::string kind_of(const ComparedSteps& s) {
+  return s.kind ? std::string(detail::kind_name(*s.kind)) : "node";
+}
 
 class Writer {
  public:
@@ -54,6 +48,17 @@ class Writer {
  private:
   void paragraph(const std::string& text, std::size_t indent) {
     out_ += wrapped(terminal_text(text), indent, width_);
+  }
+
+  /// How many of a list are shown: `few`, or all of them with -v.
+  template <class List>
+  std::span<const typename List::value_type> shown(const List& list, std::size_t few) const {
+    return std::span(list).first(options_.verbose ? list.size() : std::min(few, list.size()));
+  }
+
+  /// Place of a finding in the deck, "car_0000.rad:3:1: "
+  std::string where(const Diagnostic& d) const {
+    return d.span.valid() ? loaded_->deck().sources.where(d.span) + ": " : std::string();
   }
 
   void head() {
@@ -89,12 +94,11 @@ class Writer {
                         count(group.times, "time", "times"));
     if (!group.means.empty()) paragraph(group.means, 2);
     if (!group.action.empty()) paragraph("What to do: " + group.action, 2);
-    const std::size_t most = options_.verbose ? group.places.size() : 10;
-    for (std::size_t p = 0; p < std::min(most, group.places.size()); ++p)
-      place(group, group.places[p]);
-    if (group.places.size() > most)
-      paragraph(fmt::format("{} more places: -v", group.places.size() - most), 2);
-    for (const std::size_t f : some(group.findings)) finding(f, 2);
+    const auto places = shown(group.places, 10);
+    for (const MessagePlace& p : places) place(group, p);
+    if (group.places.size() > places.size())
+      paragraph(fmt::format("{} more places: -v", group.places.size() - places.size()), 2);
+    for (const std::size_t f : shown(group.findings, 3)) finding(f, 2);
     if (loaded_ != nullptr && silent(group))
       paragraph("deck lint has no finding for this message.", 2);
   }
@@ -105,27 +109,21 @@ class Writer {
                        [](const MessagePlace& p) { return p.findings.empty(); });
   }
 
-  std::vector<std::size_t> some(const std::vector<std::size_t>& findings) const {
-    const std::size_t most = options_.verbose ? findings.size() : 3;
-    return {findings.begin(),
-            findings.begin() + static_cast<std::ptrdiff_t>(std::min(most, findings.size()))};
-  }
-
   void place(const MessageGroup& group, const MessagePlace& place) {
-    std::string where;
-    if (place.span.valid()) where = loaded_->deck().sources.where(place.span);
-    if (!place.name.empty()) paragraph(place.name + (where.empty() ? "" : ", " + where), 2);
+    std::string name = place.name;
+    if (place.span.valid()) name += ", " + loaded_->deck().sources.where(place.span);
+    if (!place.name.empty()) paragraph(name, 2);
+    const auto plural = [](const auto& list) { return list.size() == 1 ? "" : "s"; };
     std::string detail =
-        fmt::format("{} {} of the listing", place.lines.size() == 1 ? "line" : "lines",
-                    first_of(place.lines, 4));
+        fmt::format("line{} {} of the listing", plural(place.lines), first_of(place.lines, 4));
     if (!place.counted.empty())
-      detail += "; " + std::string(place.counted.size() == 1 ? "number" : "numbers") +
-                " in the message: " + first_of(place.counted, 8);
+      detail += fmt::format("; number{} in the message: {}", plural(place.counted),
+                            first_of(place.counted, 8));
     if (!place.nodes.empty() && group.number != 1164)
-      detail += fmt::format("; {} {}", place.nodes.size() == 1 ? "node" : "nodes",
+      detail += fmt::format("; node{} {}", plural(place.nodes),
                             first_of(place.nodes, options_.verbose ? place.nodes.size() : 8));
     paragraph(detail, 4);
-    for (const std::size_t f : some(place.findings)) finding(f, 4);
+    for (const std::size_t f : shown(place.findings, 3)) finding(f, 4);
     if (is_tie(group, place))
       paragraph("These pairs are tied at the start. They are not penetrations.", 4);
   }
@@ -140,36 +138,35 @@ class Writer {
 
   void finding(std::size_t f, std::size_t indent) {
     const Diagnostic& d = report_.findings[f];
-    std::string where;
-    if (d.span.valid()) where = loaded_->deck().sources.where(d.span) + ": ";
-    paragraph(
-        fmt::format("deck: {}{} {}: {}", where, finding_name(d), to_string(d.severity), d.message),
-        indent);
+    paragraph(fmt::format("deck: {}{} {}: {}", where(d), finding_name(d), to_string(d.severity),
+                          d.message),
+              indent);
   }
 
   // ---- contacts
 
   void contacts() {
     const Scene& scene = loaded_->scene();
-    TextTable table = make_table({">interface", "type", ">listing", ">deck", "pairs", ">line"});
+    TextTable table({">interface", "type", ">listing", ">deck", "pairs", ">line"});
     for (const ComparedContact& c : report_.contacts) {
       if (c.pairs.empty() && c.listed_count == 0 && c.agrees()) continue;
       const Contact& contact = scene.contacts[c.contact];
-      table.row({std::to_string(contact.inter->id),
+      std::string listed = "absent", line;
+      if (c.listed != nullptr) {
+        listed = std::to_string(c.listed_count);
+        line = std::to_string(c.listed->total_line != 0 ? c.listed->total_line : c.listed->line);
+      }
+      table.row({contact.inter->id,
                  kind_name(contact),
-                 c.listed == nullptr ? "absent" : std::to_string(c.listed_count),
-                 {std::to_string(c.pairs.size()), c.agrees() ? Tone::plain : Tone::yellow},
+                 listed,
+                 {c.pairs.size(), c.agrees() ? Tone::plain : Tone::yellow},
                  pairs_text(c),
-                 c.listed == nullptr
-                     ? ""
-                     : std::to_string(c.listed->total_line != 0 ? c.listed->total_line
-                                                                : c.listed->line)});
+                 line});
     }
     out_ += "\nInitial penetrations: pairs in the listing and of deck gaps\n";
     if (table.size() == 0)
       out_ += report_.unnamed_contacts == 0 ? "  none in either\n" : "  none in the deck\n";
-    else
-      out_ += table.fitted(options_.width, options_.color, 2);
+    out_ += table.below_heading(options_);
     if (report_.unnamed_contacts > 0)
       paragraph(count(report_.unnamed_contacts, "contact of the listing has",
                       "contacts of the listing have") +
@@ -198,34 +195,29 @@ class Writer {
   /// The rows behind the numbers: of each contact the deepest, and what only one side has.
   void rows() {
     const Scene& scene = loaded_->scene();
-    TextTable table = make_table({">interface", ">secondary", "main", "parts", ">depth", ">gap",
-                                  "listed", "the solver does"});
+    TextTable table({">interface", ">secondary", "main", "parts", ">depth", ">gap", "listed",
+                     "the solver does"});
     for (const ComparedContact& c : report_.contacts) {
       const Contact& contact = scene.contacts[c.contact];
-      std::size_t shown = 0;
+      std::size_t rows = 0;
       for (const ComparedPair& p : c.pairs) {
         const bool odd = c.by_pair && !p.listed;
-        if (shown >= options_.worst && !(odd && options_.verbose)) continue;
-        ++shown;
+        if (rows >= options_.worst && !(odd && options_.verbose)) continue;
+        ++rows;
         const PenetrationRow& row = contact.penetrations[p.pair.row];
-        table.row({std::to_string(contact.inter->id), ids(p.pair.secondary), ids(p.pair.main),
+        table.row({contact.inter->id, ids(p.pair.secondary), ids(p.pair.main),
                    fmt::format("{} on {}", p.pair.secondary_element.part, p.pair.main_element.part),
-                   figure(row.depth), figure(row.gap), listed_text(c, p),
+                   row.depth, row.gap, listed_text(c, p),
                    contact.ties() ? "tied" : action_words(row.action, 1)});
       }
-      for (std::size_t i = 0;
-           i < std::min<std::size_t>(c.only_listed.size(),
-                                     options_.verbose ? c.only_listed.size() : options_.worst);
-           ++i) {
-        const ListedPair& p = c.only_listed[i];
-        table.row({std::to_string(contact.inter->id), ids(p.secondary), ids(p.main), "",
+      for (const ListedPair& p : shown(c.only_listed, options_.worst))
+        table.row({contact.inter->id, ids(p.secondary), ids(p.main), "",
                    p.depth ? figure(*p.depth) : "", "", "only there", ""});
-      }
     }
     if (table.size() == 0) return;
     out_ += fmt::format("\nDeepest pairs of each contact (all: deck gaps {} --csv -)\n",
                         terminal_text(loaded_->path()));
-    out_ += table.fitted(options_.width, options_.color, 2, 3);
+    out_ += table.below_heading(options_, 3);
   }
 
   template <std::size_t N>
@@ -233,7 +225,7 @@ class Writer {
     std::string out;
     for (std::size_t i = 0; i < N; ++i)
       if (nodes[i] != 0 && (i == 0 || nodes[i] != nodes[i - 1]))
-        out += (out.empty() ? "" : " ") + std::to_string(nodes[i]);
+        append(out, " ", std::to_string(nodes[i]));
     return out;
   }
 
@@ -247,48 +239,40 @@ class Writer {
 
   void steps() {
     if (report_.steps.empty()) return;
-    TextTable table =
-        make_table({"of", ">listed", ">equal", ">different", ">not computed", ">smallest", ">id"});
-    for (const ComparedSteps& s : report_.steps)
-      table.row(
-          {s.kind ? std::string(detail::kind_name(*s.kind)) : "node",
-           std::to_string(s.listed),
-           std::to_string(s.equal),
-           {std::to_string(s.different.size()), s.different.empty() ? Tone::plain : Tone::yellow},
-           std::to_string(s.not_computed),
-           s.smallest >= 1e29 ? "none" : figure(s.smallest),
-           s.smallest >= 1e29 ? "" : std::to_string(s.smallest_id)});
+    TextTable table({"of", ">listed", ">equal", ">different", ">not computed", ">smallest", ">id"});
+    for (const ComparedSteps& s : report_.steps) {
+      const bool none = s.smallest >= 1e29;
+      table.row({kind_of(s),
+                 s.listed,
+                 s.equal,
+                 {s.different.size(), s.different.empty() ? Tone::plain : Tone::yellow},
+                 s.not_computed,
+                 none ? "none" : figure(s.smallest),
+                 none ? "" : std::to_string(s.smallest_id)});
+    }
     out_ += fmt::format("\nTime steps in the listing and of deck parts (equal: within {:g})\n",
                         step_tolerance);
-    out_ += table.fitted(options_.width, options_.color, 2);
+    out_ += table.below_heading(options_);
     for (const ComparedSteps& s : report_.steps)
-      for (std::size_t i = 0;
-           i < std::min<std::size_t>(s.different.size(),
-                                     options_.verbose ? s.different.size() : options_.worst);
-           ++i)
-        paragraph(fmt::format("{} {}: {} in the listing, {}",
-                              s.kind ? std::string(detail::kind_name(*s.kind)) : "node",
-                              s.different[i].id, figure(s.different[i].listed),
-                              std::isnan(s.different[i].computed)
-                                  ? "absent in the deck"
-                                  : figure(s.different[i].computed) + " in deck"),
+      for (const StepDifference& d : shown(s.different, options_.worst))
+        paragraph(fmt::format("{} {}: {} in the listing, {}", kind_of(s), d.id, figure(d.listed),
+                              std::isnan(d.computed) ? "absent in the deck"
+                                                     : figure(d.computed) + " in deck"),
                   2);
   }
 
   void not_listed() {
     if (report_.not_listed.empty()) return;
     out_ += "\nExpected by deck, and not in the listing\n";
-    const std::size_t most = options_.verbose ? report_.not_listed.size() : 10;
-    for (std::size_t i = 0; i < std::min(most, report_.not_listed.size()); ++i) {
-      const Diagnostic& d = report_.findings[report_.not_listed[i]];
-      std::string where;
-      if (d.span.valid()) where = loaded_->deck().sources.where(d.span) + ": ";
+    const auto found = shown(report_.not_listed, 10);
+    for (const std::size_t f : found) {
+      const Diagnostic& d = report_.findings[f];
       paragraph(fmt::format("{} {}: {}{} {}", to_string(d.reference->severity), d.reference->number,
-                            where, finding_name(d), d.message),
+                            where(d), finding_name(d), d.message),
                 2);
     }
-    if (report_.not_listed.size() > most)
-      paragraph(fmt::format("{} more: -v", report_.not_listed.size() - most), 2);
+    if (report_.not_listed.size() > found.size())
+      paragraph(fmt::format("{} more: -v", report_.not_listed.size() - found.size()), 2);
   }
 
   const Listing& listing_;

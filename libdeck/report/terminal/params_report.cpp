@@ -12,7 +12,6 @@
 
 #include "deck/text/number.hpp"
 #include "report/shared/schemas.hpp"
-#include "report/shared/text_table.hpp"
 #include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"
 #include "text/shared/columns.hpp"
@@ -39,18 +38,10 @@ std::string cell_text(double v) {
 std::string cell_text(const std::string& v) { return v; }
 
 Tone tone_of(Origin origin) {
-  switch (origin) {
-    case Origin::card:
-      return Tone::plain;
-    case Origin::default_block:
-      return Tone::cyan;
-    case Origin::built_in:
-      return Tone::dim;
-    case Origin::derived:
-    case Origin::geometry:
-      break;
-  }
-  return Tone::yellow;
+  return origin == Origin::card            ? Tone::plain
+         : origin == Origin::default_block ? Tone::cyan
+         : origin == Origin::built_in      ? Tone::dim
+                                           : Tone::yellow;
 }
 
 /// Interfaces that are in the deck but not evaluated here.
@@ -80,16 +71,44 @@ double as_number(std::int64_t v) { return static_cast<double>(v); }
 double as_number(double v) { return v; }
 double as_number(const std::string& v) { return v == "000" ? 0 : 1; }
 
-bool wanted(const ParamsTextOptions& options, const InterBase& inter) {
-  return options.only.empty() ||
-         std::find(options.only.begin(), options.only.end(), inter.id) != options.only.end();
+/// True if the field is written on the card with something else than what a blank would give.
+template <class T>
+bool changed_on_card(const ParamsInput& in, const InterBase& inter, std::string_view name,
+                     const Effective<T>& e) {
+  if (!e.has_input || as_number(e.input) == 0) return false;
+  for (const DefaultInter& d : in.loaded.interfaces().defaults)
+    if (const auto* given = d.type == inter.type ? d.find(name) : nullptr)
+      return as_number(e.input) != static_cast<double>(given->value);
+  const Schema* schema = inter.block != nullptr ? inter.block->schema : nullptr;
+  const Field* field = schema != nullptr ? schema->find_field(name) : nullptr;
+  if (field == nullptr || field->type == FieldType::id) return true;
+  const bool known =
+      field->default_varies != DefaultVaries::fields &&
+      (field->default_varies != DefaultVaries::model || ordinary(&in.loaded.model()));
+  return !known || field->default_value != as_number(e.input);
 }
 
-template <class T>
-bool wanted(const ParamsInput& in, const InterBase& inter, std::string_view name,
-            const Effective<T>& e, const ParamsTextOptions& options) {
-  if (options.filled_in_only && e.origin == Origin::card) return false;
-  return !options.changed_only || changed_on_card(in, inter, name, e);
+/// The interfaces that the options ask for.
+std::vector<const InterBase*> wanted_interfaces(const ParamsInput& in,
+                                                const ParamsTextOptions& options) {
+  std::vector<const InterBase*> out;
+  for (const InterBase* inter : in.loaded.interfaces().all)
+    if (options.only.empty() ||
+        std::find(options.only.begin(), options.only.end(), inter->id) != options.only.end())
+      out.push_back(inter);
+  return out;
+}
+
+/// Calls `add` with name and value of each field that the options ask for.
+template <class Add>
+void each_field(const ParamsInput& in, const InterBase& inter, const ParamsTextOptions& options,
+                const Add& add) {
+  visit_any_interface(inter, [&](const auto& t) {
+    t.for_each([&](std::string_view name, const auto& e) {
+      if (options.filled_in_only && e.origin == Origin::card) return;
+      if (!options.changed_only || changed_on_card(in, inter, name, e)) add(name, e);
+    });
+  });
 }
 
 /// What the card says: a cell without a finite number as it is written.
@@ -130,28 +149,6 @@ ParameterRow parameter(const ParamsInput& in, const InterBase& inter, std::strin
 }  // namespace
 
 template <class T>
-bool changed_on_card(const ParamsInput& in, const InterBase& inter, std::string_view name,
-                     const Effective<T>& e) {
-  if (!e.has_input || as_number(e.input) == 0) return false;
-  for (const DefaultInter& d : in.loaded.interfaces().defaults)
-    if (const auto* given = d.type == inter.type ? d.find(name) : nullptr)
-      return as_number(e.input) != static_cast<double>(given->value);
-  const Schema* schema = inter.block != nullptr ? inter.block->schema : nullptr;
-  const Field* field = schema != nullptr ? schema->find_field(name) : nullptr;
-  if (field == nullptr || field->type == FieldType::id) return true;
-  const bool known =
-      field->default_varies != DefaultVaries::fields &&
-      (field->default_varies != DefaultVaries::model || ordinary(&in.loaded.model()));
-  return !known || field->default_value != as_number(e.input);
-}
-template bool changed_on_card(const ParamsInput&, const InterBase&, std::string_view,
-                              const EffectiveInt&);
-template bool changed_on_card(const ParamsInput&, const InterBase&, std::string_view,
-                              const EffectiveReal&);
-template bool changed_on_card(const ParamsInput&, const InterBase&, std::string_view,
-                              const EffectiveText&);
-
-template <class T>
 std::string effective_text(const ParamsInput& in, const InterBase& inter, std::string_view name,
                            const Effective<T>& e) {
   if (e.origin != Origin::geometry) return cell_text(e.value);
@@ -170,22 +167,15 @@ template std::string effective_text(const ParamsInput&, const InterBase&, std::s
 
 TextTable params_table(const ParamsInput& in, const InterBase& inter,
                        const ParamsTextOptions& options) {
-  TextTable table({{"field", Align::left},
-                   {"card", Align::right},
-                   {"value", Align::right},
-                   {"origin", Align::left},
-                   {"place", Align::left, true}});
-  visit_any_interface(inter, [&](const auto& t) {
-    t.for_each([&](std::string_view name, const auto& e) {
-      if (!wanted(in, inter, name, e, options)) return;
-      table.row(
-          {std::string(name),
-           e.has_input ? input_text(in.loaded.deck(), e) : std::string("-"),
-           {effective_text(in, inter, name, e),
-            e.origin == Origin::card ? Tone::bold : Tone::plain},
-           {to_string(e.origin), tone_of(e.origin)},
-           {e.span.valid() ? in.loaded.deck().sources.where(e.span) : std::string(), Tone::dim}});
-    });
+  const Deck& deck = in.loaded.deck();
+  TextTable table({"field", ">card", ">value", "origin", "=place"});
+  each_field(in, inter, options, [&](std::string_view name, const auto& e) {
+    table.row(
+        {name,
+         e.has_input ? input_text(deck, e) : "-",
+         {effective_text(in, inter, name, e), e.origin == Origin::card ? Tone::bold : Tone::plain},
+         {to_string(e.origin), tone_of(e.origin)},
+         {e.span.valid() ? deck.sources.where(e.span) : "", Tone::dim}});
   });
   return table;
 }
@@ -206,15 +196,10 @@ using MatrixRow = std::vector<std::pair<std::string, MatrixCell>>;
 
 MatrixRow matrix_row(const ParamsInput& in, const InterBase& inter) {
   MatrixRow row;
-  visit_any_interface(inter, [&](const auto& t) {
-    t.for_each([&](std::string_view name, const auto& e) {
-      MatrixCell cell;
-      cell.present = true;
-      cell.on_card = e.origin == Origin::card;
-      cell.changed = changed_on_card(in, inter, name, e) || e.origin == Origin::default_block;
-      cell.text = effective_text(in, inter, name, e);
-      row.emplace_back(name, std::move(cell));
-    });
+  each_field(in, inter, {}, [&](std::string_view name, const auto& e) {
+    const bool changed = changed_on_card(in, inter, name, e) || e.origin == Origin::default_block;
+    row.emplace_back(name, MatrixCell{true, e.origin == Origin::card, changed,
+                                      effective_text(in, inter, name, e)});
   });
   return row;
 }
@@ -234,9 +219,8 @@ struct Matrix {
 
 Matrix matrix_of(const ParamsInput& in, const ParamsTextOptions& options) {
   Matrix m;
-  for (const InterBase* inter : in.loaded.interfaces().all) {
-    if (!wanted(options, *inter)) continue;
-    m.interfaces.push_back(inter);
+  m.interfaces = wanted_interfaces(in, options);
+  for (const InterBase* inter : m.interfaces) {
     m.rows.push_back(matrix_row(in, *inter));
     for (const auto& [name, cell] : m.rows.back())
       if (std::find(m.names.begin(), m.names.end(), name) == m.names.end()) m.names.push_back(name);
@@ -267,8 +251,7 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
   TextTable table(titles);
   for (std::size_t i = 0; i < m.rows.size(); ++i) {
     const InterBase& inter = *m.interfaces[i];
-    std::vector<TextTable::Cell> cells = {
-        {std::to_string(inter.id), Tone::bold}, fmt::format("TYPE{}", inter.type), inter.title};
+    std::vector<TextTable::Cell> cells = {{inter.id, Tone::bold}, type_name(inter), inter.title};
     for (const std::string& name : columns) {
       const MatrixCell& c = cell_of(m.rows[i], name);
       const bool hidden = options.changed_only && !c.changed;
@@ -280,32 +263,27 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
     }
     table.row(std::move(cells));
   }
-  std::string out = table.fitted(options.width, options.color, 0, 1);
-  out +=
-      fmt::format("\n{}: {}; (value): not on the card; -: no such field{}\n",
-                  terminal_text(in.loaded.path()), count(m.rows.size(), "interface", "interfaces"),
-                  options.changed_only ? "; .: the default" : "");
-  return out;
+  return table.fitted(options.width, options.color) +
+         fmt::format("\n{}: {}; (value): not on the card; -: no such field{}\n",
+                     terminal_text(in.loaded.path()),
+                     count(m.rows.size(), "interface", "interfaces"),
+                     options.changed_only ? "; .: the default" : "");
 }
 
 std::string params_csv(const ParamsInput& in, const ParamsTextOptions& options) {
   std::string out = "deck,interface,type,title,field,card,value,origin,file,line,column\r\n";
-  for (const InterBase* inter : in.loaded.interfaces().all) {
-    if (!wanted(options, *inter)) continue;
-    visit_any_interface(*inter, [&](const auto& t) {
-      t.for_each([&](std::string_view name, const auto& e) {
-        if (!wanted(in, *inter, name, e, options)) return;
-        const Position p = e.span.valid() ? in.loaded.deck().sources.position(e.span) : Position{};
-        out += fmt::format(
-            "{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_text(in.loaded.path()), inter->id,
-            inter->type, csv_text(inter->title), name, csv_text(input_text(in.loaded.deck(), e)),
-            csv_text(effective_text(in, *inter, name, e)), to_string(e.origin),
-            e.span.valid() ? csv_text(in.loaded.deck().sources[e.span.file].path()) : "",
-            e.span.valid() ? std::to_string(p.line) : "",
-            e.span.valid() ? std::to_string(p.column) : "");
-      });
+  const SourceSet& sources = in.loaded.deck().sources;
+  for (const InterBase* inter : wanted_interfaces(in, options))
+    each_field(in, *inter, options, [&](std::string_view name, const auto& e) {
+      const bool known = e.span.valid();
+      const Position p = known ? sources.position(e.span) : Position{};
+      out += fmt::format(
+          "{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_text(in.loaded.path()), inter->id,
+          inter->type, csv_text(inter->title), name, csv_text(input_text(in.loaded.deck(), e)),
+          csv_text(effective_text(in, *inter, name, e)), to_string(e.origin),
+          known ? csv_text(sources[e.span.file].path()) : "", known ? std::to_string(p.line) : "",
+          known ? std::to_string(p.column) : "");
     });
-  }
   return out;
 }
 
@@ -343,9 +321,8 @@ Record<ParameterRow> record_of(const ParameterRow*) {
 
 Named<ParameterRow> parameters_of(const ParamsInput& in, const InterBase& inter) {
   return {[&in, &inter](const auto& add) {
-    visit_any_interface(inter, [&](const auto& t) {
-      t.for_each(
-          [&](std::string_view name, const auto& e) { add(name, parameter(in, inter, name, e)); });
+    each_field(in, inter, {}, [&](std::string_view name, const auto& e) {
+      add(name, parameter(in, inter, name, e));
     });
     // No such cell on the card; its node-to-surface parts have the field all the same.
     if (inter.type == 19) add("Fpenmax", parameter(in, inter, "Fpenmax", EffectiveReal{}));
@@ -357,8 +334,7 @@ std::string params_text(const ParamsInput& in, const ParamsTextOptions& options)
   std::string out;
   if (const std::string lead = coverage_lead(coverage); !lead.empty())
     out += toned(terminal_text(lead), Tone::bold, options.color) + "\n";
-  for (const InterBase* inter : in.loaded.interfaces().all) {
-    if (!wanted(options, *inter)) continue;
+  for (const InterBase* inter : wanted_interfaces(in, options)) {
     out +=
         toned(fmt::format("/INTER/TYPE{}/{}", inter->type, inter->id), Tone::bold, options.color);
     if (!inter->title.empty()) out += "  " + terminal_text(inter->title);
@@ -422,12 +398,6 @@ struct ParamsDocument {
   const Coverage coverage;
 };
 
-void each_interface(const ParamsDocument& r,
-                    const std::function<void(const ParamsInterfaceRow&)>& add) {
-  for (const InterBase* inter : r.in.loaded.interfaces().all)
-    if (wanted(r.options, *inter)) add({r.in, inter});
-}
-
 Record<ParamsDocument> record_of(const ParamsDocument*) {
   using Row = ParamsDocument;
   static constexpr Column<Row> columns[] = {
@@ -438,7 +408,9 @@ Record<ParamsDocument> record_of(const ParamsDocument*) {
              [](const Row& r) { return rows_of(r.coverage.not_examined); }),
       column("interfaces",
              [](const Row& r) {
-               return Rows<ParamsInterfaceRow>{[&r](const auto& add) { each_interface(r, add); }};
+               return rows_of(wanted_interfaces(r.in, r.options), [&r](const InterBase* inter) {
+                 return ParamsInterfaceRow{r.in, inter};
+               });
              }),
       column("not_evaluated", "Interfaces of other types, which are not in 'interfaces'",
              [](const Row& r) {

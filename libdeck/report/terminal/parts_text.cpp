@@ -3,14 +3,13 @@
 
 #include <cmath>
 
-#include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
 #include "deck/text/number.hpp"
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
 #include "report/shared/parts.hpp"
-#include "report/shared/text_table.hpp"
+#include "report/terminal/words.hpp"
 
 namespace deck {
 namespace {
@@ -23,26 +22,27 @@ std::string part_step(double dt) { return dt >= 1e29 ? "" : six_digits(dt); }
 std::string elements_text(const detail::PartView& v) {
   std::string out;
   for (std::size_t k = 0; k < v.elements.size(); ++k)
-    if (v.elements[k] > 0) {
-      if (!out.empty()) out += ", ";
-      out += std::to_string(v.elements[k]) + " ";
-      out += detail::kind_name(static_cast<ElementKind>(k));
-    }
+    if (v.elements[k] > 0)
+      append(out, ", ",
+             fmt::format("{} {}", v.elements[k], detail::kind_name(static_cast<ElementKind>(k))));
   return out.empty() ? "none" : out;
 }
 
-std::string element_text(const Model& model, const PartFigures& f) {
+std::string slowest_element(const Model& model, const PartFigures& f) {
   if (f.slowest.element == no_index) return "";
-  return std::string(detail::kind_name(f.slowest.kind)) + " " +
-         std::to_string(model.family(f.slowest.kind).id[f.slowest.element]);
+  return fmt::format("{} {}", detail::kind_name(f.slowest.kind),
+                     model.family(f.slowest.kind).id[f.slowest.element]);
 }
 
-std::string list(const std::vector<std::int64_t>& ids, std::size_t most) {
-  std::string out;
-  for (std::size_t i = 0; i < ids.size() && i < most; ++i)
-    out += (i == 0 ? "" : ", ") + std::to_string(ids[i]);
-  if (ids.size() > most) out += " and " + std::to_string(ids.size() - most) + " more";
-  return out;
+/// "Contacts 1 and 2 cover the same 3 pairs of parts, for example 4 and 5"
+std::string repeated_text(const detail::RepeatedContacts& c) {
+  return fmt::format("Contacts {} cover the same {} of parts{}{}\n",
+                     c.interfaces.size() == 2
+                         ? fmt::format("{} and {}", c.interfaces[0], c.interfaces[1])
+                         : first_of(c.interfaces, 8),
+                     count(c.pairs, "pair", "pairs"), c.pairs > 1 ? ", for example " : ": ",
+                     c.part == c.other ? fmt::format("{} with itself", c.part)
+                                       : fmt::format("{} and {}", c.part, c.other));
 }
 
 void summary(const LoadedDeck& loaded, const detail::PartsView& view, std::string& out) {
@@ -51,33 +51,23 @@ void summary(const LoadedDeck& loaded, const detail::PartsView& view, std::strin
   const Kinematics& k = loaded.kinematics();
   out += "\nMass of all elements: " + six_digits(mesh.total.mass) + "\n";
   if (mesh.total.slowest.element != no_index)
-    out += "Smallest time step of an element: " + part_step(mesh.total.dt) + " (" +
-           element_text(model, mesh.total) + ")\n";
-  std::size_t node = mesh.nodes.dt.size();
-  for (std::size_t n = 0; n < mesh.nodes.dt.size(); ++n)
-    if (mesh.nodes.dt[n] < 1e29 &&
-        (node == mesh.nodes.dt.size() || mesh.nodes.dt[n] < mesh.nodes.dt[node]))
-      node = n;
-  if (node < mesh.nodes.dt.size())
-    out += "Smallest time step of a node: " + part_step(mesh.nodes.dt[node]) + " (node " +
-           std::to_string(model.nodes.id[node]) + ")\n";
+    out += fmt::format("Smallest time step of an element: {} ({})\n", part_step(mesh.total.dt),
+                       slowest_element(model, mesh.total));
+  const std::vector<double>& steps = mesh.nodes.dt;
+  std::size_t node = steps.size();
+  for (std::size_t n = 0; n < steps.size(); ++n)
+    if (steps[n] < 1e29 && (node == steps.size() || steps[n] < steps[node])) node = n;
+  if (node < steps.size())
+    out += fmt::format("Smallest time step of a node: {} (node {})\n", part_step(steps[node]),
+                       model.nodes.id[node]);
   if (view.unconnected_nodes > 0)
     out += count(view.unconnected_nodes, "node belongs", "nodes belong") + " to no element\n";
   if (!view.unseen_parts.empty())
     out += count(view.unseen_parts.size(), "part is", "parts are") +
-           " in no contact and no tie: " + list(view.unseen_parts, 12) + "\n";
+           " in no contact and no tie: " + first_of(view.unseen_parts, 12) + "\n";
   constexpr std::size_t most_repeated = 5;
-  for (std::size_t i = 0; i < std::min(most_repeated, view.repeated.size()); ++i) {
-    const detail::RepeatedContacts& c = view.repeated[i];
-    const std::string all = c.interfaces.size() == 2 ? std::to_string(c.interfaces[0]) + " and " +
-                                                           std::to_string(c.interfaces[1])
-                                                     : list(c.interfaces, 8);
-    out += "Contacts " + all + " cover the same " + count(c.pairs, "pair", "pairs") + " of parts" +
-           (c.pairs > 1 ? ", for example " : ": ") +
-           (c.part == c.other ? std::to_string(c.part) + " with itself"
-                              : std::to_string(c.part) + " and " + std::to_string(c.other)) +
-           "\n";
-  }
+  for (std::size_t i = 0; i < std::min(most_repeated, view.repeated.size()); ++i)
+    out += repeated_text(view.repeated[i]);
   if (view.repeated.size() > most_repeated)
     out += (view.repeated.size() < detail::most_repeated_contacts ? "" : "At least ") +
            count(view.repeated.size() - most_repeated, "more set", "more sets") +
@@ -88,7 +78,7 @@ void summary(const LoadedDeck& loaded, const detail::PartsView& view, std::strin
            " (warning 312)\n";
   for (const auto* left : {&mesh.left_out, &k.left_out})
     for (const LeftOut& l : *left)
-      out += "Not computed: " + l.what + " (" + std::to_string(l.count) + "): " + l.why + "\n";
+      out += fmt::format("Not computed: {} ({}): {}\n", l.what, l.count, l.why);
 }
 
 }  // namespace
@@ -97,32 +87,23 @@ std::string parts_text(const LoadedDeck& loaded, const PartsTextOptions& options
   const Model& model = loaded.model();
   const Mesh& mesh = loaded.mesh();
   const detail::PartsView view = detail::view_parts(loaded);
-  TextTable table({{"part", Align::right},
-                   {"title"},
-                   {"elements"},
-                   {"material", Align::right},
-                   {"property", Align::right},
-                   {"thickness", Align::right},
-                   {"mass", Align::right},
-                   {"step", Align::right},
-                   {"of element"},
-                   {"interfaces"},
-                   {"rigid body", Align::right}});
+  TextTable table({">part", "title", "elements", ">material", ">property", ">thickness", ">mass",
+                   ">step", "of element", "interfaces", ">rigid body"});
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Part& part = model.parts[p];
     const detail::PartView& v = view.parts[p];
     const PartFigures& f = mesh.parts[p];
     const bool slowest = f.slowest.element != no_index && f.dt == mesh.total.dt;
-    table.row({std::to_string(part.id),
+    table.row({part.id,
                part.title,
                elements_text(v),
-               std::to_string(part.mat_id),
-               std::to_string(part.prop_id),
+               part.mat_id,
+               part.prop_id,
                known_number(v.thickness),
                known_number(f.mass),
                {part_step(f.dt), slowest ? Tone::yellow : Tone::plain},
-               element_text(model, f),
-               list(v.interfaces, options.all ? v.interfaces.size() : 8),
+               slowest_element(model, f),
+               first_of(v.interfaces, options.all ? v.interfaces.size() : 8),
                v.rigid_body == 0 ? "" : std::to_string(v.rigid_body)});
   }
   std::string out = table.fitted(options.width, options.color);
@@ -142,26 +123,21 @@ std::string parts_csv(const LoadedDeck& loaded) {
     const Part& part = model.parts[p];
     const detail::PartView& v = view.parts[p];
     const PartFigures& f = mesh.parts[p];
+    out += fmt::format("{},{},{},{},{}", part.id, csv_text(part.title), csv_text(elements_text(v)),
+                       part.mat_id, part.prop_id);
     const auto add = [&](double x) {
       out += "," + (std::isfinite(x) ? shortest(x) : std::string());
     };
-    out += std::to_string(part.id) + "," + csv_text(part.title) + "," + csv_text(elements_text(v)) +
-           "," + std::to_string(part.mat_id) + "," + std::to_string(part.prop_id);
     add(v.thickness);
     add(f.mass);
     for (const double x : f.centre) add(x);
     for (const double x : f.inertia) add(x);
-    out += "," + (f.dt >= 1e29 ? std::string() : shortest(f.dt)) + ",";
-    if (f.slowest.element != no_index) {
-      out += detail::kind_name(f.slowest.kind);
-      out += "," + std::to_string(model.family(f.slowest.kind).id[f.slowest.element]);
-    } else {
-      out += ",";
-    }
-    out += ",";
-    for (std::size_t i = 0; i < v.interfaces.size(); ++i)
-      out += (i == 0 ? "" : " ") + std::to_string(v.interfaces[i]);
-    out += "," + (v.rigid_body == 0 ? std::string() : std::to_string(v.rigid_body)) + "\r\n";
+    const bool slowest = f.slowest.element != no_index;
+    out += fmt::format(
+        ",{},{},{},{},{}\r\n", f.dt >= 1e29 ? "" : shortest(f.dt),
+        slowest ? detail::kind_name(f.slowest.kind) : "",
+        slowest ? std::to_string(model.family(f.slowest.kind).id[f.slowest.element]) : "",
+        fmt::join(v.interfaces, " "), v.rigid_body == 0 ? "" : std::to_string(v.rigid_body));
   }
   return out;
 }

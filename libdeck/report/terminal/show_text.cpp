@@ -8,7 +8,7 @@
 #include "base/shared/escape.hpp"
 #include "report/shared/json.hpp"
 #include "report/shared/show.hpp"
-#include "report/shared/text_table.hpp"
+#include "report/terminal/words.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck {
@@ -35,11 +35,9 @@ class ShowText {
     head();
     cards();
     facts();
-    if (view_.inter != nullptr) {
-      heading("Effective values");
-      ParamsTextOptions table;
-      out_ += params_table(in_, *view_.inter, table).fitted(options_.width, options_.color, 2);
-    }
+    if (view_.inter != nullptr)
+      heading("Effective values",
+              params_table(in_, *view_.inter).fitted(options_.width, options_.color, 2));
     links("Refers to", "field", view_.refers_to, true);
     links("Used by", "as", view_.used_by, false);
     links("Reached from contacts", "as", view_.interfaces, false);
@@ -51,7 +49,9 @@ class ShowText {
  private:
   std::string bold(std::string_view text) const { return toned(text, Tone::bold, options_.color); }
   std::string dim(std::string_view text) const { return toned(text, Tone::dim, options_.color); }
-  void heading(const char* text) { out_ += "\n" + bold(text) + "\n"; }
+  void heading(const char* title, const std::string& text) {
+    out_ += titled(title, text, options_.color);
+  }
 
   void head() {
     const Entity& e = view_.entity;
@@ -124,24 +124,24 @@ class ShowText {
         out_ += std::string(margin, ' ') + dim(line) + "\n";
         line.clear();
       }
-      line += (line.empty() ? "" : ", ") + item;
+      append(line, ", ", item);
     }
     if (!line.empty()) out_ += std::string(margin, ' ') + dim(line) + "\n";
   }
 
   struct Column {
-    int first = 0, last = 0;
+    int last = 0;
     std::string name;
   };
 
   void fixed(const ShownCard& card, const std::string& number, bool names) {
     std::vector<Column> columns;
     for (const Cell& c : card.cells) {
-      const int first = static_cast<int>(c.span.offset - card.line.offset) + 1;
       const bool list =
           card.schema->repeat == Repeat::ids && c.field == &card.schema->fields.back();
-      const int start = list ? first : c.field->first;
-      columns.push_back({start, start + c.field->last - c.field->first, c.field->name});
+      const int start =
+          list ? static_cast<int>(c.span.offset - card.line.offset) + 1 : c.field->first;
+      columns.push_back({start + c.field->last - c.field->first, c.field->name});
     }
     // Cells behind what fits go to lines of their own.
     const int room =
@@ -155,13 +155,10 @@ class ShowText {
       if (end == columns.size())
         last = std::max<int>(
             last, std::min<int>(static_cast<int>(card.line.text.size()), from + room - 1));
-      const std::vector<Column> part(columns.begin() + static_cast<std::ptrdiff_t>(at),
-                                     columns.begin() + static_cast<std::ptrdiff_t>(end));
-      if (names) name_lines(part, from);
+      if (names) name_lines(std::span(columns).subspan(at, end - at), from);
       out_ += at == 0 ? dim(number) : dim(fmt::format("{:>6}  ", "…"));
-      std::string text = terminal_columns(detail::columns(card.line.text, from, last));
-      while (text.ends_with(' ')) text.pop_back();
-      out_ += text + "\n";
+      const std::string text = terminal_columns(detail::columns(card.line.text, from, last));
+      out_ += text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
       if (end == columns.size()) break;
       at = end;
       begin = static_cast<std::size_t>(last) + 1;
@@ -169,7 +166,7 @@ class ShowText {
   }
 
   /// Names end where their columns end; one that would run into its neighbour goes a line up.
-  void name_lines(const std::vector<Column>& columns, int from) {
+  void name_lines(std::span<const Column> columns, int from) {
     std::vector<std::string> lines(1);
     for (const Column& c : columns) {
       const auto end = static_cast<std::size_t>(c.last - from + 1);
@@ -188,35 +185,27 @@ class ShowText {
   // ---- figures and references -----------------------------------------------------------------
 
   void facts() {
-    if (view_.facts.empty()) return;
-    heading("In the model");
-    TextTable table({{"figure", Align::left}, {"value", Align::left}});
+    TextTable table({"figure", "value"});
     for (const auto& [name, value] : view_.facts) table.row({name, fact_text(value)});
-    out_ += table.fitted(options_.width, options_.color, 2);
+    heading("In the model", table.below_heading(options_));
   }
 
   void links(const char* title, const char* field, const std::vector<Link>& list, bool target) {
-    if (list.empty()) return;
-    heading(title);
-    TextTable table({{field, Align::left},
-                     {"what", Align::left},
-                     {"title", Align::left},
-                     {target ? "defined at" : "place", Align::left, true}});
+    TextTable table({field, "what", "title", target ? "=defined at" : "=place"});
     const std::size_t shown = options_.all ? list.size() : std::min(list.size(), most_links);
-    for (std::size_t i = 0; i < shown; ++i) {
-      const Link& l = list[i];
+    for (const Link& l : std::span(list).first(shown)) {
       std::string what = l.count > 1 || l.id == 0 ? fmt::format("{} {}", l.count, l.keyword)
                                                   : shown_name(l.keyword, l.kind, l.id);
       if (l.last > 0) what = fmt::format("{} {} to {}", l.kind, l.id, l.last);
       const bool missing = target && l.last == 0 && !l.span.valid();
+      if (missing) what += " (does not exist)";
       table.row({l.field,
-                 {missing ? what + " (does not exist)" : what, missing ? Tone::red : Tone::plain},
+                 {what, missing ? Tone::red : Tone::plain},
                  l.title,
                  {l.span.valid() ? deck_.sources.where(l.span) : std::string(), Tone::dim}});
     }
-    out_ += table.fitted(options_.width, options_.color, 2);
-    if (shown < list.size())
-      out_ += fmt::format("  … and {} more (--all, --json)\n", list.size() - shown);
+    heading(title,
+            table.below_heading(options_) + more_line(list.size(), shown, " (--all, --json)"));
   }
 
   const Deck& deck_;

@@ -1,6 +1,8 @@
 // Measures the columns of a table and prints it.
 #include "report/shared/text_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/shared/columns.hpp"
@@ -9,36 +11,30 @@
 namespace deck {
 
 std::string toned(std::string_view text, Tone tone, bool color) {
-  const char* code = "";
-  switch (tone) {
-    case Tone::plain:
-      break;
-    case Tone::bold:
-      code = "\x1b[1m";
-      break;
-    case Tone::dim:
-      code = "\x1b[2m";
-      break;
-    case Tone::red:
-      code = "\x1b[1;31m";
-      break;
-    case Tone::yellow:
-      code = "\x1b[33m";
-      break;
-    case Tone::green:
-      code = "\x1b[32m";
-      break;
-    case Tone::cyan:
-      code = "\x1b[36m";
-      break;
-  }
-  if (!color || *code == '\0' || text.empty()) return std::string(text);
-  return code + std::string(text) + "\x1b[0m";
+  static constexpr const char* codes[] = {"", "1", "2", "1;31", "33", "32", "36"};
+  if (!color || tone == Tone::plain || text.empty()) return std::string(text);
+  return fmt::format("\x1b[{}m{}\x1b[0m", codes[static_cast<std::size_t>(tone)], text);
 }
 
+TextTable::TextTable(std::initializer_list<const char*> titles, bool all) {
+  for (std::string_view title : titles) {
+    const bool detail = title.starts_with('+');
+    if (detail) title.remove_prefix(1);
+    left_out_.push_back(detail && !all);
+    if (left_out_.back()) continue;
+    const bool right = title.starts_with('>'), whole = title.starts_with('=');
+    if (right || whole) title.remove_prefix(1);
+    columns_.push_back({std::string(title), right ? Align::right : Align::left, whole});
+  }
+}
+
+TextTable::Cell::Cell(double v) : text(fmt::format("{:.6g}", v)) {}
+
 void TextTable::row(std::vector<Cell> cells) {
-  for (Cell& cell : cells) cell.text = terminal_text(cell.text);
-  rows_.push_back(std::move(cells));
+  std::vector<Cell>& shown = rows_.emplace_back();
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (i >= left_out_.size() || !left_out_[i])
+      shown.emplace_back(terminal_text(cells[i].text), cells[i].tone);
 }
 
 namespace {
@@ -67,8 +63,7 @@ std::string TextTable::part(const std::vector<std::size_t>& columns,
     std::vector<std::vector<std::string>> pieces;
     std::size_t height = 1;
     for (const std::size_t i : columns) {
-      pieces.push_back(
-          broken(i < cells.size() ? cells[i].text : std::string(), width[i], width[i]));
+      pieces.push_back(broken(i < cells.size() ? cells[i].text : "", width[i], width[i]));
       height = std::max(height, pieces.back().size());
     }
     for (std::size_t row = 0; row < height; ++row) {
@@ -100,56 +95,50 @@ std::string TextTable::part(const std::vector<std::size_t>& columns,
   return out;
 }
 
-std::string TextTable::render(bool color, std::size_t indent) const {
-  return fitted(0, color, indent);
-}
-
 std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent,
                               std::size_t keys) const {
   constexpr std::size_t narrow = 10;  // texts are not broken into less
   const std::size_t n = columns_.size();
-  std::vector<std::size_t> need(n), least(n);
+  std::vector<std::size_t> need(n), least(n), all;
   std::vector<bool> empty(n, true);
   for (std::size_t i = 0; i < n; ++i) {
     need[i] = display_width(columns_[i].title);
     least[i] = std::max(narrow, need[i]);
-  }
-  for (const auto& cells : rows_)
-    for (std::size_t i = 0; i < std::min(cells.size(), n); ++i) {
+    for (const auto& cells : rows_) {
+      if (i >= cells.size()) continue;
       need[i] = std::max(need[i], display_width(cells[i].text));
       least[i] = std::max(least[i], longest_number(cells[i].text));
       empty[i] = empty[i] && cells[i].text.empty();
     }
-  for (std::size_t i = 0; i < n; ++i)
-    if (columns_[i].align == Align::right || columns_[i].whole || least[i] > need[i])
-      least[i] = need[i];
+    if (columns_[i].align == Align::right || columns_[i].whole) least[i] = need[i];
+    least[i] = std::min(least[i], need[i]);
+    all.push_back(i);
+  }
   const auto length = [&](const std::vector<std::size_t>& columns,
                           const std::vector<std::size_t>& widths) {
     std::size_t sum = indent;
     for (const std::size_t i : columns) sum += widths[i] + (i == columns.front() ? 0 : 2);
     return sum;
   };
+  if (width == 0) return part(all, need, color, indent);
   // A text that has no room even in a table of its own, behind the keys, is broken all the same.
   std::size_t before = indent;
   for (std::size_t i = 0; i < std::min(keys, n); ++i) before += least[i] + 2;
   for (std::size_t i = keys; i < n; ++i)
-    if (columns_[i].whole && width > 0 && before + need[i] > width)
+    if (columns_[i].whole && before + need[i] > width)
       least[i] = std::min(need[i], std::max(narrow, width - std::min(width, before)));
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < n; ++i) all.push_back(i);
   // Where there is not enough room, a column without a text is none.
-  if (width > 0 && rows_.size() > 0 && length(all, need) > width)
+  if (rows_.size() > 0 && length(all, need) > width)
     std::erase_if(all, [&](std::size_t i) { return i >= keys && empty[i]; });
   std::string out;
   for (std::size_t next = 0; next < all.size();) {
     std::vector<std::size_t> columns;
-    for (std::size_t k = 0; next > 0 && k < std::min(keys, all.size()); ++k)
-      columns.push_back(all[k]);
+    if (next > 0) columns.assign(all.begin(), all.begin() + std::min(keys, all.size()));
     const std::size_t repeated = columns.size();
     while (next < all.size()) {
       columns.push_back(all[next]);
       const bool first = columns.size() == repeated + 1 || next < keys;
-      if (width > 0 && !first && length(columns, least) > width) {
+      if (!first && length(columns, least) > width) {
         columns.pop_back();
         break;
       }
@@ -157,7 +146,7 @@ std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent,
     }
     // The widest texts give way first.
     std::vector<std::size_t> widths = need;
-    while (width > 0 && length(columns, widths) > width) {
+    while (length(columns, widths) > width) {
       std::size_t widest = n;
       for (const std::size_t i : columns)
         if (widths[i] > least[i] && (widest == n || widths[i] > widths[widest])) widest = i;

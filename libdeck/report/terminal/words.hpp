@@ -1,13 +1,14 @@
-// Words, names and tables that texts for people share.
+// Words, names and lists that texts for people share.
 #pragma once
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <initializer_list>
+#include <functional>
 #include <map>
+#include <span>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "base/shared/count.hpp"
@@ -16,35 +17,59 @@
 
 namespace deck {
 
+/// "TYPE7"
+inline std::string type_name(const InterBase& inter) { return fmt::format("TYPE{}", inter.type); }
+
 /// "TYPE7", "TYPE19 reversed".
 inline std::string kind_name(const Contact& c) {
-  std::string name = fmt::format("TYPE{}", c.inter->type);
-  if (c.inter->type == 19) name += fmt::format(" {}", to_string(c.role));
-  return name;
+  return type_name(*c.inter) + (c.inter->type == 19 ? fmt::format(" {}", to_string(c.role)) : "");
 }
 
-/// A table with these titles; '>' before one sets its column to the right, '=' keeps its texts
-/// whole.
-inline TextTable make_table(std::initializer_list<const char*> titles) {
-  std::vector<TextTable::Column> columns;
-  for (const char* t : titles)
-    columns.push_back(*t == '>'   ? TextTable::Column{t + 1, Align::right}
-                      : *t == '=' ? TextTable::Column{t + 1, Align::left, true}
-                                  : TextTable::Column{t, Align::left});
-  return TextTable(std::move(columns));
+/// `item` behind what `list` has already.
+inline void append(std::string& list, std::string_view separator, std::string_view item) {
+  if (!list.empty()) list += separator;
+  list += item;
 }
 
-/// Positions in `list` of the contacts of each interface, in the order in which the interfaces
-/// first occur; `interface_of` gives that of an element.
-template <class List, class InterfaceOf>
-std::vector<std::vector<std::size_t>> by_interface(const List& list,
-                                                   const InterfaceOf& interface_of) {
-  std::vector<std::vector<std::size_t>> out;
+/// "1, 2, 3" and " and 4 more" of a list with more than `most` items; `text` gives that of an item.
+template <class List, class Text = std::identity>
+std::string first_of(const List& list, std::size_t most, const Text& text = {}) {
+  std::string out;
+  std::size_t shown = 0;
+  for (const auto& item : list) {
+    if (shown == most) return out + fmt::format(" and {} more", list.size() - most);
+    out += fmt::format("{}{}", shown++ == 0 ? "" : ", ", text(item));
+  }
+  return out;
+}
+
+/// A number, or a dash where it is not known.
+template <class T>
+TextTable::Cell known_cell(bool known, const T& number) {
+  return known ? TextTable::Cell(number) : TextTable::Cell("-");
+}
+
+/// A text below its title; "" without a text.
+inline std::string titled(std::string_view title, const std::string& text, bool color) {
+  return text.empty() ? text : fmt::format("\n{}\n{}", toned(title, Tone::bold, color), text);
+}
+
+/// "  … and 5 more (--json)" as a line; "" if all are shown.
+inline std::string more_line(std::size_t all, std::size_t shown, std::string_view where = {}) {
+  return all <= shown ? std::string() : fmt::format("  … and {} more{}\n", all - shown, where);
+}
+
+/// The contacts of each interface, in the order in which the interfaces first occur;
+/// `interface_of` gives that of an element of `list`.
+template <class T, class InterfaceOf>
+std::vector<std::vector<const T*>> by_interface(const std::vector<T>& list,
+                                                const InterfaceOf& interface_of) {
+  std::vector<std::vector<const T*>> out;
   std::map<const InterBase*, std::size_t> place;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const auto [it, first] = place.try_emplace(interface_of(list[i]), out.size());
+  for (const T& contact : list) {
+    const auto [it, first] = place.try_emplace(interface_of(contact), out.size());
     if (first) out.emplace_back();
-    out[it->second].push_back(i);
+    out[it->second].push_back(&contact);
   }
   return out;
 }
@@ -54,9 +79,8 @@ inline std::string folded_ids(const std::vector<std::int64_t>& ids, const char* 
                               const char* many) {
   constexpr std::size_t most = 40;
   if (ids.empty()) return {};
-  std::string out = "  " + count(ids.size(), one, many) + ":";
-  for (std::size_t i = 0; i < std::min(most, ids.size()); ++i)
-    out += fmt::format("{} {}", i == 0 ? "" : ",", ids[i]);
+  std::string out = fmt::format("  {}: {}", count(ids.size(), one, many),
+                                fmt::join(std::span(ids).first(std::min(most, ids.size())), ", "));
   if (ids.size() > most) out += fmt::format(", … and {} more (-v)", ids.size() - most);
   return out + "\n";
 }
