@@ -13,14 +13,14 @@ namespace deck {
 class LoadedDeck;
 
 /// A place in the text of a deck.
-struct Place {
+struct SourcePlace {
   std::string_view file;
   std::size_t line = 0, column = 0;
   IfAny<std::size_t> end_column = {};
 };
-Record<Place> record_of(const Place*);
+Record<SourcePlace> record_of(const SourcePlace*);
 /// nullopt: the span is not valid.
-std::optional<Place> place_of(const Deck& deck, const Span& span);
+std::optional<SourcePlace> place_of(const Deck& deck, const Span& span);
 
 /// The member "deck". `model` and `interfaces` may be nullptr where they were not built.
 struct DeckRow {

@@ -50,8 +50,8 @@ struct ChangeRow {
   const Change* change = nullptr;
   EntityOfChange entity() const { return {change}; }
   std::optional<std::string> field() const { return known(!change->field.empty(), change->field); }
-  std::optional<Place> a() const { return place_of(deck_a, change->a); }
-  std::optional<Place> b() const { return place_of(deck_b, change->b); }
+  std::optional<SourcePlace> a() const { return place_of(deck_a, change->a); }
+  std::optional<SourcePlace> b() const { return place_of(deck_b, change->b); }
   template <class T>
   IfAny<T> evaluated(const T& value) const {
     return if_any(change->evaluated, value);

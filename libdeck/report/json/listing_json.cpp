@@ -27,7 +27,7 @@ struct ListingDocument {
   const ListingReport& report;
   const LoadedDeck* loaded = nullptr;
 
-  std::optional<Place> place(const Span& span) const {
+  std::optional<SourcePlace> place(const Span& span) const {
     return loaded == nullptr ? std::nullopt : place_of(loaded->deck(), span);
   }
 };
@@ -49,7 +49,7 @@ struct FindingOfListing {
   const ListingDocument* document = nullptr;
   const Diagnostic* d = nullptr;
   std::string_view rule() const { return id_text(d->rule); }
-  std::optional<Place> place() const { return document->place(d->span); }
+  std::optional<SourcePlace> place() const { return document->place(d->span); }
 };
 Record<FindingOfListing> record_of(const FindingOfListing*) {
   using Row = FindingOfListing;
@@ -71,7 +71,7 @@ Rows<FindingOfListing> findings(const ListingDocument* document,
 struct PlaceRow {
   const ListingDocument* document = nullptr;
   const MessagePlace* at = nullptr;
-  std::optional<Place> place() const { return document->place(at->span); }
+  std::optional<SourcePlace> place() const { return document->place(at->span); }
   Rows<FindingOfListing> own_findings() const { return findings(document, at->findings); }
 };
 Record<PlaceRow> record_of(const PlaceRow*) {

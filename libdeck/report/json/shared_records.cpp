@@ -177,18 +177,18 @@ IfAny<std::array<std::int64_t, 4>> PairSides::segment() const {
   return {node_ids(*model, contact->main[main].nodes)};
 }
 
-Record<Place> record_of(const Place*) {
-  static constexpr Column<Place> columns[] = {
-      column<&Place::file>("file"), column<&Place::line>("line", "From 1 on"),
-      column<&Place::column>("column", "From 1 on"),
-      column<&Place::end_column>("end_column", "Of a cell: the first column behind it")};
+Record<SourcePlace> record_of(const SourcePlace*) {
+  static constexpr Column<SourcePlace> columns[] = {
+      column<&SourcePlace::file>("file"), column<&SourcePlace::line>("line", "From 1 on"),
+      column<&SourcePlace::column>("column", "From 1 on"),
+      column<&SourcePlace::end_column>("end_column", "Of a cell: the first column behind it")};
   return {"place", "A place in the text of a deck.", columns, true, true};
 }
 
-std::optional<Place> place_of(const Deck& deck, const Span& span) {
+std::optional<SourcePlace> place_of(const Deck& deck, const Span& span) {
   if (!span.valid()) return std::nullopt;
   const Position p = deck.sources.position(span);
-  return Place{deck.sources[span.file].path(), p.line, p.column};
+  return SourcePlace{deck.sources[span.file].path(), p.line, p.column};
 }
 
 Record<DeckRow> record_of(const DeckRow*) {

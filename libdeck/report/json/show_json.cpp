@@ -80,7 +80,7 @@ Record<CardRow> record_of(const CardRow*) {
 
 struct LinkRow {
   const Link* link;
-  std::optional<Place> place;
+  std::optional<SourcePlace> place;
 };
 Record<LinkRow> record_of(const LinkRow*) {
   using Row = LinkRow;

@@ -49,7 +49,7 @@ struct ParameterRow {
   std::optional<Scalar> input, value;
   Origin origin = Origin::built_in;
   IfAny<Named<double>> by_role;
-  std::optional<Place> source;
+  std::optional<SourcePlace> source;
 };
 Record<ParameterRow> record_of(const ParameterRow*);
 /// All fields of one interface. `input` and `inter` must outlive the result.

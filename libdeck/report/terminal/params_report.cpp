@@ -121,8 +121,8 @@ std::string input_text(const Deck& deck, const Effective<T>& e) {
 }
 
 /// The columns of a cell.
-std::optional<Place> cell_place(const Deck& deck, const Span& span) {
-  std::optional<Place> place = place_of(deck, span);
+std::optional<SourcePlace> cell_place(const Deck& deck, const Span& span) {
+  std::optional<SourcePlace> place = place_of(deck, span);
   if (place) place->end_column = {place->column + span.length};
   return place;
 }
