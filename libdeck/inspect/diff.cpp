@@ -103,7 +103,7 @@ DeckDiff Differ::run() {
   return std::move(out_);
 }
 
-Change& Differ::add(ChangeKind kind, const Item& a, const Item* b, std::string field) {
+Change& Differ::add(ChangeKind kind, const DeckItem& a, const DeckItem* b, std::string field) {
   Change c;
   c.kind = kind;
   c.group = a.block->schema != nullptr ? group_of_kind(a.block->schema->kind) : "other";
@@ -133,12 +133,12 @@ void Differ::added_and_removed() {
     }
 }
 
-bool Differ::only_a_copy(const DiffSide& side, const Item& item) const {
+bool Differ::only_a_copy(const DiffSide& side, const DeckItem& item) const {
   return is_function(*item.block) &&
          functions_.only_a_copy(function_id(side, *item.block), &side == &b_);
 }
 
-void Differ::item(const Item& a, const Item& b) {
+void Differ::item(const DeckItem& a, const DeckItem& b) {
   if (a.title != b.title) {
     Change& c = add(ChangeKind::changed, a, &b, "title");
     c.old_value = a.title;

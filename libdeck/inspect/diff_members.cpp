@@ -71,7 +71,7 @@ auto Differ::parts(const DiffSide& side, const std::vector<std::uint32_t>& list)
   return out;
 }
 
-auto Differ::lists_of(const DiffSide& side, const Item& item, std::string_view kind) const
+auto Differ::lists_of(const DiffSide& side, const DeckItem& item, std::string_view kind) const
     -> std::vector<std::pair<std::string, std::vector<Member>>> {
   Selections& s = *side.loaded.model().selections;
   using Lists = std::vector<std::pair<std::string, std::vector<Member>>>;
@@ -102,7 +102,7 @@ auto Differ::lists_of(const DiffSide& side, const Item& item, std::string_view k
   return {};
 }
 
-void Differ::members(const Item& a, const Item& b, std::string_view kind) {
+void Differ::members(const DeckItem& a, const DeckItem& b, std::string_view kind) {
   auto la = lists_of(a_, a, kind), lb = lists_of(b_, b, kind);
   for (std::size_t i = 0; i < std::max(la.size(), lb.size()); ++i) {
     const std::string name = i < la.size() ? la[i].first : lb[i].first;

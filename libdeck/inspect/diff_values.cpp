@@ -138,7 +138,8 @@ bool Differ::same_id(std::string_view kind, std::int64_t x, std::int64_t y) cons
   return to != 0 ? to == std::abs(y) : x == y;
 }
 
-void Differ::contact(const Item& a, const Item& b, const InterBase& ia, const InterBase& ib) {
+void Differ::contact(const DeckItem& a, const DeckItem& b, const InterBase& ia,
+                     const InterBase& ib) {
   const std::vector<FieldValue> fa = fields_of(a_, ia), fb = fields_of(b_, ib);
   for (std::size_t i = 0; i < fa.size() && i < fb.size(); ++i) {
     const DiffValue input = in_first_units(fb[i].input, fb[i].dimension);
@@ -271,9 +272,9 @@ bool Differ::same_cell(const CellValue& x, const CellValue& y) {
   return ignored || (y.field == nullptr && is_default(x)) || (x.field == nullptr && is_default(y));
 }
 
-void Differ::cells(const Item& a, const Item& b) {
+void Differ::cells(const DeckItem& a, const DeckItem& b) {
   const Contents ca = contents_of(a_, *a.block), cb = contents_of(b_, *b.block);
-  const auto place = [](const Contents& c, const CellKey& key, const Item& item) {
+  const auto place = [](const Contents& c, const CellKey& key, const DeckItem& item) {
     const auto it = c.cells.find(key);
     return it == c.cells.end() ? item.block->header_span : it->second.span;
   };
@@ -321,8 +322,8 @@ bool Differ::same_word(const std::string& x, const std::string& y) {
   return number(u) && number(v) && equal_(u.value, v.value, 0, false);
 }
 
-void Differ::id_lists(const Item& a, const Item& b, const std::string& name, const Contents& ca,
-                      const Contents& cb) {
+void Differ::id_lists(const DeckItem& a, const DeckItem& b, const std::string& name,
+                      const Contents& ca, const Contents& cb) {
   std::multiset<std::int64_t> now;
   if (const auto it = cb.lists.find(name); it != cb.lists.end())
     for (const auto& [id, kind] : it->second) now.insert(id);

@@ -27,14 +27,14 @@ class Differ {
   static constexpr Dimension length_dimension{0, 1, 0, 0};
 
   /// At the headers of both.
-  Change& add(ChangeKind kind, const Item& a, const Item* b, std::string field);
+  Change& add(ChangeKind kind, const DeckItem& a, const DeckItem* b, std::string field);
   void added_and_removed();
   /// A function that only one deck has, for uses that the other gives the same curve by another.
-  bool only_a_copy(const DiffSide& side, const Item& item) const;
+  bool only_a_copy(const DiffSide& side, const DeckItem& item) const;
 
   // one entity
 
-  void item(const Item& a, const Item& b);
+  void item(const DeckItem& a, const DeckItem& b);
   // contacts
 
   struct FieldValue {
@@ -56,7 +56,7 @@ class Differ {
   bool same_value(const DiffValue& x, const DiffValue& y, std::string_view ref, double size,
                   bool rounded);
   bool same_id(std::string_view kind, std::int64_t x, std::int64_t y) const;
-  void contact(const Item& a, const Item& b, const InterBase& ia, const InterBase& ib);
+  void contact(const DeckItem& a, const DeckItem& b, const InterBase& ia, const InterBase& ib);
 
   // cells
 
@@ -84,9 +84,9 @@ class Differ {
   /// What the solver uses where nothing is written.
   static bool is_default(const CellValue& v);
   bool same_cell(const CellValue& x, const CellValue& y);
-  void cells(const Item& a, const Item& b);
+  void cells(const DeckItem& a, const DeckItem& b);
   bool same_word(const std::string& x, const std::string& y);
-  void id_lists(const Item& a, const Item& b, const std::string& name, const Contents& ca,
+  void id_lists(const DeckItem& a, const DeckItem& b, const std::string& name, const Contents& ca,
                 const Contents& cb);
 
   // members
@@ -111,9 +111,9 @@ class Differ {
 
   /// What the group comes to, by name of the list.
   std::vector<std::pair<std::string, std::vector<Member>>> lists_of(const DiffSide& side,
-                                                                    const Item& item,
+                                                                    const DeckItem& item,
                                                                     std::string_view kind) const;
-  void members(const Item& a, const Item& b, std::string_view kind);
+  void members(const DeckItem& a, const DeckItem& b, std::string_view kind);
 
   // nodes and elements
 

@@ -22,11 +22,11 @@ bool compared(const Block& b) {
          (!b.schema->bulk && b.schema->kind != "engine" && b.schema->kind != "parameter");
 }
 
-std::vector<Item> items_of(const Deck& deck) {
-  std::vector<Item> out;
+std::vector<DeckItem> items_of(const Deck& deck) {
+  std::vector<DeckItem> out;
   for (const Block& b : deck.blocks) {
     if (!compared(b)) continue;
-    Item item;
+    DeckItem item;
     item.block = &b;
     if (b.schema == nullptr) {
       // Ids of keywords without a schema may be anywhere in the header.
@@ -106,14 +106,14 @@ class Matcher {
     if (match_ != MatchBy::id) {
       // Where several have a title, the id helps first.
       int untitled = 0;
-      pass([&](const Item& i) {
+      pass([&](const DeckItem& i) {
         return std::tuple(i.space, i.title, i.id, i.title.empty() ? ++untitled : 0);
       });
-      pass([&](const Item& i) {
+      pass([&](const DeckItem& i) {
         return std::tuple(i.space, i.title, i.title.empty() ? ++untitled : 0);
       });
     }
-    pass([](const Item& i) { return std::tuple(i.space, i.id); });
+    pass([](const DeckItem& i) { return std::tuple(i.space, i.id); });
     if (match_ == MatchBy::position) {
       // Renumbered and without a title: by rank of the ids, where nothing is missing.
       std::map<std::string, std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>>> left;
@@ -124,7 +124,7 @@ class Matcher {
       for (auto& [space, lists] : left) {
         auto& [la, lb] = lists;
         if (la.size() != lb.size()) continue;
-        const auto sort = [](std::vector<std::uint32_t>& list, const std::vector<Item>& items) {
+        const auto sort = [](std::vector<std::uint32_t>& list, const std::vector<DeckItem>& items) {
           std::stable_sort(list.begin(), list.end(), [&](std::uint32_t x, std::uint32_t y) {
             return items[x].id < items[y].id;
           });

@@ -36,7 +36,7 @@ inline const char* keyword_of_family(ElementKind kind) {
 }
 
 /// A block that a comparison looks at.
-struct Item {
+struct DeckItem {
   const Block* block = nullptr;
   std::string space;  ///< kind, or keyword where the kind says nothing
   std::int64_t id = 0;
@@ -44,7 +44,7 @@ struct Item {
 };
 
 struct Counterparts {
-  std::vector<Item> items_a, items_b;
+  std::vector<DeckItem> items_a, items_b;
   std::vector<std::uint32_t> block_to_b;                   ///< by items_a; no_index: none
   std::vector<std::uint32_t> node_to_b;                    ///< by NodeIndex of the first deck
   std::array<std::vector<std::uint32_t>, 8> element_to_b;  ///< by ElementKind
