@@ -11,9 +11,10 @@ namespace {
 using Op = Predicate::Op;
 
 constexpr std::pair<std::string_view, Op> functions[] = {
-    {"input", Op::input},     {"value", Op::value},          {"flag", Op::flag},
-    {"given", Op::given},     {"bounds", Op::bounds},        {"has", Op::has},
-    {"written", Op::written}, {"default", Op::from_default}, {"deck", Op::deck}};
+    {"input", Op::input},   {"value", Op::value},     {"flag", Op::flag},
+    {"given", Op::given},   {"bounds", Op::bounds},   {"has", Op::has},
+    {"exists", Op::exists}, {"written", Op::written}, {"default", Op::from_default},
+    {"deck", Op::deck}};
 /// Without a field.
 constexpr std::pair<std::string_view, Op> words[] = {
     {"type", Op::type}, {"version", Op::version}, {"working_units", Op::working_units}};

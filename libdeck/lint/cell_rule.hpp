@@ -35,6 +35,7 @@ struct Predicate {
     bounds,         ///< the same, and it is not 1e30 or its like
     written,        ///< number on the card as it is written, in the units of the block
     has,            ///< the interface has the field
+    exists,         ///< the id in the cell is that of something
     from_default,   ///< the value comes from /DEFAULT/INTER
     type,           ///< 7 for /INTER/TYPE7
     version,        ///< input version of the block

@@ -62,6 +62,9 @@ class CellReader {
         return f == nullptr || f->text.empty() ? 0 : read_real(f->text).value;
       case Op::has:
         return f != nullptr;
+      case Op::exists:
+        return f != nullptr && f->field != nullptr &&
+               target_exists(c_, f->field->ref, static_cast<std::int64_t>(f->input)).value_or(true);
       case Op::from_default:
         return f != nullptr && f->origin == Origin::default_block;
       case Op::deck:
