@@ -51,11 +51,12 @@ std::string problem_of_page(const char* path, const Fields& fields, std::set<std
 int main(int argc, char** argv) {
   if (argc < 3) return 2;
   std::string rows;
-  std::set<std::string> known, names;
+  std::set<std::string> known, rule_names;
   Fields fields;
   for (int k = 2; k < argc; ++k) {
     if (std::string_view(argv[k]).ends_with(".md")) {
-      if (const std::string problem = problem_of_page(argv[k], fields, names); !problem.empty()) {
+      if (const std::string problem = problem_of_page(argv[k], fields, rule_names);
+          !problem.empty()) {
         std::cerr << problem << '\n';
         return 1;
       }

@@ -370,9 +370,9 @@ Result<Rule> parse_rule_page(std::string_view name, std::string_view text) {
 
 namespace deck {
 
-const RuleField* Rule::field(std::string_view name) const {
+const RuleField* Rule::field(std::string_view field_name) const {
   const auto it = std::find_if(fields.begin(), fields.end(),
-                               [&](const RuleField& f) { return f.name == name; });
+                               [&](const RuleField& f) { return f.name == field_name; });
   return it == fields.end() ? nullptr : &*it;
 }
 

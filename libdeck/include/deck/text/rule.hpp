@@ -66,7 +66,7 @@ struct Rule {
 
   Severity severity() const { return severities.front(); }
   /// nullptr: the rule is not about this field.
-  const RuleField* field(std::string_view name) const;
+  const RuleField* field(std::string_view field_name) const;
   /// The solver's message of that number; it is on the page.
   ReferenceMessage message(int number) const;
 };
