@@ -31,7 +31,6 @@ endfunction()
 script("report in a browser" browser tests/browser/run ${deck})
 # It holds the page's first picture to a time: it has the machine to itself.
 set_tests_properties("report in a browser" PROPERTIES RUN_SERIAL ON)
-script("what-if on random decks" browser tests/browser/what_if ${deck} 200)
 python_script("hostile input" cli tests/robustness/hostile.py)
 python_script("verdicts" cli tests/robustness/verdicts.py)
 python_script("bounds" cli tests/robustness/bounds.py)
@@ -63,7 +62,6 @@ script("editors" editor tests/vscode/run ${deck})
 
 # Minutes each; `tools/test --all` runs them.
 script("report in a browser, all" slow tests/browser/run ${deck} --all)
-script("what-if on 4000 random decks" slow tests/browser/what_if ${deck} 4000)
 python_script("hostile input, all" slow tests/robustness/hostile.py --all)
 python_script("bounds, all" slow tests/robustness/bounds.py --all)
 python_script("batches that write, all" slow tests/robustness/library.py --all)
@@ -75,6 +73,3 @@ script("Python module from nothing" slow tests/python/run --clean ${deck})
 script("clang-tidy" slow ${python} tests/tools/tidy --all)
 script("sources for 32 bits" slow ${python} tests/tools/narrow)
 script("every public header alone" slow tests/consumer/run --all ${PROJECT_BINARY_DIR})
-# They install the same modules of node.
-set_tests_properties("what-if on random decks" "report in a browser, all" "what-if on 4000 random decks"
-                     PROPERTIES RESOURCE_LOCK node)

@@ -24,14 +24,13 @@ if(mode STREQUAL "OFF")
   set(why "it was configured without npm or with LIBDECK_VIEWER=OFF. Install npm and build again")
   configure_file(${CMAKE_CURRENT_LIST_DIR}/no_viewer.cpp.in ${DECK_EMBEDDED_VIEWER} @ONLY)
 else()
-  file(GLOB_RECURSE viewer_sources CONFIGURE_DEPENDS ${viewer_dir}/src/*.ts ${viewer_dir}/src/*.css
-       ${viewer_dir}/wasm/*.wasm)
+  file(GLOB_RECURSE viewer_sources CONFIGURE_DEPENDS ${viewer_dir}/src/*.ts ${viewer_dir}/src/*.css)
   add_custom_command(
     OUTPUT ${DECK_EMBEDDED_VIEWER}
     COMMAND ${CMAKE_COMMAND} -DMODE=${mode} -DNPM=${DECK_NPM} -DNODE=${DECK_NODE}
             -DSOURCE=${viewer_dir} -DWORK=${CMAKE_CURRENT_BINARY_DIR}/viewer
             -DOUT=${DECK_EMBEDDED_VIEWER} -P ${CMAKE_CURRENT_LIST_DIR}/BuildViewer.cmake
-    DEPENDS ${viewer_sources} ${viewer_dir}/build.mjs ${viewer_dir}/bundle.mjs ${viewer_dir}/package.json
+    DEPENDS ${viewer_sources} ${viewer_dir}/build.mjs ${viewer_dir}/package.json
             ${viewer_dir}/package-lock.json ${CMAKE_CURRENT_LIST_DIR}/BuildViewer.cmake
             ${CMAKE_CURRENT_LIST_DIR}/no_viewer.cpp.in
     COMMENT "Bundling the viewer of the HTML report")

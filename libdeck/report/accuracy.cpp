@@ -8,8 +8,9 @@
 #include "accuracy/shared/motion.hpp"
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
-#include "report/shared/json.hpp"
+#include "report/shared/schemas.hpp"
 #include "report/shared/text_table.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
 namespace {
@@ -61,102 +62,6 @@ std::string choice_text(const AccuracyChoices& choices, bool color, std::size_t 
                    count(hard.pairs, "pair", "pairs"), count(hard.rewritten, "pair", "pairs"));
 }
 
-void write_choices(JsonWriter& j, const AccuracyChoices& choices) {
-  j.key("choices").begin_array();
-  for (const AccuracyChoice& c : choices) {
-    j.begin_object().field("word", to_string(c.accuracy)).key("deck");
-    const auto ratio = [&](const TimeRatio& r) {
-      j.field("ratio", r.value).field("spread", r.spread);
-    };
-    if (c.deck) {
-      j.begin_object(true).field("seconds", c.deck->seconds);
-      ratio(c.deck->ratio);
-      j.field("pairs", c.deck->pairs).field("wrong", c.deck->wrong.size()).end_object();
-    } else {
-      j.null();
-    }
-    j.key("hard").begin_object(true).field("ns_per_pair", c.hard.ns_per_pair);
-    ratio(c.hard.ratio);
-    j.field("pairs", c.hard.pairs).field("wrong", c.hard.wrong);
-    j.field("rewritten", c.hard.rewritten).field("other_answer", c.hard.other_answer);
-    j.field("kinds_never_wrong", c.hard.kinds_never_wrong()).end_object().end_object();
-  }
-  j.end_array();
-}
-
-void write_point(JsonWriter& j, const Point3<double>& p) {
-  j.begin_array(true).value(p.x).value(p.y).value(p.z).end_array();
-}
-
-void write_worst(JsonWriter& j, Accuracy accuracy, const KindResult& kind) {
-  const PairSample& s = kind.worst;
-  j.begin_object(true).field("word", to_string(accuracy));
-  j.field("kind", s.edges ? "edge_edge" : "node_segment").field("triangle", s.triangle);
-  j.key("points").begin_array(true);
-  for (std::size_t k = 0; k < (s.edges ? 4u : 5u); ++k) write_point(j, s.x[k]);
-  j.end_array().field("gap", s.gap).field("exact", kind.exact).field("computed", kind.computed);
-  j.field("in_contact", kind.in_contact).end_object();
-}
-
-void write_families(JsonWriter& j, const AccuracyChoices& choices) {
-  j.key("families").begin_array();
-  for (std::size_t k = 0; k < choices.front().hard.kinds.size(); ++k) {
-    const KindResult& first = choices.front().hard.kinds[k];
-    j.begin_object().field("id", first.kind->id).field("name", first.kind->name);
-    j.field("group", first.kind->group).field("expected", first.kind->expected);
-    j.field("pairs", first.pairs).key("wrong").begin_object(true);
-    for (const AccuracyChoice& c : choices) j.field(to_string(c.accuracy), c.hard.kinds[k].wrong);
-    j.end_object().key("worst").begin_array();
-    for (const AccuracyChoice& c : choices)
-      if (c.hard.kinds[k].wrong > 0) write_worst(j, c.accuracy, c.hard.kinds[k]);
-    j.end_array().end_object();
-  }
-  j.end_array();
-}
-
-void write_wrong_pairs(JsonWriter& j, const AccuracyChoices& choices) {
-  const auto ids = [&](const char* name, const std::vector<std::int64_t>& nodes) {
-    j.key(name).begin_array(true);
-    for (const std::int64_t n : nodes) j.value(n);
-    j.end_array();
-  };
-  j.key("wrong_pairs").begin_array();
-  for (const AccuracyChoice& c : choices) {
-    if (!c.deck) continue;
-    for (const WrongPair& p : c.deck->wrong) {
-      j.begin_object(true).field("word", to_string(c.accuracy)).field("interface", p.interface);
-      ids("secondary", p.secondary);
-      ids("main", p.main);
-      j.field("gap", p.gap).field("exact", p.exact).field("computed", p.computed).end_object();
-    }
-  }
-  j.end_array();
-}
-
-void write_motion(JsonWriter& j, const HardMotion& m) {
-  j.key("motion").begin_object().key("corners").begin_array(true);
-  for (const Point3<double>& p : m.corners) write_point(j, p);
-  j.end_array().key("from");
-  write_point(j, m.from);
-  j.key("to");
-  write_point(j, m.to);
-  j.field("gap", m.gap).field("way", m.way).key("lines").begin_array();
-  for (const HardMotion::Line& line : m.lines) {
-    j.begin_object().field("word", to_string(line.accuracy));
-    for (const auto& [name, values] : {std::pair("depth", &line.depth), {"force", &line.force}}) {
-      j.key(name).begin_array(true);
-      for (const double v : *values) j.value(v);
-      j.end_array();
-    }
-    j.key("jumps").begin_array(true);
-    for (const std::size_t step : line.jumps) j.value(step);
-    j.end_array().end_object();
-  }
-  j.end_array().key("sentences").begin_array();
-  for (const std::string& sentence : motion_sentences(m)) j.value(sentence);
-  j.end_array().end_object();
-}
-
 }  // namespace
 
 std::string accuracy_compiler() {
@@ -184,23 +89,214 @@ std::string accuracy_text(const AccuracyChoices& choices, const AccuracyContext&
          fmt::format("\n{}; {}\n", terminal_text(context.processor), accuracy_compiler());
 }
 
+Record<AccuracyChoice::OnDeck> record_of(const AccuracyChoice::OnDeck*) {
+  using Row = AccuracyChoice::OnDeck;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::seconds>("seconds", "Whole deck gaps"),
+      column<&Row::ratio, &TimeRatio::value>("ratio", "Time against fast"),
+      column<&Row::ratio, &TimeRatio::spread>("spread", "Of both times, as a share"),
+      column<&Row::pairs>("pairs"), column("wrong", [](const Row& r) { return r.wrong.size(); })};
+  return {"on_deck", "", columns, true};
+}
+
+Record<AccuracyChoice::OnHardCases> record_of(const AccuracyChoice::OnHardCases*) {
+  static constexpr Column<AccuracyChoice::OnHardCases> columns[] = {
+      column<&AccuracyChoice::OnHardCases::ns_per_pair>("ns_per_pair"),
+      column<&AccuracyChoice::OnHardCases::ratio, &TimeRatio::value>("ratio", "Time against fast"),
+      column<&AccuracyChoice::OnHardCases::ratio, &TimeRatio::spread>("spread",
+                                                                      "Of both times, as a share"),
+      column<&AccuracyChoice::OnHardCases::pairs>("pairs"),
+      column<&AccuracyChoice::OnHardCases::wrong>("wrong"),
+      column<&AccuracyChoice::OnHardCases::rewritten>("rewritten",
+                                                      "Pairs written down in other ways"),
+      column<&AccuracyChoice::OnHardCases::other_answer>("other_answer",
+                                                         "Of these: the answer changed"),
+      column<&AccuracyChoice::OnHardCases::kinds_never_wrong>("kinds_never_wrong",
+                                                              "Of the members of families")};
+  return {"on_hard_cases", "", columns, true};
+}
+
+Record<AccuracyChoice> record_of(const AccuracyChoice*) {
+  static constexpr Column<AccuracyChoice> columns[] = {
+      column<&AccuracyChoice::accuracy>("word"),
+      column<&AccuracyChoice::deck>("deck", "null: no deck, or no pair in it"),
+      column<&AccuracyChoice::hard>("hard")};
+  return {"choice", "What a word of --accuracy costs and gives.", columns};
+}
+
+namespace {
+
+std::array<double, 3> point(const Point3<double>& p) { return {p.x, p.y, p.z}; }
+
+struct WorstRow {
+  Accuracy word;
+  const KindResult* of;
+
+  const char* kind() const { return of->worst.edges ? "edge_edge" : "node_segment"; }
+  std::vector<std::array<double, 3>> points() const {
+    std::vector<std::array<double, 3>> out;
+    for (std::size_t k = 0; k < (of->worst.edges ? 4u : 5u); ++k)
+      out.push_back(point(of->worst.x[k]));
+    return out;
+  }
+};
+Record<WorstRow> record_of(const WorstRow*) {
+  static constexpr Column<WorstRow> columns[] = {
+      column<&WorstRow::word>("word"),
+      column<&WorstRow::kind>("kind", "node_segment or edge_edge"),
+      column<&WorstRow::of, &KindResult::worst, &PairSample::triangle>("triangle"),
+      column<&WorstRow::points>(
+          "points", "Corners and node, or both nodes of the secondary and of the main edge"),
+      column<&WorstRow::of, &KindResult::worst, &PairSample::gap>("gap"),
+      column<&WorstRow::of, &KindResult::exact>("exact", "The distance, rounded once"),
+      column<&WorstRow::of, &KindResult::computed>("computed",
+                                                   "The distance by the formula of the word"),
+      column<&WorstRow::of, &KindResult::in_contact>("in_contact", "The right answer")};
+  return {"pair", "A wrong decision about a hard case.", columns, true};
+}
+
+struct FamilyRow {
+  const AccuracyChoices& choices;
+  std::size_t index;
+  const KindResult* first;  ///< of the first choice
+
+  Counts wrong() const {
+    Counts counts;
+    for (const AccuracyChoice& c : choices)
+      counts.emplace_back(to_string(c.accuracy), c.hard.kinds[index].wrong);
+    return counts;
+  }
+};
+
+void each_worst(const FamilyRow& r, const std::function<void(const WorstRow&)>& add) {
+  for (const AccuracyChoice& c : r.choices)
+    if (const KindResult& kind = c.hard.kinds[r.index]; kind.wrong > 0) add({c.accuracy, &kind});
+}
+
+Record<FamilyRow> record_of(const FamilyRow*) {
+  using Row = FamilyRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::first, &KindResult::kind, &HardFamily::id>("id"),
+      column<&Row::first, &KindResult::kind, &HardFamily::name>("name"),
+      column<&Row::first, &KindResult::kind, &HardFamily::group>("group"),
+      column<&Row::first, &KindResult::kind, &HardFamily::expected>("expected"),
+      column<&Row::first, &KindResult::pairs>("pairs"),
+      column<&Row::wrong>("wrong", "Wrong decisions of each word"),
+      column("worst", "Of each word that is wrong: the wrong decision with the largest error",
+             [](const Row& r) {
+               return Rows<WorstRow>{[&r](const auto& add) { each_worst(r, add); }};
+             })};
+  return {"family", "A kind of hard cases.", columns};
+}
+
+struct WrongRow {
+  Accuracy word;
+  const WrongPair* pair;
+};
+Record<WrongRow> record_of(const WrongRow*) {
+  static constexpr Column<WrongRow> columns[] = {
+      column<&WrongRow::word>("word"),
+      column<&WrongRow::pair, &WrongPair::interface>("interface"),
+      column<&WrongRow::pair, &WrongPair::secondary>("secondary", "Node ids"),
+      column<&WrongRow::pair, &WrongPair::main>("main"),
+      column<&WrongRow::pair, &WrongPair::gap>("gap"),
+      column<&WrongRow::pair, &WrongPair::exact>(
+          "exact", "The distance; null: the interface has other rules, or moves nodes"),
+      column<&WrongRow::pair, &WrongPair::computed>("computed",
+                                                    "The distance by the formula of the word")};
+  return {"wrong_pair", "A wrong decision about a pair of the deck.", columns, true};
+}
+
+}  // namespace
+
+Record<HardMotion::Line> record_of(const HardMotion::Line*) {
+  static constexpr Column<HardMotion::Line> columns[] = {
+      column<&HardMotion::Line::accuracy>("word"),
+      column<&HardMotion::Line::depth>("depth", "By step"),
+      column<&HardMotion::Line::force>("force", "By step: the elastic force of a stiffness of 1"),
+      column<&HardMotion::Line::jumps>("jumps",
+                                       "Steps where the depth changes by more than the way")};
+  return {"line", "", columns};
+}
+
+Record<HardMotion> record_of(const HardMotion*) {
+  using Row = HardMotion;
+  static constexpr Column<Row> columns[] = {
+      column("corners",
+             [](const Row& r) {
+               return std::array{point(r.corners[0]), point(r.corners[1]), point(r.corners[2])};
+             }),
+      column<&Row::from, &point>("from"),
+      column<&Row::to, &point>("to"),
+      column<&Row::gap>("gap"),
+      column<&Row::way>("way", "Of the node in one step"),
+      column("lines", [](const Row& r) { return rows_of(r.lines); }),
+      column("sentences", [](const Row& r) { return rows_of(motion_sentences(r)); })};
+  return {
+      "motion",
+      "One hard case in motion: a node passes a triangle of hardly any area in straight steps of "
+      "equal length.",
+      columns};
+}
+
+namespace {
+
+struct AccuracyDocument {
+  const AccuracyChoices* choices;
+  const AccuracyContext* context;
+  HardMotion motion;
+};
+
+void each_wrong_pair(const AccuracyDocument& r, const std::function<void(const WrongRow&)>& add) {
+  for (const AccuracyChoice& c : *r.choices)
+    if (c.deck)
+      for (const WrongPair& p : c.deck->wrong) add({c.accuracy, &p});
+}
+
+Record<AccuracyDocument> record_of(const AccuracyDocument*) {
+  using Row = AccuracyDocument;
+  static constexpr Column<Row> of_machine[] = {
+      column<&Row::context, &AccuracyContext::processor>("processor"),
+      column("compiler", [](const Row&) { return accuracy_compiler(); }),
+      column<&Row::context, &AccuracyContext::command>("command")};
+  static constexpr Record<Row> machine{"machine", "", of_machine, true};
+  static constexpr Column<Row> columns[] = {
+      column("deck",
+             [](const Row& r) {
+               return if_any(r.context->deck != nullptr,
+                             DeckRow{r.context->path, r.context->deck, nullptr, nullptr});
+             }),
+      group<machine>("machine"),
+      column("advice", "Two sentences: which accuracy to keep, and why",
+             [](const Row& r) { return rows_of(accuracy_advice(*r.choices)); }),
+      column("choices", "reference, fast, robust, exact",
+             [](const Row& r) { return rows_of(*r.choices); }),
+      column("families",
+             [](const Row& r) {
+               return rows_of(r.choices->front().hard.kinds, [&r](const KindResult& k) {
+                 const auto& first = r.choices->front().hard.kinds;
+                 return FamilyRow{*r.choices, static_cast<std::size_t>(&k - first.data()), &k};
+               });
+             }),
+      column("wrong_pairs",
+             [](const Row& r) {
+               return Rows<WrongRow>{[&r](const auto& add) { each_wrong_pair(r, add); }};
+             }),
+      column<&Row::motion>("motion")};
+  return {"document", "", columns};
+}
+
+constexpr DocumentHead head{
+    "deck/accuracy", 2,
+    "Written by deck accuracy --json: what each word of --accuracy costs in time and decides "
+    "wrongly, on the hard cases and, with the member deck, on a deck."};
+
+}  // namespace
+
+DocumentSchema accuracy_schema() { return document_schema<AccuracyDocument>(head); }
+
 std::string accuracy_json(const AccuracyChoices& choices, const AccuracyContext& context) {
-  std::string out;
-  JsonWriter j(out);
-  j.begin_object();
-  write_json_head(j, "deck/accuracy", 2);
-  if (context.deck != nullptr) write_json_deck(j, context.path, *context.deck, nullptr, nullptr);
-  j.key("machine").begin_object(true).field("processor", context.processor);
-  j.field("compiler", accuracy_compiler()).field("command", context.command).end_object();
-  j.key("advice").begin_array();
-  for (const std::string& sentence : accuracy_advice(choices)) j.value(sentence);
-  j.end_array();
-  write_choices(j, choices);
-  write_families(j, choices);
-  write_wrong_pairs(j, choices);
-  write_motion(j, hard_motion());
-  j.end_object();
-  return out;
+  return write_document(head, AccuracyDocument{&choices, &context, hard_motion()});
 }
 
 }  // namespace deck

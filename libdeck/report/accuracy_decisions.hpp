@@ -8,10 +8,6 @@
 
 namespace deck {
 
-/// The member "accuracy": mode, pairs, how many needed more than double, and the pairs about which
-/// the solver's arithmetic decides otherwise.
-void write_decisions(JsonWriter& j, const Scene& scene);
-
 /// Where the solver's arithmetic decides otherwise about contact, or with `always`: one sentence,
 /// and a table of the first `rows` differences, fitted to `width`. Else "".
 std::string decisions_text(const Scene& scene, std::size_t rows, bool always, bool color,

@@ -10,9 +10,9 @@
 
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
-#include "report/gaps_names.hpp"
 #include "report/shared/accuracy.hpp"
 #include "report/shared/text_table.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
 namespace {
@@ -22,10 +22,6 @@ const ContactCost* cost_in(const std::vector<ContactCost>* costs, const CycleInp
                            const cycle::ContactOutcome& contact) {
   const std::size_t i = static_cast<std::size_t>(&contact - input.outcome->contacts.data());
   return costs == nullptr || i >= costs->size() ? nullptr : &(*costs)[i];
-}
-
-const ContactCost* cost_of(const CycleInput& input, const cycle::ContactOutcome& contact) {
-  return cost_in(input.costs, input, contact);
 }
 
 std::string nanoseconds(double v) { return fmt::format("{:.{}f}", v, std::abs(v) < 10 ? 1 : 0); }
@@ -138,42 +134,70 @@ std::string cost_sentence(const CycleInput& input) {
   return out + ".";
 }
 
-void write_cost(JsonWriter& j, const CycleInput& input, const cycle::ContactOutcome& contact) {
-  j.key("cost");
-  const ContactCost* cost = cost_of(input, contact);
-  if (cost == nullptr) {
-    j.null();
-    return;
-  }
-  j.begin_object().field("pairs", cost->pairs).field("measured", cost->measured);
-  j.field("margin", cost->margin);
-  j.field("problem", cost->problem).field("loop_ns", cost->loop_ns);
-  j.field("flags_ns", cost->flags_ns).field("all_ns", cost->all_ns).field("all", cost->all);
-  j.key("effects").begin_array();
-  for (const EffectCost& e : cost->effects) {
-    j.begin_object(true).field("name", e.name).field("on", e.on);
-    if (!e.why_not.empty()) {
-      j.field("why_not", e.why_not).end_object();
-      continue;
-    }
-    j.field("against", e.other).field("ns", e.ns).field("low", e.low).field("high", e.high);
-    j.field("change", e.change).end_object();
-  }
-  j.end_array().end_object();
+Record<EffectCost> record_of(const EffectCost*) {
+  using Row = EffectCost;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::name>("name"),
+      column<&Row::on>("on", "The card asks for it"),
+      column("why_not", "Why there are no times",
+             [](const Row& r) { return if_any(!r.why_not.empty(), r.why_not); }),
+      column("against", "What the card of the other loop says",
+             [](const Row& r) { return if_any(r.why_not.empty(), r.other); }),
+      column("ns", "What it adds, or would add: median",
+             [](const Row& r) { return if_any(r.why_not.empty(), r.ns); }),
+      column("low", "Lower quartile",
+             [](const Row& r) { return if_any(r.why_not.empty(), r.low); }),
+      column("high", "Upper quartile",
+             [](const Row& r) { return if_any(r.why_not.empty(), r.high); }),
+      column("change", "Largest difference of a pair force over the largest pair force",
+             [](const Row& r) { return if_any(r.why_not.empty(), r.change); })};
+  return {"effect_cost", "", columns, true};
 }
 
-void write_costs(JsonWriter& j, const CycleInput& input) {
-  j.key("costs");
-  if (input.costs == nullptr) {
-    j.null();
-    return;
-  }
-  const CostSummary s = summarize_costs(input);
-  j.begin_object().field("verdict", cost_sentence(input)).field("contacts", s.contacts);
-  j.field("pairs", s.pairs).field("effects_on", s.on).field("effects", s.known);
-  j.field("loop_ns", s.loop_ns).field("flags_ns", s.flags_ns).field("all_ns", s.all_ns);
-  j.field("repeats", input.cost_repeats).field("processor", input.processor);
-  j.field("compiler", accuracy_compiler()).end_object();
+std::optional<ContactCost> measured_cost(const CycleInput& input,
+                                         const cycle::ContactOutcome& contact) {
+  const ContactCost* cost = cost_in(input.costs, input, contact);
+  return cost == nullptr ? std::nullopt : std::optional(*cost);
+}
+
+Record<ContactCost> record_of(const ContactCost*) {
+  using Row = ContactCost;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::pairs>("pairs"),
+      column<&Row::measured>("measured", "The first of the pairs, which were timed"),
+      column<&Row::margin>("margin",
+                           "How far beyond their gap pairs were looked for, where none is nearer"),
+      column<&Row::problem>("problem", "Why nothing was timed; empty: it was"),
+      column<&Row::loop_ns>("loop_ns", "The loop that the card asks for"),
+      column<&Row::flags_ns>("flags_ns", "The same effects, asked for by flags inside the loop"),
+      column<&Row::all_ns>(
+          "all_ns", "Every effect that this kind of contact can have together; 0: no such loop"),
+      column<&Row::all>("all", "What the card of that loop says in addition"),
+      column("effects", [](const Row& r) { return rows_of(r.effects); })};
+  return {"cost", "The loop over pairs of this contact, in nanoseconds of processor time per pair.",
+          columns};
+}
+
+std::optional<CostsRow> measured_costs(const CycleInput& input) {
+  if (input.costs == nullptr) return std::nullopt;
+  return CostsRow{&input, summarize_costs(input)};
+}
+
+Record<CostsRow> record_of(const CostsRow*) {
+  using Row = CostsRow;
+  static constexpr Column<Row> columns[] = {
+      column("verdict", [](const Row& r) { return cost_sentence(*r.input); }),
+      column<&Row::sums, &CostSummary::contacts>("contacts"),
+      column<&Row::sums, &CostSummary::pairs>("pairs"),
+      column<&Row::sums, &CostSummary::on>("effects_on"),
+      column<&Row::sums, &CostSummary::known>("effects"),
+      column<&Row::sums, &CostSummary::loop_ns>("loop_ns"),
+      column<&Row::sums, &CostSummary::flags_ns>("flags_ns"),
+      column<&Row::sums, &CostSummary::all_ns>("all_ns"),
+      column<&Row::input, &CycleInput::cost_repeats>("repeats"),
+      column<&Row::input, &CycleInput::processor>("processor"),
+      column("compiler", [](const Row&) { return accuracy_compiler(); })};
+  return {"costs", "All contacts together, by their pairs.", columns};
 }
 
 std::string cost_text(const CycleInput& input, const CycleTextOptions& options) {

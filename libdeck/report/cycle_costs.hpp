@@ -1,10 +1,11 @@
 // What the effects of the force stage cost, as pieces of the reports around it. Private to the
 // stage.
 #pragma once
+#include <optional>
 #include <string>
 
+#include "report/record.hpp"
 #include "report/shared/cycle.hpp"
-#include "report/shared/json.hpp"
 
 namespace deck {
 
@@ -23,10 +24,17 @@ CostSummary summarize_costs(const CycleInput& input);
 std::string short_cost_sentence(const CycleInput& input);
 /// What the measurement says, in one sentence.
 std::string cost_sentence(const CycleInput& input);
-/// The member "cost" of one contact; null where nothing was measured.
-void write_cost(JsonWriter& json, const CycleInput& input, const cycle::ContactOutcome& contact);
-/// The member "costs" of the document; null where nothing was measured.
-void write_costs(JsonWriter& json, const CycleInput& input);
+/// The loop over the pairs of one contact; null where nothing was measured.
+std::optional<ContactCost> measured_cost(const CycleInput& input,
+                                         const cycle::ContactOutcome& contact);
+Record<ContactCost> record_of(const ContactCost*);
+/// Of all contacts together; null where nothing was measured.
+struct CostsRow {
+  const CycleInput* input = nullptr;
+  CostSummary sums;
+};
+std::optional<CostsRow> measured_costs(const CycleInput& input);
+Record<CostsRow> record_of(const CostsRow*);
 /// A table of contacts, and one of the effects that run; empty: nothing was measured.
 std::string cost_text(const CycleInput& input, const CycleTextOptions& options);
 /// The tables of the page for readers without scripts.

@@ -9,14 +9,6 @@
 
 namespace deck {
 
-/// Ids of nodes as a JSON array.
-inline void write_nodes(JsonWriter& j, const Model& model, const NodeIndex* nodes,
-                        std::size_t count) {
-  j.begin_array(true);
-  for (std::size_t i = 0; i < count; ++i) j.value(model.node_id(nodes[i]));
-  j.end_array();
-}
-
 /// The secondary node of a penetration (edge pairs: the first node of the edge), and those of a
 /// list of a view.
 NodeIndex first_node(const Scene& scene, const NamedPenetration& penetration);

@@ -16,15 +16,14 @@ struct LossLists {
     }};
   }
 };
-const Record<LossLists>& record_of(const LossLists*) {
+Record<LossLists> record_of(const LossLists*) {
   using Row = LossLists;
   static constexpr Column<Row> columns[] = {
-      column<Row>("kept", "", [](const Row& r) { return r.of(Loss::kept); }),
-      column<Row>("approximated", "", [](const Row& r) { return r.of(Loss::approximated); }),
-      column<Row>("dropped", "", [](const Row& r) { return r.of(Loss::dropped); }),
-      column<Row>("undecided", "", [](const Row& r) { return r.of(Loss::undecided); })};
-  static const Record<Row> record{"document", "", columns};
-  return record;
+      column("kept", [](const Row& r) { return r.of(Loss::kept); }),
+      column("approximated", [](const Row& r) { return r.of(Loss::approximated); }),
+      column("dropped", [](const Row& r) { return r.of(Loss::dropped); }),
+      column("undecided", [](const Row& r) { return r.of(Loss::undecided); })};
+  return {"document", "", columns};
 }
 
 constexpr DocumentHead head{"deck/losses", 1,
@@ -34,23 +33,22 @@ constexpr DocumentHead head{"deck/losses", 1,
 
 }  // namespace
 
-const Record<LossEntry>& record_of(const LossEntry*) {
+Record<LossEntry> record_of(const LossEntry*) {
   using Row = LossEntry;
   static constexpr Column<Row> columns[] = {
       column<&Row::file>("file"),
       column<&Row::line>("line"),
-      column<Row>("column", "First column of the text that changed; not of a whole block",
-                  [](const Row& r) { return if_any(r.column > 0, r.column); }),
-      column<Row>("end_column", "Last column of the text that was there",
-                  [](const Row& r) { return if_any(r.column > 0, r.end_column); }),
+      column("column", "First column of the text that changed; not of a whole block",
+             [](const Row& r) { return if_any(r.column > 0, r.column); }),
+      column("end_column", "Last column of the text that was there",
+             [](const Row& r) { return if_any(r.column > 0, r.end_column); }),
       column<&Row::keyword>("keyword"),
       column<&Row::id>("id"),
       column<&Row::field>("field", "Empty: the block as a whole"),
       column<&Row::old_text>("old"),
       column<&Row::new_text>("new"),
       column<&Row::note>("note")};
-  static const Record<Row> record{"entry", "", columns};
-  return record;
+  return {"entry", "", columns};
 }
 
 DocumentSchema losses_schema() { return document_schema<LossLists>(head); }

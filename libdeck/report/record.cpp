@@ -32,18 +32,16 @@ std::string definitions_text(const std::map<std::string, std::string>& definitio
 
 }  // namespace
 
-JsonForm JsonForm::or_null() const {
-  if (type.empty()) return {"", fmt::format(R"("oneOf": [{{ "type": "null" }}, {{ {} }}])", rest)};
-  return {"", fmt::format(R"("type": ["{}", "null"]{}{})", type, rest.empty() ? "" : ", ", rest)};
-}
-
 std::string JsonForm::members() const {
-  if (type.empty()) return rest;
-  return fmt::format(R"("type": "{}"{}{})", type, rest.empty() ? "" : ", ", rest);
+  if (type.empty())
+    return null ? fmt::format(R"("oneOf": [{{ "type": "null" }}, {{ {} }}])", rest) : rest;
+  return fmt::format(R"("type": {}{}{})",
+                     null ? fmt::format(R"(["{}", "null"])", type) : quoted(type),
+                     rest.empty() ? "" : ", ", rest);
 }
 
-JsonForm Definitions::reference(const char* name, bool common,
-                                const std::function<std::string()>& form) {
+JsonForm SchemaDefinitions::reference(const char* name, bool common,
+                                      const std::function<std::string()>& form) {
   auto& definitions = common ? common_ : own_;
   if (definitions.emplace(name, "").second) definitions[name] = form();
   return {"", fmt::format(R"("$ref": "{}#/$defs/{}")", common ? "common.schema.json" : "", name)};
@@ -90,11 +88,11 @@ void Value<TallCounts>::write(JsonOut& out, const TallCounts& tall) {
   out.json.end_object();
 }
 
-JsonForm Value<Counts>::form(Definitions&) {
+JsonForm Value<Counts>::form(SchemaDefinitions&) {
   return {"object", R"("additionalProperties": { "type": "integer", "minimum": 0 })"};
 }
 
-DocumentSchema document_schema(const DocumentHead& head, const Definitions& definitions,
+DocumentSchema document_schema(const DocumentHead& head, const SchemaDefinitions& definitions,
                                const std::string& record) {
   const std::string common = R"({ "$ref": "common.schema.json#/$defs/tool" })";
   std::string document = definitions.own().at(record);
@@ -147,7 +145,7 @@ std::string common_schema() {
                   {"name", "version"});
   return fmt::format(R"({{
   "$schema": "https://json-schema.org/draft/2020-12/schema",
-  "title": "Definitions that the documents of deck share",
+  "title": "SchemaDefinitions that the documents of deck share",
   "$defs": {{
 {}
   }}
@@ -158,9 +156,10 @@ std::string common_schema() {
 
 const std::vector<DocumentOfVerb>& documents_of_verbs() {
   static const std::vector<DocumentOfVerb> documents = {
-      {"diff", diff_schema},  {"explain", explain_schema}, {"gaps", gaps_schema},
-      {"gate", gate_schema},  {"lint", lint_schema},       {"losses", losses_schema},
-      {"rules", rules_schema}};
+      {"accuracy", accuracy_schema}, {"cycle", cycle_schema},   {"diff", diff_schema},
+      {"explain", explain_schema},   {"gaps", gaps_schema},     {"gate", gate_schema},
+      {"lint", lint_schema},         {"losses", losses_schema}, {"params", params_schema},
+      {"parts", parts_schema},       {"rules", rules_schema},   {"show", show_schema}};
   return documents;
 }
 

@@ -3,12 +3,11 @@
 //
 // A type becomes a record by a function next to it:
 //
-//   const Record<Crossing>& record_of(const Crossing*) {
+//   Record<Crossing> record_of(const Crossing*) {
 //     static constexpr Column<Crossing> columns[] = {
 //         column<&Crossing::edge>("edge", "Node ids"),
-//         column<Crossing>("side", "1 to 4", [](const Crossing& c) { return c.side + 1; })};
-//     static const Record<Crossing> record{"crossing", "An edge through a segment.", columns};
-//     return record;
+//         column("side", "1 to 4", [](const Crossing& c) { return c.side + 1; })};
+//     return {"crossing", "An edge through a segment.", columns};
 //   }
 //
 // The type that a column's function returns decides the form of the member:
@@ -18,10 +17,14 @@
 //   enumerations                 to_string() of it: one of the first word_count<E> words
 //   std::optional<T>             a T, or null
 //   IfAny<T>                     a T, or the object does not have the member
-//   std::array, std::vector      a list on one line
+//   std::array, std::vector      a list on one line; of records: as Rows
 //   Counts                       an object of names and counts; TallCounts: one a line
+//   Scalar                       a number or a text
+//   Named<T>                     an object whose names are data, each with a T
 //   a type that has record_of()  an object
 //   Rows<T>                      a list of such objects, each written as it comes
+//
+// group<record>("name") is an object of further columns of the same row.
 #pragma once
 #include <array>
 #include <concepts>
@@ -31,8 +34,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "deck/report/gaps.hpp"
@@ -49,15 +54,16 @@ struct JsonOut {
 
 /// The form of a value as JSON schema.
 struct JsonForm {
-  std::string type;  ///< "integer"; empty if `rest` says everything
-  std::string rest;  ///< further members, as "minimum": 0
+  std::string type;   ///< "integer"; empty if `rest` says everything
+  std::string rest;   ///< further members, as "minimum": 0
+  bool null = false;  ///< null is allowed as well
 
-  JsonForm or_null() const;
+  JsonForm or_null() const { return {type, rest, true}; }
   std::string members() const;  ///< what stands between the braces
 };
 
 /// Records that the forms of a document refer to, by name: their JSON schemas.
-class Definitions {
+class SchemaDefinitions {
  public:
   /// A reference to a record, which is described by `form` when it is met for the first time.
   /// `common`: it stands in the file that all documents share.
@@ -75,7 +81,7 @@ struct Column {
   const char* says;  ///< description in the schema; may be empty
   bool required;
   void (*write)(JsonOut&, std::string_view name, const Row&);
-  JsonForm (*form)(Definitions&);
+  JsonForm (*form)(SchemaDefinitions&);
 };
 
 template <class Row>
@@ -99,7 +105,25 @@ struct Rows {
   bool line = false;  ///< the list stands on one line
 };
 
+/// The rows that `make` gives for the values of a list. A temporary list is kept, any other must
+/// outlive the rows.
+template <class List, class Make = std::identity>
+auto rows_of(List&& list, Make make = {}) {
+  using T = std::remove_cvref_t<decltype(make(*list.begin()))>;
+  return Rows<T>{[kept = std::tuple<List>(std::forward<List>(list)), make](const auto& add) {
+    for (const auto& value : std::get<0>(kept)) add(make(value));
+  }};
+}
+
+template <class T>
+struct Named {
+  /// Calls its argument with each name and value.
+  std::function<void(const std::function<void(std::string_view, const T&)>&)> each;
+  bool line = false;  ///< the object stands on one line
+};
+
 using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
+using Scalar = std::variant<std::int64_t, double, std::string>;
 struct TallCounts {
   Counts counts;
 };
@@ -129,8 +153,8 @@ JsonForm list_form(const JsonForm& items, std::size_t size = 0);
 JsonForm words_form(const std::vector<std::string>& words);
 
 template <class Row>
-JsonForm record_form(Definitions& definitions) {
-  const Record<Row>& record = record_of(static_cast<const Row*>(nullptr));
+JsonForm record_form(SchemaDefinitions& definitions,
+                     const Record<Row>& record = record_of(static_cast<const Row*>(nullptr))) {
   return definitions.reference(record.name, record.common, [&] {
     std::vector<std::pair<std::string, std::string>> members;
     std::vector<std::string> required;
@@ -155,7 +179,7 @@ struct Value {
       out.json.value(v);
     }
   }
-  static JsonForm form(Definitions& definitions) {
+  static JsonForm form(SchemaDefinitions& definitions) {
     if constexpr (HasRecord<T>) {
       return record_form<T>(definitions);
     } else if constexpr (std::is_enum_v<T>) {
@@ -183,7 +207,7 @@ struct Value<std::optional<T>> {
   static void write(JsonOut& out, const std::optional<T>& v) {
     v ? Value<T>::write(out, *v) : void(out.json.null());
   }
-  static JsonForm form(Definitions& d) { return Value<T>::form(d).or_null(); }
+  static JsonForm form(SchemaDefinitions& d) { return Value<T>::form(d).or_null(); }
 };
 
 template <class List>
@@ -196,25 +220,53 @@ void write_list(JsonOut& out, const List& list) {
 template <class T, std::size_t N>
 struct Value<std::array<T, N>> {
   static void write(JsonOut& out, const std::array<T, N>& v) { write_list(out, v); }
-  static JsonForm form(Definitions& d) { return list_form(Value<T>::form(d), N); }
+  static JsonForm form(SchemaDefinitions& d) { return list_form(Value<T>::form(d), N); }
 };
 
 template <class T>
 struct Value<std::vector<T>> {
-  static void write(JsonOut& out, const std::vector<T>& v) { write_list(out, v); }
-  static JsonForm form(Definitions& d) { return list_form(Value<T>::form(d)); }
+  static void write(JsonOut& out, const std::vector<T>& v) {
+    if constexpr (HasRecord<T>)
+      Value<Rows<T>>::write(out, rows_of(v));
+    else
+      write_list(out, v);
+  }
+  static JsonForm form(SchemaDefinitions& d) { return list_form(Value<T>::form(d)); }
 };
 
 template <>
 struct Value<Counts> {
   static void write(JsonOut& out, const Counts& counts);
-  static JsonForm form(Definitions& d);
+  static JsonForm form(SchemaDefinitions& d);
+};
+
+template <>
+struct Value<Scalar> {
+  static void write(JsonOut& out, const Scalar& scalar) {
+    std::visit([&](const auto& v) { out.json.value(v); }, scalar);
+  }
+  static JsonForm form(SchemaDefinitions&) { return {"", R"("type": ["number", "string"])", true}; }
+};
+
+template <class T>
+struct Value<Named<T>> {
+  static void write(JsonOut& out, const Named<T>& members) {
+    out.json.begin_object(members.line);
+    members.each([&](std::string_view name, const T& value) {
+      out.json.key(name);
+      Value<T>::write(out, value);
+    });
+    out.json.end_object();
+  }
+  static JsonForm form(SchemaDefinitions& d) {
+    return {"object", "\"additionalProperties\": { " + Value<T>::form(d).members() + " }"};
+  }
 };
 
 template <>
 struct Value<TallCounts> {
   static void write(JsonOut& out, const TallCounts& tall);
-  static JsonForm form(Definitions& d) { return Value<Counts>::form(d); }
+  static JsonForm form(SchemaDefinitions& d) { return Value<Counts>::form(d); }
 };
 
 template <class T>
@@ -227,12 +279,12 @@ struct Value<Rows<T>> {
     });
     out.json.end_array();
   }
-  static JsonForm form(Definitions& d) { return list_form(Value<T>::form(d)); }
+  static JsonForm form(SchemaDefinitions& d) { return list_form(Value<T>::form(d)); }
 };
 
 template <class T>
 struct Value<IfAny<T>> {
-  static JsonForm form(Definitions& d) { return Value<T>::form(d); }
+  static JsonForm form(SchemaDefinitions& d) { return Value<T>::form(d); }
 };
 
 template <class T>
@@ -240,8 +292,17 @@ inline constexpr bool is_if_any = false;
 template <class T>
 inline constexpr bool is_if_any<IfAny<T>> = true;
 
+template <class Row, class T>
+Row row_type(T Row::*);
+template <class Row, class T>
+Row row_type(T (*)(const Row&));
+template <class Get, class Row, class T>
+Row row_type(T (Get::*)(const Row&) const);
+template <class Get>
+using RowOf = decltype(row_type(&Get::operator()));
+
 /// A column; `get` is a lambda without captures from a row to the value.
-template <class Row, class Get>
+template <class Get, class Row = RowOf<Get>>
 requires std::is_empty_v<Get>
 constexpr Column<Row> column(const char* name, const char* says, Get) {
   using T = std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>;
@@ -257,7 +318,28 @@ constexpr Column<Row> column(const char* name, const char* says, Get) {
               Value<T>::write(out, value);
             }
           },
-          [](Definitions& d) { return Value<T>::form(d); }};
+          [](SchemaDefinitions& d) { return Value<T>::form(d); }};
+}
+
+template <class Get>
+constexpr auto column(const char* name, Get get) {
+  return column(name, "", get);
+}
+
+template <class Row>
+Row row_type(const Record<Row>&);
+
+/// A member that is an object of other columns of the row, those of the record `Group`.
+template <const auto& Group>
+constexpr auto group(const char* name, const char* says = "") {
+  using Row = decltype(row_type(Group));
+  return Column<Row>{name, says, true,
+                     [](JsonOut& out, std::string_view key, const Row& row) {
+                       out.json.key(key).begin_object(Group.line);
+                       for (const Column<Row>& c : Group.columns) c.write(out, c.name, row);
+                       out.json.end_object();
+                     },
+                     [](SchemaDefinitions& d) { return record_form(d, Group); }};
 }
 
 /// What a path of members and functions gives for a row; pointers on the way are followed.
@@ -271,18 +353,13 @@ constexpr decltype(auto) value_at(const Row& row) {
     return value_at<Rest...>(std::invoke(Get, row));
 }
 
-template <class Row, class T>
-Row row_type(T Row::*);
-template <class Row, class T>
-Row row_type(T (*)(const Row&));
-
 /// A column that is a member of the row, a function of it, or a path of these:
 /// column<&Row::pair, &Pair::gap>("gap", "The pair gap").
 template <auto First, auto... Rest>
 constexpr auto column(const char* name, const char* says = "") {
   using Row = decltype(row_type(First));
-  return column<Row>(
-      name, says, [](const Row& row) -> decltype(auto) { return value_at<First, Rest...>(row); });
+  return column(name, says,
+                [](const Row& row) -> decltype(auto) { return value_at<First, Rest...>(row); });
 }
 
 /// A value, and a record without its braces, where no list is long.
@@ -314,11 +391,11 @@ struct DocumentSchema {
   std::string text;
   std::map<std::string, std::string> common;  ///< definitions that it shares with others
 };
-DocumentSchema document_schema(const DocumentHead& head, const Definitions& definitions,
+DocumentSchema document_schema(const DocumentHead& head, const SchemaDefinitions& definitions,
                                const std::string& record);
 template <class Row>
 DocumentSchema document_schema(const DocumentHead& head) {
-  Definitions definitions;
+  SchemaDefinitions definitions;
   record_form<Row>(definitions);
   return document_schema(head, definitions, record_of(static_cast<const Row*>(nullptr)).name);
 }

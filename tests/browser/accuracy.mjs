@@ -2,19 +2,8 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible, reachable } from "./axe.mjs";
-import { check, deck, DECK_ARTEFACTS, same, sample } from "./support.mjs";
-
-const widths = [390, 768, 1024, 1280, 1440, 1920];
-
-async function openPage(browser, file) {
-  const p = await browser.newPage({ viewport: { width: 1280, height: 900 }, colorScheme: "light" });
-  p.trouble = [];
-  p.on("console", (m) => m.type() === "error" && p.trouble.push(m.text()));
-  p.on("pageerror", (e) => p.trouble.push(e.message));
-  p.on("request", (r) => /^(file|data|blob):/.test(r.url()) || p.trouble.push(r.url()));
-  await p.goto(`file://${file}`);
-  return p;
-}
+import { check, deck, DECK_ARTEFACTS, done, open, same, sample, scratch, shot } from "./support.mjs";
+import { pageFits } from "./tables.mjs";
 
 /** The first screen says per accuracy what the JSON says, within the window. */
 async function firstScreen(p, name, data) {
@@ -102,22 +91,12 @@ async function motion(p, name, data) {
   }
 }
 
-/** Neither the page nor a table is wider than its box. */
-async function fits(p, name) {
-  for (const width of widths) {
-    await p.setViewportSize({ width, height: 900 });
-    const over = await p.evaluate(() => [document.documentElement.scrollWidth > innerWidth, ...[...document.querySelectorAll("table")].map((t) => t.offsetWidth > t.parentElement.clientWidth)]);
-    check(`${name}, ${width} wide: neither page nor table is too wide`, over.every((o) => !o), over.join(" "));
-  }
-  await p.setViewportSize({ width: 1280, height: 900 });
-}
-
-export async function accuracyPage(browser, scratch, shot) {
+export async function accuracyPage(browser) {
   for (const [name, decks] of [["hard cases", []], ["a deck", [sample("crash_box")]]]) {
     const [html, json] = ["html", "json"].map((e) => join(scratch, `accuracy_${decks.length}.${e}`));
     deck("accuracy", ...decks, "--samples", "40", "--repeats", "3", "--quiet", "--html", html, "--json", json);
     const data = JSON.parse(readFileSync(json));
-    const p = await openPage(browser, html);
+    const p = await open(browser, html, { viewport: { width: 1280, height: 900 } }, false);
     same(`${name}: the page holds the JSON document`, await p.$eval("#accuracy-json", (e) => JSON.parse(e.textContent)), data);
     await firstScreen(p, name, data);
     await kinds(p, name, data);
@@ -125,13 +104,12 @@ export async function accuracyPage(browser, scratch, shot) {
     await p.setViewportSize({ width: 390, height: 844 });
     await shot(p, `accuracy_${decks.length}_phone`);
     await motion(p, name, data);
-    await fits(p, name);
+    await pageFits(p, name);
     await accessible(p, `accuracy of ${name}`);
     await p.click("#theme");
     await accessible(p, `accuracy of ${name}, dark`);
     await reachable(p, `accuracy of ${name}`);
     await shot(p, `accuracy_${decks.length}_dark`);
-    check(`${name}: no trouble`, p.trouble.length === 0, p.trouble.join("; "));
-    await p.close();
+    await done(p, `${name}`);
   }
 }

@@ -3,10 +3,9 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible, reachable } from "./axe.mjs";
-import { check, deck, open, run, same, sample, settled } from "./support.mjs";
+import { check, deck, done, open, run, same, sample, scratch, settled, shot } from "./support.mjs";
+import { pageFits } from "./tables.mjs";
 import { banner, leads } from "./verdict.mjs";
-
-const widths = [390, 768, 1024, 1280, 1440, 1920];
 
 /** What is drawn against what was measured. */
 async function costs(p, data) {
@@ -95,7 +94,7 @@ async function forces(p, path) {
   await p.keyboard.press("6");
 }
 
-export async function effectsPage(browser, scratch, shot) {
+export async function effectsPage(browser) {
   const path = sample("crash_box");
   const [html, json] = ["html", "json"].map((e) => join(scratch, `cycle.${e}`));
   deck("cycle", path, "--quiet", "--html", html, "--json", json);
@@ -105,10 +104,7 @@ export async function effectsPage(browser, scratch, shot) {
   await costs(p, data);
   await matrix(p, data, path);
   await forces(p, path);
-  for (const width of widths) {
-    await p.setViewportSize({ width, height: 900 });
-    check(`cycle page, ${width} wide: not wider than the window`, await p.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
-  }
+  await pageFits(p, "cycle page");
   await p.setViewportSize({ width: 1440, height: 900 });
   await accessible(p, "cycle page");
   await reachable(p, "cycle page");
@@ -119,8 +115,7 @@ export async function effectsPage(browser, scratch, shot) {
   await p.keyboard.press("t");
   await accessible(p, "cycle page, dark");
   await shot(p, "cycle_dark");
-  check("cycle page: no trouble", p.trouble.length === 0, p.trouble.join("; "));
-  await p.close();
+  await done(p, "cycle page");
   // Without scripts the table is there; a hostile title stays text.
   const evil = '<script>alert(1)</script>"\'&';
   const bad = join(scratch, "cycle_evil_0000.rad");
@@ -151,8 +146,7 @@ export async function effectsPage(browser, scratch, shot) {
   check("without an effect: what changes is marked and stands first", (await w.$$eval(".without tbody tr", (r) => r.map((e) => e.querySelector(".changed") !== null))).join() === [...shown.map((_, i) => i < shown.filter((r) => r[1] !== r[2]).length)].join());
   await accessible(w, "with and without an effect");
   await shot(w, "cycle_without");
-  check("with and without an effect: no trouble", w.trouble.length === 0, w.trouble.join("; "));
-  await w.close();
+  await done(w, "with and without an effect");
   const refused = run("cycle", path, "--quiet", "--html", html, "--steps", "3", "--dt", "1e-3");
   check("--html with --steps is refused with a reason", refused.code === 2 && /--steps/.test(refused.err), refused.err);
 }

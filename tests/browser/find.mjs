@@ -1,10 +1,10 @@
 // Finding things, chips, undo, links that open the same view, and what the context menu copies.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, deck, open, same, settled } from "./support.mjs";
+import { check, deck, done, open, same, scratch, settled } from "./support.mjs";
 
 /** The crash box: `file` is the report, `path` the deck. */
-export async function find(browser, file, path, scratch) {
+export async function find(browser, file, path) {
   const p = await open(browser, file);
   await p.evaluate(() => Object.defineProperty(navigator, "clipboard", { value: { writeText: (t) => Promise.resolve((window.copied = t)) } }));
   const ask = async (text) => {
@@ -90,6 +90,5 @@ export async function find(browser, file, path, scratch) {
     const card = await p.evaluate(() => window.copied);
     check(`${label} reads without an error`, card.split("\n").length > 3 && errors(name, text.replace(/\/END\s*$/, `${card}/END\n`)) === errors("menu_none.rad", text), card?.slice(0, 80));
   }
-  check("finding things makes no trouble", p.trouble.length === 0, p.trouble.join("; "));
-  await p.close();
+  await done(p, "finding things");
 }

@@ -28,14 +28,13 @@ export async function beforeThePicture(browser, file) {
       hold = false;
       for (const f of held) frame(f);
     };
-    // Programs that are linked once the model is there, and rules that this thread compiles.
-    window.late = { programs: 0, rules: 0 };
+    // Programs that are linked once the model is there.
+    window.late = { programs: 0 };
     const link = WebGL2RenderingContext.prototype.linkProgram;
     WebGL2RenderingContext.prototype.linkProgram = function (program) {
       if (!document.querySelector(".unpacking") && !seen()) window.late.programs++;
       return link.call(this, program);
     };
-    WebAssembly.Module = new Proxy(WebAssembly.Module, { construct: (Module, args) => (window.late.rules++, new Module(...args)) });
   });
   const since = await meter(browser);
   const p = await context.newPage();

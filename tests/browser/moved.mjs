@@ -1,12 +1,9 @@
 // The pages of `deck fix --html` and `deck diff --html`: moved nodes against the JSON, the mesh before and after, what was solved.
-import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible } from "./axe.mjs";
-import { check, DECK, deck, open, same, sample, settled } from "./support.mjs";
+import { cells, check, deck, done, open, pageOf, same, sample, scratch, settled, shot } from "./support.mjs";
 
-const cells = (p, selector) =>
-  p.$$eval(`${selector} .vt-row`, (rows) => rows.map((r) => Object.fromEntries([...r.children].map((c) => [c.dataset.key, c.textContent.replace(/\u202f/g, "")]))));
 /** Largest height of a part's vertices as they are drawn. */
 const height = (p, part) =>
   p.evaluate((id) => {
@@ -20,12 +17,10 @@ async function patchOf(p) {
   return readFileSync(await download.path(), "utf8");
 }
 
-export async function repairPages(browser, scratch, shot) {
-  const call = [sample("too_close"), "--strategy", "move-nodes", "--max-moved", "100%", "--quiet"];
-  const file = join(scratch, "fix.html");
-  deck("fix", ...call, "--html", file);
-  const json = JSON.parse(deck("fix", ...call, "--json", "-"));
-  let p = await open(browser, file, { acceptDownloads: true });
+export async function repairPages(browser) {
+  const call = [sample("too_close"), "--strategy", "move-nodes", "--max-moved", "100%"];
+  const json = JSON.parse(deck("fix", ...call, "--quiet", "--json", "-"));
+  let p = await open(browser, pageOf("fix", "fix", ...call), { acceptDownloads: true });
   const shown = await p.evaluate(() => window.deckReport.report.moved.rows.map((r) => [window.deckReport.report.nodeId(r[0]), Math.hypot(r[1], r[2], r[3])]));
   const sorted = (list) => list.map(([id, d]) => `${id} ${d.toPrecision(6)}`).sort();
   same("repair: nodes and lengths are those of the JSON", sorted(shown), sorted(json.moved.map((m) => [m.node, m.distance])));
@@ -40,19 +35,16 @@ export async function repairPages(browser, scratch, shot) {
   await p.click("#moved button:has-text('After')");
   same("repair: and 'After' where they stand now", await height(p, 2), after);
   same("repair: what was solved is counted", await p.$eval(".compare .solved b", (e) => Number(e.textContent)), json.interfaces[0].before.nodes);
-  same("repair: everything was treated, and the patch is that of --diff", [await p.$$eval(".refused-table .vt-row", (r) => r.length), await patchOf(p)], [json.not_treated.length, deck("fix", ...call, "--diff")]);
+  same("repair: everything was treated, and the patch is that of --diff", [await p.$$eval(".refused-table .vt-row", (r) => r.length), await patchOf(p)], [json.not_treated.length, deck("fix", ...call, "--quiet", "--diff")]);
   await p.click(".moved-table .vt-row");
   await settled(p);
   await accessible(p, "repair");
-  check("repair: no console error and no request", p.trouble.length === 0, p.trouble.join("; "));
-  await p.close();
+  await done(p, "repair");
 
   // What is left, why, and what to call next.
-  const half = [sample("crash_box"), "--strategy", "move-nodes", "--quiet"];
-  const some = join(scratch, "fix_some.html");
-  deck("fix", ...half, "--html", some);
-  const left = JSON.parse(deck("fix", ...half, "--json", "-")).not_treated;
-  p = await open(browser, some, { viewport: { width: 1280, height: 800 } });
+  const half = [sample("crash_box"), "--strategy", "move-nodes"];
+  const left = JSON.parse(deck("fix", ...half, "--quiet", "--json", "-")).not_treated;
+  p = await open(browser, pageOf("fix", "fix_some", ...half), { viewport: { width: 1280, height: 800 } });
   same("repair: what was not treated is that of the JSON", (await p.$eval("#repair .count", (e) => parseInt(e.textContent))), left.length);
   const listed = await p.$eval(".reasons", (e) => e.textContent);
   check("repair: every reason is said", left.length > 0 && left.every((r) => listed.includes(r.reason)), listed);
@@ -66,23 +58,17 @@ export async function repairPages(browser, scratch, shot) {
   }
   await accessible(p, "repair, some left");
   await shot(p, "repair_left");
-  check("repair, some left: no console error and no request", p.trouble.length === 0, p.trouble.join("; "));
-  await p.close();
+  await done(p, "repair, some left");
 
   // Two decks: the patch applied, against the old one.
   const folder = join(scratch, "mended");
-  deck("fix", ...call, "-o", folder);
-  const page = join(scratch, "diff.html");
-  execFileSync("sh", ["-c", `"${DECK}" diff "${call[0]}" "${folder}/too_close_0000.rad" --quiet --html "${page}" || [ $? = 1 ]`]);
-  p = await open(browser, page);
+  deck("fix", ...call, "--quiet", "-o", folder);
+  p = await open(browser, pageOf("diff", "diff", call[0], `${folder}/too_close_0000.rad`));
   same("difference: the same nodes have moved", (await p.evaluate(() => window.deckReport.report.moved.rows.map((r) => window.deckReport.report.nodeId(r[0])))).sort(), json.moved.map((m) => m.node).sort());
   check("difference: the page says what it is", (await p.$eval(".brand", (e) => e.textContent)) === "deck diff");
-  check("difference: no console error and no request", p.trouble.length === 0, p.trouble.join("; "));
-  await p.close();
+  await done(p, "difference");
   // A repair of cards moves nothing, and says so.
-  const cards = join(scratch, "cards.html");
-  deck("fix", sample("too_close"), "--strategy", "reduce-gap", "--quiet", "--html", cards);
-  p = await open(browser, cards);
+  p = await open(browser, pageOf("fix", "cards", sample("too_close"), "--strategy", "reduce-gap"));
   check("a repair of cards says that no node was moved", /No node was moved/.test(await p.$eval("#moved", (e) => e.textContent)));
   await p.close();
 }

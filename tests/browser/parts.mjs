@@ -1,20 +1,16 @@
 // The page of `deck parts --html`: the table of the parts against the JSON, the colours of the steps, a part shown alone.
-import { join } from "node:path";
 import { accessible } from "./axe.mjs";
-import { check, deck, open, same, sample, settled } from "./support.mjs";
+import { cells, check, deck, done, gaps, open, pageOf, same, sample, settled, shot } from "./support.mjs";
 
-export async function partsPage(browser, scratch, shot) {
+export async function partsPage(browser) {
   const path = sample("crash_box");
-  const file = join(scratch, "parts.html");
-  deck("parts", path, "--quiet", "--html", file);
   const json = JSON.parse(deck("parts", path, "--all", "--json", "-", "--quiet"));
-  const gaps = JSON.parse(deck("gaps", path, "--json", "-", "--quiet"));
-  const p = await open(browser, file);
-  const rows = await p.$$eval(".parts-table .vt-row", (all) => all.map((r) => Object.fromEntries([...r.children].map((c) => [c.dataset.key, c.textContent.replace(/\u202f/g, "")]))));
+  const p = await open(browser, pageOf("parts", "parts", path));
+  const rows = await cells(p, ".parts-table");
   const number = (v) => String(+v.toPrecision(4));
   const wanted = [...json.parts].sort((a, b) => a.dt.min - b.dt.min);
   same("parts: one row a part, the smallest step first", rows.map((r) => [r.id, r.mass, r.step]), wanted.map((q) => [String(q.id), number(q.mass), number(q.dt.min)]));
-  same("parts: the verdict is that of deck gaps", await p.evaluate(() => window.deckReport.report.meta.verdict.text), gaps.verdict.text);
+  same("parts: the verdict is that of deck gaps", await p.evaluate(() => window.deckReport.report.meta.verdict.text), gaps(path).verdict.text);
   // By node of the page: the smallest step of its elements, within a class of the scale.
   const dt = new Map(json.elements.map((e) => [`${e.kind} ${e.id}`, e.dt]));
   const low = Math.min(...dt.values());
@@ -36,6 +32,5 @@ export async function partsPage(browser, scratch, shot) {
   const solid = await p.evaluate(() => window.deckReport.viewport.view.parts.parts.filter((q) => q.look === "solid").map((q) => window.deckReport.report.partId(q.data.part)));
   same("parts: a part that is chosen is shown alone", solid, [wanted[0].id]);
   await accessible(p, "parts");
-  check("parts: no console error and no request", p.trouble.length === 0, p.trouble.join("; "));
-  await p.close();
+  await done(p, "parts");
 }

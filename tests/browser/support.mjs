@@ -1,13 +1,17 @@
 // What the browser checks share: counting, running `deck`, opening pages that may ask for nothing.
 import { execFile, execFileSync, spawnSync } from "node:child_process";
 import { createRequire } from "node:module";
-import { existsSync } from "node:fs";
+import { existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
 
 export const { ROOT, WORK, DECK, DECK_CORPUS, DECK_ARTEFACTS, CHROMIUM } = process.env;
 /** Every deck at every width, which takes minutes. */
 export const ALL = process.env.ALL === "yes";
 export const { chromium } = createRequire(join(WORK, "x.js"))("playwright-core");
+/** Where pages and changed decks are written. */
+export const scratch = join(WORK, "pages");
+mkdirSync(scratch, { recursive: true });
+mkdirSync(DECK_ARTEFACTS, { recursive: true });
 
 let passed = Number(process.env.PASSED ?? 0);
 let failed = Number(process.env.FAILED ?? 0);
@@ -67,8 +71,18 @@ const flags = [
 ];
 export const launch = (...more) => chromium.launch({ executablePath: CHROMIUM, args: [...flags, ...more] });
 
-/** Opens a report; `page.trouble` collects console errors, page errors and requests. */
-export async function open(browser, file, options = {}) {
+/** Writes the page of `deck gaps`, or of another verb. */
+export function page(name, path, ...more) {
+  return pageOf("gaps", name, path, ...more);
+}
+export function pageOf(verb, name, ...args) {
+  const file = join(scratch, `${name}.html`);
+  deck(verb, ...args, "--quiet", "--html", file);
+  return file;
+}
+
+/** Opens a page; `trouble` collects console errors, page errors and requests. `scripted`: it says when it is ready. */
+export async function open(browser, file, options = {}, scripted = true) {
   const page = await browser.newPage({ viewport: { width: 1600, height: 1000 }, colorScheme: "light", ...options });
   page.trouble = [];
   page.on("console", (m) => m.type() === "error" && page.trouble.push(`console: ${m.text()}`));
@@ -81,6 +95,7 @@ export async function open(browser, file, options = {}) {
     if (!/^(file|data|blob):/.test(r.url())) page.trouble.push(`request: ${r.url()}`);
   });
   await page.goto(`file://${file}`);
+  if (!scripted) return page;
   try {
     await page.waitForFunction(() => document.documentElement.dataset.ready === "true", null, { timeout: 30000 });
   } catch {
@@ -88,6 +103,16 @@ export async function open(browser, file, options = {}) {
   }
   return page;
 }
+
+/** Closes a page, which must have had no trouble. */
+export async function done(p, name) {
+  check(`${name}: no console error and no request`, p.trouble.length === 0, p.trouble.join("; "));
+  await p.close();
+}
+export const shot = (p, name) => p.screenshot({ path: join(DECK_ARTEFACTS, `${name}.png`) });
+/** Rows of a table in sight: text of each column by the column's key. */
+export const cells = (p, selector) =>
+  p.$$eval(`${selector} .vt-row`, (rows) => rows.map((r) => Object.fromEntries([...r.children].map((c) => [c.dataset.key, c.textContent.replace(/\u202f/g, "")]))));
 
 /** Waits until the picture is drawn and no flight goes on. */
 export const settled = (p) => p.waitForFunction(() => window.deckReport.report.told && (window.deckReport.viewport.view?.resting ?? true));

@@ -33,6 +33,16 @@ const cut = () => {
   return { out, cells: document.querySelectorAll("[role=gridcell]").length, page: document.documentElement.scrollWidth, window: innerWidth };
 };
 
+/** The page is not wider than its window at any width; nor is a table wider than its box, unless that scrolls. */
+export async function pageFits(p, name) {
+  for (const width of widths) {
+    await p.setViewportSize({ width, height: 900 });
+    const over = await p.evaluate(() => [document.documentElement.scrollWidth > innerWidth, ...[...document.querySelectorAll("table")].map((t) => t.offsetWidth > t.parentElement.clientWidth && getComputedStyle(t.parentElement).overflowX === "visible")]);
+    check(`${name}, ${width} wide: neither page nor table is too wide`, over.every((o) => !o), over.join(" "));
+  }
+  await p.setViewportSize({ width: 1280, height: 900 });
+}
+
 /** Measures a page that is open. */
 export async function tablesFit(p, name, at) {
   const row = await p.$(".list-table .vt-row");

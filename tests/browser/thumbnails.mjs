@@ -1,20 +1,18 @@
 // The small pictures of samples/README.md: made here, held against those of the repository (samples/pictures).
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, deck, DECK_ARTEFACTS, open, ROOT, same, sample, settled } from "./support.mjs";
+import { check, DECK_ARTEFACTS, done, open, page, ROOT, sample, settled } from "./support.mjs";
 
 const names = ["clean_plates", "inacti_variants", "crossing_edges", "welds", "airbag_fold", "coated_block", "solid_and_skin", "crash_box"];
 const most = 30000; // bytes
 const folder = join(ROOT, "samples/pictures");
 
-export async function thumbnails(browser, scratch) {
+export async function thumbnails(browser) {
   const made = join(DECK_ARTEFACTS, "thumbnails"); // copied to samples/pictures when one looks different
   mkdirSync(made, { recursive: true });
   const readme = readFileSync(join(ROOT, "samples/README.md"), "utf8");
   for (const name of names) {
-    const file = join(scratch, `thumbnail_${name}.html`);
-    deck("gaps", sample(name), "--quiet", "--html", file);
-    const p = await open(browser, file, { viewport: { width: 1600, height: 880 }, colorScheme: "light" });
+    const p = await open(browser, page(`thumbnail_${name}`, sample(name)), { viewport: { width: 1600, height: 880 }, colorScheme: "light" });
     await p.evaluate(() => {
       const { report, viewport } = window.deckReport;
       document.querySelector(".split").style.setProperty("--left", "25%"); // the picture has the shape of a thumbnail
@@ -53,7 +51,6 @@ export async function thumbnails(browser, scratch) {
     check(`${name}: its picture has 30 KB at most`, png.length <= most, `${png.length}`);
     check(`${name}: the picture of samples/pictures looks like the page (else copy ${made}/${name}.png)`, different <= 0.02, `${(100 * different).toFixed(1)} % of the pixels`);
     check(`${name}: samples/README.md shows it`, readme.includes(`pictures/${name}.png`));
-    same(`${name}: no console error and no request`, p.trouble, []);
-    await p.close();
+    await done(p, `${name}`);
   }
 }

@@ -1,12 +1,12 @@
 // What can be set in the picture: limits of the colours, parallel projection, what is measured, the mouse; and what is
 // nearest where nothing penetrates.
 import { accessible } from "./axe.mjs";
-import { check, gaps, open, same, sample, settled } from "./support.mjs";
+import { check, done, gaps, open, page, same, sample, settled, shot } from "./support.mjs";
 
 const near = (a, b, share = 1e-3) => Math.abs(a - b) <= share * Math.abs(b);
 
 /** `file`: the page of the crash box. */
-export async function viewTools(browser, file, shot) {
+export async function viewTools(browser, file) {
   const p = await open(browser, file, { viewport: { width: 1280, height: 800 } });
   await settled(p);
   const ticks = () => p.$$eval(".legend-ticks span", (t) => t.map((e) => Number(e.textContent)));
@@ -130,18 +130,17 @@ export async function viewTools(browser, file, shot) {
   same("the mouse with Ctrl", await does([["left", "Control"], ["middle", "Control"], ["right", "Control"]]), ["turn", "zoom", "move"]);
   await scheme("shift");
   same("the mouse with Shift", await does([["left", "Shift"], ["middle", "Shift"], ["right", "Shift"]]), ["turn", "move", "zoom"]);
-  same("the picture's tools: no console error and no request", p.trouble, []);
-  await p.close();
+  await done(p, "the picture's tools");
 }
 
 /** A page without penetrations says what is nearest: a gap a little larger is penetrated there and nowhere else. */
-export async function nearest(browser, page, shot) {
+export async function nearest(browser) {
   const path = sample("clean_plates");
   const p = await open(browser, page("nearest", path), { viewport: { width: 1280, height: 800 } });
   await p.waitForSelector(".nearest-table .vt-row");
   const row = await p.evaluate(() => {
     const { report } = window.deckReport;
-    const r = report.evaluator.core.nearest(0, {});
+    const r = report.evaluator.nearest(0, report.results[0].setting);
     return { distance: r.distance, gap: r.gap, text: document.querySelector(".nearest-said").textContent, node: report.secondaryText(r) };
   });
   const at = (distance) => gaps(path, "--what-if", `1:Igap=0,Gapmin=${distance}`).interfaces[0].contacts[0].totals.pairs;
@@ -156,6 +155,5 @@ export async function nearest(browser, page, shot) {
   await accessible(p, "nearest");
   await p.keyboard.press("t");
   await accessible(p, "nearest, dark");
-  same("nearest: no console error and no request", p.trouble, []);
-  await p.close();
+  await done(p, "nearest");
 }

@@ -13,6 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::corpus;
+using test::follows_schema;
 using test::quote;
 using test::Scratch;
 using test::shell;
@@ -62,19 +63,13 @@ TEST(GoldenCycle, EveryPairForceOfTheInflatedDummyAgrees) {
 
 TEST(GoldenCycle, DocumentsFollowTheirSchema) {
   const Scratch scratch;
-  const fs::path schema = deck::test::source_dir() / "schemas/output/cycle.schema.json";
   for (const char* name : {"crash_box", "crossing_edges", "hot_contact", "tied_layer"}) {
     const fs::path deck = deck::test::source_dir() / "samples" / (std::string(name) + "_0000.rad");
     ASSERT_TRUE(fs::exists(deck)) << deck;
-    std::ofstream(scratch / "cycle.json", std::ios::binary)
-        << document(deck, cycle::Model::robust, 1);
-    EXPECT_EQ(shell("python3 -c 'import json,sys,jsonschema; "
-                    "s=json.load(open(sys.argv[1])); d=json.load(open(sys.argv[2])); "
-                    "jsonschema.Draft7Validator(s).validate(d); "
-                    "sys.exit(0 if d[\"interfaces\"] else 1)' " +
-                    quote(schema) + " " + quote(scratch / "cycle.json")),
-              0)
-        << name;
+    const std::string text = document(deck, cycle::Model::robust, 1);
+    std::ofstream(scratch / "cycle.json", std::ios::binary) << text;
+    EXPECT_TRUE(follows_schema("cycle", scratch / "cycle.json")) << name;
+    EXPECT_EQ(text.find("\"interfaces\": []"), std::string::npos) << name;
   }
 }
 

@@ -11,6 +11,14 @@ import xml.dom.minidom
 import jsonschema
 from common import ROOT, SAMPLES, read, run_steps, write
 
+SCHEMAS = os.path.join(ROOT, "schemas", "output")
+
+
+def validators(schema):
+    """One for its own draft and one for draft 7: the schemas keep to what both have in common."""
+    resolver = jsonschema.RefResolver("file://" + SCHEMAS + "/", schema)
+    return [kind(schema, resolver=resolver) for kind in (jsonschema.validators.validator_for(schema), jsonschema.Draft7Validator)]
+
 
 def strict(text):
     """JSON as the standard has it: no NaN, no Infinity."""
@@ -30,7 +38,7 @@ def validators_of(c, verb):
         kind.check_schema(schema)
     except jsonschema.SchemaError as e:
         c.check("schema of %s is a schema" % verb, False, e.message)
-    return [kind(schema), jsonschema.Draft7Validator(schema)]
+    return validators(schema)
 
 
 def check_document(c, name, text, validators):

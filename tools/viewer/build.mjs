@@ -6,7 +6,6 @@ import { createRequire } from "node:module";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { bundle } from "./bundle.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const options = {};
@@ -15,12 +14,32 @@ for (let i = 2; i < process.argv.length; i += 2)
 const modules = resolve(options.modules ?? join(here, "node_modules"));
 const esbuild = createRequire(join(modules, "x.js"))("esbuild");
 
-const result = await bundle(esbuild, modules, {
+/** `./x.ts?text` is the bundled script of a thread, as a text. */
+const threads = {
+  name: "threads",
+  setup: (build) => {
+    build.onResolve({ filter: /\?text$/ }, (from) => ({ path: resolve(from.resolveDir, from.path.replace(/\?text$/, "")), namespace: "thread" }));
+    build.onLoad({ filter: /.*/, namespace: "thread" }, async (file) => ({ contents: (await bundle({ entryPoints: [file.path] })).outputFiles[0].text, loader: "text" }));
+  },
+};
+const bundle = (entries) =>
+  esbuild.build({
+    bundle: true,
+    write: false,
+    minify: options.minify !== "no",
+    format: "iife",
+    target: ["es2022"],
+    charset: "ascii",
+    legalComments: "inline",
+    nodePaths: [modules],
+    logLevel: "warning",
+    plugins: [threads],
+    ...entries,
+  });
+
+const result = await bundle({
   entryPoints: { viewer: join(here, "src/main.ts"), style: join(here, "src/style.css") },
   outdir: join(here, "out"),
-  write: false,
-  minify: options.minify !== "no",
-  format: "iife",
 });
 const text = (end) => result.outputFiles.find((f) => f.path.endsWith(end)).text;
 const script = text("viewer.js");

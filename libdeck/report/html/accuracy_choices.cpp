@@ -1,13 +1,13 @@
 // The first screen of the page of `deck accuracy`: advice, the four words of --accuracy with what
 // they cost and give, which to choose, and the kinds of hard cases each decides rightly.
-#include "report/html/accuracy_choices.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "accuracy/shared/choice.hpp"
 #include "base/shared/escape.hpp"
 #include "deck/contact/scene.hpp"
+#include "report/html/parts.hpp"
 
 namespace deck::detail {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "accuracy/shared/motion.hpp"
 #include "base/shared/escape.hpp"
-#include "report/html/accuracy_choices.hpp"
+#include "report/html/parts.hpp"
 
 namespace deck::detail {
 namespace {

@@ -1,7 +1,6 @@
 // The page of `deck accuracy`: the first screen answers what each word of --accuracy costs. All
 // figures stand in the page without scripts; the JSON document stands in it, too.
 #include "base/shared/escape.hpp"
-#include "report/html/accuracy_choices.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/accuracy.hpp"
 

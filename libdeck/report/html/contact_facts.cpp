@@ -25,17 +25,14 @@ void write_default_gap(JsonWriter& j, const Contact& c, const PlainSides& plain)
 }
 
 /// What the card and the defaults say before the rules of the contact's kind apply.
-void write_card(JsonWriter& j, const InterBase& inter, const std::vector<WhatIf>& what_if) {
-  CardSettings card = card_settings(inter);
-  for (const WhatIf& w : what_if)
-    if (w.interface_id == inter.id && w.Irem_gap) card.irem_gap = *w.Irem_gap;
+void write_card(JsonWriter& j, const InterBase& inter) {
+  const CardSettings card = card_settings(inter);
   double edge_scale_gap = 0;
   visit_interface(inter, [&](const auto& i) {
     if constexpr (requires { i.Edge_scale_gap; }) edge_scale_gap = i.Edge_scale_gap.value;
   });
   j.key("card").begin_object(true);
   j.field("Gapmin", card.gapmin).field("Igap", card.igap).field("Inacti", card.inacti);
-  j.field("Irem_gap", card.irem_gap).field("thermal", card.thermal).field("Drad", card.drad);
   j.field("Fscalegap", card.gap_scale).field("Gapmax", card.gapmax).field("Fpenmax", card.fpenmax);
   j.field("Edge_scale_gap", edge_scale_gap).end_object();
 }
@@ -48,34 +45,29 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
   j.key("contacts").begin_array();
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const Contact& c = scene.contacts[i];
-    const PageContact& wide = page.contacts[i];
-    const PlainSides& plain = wide.plain;
+    const PageContact& own = page.contacts[i];
+    const PlainSides& plain = own.plain;
     const bool edges = c.kind == ContactKind::edge_edge;
-    double longest_main = 0, longest_node = 0;
-    if (!edges) {
-      for (const double l : plain.main_length) longest_main = std::max(longest_main, l);
-      for (const double l : plain.secondary_length) longest_node = std::max(longest_node, l);
-    }
+    const auto longest = [&](const std::vector<double>& lengths) {
+      return edges || lengths.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end());
+    };
     j.begin_object();
     j.field("interface", static_cast<std::int64_t>(std::find(order.begin(), order.end(), c.inter) -
                                                    order.begin()));
     j.field("kind", to_string(c.kind)).field("role", to_string(c.role)).field("type", c.type);
     j.field("ties", c.ties()).field("dropped", c.dropped).field("igap", c.igap);
     j.field("inacti", c.inacti).field("evaluated", c.evaluated);
-    j.field("given", is_modern(c.type));
-    j.field("istf", c.istf).field("irem_gap", c.irem_gap).field("itied", c.itied);
+    j.field("modern", is_modern(c.type)).field("itied", c.itied);
     j.field("fpenmax", c.fpenmax).field("gap_scale", c.gap_scale);
     j.field("gapmin", c.gapmin).field("gapmin_from", to_string(c.gapmin_origin));
-    j.field("gapmax", c.gapmax).field("drad", c.drad).field("max_gap", c.max_gap);
-    j.field("shortest_side", plain.shortest_side).field("mesh_fraction", c.mesh_fraction);
-    j.field("longest_main", longest_main).field("longest_node", longest_node);
+    j.field("gapmax", c.gapmax).field("max_gap", c.max_gap);
+    j.field("longest_main", longest(plain.main_length));
+    j.field("longest_node", longest(plain.secondary_length));
     j.field("secondary", edges ? c.secondary_edges.size() : c.secondary.size());
     j.field("main", edges ? c.main_edges.size() : c.main.size());
-    j.field("candidates", c.candidates).field("removed_pairs", c.removed_pairs);
     j.field("repaired", c.repaired_segments).field("degenerate", c.degenerate_segments);
     j.field("reoriented", c.reoriented_segments).field("no_carrier", c.no_carrier.size());
-    j.field("reach", wide.reach).field("margin", wide.margin).field("complete", wide.complete);
-    j.field("pairs", wide.pairs.size());
+    j.field("reach", own.reach).field("fixed", own.fixed).field("complete", own.complete);
     j.key("round_off").begin_array(true);  // pairs that only the solver's round-off makes
     for (const PenetrationRow& row : c.penetrations)
       if (!row.in_contact) j.begin_array(true).value(row.secondary).value(row.main).end_array();
@@ -83,7 +75,7 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     j.key("totals").begin_object(true);
     write_totals(j, input.view->contacts[i]);
     j.end_object();
-    write_card(j, *c.inter, input.what_if);
+    write_card(j, *c.inter);
     write_default_gap(j, c, plain);
     j.end_object();
   }

@@ -1,18 +1,19 @@
-// What evaluating other settings in the page needs: all pairs within a generous reach, exact
-// coordinates of their nodes, thickness and mesh-size limits before any factor. The page repeats
-// the geometry stage operation by operation, so its results are those of `deck gaps --what-if`.
+// Contacts in the page: their penetrations as found, and of those whose settings can be tried there
+// all pairs within a stated reach, with their distances and what their gaps are formed of.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <utility>
 
 #include "base/shared/parallel.hpp"
+#include "contact/shared/element_names.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
+#include "deck/contact/closest.hpp"
 #include "deck/contact/search.hpp"
-#include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/html/parts.hpp"
 
@@ -23,7 +24,8 @@ constexpr std::size_t pairs_per_page = 2000000;
 constexpr std::size_t pairs_at_least = 60000;  // per contact
 constexpr std::size_t pairs_at_most = 3000000;
 constexpr std::size_t penetrations_kept = 200000;  // per contact where all pairs are too many
-constexpr double reach_factors[] = {3, 2, 1.5, 1.1};
+constexpr double near_factors[] = {3, 2, 1.5, 1.1};
+constexpr double reach_factor = 1.5;  // of the largest gap: a distance takes ten bytes of a page
 
 double thickness_of(const MainSegment& m) {
   return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
@@ -34,7 +36,7 @@ double thickness_of(const ContactEdge& e) { return std::max(e.shell, e.section);
 double expected_gap(const Contact& contact, const PlainSides& plain) {
   double s = 0, m = 0;
   if (contact.type != 10) {
-    for (const double half : plain.half_thickness) s = std::max(s, node_gap(half, 1));
+    for (const double half : plain.half_thickness) s = std::max(s, half);
     for (const MainSegment& n : contact.main) m = std::max(m, segment_gap(thickness_of(n), 1));
     for (const ContactEdge& n : contact.secondary_edges) s = std::max(s, edge_gap(thickness_of(n)));
     for (const ContactEdge& n : contact.main_edges) m = std::max(m, edge_gap(thickness_of(n)));
@@ -42,22 +44,17 @@ double expected_gap(const Contact& contact, const PlainSides& plain) {
   return std::max({contact.max_gap, contact.gapmin, s + m});
 }
 
-std::vector<std::uint32_t> everything(std::size_t count) {
-  std::vector<std::uint32_t> out(count);
-  for (std::uint32_t i = 0; i < count; ++i) out[i] = i;
-  return out;
-}
-
-/// Rows of what penetrates; of too many the deepest, and `all` is set to false.
-std::vector<std::uint32_t> deepest_rows(const Contact& contact, bool& all) {
+/// Rows of what penetrates; of more than `most` the deepest, and `all` is set to false.
+std::vector<std::uint32_t> deepest_rows(const Contact& contact, std::size_t most, bool& all) {
   const auto& found = contact.penetrations;
-  std::vector<std::uint32_t> rows = everything(found.size());
-  if (rows.size() <= penetrations_kept) return rows;
+  std::vector<std::uint32_t> rows(found.size());
+  std::iota(rows.begin(), rows.end(), 0u);
+  if (rows.size() <= most) return rows;
   all = false;
   std::stable_sort(rows.begin(), rows.end(), [&](std::uint32_t a, std::uint32_t b) {
     return found[a].depth > found[b].depth;
   });
-  rows.resize(penetrations_kept);
+  rows.resize(most);
   return rows;
 }
 
@@ -77,41 +74,147 @@ PlainSides formed_sides(const Contact& contact, const Coordinates& x) {
   return out;
 }
 
-PageContact wide_pairs(const Contact& contact, PlainSides plain, const Coordinates& x, int threads,
-                       std::size_t limit) {
-  PageContact page;
-  page.plain = std::move(plain);
-  if (is_modern(contact.type)) {  // the page has no rules for them: it shows what was found
-    page.given = deepest_rows(contact, page.complete);
-    for (const std::uint32_t r : page.given)
-      page.pairs.push_back({contact.penetrations[r].secondary, contact.penetrations[r].main});
-    return page;
-  }
+/// Why the page cannot try other settings of a contact, as far as its cards say; empty: it can.
+/// `moves`: an Inacti 3 of it or of a contact before it moves nodes.
+const char* why_fixed(const Contact& contact, const std::vector<WhatIf>& what_if, bool moves) {
+  if (is_modern(contact.type))
+    return "other settings decide anew which segment a node is paired with";
+  if (moves) return "Inacti 3 moves nodes, of this interface or of one before it";
+  if (contact.irem_gap == 2) return "Irem_gap 2 leaves out pairs by their distance along the mesh";
+  if (!contact.evaluated) return "it was not evaluated";
+  for (const WhatIf& w : what_if)
+    if (w.interface_id == contact.inter->id && (w.Fpenmax || w.mesh_size || w.Inacti || w.Irem_gap))
+      return "the page was written with --what-if of a field that it cannot try";
+  return "";
+}
+
+/// Pairs nearer than about three gaps, and `largest` such distance; of too many none, and 0.
+std::vector<CandidatePair> near_pairs(const Contact& contact, double gap, const Coordinates& x,
+                                      int threads, std::size_t limit, double& largest) {
+  largest = 0;
+  if (contact.candidates > limit) return {};
   const SearchSides sides(contact, SearchSides::Off::included, threads);
-  if (!sides.edge_pairs()) page.margin = sides.margin(x);
-  if (!std::isfinite(page.margin)) page.margin = 0;
+  const double margin = sides.edge_pairs() ? 0 : sides.margin(x);
   SearchOptions search;
   search.threads = threads;
   search.max_pairs = limit;
-  const double gap = expected_gap(contact, page.plain);
-  for (const double factor : reach_factors) {
-    // Every reach includes what the solver's own search has found.
-    if (contact.candidates > limit) break;
-    page.reach = factor * gap + page.margin;
-    if (!(page.reach > 0) || !std::isfinite(page.reach)) break;
-    search.gap = PairGap::constant(page.reach);
+  for (const double factor : near_factors) {
+    const double reach = factor * gap + (std::isfinite(margin) ? margin : 0);
+    if (!(reach > 0) || !std::isfinite(reach)) break;
+    search.gap = PairGap::constant(reach);
     SearchResult found = sides.find(x, search);
     if (!found.complete) continue;
-    page.pairs = std::move(found.pairs);
-    return page;
+    largest = reach;
+    return std::move(found.pairs);
   }
-  // Too many: what penetrates, deepest first if even that is too much.
-  page.reach = 0;
-  page.complete = false;
-  bool all = true;
-  for (const std::uint32_t r : deepest_rows(contact, all))
-    page.pairs.push_back({contact.penetrations[r].secondary, contact.penetrations[r].main});
-  std::sort(page.pairs.begin(), page.pairs.end());
+  return {};
+}
+
+Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
+
+/// Distance and gap of a pair by the solver's formulas.
+struct Measured {
+  double distance = 0, gap = 0;
+  /// Of sub-triangles before the nearest whose distance can differ from it by round-off alone:
+  /// where the depths are equal the solver reports the first of them.
+  std::vector<double> others;
+};
+
+Measured measured(const Contact& c, const Coordinates& x, const CandidatePair& p, double reach) {
+  Measured out;
+  if (c.kind == ContactKind::edge_edge) {
+    const ContactEdge &s = c.secondary_edges[p.secondary], &m = c.main_edges[p.main];
+    out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
+    out.distance =
+        closest_between_edges<Form::reference>(point(x, s.nodes[0]), point(x, s.nodes[1]),
+                                               point(x, m.nodes[0]), point(x, m.nodes[1]))
+            .distance;
+    return out;
+  }
+  const SecondaryNode& s = c.secondary[p.secondary];
+  const MainSegment& m = c.main[p.main];
+  out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
+  const auto closest = closest_on_segment<Form::reference>(
+      point(x, s.node),
+      {point(x, m.nodes[0]), point(x, m.nodes[1]), point(x, m.nodes[2]), point(x, m.nodes[3])},
+      m.nodes[2] == m.nodes[3]);
+  out.distance = closest.distance();
+  for (int k = 0; k < closest.best; ++k)
+    if (const double d = closest.sub[static_cast<std::size_t>(k)].distance;
+        d - out.distance <= 0x1p-52 * reach)
+      out.others.push_back(d);
+  return out;
+}
+
+/// Carries all pairs nearer than the reach, and of a contact without penetrations the one with the
+/// least room beyond its gap.
+void carry_pairs(const Contact& contact, const Coordinates& x, int threads, PageContact& page) {
+  constexpr std::size_t at_once = 4096;
+  CandidatePair nearest;
+  double room = std::numeric_limits<double>::infinity(), distance = 0;
+  const auto measure = [&](std::size_t piece, std::vector<Measured>& out) {
+    out.clear();
+    const std::size_t end = std::min(page.near.size(), (piece + 1) * at_once);
+    for (std::size_t i = piece * at_once; i < end; ++i)
+      out.push_back(measured(contact, x, page.near[i], page.reach));
+  };
+  const auto take = [&](std::size_t piece, const std::vector<Measured>& all) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Measured& m = all[k];
+      const CandidatePair& pair = page.near[piece * at_once + k];
+      if (m.distance - m.gap < room) {
+        room = m.distance - m.gap;
+        nearest = pair;
+        distance = m.distance;
+      }
+      if (!(m.distance < page.reach)) continue;
+      for (const double d : m.others)
+        page.others.emplace_back(static_cast<std::uint32_t>(page.pairs.size()), d);
+      page.pairs.push_back(pair);
+      page.distance.push_back(m.distance);
+    }
+  };
+  run_in_order<std::vector<Measured>>((page.near.size() + at_once - 1) / at_once, threads, measure,
+                                      take);
+  if (!contact.penetrations.empty() || page.near.empty() || distance < page.reach) return;
+  page.pairs.push_back(nearest);
+  page.distance.push_back(distance);
+}
+
+/// Carries the penetrations, and their pairs where they are not carried yet.
+void carry_rows(const Contact& contact, PageContact& page) {
+  const std::size_t sorted = page.pairs.size();
+  for (const std::uint32_t r : page.rows) {
+    const PenetrationRow& row = contact.penetrations[r];
+    const CandidatePair pair{row.secondary, row.main};
+    const auto end = page.pairs.begin() + static_cast<std::ptrdiff_t>(sorted);
+    const auto found = std::lower_bound(page.pairs.begin(), end, pair);
+    const bool known = found != end && *found == pair;
+    page.pair_of.push_back(static_cast<std::uint32_t>(
+        known ? found - page.pairs.begin() : page.pairs.end() - page.pairs.begin()));
+    if (known) continue;
+    page.pairs.push_back(pair);
+    page.distance.push_back(row.distance);
+  }
+}
+
+PageContact page_contact(const Contact& contact, PlainSides plain, const Coordinates& x,
+                         int threads, std::size_t limit, const char* fixed) {
+  PageContact page;
+  page.plain = std::move(plain);
+  page.fixed = fixed;
+  if (!is_modern(contact.type)) {
+    const double gap = expected_gap(contact, page.plain);
+    double largest = 0;
+    page.near = near_pairs(contact, gap, x, threads, limit, largest);
+    page.reach = std::min(reach_factor * gap, largest);
+    if (largest == 0 && gap > 0 && *page.fixed == 0)
+      page.fixed = "it has too many pairs for a page, or a gap without bound";
+  }
+  if (*page.fixed == 0 && !contact.dropped) carry_pairs(contact, x, threads, page);
+  const std::size_t most = *page.fixed == 0 ? contact.penetrations.size() : penetrations_kept;
+  page.rows = deepest_rows(contact, most, page.complete);
+  carry_rows(contact, page);
   return page;
 }
 
@@ -124,82 +227,6 @@ std::vector<std::uint32_t> distinct(const std::vector<CandidatePair>& pairs,
   for (std::uint32_t i = 0; i < count; ++i)
     if (marks[i]) out.push_back(i);
   return out;
-}
-
-struct NodeLine {
-  std::uint32_t file = Span::no_file;
-  std::uint64_t line = 0;
-};
-
-/// Places of nodes, sorted and each once, in one pass over their blocks.
-std::vector<NodeLine> node_places(const Model& model, const Deck& deck,
-                                  const std::vector<NodeIndex>& nodes) {
-  std::vector<NodeLine> places(nodes.size());
-  std::span<const BulkBlock> runs;
-  for (std::size_t b = 0; b < model.node_blocks.size(); b += runs.size()) {
-    runs = runs_of_block(model.node_blocks, b);
-    LineCursor cursor(deck.sources, *runs.front().block);
-    std::uint32_t file = Span::no_file;
-    std::uint64_t at = 0, line_number = 1, given_back = 0;
-    auto run = runs.begin();
-    NodeIndex node = run->first;
-    auto wanted = std::lower_bound(nodes.begin(), nodes.end(), node);
-    for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
-      while (run != runs.end() && node == run->first + run->count)
-        if (++run != runs.end()) {
-          node = run->first;
-          wanted = std::lower_bound(nodes.begin(), nodes.end(), node);
-        }
-      if (run == runs.end() || (runs.size() == 1 && wanted == nodes.end())) break;
-      if (line.text.find_first_not_of(' ') == std::string_view::npos) continue;
-      const NodeIndex here = node++;
-      const bool another = line.file != file || line.offset < at;
-      const bool is_wanted = wanted != nodes.end() && *wanted == here;
-      if (!is_wanted && !another && line.offset - at < given_back_at_once) continue;
-      if (another) {
-        file = line.file;
-        line_number = deck.sources[file].position(line.offset).line;
-        given_back = line.offset;
-      } else {
-        const std::string_view between = deck.sources[file].bytes().substr(at, line.offset - at);
-        line_number += static_cast<std::uint64_t>(std::count(between.begin(), between.end(), '\n'));
-      }
-      at = line.offset;
-      if (at - given_back >= given_back_at_once) {
-        deck.sources[file].release(given_back, at);
-        given_back = at;
-      }
-      if (is_wanted)
-        places[static_cast<std::size_t>(wanted++ - nodes.begin())] = {file, line_number};
-    }
-  }
-  return places;
-}
-
-struct Owner {
-  int kind = 0;  ///< ElementKind + 1, 0: none
-  std::int64_t id = 0;
-  std::uint32_t part = no_index;
-};
-
-Owner owner(const Model& model, ElementKind kind, std::uint32_t e) {
-  const Elements& family = model.family(kind);
-  return {static_cast<int>(kind) + 1, family.id[e], family.part[e]};
-}
-
-Owner owner(const Model& model, Carrier carrier, std::uint32_t e) {
-  const auto family = family_of_carrier(carrier);
-  return family && e != no_index ? owner(model, *family, e) : Owner{};
-}
-
-/// Same rule as the views of a scene: the first family that has an element at the node.
-Owner owner_of_node(const Model& model, Connectivity& connectivity, NodeIndex node) {
-  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
-                                 ElementKind::beam, ElementKind::truss, ElementKind::spring}) {
-    const std::uint32_t e = connectivity.first(kind, node);
-    if (e != no_index) return owner(model, kind, e);
-  }
-  return {};
 }
 
 /// The segments or edges of all contacts, numbered as they come, those alike once: contacts share
@@ -256,7 +283,12 @@ class Writer {
         edges_(model_.nodes.size()) {
     for (std::size_t i = 0; i < page.contacts.size(); ++i) {
       const Contact& c = input.scene->contacts[i];
-      chosen_.push_back(choose_items(c, page.contacts[i]));
+      const bool edge_pairs = c.kind == ContactKind::edge_edge;
+      const auto& pairs = page.contacts[i].pairs;
+      chosen_.push_back({distinct(pairs, &CandidatePair::secondary,
+                                  edge_pairs ? c.secondary_edges.size() : c.secondary.size()),
+                         distinct(pairs, &CandidatePair::main,
+                                  edge_pairs ? c.main_edges.size() : c.main.size())});
       main_.push_back(c.kind == ContactKind::node_segment ? segments_.numbers(c.main)
                                                           : edges_.numbers(c.main_edges));
       secondary_.push_back(edges_.numbers(c.secondary_edges));
@@ -277,16 +309,16 @@ class Writer {
     find_places();
     for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
       const Contact& c = input_.scene->contacts[i];
-      const PageContact& wide = page_.contacts[i];
-      pairs(wide);
+      const PageContact& page = page_.contacts[i];
+      pairs(page);
       if (c.kind == ContactKind::node_segment)
         node_segment(c, i);
       else
         edges(c, i);
       places(c, chosen_[i].secondary);
-      selected(chosen_[i].secondary, wide.plain.secondary_length);
-      selected(chosen_[i].main, wide.plain.main_length);
-      if (is_modern(c.type)) given(c, wide.given);
+      selected(chosen_[i].secondary, page.plain.secondary_length);
+      selected(chosen_[i].main, page.plain.main_length);
+      rows(c, page);
     }
     page_ = {};  // meshes are large, too
     return std::move(out_).text();
@@ -297,73 +329,35 @@ class Writer {
   struct Chosen {
     std::vector<std::uint32_t> secondary, main;
   };
-  static Chosen choose_items(const Contact& c, const PageContact& wide) {
-    const bool edge_pairs = c.kind == ContactKind::edge_edge;
-    const std::size_t s = edge_pairs ? c.secondary_edges.size() : c.secondary.size();
-    const std::size_t m = edge_pairs ? c.main_edges.size() : c.main.size();
-    // Removal along the mesh looks at all items.
-    if (c.irem_gap == 2) return {everything(s), everything(m)};
-    return {distinct(wide.pairs, &CandidatePair::secondary, s),
-            distinct(wide.pairs, &CandidatePair::main, m)};
+
+  static std::span<const NodeIndex> secondary_nodes(const Contact& c, std::uint32_t s) {
+    if (c.kind == ContactKind::node_segment) return {&c.secondary[s].node, 1};
+    return c.secondary_edges[s].nodes;
+  }
+  static std::span<const NodeIndex> main_nodes(const Contact& c, std::uint32_t m) {
+    if (c.kind == ContactKind::node_segment) return c.main[m].nodes;
+    return c.main_edges[m].nodes;
   }
 
-  /// The node by which a chosen item of the secondary side is found in the deck.
-  static NodeIndex named_by(const Contact& c, std::uint32_t secondary) {
-    return c.kind == ContactKind::node_segment ? c.secondary[secondary].node
-                                               : c.secondary_edges[secondary].nodes[0];
-  }
-
-  /// Lines of the nodes of all contacts together: blocks of nodes are long.
   void find_places() {
-    std::vector<std::uint8_t> wanted(model_.nodes.size(), 0);
-    for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
-      const Contact& c = input_.scene->contacts[i];
-      for (const std::uint32_t s : chosen_[i].secondary) wanted[named_by(c, s)] = 1;
+    places_.resize(model_.nodes.size());
+    std::span<const BulkBlock> runs;
+    for (std::size_t b = 0; b < model_.node_blocks.size(); b += runs.size()) {
+      runs = runs_of_block(model_.node_blocks, b);
+      each_item_place(*input_.deck, runs, [&](NodeIndex n, ItemPlace at) { places_[n] = at; });
     }
-    for (NodeIndex n = 0; n < wanted.size(); ++n)
-      if (wanted[n]) named_.push_back(n);
-    lines_ = node_places(model_, *input_.deck, named_);
   }
 
-  /// True if Inacti 3 of a contact before can move a node whose place the gaps depend on.
-  static bool can_be_moved(const Contact& c, const std::vector<std::uint8_t>& movable) {
-    const auto any = [&](const auto& items) {
-      for (const auto& item : items)
-        for (const NodeIndex n : item.nodes)
-          if (movable[n]) return true;
-      return false;
-    };
-    return any(c.main) || any(c.secondary_edges) || any(c.main_edges);
-  }
-
-  /// Page nodes whose coordinates are given to the last bit: those of all pairs, and of all items
-  /// whose sides are measured: for removal along the mesh, or again once nodes have moved.
+  /// Page nodes whose coordinates are given to the last bit: those of all pairs and of ties.
   void exact_coordinates(ByteStream& out) const {
     std::vector<std::uint8_t> wanted(nodes_.list().size(), 0);
     const auto use = [&](NodeIndex n) { wanted[nodes_[n]] = 1; };
-    std::vector<std::uint8_t> movable(model_.nodes.size(), 0);
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       const Contact& c = input_.scene->contacts[i];
-      const auto use_items = [&](const auto& items, const std::vector<std::uint32_t>& positions) {
-        for (const std::uint32_t k : positions)
-          for (const NodeIndex n : items[k].nodes) use(n);
-      };
-      if (c.kind == ContactKind::node_segment) {
-        for (const std::uint32_t s : chosen_[i].secondary) use(c.secondary[s].node);
-        use_items(c.main, chosen_[i].main);
-      } else {
-        use_items(c.secondary_edges, chosen_[i].secondary);
-        use_items(c.main_edges, chosen_[i].main);
-      }
-      const bool measured = c.irem_gap == 2 || can_be_moved(c, movable);
-      for (const SecondaryNode& n : c.secondary) movable[n.node] = 1;
-      if (!measured) continue;
-      for (const MainSegment& m : c.main)
-        for (const NodeIndex n : m.nodes) use(n);
-      for (const ContactEdge& e : c.main_edges)
-        for (const NodeIndex n : e.nodes) use(n);
-      for (const ContactEdge& e : c.secondary_edges)
-        for (const NodeIndex n : e.nodes) use(n);
+      for (const std::uint32_t k : chosen_[i].secondary)
+        for (const NodeIndex n : secondary_nodes(c, k)) use(n);
+      for (const std::uint32_t k : chosen_[i].main)
+        for (const NodeIndex n : main_nodes(c, k)) use(n);
     }
     for (const NodeIndex n : of_ties_) use(n);
     std::vector<double> values;
@@ -386,22 +380,22 @@ class Writer {
     out_.f64(values);
   }
 
-  static void owners(ByteStream& out, const std::vector<Owner>& all) {
+  void owners(ByteStream& out, const std::vector<ElementName>& all) const {
     Delta part, id;
-    for (const Owner& o : all) out.byte(static_cast<unsigned>(o.kind));
-    for (const Owner& o : all) out.s(id(o.id));
-    for (const Owner& o : all) out.s(part(o.part == no_index ? 0 : std::int64_t{o.part} + 1));
+    for (const ElementName& e : all) out.byte(e.valid() ? static_cast<unsigned>(e.kind) + 1 : 0);
+    for (const ElementName& e : all) out.s(id(e.id));
+    for (const ElementName& e : all) out.s(part(part_position(model_, e) + 1));
   }
 
   /// Segments or edges with their elements; contacts name them by number.
   template <class Keys>
   void shared_items(ByteStream& out, const Keys& all) const {
     Delta corner;
-    std::vector<Owner> of;
+    std::vector<ElementName> of;
     out.u(all.size());
     for (const auto& item : all) {
       for (const NodeIndex n : item.nodes) out.s(corner(nodes_[n]));
-      of.push_back(owner(model_, item.carrier, item.element));
+      of.push_back(carrier_name(model_, item.carrier, item.element));
     }
     owners(out, of);
   }
@@ -415,10 +409,9 @@ class Writer {
   void places(const Contact& c, const std::vector<std::uint32_t>& secondary) {
     Delta file, line;
     for (const std::uint32_t s : secondary) {
-      const auto at = std::lower_bound(named_.begin(), named_.end(), named_by(c, s));
-      const NodeLine& p = lines_[static_cast<std::size_t>(at - named_.begin())];
-      out_.s(file(p.file == Span::no_file ? -1 : std::int64_t{p.file}));
-      out_.s(line(static_cast<std::int64_t>(p.line)));
+      const ItemPlace& at = places_[secondary_nodes(c, s)[0]];
+      out_.s(file(at.file == Span::no_file ? -1 : std::int64_t{at.file}));
+      out_.s(line(at.line));
     }
   }
 
@@ -427,13 +420,12 @@ class Writer {
     out_.u(c.secondary.size());
     for (const SecondaryNode& s : c.secondary) out_.s(n(nodes_[s.node]));
     const bool formed = is_modern(c.type);  // the gaps stand in place of thicknesses
-    out_.palette(page_.contacts[i].plain.half_thickness,
-                 [&](double half) { return formed ? half : node_gap(half, 1); });
+    out_.palette(page_.contacts[i].plain.half_thickness, [](double half) { return half; });
     numbers(main_[i]);
     out_.palette(c.main, [&](const MainSegment& m) { return formed ? m.gap : thickness_of(m); });
-    std::vector<Owner> of;
+    std::vector<ElementName> of;
     for (const std::uint32_t s : chosen_[i].secondary)
-      of.push_back(owner_of_node(model_, connectivity_, c.secondary[s].node));
+      of.push_back(element_at(model_, connectivity_, c.secondary[s].node));
     owners(out_, of);
   }
 
@@ -447,10 +439,11 @@ class Writer {
     out_.palette(c.main_edges, thickness);
   }
 
-  /// How many pairs, then each secondary with the number of its pairs, then all mains.
-  void pairs(const PageContact& wide) {
-    const auto& all = wide.pairs;
-    Delta secondary, main;
+  /// How many pairs, each secondary with the number of its pairs, all mains, all distances, other
+  /// distances with the position of their pair.
+  void pairs(const PageContact& page) {
+    const auto& all = page.pairs;
+    Delta secondary, main, at;
     out_.u(all.size());
     for (auto p = all.begin(), next = p; p != all.end(); p = next) {
       next = std::find_if(p, all.end(),
@@ -459,23 +452,35 @@ class Writer {
       out_.u(static_cast<std::uint64_t>(next - p));
     }
     for (const CandidatePair& p : all) out_.s(main(p.main));
+    out_.f64(page.distance);
+    out_.u(page.others.size());
+    for (const auto& [pair, distance] : page.others) out_.s(at(pair));
+    std::vector<double> others;
+    for (const auto& [pair, distance] : page.others) others.push_back(distance);
+    out_.f64(others);
   }
 
-  /// What was found of a contact for which the page has no rules, one number after the other.
-  void given(const Contact& c, const std::vector<std::uint32_t>& rows) {
+  /// The penetrations that the page shows, one number after the other.
+  void rows(const Contact& c, const PageContact& page) {
     const auto column = [&](const auto& value) {
       std::vector<double> values;
-      for (const std::uint32_t r : rows) values.push_back(value(c.penetrations[r]));
+      for (const std::uint32_t r : page.rows) values.push_back(value(c.penetrations[r]));
       out_.f64(values);
     };
     using Row = PenetrationRow;
-    column([](const Row& r) { return r.depth; });
-    column([](const Row& r) { return r.gap; });
-    column([](const Row& r) { return r.distance; });
+    Delta pair;
+    out_.u(page.rows.size());
+    for (const std::uint32_t p : page.pair_of) out_.s(pair(p));
+    out_.palette(page.rows, [&](std::uint32_t r) { return c.penetrations[r].gap; });
+    if (is_modern(c.type)) column([](const Row& r) { return r.depth; });  // else gap - distance
     for (std::size_t k = 0; k < 3; ++k) column([k](const Row& r) { return r.normal[k]; });
-    column([](const Row& r) { return r.weight_s; });
-    column([](const Row& r) { return r.p0; });
-    for (const std::uint32_t r : rows) out_.byte(static_cast<unsigned>(c.penetrations[r].action));
+    if (c.kind == ContactKind::edge_edge) column([](const Row& r) { return r.weight_s; });
+    column([](const Row& r) {  // 1 where Inacti 3 moves the node
+      const bool moved = r.action == PenetrationAction::node_moved;
+      return moved ? (r.moved_by != std::array<double, 3>{} ? 1 : 0) : r.p0;
+    });
+    for (const std::uint32_t r : page.rows)
+      out_.byte(static_cast<unsigned>(c.penetrations[r].action));
   }
 
   const HtmlInput& input_;
@@ -489,8 +494,7 @@ class Writer {
   ByteStream out_;                                            // of contacts()
   std::vector<Chosen> chosen_;                                // by contact
   std::vector<std::vector<std::uint32_t>> secondary_, main_;  // by contact: numbers of shared items
-  std::vector<NodeIndex> named_;                              // ascending
-  std::vector<NodeLine> lines_;                               // of these
+  std::vector<ItemPlace> places_;                             // by node
 };
 
 }  // namespace
@@ -504,8 +508,8 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
     page.before_moves = {nodes_of_deck.x, nodes_of_deck.y, nodes_of_deck.z};
   const Coordinates& start = page.start(scene);
   std::vector<PlainSides> plain(scene.contacts.size());
+  const int threads = effective_threads(input.threads);
   {
-    const int threads = effective_threads(input.threads);
     Connectivity connectivity(*scene.model);
     ShellsAtNodes shells;
     const std::vector<double> lines = shortest_line_elements(*scene.model, start);
@@ -520,12 +524,15 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
     });
   }
   std::size_t left = pairs_per_page;
+  bool moves = false;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const Contact& c = scene.contacts[i];
+    moves |= c.kind == ContactKind::node_segment && !is_modern(c.type) && c.inacti == 3;
     const std::size_t share = left / (scene.contacts.size() - i);
-    page.contacts.push_back(wide_pairs(c, std::move(plain[i]), start, input.threads,
-                                       std::clamp(4 * share, pairs_at_least, pairs_at_most)));
-    left -= std::min(left, page.contacts.back().pairs.size());
+    page.contacts.push_back(page_contact(c, std::move(plain[i]), start, threads,
+                                         std::clamp(4 * share, pairs_at_least, pairs_at_most),
+                                         why_fixed(c, input.what_if, moves)));
+    left -= std::min(left, page.contacts.back().near.size());
     for (const SecondaryNode& s : c.secondary) nodes.use(s.node);
     for (const MainSegment& m : c.main)
       for (const NodeIndex n : m.nodes) nodes.use(n);

@@ -259,7 +259,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   std::string out =
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-      "script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; "
+      "script-src 'unsafe-inline'; worker-src blob:; "
       "style-src 'unsafe-inline'; img-src data: blob:\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"generator\" "

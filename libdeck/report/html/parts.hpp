@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "contact/shared/scene_parts.hpp"
@@ -15,8 +16,9 @@
 #include "report/shared/json.hpp"
 
 namespace deck {
-struct Mesh;  // model/shared/mesh.hpp
-}
+struct Mesh;            // model/shared/mesh.hpp
+struct AccuracyChoice;  // accuracy/shared/choice.hpp
+}  // namespace deck
 
 namespace deck::detail {
 
@@ -41,6 +43,12 @@ class PageNodes {
   std::vector<NodeIndex> list_;
 };
 
+/// Position of its part in Model::parts, -1: no part.
+inline std::int64_t part_position(const Model& model, const ElementName& e) {
+  const std::uint32_t part = e.valid() ? model.family(e.kind).part[e.index] : no_index;
+  return part == no_index ? -1 : std::int64_t{part};
+}
+
 // mesh.cpp — the picture
 struct MeshGroup {
   ElementKind kind{};
@@ -57,10 +65,14 @@ std::vector<MeshPart> collect_mesh(const Model& model, PageNodes& nodes);
 std::string mesh_block(const Model& model, const std::vector<MeshPart>& mesh,
                        const PageNodes& nodes);
 
-/// Bytes of a file that are walked before their pages are given back.
-constexpr std::uint64_t given_back_at_once = std::uint64_t{8} << 20;
-
 // elements.cpp — what is said about an element that is picked
+struct ItemPlace {
+  std::uint32_t file = Span::no_file;
+  std::uint32_t line = 0;  ///< 0: not known, or beyond what 32 bits count
+};
+/// Calls take(item, place) for the items of a block, and gives the pages of its file back.
+void each_item_place(const Deck& deck, std::span<const BulkBlock> runs,
+                     const std::function<void(std::uint32_t, ItemPlace)>& take);
 std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh);
 
 // steps.cpp — colours of time steps
@@ -69,15 +81,18 @@ std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh
 /// equal ratios.
 std::string steps_block(const Model& model, const Mesh& mesh, const PageNodes& nodes);
 
-// contacts.cpp — what evaluating other settings needs
+// contacts.cpp — penetrations, and the pairs that settings can be tried on
 struct PageContact {
-  /// All pairs nearer than `reach`, sorted. TYPE24 and TYPE25: what penetrates, parallel to
-  /// `given`.
-  std::vector<CandidatePair> pairs;
-  std::vector<std::uint32_t> given;  ///< rows that the page shows as they are
-  double reach = 0;                  ///< largest gap for which the pairs are complete
-  double margin = 0;                 ///< of the solver's search beyond the gap
-  bool complete = true;  ///< false: too many pairs; only the deepest penetrations, reach 0
+  std::vector<CandidatePair> near;   ///< within about three gaps: who touches whom
+  std::vector<CandidatePair> pairs;  ///< what the page carries
+  std::vector<double> distance;      ///< of these
+  /// Distances that stand in for that of a pair where they give the same depth, by pair.
+  std::vector<std::pair<std::uint32_t, double>> others;
+  std::vector<std::uint32_t> rows;     ///< penetrations that the page shows, in their order
+  std::vector<std::uint32_t> pair_of;  ///< of each of these: position in `pairs`
+  double reach = 0;                    ///< all pairs nearer than that are carried
+  const char* fixed = "";              ///< why the page tries no other settings; empty: it does
+  bool complete = true;                ///< false: of too many penetrations only the deepest
   PlainSides plain;
 };
 struct PageContacts {
@@ -145,5 +160,10 @@ std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycl
 void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes);
 std::string crossings_block(const Model& model, const std::vector<Crossing>& crossings,
                             const PageNodes& nodes);
+
+// accuracy_choices.cpp — advice, the choices, when to take which, the kinds of hard cases
+std::string accuracy_first_screen(const std::vector<AccuracyChoice>& choices);
+// accuracy_motion.cpp — a node passes a sliver: a chart, and a sentence for every jump
+std::string accuracy_motion();
 
 }  // namespace deck::detail

@@ -146,12 +146,8 @@ class TieWriter {
     j_.end_array();
   }
 
-  /// Position in Model::parts, -1: no part.
   std::int64_t part_at(NodeIndex node) {
-    const ElementName e = element_at(model_, connectivity_, node);
-    if (!e.valid()) return -1;
-    const std::uint32_t part = model_.family(e.kind).part[e.index];
-    return part == no_index ? -1 : std::int64_t{part};
+    return part_position(model_, element_at(model_, connectivity_, node));
   }
 
   const HtmlInput& input_;

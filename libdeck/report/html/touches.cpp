@@ -153,13 +153,7 @@ class Drawing {
 
 std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContacts& page) {
   const Model& model = *in.scene->model;
-  std::map<std::int64_t, int> position;
-  for (std::size_t p = 0; p < model.parts.size(); ++p)
-    position.emplace(model.parts[p].id, static_cast<int>(p));
-  const auto part = [&](std::int64_t id) {
-    const auto found = position.find(id);
-    return id == 0 || found == position.end() ? -1 : found->second;
-  };
+  const auto part = [&](const ElementName& e) { return static_cast<int>(part_position(model, e)); };
   std::map<std::pair<int, int>, Touch> found;
   const auto at = [&](int secondary, int main, const InterBase& inter) -> Touch& {
     Touch& t = found[{secondary, main}];
@@ -181,26 +175,24 @@ std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContac
         of_main(edges ? c.main_edges.size() : c.main.size(), -2);
     std::set<std::pair<int, int>> seen;
     std::pair<int, int> last{-2, -2};  // neighbours mostly have the same parts
-    for (const CandidatePair& p : page.contacts[i].pairs) {
+    for (const CandidatePair& p : page.contacts[i].near) {
       int& s = of_secondary[p.secondary];
       int& m = of_main[p.main];
       if (s == -2)
         s = part(edges ? carrier_name(model, c.secondary_edges[p.secondary].carrier,
                                       c.secondary_edges[p.secondary].element)
-                             .part
-                       : element_at(model, connectivity, c.secondary[p.secondary].node).part);
+                       : element_at(model, connectivity, c.secondary[p.secondary].node));
       if (m == -2)
         m = part(
             edges ? carrier_name(model, c.main_edges[p.main].carrier, c.main_edges[p.main].element)
-                        .part
-                  : carrier_name(model, c.main[p.main].carrier, c.main[p.main].element).part);
+                  : carrier_name(model, c.main[p.main].carrier, c.main[p.main].element));
       if (const std::pair parts{s, m}; parts != last && seen.insert(last = parts).second)
         at(s, m, *in.scene->contacts[i].inter);
     }
   }
   for (const NamedPenetration& p : in.view->penetrations) {
-    Touch& t = at(part(p.secondary_element.part), part(p.main_element.part),
-                  *in.scene->contacts[p.contact].inter);
+    Touch& t =
+        at(part(p.secondary_element), part(p.main_element), *in.scene->contacts[p.contact].inter);
     ++t.pairs;
     t.depth = std::max(t.depth, in.scene->contacts[p.contact].penetrations[p.row].depth);
   }

@@ -1,165 +1,26 @@
-// The JSON of `deck cycle`.
-#include "report/accuracy_decisions.hpp"
+// The document of `deck cycle --json`.
 #include "report/cycle_costs.hpp"
-#include "report/gaps_names.hpp"
 #include "report/shared/cycle.hpp"
-#include "report/shared/gate.hpp"
-#include "report/shared/json.hpp"
-#include "report/shared/verdict.hpp"
+#include "report/shared/schemas.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
 namespace {
 
-template <std::size_t N>
-void write_vector(JsonWriter& j, const std::array<double, N>& v) {
-  j.begin_array(true);
-  for (const double x : v) j.value(x);
-  j.end_array();
+using cycle::ContactOutcome;
+using cycle::StepEvent;
+using Ids2 = std::array<std::int64_t, 2>;
+using Ids4 = std::array<std::int64_t, 4>;
+using NodeId = std::optional<std::int64_t>;
+
+/// 1e30 stands for "no limit".
+std::optional<double> limit(const double& value) { return known(value < 1e30, value); }
+
+NodeId id_of(const Model& model, NodeIndex n) {
+  return n == no_index ? std::nullopt : NodeId(model.node_id(n));
 }
 
-void write_node(JsonWriter& j, const Model& model, std::string_view name, NodeIndex n) {
-  j.key(name);
-  n == no_index ? j.null() : j.value(model.node_id(n));
-}
-
-/// 1e30 stands for "no limit" inside; programs get null.
-void write_step(JsonWriter& j, std::string_view name, double dt) {
-  j.key(name);
-  dt < 1e30 ? j.value(dt) : j.null();
-}
-
-void write_pair(JsonWriter& j, const Model& model, const Contact& c, const cycle::PairOutcome& p) {
-  j.begin_object(true);
-  if (c.kind == ContactKind::edge_edge) {
-    j.key("edge");
-    write_nodes(j, model, c.secondary_edges[p.at.secondary].nodes.data(), 2);
-    j.key("main_edge");
-    write_nodes(j, model, c.main_edges[p.at.main].nodes.data(), 2);
-  } else {
-    j.field("node", model.node_id(c.secondary[p.at.secondary].node)).key("segment");
-    write_nodes(j, model, c.main[p.at.main].nodes.data(), 4);
-  }
-  j.key("weights");
-  write_vector(j, p.weights);
-  j.key("force");
-  write_vector(j, p.force);
-  j.field("penetration", p.penetration).field("gap", p.gap).field("distance", p.distance);
-  j.field("k0", p.k0).field("k_nodal", p.k_nodal).end_object();
-}
-
-/// "node", or "edge" with both ends.
-void write_secondary(JsonWriter& j, const Model& model, const Contact& c, std::uint32_t i) {
-  if (c.kind == ContactKind::edge_edge) {
-    j.key("edge");
-    write_nodes(j, model, c.secondary_edges[i].nodes.data(), 2);
-  } else {
-    j.field("node", model.node_id(c.secondary[i].node));
-  }
-}
-
-void write_tie(JsonWriter& j, const Model& model, const Contact& c, const CandidatePair& at) {
-  write_secondary(j, model, c, at.secondary);
-  j.key("segment");
-  write_nodes(j, model, c.main[at.main].nodes.data(), 4);
-}
-
-void write_release(JsonWriter& j, const Model& model, const cycle::NodeRelease& r) {
-  j.field("node", model.node_id(r.node)).field("before", static_cast<int>(r.before));
-  j.field("after", static_cast<int>(r.after));
-}
-
-/// Who leaves the interface, ties, is released; and the figures of Iadm.
-void write_lasting(JsonWriter& j, const Model& model, const cycle::ContactOutcome& o) {
-  const Contact& c = *o.contact;
-  j.field("pairs_tied", o.pairs_tied).key("removed").begin_array();
-  for (const cycle::Removal& r : o.removed) {
-    j.begin_object(true);
-    write_secondary(j, model, c, r.secondary);
-    j.field("because", to_string(r.because)).end_object();
-  }
-  j.end_array().key("ties").begin_array();
-  for (const cycle::TieChange& t : o.ties) {
-    j.begin_object(true);
-    write_tie(j, model, c, t.at);
-    j.field("tied", t.tied).end_object();
-  }
-  j.end_array().key("released").begin_array();
-  for (const cycle::NodeRelease& r : o.released) {
-    j.begin_object(true);
-    write_release(j, model, r);
-    j.end_object();
-  }
-  j.end_array().key("criteria").begin_array();
-  for (const cycle::NodeCriteria& n : o.criteria) {
-    j.begin_object(true).field("node", model.node_id(n.node)).field("radius", n.radius);
-    j.field("penetration", n.penetration).key("angle");
-    n.angle < 1e30 ? j.value(n.angle) : j.null();
-    j.end_object();
-  }
-  j.end_array();
-}
-
-const char* name_of(cycle::StepEvent::Kind kind) {
-  switch (kind) {
-    case cycle::StepEvent::Kind::tied:
-      return "tied";
-    case cycle::StepEvent::Kind::let_go:
-      return "let-go";
-    case cycle::StepEvent::Kind::released:
-      return "released";
-    default:
-      return "removed";
-  }
-}
-
-void write_steps(JsonWriter& j, const CycleInput& input) {
-  j.key("steps");
-  if (input.steps == nullptr) {
-    j.null();
-    return;
-  }
-  const Model& model = *input.scene->model;
-  const cycle::StepsOutcome& s = *input.steps;
-  const auto contact = [&](std::size_t i) -> const Contact& { return input.scene->contacts[i]; };
-  j.begin_object().field("count", s.lines.size()).field("motion", "prescribed");
-  j.field("searches", s.searches).key("history").begin_array();
-  for (std::size_t k = 0; k < s.lines.size(); ++k) {
-    j.begin_object().field("step", k).field("time", s.lines[k].time).field("dt1", s.lines[k].dt1);
-    j.key("contacts").begin_array();
-    for (std::size_t i = 0; i < s.lines[k].contacts.size(); ++i) {
-      const cycle::StepContact& c = s.lines[k].contacts[i];
-      j.begin_object(true).field("interface", contact(i).inter->id);
-      j.field("role", to_string(contact(i).role)).field("active", c.active);
-      j.field("pairs_with_force", c.pairs_with_force).field("pairs_tied", c.pairs_tied);
-      j.field("removed", c.removed).key("normal");
-      write_vector(j, c.normal);
-      j.key("tangential");
-      write_vector(j, c.tangential);
-      j.field("sizes", c.force_sum).field("elastic", c.elastic_energy);
-      j.field("friction", c.friction_energy).field("damping", c.damping_energy).end_object();
-    }
-    j.end_array().end_object();
-  }
-  j.end_array().key("events").begin_array();
-  for (const cycle::StepEvent& e : s.events) {
-    const Contact& c = contact(e.contact);
-    j.begin_object(true).field("step", e.step).field("time", e.time);
-    j.field("interface", c.inter->id).field("role", to_string(c.role));
-    j.field("event", name_of(e.kind));
-    if (e.kind == cycle::StepEvent::Kind::removed) {
-      write_secondary(j, model, c, e.at.secondary);
-      j.field("because", to_string(e.because));
-    } else if (e.kind == cycle::StepEvent::Kind::released) {
-      write_release(j, model, e.release);
-    } else {
-      write_tie(j, model, c, e.at);
-    }
-    j.end_object();
-  }
-  j.end_array().end_object();
-}
-
-const char* source_name(cycle::StepLimit::Source source) {
+const char* source_name(const cycle::StepLimit::Source& source) {
   switch (source) {
     case cycle::StepLimit::Source::kinematic:
       return "kinematic";
@@ -171,165 +32,506 @@ const char* source_name(cycle::StepLimit::Source source) {
       return "none";
   }
 }
+constexpr const char* sources = "none, kinematic, stiffness or velocity";
+constexpr const char* reasons =
+    "mid-surface reached, dtmin (time to the mid-surface), dtmin (stiffness against mass) or no "
+    "element left (Idel)";
 
-/// Whether every pair is a row, and how rows leave.
-struct PairRows {
-  bool wanted = false;
-  std::string& text;
-  const TextDrain& drain;
+struct PairRow {
+  PairSides sides;
+  const cycle::PairOutcome* pair;
+};
+Record<PairRow> record_of(const PairRow*) {
+  using Pair = cycle::PairOutcome;
+  static constexpr Column<PairRow> columns[] = {
+      column<&PairRow::sides, &PairSides::edge>("edge"),
+      column<&PairRow::sides, &PairSides::main_edge>("main_edge"),
+      column<&PairRow::sides, &PairSides::node>("node"),
+      column<&PairRow::sides, &PairSides::segment>("segment"),
+      column<&PairRow::pair, &Pair::weights>("weights", "H1..H4; edges: h_s, 1-h_s, h_m, 1-h_m"),
+      column<&PairRow::pair, &Pair::force>(
+          "force", "On the main side; the secondary side gets the opposite"),
+      column<&PairRow::pair, &Pair::penetration>("penetration", "Effective, after Inacti"),
+      column<&PairRow::pair, &Pair::gap>("gap", "Effective, after Inacti"),
+      column<&PairRow::pair, &Pair::distance>("distance"),
+      column<&PairRow::pair, &Pair::k0>("k0", "Pair stiffness before the 1/2 of the law"),
+      column<&PairRow::pair, &Pair::k_nodal>("k_nodal")};
+  return {"pair", "A pair that has a penetration or a force.", columns, true};
+}
+
+struct RemovedRow {
+  PairSides sides;
+  cycle::Removal::Because because;
+};
+Record<RemovedRow> record_of(const RemovedRow*) {
+  using Row = RemovedRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::sides, &PairSides::edge>("edge"), column<&Row::sides, &PairSides::node>("node"),
+      column("because", reasons, [](const Row& r) { return to_string(r.because); })};
+  return {"removed", "", columns, true};
+}
+
+struct TieRow {
+  PairSides sides;
+  bool tied;
+};
+Record<TieRow> record_of(const TieRow*) {
+  static constexpr Column<TieRow> columns[] = {
+      column<&TieRow::sides, &PairSides::node>("node"),
+      column<&TieRow::sides, &PairSides::segment>("segment"),
+      column<&TieRow::tied>("tied", "false: it lets go")};
+  return {"tie_change", "", columns, true};
+}
+
+struct ReleaseRow {
+  std::int64_t node;
+  unsigned before, after;
+};
+Record<ReleaseRow> record_of(const ReleaseRow*) {
+  static constexpr Column<ReleaseRow> columns[] = {
+      column<&ReleaseRow::node>("node"),
+      column<&ReleaseRow::before>("before", "Bits 4 X + 2 Y + Z"),
+      column<&ReleaseRow::after>("after")};
+  return {"release", "Fixed translations of a node that IBC frees.", columns, true};
+}
+
+struct CriteriaRow {
+  std::int64_t node;
+  double radius, penetration;
+  std::optional<double> angle;
+};
+Record<CriteriaRow> record_of(const CriteriaRow*) {
+  static constexpr Column<CriteriaRow> columns[] = {
+      column<&CriteriaRow::node>("node"),
+      column<&CriteriaRow::radius>("radius", "Smallest radius of curvature"),
+      column<&CriteriaRow::penetration>("penetration",
+                                        "Secondary side: the deepest over Padm times the gap"),
+      column<&CriteriaRow::angle>(
+          "angle",
+          "Secondary side: smallest cosine between the normals of a segment and of its corners "
+          "over that of Angladm; below 1 the angle is exceeded")};
+  return {"criteria", "What Iadm asks of a node.", columns, true};
+}
+
+struct CycleDocument {
+  const CycleInput* input;
+  const cycle::SceneOutcome* outcome;
+  bool all;
+  Coverage coverage;
+  const Model& model() const { return *input->scene->model; }
 };
 
-void write_contact(JsonWriter& j, const CycleInput& input, const cycle::ContactOutcome& o,
-                   const PairRows& rows) {
-  const Model& model = *input.scene->model;
-  const Contact& c = *o.contact;
-  j.begin_object().field("kind", to_string(c.kind)).field("role", to_string(c.role));
-  j.field("active", o.active).field("complete", o.complete);
-  j.field("composition", o.composition).field("pairs_in_reach", o.pairs_in_reach);
-  j.field("pairs_with_force", o.pairs_with_force).field("pairs_switched_off", o.pairs_switched_off);
-  j.key("sum").begin_object(true).key("normal");
-  write_vector(j, o.totals.normal);
-  j.key("tangential");
-  write_vector(j, o.totals.tangential);
-  j.key("moment");
-  write_vector(j, o.totals.moment);
-  j.field("sizes", o.totals.total_abs).end_object();
-  j.key("energy").begin_object(true).field("elastic", o.totals.elastic_energy);
-  j.field("friction", o.totals.friction_energy).field("damping", o.totals.damping_energy);
-  j.field("friction_heat", o.totals.friction_heat).end_object();
-  j.key("heat").begin_object(true).field("secondary", o.heat_secondary);
-  j.field("main", o.heat_main).end_object();
-  write_step(j, "dt_contact", o.step.dt);
-  j.field("dt_because", source_name(o.step.source));
-  write_node(j, model, "dt_node", o.step_node);
-  j.key("largest_pair");
-  o.largest_force > 0 ? write_pair(j, model, c, o.largest) : static_cast<void>(j.null());
-  j.key("acceleration").begin_object(true).field("max", o.largest_acceleration);
-  write_node(j, model, "node", o.acceleration_node);
-  j.field("massless_nodes", o.massless_nodes).end_object();
-  j.key("near_singular").begin_object().field("count", o.near_singular_count);
-  j.field("gap_closed", o.gap_closed).key("worst").begin_array();
-  for (const cycle::PairOutcome& p : o.near_singular) write_pair(j, model, c, p);
-  j.end_array().end_object();
-  write_lasting(j, model, o);
-  j.key("notes").begin_array();
-  for (const std::string& text : o.notes) j.value(text);
-  j.end_array();
-  write_cost(j, input, o);
-  if (rows.wanted) {
-    j.key("pairs").begin_array();
-    for (const cycle::PairOutcome& p : o.pairs) {
-      write_pair(j, model, c, p);
-      drain_text(rows.drain, rows.text);
-    }
-    j.end_array();
+struct ContactRow {
+  const CycleDocument& document;
+  const ContactOutcome* o;
+
+  const Model& model() const { return document.model(); }
+  PairSides sides(const CandidatePair& at) const {
+    return {&model(), o->contact, at.secondary, at.main};
   }
-  j.end_object();
+  PairRow row(const cycle::PairOutcome& p) const { return {sides(p.at), &p}; }
+  RemovedRow row(const cycle::Removal& r) const { return {sides({r.secondary, 0}), r.because}; }
+  TieRow row(const cycle::TieChange& t) const { return {sides(t.at), t.tied}; }
+  ReleaseRow row(const cycle::NodeRelease& r) const {
+    return {model().node_id(r.node), r.before, r.after};
+  }
+  CriteriaRow row(const cycle::NodeCriteria& c) const {
+    return {model().node_id(c.node), c.radius, c.penetration, limit(c.angle)};
+  }
+  template <class T>
+  auto rows(const std::vector<T>& list) const {
+    return rows_of(list, [this](const T& value) { return row(value); });
+  }
+};
+Record<ContactRow> record_of(const ContactRow*) {
+  using Row = ContactRow;
+  using O = ContactOutcome;
+  using Totals = cycle::Totals;
+  static constexpr Column<Row> of_sum[] = {
+      column<&Row::o, &O::totals, &Totals::normal>("normal"),
+      column<&Row::o, &O::totals, &Totals::tangential>("tangential"),
+      column<&Row::o, &O::totals, &Totals::moment>("moment", "About the origin"),
+      column<&Row::o, &O::totals, &Totals::total_abs>("sizes", "Sum of |F|")};
+  static constexpr Record<Row> sum{"sum", "Forces on the main side.", of_sum, true};
+  static constexpr Column<Row> of_energy[] = {
+      column<&Row::o, &O::totals, &Totals::elastic_energy>("elastic"),
+      column<&Row::o, &O::totals, &Totals::friction_energy>("friction"),
+      column<&Row::o, &O::totals, &Totals::damping_energy>("damping"),
+      column<&Row::o, &O::totals, &Totals::friction_heat>("friction_heat")};
+  static constexpr Record<Row> energy{"energy", "", of_energy, true};
+  static constexpr Column<Row> of_heat[] = {column<&Row::o, &O::heat_secondary>("secondary"),
+                                            column<&Row::o, &O::heat_main>("main")};
+  static constexpr Record<Row> heat{"heat", "Given to each side in this cycle.", of_heat, true};
+  static constexpr Column<Row> of_acceleration[] = {
+      column<&Row::o, &O::largest_acceleration>("max"),
+      column("node", [](const Row& r) { return id_of(r.model(), r.o->acceleration_node); }),
+      column<&Row::o, &O::massless_nodes>("massless_nodes", "With a force")};
+  static constexpr Record<Row> acceleration{"acceleration", "", of_acceleration, true};
+  static constexpr Column<Row> of_singular[] = {
+      column<&Row::o, &O::near_singular_count>("count"),
+      column<&Row::o, &O::gap_closed>("gap_closed", "Pairs at their mid-surface"),
+      column("worst", "At most 20", [](const Row& r) { return r.rows(r.o->near_singular); })};
+  static constexpr Record<Row> near_singular{"near_singular", "Hardly any gap left.", of_singular};
+  static constexpr Column<Row> columns[] = {
+      column<&Row::o, &O::contact, &Contact::kind>("kind"),
+      column<&Row::o, &O::contact, &Contact::role>("role"),
+      column<&Row::o, &O::active>("active", "false: outside Tstart..Tstop or before its sensor"),
+      column<&Row::o, &O::complete>(
+          "complete", "false: nothing was evaluated (too many pairs, values out of range)"),
+      column<&Row::o, &O::composition>("composition"),
+      column<&Row::o, &O::pairs_in_reach>("pairs_in_reach"),
+      column<&Row::o, &O::pairs_with_force>("pairs_with_force"),
+      column<&Row::o, &O::pairs_switched_off>(
+          "pairs_switched_off",
+          "In reach, but without a force: off since start-up, removed, or switched off in this "
+          "cycle"),
+      group<sum>("sum"),
+      group<energy>("energy"),
+      group<heat>("heat"),
+      column<&Row::o, &O::step, &cycle::StepLimit::dt, &limit>("dt_contact", "null: no limit"),
+      column<&Row::o, &O::step, &cycle::StepLimit::source, &source_name>("dt_because", sources),
+      column("dt_node", [](const Row& r) { return id_of(r.model(), r.o->step_node); }),
+      column("largest_pair", "null: no pair has a force",
+             [](const Row& r) { return known(r.o->largest_force > 0, r.row(r.o->largest)); }),
+      group<acceleration>("acceleration"),
+      group<near_singular>("near_singular"),
+      column<&Row::o, &O::pairs_tied>("pairs_tied"),
+      column("removed", "What leaves the interface for good after this evaluation",
+             [](const Row& r) { return r.rows(r.o->removed); }),
+      column("ties", "Pairs that tie or let go in this evaluation",
+             [](const Row& r) { return r.rows(r.o->ties); }),
+      column("released", [](const Row& r) { return r.rows(r.o->released); }),
+      column("criteria", "With Iadm", [](const Row& r) { return r.rows(r.o->criteria); }),
+      column("notes", "What the card asks for and was left out",
+             [](const Row& r) { return rows_of(r.o->notes); }),
+      column("cost", "With --costs or --html; null: not measured",
+             [](const Row& r) { return measured_cost(*r.document.input, *r.o); }),
+      column("pairs", "With --all: every pair that has a penetration",
+             [](const Row& r) { return if_any(r.document.all, r.rows(r.o->pairs)); })};
+  return {"contact", "", columns};
 }
 
-void write_interface(JsonWriter& j, const CycleInput& input, const InterBase& inter,
-                     const PairRows& rows) {
-  j.begin_object().field("id", inter.id).field("type", inter.type);
-  j.field("title", inter.title).key("source");
-  write_json_place(j, *input.deck, inter.span);
-  j.key("effects").begin_array();
-  for (const EffectLine& e : effect_lines(*input.deck, *input.outcome, inter)) {
-    j.begin_object(true).field("name", e.name).field("on", e.on).field("because", e.because);
-    j.key("source");
-    write_json_place(j, *input.deck, e.span);
-    j.end_object();
-  }
-  j.end_array().key("contacts").begin_array();
+struct EffectRow {
+  const Deck& deck;
+  const EffectLine* line;
+};
+Record<EffectRow> record_of(const EffectRow*) {
+  using Row = EffectRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::line, &EffectLine::name>("name"), column<&Row::line, &EffectLine::on>("on"),
+      column<&Row::line, &EffectLine::because>("because"),
+      column("source", "The cell that decides",
+             [](const Row& r) { return place_of(r.deck, r.line->span); })};
+  return {"effect", "", columns, true};
+}
+
+struct InterfaceRow {
+  const CycleDocument& document;
+  const InterBase* inter;
+  const Deck* deck() const { return document.input->deck; }
+};
+
+void each_contact(const InterfaceRow& r, const std::function<void(const ContactRow&)>& add) {
   for (const ContactRole role : {ContactRole::primary, ContactRole::reversed, ContactRole::edges})
-    for (const cycle::ContactOutcome& c : input.outcome->contacts)
-      if (c.contact->inter == &inter && c.contact->role == role) write_contact(j, input, c, rows);
-  j.end_array().end_object();
+    for (const ContactOutcome& c : r.document.outcome->contacts)
+      if (c.contact->inter == r.inter && c.contact->role == role) add({r.document, &c});
 }
 
-/// Nodes that any contact acts on, with what acts.
-void write_acted_nodes(JsonWriter& j, const CycleInput& input) {
-  j.key("nodes").begin_array();
-  for (const cycle::ActedNode& n : cycle::acted_nodes(*input.state, *input.outcome)) {
-    j.begin_object(true).field("node", input.scene->model->node_id(n.node)).key("force");
-    write_vector(j, n.force);
-    j.field("stiffness", n.stiffness);
-    write_step(j, "dt", n.dt);
-    j.end_object();
-  }
-  j.end_array();
+Record<InterfaceRow> record_of(const InterfaceRow*) {
+  using Row = InterfaceRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::inter, &InterBase::id>("id"),
+      column<&Row::inter, &InterBase::type>("type", "7, 10, 11, 19, 24 or 25"),
+      column<&Row::inter, &InterBase::title>("title"),
+      column("source", [](const Row& r) { return place_of(*r.deck(), r.inter->span); }),
+      column("effects",
+             [](const Row& r) {
+               return rows_of(effect_lines(*r.deck(), *r.document.outcome, *r.inter),
+                              [&r](const EffectLine& e) {
+                                return EffectRow{*r.deck(), &e};
+                              });
+             }),
+      column("contacts", [](const Row& r) {
+        return Rows<ContactRow>{[&r](const auto& add) { each_contact(r, add); }};
+      })};
+  return {"interface", "", columns};
 }
 
-/// What the interfaces do without the effect of --without; with it they stand in "interfaces".
-void write_without(JsonWriter& j, const CycleInput& input) {
-  const cycle::SceneOutcome& o = *input.without;
-  j.key("without").begin_object().field("effect", input.without_effect);
-  j.key("interfaces").begin_array();
-  for (const cycle::InterfaceSummary& s : cycle::summarize(*input.scene, o)) {
-    j.begin_object(true).field("id", s.id).field("pairs_with_force", s.pairs_with_force);
-    j.field("force_sum", s.force_sum).field("elastic_energy", s.elastic_energy);
-    j.field("friction_energy", s.friction_energy).field("damping_energy", s.damping_energy);
-    write_step(j, "contact_dt", s.contact_dt);
-    j.end_object();
-  }
-  j.end_array().field("largest_nodal_force", o.largest_nodal_force);
-  write_step(j, "contact_dt", o.contact_dt);
-  j.end_object();
+struct SummaryRow {
+  const cycle::InterfaceSummary* sums;
+};
+Record<SummaryRow> record_of(const SummaryRow*) {
+  using Sums = cycle::InterfaceSummary;
+  static constexpr Column<SummaryRow> columns[] = {
+      column<&SummaryRow::sums, &Sums::id>("id"),
+      column<&SummaryRow::sums, &Sums::pairs_with_force>("pairs_with_force"),
+      column<&SummaryRow::sums, &Sums::force_sum>("force_sum", "Of the sizes of the pair forces"),
+      column<&SummaryRow::sums, &Sums::elastic_energy>("elastic_energy"),
+      column<&SummaryRow::sums, &Sums::friction_energy>("friction_energy"),
+      column<&SummaryRow::sums, &Sums::damping_energy>("damping_energy"),
+      column<&SummaryRow::sums, &Sums::contact_dt, &limit>("contact_dt")};
+  return {"interface_sums", "", columns, true};
 }
+
+struct WithoutRow {
+  const CycleInput* input;
+};
+Record<WithoutRow> record_of(const WithoutRow*) {
+  using Row = WithoutRow;
+  using Outcome = cycle::SceneOutcome;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::input, &CycleInput::without_effect>("effect"),
+      column("interfaces",
+             [](const Row& r) {
+               return rows_of(cycle::summarize(*r.input->scene, *r.input->without),
+                              [](const auto& sums) { return SummaryRow{&sums}; });
+             }),
+      column<&Row::input, &CycleInput::without, &Outcome::largest_nodal_force>(
+          "largest_nodal_force"),
+      column<&Row::input, &CycleInput::without, &Outcome::contact_dt, &limit>("contact_dt")};
+  return {"without", "The evaluation without an effect.", columns};
+}
+
+struct ActedRow {
+  std::int64_t node;
+  cycle::ActedNode of;
+};
+Record<ActedRow> record_of(const ActedRow*) {
+  static constexpr Column<ActedRow> columns[] = {
+      column<&ActedRow::node>("node"),
+      column<&ActedRow::of, &cycle::ActedNode::force>("force", "On the node"),
+      column<&ActedRow::of, &cycle::ActedNode::stiffness>("stiffness"),
+      column<&ActedRow::of, &cycle::ActedNode::dt, &limit>(
+          "dt", "0.9 sqrt(2 m / stiffness); null: no mass or no stiffness")};
+  return {"acted_node", "Of all contacts together.", columns, true};
+}
+
+struct LimitingRow {
+  std::int64_t interface_id;
+  NodeId node;
+};
+Record<LimitingRow> record_of(const LimitingRow*) {
+  static constexpr Column<LimitingRow> columns[] = {column<&LimitingRow::interface_id>("interface"),
+                                                    column<&LimitingRow::node>("node")};
+  return {"limiting", "", columns, true};
+}
+
+struct StepContactRow {
+  const Contact* contact;
+  const cycle::StepContact* of;
+};
+Record<StepContactRow> record_of(const StepContactRow*) {
+  using Of = cycle::StepContact;
+  static constexpr Column<StepContactRow> columns[] = {
+      column<&StepContactRow::contact, &Contact::inter, &InterBase::id>("interface"),
+      column<&StepContactRow::contact, &Contact::role>("role"),
+      column<&StepContactRow::of, &Of::active>("active"),
+      column<&StepContactRow::of, &Of::pairs_with_force>("pairs_with_force"),
+      column<&StepContactRow::of, &Of::pairs_tied>("pairs_tied"),
+      column<&StepContactRow::of, &Of::removed>("removed", "Secondary nodes or edges, so far"),
+      column<&StepContactRow::of, &Of::normal>("normal"),
+      column<&StepContactRow::of, &Of::tangential>("tangential"),
+      column<&StepContactRow::of, &Of::force_sum>("sizes"),
+      column<&StepContactRow::of, &Of::elastic_energy>("elastic"),
+      column<&StepContactRow::of, &Of::friction_energy>("friction"),
+      column<&StepContactRow::of, &Of::damping_energy>("damping")};
+  return {"step_contact", "", columns, true};
+}
+
+struct StepRow {
+  const Scene& scene;
+  std::size_t step;
+  const cycle::StepLine* line;
+};
+Record<StepRow> record_of(const StepRow*) {
+  using Row = StepRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::step>("step", "From 0 on"), column<&Row::line, &cycle::StepLine::time>("time"),
+      column<&Row::line, &cycle::StepLine::dt1>("dt1"), column("contacts", [](const Row& r) {
+        return rows_of(r.line->contacts, [&r](const cycle::StepContact& c) {
+          const auto i = static_cast<std::size_t>(&c - r.line->contacts.data());
+          return StepContactRow{&r.scene.contacts[i], &c};
+        });
+      })};
+  return {"step", "", columns};
+}
+
+struct EventRow {
+  const StepEvent* event;
+  PairSides sides;
+
+  bool is(StepEvent::Kind kind) const { return event->kind == kind; }
+  bool released() const { return is(StepEvent::Kind::released); }
+  std::string_view name() const {
+    if (is(StepEvent::Kind::tied)) return "tied";
+    if (is(StepEvent::Kind::let_go)) return "let-go";
+    return released() ? "released" : "removed";
+  }
+  IfAny<Ids2> edge() const { return released() ? IfAny<Ids2>{} : sides.edge(); }
+  IfAny<std::int64_t> node() const {
+    if (!released()) return sides.node();
+    return {sides.model->node_id(event->release.node)};
+  }
+  IfAny<Ids4> segment() const {
+    return released() || is(StepEvent::Kind::removed) ? IfAny<Ids4>{} : sides.segment();
+  }
+};
+Record<EventRow> record_of(const EventRow*) {
+  using Row = EventRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::event, &StepEvent::step>("step"),
+      column<&Row::event, &StepEvent::time>("time"),
+      column<&Row::sides, &PairSides::contact, &Contact::inter, &InterBase::id>("interface"),
+      column<&Row::sides, &PairSides::contact, &Contact::role>("role"),
+      column<&Row::name>("event", "removed, tied, let-go or released"),
+      column<&Row::edge>("edge"),
+      column<&Row::node>("node"),
+      column<&Row::segment>("segment"),
+      column("because", reasons,
+             [](const Row& r) {
+               return if_any(r.is(StepEvent::Kind::removed), to_string(r.event->because));
+             }),
+      column("before", "Bits 4 X + 2 Y + Z of fixed translations",
+             [](const Row& r) { return if_any(r.released(), r.event->release.before); }),
+      column("after", [](const Row& r) { return if_any(r.released(), r.event->release.after); })};
+  return {"event", "Something that stays.", columns, true};
+}
+
+struct StepsRow {
+  const Scene& scene;
+  const cycle::StepsOutcome* of;
+};
+Record<StepsRow> record_of(const StepsRow*) {
+  using Row = StepsRow;
+  static constexpr Column<Row> columns[] = {
+      column("count", [](const Row& r) { return r.of->lines.size(); }),
+      column("motion", "prescribed: contact forces move nothing",
+             [](const Row&) { return "prescribed"; }),
+      column<&Row::of, &cycle::StepsOutcome::searches>(
+          "searches", "How often the pairs of a contact were searched"),
+      column("history",
+             [](const Row& r) {
+               return rows_of(r.of->lines, [&r](const cycle::StepLine& line) {
+                 const auto step = static_cast<std::size_t>(&line - r.of->lines.data());
+                 return StepRow{r.scene, step, &line};
+               });
+             }),
+      column("events", [](const Row& r) {
+        return rows_of(r.of->events, [&r](const StepEvent& e) {
+          const Contact& contact = r.scene.contacts[e.contact];
+          return EventRow{&e, {r.scene.model, &contact, e.at.secondary, e.at.main}};
+        });
+      })};
+  return {"steps", "", columns};
+}
+
+void each_interface(const CycleDocument& r, const std::function<void(const InterfaceRow&)>& add) {
+  for (const InterBase* inter : r.input->scene->interfaces->ordered)
+    for (const ContactOutcome& c : r.outcome->contacts)
+      if (c.contact->inter == inter && c.contact->role == ContactRole::primary) {
+        add({r, inter});
+        break;
+      }
+}
+
+void each_acted_node(const CycleDocument& r, const std::function<void(const ActedRow&)>& add) {
+  for (const cycle::ActedNode& n : cycle::acted_nodes(*r.input->state, *r.outcome))
+    add({r.model().node_id(n.node), n});
+}
+
+std::optional<LimitingRow> limiting_contact(const CycleDocument& r) {
+  const cycle::SceneOutcome& o = *r.outcome;
+  if (o.limiting_contact == SIZE_MAX) return std::nullopt;
+  return LimitingRow{o.contacts[o.limiting_contact].contact->inter->id,
+                     id_of(r.model(), o.limiting_node)};
+}
+
+std::optional<std::int64_t> structure_element(const CycleDocument& r) {
+  const cycle::StructureStep& s = r.outcome->structure;
+  if (s.element == no_index) return std::nullopt;
+  return r.model().family(s.kind).id[s.element];
+}
+
+Record<CycleDocument> record_of(const CycleDocument*) {
+  using Row = CycleDocument;
+  using In = CycleInput;
+  using Out = cycle::SceneOutcome;
+  using Options = cycle::CycleOptions;
+  static constexpr Column<Row> of_force[] = {
+      column<&Row::outcome, &Out::largest_nodal_force>("max"),
+      column("node", [](const Row& r) { return id_of(r.model(), r.outcome->force_node); })};
+  static constexpr Record<Row> nodal_force{"nodal_force", "The largest.", of_force, true};
+  static constexpr Column<Row> of_dt[] = {
+      column<&Row::outcome, &Out::structure, &cycle::StructureStep::dt, &limit>(
+          "structure", "Estimate from the elements; null: no limit"),
+      column<&Row::outcome, &Out::contact_dt, &limit>("contact", "null: no limit"),
+      column<&Row::outcome, &Out::contact_dt_source, &source_name>("because", sources),
+      column<&limiting_contact>("limiting", "The interface that limits it"),
+      column<&structure_element>("structure_element")};
+  static constexpr Record<Row> dt{"dt", "Time steps.", of_dt};
+  static constexpr Column<Row> columns[] = {
+      column("deck",
+             [](const Row& r) {
+               const Scene& scene = *r.input->scene;
+               return DeckRow{r.input->path, r.input->deck, scene.model, scene.interfaces};
+             }),
+      column("verdict", [](const Row& r) { return cycle_verdict(*r.input); }),
+      column("gate", "null: no bounds were given",
+             [](const Row& r) { return gate_of(*r.input->deck, r.input->gate); }),
+      column("compared", "null: nothing was compared",
+             [](const Row& r) {
+               return comparison_of(*r.input->scene, *r.input->view, r.input->gate);
+             }),
+      column<&Row::coverage, &Coverage::examined>("examined",
+                                                  "Interfaces of TYPE7, 10, 11, 19, 24 and 25"),
+      column("not_examined", "Interfaces of other types, by keyword",
+             [](const Row& r) { return rows_of(r.coverage.not_examined); }),
+      column<&Row::input, &In::options, &Options::dt1>("dt1", "Last step"),
+      column<&Row::input, &In::options, &Options::dt12>("dt12", "Mid-step interval"),
+      column<&Row::input, &In::options, &Options::time>("time"),
+      column("model",
+             [](const Row& r) {
+               return r.input->options.model == cycle::Model::robust ? "robust" : "reference";
+             }),
+      column("accuracy", [](const Row& r) { return DecisionsRow{r.input->scene}; }),
+      column("interfaces",
+             [](const Row& r) {
+               return Rows<InterfaceRow>{[&r](const auto& add) { each_interface(r, add); }};
+             }),
+      column("costs", "With --costs or --html; null: not measured",
+             [](const Row& r) { return measured_costs(*r.input); }),
+      column("without", "With --without EFFECT",
+             [](const Row& r) { return if_any(r.input->without != nullptr, WithoutRow{r.input}); }),
+      column("nodes", "With --all: nodes that some contact pushes or stiffens",
+             [](const Row& r) {
+               return if_any(r.all,
+                             Rows<ActedRow>{[&r](const auto& add) { each_acted_node(r, add); }});
+             }),
+      group<nodal_force>("nodal_force"),
+      group<dt>("dt"),
+      column("steps",
+             "With --steps; the rest of the document is the last step. null: one evaluation",
+             [](const Row& r) {
+               return known(r.input->steps != nullptr, StepsRow{*r.input->scene, r.input->steps});
+             }),
+      column("not_evaluated", "What the deck says about its initial state and was left out",
+             [](const Row& r) { return rows_of(r.input->state->not_evaluated); })};
+  return {"document", "", columns};
+}
+
+constexpr DocumentHead head{
+    "deck/cycle", 1,
+    "Written by deck cycle --json: one contact force evaluation at the initial state of the deck, "
+    "in working units. null stands for a number that is not finite."};
 
 }  // namespace
 
+DocumentSchema cycle_schema() { return document_schema<CycleDocument>(head); }
+
 std::string cycle_json(const CycleInput& input, bool all, const TextDrain& drain) {
-  std::string out;
-  JsonWriter j(out);
-  const PairRows rows{all, out, drain};
-  const Model& model = *input.scene->model;
-  const cycle::SceneOutcome& o = *input.outcome;
-  j.begin_object();
-  write_json_head(j, "deck/cycle", 1);
-  write_json_deck(j, input.path, *input.deck, &model, input.scene->interfaces);
-  write_verdict(j, cycle_verdict(input));
-  if (input.gate != nullptr) write_gate(j, *input.deck, *input.scene, *input.view, *input.gate);
-  write_json_coverage(j, coverage_of(*input.deck, *input.scene->interfaces, input.scene->examined));
-  j.field("dt1", input.options.dt1).field("dt12", input.options.dt12);
-  j.field("time", input.options.time);
-  j.field("model", input.options.model == cycle::Model::reference ? "reference" : "robust");
-  write_decisions(j, *input.scene);
-  j.key("interfaces").begin_array();
-  for (const InterBase* inter : input.scene->interfaces->ordered)
-    for (const cycle::ContactOutcome& c : o.contacts)
-      if (c.contact->inter == inter && c.contact->role == ContactRole::primary) {
-        write_interface(j, input, *inter, rows);
-        break;
-      }
-  j.end_array();
-  write_costs(j, input);
-  if (input.without != nullptr) write_without(j, input);
-  if (all) write_acted_nodes(j, input);
-  j.key("nodal_force").begin_object(true).field("max", o.largest_nodal_force);
-  write_node(j, model, "node", o.force_node);
-  j.end_object();
-  j.key("dt").begin_object();
-  write_step(j, "structure", o.structure.dt);
-  write_step(j, "contact", o.contact_dt);
-  j.field("because", source_name(o.contact_dt_source)).key("limiting");
-  if (o.limiting_contact == SIZE_MAX) {
-    j.null();
-  } else {
-    j.begin_object(true).field("interface", o.contacts[o.limiting_contact].contact->inter->id);
-    write_node(j, model, "node", o.limiting_node);
-    j.end_object();
-  }
-  j.key("structure_element");
-  if (o.structure.element == no_index)
-    j.null();
-  else
-    j.value(model.family(o.structure.kind).id[o.structure.element]);
-  j.end_object();
-  write_steps(j, input);
-  j.key("not_evaluated").begin_array();
-  for (const std::string& text : input.state->not_evaluated) j.value(text);
-  j.end_array().end_object();
-  return out;
+  const Scene& scene = *input.scene;
+  const Coverage coverage = coverage_of(*input.deck, *scene.interfaces, scene.examined);
+  return write_document(head, CycleDocument{&input, input.outcome, all, coverage}, drain);
 }
 
 }  // namespace deck

@@ -16,53 +16,46 @@ struct EditRow {
     return deck->deck->sources[edit->span.file].position(edit->span.offset + edit->span.length);
   }
 };
-const Record<EditRow>& record_of(const EditRow*) {
+Record<EditRow> record_of(const EditRow*) {
   using Row = EditRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("file", "", [](const Row& r) { return r.at().file; }),
-      column<Row>("line", "", [](const Row& r) { return r.at().line; }),
-      column<Row>("column", "", [](const Row& r) { return r.at().column; }),
-      column<Row>("end_line", "", [](const Row& r) { return r.end().line; }),
-      column<Row>("end_column", "", [](const Row& r) { return r.end().column; }),
+      column("file", [](const Row& r) { return r.at().file; }),
+      column("line", [](const Row& r) { return r.at().line; }),
+      column("column", [](const Row& r) { return r.at().column; }),
+      column("end_line", [](const Row& r) { return r.end().line; }),
+      column("end_column", [](const Row& r) { return r.end().column; }),
       column<&Row::edit, &TextEdit::text>("text")};
-  static const Record<Row> record{
-      "edit", "Replace the bytes from line:column up to, not including, end_line:end_column.",
-      columns, true};
-  return record;
+  return {"edit", "Replace the bytes from line:column up to, not including, end_line:end_column.",
+          columns, true};
 }
 
 struct FixRow {
   const LintedDeck* deck = nullptr;
   const Fix* fix = nullptr;
   Rows<EditRow> edits() const {
-    return {[this](const auto& add) {
-      for (const TextEdit& e : fix->edits) add({deck, &e});
-    }};
+    return rows_of(fix->edits, [this](const TextEdit& e) { return EditRow{deck, &e}; });
   }
 };
-const Record<FixRow>& record_of(const FixRow*) {
-  using Row = FixRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::fix, &Fix::title>("title"),
-      column<&Row::fix, &Fix::safe>("safe", "The solver does the same with the repaired deck"),
-      column<&Row::edits>("edits")};
-  static const Record<Row> record{"fix", "", columns};
-  return record;
+Record<FixRow> record_of(const FixRow*) {
+  static constexpr Column<FixRow> columns[] = {
+      column<&FixRow::fix, &Fix::title>("title"),
+      column<&FixRow::fix, &Fix::safe>("safe", "The solver does the same with the repaired deck"),
+      column<&FixRow::edits>("edits")};
+  return {"fix", "", columns};
 }
 
 struct NoteRow {
   detail::Place at;
   std::string_view message;
 };
-const Record<NoteRow>& record_of(const NoteRow*) {
-  using Row = NoteRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::at, &detail::Place::file>("file"),
-      column<&Row::at, &detail::Place::line>("line"),
-      column<&Row::at, &detail::Place::column>("column"),
-      column<&Row::at, &detail::Place::end_column>("end_column"), column<&Row::message>("message")};
-  static const Record<Row> record{"note", "A second place of a finding.", columns, true};
-  return record;
+Record<NoteRow> record_of(const NoteRow*) {
+  static constexpr Column<NoteRow> columns[] = {
+      column<&NoteRow::at, &detail::Place::file>("file"),
+      column<&NoteRow::at, &detail::Place::line>("line"),
+      column<&NoteRow::at, &detail::Place::column>("column"),
+      column<&NoteRow::at, &detail::Place::end_column>("end_column"),
+      column<&NoteRow::message>("message")};
+  return {"note", "A second place of a finding.", columns, true};
 }
 
 struct FindingRow {
@@ -80,10 +73,10 @@ struct FindingRow {
     }};
   }
 };
-const Record<FindingRow>& record_of(const FindingRow*) {
+Record<FindingRow> record_of(const FindingRow*) {
   using Row = FindingRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("rule", "", [](const Row& r) { return id_text(r.d->rule); }),
+      column("rule", [](const Row& r) { return id_text(r.d->rule); }),
       column<&Row::d, &Diagnostic::field>(
           "field", "Of a rule that covers several fields (DK201); else empty"),
       column<&Row::d, &Diagnostic::severity>("severity"),
@@ -101,40 +94,34 @@ const Record<FindingRow>& record_of(const FindingRow*) {
       column<&Row::fix>("fix"),
       column<&Row::fingerprint>(
           "fingerprint", "Of rule, entity and card text; it stays the same when lines move")};
-  static const Record<Row> record{"finding", "", columns};
-  return record;
+  return {"finding", "", columns};
 }
 
 using Stale = std::pair<const FindingKey, std::uint64_t>;
 struct StaleRow {
   const Stale* stale = nullptr;
 };
-const Record<StaleRow>& record_of(const StaleRow*) {
-  using Row = StaleRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::stale, &Stale::first, &FindingKey::rule>("rule"),
-      column<&Row::stale, &Stale::first, &FindingKey::file>("file"),
-      column<&Row::stale, &Stale::first, &FindingKey::entity>("entity"),
-      column<&Row::stale, &Stale::first, &FindingKey::field>("field"),
-      column<&Row::stale, &Stale::second>("count")};
-  static const Record<Row> record{"stale", "An entry of the baseline that no finding matches.",
-                                  columns, true};
-  return record;
+Record<StaleRow> record_of(const StaleRow*) {
+  static constexpr Column<StaleRow> columns[] = {
+      column<&StaleRow::stale, &Stale::first, &FindingKey::rule>("rule"),
+      column<&StaleRow::stale, &Stale::first, &FindingKey::file>("file"),
+      column<&StaleRow::stale, &Stale::first, &FindingKey::entity>("entity"),
+      column<&StaleRow::stale, &Stale::first, &FindingKey::field>("field"),
+      column<&StaleRow::stale, &Stale::second>("count")};
+  return {"stale", "An entry of the baseline that no finding matches.", columns, true};
 }
 
 struct SummaryRow {
   const LintResult* result = nullptr;
 };
-const Record<SummaryRow>& record_of(const SummaryRow*) {
-  using Row = SummaryRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::result, &LintResult::errors>("errors"),
-      column<&Row::result, &LintResult::warnings>("warnings"),
-      column<&Row::result, &LintResult::infos>("infos"),
-      column<&Row::result, &LintResult::suppressed>("suppressed"),
-      column<&Row::result, &LintResult::baselined>("baselined")};
-  static const Record<Row> record{"summary", "Numbers of findings.", columns, true};
-  return record;
+Record<SummaryRow> record_of(const SummaryRow*) {
+  static constexpr Column<SummaryRow> columns[] = {
+      column<&SummaryRow::result, &LintResult::errors>("errors"),
+      column<&SummaryRow::result, &LintResult::warnings>("warnings"),
+      column<&SummaryRow::result, &LintResult::infos>("infos"),
+      column<&SummaryRow::result, &LintResult::suppressed>("suppressed"),
+      column<&SummaryRow::result, &LintResult::baselined>("baselined")};
+  return {"summary", "Numbers of findings.", columns, true};
 }
 
 struct LintDocument {
@@ -150,43 +137,35 @@ struct LintDocument {
     }};
   }
   Rows<StaleRow> stale() const {
-    return {[this](const auto& add) {
-      for (const Stale& s : result().stale) add({&s});
-    }};
+    return rows_of(result().stale, [this](const Stale& s) { return StaleRow{&s}; });
   }
   TallCounts counts() const {
     TallCounts out;
     for (const auto& [rule, count] : result().counts) out.counts.emplace_back(id_text(rule), count);
     return out;
   }
-  Rows<NotChecked> not_checked() const {
-    return {[this](const auto& add) {
-      for (const NotChecked& n : result().not_checked) add(n);
-    }};
-  }
+  Rows<NotChecked> not_checked() const { return rows_of(result().not_checked); }
   IfAny<std::size_t> examined() const {
     return if_any(coverage.has_value(), coverage ? coverage->examined : 0);
   }
-  IfAny<Rows<NotExamined>> not_examined() const {
-    return if_any(coverage.has_value(), Rows<NotExamined>{[this](const auto& add) {
-                    for (const NotExamined& n : coverage->not_examined) add(n);
-                  }});
+  IfAny<std::vector<NotExamined>> not_examined() const {
+    return coverage ? IfAny<std::vector<NotExamined>>{coverage->not_examined}
+                    : IfAny<std::vector<NotExamined>>{};
   }
 };
-const Record<LintDocument>& record_of(const LintDocument*) {
+Record<LintDocument> record_of(const LintDocument*) {
   using Row = LintDocument;
   static constexpr Column<Row> columns[] = {
       column<&Row::deck>("deck"),
       column<&Row::verdict>("verdict"),
       column<&Row::findings>("diagnostics", "Ordered by file, line, column, rule"),
-      column<Row>("summary", "", [](const Row& r) { return SummaryRow{&r.result()}; }),
+      column("summary", [](const Row& r) { return SummaryRow{&r.result()}; }),
       column<&Row::stale>("baseline_stale"),
       column<&Row::counts>("counts", "Findings per rule, those beyond the bound included"),
       column<&Row::not_checked>("not_checked"),
       column<&Row::examined>("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25"),
       column<&Row::not_examined>("not_examined", "Interfaces of other types, by keyword")};
-  static const Record<Row> record{"document", "", columns};
-  return record;
+  return {"document", "", columns};
 }
 
 const char* stage_name(RuleStage stage) {
@@ -215,22 +194,21 @@ struct RuleFieldRow {
   const Rule* rule = nullptr;
   const RuleField* field = nullptr;
 };
-const Record<RuleFieldRow>& record_of(const RuleFieldRow*) {
+Record<RuleFieldRow> record_of(const RuleFieldRow*) {
   using Row = RuleFieldRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::field, &RuleField::name>("name"),
-      column<Row>("was", "The rule that it was in earlier versions",
-                  [](const Row& r) { return id_text(r.field->was); }),
-      column<Row>("severity", "",
-                  [](const Row& r) { return r.field->severity.value_or(r.rule->severity()); }),
+      column("was", "The rule that it was in earlier versions",
+             [](const Row& r) { return id_text(r.field->was); }),
+      column("severity",
+             [](const Row& r) { return r.field->severity.value_or(r.rule->severity()); }),
       column<&Row::field, &RuleField::note>("note"),
-      column<Row>(
+      column(
           "reference_behaviour", "What the solver does",
           [](const Row& r) { return r.field->solver.empty() ? r.rule->solver : r.field->solver; }),
-      column<Row>("fix", "How to fix it",
-                  [](const Row& r) { return r.field->fix.empty() ? r.rule->fix : r.field->fix; })};
-  static const Record<Row> record{"field", "A field of a rule that covers several.", columns, true};
-  return record;
+      column("fix", "How to fix it",
+             [](const Row& r) { return r.field->fix.empty() ? r.rule->fix : r.field->fix; })};
+  return {"field", "A field of a rule that covers several.", columns, true};
 }
 
 struct RuleRow {
@@ -239,23 +217,21 @@ struct RuleRow {
     return rule->messages.empty() ? std::nullopt : std::optional(rule->messages.front());
   }
   Rows<RuleFieldRow> fields() const {
-    return {[this](const auto& add) {
-      for (const RuleField& f : rule->fields) add({rule, &f});
-    }};
+    return rows_of(rule->fields, [this](const RuleField& f) { return RuleFieldRow{rule, &f}; });
   }
 };
-const Record<RuleRow>& record_of(const RuleRow*) {
+Record<RuleRow> record_of(const RuleRow*) {
   using Row = RuleRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("id", "", [](const Row& r) { return id_text(r.rule->id); }),
+      column("id", [](const Row& r) { return id_text(r.rule->id); }),
       column<&Row::rule, &Rule::name>("name", "Unique; accepted wherever an id is"),
       column<&Row::rule, &Rule::title>("title"),
-      column<Row>("family", "", [](const Row& r) { return family_of(r.rule->id); }),
-      column<Row>("severity", "", [](const Row& r) { return r.rule->severity(); }),
-      column<Row>("found_by", "reading, model, check, geometry, gate or linter",
-                  [](const Row& r) { return stage_name(r.rule->stage); }),
-      column<Row>("fixable", "no, safe or unsafe",
-                  [](const Row& r) { return fix_name(r.rule->fixable); }),
+      column("family", [](const Row& r) { return family_of(r.rule->id); }),
+      column("severity", [](const Row& r) { return r.rule->severity(); }),
+      column("found_by", "reading, model, check, geometry, gate or linter",
+             [](const Row& r) { return stage_name(r.rule->stage); }),
+      column("fixable", "no, safe or unsafe",
+             [](const Row& r) { return fix_name(r.rule->fixable); }),
       column<&Row::rule, &Rule::problem>("problem"),
       column<&Row::rule, &Rule::why>("why"),
       column<&Row::rule, &Rule::solver>("reference_behaviour", "What the solver does"),
@@ -264,21 +240,17 @@ const Record<RuleRow>& record_of(const RuleRow*) {
       column<&Row::rule, &Rule::fix>("fix"),
       column<&Row::rule, &Rule::ignore>("ignore_when"),
       column<&Row::fields>("fields")};
-  static const Record<Row> record{"rule", "", columns};
-  return record;
+  return {"rule", "", columns};
 }
 
 struct RulesDocument {
   Rows<RuleRow> rules() const {
-    return {[](const auto& add) {
-      for (const Rule& r : all_rules()) add({&r});
-    }};
+    return rows_of(all_rules(), [](const Rule& r) { return RuleRow{&r}; });
   }
 };
-const Record<RulesDocument>& record_of(const RulesDocument*) {
+Record<RulesDocument> record_of(const RulesDocument*) {
   static constexpr Column<RulesDocument> columns[] = {column<&RulesDocument::rules>("rules")};
-  static const Record<RulesDocument> record{"document", "", columns};
-  return record;
+  return {"document", "", columns};
 }
 
 constexpr DocumentHead lint_head{"deck/lint", 1, "Written by deck lint --json."};
@@ -286,19 +258,17 @@ constexpr DocumentHead rules_head{"deck/rules", 1, "Written by deck rules --json
 
 }  // namespace
 
-const Record<ReferenceMessage>& record_of(const ReferenceMessage*) {
-  using Row = ReferenceMessage;
-  static constexpr Column<Row> columns[] = {column<&Row::number>("message"),
-                                            column<&Row::severity>("severity")};
-  static const Record<Row> record{"reference", "A message of the solver.", columns, true};
-  return record;
+Record<ReferenceMessage> record_of(const ReferenceMessage*) {
+  static constexpr Column<ReferenceMessage> columns[] = {
+      column<&ReferenceMessage::number>("message"),
+      column<&ReferenceMessage::severity>("severity")};
+  return {"reference", "A message of the solver.", columns, true};
 }
 
-const Record<NotChecked>& record_of(const NotChecked*) {
-  using Row = NotChecked;
-  static constexpr Column<Row> columns[] = {column<&Row::what>("what"), column<&Row::why>("why")};
-  static const Record<Row> record{"not_checked", "", columns, true};
-  return record;
+Record<NotChecked> record_of(const NotChecked*) {
+  static constexpr Column<NotChecked> columns[] = {column<&NotChecked::what>("what"),
+                                                   column<&NotChecked::why>("why")};
+  return {"not_checked", "", columns, true};
 }
 
 DocumentSchema lint_schema() { return document_schema<LintDocument>(lint_head); }

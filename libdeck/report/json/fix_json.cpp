@@ -1,125 +1,219 @@
 // The result of `deck fix` as a JSON document.
+#include "report/json/ties_json.hpp"
 #include "report/shared/fix.hpp"
-#include "report/shared/json.hpp"
-#include "report/shared/verdict.hpp"
+#include "report/shared/schemas.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
+
+// Records of what a fix is made of.
+Record<FixCount> record_of(const FixCount*) {
+  static constexpr Column<FixCount> columns[] = {
+      column<&FixCount::pairs>("pairs"),
+      column<&FixCount::nodes>("nodes", "Distinct secondary nodes or edges"),
+      column<&FixCount::untreated>(
+          "untreated", "Pairs that the solver leaves as they are, or at which it stops"),
+      column<&FixCount::on_surface>("on_surface", "Pairs at distance 0"),
+      column<&FixCount::deepest>("deepest")};
+  return {"count", "Initial penetrations; lengths in working units.", columns, true};
+}
+
+Record<FieldChange> record_of(const FieldChange*) {
+  static constexpr Column<FieldChange> columns[] = {
+      column<&FieldChange::field>("field"),
+      column<&FieldChange::old_text>("old_text", "As on the card; empty: blank"),
+      column<&FieldChange::new_text>("new_text"),
+      column<&FieldChange::old_value>("old_value", "Effective value, working units"),
+      column<&FieldChange::new_value>("new_value")};
+  return {"change", "", columns, true};
+}
+
+Record<NewlyTied> record_of(const NewlyTied*) {
+  static constexpr Column<NewlyTied> columns[] = {column<&NewlyTied::node>("node"),
+                                                  column<&NewlyTied::segment>("segment"),
+                                                  column<&NewlyTied::distance>("distance")};
+  return {"newly_tied", "", columns, true};
+}
+
+Record<FixedTie> record_of(const FixedTie*) {
+  using Row = FixedTie;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::id>("id"),
+      column<&Row::title>("title"),
+      column<&Row::reach>("reach", "How far its nodes may be, working units"),
+      column<&Row::before>("before"),
+      column<&Row::after>("after"),
+      column("needed", "Search distance that ties them; null: none are tied",
+             [](const Row& r) { return known(!r.nodes.empty(), r.needed); }),
+      column<&Row::nodes>("nodes", "Newly tied"),
+      column<&Row::changes>("changes")};
+  return {"fixed_tie", "A TYPE2 that loses nodes.", columns};
+}
+
+Record<FixedInterface> record_of(const FixedInterface*) {
+  static constexpr Column<FixedInterface> columns[] = {
+      column<&FixedInterface::id>("id"),       column<&FixedInterface::type>("type"),
+      column<&FixedInterface::title>("title"), column<&FixedInterface::before>("before"),
+      column<&FixedInterface::after>("after"), column<&FixedInterface::changes>("changes")};
+  return {"fixed_interface", "", columns};
+}
+
+Record<FixRefusal> record_of(const FixRefusal*) {
+  using Row = FixRefusal;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::interface_id>("interface"),
+      column<&Row::nodes>("nodes", "Secondary node or edge; empty: the interface as a whole"),
+      column<&Row::depth>("depth", "In the deck as it was read"),
+      column("distance", "tie: of a node from its nearest segment, working units",
+             [](const Row& r) { return known(r.distance > 0, r.distance); }),
+      column<&Row::reason>("reason"),
+      column("next",
+             "Command that goes on from here, without --interface; DECK stands for the deck",
+             [](const Row& r) { return known(!r.next.empty(), r.next); })};
+  return {"not_treated", "", columns, true};
+}
+
+Record<FixScore> record_of(const FixScore*) {
+  static constexpr Column<FixScore> columns[] = {
+      column<&FixScore::solved>("solved"), column<&FixScore::left>("left"),
+      column<&FixScore::not_treated>("not_treated"),
+      column<&FixScore::treated_already>("treated_already")};
+  return {"score", "Penetrations and untied nodes.", columns, true};
+}
+
+Record<MovedNode> record_of(const MovedNode*) {
+  using Row = MovedNode;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::id>("node"),
+      column("part", [](const Row& r) { return known(r.part != 0, r.part); }),
+      column<&Row::by>("by", "Working units"), column<&Row::distance>("distance")};
+  return {"moved_node", "", columns, true};
+}
+
+Record<FixAction> record_of(const FixAction*) {
+  static constexpr Column<FixAction> columns[] = {
+      column<&FixAction::interface_id>("interface"),
+      column<&FixAction::secondary>("secondary"),
+      column<&FixAction::main>("main"),
+      column<&FixAction::depth>("depth"),
+      column<&FixAction::gap>("gap"),
+      column<&FixAction::before>("before"),
+      column<&FixAction::after>("after"),
+      column<&FixAction::stops>("solver_stops"),
+      column<&FixAction::gap0>("gap_left", "Where the gap is reduced, else 0")};
+  return {"fix_action", "inacti, fpenmax: what the solver will do with each penetration.", columns,
+          true};
+}
+
 namespace {
 
-void write_ids(JsonWriter& j, std::string_view name, const std::vector<std::int64_t>& ids) {
-  j.key(name).begin_array(true);
-  for (const std::int64_t id : ids) j.value(id);
-  j.end_array();
+struct Crossings {
+  std::uint64_t before = 0, after = 0;
+};
+Record<Crossings> record_of(const Crossings*) {
+  static constexpr Column<Crossings> columns[] = {column<&Crossings::before>("before"),
+                                                  column<&Crossings::after>("after")};
+  return {"crossed", "Crossed elements.", columns, true};
+}
+Crossings crossings_of(const PenetrationFix& fix) {
+  return {fix.crossings_before, fix.crossings_after};
 }
 
-void write_vector(JsonWriter& j, std::string_view name, const std::array<double, 3>& v) {
-  j.key(name).begin_array(true);
-  for (const double d : v) j.value(d);
-  j.end_array();
+struct TiedRow {
+  std::uint64_t pairs = 0, nodes = 0;
+};
+Record<TiedRow> record_of(const TiedRow*) {
+  static constexpr Column<TiedRow> columns[] = {
+      column<&TiedRow::pairs>("pairs"), column<&TiedRow::nodes>("nodes", "Secondary nodes")};
+  return {"tied", "", columns, true};
 }
 
-void write_count(JsonWriter& j, std::string_view name, const FixCount& c) {
-  j.key(name).begin_object(true);
-  j.field("pairs", c.pairs).field("nodes", c.nodes).field("untreated", c.untreated);
-  j.field("on_surface", c.on_surface).field("deepest", c.deepest).end_object();
-}
-
-void write_changes(JsonWriter& j, const std::vector<FieldChange>& changes) {
-  j.key("changes").begin_array();
-  for (const FieldChange& c : changes) {
-    j.begin_object(true);
-    j.field("field", c.field).field("old_text", c.old_text).field("new_text", c.new_text);
-    j.field("old_value", c.old_value).field("new_value", c.new_value).end_object();
+struct StepRow {
+  const PenetrationFix* step = nullptr;
+  std::vector<std::int64_t> moved() const {
+    std::vector<std::int64_t> ids;
+    for (const MovedNode& m : step->moved) ids.push_back(m.id);
+    return ids;
   }
-  j.end_array();
+};
+Record<StepRow> record_of(const StepRow*) {
+  using Row = StepRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::step, &PenetrationFix::strategy>("strategy"),
+      column<&Row::step, &PenetrationFix::complete>("complete"),
+      column("crossings", [](const Row& r) { return crossings_of(*r.step); }),
+      column<&Row::step, &PenetrationFix::interfaces>("interfaces"),
+      column<&Row::step, &PenetrationFix::ties>("ties"),
+      column<&Row::moved>("moved", "Node ids"),
+      column("not_treated", "How many", [](const Row& r) { return r.step->refused.size(); }),
+      column("score", [](const Row& r) { return score_of(*r.step); })};
+  return {"step", "The result of one strategy.", columns};
 }
 
-void write_tie_counts(JsonWriter& j, std::string_view name, const TieCounts& n) {
-  j.key(name).begin_object(true).field("nodes", n.nodes).field("tied", n.tied);
-  j.field("not_found", n.not_found).field("dropped", n.dropped).field("elsewhere", n.elsewhere);
-  j.field("outside", n.outside).end_object();
-}
+struct FixDocument {
+  const LoadedDeck& loaded;
+  const PenetrationFix* fix = nullptr;
+  std::string_view written;
+  const std::vector<PenetrationFix>& steps;
+  Coverage coverage = coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties);
 
-void write_ties(JsonWriter& j, const PenetrationFix& fix) {
-  j.key("ties").begin_array();
-  for (const FixedTie& tie : fix.ties) {
-    j.begin_object().field("id", tie.id).field("title", tie.title).field("reach", tie.reach);
-    write_tie_counts(j, "before", tie.before);
-    write_tie_counts(j, "after", tie.after);
-    j.key("needed");
-    tie.nodes.empty() ? j.null() : j.value(tie.needed);
-    j.key("nodes").begin_array();
-    for (const NewlyTied& n : tie.nodes) {
-      j.begin_object(true).field("node", n.node);
-      write_ids(j, "segment", n.segment);
-      j.field("distance", n.distance).end_object();
-    }
-    j.end_array();
-    write_changes(j, tie.changes);
-    j.end_object();
+  IfAny<Rows<StepRow>> steps_if(bool wanted) const {
+    return if_any(wanted,
+                  rows_of(steps, [](const PenetrationFix& step) { return StepRow{&step}; }));
   }
-  j.end_array();
+};
+Record<FixDocument> record_of(const FixDocument*) {
+  using Row = FixDocument;
+  static constexpr Column<Row> columns[] = {
+      column("deck",
+             [](const Row& r) {
+               return DeckRow{r.loaded.path(), &r.loaded.deck(), nullptr, nullptr};
+             }),
+      column<&Row::coverage, &Coverage::examined>("examined",
+                                                  "Contacts and ties that are examined"),
+      column<&Row::coverage, &Coverage::not_examined>("not_examined",
+                                                      "Interfaces of other types, by keyword"),
+      column("verdict", "Of the deck as it was read",
+             [](const Row& r) { return verdict_of(r.loaded); }),
+      column("strategy",
+             "Several by commas, in their order; null: none was asked for, see proposals",
+             [](const Row& r) { return known(!r.fix->strategy.empty(), r.fix->strategy); }),
+      column<&Row::written>("written",
+                            "no, diff, in-place, or the directory the deck was written to"),
+      column<&Row::fix, &PenetrationFix::complete>("complete",
+                                                   "Nothing is left of what the strategy treats"),
+      column<&Row::fix, &PenetrationFix::iterations>("iterations"),
+      column("tied", "Ties (TYPE2, TYPE10) that stay as they are",
+             [](const Row& r) {
+               return TiedRow{r.fix->tied_pairs, r.fix->tied_nodes};
+             }),
+      column("crossings", [](const Row& r) { return crossings_of(*r.fix); }),
+      column<&Row::fix, &PenetrationFix::interfaces>("interfaces"),
+      column<&Row::fix, &PenetrationFix::ties>("ties", "The TYPE2 that lose nodes"),
+      column("proposals", "Without a strategy: what each would do on its own",
+             [](const Row& r) { return r.steps_if(r.fix->strategy.empty()); }),
+      column(
+          "steps", "Of several strategies what each did with what the one before left",
+          [](const Row& r) { return r.steps_if(!r.fix->strategy.empty() && r.steps.size() > 1); }),
+      column<&Row::fix, &PenetrationFix::moved>("moved"),
+      column<&Row::fix, &PenetrationFix::actions>("actions"),
+      column<&Row::fix, &PenetrationFix::refused>("not_treated")};
+  return {"document", "", columns};
 }
 
-void write_interface(JsonWriter& j, const FixedInterface& i) {
-  j.begin_object();
-  j.field("id", i.id).field("type", i.type).field("title", i.title);
-  write_count(j, "before", i.before);
-  write_count(j, "after", i.after);
-  write_changes(j, i.changes);
-  j.end_object();
-}
-
-void write_interfaces(JsonWriter& j, const PenetrationFix& fix) {
-  j.key("interfaces").begin_array();
-  for (const FixedInterface& i : fix.interfaces) write_interface(j, i);
-  j.end_array();
-}
-
-void write_crossings(JsonWriter& j, const PenetrationFix& fix) {
-  j.key("crossings").begin_object(true);
-  j.field("before", fix.crossings_before).field("after", fix.crossings_after).end_object();
-}
-
-/// What one strategy of several did.
-void write_step(JsonWriter& j, const PenetrationFix& step) {
-  j.begin_object().field("strategy", step.strategy).field("complete", step.complete);
-  write_crossings(j, step);
-  write_interfaces(j, step);
-  write_ties(j, step);
-  std::vector<std::int64_t> nodes;
-  for (const MovedNode& m : step.moved) nodes.push_back(m.id);
-  write_ids(j, "moved", nodes);
-  j.field("not_treated", step.refused.size());
-  const FixScore score = score_of(step);
-  j.key("score").begin_object(true).field("solved", score.solved).field("left", score.left);
-  j.field("not_treated", score.not_treated).field("treated_already", score.treated_already);
-  j.end_object().end_object();
-}
-
-void write_refused(JsonWriter& j, const PenetrationFix& fix) {
-  j.key("not_treated").begin_array();
-  for (const FixRefusal& r : fix.refused) {
-    j.begin_object(true).field("interface", r.interface_id);
-    write_ids(j, "nodes", r.nodes);
-    j.field("depth", r.depth).key("distance");
-    r.distance > 0 ? j.value(r.distance) : j.null();
-    j.field("reason", r.reason).key("next");
-    r.next.empty() ? j.null() : j.value(r.next);
-    j.end_object();
-  }
-  j.end_array();
-}
+constexpr DocumentHead head{"deck/fix", 1, "Written by deck fix --json."};
 
 }  // namespace
+
+DocumentSchema fix_schema() { return document_schema<FixDocument>(head); }
 
 std::string repair_json(const PenetrationFix& fix, std::string_view deck,
                         const std::vector<NextCommand>& next, std::string_view patch) {
   std::string out;
   JsonWriter j(out);
   j.begin_object().field("strategy", fix.strategy);
-  write_crossings(j, fix);
-  write_refused(j, fix);
+  write_value(j.key("crossings"), crossings_of(fix));
+  write_value(j.key("not_treated"), fix.refused);
   j.key("groups").begin_array();
   for (const RefusedGroup& g : refused_groups({fix}, deck))
     j.begin_object(true).field("text", g.text).field("command", g.command).end_object();
@@ -132,51 +226,7 @@ std::string repair_json(const PenetrationFix& fix, std::string_view deck,
 
 std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::string_view written,
                      const std::vector<PenetrationFix>& steps) {
-  std::string out;
-  JsonWriter j(out);
-  j.begin_object();
-  write_json_head(j, "deck/fix", 1);
-  write_json_deck(j, loaded.path(), loaded.deck(), nullptr, nullptr);
-  write_json_coverage(j,
-                      coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties));
-  write_verdict(j, verdict_of(loaded));
-  j.key("strategy");
-  fix.strategy.empty() ? j.null() : j.value(fix.strategy);
-  j.field("written", written).field("complete", fix.complete);
-  j.field("iterations", fix.iterations);
-  j.key("tied").begin_object(true).field("pairs", fix.tied_pairs);
-  j.field("nodes", fix.tied_nodes).end_object();
-  write_crossings(j, fix);
-  write_interfaces(j, fix);
-  write_ties(j, fix);
-  if (steps.size() > 1 || fix.strategy.empty()) {
-    j.key(fix.strategy.empty() ? "proposals" : "steps").begin_array();
-    for (const PenetrationFix& step : steps) write_step(j, step);
-    j.end_array();
-  }
-  j.key("moved").begin_array();
-  for (const MovedNode& m : fix.moved) {
-    j.begin_object(true).field("node", m.id).key("part");
-    m.part == 0 ? j.null() : j.value(m.part);
-    write_vector(j, "by", m.by);
-    j.field("distance", m.distance);
-    j.end_object();
-  }
-  j.end_array();
-  j.key("actions").begin_array();
-  for (const FixAction& a : fix.actions) {
-    j.begin_object(true).field("interface", a.interface_id);
-    write_ids(j, "secondary", a.secondary);
-    write_ids(j, "main", a.main);
-    j.field("depth", a.depth).field("gap", a.gap);
-    j.field("before", to_string(a.before)).field("after", to_string(a.after));
-    j.field("solver_stops", a.stops).field("gap_left", a.gap0).end_object();
-  }
-  j.end_array();
-  write_refused(j, fix);
-  j.end_object();
-  out += '\n';
-  return out;
+  return write_document(head, FixDocument{loaded, &fix, written, steps}) + '\n';
 }
 
 }  // namespace deck

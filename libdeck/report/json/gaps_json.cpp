@@ -59,35 +59,31 @@ struct SideRow {
   std::optional<double> nodal_stiffness = {};
   std::optional<std::string_view> kind = {};
 };
-const Record<SideRow>& record_of(const SideRow*) {
+Record<SideRow> record_of(const SideRow*) {
   using Row = SideRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("node", "", [](const Row& r) { return IfAny<std::int64_t>{r.node}; }),
-      column<Row>("nodes", "Of a segment; triangles repeat the last",
-                  [](const Row& r) { return IfAny<Ids4>{r.nodes}; }),
-      column<Row>("edge", "", [](const Row& r) { return IfAny<Ids2>{r.edge}; }),
+      column("node", [](const Row& r) { return IfAny<std::int64_t>{r.node}; }),
+      column("nodes", "Of a segment; triangles repeat the last",
+             [](const Row& r) { return IfAny<Ids4>{r.nodes}; }),
+      column("edge", [](const Row& r) { return IfAny<Ids2>{r.edge}; }),
       column<&SideRow::stiffness>("stiffness"),
       column<&SideRow::gap>("gap"),
-      column<Row>("nodal_stiffness", "Istf 2 to 5",
-                  [](const Row& r) { return IfAny<double>{r.nodal_stiffness}; }),
-      column<Row>("kind", "TYPE24 and TYPE25: solid, solid-flat, shell, shell-opposite, coat, ...",
-                  [](const Row& r) { return IfAny<std::string_view>{r.kind}; })};
-  static const Record<Row> record{"side", "A secondary node, main segment or edge (with --all).",
-                                  columns, true};
-  return record;
+      column("nodal_stiffness", "Istf 2 to 5",
+             [](const Row& r) { return IfAny<double>{r.nodal_stiffness}; }),
+      column("kind", "TYPE24 and TYPE25: solid, solid-flat, shell, shell-opposite, coat, ...",
+             [](const Row& r) { return IfAny<std::string_view>{r.kind}; })};
+  return {"side", "A secondary node, main segment or edge (with --all).", columns, true};
 }
 
 /// What the solver stores of two edges.
 struct SquaredRow {
   double penetration = 0, gap = 0;
 };
-const Record<SquaredRow>& record_of(const SquaredRow*) {
-  using Row = SquaredRow;
-  static constexpr Column<Row> columns[] = {
+Record<SquaredRow> record_of(const SquaredRow*) {
+  static constexpr Column<SquaredRow> columns[] = {
       column<&SquaredRow::penetration>("penetration", "Gap squared - distance"),
       column<&SquaredRow::gap>("gap", "Gap squared")};
-  static const Record<Row> record{"squared", "What the solver stores of two edges.", columns, true};
-  return record;
+  return {"squared", "What the solver stores of two edges.", columns, true};
 }
 
 struct PairRow {
@@ -95,79 +91,58 @@ struct PairRow {
   const Contact& contact;
   const PlacedRow* placed;
   const PenetrationRow* row;
-  bool edges() const { return contact.kind == ContactKind::edge_edge; }
-  const Model& model() const { return *document.scene.model; }
+  PairSides sides() const { return {document.scene.model, &contact, row->secondary, row->main}; }
 };
-const Record<PairRow>& record_of(const PairRow*) {
+Record<PairRow> record_of(const PairRow*) {
   using Row = PairRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("edge", "Secondary edge",
-                  [](const Row& r) {
-                    if (!r.edges()) return IfAny<Ids2>{};
-                    const ContactEdge& e = r.contact.secondary_edges[r.row->secondary];
-                    return IfAny<Ids2>{node_ids(r.model(), e.nodes)};
-                  }),
-      column<Row>("main_edge", "",
-                  [](const Row& r) {
-                    if (!r.edges()) return IfAny<Ids2>{};
-                    return IfAny<Ids2>{
-                        node_ids(r.model(), r.contact.main_edges[r.row->main].nodes)};
-                  }),
-      column<Row>("node", "Secondary node",
-                  [](const Row& r) {
-                    if (r.edges()) return IfAny<std::int64_t>{};
-                    return IfAny<std::int64_t>{
-                        r.model().node_id(r.contact.secondary[r.row->secondary].node)};
-                  }),
-      column<Row>("segment", "Main segment; triangles repeat the last node",
-                  [](const Row& r) {
-                    if (r.edges()) return IfAny<Ids4>{};
-                    return IfAny<Ids4>{node_ids(r.model(), r.contact.main[r.row->main].nodes)};
-                  }),
+      column<&Row::sides, &PairSides::edge>("edge", "Secondary edge"),
+      column<&Row::sides, &PairSides::main_edge>("main_edge"),
+      column<&Row::sides, &PairSides::node>("node", "Secondary node"),
+      column<&Row::sides, &PairSides::segment>("segment",
+                                               "Main segment; triangles repeat the last node"),
       column<&PairRow::row, &PenetrationRow::depth>("penetration",
                                                     "Pair gap - distance, of edges as of nodes"),
       column<&PairRow::row, &PenetrationRow::gap>("gap", "The pair gap"),
       column<&PairRow::row, &PenetrationRow::distance>("distance"),
-      column<Row>("solver", "",
-                  [](const Row& r) {
-                    const double squared = r.row->gap * r.row->gap;
-                    return if_any(r.edges(), SquaredRow{squared - r.row->distance, squared});
-                  }),
-      column<Row>("stored", "TYPE24 and TYPE25: the penetration that the solver keeps",
-                  [](const Row& r) { return if_any(is_modern(r.contact.type), r.row->p0); }),
-      column<Row>("normal", "Unit vector from main to secondary; zeros on the surface",
-                  [](const Row& r) { return Vector(r.row->normal); }),
+      column("solver",
+             [](const Row& r) {
+               const double squared = r.row->gap * r.row->gap;
+               return if_any(r.sides().edges(), SquaredRow{squared - r.row->distance, squared});
+             }),
+      column("stored", "TYPE24 and TYPE25: the penetration that the solver keeps",
+             [](const Row& r) { return if_any(is_modern(r.contact.type), r.row->p0); }),
+      column("normal", "Unit vector from main to secondary; zeros on the surface",
+             [](const Row& r) { return Vector(r.row->normal); }),
       column<&PairRow::row, &PenetrationRow::on_surface>("on_surface", "Exactly on the segment"),
       column<&PairRow::row, &PenetrationRow::in_contact>(
           "in_contact",
           "false (--accuracy robust): no nearer than its gap; only the round-off of the solver's "
           "formula makes it a penetration"),
       column<&PairRow::row, &PenetrationRow::action>("action", "What the solver does with it"),
-      column<Row>("gap0", "Gap left by Inacti 5 or 6",
-                  [](const Row& r) { return known(r.row->has_gap0, r.row->gap0); }),
-      column<Row>("p0", "", [](const Row& r) { return known(r.row->has_gap0, r.row->p0); }),
-      column<Row>("moved_by", "Inacti 3",
-                  [](const Row& r) {
-                    return known(r.row->action == PenetrationAction::node_moved,
-                                 Vector(r.row->moved_by));
-                  }),
+      column("gap0", "Gap left by Inacti 5 or 6",
+             [](const Row& r) { return known(r.row->has_gap0, r.row->gap0); }),
+      column("p0", [](const Row& r) { return known(r.row->has_gap0, r.row->p0); }),
+      column("moved_by", "Inacti 3",
+             [](const Row& r) {
+               return known(r.row->action == PenetrationAction::node_moved,
+                            Vector(r.row->moved_by));
+             }),
       column<&PairRow::placed, &PlacedRow::named, &NamedPenetration::at>(
           "at", "Secondary node, or closest point of the edge"),
-      column<Row>("secondary_element", "",
-                  [](const Row& r) {
-                    const ElementName& e = r.placed->named->secondary_element;
-                    return known(e.valid(), e);
-                  }),
-      column<Row>("main_element", "",
-                  [](const Row& r) {
-                    const ElementName& e = r.placed->named->main_element;
-                    return known(e.valid(), e);
-                  }),
-      column<Row>("source", "The line of the secondary node",
-                  [](const Row& r) { return place_of(r.document.deck, r.placed->span); })};
-  static const Record<Row> record{"penetration", "A pair that is nearer than its gap.", columns,
-                                  true};
-  return record;
+      column("secondary_element",
+             [](const Row& r) {
+               const ElementName& e = r.placed->named->secondary_element;
+               return known(e.valid(), e);
+             }),
+      column("main_element",
+             [](const Row& r) {
+               const ElementName& e = r.placed->named->main_element;
+               return known(e.valid(), e);
+             }),
+      column("source", "The line of the secondary node",
+             [](const Row& r) { return place_of(r.document.deck, r.placed->span); })};
+  return {"penetration", "A pair that is nearer than its gap.", columns, true};
 }
 
 struct ThroughRow {
@@ -175,23 +150,20 @@ struct ThroughRow {
   const Contact &contact, &edges;
   const EdgeThroughSegment* through;
 };
-const Record<ThroughRow>& record_of(const ThroughRow*) {
+Record<ThroughRow> record_of(const ThroughRow*) {
   using Row = ThroughRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("edge", "",
-                  [](const Row& r) {
-                    return node_ids(r.model, r.edges.main_edges[r.through->edge].nodes);
-                  }),
-      column<Row>(
-          "segment", "",
-          [](const Row& r) { return node_ids(r.model, r.contact.main[r.through->main].nodes); }),
+      column("edge",
+             [](const Row& r) {
+               return node_ids(r.model, r.edges.main_edges[r.through->edge].nodes);
+             }),
+      column("segment",
+             [](const Row& r) { return node_ids(r.model, r.contact.main[r.through->main].nodes); }),
       column<&ThroughRow::through, &EdgeThroughSegment::side>(
           "side", "1 to 4: from that corner of the segment to the next"),
       column<&ThroughRow::through, &EdgeThroughSegment::depth>("penetration")};
-  static const Record<Row> record{"edge_through_segment",
-                                  "An edge through a segment of a solid, beside one of its sides.",
-                                  columns, true};
-  return record;
+  return {"edge_through_segment", "An edge through a segment of a solid, beside one of its sides.",
+          columns, true};
 }
 
 struct CrossingRow {
@@ -199,30 +171,26 @@ struct CrossingRow {
   const Crossing& crossing;
   ElementName edge, segment;
 };
-const Record<CrossingRow>& record_of(const CrossingRow*) {
+Record<CrossingRow> record_of(const CrossingRow*) {
   using Row = CrossingRow;
   using Id = std::optional<std::int64_t>;
   static constexpr Column<Row> columns[] = {
-      column<Row>("edge", "",
-                  [](const Row& r) { return node_ids(*r.scene.model, r.crossing.edge); }),
-      column<Row>("segment", "",
-                  [](const Row& r) {
-                    const Contact& c = r.scene.contacts[r.crossing.contact];
-                    return node_ids(*r.scene.model, c.main[r.crossing.main].nodes);
-                  }),
-      column<Row>("edge_element", "",
-                  [](const Row& r) { return known(r.edge.valid(), r.edge.id); }),
-      column<Row>("segment_element", "",
-                  [](const Row& r) { return known(r.segment.valid(), r.segment.id); }),
-      column<Row>("parts", "Of edge and segment", [](const Row& r) {
+      column("edge", [](const Row& r) { return node_ids(*r.scene.model, r.crossing.edge); }),
+      column("segment",
+             [](const Row& r) {
+               const Contact& c = r.scene.contacts[r.crossing.contact];
+               return node_ids(*r.scene.model, c.main[r.crossing.main].nodes);
+             }),
+      column("edge_element", [](const Row& r) { return known(r.edge.valid(), r.edge.id); }),
+      column("segment_element",
+             [](const Row& r) { return known(r.segment.valid(), r.segment.id); }),
+      column("parts", "Of edge and segment", [](const Row& r) {
         return std::array<Id, 2>{known(r.edge.valid(), r.edge.part),
                                  known(r.segment.valid(), r.segment.part)};
       })};
-  static const Record<Row> record{
-      "crossing",
-      "An edge of a secondary element that passes through a main segment (with --crossings).",
-      columns, true};
-  return record;
+  return {"crossing",
+          "An edge of a secondary element that passes through a main segment (with --crossings).",
+          columns, true};
 }
 
 struct ContactRow {
@@ -235,9 +203,9 @@ struct ContactRow {
   bool of_nodes() const { return contact().kind == ContactKind::node_segment; }
 
   Rows<PairRow> pairs(const Contact& c, const PlacedRows& rows) const {
-    return {[&document = document, &c, &rows](const auto& add) {
-      for (const PlacedRow& r : rows) add({document, c, &r, &c.penetrations[r.named->row]});
-    }};
+    return rows_of(rows, [&document = document, &c](const PlacedRow& r) {
+      return PairRow{document, c, &r, &c.penetrations[r.named->row]};
+    });
   }
   SideRow side(const ContactEdge& e) const {
     return {.edge = node_ids(model(), e.nodes), .stiffness = e.stiffness, .gap = e.gap};
@@ -280,23 +248,22 @@ void each_modern_edge(const ContactRow& r, const std::function<void(const SideRo
   }
 }
 
-const Record<ContactRow>& record_of(const ContactRow*) {
+Record<ContactRow> record_of(const ContactRow*) {
   using Row = ContactRow;
   static constexpr Column<Row> columns[] = {
       column<&ContactRow::contact, &Contact::kind>("kind"),
       column<&ContactRow::contact, &Contact::role>(
           "role", "primary: all of it but the contacts that TYPE19 adds"),
-      column<Row>("igap", "",
-                  [](const Row& r) { return r.contact().igap == 0 ? 1000 : r.contact().igap; }),
+      column("igap", [](const Row& r) { return r.contact().igap == 0 ? 1000 : r.contact().igap; }),
       column<&ContactRow::contact, &Contact::gapmin>("gapmin"),
       column<&ContactRow::contact, &Contact::gapmax>("gapmax"),
       column<&ContactRow::contact, &Contact::drad>("drad"),
-      column<Row>("gapmin_origin", "card or derived",
-                  [](const Row& r) {
-                    return r.contact().gapmin_origin == GapminOrigin::card ? "card" : "derived";
-                  }),
-      column<Row>("gapmin_from", "How Gapmin was derived",
-                  [](const Row& r) { return to_string(r.contact().gapmin_origin); }),
+      column("gapmin_origin", "card or derived",
+             [](const Row& r) {
+               return r.contact().gapmin_origin == GapminOrigin::card ? "card" : "derived";
+             }),
+      column("gapmin_from", "How Gapmin was derived",
+             [](const Row& r) { return to_string(r.contact().gapmin_origin); }),
       column<&ContactRow::contact, &Contact::inacti>("inacti"),
       column<&ContactRow::contact, &Contact::candidates>("candidates",
                                                          "Pairs within gap and margin"),
@@ -304,81 +271,79 @@ const Record<ContactRow>& record_of(const ContactRow*) {
           "evaluated",
           "false: too many pairs, or coordinates that are not numbers; whether anything penetrates "
           "is not known"),
-      column<Row>("obstacle",
-                  "Why a contact with 0 penetrations is not reported as clean: empty_main, "
-                  "empty_secondary, no_gap, no_area, no_element or no_stiffness",
-                  [](const Row& r) {
-                    const Obstacle o = obstacle_of(r.contact());
-                    return known(o != Obstacle::none, to_string(o));
-                  }),
+      column("obstacle",
+             "Why a contact with 0 penetrations is not reported as clean: empty_main, "
+             "empty_secondary, no_gap, no_area, no_element or no_stiffness",
+             [](const Row& r) {
+               const Obstacle o = obstacle_of(r.contact());
+               return known(o != Obstacle::none, to_string(o));
+             }),
       column<&ContactRow::contact, &Contact::removed_pairs>("removed_pairs",
                                                             "Taken out by Irem_gap 2"),
       column<&ContactRow::contact, &Contact::max_gap>(
           "max_gap", "Largest pair gap that the solver's search expects"),
       column<&ContactRow::contact, &Contact::shortest_side>("shortest_main_side"),
-      column<Row>("totals", "", [](const Row& r) { return r.document.view.contacts[r.index]; }),
-      column<Row>("secondary", "With --all",
-                  [](const Row& r) {
-                    return if_any(r.document.all,
-                                  Rows<SideRow>{[&r](const auto& add) { each_secondary(r, add); }});
-                  }),
-      column<Row>("main", "With --all",
-                  [](const Row& r) {
-                    return if_any(r.document.all,
-                                  Rows<SideRow>{[&r](const auto& add) { each_main(r, add); }});
-                  }),
-      column<Row>("edges", "With --all: TYPE24 and TYPE25",
-                  [](const Row& r) {
-                    return if_any(
-                        r.document.all && r.modern(),
-                        Rows<SideRow>{[&r](const auto& add) { each_modern_edge(r, add); }});
-                  }),
-      column<Row>("penetrations", "Without ties",
-                  [](const Row& r) {
-                    const Contact& c = r.contact();
-                    return r.pairs(c, c.ties() ? r.document.none : r.document.rows[r.index]);
-                  }),
-      column<Row>("tied_pairs",
-                  "TYPE10: the pairs that it ties; the solver lists them as penetrations",
-                  [](const Row& r) {
-                    const Contact& c = r.contact();
-                    return if_any(c.ties(), r.pairs(c, r.document.rows[r.index]));
-                  }),
-      column<Row>("untied_nodes", "TYPE10: nodes that it does not tie",
-                  [](const Row& r) {
-                    const Contact& c = r.contact();
-                    std::vector<std::int64_t> ids;
-                    if (c.ties())
-                      for (const std::uint32_t s : untied_secondary(c))
-                        ids.push_back(r.model().node_id(c.secondary[s].node));
-                    return if_any(c.ties(), ids);
-                  }),
-      column<Row>("edges_evaluated",
-                  "TYPE24 and TYPE25 with Iedge; false: with Igap 2, edges against faces of solids "
-                  "or points on edges were not evaluated",
-                  [](const Row& r) {
-                    return if_any(r.edges != nullptr, r.edges != nullptr && r.edges->evaluated);
-                  }),
-      column<Row>("edge_totals", "TYPE25 with Iedge: of edge_penetrations",
-                  [](const Row& r) {
-                    return r.edges == nullptr
-                               ? IfAny<ContactTotals>{}
-                               : IfAny<ContactTotals>{r.document.view.contacts[r.index + 1]};
-                  }),
-      column<Row>("edge_penetrations", "TYPE25 with Iedge",
-                  [](const Row& r) {
-                    return r.edges == nullptr ? IfAny<Rows<PairRow>>{}
-                                              : IfAny<Rows<PairRow>>{r.pairs(
-                                                    *r.edges, r.document.rows[r.index + 1])};
-                  }),
-      column<Row>("edge_solid_penetrations", "TYPE25 with Iedge of two digits",
-                  [](const Row& r) {
-                    return if_any(r.edges != nullptr, Rows<ThroughRow>{[&r](const auto& add) {
-                                    for (const auto& e : r.edges->edges_through_segments)
-                                      add({r.model(), r.contact(), *r.edges, &e});
-                                  }});
-                  }),
-      column<Row>("crossings", "With --crossings", [](const Row& r) {
+      column("totals", [](const Row& r) { return r.document.view.contacts[r.index]; }),
+      column("secondary", "With --all",
+             [](const Row& r) {
+               return if_any(r.document.all,
+                             Rows<SideRow>{[&r](const auto& add) { each_secondary(r, add); }});
+             }),
+      column("main", "With --all",
+             [](const Row& r) {
+               return if_any(r.document.all,
+                             Rows<SideRow>{[&r](const auto& add) { each_main(r, add); }});
+             }),
+      column("edges", "With --all: TYPE24 and TYPE25",
+             [](const Row& r) {
+               return if_any(r.document.all && r.modern(),
+                             Rows<SideRow>{[&r](const auto& add) { each_modern_edge(r, add); }});
+             }),
+      column("penetrations", "Without ties",
+             [](const Row& r) {
+               const Contact& c = r.contact();
+               return r.pairs(c, c.ties() ? r.document.none : r.document.rows[r.index]);
+             }),
+      column("tied_pairs", "TYPE10: the pairs that it ties; the solver lists them as penetrations",
+             [](const Row& r) {
+               const Contact& c = r.contact();
+               return if_any(c.ties(), r.pairs(c, r.document.rows[r.index]));
+             }),
+      column("untied_nodes", "TYPE10: nodes that it does not tie",
+             [](const Row& r) {
+               const Contact& c = r.contact();
+               std::vector<std::int64_t> ids;
+               if (c.ties())
+                 for (const std::uint32_t s : untied_secondary(c))
+                   ids.push_back(r.model().node_id(c.secondary[s].node));
+               return if_any(c.ties(), ids);
+             }),
+      column("edges_evaluated",
+             "TYPE24 and TYPE25 with Iedge; false: with Igap 2, edges against faces of solids or "
+             "points on edges were not evaluated",
+             [](const Row& r) {
+               return if_any(r.edges != nullptr, r.edges != nullptr && r.edges->evaluated);
+             }),
+      column("edge_totals", "TYPE25 with Iedge: of edge_penetrations",
+             [](const Row& r) {
+               return r.edges == nullptr
+                          ? IfAny<ContactTotals>{}
+                          : IfAny<ContactTotals>{r.document.view.contacts[r.index + 1]};
+             }),
+      column("edge_penetrations", "TYPE25 with Iedge",
+             [](const Row& r) {
+               return r.edges == nullptr
+                          ? IfAny<Rows<PairRow>>{}
+                          : IfAny<Rows<PairRow>>{r.pairs(*r.edges, r.document.rows[r.index + 1])};
+             }),
+      column("edge_solid_penetrations", "TYPE25 with Iedge of two digits",
+             [](const Row& r) {
+               return if_any(r.edges != nullptr, Rows<ThroughRow>{[&r](const auto& add) {
+                               for (const auto& e : r.edges->edges_through_segments)
+                                 add({r.model(), r.contact(), *r.edges, &e});
+                             }});
+             }),
+      column("crossings", "With --crossings", [](const Row& r) {
         return if_any(
             r.document.crossings != nullptr, Rows<CrossingRow>{[&r](const auto& add) {
               const Scene& scene = r.document.scene;
@@ -387,8 +352,7 @@ const Record<ContactRow>& record_of(const ContactRow*) {
                   add({scene, x, edge_element(*scene.model, x), segment_element(scene, x)});
             }});
       })};
-  static const Record<Row> record{"contact", "", columns};
-  return record;
+  return {"contact", "", columns};
 }
 
 struct InterfaceRow {
@@ -411,14 +375,13 @@ void each_contact(const InterfaceRow& r, const std::function<void(const ContactR
     }
 }
 
-const Record<InterfaceRow>& record_of(const InterfaceRow*) {
+Record<InterfaceRow> record_of(const InterfaceRow*) {
   using Row = InterfaceRow;
   static constexpr Column<Row> columns[] = {
       column<&InterfaceRow::inter, &InterBase::id>("id"),
       column<&InterfaceRow::inter, &InterBase::type>("type", "7, 10, 11, 19, 24 or 25"),
       column<&InterfaceRow::inter, &InterBase::title>("title"),
-      column<Row>("source", "",
-                  [](const Row& r) { return place_of(r.document.deck, r.inter->span); }),
+      column("source", [](const Row& r) { return place_of(r.document.deck, r.inter->span); }),
       column<&InterfaceRow::verdict, &InterfaceVerdict::level>(
           "level",
           "What the verdict would be if the deck held this interface alone and had no other "
@@ -426,65 +389,49 @@ const Record<InterfaceRow>& record_of(const InterfaceRow*) {
       column<&InterfaceRow::verdict, &InterfaceVerdict::max_depth>("max_depth", "Of its contacts"),
       column<&InterfaceRow::verdict, &InterfaceVerdict::max_ratio>("max_ratio",
                                                                    "Of its contacts: depth to gap"),
-      column<Row>("contacts", "", [](const Row& r) {
+      column("contacts", [](const Row& r) {
         return Rows<ContactRow>{[&r](const auto& add) { each_contact(r, add); }};
       })};
-  static const Record<Row> record{"interface", "", columns};
-  return record;
+  return {"interface", "", columns};
 }
 
-const Record<GapsDocument>& record_of(const GapsDocument*) {
+Record<GapsDocument> record_of(const GapsDocument*) {
   using Row = GapsDocument;
   static constexpr Column<Row> columns[] = {
-      column<Row>("deck", "",
-                  [](const Row& r) {
-                    return DeckRow{r.path, &r.deck, r.scene.model, r.scene.interfaces};
-                  }),
-      column<Row>("verdict", "", [](const Row& r) { return verdict_of(r.deck, r.scene, r.view); }),
-      column<Row>("summary", "Of all contacts", [](const Row& r) { return r.view.total; }),
-      column<Row>("gate", "null: no bounds were given",
-                  [](const Row& r) {
-                    return if_any(r.gate != nullptr, known(r.gate != nullptr && r.gate->asked,
-                                                           GateRow{&r.deck, r.gate}));
-                  }),
-      column<Row>("compared", "null: nothing was compared",
-                  [](const Row& r) {
-                    return if_any(r.gate != nullptr,
-                                  known(r.gate != nullptr && r.gate->earlier != nullptr,
-                                        ComparedRow{&r.scene, &r.view, r.gate}));
-                  }),
-      column<Row>("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25",
-                  [](const Row& r) {
-                    return coverage_of(r.deck, *r.scene.interfaces, r.scene.examined).examined;
-                  }),
-      column<Row>("not_examined", "Interfaces of other types, by keyword",
-                  [](const Row& r) {
-                    return Rows<NotExamined>{[&r](const auto& add) {
-                      const Coverage c = coverage_of(r.deck, *r.scene.interfaces, r.scene.examined);
-                      for (const NotExamined& n : c.not_examined) add(n);
-                    }};
-                  }),
-      column<Row>("accuracy", "", [](const Row& r) { return DecisionsRow{&r.scene}; }),
-      column<Row>("part_pairs", "Deepest first",
-                  [](const Row& r) {
-                    return Rows<PartPair>{[&r](const auto& add) {
-                      for (const PartPair& p : r.view.part_pairs) add(p);
-                    }};
-                  }),
-      column<Row>("interfaces", "",
-                  [](const Row& r) {
-                    return Rows<InterfaceRow>{[&r](const auto& add) {
-                      for (const InterBase* inter : r.scene.interfaces->ordered)
-                        add({r, inter, verdict_of_interface(r.scene, r.view, *inter)});
-                    }};
-                  }),
-      column<Row>("ties", "Every /INTER/TYPE2", [](const Row& r) {
-        return Rows<TieRow>{[&r](const auto& add) {
-          for (const Tie& tie : r.scene.ties) add({*r.scene.model, &tie, r.all});
-        }};
+      column("deck",
+             [](const Row& r) {
+               return DeckRow{r.path, &r.deck, r.scene.model, r.scene.interfaces};
+             }),
+      column("verdict", [](const Row& r) { return verdict_of(r.deck, r.scene, r.view); }),
+      column("summary", "Of all contacts", [](const Row& r) { return r.view.total; }),
+      column("gate", "null: no bounds were given",
+             [](const Row& r) { return gate_of(r.deck, r.gate); }),
+      column("compared", "null: nothing was compared",
+             [](const Row& r) { return comparison_of(r.scene, r.view, r.gate); }),
+      column("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25",
+             [](const Row& r) {
+               return coverage_of(r.deck, *r.scene.interfaces, r.scene.examined).examined;
+             }),
+      column("not_examined", "Interfaces of other types, by keyword",
+             [](const Row& r) {
+               return rows_of(
+                   coverage_of(r.deck, *r.scene.interfaces, r.scene.examined).not_examined);
+             }),
+      column("accuracy", [](const Row& r) { return DecisionsRow{&r.scene}; }),
+      column("part_pairs", "Deepest first",
+             [](const Row& r) { return rows_of(r.view.part_pairs); }),
+      column("interfaces",
+             [](const Row& r) {
+               return rows_of(r.scene.interfaces->ordered, [&r](const InterBase* inter) {
+                 return InterfaceRow{r, inter, verdict_of_interface(r.scene, r.view, *inter)};
+               });
+             }),
+      column("ties", "Every /INTER/TYPE2", [](const Row& r) {
+        return rows_of(r.scene.ties, [&r](const Tie& tie) {
+          return TieRow{*r.scene.model, &tie, r.all};
+        });
       })};
-  static const Record<Row> record{"document", "", columns};
-  return record;
+  return {"document", "", columns};
 }
 
 constexpr DocumentHead head{
@@ -494,9 +441,8 @@ constexpr DocumentHead head{
 
 }  // namespace
 
-const Record<PartPair>& record_of(const PartPair*) {
-  using Row = PartPair;
-  static constexpr Column<Row> columns[] = {
+Record<PartPair> record_of(const PartPair*) {
+  static constexpr Column<PartPair> columns[] = {
       column<&PartPair::secondary>("secondary", "Part id; 0: no part"),
       column<&PartPair::main>("main"),
       column<&PartPair::count, &ItemCounts::pairs>("pairs"),
@@ -507,8 +453,7 @@ const Record<PartPair>& record_of(const PartPair*) {
       column<&PartPair::mean_depth>("mean_depth"),
       column<&PartPair::p95_depth>("p95_depth"),
       column<&PartPair::max_ratio>("max_ratio", "Depth to gap")};
-  static const Record<Row> record{"part_pair", "Penetrations between two parts.", columns, true};
-  return record;
+  return {"part_pair", "Penetrations between two parts.", columns, true};
 }
 
 DocumentSchema gaps_schema() { return document_schema<GapsDocument>(head); }

@@ -21,62 +21,56 @@ struct GateDocument {
 struct Compared {
   const GateReport* gate = nullptr;
 };
-const Record<Compared>& record_of(const Compared*) {
+Record<Compared> record_of(const Compared*) {
   using Row = Compared;
   static constexpr Column<Row> columns[] = {
       column<&Row::gate, &GateReport::earlier, &EarlierGaps::path>("with"),
       column<&Row::gate, &GateReport::earlier, &EarlierGaps::deck_path>("deck"),
-      column<Row>("new", "", [](const Row& r) { return r.gate->comparison.count(Trend::fresh); }),
-      column<Row>("worse", "", [](const Row& r) { return r.gate->comparison.count(Trend::worse); }),
-      column<Row>("better", "",
-                  [](const Row& r) { return r.gate->comparison.count(Trend::better); }),
-      column<Row>("same", "", [](const Row& r) { return r.gate->comparison.count(Trend::same); }),
-      column<Row>("solved", "", [](const Row& r) { return r.gate->comparison.solved.size(); })};
-  static const Record<Row> record{
-      "compared", "Nodes and edges, each by its deepest pair, against the earlier document.",
-      columns, true};
-  return record;
+      column("new", [](const Row& r) { return r.gate->comparison.count(Trend::fresh); }),
+      column("worse", [](const Row& r) { return r.gate->comparison.count(Trend::worse); }),
+      column("better", [](const Row& r) { return r.gate->comparison.count(Trend::better); }),
+      column("same", [](const Row& r) { return r.gate->comparison.count(Trend::same); }),
+      column("solved", [](const Row& r) { return r.gate->comparison.solved.size(); })};
+  return {"compared", "Nodes and edges, each by its deepest pair, against the earlier document.",
+          columns, true};
 }
 
 struct Summary {
   const LintResult* result = nullptr;
 };
-const Record<Summary>& record_of(const Summary*) {
-  using Row = Summary;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::result, &LintResult::errors>("errors"),
-      column<&Row::result, &LintResult::warnings>("warnings"),
-      column<&Row::result, &LintResult::infos>("infos"),
-      column<&Row::result, &LintResult::baselined>("baselined", "Known from the baseline")};
-  static const Record<Row> record{"summary", "Findings of lint.", columns, true};
-  return record;
+Record<Summary> record_of(const Summary*) {
+  static constexpr Column<Summary> columns[] = {
+      column<&Summary::result, &LintResult::errors>("errors"),
+      column<&Summary::result, &LintResult::warnings>("warnings"),
+      column<&Summary::result, &LintResult::infos>("infos"),
+      column<&Summary::result, &LintResult::baselined>("baselined", "Known from the baseline")};
+  return {"summary", "Findings of lint.", columns, true};
 }
 
-const Record<GateDocument>& record_of(const GateDocument*) {
+Record<GateDocument> record_of(const GateDocument*) {
   using Row = GateDocument;
   static constexpr Column<Row> columns[] = {
-      column<Row>("deck", "",
-                  [](const Row& r) {
-                    return DeckRow{r.linted->path, r.linted->deck, nullptr, nullptr};
-                  }),
-      column<Row>("verdict", "",
-                  [](const Row& r) {
-                    return r.linted->verdict ? *r.linted->verdict : lint_verdict(*r.linted);
-                  }),
+      column("deck",
+             [](const Row& r) {
+               return DeckRow{r.linted->path, r.linted->deck, nullptr, nullptr};
+             }),
+      column("verdict",
+             [](const Row& r) {
+               return r.linted->verdict ? *r.linted->verdict : lint_verdict(*r.linted);
+             }),
       column<&Row::passed>("passed"),
       column<&Row::gate, &GateReport::undecided>("undecided",
                                                  "Contacts that could not be evaluated"),
-      column<Row>("findings", "Those that fail the gate",
-                  [](const Row& r) {
-                    return Rows<GateFinding>{[&r](const auto& add) {
-                      for (const Diagnostic* d : *r.stops) add({r.linted->deck, d});
-                    }};
-                  }),
-      column<Row>("compared", "null: nothing was compared",
-                  [](const Row& r) { return known(r.gate->earlier != nullptr, Compared{r.gate}); }),
-      column<Row>("summary", "", [](const Row& r) { return Summary{r.linted->result}; })};
-  static const Record<Row> record{"document", "", columns};
-  return record;
+      column("findings", "Those that fail the gate",
+             [](const Row& r) {
+               return Rows<GateFinding>{[&r](const auto& add) {
+                 for (const Diagnostic* d : *r.stops) add({r.linted->deck, d});
+               }};
+             }),
+      column("compared", "null: nothing was compared",
+             [](const Row& r) { return known(r.gate->earlier != nullptr, Compared{r.gate}); }),
+      column("summary", [](const Row& r) { return Summary{r.linted->result}; })};
+  return {"document", "", columns};
 }
 
 constexpr DocumentHead head{"deck/gate", 1, "Written by deck gate --json."};

@@ -35,16 +35,14 @@ struct ListingDocument {
 struct ListingRow {
   const Listing* listing = nullptr;
 };
-const Record<ListingRow>& record_of(const ListingRow*) {
-  using Row = ListingRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::listing, &Listing::path>("path"),
-      column<&Row::listing, &Listing::printout>("printout",
-                                                "/IOFLAG Ipri: pairs from 1 on, depths from 5 on"),
-      column<&Row::listing, &Listing::errors>("errors", "From its end; null: it has no end"),
-      column<&Row::listing, &Listing::warnings>("warnings")};
-  static const Record<Row> record{"listing", "", columns, true};
-  return record;
+Record<ListingRow> record_of(const ListingRow*) {
+  static constexpr Column<ListingRow> columns[] = {
+      column<&ListingRow::listing, &Listing::path>("path"),
+      column<&ListingRow::listing, &Listing::printout>(
+          "printout", "/IOFLAG Ipri: pairs from 1 on, depths from 5 on"),
+      column<&ListingRow::listing, &Listing::errors>("errors", "From its end; null: it has no end"),
+      column<&ListingRow::listing, &Listing::warnings>("warnings")};
+  return {"listing", "", columns, true};
 }
 
 struct FindingOfListing {
@@ -53,15 +51,14 @@ struct FindingOfListing {
   std::string_view rule() const { return id_text(d->rule); }
   std::optional<Place> place() const { return document->place(d->span); }
 };
-const Record<FindingOfListing>& record_of(const FindingOfListing*) {
+Record<FindingOfListing> record_of(const FindingOfListing*) {
   using Row = FindingOfListing;
   static constexpr Column<Row> columns[] = {
       column<&Row::rule>("rule"), column<&Row::d, &Diagnostic::severity>("severity"),
       column<&Row::d, &Diagnostic::message>("message"),
-      column<Row>("reference", "", [](const Row& r) { return *r.d->reference; }),
+      column("reference", [](const Row& r) { return *r.d->reference; }),
       column<&Row::place>("place")};
-  static const Record<Row> record{"finding", "A finding of deck lint.", columns, true};
-  return record;
+  return {"finding", "A finding of deck lint.", columns, true};
 }
 
 Rows<FindingOfListing> findings(const ListingDocument* document,
@@ -77,45 +74,41 @@ struct PlaceRow {
   std::optional<Place> place() const { return document->place(at->span); }
   Rows<FindingOfListing> own_findings() const { return findings(document, at->findings); }
 };
-const Record<PlaceRow>& record_of(const PlaceRow*) {
-  using Row = PlaceRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::at, &MessagePlace::name>("name", "What the message is about; may be empty"),
-      column<&Row::at, &MessagePlace::id>("id", "0: it names nothing"),
-      column<&Row::at, &MessagePlace::times>("times"),
-      column<&Row::at, &MessagePlace::counted>(
+Record<PlaceRow> record_of(const PlaceRow*) {
+  static constexpr Column<PlaceRow> columns[] = {
+      column<&PlaceRow::at, &MessagePlace::name>("name", "What the message is about; may be empty"),
+      column<&PlaceRow::at, &MessagePlace::id>("id", "0: it names nothing"),
+      column<&PlaceRow::at, &MessagePlace::times>("times"),
+      column<&PlaceRow::at, &MessagePlace::counted>(
           "says", "Numbers that its messages show, such as of penetrations, each once"),
-      column<&Row::place>("place"),
-      column<&Row::at, &MessagePlace::nodes>("nodes"),
-      column<&Row::at, &MessagePlace::lines>("lines", "Lines of the listing"),
-      column<&Row::own_findings>("findings")};
-  static const Record<Row> record{"message_place", "", columns};
-  return record;
+      column<&PlaceRow::place>("place"),
+      column<&PlaceRow::at, &MessagePlace::nodes>("nodes"),
+      column<&PlaceRow::at, &MessagePlace::lines>("lines", "Lines of the listing"),
+      column<&PlaceRow::own_findings>("findings")};
+  return {"message_place", "", columns};
 }
 
 struct MessageRow {
   const ListingDocument* document = nullptr;
   const MessageGroup* group = nullptr;
   Rows<PlaceRow> places() const {
-    return {[this](const auto& add) {
-      for (const MessagePlace& place : group->places) add({document, &place});
-    }};
+    return rows_of(group->places, [this](const MessagePlace& place) {
+      return PlaceRow{document, &place};
+    });
   }
   Rows<FindingOfListing> own_findings() const { return findings(document, group->findings); }
 };
-const Record<MessageRow>& record_of(const MessageRow*) {
-  using Row = MessageRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::group, &MessageGroup::number>("message"),
-      column<&Row::group, &MessageGroup::severity>("severity"),
-      column<&Row::group, &MessageGroup::times>("times"),
-      column<&Row::group, &MessageGroup::title>("title"),
-      column<&Row::group, &MessageGroup::means>("means"),
-      column<&Row::group, &MessageGroup::action>("do"),
-      column<&Row::places>("places"),
-      column<&Row::own_findings>("findings", "With the same message, about something else")};
-  static const Record<Row> record{"message", "", columns};
-  return record;
+Record<MessageRow> record_of(const MessageRow*) {
+  static constexpr Column<MessageRow> columns[] = {
+      column<&MessageRow::group, &MessageGroup::number>("message"),
+      column<&MessageRow::group, &MessageGroup::severity>("severity"),
+      column<&MessageRow::group, &MessageGroup::times>("times"),
+      column<&MessageRow::group, &MessageGroup::title>("title"),
+      column<&MessageRow::group, &MessageGroup::means>("means"),
+      column<&MessageRow::group, &MessageGroup::action>("do"),
+      column<&MessageRow::places>("places"),
+      column<&MessageRow::own_findings>("findings", "With the same message, about something else")};
+  return {"message", "", columns};
 }
 
 struct PairOfListing {
@@ -129,19 +122,17 @@ struct PairOfListing {
   }
   std::optional<bool> listed() const { return known(contact->by_pair, pair->listed); }
 };
-const Record<PairOfListing>& record_of(const PairOfListing*) {
-  using Row = PairOfListing;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::secondary>("secondary", "A node, or the two of an edge"),
-      column<&Row::main>("main"),
-      column<&Row::parts>("parts", "Of the secondary and of the main side; 0: none"),
-      column<&Row::row, &PenetrationRow::depth>("penetration"),
-      column<&Row::row, &PenetrationRow::gap>("gap"),
-      column<&Row::row, &PenetrationRow::action>("action"),
-      column<&Row::listed>("listed", "null: the listing does not show pairs"),
-      column<&Row::pair, &ComparedPair::listed_depth>("listed_penetration")};
-  static const Record<Row> record{"pair", "", columns, true};
-  return record;
+Record<PairOfListing> record_of(const PairOfListing*) {
+  static constexpr Column<PairOfListing> columns[] = {
+      column<&PairOfListing::secondary>("secondary", "A node, or the two of an edge"),
+      column<&PairOfListing::main>("main"),
+      column<&PairOfListing::parts>("parts", "Of the secondary and of the main side; 0: none"),
+      column<&PairOfListing::row, &PenetrationRow::depth>("penetration"),
+      column<&PairOfListing::row, &PenetrationRow::gap>("gap"),
+      column<&PairOfListing::row, &PenetrationRow::action>("action"),
+      column<&PairOfListing::listed>("listed", "null: the listing does not show pairs"),
+      column<&PairOfListing::pair, &ComparedPair::listed_depth>("listed_penetration")};
+  return {"pair", "", columns, true};
 }
 
 struct ListedOnly {
@@ -149,14 +140,11 @@ struct ListedOnly {
   Ids secondary() const { return ids_of(pair->secondary); }
   Ids main() const { return ids_of(pair->main); }
 };
-const Record<ListedOnly>& record_of(const ListedOnly*) {
-  using Row = ListedOnly;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::secondary>("secondary"), column<&Row::main>("main"),
-      column<&Row::pair, &ListedPair::depth>("listed_penetration")};
-  static const Record<Row> record{"listed_pair", "A pair that only the listing has.", columns,
-                                  true};
-  return record;
+Record<ListedOnly> record_of(const ListedOnly*) {
+  static constexpr Column<ListedOnly> columns[] = {
+      column<&ListedOnly::secondary>("secondary"), column<&ListedOnly::main>("main"),
+      column<&ListedOnly::pair, &ListedPair::depth>("listed_penetration")};
+  return {"listed_pair", "A pair that only the listing has.", columns, true};
 }
 
 struct ContactOfListing {
@@ -174,35 +162,33 @@ struct ContactOfListing {
     return out;
   }
   Rows<PairOfListing> pairs() const {
-    return {[this](const auto& add) {
-      for (const ComparedPair& p : c->pairs) add({c, &p, &contact->penetrations[p.pair.row]});
-    }};
+    return rows_of(c->pairs, [this](const ComparedPair& p) {
+      return PairOfListing{c, &p, &contact->penetrations[p.pair.row]};
+    });
   }
   Rows<ListedOnly> listed_only() const {
-    return {[this](const auto& add) {
-      for (const ListedPair& p : c->only_listed) add({&p});
-    }};
+    return rows_of(c->only_listed, [this](const ListedPair& p) { return ListedOnly{&p}; });
   }
 };
-const Record<ContactOfListing>& record_of(const ContactOfListing*) {
-  using Row = ContactOfListing;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::contact, &Contact::inter, &InterBase::id>("interface"),
-      column<&Row::contact, &Contact::inter, &InterBase::type>("type"),
-      column<&Row::contact, &Contact::role>("role"),
-      column<&Row::agrees>("agrees"),
-      column<&Row::listed>("listed",
-                           "Penetrations in the listing; null: it does not work on the contact"),
-      column<&Row::computed>("computed", "Pairs of deck gaps, ties included as in the listing"),
-      column<&Row::c, &ComparedContact::by_pair>("by_pair", "The listing shows the pairs"),
-      column<&Row::c, &ComparedContact::largest_difference>("largest_difference",
-                                                            "Of depths, as a share of the gap"),
-      column<&Row::lines>("lines",
-                          "Of the listing: where its work begins, and the message with the number"),
-      column<&Row::pairs>("pairs"),
-      column<&Row::listed_only>("listed_only")};
-  static const Record<Row> record{"contact", "", columns};
-  return record;
+Record<ContactOfListing> record_of(const ContactOfListing*) {
+  static constexpr Column<ContactOfListing> columns[] = {
+      column<&ContactOfListing::contact, &Contact::inter, &InterBase::id>("interface"),
+      column<&ContactOfListing::contact, &Contact::inter, &InterBase::type>("type"),
+      column<&ContactOfListing::contact, &Contact::role>("role"),
+      column<&ContactOfListing::agrees>("agrees"),
+      column<&ContactOfListing::listed>(
+          "listed", "Penetrations in the listing; null: it does not work on the contact"),
+      column<&ContactOfListing::computed>("computed",
+                                          "Pairs of deck gaps, ties included as in the listing"),
+      column<&ContactOfListing::c, &ComparedContact::by_pair>("by_pair",
+                                                              "The listing shows the pairs"),
+      column<&ContactOfListing::c, &ComparedContact::largest_difference>(
+          "largest_difference", "Of depths, as a share of the gap"),
+      column<&ContactOfListing::lines>(
+          "lines", "Of the listing: where its work begins, and the message with the number"),
+      column<&ContactOfListing::pairs>("pairs"),
+      column<&ContactOfListing::listed_only>("listed_only")};
+  return {"contact", "", columns};
 }
 
 struct StepsRow {
@@ -211,43 +197,34 @@ struct StepsRow {
     return s->kind ? std::string_view(detail::kind_name(*s->kind)) : "node";
   }
   std::optional<double> smallest() const { return finite_step(s->smallest); }
-  Rows<StepDifference> different() const {
-    return {[this](const auto& add) {
-      for (const StepDifference& d : s->different) add(d);
-    }};
-  }
+  Rows<StepDifference> different() const { return rows_of(s->different); }
 };
-const Record<StepsRow>& record_of(const StepsRow*) {
-  using Row = StepsRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::of>("of", "Kind of element, or node"),
-      column<&Row::s, &ComparedSteps::listed>("listed"),
-      column<&Row::s, &ComparedSteps::equal>("equal", "Within 1e-6"),
-      column<&Row::s, &ComparedSteps::not_computed>("not_computed"),
-      column<&Row::s, &ComparedSteps::largest_difference>("largest_difference",
-                                                          "Relative, of those that are equal"),
-      column<&Row::smallest>("smallest", "null: no element limits the step"),
-      column<&Row::s, &ComparedSteps::smallest_id>("smallest_id"),
-      column<&Row::different>("different")};
-  static const Record<Row> record{"steps", "", columns};
-  return record;
+Record<StepsRow> record_of(const StepsRow*) {
+  static constexpr Column<StepsRow> columns[] = {
+      column<&StepsRow::of>("of", "Kind of element, or node"),
+      column<&StepsRow::s, &ComparedSteps::listed>("listed"),
+      column<&StepsRow::s, &ComparedSteps::equal>("equal", "Within 1e-6"),
+      column<&StepsRow::s, &ComparedSteps::not_computed>("not_computed"),
+      column<&StepsRow::s, &ComparedSteps::largest_difference>("largest_difference",
+                                                               "Relative, of those that are equal"),
+      column<&StepsRow::smallest>("smallest", "null: no element limits the step"),
+      column<&StepsRow::s, &ComparedSteps::smallest_id>("smallest_id"),
+      column<&StepsRow::different>("different")};
+  return {"steps", "", columns};
 }
 
 Rows<MessageRow> messages(const ListingDocument& r) {
-  return {[&r](const auto& add) {
-    for (const MessageGroup& group : r.report.messages) add({&r, &group});
-  }};
+  return rows_of(r.report.messages, [&r](const MessageGroup& group) {
+    return MessageRow{&r, &group};
+  });
 }
 Rows<ContactOfListing> contacts(const ListingDocument& r) {
-  return {[&r](const auto& add) {
-    for (const ComparedContact& c : r.report.contacts)
-      add({&r.loaded->scene().contacts[c.contact], &c});
-  }};
+  return rows_of(r.report.contacts, [&r](const ComparedContact& c) {
+    return ContactOfListing{&r.loaded->scene().contacts[c.contact], &c};
+  });
 }
 Rows<StepsRow> steps(const ListingDocument& r) {
-  return {[&r](const auto& add) {
-    for (const ComparedSteps& s : r.report.steps) add({&s});
-  }};
+  return rows_of(r.report.steps, [&r](const ComparedSteps& s) { return StepsRow{&s}; });
 }
 std::optional<DeckRow> deck_of(const ListingDocument& r) {
   if (r.loaded == nullptr) return std::nullopt;
@@ -255,23 +232,21 @@ std::optional<DeckRow> deck_of(const ListingDocument& r) {
   return DeckRow{d.path(), &d.deck(), &d.model(), &d.interfaces()};
 }
 
-const Record<ListingDocument>& record_of(const ListingDocument*) {
+Record<ListingDocument> record_of(const ListingDocument*) {
   using Row = ListingDocument;
   static constexpr Column<Row> columns[] = {
-      column<Row>("listing", "", [](const Row& r) { return ListingRow{&r.listing}; }),
+      column("listing", [](const Row& r) { return ListingRow{&r.listing}; }),
       column<deck_of>("deck", "null: none is beside the listing"),
-      column<Row>("agrees", "Penetrations and time steps are those of deck",
-                  [](const Row& r) { return r.report.agrees(); }),
+      column("agrees", "Penetrations and time steps are those of deck",
+             [](const Row& r) { return r.report.agrees(); }),
       column<messages>("messages"),
       column<contacts>("contacts"),
-      column<Row>("contacts_of_listing_only", "Contacts that the deck does not have",
-                  [](const Row& r) { return r.report.unnamed_contacts; }),
+      column("contacts_of_listing_only", "Contacts that the deck does not have",
+             [](const Row& r) { return r.report.unnamed_contacts; }),
       column<steps>("steps"),
-      column<Row>("not_listed",
-                  "Findings about a message of the solver that the listing does not have",
-                  [](const Row& r) { return findings(&r, r.report.not_listed); })};
-  static const Record<Row> record{"document", "", columns};
-  return record;
+      column("not_listed", "Findings about a message of the solver that the listing does not have",
+             [](const Row& r) { return findings(&r, r.report.not_listed); })};
+  return {"document", "", columns};
 }
 
 constexpr DocumentHead head{"deck/explain", 1,
@@ -281,14 +256,12 @@ constexpr DocumentHead head{"deck/explain", 1,
 
 }  // namespace
 
-const Record<StepDifference>& record_of(const StepDifference*) {
+Record<StepDifference> record_of(const StepDifference*) {
   using Row = StepDifference;
   static constexpr Column<Row> columns[] = {
-      column<&Row::id>("id"),
-      column<Row>("listed", "", [](const Row& r) { return finite_step(r.listed); }),
-      column<Row>("computed", "", [](const Row& r) { return finite_step(r.computed); })};
-  static const Record<Row> record{"step_difference", "", columns, true};
-  return record;
+      column<&Row::id>("id"), column("listed", [](const Row& r) { return finite_step(r.listed); }),
+      column("computed", [](const Row& r) { return finite_step(r.computed); })};
+  return {"step_difference", "", columns, true};
 }
 
 DocumentSchema explain_schema() { return document_schema<ListingDocument>(head); }

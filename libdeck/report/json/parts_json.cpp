@@ -1,181 +1,256 @@
 // The document of deck parts: parts, totals, steps of elements and nodes, kinematic conditions.
-#include <cmath>
-
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
 #include "report/parts_rows.hpp"
-#include "report/shared/json.hpp"
 #include "report/shared/parts.hpp"
+#include "report/shared/schemas.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
+
+template <>
+inline constexpr std::size_t word_count<ConditionType> = condition_types;
+
+Record<LeftOut> record_of(const LeftOut*) {
+  static constexpr Column<LeftOut> columns[] = {column<&LeftOut::what>("what"),
+                                                column<&LeftOut::why>("why"),
+                                                column<&LeftOut::count>("count")};
+  return {"left_out", "Figures that are not computed.", columns, true};
+}
+
+namespace detail {
+
+Record<PartsView> record_of(const PartsView*) {
+  static constexpr Column<PartsView> columns[] = {
+      column<&PartsView::unconnected_nodes>("nodes", "Nodes without an element"),
+      column<&PartsView::empty_parts>("parts", "Parts without elements"),
+      column<&PartsView::unseen_parts>("unseen_parts", "Parts that no contact and no tie sees")};
+  return {"unconnected", "", columns, true};
+}
+
+}  // namespace detail
+
 namespace {
 
-void step(JsonWriter& json, double dt) {
-  if (dt >= 1e29 || std::isnan(dt))
-    json.null();
-  else
-    json.value(dt);
+/// A step that limits something.
+std::optional<double> step_of(double dt) { return known(dt < 1e29, dt); }
+
+struct ElementRow {
+  ElementKind kind;
+  std::int64_t id;
+  IfAny<std::optional<double>> dt = {};
+  std::string_view word() const { return detail::kind_name(kind); }
+};
+Record<ElementRow> record_of(const ElementRow*) {
+  static constexpr Column<ElementRow> columns[] = {
+      column<&ElementRow::word>("kind", "shell4, shell3, solid, quad, tria, truss, beam or spring"),
+      column<&ElementRow::id>("id"),
+      column<&ElementRow::dt>("dt", "In 'elements'; null: limits nothing, or not computed")};
+  return {"element", "", columns, true};
 }
 
-void number(JsonWriter& json, double v) {
-  if (std::isnan(v))
-    json.null();
-  else
-    json.value(v);
-}
+/// What a part, or all of them, adds up to.
+struct Sums {
+  const Model* model;
+  const PartFigures* of;
 
-void write_figures(JsonWriter& json, const PartFigures& f) {
-  json.key("mass");
-  number(json, f.mass);
-  const bool placed = f.mass > 0.0;
-  json.key("centre");
-  if (placed) {
-    json.begin_array(true);
-    for (const double v : f.centre) json.value(v);
-    json.end_array();
-  } else {
-    json.null();
+  bool placed() const { return of->mass > 0.0; }
+  std::optional<std::array<double, 3>> centre() const { return known(placed(), of->centre); }
+  std::optional<std::array<double, 6>> inertia() const { return known(placed(), of->inertia); }
+};
+
+struct StepRow {
+  Sums sums;
+  std::optional<double> min() const { return step_of(sums.of->dt); }
+  std::optional<ElementRow> element() const {
+    const ElementRef& e = sums.of->slowest;
+    if (e.element == no_index) return std::nullopt;
+    return ElementRow{e.kind, sums.model->family(e.kind).id[e.element]};
   }
-  json.key("inertia");
-  if (placed) {
-    json.begin_array(true);
-    for (const double v : f.inertia) json.value(v);
-    json.end_array();
-  } else {
-    json.null();
-  }
+};
+Record<StepRow> record_of(const StepRow*) {
+  static constexpr Column<StepRow> columns[] = {
+      column<&StepRow::min>("min", "null: no element limits the step, or none is computed"),
+      column<&StepRow::element>("element", "The element that gives it"),
+      column<&StepRow::sums, &Sums::of, &PartFigures::not_computed>(
+          "not_computed", "Elements without an established step")};
+  return {"step", "Smallest time step of elements.", columns, true};
 }
 
-void write_step(JsonWriter& json, const Model& model, const PartFigures& f) {
-  json.key("dt").begin_object(true).key("min");
-  step(json, f.dt);
-  json.key("element");
-  if (f.slowest.element == no_index) {
-    json.null();
-  } else {
-    json.begin_object(true).field("kind", detail::kind_name(f.slowest.kind));
-    json.field("id", model.family(f.slowest.kind).id[f.slowest.element]).end_object();
-  }
-  json.field("not_computed", f.not_computed).end_object();
+Record<Sums> record_of(const Sums*) {
+  using Row = Sums;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::of, &PartFigures::mass>("mass"), column<&Row::centre>("centre"),
+      column<&Row::inertia>("inertia"), column("dt", [](const Row& r) { return StepRow{r}; })};
+  return {"total", "All elements; members as of a part.", columns};
 }
 
-void write_parts(JsonWriter& json, const Model& model, const Mesh& mesh,
-                 const detail::PartsView& view) {
-  json.key("parts").begin_array();
-  for (std::size_t p = 0; p < model.parts.size(); ++p) {
-    const Part& part = model.parts[p];
-    const detail::PartView& seen = view.parts[p];
-    json.begin_object();
-    json.field("id", part.id).field("title", part.title);
-    json.key("elements").begin_object(true);
-    for (std::size_t k = 0; k < seen.elements.size(); ++k)
-      if (seen.elements[k] > 0)
-        json.field(detail::kind_name(static_cast<ElementKind>(k)), seen.elements[k]);
-    json.end_object();
-    json.field("material", part.mat_id).field("property", part.prop_id);
-    json.field("thickness", seen.thickness);
-    write_figures(json, mesh.parts[p]);
-    write_step(json, model, mesh.parts[p]);
-    json.key("interfaces").begin_array(true);
-    for (const std::int64_t id : seen.interfaces) json.value(id);
-    json.end_array();
-    json.key("rigid_body");
-    if (seen.rigid_body == 0)
-      json.null();
-    else
-      json.value(seen.rigid_body);
-    json.end_object();
+struct PartRow {
+  const Part* part;
+  const detail::PartView* seen;
+  Sums sums;
+
+  Counts elements() const {
+    Counts counts;
+    for (std::size_t k = 0; k < seen->elements.size(); ++k)
+      if (seen->elements[k] > 0)
+        counts.emplace_back(detail::kind_name(static_cast<ElementKind>(k)), seen->elements[k]);
+    return counts;
   }
-  json.end_array();
+  std::optional<std::int64_t> rigid_body() const {
+    return known(seen->rigid_body != 0, seen->rigid_body);
+  }
+};
+Record<PartRow> record_of(const PartRow*) {
+  using Row = PartRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::part, &Part::id>("id"),
+      column<&Row::part, &Part::title>("title"),
+      column<&Row::elements>("elements", "By kind"),
+      column<&Row::part, &Part::mat_id>("material"),
+      column<&Row::part, &Part::prop_id>("property"),
+      column<&Row::seen, &detail::PartView::thickness>("thickness"),
+      column<&Row::sums, &Sums::of, &PartFigures::mass>("mass", "null: not computed"),
+      column<&Row::sums, &Sums::centre>("centre", "null: no mass"),
+      column<&Row::sums, &Sums::inertia>(
+          "inertia",
+          "About the centre: xx yy zz xy yz zx, of masses and rotational inertia of the nodes"),
+      column("dt", [](const Row& r) { return StepRow{r.sums}; }),
+      column<&Row::seen, &detail::PartView::interfaces>(
+          "interfaces", "Contacts and ties that have an element of the part"),
+      column<&Row::rigid_body>("rigid_body", "The rigid body that has all nodes of the part")};
+  return {"part", "", columns};
 }
 
-void write_all(JsonWriter& json, const Model& model, const Mesh& mesh) {
-  json.key("elements").begin_array();
-  for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
+struct RepeatedRow {
+  const detail::RepeatedContacts* repeated;
+  std::array<std::int64_t, 2> parts() const { return {repeated->part, repeated->other}; }
+};
+Record<RepeatedRow> record_of(const RepeatedRow*) {
+  static constexpr Column<RepeatedRow> columns[] = {
+      column<&RepeatedRow::repeated, &detail::RepeatedContacts::interfaces>("interfaces",
+                                                                            "Two or more"),
+      column<&RepeatedRow::repeated, &detail::RepeatedContacts::pairs>("pairs",
+                                                                       "Of parts that all have"),
+      column<&RepeatedRow::parts>("parts", "The first of these pairs")};
+  return {"repeated_contacts", "Contacts (no ties) that let the same parts touch.", columns, true};
+}
+
+struct NodeRow {
+  std::int64_t node;
+  std::optional<double> dt;
+  double mass, stiffness;
+};
+Record<NodeRow> record_of(const NodeRow*) {
+  static constexpr Column<NodeRow> columns[] = {
+      column<&NodeRow::node>("node"), column<&NodeRow::dt>("dt"), column<&NodeRow::mass>("mass"),
+      column<&NodeRow::stiffness>("stiffness")};
+  return {"node", "", columns, true};
+}
+
+struct HeldNode {
+  std::int64_t node;
+  std::vector<ConditionType> types;
+};
+Record<HeldNode> record_of(const HeldNode*) {
+  static constexpr Column<HeldNode> columns[] = {column<&HeldNode::node>("node"),
+                                                 column<&HeldNode::types>("types")};
+  return {"held_node", "", columns, true};
+}
+
+struct PartsDocument {
+  const LoadedDeck& loaded;
+  bool all;
+  const Model& model;
+  const Mesh& mesh;
+  const Kinematics& kinematics;
+  const detail::PartsView view;
+
+  PartRow part(std::size_t p) const {
+    return {&model.parts[p], &view.parts[p], {&model, &mesh.parts[p]}};
+  }
+  NodeRow node(std::size_t n) const {
+    return {model.nodes.id[n], step_of(mesh.nodes.dt[n]), mesh.nodes.mass[n],
+            mesh.nodes.stiffness[n]};
+  }
+  HeldNode held_node(NodeIndex n) const {
+    HeldNode row{model.node_id(n), {}};
+    for (std::size_t t = 0; t < condition_types; ++t)
+      if ((kinematics.types[n] >> t & 1) != 0) row.types.push_back(static_cast<ConditionType>(t));
+    return row;
+  }
+};
+
+void each_element(const PartsDocument& r, const std::function<void(const ElementRow&)>& add) {
+  for (std::size_t k = 0; k < r.mesh.elements.size(); ++k) {
     const auto kind = static_cast<ElementKind>(k);
-    const Elements& family = model.family(kind);
-    for (std::size_t e = 0; e < family.size(); ++e) {
-      json.begin_object(true).field("kind", detail::kind_name(kind)).field("id", family.id[e]);
-      json.key("dt");
-      step(json, mesh.elements[k].dt[e]);
-      json.end_object();
-    }
+    const Elements& family = r.model.family(kind);
+    for (std::size_t e = 0; e < family.size(); ++e)
+      add({kind, family.id[e], {step_of(r.mesh.elements[k].dt[e])}});
   }
-  json.end_array();
-  json.key("nodes").begin_array();
-  for (std::size_t n = 0; n < model.nodes.size(); ++n) {
-    json.begin_object(true).field("node", model.nodes.id[n]).key("dt");
-    step(json, mesh.nodes.dt[n]);
-    json.key("mass");
-    number(json, mesh.nodes.mass[n]);
-    json.key("stiffness");
-    number(json, mesh.nodes.stiffness[n]);
-    json.end_object();
-  }
-  json.end_array();
 }
 
-void write_kinematics(JsonWriter& json, const Model& model, const Kinematics& k) {
-  json.key("kinematics").begin_object();
-  json.key("conflicts");
-  if (k.stops)
-    json.null();
-  else
-    json.value(k.conflicts);
-  json.key("nodes").begin_array();
-  if (!k.stops)
-    for (const NodeIndex n : k.several) {
-      json.begin_object(true).field("node", model.node_id(n)).key("types").begin_array(true);
-      for (std::size_t t = 0; t < condition_types; ++t)
-        if ((k.types[n] >> t & 1) != 0) json.value(to_string(static_cast<ConditionType>(t)));
-      json.end_array().end_object();
-    }
-  json.end_array().end_object();
+Record<PartsDocument> record_of(const PartsDocument*) {
+  using Row = PartsDocument;
+  static constexpr Column<Row> of_kinematics[] = {
+      column("conflicts", "The number of message 312; null: the solver stops before",
+             [](const Row& r) { return known(!r.kinematics.stops, r.kinematics.conflicts); }),
+      column("nodes", "Nodes with several conditions", [](const Row& r) {
+        static const std::vector<NodeIndex> none;
+        return rows_of(r.kinematics.stops ? none : r.kinematics.several,
+                       [&r](NodeIndex n) { return r.held_node(n); });
+      })};
+  static constexpr Record<Row> kinematics{"kinematics", "Kinematic conditions.", of_kinematics};
+  static constexpr Column<Row> columns[] = {
+      column("deck", [](const Row& r) { return deck_row(r.loaded); }),
+      column("parts",
+             [](const Row& r) {
+               return Rows<PartRow>{[&r](const auto& add) {
+                 for (std::size_t p = 0; p < r.model.parts.size(); ++p) add(r.part(p));
+               }};
+             }),
+      column("total",
+             [](const Row& r) {
+               return Sums{&r.model, &r.mesh.total};
+             }),
+      column<&Row::view>("unconnected"),
+      column("repeated_contacts", "Not more than 1000",
+             [](const Row& r) {
+               return rows_of(r.view.repeated, [](const auto& c) { return RepeatedRow{&c}; });
+             }),
+      column("elements", "With --all",
+             [](const Row& r) {
+               return if_any(r.all,
+                             Rows<ElementRow>{[&r](const auto& add) { each_element(r, add); }});
+             }),
+      column("nodes", "With --all",
+             [](const Row& r) {
+               return if_any(r.all, Rows<NodeRow>{[&r](const auto& add) {
+                               for (std::size_t n = 0; n < r.model.nodes.size(); ++n)
+                                 add(r.node(n));
+                             }});
+             }),
+      group<kinematics>("kinematics"),
+      column("not_computed", [](const Row& r) {
+        std::vector<LeftOut> all = r.mesh.left_out;
+        all.insert(all.end(), r.kinematics.left_out.begin(), r.kinematics.left_out.end());
+        return rows_of(std::move(all));
+      })};
+  return {"document", "", columns};
 }
+
+constexpr DocumentHead head{
+    "deck/parts", 1,
+    "Written by deck parts --json: parts with the sums of their elements, time steps and kinematic "
+    "conditions, in working units."};
 
 }  // namespace
 
+DocumentSchema parts_schema() { return document_schema<PartsDocument>(head); }
+
 std::string parts_json(const LoadedDeck& loaded, bool all) {
-  const Model& model = loaded.model();
-  const Mesh& mesh = loaded.mesh();
-  const Kinematics& kinematics = loaded.kinematics();
-  const detail::PartsView view = detail::view_parts(loaded);
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object();
-  write_json_head(json, "deck/parts", 1);
-  write_json_deck(json, loaded.path(), loaded.deck(), &model, &loaded.interfaces());
-  write_parts(json, model, mesh, view);
-  json.key("total").begin_object();
-  write_figures(json, mesh.total);
-  write_step(json, model, mesh.total);
-  json.end_object();
-  json.key("unconnected").begin_object(true);
-  json.field("nodes", view.unconnected_nodes).key("parts").begin_array(true);
-  for (const std::int64_t id : view.empty_parts) json.value(id);
-  json.end_array().key("unseen_parts").begin_array(true);
-  for (const std::int64_t id : view.unseen_parts) json.value(id);
-  json.end_array().end_object();
-  json.key("repeated_contacts").begin_array();
-  for (const detail::RepeatedContacts& c : view.repeated) {
-    json.begin_object(true).key("interfaces").begin_array(true);
-    for (const std::int64_t id : c.interfaces) json.value(id);
-    json.end_array();
-    json.field("pairs", c.pairs).key("parts").begin_array(true);
-    json.value(c.part).value(c.other).end_array().end_object();
-  }
-  json.end_array();
-  if (all) write_all(json, model, mesh);
-  write_kinematics(json, model, kinematics);
-  json.key("not_computed").begin_array();
-  for (const auto* list : {&mesh.left_out, &kinematics.left_out})
-    for (const LeftOut& l : *list) {
-      json.begin_object(true).field("what", l.what).field("why", l.why);
-      json.field("count", l.count).end_object();
-    }
-  json.end_array();
-  json.end_object();
-  return out;
+  return write_document(head, PartsDocument{loaded, all, loaded.model(), loaded.mesh(),
+                                            loaded.kinematics(), detail::view_parts(loaded)});
 }
 
 }  // namespace deck

@@ -1,6 +1,7 @@
 // Tables of the records that several documents have.
 #include "report/shared_records.hpp"
 
+#include "deck/front/loaded_deck.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/diagnostics_common.hpp"
 #include "report/gaps_names.hpp"
@@ -12,41 +13,36 @@ namespace {
 struct UnitsRow {
   const UnitSystem* units = nullptr;
 };
-const Record<UnitsRow>& record_of(const UnitsRow*) {
-  using Row = UnitsRow;
-  static constexpr Column<Row> columns[] = {
+Record<UnitsRow> record_of(const UnitsRow*) {
+  static constexpr Column<UnitsRow> columns[] = {
       column<&UnitsRow::units, &UnitSystem::mass_code>("mass"),
       column<&UnitsRow::units, &UnitSystem::length_code>("length"),
       column<&UnitsRow::units, &UnitSystem::time_code>("time")};
-  static const Record<Row> record{"units", "Codes of /BEGIN.", columns, true, true};
-  return record;
+  return {"units", "Codes of /BEGIN.", columns, true, true};
 }
 
 struct BothUnits {
   std::optional<UnitsRow> input, working;
 };
-const Record<BothUnits>& record_of(const BothUnits*) {
-  using Row = BothUnits;
-  static constexpr Column<Row> columns[] = {
+Record<BothUnits> record_of(const BothUnits*) {
+  static constexpr Column<BothUnits> columns[] = {
       column<&BothUnits::input>("input", "null: /BEGIN gives none"),
       column<&BothUnits::working>("working")};
-  static const Record<Row> record{"unit_systems", "Units of the deck.", columns, true, true};
-  return record;
+  return {"unit_systems", "Units of the deck.", columns, true, true};
 }
 
 struct IncludeRow {
   const Deck* deck = nullptr;
   const IncludeEdge* edge = nullptr;
 };
-const Record<IncludeRow>& record_of(const IncludeRow*) {
+Record<IncludeRow> record_of(const IncludeRow*) {
   using Row = IncludeRow;
   static constexpr Column<Row> columns[] = {
-      column<Row>("path", "", [](const Row& r) { return r.deck->sources[r.edge->file].path(); }),
+      column("path", [](const Row& r) { return r.deck->sources[r.edge->file].path(); }),
       column<&IncludeRow::edge, &IncludeEdge::written>("written", "The name as the deck has it"),
-      column<Row>("from", "The line that includes it",
-                  [](const Row& r) { return place_of(*r.deck, r.edge->directive); })};
-  static const Record<Row> record{"include", "An included file.", columns, true, true};
-  return record;
+      column("from", "The line that includes it",
+             [](const Row& r) { return place_of(*r.deck, r.edge->directive); })};
+  return {"include", "An included file.", columns, true, true};
 }
 
 Counts counts_of(const DeckRow& r) {
@@ -70,55 +66,29 @@ struct DifferenceRow {
   const Scene* scene = nullptr;
   const DecisionDifference* d = nullptr;
   const Contact& contact() const { return scene->contacts[d->contact]; }
-  bool edges() const { return contact().kind == ContactKind::edge_edge; }
-  template <std::size_t N>
-  std::array<std::int64_t, N> ids(const std::array<NodeIndex, N>& nodes) const {
-    return node_ids(*scene->model, nodes);
-  }
+  PairSides sides() const { return {scene->model, &contact(), d->secondary, d->main}; }
 };
-const Record<DifferenceRow>& record_of(const DifferenceRow*) {
+Record<DifferenceRow> record_of(const DifferenceRow*) {
   using Row = DifferenceRow;
-  using Ids2 = std::array<std::int64_t, 2>;
-  using Ids4 = std::array<std::int64_t, 4>;
   static constexpr Column<Row> columns[] = {
-      column<Row>("interface", "", [](const Row& r) { return r.contact().inter->id; }),
-      column<Row>("role", "", [](const Row& r) { return r.contact().role; }),
-      column<Row>(
-          "edge", "Secondary edge",
-          [](const Row& r) {
-            return r.edges() ? IfAny<Ids2>{r.ids(r.contact().secondary_edges[r.d->secondary].nodes)}
-                             : IfAny<Ids2>{};
-          }),
-      column<Row>("node", "Secondary node",
-                  [](const Row& r) {
-                    return r.edges() ? IfAny<std::int64_t>{}
-                                     : IfAny<std::int64_t>{r.scene->model->node_id(
-                                           r.contact().secondary[r.d->secondary].node)};
-                  }),
-      column<Row>("main_edge", "",
-                  [](const Row& r) {
-                    return r.edges() ? IfAny<Ids2>{r.ids(r.contact().main_edges[r.d->main].nodes)}
-                                     : IfAny<Ids2>{};
-                  }),
-      column<Row>("segment", "Main segment",
-                  [](const Row& r) {
-                    return r.edges() ? IfAny<Ids4>{}
-                                     : IfAny<Ids4>{r.ids(r.contact().main[r.d->main].nodes)};
-                  }),
-      column<Row>("about", "\"contact\" (nearer than the gap) or \"on_surface\"",
-                  [](const Row& r) { return r.d->surface ? "on_surface" : "contact"; }),
+      column<&Row::contact, &Contact::inter, &InterBase::id>("interface"),
+      column<&Row::contact, &Contact::role>("role"),
+      column<&Row::sides, &PairSides::edge>("edge", "Secondary edge"),
+      column<&Row::sides, &PairSides::node>("node", "Secondary node"),
+      column<&Row::sides, &PairSides::main_edge>("main_edge"),
+      column<&Row::sides, &PairSides::segment>("segment", "Main segment"),
+      column("about", "\"contact\" (nearer than the gap) or \"on_surface\"",
+             [](const Row& r) { return r.d->surface ? "on_surface" : "contact"; }),
       column<&DifferenceRow::d, &DecisionDifference::exact>("exact", "What is true"),
-      column<Row>("solver", "What the solver's arithmetic decides",
-                  [](const Row& r) { return !r.d->exact; }),
+      column("solver", "What the solver's arithmetic decides",
+             [](const Row& r) { return !r.d->exact; }),
       column<&DifferenceRow::d, &DecisionDifference::gap>("gap"),
       column<&DifferenceRow::d, &DecisionDifference::solver_distance>("solver_distance"),
       column<&DifferenceRow::d, &DecisionDifference::exact_distance>("exact_distance"),
       column<&DifferenceRow::d, &DecisionDifference::action>(
           "action", "What the solver does with the pair; error-611, error-612: it stops")};
-  static const Record<Row> record{"difference",
-                                  "A pair on which exact arithmetic and the solver's do not agree.",
-                                  columns, true, true};
-  return record;
+  return {"difference", "A pair on which exact arithmetic and the solver's do not agree.", columns,
+          true, true};
 }
 
 std::optional<std::uint64_t> differing(const DecisionReport& r, std::uint64_t count) {
@@ -127,26 +97,22 @@ std::optional<std::uint64_t> differing(const DecisionReport& r, std::uint64_t co
 
 }  // namespace
 
-const Record<EntityRow>& record_of(const EntityRow*) {
-  using Row = EntityRow;
-  static constexpr Column<Row> columns[] = {column<&EntityRow::d, &Diagnostic::keyword>("keyword"),
-                                            column<&EntityRow::d, &Diagnostic::id>("id")};
-  static const Record<Row> record{"entity", "", columns, true, true};
-  return record;
+Record<EntityRow> record_of(const EntityRow*) {
+  static constexpr Column<EntityRow> columns[] = {
+      column<&EntityRow::d, &Diagnostic::keyword>("keyword"),
+      column<&EntityRow::d, &Diagnostic::id>("id")};
+  return {"entity", "", columns, true, true};
 }
 
-const Record<GateFinding>& record_of(const GateFinding*) {
+Record<GateFinding> record_of(const GateFinding*) {
   using Row = GateFinding;
   static constexpr Column<Row> columns[] = {
-      column<Row>("rule", "", [](const Row& r) { return id_text(r.d->rule); }),
-      column<Row>("severity", "", [](const Row& r) { return to_string(r.d->severity); }),
+      column("rule", [](const Row& r) { return id_text(r.d->rule); }),
+      column("severity", [](const Row& r) { return to_string(r.d->severity); }),
       column<&GateFinding::d, &Diagnostic::message>("message"),
-      column<Row>("source", "", [](const Row& r) { return place_of(*r.deck, r.d->span); }),
-      column<Row>("entity", "",
-                  [](const Row& r) { return known(!r.d->keyword.empty(), EntityRow{r.d}); })};
-  static const Record<Row> record{"gate_finding", "A bound that is exceeded.", columns, false,
-                                  true};
-  return record;
+      column("source", [](const Row& r) { return place_of(*r.deck, r.d->span); }),
+      column("entity", [](const Row& r) { return known(!r.d->keyword.empty(), EntityRow{r.d}); })};
+  return {"gate_finding", "A bound that is exceeded.", columns, false, true};
 }
 
 namespace {
@@ -159,21 +125,19 @@ struct ChangedRow {
   std::array<std::int64_t, 2> secondary{};
   std::optional<double> depth, was;
 };
-const Record<ChangedRow>& record_of(const ChangedRow*) {
+Record<ChangedRow> record_of(const ChangedRow*) {
   using Row = ChangedRow;
   static constexpr Column<Row> columns[] = {
       column<&ChangedRow::change>("change", "new, worse, better or solved"),
       column<&ChangedRow::interface_id>("interface"),
       column<&ChangedRow::role>("role"),
-      column<Row>("node", "Secondary node",
-                  [](const Row& r) { return if_any(r.secondary[1] == 0, r.secondary[0]); }),
-      column<Row>("edge", "Secondary edge",
-                  [](const Row& r) { return if_any(r.secondary[1] != 0, r.secondary); }),
+      column("node", "Secondary node",
+             [](const Row& r) { return if_any(r.secondary[1] == 0, r.secondary[0]); }),
+      column("edge", "Secondary edge",
+             [](const Row& r) { return if_any(r.secondary[1] != 0, r.secondary); }),
       column<&ChangedRow::depth>("depth"),
       column<&ChangedRow::was>("was", "Depth in the earlier document")};
-  static const Record<Row> record{"changed", "A node or edge, by its deepest pair.", columns, true,
-                                  true};
-  return record;
+  return {"changed", "A node or edge, by its deepest pair.", columns, true, true};
 }
 
 void each_changed(const ComparedRow& r, const std::function<void(const ChangedRow&)>& add) {
@@ -195,13 +159,32 @@ void each_changed(const ComparedRow& r, const std::function<void(const ChangedRo
 
 }  // namespace
 
-const Record<Place>& record_of(const Place*) {
-  using Row = Place;
-  static constexpr Column<Row> columns[] = {column<&Place::file>("file"),
-                                            column<&Place::line>("line", "From 1 on"),
-                                            column<&Place::column>("column", "From 1 on")};
-  static const Record<Row> record{"place", "A place in the text of a deck.", columns, true, true};
-  return record;
+IfAny<std::array<std::int64_t, 2>> PairSides::edge() const {
+  if (!edges()) return {};
+  return {node_ids(*model, contact->secondary_edges[secondary].nodes)};
+}
+
+IfAny<std::array<std::int64_t, 2>> PairSides::main_edge() const {
+  if (!edges()) return {};
+  return {node_ids(*model, contact->main_edges[main].nodes)};
+}
+
+IfAny<std::int64_t> PairSides::node() const {
+  if (edges()) return {};
+  return {model->node_id(contact->secondary[secondary].node)};
+}
+
+IfAny<std::array<std::int64_t, 4>> PairSides::segment() const {
+  if (edges()) return {};
+  return {node_ids(*model, contact->main[main].nodes)};
+}
+
+Record<Place> record_of(const Place*) {
+  static constexpr Column<Place> columns[] = {
+      column<&Place::file>("file"), column<&Place::line>("line", "From 1 on"),
+      column<&Place::column>("column", "From 1 on"),
+      column<&Place::end_column>("end_column", "Of a cell: the first column behind it")};
+  return {"place", "A place in the text of a deck.", columns, true, true};
 }
 
 std::optional<Place> place_of(const Deck& deck, const Span& span) {
@@ -210,76 +193,65 @@ std::optional<Place> place_of(const Deck& deck, const Span& span) {
   return Place{deck.sources[span.file].path(), p.line, p.column};
 }
 
-const Record<DeckRow>& record_of(const DeckRow*) {
+Record<DeckRow> record_of(const DeckRow*) {
   using Row = DeckRow;
   static constexpr Column<Row> columns[] = {
       column<&DeckRow::path>("path", "As given"),
       column<&DeckRow::deck, &Deck::begin, &Begin::run_name>("title"),
       column<&DeckRow::deck, &Deck::version>("version", "Input version of the main file"),
-      column<Row>(
-          "units", "",
+      column(
+          "units",
           [](const Row& r) {
             const Begin& b = r.deck->begin;
             const bool given = b.has_input || b.has_working;
             return BothUnits{known(given, UnitsRow{&b.input}), known(given, UnitsRow{&b.working})};
           }),
       column<counts_of>("counts"),
-      column<Row>("includes", "", [](const Row& r) {
-        return Rows<IncludeRow>{[&r](const auto& add) {
-          for (const IncludeEdge& e : r.deck->includes) add({r.deck, &e});
-        }};
+      column("includes", [](const Row& r) {
+        return rows_of(r.deck->includes, [&r](const IncludeEdge& e) {
+          return IncludeRow{r.deck, &e};
+        });
       })};
-  static const Record<Row> record{"deck", "", columns, false, true};
-  return record;
+  return {"deck", "", columns, false, true};
 }
 
-const Record<NotExamined>& record_of(const NotExamined*) {
+DeckRow deck_row(const LoadedDeck& loaded) {
+  return {loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces()};
+}
+
+Record<NotExamined> record_of(const NotExamined*) {
   using Row = NotExamined;
   static constexpr Column<Row> columns[] = {
       column<&NotExamined::keyword>("keyword"),
-      column<Row>("count", "", [](const Row& r) { return r.ids.size(); }),
-      column<&NotExamined::ids>("ids")};
-  static const Record<Row> record{"not_examined", "", columns, true, true};
-  return record;
+      column("count", [](const Row& r) { return r.ids.size(); }), column<&NotExamined::ids>("ids")};
+  return {"not_examined", "", columns, true, true};
 }
 
-const Record<VerdictSentence>& record_of(const VerdictSentence*) {
-  using Row = VerdictSentence;
-  static constexpr Column<Row> columns[] = {
+Record<VerdictSentence> record_of(const VerdictSentence*) {
+  static constexpr Column<VerdictSentence> columns[] = {
       column<&VerdictSentence::what>("what", "What the sentence is about"),
       column<&VerdictSentence::text>("text"), column<&VerdictSentence::counts>("counts")};
-  static const Record<Row> record{"sentence", "", columns, true, true};
-  return record;
+  return {"sentence", "", columns, true, true};
 }
 
-const Record<Verdict>& record_of(const Verdict*) {
+Record<Verdict> record_of(const Verdict*) {
   using Row = Verdict;
   static constexpr Column<Row> columns[] = {
       column<&Verdict::level>("level", "The first that applies"),
       column<&Verdict::text>("text", "All sentences"),
-      column<Row>("sentences", "",
-                  [](const Row& r) {
-                    return Rows<VerdictSentence>{[&r](const auto& add) {
-                      for (const VerdictSentence& s : r.sentences) add(s);
-                    }};
-                  }),
+      column("sentences", [](const Row& r) { return rows_of(r.sentences); }),
       column<&Verdict::counts>("counts", "Of all sentences, and those that are 0")};
-  static const Record<Row> record{"verdict", "The verdict on the deck, equal in every document.",
-                                  columns, false, true};
-  return record;
+  return {"verdict", "The verdict on the deck, equal in every document.", columns, false, true};
 }
 
-const Record<ItemCounts>& record_of(const ItemCounts*) {
-  using Row = ItemCounts;
-  static constexpr Column<Row> columns[] = {column<&ItemCounts::nodes>("nodes"),
-                                            column<&ItemCounts::edges>("edges"),
-                                            column<&ItemCounts::pairs>("pairs")};
-  static const Record<Row> record{
-      "item_counts",
-      "Distinct secondary nodes, distinct secondary edges, and pairs. They overlap: do not add "
-      "them.",
-      columns, true, true};
-  return record;
+Record<ItemCounts> record_of(const ItemCounts*) {
+  static constexpr Column<ItemCounts> columns[] = {column<&ItemCounts::nodes>("nodes"),
+                                                   column<&ItemCounts::edges>("edges"),
+                                                   column<&ItemCounts::pairs>("pairs")};
+  return {"item_counts",
+          "Distinct secondary nodes, distinct secondary edges, and pairs. They overlap: do not add "
+          "them.",
+          columns, true, true};
 }
 
 namespace {
@@ -287,17 +259,15 @@ namespace {
 struct TiedCounts {
   std::uint64_t nodes = 0, pairs = 0;
 };
-const Record<TiedCounts>& record_of(const TiedCounts*) {
-  using Row = TiedCounts;
-  static constexpr Column<Row> columns[] = {column<&TiedCounts::nodes>("nodes"),
-                                            column<&TiedCounts::pairs>("pairs")};
-  static const Record<Row> record{"tied_counts", "", columns, true, true};
-  return record;
+Record<TiedCounts> record_of(const TiedCounts*) {
+  static constexpr Column<TiedCounts> columns[] = {column<&TiedCounts::nodes>("nodes"),
+                                                   column<&TiedCounts::pairs>("pairs")};
+  return {"tied_counts", "", columns, true, true};
 }
 
 }  // namespace
 
-const Record<ContactTotals>& record_of(const ContactTotals*) {
+Record<ContactTotals> record_of(const ContactTotals*) {
   using Row = ContactTotals;
   static constexpr Column<Row> columns[] = {
       column<&ContactTotals::count, &ItemCounts::pairs>("pairs", "Penetrating pairs"),
@@ -305,10 +275,10 @@ const Record<ContactTotals>& record_of(const ContactTotals*) {
                                                         "Distinct secondary nodes that penetrate"),
       column<&ContactTotals::count, &ItemCounts::edges>("edges",
                                                         "Distinct secondary edges that penetrate"),
-      column<Row>("tied", "Nodes and pairs that TYPE10 ties; they are counted here only",
-                  [](const Row& r) {
-                    return TiedCounts{r.tied.nodes, r.tied.pairs};
-                  }),
+      column("tied", "Nodes and pairs that TYPE10 ties; they are counted here only",
+             [](const Row& r) {
+               return TiedCounts{r.tied.nodes, r.tied.pairs};
+             }),
       column<&ContactTotals::on_segment>("on_segment", "Those that lie exactly on a segment"),
       column<&ContactTotals::crossed_elements>(
           "crossed_elements",
@@ -321,11 +291,10 @@ const Record<ContactTotals>& record_of(const ContactTotals*) {
           "acted", "Pairs that Inacti or Fpenmax changes, without those that stop the solver"),
       column<&ContactTotals::max_depth>("max_depth"),
       column<&ContactTotals::max_ratio>("max_ratio", "Depth to gap")};
-  static const Record<Row> record{"totals", "", columns, true, true};
-  return record;
+  return {"totals", "", columns, true, true};
 }
 
-const Record<DecisionsRow>& record_of(const DecisionsRow*) {
+Record<DecisionsRow> record_of(const DecisionsRow*) {
   using Row = DecisionsRow;
   static constexpr Column<Row> columns[] = {
       column<&DecisionsRow::scene, &Scene::decisions, &DecisionReport::mode>("mode"),
@@ -335,71 +304,75 @@ const Record<DecisionsRow>& record_of(const DecisionsRow*) {
           "fallback", "Pairs that needed more than double"),
       column<&DecisionsRow::scene, &Scene::decisions, &DecisionReport::exact>(
           "exact", "Pairs that needed exact arithmetic"),
-      column<Row>("decisions_differing", "In contact or not; null: not compared (fast, reference)",
-                  [](const Row& r) {
-                    return differing(r.scene->decisions, r.scene->decisions.contact_differs);
-                  }),
-      column<Row>("surface_differing", "Exactly on the segment or not",
-                  [](const Row& r) {
-                    return differing(r.scene->decisions, r.scene->decisions.surface_differs);
-                  }),
-      column<Row>("differences", "The first 1000 of both kinds", [](const Row& r) {
-        return Rows<DifferenceRow>{[&r](const auto& add) {
-          for (const DecisionDifference& d : r.scene->decisions.differences) add({r.scene, &d});
-        }};
+      column("decisions_differing", "In contact or not; null: not compared (fast, reference)",
+             [](const Row& r) {
+               return differing(r.scene->decisions, r.scene->decisions.contact_differs);
+             }),
+      column("surface_differing", "Exactly on the segment or not",
+             [](const Row& r) {
+               return differing(r.scene->decisions, r.scene->decisions.surface_differs);
+             }),
+      column("differences", "The first 1000 of both kinds", [](const Row& r) {
+        return rows_of(r.scene->decisions.differences, [&r](const DecisionDifference& d) {
+          return DifferenceRow{r.scene, &d};
+        });
       })};
-  static const Record<Row> record{
-      "accuracy",
-      "How contact decisions were made, and where the solver's arithmetic decides differently.",
-      columns, false, true};
-  return record;
+  return {"accuracy",
+          "How contact decisions were made, and where the solver's arithmetic decides differently.",
+          columns, false, true};
 }
 
-const Record<GateRow>& record_of(const GateRow*) {
+Record<GateRow> record_of(const GateRow*) {
   using Row = GateRow;
   static constexpr Column<Row> columns[] = {
       column<&GateRow::gate, &GateReport::passed>("passed"),
       column<&GateRow::gate, &GateReport::undecided>("undecided",
                                                      "Contacts that could not be evaluated"),
-      column<Row>("findings", "", [](const Row& r) {
-        return Rows<GateFinding>{[&r](const auto& add) {
-          for (const Diagnostic& d : r.gate->findings) add({r.deck, &d});
-        }};
+      column("findings", [](const Row& r) {
+        return rows_of(r.gate->findings, [&r](const Diagnostic& d) {
+          return GateFinding{r.deck, &d};
+        });
       })};
-  static const Record<Row> record{
-      "gate", "Result of the bounds of --max-depth and its like, or of [gate] in .decklint.toml.",
-      columns, false, true};
-  return record;
+  return {"gate",
+          "Result of the bounds of --max-depth and its like, or of [gate] in .decklint.toml.",
+          columns, false, true};
 }
 
-const Record<ComparedRow>& record_of(const ComparedRow*) {
+Record<ComparedRow> record_of(const ComparedRow*) {
   using Row = ComparedRow;
   static constexpr Column<Row> columns[] = {
       column<&ComparedRow::gate, &GateReport::earlier, &EarlierGaps::path>("with"),
       column<&ComparedRow::gate, &GateReport::earlier, &EarlierGaps::deck_path>("deck"),
-      column<Row>("new", "", [](const Row& r) { return r.gate->comparison.count(Trend::fresh); }),
-      column<Row>("worse", "", [](const Row& r) { return r.gate->comparison.count(Trend::worse); }),
-      column<Row>("better", "",
-                  [](const Row& r) { return r.gate->comparison.count(Trend::better); }),
-      column<Row>("same", "", [](const Row& r) { return r.gate->comparison.count(Trend::same); }),
-      column<Row>("solved", "", [](const Row& r) { return r.gate->comparison.solved.size(); }),
-      column<Row>("rows", "", [](const Row& r) {
+      column("new", [](const Row& r) { return r.gate->comparison.count(Trend::fresh); }),
+      column("worse", [](const Row& r) { return r.gate->comparison.count(Trend::worse); }),
+      column("better", [](const Row& r) { return r.gate->comparison.count(Trend::better); }),
+      column("same", [](const Row& r) { return r.gate->comparison.count(Trend::same); }),
+      column("solved", [](const Row& r) { return r.gate->comparison.solved.size(); }),
+      column("rows", [](const Row& r) {
         return Rows<ChangedRow>{[&r](const auto& add) { each_changed(r, add); }};
       })};
-  static const Record<Row> record{
+  return {
       "compared",
       "Against the earlier document of --compare, or of 'compare' in [gate]: nodes and edges, each "
       "by its deepest pair.",
       columns, false, true};
-  return record;
 }
 
-const Record<ElementName>& record_of(const ElementName*) {
-  using Row = ElementName;
-  static constexpr Column<Row> columns[] = {column<&ElementName::id>("id"),
-                                            column<&ElementName::part>("part")};
-  static const Record<Row> record{"element", "", columns, true, true};
-  return record;
+IfAny<std::optional<GateRow>> gate_of(const Deck& deck, const GateReport* gate) {
+  if (gate == nullptr) return {};
+  return {known(gate->asked, GateRow{&deck, gate})};
+}
+
+IfAny<std::optional<ComparedRow>> comparison_of(const Scene& scene, const SceneView& view,
+                                                const GateReport* gate) {
+  if (gate == nullptr) return {};
+  return {known(gate->earlier != nullptr, ComparedRow{&scene, &view, gate})};
+}
+
+Record<ElementName> record_of(const ElementName*) {
+  static constexpr Column<ElementName> columns[] = {column<&ElementName::id>("id"),
+                                                    column<&ElementName::part>("part")};
+  return {"element", "", columns, true, true};
 }
 
 void write_json_deck(JsonWriter& json, std::string_view path, const Deck& deck, const Model* model,
@@ -413,10 +386,6 @@ void write_json_coverage(JsonWriter& json, const Coverage& coverage) {
   json.end_array();
 }
 
-void write_json_place(JsonWriter& json, const Deck& deck, const Span& span) {
-  write_value(json, place_of(deck, span));
-}
-
 void write_verdict(JsonWriter& json, const Verdict& verdict) {
   write_value(json.key("verdict"), verdict);
 }
@@ -426,10 +395,6 @@ std::string verdict_json(const Verdict& verdict) {
   JsonWriter json(text);
   write_value(json, verdict);
   return text;
-}
-
-void write_decisions(JsonWriter& json, const Scene& scene) {
-  write_value(json.key("accuracy"), DecisionsRow{&scene});
 }
 
 void write_totals(JsonWriter& json, const ContactTotals& totals) { write_members(json, totals); }

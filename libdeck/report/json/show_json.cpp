@@ -3,121 +3,162 @@
 
 #include "keyword/shared/deck_json_cells.hpp"
 #include "keyword/shared/place.hpp"
-#include "report/shared/json.hpp"
+#include "report/shared/schemas.hpp"
 #include "report/shared/show.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
+
+Record<Entity> record_of(const Entity*) {
+  static constexpr Column<Entity> columns[] = {
+      column<&Entity::keyword>("keyword"),
+      column<&Entity::kind>("kind", "inter, part, node, shell, grnod, surf, set, mat ..."),
+      column<&Entity::id>("id"), column<&Entity::title>("title")};
+  return {"entity", "", columns, true};
+}
+
 namespace {
 
 using detail::CellKind;
 
-class ShowJson {
- public:
-  ShowJson(const ParamsInput& in, const EntityView& view)
-      : deck_(in.loaded.deck()), in_(in), view_(view), json_(out_) {}
+struct CellRow {
+  std::array<int, 2> columns;
+  const Cell* cell;
 
-  std::string run() {
-    const Entity& e = view_.entity;
-    json_.begin_object();
-    write_json_head(json_, "deck/show", 1);
-    write_json_deck(json_, in_.loaded.path(), deck_, &in_.loaded.model(), &in_.loaded.interfaces());
-    json_.key("entity").begin_object(true);
-    json_.field("keyword", e.keyword).field("kind", e.kind).field("id", e.id);
-    json_.field("title", e.title).end_object();
-    json_.key("source");
-    write_json_place(json_, deck_, e.span);
-    json_.key("included_by").begin_array();
-    for (const Span& s : view_.includes) write_json_place(json_, deck_, s);
-    json_.end_array();
-    json_.key("cards").begin_array();
-    for (const ShownCard& card : view_.cards) write(card);
-    json_.end_array();
-    if (view_.inter != nullptr) write_json_parameters(json_, in_, *view_.inter);
-    json_.key("model").begin_object();
-    for (const auto& [name, value] : view_.facts) {
-      json_.key(name);
-      std::visit([&](const auto& v) { json_.value(v); }, value);
+  std::optional<Scalar> value() const {
+    switch (detail::kind_of(*cell)) {
+      case CellKind::integer:
+        return cell->integer;
+      case CellKind::real:
+        return cell->real;
+      case CellKind::text:
+        return std::string(cell->text);
+      default:
+        return std::nullopt;
     }
-    json_.end_object();
-    write("refers_to", view_.refers_to);
-    write("used_by", view_.used_by);
-    write("contacts", view_.interfaces);
-    json_.end_object();
-    return std::move(out_);
   }
-
- private:
-  void write(const ShownCard& card) {
-    json_.begin_object();
-    json_.field("line", deck_.sources.position(card.line.whole()).line);
-    json_.field("file", deck_.sources[card.line.file].path());
-    json_.field("card", card.schema != nullptr ? card.schema->name : card.title ? "title" : "");
-    json_.field("text", card.line.text);
-    json_.key("cells").begin_array();
-    DecodedCard placed;
-    placed.schema = card.schema;
-    placed.line = card.line;
-    placed.free_format = card.free_format;
-    for (const Cell& c : card.cells) {
-      // A cell behind the end of its line has the columns of its field; free format may leave none.
-      const CellColumns at = columns_of(placed, c);
-      json_.begin_object(true).field("field", c.field->name).key("columns").begin_array();
-      json_.value(at.first).value(std::max(at.first, at.last)).end_array();
-      json_.field("text", c.text).key("value");
-      switch (detail::kind_of(c)) {
-        case CellKind::null:
-          json_.null();
-          break;
-        case CellKind::integer:
-          json_.value(c.integer);
-          break;
-        case CellKind::real:
-          json_.value(c.real);
-          break;
-        case CellKind::text:
-          json_.value(c.text);
-          break;
-      }
-      json_.end_object();
-    }
-    json_.end_array().end_object();
-  }
-
-  void write(const char* name, const std::vector<Link>& list) {
-    json_.key(name).begin_array();
-    for (const Link& l : list) {
-      json_.begin_object(true).field("field", l.field).field("keyword", l.keyword);
-      json_.field("kind", l.kind);
-      json_.key("id");
-      if (l.id == 0)
-        json_.null();
-      else
-        json_.value(l.id);
-      if (l.last > 0) json_.field("last", l.last);
-      if (l.count > 1) json_.field("count", l.count);
-      json_.field("title", l.title);
-      json_.key("file");
-      if (l.span.valid())
-        json_.value(deck_.sources[l.span.file].path())
-            .field("line", deck_.sources.position(l.span).line);
-      else
-        json_.null().key("line").null();
-      json_.end_object();
-    }
-    json_.end_array();
-  }
-
-  const Deck& deck_;
-  const ParamsInput& in_;
-  const EntityView& view_;
-  std::string out_;
-  JsonWriter json_;
 };
+Record<CellRow> record_of(const CellRow*) {
+  static constexpr Column<CellRow> columns[] = {
+      column<&CellRow::cell, &Cell::field, &Field::name>("field"),
+      column<&CellRow::columns>("columns", "First and last, from 1 on"),
+      column<&CellRow::cell, &Cell::text>("text"),
+      column<&CellRow::value>("value", "null: blank; a text: a parameter, a name or no number")};
+  return {"cell", "", columns, true};
+}
+
+struct CardRow {
+  const Deck& deck;
+  const ShownCard* card;
+
+  std::string name() const {
+    if (card->schema != nullptr) return card->schema->name;
+    return card->title ? "title" : "";
+  }
+  /// A cell behind the end of its line has the columns of its field; free format may leave none.
+  CellRow cell(const Cell& c) const {
+    DecodedCard placed;
+    placed.schema = card->schema;
+    placed.line = card->line;
+    placed.free_format = card->free_format;
+    const CellColumns at = columns_of(placed, c);
+    return {{at.first, std::max(at.first, at.last)}, &c};
+  }
+};
+Record<CardRow> record_of(const CardRow*) {
+  using Row = CardRow;
+  static constexpr Column<Row> columns[] = {
+      column("line", "From 1 on",
+             [](const Row& r) { return r.deck.sources.position(r.card->line.whole()).line; }),
+      column("file", [](const Row& r) { return r.deck.sources[r.card->line.file].path(); }),
+      column<&Row::name>("card", "What the line is: a card, title, or empty without a schema"),
+      column<&Row::card, &ShownCard::line, &Line::text>("text"), column("cells", [](const Row& r) {
+        return rows_of(r.card->cells, [&r](const Cell& c) { return r.cell(c); });
+      })};
+  return {"card", "", columns};
+}
+
+struct LinkRow {
+  const Link* link;
+  std::optional<Place> place;
+};
+Record<LinkRow> record_of(const LinkRow*) {
+  using Row = LinkRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::link, &Link::field>("field", "The cell, clause or list that names the other"),
+      column<&Row::link, &Link::keyword>("keyword", "Empty: there is no such entity"),
+      column<&Row::link, &Link::kind>("kind"),
+      column("id", [](const Row& r) { return known(r.link->id != 0, r.link->id); }),
+      column("last", "Last id of a range",
+             [](const Row& r) { return if_any(r.link->last > 0, r.link->last); }),
+      column("count", "How many, such as the elements of a part",
+             [](const Row& r) { return if_any(r.link->count > 1, r.link->count); }),
+      column<&Row::link, &Link::title>("title"),
+      column("file",
+             [](const Row& r) { return r.place ? std::optional(r.place->file) : std::nullopt; }),
+      column("line",
+             [](const Row& r) { return r.place ? std::optional(r.place->line) : std::nullopt; })};
+  return {"link", "", columns, true};
+}
+
+struct ShowDocument {
+  const ParamsInput& in;
+  const EntityView& view;
+  const Deck& deck;
+
+  Rows<LinkRow> links(const std::vector<Link>& list) const {
+    return rows_of(list, [this](const Link& l) { return LinkRow{&l, place_of(deck, l.span)}; });
+  }
+};
+Record<ShowDocument> record_of(const ShowDocument*) {
+  using Row = ShowDocument;
+  static constexpr Column<Row> columns[] = {
+      column("deck", [](const Row& r) { return deck_row(r.in.loaded); }),
+      column("entity", [](const Row& r) -> const Entity& { return r.view.entity; }),
+      column("source", [](const Row& r) { return place_of(r.deck, r.view.entity.span); }),
+      column("included_by", "Include directives from the main file down to its file",
+             [](const Row& r) {
+               return rows_of(r.view.includes, [&r](const Span& s) { return place_of(r.deck, s); });
+             }),
+      column("cards", "Its data lines",
+             [](const Row& r) {
+               return rows_of(r.view.cards, [&r](const ShownCard& c) {
+                 return CardRow{r.deck, &c};
+               });
+             }),
+      column("parameters", "Of an interface, by the names of the manual",
+             [](const Row& r) {
+               if (r.view.inter == nullptr) return IfAny<Named<ParameterRow>>{};
+               return IfAny<Named<ParameterRow>>{parameters_of(r.in, *r.view.inter)};
+             }),
+      column("model", "What the model makes of it: counts of members, coordinates ...",
+             [](const Row& r) {
+               return Named<Scalar>{[&r](const auto& add) {
+                 for (const auto& [name, value] : r.view.facts) add(name, value);
+               }};
+             }),
+      column("refers_to", "What it names; the place is that of the target's definition",
+             [](const Row& r) { return r.links(r.view.refers_to); }),
+      column("used_by", "What names it; the place is that of the cell",
+             [](const Row& r) { return r.links(r.view.used_by); }),
+      column("contacts", "Contacts that reach it over other entities or as a member of a side",
+             [](const Row& r) { return r.links(r.view.interfaces); })};
+  return {"document", "", columns};
+}
+
+constexpr DocumentHead head{
+    "deck/show", 1,
+    "Written by deck show --json: one entity of a deck, its card, what the solver uses, what it "
+    "refers to and what uses it. Cells have the values of the card; parameters and model are in "
+    "working units.",
+    false};
 
 }  // namespace
 
+DocumentSchema show_schema() { return document_schema<ShowDocument>(head); }
+
 std::string show_json(const ParamsInput& params, const EntityView& view) {
-  return ShowJson(params, view).run();
+  return write_document(head, ShowDocument{params, view, params.loaded.deck()});
 }
 
 }  // namespace deck

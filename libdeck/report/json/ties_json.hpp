@@ -5,14 +5,14 @@
 
 namespace deck {
 
-const Record<RepeatedTies>& record_of(const RepeatedTies*);
-const Record<TieCounts>& record_of(const TieCounts*);
+Record<RepeatedTies> record_of(const RepeatedTies*);
+Record<TieCounts> record_of(const TieCounts*);
 /// With `all` every secondary node, else those that are not tied or that the solver lists.
 struct TieRow {
   const Model& model;
   const Tie* tie;
   bool all = false;
 };
-const Record<TieRow>& record_of(const TieRow*);
+Record<TieRow> record_of(const TieRow*);
 
 }  // namespace deck

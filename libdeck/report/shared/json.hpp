@@ -72,7 +72,5 @@ void write_json_deck(JsonWriter& json, std::string_view path, const Deck& deck, 
                      const Interfaces* interfaces);
 /// The members "examined" (how many interfaces) and "not_examined" (the others, by keyword).
 void write_json_coverage(JsonWriter& json, const Coverage& coverage);
-/// {"file": ..., "line": ..., "column": ...} of a span, or null.
-void write_json_place(JsonWriter& json, const Deck& deck, const Span& span);
 
 }  // namespace deck

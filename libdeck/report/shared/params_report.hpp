@@ -5,10 +5,13 @@
 #include <string_view>
 
 #include "deck/front/loaded_deck.hpp"
-#include "report/shared/json.hpp"
 #include "report/shared/text_table.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
+
+template <>
+inline constexpr std::size_t word_count<Origin> = 4;
 
 struct ParamsInput {
   /// Values of Origin::geometry are unknown where the interface is not resolved.
@@ -41,8 +44,16 @@ std::string params_json(const ParamsInput& input, const std::vector<std::int64_t
 /// Fields of one interface as a table of field, card, value, origin and place.
 TextTable params_table(const ParamsInput& input, const InterBase& inter,
                        const ParamsTextOptions& options = {});
-/// The member "parameters" of one interface.
-void write_json_parameters(JsonWriter& json, const ParamsInput& input, const InterBase& inter);
+/// A field of an interface: what the card says, what the solver uses, and where that is from.
+struct ParameterRow {
+  std::optional<Scalar> input, value;
+  Origin origin = Origin::built_in;
+  IfAny<Named<double>> by_role;
+  std::optional<Place> source;
+};
+Record<ParameterRow> record_of(const ParameterRow*);
+/// All fields of one interface. `input` and `inter` must outlive the result.
+Named<ParameterRow> parameters_of(const ParamsInput& input, const InterBase& inter);
 /// Value of a field for people: "0.5"; where the geometry decides, of every part of a TYPE19.
 template <class T>
 std::string effective_text(const ParamsInput& input, const InterBase& inter, std::string_view name,

@@ -11,8 +11,9 @@
 #include <optional>
 
 #include "deck/text/number.hpp"
-#include "report/shared/json.hpp"
+#include "report/shared/schemas.hpp"
 #include "report/shared/text_table.hpp"
+#include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"
 #include "text/shared/columns.hpp"
 
@@ -100,42 +101,30 @@ std::string input_text(const Deck& deck, const Effective<T>& e) {
   return cell_text(e.input);
 }
 
-void write_value(JsonWriter& json, std::int64_t v) { json.value(v); }
-void write_value(JsonWriter& json, double v) { json.value(v); }
-void write_value(JsonWriter& json, const std::string& v) { json.value(v); }
+/// The columns of a cell.
+std::optional<Place> cell_place(const Deck& deck, const Span& span) {
+  std::optional<Place> place = place_of(deck, span);
+  if (place) place->end_column = {place->column + span.length};
+  return place;
+}
 
 template <class T>
-void json_field(JsonWriter& json, const ParamsInput& in, const InterBase& inter,
-                std::string_view name, const Effective<T>& e) {
-  json.key(name).begin_object(true).key("input");
-  if (e.has_input && !std::isfinite(as_number(e.input)))
-    json.value(input_text(in.loaded.deck(), e));
-  else if (e.has_input)
-    write_value(json, e.input);
-  else
-    json.null();
-  json.key("value");
+ParameterRow parameter(const ParamsInput& in, const InterBase& inter, std::string_view name,
+                       const Effective<T>& e) {
+  const Deck& deck = in.loaded.deck();
+  ParameterRow row;
+  if (e.has_input)
+    row.input = std::isfinite(as_number(e.input)) ? Scalar(e.input) : input_text(deck, e);
   const bool geometric = e.origin == Origin::geometry;
-  if (geometric && !inter.resolved)
-    json.null();
-  else
-    write_value(json, e.value);
-  json.field("origin", to_string(e.origin));
-  if (const auto values = by_role(in, inter, name); geometric && values.size() > 1) {
-    json.key("by_role").begin_object(true);
-    for (const auto& [role, v] : values) json.field(role, v);
-    json.end_object();
-  }
-  json.key("source");
-  if (e.span.valid()) {
-    const Position p = in.loaded.deck().sources.position(e.span);
-    json.begin_object(true).field("file", in.loaded.deck().sources[e.span.file].path());
-    json.field("line", p.line).field("column", p.column);
-    json.field("end_column", p.column + e.span.length).end_object();
-  } else {
-    json.null();
-  }
-  json.end_object();
+  if (!geometric || inter.resolved) row.value = e.value;
+  row.origin = e.origin;
+  if (auto values = by_role(in, inter, name); geometric && values.size() > 1)
+    row.by_role.value = Named<double>{[values = std::move(values)](const auto& add) {
+                                        for (const auto& [role, v] : values) add(role, v);
+                                      },
+                                      true};
+  row.source = cell_place(deck, e.span);
+  return row;
 }
 
 }  // namespace
@@ -335,14 +324,32 @@ std::string params_matrix_csv(const ParamsInput& in, const ParamsTextOptions& op
   return out;
 }
 
-void write_json_parameters(JsonWriter& json, const ParamsInput& in, const InterBase& inter) {
-  json.key("parameters").begin_object();
-  visit_any_interface(inter, [&](const auto& t) {
-    t.for_each([&](std::string_view name, const auto& e) { json_field(json, in, inter, name, e); });
-  });
-  // No such cell on the card; its node-to-surface parts have the field all the same.
-  if (inter.type == 19) json_field(json, in, inter, "Fpenmax", EffectiveReal{});
-  json.end_object();
+Record<ParameterRow> record_of(const ParameterRow*) {
+  static constexpr Column<ParameterRow> columns[] = {
+      column<&ParameterRow::input>(
+          "input",
+          "What the card says; a cell without a finite number as it is written "
+          "(\"NaN\"); null: blank cell, or no such cell in this version"),
+      column<&ParameterRow::value>(
+          "value",
+          "What the solver uses; 1000 is 'nothing'; null: follows from the mesh "
+          "and was not derived, or is no finite number"),
+      column<&ParameterRow::origin>("origin"),
+      column<&ParameterRow::by_role>("by_role", "Derived gaps of the parts of a TYPE19"),
+      column<&ParameterRow::source>("source",
+                                    "The columns of the value, also where they are blank")};
+  return {"parameter", "", columns, true, true};
+}
+
+Named<ParameterRow> parameters_of(const ParamsInput& in, const InterBase& inter) {
+  return {[&in, &inter](const auto& add) {
+    visit_any_interface(inter, [&](const auto& t) {
+      t.for_each(
+          [&](std::string_view name, const auto& e) { add(name, parameter(in, inter, name, e)); });
+    });
+    // No such cell on the card; its node-to-surface parts have the field all the same.
+    if (inter.type == 19) add("Fpenmax", parameter(in, inter, "Fpenmax", EffectiveReal{}));
+  }};
 }
 
 std::string params_text(const ParamsInput& in, const ParamsTextOptions& options) {
@@ -378,37 +385,84 @@ std::string params_text(const ParamsInput& in, const ParamsTextOptions& options)
   return out + "\n";
 }
 
+namespace {
+
+struct InterfaceRow {
+  const ParamsInput& in;
+  const InterBase* inter;
+};
+Record<InterfaceRow> record_of(const InterfaceRow*) {
+  using Row = InterfaceRow;
+  static constexpr Column<Row> columns[] = {
+      column<&Row::inter, &InterBase::id>("id"),
+      column<&Row::inter, &InterBase::type>("type", "2, 7, 10, 11, 19, 24 or 25"),
+      column<&Row::inter, &InterBase::title>("title"),
+      column("source", [](const Row& r) { return place_of(r.in.loaded.deck(), r.inter->span); }),
+      column("parameters", "By the names of the manual",
+             [](const Row& r) { return parameters_of(r.in, *r.inter); })};
+  return {"interface", "", columns};
+}
+
+struct OtherRow {
+  const Deck& deck;
+  const Block* block;
+};
+Record<OtherRow> record_of(const OtherRow*) {
+  using Row = OtherRow;
+  static constexpr Column<Row> columns[] = {
+      column("keyword", [](const Row& r) { return keyword_of(*r.block); }),
+      column("id", [](const Row& r) { return r.block->id.value; }),
+      column("source", [](const Row& r) { return place_of(r.deck, r.block->header_span); })};
+  return {"other_interface", "", columns, true};
+}
+
+struct ParamsDocument {
+  const ParamsInput& in;
+  const ParamsTextOptions options;
+  const Coverage coverage;
+};
+
+void each_interface(const ParamsDocument& r, const std::function<void(const InterfaceRow&)>& add) {
+  for (const InterBase* inter : r.in.loaded.interfaces().all)
+    if (wanted(r.options, *inter)) add({r.in, inter});
+}
+
+Record<ParamsDocument> record_of(const ParamsDocument*) {
+  using Row = ParamsDocument;
+  static constexpr Column<Row> columns[] = {
+      column("deck", [](const Row& r) { return deck_row(r.in.loaded); }),
+      column<&Row::coverage, &Coverage::examined>("examined",
+                                                  "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25"),
+      column("not_examined", "Interfaces of other types, by keyword",
+             [](const Row& r) { return rows_of(r.coverage.not_examined); }),
+      column("interfaces",
+             [](const Row& r) {
+               return Rows<InterfaceRow>{[&r](const auto& add) { each_interface(r, add); }};
+             }),
+      column("not_evaluated", "Interfaces of other types, which are not in 'interfaces'",
+             [](const Row& r) {
+               const Deck& deck = r.in.loaded.deck();
+               return rows_of(not_evaluated(r.in), [&deck](const Block* b) {
+                 return OtherRow{deck, b};
+               });
+             })};
+  return {"document", "", columns};
+}
+
+constexpr DocumentHead head{
+    "deck/params", 1,
+    "Written by deck params --json: effective values of every interface of TYPE2, 7, 10, 11, 19, "
+    "24 and 25, in working units."};
+
+}  // namespace
+
+DocumentSchema params_schema() { return document_schema<ParamsDocument>(head); }
+
 std::string params_json(const ParamsInput& in, const std::vector<std::int64_t>& only) {
-  std::string out;
-  JsonWriter json(out);
-  json.begin_object();
-  write_json_head(json, "deck/params", 1);
-  write_json_deck(json, in.loaded.path(), in.loaded.deck(), &in.loaded.model(),
-                  &in.loaded.interfaces());
-  write_json_coverage(json, coverage_of(in.loaded.deck(), in.loaded.interfaces()));
-  json.key("interfaces").begin_array();
   ParamsTextOptions options;
   options.only = only;
-  for (const InterBase* inter : in.loaded.interfaces().all) {
-    if (!wanted(options, *inter)) continue;
-    json.begin_object();
-    json.field("id", inter->id).field("type", inter->type).field("title", inter->title);
-    json.key("source");
-    write_json_place(json, in.loaded.deck(), inter->span);
-    write_json_parameters(json, in, *inter);
-    json.end_object();
-  }
-  json.end_array();
-  json.key("not_evaluated").begin_array();
-  for (const Block* b : not_evaluated(in)) {
-    json.begin_object(true).field("keyword", keyword_of(*b));
-    json.field("id", b->id.value).key("source");
-    write_json_place(json, in.loaded.deck(), b->header_span);
-    json.end_object();
-  }
-  json.end_array();
-  json.end_object();
-  return out;
+  return write_document(
+      head, ParamsDocument{in, options, coverage_of(in.loaded.deck(), in.loaded.interfaces())});
 }
 
 }  // namespace deck

@@ -88,11 +88,22 @@ export interface ContactData {
   mainLength: Uint8Array;
   pairSecondary: Uint32Array;
   pairMain: Uint32Array;
-  /** ContactMeta.given: the rows, in the order of the pairs and with the numbers of ../wasm/what_if.cpp; thicknesses are gaps then. */
-  given: Float64Array | null;
+  distance: Float64Array;
+  /** By pair: distances that the solver reports in place of it where they give the same depth. */
+  others: Map<number, number[]>;
+  figures: Figures;
 }
 
-export const rowSize = 17; // numbers of a row
+/** Of the penetrations that the program found what does not follow from their pair. */
+export interface Figures {
+  pair: Uint32Array; // position
+  gap: Float64Array;
+  depth: Float64Array; // TYPE24, TYPE25; of all others it is gap less distance
+  normal: Float64Array[]; // x, y, z
+  weight: Float64Array; // edges: of the first secondary node
+  stored: Float64Array;
+  action: Uint8Array; // position among Meta.actions
+}
 
 const limits = new WeakMap<Uint8Array, Float64Array>();
 /** Mesh-size limits of one side, made when first asked for. */
@@ -190,8 +201,8 @@ export function loadElements(mesh: Mesh): (part: number, item: number) => Elemen
   };
 }
 
-function listPositions(pairs: Uint32Array, items: number, all: boolean): [Int32Array, number] {
-  const out = new Int32Array(items).fill(all ? 0 : -1);
+function listPositions(pairs: Uint32Array, items: number): [Int32Array, number] {
+  const out = new Int32Array(items).fill(-1);
   for (let k = 0; k < pairs.length; k++) out[pairs[k]] = 0;
   let n = 0;
   for (let i = 0; i < items; i++) if (out[i] === 0) out[i] = n++;
@@ -208,6 +219,11 @@ function readContact(r: Reader, meta: ContactMeta, segments: Items, allEdges: It
     d.pairSecondary.fill(secondary, at, (at += r.u()));
   }
   d.pairMain = r.deltas32(pairs);
+  d.distance = r.f64(pairs);
+  d.others = new Map();
+  const others = r.deltas32(r.u());
+  const instead = r.f64(others.length);
+  others.forEach((pair, i) => d.others.set(pair, [...(d.others.get(pair) ?? []), instead[i]]));
   const secondaries = r.u();
   const secondary = r.deltas32(secondaries);
   d.secondaryNode = edges ? allEdges.nodesOf(secondary) : secondary;
@@ -218,9 +234,8 @@ function readContact(r: Reader, meta: ContactMeta, segments: Items, allEdges: It
   d.mainNode = items.nodesOf(main);
   d.mainThickness = r.palette(mains);
   d.mainOwner = items.ownersOf(main);
-  const all = meta.irem_gap === 2;
-  const [sl, sn] = listPositions(d.pairSecondary, secondaries, all);
-  const [ml, mn] = listPositions(d.pairMain, mains, all);
+  const [sl, sn] = listPositions(d.pairSecondary, secondaries);
+  const [ml, mn] = listPositions(d.pairMain, mains);
   d.secondaryListed = sl;
   d.mainListed = ml;
   d.secondaryOwner = edges ? allEdges.ownersOf(secondary.filter((_, i) => sl[i] >= 0)) : owners(r, sn);
@@ -234,21 +249,17 @@ function readContact(r: Reader, meta: ContactMeta, segments: Items, allEdges: It
   }
   d.secondaryLength = r.bytes(8 * sn);
   d.mainLength = r.bytes(8 * mn);
-  d.given = meta.given ? readGiven(r, d) : null;
+  d.figures = readFigures(r, meta);
   return d;
 }
 
-function readGiven(r: Reader, d: ContactData): Float64Array {
-  const n = d.pairMain.length;
-  const out = new Float64Array(rowSize * n);
-  const put = (at: number, values: ArrayLike<number>) => {
-    for (let i = 0; i < n; i++) out[rowSize * i + at] = values[i];
+function readFigures(r: Reader, meta: ContactMeta): Figures {
+  const n = r.u();
+  const none = new Float64Array(0);
+  return {
+    pair: r.deltas32(n), gap: r.palette(n), depth: meta.modern ? r.f64(n) : none, normal: [r.f64(n), r.f64(n), r.f64(n)],
+    weight: meta.kind === "edge_edge" ? r.f64(n) : none, stored: r.f64(n), action: r.bytes(n),
   };
-  put(0, d.pairSecondary);
-  put(1, d.pairMain);
-  for (const at of [2, 3, 4, 5, 6, 7, 16, 12]) put(at, r.f64(n));
-  put(9, r.bytes(n));
-  return out;
 }
 
 /** `shared`: what all contacts have in common. */

@@ -92,7 +92,7 @@ export function csv(report: Report, hits: Hit[]): string {
     return [
       inter.id, inter.type, c.role, c.kind, x.nodes[0], id(x.nodes[1]),
       id(main[0]), id(main[1]), id(main[2]), id(main[3]), r.depth, r.gap, r.distance, x.ratio,
-      ...r.normal, r.onSurface ? 1 : 0, report.isRoundOff(r) ? 0 : 1, r.action, r.gap0 ?? "", r.p0 ?? "", ...report.point(r),
+      ...(r.normal ?? ["", "", ""]), r.onSurface ? 1 : 0, report.isRoundOff(r) ? 0 : 1, r.action, r.gap0 ?? "", r.p0 ?? "", ...(report.point(r) ?? ["", "", ""]),
       id(report.elementId(r, "secondary")), id(report.partId(x.secondaryPart)),
       id(report.elementId(r, "main")), id(report.partId(x.mainPart)),
       place ? quote(place.file) : "", place ? place.line : "",
@@ -108,12 +108,7 @@ export function allChangedCards(report: Report): string {
     .join("");
 }
 
-/** The command that evaluates the settings of the page outside of it. */
-export function whatIfCommand(report: Report): string {
-  return deckCommand(report, "gaps");
-}
-
-/** The command of a page, with its settings under test. */
+/** The command of a page, or of another verb, with its settings under test. */
 export function deckCommand(report: Report, verb: string = report.meta.page): string {
   const parts = report.meta.interfaces.flatMap((inter, i) => {
     const fields = Object.entries(report.overrides[i]).map(([k, v]) => `${k}=${k.startsWith("I") ? v : shortest(v)}`);

@@ -64,7 +64,7 @@ const oneColumn = "(max-width: 1100px)";
 function build(model: Model & { beside: boolean }, software: boolean, machine: WebGLRenderer | null): void {
   const times: Record<string, number> = { decoded: performance.now() - started };
   const meta = loadMeta();
-  const report = new Report(meta, model.mesh, model.contacts, loadEarlier(), loadCycle(), loadCrossed(), loadTies(), model.base);
+  const report = new Report(meta, model.mesh, model.contacts, loadEarlier(), loadCycle(), loadCrossed(), loadTies());
   times.evaluated = performance.now() - started;
   const doc = loadCycleDocument();
   const parts = loadPartsDocument(report);
@@ -202,9 +202,10 @@ function evaluateFor(report: Report, id: number, change: Overrides): unknown {
       interface: report.meta.interfaces[c.interface].id,
       role: c.role,
       gapmin: r.setting.gapmin,
+      gapmin_from: r.setting.gapminFrom,
       igap: r.setting.igap,
       max_gap: r.setting.maxGap,
-      complete: r.complete,
+      complete: r.beyond === 0,
       totals: r.totals,
       penetrations: r.rows.map((row) => ({
         secondary: report.secondaryNodes(row).map((n) => report.nodeId(n)),

@@ -50,13 +50,10 @@ export interface CardValues {
   Gapmin: number; // 0: to be derived from the mesh
   Igap: number;
   Inacti: number;
-  Irem_gap: number;
   Fscalegap: number;
   Gapmax: number;
   Fpenmax: number;
   Edge_scale_gap: number;
-  thermal: boolean;
-  Drad: number;
 }
 
 /** Thicknesses of one side (count, sum, smallest, largest; null: there is none) and its shortest side. */
@@ -69,36 +66,28 @@ export interface ContactMeta {
   type: number;
   dropped: boolean;
   evaluated: boolean; // false: whether anything penetrates is not known
-  given: boolean; // TYPE24, TYPE25: its rows stand in the page as they were found, for the deck's settings only
+  modern: boolean; // TYPE24, TYPE25
   igap: number;
   inacti: number;
-  istf: number;
-  irem_gap: number;
   itied: number;
   ties: boolean; // its pairs are tied: no penetrations
   fpenmax: number;
   gap_scale: number;
-  gapmin: number;
+  gapmin: number | null; // null: not finite
   gapmin_from: string;
   gapmax: number;
-  drad: number;
-  max_gap: number;
-  shortest_side: number;
-  mesh_fraction: number;
+  max_gap: number | null;
   longest_main: number;
   longest_node: number;
   secondary: number;
   main: number;
-  candidates: number;
-  removed_pairs: number;
   repaired: number;
   degenerate: number;
   reoriented: number;
   no_carrier: number;
-  reach: number;
-  margin: number;
-  complete: boolean;
-  pairs: number;
+  reach: number; // all pairs nearer than that are carried
+  fixed: string; // why the page tries no other settings; empty: it does
+  complete: boolean; // false: of too many penetrations only the deepest
   round_off: [number, number][]; // secondary and main of pairs that only the solver's round-off makes
   totals: Totals;
   card: CardValues;

@@ -1,11 +1,11 @@
 // The state of the page: data, settings under test, results, filters, selection; and who is told
 // when one of them changes.
 import { kindNames, type Contacts, type Mesh, type Steps } from "./data";
-import { stopsSolver, type Action, type Raw, type Row } from "./core";
 import { lengthText, onceShown } from "./dom";
-import { Evaluator, ratioOf, Tally, type Result } from "./evaluate";
 import { commonStart } from "./table/names";
+import { ratioOf, stopsSolver, Tally, type Action, type Row } from "./rows";
 import type { Untied } from "./sections/untied";
+import { Evaluator, type Result } from "./what_if";
 import type { Crossed, Cycle, Earlier, FieldName, Meta, Moved, Overrides, TieData, TieMeta, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
@@ -125,11 +125,8 @@ export class Report {
     readonly cycle: Cycle | null,
     readonly crossed: Crossed | null,
     readonly ties: TieData[], // in the order of Meta.ties
-    deckResults: Raw[] | null = null,
   ) {
     this.forces = cycle && cycle.contacts.map((c) => new Map(c.rows.map((r) => [`${r[0]}/${r[1]}`, { force: r[2], stiffness: r[3] }])));
-    this.evaluator = new Evaluator(meta, data, deckResults);
-    this.base = this.evaluator.base();
     this.overrides = meta.interfaces.map((inter) => {
       const out: Overrides = {};
       for (const w of meta.what_if)
@@ -139,8 +136,9 @@ export class Report {
       return out;
     });
     this.started = this.overrides;
-    const none = meta.interfaces.map(() => ({}) as Overrides);
-    this.results = this.anyChanged ? this.evaluator.evaluate(this.overrides, { overrides: none, results: this.base }) : this.base;
+    this.evaluator = new Evaluator(meta, data, this.started);
+    this.results = this.evaluator.written;
+    this.base = this.evaluator.evaluate(meta.interfaces.map(() => ({})));
     this.roundOff = meta.contacts.map((c) => new Set(c.round_off.map((p) => p.join("/"))));
     // What is solved may have an id that something else has now.
     this.earlierRows = earlier && new Map([...earlier.rows].reverse().sort((a, b) => Number(b[6] === "solved") - Number(a[6] === "solved")).map((r) => [`${r[0]}|${r[1]}|${r[2]}|${r[3]}`, r]));
@@ -189,12 +187,11 @@ export class Report {
     return [n > 0 && `; ${n === 1 ? "1 contact or tie was" : `${n} contacts or ties were`} not evaluated`, others > 0 && `; ${others === 1 ? "1 interface was" : `${others} interfaces were`} not examined`].filter(Boolean).join("");
   }
 
-  /** True if the page's own evaluation of the deck's settings is what the program found. */
+  /** True if the rows of the page are counted as the program counts. */
   get verified(): boolean {
     return this.meta.contacts.every((c, i) => {
-      const t = this.results[i].totals;
+      const t = this.evaluator.written[i].totals;
       return (
-        this.meta.what_if.length > 0 ||
         !c.complete ||
         (Object.keys(t) as (keyof Totals)[]).every((k) => (t.unbounded && (k === "unbounded" || k.startsWith("max_"))) || JSON.stringify(t[k]) === JSON.stringify(c.totals[k]))
       );
@@ -225,7 +222,8 @@ export class Report {
   clearOverrides(inter: number | null): void {
     this.apply(this.overrides.map((o, i) => (inter === null || i === inter ? {} : o)));
   }
-  private apply(next: Overrides[]): void {
+  private apply(wanted: Overrides[]): void {
+    const next = wanted.map((o, i) => (this.evaluator.fixed(i) === "" ? o : this.started[i]));
     const results = this.evaluator.evaluate(next, { overrides: this.overrides, results: this.results });
     this.overrides = next;
     this.results = results;
@@ -254,7 +252,7 @@ export class Report {
       if (own.length === 1) found = list[own[0]].totals;
       else {
         const tally = new Tally(this.mesh.nodeId.length, this.meta.largest_gap);
-        for (const i of own) tally.add(this.meta.contacts[i], this.data.contacts[i], list[i]);
+        for (const i of own) tally.add(this.meta.contacts[i], this.data.contacts[i], list[i].rows);
         found = tally.totals();
       }
       known.set(inter, found);
@@ -380,8 +378,8 @@ export class Report {
     if (type !== 19) return `TYPE${type}`;
     return `TYPE19 ${c.role}`;
   }
-  /** Exact position of the secondary point: the node, or the closest point of the edge. */
-  point(row: Row): [number, number, number] {
+  /** Exact position of the secondary point: the node, or the closest point of the edge; null: not known. */
+  point(row: Row): [number, number, number] | null {
     const { x, y, z, exactOf, contacts } = this.data;
     const nodes = contacts[row.contact].secondaryNode;
     if (!this.isEdge(row)) {
@@ -390,6 +388,7 @@ export class Report {
     }
     const [a, b] = [exactOf[nodes[2 * row.secondary]], exactOf[nodes[2 * row.secondary + 1]]];
     const w = row.weight;
+    if (w === null) return null;
     return [w * x[a] + (1 - w) * x[b], w * y[a] + (1 - w) * y[b], w * z[a] + (1 - w) * z[b]];
   }
   /** What the solver does, of one pair or of several, in the words of the program. */

@@ -29,12 +29,6 @@ export const modernInactiWords: Record<number, string> = {
   5: "stored as offset",
 };
 
-/** `modern`: of a TYPE24 or TYPE25. */
-export function flagText(field: "Igap" | "Inacti", value: number, modern = false): string {
-  const words = field === "Igap" ? (modern ? modernIgapWords : igapWords) : modern ? modernInactiWords : inactiWords;
-  return `${value} – ${words[value] ?? "unknown"}`;
-}
-
 export const actionLong: Record<string, string> = {
   none: "Nothing is done. The run starts with this overlap: the contact pushes the node out from the first cycle on, with a force that grows with depth.",
   "node-stiffness-zero": "The node's stiffness is set to zero: this interface never acts on the node again.",

@@ -1,5 +1,4 @@
 // Asks a thread for the model. The thread's source lies in the page, which is one file.
-import { useRules } from "../core";
 import { blockText } from "../data";
 import { decode, type Blocks, type Model } from "./model";
 import source from "./worker.ts?text";
@@ -17,10 +16,9 @@ class Thread {
     this.worker = new Worker(this.address);
     this.model = new Promise((done, failed) => {
       this.worker.onerror = (e) => failed(new Error(e.message));
-      this.worker.onmessage = (e: MessageEvent<{ done: number; next: string } | { model: Model; rules: WebAssembly.Module } | { failed: string }>) => {
+      this.worker.onmessage = (e: MessageEvent<{ done: number; next: string } | { model: Model } | { failed: string }>) => {
         if ("done" in e.data) return this.say(e.data.done, e.data.next);
         if ("failed" in e.data) return failed(new Error(e.data.failed));
-        useRules(e.data.rules);
         done(e.data.model);
       };
     });

@@ -1,5 +1,4 @@
 // The thread that decodes the model beside the page: blocks in, typed arrays out, which change hands.
-import { compiledRules } from "../core";
 import { decode, type Blocks } from "./model";
 
 /** Memory behind all arrays of a value, each once. */
@@ -20,7 +19,7 @@ onmessage = async (event: MessageEvent<Blocks | boolean>) => {
   if (typeof event.data === "boolean") return tell(event.data);
   try {
     const model = await decode(event.data, () => coarse, (done, next) => post({ done, next }));
-    post({ model, rules: compiledRules() }, [...memory(model)]);
+    post({ model }, [...memory(model)]);
   } catch (e) {
     post({ failed: String(e) });
   }

@@ -1,9 +1,9 @@
 // Values per page node for the coloured surface.
-import { pairGap } from "../core";
 import { lengths, type Steps } from "../data";
 import { num } from "../dom";
 import { ofCycle, type ContourKind } from "../look";
 import type { Hit, Report } from "../report";
+import { pairGap, sideGaps } from "../what_if";
 
 export interface Contour {
   /** In [0, 1], NaN: no value; by page node. */
@@ -75,7 +75,7 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
     const data = report.data.contacts[i];
     const edges = meta.kind === "edge_edge";
     const s = report.results[i].setting;
-    const { gs, gm } = report.evaluator.core.sideGaps(i, report.overrides[meta.interface], data);
+    const { gs, gm } = sideGaps(meta, data, s);
     const thickest = (gaps: Float64Array) => gaps.reduce((m, g) => Math.max(m, g), 0);
     const width = edges ? 2 : 4;
     const mains = data.mainNode.length / width;

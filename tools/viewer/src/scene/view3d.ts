@@ -2,6 +2,7 @@
 import { CanvasTexture, Color, DirectionalLight, Frustum, HemisphereLight, Matrix4, Mesh, Raycaster, Scene, Sphere, Vector3, type WebGLRenderer } from "three";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { CameraControl, directions } from "./camera";
+import { exactAt, pointOf, wayOut } from "./drawn";
 import { Parts3D, type Look, type Part3D } from "./parts3d";
 import { Section, type Cut } from "./section";
 import { Marked } from "./marks/marked";
@@ -368,17 +369,14 @@ export class View3D {
 
   /** Sphere around the main side and the node of a row. */
   sphereOf(hit: Hit): Sphere {
-    const d = this.report.data;
-    const points = [...this.report.mainNodes(hit.row), ...this.report.secondaryNodes(hit.row)].map(
-      (n) => new Vector3(d.x[d.exactOf[n]], d.y[d.exactOf[n]], d.z[d.exactOf[n]]),
-    );
-    return new Sphere().setFromPoints(points);
+    const nodes = [...this.report.mainNodes(hit.row), ...this.report.secondaryNodes(hit.row)];
+    return new Sphere().setFromPoints(nodes.map((n) => exactAt(this.report, n)));
   }
 
   /** Flies to a row: obliquely from the side where the node should be, by the clearest of several
    * directions; what still stands in between is cut away. */
   flyTo(hit: Hit): void {
-    const point = new Vector3(...this.report.point(hit.row));
+    const point = pointOf(this.report, hit.row);
     const radius = Math.max(this.sphereOf(hit).radius * 2.6, 1e-9);
     const normal = this.normalOf(hit);
     let best = normal;
@@ -397,10 +395,9 @@ export class View3D {
 
   /** Way out of the main side; where there is none, the normal of the segment. */
   private normalOf(hit: Hit): Vector3 {
-    const n = new Vector3(...hit.row.normal);
+    const n = wayOut(this.report, hit.row);
     if (n.lengthSq() > 0) return n;
-    const d = this.report.data;
-    const p = this.report.mainNodes(hit.row).map((k) => new Vector3(d.x[d.exactOf[k]], d.y[d.exactOf[k]], d.z[d.exactOf[k]]));
+    const p = this.report.mainNodes(hit.row).map((k) => exactAt(this.report, k));
     if (p.length > 2) n.crossVectors(p[1].clone().sub(p[0]), p[p.length - 1].clone().sub(p[0]));
     return n.lengthSq() > 0 ? n.normalize() : new Vector3(0, 0, 1);
   }
@@ -418,7 +415,7 @@ export class View3D {
   fit(hits: Hit[] | null = null): void {
     this.control.cut = null;
     if (hits && hits.length > 0) {
-      const s = new Sphere().setFromPoints(hits.map((x) => new Vector3(...this.report.point(x.row))));
+      const s = new Sphere().setFromPoints(hits.map((x) => pointOf(this.report, x.row)));
       const grown = Math.max(s.radius, ...hits.slice(0, 1).map((x) => this.sphereOf(x).radius)) * 1.5;
       this.control.fly(s.center, grown);
       return;
@@ -490,7 +487,7 @@ export class View3D {
     let near = 13;
     const v = new Vector3();
     for (const hit of this.markers.hits) {
-      v.set(...this.report.point(hit.row));
+      v.copy(pointOf(this.report, hit.row));
       const shown = !this.section.hides(v);
       const world = v.clone();
       v.project(camera);
@@ -527,6 +524,6 @@ export class View3D {
   /** Position on the page of a row's point; null if it is behind the camera. */
   screen(hit: Hit): { x: number; y: number } | null {
     this.control.update(performance.now());
-    return this.place(new Vector3(...this.report.point(hit.row)));
+    return this.place(pointOf(this.report, hit.row));
   }
 }

@@ -7,11 +7,12 @@ import { crossedElements, forceArrows, markHot } from "./marks/hot";
 import { toolbar } from "./toolbar";
 import { Ruler } from "./ruler";
 import { nearText } from "../sections/nearest";
-import type { Row } from "../core";
+import type { Row } from "../rows";
+import { pointOf, wayOut } from "./drawn";
 import type { Crossed } from "../meta";
 import { crossingText, segmentOf } from "../sections/crossed";
 import { cornersOf, nodeOf, type Untied } from "../sections/untied";
-import { footOn, tieLines } from "./tied";
+import { tieLines } from "./tied";
 import { button, fileName, h, icon, num, plural, replace, svg } from "../dom";
 import { drawAxes, elementText } from "./marks/names";
 import { copyImage, saveDataUrl } from "../exports";
@@ -262,8 +263,8 @@ export class Viewport {
     const parts = [secondaryOwner.part[secondaryListed[row.secondary]], mainOwner.part[row.main]].map((p) => view.partByIndex(p)).filter((p) => p !== undefined);
     if (parts.length > 0) this.isolated = new Set(parts);
     this.applyLooks();
-    const [from, main] = [new Vector3(...report.point(row)), report.mainNodes(row)];
-    const foot = report.isEdge(row) ? from.clone().addScaledVector(new Vector3(...row.normal), -row.distance) : footOn(main.map((n) => this.at(n)), from);
+    const [from, main] = [pointOf(report, row), report.mainNodes(row)];
+    const foot = from.clone().addScaledVector(wayOut(report, row), -row.distance);
     view.setRule([from, foot], [...outline(report, main), ...(report.isEdge(row) ? outline(report, report.secondaryNodes(row)) : [])]);
     view.flyToPoints([from, foot, ...main.map((n) => this.at(n))]);
     this.showTip(`Nearest: ${nearText(report, row)}`);
@@ -489,9 +490,9 @@ export class Viewport {
   private cutThroughRow(): Cut | null {
     const x = this.report.selected;
     if (!x || !this.view) return null;
-    const n = new Vector3(...x.row.normal);
+    const n = wayOut(this.report, x.row);
     const side = new Vector3().crossVectors(n, Math.abs(n.z) < 0.8 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0));
-    return side.lengthSq() > 0 ? { normal: side, at: this.view.clipThrough(new Vector3(...this.report.point(x.row)), side) } : null;
+    return side.lengthSq() > 0 ? { normal: side, at: this.view.clipThrough(pointOf(this.report, x.row), side) } : null;
   }
 
   // ---- what is shown ------------------------------------------------------------------------

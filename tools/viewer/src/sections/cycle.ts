@@ -28,7 +28,7 @@ export function wholeOf(report: Report, inter: number): Whole | null {
 
 /** What the program has no forces for. */
 function notComputed(report: Report): string {
-  const modern = new Set(report.meta.contacts.filter((c) => c.given).map((c) => c.interface)).size;
+  const modern = new Set(report.meta.contacts.filter((c) => c.modern).map((c) => c.interface)).size;
   const ties = report.welds.length;
   const left = [modern > 0 && plural(modern, "interface of TYPE24 or TYPE25", "interfaces of TYPE24 and TYPE25"), ties > 0 && plural(ties, "tie", "ties")].filter(Boolean);
   return left.length > 0 ? ` Forces of ${left.join(" and ")} are not computed.` : "";

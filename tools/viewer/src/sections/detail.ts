@@ -1,7 +1,8 @@
 // What is known about the selected row, and what every Inacti would do to this node.
-import { button, fileName, group, h, lengthText, num, percent, replace } from "../dom";
-import { outcomeOf, stopsSolver, type Row } from "../core";
+import { button, fileName, group, h, lengthText, num, percent, plural, replace } from "../dom";
 import type { Hit, Report } from "../report";
+import { stopsSolver, type Row } from "../rows";
+import { outcomeOf } from "../what_if";
 import { cornersOf, nodeOf, type Untied } from "./untied";
 import { sideView } from "./sideview";
 import { actionLong, inactiWords } from "../words";
@@ -39,8 +40,8 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
           ...item("Pair gap", `${lengthText(report, r.gap, 6)} (${percent(x.ratio)} used)`, String(r.gap)),
           ...item("Distance left", num(r.distance, 6), String(r.distance)),
           ...item("Gap formed by", gapWords(report, x)),
-          ...item("Normal", r.onSurface ? "none: exactly on the surface" : r.normal.map((v) => v.toFixed(3)).join("  ")),
-          ...item("Position", p.map((v) => num(v, 6)).join("  "), p.join(" "))),
+          ...item("Normal", r.onSurface ? "none: exactly on the surface" : r.normal?.map((v) => v.toFixed(3)).join("  ") ?? "–"),
+          ...item("Position", p?.map((v) => num(v, 6)).join("  ") ?? "–", p?.join(" "))),
         h("dl", null,
           ...item("Interface", `${report.interfaceName(meta.interface)} (${report.roleText(x.contact)})`),
           ...item("Element", `${report.elementText(r, "secondary")} · ${report.partText(x.secondaryPart)}`),
@@ -52,7 +53,7 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
       h("div", { class: "side-row" }, sideView(report, x),
         h("p", { class: "fate" }, h("b", null, report.stops(r) ? `The solver stops with error ${r.action.slice(6)}. ` : ""), fate(report, r),
           report.isRoundOff(r) && " Only the round-off of the solver's formula makes this pair a penetration: exactly, it is no nearer than its gap.")),
-      edge || meta.type === 10 || meta.given ? null : alternatives(report, x, setting.inacti, setting.fpenmax),
+      edge || meta.type === 10 || meta.modern ? null : alternatives(report, x, setting.inacti, setting.fpenmax),
     );
   };
   report.on("selection", draw);
@@ -83,7 +84,7 @@ function drawUntied(report: Report, x: Untied, element: HTMLElement): void {
 function gapWords(report: Report, x: Hit): string {
   const s = report.results[x.contact].setting;
   const meta = report.meta.contacts[x.contact];
-  if (meta.given) {
+  if (meta.modern) {
     const data = report.data.contacts[x.contact];
     const [a, b] = [data.secondaryThickness[x.row.secondary], data.mainThickness[x.row.main]];
     return `${num(a)} of the ${meta.kind === "edge_edge" ? "edge" : "node"} and ${num(b)} of the other side${s.rule === 3 ? ", limited by the mesh size" : ""}`;
@@ -113,15 +114,16 @@ function alternatives(report: Report, x: Hit, current: number, fpenmax: number):
   const meta = report.meta.contacts[x.contact];
   const text = (inacti: number): string => {
     const then = outcomeOf(r, meta, inacti, fpenmax);
+    const left = r.gap - then.stored;
     const words = report.actionText(then.action);
     if (stopsSolver(then.action)) return words;
     if (then.action === "node-stiffness-zero" && inacti !== 1) return `${words} (Fpenmax)`;
     switch (inacti) {
       case 1:
       case 2: return `${words} for the whole run`;
-      case 3: return `moved by ${num(Math.hypot(...then.movedBy!), 5)}`;
+      case 3: return `moved by ${num(then.stored, 5)}`;
       case 5:
-      case 6: return `gap ${num(r.gap)} → ${num(then.gap0!, 5)}`;
+      case 6: return `gap ${num(r.gap)} → ${num(left, 5)}`;
       default: return "pushed out from the first cycle on";
     }
   };
@@ -132,25 +134,23 @@ function alternatives(report: Report, x: Hit, current: number, fpenmax: number):
 
 export function notChecked(report: Report): HTMLElement {
   const meta = report.meta;
-  const beyond = meta.contacts.filter((c) => !c.complete && !c.given).length;
+  const fixed = meta.interfaces.filter((_, i) => report.evaluator.fixed(i) !== "").length;
   const items: (Node | string)[] = [
     "Gaps, distances and actions follow the Starter of the reference solver at cycle 0. Forces and time steps are those of deck cycle for the deck's settings; they are not evaluated again in the page.",
     report.crossed
       ? "Crossed elements are searched for exactly, among the edges and main segments of each node-to-segment contact."
       : "Crossed elements were not searched for: an edge through a face shows as a penetration only within the gap.",
-    "Settings under test are evaluated in this page with the same double-precision operations as the command line. Inacti 3 moves nodes, and later interfaces see the moved nodes, and default gaps of the moved mesh; where mesh-size limits (Igap 3) would change with it the page says that it cannot tell.",
-    `Pairs are carried up to about three times the largest gap of each interface${beyond ? `; for ${beyond} of them only what penetrates, because there are too many` : ""}. Beyond that the page says so.`,
+    `Igap, Gapmin, Fscalegap and Gapmax can be tried in this page: it carries the distances of all pairs up to 1.5 times the largest gap of each interface, and depth = gap − distance gives the numbers of the command line. Beyond that reach, and for all other fields, it writes the command${fixed > 0 ? `; for ${plural(fixed, "interface", "interfaces")} it carries only what penetrates` : ""}.`,
   ];
-  if (meta.contacts.some((c) => c.given))
-    items.push("TYPE24 and TYPE25 are shown as the program found them: of their settings the page can try an Inacti with which the same pairs are found, and no other; in Who touches whom they count where they penetrate only.");
+  if (meta.contacts.some((c) => c.modern)) items.push("In Who touches whom TYPE24 and TYPE25 count where they penetrate only.");
   if (meta.ties.length > 0) items.push("Ties (TYPE2, TYPE10) are formed as the Starter forms them. A line ends at the nearest point of the segment.");
   const odd = meta.contacts.filter((c) => c.repaired + c.degenerate + c.reoriented + c.no_carrier > 0);
   const counts = meta.deck.counts;
   return h("section", { id: "notes" },
     h("h2", null, "About this report"),
     meta.contacts.length > 0 && h("p", { class: "note" }, report.verified
-      ? `Recomputed in this page: counts and depths of all ${group(meta.contacts.length)} contacts are those of deck ${meta.tool.version}.`
-      : meta.what_if.length > 0 ? "The page was written with --what-if settings." : h("b", { class: "bad" }, "Recomputing in this page gave other counts than the program. Please report this.")),
+      ? `Counted again in this page: counts and depths of all ${group(meta.contacts.length)} contacts are those of deck ${meta.tool.version}.`
+      : h("b", { class: "bad" }, "Counting in this page gave other numbers than the program. Please report this.")),
     h("ul", null, ...items.map((t) => h("li", null, t))),
     odd.length ? h("table", { class: "plain" },
       h("thead", null, h("tr", null, ...["Interface", "Segments repaired", "Turned outward", "Degenerate", "Without element"].map((t) => h("th", null, t)))),

@@ -1,8 +1,8 @@
 // A report without penetrations: the nearest pair of each interface, and what limits the time step.
 import { kindNames } from "../data";
 import { h, lengthText, num, percent, replace } from "../dom";
-import type { Row } from "../core";
 import type { Report } from "../report";
+import type { Row } from "../rows";
 import { VirtualTable } from "../table/table";
 
 /** How far the two sides of a pair are from their gap. */
@@ -13,7 +13,7 @@ export function nearestPairs(report: Report): Row[] {
   const best = new Map<number, Row>();
   report.meta.contacts.forEach((c, i) => {
     if (c.dropped || !c.evaluated || c.ties) return;
-    const row = report.evaluator.core.nearest(i, report.overrides[c.interface]);
+    const row = report.evaluator.nearest(i, report.results[i].setting);
     const known = best.get(c.interface);
     if (row && (!known || room(row) < room(known))) best.set(c.interface, row);
   });
@@ -65,7 +65,7 @@ export function nearestSection(report: Report, open: (row: Row) => void, ready: 
     table.element.hidden = rows.length === 0;
     table.element.style.setProperty("--rows", String(Math.min(rows.length, 8)));
     table.setRows(rows);
-    const reach = report.meta.contacts.reduce((m, c) => (c.complete && !c.given ? Math.max(m, c.reach - c.margin) : m), 0);
+    const reach = report.meta.contacts.reduce((m, c) => Math.max(m, c.reach), 0);
     replace(said, first ? h("span", null, "Nothing penetrates. Nearest is ", h("button", { type: "button", class: "link", onclick: () => open(first) }, pairText(report, first)), ` of interface ${inter(first).id}: ${lengthText(report, room(first))} beyond the gap of ${lengthText(report, first.gap)}. `)
       : `Nothing is nearer than ${num(reach)}. `, stepText(report));
   };

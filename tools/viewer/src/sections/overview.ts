@@ -1,14 +1,14 @@
 // The table of interfaces and the settings under test.
 import { cardText, changedCard } from "../card";
-import { modernInacti, stopsSolver, type Action } from "../core";
 import { button, group, h, lengthText, num, percent, plural, replace, sectionHead } from "../dom";
-import { copyText, deckCommand, whatIfCommand } from "../exports";
+import { copyText, deckCommand } from "../exports";
 import type { FieldName, Totals } from "../meta";
-import type { Result } from "../evaluate";
 import type { Report } from "../report";
+import { stopsSolver, type Action } from "../rows";
 import { commonStart, named } from "../table/names";
 import { VirtualTable } from "../table/table";
-import { flagText, modernIgapWords, modernInactiWords } from "../words";
+import { igapWords, inactiWords, modernIgapWords, modernInactiWords } from "../words";
+import type { Result } from "../what_if";
 
 /** An interface with all its contacts, or one of several contacts of it. */
 interface ContactRow {
@@ -33,7 +33,7 @@ export function interfaces(report: Report): HTMLElement {
   const setting = (r: ContactRow, of: Result[]) => of[r.contacts[0]].setting;
   // A TYPE24 has no Igap, and neither it nor a TYPE25 has a smallest gap.
   const igap = (r: ContactRow, of: Result[]) => (inter(r).type === 24 ? "–" : String(setting(r, of).igap));
-  const gapmin = (r: ContactRow) => !report.meta.contacts[r.contacts[0]].given;
+  const gapmin = (r: ContactRow) => !report.meta.contacts[r.contacts[0]].modern;
   // Nodes and edges count once in an interface: totals of contacts do not add up.
   const whole = { now: new Map<number, Totals>(), base: new Map<number, Totals>() };
   const totals = (r: ContactRow, which: "now" | "base" = "now"): Totals => {
@@ -167,25 +167,24 @@ function actionsOf(result: Result): Map<Action, number> {
 
 // ---- settings under test ----------------------------------------------------------------------
 
+/** What the page can try. */
 function fieldsOf(report: Report, inter: number): FieldName[] {
+  if (report.evaluator.fixed(inter) !== "") return [];
   const { type } = report.meta.interfaces[inter];
-  if (type === 24 || type === 25) return triedInacti(report, inter).length > 1 ? ["Inacti"] : [];
   if (type === 10) return ["Gapmin"];
-  if (type === 11) return ["Igap", "Gapmin", "Inacti"];
-  if (type === 19) return ["Igap", "Gapmin", "Fscalegap", "Gapmax", "Inacti"];
-  return ["Igap", "Gapmin", "Fscalegap", "Gapmax", "Inacti", "Fpenmax"];
+  return type === 11 ? ["Igap", "Gapmin"] : ["Igap", "Gapmin", "Fscalegap", "Gapmax"];
 }
 
-/** What the page can try in place of the Inacti of a TYPE24 or TYPE25. */
-function triedInacti(report: Report, inter: number): number[] {
-  const held = Number(report.meta.interfaces[inter].values.Irem_i2?.value) === 1 && report.welds.length > 0;
-  return modernInacti(report.meta.contacts[report.contactsOf(inter)[0]], held);
+/** Gaps up to it can be tried; 0: there is nothing to try them on. */
+function reachOf(report: Report, inter: number): number {
+  const all = report.contactsOf(inter).map((i) => report.meta.contacts[i].reach).filter((r) => r > 0);
+  return all.length > 0 ? Math.min(...all) : 0;
 }
 
 /** All settings under test in a line, with what to do with them. */
 export function settingsBar(report: Report): HTMLElement {
   const bar = h("div", { class: "tests", hidden: true });
-  const command = button("Copy command", "copy", async () => flash(command, await copyText(whatIfCommand(report))), { class: "small", title: "deck gaps … --what-if …: the same settings evaluated on the command line" });
+  const command = button("Copy command", "copy", async () => flash(command, await copyText(deckCommand(report, "gaps"))), { class: "small", title: "deck gaps … --what-if …: the same settings evaluated on the command line" });
   const reset = button("Reset all", "reset", () => report.clearOverrides(null), { class: "small" });
   const draw = () => {
     bar.hidden = !report.anyChanged;
@@ -202,8 +201,7 @@ export function settingsBar(report: Report): HTMLElement {
 
 /** Value of a field as the deck has it; Gapmin 0 means: from the mesh. */
 function deckValue(report: Report, inter: number, field: FieldName): number {
-  const { card, given, inacti } = report.meta.contacts[report.contactsOf(inter)[0]];
-  if (given && field === "Inacti") return inacti;
+  const { card } = report.meta.contacts[report.contactsOf(inter)[0]];
   return field === "Gapmax" && card.Gapmax >= 1e30 ? 0 : card[field];
 }
 
@@ -241,9 +239,8 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
     replace(panel, h("p", { class: "note" }, tie ? `TYPE2 ${meta.id}: ${tie.text}. Its nodes are listed under Ties.` : "This interface has no contact that could be evaluated."));
     return () => {};
   }
-  const { given } = report.meta.contacts[contacts[0]];
   const fields = fieldsOf(report, inter);
-  if (given && fields.length === 0) {
+  if (fields.length === 0) {
     replace(panel, h("div", { class: "panel-head" }, h("h3", null, h("span", { class: "muted" }, `Interface ${report.interfaceName(inter)}`))), ...asFound(report, inter));
     return () => {};
   }
@@ -258,13 +255,14 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
   const notes = h("p", { class: "note" });
   const reset = button("Reset", "reset", () => report.clearOverrides(inter), { class: "small" });
   const copy = button("Copy card", "copy", async () => flash(copy, await copyText(cardText(changedCard(meta, report.overrides[inter])))), { class: "small" });
-  const command = button("Copy command", "copy", async () => flash(command, await copyText(whatIfCommand(report))), {
+  const command = button("Copy command", "copy", async () => flash(command, await copyText(deckCommand(report, "gaps"))), {
     class: "small", title: "deck gaps … --what-if …: the same settings evaluated on the command line",
   });
   replace(
     panel,
     h("div", { class: "panel-head" }, h("h3", null, "What if? ", h("span", { class: "muted" }, `Interface ${report.interfaceName(inter)}`)), reset),
-    grid, outcome, reach, ...(given ? asFound(report, inter) : []),
+    grid, outcome, reach,
+    meta.type !== 10 && h("p", { class: "note" }, "Other fields, such as Inacti: ", h("code", null, tryCommand(report, inter))),
     h("details", { class: "card-fold", open: cardOpen, ontoggle: (e) => (cardOpen = (e.target as HTMLDetailsElement).open) },
       h("summary", null, "Card with these values"), h("div", { class: "buttons" }, command, copy), card, notes),
   );
@@ -284,16 +282,10 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
       part("solver errors", group(base.solver_errors), group(now.solver_errors)),
     );
     outcome.dataset.pairs = String(now.pairs);
-    const beyond = contacts.filter((i) => !report.results[i].complete);
-    reach.hidden = beyond.length === 0;
-    reach.textContent = beyond
-      .map((i) => {
-        const c = report.meta.contacts[i];
-        return c.complete
-          ? `${report.roleText(i)}: gaps up to ${num(report.results[i].reached)} occur, this page carries pairs up to ${num(c.reach)}; what you see is a lower bound.`
-          : `${report.roleText(i)}: too many pairs for a page; only gaps that are not larger than the deck's are complete.`;
-      })
-      .join(" ");
+    const beyond = Math.max(...contacts.map((i) => report.results[i].beyond));
+    outcome.hidden = beyond > 0;
+    reach.hidden = beyond === 0;
+    replace(reach, `With these values gaps reach ${num(beyond)}, and this page carries pairs up to ${num(reachOf(report, inter))}: lists and picture stay as they were written. The command that evaluates them: `, h("code", null, `${deckCommand(report, "gaps")} --html page.html`));
     const changed = changedCard(meta, report.overrides[inter]);
     replace(
       card,
@@ -314,18 +306,21 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
   };
 }
 
-/** What stands in place of the controls for which the page has no rules. */
-function asFound(report: Report, inter: number): Node[] {
+/** The command that tries a field that the page cannot. */
+function tryCommand(report: Report, inter: number): string {
   const { id, type } = report.meta.interfaces[inter];
+  return `${deckCommand(report, "gaps")} --what-if ${id}:${type === 25 ? "Igap=2,Inacti=-1" : type === 24 ? "Inacti=-1" : "Inacti=5"} --html page.html`;
+}
+
+/** What stands in place of the controls where the page tries nothing. */
+function asFound(report: Report, inter: number): Node[] {
+  const { type } = report.meta.interfaces[inter];
   const c = report.meta.contacts[report.contactsOf(inter)[0]];
-  const words = [type === 25 && `Igap ${c.igap} – ${modernIgapWords[c.igap] ?? "unknown"}`, `Inacti ${c.inacti} – ${modernInactiWords[c.inacti] ?? "unknown"}`].filter(Boolean).join(", ");
+  const [igap, inacti] = c.modern ? [modernIgapWords, modernInactiWords] : [igapWords, inactiWords];
+  const words = [type !== 24 && `Igap ${c.igap} – ${igap[c.igap] ?? "unknown"}`, `Inacti ${c.inacti} – ${inacti[c.inacti] ?? "unknown"}`].filter(Boolean).join(", ");
   const missing = report.contactsOf(inter).filter((k) => !report.meta.contacts[k].complete);
-  const others = triedInacti(report, inter).length > 1 ? [] : ["Inacti"];
-  if (type === 25) others.unshift("Igap", "Fscalegap");
-  others.unshift("Gapmax");
-  const tried = `${deckCommand(report, "gaps")} --what-if ${id}:${type === 25 ? "Igap=2,Inacti=-1" : "Inacti=-1"} --html page.html`;
   return [
-    h("p", { class: "note" }, `TYPE${type}: ${words}. Other values of ${others.join(", ")} decide anew which segment a node is paired with: the page has no rules for that, the program does: `, h("code", null, tried)),
+    h("p", { class: "note" }, `TYPE${type}: ${words}. The page tries no other settings of it: ${report.evaluator.fixed(inter)}. The program does: `, h("code", null, tryCommand(report, inter))),
     ...(missing.length > 0 ? [h("p", { class: "note warn" }, `Of ${missing.length === 1 ? "a contact" : "several contacts"} of it the page holds only the deepest pairs.`)] : []),
   ];
 }
@@ -340,27 +335,18 @@ function control(report: Report, inter: number, field: FieldName): { element: HT
   const deck = deckValue(report, inter, field);
   const current = () => report.overrides[inter][field] ?? deck;
   const set = (v: number) => report.setOverride(inter, field, v === deck ? undefined : v);
-  if (field === "Igap" || field === "Inacti") {
-    const type = report.meta.interfaces[inter].type;
-    const modern = report.meta.contacts[report.contactsOf(inter)[0]].given;
-    const options = modern ? triedInacti(report, inter) : field === "Igap" ? (type === 11 ? [0, 1, 3] : [0, 1, 2, 3]) : type === 11 ? [0, 1, 2, 5, 6] : [0, 1, 2, 3, 5, 6];
+  if (field === "Igap") {
+    const options = report.meta.interfaces[inter].type === 11 ? [0, 1, 3] : [0, 1, 2, 3];
     for (const v of [deck, current()]) if (!options.includes(v)) options.push(v);
     const select = h("select", { id, onchange: () => set(Number(select.value)) },
-      ...options.map((v) => h("option", { value: v }, flagText(field, v, modern) + (v === deck ? " (deck)" : ""))));
+      ...options.map((v) => h("option", { value: v }, `${v} – ${igapWords[v] ?? "unknown"}` + (v === deck ? " (deck)" : ""))));
     const element = h("div", { class: "control wide" }, h("label", { for: id }, field), select);
     return { element, update: () => { select.value = String(current()); element.classList.toggle("on", current() !== deck); } };
   }
   const contacts = report.contactsOf(inter);
-  const limits = contacts.map((i) => report.meta.contacts[i]);
   const gaps = contacts.map((i) => report.base[i].setting);
-  const largest = Math.max(...limits.map((c) => (c.complete ? c.reach - c.margin : c.max_gap)), 0);
-  const top = {
-    Gapmin: niceTop(Math.max(largest, ...gaps.map((s) => s.gapmin), deck)),
-    Gapmax: niceTop(Math.max(...gaps.map((s) => s.maxGap)) * 1.5),
-    Fscalegap: Math.max(2, deck),
-    Fpenmax: Math.max(1, deck),
-  }[field];
-  const meaning = { Gapmin: "from the mesh", Gapmax: "no limit", Fscalegap: "", Fpenmax: "off" }[field];
+  const top = { Gapmin: Math.max(reachOf(report, inter), deck) || 1, Gapmax: niceTop(Math.max(...gaps.map((s) => s.maxGap)) * 1.5), Fscalegap: 1.5 * (deck || 1) }[field as "Gapmin" | "Gapmax" | "Fscalegap"];
+  const meaning = { Gapmin: "from the mesh", Gapmax: "no limit", Fscalegap: "" }[field as "Gapmin" | "Gapmax" | "Fscalegap"];
   const step = top / 400;
   const slider = h("input", { type: "range", id, min: field === "Fscalegap" ? step : 0, max: top, step, oninput: () => set(tidy(Number(slider.value), step)), onpointerdown: () => report.hold() });
   const number = h("input", { type: "number", min: 0, step: "any", "aria-label": field, onchange: () => {

@@ -20,7 +20,7 @@ export function heightsOf(report: Report, x: Hit): Heights {
   const meta = report.meta.contacts[x.contact];
   const { secondary: s, main: m } = x.row;
   // The page has half thicknesses of nodes and whole ones of all else; of TYPE24 and TYPE25 the gaps that they give.
-  const half = meta.given ? [1, 1] : [report.isEdge(x.row) ? 0.5 : 1, 0.5];
+  const half = meta.modern ? [1, 1] : [report.isEdge(x.row) ? 0.5 : 1, 0.5];
   return {
     gap: x.row.gap, depth: x.depth, at: x.row.gap - x.depth, distance: x.row.distance,
     main: half[1] * data.mainThickness[m], secondary: half[0] * data.secondaryThickness[s],

@@ -2,6 +2,7 @@
 import { Vector3 } from "three";
 import { h, lengthText, num, replace, svg } from "../../dom";
 import type { Hit, Report } from "../../report";
+import { exactAt, pointOf, wayOut } from "../drawn";
 
 export interface Point {
   x: number;
@@ -53,12 +54,10 @@ export class Labels {
 
   /** `place` gives the position of a point in the picture, null behind the camera; `taken`: boxes of other things there. */
   show(report: Report, x: Hit, place: (at: Vector3) => Point | null, room: Box, taken: Box[]): void {
-    const d = report.data;
-    const corner = (n: number) => new Vector3(d.x[d.exactOf[n]], d.y[d.exactOf[n]], d.z[d.exactOf[n]]);
-    const corners = report.mainNodes(x.row).map(corner);
+    const corners = report.mainNodes(x.row).map((n) => exactAt(report, n));
     const middle = corners.reduce((a, b) => a.clone().add(b), new Vector3()).divideScalar(corners.length);
-    const point = new Vector3(...report.point(x.row));
-    const foot = point.clone().addScaledVector(new Vector3(...x.row.normal), -x.row.distance);
+    const point = pointOf(report, x.row);
+    const foot = point.clone().addScaledVector(wayOut(report, x.row), -x.row.distance);
     const [at, below, centre] = [place(point), place(foot), place(middle)];
     if (!at) return this.hide();
     if (this.node.dataset.key !== x.key + x.depth) {

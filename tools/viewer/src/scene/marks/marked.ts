@@ -2,6 +2,7 @@
 import { BufferGeometry, type CanvasTexture, type Mesh, Points, PointsMaterial, type Scene, Vector3 } from "three";
 import type { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import type { Hit, Report } from "../../report";
+import { exactAt, pointOf, wayOut } from "../drawn";
 import { coneAt, thickLines } from "../shapes";
 
 export class Marked {
@@ -24,13 +25,13 @@ export class Marked {
       s.geometry.dispose();
     }
     if (!hit) return;
-    const d = this.report.data;
-    const at = (n: number) => new Vector3(d.x[d.exactOf[n]], d.y[d.exactOf[n]], d.z[d.exactOf[n]]);
+    const at = (n: number) => exactAt(this.report, n);
     const main = this.report.mainNodes(hit.row).map(at);
     const secondary = this.report.secondaryNodes(hit.row).map(at);
-    const point = new Vector3(...this.report.point(hit.row));
-    const foot = point.clone().addScaledVector(new Vector3(...hit.row.normal), -hit.row.distance);
-    const out = point.clone().addScaledVector(new Vector3(...hit.row.normal), hit.row.depth);
+    const point = pointOf(this.report, hit.row);
+    const normal = wayOut(this.report, hit.row);
+    const foot = point.clone().addScaledVector(normal, -hit.row.distance);
+    const out = point.clone().addScaledVector(normal, hit.row.depth);
     const loop = main.length > 2 ? main.flatMap((p, i) => [p, main[(i + 1) % main.length]]) : main;
     this.addLines(loop, dark ? "#ffb454" : "#c2410c", 3);
     if (secondary.length === 2) this.addLines(secondary, dark ? "#7cc7ff" : "#1d4ed8", 4);

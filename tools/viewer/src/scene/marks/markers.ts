@@ -4,6 +4,7 @@ import {
   type Scene, Vector3,
 } from "three";
 import type { CameraControl } from "../camera";
+import { pointOf, wayOut } from "../drawn";
 import { arrowGeometry, dotMaterial } from "../shapes";
 import type { Hit, Report } from "../../report";
 
@@ -51,7 +52,7 @@ export class Markers {
     for (let i = 0; i < dots; i++) {
       const [r, g, b] = colorOf(hits[i]);
       c.setRGB(r / 255, g / 255, b / 255, "srgb").toArray(color, 3 * i);
-      position.set(this.report.point(hits[i].row), 3 * i);
+      pointOf(this.report, hits[i].row).toArray(position, 3 * i);
     }
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(position, 3));
@@ -64,7 +65,7 @@ export class Markers {
     const open = hits.slice(0, dots).filter((x) => this.report.isRoundOff(x.row));
     if (open.length > 0) {
       const middle = new BufferGeometry();
-      middle.setAttribute("position", new BufferAttribute(Float32Array.from(open.flatMap((x) => this.report.point(x.row))), 3));
+      middle.setAttribute("position", new BufferAttribute(Float32Array.from(open.flatMap((x) => pointOf(this.report, x.row).toArray())), 3));
       middle.setAttribute("color", new BufferAttribute(new Float32Array(3 * open.length).fill(1), 3));
       this.hollow = new Points(middle, dotMaterial(this.disc, 4));
       this.hollow.frustumCulled = false;
@@ -72,7 +73,7 @@ export class Markers {
       this.scene.add(this.hollow);
     }
     this.list = instead ?? hits.slice(0, mostArrows).map((hit, i) => ({
-      at: this.report.point(hit.row), along: hit.row.normal, length: hit.row.onSurface ? 0 : 1, rgb: [color[3 * i], color[3 * i + 1], color[3 * i + 2]],
+      at: pointOf(this.report, hit.row).toArray(), along: wayOut(this.report, hit.row).toArray(), length: hit.row.onSurface ? 0 : 1, rgb: [color[3 * i], color[3 * i + 1], color[3 * i + 2]],
     }));
     const count = Math.min(this.list.length, mostArrows);
     if (count > 0) {
