@@ -175,10 +175,11 @@ TEST(Rules, AreAllReportedBySomeSource) {
     if ((entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp") &&
         entry.path().stem() != "attach_fixes")
       sources += text_of(entry.path());
-  for (const Rule& r : all_rules())
-    if (r.cells.empty())
-      EXPECT_NE(sources.find("RuleId::" + std::string(id_text(r.id))), std::string::npos)
+  for (const Rule& r : all_rules()) {
+    if (!r.cells.empty()) continue;  // its page is the check
+    EXPECT_NE(sources.find("RuleId::" + std::string(id_text(r.id))), std::string::npos)
         << "nobody reports " << id_text(r.id);
+  }
 }
 
 /// Messages that stand in the keyword schemas: what the solver says of a reference is known per
