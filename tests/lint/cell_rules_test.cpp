@@ -38,7 +38,7 @@ TEST(Predicates, SayWhatIsWrong) {
   const std::pair<const char*, const char*> rows[] = {
       {"", "expected a number, a function or '(' at ''"},
       {"input(F) ==", "expected a number, a function or '(' at ''"},
-      {"input F", "expected '(' at ' F'"},
+      {"input F", "expected '(' at 'F'"},
       {"input()", "expected a name at ')'"},
       {"inputs(F)", "expected a number, a function or '(' at 'inputs(F)'"},
       {"(1", "expected ')' at ''"},
