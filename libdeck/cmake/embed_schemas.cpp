@@ -1,6 +1,7 @@
 // Build tool: reads the files of keyword schemas, checks them as `--schemas DIR` does, and writes
 // them as a C++ file that defines embedded_schemas(): one entry for each keyword. Checks the pages
-// of rules, and that the rules that are predicates of cells name fields that their interfaces have.
+// of rules, that no two of them have the same name, and that the rules that are predicates of cells
+// name fields that their interfaces have.
 //   embed_schemas OUT SCHEMAS.json... RULE.md...
 #include <filesystem>
 #include <fstream>
@@ -27,11 +28,12 @@ std::string contents(const char* path) {
 /// Field names of each keyword.
 using Fields = std::map<std::string, std::set<std::string>>;
 
-/// What is wrong with the page of a rule; empty: nothing.
-std::string problem_of_page(const char* path, const Fields& fields) {
+/// What is wrong with the page of a rule; empty: nothing. `names`: those of the pages before.
+std::string problem_of_page(const char* path, const Fields& fields, std::set<std::string>& names) {
   const std::string name = std::filesystem::path(path).filename().string();
   const auto rule = deck::detail::parse_rule_page(name, contents(path));
   if (!rule) return rule.error().message;
+  if (!names.insert(rule->name).second) return name + ": another rule is called " + rule->name;
   if (rule->cells.empty()) return {};
   const auto cells = deck::detail::CellRule::read(rule->cells);
   if (!cells) return name + ": " + cells.error().message;
@@ -49,11 +51,12 @@ std::string problem_of_page(const char* path, const Fields& fields) {
 int main(int argc, char** argv) {
   if (argc < 3) return 2;
   std::string rows;
-  std::set<std::string> known;
+  std::set<std::string> known, rule_names;
   Fields fields;
   for (int k = 2; k < argc; ++k) {
     if (std::string_view(argv[k]).ends_with(".md")) {
-      if (const std::string problem = problem_of_page(argv[k], fields); !problem.empty()) {
+      if (const std::string problem = problem_of_page(argv[k], fields, rule_names);
+          !problem.empty()) {
         std::cerr << problem << '\n';
         return 1;
       }

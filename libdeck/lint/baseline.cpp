@@ -126,8 +126,8 @@ Result<AcceptedFindings> Baseline::findings_of(const std::string& deck_path) con
                       *entity = text_of(entry, "entity"), *field = text_of(entry, "field");
     if (rule == nullptr || file == nullptr || entity == nullptr || field == nullptr)
       return wrong_entry(line);
-    out[{*rule, absolute_path((directory / *file).string()), *entity, *field}].push_back(
-        number_of(entry, "value"));
+    out[{to_selector(*rule), absolute_path((directory / *file).string()), *entity, *field}]
+        .push_back(number_of(entry, "value"));
   }
   return out;
 }

@@ -11,8 +11,13 @@ namespace {
 using Op = Predicate::Op;
 
 constexpr std::pair<std::string_view, Op> functions[] = {
-    {"input", Op::input}, {"value", Op::value},          {"flag", Op::flag}, {"given", Op::given},
-    {"has", Op::has},     {"default", Op::from_default}, {"deck", Op::deck}};
+    {"input", Op::input},   {"value", Op::value},     {"flag", Op::flag},
+    {"given", Op::given},   {"bounds", Op::bounds},   {"has", Op::has},
+    {"exists", Op::exists}, {"written", Op::written}, {"default", Op::from_default},
+    {"deck", Op::deck}};
+/// Without a field.
+constexpr std::pair<std::string_view, Op> words[] = {
+    {"type", Op::type}, {"version", Op::version}, {"working_units", Op::working_units}};
 constexpr std::pair<std::string_view, Op> comparisons[] = {
     {"==", Op::equal},         {"!=", Op::not_equal}, {"<=", Op::less_equal},
     {">=", Op::greater_equal}, {"<", Op::less},       {">", Op::greater}};
@@ -100,7 +105,8 @@ class Parser {
       rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
       return add({Op::number, number, {}, 0, 0});
     }
-    if (take("type")) return add({Op::type, 0, {}, 0, 0});
+    for (const auto& [name, op] : words)
+      if (take(name)) return add({op, 0, {}, 0, 0});
     for (const auto& [name, op] : functions)
       if (take(name)) {
         if (!take("(")) fail("'('");
@@ -129,7 +135,18 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// "{Istf: 1000, safe: false, title: ...}"; nullopt: not of that form.
+/// "Fheats, Fheatm" as its words.
+std::vector<std::string> list_of_words(std::string_view text) {
+  std::vector<std::string> out;
+  while (!text.empty()) {
+    const auto end = std::min(text.find(','), text.size());
+    out.emplace_back(trimmed(text.substr(0, end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return out;
+}
+
+/// "{Istf: 1000, if: ..., safe: false, title: ...}"; nullopt: not of that form.
 std::optional<CellRule::Repair> read_repair(std::string_view text) {
   if (!text.starts_with('{') || !text.ends_with('}')) return std::nullopt;
   text = text.substr(1, text.size() - 2);
@@ -150,6 +167,10 @@ std::optional<CellRule::Repair> read_repair(std::string_view text) {
       if (value != "true" && value != "false") return std::nullopt;
       out.safe = value == "true";
       safe_given = true;
+    } else if (key == "if") {
+      auto when = Predicate::parse(value);
+      if (!when) return std::nullopt;
+      out.when = std::move(*when);
     } else {
       out.field = key;
       out.text = value == "blank" ? "" : value;
@@ -186,28 +207,41 @@ Result<CellRule> CellRule::read(const std::map<std::string, std::string, std::le
   };
   auto when = Predicate::parse(text("when"));
   if (!when) return Error{Error::Code::config, "when: " + when.error().message};
-  CellRule out{std::move(*when), text("at"), text("message"), {}, read_repair(text("fix"))};
+  CellRule out{std::move(*when),
+               list_of_words(text("at")),
+               text("message"),
+               list_of_words(text("note")),
+               text("interfaces") == "all",
+               read_repair(text("fix"))};
   if (out.at.empty() || out.message.empty())
     return Error{Error::Code::config, "a rule of cells has 'when', 'at' and a message in quotes"};
   if (!out.fix && keys.contains("fix"))
-    return Error{Error::Code::config, "fix: expected {FIELD: TEXT, safe: BOOL, title: WORDS}"};
-  for (std::string_view rest = keys.contains("note") ? keys.find("note")->second : "";
-       !rest.empty();) {
-    const auto end = std::min(rest.find(','), rest.size());
-    out.notes.emplace_back(trimmed(rest.substr(0, end)));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
+    return Error{Error::Code::config,
+                 "fix: expected {FIELD: TEXT, if: CONDITION, safe: BOOL, title: WORDS}"};
+  if (!out.all_interfaces && keys.contains("interfaces"))
+    return Error{Error::Code::config, "interfaces: expected 'all'"};
   return out;
 }
 
 std::vector<std::string> CellRule::fields() const {
   std::vector<std::string> out = notes;
-  out.push_back(at);
-  if (fix) out.push_back(fix->field);
-  for (const Predicate::Node& n : when.nodes)
-    if (!n.name.empty() && n.op != Op::deck) out.push_back(n.name);
-  for (const MessagePiece& p : pieces_of(message))
-    if (!p.what.empty() && p.what != "name") out.emplace_back(p.field);
+  out.insert(out.end(), at.begin(), at.end());
+  const auto add_condition = [&](const Predicate& condition) {
+    for (const Predicate::Node& n : condition.nodes)
+      if (!n.name.empty() && n.op != Op::deck) out.push_back(n.name);
+  };
+  const auto add_message = [&](std::string_view text) {
+    for (const MessagePiece& p : pieces_of(text))
+      if (!p.field.empty() && !p.what.empty()) out.emplace_back(p.field);
+  };
+  add_condition(when);
+  add_message(message);
+  if (fix) {
+    out.push_back(fix->field);
+    add_message(fix->title);
+    if (fix->when) add_condition(*fix->when);
+  }
+  std::erase(out, this_field);
   return out;
 }
 

@@ -4,10 +4,14 @@
 //   at: Gapmax
 //   message: "{name}: Gapmax ({input Gapmax}) is below Gapmin ({input Gapmin})"
 //   note: Gapmin
-//   fix: {Igap: 1000, safe: false, title: write Igap 1000}
+//   fix: {Igap: 1000, if: input(Igap) == 2, safe: false, title: write Igap 1000}
+//   interfaces: all
 //
-// `when` has numbers, the functions of `Predicate::Op`, == != < <= > >=, not, and, or, brackets.
-// `message` has {name}, the interface, and {show F}, {input F}, {value F} of its fields F.
+// `when`, and `if` of a fix, have numbers, the functions of `Predicate::Op`, == != < <= > >=, not,
+// and, or, brackets. `message` and the title of a fix have {name}, the interface, {at}, and
+// {show F}, {text F}, {input F}, {value F} of its fields F.
+// `at` may list fields: each of them for which `when` is true is a finding, and is called `at`.
+// `interfaces: all`: also of types that the page does not list.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -24,14 +28,19 @@ namespace deck::detail {
 struct Predicate {
   enum class Op : std::uint8_t {
     number,
-    input,         ///< number on the card; 0: blank or absent
-    value,         ///< effective value
-    flag,          ///< effective value, 0 for 1000
-    given,         ///< the card has a number that is not 0
-    has,           ///< the interface has the field
-    from_default,  ///< the value comes from /DEFAULT/INTER
-    type,          ///< 7 for /INTER/TYPE7
-    deck,          ///< deck(airbag): the deck has one; see `deck_facts`
+    input,          ///< number on the card; 0: blank or absent
+    value,          ///< effective value
+    flag,           ///< effective value, 0 for 1000
+    given,          ///< the card has a number that is not 0
+    bounds,         ///< the same, and it is not 1e30 or its like
+    written,        ///< number on the card as it is written, in the units of the block
+    has,            ///< the interface has the field
+    exists,         ///< the id in the cell is that of something
+    from_default,   ///< the value comes from /DEFAULT/INTER
+    type,           ///< 7 for /INTER/TYPE7
+    version,        ///< input version of the block
+    working_units,  ///< the block has the working units of the deck
+    deck,           ///< deck(airbag): the deck has one; see `deck_facts`
     equal,
     not_equal,
     less,
@@ -92,17 +101,19 @@ struct Predicate {
 };
 
 /// Facts of a deck that predicates may ask for.
-inline constexpr std::string_view deck_facts[] = {"airbag", "ale", "sol2sph", "adaptive_mesh",
-                                                  "thermal_material"};
+inline constexpr std::string_view deck_facts[] = {
+    "airbag", "ale", "sol2sph", "adaptive_mesh", "thermal_material", "sph"};
 
 struct CellRule {
   Predicate when;
-  std::string at;                  ///< field of the finding
+  std::vector<std::string> at;     ///< fields of the findings
   std::string message;             ///< with placeholders
   std::vector<std::string> notes;  ///< fields that it also shows
+  bool all_interfaces = false;
   struct Repair {
     std::string field, text, title;  ///< writes `text` into the cell
     bool safe = false;
+    std::optional<Predicate> when;  ///< only then
   };
   std::optional<Repair> fix;
 
@@ -111,6 +122,9 @@ struct CellRule {
   /// Fields that the rule names.
   std::vector<std::string> fields() const;
 };
+
+/// Stands for the field of the finding.
+inline constexpr std::string_view this_field = "at";
 
 /// A piece of a message: text, or what a placeholder asks for of a field ("show", "Istf").
 struct MessagePiece {

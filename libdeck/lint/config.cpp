@@ -40,14 +40,14 @@ namespace deck {
 namespace fs = std::filesystem;
 
 std::string unknown_selector(std::string_view text) {
-  std::vector<std::string> ids;
-  for (const Rule& rule : all_rules()) {
-    ids.emplace_back(id_text(rule.id));
-    if (text.find(':') != text.npos)
-      for (const RuleField& f : rule.fields)
-        ids.push_back(std::string(id_text(rule.id)) + ":" + f.name);
-  }
-  const std::string close = closest_word(text, ids);
+  std::vector<std::string> known;
+  for (const Rule& rule : all_rules())
+    for (const std::string& head : {std::string(id_text(rule.id)), rule.name}) {
+      known.push_back(head);
+      if (text.find(':') != text.npos)
+        for (const RuleField& f : rule.fields) known.push_back(head + ":" + f.name);
+    }
+  const std::string close = closest_word(text, known);
   return "no rule is called '" + std::string(text) + "'" +
          (close.empty() ? "; see 'deck rules'" : "; did you mean '" + close + "'?");
 }

@@ -9,8 +9,8 @@ namespace deck {
 const std::vector<ConfigKey>& config_keys() {
   static const std::vector<ConfigKey> keys = {
       {"", "select", R"(["DK0", "DK1", "DK2"])", "all rules",
-       "only these rules: ids, beginnings of ids (\"DK2\") or fields (DK201:Istf); see 'deck "
-       "rules'"},
+       "only these rules: ids, names, beginnings of ids (\"DK2\") or fields (DK201:Istf); see "
+       "'deck rules'"},
       {"", "ignore", R"(["DK9"])", "none", "not these rules, even if selected"},
       {"", "fail-on", R"("warning")", "\"error\"",
        "exit code 1 at or above: \"error\", \"warning\" or \"never\""},

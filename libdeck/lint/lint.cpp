@@ -32,6 +32,21 @@ bool enabled(const LintOptions& options, RuleId rule, std::string_view field) {
   return !any_selects(options.ignore, rule, field);
 }
 
+/// With ids in all selectors, where they have names of rules.
+LintOptions with_ids(LintOptions options) {
+  const auto to_ids = [](std::vector<std::string>& selectors) {
+    for (std::string& s : selectors) s = to_selector(s);
+  };
+  to_ids(options.select);
+  to_ids(options.ignore);
+  for (auto& [glob, selectors] : options.per_file_ignores) to_ids(selectors);
+  std::map<std::string, Severity> severities;
+  for (const auto& [selector, severity] : options.severity)
+    severities[to_selector(selector)] = severity;
+  options.severity = std::move(severities);
+  return options;
+}
+
 /// Some findings of the rule are wanted.
 bool enabled(const LintOptions& options, RuleId rule) {
   return detail::any_name(rule_of(rule),
@@ -401,8 +416,9 @@ std::vector<NotChecked> run_extra_checks(const std::vector<ExtraCheck>& extra,
 
 }  // namespace
 
-LintResult run_lint(const LoadedDeck& loaded, const LintOptions& options,
+LintResult run_lint(const LoadedDeck& loaded, const LintOptions& given,
                     const std::vector<ExtraCheck>& extra) {
+  const LintOptions options = with_ids(given);
   const Deck& deck = loaded.deck();
   if (deck.begin.version_unread) {
     LintResult only;

@@ -41,7 +41,15 @@ bool selects(std::string_view selector, RuleId id, std::string_view field) {
   return f != nullptr && id_text(f->was).starts_with(selector);
 }
 
-bool known_selector(std::string_view selector) {
+std::string to_selector(std::string_view text) {
+  const auto colon = std::min(text.find(':'), text.size());
+  const Rule* const rule = find_rule(text.substr(0, colon));
+  return std::string(rule != nullptr ? id_text(rule->id) : text.substr(0, colon)) +
+         std::string(text.substr(colon));
+}
+
+bool known_selector(std::string_view text) {
+  const std::string selector = to_selector(text);
   return std::any_of(all_rules().begin(), all_rules().end(), [&](const Rule& r) {
     return detail::any_name(r,
                             [&](std::string_view field) { return selects(selector, r.id, field); });

@@ -28,7 +28,7 @@ bool parse(std::string_view text, Suppression& out) {
     const auto comma = std::min(list.find(','), list.size());
     const std::string_view rule = trim(list.substr(0, comma));
     if (rule.empty()) return false;
-    out.rules.emplace_back(rule);
+    out.rules.push_back(to_selector(rule));
     list.remove_prefix(std::min(comma + 1, list.size()));
   }
   if (out.rules.empty()) return false;

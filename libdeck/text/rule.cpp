@@ -25,12 +25,12 @@ const std::vector<Rule>& all_rules() {
   return rules;
 }
 
-const Rule* find_rule(std::string_view id) {
+const Rule* find_rule(std::string_view id_or_name) {
   const auto& rules = all_rules();
-  const auto it =
-      std::lower_bound(rules.begin(), rules.end(), id,
-                       [](const Rule& r, std::string_view key) { return id_text(r.id) < key; });
-  return it != rules.end() && id_text(it->id) == id ? &*it : nullptr;
+  const auto it = std::find_if(rules.begin(), rules.end(), [&](const Rule& r) {
+    return id_text(r.id) == id_or_name || r.name == id_or_name;
+  });
+  return it != rules.end() ? &*it : nullptr;
 }
 
 const Rule& rule_of(RuleId id) {

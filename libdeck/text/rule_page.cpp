@@ -44,6 +44,16 @@ RuleId id_of(std::string_view name) {
   return static_cast<RuleId>(whole_number(name.substr(2, 3)).value_or(0));
 }
 
+/// "renard-curve": two or more words of small letters and digits.
+bool is_kebab_case(std::string_view text) {
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  const bool legal = std::all_of(text.begin(), text.end(), [&](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '-';
+  });
+  return legal && text.find('-') != text.npos && text.find("--") == text.npos &&
+         is_letter(text.front()) && text.back() != '-';
+}
+
 /// What a source of `known_from` begins with.
 bool is_source(std::string_view text) {
   constexpr std::string_view kinds[] = {"run ", "record ", "listing ", "specification ", "manual "};
@@ -130,8 +140,8 @@ class PageReader {
       if (!read_key(key, value)) fail("'" + std::string(line) + "' is not understood");
     }
     next();
-    if (!id || rule_.title.empty() || rule_.severities.empty() || !stage_)
-      fail("a page has an id, a title, a severity and found_by");
+    if (!id || rule_.name.empty() || rule_.title.empty() || rule_.severities.empty() || !stage_)
+      fail("a page has an id, a name, a title, a severity and found_by");
   }
 
   /// Calls f(item) for the items of a list; false: f refused one of them.
@@ -147,6 +157,10 @@ class PageReader {
 
   bool read_key(std::string_view key, std::string_view value) {
     if (key == "id") return value == name_.substr(0, name_.size() - 3);
+    if (key == "name") {
+      rule_.name = value;
+      return is_kebab_case(value);
+    }
     if (key == "title") {
       if (value.size() < 3 || value.front() != '"' || value.back() != '"') return false;
       rule_.title = value.substr(1, value.size() - 2);
@@ -164,7 +178,8 @@ class PageReader {
       return stage_.has_value();
     }
     const bool text = value.size() > 2 && value.starts_with('"') && value.ends_with('"');
-    if (key == "when" || key == "at" || key == "note" || key == "fix" || (key == "message" && text))
+    if (key == "when" || key == "at" || key == "note" || key == "fix" || key == "interfaces" ||
+        (key == "message" && text))
       return rule_.cells.emplace(key, text ? value.substr(1, value.size() - 2) : value).second;
     if (key == "message")
       return each_item(value, [&](std::string_view item) {
@@ -355,9 +370,9 @@ Result<Rule> parse_rule_page(std::string_view name, std::string_view text) {
 
 namespace deck {
 
-const RuleField* Rule::field(std::string_view name) const {
+const RuleField* Rule::field(std::string_view field_name) const {
   const auto it = std::find_if(fields.begin(), fields.end(),
-                               [&](const RuleField& f) { return f.name == name; });
+                               [&](const RuleField& f) { return f.name == field_name; });
   return it == fields.end() ? nullptr : &*it;
 }
 

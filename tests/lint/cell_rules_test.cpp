@@ -38,12 +38,13 @@ TEST(Predicates, SayWhatIsWrong) {
   const std::pair<const char*, const char*> rows[] = {
       {"", "expected a number, a function or '(' at ''"},
       {"input(F) ==", "expected a number, a function or '(' at ''"},
-      {"input F", "expected '(' at ' F'"},
+      {"input F", "expected '(' at 'F'"},
       {"input()", "expected a name at ')'"},
       {"inputs(F)", "expected a number, a function or '(' at 'inputs(F)'"},
       {"(1", "expected ')' at ''"},
       {"1 1", "expected 'and', 'or' or the end at '1'"},
       {"deck(moon)", "expected a fact of the deck, not moon at ')'"},
+      {"versions == 90", "expected a number, a function or '(' at 'versions == 90'"},
   };
   for (const auto& [text, message] : rows) {
     const auto predicate = Predicate::parse(text);
@@ -64,15 +65,39 @@ TEST(CellRules, NameAllTheirFields) {
                                     {"at", "C"},
                                     {"message", "{name}: {show D}, {input E}"},
                                     {"note", "F, G"},
-                                    {"fix", "{H: 1000, safe: true, title: write 1000, or so}"}});
+                                    {"fix",
+                                     "{H: 1000, if: given(I) and working_units, safe: true, "
+                                     "title: write {input J}, or so}"}});
   ASSERT_TRUE(rule) << rule.error().message;
   auto fields = rule->fields();
   std::sort(fields.begin(), fields.end());
-  EXPECT_EQ(fields, (std::vector<std::string>{"A", "B", "C", "D", "E", "F", "G", "H"}));
-  EXPECT_EQ(rule->fix->title, "write 1000, or so");
+  EXPECT_EQ(fields, (std::vector<std::string>{"A", "B", "C", "D", "E", "F", "G", "H", "I", "J"}));
+  EXPECT_EQ(rule->fix->title, "write {input J}, or so");
   EXPECT_TRUE(rule->fix->safe);
-  EXPECT_FALSE(CellRule::read({{"when", "1"}, {"at", "C"}}));
-  EXPECT_FALSE(CellRule::read({{"when", "1"}, {"at", "C"}, {"message", "m"}, {"fix", "{H: 1}"}}));
+}
+
+TEST(CellRules, HaveAFindingForEachFieldOfAList) {
+  const auto rule = CellRule::read({{"when", "input(at) > 1"},
+                                    {"at", "A, B"},
+                                    {"message", "{at} of {name}: {text at}"},
+                                    {"fix", "{at: blank, safe: true, title: blank {at}}"}});
+  ASSERT_TRUE(rule) << rule.error().message;
+  EXPECT_EQ(rule->at, (std::vector<std::string>{"A", "B"}));
+  EXPECT_EQ(rule->fields(), rule->at);
+}
+
+TEST(CellRules, ThatBreakTheFormAreRefused) {
+  const auto refused = [](const std::string& key, const std::string& value) {
+    std::map<std::string, std::string, std::less<>> keys = {
+        {"when", "1"}, {"at", "C"}, {"message", "m"}};
+    EXPECT_TRUE(CellRule::read(keys));
+    keys[key] = value;
+    return !CellRule::read(keys);
+  };
+  EXPECT_TRUE(refused("message", ""));
+  EXPECT_TRUE(refused("fix", "{H: 1}"));
+  EXPECT_TRUE(refused("fix", "{H: 1, if: given, safe: true, title: t}"));
+  EXPECT_TRUE(refused("interfaces", "some"));
 }
 
 }  // namespace

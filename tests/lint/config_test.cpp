@@ -94,6 +94,10 @@ TEST(ConfigErrors, SuggestTheRuleThatWasMeant) {
   EXPECT_EQ(unknown_selector("DK301x"), "no rule is called 'DK301x'; did you mean 'DK301'?");
   EXPECT_EQ(unknown_selector("DK201:Itsf"),
             "no rule is called 'DK201:Itsf'; did you mean 'DK201:Istf'?");
+  EXPECT_EQ(unknown_selector("renard-curv"),
+            "no rule is called 'renard-curv'; did you mean 'renard-curve'?");
+  EXPECT_EQ(unknown_selector("unknown-flag-value:Itsf"),
+            "no rule is called 'unknown-flag-value:Itsf'; did you mean 'unknown-flag-value:Istf'?");
   EXPECT_EQ(unknown_selector("nonsense"), "no rule is called 'nonsense'; see 'deck rules'");
 }
 

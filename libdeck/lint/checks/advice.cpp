@@ -67,29 +67,6 @@ void check_tied_lever(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_sph(const LintContext& c, const Rule& rule, Reporter& r) {
-  bool sph = false;
-  for (const Block& b : c.deck.blocks) sph = sph || b.header.starts_with("/SPHCEL");
-  if (!sph) return;
-  each(c, rule, [&](const ContactCard& card) {
-    if (const auto istf = card.flag("Istf"); istf >= 2 && istf <= 5)
-      report_at(r, rule, card, "Istf",
-                name_of(card) + ": " + card.show("Istf") + " in a deck with SPH particles");
-  });
-}
-
-void check_small_stiffness(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.flag("Istf") != 1) return;
-    const FieldView* f = card.find("Stfac");
-    const double written = f == nullptr || f->text.empty() ? 0 : read_real(f->text).value;
-    if (written != 1) return;
-    note_field(report_at(r, rule, card, "Stfac",
-                         name_of(card) + ": Istf = 1 makes 1.0 the stiffness of the contact"),
-               card, "Istf");
-  });
-}
-
 void check_same_sides(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<std::tuple<int, double, double>, const ContactCard*> seen;
   each(c, rule, [&](const ContactCard& card) {
@@ -144,12 +121,8 @@ void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> advice_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK901, check_inacti3},
-      {RuleId::DK905, check_edge_removal},
-      {RuleId::DK907, check_tied_lever},
-      {RuleId::DK908, check_sph},
-      {RuleId::DK910, check_small_stiffness},
-      {RuleId::DK912, check_same_sides},
+      {RuleId::DK901, check_inacti3},    {RuleId::DK905, check_edge_removal},
+      {RuleId::DK907, check_tied_lever}, {RuleId::DK912, check_same_sides},
       {RuleId::DK913, check_void},
   };
   return all;

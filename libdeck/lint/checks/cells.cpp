@@ -1,4 +1,5 @@
 // Rules whose condition is a predicate of cells, as their pages say.
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
@@ -10,51 +11,89 @@ namespace {
 
 using Op = Predicate::Op;
 
-bool deck_has(const Model& model, std::string_view fact) {
+bool deck_has(const LintContext& c, std::string_view fact) {
+  const Model& model = *c.model;
   if (fact == "airbag") return model.has_monitored_volume;
   if (fact == "ale") return model.has_ale;
   if (fact == "sol2sph") return model.has_sol2sph;
   if (fact == "adaptive_mesh") return model.has_adaptive_mesh;
-  return model.has_thermal_material;
+  if (fact == "thermal_material") return model.has_thermal_material;
+  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(),
+                     [](const Block& b) { return b.header.starts_with("/SPHCEL"); });
 }
 
-double leaf(const LintContext& c, const ContactCard& card, const Predicate::Node& n) {
-  switch (n.op) {
-    case Op::input:
-      return card.input(n.name);
-    case Op::value:
-      return card.value(n.name);
-    case Op::flag:
-      return static_cast<double>(card.flag(n.name));
-    case Op::given:
-      return card.given(n.name);
-    case Op::has:
-      return card.find(n.name) != nullptr;
-    case Op::from_default: {
-      const FieldView* f = card.find(n.name);
-      return f != nullptr && f->origin == Origin::default_block;
+bool in_working_units(const LintContext& c, const ContactCard& card) {
+  const UnitSystem* units = c.deck.units_of(*card.block);
+  return units == nullptr || *units == c.deck.begin.working;
+}
+
+/// Cells of a card as a rule asks for them; `at` is the field that a finding is about.
+class CellReader {
+ public:
+  CellReader(const LintContext& c, const ContactCard& card, std::string_view at)
+      : c_(c), card_(card), at_(at) {}
+
+  bool holds(const Predicate& when) const {
+    return when.evaluate([&](const Predicate::Node& n) { return leaf(n); }) != 0;
+  }
+  std::string_view field(std::string_view name) const { return name == this_field ? at_ : name; }
+  std::string text_of(std::string_view message) const {
+    std::string out;
+    for (const MessagePiece& p : pieces_of(message)) out += piece(p);
+    return out;
+  }
+
+ private:
+  double leaf(const Predicate::Node& n) const {
+    const std::string_view name = field(n.name);
+    const FieldView* const f = card_.find(name);
+    switch (n.op) {
+      case Op::input:
+        return card_.input(name);
+      case Op::value:
+        return card_.value(name);
+      case Op::flag:
+        return static_cast<double>(card_.flag(name));
+      case Op::given:
+        return card_.given(name);
+      case Op::bounds:
+        return card_.bounds(name);
+      case Op::written:
+        return f == nullptr || f->text.empty() ? 0 : read_real(f->text).value;
+      case Op::has:
+        return f != nullptr;
+      case Op::exists:
+        return f != nullptr && f->field != nullptr &&
+               target_exists(c_, f->field->ref, static_cast<std::int64_t>(f->input)).value_or(true);
+      case Op::from_default:
+        return f != nullptr && f->origin == Origin::default_block;
+      case Op::deck:
+        return deck_has(c_, name);
+      case Op::version:
+        return card_.block->version;
+      case Op::working_units:
+        return in_working_units(c_, card_);
+      default:
+        return card_.type;
     }
-    case Op::deck:
-      return deck_has(*c.model, n.name);
-    default:
-      return card.type;
   }
-}
 
-std::string message_of(const CellRule& rule, const ContactCard& card) {
-  std::string out;
-  for (const MessagePiece& p : pieces_of(rule.message)) {
-    if (p.what.empty())
-      out += p.field;
-    else if (p.what == "name")
-      out += name_of(card);
-    else if (p.what == "show")
-      out += card.show(p.field);
-    else
-      out += number_text(p.what == "input" ? card.input(p.field) : card.value(p.field));
+  std::string piece(const MessagePiece& p) const {
+    if (p.what.empty()) return std::string(p.field);
+    if (p.what == "name") return name_of(card_);
+    if (p.what == this_field) return std::string(at_);
+    const std::string_view name = field(p.field);
+    if (p.what == "show") return card_.show(name);
+    if (p.what == "input") return number_text(card_.input(name));
+    if (p.what == "value") return number_text(card_.value(name));
+    const FieldView* const f = card_.find(name);
+    return f != nullptr ? std::string(f->text) : std::string();
   }
-  return out;
-}
+
+  const LintContext& c_;
+  const ContactCard& card_;
+  std::string_view at_;
+};
 
 /// Conditions of all rules that are data. The tests read every page, so a tested library never
 /// throws here.
@@ -75,14 +114,22 @@ const std::map<RuleId, CellRule>& cell_rules() {
 
 void check_cells(const LintContext& c, const Rule& rule, Reporter& r) {
   const CellRule& cells = cell_rules().at(rule.id);
-  each(c, rule, [&](const ContactCard& card) {
-    if (cells.when.evaluate([&](const Predicate::Node& n) { return leaf(c, card, n); }) == 0)
-      return;
-    Diagnostic* d = report_at(r, rule, card, cells.at, message_of(cells, card));
-    for (const std::string& note : cells.notes) note_field(d, card, note);
-    if (const auto& fix = cells.fix)
-      fix_field(d, c, card, fix->field, fix->text, fix->safe, fix->title);
-  });
+  const auto check = [&](const ContactCard& card) {
+    for (const std::string& at : cells.at) {
+      const CellReader reader(c, card, at);
+      if (!reader.holds(cells.when)) continue;
+      Diagnostic* d = report_at(r, rule, card, at, reader.text_of(cells.message));
+      for (const std::string& note : cells.notes) note_field(d, card, note);
+      const auto& fix = cells.fix;
+      if (fix && (!fix->when || reader.holds(*fix->when)))
+        fix_field(d, c, card, reader.field(fix->field), fix->text, fix->safe,
+                  reader.text_of(fix->title));
+    }
+  };
+  if (cells.all_interfaces)
+    for (const ContactCard& card : c.contacts) check(card);
+  else
+    each(c, rule, check);
 }
 
 }  // namespace

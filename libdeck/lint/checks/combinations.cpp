@@ -83,16 +83,6 @@ void check_curvature_nodes(const LintContext& c, const Rule& rule, Reporter& r) 
   });
 }
 
-void check_type11_igap(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.flag("Igap") != 2) return;
-    Diagnostic* d =
-        report_at(r, rule, card, "Igap",
-                  name_of(card) + ": " + card.show("Igap") + ", which edge contact does not have");
-    if (card.input("Igap") == 2) fix_field(d, c, card, "Igap", "1", false, "write Igap 1");
-  });
-}
-
 /// The solver's filter factor of Xfreq.
 double filter_factor(std::int64_t ifiltr, double xfreq) {
   constexpr double two_pi = 2 * std::numbers::pi;
@@ -128,29 +118,6 @@ void check_filter(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void check_no_stfac(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.flag("Istf") != 1 || card.given("Stfac")) return;
-    Diagnostic* d = report_at(r, rule, card, "Stfac",
-                              name_of(card) +
-                                  ": Istf = 1 makes Stfac the stiffness, and Stfac is "
-                                  "0");
-    note_field(d, card, "Istf");
-    // The default is 1 in working units: in a block of other units 1.0 would be something else.
-    const UnitSystem* units = c.deck.units_of(*card.block);
-    if (units == nullptr || *units == c.deck.begin.working)
-      fix_field(d, c, card, "Stfac", "1.0", true, "write what is used: 1.0");
-  });
-}
-
-void check_old_heat(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const ContactCard& card : c.contacts)
-    if (card.type == 7 && card.block->version >= 90 && card.block->version < 100 &&
-        card.input("Ithe") == 1)
-      report_at(r, rule, card, "Ithe",
-                name_of(card) + ": in version 90 a heat line is read for Ithe above 1 only");
-}
-
 void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (!card.given("fric_ID")) return;
@@ -167,10 +134,9 @@ void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> combination_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK219, check_no_stfac},    {RuleId::DK250, check_renard},
-      {RuleId::DK251, check_heat_sum},    {RuleId::DK253, check_curvature_nodes},
-      {RuleId::DK255, check_type11_igap}, {RuleId::DK260, check_filter},
-      {RuleId::DK263, check_old_heat},    {RuleId::DK264, check_angles},
+      {RuleId::DK250, check_renard},          {RuleId::DK251, check_heat_sum},
+      {RuleId::DK253, check_curvature_nodes}, {RuleId::DK260, check_filter},
+      {RuleId::DK264, check_angles},
   };
   return all;
 }

@@ -15,19 +15,6 @@ bool fixed_temperature(const ContactCard& card) {
   return card.input("Ithe") == 1 && card.input("Ithe_form") == 0;
 }
 
-void check_sensor_times(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("sens_ID")) return;
-    for (const std::string_view field : {"Tstart", "Tstop"})
-      if (card.given(field))
-        note_field(report_at(r, rule, card, field,
-                             fmt::format("{}: {} applies in addition to the sensor: contact acts "
-                                         "only while both allow it",
-                                         name_of(card), card.show(field))),
-                   card, "sens_ID");
-  });
-}
-
 void check_title_length(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts) {
     const Line& title = card.decoded.title_line;
@@ -231,12 +218,17 @@ void check_edge_istf(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> difference_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK246, check_title_length},       {RuleId::DK249, check_main_share},
-      {RuleId::DK268, check_sensor_times},       {RuleId::DK293, check_cutoff_filter},
-      {RuleId::DK294, check_incremental_filter}, {RuleId::DK295, check_incremental_stiffness},
-      {RuleId::DK296, check_half_bounds},        {RuleId::DK297, check_edge_limits},
-      {RuleId::DK298, check_release_column},     {RuleId::DK510, check_default_ibag},
-      {RuleId::DK915, check_tie_trigger},        {RuleId::DK287, check_filter_off},
+      {RuleId::DK246, check_title_length},
+      {RuleId::DK249, check_main_share},
+      {RuleId::DK293, check_cutoff_filter},
+      {RuleId::DK294, check_incremental_filter},
+      {RuleId::DK295, check_incremental_stiffness},
+      {RuleId::DK296, check_half_bounds},
+      {RuleId::DK297, check_edge_limits},
+      {RuleId::DK298, check_release_column},
+      {RuleId::DK510, check_default_ibag},
+      {RuleId::DK915, check_tie_trigger},
+      {RuleId::DK287, check_filter_off},
       {RuleId::DK289, check_edge_istf},
   };
   return all;

@@ -106,15 +106,6 @@ void check_ignored(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_friction_source(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.given("fric_ID"))
-      Ignored(c, rule, r, card)({"Fric", "VISF", "Ifric", "Ifiltr", "Xfreq", "Iform", "C1", "C2",
-                                 "C3", "C4", "C5", "C6", "fct_IDF"},
-                                "fric_ID", "friction comes from /FRICTION");
-  });
-}
-
 /// Coefficients that a law does not have: Ifric 3 has no Fric, 4 has C1 and C2 only.
 void check_coefficients(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
@@ -131,7 +122,6 @@ void check_coefficients(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> ignored_checks() {
   static constexpr Checked all[] = {{RuleId::DK265, check_ignored},
-                                    {RuleId::DK269, check_friction_source},
                                     {RuleId::DK273, check_coefficients}};
   return all;
 }

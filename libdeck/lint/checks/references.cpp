@@ -173,45 +173,6 @@ void check_ambiguous(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-/// References by id to one definition elsewhere.
-void check_target(const LintContext& c, const Rule& rule, Reporter& r,
-                  std::initializer_list<std::string_view> fields, std::string_view kind,
-                  std::string_view what) {
-  const auto known = c.defined.find(kind);
-  for (const ContactCard& card : c.contacts)
-    for (const std::string_view field : fields) {
-      const FieldView* f = card.find(field);
-      if (f == nullptr || f->field == nullptr || !card.given(field) || f->input < 0) continue;
-      const auto id = static_cast<std::int64_t>(f->input);
-      if (known != c.defined.end() && known->second.count(id) > 0) continue;
-      report_at(r, rule, card, field,
-                fmt::format("{} of {} is {}, and there is no {} of that id", field, name_of(card),
-                            id, what));
-    }
-}
-
-void check_sensor(const LintContext& c, const Rule& rule, Reporter& r) {
-  check_target(c, rule, r, {"sens_ID"}, "sensor", "/SENSOR");
-}
-void check_function(const LintContext& c, const Rule& rule, Reporter& r) {
-  check_target(c, rule, r, {"fct_IDF", "fct_IDK"}, "funct", "/FUNCT");
-}
-void check_friction_id(const LintContext& c, const Rule& rule, Reporter& r) {
-  check_target(c, rule, r, {"fric_ID"}, "friction", "/FRICTION");
-}
-
-void check_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    for (const std::string_view field : {"node_ID1", "node_ID2"}) {
-      const auto id = static_cast<std::int64_t>(card.input(field));
-      if (id <= 0 || c.model->nodes.map.find(id) != no_index) continue;
-      report_at(
-          r, rule, card, field,
-          fmt::format("{} of {} is {}, and there is no node of that id", field, name_of(card), id));
-    }
-  });
-}
-
 void check_duplicates(const LintContext& c, const Rule& rule, Reporter& r) {
   const auto all = c.defined.find("inter");
   if (all == c.defined.end()) return;
@@ -230,13 +191,6 @@ void check_duplicates(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void check_no_secondary_line(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("line_IDs"))
-      report_at(r, rule, card, "line_IDs", name_of(card) + " has no secondary line");
-  });
-}
-
 void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts) {
     const auto sides = sides_of(card);
@@ -247,13 +201,6 @@ void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
     Diagnostic* d = report_at(r, rule, card, main, name_of(card) + " has no main surface");
     if (d != nullptr && card.type == 0) d->reference = rule.message(119);
   }
-}
-
-void check_side_without_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (!card.given("grnd_IDs"))
-      report_at(r, rule, card, "grnd_IDs", name_of(card) + " has no secondary node group");
-  });
 }
 
 // ---- pairs of parts of a /FRICTION, and what nobody refers to
@@ -362,26 +309,13 @@ void check_unused_groups(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> reference_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK170, check_missing_entity},
-      {RuleId::DK171, check_kind},
-      {RuleId::DK172, check_empty},
-      {RuleId::DK173, check_empty},
-      {RuleId::DK174, check_analytical},
-      {RuleId::DK175, check_sensor},
-      {RuleId::DK176, check_function},
-      {RuleId::DK177, check_friction_id},
-      {RuleId::DK178, check_nodes},
-      {RuleId::DK179, check_duplicates},
-      {RuleId::DK180, check_no_secondary_line},
-      {RuleId::DK181, check_no_main},
-      {RuleId::DK182, check_side_without_nodes},
-      {RuleId::DK187, check_negative},
-      {RuleId::DK190, check_ambiguous},
-      {RuleId::DK183, check_parts},
-      {RuleId::DK184, check_repeated},
-      {RuleId::DK185, check_unused_friction},
-      {RuleId::DK186, check_incomplete},
-      {RuleId::DK188, check_unused_groups},
+      {RuleId::DK170, check_missing_entity}, {RuleId::DK171, check_kind},
+      {RuleId::DK172, check_empty},          {RuleId::DK173, check_empty},
+      {RuleId::DK174, check_analytical},     {RuleId::DK179, check_duplicates},
+      {RuleId::DK181, check_no_main},        {RuleId::DK187, check_negative},
+      {RuleId::DK190, check_ambiguous},      {RuleId::DK183, check_parts},
+      {RuleId::DK184, check_repeated},       {RuleId::DK185, check_unused_friction},
+      {RuleId::DK186, check_incomplete},     {RuleId::DK188, check_unused_groups},
   };
   return all;
 }

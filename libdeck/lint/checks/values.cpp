@@ -25,37 +25,6 @@ void check_sign(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& block : c.frictions) check_sign_in(rule, block, r);
 }
 
-void check_heat_share(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    for (const std::string_view name : {"Fheats", "Fheatm"})
-      if (const double v = card.input(name); v < 0 || v > 1)
-        report_at(r, rule, card, name,
-                  fmt::format("{} of {} is {}; it is a share between 0 and 1", name, name_of(card),
-                              number_text(v)));
-  });
-}
-
-/// Fields that are shares or ratios: above 1 they mean something else than people think.
-void check_above_one(const LintContext& c, const Rule& rule, Reporter& r, std::string_view field,
-                     std::string_view meaning) {
-  for (const ContactCard& card : c.contacts)
-    if (const double v = card.input(field); v > 1)
-      report_at(r, rule, card, field,
-                fmt::format("{} of {} is {}{}", field, name_of(card), number_text(v), meaning));
-}
-
-void check_fpenmax(const LintContext& c, const Rule& rule, Reporter& r) {
-  check_above_one(c, rule, r, "Fpenmax", "; a penetration never exceeds the gap");
-}
-
-void check_viss(const LintContext& c, const Rule& rule, Reporter& r) {
-  check_above_one(c, rule, r, "VISs", " times the critical damping");
-}
-
-void check_fric(const LintContext& c, const Rule& rule, Reporter& r) {
-  check_above_one(c, rule, r, "Fric", ", a friction coefficient above 1");
-}
-
 /// Flags with a rule of their own, of /INTER/TYPE2; DK201 lists the others.
 constexpr std::pair<RuleId, std::string_view> own_rules[] = {
     {RuleId::DK352, "Spotflag"}, {RuleId::DK353, "Ignore"}, {RuleId::DK354, "Isearch"},
@@ -186,12 +155,9 @@ void check_bounds(const LintContext&, const Rule& rule, Reporter& r, const Decod
 
 std::span<const Checked> value_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK221, check_sign},    {RuleId::DK234, check_heat_share},
-      {RuleId::DK237, check_fpenmax}, {RuleId::DK238, check_viss},
-      {RuleId::DK239, check_fric},    {RuleId::DK201, check_flag},
-      {RuleId::DK217, check_ibc},     {RuleId::DK352, check_flag},
-      {RuleId::DK353, check_flag},    {RuleId::DK354, check_flag},
-      {RuleId::DK355, check_flag},    {RuleId::DK356, check_flag},
+      {RuleId::DK221, check_sign}, {RuleId::DK201, check_flag}, {RuleId::DK217, check_ibc},
+      {RuleId::DK352, check_flag}, {RuleId::DK353, check_flag}, {RuleId::DK354, check_flag},
+      {RuleId::DK355, check_flag}, {RuleId::DK356, check_flag},
   };
   return all;
 }

@@ -246,8 +246,8 @@ std::string page_of_rule(const Rule& rule, const SchemaSet& schemas, std::size_t
   std::string severities;
   for (const Severity s : rule.severities)
     severities += (severities.empty() ? "" : " or ") + std::string(to_string(s));
-  std::string out =
-      fmt::format("{}: {}\n{}, {}", id_text(rule.id), rule.title, severities, family_of(rule.id));
+  std::string out = fmt::format("{}: {}\nName: {}\n{}, {}", id_text(rule.id), rule.title, rule.name,
+                                severities, family_of(rule.id));
   if (rule.fixable != Fixable::no)
     out += rule.fixable == Fixable::safe ? ", fixed by --fix" : ", fixed by --unsafe-fixes";
   if (!rule.types.empty()) {

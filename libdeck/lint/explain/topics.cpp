@@ -190,7 +190,7 @@ std::string field_help(const Field& field, const SchemaSet& schemas, std::size_t
 }
 
 std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std::size_t width) {
-  const std::string capitals = in_capitals(topic);
+  const std::string capitals = in_capitals(to_selector(topic));
   if (capitals.empty()) return {};
   if (std::string page = rule_page(capitals, schemas, width); !page.empty()) return page;
   if (width == 0) width = usual_page_width;
@@ -235,7 +235,10 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
 
 std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet& schemas) {
   std::vector<std::string> rules;
-  for (const Rule& r : all_rules()) rules.emplace_back(id_text(r.id));
+  for (const Rule& r : all_rules()) {
+    rules.emplace_back(id_text(r.id));
+    rules.push_back(r.name);
+  }
   if (const std::string rule = closest_word(topic, rules); !rule.empty()) return {rule};
   const std::string wanted =
       in_capitals(topic.substr(topic.find('.') == topic.npos ? 0 : topic.rfind('.') + 1));

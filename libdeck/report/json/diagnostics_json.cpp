@@ -224,6 +224,7 @@ Record<RuleRow> record_of(const RuleRow*) {
   using Row = RuleRow;
   static constexpr Column<Row> columns[] = {
       column("id", [](const Row& r) { return id_text(r.rule->id); }),
+      column<&Row::rule, &Rule::name>("name", "Unique; accepted wherever an id is"),
       column<&Row::rule, &Rule::title>("title"),
       column("family", [](const Row& r) { return family_of(r.rule->id); }),
       column("severity", [](const Row& r) { return r.rule->severity(); }),

@@ -28,7 +28,10 @@ std::string_view family_of(RuleId id);
 /// True if `selector` names the finding: "all", an id ("DK104") or its beginning ("DK1"), a field
 /// of a rule ("DK201:Igap"), or the id that this field had as a rule of its own ("DK202").
 bool selects(std::string_view selector, RuleId id, std::string_view field = {});
-/// True if the selector names a finding that a rule can have.
+/// With the id of a rule in place of its name: "DK201:Istf" for "unknown-flag-value:Istf". Every
+/// other text stays as it is.
+std::string to_selector(std::string_view text);
+/// True if the selector, with the id or the name of a rule, means a finding that a rule can have.
 bool known_selector(std::string_view selector);
 /// "DK202 is now DK201:Igap", for the id of a rule that has become the field of another one; empty
 /// for every other selector.
@@ -143,7 +146,7 @@ using AcceptedFindings = std::map<FindingKey, std::vector<double>>;
 /// None of the settings reaches the findings of a gate (is_gate_rule): what a team has agreed on is
 /// switched off in [gate] alone.
 struct LintOptions {
-  std::vector<std::string> select;  ///< selectors; empty: all
+  std::vector<std::string> select;  ///< selectors, with ids or names; empty: all
   std::vector<std::string> ignore;
   std::map<std::string, Severity> severity;                                        ///< per selector
   std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;  ///< glob, rules

@@ -39,6 +39,7 @@ struct RuleField {
 /// of lint/shared/example.hpp and are run by the tests.
 struct Rule {
   RuleId id = RuleId::none;  ///< never reused
+  std::string name;          ///< "renard-curve": unique, accepted wherever an id is
   std::string title;         ///< one line
   /// What its findings are; the first one is the rule, the others are cases that the page tells.
   std::vector<Severity> severities;
@@ -59,20 +60,21 @@ struct Rule {
   std::vector<RuleField> fields;  ///< that its findings are about; empty: it is about none
   /// What shows that the solver does what `solver` says: a run, a record, ...; empty: no claim.
   std::string source;
-  /// Keys when, at, message, note and fix of a rule that is a predicate of cells; else empty.
+  /// Keys when, at, message, note, fix and interfaces of a rule that is a predicate of cells; else
+  /// empty.
   std::map<std::string, std::string, std::less<>> cells;
 
   Severity severity() const { return severities.front(); }
   /// nullptr: the rule is not about this field.
-  const RuleField* field(std::string_view name) const;
+  const RuleField* field(std::string_view field_name) const;
   /// The solver's message of that number; it is on the page.
   ReferenceMessage message(int number) const;
 };
 
 /// All rules, ordered by id. Parsed when first asked for; never changes.
 const std::vector<Rule>& all_rules();
-/// nullptr: no such rule.
-const Rule* find_rule(std::string_view id);
+/// By id or by name. nullptr: no such rule.
+const Rule* find_rule(std::string_view id_or_name);
 /// The page of an id that is not RuleId::none.
 const Rule& rule_of(RuleId id);
 /// The rule that says now what the rule of this id said ("DK202"); nullptr: there was none.

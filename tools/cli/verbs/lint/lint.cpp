@@ -63,7 +63,8 @@ Action setup(CommandLine& line) {
       .value("FORMAT=FILE")
       .one_each();
   line.option("--select", o.select,
-              "Only these rules: ids, prefixes (DK2) or fields (DK201:Istf), comma-separated")
+              "Only these rules: ids, names, prefixes (DK2) or fields (DK201:Istf), "
+              "comma-separated")
       .by_commas()
       .value("RULES");
   line.option("--ignore", o.ignore, "Not these rules").by_commas().value("RULES");
