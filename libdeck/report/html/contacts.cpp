@@ -44,20 +44,6 @@ double expected_gap(const Contact& contact, const PlainSides& plain) {
   return std::max({contact.max_gap, contact.gapmin, s + m});
 }
 
-/// Rows of what penetrates; of more than `most` the deepest, and `all` is set to false.
-std::vector<std::uint32_t> deepest_rows(const Contact& contact, std::size_t most, bool& all) {
-  const auto& found = contact.penetrations;
-  std::vector<std::uint32_t> rows(found.size());
-  std::iota(rows.begin(), rows.end(), 0u);
-  if (rows.size() <= most) return rows;
-  all = false;
-  std::stable_sort(rows.begin(), rows.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return found[a].depth > found[b].depth;
-  });
-  rows.resize(most);
-  return rows;
-}
-
 /// Sides of a contact whose gaps are formed already.
 PlainSides formed_sides(const Contact& contact, const Coordinates& x) {
   PlainSides out;
@@ -212,8 +198,12 @@ PageContact page_contact(const Contact& contact, PlainSides plain, const Coordin
       page.fixed = "it has too many pairs for a page, or a gap without bound";
   }
   if (*page.fixed == 0 && !contact.dropped) carry_pairs(contact, x, threads, page);
-  const std::size_t most = *page.fixed == 0 ? contact.penetrations.size() : penetrations_kept;
-  page.rows = deepest_rows(contact, most, page.complete);
+  const auto& found = contact.penetrations;
+  page.complete = *page.fixed == 0 || found.size() <= penetrations_kept;
+  page.rows.resize(found.size());
+  std::iota(page.rows.begin(), page.rows.end(), 0u);
+  if (!page.complete)
+    keep_largest(page.rows, penetrations_kept, [&](std::uint32_t r) { return found[r].depth; });
   carry_rows(contact, page);
   return page;
 }

@@ -98,8 +98,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   j.key("actions").begin_object();
   for (std::size_t a = 0; a < penetration_actions; ++a) {
     const auto action = static_cast<PenetrationAction>(a);
-    j.key(to_string(action)).begin_array(true);
-    j.value(action_words(action, 1)).value(action_words(action, 2)).end_array();
+    detail::write_row(j.key(to_string(action)), action_words(action, 1), action_words(action, 2));
   }
   j.end_object();
   detail::write_what_if(j, in.what_if);
@@ -142,8 +141,7 @@ std::string earlier_json(const HtmlInput& in) {
   for (const PageTrend& t : trends_in(in)) {
     std::array<std::int64_t, 2> nodes = t.secondary;
     if (nodes[1] != 0 && nodes[1] < nodes[0]) std::swap(nodes[0], nodes[1]);
-    j.begin_array(true).value(t.interface_id).value(t.role).value(nodes[0]).value(nodes[1]);
-    j.value(t.depth).value(t.gap).value(t.trend).end_array();
+    detail::write_row(j, t.interface_id, t.role, nodes[0], nodes[1], t.depth, t.gap, t.trend);
   }
   j.end_array().end_object();
   return out;
@@ -184,13 +182,10 @@ std::string static_body(const HtmlInput& in) {
 
 void add_block(std::string& out, std::string_view id, std::string_view type,
                std::string_view text) {
-  out += "<script type=\"";
-  out += type;
-  out += "\" id=\"";
-  out += id;
-  out += "\">";
-  out += text;
-  out += "</script>\n";
+  for (const std::string_view piece :
+       {std::string_view("<script type=\""), type, std::string_view("\" id=\""), id,
+        std::string_view("\">"), text, std::string_view("</script>\n")})
+    out += piece;
 }
 
 /// A block of packed bytes.

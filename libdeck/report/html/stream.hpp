@@ -13,7 +13,7 @@
 
 namespace deck::detail {
 
-/// Bytes that are packed (zlib) and written as base64 piece by piece as they come.
+/// Bytes that are packed (zlib) as they come, and in the end written as base64.
 class PackedText {
  public:
   PackedText();
@@ -26,8 +26,7 @@ class PackedText {
 
  private:
   struct State;
-  void run(std::string_view bytes, bool last);
-  void encode(bool last);
+  void run(std::string_view bytes, int flush);
   std::unique_ptr<State> state_;
 };
 
@@ -106,6 +105,7 @@ class Delta {
   std::int64_t last_ = 0;
 };
 
+std::string base64(std::string_view bytes);
 /// zlib stream of `bytes` as base64 text.
 std::string packed_text(std::string_view bytes);
 
