@@ -121,16 +121,12 @@ void write_card(JsonWriter& j, const InterBase& inter) {
 
 }  // namespace
 
-std::vector<const InterBase*> page_interfaces(const Scene& scene) {
-  std::vector<const InterBase*> out = scene.interfaces->ordered;
-  for (const Tie& tie : scene.ties) out.push_back(tie.inter);
-  return out;
-}
-
 void write_interfaces(JsonWriter& j, const HtmlInput& input) {
   const Deck& deck = *input.deck;
+  std::vector<const InterBase*> all = input.scene->interfaces->ordered;
+  for (const Tie& tie : input.scene->ties) all.push_back(tie.inter);
   j.key("interfaces").begin_array();
-  for (const InterBase* inter : page_interfaces(*input.scene)) {
+  for (const InterBase* inter : all) {
     j.begin_object();
     j.field("id", inter->id).field("type", inter->type).field("title", inter->title);
     j.field("level", to_string(level_of(input, *inter)));

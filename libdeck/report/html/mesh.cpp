@@ -4,7 +4,7 @@
 // by face in the order of the mesh: a block of its own, so that the first picture does not wait.
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <map>
 
 #include "model/shared/item_spans.hpp"
 #include "report/html/parts.hpp"
@@ -42,6 +42,10 @@ SolidFace solid_face_of(const NodeIndex* slots, int face, std::uint32_t element)
   return f;
 }
 
+bool complete(const NodeIndex* nodes, int n) {
+  return std::find(nodes, nodes + n, no_index) == nodes + n;
+}
+
 /// Faces that only one of the solids has, in the order of the solids.
 std::vector<SolidFace> outer_faces(const Elements& family,
                                    const std::vector<std::uint32_t>& solids) {
@@ -49,26 +53,18 @@ std::vector<SolidFace> outer_faces(const Elements& family,
   all.reserve(6 * solids.size());
   for (const std::uint32_t e : solids) {
     const NodeIndex* slots = family.of(e);
-    if (std::find(slots, slots + 8, no_index) != slots + 8) continue;
+    if (!complete(slots, 8)) continue;
     for (int k = 0; k < 6; ++k)
       if (const SolidFace f = solid_face_of(slots, k, e); f.corners >= 3) all.push_back(f);
   }
-  struct Sorted {
-    std::uint64_t first, last;  // two nodes of the key each
-    std::uint32_t face;
-    auto operator<=>(const Sorted&) const = default;
-  };
-  std::vector<Sorted> order;
+  std::vector<std::pair<std::array<NodeIndex, 4>, std::uint32_t>> order;  // key and face
   order.reserve(all.size());
-  for (std::uint32_t i = 0; i < all.size(); ++i) {
-    const auto& k = all[i].key;
-    order.push_back({std::uint64_t{k[0]} << 32 | k[1], std::uint64_t{k[2]} << 32 | k[3], i});
-  }
+  for (std::uint32_t i = 0; i < all.size(); ++i) order.emplace_back(all[i].key, i);
   std::sort(order.begin(), order.end());
   std::vector<std::uint8_t> outer(all.size(), 1);
   for (std::size_t i = 1; i < order.size(); ++i)
-    if (order[i].first == order[i - 1].first && order[i].last == order[i - 1].last)
-      outer[order[i].face] = outer[order[i - 1].face] = 0;
+    if (order[i].first == order[i - 1].first)
+      outer[order[i].second] = outer[order[i - 1].second] = 0;
   std::vector<SolidFace> out;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (outer[i]) out.push_back(all[i]);
@@ -81,20 +77,13 @@ void each_corner(const Model& model, const MeshGroup& g, const Use& use) {
   const Elements& family = model.family(g.kind);
   for (std::size_t i = 0; i < g.element.size(); ++i) {
     const NodeIndex* n = family.of(g.element[i]);
-    SolidFace solid;
-    if (!g.face.empty()) {
-      solid = solid_face_of(n, g.face[i], g.element[i]);
-      n = solid.nodes.data();
-    }
+    const SolidFace solid = g.face.empty() ? SolidFace{} : solid_face_of(n, g.face[i], 0);
+    if (!g.face.empty()) n = solid.nodes.data();
     for (int k = 0; k < g.corners; ++k) use(n[k]);
   }
 }
 
 constexpr std::size_t large_part = 100000;  // nodes from which the coarser grid is used
-
-bool complete(const NodeIndex* nodes, int n) {
-  return std::find(nodes, nodes + n, no_index) == nodes + n;
-}
 
 class Collector {
  public:
@@ -255,10 +244,6 @@ std::vector<ItemPlace> element_places(const Model& model, const Elements& family
   return out;
 }
 
-double own_thickness(const Elements& family, std::uint32_t element) {
-  return element < family.thickness.size() ? family.thickness[element] : 0;
-}
-
 }  // namespace
 
 void PageNodes::number() {
@@ -309,19 +294,19 @@ void each_item_place(const Deck& deck, std::span<const BulkBlock> runs,
 }
 
 std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh) {
-  std::unordered_map<int, std::vector<ItemPlace>> places;
+  std::map<ElementKind, std::vector<ItemPlace>> places;
   ByteStream out;
   for (const MeshPart& part : mesh)
     for (const MeshGroup& g : part.groups) {
       const Elements& family = model.family(g.kind);
-      const auto found = places.find(static_cast<int>(g.kind));
-      const std::vector<ItemPlace>& place =
-          found != places.end() ? found->second
-                                : places[static_cast<int>(g.kind)] = element_places(model, family);
+      std::vector<ItemPlace>& place = places[g.kind];
+      if (place.empty()) place = element_places(model, family);
       Delta file, line;
       for (const std::uint32_t e : g.element) out.s(file(place[e].file));
       for (const std::uint32_t e : g.element) out.s(line(std::int64_t{place[e].line}));
-      out.palette(g.element, [&](std::uint32_t e) { return own_thickness(family, e); });
+      out.palette(g.element, [&](std::uint32_t e) {
+        return e < family.thickness.size() ? family.thickness[e] : 0.0;
+      });
     }
   return std::move(out).text();
 }

@@ -156,7 +156,6 @@ std::string touches_drawing(const HtmlInput& input, const std::vector<Touch>& to
 // interfaces.cpp — the members "interfaces", "what_if" and "contacts"
 /// What the page calls interfaces, by position: contacts in the solver's order, then the ties of
 /// the scene.
-std::vector<const InterBase*> page_interfaces(const Scene& scene);
 void write_interfaces(JsonWriter& json, const HtmlInput& input);
 void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);
 void write_contacts(JsonWriter& json, const HtmlInput& input, const PageContacts& page);

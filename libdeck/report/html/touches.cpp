@@ -146,6 +146,9 @@ class Drawing {
 std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContacts& page) {
   const Model& model = *in.scene->model;
   const auto part = [&](const ElementName& e) { return static_cast<int>(part_position(model, e)); };
+  const auto carrier = [&](const auto& item) {
+    return part(carrier_name(model, item.carrier, item.element));
+  };
   std::map<std::pair<int, int>, Touch> found;
   const auto at = [&](int secondary, int main, const InterBase& inter) -> Touch& {
     Touch& t = found[{secondary, main}];
@@ -169,15 +172,11 @@ std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContac
       int& s = of_secondary[p.secondary];
       int& m = of_main[p.main];
       if (s == -2)
-        s = part(edges ? carrier_name(model, c.secondary_edges[p.secondary].carrier,
-                                      c.secondary_edges[p.secondary].element)
-                       : element_at(model, connectivity, c.secondary[p.secondary].node));
-      if (m == -2)
-        m = part(
-            edges ? carrier_name(model, c.main_edges[p.main].carrier, c.main_edges[p.main].element)
-                  : carrier_name(model, c.main[p.main].carrier, c.main[p.main].element));
+        s = edges ? carrier(c.secondary_edges[p.secondary])
+                  : part(element_at(model, connectivity, c.secondary[p.secondary].node));
+      if (m == -2) m = edges ? carrier(c.main_edges[p.main]) : carrier(c.main[p.main]);
       if (const std::pair parts{s, m}; parts != last && seen.insert(last = parts).second)
-        at(s, m, *in.scene->contacts[i].inter);
+        at(s, m, *c.inter);
     }
   }
   for (const NamedPenetration& p : in.view->penetrations) {
