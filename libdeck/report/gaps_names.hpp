@@ -18,7 +18,4 @@ std::vector<NodeIndex> first_nodes(const Scene& scene, const std::vector<NamedPe
 ElementName edge_element(const Model& model, const Crossing& crossing);
 ElementName segment_element(const Scene& scene, const Crossing& crossing);
 
-/// The members of "summary" and "totals", the same in the document and in the page.
-void write_totals(JsonWriter& json, const ContactTotals& totals);
-
 }  // namespace deck

@@ -209,10 +209,7 @@ std::vector<std::uint32_t> distinct(const std::vector<CandidatePair>& pairs,
                                     std::uint32_t CandidatePair::*side, std::size_t count) {
   std::vector<std::uint8_t> marks(count, 0);
   for (const CandidatePair& p : pairs) marks[p.*side] = 1;
-  std::vector<std::uint32_t> out;
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (marks[i]) out.push_back(i);
-  return out;
+  return marked(marks);
 }
 
 /// The segments or edges of all contacts, numbered as they come, those alike once: contacts share
@@ -346,15 +343,14 @@ class Writer {
         for (const NodeIndex n : main_nodes(c, k)) use(n);
     }
     for (const NodeIndex n : of_ties_) use(n);
+    const std::vector<std::uint32_t> exact = marked(wanted);
     std::vector<double> values;
-    out.u(static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), 1)));
+    out.u(exact.size());
     Delta d;
-    for (std::uint32_t n = 0; n < wanted.size(); ++n)
-      if (wanted[n]) out.s(d(n));
+    for (const std::uint32_t n : exact) out.s(d(n));
     for (const std::vector<double>* axis : {&model_.nodes.x, &model_.nodes.y, &model_.nodes.z}) {
       values.clear();
-      for (std::uint32_t n = 0; n < wanted.size(); ++n)
-        if (wanted[n]) values.push_back((*axis)[nodes_.list()[n]]);
+      for (const std::uint32_t n : exact) values.push_back((*axis)[nodes_.list()[n]]);
       out.decimals(values);
     }
   }

@@ -15,11 +15,11 @@
 #include "deck/front/loaded_deck.hpp"
 #include "deck/report/gaps.hpp"
 #include "report/cycle_costs.hpp"
-#include "report/gaps_names.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/parts.hpp"
 #include "report/shared/verdict.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck::detail {
 
@@ -71,9 +71,7 @@ std::string meta_json(const HtmlInput& in, const PageContacts& page,
   j.field("page", page_name(in));
   write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
   write_verdict(j, verdict_in(in));
-  j.key("summary").begin_object(true);
-  write_totals(j, in.view->total);
-  j.end_object();
+  write_value(j.key("summary"), in.view->total);
   write_json_coverage(j, coverage_of(*in.deck, *in.scene->interfaces, in.scene->examined));
   std::uint64_t bytes = 0;
   for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f)

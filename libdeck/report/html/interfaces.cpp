@@ -6,8 +6,8 @@
 #include "contact/shared/scene_parts.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/keyword/decode.hpp"
-#include "report/gaps_names.hpp"
 #include "report/html/parts.hpp"
+#include "report/shared_records.hpp"
 #include "verdict/shared/of_interface.hpp"
 
 namespace deck::detail {
@@ -192,9 +192,7 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     for (const PenetrationRow& row : c.penetrations)
       if (!row.in_contact) write_row(j, row.secondary, row.main);
     j.end_array();
-    j.key("totals").begin_object(true);
-    write_totals(j, input.view->contacts[i]);
-    j.end_object();
+    write_value(j.key("totals"), input.view->contacts[i]);
     write_card(j, *c.inter);
     write_default_gap(j, c, plain);
     j.end_object();

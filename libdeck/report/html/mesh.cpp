@@ -247,12 +247,9 @@ std::vector<ItemPlace> element_places(const Model& model, const Elements& family
 }  // namespace
 
 void PageNodes::number() {
+  list_ = marked(used_);
   number_.assign(used_.size(), no_index);
-  for (NodeIndex n = 0; n < used_.size(); ++n) {
-    if (used_[n] == 0) continue;
-    number_[n] = static_cast<std::uint32_t>(list_.size());
-    list_.push_back(n);
-  }
+  for (std::uint32_t i = 0; i < list_.size(); ++i) number_[list_[i]] = i;
 }
 
 std::vector<MeshPart> collect_mesh(const Model& model, PageNodes& nodes) {

@@ -43,6 +43,14 @@ class PageNodes {
   std::vector<NodeIndex> list_;
 };
 
+/// Positions of the marks that are set, ascending.
+inline std::vector<std::uint32_t> marked(const std::vector<std::uint8_t>& marks) {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < marks.size(); ++i)
+    if (marks[i] != 0) out.push_back(i);
+  return out;
+}
+
 /// An array on one line; numbers that are not finite become null.
 template <class... T>
 void write_row(JsonWriter& json, const T&... values) {

@@ -41,13 +41,10 @@ std::vector<std::uint32_t> listed(const Tie& tie) {
 
 /// Positions of the segments that a line ends at, ascending.
 std::vector<std::uint32_t> segments_of(const Tie& tie) {
-  std::vector<bool> marks(tie.main.size());
+  std::vector<std::uint8_t> marks(tie.main.size(), 0);
   for (const TiedNode& n : tie.nodes)
-    if (const std::uint32_t s = segment_of(n); s != no_index) marks[s] = true;
-  std::vector<std::uint32_t> out;
-  for (std::uint32_t s = 0; s < marks.size(); ++s)
-    if (marks[s]) out.push_back(s);
-  return out;
+    if (const std::uint32_t s = segment_of(n); s != no_index) marks[s] = 1;
+  return marked(marks);
 }
 
 /// An untied node as the page lists it; distances that are not finite are not known.
