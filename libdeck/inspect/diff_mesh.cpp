@@ -88,7 +88,7 @@ void Differ::tolerances() {
 }
 
 void Differ::elements() {
-  std::map<std::pair<std::int64_t, const char*>, PartElements> parts;
+  std::map<std::pair<std::int64_t, std::string_view>, PartElements> parts;
   std::map<std::int64_t, std::int64_t> part_to_a;
   for (const Part& p : a_.loaded.model().parts)
     if (const std::int64_t to = pairs_.mapped(a_, b_, "part", p.id); to != 0)

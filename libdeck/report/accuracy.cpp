@@ -286,17 +286,17 @@ Record<AccuracyDocument> record_of(const AccuracyDocument*) {
   return {"document", "", columns};
 }
 
-constexpr DocumentHead head{
+constexpr DocumentHead accuracy_head{
     "deck/accuracy", 2,
     "Written by deck accuracy --json: what each word of --accuracy costs in time and decides "
     "wrongly, on the hard cases and, with the member deck, on a deck."};
 
 }  // namespace
 
-DocumentSchema accuracy_schema() { return document_schema<AccuracyDocument>(head); }
+DocumentSchema accuracy_schema() { return document_schema<AccuracyDocument>(accuracy_head); }
 
 std::string accuracy_json(const AccuracyChoices& choices, const AccuracyContext& context) {
-  return write_document(head, AccuracyDocument{&choices, &context, hard_motion()});
+  return write_document(accuracy_head, AccuracyDocument{&choices, &context, hard_motion()});
 }
 
 }  // namespace deck

@@ -33,22 +33,15 @@ bool is_below(std::string_view keyword, std::string_view above) {
   return keyword.empty() || keyword[0] == '/' || keyword[0] == '_';
 }
 
-std::string in_small_letters(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
-
 /// What a message is about: the first entity that it names, else its node if it is one.
 std::string name_of(const ListedMessage& m) {
-  if (!m.ids.empty()) {
-    const ListedId& id = m.ids.front();
-    return fmt::format("{} {}{}", in_small_letters(id.kind), id.id,
-                       id.title.empty() ? "" : " '" + id.title + "'");
-  }
-  if (m.nodes.size() == 1) return fmt::format("node {}", m.nodes.front());
-  return {};
+  if (m.ids.empty())
+    return m.nodes.size() == 1 ? fmt::format("node {}", m.nodes.front()) : std::string();
+  const ListedId& id = m.ids.front();
+  std::string kind = id.kind;
+  for (char& c : kind)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return fmt::format("{} {}{}", kind, id.id, id.title.empty() ? "" : " '" + id.title + "'");
 }
 
 class Comparison {
@@ -83,53 +76,51 @@ class Comparison {
 
   // ---- messages
 
+  MessageGroup& group_of(const ListedMessage& m) {
+    for (MessageGroup& g : out_.messages)
+      if (g.number == m.number && g.severity == m.severity) return g;
+    MessageSummary summary = summary_of_message(m.number);
+    MessageGroup& group = out_.messages.emplace_back();
+    group.number = m.number;
+    group.severity = m.severity;
+    group.title = std::move(summary.title);
+    group.means = std::move(summary.means);
+    group.action = std::move(summary.action);
+    return group;
+  }
+
   void message(const ListedMessage& m) {
-    auto group = std::find_if(
-        out_.messages.begin(), out_.messages.end(),
-        [&](const MessageGroup& g) { return g.number == m.number && g.severity == m.severity; });
-    if (group == out_.messages.end()) {
-      MessageSummary summary = summary_of_message(m.number);
-      group = out_.messages.insert(group, MessageGroup{m.number,
-                                                       m.severity,
-                                                       0,
-                                                       std::move(summary.title),
-                                                       std::move(summary.means),
-                                                       std::move(summary.action),
-                                                       {},
-                                                       {}});
-    }
-    ++group->times;
+    MessageGroup& group = group_of(m);
+    ++group.times;
     // A message of several entities, as of the properties of a material, is about each of them. Of
     // a damaged listing it may name so many that each with all nodes would be too much.
     constexpr std::size_t most_pairs = 100'000;
-    const auto entities =
-        static_cast<std::size_t>(std::count_if(m.ids.begin(), m.ids.end(), [&](const ListedId& id) {
-          return id.kind == m.ids.front().kind;
-        }));
-    ListedMessage part = m;
-    if (entities <= 1 || entities * m.nodes.size() > most_pairs) {
-      if (entities > 1) part.ids = {m.ids.front()};
-      const std::string name = name_of(part);
-      return place(*group, part,
-                   entities > 1 ? fmt::format("{} and {} more", name, entities - 1) : name);
-    }
+    std::vector<ListedId> entities;
     for (const ListedId& id : m.ids)
-      if (id.kind == m.ids.front().kind) {
-        part.ids = {id};
-        place(*group, part, name_of(part));
-      }
+      if (id.kind == m.ids.front().kind) entities.push_back(id);
+    ListedMessage part = m;
+    if (entities.size() <= 1) return place(group, m, name_of(m));
+    if (entities.size() * m.nodes.size() > most_pairs) {
+      part.ids.resize(1);
+      return place(group, part, fmt::format("{} and {} more", name_of(m), entities.size() - 1));
+    }
+    for (const ListedId& id : entities) {
+      part.ids = {id};
+      place(group, part, name_of(part));
+    }
   }
 
   void place(MessageGroup& group, const ListedMessage& m, const std::string& name) {
     const auto [known, is_new] =
         place_of_.try_emplace(std::tuple(m.severity, m.number, name), group.places.size());
     if (is_new) {
-      group.places.emplace_back();
-      group.places.back().name = name;
-      group.places.back().id = !m.ids.empty()        ? m.ids.front().id
-                               : m.nodes.size() == 1 ? m.nodes.front()
-                                                     : 0;
-      group.places.back().span = span_of(m);
+      MessagePlace& place = group.places.emplace_back();
+      place.name = name;
+      if (!m.ids.empty())
+        place.id = m.ids.front().id;
+      else if (m.nodes.size() == 1)
+        place.id = m.nodes.front();
+      place.span = span_of(m);
     }
     MessagePlace& place = group.places[known->second];
     ++place.times;
@@ -178,13 +169,12 @@ class Comparison {
   }
 
   /// What deck says with the number of a message, at its places where it is about them.
-  void say(MessageGroup& group, std::set<std::size_t>& used) {
+  void say(MessageGroup& group) {
     std::vector<std::size_t> same;
     for (std::size_t f = 0; f < out_.findings.size(); ++f)
       if (out_.findings[f].reference && out_.findings[f].reference->number == group.number)
         same.push_back(f);
     if (same.empty()) return;
-    used.insert(same.begin(), same.end());
     std::vector<const Block*> blocks;
     for (const MessagePlace& place : group.places) blocks.push_back(block_at(place.span));
     for (const std::size_t f : same) {
@@ -200,13 +190,16 @@ class Comparison {
   }
 
   void findings() {
-    std::set<std::size_t> used;
-    for (MessageGroup& group : out_.messages) say(group, used);
+    std::set<int> listed;
+    for (MessageGroup& group : out_.messages) {
+      say(group);
+      listed.insert(group.number);
+    }
     for (std::size_t f = 0; f < out_.findings.size(); ++f) {
       const auto& reference = out_.findings[f].reference;
       // The messages of the reader are printed by official programs only.
       if (reference && reference->severity != Severity::info && reference->number < 100000 &&
-          !used.contains(f))
+          !listed.contains(reference->number))
         out_.not_listed.push_back(f);
     }
   }
@@ -216,33 +209,32 @@ class Comparison {
   void contacts() {
     const Scene& scene = loaded_->scene();
     view_ = make_view(scene);
-    std::vector<const ListedContact*> of(scene.contacts.size(), nullptr);
-    assign(scene, of);
+    const std::vector<const ListedContact*> listed = listed_contacts(scene);
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
-      if (!scene.contacts[c].dropped) contact(c, of[c]);
+      if (!scene.contacts[c].dropped) contact(c, listed[c]);
   }
 
   /// Contacts with a header belong to the first part of their interface, those without one to the
   /// other parts, in the order of work.
-  void assign(const Scene& scene, std::vector<const ListedContact*>& of) {
+  std::vector<const ListedContact*> listed_contacts(const Scene& scene) {
+    std::vector<const ListedContact*> of(scene.contacts.size(), nullptr);
+    // Ties and other types are no contacts of the scene; 0 is a later part of a TYPE19.
+    static const std::set<int> compared{0, 7, 10, 11, 19, 24, 25};
     for (const ListedContact& listed : listing_.contacts) {
-      // Ties and other types are no contacts of the scene; 0 is a later part of a TYPE19.
-      constexpr int compared[] = {0, 7, 10, 11, 19, 24, 25};
-      if (std::find(std::begin(compared), std::end(compared), listed.type) == std::end(compared))
-        continue;
-      std::size_t c = 0;
-      for (; c < scene.contacts.size(); ++c) {
-        const Contact& contact = scene.contacts[c];
-        if (contact.dropped || of[c] != nullptr) continue;
+      if (!compared.contains(listed.type)) continue;
+      const auto fits = [&](const Contact& contact) {
         const bool later_part = contact.inter->type == 19 && contact.role != ContactRole::primary;
-        const bool fits_id = listed.interface == 0 || contact.inter->id == listed.interface;
-        if (fits_id && later_part == (listed.type == 0)) break;
-      }
-      if (c == scene.contacts.size())
+        return !contact.dropped && later_part == (listed.type == 0) &&
+               (listed.interface == 0 || contact.inter->id == listed.interface);
+      };
+      std::size_t c = 0;
+      while (c < of.size() && (of[c] != nullptr || !fits(scene.contacts[c]))) ++c;
+      if (c == of.size())
         ++out_.unnamed_contacts;
       else
         of[c] = &listed;
     }
+    return of;
   }
 
   /// The pairs that a listing shows as penetrations: from level 6 on it shows other pairs, too.
@@ -255,18 +247,14 @@ class Comparison {
   }
 
   /// A pair in any order of its nodes.
-  static std::pair<std::vector<std::int64_t>, std::vector<std::int64_t>> key(
-      std::array<std::int64_t, 2> secondary, std::array<std::int64_t, 4> main) {
-    std::vector<std::int64_t> s, m;
-    for (const std::int64_t n : secondary)
-      if (n != 0) s.push_back(n);
-    for (const std::int64_t n : main)
-      if (n != 0) m.push_back(n);
-    for (auto* nodes : {&s, &m}) {
-      std::sort(nodes->begin(), nodes->end());
-      nodes->erase(std::unique(nodes->begin(), nodes->end()), nodes->end());
-    }
-    return {s, m};
+  using PairKey = std::pair<std::set<std::int64_t>, std::set<std::int64_t>>;
+  template <class Pair>
+  static PairKey key(const Pair& pair) {
+    PairKey out{{pair.secondary.begin(), pair.secondary.end()},
+                {pair.main.begin(), pair.main.end()}};
+    out.first.erase(0);
+    out.second.erase(0);
+    return out;
   }
 
   void contact(std::uint32_t c, const ListedContact* listed) {
@@ -288,12 +276,10 @@ class Comparison {
 
   static void match(const Contact& contact, const std::vector<ListedPair>& pairs,
                     ComparedContact& out) {
-    using Key = decltype(key({}, {}));
-    std::map<Key, std::vector<std::size_t>> of_deck;
-    for (std::size_t i = out.pairs.size(); i-- > 0;)
-      of_deck[key(out.pairs[i].pair.secondary, out.pairs[i].pair.main)].push_back(i);
+    std::map<PairKey, std::vector<std::size_t>> of_deck;
+    for (std::size_t i = out.pairs.size(); i-- > 0;) of_deck[key(out.pairs[i].pair)].push_back(i);
     for (const ListedPair& pair : pairs) {
-      const auto it = of_deck.find(key(pair.secondary, pair.main));
+      const auto it = of_deck.find(key(pair));
       if (it == of_deck.end() || it->second.empty()) {
         out.only_listed.push_back(pair);
         continue;
@@ -320,13 +306,12 @@ class Comparison {
     ComparedSteps out;
     out.kind = kind;
     out.listed = rows.size();
-    out.smallest = rows.front().dt;
-    out.smallest_id = rows.front().id;
+    const auto smallest =
+        std::min_element(rows.begin(), rows.end(),
+                         [](const ListedStep& a, const ListedStep& b) { return a.dt < b.dt; });
+    out.smallest = smallest->dt;
+    out.smallest_id = smallest->id;
     for (const ListedStep& row : rows) {
-      if (row.dt < out.smallest) {
-        out.smallest = row.dt;
-        out.smallest_id = row.id;
-      }
       const std::uint32_t at = map.find(row.id);
       const double dt = at == no_index ? std::nan("") : computed[at];
       if (at != no_index && std::isnan(dt)) {

@@ -1,9 +1,13 @@
-// Which effects of an interface run, and because of which field on which line.
+// Which effects of an interface run, and because of which field on which line. The verdict of a
+// cycle, and verdicts as a line of text.
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "base/shared/escape.hpp"
 #include "report/shared/cycle.hpp"
+#include "report/shared/gate.hpp"
+#include "report/shared/text_table.hpp"
 
 namespace deck {
 namespace {
@@ -16,11 +20,10 @@ std::string because_of(const Deck& deck, const InterBase& inter, const cycle::Ef
   if (!place) return e.reason;
   span = place->span;
   std::string where;
-  if (place->span.valid()) {  // in the main file its line is enough
-    const auto line = deck.sources.position(place->span).line;
-    where = place->span.file == 0
-                ? fmt::format("line {}", line)
-                : fmt::format("{}:{}", deck.sources[place->span.file].path(), line);
+  if (span.valid()) {  // in the main file its line is enough
+    const auto line = deck.sources.position(span).line;
+    where = span.file == 0 ? fmt::format("line {}", line)
+                           : fmt::format("{}:{}", deck.sources[span.file].path(), line);
   }
   if (place->origin != Origin::card) {
     if (!where.empty()) where += ", ";
@@ -46,24 +49,41 @@ std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome
   for (const cycle::ContactOutcome& c : outcome.contacts) {
     if (c.contact->inter != &inter) continue;
     for (const cycle::EffectState& e : c.effects) {
-      const auto known = std::find_if(lines.begin(), lines.end(),
-                                      [&](const EffectLine& l) { return l.name == e.name; });
-      // On in one part of a TYPE19 and off in another: both are said.
-      if (known != lines.end() && known->on && !e.on && c.contact->role == ContactRole::edges &&
-          wanted_by_card(inter, e)) {
-        known->because += fmt::format("; not between edges: {}", e.reason);
-        known->not_edges = e.reason;
+      auto line = std::find_if(lines.begin(), lines.end(),
+                               [&](const EffectLine& l) { return l.name == e.name; });
+      if (line == lines.end()) {
+        line = lines.emplace(line);
+      } else if (line->on || !e.on) {
+        // On in one part of a TYPE19 and off in another: both are said.
+        if (line->on && !e.on && c.contact->role == ContactRole::edges &&
+            wanted_by_card(inter, e)) {
+          line->because += fmt::format("; not between edges: {}", e.reason);
+          line->not_edges = e.reason;
+        }
+        continue;
       }
-      if (known != lines.end() && (known->on || !e.on)) continue;
-      EffectLine line{e.name, e.on, {}, e.field, e.reason, {}, {}};
-      line.because = because_of(deck, inter, e, line.span);
-      if (known == lines.end())
-        lines.push_back(std::move(line));
-      else
-        *known = std::move(line);
+      *line = {e.name, e.on, {}, e.field, e.reason, {}, {}};
+      line->because = because_of(deck, inter, e, line->span);
     }
   }
   return lines;
+}
+
+Verdict cycle_verdict(const CycleInput& input) {
+  VerdictInput in;
+  in.deck = input.deck;
+  in.interfaces = input.scene->interfaces;
+  in.contacts = contact_facts(*input.scene, input.view ? *input.view : make_view(*input.scene));
+  in.model = input.scene->model;
+  in.cycle = input.outcome;
+  in.steps = input.steps;
+  return make_verdict(in);
+}
+
+std::string verdict_text(const Verdict& v, bool color) {
+  const bool good = v.level == VerdictLevel::clean || v.level == VerdictLevel::remarks;
+  const Tone tone = v.level == VerdictLevel::stops ? Tone::red : good ? Tone::green : Tone::yellow;
+  return toned(terminal_text(v.text), tone, color) + "\n";
 }
 
 }  // namespace deck

@@ -1,6 +1,5 @@
 // The loss report: what a conversion cannot keep.
-#include "report/shared/losses.hpp"
-
+#include "report/shared/deck_json.hpp"
 #include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 
@@ -26,10 +25,10 @@ Record<LossLists> record_of(const LossLists*) {
   return {"document", "", columns};
 }
 
-constexpr DocumentHead head{"deck/losses", 1,
-                            "Written by deck convert --report: cells and blocks that the "
-                            "conversion changed in a way worth knowing.",
-                            false};
+constexpr DocumentHead losses_head{"deck/losses", 1,
+                                   "Written by deck convert --report: cells and blocks that the "
+                                   "conversion changed in a way worth knowing.",
+                                   false};
 
 }  // namespace
 
@@ -51,14 +50,10 @@ Record<LossEntry> record_of(const LossEntry*) {
   return {"entry", "", columns};
 }
 
-DocumentSchema losses_schema() { return document_schema<LossLists>(head); }
-
-void write_loss_lists(JsonWriter& json, const std::vector<LossEntry>& losses) {
-  write_members(json, LossLists{&losses});
-}
+DocumentSchema losses_schema() { return document_schema<LossLists>(losses_head); }
 
 std::string losses_json(const std::vector<LossEntry>& losses) {
-  return write_document(head, LossLists{&losses}) + '\n';
+  return write_document(losses_head, LossLists{&losses}) + '\n';
 }
 
 }  // namespace deck

@@ -1,5 +1,5 @@
 // Counts the elements of each part, and finds out which interfaces and rigid bodies have them.
-#include "report/parts_rows.hpp"
+#include "report/shared/parts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,75 +11,58 @@
 
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
+#include "model/shared/faces.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {
 namespace {
 
-constexpr std::size_t sets_at_once = 64;
-
 /// Nodes that carry an element; the third one of beams and springs may only orient them.
-int own_nodes(ElementKind kind, int width) {
-  return kind == ElementKind::beam || kind == ElementKind::spring ? std::min(2, width) : width;
+std::span<const NodeIndex> own_nodes(const Elements& family, std::size_t e) {
+  const bool line = family.kind == ElementKind::beam || family.kind == ElementKind::spring;
+  return {family.of(e), static_cast<std::size_t>(line ? std::min(2, family.width) : family.width)};
 }
 
-/// The faces of a solid by its eight slots; those of less than three different nodes are none.
-constexpr int solid_faces[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                   {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+/// A bit for each of up to 64 sets of nodes, of one node or of all of some nodes.
+using SetBits = std::uint64_t;
+constexpr std::size_t sets_at_once = 64;
+constexpr SetBits all_sets = ~SetBits{0};
 
-bool is_face(const NodeIndex* n, const int (&slots)[4]) {
-  int different = 0;
-  for (int i = 0; i < 4; ++i) {
-    bool again = n[slots[i]] == no_index;
-    for (int k = 0; k < i; ++k) again = again || n[slots[i]] == n[slots[k]];
-    different += again ? 0 : 1;
-  }
-  return different >= 3;
+SetBits common(const std::vector<SetBits>& of_node, std::span<const NodeIndex> nodes) {
+  SetBits bits = all_sets;
+  for (const NodeIndex n : nodes)
+    if (n != no_index) bits &= of_node[n];
+  return bits;
 }
 
-/// Sets of nodes, 64 at once: which parts have an element in each, or all their elements.
-class PartFinder {
- public:
-  explicit PartFinder(const Model& model) : model_(model) {}
+/// Sets that have all nodes of one of the faces.
+SetBits common_to_a_face(const std::vector<SetBits>& of_node, const NodeIndex* slots) {
+  SetBits any = 0;
+  for (int f = 0; f < 6; ++f)
+    if (const Face face = solid_face(slots, f); face.corners > 0)
+      any |= common(of_node, face.nodes);
+  return any;
+}
 
-  /// any[part] and all[part]: bits of the sets that have an element (of a solid: one of its faces),
-  /// or all of them.
-  void find(const std::vector<std::uint64_t>& of_node, std::vector<std::uint64_t>& any,
-            std::vector<std::uint64_t>& all) const {
-    any.assign(model_.parts.size(), 0);
-    all.assign(model_.parts.size(), ~std::uint64_t{0});
-    for (std::size_t k = 0; k < 8; ++k) {
-      const auto kind = static_cast<ElementKind>(k);
-      const Elements& f = model_.family(kind);
-      const int width = own_nodes(kind, f.width);
-      for (std::size_t e = 0; e < f.size(); ++e) {
-        if (f.part[e] == no_index) continue;
-        std::uint64_t bits = ~std::uint64_t{0};
-        const NodeIndex* n = f.of(e);
-        for (int i = 0; i < width; ++i)
-          if (n[i] != no_index) bits &= of_node[n[i]];
-        all[f.part[e]] &= bits;
-        if (kind == ElementKind::solid8) bits |= of_faces(n, of_node);
-        any[f.part[e]] |= bits;
-      }
-    }
-  }
-
- private:
-  static std::uint64_t of_faces(const NodeIndex* n, const std::vector<std::uint64_t>& of_node) {
-    std::uint64_t any = 0;
-    for (const auto& slots : solid_faces) {
-      if (!is_face(n, slots)) continue;
-      std::uint64_t bits = ~std::uint64_t{0};
-      for (const int s : slots)
-        if (n[s] != no_index) bits &= of_node[n[s]];
-      any |= bits;
-    }
-    return any;
-  }
-
-  const Model& model_;
+/// By part: the sets that have an element of it (of a solid: a face), and those that have all.
+struct SetsOfParts {
+  std::vector<SetBits> any, all;
 };
+SetsOfParts find_parts(const Model& model, const std::vector<SetBits>& of_node) {
+  SetsOfParts out{std::vector<SetBits>(model.parts.size(), 0),
+                  std::vector<SetBits>(model.parts.size(), all_sets)};
+  for (std::size_t k = 0; k < 8; ++k) {
+    const Elements& f = model.family(static_cast<ElementKind>(k));
+    for (std::size_t e = 0; e < f.size(); ++e) {
+      if (f.part[e] == no_index) continue;
+      SetBits bits = common(of_node, own_nodes(f, e));
+      out.all[f.part[e]] &= bits;
+      if (f.kind == ElementKind::solid8) bits |= common_to_a_face(of_node, f.of(e));
+      out.any[f.part[e]] |= bits;
+    }
+  }
+  return out;
+}
 
 /// A set of parts.
 class PartBits {
@@ -160,70 +143,68 @@ class Interfaces2Parts {
     for (std::size_t k = 0; k < of_nodes_.size(); ++k) {
       const Elements& f = model_.family(static_cast<ElementKind>(k));
       if (of_nodes_[k].first.empty()) of_nodes_[k] = connect_nodes(f, model_.nodes.size());
-      const int width = own_nodes(f.kind, f.width);
       for (const std::uint32_t e : of_nodes_[k].row(nodes[0])) {
-        const NodeIndex* n = f.of(e);
-        const bool has = std::all_of(nodes.begin(), nodes.end(), [&](NodeIndex m) {
-          return std::find(n, n + width, m) != n + width;
+        const std::span<const NodeIndex> own = own_nodes(f, e);
+        const bool has = std::all_of(nodes.begin(), nodes.end(), [&](NodeIndex n) {
+          return std::find(own.begin(), own.end(), n) != own.end();
         });
         if (has && f.part[e] != no_index) side.set(f.part[e]);
       }
     }
   }
 
+  /// The part of the element of a segment or edge.
+  template <class Item>
+  void see(PartBits& side, const Item& item) {
+    const auto family = family_of_carrier(item.carrier);
+    if (!family || item.element == no_index) return loose(side, item.nodes);
+    const std::uint32_t part = model_.family(*family).part[item.element];
+    if (part != no_index) side.set(part);
+  }
+
   void interface(const Block& block) {
     const DecodedBlock d = decode(deck_, block);
-    const std::int64_t id = block.id.value + deck_.offset_of(block, "inter");
-    const auto field = [&](const char* name, const char* kind) {
-      const std::int64_t v = d.integer(name);
-      return v > 0 ? v + deck_.offset_of(block, kind) : 0;
+    PartSides& sides = sides_.emplace_back(deck_.shifted_id(block, "inter", block.id.value),
+                                           is_tie(block), model_.parts.size());
+    const auto id_in = [&](const char* field, const char* kind) {
+      return std::max<std::int64_t>(0, deck_.shifted_id(block, kind, d.integer(field)));
     };
-    PartSides& sides = sides_.emplace_back(id, is_tie(block), model_.parts.size());
-    const auto see = [&](PartBits& side, Carrier carrier, std::uint32_t element) {
-      const auto family = family_of_carrier(carrier);
-      if (!family || element == no_index) return;
-      const std::uint32_t part = model_.family(*family).part[element];
-      if (part != no_index) side.set(part);
+    const auto surface = [&](const char* field, PartBits& side, bool& named) {
+      const std::int64_t id = id_in(field, "surf");
+      if (id == 0) return;
+      named = true;
+      if (const auto outline = model_.selections->outline(id))
+        outline->segments.each([&](const Segment& g) { see(side, g); });
     };
-    const auto surface = [&](PartBits& side, const char* name) {
-      if (const std::int64_t s = field(name, "surf"); s != 0)
-        if (const auto outline = model_.selections->outline(s))
-          outline->segments.each([&](const Segment& g) {
-            see(side, g.carrier, g.element);
-            if (g.carrier == Carrier::none || g.element == no_index) loose(side, g.nodes);
-          });
+    const auto line = [&](const char* field, PartBits& side, bool& named) {
+      const std::int64_t id = id_in(field, "line");
+      if (id == 0) return;
+      named = true;
+      if (const LineSet* set = model_.selections->line(id))
+        for (const Edge& e : set->edges) see(side, e);
     };
-    const auto lines = [&](PartBits& side, const char* name) {
-      if (const std::int64_t s = field(name, "line"); s != 0)
-        if (const LineSet* line = model_.selections->line(s))
-          for (const Edge& e : line->edges) {
-            see(side, e.carrier, e.element);
-            if (e.carrier == Carrier::none || e.element == no_index) loose(side, e.nodes);
-          }
-    };
-    for (const char* name : {"surf_IDs", "surf_ID1", "line_IDs", "grnd_IDs"})
-      sides.names_secondary = sides.names_secondary || d.integer(name) > 0;
-    for (const char* name : {"surf_IDm", "surf_ID2", "line_IDm"})
-      sides.names_main = sides.names_main || d.integer(name) > 0;
-    for (const char* name : {"surf_IDs", "surf_ID1"}) surface(sides.secondary, name);
-    for (const char* name : {"surf_IDm", "surf_ID2"}) surface(sides.main, name);
-    lines(sides.secondary, "line_IDs");
-    lines(sides.main, "line_IDm");
-    if (const std::int64_t g = field("grnd_IDs", "grnod"); g != 0)
-      if (const NodeSet* set = model_.selections->node_group(g))
+    surface("surf_IDs", sides.secondary, sides.names_secondary);
+    surface("surf_ID1", sides.secondary, sides.names_secondary);
+    surface("surf_IDm", sides.main, sides.names_main);
+    surface("surf_ID2", sides.main, sides.names_main);
+    line("line_IDs", sides.secondary, sides.names_secondary);
+    line("line_IDm", sides.main, sides.names_main);
+    if (const std::int64_t id = id_in("grnd_IDs", "grnod"); id != 0) {
+      sides.names_secondary = true;
+      if (const NodeSet* set = model_.selections->node_group(id))
         groups_.push_back({sides_.size() - 1, set});
+    }
   }
 
   /// Parts that have a whole element in a group of secondary nodes.
   void groups() {
-    std::vector<std::uint64_t> of_node, any, all;
     for (std::size_t begin = 0; begin < groups_.size(); begin += sets_at_once) {
       const std::size_t end = std::min(groups_.size(), begin + sets_at_once);
-      of_node.assign(model_.nodes.size(), 0);
+      std::vector<SetBits> of_node(model_.nodes.size(), 0);
       for (std::size_t g = begin; g < end; ++g)
         for (const NodeIndex n : groups_[g].nodes->nodes)
-          if (n != no_index) of_node[n] |= std::uint64_t{1} << (g - begin);
-      PartFinder(model_).find(of_node, any, all);
+          if (n != no_index) of_node[n] |= SetBits{1} << (g - begin);
+      const std::vector<SetBits> any = find_parts(model_, of_node).any;
       for (std::size_t p = 0; p < any.size(); ++p)
         for (std::size_t g = begin; g < end; ++g)
           if ((any[p] >> (g - begin) & 1) != 0) sides_[groups_[g].sides].secondary.set(p);
@@ -298,39 +279,33 @@ class Interfaces2Parts {
 void find_bodies(const LoadedDeck& loaded, PartsView& view) {
   const Model& model = loaded.model();
   const Deck& deck = loaded.deck();
-  std::vector<std::uint64_t> of_node, any, all;
+  std::vector<SetBits> of_node(model.nodes.size(), 0);
   std::vector<std::int64_t> ids;
   const auto flush = [&] {
-    if (ids.empty()) return;
-    PartFinder(model).find(of_node, any, all);
+    const std::vector<SetBits> all = find_parts(model, of_node).all;
     for (std::size_t p = 0; p < all.size(); ++p) {
-      if (view.parts[p].count() == 0) continue;
-      for (std::size_t b = 0; b < ids.size(); ++b)
-        if (view.parts[p].rigid_body == 0 && (all[p] >> b & 1) != 0)
-          view.parts[p].rigid_body = ids[b];
+      PartView& part = view.parts[p];
+      if (part.count() == 0 || part.rigid_body != 0 || all[p] == 0) continue;
+      part.rigid_body = ids[static_cast<std::size_t>(std::countr_zero(all[p]))];
     }
     ids.clear();
+    std::fill(of_node.begin(), of_node.end(), 0);
   };
   for (const Block& block : deck.blocks) {
     if (block.schema == nullptr || block.opaque || block.schema->keyword != "/RBODY") continue;
     const DecodedBlock d = decode(deck, block);
-    const std::int64_t group = d.integer("grnd_ID");
+    const std::int64_t group = d.integer("grnd_ID"), main = d.integer("node_ID");
     const NodeSet* set =
-        group > 0 ? model.selections->node_group(group + deck.offset_of(block, "grnod")) : nullptr;
+        group > 0 ? model.selections->node_group(deck.shifted_id(block, "grnod", group)) : nullptr;
     if (set == nullptr) continue;
-    if (ids.empty()) of_node.assign(model.nodes.size(), 0);
-    const std::uint64_t bit = std::uint64_t{1} << ids.size();
-    for (const NodeIndex n : set->nodes)
-      if (n != no_index) of_node[n] |= bit;
-    const std::int64_t main = d.integer("node_ID");
-    if (const NodeIndex n =
-            main > 0 ? model.find_node(main + deck.offset_of(block, "node")) : no_index;
-        n != no_index)
-      of_node[n] |= bit;
-    ids.push_back(block.id.value + deck.offset_of(block, "rbody"));
+    std::vector<NodeIndex> nodes = set->nodes;
+    if (main > 0) nodes.push_back(model.find_node(deck.shifted_id(block, "node", main)));
+    for (const NodeIndex n : nodes)
+      if (n != no_index) of_node[n] |= SetBits{1} << ids.size();
+    ids.push_back(deck.shifted_id(block, "rbody", block.id.value));
     if (ids.size() == sets_at_once) flush();
   }
-  flush();
+  if (!ids.empty()) flush();
 }
 
 }  // namespace

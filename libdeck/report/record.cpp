@@ -11,7 +11,7 @@
 namespace deck {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string json_text(std::string_view text) {
   std::string out;
   append_json_string(out, text);
   return out;
@@ -19,14 +19,14 @@ std::string quoted(std::string_view text) {
 
 std::string joined(const std::vector<std::string>& words) {
   std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + quoted(word);
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + json_text(word);
   return out;
 }
 
 std::string definitions_text(const std::map<std::string, std::string>& definitions) {
   std::string out;
   for (const auto& [name, form] : definitions)
-    out += fmt::format("{}    {}: {}", out.empty() ? "" : ",\n", quoted(name), form);
+    out += fmt::format("{}    {}: {}", out.empty() ? "" : ",\n", json_text(name), form);
   return out;
 }
 
@@ -36,7 +36,7 @@ std::string JsonForm::members() const {
   if (type.empty())
     return null ? fmt::format(R"("oneOf": [{{ "type": "null" }}, {{ {} }}])", rest) : rest;
   return fmt::format(R"("type": {}{}{})",
-                     null ? fmt::format(R"(["{}", "null"])", type) : quoted(type),
+                     null ? fmt::format(R"(["{}", "null"])", type) : json_text(type),
                      rest.empty() ? "" : ", ", rest);
 }
 
@@ -51,19 +51,19 @@ std::string object_form(std::string_view says,
                         const std::vector<std::pair<std::string, std::string>>& members,
                         const std::vector<std::string>& required) {
   std::string out = "{\n";
-  if (!says.empty()) out += fmt::format("      \"description\": {},\n", quoted(says));
+  if (!says.empty()) out += fmt::format("      \"description\": {},\n", json_text(says));
   out += "      \"type\": \"object\", \"additionalProperties\": false,\n";
   if (!required.empty()) out += fmt::format("      \"required\": [{}],\n", joined(required));
   out += "      \"properties\": {\n";
   for (std::size_t i = 0; i < members.size(); ++i)
-    out += fmt::format("        {}: {}{}\n", quoted(members[i].first), members[i].second,
+    out += fmt::format("        {}: {}{}\n", json_text(members[i].first), members[i].second,
                        i + 1 < members.size() ? "," : "");
   return out + "      } }";
 }
 
 std::string described(const char* says, const JsonForm& form) {
   if (*says == 0) return fmt::format("{{ {} }}", form.members());
-  return fmt::format(R"({{ "description": {}, {} }})", quoted(says), form.members());
+  return fmt::format(R"({{ "description": {}, {} }})", json_text(says), form.members());
 }
 
 JsonForm list_form(const JsonForm& items, std::size_t size) {
@@ -131,7 +131,7 @@ DocumentSchema document_schema(const DocumentHead& head, const SchemaDefinitions
   }}
 }}
 )",
-      std::string_view(head.id).substr(5), head.version, quoted(head.says), body,
+      std::string_view(head.id).substr(5), head.version, json_text(head.says), body,
       definitions_text(own));
   return {text, definitions.common()};
 }

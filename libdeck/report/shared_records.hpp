@@ -2,11 +2,11 @@
 // gate.
 #pragma once
 #include "deck/contact/view.hpp"
+#include "deck/edit/rewrite.hpp"
 #include "deck/verdict.hpp"
 #include "report/record.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/listing.hpp"
-#include "report/shared/losses.hpp"
 
 namespace deck {
 

@@ -12,6 +12,7 @@
 #include "base/shared/escape.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "deck/text/number.hpp"
+#include "report/gaps_names.hpp"
 
 namespace deck {
 namespace {
@@ -19,22 +20,15 @@ namespace {
 constexpr double view_width = 420, view_height = 230, view_left = 10, view_right = 250,
                  view_top = 30, view_bottom = 190;
 
-Error no_pair(std::string_view text) {
-  return {
-      Error::Code::config,
-      fmt::format("{}: expected a node or edge and a segment or edge, by the ids of their nodes, "
-                  "such as pair:57/30-38-44-31 or pair:11-12/30-31",
-                  text)};
-}
-
-/// False: something is no id.
-bool read_ids(std::string_view text, std::vector<std::int64_t>& ids) {
+/// Empty: something is no id.
+std::vector<std::int64_t> read_ids(std::string_view text) {
+  std::vector<std::int64_t> ids;
   while (true) {
     const auto end = std::min(text.find('-'), text.size());
     const IntegerCell id = read_integer(text.substr(0, end));
-    if (id.status != NumberStatus::ok) return false;
+    if (id.status != NumberStatus::ok) return {};
     if (ids.empty() || ids.back() != id.value) ids.push_back(id.value);
-    if (end == text.size()) return true;
+    if (end == text.size()) return ids;
     text.remove_prefix(end + 1);
   }
 }
@@ -48,11 +42,9 @@ bool same_nodes(const Model& model, std::span<const NodeIndex> nodes,
 
 bool is_named(const Scene& scene, const Contact& c, const PenetrationRow& row,
               const PairName& name) {
-  if (c.kind == ContactKind::edge_edge)
-    return same_nodes(*scene.model, c.secondary_edges[row.secondary].nodes, name.secondary) &&
-           same_nodes(*scene.model, c.main_edges[row.main].nodes, name.main);
-  return same_nodes(*scene.model, std::span(&c.secondary[row.secondary].node, 1), name.secondary) &&
-         same_nodes(*scene.model, c.main[row.main].nodes, name.main);
+  const PairNodes nodes = pair_nodes(c, row.secondary, row.main);
+  return same_nodes(*scene.model, nodes.secondary, name.secondary) &&
+         same_nodes(*scene.model, nodes.main, name.main);
 }
 
 double half_of(const ContactEdge& e) { return 0.5 * std::max(e.shell, e.section); }
@@ -96,13 +88,15 @@ struct SideDrawing {
     return fmt::format("<rect class='{}' x='{}' width='{}' y='{:.2f}' height='{:.2f}'/>\n", kind,
                        view_left, view_right - view_left, y(to), (to - from) * scale());
   }
+  std::string line(std::string_view kind, double x1, double x2, double from, double to) const {
+    return fmt::format("<line class='{}' x1='{}' x2='{}' y1='{:.2f}' y2='{:.2f}'/>\n", kind, x1, x2,
+                       y(from), y(to));
+  }
   std::string level(std::string_view kind, double at) const {
-    return fmt::format("<line class='{}' x1='{}' x2='{}' y1='{:.2f}' y2='{:.2f}'/>\n", kind,
-                       view_left, view_right, y(at), y(at));
+    return line(kind, view_left, view_right, at, at);
   }
   std::string upright(std::string_view kind, double x, double from, double to) const {
-    return fmt::format("<line class='{}' x1='{}' x2='{}' y1='{:.2f}' y2='{:.2f}'/>\n", kind, x, x,
-                       y(from), y(to));
+    return line(kind, x, x, from, to);
   }
   std::string round(std::string_view kind, double at, double radius) const {
     return fmt::format("<circle class='{}' cx='{}' cy='{:.2f}' r='{:.2f}'/>\n", kind,
@@ -169,40 +163,28 @@ std::string drawn(const PairHeights& v, const Ghost& ghost, bool edge, const Sid
   return out + names_text(d, std::move(names));
 }
 
-std::string ids_of(const Model& model, std::span<const NodeIndex> nodes) {
-  std::string out;
-  NodeIndex last = no_index;
-  for (const NodeIndex n : nodes) {
-    if (n == last) continue;  // a triangle repeats its last node
-    last = n;
-    out += (out.empty() ? "" : "-") + std::to_string(model.node_id(n));
-  }
-  return out;
-}
-
 std::string title_of(const Scene& scene, const Contact& c, const PenetrationRow& r) {
-  const Model& m = *scene.model;
-  const std::string who =
-      c.kind == ContactKind::edge_edge
-          ? fmt::format("edge {} on edge {}", ids_of(m, c.secondary_edges[r.secondary].nodes),
-                        ids_of(m, c.main_edges[r.main].nodes))
-          : fmt::format("node {} on segment {}", m.node_id(c.secondary[r.secondary].node),
-                        ids_of(m, c.main[r.main].nodes));
-  return fmt::format("Interface {} TYPE{}: {}", c.inter->id, c.inter->type, who);
+  const bool edges = c.kind == ContactKind::edge_edge;
+  const PairNodes nodes = pair_nodes(c, r.secondary, r.main);
+  return fmt::format("Interface {} TYPE{}: {} {} on {} {}", c.inter->id, c.inter->type,
+                     edges ? "edge" : "node", ids_text(*scene.model, nodes.secondary, '-'),
+                     edges ? "edge" : "segment", ids_text(*scene.model, nodes.main, '-'));
 }
 
 }  // namespace
 
 Result<PairName> parse_pair(std::string_view text) {
-  const auto slash = text.find('/');
-  PairName out;
-  if (slash == text.npos || !read_ids(text.substr(0, slash), out.secondary) ||
-      !read_ids(text.substr(slash + 1), out.main))
-    return no_pair(text);
+  const auto slash = std::min(text.find('/'), text.size());
+  PairName out{read_ids(text.substr(0, slash)), {}};
+  if (slash < text.size()) out.main = read_ids(text.substr(slash + 1));
   const bool edges = out.secondary.size() == 2 && out.main.size() == 2;
   const bool node = out.secondary.size() == 1 && (out.main.size() == 3 || out.main.size() == 4);
-  if (!edges && !node) return no_pair(text);
-  return out;
+  if (edges || node) return out;
+  return Error{
+      Error::Code::config,
+      fmt::format("{}: expected a node or edge and a segment or edge, by the ids of their nodes, "
+                  "such as pair:57/30-38-44-31 or pair:11-12/30-31",
+                  text)};
 }
 
 Result<FoundPair> find_pair(const Scene& scene, const PairName& name, std::int64_t interface) {

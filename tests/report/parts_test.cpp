@@ -5,7 +5,7 @@
 #include <set>
 
 #include "report/inspected.hpp"
-#include "report/parts_rows.hpp"
+#include "report/shared/parts.hpp"
 
 namespace deck::test {
 namespace {

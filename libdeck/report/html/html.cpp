@@ -17,8 +17,8 @@
 #include "report/cycle_costs.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/cycle.hpp"
+#include "report/shared/gate.hpp"
 #include "report/shared/parts.hpp"
-#include "report/shared/verdict.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck::detail {

@@ -37,25 +37,26 @@ constexpr const char* reasons =
     "mid-surface reached, dtmin (time to the mid-surface), dtmin (stiffness against mass) or no "
     "element left (Idel)";
 
-struct PairRow {
+struct CyclePairRow {
   PairSides sides;
   const cycle::PairOutcome* pair;
 };
-Record<PairRow> record_of(const PairRow*) {
+Record<CyclePairRow> record_of(const CyclePairRow*) {
   using Pair = cycle::PairOutcome;
-  static constexpr Column<PairRow> columns[] = {
-      column<&PairRow::sides, &PairSides::edge>("edge"),
-      column<&PairRow::sides, &PairSides::main_edge>("main_edge"),
-      column<&PairRow::sides, &PairSides::node>("node"),
-      column<&PairRow::sides, &PairSides::segment>("segment"),
-      column<&PairRow::pair, &Pair::weights>("weights", "H1..H4; edges: h_s, 1-h_s, h_m, 1-h_m"),
-      column<&PairRow::pair, &Pair::force>(
+  static constexpr Column<CyclePairRow> columns[] = {
+      column<&CyclePairRow::sides, &PairSides::edge>("edge"),
+      column<&CyclePairRow::sides, &PairSides::main_edge>("main_edge"),
+      column<&CyclePairRow::sides, &PairSides::node>("node"),
+      column<&CyclePairRow::sides, &PairSides::segment>("segment"),
+      column<&CyclePairRow::pair, &Pair::weights>("weights",
+                                                  "H1..H4; edges: h_s, 1-h_s, h_m, 1-h_m"),
+      column<&CyclePairRow::pair, &Pair::force>(
           "force", "On the main side; the secondary side gets the opposite"),
-      column<&PairRow::pair, &Pair::penetration>("penetration", "Effective, after Inacti"),
-      column<&PairRow::pair, &Pair::gap>("gap", "Effective, after Inacti"),
-      column<&PairRow::pair, &Pair::distance>("distance"),
-      column<&PairRow::pair, &Pair::k0>("k0", "Pair stiffness before the 1/2 of the law"),
-      column<&PairRow::pair, &Pair::k_nodal>("k_nodal")};
+      column<&CyclePairRow::pair, &Pair::penetration>("penetration", "Effective, after Inacti"),
+      column<&CyclePairRow::pair, &Pair::gap>("gap", "Effective, after Inacti"),
+      column<&CyclePairRow::pair, &Pair::distance>("distance"),
+      column<&CyclePairRow::pair, &Pair::k0>("k0", "Pair stiffness before the 1/2 of the law"),
+      column<&CyclePairRow::pair, &Pair::k_nodal>("k_nodal")};
   return {"pair", "A pair that has a penetration or a force.", columns, true};
 }
 
@@ -71,15 +72,15 @@ Record<RemovedRow> record_of(const RemovedRow*) {
   return {"removed", "", columns, true};
 }
 
-struct TieRow {
+struct TieChangeRow {
   PairSides sides;
   bool tied;
 };
-Record<TieRow> record_of(const TieRow*) {
-  static constexpr Column<TieRow> columns[] = {
-      column<&TieRow::sides, &PairSides::node>("node"),
-      column<&TieRow::sides, &PairSides::segment>("segment"),
-      column<&TieRow::tied>("tied", "false: it lets go")};
+Record<TieChangeRow> record_of(const TieChangeRow*) {
+  static constexpr Column<TieChangeRow> columns[] = {
+      column<&TieChangeRow::sides, &PairSides::node>("node"),
+      column<&TieChangeRow::sides, &PairSides::segment>("segment"),
+      column<&TieChangeRow::tied>("tied", "false: it lets go")};
   return {"tie_change", "", columns, true};
 }
 
@@ -121,7 +122,7 @@ struct CycleDocument {
   const Model& model() const { return *input->scene->model; }
 };
 
-struct ContactRow {
+struct CycleContactRow {
   const CycleDocument& document;
   const ContactOutcome* o;
 
@@ -129,9 +130,9 @@ struct ContactRow {
   PairSides sides(const CandidatePair& at) const {
     return {&model(), o->contact, at.secondary, at.main};
   }
-  PairRow row(const cycle::PairOutcome& p) const { return {sides(p.at), &p}; }
+  CyclePairRow row(const cycle::PairOutcome& p) const { return {sides(p.at), &p}; }
   RemovedRow row(const cycle::Removal& r) const { return {sides({r.secondary, 0}), r.because}; }
-  TieRow row(const cycle::TieChange& t) const { return {sides(t.at), t.tied}; }
+  TieChangeRow row(const cycle::TieChange& t) const { return {sides(t.at), t.tied}; }
   ReleaseRow row(const cycle::NodeRelease& r) const {
     return {model().node_id(r.node), r.before, r.after};
   }
@@ -143,8 +144,8 @@ struct ContactRow {
     return rows_of(list, [this](const T& value) { return row(value); });
   }
 };
-Record<ContactRow> record_of(const ContactRow*) {
-  using Row = ContactRow;
+Record<CycleContactRow> record_of(const CycleContactRow*) {
+  using Row = CycleContactRow;
   using O = ContactOutcome;
   using Totals = cycle::Totals;
   static constexpr Column<Row> of_sum[] = {
@@ -225,20 +226,21 @@ Record<EffectRow> record_of(const EffectRow*) {
   return {"effect", "", columns, true};
 }
 
-struct InterfaceRow {
+struct CycleInterfaceRow {
   const CycleDocument& document;
   const InterBase* inter;
   const Deck* deck() const { return document.input->deck; }
 };
 
-void each_contact(const InterfaceRow& r, const std::function<void(const ContactRow&)>& add) {
+void each_contact(const CycleInterfaceRow& r,
+                  const std::function<void(const CycleContactRow&)>& add) {
   for (const ContactRole role : {ContactRole::primary, ContactRole::reversed, ContactRole::edges})
     for (const ContactOutcome& c : r.document.outcome->contacts)
       if (c.contact->inter == r.inter && c.contact->role == role) add({r.document, &c});
 }
 
-Record<InterfaceRow> record_of(const InterfaceRow*) {
-  using Row = InterfaceRow;
+Record<CycleInterfaceRow> record_of(const CycleInterfaceRow*) {
+  using Row = CycleInterfaceRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::inter, &InterBase::id>("id"),
       column<&Row::inter, &InterBase::type>("type", "7, 10, 11, 19, 24 or 25"),
@@ -252,24 +254,25 @@ Record<InterfaceRow> record_of(const InterfaceRow*) {
                               });
              }),
       column("contacts", [](const Row& r) {
-        return Rows<ContactRow>{[&r](const auto& add) { each_contact(r, add); }};
+        return Rows<CycleContactRow>{[&r](const auto& add) { each_contact(r, add); }};
       })};
   return {"interface", "", columns};
 }
 
-struct SummaryRow {
+struct CycleSummaryRow {
   const cycle::InterfaceSummary* sums;
 };
-Record<SummaryRow> record_of(const SummaryRow*) {
+Record<CycleSummaryRow> record_of(const CycleSummaryRow*) {
   using Sums = cycle::InterfaceSummary;
-  static constexpr Column<SummaryRow> columns[] = {
-      column<&SummaryRow::sums, &Sums::id>("id"),
-      column<&SummaryRow::sums, &Sums::pairs_with_force>("pairs_with_force"),
-      column<&SummaryRow::sums, &Sums::force_sum>("force_sum", "Of the sizes of the pair forces"),
-      column<&SummaryRow::sums, &Sums::elastic_energy>("elastic_energy"),
-      column<&SummaryRow::sums, &Sums::friction_energy>("friction_energy"),
-      column<&SummaryRow::sums, &Sums::damping_energy>("damping_energy"),
-      column<&SummaryRow::sums, &Sums::contact_dt, &limit>("contact_dt")};
+  static constexpr Column<CycleSummaryRow> columns[] = {
+      column<&CycleSummaryRow::sums, &Sums::id>("id"),
+      column<&CycleSummaryRow::sums, &Sums::pairs_with_force>("pairs_with_force"),
+      column<&CycleSummaryRow::sums, &Sums::force_sum>("force_sum",
+                                                       "Of the sizes of the pair forces"),
+      column<&CycleSummaryRow::sums, &Sums::elastic_energy>("elastic_energy"),
+      column<&CycleSummaryRow::sums, &Sums::friction_energy>("friction_energy"),
+      column<&CycleSummaryRow::sums, &Sums::damping_energy>("damping_energy"),
+      column<&CycleSummaryRow::sums, &Sums::contact_dt, &limit>("contact_dt")};
   return {"interface_sums", "", columns, true};
 }
 
@@ -284,7 +287,7 @@ Record<WithoutRow> record_of(const WithoutRow*) {
       column("interfaces",
              [](const Row& r) {
                return rows_of(cycle::summarize(*r.input->scene, *r.input->without),
-                              [](const auto& sums) { return SummaryRow{&sums}; });
+                              [](const auto& sums) { return CycleSummaryRow{&sums}; });
              }),
       column<&Row::input, &CycleInput::without, &Outcome::largest_nodal_force>(
           "largest_nodal_force"),
@@ -338,13 +341,13 @@ Record<StepContactRow> record_of(const StepContactRow*) {
   return {"step_contact", "", columns, true};
 }
 
-struct StepRow {
+struct CycleStepRow {
   const Scene& scene;
   std::size_t step;
   const cycle::StepLine* line;
 };
-Record<StepRow> record_of(const StepRow*) {
-  using Row = StepRow;
+Record<CycleStepRow> record_of(const CycleStepRow*) {
+  using Row = CycleStepRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::step>("step", "From 0 on"), column<&Row::line, &cycle::StepLine::time>("time"),
       column<&Row::line, &cycle::StepLine::dt1>("dt1"), column("contacts", [](const Row& r) {
@@ -397,12 +400,12 @@ Record<EventRow> record_of(const EventRow*) {
   return {"event", "Something that stays.", columns, true};
 }
 
-struct StepsRow {
+struct CycleStepsRow {
   const Scene& scene;
   const cycle::StepsOutcome* of;
 };
-Record<StepsRow> record_of(const StepsRow*) {
-  using Row = StepsRow;
+Record<CycleStepsRow> record_of(const CycleStepsRow*) {
+  using Row = CycleStepsRow;
   static constexpr Column<Row> columns[] = {
       column("count", [](const Row& r) { return r.of->lines.size(); }),
       column("motion", "prescribed: contact forces move nothing",
@@ -413,7 +416,7 @@ Record<StepsRow> record_of(const StepsRow*) {
              [](const Row& r) {
                return rows_of(r.of->lines, [&r](const cycle::StepLine& line) {
                  const auto step = static_cast<std::size_t>(&line - r.of->lines.data());
-                 return StepRow{r.scene, step, &line};
+                 return CycleStepRow{r.scene, step, &line};
                });
              }),
       column("events", [](const Row& r) {
@@ -425,7 +428,8 @@ Record<StepsRow> record_of(const StepsRow*) {
   return {"steps", "", columns};
 }
 
-void each_interface(const CycleDocument& r, const std::function<void(const InterfaceRow&)>& add) {
+void each_interface(const CycleDocument& r,
+                    const std::function<void(const CycleInterfaceRow&)>& add) {
   for (const InterBase* inter : r.input->scene->interfaces->ordered)
     for (const ContactOutcome& c : r.outcome->contacts)
       if (c.contact->inter == inter && c.contact->role == ContactRole::primary) {
@@ -496,7 +500,7 @@ Record<CycleDocument> record_of(const CycleDocument*) {
       column("accuracy", [](const Row& r) { return DecisionsRow{r.input->scene}; }),
       column("interfaces",
              [](const Row& r) {
-               return Rows<InterfaceRow>{[&r](const auto& add) { each_interface(r, add); }};
+               return Rows<CycleInterfaceRow>{[&r](const auto& add) { each_interface(r, add); }};
              }),
       column("costs", "With --costs or --html; null: not measured",
              [](const Row& r) { return measured_costs(*r.input); }),
@@ -509,29 +513,29 @@ Record<CycleDocument> record_of(const CycleDocument*) {
              }),
       group<nodal_force>("nodal_force"),
       group<dt>("dt"),
-      column("steps",
-             "With --steps; the rest of the document is the last step. null: one evaluation",
-             [](const Row& r) {
-               return known(r.input->steps != nullptr, StepsRow{*r.input->scene, r.input->steps});
-             }),
+      column(
+          "steps", "With --steps; the rest of the document is the last step. null: one evaluation",
+          [](const Row& r) {
+            return known(r.input->steps != nullptr, CycleStepsRow{*r.input->scene, r.input->steps});
+          }),
       column("not_evaluated", "What the deck says about its initial state and was left out",
              [](const Row& r) { return rows_of(r.input->state->not_evaluated); })};
   return {"document", "", columns};
 }
 
-constexpr DocumentHead head{
+constexpr DocumentHead cycle_head{
     "deck/cycle", 1,
     "Written by deck cycle --json: one contact force evaluation at the initial state of the deck, "
     "in working units. null stands for a number that is not finite."};
 
 }  // namespace
 
-DocumentSchema cycle_schema() { return document_schema<CycleDocument>(head); }
+DocumentSchema cycle_schema() { return document_schema<CycleDocument>(cycle_head); }
 
 std::string cycle_json(const CycleInput& input, bool all, const TextDrain& drain) {
   const Scene& scene = *input.scene;
   const Coverage coverage = coverage_of(*input.deck, *scene.interfaces, scene.examined);
-  return write_document(head, CycleDocument{&input, input.outcome, all, coverage}, drain);
+  return write_document(cycle_head, CycleDocument{&input, input.outcome, all, coverage}, drain);
 }
 
 }  // namespace deck

@@ -56,6 +56,11 @@ std::vector<std::string> places(const Deck& deck) {
 
 // ---- one deck -------------------------------------------------------------------------------
 
+/// Behind the line at `at` and its line feed.
+std::uint64_t behind_line(std::string_view bytes, std::uint64_t at) {
+  return std::min<std::uint64_t>(bytes.find('\n', at), bytes.size() - 1) + 1;
+}
+
 /// Bytes [begin, end) of a file that belong to a block; its header line starts the first one.
 struct Stretch {
   std::uint64_t begin = 0, end = 0;
@@ -108,9 +113,8 @@ class DeckWriter {
       const std::string_view bytes = source.bytes();
       const auto begin = static_cast<std::uint64_t>(
           source.line_at(block.header_span.offset).data() - bytes.data());
-      const std::uint64_t nl = bytes.find('\n', block.header_span.offset);
-      auto& list = stretches_[block.header_span.file];
-      list.push_back({begin, std::min<std::uint64_t>(nl, bytes.size() - 1) + 1, b, true});
+      stretches_[block.header_span.file].push_back(
+          {begin, behind_line(bytes, block.header_span.offset), b, true});
       for (const Piece& p : block.body) {
         auto& to = stretches_[p.file];
         if (!to.empty() && to.back().block == b && to.back().end == p.begin)
@@ -127,6 +131,11 @@ class DeckWriter {
   /// Text of a file as JSON takes it.
   std::string shown(std::string_view bytes) const {
     return latin1_ ? detail::latin1_to_utf8(bytes) : std::string(bytes);
+  }
+
+  /// Where a file goes; of an absolute include its path.
+  const std::string& place_of(std::uint32_t file) const {
+    return places_[file].empty() ? deck_.sources[file].path() : places_[file];
   }
 
   void write_file(std::uint32_t file) {
@@ -184,8 +193,7 @@ class DeckWriter {
     for (const IncludeEdge& e : deck_.includes) {
       if (e.parent != file_ || e.directive.offset < begin || e.directive.offset >= end) continue;
       write_lines("text", from, e.directive.offset, nullptr);
-      const std::string_view bytes = deck_.sources[file_].bytes();
-      from = std::min<std::uint64_t>(bytes.find('\n', e.directive.offset), bytes.size() - 1) + 1;
+      from = behind_line(deck_.sources[file_].bytes(), e.directive.offset);
       write_lines("include", e.directive.offset, from, &e);
     }
     write_lines("text", from, end, nullptr);
@@ -195,42 +203,32 @@ class DeckWriter {
                    const IncludeEdge* edge) {
     if (begin >= end) return;
     json_.begin_object().field("kind", kind).field("line", line_);
-    if (edge != nullptr) {
-      json_.key("file");
-      if (places_[edge->file].empty())
-        json_.value(deck_.sources[edge->file].path());
-      else
-        json_.value(places_[edge->file]);
-    }
+    if (edge != nullptr) json_.field("file", place_of(edge->file));
     json_.key("lines").begin_array();
-    each_line(begin, end, [&](std::string_view text, std::uint64_t) { json_.value(shown(text)); });
+    write_texts(begin, end);
     json_.end_array().end_object();
+  }
+
+  void write_texts(std::uint64_t begin, std::uint64_t end) {
+    each_line(begin, end, [&](std::string_view text, std::uint64_t) { json_.value(shown(text)); });
   }
 
   // ---- blocks -------------------------------------------------------------------------------
 
   void write_block(const Stretch& s) {
     const Block& block = deck_.blocks[s.block];
-    const std::string_view bytes = deck_.sources[file_].bytes();
     json_.begin_object();
     json_.field("kind", s.header ? "block" : "continued");
     json_.field("keyword",
                 shown(block.schema ? std::string_view(block.schema->keyword) : block.keyword));
+    if (s.header && block.id.present) json_.field("id", block.id.value);
+    if (s.header && block.unit_id.present) json_.field("unit_id", block.unit_id.value);
+    json_.field("line", line_);
     std::uint64_t body = s.begin;
     if (s.header) {
-      if (block.id.present) json_.field("id", block.id.value);
-      if (block.unit_id.present) json_.field("unit_id", block.unit_id.value);
-      std::string_view header;
-      json_.field("line", line_);
-      json_.field("column", block.header_span.offset - s.begin + 1);
-      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', s.begin), bytes.size());
-      header = bytes.substr(s.begin, nl - s.begin);
-      if (carriage_ && nl < bytes.size()) header.remove_suffix(1);
-      json_.field("header", shown(header));
-      body = std::min<std::uint64_t>(nl + 1, bytes.size());
-      ++line_;
-    } else {
-      json_.field("line", line_);
+      json_.field("column", block.header_span.offset - s.begin + 1).key("header");
+      body = behind_line(deck_.sources[file_].bytes(), s.begin);
+      write_texts(s.begin, body);
     }
     json_.field("version", block.version);
     const CardSchema* list = block.schema != nullptr && !block.opaque
@@ -328,20 +326,15 @@ class DeckWriter {
   }
 
   void write_value(const Cell& cell) {
-    switch (detail::kind_of(cell)) {
-      case CellKind::null:
-        json_.null();
-        return;
-      case CellKind::integer:
-        json_.value(cell.integer);
-        return;
-      case CellKind::real:
-        json_.value(cell.real);
-        return;
-      case CellKind::text:
-        json_.value(shown(cell.text));
-        return;
-    }
+    const CellKind kind = detail::kind_of(cell);
+    if (kind == CellKind::null)
+      json_.null();
+    else if (kind == CellKind::integer)
+      json_.value(cell.integer);
+    else if (kind == CellKind::real)
+      json_.value(cell.real);
+    else
+      json_.value(shown(cell.text));
   }
 
   /// Nodes, elements, ids: rows of text and values.
@@ -385,13 +378,8 @@ class DeckWriter {
   /// Behind the first line that is no comment.
   std::uint64_t end_of_title(std::uint64_t begin, std::uint64_t end) const {
     const std::string_view bytes = deck_.sources[file_].bytes();
-    for (std::uint64_t at = begin; at < end;) {
-      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), bytes.size());
-      const std::uint64_t next = std::min<std::uint64_t>(nl + 1, bytes.size());
-      if (!comment(bytes.substr(at, nl - at))) return next;
-      at = next;
-    }
-    return end;
+    while (begin < end && comment(bytes.substr(begin))) begin = behind_line(bytes, begin);
+    return begin < end ? behind_line(bytes, begin) : end;
   }
 
   // ---- interfaces ---------------------------------------------------------------------------
@@ -402,16 +390,17 @@ class DeckWriter {
     json_.key("effective").begin_object();
     visit_any_interface(*it->second, [&](const auto& t) {
       t.for_each([&](std::string_view name, const auto& e) {
-        json_.key(name).begin_object(true).key("input");
-        if (e.has_input)
-          json_.value(text_safe(e.input));
-        else
-          json_.null();
-        json_.key("value");
-        if (e.origin == Origin::geometry && !t.resolved)
-          json_.null();  // only the geometry knows
-        else
-          json_.value(text_safe(e.value));
+        const auto value = [&](const char* key, bool is_known, const auto& v) {
+          json_.key(key);
+          if (is_known)
+            json_.value(text_safe(v));
+          else
+            json_.null();
+        };
+        json_.key(name).begin_object(true);
+        value("input", e.has_input, e.input);
+        // Some values only the geometry knows.
+        value("value", e.origin != Origin::geometry || t.resolved, e.value);
         json_.field("origin", to_string(e.origin)).key("source");
         write_source(e.span);
         json_.end_object();
@@ -430,9 +419,7 @@ class DeckWriter {
       return;
     }
     const Position p = deck_.sources.position(span);
-    const std::string& place = places_[span.file];
-    json_.begin_object(true);
-    json_.field("file", place.empty() ? deck_.sources[span.file].path() : place);
+    json_.begin_object(true).field("file", place_of(span.file));
     json_.field("line", p.line).field("column", p.column);
     json_.field("end_column", p.column + span.length).end_object();
   }

@@ -1,8 +1,8 @@
 // Findings as the project's own JSON document.
 #include "base/shared/columns.hpp"
 #include "report/diagnostics_common.hpp"
+#include "report/shared/gate.hpp"
 #include "report/shared/schemas.hpp"
-#include "report/shared/verdict.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {
@@ -111,16 +111,16 @@ Record<StaleRow> record_of(const StaleRow*) {
   return {"stale", "An entry of the baseline that no finding matches.", columns, true};
 }
 
-struct SummaryRow {
+struct LintSummaryRow {
   const LintResult* result = nullptr;
 };
-Record<SummaryRow> record_of(const SummaryRow*) {
-  static constexpr Column<SummaryRow> columns[] = {
-      column<&SummaryRow::result, &LintResult::errors>("errors"),
-      column<&SummaryRow::result, &LintResult::warnings>("warnings"),
-      column<&SummaryRow::result, &LintResult::infos>("infos"),
-      column<&SummaryRow::result, &LintResult::suppressed>("suppressed"),
-      column<&SummaryRow::result, &LintResult::baselined>("baselined")};
+Record<LintSummaryRow> record_of(const LintSummaryRow*) {
+  static constexpr Column<LintSummaryRow> columns[] = {
+      column<&LintSummaryRow::result, &LintResult::errors>("errors"),
+      column<&LintSummaryRow::result, &LintResult::warnings>("warnings"),
+      column<&LintSummaryRow::result, &LintResult::infos>("infos"),
+      column<&LintSummaryRow::result, &LintResult::suppressed>("suppressed"),
+      column<&LintSummaryRow::result, &LintResult::baselined>("baselined")};
   return {"summary", "Numbers of findings.", columns, true};
 }
 
@@ -159,7 +159,7 @@ Record<LintDocument> record_of(const LintDocument*) {
       column<&Row::deck>("deck"),
       column<&Row::verdict>("verdict"),
       column<&Row::findings>("diagnostics", "Ordered by file, line, column, rule"),
-      column("summary", [](const Row& r) { return SummaryRow{&r.result()}; }),
+      column("summary", [](const Row& r) { return LintSummaryRow{&r.result()}; }),
       column<&Row::stale>("baseline_stale"),
       column<&Row::counts>("counts", "Findings per rule, those beyond the bound included"),
       column<&Row::not_checked>("not_checked"),

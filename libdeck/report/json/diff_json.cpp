@@ -145,7 +145,7 @@ Record<DiffDocument> record_of(const DiffDocument*) {
   return {"document", "", columns};
 }
 
-constexpr DocumentHead head{"deck/diff", 1, "Written by deck diff A B --json.", false};
+constexpr DocumentHead diff_head{"deck/diff", 1, "Written by deck diff A B --json.", false};
 
 }  // namespace
 
@@ -168,10 +168,10 @@ Record<PenetrationChange> record_of(const PenetrationChange*) {
   return {"changed_penetration", "A node or edge, by its deepest pair.", columns, true};
 }
 
-DocumentSchema diff_schema() { return document_schema<DiffDocument>(head); }
+DocumentSchema diff_schema() { return document_schema<DiffDocument>(diff_head); }
 
 std::string diff_json(const DiffSide& a, const DiffSide& b, const DeckDiff& diff) {
-  return write_document(head, DiffDocument{a, b, diff});
+  return write_document(diff_head, DiffDocument{a, b, diff});
 }
 
 }  // namespace deck

@@ -128,7 +128,7 @@ Record<TiedRow> record_of(const TiedRow*) {
   return {"tied", "", columns, true};
 }
 
-struct StepRow {
+struct FixStepRow {
   const PenetrationFix* step = nullptr;
   std::vector<std::int64_t> moved() const {
     std::vector<std::int64_t> ids;
@@ -136,8 +136,8 @@ struct StepRow {
     return ids;
   }
 };
-Record<StepRow> record_of(const StepRow*) {
-  using Row = StepRow;
+Record<FixStepRow> record_of(const FixStepRow*) {
+  using Row = FixStepRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::step, &PenetrationFix::strategy>("strategy"),
       column<&Row::step, &PenetrationFix::complete>("complete"),
@@ -157,9 +157,9 @@ struct FixDocument {
   const std::vector<PenetrationFix>& steps;
   Coverage coverage = coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties);
 
-  IfAny<Rows<StepRow>> steps_if(bool wanted) const {
+  IfAny<Rows<FixStepRow>> steps_if(bool wanted) const {
     return if_any(wanted,
-                  rows_of(steps, [](const PenetrationFix& step) { return StepRow{&step}; }));
+                  rows_of(steps, [](const PenetrationFix& step) { return FixStepRow{&step}; }));
   }
 };
 Record<FixDocument> record_of(const FixDocument*) {
@@ -201,11 +201,11 @@ Record<FixDocument> record_of(const FixDocument*) {
   return {"document", "", columns};
 }
 
-constexpr DocumentHead head{"deck/fix", 1, "Written by deck fix --json."};
+constexpr DocumentHead fix_head{"deck/fix", 1, "Written by deck fix --json."};
 
 }  // namespace
 
-DocumentSchema fix_schema() { return document_schema<FixDocument>(head); }
+DocumentSchema fix_schema() { return document_schema<FixDocument>(fix_head); }
 
 std::string repair_json(const PenetrationFix& fix, std::string_view deck,
                         const std::vector<NextCommand>& next, std::string_view patch) {
@@ -226,7 +226,7 @@ std::string repair_json(const PenetrationFix& fix, std::string_view deck,
 
 std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::string_view written,
                      const std::vector<PenetrationFix>& steps) {
-  return write_document(head, FixDocument{loaded, &fix, written, steps}) + '\n';
+  return write_document(fix_head, FixDocument{loaded, &fix, written, steps}) + '\n';
 }
 
 }  // namespace deck

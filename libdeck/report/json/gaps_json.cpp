@@ -434,7 +434,7 @@ Record<GapsDocument> record_of(const GapsDocument*) {
   return {"document", "", columns};
 }
 
-constexpr DocumentHead head{
+constexpr DocumentHead gaps_head{
     "deck/gaps", gaps_version,
     "Written by deck gaps --json; with --all also every secondary node, main segment and edge. "
     "Lengths in working units. null stands for a number that is not finite."};
@@ -456,14 +456,14 @@ Record<PartPair> record_of(const PartPair*) {
   return {"part_pair", "Penetrations between two parts.", columns, true};
 }
 
-DocumentSchema gaps_schema() { return document_schema<GapsDocument>(head); }
+DocumentSchema gaps_schema() { return document_schema<GapsDocument>(gaps_head); }
 
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
                       const SceneView& view, bool all, const std::vector<Crossing>* crossings,
                       const GateReport* gate, const TextDrain& drain) {
   const GapsDocument document{
       path, deck, scene, view, all, crossings, gate, rows_of_contacts(scene, view), {}};
-  return write_document(head, document, drain) + '\n';
+  return write_document(gaps_head, document, drain) + '\n';
 }
 
 }  // namespace deck

@@ -3,7 +3,6 @@
 
 #include "report/shared/gate.hpp"
 #include "report/shared/schemas.hpp"
-#include "report/shared/verdict.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {
@@ -73,7 +72,7 @@ Record<GateDocument> record_of(const GateDocument*) {
   return {"document", "", columns};
 }
 
-constexpr DocumentHead head{"deck/gate", 1, "Written by deck gate --json."};
+constexpr DocumentHead gate_head{"deck/gate", 1, "Written by deck gate --json."};
 
 }  // namespace
 
@@ -97,11 +96,11 @@ GateReport gate_report(const Gate& gate, const Scene& scene, const SceneView& vi
   return report;
 }
 
-DocumentSchema gate_schema() { return document_schema<GateDocument>(head); }
+DocumentSchema gate_schema() { return document_schema<GateDocument>(gate_head); }
 
 std::string gate_json(const LintedDeck& deck, const GateReport& gate,
                       const std::vector<const Diagnostic*>& stops, bool passed) {
-  return write_document(head, GateDocument{&deck, &gate, &stops, passed}) + "\n";
+  return write_document(gate_head, GateDocument{&deck, &gate, &stops, passed}) + "\n";
 }
 
 }  // namespace deck

@@ -1,8 +1,8 @@
 // The document of a listing of the Starter beside its deck.
 #include <cmath>
 
-#include "report/parts_rows.hpp"
 #include "report/shared/listing.hpp"
+#include "report/shared/parts.hpp"
 #include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 
@@ -191,7 +191,7 @@ Record<ContactOfListing> record_of(const ContactOfListing*) {
   return {"contact", "", columns};
 }
 
-struct StepsRow {
+struct ListedStepsRow {
   const ComparedSteps* s = nullptr;
   std::string_view of() const {
     return s->kind ? std::string_view(detail::kind_name(*s->kind)) : "node";
@@ -199,17 +199,17 @@ struct StepsRow {
   std::optional<double> smallest() const { return finite_step(s->smallest); }
   Rows<StepDifference> different() const { return rows_of(s->different); }
 };
-Record<StepsRow> record_of(const StepsRow*) {
-  static constexpr Column<StepsRow> columns[] = {
-      column<&StepsRow::of>("of", "Kind of element, or node"),
-      column<&StepsRow::s, &ComparedSteps::listed>("listed"),
-      column<&StepsRow::s, &ComparedSteps::equal>("equal", "Within 1e-6"),
-      column<&StepsRow::s, &ComparedSteps::not_computed>("not_computed"),
-      column<&StepsRow::s, &ComparedSteps::largest_difference>("largest_difference",
-                                                               "Relative, of those that are equal"),
-      column<&StepsRow::smallest>("smallest", "null: no element limits the step"),
-      column<&StepsRow::s, &ComparedSteps::smallest_id>("smallest_id"),
-      column<&StepsRow::different>("different")};
+Record<ListedStepsRow> record_of(const ListedStepsRow*) {
+  static constexpr Column<ListedStepsRow> columns[] = {
+      column<&ListedStepsRow::of>("of", "Kind of element, or node"),
+      column<&ListedStepsRow::s, &ComparedSteps::listed>("listed"),
+      column<&ListedStepsRow::s, &ComparedSteps::equal>("equal", "Within 1e-6"),
+      column<&ListedStepsRow::s, &ComparedSteps::not_computed>("not_computed"),
+      column<&ListedStepsRow::s, &ComparedSteps::largest_difference>(
+          "largest_difference", "Relative, of those that are equal"),
+      column<&ListedStepsRow::smallest>("smallest", "null: no element limits the step"),
+      column<&ListedStepsRow::s, &ComparedSteps::smallest_id>("smallest_id"),
+      column<&ListedStepsRow::different>("different")};
   return {"steps", "", columns};
 }
 
@@ -223,8 +223,8 @@ Rows<ContactOfListing> contacts(const ListingDocument& r) {
     return ContactOfListing{&r.loaded->scene().contacts[c.contact], &c};
   });
 }
-Rows<StepsRow> steps(const ListingDocument& r) {
-  return rows_of(r.report.steps, [&r](const ComparedSteps& s) { return StepsRow{&s}; });
+Rows<ListedStepsRow> steps(const ListingDocument& r) {
+  return rows_of(r.report.steps, [&r](const ComparedSteps& s) { return ListedStepsRow{&s}; });
 }
 std::optional<DeckRow> deck_of(const ListingDocument& r) {
   if (r.loaded == nullptr) return std::nullopt;
@@ -249,10 +249,11 @@ Record<ListingDocument> record_of(const ListingDocument*) {
   return {"document", "", columns};
 }
 
-constexpr DocumentHead head{"deck/explain", 1,
-                            "Written by deck explain NAME_0000.out --json: a listing of the "
-                            "Starter beside its deck.",
-                            false};
+constexpr DocumentHead listing_head{
+    "deck/explain", 1,
+    "Written by deck explain NAME_0000.out --json: a listing of the "
+    "Starter beside its deck.",
+    false};
 
 }  // namespace
 
@@ -264,11 +265,11 @@ Record<StepDifference> record_of(const StepDifference*) {
   return {"step_difference", "", columns, true};
 }
 
-DocumentSchema explain_schema() { return document_schema<ListingDocument>(head); }
+DocumentSchema explain_schema() { return document_schema<ListingDocument>(listing_head); }
 
 std::string listing_json(const Listing& listing, const ListingReport& report,
                          const LoadedDeck* loaded) {
-  return write_document(head, ListingDocument{listing, report, loaded});
+  return write_document(listing_head, ListingDocument{listing, report, loaded});
 }
 
 }  // namespace deck

@@ -1,7 +1,6 @@
 // The document of deck parts: parts, totals, steps of elements and nodes, kinematic conditions.
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
-#include "report/parts_rows.hpp"
 #include "report/shared/parts.hpp"
 #include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
@@ -59,7 +58,7 @@ struct Sums {
   std::optional<std::array<double, 6>> inertia() const { return known(placed(), of->inertia); }
 };
 
-struct StepRow {
+struct PartStepRow {
   Sums sums;
   std::optional<double> min() const { return step_of(sums.of->dt); }
   std::optional<ElementRow> element() const {
@@ -68,11 +67,11 @@ struct StepRow {
     return ElementRow{e.kind, sums.model->family(e.kind).id[e.element]};
   }
 };
-Record<StepRow> record_of(const StepRow*) {
-  static constexpr Column<StepRow> columns[] = {
-      column<&StepRow::min>("min", "null: no element limits the step, or none is computed"),
-      column<&StepRow::element>("element", "The element that gives it"),
-      column<&StepRow::sums, &Sums::of, &PartFigures::not_computed>(
+Record<PartStepRow> record_of(const PartStepRow*) {
+  static constexpr Column<PartStepRow> columns[] = {
+      column<&PartStepRow::min>("min", "null: no element limits the step, or none is computed"),
+      column<&PartStepRow::element>("element", "The element that gives it"),
+      column<&PartStepRow::sums, &Sums::of, &PartFigures::not_computed>(
           "not_computed", "Elements without an established step")};
   return {"step", "Smallest time step of elements.", columns, true};
 }
@@ -81,7 +80,7 @@ Record<Sums> record_of(const Sums*) {
   using Row = Sums;
   static constexpr Column<Row> columns[] = {
       column<&Row::of, &PartFigures::mass>("mass"), column<&Row::centre>("centre"),
-      column<&Row::inertia>("inertia"), column("dt", [](const Row& r) { return StepRow{r}; })};
+      column<&Row::inertia>("inertia"), column("dt", [](const Row& r) { return PartStepRow{r}; })};
   return {"total", "All elements; members as of a part.", columns};
 }
 
@@ -115,7 +114,7 @@ Record<PartRow> record_of(const PartRow*) {
       column<&Row::sums, &Sums::inertia>(
           "inertia",
           "About the centre: xx yy zz xy yz zx, of masses and rotational inertia of the nodes"),
-      column("dt", [](const Row& r) { return StepRow{r.sums}; }),
+      column("dt", [](const Row& r) { return PartStepRow{r.sums}; }),
       column<&Row::seen, &detail::PartView::interfaces>(
           "interfaces", "Contacts and ties that have an element of the part"),
       column<&Row::rigid_body>("rigid_body", "The rigid body that has all nodes of the part")};
@@ -136,15 +135,15 @@ Record<RepeatedRow> record_of(const RepeatedRow*) {
   return {"repeated_contacts", "Contacts (no ties) that let the same parts touch.", columns, true};
 }
 
-struct NodeRow {
+struct PartNodeRow {
   std::int64_t node;
   std::optional<double> dt;
   double mass, stiffness;
 };
-Record<NodeRow> record_of(const NodeRow*) {
-  static constexpr Column<NodeRow> columns[] = {
-      column<&NodeRow::node>("node"), column<&NodeRow::dt>("dt"), column<&NodeRow::mass>("mass"),
-      column<&NodeRow::stiffness>("stiffness")};
+Record<PartNodeRow> record_of(const PartNodeRow*) {
+  static constexpr Column<PartNodeRow> columns[] = {
+      column<&PartNodeRow::node>("node"), column<&PartNodeRow::dt>("dt"),
+      column<&PartNodeRow::mass>("mass"), column<&PartNodeRow::stiffness>("stiffness")};
   return {"node", "", columns, true};
 }
 
@@ -169,7 +168,7 @@ struct PartsDocument {
   PartRow part(std::size_t p) const {
     return {&model.parts[p], &view.parts[p], {&model, &mesh.parts[p]}};
   }
-  NodeRow node(std::size_t n) const {
+  PartNodeRow node(std::size_t n) const {
     return {model.nodes.id[n], step_of(mesh.nodes.dt[n]), mesh.nodes.mass[n],
             mesh.nodes.stiffness[n]};
   }
@@ -225,7 +224,7 @@ Record<PartsDocument> record_of(const PartsDocument*) {
              }),
       column("nodes", "With --all",
              [](const Row& r) {
-               return if_any(r.all, Rows<NodeRow>{[&r](const auto& add) {
+               return if_any(r.all, Rows<PartNodeRow>{[&r](const auto& add) {
                                for (std::size_t n = 0; n < r.model.nodes.size(); ++n)
                                  add(r.node(n));
                              }});
@@ -239,18 +238,18 @@ Record<PartsDocument> record_of(const PartsDocument*) {
   return {"document", "", columns};
 }
 
-constexpr DocumentHead head{
+constexpr DocumentHead parts_head{
     "deck/parts", 1,
     "Written by deck parts --json: parts with the sums of their elements, time steps and kinematic "
     "conditions, in working units."};
 
 }  // namespace
 
-DocumentSchema parts_schema() { return document_schema<PartsDocument>(head); }
+DocumentSchema parts_schema() { return document_schema<PartsDocument>(parts_head); }
 
 std::string parts_json(const LoadedDeck& loaded, bool all) {
-  return write_document(head, PartsDocument{loaded, all, loaded.model(), loaded.mesh(),
-                                            loaded.kinematics(), detail::view_parts(loaded)});
+  return write_document(parts_head, PartsDocument{loaded, all, loaded.model(), loaded.mesh(),
+                                                  loaded.kinematics(), detail::view_parts(loaded)});
 }
 
 }  // namespace deck

@@ -2,10 +2,8 @@
 #include "report/shared_records.hpp"
 
 #include "deck/front/loaded_deck.hpp"
-#include "report/accuracy_decisions.hpp"
 #include "report/diagnostics_common.hpp"
 #include "report/gaps_names.hpp"
-#include "report/shared/verdict.hpp"
 
 namespace deck {
 namespace {

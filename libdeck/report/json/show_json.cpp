@@ -146,7 +146,7 @@ Record<ShowDocument> record_of(const ShowDocument*) {
   return {"document", "", columns};
 }
 
-constexpr DocumentHead head{
+constexpr DocumentHead show_head{
     "deck/show", 1,
     "Written by deck show --json: one entity of a deck, its card, what the solver uses, what it "
     "refers to and what uses it. Cells have the values of the card; parameters and model are in "
@@ -155,10 +155,10 @@ constexpr DocumentHead head{
 
 }  // namespace
 
-DocumentSchema show_schema() { return document_schema<ShowDocument>(head); }
+DocumentSchema show_schema() { return document_schema<ShowDocument>(show_head); }
 
 std::string show_json(const ParamsInput& params, const EntityView& view) {
-  return write_document(head, ShowDocument{params, view, params.loaded.deck()});
+  return write_document(show_head, ShowDocument{params, view, params.loaded.deck()});
 }
 
 }  // namespace deck

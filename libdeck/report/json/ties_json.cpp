@@ -9,7 +9,7 @@ namespace {
 
 using Corners = std::array<std::int64_t, 4>;
 
-struct NodeRow {
+struct TiedNodeRow {
   const Model& model;
   const Tie& tie;
   const TiedNode* node;
@@ -30,11 +30,11 @@ Record<NearestRow> record_of(const NearestRow*) {
   return {"nearest_segment", "", columns, true};
 }
 
-Record<NodeRow> record_of(const NodeRow*) {
-  using Row = NodeRow;
+Record<TiedNodeRow> record_of(const TiedNodeRow*) {
+  using Row = TiedNodeRow;
   static constexpr Column<Row> columns[] = {
       column("node", [](const Row& r) { return r.model.nodes.id[r.node->node]; }),
-      column<&NodeRow::node, &TiedNode::tied>("tied"),
+      column<&TiedNodeRow::node, &TiedNode::tied>("tied"),
       column("segment", "Node ids; triangles repeat the last",
              [](const Row& r) { return known(r.found(), r.corners(r.node->segment)); }),
       column("s",
@@ -47,7 +47,7 @@ Record<NodeRow> record_of(const NodeRow*) {
              [](const Row& r) { return known(r.search() != 0, r.search()); }),
       column("message", "Message of the solver that lists the node",
              [](const Row& r) { return known(r.node->message != 0, r.node->message); }),
-      column<&NodeRow::node, &TiedNode::penalty>("penalty", "Tied by penalty"),
+      column<&TiedNodeRow::node, &TiedNode::penalty>("penalty", "Tied by penalty"),
       column("why", "A sentence", [](const Row& r) { return why_text(r.tie, *r.node); }),
       column("nearest", "Without a segment: the nearest one", [](const Row& r) {
         return if_any(!r.found() && r.node->nearest != no_index,
@@ -92,7 +92,7 @@ Record<TieRow> record_of(const TieRow*) {
              "With --all every secondary node, else those that are not tied, or tied from beyond a "
              "rim",
              [](const Row& r) {
-               return Rows<NodeRow>{[&r](const auto& add) {
+               return Rows<TiedNodeRow>{[&r](const auto& add) {
                  for (const TiedNode& n : r.tie->nodes)
                    if (r.all || !n.tied || n.message != 0) add({r.model, *r.tie, &n});
                }};

@@ -1,10 +1,11 @@
-// A deck as JSON: blocks with named, typed values, effective values of the interfaces, and the text
-// of every line.
+// Documents of deck convert: a deck as JSON, with blocks of named, typed values, effective values
+// of the interfaces and the text of every line, and the loss report.
 #pragma once
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "deck/edit/rewrite.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/text/result.hpp"
 
@@ -29,5 +30,9 @@ Result<std::string> deck_to_json(const DeckJsonInput& input);
 
 /// One document of several: an object with the list "decks". One alone stays as it is.
 std::string decks_to_json(const std::vector<std::string>& documents);
+
+/// What a conversion kept, approximated, dropped, or leaves to a decision. Schema id "deck/losses":
+/// {"kept":[..],"approximated":[..],"dropped":[..],"undecided":[..]}.
+std::string losses_json(const std::vector<LossEntry>& losses);
 
 }  // namespace deck

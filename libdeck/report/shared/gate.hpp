@@ -1,16 +1,24 @@
-// What a gate said about a deck, and how its penetrations differ from an earlier run: for the
-// documents and texts of every verb that has a gate.
+// What is said of a deck: its verdict, what a gate said about it, and how its penetrations differ
+// from an earlier run; for the documents and texts of every verb.
 #pragma once
 #include <string>
 #include <vector>
 
 #include "deck/contact/view.hpp"
 #include "deck/keyword/deck.hpp"
+#include "deck/verdict.hpp"
 #include "lint/shared/gate.hpp"
 #include "report/shared/diagnostics.hpp"
 #include "report/shared/json.hpp"
 
 namespace deck {
+
+/// The member "verdict": level, text, sentences with their counts, counts of all.
+void write_verdict(JsonWriter& json, const Verdict& verdict);
+/// The same by itself.
+std::string verdict_json(const Verdict& verdict);
+/// The text as a line.
+std::string verdict_text(const Verdict& verdict, bool color);
 
 struct GateReport {
   bool asked = false;                ///< some bound was set, or new and worse were asked for

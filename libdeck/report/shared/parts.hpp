@@ -1,6 +1,10 @@
 // The parts of a deck with what their elements add up to, for people and for programs.
 #pragma once
+#include <array>
+#include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "deck/front/loaded_deck.hpp"
 
@@ -19,5 +23,43 @@ std::string parts_csv(const LoadedDeck& loaded);
 /// The document of `deck parts --json` (schemas/output/parts.schema.json); with `all` the steps of
 /// all elements and nodes.
 std::string parts_json(const LoadedDeck& loaded, bool all);
+
+namespace detail {
+
+/// "shell4", "shell3", "solid", "quad", "tria", "truss", "beam", "spring"
+std::string_view kind_name(ElementKind kind);
+
+struct PartView {
+  std::array<std::uint64_t, 8> elements{};  ///< by kind
+  double thickness = 0;                     ///< of the part, else of its property
+  std::vector<std::int64_t> interfaces;     ///< that see an element of it
+  std::int64_t rigid_body = 0;              ///< that all its nodes belong to
+  std::uint64_t count() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t n : elements) sum += n;
+    return sum;
+  }
+};
+
+/// Contacts that all let the same parts touch: those of the same parts on both sides, or two kinds
+/// of them that share parts.
+struct RepeatedContacts {
+  std::vector<std::int64_t> interfaces;  ///< ids, two or more, in the order of the deck
+  std::uint64_t pairs = 0;               ///< of parts
+  std::int64_t part = 0, other = 0;      ///< ids of the first pair
+};
+inline constexpr std::size_t most_repeated_contacts = 1000;
+
+struct PartsView {
+  std::vector<PartView> parts;
+  std::uint64_t unconnected_nodes = 0;     ///< that no element has
+  std::vector<std::int64_t> empty_parts;   ///< ids of parts without elements
+  std::vector<std::int64_t> unseen_parts;  ///< with elements that no contact or tie sees
+  std::vector<RepeatedContacts> repeated;  ///< not more than most_repeated_contacts
+};
+
+PartsView view_parts(const LoadedDeck& loaded);
+
+}  // namespace detail
 
 }  // namespace deck

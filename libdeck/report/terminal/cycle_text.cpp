@@ -8,12 +8,11 @@
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
 #include "cycle/shared/step_scale.hpp"
-#include "report/accuracy_decisions.hpp"
 #include "report/cycle_costs.hpp"
+#include "report/gaps_names.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/text_table.hpp"
-#include "report/shared/verdict.hpp"
 #include "report/terminal/cycle_effects_text.hpp"
 #include "report/terminal/words.hpp"
 

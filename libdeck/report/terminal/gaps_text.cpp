@@ -9,11 +9,9 @@
 #include "base/shared/length_text.hpp"
 #include "deck/report/gaps.hpp"
 #include "model/shared/item_spans.hpp"
-#include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/text_table.hpp"
-#include "report/shared/verdict.hpp"
 #include "report/terminal/ties_text.hpp"
 #include "report/terminal/words.hpp"
 

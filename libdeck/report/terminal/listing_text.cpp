@@ -7,8 +7,8 @@
 #include "base/shared/columns.hpp"
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
-#include "report/parts_rows.hpp"
 #include "report/shared/listing.hpp"
+#include "report/shared/parts.hpp"
 #include "report/shared/text_table.hpp"
 #include "report/terminal/words.hpp"
 

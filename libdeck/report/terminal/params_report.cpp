@@ -387,12 +387,12 @@ std::string params_text(const ParamsInput& in, const ParamsTextOptions& options)
 
 namespace {
 
-struct InterfaceRow {
+struct ParamsInterfaceRow {
   const ParamsInput& in;
   const InterBase* inter;
 };
-Record<InterfaceRow> record_of(const InterfaceRow*) {
-  using Row = InterfaceRow;
+Record<ParamsInterfaceRow> record_of(const ParamsInterfaceRow*) {
+  using Row = ParamsInterfaceRow;
   static constexpr Column<Row> columns[] = {
       column<&Row::inter, &InterBase::id>("id"),
       column<&Row::inter, &InterBase::type>("type", "2, 7, 10, 11, 19, 24 or 25"),
@@ -422,7 +422,8 @@ struct ParamsDocument {
   const Coverage coverage;
 };
 
-void each_interface(const ParamsDocument& r, const std::function<void(const InterfaceRow&)>& add) {
+void each_interface(const ParamsDocument& r,
+                    const std::function<void(const ParamsInterfaceRow&)>& add) {
   for (const InterBase* inter : r.in.loaded.interfaces().all)
     if (wanted(r.options, *inter)) add({r.in, inter});
 }
@@ -437,7 +438,7 @@ Record<ParamsDocument> record_of(const ParamsDocument*) {
              [](const Row& r) { return rows_of(r.coverage.not_examined); }),
       column("interfaces",
              [](const Row& r) {
-               return Rows<InterfaceRow>{[&r](const auto& add) { each_interface(r, add); }};
+               return Rows<ParamsInterfaceRow>{[&r](const auto& add) { each_interface(r, add); }};
              }),
       column("not_evaluated", "Interfaces of other types, which are not in 'interfaces'",
              [](const Row& r) {
@@ -449,20 +450,21 @@ Record<ParamsDocument> record_of(const ParamsDocument*) {
   return {"document", "", columns};
 }
 
-constexpr DocumentHead head{
+constexpr DocumentHead params_head{
     "deck/params", 1,
     "Written by deck params --json: effective values of every interface of TYPE2, 7, 10, 11, 19, "
     "24 and 25, in working units."};
 
 }  // namespace
 
-DocumentSchema params_schema() { return document_schema<ParamsDocument>(head); }
+DocumentSchema params_schema() { return document_schema<ParamsDocument>(params_head); }
 
 std::string params_json(const ParamsInput& in, const std::vector<std::int64_t>& only) {
   ParamsTextOptions options;
   options.only = only;
   return write_document(
-      head, ParamsDocument{in, options, coverage_of(in.loaded.deck(), in.loaded.interfaces())});
+      params_head,
+      ParamsDocument{in, options, coverage_of(in.loaded.deck(), in.loaded.interfaces())});
 }
 
 }  // namespace deck

@@ -9,7 +9,6 @@
 #include "deck/text/number.hpp"
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
-#include "report/parts_rows.hpp"
 #include "report/shared/parts.hpp"
 #include "report/shared/text_table.hpp"
 

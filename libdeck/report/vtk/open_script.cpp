@@ -67,20 +67,15 @@ if os.path.basename(sys.executable or "").startswith("pvpython"):
     pv.SaveScreenshot(os.path.join(HERE, "open.png"), VIEW)
 )~";
 
-bool ends(const std::string& name, std::string_view with) {
-  return name.size() >= with.size() &&
-         name.compare(name.size() - with.size(), with.size(), with) == 0;
-}
-
 }  // namespace
 
 VtkFile paraview_script(const std::vector<VtkFile>& files) {
   // Of a series only the collections: they hold its files.
   const bool series = std::any_of(files.begin(), files.end(),
-                                  [](const VtkFile& f) { return ends(f.name, ".pvd"); });
+                                  [](const VtkFile& f) { return f.name.ends_with(".pvd"); });
   std::string out = script_head;
   for (const VtkFile& f : files) {
-    if (series && !ends(f.name, ".pvd")) continue;
+    if (series && !f.name.ends_with(".pvd")) continue;
     const std::string name = "\"" + f.name + "\"";
     if (f.name.starts_with("penetrations"))
       out += "points(" + name + ", \"depth\", \"arrow\", \"depth\", 0.05)\n";
@@ -88,9 +83,9 @@ VtkFile paraview_script(const std::vector<VtkFile>& files) {
       out += "points(" + name + ", \"dt\", \"force\", \"force_size\", 0.1)\n";
     else if (f.name.starts_with("contact_pairs"))
       out += "points(" + name + ", \"penetration\", \"force\", \"force_size\", 0.05)\n";
-    else if (ends(f.name, "_main.vtp"))
+    else if (f.name.ends_with("_main.vtp"))
       out += "surface(" + name + ", \"depth\", 0.35)\n";
-    else if (ends(f.name, "_ties.vtp"))
+    else if (f.name.ends_with("_ties.vtp"))
       out += "surface(" + name + ", \"lost\", 1.0)\n";
     else
       out += "surface(" + name + ", \"depth\", 1.0)\n";

@@ -1,8 +1,11 @@
-// Writes surfaces, edges and penetrations of every contact.
+// Writes surfaces, edges, ties and penetrations of every contact.
 #include "report/shared/vtk.hpp"
 
 #include <algorithm>
+#include <span>
 
+#include "deck/contact/closest.hpp"
+#include "deck/contact/ties.hpp"
 #include "deck/contact/view.hpp"
 #include "report/vtk/vtk_writer.hpp"
 
@@ -28,20 +31,17 @@ class Points {
     if (number_[n] == no_index) {
       number_[n] = static_cast<std::uint32_t>(nodes_.size());
       nodes_.push_back(n);
-      ids_.push_back(model_.node_id(n));
-      out_.add_point(model_.nodes.x[n], model_.nodes.y[n], model_.nodes.z[n]);
+      out_.add_point({model_.nodes.x[n], model_.nodes.y[n], model_.nodes.z[n]});
     }
     return number_[n];
   }
   const std::vector<NodeIndex>& nodes() const { return nodes_; }
-  const std::vector<std::int64_t>& ids() const { return ids_; }
 
  private:
   const Model& model_;
   VtkPolyData& out_;
   std::vector<std::uint32_t> number_;
   std::vector<NodeIndex> nodes_;
-  std::vector<std::int64_t> ids_;
 };
 
 /// Largest depth per item of one side.
@@ -53,117 +53,106 @@ std::vector<double> depths(const Contact& c, std::size_t items,
   return out;
 }
 
-/// One value per item.
-template <class T, class Items, class Value>
-std::vector<T> each(const Items& items, const Value& value) {
-  std::vector<T> out;
-  out.reserve(items.size());
-  for (const auto& item : items) out.push_back(static_cast<T>(value(item)));
-  return out;
+std::span<const NodeIndex> corners(const SecondaryNode& s) { return {&s.node, 1}; }
+std::span<const NodeIndex> corners(const ContactEdge& e) { return e.nodes; }
+std::span<const NodeIndex> corners(const MainSegment& m) {
+  return std::span(m.nodes).first(m.nodes[2] == m.nodes[3] ? 3 : 4);
 }
 
-/// Ids of the carrying elements and their parts; 0 where there is none.
-template <class Items>
-void add_elements(const Model& model, const Items& items, VtkPolyData& out) {
-  std::vector<std::int64_t> elements, parts;
-  for (const auto& item : items) {
-    const Elements* family = item.element == no_index ? nullptr : elements_of(model, item.carrier);
-    const std::uint32_t part = family == nullptr ? no_index : family->part[item.element];
-    elements.push_back(family == nullptr ? 0 : family->id[item.element]);
-    parts.push_back(part == no_index ? 0 : model.parts[part].id);
-  }
-  out.cell_data("element", elements);
-  out.cell_data("part", parts);
-}
-
-std::string main_surface(const Model& model, const Contact& c) {
-  VtkPolyData out(Cells::polygons);
-  Points points(model, out);
-  for (const MainSegment& m : c.main) {
-    std::vector<std::uint32_t> corners;
-    for (std::size_t k = 0; k < (m.nodes[2] == m.nodes[3] ? 3U : 4U); ++k)
-      corners.push_back(points.of(m.nodes[k]));
-    out.add_cell(corners);
-  }
-  std::vector<double> gap(points.nodes().size(), 0);
+/// By node: the gap of the node if it is secondary too, else the largest of its segments.
+std::vector<double> gaps_at_nodes(const Model& model, const Contact& c) {
+  std::vector<double> gap(model.nodes.size(), 0);
   for (const MainSegment& m : c.main)
-    for (const NodeIndex n : m.nodes) gap[points.of(n)] = std::max(gap[points.of(n)], m.gap);
-  std::vector<double> own(model.nodes.size(), -1);
-  for (const SecondaryNode& s : c.secondary) own[s.node] = s.gap;
-  for (std::size_t i = 0; i < gap.size(); ++i)
-    if (const double g = own[points.nodes()[i]]; g >= 0) gap[i] = g;
-  out.point_data("node", points.ids());
-  out.point_data("gap", gap);
-  out.cell_data("stiffness",
-                each<double>(c.main, [](const MainSegment& m) { return m.stiffness; }));
-  out.cell_data("gap", each<double>(c.main, [](const MainSegment& m) { return m.gap; }));
-  out.cell_data("depth", depths(c, c.main.size(), &PenetrationRow::main));
-  out.cell_data("off", each<std::int64_t>(c.main, [](const MainSegment& m) { return m.off; }));
-  add_elements(model, c.main, out);
-  return out.document();
+    for (const NodeIndex n : m.nodes) gap[n] = std::max(gap[n], m.gap);
+  for (const SecondaryNode& s : c.secondary)
+    if (s.gap >= 0) gap[s.node] = s.gap;
+  return gap;
 }
 
-std::string secondary_nodes(const Model& model, const Contact& c) {
-  VtkPolyData out(Cells::vertices);
+template <class Item>
+std::string side_file(const Model& model, const Contact& c, Cells cells,
+                      const std::vector<Item>& items, double Item::*stiffness,
+                      std::uint32_t PenetrationRow::*side) {
+  VtkPolyData out(cells);
   Points points(model, out);
-  using Node = SecondaryNode;
-  for (const Node& s : c.secondary) out.add_cell(std::array{points.of(s.node)});
-  out.point_data("node", points.ids());
-  out.cell_data("stiffness", each<double>(c.secondary, [](const Node& s) { return s.multiplier; }));
-  out.cell_data("gap", each<double>(c.secondary, [](const Node& s) { return s.gap; }));
-  out.cell_data("depth", depths(c, c.secondary.size(), &PenetrationRow::secondary));
-  out.cell_data("off", each<std::int64_t>(c.secondary, [](const Node& s) { return s.off; }));
+  for (const Item& item : items) {
+    std::vector<std::uint32_t> cell;
+    for (const NodeIndex n : corners(item)) cell.push_back(points.of(n));
+    out.add_cell(cell);
+  }
+  out.point_data("node", points.nodes(), [&](NodeIndex n) { return model.node_id(n); });
+  out.cell_data("stiffness", items, stiffness);
+  out.cell_data("gap", items, &Item::gap);
+  out.cell_data("depth", depths(c, items.size(), side));
+  out.cell_data("off", items, &Item::off);
+  if constexpr (std::is_same_v<Item, MainSegment>) {
+    const std::vector<double> gap = gaps_at_nodes(model, c);
+    out.point_data("gap", points.nodes(), [&](NodeIndex n) { return gap[n]; });
+  }
+  if constexpr (!std::is_same_v<Item, SecondaryNode>) {
+    const auto name = [&](const Item& i) { return carrier_name(model, i.carrier, i.element); };
+    out.cell_data("element", items, [&](const Item& i) { return name(i).id; });
+    out.cell_data("part", items, [&](const Item& i) { return name(i).part; });
+  }
   return out.document();
 }
 
-std::string edge_side(const Model& model, const Contact& c, bool main) {
-  const auto& edges = main ? c.main_edges : c.secondary_edges;
+/// Ties as lines from their nodes to the nearest points of their segments.
+std::string tie_lines(const Model& model, const Tie& tie) {
   VtkPolyData out(Cells::lines);
-  Points points(model, out);
-  for (const ContactEdge& e : edges)
-    out.add_cell(std::array{points.of(e.nodes[0]), points.of(e.nodes[1])});
-  out.point_data("node", points.ids());
-  out.cell_data("stiffness", each<double>(edges, [](const ContactEdge& e) { return e.stiffness; }));
-  out.cell_data("gap", each<double>(edges, [](const ContactEdge& e) { return e.gap; }));
-  out.cell_data("depth",
-                depths(c, edges.size(), main ? &PenetrationRow::main : &PenetrationRow::secondary));
-  out.cell_data("off", each<std::int64_t>(edges, [](const ContactEdge& e) { return e.off; }));
-  add_elements(model, edges, out);
+  const auto at = [&](NodeIndex n) {
+    return Point3<double>{model.nodes.x[n], model.nodes.y[n], model.nodes.z[n]};
+  };
+  const auto found = [](const TiedNode& n) { return n.segment != no_index; };
+  for (const TiedNode& n : tie.nodes) {
+    const std::uint32_t segment = found(n) ? n.segment : n.nearest;
+    const Point3<double> p = at(n.node);
+    Point3<double> foot = p;
+    if (segment != no_index) {
+      const std::array<NodeIndex, 4>& c = tie.main[segment];
+      foot = p - closest_on_segment<Form::reference>(p, {at(c[0]), at(c[1]), at(c[2]), at(c[3])},
+                                                     c[2] == c[3])
+                     .closest()
+                     .vector;
+    }
+    out.add_cell(std::array{out.points(), out.points() + 1});
+    out.add_point({p.x, p.y, p.z});
+    out.add_point({foot.x, foot.y, foot.z});
+  }
+  out.cell_data("node", tie.nodes, [&](const TiedNode& n) { return model.node_id(n.node); });
+  out.cell_data("tied", tie.nodes, &TiedNode::tied);
+  out.cell_data("lost", tie.nodes, &TiedNode::lost);
+  out.cell_data("message", tie.nodes, &TiedNode::message);
+  out.cell_data("distance", tie.nodes,
+                [&](const TiedNode& n) { return found(n) ? n.distance : n.nearest_distance; });
+  out.cell_data("search", tie.nodes,
+                [&](const TiedNode& n) { return n.search != 0 ? n.search : tie.search_distance; });
   return out.document();
 }
 
 std::string penetrations(const Scene& scene, const SceneView& view) {
   VtkPolyData out(Cells::vertices);
-  std::vector<double> arrow, normal, depth, gap, ratio;
-  std::vector<std::int64_t> action, on_surface, in_contact, node, interface;
-  for (const NamedPenetration& p : view.penetrations) {
-    const Contact& c = scene.contacts[p.contact];
-    const PenetrationRow& r = c.penetrations[p.row];
-    out.add_cell(std::array{out.points()});
-    out.add_point(p.at[0], p.at[1], p.at[2]);
-    for (const double n : r.normal) {
-      normal.push_back(n);
-      arrow.push_back(r.depth * n);
-    }
-    depth.push_back(r.depth);
-    gap.push_back(r.gap);
-    ratio.push_back(r.gap > 0 ? r.depth / r.gap : 0);
-    action.push_back(static_cast<std::int64_t>(r.action));
-    on_surface.push_back(r.on_surface);
-    in_contact.push_back(r.in_contact);
-    node.push_back(p.secondary[0]);
-    interface.push_back(c.inter->id);
-  }
-  out.point_data("arrow", arrow, 3);
-  out.point_data("normal", normal, 3);
-  out.point_data("depth", depth);
-  out.point_data("gap", gap);
-  out.point_data("ratio", ratio);
-  out.point_data("action", action);
-  out.point_data("on_surface", on_surface);
-  out.point_data("in_contact", in_contact);
-  out.point_data("node", node);
-  out.point_data("interface", interface);
+  for (const NamedPenetration& p : view.penetrations) out.add_vertex(p.at);
+  const auto column = [&](const char* name, auto value_of) {
+    out.point_data(name, view.penetrations, [&](const NamedPenetration& p) {
+      return value_of(scene.contacts[p.contact].penetrations[p.row]);
+    });
+  };
+  using Row = PenetrationRow;
+  column("arrow", [](const Row& r) {
+    return std::array{r.depth * r.normal[0], r.depth * r.normal[1], r.depth * r.normal[2]};
+  });
+  column("normal", [](const Row& r) { return r.normal; });
+  column("depth", [](const Row& r) { return r.depth; });
+  column("gap", [](const Row& r) { return r.gap; });
+  column("ratio", [](const Row& r) { return r.gap > 0 ? r.depth / r.gap : 0; });
+  column("action", [](const Row& r) { return static_cast<std::int64_t>(r.action); });
+  column("on_surface", [](const Row& r) { return r.on_surface; });
+  column("in_contact", [](const Row& r) { return r.in_contact; });
+  using Named = NamedPenetration;
+  out.point_data("node", view.penetrations, [](const Named& p) { return p.secondary[0]; });
+  out.point_data("interface", view.penetrations,
+                 [&](const Named& p) { return scene.contacts[p.contact].inter->id; });
   return out.document();
 }
 
@@ -173,17 +162,20 @@ std::vector<VtkFile> gaps_vtk(const Scene& scene, const SceneView& view) {
   std::vector<VtkFile> files;
   const Model& model = *scene.model;
   for (const Contact& c : scene.contacts) {
-    if (!c.main.empty()) files.push_back({file_name(c, "main"), main_surface(model, c)});
-    if (!c.secondary.empty())
-      files.push_back({file_name(c, "secondary"), secondary_nodes(model, c)});
-    if (!c.main_edges.empty()) files.push_back({file_name(c, "main"), edge_side(model, c, true)});
-    if (!c.secondary_edges.empty())
-      files.push_back({file_name(c, "secondary"), edge_side(model, c, false)});
+    const auto add = [&](auto side, Cells cells, const auto& items, auto stiffness) {
+      const char* name = side == &PenetrationRow::main ? "main" : "secondary";
+      if (!items.empty())
+        files.push_back({file_name(c, name), side_file(model, c, cells, items, stiffness, side)});
+    };
+    add(&PenetrationRow::main, Cells::polygons, c.main, &MainSegment::stiffness);
+    add(&PenetrationRow::secondary, Cells::vertices, c.secondary, &SecondaryNode::multiplier);
+    add(&PenetrationRow::main, Cells::lines, c.main_edges, &ContactEdge::stiffness);
+    add(&PenetrationRow::secondary, Cells::lines, c.secondary_edges, &ContactEdge::stiffness);
   }
   for (const Tie& tie : scene.ties)
     if (!tie.nodes.empty())
-      files.push_back({"interface_" + std::to_string(tie.inter->id) + "_ties.vtp",
-                       detail::tie_lines(model, tie)});
+      files.push_back(
+          {"interface_" + std::to_string(tie.inter->id) + "_ties.vtp", tie_lines(model, tie)});
   files.push_back({"penetrations.vtp", penetrations(scene, view)});
   return files;
 }

@@ -1,9 +1,6 @@
 // Writes one VTK XML file of points, cells and arrays.
 #include "report/vtk/vtk_writer.hpp"
 
-#include <bit>
-#include <cstring>
-
 namespace deck::detail {
 namespace {
 
@@ -40,49 +37,29 @@ class Encoder {
   int held_ = 0;
 };
 
-std::uint64_t word_of(double v) { return std::bit_cast<std::uint64_t>(v); }
-std::uint64_t word_of(std::int64_t v) { return static_cast<std::uint64_t>(v); }
-
-/// One DataArray element; the length in bytes goes before the data, both in one run of base64.
-template <class T>
-void add_array(std::string& out, std::string_view name, const std::vector<T>& values,
-               int components) {
-  out += "<DataArray type=\"";
-  out += std::is_same_v<T, double> ? "Float64" : "Int64";
-  out += "\" Name=\"";
-  out += name;
-  if (components > 1) out += "\" NumberOfComponents=\"" + std::to_string(components);
-  out += "\" format=\"binary\">\n";
-  Encoder encoder(out);
-  encoder.word(8 * values.size());
-  for (const T& v : values) encoder.word(word_of(v));
-  encoder.finish();
-  out += "\n</DataArray>\n";
-}
-
 }  // namespace
 
-void VtkPolyData::point_data(std::string_view name, const std::vector<double>& values,
-                             int components) {
-  add_array(point_arrays_, name, values, components);
-}
-void VtkPolyData::point_data(std::string_view name, const std::vector<std::int64_t>& values) {
-  add_array(point_arrays_, name, values, 1);
-}
-void VtkPolyData::cell_data(std::string_view name, const std::vector<double>& values) {
-  add_array(cell_arrays_, name, values, 1);
-}
-void VtkPolyData::cell_data(std::string_view name, const std::vector<std::int64_t>& values) {
-  add_array(cell_arrays_, name, values, 1);
+/// The length in bytes goes before the data, both in one run of base64.
+void VtkPolyData::add_element(std::string& out, std::string_view name, const char* type,
+                              bool vectors, const Words& words) {
+  out += std::string("<DataArray type=\"") + type + "\" Name=\"";
+  out += name;
+  if (vectors) out += "\" NumberOfComponents=\"3";
+  out += "\" format=\"binary\">\n";
+  Encoder encoder(out);
+  encoder.word(8 * words.size());
+  for (const std::uint64_t word : words) encoder.word(word);
+  encoder.finish();
+  out += "\n</DataArray>\n";
 }
 
 std::string VtkPolyData::document() const {
   const auto count = [&](Cells kind) {
     return std::to_string(kind == kind_ ? offsets_.size() : std::size_t{0});
   };
-  const char* element = kind_ == Cells::vertices ? "Verts"
-                        : kind_ == Cells::lines  ? "Lines"
-                                                 : "Polys";
+  const std::string element = kind_ == Cells::vertices ? "Verts"
+                              : kind_ == Cells::lines  ? "Lines"
+                                                       : "Polys";
   std::string out =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
@@ -90,15 +67,11 @@ std::string VtkPolyData::document() const {
       "\" NumberOfLines=\"" + count(Cells::lines) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
       count(Cells::polygons) + "\">\n<PointData>\n" + point_arrays_ + "</PointData>\n<CellData>\n" +
       cell_arrays_ + "</CellData>\n<Points>\n";
-  add_array(out, "Points", points_, 3);
-  out += "</Points>\n<";
-  out += element;
-  out += ">\n";
-  add_array(out, "connectivity", connectivity_, 1);
-  add_array(out, "offsets", offsets_, 1);
-  out += "</";
-  out += element;
-  out += ">\n</Piece>\n</PolyData>\n</VTKFile>\n";
+  add_array(out, "Points", points_);
+  out += "</Points>\n<" + element + ">\n";
+  add_array(out, "connectivity", connectivity_);
+  add_array(out, "offsets", offsets_);
+  out += "</" + element + ">\n</Piece>\n</PolyData>\n</VTKFile>\n";
   return out;
 }
 

@@ -11,7 +11,7 @@
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "batch/run.hpp"
-#include "report/shared/losses.hpp"
+#include "report/shared/deck_json.hpp"
 
 namespace deck::cli {
 namespace fs = std::filesystem;

@@ -9,7 +9,7 @@
 #include "base/shared/hash.hpp"
 #include "base/shared/paths.hpp"
 #include "batch/run.hpp"
-#include "report/shared/losses.hpp"
+#include "report/shared/deck_json.hpp"
 #include "writing/frame.hpp"
 
 namespace deck::cli {

@@ -11,8 +11,8 @@
 #include "edit/shared/verify.hpp"
 #include "edit/shared/write.hpp"
 #include "native.hpp"
+#include "report/shared/deck_json.hpp"
 #include "report/shared/fix.hpp"
-#include "report/shared/losses.hpp"
 
 namespace deck::python {
 namespace {

@@ -12,7 +12,7 @@
 #include "deck/report/gaps.hpp"
 #include "native.hpp"
 #include "report/shared/cycle.hpp"
-#include "report/shared/verdict.hpp"
+#include "report/shared/gate.hpp"
 
 namespace deck::python {
 namespace {

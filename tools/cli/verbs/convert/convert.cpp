@@ -6,7 +6,7 @@
 
 #include "base/shared/paths.hpp"
 #include "library.hpp"
-#include "report/shared/losses.hpp"
+#include "report/shared/deck_json.hpp"
 #include "verbs/convert/convert_run.hpp"
 
 namespace deck::cli::verb_convert {

@@ -6,7 +6,7 @@
 
 #include "edit/shared/changed_values.hpp"
 #include "edit/shared/verify.hpp"
-#include "report/shared/losses.hpp"
+#include "report/shared/deck_json.hpp"
 #include "verbs/convert/convert_run.hpp"
 
 namespace deck::cli::verb_convert {
