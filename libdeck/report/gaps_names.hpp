@@ -29,9 +29,6 @@ std::vector<NodeIndex> first_nodes(const Scene& scene, const std::vector<NamedPe
 ElementName edge_element(const Model& model, const Crossing& crossing);
 ElementName segment_element(const Scene& scene, const Crossing& crossing);
 
-/// The members of "summary" and "totals", the same in the document and in the page.
-void write_totals(JsonWriter& json, const ContactTotals& totals);
-
 /// Where the solver's arithmetic decides otherwise about contact, or with `always`: one sentence,
 /// and a table of the first `rows` differences, fitted to `width`. Else "".
 std::string decisions_text(const Scene& scene, std::size_t rows, bool always, bool color,

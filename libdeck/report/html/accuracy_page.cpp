@@ -1,11 +1,244 @@
-// The page of `deck accuracy`: the first screen answers what each word of --accuracy costs. All
-// figures stand in the page without scripts; the JSON document stands in it, too.
+// The page of `deck accuracy`: the first screen answers what each word of --accuracy costs: advice,
+// the four words with what they cost and give, which to choose, and the kinds of hard cases each
+// decides rightly. Then a hard case in motion, drawn as SVG: who says that the node is in contact,
+// and the force of the figures that each word prints; colours are classes, so that a page can give
+// it another ground. All figures stand in the page without scripts; the JSON document stands in it,
+// too.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy/shared/choice.hpp"
+#include "accuracy/shared/motion.hpp"
 #include "base/shared/escape.hpp"
+#include "deck/contact/scene.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/accuracy.hpp"
 
 namespace deck {
 namespace {
+
+using Choices = std::vector<AccuracyChoice>;
+
+std::string cell(std::string_view label, const std::string& content, bool bad = false) {
+  return fmt::format("<td data-label=\"{}\"{}>{}</td>", label, bad ? " class=\"bad\"" : "",
+                     content);
+}
+
+std::string wrong_cell(std::string_view label, std::uint64_t wrong, std::uint64_t all) {
+  if (wrong == 0)
+    return cell(label, fmt::format("<b class=\"ok\">0</b> <small>of {}</small>", all));
+  return cell(
+      label, fmt::format("<b>{}</b> <small>of {} = {}</small>", wrong, all, share_text(wrong, all)),
+      true);
+}
+
+std::string ratio_words(const TimeRatio& r, bool is_fast) {
+  return is_fast ? "1 x" : html_text(ratio_text(r)) + " <code>fast</code>";
+}
+
+/// A bar as long as the time; what is longer than the scale is drawn as cut.
+std::string bar(double value, double scale) {
+  const double share = scale > 0.0 ? value / scale : 0.0;
+  return fmt::format("<span class=\"bar{}\" style=\"width:{:.1f}%\"></span>",
+                     share > 1.0 ? " cut" : "", 100.0 * std::min(share, 1.0));
+}
+
+/// The largest time but that of `exact`, with room above.
+double scale_of(const Choices& choices, double (*time)(const AccuracyChoice&)) {
+  double most = 0.0;
+  for (const AccuracyChoice& c : choices)
+    if (c.accuracy != Accuracy::exact) most = std::max(most, time(c));
+  return 1.6 * most;
+}
+
+double deck_time(const AccuracyChoice& c) { return c.deck ? c.deck->seconds : 0.0; }
+double hard_time(const AccuracyChoice& c) { return c.hard.ns_per_pair; }
+
+std::string choice_row(const AccuracyChoice& c, double deck_scale, double hard_scale) {
+  const bool is_fast = c.accuracy == Accuracy::fast, standard = c.accuracy == Accuracy::robust;
+  std::string out =
+      fmt::format("<tr data-accuracy=\"{0}\"{1}><th scope=\"row\"><code>{0}</code>{2}</th>",
+                  to_string(c.accuracy), standard ? " class=\"default\"" : "",
+                  standard ? " <small>default</small>" : "");
+  if (c.deck) {
+    out += cell("This deck",
+                fmt::format("{}<b class=\"seconds\">{}</b> <small>{}</small>",
+                            bar(c.deck->seconds, deck_scale), seconds_text(c.deck->seconds),
+                            ratio_words(c.deck->ratio, is_fast)));
+    out += wrong_cell("Wrong, deck", c.deck->wrong.size(), c.deck->pairs);
+  }
+  out += cell(
+      "Hard cases",
+      fmt::format("{}<b>{}</b> <small>{}</small>", bar(c.hard.ns_per_pair, hard_scale),
+                  seconds_text(1e-9 * c.hard.ns_per_pair), ratio_words(c.hard.ratio, is_fast)));
+  out += wrong_cell("Wrong, hard cases", c.hard.wrong, c.hard.pairs);
+  out += wrong_cell("Other answer", c.hard.other_answer, c.hard.rewritten);
+  return out + "</tr>\n";
+}
+
+/// never, in under 10 % of the pairs, or more often wrong
+int kind_level(const KindResult& k) {
+  if (k.wrong == 0) return 0;
+  return 10 * k.wrong < k.pairs ? 1 : 2;
+}
+
+std::string strip_row(const AccuracyChoice& c) {
+  const char* name = to_string(c.accuracy);
+  std::string out = fmt::format(
+      "<div class=\"strip\" data-accuracy=\"{0}\"><span class=\"who\"><code>{0}</code> "
+      "<b>{1} of {2}</b> kinds</span><span class=\"kinds\" role=\"toolbar\" aria-label=\"Kinds of "
+      "hard cases, {0}\">",
+      name, c.hard.kinds_never_wrong(), c.hard.kinds.size());
+  bool first = true;
+  for (const KindResult& k : c.hard.kinds) {
+    out += fmt::format(
+        "<button type=\"button\" class=\"l{}\" data-kind=\"{}\"{} aria-label=\"{}, {}: {} wrong of "
+        "{}\" title=\"{}: {} wrong of {}\"></button>",
+        kind_level(k), k.kind->id, first ? "" : " tabindex=\"-1\"", html_text(k.kind->name), name,
+        k.wrong, k.pairs, html_text(k.kind->name), k.wrong, k.pairs);
+    first = false;
+  }
+  return out + "</span></div>\n";
+}
+
+std::string first_screen(const Choices& choices) {
+  std::string out = "<p class=\"said\">";
+  for (const std::string& sentence : accuracy_advice(choices, "code")) out += sentence + " ";
+  out += "</p>\n<table class=\"choices cards\"><thead><tr><th scope=\"col\">--accuracy</th>";
+  const auto& first = choices.front();
+  if (first.deck) out += "<th scope=\"col\">This deck: time</th><th scope=\"col\">wrong</th>";
+  out += fmt::format(
+      "<th scope=\"col\">Hard cases: time per pair</th><th scope=\"col\">wrong</th>"
+      "<th scope=\"col\">other answer</th></tr></thead><tbody>\n");
+  const double deck_scale = scale_of(choices, deck_time), hard_scale = scale_of(choices, hard_time);
+  for (const AccuracyChoice& c : choices) out += choice_row(c, deck_scale, hard_scale);
+  out += fmt::format(
+      "</tbody></table>\n<p class=\"note\">{}Hard cases: {} pairs made to break arithmetic. Other "
+      "answer: of {} pairs written in other ways (order of nodes, axes, units).</p>\n",
+      first.deck ? "This deck: the whole of deck gaps, reading included. " : "", first.hard.pairs,
+      first.hard.rewritten);
+  out +=
+      "<dl class=\"choose\"><dt><code>reference</code></dt><dd>to compare with a Starter listing, "
+      "pair by pair</dd><dt><code>fast</code></dt><dd>for thousands of variants, where one pair "
+      "more "
+      "or less does not matter</dd><dt><code>robust</code></dt><dd>for everything else</dd>"
+      "<dt><code>exact</code></dt><dd>to settle one doubtful deck</dd></dl>\n";
+  out +=
+      "<section class=\"stable\"><div><h2>Which hard cases stay stable</h2>\n<p class=\"note\">"
+      "<span class=\"key l0\"></span>never decides wrongly <span class=\"key l1\"></span>under 10 "
+      "% wrong "
+      "<span class=\"key l2\"></span>more. Choose a mark to see the worst pair of its kind.</p>\n";
+  for (const AccuracyChoice& c : choices) out += strip_row(c);
+  return out + "</div><div id=\"example\" aria-live=\"polite\"></div></section>\n";
+}
+
+std::string line(double x1, double y1, double x2, double y2, std::string_view kind) {
+  return fmt::format("<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' class='{}'/>\n", x1, y1,
+                     x2, y2, kind);
+}
+std::string text(double x, double y, std::string_view anchor, std::string_view content,
+                 std::string_view extra = "") {
+  return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' {}>{}</text>\n", x, y, anchor,
+                     extra, xml_text(content));
+}
+
+constexpr std::string_view chart_style =
+    "<style>.dk-ground{fill:#fff} .dk-grid{stroke:#dde2e8} "
+    ".dk-default{fill:none;stroke:#9a5b00;stroke-width:2} .dk-svg text{fill:#5c6979} "
+    ".dk-line{fill:none;stroke-width:1.8} .dk-wide{stroke-width:6;stroke-opacity:.4} "
+    ".dk-line.dk-reference{stroke:#b3261e} .dk-line.dk-fast{stroke:#1f5fd0} "
+    ".dk-line.dk-robust{stroke:#17202b;stroke-dasharray:6 4} .dk-line.dk-exact{stroke:#0b6b3a} "
+    ".dk-svg .dk-title{fill:#17202b;font-size:13px;font-weight:bold}</style>\n";
+
+std::string open_svg(double width, double height, const std::string& name) {
+  return fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' class='dk-svg' viewBox='0 0 {0} {1}' width='{0}' "
+      "height='{1}' "
+      "font-family='system-ui, sans-serif' font-size='12' role='img' aria-label='{3}'>\n{2}<rect "
+      "width='{0}' "
+      "height='{1}' class='dk-ground'/>\n",
+      width, height, chart_style, xml_text(name));
+}
+
+/// A line over the steps where a word says that the pair is in contact.
+template <class X>
+std::string contact_band(const HardMotion::Line& l, double y, const X& x, const std::string& kind) {
+  std::string out = "<path d='";
+  for (std::size_t k = 0; k + 1 < l.depth.size(); ++k)
+    if (l.depth[k] > 0.0 && l.depth[k + 1] > 0.0)
+      out += (k > 0 && l.depth[k - 1] > 0.0 ? "" : fmt::format("M{:.1f} {:.1f}", x(k), y)) +
+             fmt::format("H{:.1f}", x(k + 1));
+  return out +
+         fmt::format("' class='{} dk-band' data-accuracy='{}'/>\n", kind, to_string(l.accuracy));
+}
+
+std::string motion_panel(const HardMotion& motion) {
+  constexpr double width = 360, height = 330, left = 30, right = 348, top = 128, bottom = 292;
+  double most = 1.0;
+  for (const HardMotion::Line& l : motion.lines)
+    most = std::max(most, std::ceil(*std::max_element(l.force.begin(), l.force.end())));
+  const std::size_t last = motion.lines.front().force.size() - 1;
+  const auto x = [&](std::size_t step) {
+    return left + static_cast<double>(step) / static_cast<double>(last) * (right - left);
+  };
+  const auto y = [&](double force) { return bottom - force / most * (bottom - top); };
+  std::string out = open_svg(width, height, "Elastic force against step, a node over a sliver");
+  out += text(4, 18, "start", "In contact?", "class='dk-title'");
+  out += text(4, 112, "start", "Force from the figures printed, stiffness 1", "class='dk-title'");
+  for (double force = 0; force <= most; ++force) {
+    out += line(left, y(force), right, y(force), "dk-grid");
+    out += text(left - 8, y(force) + 4, "end", fmt::format("{:.0f}", force));
+  }
+  for (std::size_t step = 0; step <= last; step += 25)
+    out += text(x(step), bottom + 18, step == last ? "end" : "middle", std::to_string(step));
+  out += text(0.5 * (left + right), bottom + 34, "middle", "step");
+  std::string rings;
+  double key = left, band = 52;
+  // Wide lines below narrow ones: those that coincide are both seen.
+  for (const Accuracy a :
+       {Accuracy::exact, Accuracy::reference, Accuracy::fast, Accuracy::robust}) {
+    const bool wide = a == Accuracy::exact || a == Accuracy::reference;
+    const std::string kind = fmt::format("dk-line dk-{}{}", to_string(a), wide ? " dk-wide" : "");
+    out += line(key, 38, key + 20, 38, kind) + text(key + 25, 42, "start", to_string(a));
+    key += a == Accuracy::reference ? 98 : 76;
+    band += 8;
+    for (const HardMotion::Line& l : motion.lines) {
+      if (l.accuracy != a) continue;
+      out += contact_band(l, band, x, kind);
+      std::string points;
+      for (std::size_t k = 0; k < l.force.size(); ++k)
+        points += fmt::format("{:.1f},{:.1f} ", x(k), y(l.force[k]));
+      out += "<polyline points='" + points + "' class='" + kind + "'/>\n";
+      for (const std::size_t k : l.jumps) {
+        rings += fmt::format(
+            "<rect x='{:.1f}' y='{:.1f}' width='14' height='14' rx='7' class='dk-default' "
+            "data-accuracy='{}' data-step='{}'/>\n",
+            x(k) - 7, y(l.force[k]) - 7, to_string(a), k);
+        if (a == Accuracy::robust)
+          rings += text(x(k) + 8, y(l.force[k]) - 9, "start", fmt::format("step {}", k));
+      }
+    }
+  }
+  return out + rings + "</svg>\n";
+}
+
+std::string motion_section() {
+  const HardMotion motion = hard_motion();
+  std::string said;
+  for (const std::string& sentence : motion_sentences(motion, "code"))
+    said += "<p class=\"jump\">" + sentence + "</p>\n";
+  return fmt::format(
+      R"~(<section id="motion"><h2>A node passes a sliver</h2>
+<div><figure tabindex="0">{}<button type="button" class="save" data-name="accuracy_motion.svg">Save as SVG</button></figure>
+<div>{}<p class="note">The area of the triangle is round-off: there the reference formula takes the wrong edge. <code>robust</code>
+decides contact without round-off and prints the figures of the reference formula; where that formula sees no contact, the exact ones.</p>
+<p class="note">A ring is a jump: the depth changes by more than the node moves ({:.3g} a step, gap {:g}), which no distance can do.</p>
+</div></div></section>
+)~",
+      motion_panel(motion), said, motion.way, motion.gap);
+}
 
 constexpr std::string_view page_style = R"~(
 :root { --ground:#f5f6f8; --panel:#fff; --ink:#17202b; --muted:#5c6979; --line:#e2e6ec; --accent:#1f5fd0; --soft:#e8f0fe; --good:#0b6b3a; --some:#b45309; --bad:#b3261e; color-scheme: light; }
@@ -140,8 +373,8 @@ std::string accuracy_html(const AccuracyChoices& choices, const AccuracyContext&
          html_text(context.path.empty() ? "the hard cases" : terminal_text(context.path)) +
          "</small></h1><button type=\"button\" id=\"json\">JSON</button><button type=\"button\" "
          "id=\"theme\">Dark or light</button></header>\n<main>\n";
-  out += detail::accuracy_first_screen(choices);
-  out += detail::accuracy_motion();
+  out += first_screen(choices);
+  out += motion_section();
   for (const std::string& line : {context.processor, accuracy_compiler(), context.command})
     out += "<p class=\"note\">" + html_text(terminal_text(line)) + "</p>\n";
   out += "</main>\n<script type=\"application/json\" id=\"accuracy-json\">" +

@@ -44,20 +44,6 @@ double expected_gap(const Contact& contact, const PlainSides& plain) {
   return std::max({contact.max_gap, contact.gapmin, s + m});
 }
 
-/// Rows of what penetrates; of more than `most` the deepest, and `all` is set to false.
-std::vector<std::uint32_t> deepest_rows(const Contact& contact, std::size_t most, bool& all) {
-  const auto& found = contact.penetrations;
-  std::vector<std::uint32_t> rows(found.size());
-  std::iota(rows.begin(), rows.end(), 0u);
-  if (rows.size() <= most) return rows;
-  all = false;
-  std::stable_sort(rows.begin(), rows.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return found[a].depth > found[b].depth;
-  });
-  rows.resize(most);
-  return rows;
-}
-
 /// Sides of a contact whose gaps are formed already.
 PlainSides formed_sides(const Contact& contact, const Coordinates& x) {
   PlainSides out;
@@ -110,8 +96,6 @@ std::vector<CandidatePair> near_pairs(const Contact& contact, double gap, const 
   return {};
 }
 
-Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
-
 /// Distance and gap of a pair by the solver's formulas.
 struct Measured {
   double distance = 0, gap = 0;
@@ -125,18 +109,16 @@ Measured measured(const Contact& c, const Coordinates& x, const CandidatePair& p
   if (c.kind == ContactKind::edge_edge) {
     const ContactEdge &s = c.secondary_edges[p.secondary], &m = c.main_edges[p.main];
     out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
-    out.distance =
-        closest_between_edges<Form::reference>(point(x, s.nodes[0]), point(x, s.nodes[1]),
-                                               point(x, m.nodes[0]), point(x, m.nodes[1]))
-            .distance;
+    out.distance = closest_between_edges<Form::reference>(at(x, s.nodes[0]), at(x, s.nodes[1]),
+                                                          at(x, m.nodes[0]), at(x, m.nodes[1]))
+                       .distance;
     return out;
   }
   const SecondaryNode& s = c.secondary[p.secondary];
   const MainSegment& m = c.main[p.main];
   out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
   const auto closest = closest_on_segment<Form::reference>(
-      point(x, s.node),
-      {point(x, m.nodes[0]), point(x, m.nodes[1]), point(x, m.nodes[2]), point(x, m.nodes[3])},
+      at(x, s.node), {at(x, m.nodes[0]), at(x, m.nodes[1]), at(x, m.nodes[2]), at(x, m.nodes[3])},
       m.nodes[2] == m.nodes[3]);
   out.distance = closest.distance();
   for (int k = 0; k < closest.best; ++k)
@@ -190,8 +172,8 @@ void carry_rows(const Contact& contact, PageContact& page) {
     const auto end = page.pairs.begin() + static_cast<std::ptrdiff_t>(sorted);
     const auto found = std::lower_bound(page.pairs.begin(), end, pair);
     const bool known = found != end && *found == pair;
-    page.pair_of.push_back(static_cast<std::uint32_t>(
-        known ? found - page.pairs.begin() : page.pairs.end() - page.pairs.begin()));
+    page.pair_of.push_back(
+        static_cast<std::uint32_t>((known ? found : page.pairs.end()) - page.pairs.begin()));
     if (known) continue;
     page.pairs.push_back(pair);
     page.distance.push_back(row.distance);
@@ -212,8 +194,12 @@ PageContact page_contact(const Contact& contact, PlainSides plain, const Coordin
       page.fixed = "it has too many pairs for a page, or a gap without bound";
   }
   if (*page.fixed == 0 && !contact.dropped) carry_pairs(contact, x, threads, page);
-  const std::size_t most = *page.fixed == 0 ? contact.penetrations.size() : penetrations_kept;
-  page.rows = deepest_rows(contact, most, page.complete);
+  const auto& found = contact.penetrations;
+  page.complete = *page.fixed == 0 || found.size() <= penetrations_kept;
+  page.rows.resize(found.size());
+  std::iota(page.rows.begin(), page.rows.end(), 0u);
+  if (!page.complete)
+    keep_largest(page.rows, penetrations_kept, [&](std::uint32_t r) { return found[r].depth; });
   carry_rows(contact, page);
   return page;
 }
@@ -223,10 +209,7 @@ std::vector<std::uint32_t> distinct(const std::vector<CandidatePair>& pairs,
                                     std::uint32_t CandidatePair::*side, std::size_t count) {
   std::vector<std::uint8_t> marks(count, 0);
   for (const CandidatePair& p : pairs) marks[p.*side] = 1;
-  std::vector<std::uint32_t> out;
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (marks[i]) out.push_back(i);
-  return out;
+  return marked(marks);
 }
 
 /// The segments or edges of all contacts, numbered as they come, those alike once: contacts share
@@ -360,22 +343,20 @@ class Writer {
         for (const NodeIndex n : main_nodes(c, k)) use(n);
     }
     for (const NodeIndex n : of_ties_) use(n);
+    const std::vector<std::uint32_t> exact = marked(wanted);
     std::vector<double> values;
-    out.u(static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), 1)));
+    out.u(exact.size());
     Delta d;
-    for (std::uint32_t n = 0; n < wanted.size(); ++n)
-      if (wanted[n]) out.s(d(n));
+    for (const std::uint32_t n : exact) out.s(d(n));
     for (const std::vector<double>* axis : {&model_.nodes.x, &model_.nodes.y, &model_.nodes.z}) {
       values.clear();
-      for (std::uint32_t n = 0; n < wanted.size(); ++n)
-        if (wanted[n]) values.push_back((*axis)[nodes_.list()[n]]);
+      for (const std::uint32_t n : exact) values.push_back((*axis)[nodes_.list()[n]]);
       out.decimals(values);
     }
   }
 
   void selected(const std::vector<std::uint32_t>& positions, const std::vector<double>& of_all) {
     std::vector<double> values;
-    values.reserve(positions.size());
     for (const std::uint32_t p : positions) values.push_back(of_all[p]);
     out_.f64(values);
   }
@@ -415,14 +396,19 @@ class Writer {
     }
   }
 
+  /// Where the gaps are formed already they stand in place of thicknesses.
+  template <class Items>
+  void thicknesses(const Contact& c, const Items& items) {
+    out_.palette(items, [&](const auto& n) { return is_modern(c.type) ? n.gap : thickness_of(n); });
+  }
+
   void node_segment(const Contact& c, std::size_t i) {
     Delta n;
     out_.u(c.secondary.size());
     for (const SecondaryNode& s : c.secondary) out_.s(n(nodes_[s.node]));
-    const bool formed = is_modern(c.type);  // the gaps stand in place of thicknesses
     out_.palette(page_.contacts[i].plain.half_thickness, [](double half) { return half; });
     numbers(main_[i]);
-    out_.palette(c.main, [&](const MainSegment& m) { return formed ? m.gap : thickness_of(m); });
+    thicknesses(c, c.main);
     std::vector<ElementName> of;
     for (const std::uint32_t s : chosen_[i].secondary)
       of.push_back(element_at(model_, connectivity_, c.secondary[s].node));
@@ -430,13 +416,10 @@ class Writer {
   }
 
   void edges(const Contact& c, std::size_t i) {
-    const auto thickness = [&](const ContactEdge& e) {
-      return is_modern(c.type) ? e.gap : thickness_of(e);
-    };
     numbers(secondary_[i]);
-    out_.palette(c.secondary_edges, thickness);
+    thicknesses(c, c.secondary_edges);
     numbers(main_[i]);
-    out_.palette(c.main_edges, thickness);
+    thicknesses(c, c.main_edges);
   }
 
   /// How many pairs, each secondary with the number of its pairs, all mains, all distances, other

@@ -3,6 +3,8 @@
 // title can end an element or start one. A content security policy forbids every request.
 #include "deck/report/html.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <utility>
@@ -13,23 +15,19 @@
 #include "deck/front/loaded_deck.hpp"
 #include "deck/report/gaps.hpp"
 #include "report/cycle_costs.hpp"
-#include "report/gaps_names.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/parts.hpp"
+#include "report/shared_records.hpp"
 
-namespace deck {
+namespace deck::detail {
 
-std::string detail::script_safe(std::string_view json) {
+std::string script_safe(std::string_view json) {
   std::string out;
   out.reserve(json.size() + json.size() / 50);
-  for (const char c : json) {
-    if (c == '<')
-      out += "\\u003c";
-    else
-      out += c;
-  }
+  for (const char& c : json)
+    out += c == '<' ? std::string_view("\\u003c") : std::string_view(&c, 1);
   return out;
 }
 
@@ -63,8 +61,8 @@ Verdict verdict_in(const HtmlInput& in) {
                                : verdict_of(*in.deck, *in.scene, *in.view);
 }
 
-std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
-                      const std::vector<detail::Touch>& touches) {
+std::string meta_json(const HtmlInput& in, const PageContacts& page,
+                      const std::vector<Touch>& touches) {
   const Model& model = *in.scene->model;
   std::string out;
   JsonWriter j(out);
@@ -73,9 +71,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   j.field("page", page_name(in));
   write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
   write_verdict(j, verdict_in(in));
-  j.key("summary").begin_object(true);
-  write_totals(j, in.view->total);
-  j.end_object();
+  write_value(j.key("summary"), in.view->total);
   write_json_coverage(j, coverage_of(*in.deck, *in.scene->interfaces, in.scene->examined));
   std::uint64_t bytes = 0;
   for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f)
@@ -98,15 +94,14 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   j.key("actions").begin_object();
   for (std::size_t a = 0; a < penetration_actions; ++a) {
     const auto action = static_cast<PenetrationAction>(a);
-    j.key(to_string(action)).begin_array(true);
-    j.value(action_words(action, 1)).value(action_words(action, 2)).end_array();
+    write_row(j.key(to_string(action)), action_words(action, 1), action_words(action, 2));
   }
   j.end_object();
-  detail::write_what_if(j, in.what_if);
-  detail::write_interfaces(j, in);
-  detail::write_contacts(j, in, page);
-  detail::write_page_ties(j, in);
-  detail::write_touches(j, touches);
+  write_what_if(j, in.what_if);
+  write_interfaces(j, in);
+  write_contacts(j, in, page);
+  write_page_ties(j, in);
+  write_touches(j, touches);
   j.end_object();
   return out;
 }
@@ -142,8 +137,7 @@ std::string earlier_json(const HtmlInput& in) {
   for (const PageTrend& t : trends_in(in)) {
     std::array<std::int64_t, 2> nodes = t.secondary;
     if (nodes[1] != 0 && nodes[1] < nodes[0]) std::swap(nodes[0], nodes[1]);
-    j.begin_array(true).value(t.interface_id).value(t.role).value(nodes[0]).value(nodes[1]);
-    j.value(t.depth).value(t.gap).value(t.trend).end_array();
+    write_row(j, t.interface_id, t.role, nodes[0], nodes[1], t.depth, t.gap, t.trend);
   }
   j.end_array().end_object();
   return out;
@@ -153,9 +147,8 @@ std::string earlier_json(const HtmlInput& in) {
 std::string static_body(const HtmlInput& in) {
   std::string out = "<main id=\"static\"><h1>" + html_text(file_name(in.path)) + "</h1>\n";
   const Verdict verdict = verdict_in(in);
-  out += "<p data-level=\"";
-  out += to_string(verdict.level);
-  out += "\">" + html_text(verdict.text) + "</p>\n";
+  out += fmt::format("<p data-level=\"{}\">{}</p>\n", to_string(verdict.level),
+                     html_text(verdict.text));
   if (in.effects != nullptr) out += cost_html(*in.effects);
   out +=
       "<table><thead><tr><th>Interface</th><th>Title</th><th>Part of it</th>"
@@ -163,18 +156,18 @@ std::string static_body(const HtmlInput& in) {
   for (std::size_t i = 0; i < in.scene->contacts.size(); ++i) {
     const Contact& c = in.scene->contacts[i];
     const ContactTotals& t = in.view->contacts[i];
-    out += "<tr><td>" + std::to_string(c.inter->id) + "</td><td>" + html_text(c.inter->title) +
-           "</td><td>" + to_string(c.role) + "</td><td>" + shortest(c.gapmin) + "</td><td>" +
-           (c.evaluated ? std::to_string(t.count.pairs) + "</td><td>" + shortest(t.max_depth)
-                        : "not evaluated</td><td>-") +
-           "</td></tr>\n";
+    out +=
+        fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                    c.inter->id, html_text(c.inter->title), to_string(c.role), shortest(c.gapmin),
+                    c.evaluated ? std::to_string(t.count.pairs) : "not evaluated",
+                    c.evaluated ? shortest(t.max_depth) : "-");
   }
   out += "</tbody></table>\n";
   if (!in.scene->ties.empty()) {
     out += "<ul>\n";
     for (const Tie& tie : in.scene->ties)
-      out += "<li>TYPE2 " + std::to_string(tie.inter->id) + " " + html_text(tie.inter->title) +
-             ": " + html_text(holds_text(tie)) + "</li>\n";
+      out += fmt::format("<li>TYPE2 {} {}: {}</li>\n", tie.inter->id, html_text(tie.inter->title),
+                         html_text(holds_text(tie)));
     out += "</ul>\n";
   }
   return out +
@@ -184,11 +177,7 @@ std::string static_body(const HtmlInput& in) {
 
 void add_block(std::string& out, std::string_view id, std::string_view type,
                std::string_view text) {
-  out += "<script type=\"";
-  out += type;
-  out += "\" id=\"";
-  out += id;
-  out += "\">";
+  out += fmt::format("<script type=\"{}\" id=\"{}\">", type, id);
   out += text;
   out += "</script>\n";
 }
@@ -201,39 +190,37 @@ struct Packed {
 };
 
 /// All of them in their order, made side by side. Takes `page`.
-std::vector<Packed> packed_blocks(const HtmlInput& in, const std::vector<detail::MeshPart>& mesh,
-                                  const std::vector<detail::Touch>& touches,
-                                  const detail::PageNodes& nodes, detail::PageContacts& page) {
+std::vector<Packed> packed_blocks(const HtmlInput& in, const std::vector<MeshPart>& mesh,
+                                  const std::vector<Touch>& touches, const PageNodes& nodes,
+                                  PageContacts& page) {
   const Model& model = *in.scene->model;
   std::vector<Packed> blocks;
-  const auto packed = [&](const char* id, std::function<std::string()> make) {
-    blocks.push_back({id, std::move(make)});
+  const auto add = [&](bool wanted, const char* id, std::function<std::string()> make) {
+    if (wanted) blocks.push_back({id, std::move(make)});
   };
-  packed("deck-touches", [&] { return detail::packed_text(detail::touches_drawing(in, touches)); });
-  const detail::ContactBlocks contacts = detail::contact_blocks(in, page, nodes);
-  packed("deck-shared", contacts.shared);
-  packed("deck-contacts", contacts.contacts);
-  if (detail::has_ties(*in.scene))
-    packed("deck-ties", [&] { return detail::ties_block(in, nodes); });
-  packed("deck-mesh", [&] { return detail::mesh_block(model, mesh, nodes); });
-  packed("deck-elements", [&] { return detail::elements_block(model, mesh); });
-  if (in.earlier != nullptr)
-    packed("deck-earlier", [&] { return detail::packed_text(earlier_json(in)); });
-  if (in.before != nullptr)
-    packed("deck-moved", [&] { return detail::moved_block(model, *in.before, nodes); });
-  if (!in.repair.empty())
-    packed("deck-repair", [&] { return detail::packed_text(std::string(in.repair)); });
-  if (in.crossings != nullptr)
-    packed("deck-crossed", [&] { return detail::crossings_block(model, *in.crossings, nodes); });
-  if (in.cycle != nullptr)
-    packed("deck-cycle",
-           [&] { return detail::cycle_block(*in.cycle, in.acted, nodes, *in.scene->model); });
+  add(true, "deck-touches", [&] { return packed_text(touches_drawing(in, touches)); });
+  const ContactBlocks contacts = contact_blocks(in, page, nodes);
+  add(true, "deck-shared", contacts.shared);
+  add(true, "deck-contacts", contacts.contacts);
+  add(has_ties(*in.scene), "deck-ties", [&] { return ties_block(in, nodes); });
+  add(true, "deck-mesh", [&] { return mesh_block(model, mesh, nodes); });
+  add(true, "deck-elements", [&] { return elements_block(model, mesh); });
+  add(in.earlier != nullptr, "deck-earlier", [&] { return packed_text(earlier_json(in)); });
+  add(in.before != nullptr, "deck-moved", [&] { return moved_block(model, *in.before, nodes); });
+  add(!in.repair.empty(), "deck-repair", [&] { return packed_text(in.repair); });
+  add(in.crossings != nullptr, "deck-crossed",
+      [&] { return crossings_block(model, *in.crossings, nodes); });
+  add(in.cycle != nullptr, "deck-cycle",
+      [&] { return cycle_block(*in.cycle, in.acted, nodes, model); });
   parallel_items(effective_threads(in.threads), blocks.size(),
                  [&](std::size_t i) { blocks[i].text = blocks[i].make(); });
   return blocks;
 }
 
 }  // namespace
+}  // namespace deck::detail
+
+namespace deck {
 
 bool html_available(std::string* reason) {
   const detail::ViewerBundle& bundle = detail::viewer_bundle();
@@ -264,7 +251,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"generator\" "
       "content=\"deck " +
-      std::string(library_version()) + "\">\n<title>" + html_text(file_name(in.path)) +
+      std::string(library_version()) + "\">\n<title>" + html_text(detail::file_name(in.path)) +
       " \xe2\x80\x93 " +
       (in.effects != nullptr  ? "first contact cycle"
        : in.parts != nullptr  ? "parts"
@@ -273,26 +260,26 @@ Result<std::string> gaps_html(const HtmlInput& in) {
       "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>";
   out += bundle.style;
   out += "</style>\n</head>\n<body>\n";
-  out += static_body(in);
+  out += detail::static_body(in);
   const std::vector<detail::Touch> touches = detail::collect_touches(in, page);
-  add_block(out, "deck-meta", "application/json",
-            detail::script_safe(meta_json(in, page, touches)));
-  std::vector<Packed> blocks = packed_blocks(in, mesh, touches, nodes, page);
+  detail::add_block(out, "deck-meta", "application/json",
+                    detail::script_safe(detail::meta_json(in, page, touches)));
+  std::vector<detail::Packed> blocks = detail::packed_blocks(in, mesh, touches, nodes, page);
   std::size_t size = out.size() + bundle.script.size();
-  for (const Packed& block : blocks) size += block.text.size();
+  for (const detail::Packed& block : blocks) size += block.text.size();
   out.reserve(size + size / 16);  // the rest is short
-  for (Packed& block : blocks) {
-    add_block(out, block.id, "application/octet-stream", block.text);
+  for (detail::Packed& block : blocks) {
+    detail::add_block(out, block.id, "application/octet-stream", block.text);
     block.text = {};
   }
   if (in.effects != nullptr)
-    add_block(out, "cycle-json", "application/json",
-              detail::script_safe(cycle_json(*in.effects, false)));
+    detail::add_block(out, "cycle-json", "application/json",
+                      detail::script_safe(cycle_json(*in.effects, false)));
   if (in.parts != nullptr) {
-    add_block(out, "parts-json", "application/json",
-              detail::script_safe(parts_json(*in.parts, false)));
-    add_block(out, "deck-steps", "application/octet-stream",
-              detail::steps_block(model, in.parts->mesh(), nodes));
+    detail::add_block(out, "parts-json", "application/json",
+                      detail::script_safe(parts_json(*in.parts, false)));
+    detail::add_block(out, "deck-steps", "application/octet-stream",
+                      detail::steps_block(model, in.parts->mesh(), nodes));
   }
   out += "<script>";
   out += bundle.script;

@@ -1,8 +1,12 @@
 // The picture: outer faces of solids, shells and lines, part by part. Positions are whole numbers
-// on a grid of 2^20 (large parts 2^16) steps per part; nodes are numbered as they appear.
+// on a grid of 2^20 (large parts 2^16) steps per part; nodes are numbered as they appear. And what
+// the picture says about an element that is picked: where it is defined and its own thickness, face
+// by face in the order of the mesh: a block of its own, so that the first picture does not wait.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "model/shared/item_spans.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck::detail {
@@ -38,6 +42,10 @@ SolidFace solid_face_of(const NodeIndex* slots, int face, std::uint32_t element)
   return f;
 }
 
+bool complete(const NodeIndex* nodes, int n) {
+  return std::find(nodes, nodes + n, no_index) == nodes + n;
+}
+
 /// Faces that only one of the solids has, in the order of the solids.
 std::vector<SolidFace> outer_faces(const Elements& family,
                                    const std::vector<std::uint32_t>& solids) {
@@ -45,26 +53,18 @@ std::vector<SolidFace> outer_faces(const Elements& family,
   all.reserve(6 * solids.size());
   for (const std::uint32_t e : solids) {
     const NodeIndex* slots = family.of(e);
-    if (std::find(slots, slots + 8, no_index) != slots + 8) continue;
+    if (!complete(slots, 8)) continue;
     for (int k = 0; k < 6; ++k)
       if (const SolidFace f = solid_face_of(slots, k, e); f.corners >= 3) all.push_back(f);
   }
-  struct Sorted {
-    std::uint64_t first, last;  // two nodes of the key each
-    std::uint32_t face;
-    auto operator<=>(const Sorted&) const = default;
-  };
-  std::vector<Sorted> order;
+  std::vector<std::pair<std::array<NodeIndex, 4>, std::uint32_t>> order;  // key and face
   order.reserve(all.size());
-  for (std::uint32_t i = 0; i < all.size(); ++i) {
-    const auto& k = all[i].key;
-    order.push_back({std::uint64_t{k[0]} << 32 | k[1], std::uint64_t{k[2]} << 32 | k[3], i});
-  }
+  for (std::uint32_t i = 0; i < all.size(); ++i) order.emplace_back(all[i].key, i);
   std::sort(order.begin(), order.end());
   std::vector<std::uint8_t> outer(all.size(), 1);
   for (std::size_t i = 1; i < order.size(); ++i)
-    if (order[i].first == order[i - 1].first && order[i].last == order[i - 1].last)
-      outer[order[i].face] = outer[order[i - 1].face] = 0;
+    if (order[i].first == order[i - 1].first)
+      outer[order[i].second] = outer[order[i - 1].second] = 0;
   std::vector<SolidFace> out;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (outer[i]) out.push_back(all[i]);
@@ -77,20 +77,13 @@ void each_corner(const Model& model, const MeshGroup& g, const Use& use) {
   const Elements& family = model.family(g.kind);
   for (std::size_t i = 0; i < g.element.size(); ++i) {
     const NodeIndex* n = family.of(g.element[i]);
-    SolidFace solid;
-    if (!g.face.empty()) {
-      solid = solid_face_of(n, g.face[i], g.element[i]);
-      n = solid.nodes.data();
-    }
+    const SolidFace solid = g.face.empty() ? SolidFace{} : solid_face_of(n, g.face[i], 0);
+    if (!g.face.empty()) n = solid.nodes.data();
     for (int k = 0; k < g.corners; ++k) use(n[k]);
   }
 }
 
 constexpr std::size_t large_part = 100000;  // nodes from which the coarser grid is used
-
-bool complete(const NodeIndex* nodes, int n) {
-  return std::find(nodes, nodes + n, no_index) == nodes + n;
-}
 
 class Collector {
  public:
@@ -232,15 +225,31 @@ class PartWriter {
   std::vector<std::uint32_t> order_;
 };
 
+constexpr std::uint64_t given_back_at_once = std::uint64_t{8} << 20;  // bytes of a file
+
+/// Places of all elements of a family, block by block.
+std::vector<ItemPlace> element_places(const Model& model, const Elements& family) {
+  std::vector<ItemPlace> out(family.size(), ItemPlace{0, 0});
+  std::vector<std::uint8_t> wanted(model.element_blocks.size(), 0);
+  for (const std::uint32_t block : family.block)
+    if (block < wanted.size()) wanted[block] = 1;
+  std::span<const BulkBlock> runs;
+  for (std::size_t b = 0; b < wanted.size(); b += runs.size()) {
+    runs = runs_of_block(model.element_blocks, b);
+    if (wanted[b] == 0) continue;
+    each_item_place(*model.deck, runs, [&](std::uint32_t e, ItemPlace at) {
+      if (e < out.size() && family.block[e] >= b && family.block[e] < b + runs.size()) out[e] = at;
+    });
+  }
+  return out;
+}
+
 }  // namespace
 
 void PageNodes::number() {
+  list_ = marked(used_);
   number_.assign(used_.size(), no_index);
-  for (NodeIndex n = 0; n < used_.size(); ++n) {
-    if (used_[n] == 0) continue;
-    number_[n] = static_cast<std::uint32_t>(list_.size());
-    list_.push_back(n);
-  }
+  for (std::uint32_t i = 0; i < list_.size(); ++i) number_[list_[i]] = i;
 }
 
 std::vector<MeshPart> collect_mesh(const Model& model, PageNodes& nodes) {
@@ -256,6 +265,46 @@ std::string mesh_block(const Model& model, const std::vector<MeshPart>& mesh,
   out.u(mesh.size());
   PartWriter writer(model, nodes, out);
   for (const MeshPart& part : mesh) writer.write(part);
+  return std::move(out).text();
+}
+
+void each_item_place(const Deck& deck, std::span<const BulkBlock> runs,
+                     const std::function<void(std::uint32_t, ItemPlace)>& take) {
+  Span last;
+  std::uint64_t line = 0, given_back = 0;
+  each_item_span(deck, runs, [&](std::uint32_t item, const Span& s) {
+    const auto& source = deck.sources[s.file];
+    if (line == 0 || s.file != last.file || s.offset < last.offset) {
+      line = source.position(s.offset).line;
+      given_back = s.offset;
+    } else {
+      const std::string_view between = source.bytes().substr(last.offset, s.offset - last.offset);
+      line += static_cast<std::uint64_t>(std::count(between.begin(), between.end(), '\n'));
+    }
+    last = s;
+    if (s.offset - given_back >= given_back_at_once) {
+      source.release(given_back, s.offset);
+      given_back = s.offset;
+    }
+    take(item, {s.file, line <= UINT32_MAX ? static_cast<std::uint32_t>(line) : 0});
+  });
+}
+
+std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh) {
+  std::map<ElementKind, std::vector<ItemPlace>> places;
+  ByteStream out;
+  for (const MeshPart& part : mesh)
+    for (const MeshGroup& g : part.groups) {
+      const Elements& family = model.family(g.kind);
+      std::vector<ItemPlace>& place = places[g.kind];
+      if (place.empty()) place = element_places(model, family);
+      Delta file, line;
+      for (const std::uint32_t e : g.element) out.s(file(place[e].file));
+      for (const std::uint32_t e : g.element) out.s(line(std::int64_t{place[e].line}));
+      out.palette(g.element, [&](std::uint32_t e) {
+        return e < family.thickness.size() ? family.thickness[e] : 0.0;
+      });
+    }
   return std::move(out).text();
 }
 

@@ -1,5 +1,6 @@
 // The steps that write the HTML report, one per file. Private to the stage.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -16,8 +17,7 @@
 #include "report/shared/json.hpp"
 
 namespace deck {
-struct Mesh;            // model/shared/mesh.hpp
-struct AccuracyChoice;  // accuracy/shared/choice.hpp
+struct Mesh;  // model/shared/mesh.hpp
 }  // namespace deck
 
 namespace deck::detail {
@@ -43,6 +43,37 @@ class PageNodes {
   std::vector<NodeIndex> list_;
 };
 
+/// Positions of the marks that are set, ascending.
+inline std::vector<std::uint32_t> marked(const std::vector<std::uint8_t>& marks) {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < marks.size(); ++i)
+    if (marks[i] != 0) out.push_back(i);
+  return out;
+}
+
+/// An array on one line; numbers that are not finite become null.
+template <class... T>
+void write_row(JsonWriter& json, const T&... values) {
+  json.begin_array(true);
+  (json.value(values), ...);
+  json.end_array();
+}
+
+/// Of more than `most` rows those with the largest `size`, these first.
+template <class Row, class Size>
+void keep_largest(std::vector<Row>& rows, std::size_t most, const Size& size) {
+  if (rows.size() <= most) return;
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const Row& a, const Row& b) { return size(a) > size(b); });
+  rows.resize(most);
+}
+
+/// Position in Interfaces::ordered.
+inline std::size_t interface_position(const Scene& scene, const InterBase* inter) {
+  const auto& order = scene.interfaces->ordered;
+  return static_cast<std::size_t>(std::find(order.begin(), order.end(), inter) - order.begin());
+}
+
 /// Position of its part in Model::parts, -1: no part.
 inline std::int64_t part_position(const Model& model, const ElementName& e) {
   const std::uint32_t part = e.valid() ? model.family(e.kind).part[e.index] : no_index;
@@ -65,7 +96,7 @@ std::vector<MeshPart> collect_mesh(const Model& model, PageNodes& nodes);
 std::string mesh_block(const Model& model, const std::vector<MeshPart>& mesh,
                        const PageNodes& nodes);
 
-// elements.cpp — what is said about an element that is picked
+// what is said about an element that is picked
 struct ItemPlace {
   std::uint32_t file = Span::no_file;
   std::uint32_t line = 0;  ///< 0: not known, or beyond what 32 bits count
@@ -74,12 +105,6 @@ struct ItemPlace {
 void each_item_place(const Deck& deck, std::span<const BulkBlock> runs,
                      const std::function<void(std::uint32_t, ItemPlace)>& take);
 std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh);
-
-// steps.cpp — colours of time steps
-/// Smallest step, end of the scale and largest step, then a byte for each node of the page: 0 where
-/// no element has a step, else 1 at the end of the scale and beyond to 255 at the smallest, in
-/// equal ratios.
-std::string steps_block(const Model& model, const Mesh& mesh, const PageNodes& nodes);
 
 // contacts.cpp — penetrations, and the pairs that settings can be tried on
 struct PageContact {
@@ -112,10 +137,6 @@ struct ContactBlocks {
 };
 ContactBlocks contact_blocks(const HtmlInput& input, PageContacts& page, const PageNodes& nodes);
 
-// contact_facts.cpp
-/// The member "contacts": options, totals, default gaps.
-void write_contacts(JsonWriter& json, const HtmlInput& input, const PageContacts& page);
-
 // ties.cpp — /INTER/TYPE2 and TYPE10: lines from nodes to segments, and the nodes that are not tied
 /// Marks the nodes of all ties. Given back are those that the picture does not show by itself (no
 /// element has them) or that a line ends at which is looked at closely: of nodes that are not tied.
@@ -140,30 +161,28 @@ void write_touches(JsonWriter& json, const std::vector<Touch>& touches);
 /// As SVG: the deepest 60 parts of each side.
 std::string touches_drawing(const HtmlInput& input, const std::vector<Touch>& touches);
 
-// cards.cpp — the members "interfaces" and "what_if"
+// interfaces.cpp — the members "interfaces", "what_if" and "contacts"
 /// What the page calls interfaces, by position: contacts in the solver's order, then the ties of
 /// the scene.
-std::vector<const InterBase*> page_interfaces(const Scene& scene);
 void write_interfaces(JsonWriter& json, const HtmlInput& input);
 void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);
+void write_contacts(JsonWriter& json, const HtmlInput& input, const PageContacts& page);
 
-// moved.cpp — nodes that a repair has moved
-void use_moved(const Model& model, const Model& before, PageNodes& nodes);
-std::string moved_block(const Model& model, const Model& before, const PageNodes& nodes);
-
-// cycle.cpp — forces, energies and time steps of the first cycle
-void use_nodes(std::span<const cycle::ActedNode> acted, PageNodes& nodes);
-std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycle::ActedNode> acted,
-                        const PageNodes& nodes, const Model& model);
-
-// crossings.cpp — crossed elements
+// verb_blocks.cpp — crossed elements
 void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes);
 std::string crossings_block(const Model& model, const std::vector<Crossing>& crossings,
                             const PageNodes& nodes);
-
-// accuracy_choices.cpp — advice, the choices, when to take which, the kinds of hard cases
-std::string accuracy_first_screen(const std::vector<AccuracyChoice>& choices);
-// accuracy_motion.cpp — a node passes a sliver: a chart, and a sentence for every jump
-std::string accuracy_motion();
+// nodes that a repair has moved
+void use_moved(const Model& model, const Model& before, PageNodes& nodes);
+std::string moved_block(const Model& model, const Model& before, const PageNodes& nodes);
+// colours of time steps
+/// Smallest step, end of the scale and largest step, then a byte for each node of the page: 0 where
+/// no element has a step, else 1 at the end of the scale and beyond to 255 at the smallest, in
+/// equal ratios.
+std::string steps_block(const Model& model, const Mesh& mesh, const PageNodes& nodes);
+// forces, energies and time steps of the first cycle
+void use_nodes(std::span<const cycle::ActedNode> acted, PageNodes& nodes);
+std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycle::ActedNode> acted,
+                        const PageNodes& nodes, const Model& model);
 
 }  // namespace deck::detail

@@ -13,7 +13,7 @@
 
 namespace deck::detail {
 
-/// Bytes that are packed (zlib) and written as base64 piece by piece as they come.
+/// Bytes that are packed (zlib) as they come, and in the end written as base64.
 class PackedText {
  public:
   PackedText();
@@ -26,8 +26,7 @@ class PackedText {
 
  private:
   struct State;
-  void run(std::string_view bytes, bool last);
-  void encode(bool last);
+  void run(std::string_view bytes, int flush);
   std::unique_ptr<State> state_;
 };
 
@@ -56,25 +55,25 @@ class ByteStream {
   /// Few distinct values, one index per item.
   template <class Items, class Value>
   void palette(const Items& items, Value value) {
-    const auto bits = [&](const auto& item) {
-      return std::bit_cast<std::uint64_t>(double{value(item)});
-    };
-    std::unordered_map<std::uint64_t, std::uint32_t> number;
+    std::unordered_map<std::uint64_t, std::uint32_t> numbers;
     std::vector<double> values;
+    std::vector<std::uint32_t> of_items;
     std::uint64_t last = 0;  // neighbours are mostly alike
-    for (const auto& item : items)
-      if (const std::uint64_t v = bits(item); values.empty() || v != last)
-        if (number.emplace(last = v, static_cast<std::uint32_t>(values.size())).second)
-          values.push_back(std::bit_cast<double>(v));
+    std::uint32_t number = 0;
+    for (const auto& item : items) {
+      const double v = value(item);
+      const auto bits = std::bit_cast<std::uint64_t>(v);
+      if (values.empty() || bits != last) {
+        last = bits;
+        number = numbers.emplace(bits, static_cast<std::uint32_t>(values.size())).first->second;
+        if (number == values.size()) values.push_back(v);
+      }
+      of_items.push_back(number);
+    }
     u(values.size());
     f64(values);
     if (values.size() <= 1) return;
-    std::uint32_t at = 0;
-    last = std::bit_cast<std::uint64_t>(values[0]);
-    for (const auto& item : items) {
-      if (const std::uint64_t v = bits(item); v != last) at = number.find(last = v)->second;
-      u(at);
-    }
+    for (const std::uint32_t n : of_items) u(n);
   }
   /// All of it, packed, as text.
   std::string text() && {
@@ -106,6 +105,7 @@ class Delta {
   std::int64_t last_ = 0;
 };
 
+std::string base64(std::string_view bytes);
 /// zlib stream of `bytes` as base64 text.
 std::string packed_text(std::string_view bytes);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/shared/count.hpp"
 #include "contact/shared/element_names.hpp"
@@ -40,143 +41,129 @@ std::vector<std::uint32_t> listed(const Tie& tie) {
 
 /// Positions of the segments that a line ends at, ascending.
 std::vector<std::uint32_t> segments_of(const Tie& tie) {
-  std::vector<bool> marks(tie.main.size());
+  std::vector<std::uint8_t> marks(tie.main.size(), 0);
   for (const TiedNode& n : tie.nodes)
-    if (const std::uint32_t s = segment_of(n); s != no_index) marks[s] = true;
-  std::vector<std::uint32_t> out;
-  for (std::uint32_t s = 0; s < marks.size(); ++s)
-    if (marks[s]) out.push_back(s);
+    if (const std::uint32_t s = segment_of(n); s != no_index) marks[s] = 1;
+  return marked(marks);
+}
+
+/// An untied node as the page lists it; distances that are not finite are not known.
+struct UntiedRow {
+  std::uint32_t position = 0;  ///< in the tie
+  NodeIndex node = 0;
+  double distance = 0, search = 0;
+  std::string reason, why;
+};
+
+/// A tie as the page draws it.
+struct TieLines {
+  std::vector<std::int64_t> main;     ///< nodes of the segments, one segment after the other
+  std::vector<std::int64_t> nodes;    ///< that are tied, or should be
+  std::vector<std::int64_t> segment;  ///< of each node: which segment, -1: none
+  std::vector<std::int64_t> holds;    ///< of each node
+  std::vector<UntiedRow> rows;
+
+  void add(std::uint32_t node, std::int64_t to, Holds how) {
+    nodes.push_back(node);
+    segment.push_back(to);
+    holds.push_back(static_cast<int>(how));
+  }
+};
+
+TieLines lines_of(const Tie& tie, const PageNodes& nodes) {
+  TieLines out;
+  const std::vector<std::uint32_t> segments = segments_of(tie);
+  for (const std::uint32_t s : segments)
+    for (const NodeIndex n : tie.main[s]) out.main.push_back(nodes[n]);
+  for (const TiedNode& n : tie.nodes) {
+    const std::uint32_t s = segment_of(n);
+    const auto at = std::lower_bound(segments.begin(), segments.end(), s);
+    out.add(nodes[n.node], s == no_index ? -1 : at - segments.begin(), holds(n));
+  }
+  for (const std::uint32_t i : listed(tie)) {
+    const TiedNode& n = tie.nodes[i];
+    const double search = n.search != 0 ? n.search : tie.search_distance;
+    const double distance = n.segment != no_index   ? n.distance
+                            : n.nearest != no_index ? n.nearest_distance
+                                                    : INFINITY;
+    out.rows.push_back({i, n.node, distance, search != 0 ? search : INFINITY, short_reason(tie, n),
+                        why_text(tie, n)});
+  }
   return out;
 }
 
-class TieWriter {
- public:
-  TieWriter(const HtmlInput& input, const PageNodes& nodes, std::string& out)
-      : input_(input), model_(*input.scene->model), nodes_(nodes), connectivity_(model_), j_(out) {}
-
-  void run() {
-    j_.begin_array();
-    for (const Tie& tie : input_.scene->ties) write(tie);
-    for (const Contact& c : input_.scene->contacts)
-      if (c.ties()) write(c);
-    j_.end_array();
+/// A TYPE10: each node goes to the segment that is nearest within the gap.
+TieLines lines_of(const Contact& c, const PageNodes& nodes) {
+  TieLines out;
+  std::vector<const PenetrationRow*> nearest(c.secondary.size(), nullptr);
+  for (const PenetrationRow& row : c.penetrations)
+    if (const PenetrationRow*& known = nearest[row.secondary];
+        known == nullptr || row.distance < known->distance)
+      known = &row;
+  std::int64_t segments = 0;
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    const bool found = nearest[i] != nullptr;
+    if (found)
+      for (const NodeIndex n : c.main[nearest[i]->main].nodes) out.main.push_back(nodes[n]);
+    out.add(nodes[c.secondary[i].node], found ? segments++ : -1,
+            found || !c.evaluated ? Holds::tied : Holds::lost);
   }
+  for (const std::uint32_t i : untied_secondary(c)) {
+    if (out.rows.size() == most_tie_rows) break;
+    out.rows.push_back(
+        {i, c.secondary[i].node, INFINITY, c.gapmin, "no segment",
+         fmt::format("No segment is within the gap of {:.6g}: the node is not tied.", c.gapmin)});
+  }
+  return out;
+}
 
- private:
-  void write(const Tie& tie) {
-    const std::vector<std::uint32_t> segments = segments_of(tie);
-    j_.begin_object(true).key("main").begin_array(true);
-    for (const std::uint32_t s : segments)
-      for (const NodeIndex n : tie.main[s]) j_.value(nodes_[n]);
-    j_.end_array().key("nodes").begin_array(true);
-    for (const TiedNode& n : tie.nodes) j_.value(nodes_[n.node]);
-    j_.end_array().key("segment").begin_array(true);
+void write_lines(JsonWriter& j, const TieLines& lines, const Model& model,
+                 Connectivity& connectivity) {
+  const auto list = [&](std::string_view name, const std::vector<std::int64_t>& values) {
+    j.key(name).begin_array(true);
+    for (const std::int64_t v : values) j.value(v);
+    j.end_array();
+  };
+  j.begin_object(true);
+  list("main", lines.main);
+  list("nodes", lines.nodes);
+  list("segment", lines.segment);
+  list("holds", lines.holds);
+  std::vector<NodeIndex> nodes;
+  for (const UntiedRow& row : lines.rows) nodes.push_back(row.node);
+  const std::vector<Span> spans = node_spans(model, nodes);
+  j.key("rows").begin_array(true);
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    const UntiedRow& row = lines.rows[k];
+    const bool placed = spans[k].valid();
+    write_row(j, row.position, row.distance, row.search,
+              part_position(model, element_at(model, connectivity, row.node)), row.reason, row.why,
+              placed ? std::int64_t{spans[k].file} : -1,
+              placed ? model.deck->sources.position(spans[k]).line : 0);
+  }
+  j.end_array().end_object();
+}
+
+/// Calls use(node, close) for both ends of all lines; `close`: the node is not simply tied.
+template <class Use>
+void each_end(const Scene& scene, const Use& use) {
+  for (const Tie& tie : scene.ties)
     for (const TiedNode& n : tie.nodes) {
-      const auto at = std::lower_bound(segments.begin(), segments.end(), segment_of(n));
-      j_.value(segment_of(n) == no_index ? std::int64_t{-1} : at - segments.begin());
+      const bool close = holds(n) != Holds::tied;
+      use(n.node, close);
+      if (const std::uint32_t s = segment_of(n); s != no_index)
+        for (const NodeIndex corner : tie.main[s]) use(corner, close);
     }
-    j_.end_array().key("holds").begin_array(true);
-    for (const TiedNode& n : tie.nodes) j_.value(static_cast<int>(holds(n)));
-    j_.end_array();
-    write_rows(tie);
-    j_.end_object();
-  }
-
-  /// A TYPE10: each node goes to the segment that is nearest within the gap.
-  void write(const Contact& c) {
-    std::vector<const PenetrationRow*> nearest(c.secondary.size(), nullptr);
-    for (const PenetrationRow& row : c.penetrations)
-      if (const PenetrationRow*& known = nearest[row.secondary];
-          known == nullptr || row.distance < known->distance)
-        known = &row;
-    j_.begin_object(true).key("main").begin_array(true);
-    for (const PenetrationRow* row : nearest)
-      if (row != nullptr)
-        for (const NodeIndex n : c.main[row->main].nodes) j_.value(nodes_[n]);
-    j_.end_array().key("nodes").begin_array(true);
-    for (const SecondaryNode& s : c.secondary) j_.value(nodes_[s.node]);
-    j_.end_array().key("segment").begin_array(true);
-    std::int64_t segments = 0;
-    for (const PenetrationRow* row : nearest)
-      j_.value(row != nullptr ? segments++ : std::int64_t{-1});
-    j_.end_array().key("holds").begin_array(true);
-    for (const PenetrationRow* row : nearest)
-      j_.value(static_cast<int>(row != nullptr || !c.evaluated ? Holds::tied : Holds::lost));
-    j_.end_array();
-    std::vector<std::uint32_t> untied = untied_secondary(c);
-    if (untied.size() > most_tie_rows) untied.resize(most_tie_rows);
-    std::vector<NodeIndex> list;
-    for (const std::uint32_t i : untied) list.push_back(c.secondary[i].node);
-    const std::vector<Span> spans = node_spans(model_, list);
-    j_.key("rows").begin_array(true);
-    for (std::size_t k = 0; k < untied.size(); ++k) {
-      j_.begin_array(true).value(untied[k]).null().value(c.gapmin).value(part_at(list[k]));
-      j_.value("no segment")
-          .value(fmt::format("No segment is within the gap of {:.6g}: the node is not tied.",
-                             c.gapmin));
-      place(spans[k]);
-      j_.end_array();
-    }
-    j_.end_array().end_object();
-  }
-
-  void place(const Span& span) {
-    j_.value(span.valid() ? std::int64_t{span.file} : std::int64_t{-1});
-    j_.value(span.valid() ? input_.deck->sources.position(span).line : 0);
-  }
-
-  void write_rows(const Tie& tie) {
-    const std::vector<std::uint32_t> rows = listed(tie);
-    std::vector<NodeIndex> nodes;
-    for (const std::uint32_t i : rows) nodes.push_back(tie.nodes[i].node);
-    const std::vector<Span> spans = node_spans(model_, nodes);
-    j_.key("rows").begin_array(true);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      const TiedNode& n = tie.nodes[rows[k]];
-      const bool found = n.segment != no_index;
-      const double search = n.search != 0 ? n.search : tie.search_distance;
-      const auto number = [&](bool known, double v) { known ? j_.value(v) : j_.null(); };
-      j_.begin_array(true).value(rows[k]);
-      number(segment_of(n) != no_index, found ? n.distance : n.nearest_distance);
-      number(search != 0, search);
-      j_.value(part_at(n.node)).value(short_reason(tie, n)).value(why_text(tie, n));
-      place(spans[k]);
-      j_.end_array();
-    }
-    j_.end_array();
-  }
-
-  std::int64_t part_at(NodeIndex node) {
-    return part_position(model_, element_at(model_, connectivity_, node));
-  }
-
-  const HtmlInput& input_;
-  const Model& model_;
-  const PageNodes& nodes_;
-  Connectivity connectivity_;
-  JsonWriter j_;
-};
+}
 
 }  // namespace
 
 std::vector<NodeIndex> use_nodes(const Scene& scene, PageNodes& nodes) {
   std::vector<NodeIndex> out;
-  const auto want = [&](NodeIndex n, bool always) {
-    if (always || !nodes.used(n)) out.push_back(n);
-  };
-  for (const Tie& tie : scene.ties)
-    for (const TiedNode& n : tie.nodes) {
-      const bool close = holds(n) != Holds::tied;
-      want(n.node, close);
-      if (const std::uint32_t s = segment_of(n); s != no_index)
-        for (const NodeIndex corner : tie.main[s]) want(corner, close);
-    }
-  for (const Tie& tie : scene.ties)
-    for (const TiedNode& n : tie.nodes) {
-      nodes.use(n.node);
-      if (const std::uint32_t s = segment_of(n); s != no_index)
-        for (const NodeIndex corner : tie.main[s]) nodes.use(corner);
-    }
+  each_end(scene, [&](NodeIndex n, bool close) {
+    if (close || !nodes.used(n)) out.push_back(n);
+  });
+  each_end(scene, [&](NodeIndex n, bool) { nodes.use(n); });
   // The sides of a TYPE10 are those of a contact.
   for (const Contact& c : scene.contacts)
     for (const std::uint32_t i : untied_secondary(c)) out.push_back(c.secondary[i].node);
@@ -189,8 +176,16 @@ bool has_ties(const Scene& scene) {
 }
 
 std::string ties_block(const HtmlInput& input, const PageNodes& nodes) {
+  const Model& model = *input.scene->model;
+  Connectivity connectivity(model);
   std::string out;
-  TieWriter(input, nodes, out).run();
+  JsonWriter j(out);
+  j.begin_array();
+  for (const Tie& tie : input.scene->ties)
+    write_lines(j, lines_of(tie, nodes), model, connectivity);
+  for (const Contact& c : input.scene->contacts)
+    if (c.ties()) write_lines(j, lines_of(c, nodes), model, connectivity);
+  j.end_array();
   return packed_text(out);
 }
 
@@ -211,7 +206,6 @@ void write_page_ties(JsonWriter& j, const HtmlInput& input) {
     const bool stops = tie.main_and_tied.size() + (tie.ignore == 0 ? n.not_found : 0) > 0;
     j.field("stops", stops).end_object();
   }
-  const auto& order = input.scene->interfaces->ordered;
   for (std::size_t i = 0; i < input.scene->contacts.size(); ++i) {
     const Contact& c = input.scene->contacts[i];
     if (!c.ties()) continue;
@@ -219,9 +213,7 @@ void write_page_ties(JsonWriter& j, const HtmlInput& input) {
     double farthest = 0;
     for (const PenetrationRow& row : c.penetrations) farthest = std::max(farthest, row.distance);
     const std::size_t nodes = c.secondary.size();
-    j.begin_object(true).field(
-        "interface",
-        static_cast<std::int64_t>(std::find(order.begin(), order.end(), c.inter) - order.begin()));
+    j.begin_object(true).field("interface", interface_position(*input.scene, c.inter));
     j.field("nodes", nodes).field("tied", t.tied.nodes).field("lost", t.untied);
     j.field("beyond_rim", 0).field("search_distance", c.gapmin).field("farthest", farthest);
     j.field("text", !c.evaluated ? std::string("not evaluated")

@@ -39,23 +39,15 @@ std::string part_text(const Model& model, int part) {
 /// Deepest first, then those with the most neighbours, then as in the deck; at most 60.
 template <class Side>
 std::vector<int> ranked(const std::vector<Touch>& all, Side side) {
-  struct Rank {
-    double depth = 0;
-    int neighbours = 0;
-  };
-  std::map<int, Rank> rank;
+  std::map<int, std::pair<double, int>> ranks;  // depth and neighbours
   for (const Touch& t : all) {
-    Rank& r = rank[side(t)];
-    r.depth = std::max(r.depth, t.depth);
-    ++r.neighbours;
+    auto& [depth, neighbours] = ranks[side(t)];
+    depth = std::max(depth, t.depth);
+    ++neighbours;
   }
-  std::vector<std::pair<int, Rank>> order(rank.begin(), rank.end());
-  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
-    if (a.second.depth != b.second.depth) return a.second.depth > b.second.depth;
-    return a.second.neighbours > b.second.neighbours;
-  });
   std::vector<int> out;
-  for (const auto& [part, r] : order) out.push_back(part);
+  for (const auto& [part, rank] : ranks) out.push_back(part);
+  std::stable_sort(out.begin(), out.end(), [&](int a, int b) { return ranks.at(a) > ranks.at(b); });
   if (out.size() > 60) out.resize(60);
   return out;
 }
@@ -154,14 +146,15 @@ class Drawing {
 std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContacts& page) {
   const Model& model = *in.scene->model;
   const auto part = [&](const ElementName& e) { return static_cast<int>(part_position(model, e)); };
+  const auto carrier = [&](const auto& item) {
+    return part(carrier_name(model, item.carrier, item.element));
+  };
   std::map<std::pair<int, int>, Touch> found;
   const auto at = [&](int secondary, int main, const InterBase& inter) -> Touch& {
     Touch& t = found[{secondary, main}];
     t.secondary = secondary;
     t.main = main;
-    const auto& order = in.scene->interfaces->ordered;
-    const auto k =
-        static_cast<std::uint32_t>(std::find(order.begin(), order.end(), &inter) - order.begin());
+    const auto k = static_cast<std::uint32_t>(detail::interface_position(*in.scene, &inter));
     if (std::find(t.interfaces.begin(), t.interfaces.end(), k) == t.interfaces.end())
       t.interfaces.push_back(k);
     return t;
@@ -179,15 +172,11 @@ std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContac
       int& s = of_secondary[p.secondary];
       int& m = of_main[p.main];
       if (s == -2)
-        s = part(edges ? carrier_name(model, c.secondary_edges[p.secondary].carrier,
-                                      c.secondary_edges[p.secondary].element)
-                       : element_at(model, connectivity, c.secondary[p.secondary].node));
-      if (m == -2)
-        m = part(
-            edges ? carrier_name(model, c.main_edges[p.main].carrier, c.main_edges[p.main].element)
-                  : carrier_name(model, c.main[p.main].carrier, c.main[p.main].element));
+        s = edges ? carrier(c.secondary_edges[p.secondary])
+                  : part(element_at(model, connectivity, c.secondary[p.secondary].node));
+      if (m == -2) m = edges ? carrier(c.main_edges[p.main]) : carrier(c.main[p.main]);
       if (const std::pair parts{s, m}; parts != last && seen.insert(last = parts).second)
-        at(s, m, *in.scene->contacts[i].inter);
+        at(s, m, *c.inter);
     }
   }
   for (const NamedPenetration& p : in.view->penetrations) {

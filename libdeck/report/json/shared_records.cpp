@@ -395,8 +395,6 @@ std::string verdict_json(const Verdict& verdict) {
   return text;
 }
 
-void write_totals(JsonWriter& json, const ContactTotals& totals) { write_members(json, totals); }
-
 void write_gate(JsonWriter& json, const Deck& deck, const Scene& scene, const SceneView& view,
                 const GateReport& gate) {
   write_value(json.key("gate"), known(gate.asked, GateRow{&deck, &gate}));
