@@ -6,9 +6,9 @@
 namespace deck::detail {
 namespace {
 
-class Rows {
+class ElementRows {
  public:
-  Rows(const Deck& deck, ElementCells& out) : deck_(deck), out_(out) {}
+  ElementRows(const Deck& deck, ElementCells& out) : deck_(deck), out_(out) {}
 
   void block(const Block& b, const Elements& family) {
     if (b.schema == nullptr || b.opaque) return;
@@ -68,7 +68,7 @@ class Rows {
 
 ElementCells element_cells(const Deck& deck, const Model& model) {
   ElementCells out;
-  Rows rows(deck, out);
+  ElementRows rows(deck, out);
   for (const Block& b : deck.blocks)
     if (b.schema != nullptr && b.schema->bulk)
       if (const auto kind = family_of_kind(b.schema->kind)) rows.block(b, model.family(*kind));

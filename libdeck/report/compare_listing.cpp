@@ -44,9 +44,10 @@ std::string name_of(const ListedMessage& m) {
   return fmt::format("{} {}{}", kind, id.id, id.title.empty() ? "" : " '" + id.title + "'");
 }
 
-class Comparison {
+class ListingComparison {
  public:
-  Comparison(const Listing& listing, LoadedDeck* loaded) : listing_(listing), loaded_(loaded) {}
+  ListingComparison(const Listing& listing, LoadedDeck* loaded)
+      : listing_(listing), loaded_(loaded) {}
 
   ListingReport report() {
     if (loaded_ != nullptr) lint();
@@ -357,11 +358,11 @@ bool ListingReport::agrees() const {
 }
 
 ListingReport explain_listing(const Listing& listing) {
-  return listing_comparison::Comparison(listing, nullptr).report();
+  return listing_comparison::ListingComparison(listing, nullptr).report();
 }
 
 ListingReport compare_listing(const Listing& listing, LoadedDeck& loaded) {
-  return listing_comparison::Comparison(listing, &loaded).report();
+  return listing_comparison::ListingComparison(listing, &loaded).report();
 }
 
 }  // namespace deck

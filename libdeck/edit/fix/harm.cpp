@@ -32,7 +32,7 @@ std::vector<NodeIndex> nodes_of(const Scene& scene, const PairKey& key) {
 
 }  // namespace
 
-Baseline::Baseline(const Scene& scene, const FixOptions& options) : options_(&options) {
+StateBefore::StateBefore(const Scene& scene, const FixOptions& options) : options_(&options) {
   for (const Contact& contact : scene.contacts)
     by_node_.push_back(is_modern(contact.type) && contact.kind == ContactKind::node_segment);
   for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
@@ -49,7 +49,7 @@ Baseline::Baseline(const Scene& scene, const FixOptions& options) : options_(&op
 }
 
 /// Sorts rows; of those with one key the last stays, as deep as the deepest.
-void Baseline::sort_rows() {
+void StateBefore::sort_rows() {
   std::stable_sort(rows_.begin(), rows_.end(),
                    [](const Row& a, const Row& b) { return a.key < b.key; });
   std::size_t kept = 0;
@@ -64,13 +64,13 @@ void Baseline::sort_rows() {
   rows_.resize(kept);
 }
 
-const Baseline::Row* Baseline::find(const PairKey& key) const {
+const StateBefore::Row* StateBefore::find(const PairKey& key) const {
   const auto it = std::lower_bound(rows_.begin(), rows_.end(), key,
                                    [](const Row& row, const PairKey& k) { return row.key < k; });
   return it != rows_.end() && !(key < it->key) ? &*it : nullptr;
 }
 
-void Baseline::add_ties(const Scene& scene) {
+void StateBefore::add_ties(const Scene& scene) {
   for (std::size_t t = 0; t < scene.ties.size(); ++t)
     for (const TiedNode& n : scene.ties[t].nodes) {
       if (!n.tied) continue;
@@ -83,21 +83,21 @@ void Baseline::add_ties(const Scene& scene) {
     }
 }
 
-std::size_t Baseline::tied_pairs() const {
+std::size_t StateBefore::tied_pairs() const {
   return static_cast<std::size_t>(
       std::count_if(rows_.begin(), rows_.end(), [](const Row& row) { return row.tie; }));
 }
 
-std::size_t Baseline::tied_nodes() const {
+std::size_t StateBefore::tied_nodes() const {
   std::set<std::pair<std::uint32_t, std::array<NodeIndex, 2>>> nodes;
   for (const Row& row : rows_)
     if (row.tie) nodes.insert({row.key.contact, row.key.secondary});
   return nodes.size();
 }
 
-std::vector<Harm> Baseline::harm(const Scene& now) const {
+std::vector<Harm> StateBefore::harm(const Scene& now) const {
   if (options_ == nullptr) return {};
-  const Baseline after(now, *options_);
+  const StateBefore after(now, *options_);
   std::vector<Harm> out;
   const auto add = [&](const Row& row, double before, double depth) {
     out.push_back({row.pair, nodes_of(now, row.pair), row.tie, before, depth});
@@ -116,7 +116,7 @@ std::vector<Harm> Baseline::harm(const Scene& now) const {
 
 void verify_harmless(PenetrationFix& fix, const Interfaces& interfaces, const FixOptions& options,
                      const Scene& before, const Scene& after) {
-  const Baseline baseline(before, options);
+  const StateBefore baseline(before, options);
   fix.tied_pairs = baseline.tied_pairs();
   fix.tied_nodes = baseline.tied_nodes();
   std::vector<Harm> harm = baseline.harm(after);

@@ -22,11 +22,11 @@ struct Harm {
 /// Depths of the pairs that penetrate in a scene, and the pairs that are tied; what a TYPE2 holds
 /// is tied whatever the options are. Of the nodes of a TYPE24 or TYPE25, each of which penetrates
 /// one segment at most, the segment does not matter.
-class Baseline {
+class StateBefore {
  public:
-  Baseline() = default;
+  StateBefore() = default;
   /// With FixOptions::ties ties of the interfaces asked for count as penetrations.
-  Baseline(const Scene& scene, const FixOptions& options);
+  StateBefore(const Scene& scene, const FixOptions& options);
   bool contains(const PairKey& pair) const { return find(judged(pair)) != nullptr; }
   std::size_t tied_pairs() const;
   std::size_t tied_nodes() const;  ///< secondary ones

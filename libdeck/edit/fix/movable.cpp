@@ -37,7 +37,7 @@ Result<Scene> MovableDeck::prepare() {
   mesh_.emplace(before);
   crossings_ = mesh_->all_crossings(now_, options_.threads);
   crossed_ = find_crossings(before, options_.threads);
-  baseline_ = Baseline(before, options_);
+  baseline_ = StateBefore(before, options_);
   fix_.crossings_before = crossed_.size();
   fix_.tied_pairs = baseline_.tied_pairs();
   fix_.tied_nodes = baseline_.tied_nodes();

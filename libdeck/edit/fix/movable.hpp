@@ -62,7 +62,7 @@ class MovableDeck {
   NodeCells cells_;
   std::vector<std::uint8_t> holds_;  ///< by node: a Hold
   std::optional<FixMesh> mesh_;
-  Baseline baseline_;                        ///< penetrations and ties before
+  StateBefore baseline_;                     ///< penetrations and ties before
   std::vector<Crossing> crossed_;            ///< before: of edges with main segments
   std::vector<FixMesh::Crossed> crossings_;  ///< before: of the whole mesh
   std::map<PairKey, std::string> skipped_;   ///< pairs that moving cannot solve, and why

@@ -49,7 +49,7 @@ Record<ElementRow> record_of(const ElementRow*) {
 }
 
 /// What a part, or all of them, adds up to.
-struct Sums {
+struct PartSums {
   const Model* model;
   const PartFigures* of;
 
@@ -59,7 +59,7 @@ struct Sums {
 };
 
 struct PartStepRow {
-  Sums sums;
+  PartSums sums;
   std::optional<double> min() const { return step_of(sums.of->dt); }
   std::optional<ElementRow> element() const {
     const ElementRef& e = sums.of->slowest;
@@ -71,23 +71,23 @@ Record<PartStepRow> record_of(const PartStepRow*) {
   static constexpr Column<PartStepRow> columns[] = {
       column<&PartStepRow::min>("min", "null: no element limits the step, or none is computed"),
       column<&PartStepRow::element>("element", "The element that gives it"),
-      column<&PartStepRow::sums, &Sums::of, &PartFigures::not_computed>(
+      column<&PartStepRow::sums, &PartSums::of, &PartFigures::not_computed>(
           "not_computed", "Elements without an established step")};
   return {"step", "Smallest time step of elements.", columns, true};
 }
 
-Record<Sums> record_of(const Sums*) {
-  using Row = Sums;
+Record<PartSums> record_of(const PartSums*) {
+  using Row = PartSums;
   static constexpr Column<Row> columns[] = {
       column<&Row::of, &PartFigures::mass>("mass"), column<&Row::centre>("centre"),
       column<&Row::inertia>("inertia"), column("dt", [](const Row& r) { return PartStepRow{r}; })};
   return {"total", "All elements; members as of a part.", columns};
 }
 
-struct PartRow {
+struct PartOfDocument {
   const Part* part;
   const detail::PartView* seen;
-  Sums sums;
+  PartSums sums;
 
   Counts elements() const {
     Counts counts;
@@ -100,8 +100,8 @@ struct PartRow {
     return known(seen->rigid_body != 0, seen->rigid_body);
   }
 };
-Record<PartRow> record_of(const PartRow*) {
-  using Row = PartRow;
+Record<PartOfDocument> record_of(const PartOfDocument*) {
+  using Row = PartOfDocument;
   static constexpr Column<Row> columns[] = {
       column<&Row::part, &Part::id>("id"),
       column<&Row::part, &Part::title>("title"),
@@ -109,9 +109,9 @@ Record<PartRow> record_of(const PartRow*) {
       column<&Row::part, &Part::mat_id>("material"),
       column<&Row::part, &Part::prop_id>("property"),
       column<&Row::seen, &detail::PartView::thickness>("thickness"),
-      column<&Row::sums, &Sums::of, &PartFigures::mass>("mass", "null: not computed"),
-      column<&Row::sums, &Sums::centre>("centre", "null: no mass"),
-      column<&Row::sums, &Sums::inertia>(
+      column<&Row::sums, &PartSums::of, &PartFigures::mass>("mass", "null: not computed"),
+      column<&Row::sums, &PartSums::centre>("centre", "null: no mass"),
+      column<&Row::sums, &PartSums::inertia>(
           "inertia",
           "About the centre: xx yy zz xy yz zx, of masses and rotational inertia of the nodes"),
       column("dt", [](const Row& r) { return PartStepRow{r.sums}; }),
@@ -165,7 +165,7 @@ struct PartsDocument {
   const Kinematics& kinematics;
   const detail::PartsView view;
 
-  PartRow part(std::size_t p) const {
+  PartOfDocument part(std::size_t p) const {
     return {&model.parts[p], &view.parts[p], {&model, &mesh.parts[p]}};
   }
   PartNodeRow node(std::size_t n) const {
@@ -204,13 +204,13 @@ Record<PartsDocument> record_of(const PartsDocument*) {
       column("deck", [](const Row& r) { return deck_row(r.loaded); }),
       column("parts",
              [](const Row& r) {
-               return Rows<PartRow>{[&r](const auto& add) {
+               return Rows<PartOfDocument>{[&r](const auto& add) {
                  for (std::size_t p = 0; p < r.model.parts.size(); ++p) add(r.part(p));
                }};
              }),
       column("total",
              [](const Row& r) {
-               return Sums{&r.model, &r.mesh.total};
+               return PartSums{&r.model, &r.mesh.total};
              }),
       column<&Row::view>("unconnected"),
       column("repeated_contacts", "Not more than 1000",

@@ -7,21 +7,21 @@
 namespace deck {
 namespace {
 
-using Corners = std::array<std::int64_t, 4>;
+using TieCorners = std::array<std::int64_t, 4>;
 
 struct TiedNodeRow {
   const Model& model;
   const Tie& tie;
   const TiedNode* node;
   bool found() const { return node->segment != no_index; }
-  Corners corners(std::uint32_t segment) const {
-    return segment == no_index ? Corners{} : node_ids(model, tie.main[segment]);
+  TieCorners corners(std::uint32_t segment) const {
+    return segment == no_index ? TieCorners{} : node_ids(model, tie.main[segment]);
   }
   double search() const { return node->search != 0 ? node->search : tie.search_distance; }
 };
 
 struct NearestRow {
-  Corners segment{};
+  TieCorners segment{};
   double distance = 0;
 };
 Record<NearestRow> record_of(const NearestRow*) {

@@ -24,10 +24,10 @@ std::string kind_of(const ComparedSteps& s) {
   return s.kind ? std::string(detail::kind_name(*s.kind)) : "node";
 }
 
-class Writer {
+class ListingWriter {
  public:
-  Writer(const Listing& listing, const ListingReport& report, const LoadedDeck* loaded,
-         const ListingTextOptions& options)
+  ListingWriter(const Listing& listing, const ListingReport& report, const LoadedDeck* loaded,
+                const ListingTextOptions& options)
       : listing_(listing),
         report_(report),
         loaded_(loaded),
@@ -288,7 +288,7 @@ class Writer {
 
 std::string listing_text(const Listing& listing, const ListingReport& report,
                          const LoadedDeck* loaded, const ListingTextOptions& options) {
-  return listing_for_people::Writer(listing, report, loaded, options).text();
+  return listing_for_people::ListingWriter(listing, report, loaded, options).text();
 }
 
 }  // namespace deck

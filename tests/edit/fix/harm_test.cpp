@@ -1,4 +1,4 @@
-// What a fix may not do: Baseline sees deeper and new penetrations, ties that come and ties that
+// What a fix may not do: StateBefore sees deeper and new penetrations, ties that come and ties that
 // go.
 #include "edit/fix/harm.hpp"
 
@@ -10,8 +10,8 @@
 namespace deck::test {
 namespace {
 
-using detail::Baseline;
 using detail::Harm;
+using detail::StateBefore;
 using detail::verify_harmless;
 
 /// One node at `height` over a plate, tied within 0.5 and in contact within 1.
@@ -26,7 +26,7 @@ SmallDeck node_over_plate(double height) {
 
 std::vector<Harm> harm(double before, double after, const FixOptions& options = {}) {
   const Built a(node_over_plate(before)), b(node_over_plate(after));
-  return Baseline(a.scene, options).harm(b.scene);
+  return StateBefore(a.scene, options).harm(b.scene);
 }
 
 TEST(Harm, WhatIsDeeperOrNewIsHarm) {

@@ -277,7 +277,7 @@ TEST(TieHarm, AType2MayNotComeOffNorTakeAnotherSegment) {
   const auto harm = [](const P& before, const P& after) {
     const std::string card = tie_card({.dsearch = 2});
     const Built a(sheet({before}).add(card), with_ties()), b(sheet({after}).add(card), with_ties());
-    return detail::Baseline(a.scene, {}).harm(b.scene);
+    return detail::StateBefore(a.scene, {}).harm(b.scene);
   };
   EXPECT_TRUE(harm({5, 5, 1}, {6, 5, 1.5}).empty()) << "the same segment";
   ASSERT_EQ(harm({5, 5, 1}, {5, 5, 3}).size(), 1u);

@@ -296,7 +296,7 @@ class Depenetrator : MovableDeck {
 
   /// Adds moved nodes that free none of the pairs they were moved for.
   void add_idle(const Scene& scene, std::map<NodeIndex, Hold>& bad) const {
-    const Baseline left(scene, options_);
+    const StateBefore left(scene, options_);
     for (const NodeIndex n : moved_) {
       const std::vector<PairKey>& pairs = bounds_.pairs_of(n);
       if (std::all_of(pairs.begin(), pairs.end(),
