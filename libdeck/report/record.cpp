@@ -156,10 +156,11 @@ std::string common_schema() {
 
 const std::vector<DocumentOfVerb>& documents_of_verbs() {
   static const std::vector<DocumentOfVerb> documents = {
-      {"accuracy", accuracy_schema}, {"cycle", cycle_schema},   {"diff", diff_schema},
-      {"explain", explain_schema},   {"gaps", gaps_schema},     {"gate", gate_schema},
-      {"lint", lint_schema},         {"losses", losses_schema}, {"params", params_schema},
-      {"parts", parts_schema},       {"rules", rules_schema},   {"show", show_schema}};
+      {"accuracy", accuracy_schema}, {"cycle", cycle_schema}, {"diff", diff_schema},
+      {"explain", explain_schema},   {"fix", fix_schema},     {"gaps", gaps_schema},
+      {"gate", gate_schema},         {"lint", lint_schema},   {"losses", losses_schema},
+      {"params", params_schema},     {"parts", parts_schema}, {"rules", rules_schema},
+      {"show", show_schema}};
   return documents;
 }
 

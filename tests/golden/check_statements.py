@@ -23,6 +23,9 @@ import tempfile
 import tomllib
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "tests", "keyword"))
+from schema_files import keyword_schemas  # noqa: E402
+
 FOLDER = os.path.join(ROOT, "tests", "golden", "statements")
 PAGE = os.path.join(ROOT, "tools", "docs", "manual.md")
 VERDICTS = {"agrees": "as the manual says", "differs": "**differs**", "advice": "advice"}
@@ -32,14 +35,11 @@ VERSION = 2022
 def schemas():
     """keyword -> schema, as the program has them built in."""
     found = {}
-    for path in glob.glob(os.path.join(ROOT, "schemas", "keywords", "*.json")):
-        with open(path, encoding="utf-8") as f:
-            data = json.load(f)
-        for one in data if isinstance(data, list) else data.get("schemas", [data]):
-            for name in [one["keyword"], *one.get("aliases", [])]:
-                found[name] = one
-            for card in one.get("cards", []):
-                card.setdefault("fields", [])  # of a blank line
+    for one in keyword_schemas():
+        for name in [one["keyword"], *one.get("aliases", [])]:
+            found[name] = one
+        for card in one.get("cards", []):
+            card.setdefault("fields", [])  # of a blank line
     return found
 
 

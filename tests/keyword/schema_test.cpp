@@ -70,7 +70,8 @@ TEST(Schemas, ATableGivesOneSchemaForEachRow) {
   EXPECT_THAT(error(R"([["G"]])"), HasSubstr("/schemas/0/for: expected a row of names"));
   EXPECT_THAT(error(R"([["G"],["a","b"]])"), HasSubstr("/schemas/0/for/1: expected 1 words"));
   EXPECT_THAT(error(R"([["G"],[1]])"), HasSubstr("/schemas/0/for/1/0: expected text"));
-  EXPECT_THAT(error_of(R"({"schemas":[{"for":[["G"],["a"]]}]})"), HasSubstr("schemas\" is missing"));
+  EXPECT_THAT(error_of(R"({"schemas":[{"for":[["G"],["a"]]}]})"),
+              HasSubstr("schemas\" is missing"));
 }
 
 TEST(BuiltInSchemas, NoVersionIsLeftWithoutCards) {

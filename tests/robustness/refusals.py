@@ -7,9 +7,13 @@ keyword with complete cards that is refused for want of a description is a failu
 import json
 import os
 import re
+import sys
 import tempfile
 
 from common import ROOT, SAMPLES, read, run_steps, write
+
+sys.path.insert(0, os.path.join(ROOT, "tests", "keyword"))
+from schema_files import keyword_schemas  # noqa: E402
 
 CONVERSIONS = (("--version", "2026"), ("--units", "g,cm,ms"), ("--units", "Mg,mm,s"),
                ("--renumber", "node+1"), ("--renumber", "part+1"))
@@ -20,14 +24,11 @@ ACCEPT = {"--version": ["--allow-loss"], "--units": ["--partial", "--allow-loss"
 def described():
     """Keywords, aliases included, whose schema describes every line and the unit of every cell."""
     known = set()
-    folder = os.path.join(ROOT, "schemas", "keywords")
-    for name in os.listdir(folder):
-        document = json.loads(read(os.path.join(folder, name)))
-        for s in document.get("schemas", [document]):
-            fields = [f for card in s.get("cards", []) for f in card.get("fields", [])]
-            open_units = any(f.get("dim_unknown") or (f.get("ref") in ("funct", "table") and not f.get("axes")) for f in fields)
-            if (not s.get("opaque_tail") or s.get("full_layout")) and not open_units:
-                known.update([s["keyword"]] + s.get("aliases", []))
+    for s in keyword_schemas():
+        fields = [f for card in s.get("cards", []) for f in card.get("fields", [])]
+        open_units = any(f.get("dim_unknown") or (f.get("ref") in ("funct", "table") and not f.get("axes")) for f in fields)
+        if (not s.get("opaque_tail") or s.get("full_layout")) and not open_units:
+            known.update([s["keyword"]] + s.get("aliases", []))
     return known
 
 

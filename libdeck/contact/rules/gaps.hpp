@@ -9,8 +9,8 @@
 #include <span>
 
 #include "base/shared/vec.hpp"
-#include "deck/contact/search.hpp"
 #include "deck/contact/scene.hpp"
+#include "deck/contact/search.hpp"
 
 namespace deck::detail {
 

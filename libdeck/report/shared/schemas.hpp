@@ -19,6 +19,7 @@ DocumentSchema accuracy_schema();
 DocumentSchema cycle_schema();
 DocumentSchema diff_schema();
 DocumentSchema explain_schema();
+DocumentSchema fix_schema();
 DocumentSchema gaps_schema();
 DocumentSchema gate_schema();
 DocumentSchema lint_schema();

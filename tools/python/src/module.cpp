@@ -18,7 +18,7 @@
 
 namespace deck::python {
 
-py::object place_of(const Deck& deck, const Span& span) {
+py::object python_place(const Deck& deck, const Span& span) {
   if (!span.valid()) return py::none();
   const Source& source = deck.sources[span.file];
   const Position from = source.position(span.offset);
@@ -36,7 +36,7 @@ py::dict finding_of(const Deck& deck, const Diagnostic& d) {
   out["rule"] = std::string(id_text(d.rule));
   out["field"] = d.field;
   out["severity"] = to_string(d.severity);
-  const py::object place = place_of(deck, d.span);
+  const py::object place = python_place(deck, d.span);
   for (const char* key : {"file", "line", "column", "end_column"})
     out[key] = place.is_none() ? py::object(py::none()) : py::object(place[key]);
   out["message"] = d.message;
@@ -91,7 +91,7 @@ py::list interface_fields(const PyDeck& d, std::size_t at) {
     typed.for_each([&](std::string_view name, const auto& e) {
       const Field* const field = schema != nullptr ? schema->find_field(name) : nullptr;
       out.append(py::make_tuple(std::string(name), e.value, input_of(deck, e), to_string(e.origin),
-                                place_of(deck, e.span), dimension_of(field),
+                                python_place(deck, e.span), dimension_of(field),
                                 field != nullptr ? field->doc : std::string()));
     });
   });
@@ -168,7 +168,7 @@ py::list parts_of(const PyDeck& d) {
     part["prop_id"] = p.prop_id;
     part["mat_id"] = p.mat_id;
     part["thickness"] = p.thickness;
-    part["span"] = place_of(d.loaded.deck(), p.span);
+    part["span"] = python_place(d.loaded.deck(), p.span);
     out.append(part);
   }
   return out;
@@ -213,7 +213,7 @@ PYBIND11_MODULE(_native, m) {
              py::list out;
              for (const InterBase* i : d.loaded.interfaces().all)
                out.append(py::make_tuple(i->id, i->type, py::bytes(i->title),
-                                         place_of(d.loaded.deck(), i->span)));
+                                         python_place(d.loaded.deck(), i->span)));
              return out;
            })
       .def("fields", &interface_fields)

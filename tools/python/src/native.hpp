@@ -47,7 +47,7 @@ using DeckPointer = std::shared_ptr<PyDeck>;
 /// A finding as a dictionary with the keys of `deck lint --format json`.
 py::dict finding_of(const Deck& deck, const Diagnostic& diagnostic);
 /// {"file", "line", "column", "end_column"} of a span, or None.
-py::object place_of(const Deck& deck, const Span& span);
+py::object python_place(const Deck& deck, const Span& span);
 
 /// A read-only NumPy array over memory that `owner` keeps: nothing is copied.
 template <class T>
