@@ -162,7 +162,7 @@ class FunctionUses {
   const DiffSide& a_;
   const DiffSide& b_;
   EqualNumbers equal_;
-  bool tables_ = false;  ///< tables, which nobody reads, may use the points as they are
+  bool tables_ = false;  ///< some /TABLE, which is not read, may use the points unscaled
   States states_a_, states_b_;
   std::set<std::pair<const Block*, CellKey>> same_cells_;
 };

@@ -1,5 +1,5 @@
-// Strict reader of keyword schemas. It is strict because a mistyped key would otherwise become a
-// column that is silently never read.
+// Strict reader of keyword schemas: a mistyped key would otherwise become a column that is silently
+// never read. Over 600 lines because each key of the format has its check in this one file.
 #include "keyword/schema/json.hpp"
 
 #include <fmt/format.h>

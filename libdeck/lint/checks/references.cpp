@@ -1,5 +1,5 @@
 // What interfaces and frictions refer to: groups, surfaces, lines, sensors, functions, parts; and
-// groups, surfaces, lines and frictions that nothing refers to.
+// unused groups, surfaces, lines and frictions.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -203,7 +203,7 @@ void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-// ---- pairs of parts of a /FRICTION, and what nobody refers to
+// ---- pairs of parts of a /FRICTION, and unused entities ------
 // ------------------------------------
 
 const Cell* cell_of(const DecodedCard& card, std::string_view name) {

@@ -143,7 +143,7 @@ struct Selections::Impl {
   std::map<std::string, detail::DefinitionTable, std::less<>> tables;
   std::set<std::pair<std::string, std::int64_t>> open;  ///< being resolved now
 
-  // Under the id of a set that nothing plain has: what the set is of that kind.
+  // Members of a /SET by kind, under its id where no group, surface or line has that id.
   std::map<std::int64_t, NodeSet> node_groups;
   std::map<std::int64_t, Surface> surfaces;
   std::map<std::int64_t, LineSet> lines;

@@ -70,7 +70,7 @@ std::string meta_json(const HtmlInput& in, const PageContacts& page,
   write_json_head(j, "deck/gaps-html", 1);
   j.field("page", page_name(in));
   write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
-  write_verdict(j, verdict_in(in));
+  write_value(j.key("verdict"), verdict_in(in));
   write_value(j.key("summary"), in.view->total);
   write_json_coverage(j, coverage_of(*in.deck, *in.scene->interfaces, in.scene->examined));
   std::uint64_t bytes = 0;

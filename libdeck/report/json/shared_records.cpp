@@ -384,10 +384,6 @@ void write_json_coverage(JsonWriter& json, const Coverage& coverage) {
   json.end_array();
 }
 
-void write_verdict(JsonWriter& json, const Verdict& verdict) {
-  write_value(json.key("verdict"), verdict);
-}
-
 std::string verdict_json(const Verdict& verdict) {
   std::string text;
   JsonWriter json(text);

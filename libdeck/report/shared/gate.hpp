@@ -13,9 +13,7 @@
 
 namespace deck {
 
-/// The member "verdict": level, text, sentences with their counts, counts of all.
-void write_verdict(JsonWriter& json, const Verdict& verdict);
-/// The same by itself.
+/// A verdict as JSON: level, text, sentences with their counts, counts of all.
 std::string verdict_json(const Verdict& verdict);
 /// The text as a line.
 std::string verdict_text(const Verdict& verdict, bool color);

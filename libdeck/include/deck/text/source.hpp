@@ -14,8 +14,7 @@
 
 namespace deck {
 
-/// Every bound on what a hostile or broken deck may cost. An argument everywhere, with safe
-/// defaults.
+/// Bounds on what a hostile or broken deck may cost: an argument everywhere, with safe defaults.
 struct Limits {
   std::uint64_t total_bytes = std::uint64_t{64} << 30;    ///< all files of the include tree
   std::uint64_t map_threshold = std::uint64_t{32} << 20;  ///< larger files are mapped, not read
