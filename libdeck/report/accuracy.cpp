@@ -81,40 +81,23 @@ std::string accuracy_text(const AccuracyChoices& choices, const AccuracyContext&
          fmt::format("\n{}; {}\n", terminal_text(context.processor), accuracy_compiler());
 }
 
-Record<AccuracyChoice::OnDeck> record_of(const AccuracyChoice::OnDeck*) {
-  using Row = AccuracyChoice::OnDeck;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::seconds>("seconds", "Whole deck gaps"),
-      column<&Row::ratio, &TimeRatio::value>("ratio", "Time against fast"),
-      column<&Row::ratio, &TimeRatio::spread>("spread", "Of both times, as a share"),
-      column<&Row::pairs>("pairs"), column("wrong", [](const Row& r) { return r.wrong.size(); })};
-  return {"on_deck", "", columns, true};
-}
+LINE_RECORD(AccuracyChoice::OnDeck, "on_deck", "", COLUMN("seconds", "Whole deck gaps", r.seconds),
+            COLUMN("ratio", "Time against fast", r.ratio.value),
+            COLUMN("spread", "Of both times, as a share", r.ratio.spread),
+            COLUMN("pairs", "", r.pairs), COLUMN("wrong", "", r.wrong.size()));
 
-Record<AccuracyChoice::OnHardCases> record_of(const AccuracyChoice::OnHardCases*) {
-  static constexpr Column<AccuracyChoice::OnHardCases> columns[] = {
-      column<&AccuracyChoice::OnHardCases::ns_per_pair>("ns_per_pair"),
-      column<&AccuracyChoice::OnHardCases::ratio, &TimeRatio::value>("ratio", "Time against fast"),
-      column<&AccuracyChoice::OnHardCases::ratio, &TimeRatio::spread>("spread",
-                                                                      "Of both times, as a share"),
-      column<&AccuracyChoice::OnHardCases::pairs>("pairs"),
-      column<&AccuracyChoice::OnHardCases::wrong>("wrong"),
-      column<&AccuracyChoice::OnHardCases::rewritten>("rewritten",
-                                                      "Pairs written down in other ways"),
-      column<&AccuracyChoice::OnHardCases::other_answer>("other_answer",
-                                                         "Of these: the answer changed"),
-      column<&AccuracyChoice::OnHardCases::kinds_never_wrong>("kinds_never_wrong",
-                                                              "Of the members of families")};
-  return {"on_hard_cases", "", columns, true};
-}
+LINE_RECORD(AccuracyChoice::OnHardCases, "on_hard_cases", "",
+            COLUMN("ns_per_pair", "", r.ns_per_pair),
+            COLUMN("ratio", "Time against fast", r.ratio.value),
+            COLUMN("spread", "Of both times, as a share", r.ratio.spread),
+            COLUMN("pairs", "", r.pairs), COLUMN("wrong", "", r.wrong),
+            COLUMN("rewritten", "Pairs written down in other ways", r.rewritten),
+            COLUMN("other_answer", "Of these: the answer changed", r.other_answer),
+            COLUMN("kinds_never_wrong", "Of the members of families", r.kinds_never_wrong()));
 
-Record<AccuracyChoice> record_of(const AccuracyChoice*) {
-  static constexpr Column<AccuracyChoice> columns[] = {
-      column<&AccuracyChoice::accuracy>("word"),
-      column<&AccuracyChoice::deck>("deck", "null: no deck, or no pair in it"),
-      column<&AccuracyChoice::hard>("hard")};
-  return {"choice", "What a word of --accuracy costs and gives.", columns};
-}
+RECORD(AccuracyChoice, "choice", "What a word of --accuracy costs and gives.",
+       COLUMN("word", "", r.accuracy), COLUMN("deck", "null: no deck, or no pair in it", r.deck),
+       COLUMN("hard", "", r.hard));
 
 namespace {
 
@@ -132,104 +115,71 @@ struct WorstRow {
     return out;
   }
 };
-Record<WorstRow> record_of(const WorstRow*) {
-  static constexpr Column<WorstRow> columns[] = {
-      column<&WorstRow::word>("word"),
-      column<&WorstRow::kind>("kind", "node_segment or edge_edge"),
-      column<&WorstRow::of, &KindResult::worst, &PairSample::triangle>("triangle"),
-      column<&WorstRow::points>(
-          "points", "Corners and node, or both nodes of the secondary and of the main edge"),
-      column<&WorstRow::of, &KindResult::worst, &PairSample::gap>("gap"),
-      column<&WorstRow::of, &KindResult::exact>("exact", "The distance, rounded once"),
-      column<&WorstRow::of, &KindResult::computed>("computed",
-                                                   "The distance by the formula of the word"),
-      column<&WorstRow::of, &KindResult::in_contact>("in_contact", "The right answer")};
-  return {"pair", "A wrong decision about a hard case.", columns, true};
-}
+LINE_RECORD(WorstRow, "pair", "A wrong decision about a hard case.", COLUMN("word", "", r.word),
+            COLUMN("kind", "node_segment or edge_edge", r.kind()),
+            COLUMN("triangle", "", r.of->worst.triangle),
+            COLUMN("points",
+                   "Corners and node, or both nodes of the secondary and of the main edge",
+                   r.points()),
+            COLUMN("gap", "", r.of->worst.gap),
+            COLUMN("exact", "The distance, rounded once", r.of->exact),
+            COLUMN("computed", "The distance by the formula of the word", r.of->computed),
+            COLUMN("in_contact", "The right answer", r.of->in_contact));
 
 struct FamilyRow {
   const AccuracyChoices& choices;
-  std::size_t index;
   const KindResult* first;  ///< of the first choice
 
+  /// Of another choice.
+  const KindResult& in(const AccuracyChoice& choice) const {
+    return choice.hard.kinds[static_cast<std::size_t>(first - choices.front().hard.kinds.data())];
+  }
   Counts wrong() const {
     Counts counts;
-    for (const AccuracyChoice& c : choices)
-      counts.emplace_back(to_string(c.accuracy), c.hard.kinds[index].wrong);
+    for (const AccuracyChoice& c : choices) counts.emplace_back(to_string(c.accuracy), in(c).wrong);
     return counts;
   }
 };
 
 void each_worst(const FamilyRow& r, const std::function<void(const WorstRow&)>& add) {
   for (const AccuracyChoice& c : r.choices)
-    if (const KindResult& kind = c.hard.kinds[r.index]; kind.wrong > 0) add({c.accuracy, &kind});
+    if (r.in(c).wrong > 0) add({c.accuracy, &r.in(c)});
 }
 
-Record<FamilyRow> record_of(const FamilyRow*) {
-  using Row = FamilyRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::first, &KindResult::kind, &HardFamily::id>("id"),
-      column<&Row::first, &KindResult::kind, &HardFamily::name>("name"),
-      column<&Row::first, &KindResult::kind, &HardFamily::group>("group"),
-      column<&Row::first, &KindResult::kind, &HardFamily::expected>("expected"),
-      column<&Row::first, &KindResult::pairs>("pairs"),
-      column<&Row::wrong>("wrong", "Wrong decisions of each word"),
-      column("worst", "Of each word that is wrong: the wrong decision with the largest error",
-             [](const Row& r) {
-               return Rows<WorstRow>{[&r](const auto& add) { each_worst(r, add); }};
-             })};
-  return {"family", "A kind of hard cases.", columns};
-}
+RECORD(FamilyRow, "family", "A kind of hard cases.", COLUMN("id", "", r.first->kind.id),
+       COLUMN("name", "", r.first->kind.name), COLUMN("group", "", r.first->kind.group),
+       COLUMN("expected", "", r.first->kind.expected), COLUMN("pairs", "", r.first->pairs),
+       COLUMN("wrong", "Wrong decisions of each word", r.wrong()),
+       COLUMN("worst", "Of each word that is wrong: the wrong decision with the largest error",
+              rows_from<each_worst>(r)));
 
 struct WrongRow {
   Accuracy word;
   const WrongPair* pair;
 };
-Record<WrongRow> record_of(const WrongRow*) {
-  static constexpr Column<WrongRow> columns[] = {
-      column<&WrongRow::word>("word"),
-      column<&WrongRow::pair, &WrongPair::interface>("interface"),
-      column<&WrongRow::pair, &WrongPair::secondary>("secondary", "Node ids"),
-      column<&WrongRow::pair, &WrongPair::main>("main"),
-      column<&WrongRow::pair, &WrongPair::gap>("gap"),
-      column<&WrongRow::pair, &WrongPair::exact>(
-          "exact", "The distance; null: the interface has other rules, or moves nodes"),
-      column<&WrongRow::pair, &WrongPair::computed>("computed",
-                                                    "The distance by the formula of the word")};
-  return {"wrong_pair", "A wrong decision about a pair of the deck.", columns, true};
-}
+LINE_RECORD(WrongRow, "wrong_pair", "A wrong decision about a pair of the deck.",
+            COLUMN("word", "", r.word), COLUMN("interface", "", r.pair->interface),
+            COLUMN("secondary", "Node ids", r.pair->secondary), COLUMN("main", "", r.pair->main),
+            COLUMN("gap", "", r.pair->gap),
+            COLUMN("exact", "The distance; null: the interface has other rules, or moves nodes",
+                   r.pair->exact),
+            COLUMN("computed", "The distance by the formula of the word", r.pair->computed));
 
 }  // namespace
 
-Record<HardMotion::Line> record_of(const HardMotion::Line*) {
-  static constexpr Column<HardMotion::Line> columns[] = {
-      column<&HardMotion::Line::accuracy>("word"),
-      column<&HardMotion::Line::depth>("depth", "By step"),
-      column<&HardMotion::Line::force>("force", "By step: the elastic force of a stiffness of 1"),
-      column<&HardMotion::Line::jumps>("jumps",
-                                       "Steps where the depth changes by more than the way")};
-  return {"line", "", columns};
-}
+RECORD(HardMotion::Line, "line", "", COLUMN("word", "", r.accuracy),
+       COLUMN("depth", "By step", r.depth),
+       COLUMN("force", "By step: the elastic force of a stiffness of 1", r.force),
+       COLUMN("jumps", "Steps where the depth changes by more than the way", r.jumps));
 
-Record<HardMotion> record_of(const HardMotion*) {
-  using Row = HardMotion;
-  static constexpr Column<Row> columns[] = {
-      column("corners",
-             [](const Row& r) {
-               return std::array{point(r.corners[0]), point(r.corners[1]), point(r.corners[2])};
-             }),
-      column<&Row::from, &point>("from"),
-      column<&Row::to, &point>("to"),
-      column<&Row::gap>("gap"),
-      column<&Row::way>("way", "Of the node in one step"),
-      column("lines", [](const Row& r) { return rows_of(r.lines); }),
-      column("sentences", [](const Row& r) { return rows_of(motion_sentences(r)); })};
-  return {
-      "motion",
-      "One hard case in motion: a node passes a triangle of hardly any area in straight steps of "
-      "equal length.",
-      columns};
-}
+RECORD(HardMotion, "motion",
+       "One hard case in motion: a node passes a triangle of hardly any area in straight steps of "
+       "equal length.",
+       COLUMN("corners", "",
+              std::array{point(r.corners[0]), point(r.corners[1]), point(r.corners[2])}),
+       COLUMN("from", "", point(r.from)), COLUMN("to", "", point(r.to)), COLUMN("gap", "", r.gap),
+       COLUMN("way", "Of the node in one step", r.way), COLUMN("lines", "", rows_of(r.lines)),
+       COLUMN("sentences", "", rows_of(motion_sentences(r))));
 
 namespace {
 
@@ -245,38 +195,18 @@ void each_wrong_pair(const AccuracyDocument& r, const std::function<void(const W
       for (const WrongPair& p : c.deck->wrong) add({c.accuracy, &p});
 }
 
-Record<AccuracyDocument> record_of(const AccuracyDocument*) {
-  using Row = AccuracyDocument;
-  static constexpr Column<Row> of_machine[] = {
-      column<&Row::context, &AccuracyContext::processor>("processor"),
-      column("compiler", [](const Row&) { return accuracy_compiler(); }),
-      column<&Row::context, &AccuracyContext::command>("command")};
-  static constexpr Record<Row> machine{"machine", "", of_machine, true};
-  static constexpr Column<Row> columns[] = {
-      column("deck",
-             [](const Row& r) {
-               return if_any(r.context->deck != nullptr,
-                             DeckRow{r.context->path, r.context->deck, nullptr, nullptr});
-             }),
-      group<machine>("machine"),
-      column("advice", "Two sentences: which accuracy to keep, and why",
-             [](const Row& r) { return rows_of(accuracy_advice(*r.choices)); }),
-      column("choices", "reference, fast, robust, exact",
-             [](const Row& r) { return rows_of(*r.choices); }),
-      column("families",
-             [](const Row& r) {
-               return rows_of(r.choices->front().hard.kinds, [&r](const KindResult& k) {
-                 const auto& first = r.choices->front().hard.kinds;
-                 return FamilyRow{*r.choices, static_cast<std::size_t>(&k - first.data()), &k};
-               });
-             }),
-      column("wrong_pairs",
-             [](const Row& r) {
-               return Rows<WrongRow>{[&r](const auto& add) { each_wrong_pair(r, add); }};
-             }),
-      column<&Row::motion>("motion")};
-  return {"document", "", columns};
-}
+RECORD(AccuracyDocument, "document", "",
+       COLUMN("deck", "",
+              if_any(r.context->deck != nullptr,
+                     DeckRow{r.context->path, r.context->deck, nullptr, nullptr})),
+       LINE_OBJECT("machine", "", COLUMN("processor", "", r.context->processor),
+                   COLUMN("compiler", "", accuracy_compiler()),
+                   COLUMN("command", "", r.context->command)),
+       COLUMN("advice", "Two sentences: which accuracy to keep, and why",
+              rows_of(accuracy_advice(*r.choices))),
+       COLUMN("choices", "reference, fast, robust, exact", rows_of(*r.choices)),
+       COLUMN("families", "", rows<FamilyRow>(r.choices->front().hard.kinds, *r.choices)),
+       COLUMN("wrong_pairs", "", rows_from<each_wrong_pair>(r)), COLUMN("motion", "", r.motion));
 
 constexpr DocumentHead accuracy_head{
     "deck/accuracy", 2,

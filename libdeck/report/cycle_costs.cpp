@@ -134,25 +134,16 @@ std::string cost_sentence(const CycleInput& input) {
   return out + ".";
 }
 
-Record<EffectCost> record_of(const EffectCost*) {
-  using Row = EffectCost;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::name>("name"),
-      column<&Row::on>("on", "The card asks for it"),
-      column("why_not", "Why there are no times",
-             [](const Row& r) { return if_any(!r.why_not.empty(), r.why_not); }),
-      column("against", "What the card of the other loop says",
-             [](const Row& r) { return if_any(r.why_not.empty(), r.other); }),
-      column("ns", "What it adds, or would add: median",
-             [](const Row& r) { return if_any(r.why_not.empty(), r.ns); }),
-      column("low", "Lower quartile",
-             [](const Row& r) { return if_any(r.why_not.empty(), r.low); }),
-      column("high", "Upper quartile",
-             [](const Row& r) { return if_any(r.why_not.empty(), r.high); }),
-      column("change", "Largest difference of a pair force over the largest pair force",
-             [](const Row& r) { return if_any(r.why_not.empty(), r.change); })};
-  return {"effect_cost", "", columns, true};
-}
+LINE_RECORD(EffectCost, "effect_cost", "", COLUMN("name", "", r.name),
+            COLUMN("on", "The card asks for it", r.on),
+            COLUMN("why_not", "Why there are no times", if_any(!r.why_not.empty(), r.why_not)),
+            COLUMN("against", "What the card of the other loop says",
+                   if_any(r.why_not.empty(), r.other)),
+            COLUMN("ns", "What it adds, or would add: median", if_any(r.why_not.empty(), r.ns)),
+            COLUMN("low", "Lower quartile", if_any(r.why_not.empty(), r.low)),
+            COLUMN("high", "Upper quartile", if_any(r.why_not.empty(), r.high)),
+            COLUMN("change", "Largest difference of a pair force over the largest pair force",
+                   if_any(r.why_not.empty(), r.change)));
 
 std::optional<ContactCost> measured_cost(const CycleInput& input,
                                          const cycle::ContactOutcome& contact) {
@@ -160,45 +151,32 @@ std::optional<ContactCost> measured_cost(const CycleInput& input,
   return cost == nullptr ? std::nullopt : std::optional(*cost);
 }
 
-Record<ContactCost> record_of(const ContactCost*) {
-  using Row = ContactCost;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::pairs>("pairs"),
-      column<&Row::measured>("measured", "The first of the pairs, which were timed"),
-      column<&Row::margin>("margin",
-                           "How far beyond their gap pairs were looked for, where none is nearer"),
-      column<&Row::problem>("problem", "Why nothing was timed; empty: it was"),
-      column<&Row::loop_ns>("loop_ns", "The loop that the card asks for"),
-      column<&Row::flags_ns>("flags_ns", "The same effects, asked for by flags inside the loop"),
-      column<&Row::all_ns>(
-          "all_ns", "Every effect that this kind of contact can have together; 0: no such loop"),
-      column<&Row::all>("all", "What the card of that loop says in addition"),
-      column("effects", [](const Row& r) { return rows_of(r.effects); })};
-  return {"cost", "The loop over pairs of this contact, in nanoseconds of processor time per pair.",
-          columns};
-}
+RECORD(ContactCost, "cost",
+       "The loop over pairs of this contact, in nanoseconds of processor time per pair.",
+       COLUMN("pairs", "", r.pairs),
+       COLUMN("measured", "The first of the pairs, which were timed", r.measured),
+       COLUMN("margin", "How far beyond their gap pairs were looked for, where none is nearer",
+              r.margin),
+       COLUMN("problem", "Why nothing was timed; empty: it was", r.problem),
+       COLUMN("loop_ns", "The loop that the card asks for", r.loop_ns),
+       COLUMN("flags_ns", "The same effects, asked for by flags inside the loop", r.flags_ns),
+       COLUMN("all_ns", "Every effect that this kind of contact can have together; 0: no such loop",
+              r.all_ns),
+       COLUMN("all", "What the card of that loop says in addition", r.all),
+       COLUMN("effects", "", rows_of(r.effects)));
 
 std::optional<CostsRow> measured_costs(const CycleInput& input) {
   if (input.costs == nullptr) return std::nullopt;
   return CostsRow{&input, summarize_costs(input)};
 }
 
-Record<CostsRow> record_of(const CostsRow*) {
-  using Row = CostsRow;
-  static constexpr Column<Row> columns[] = {
-      column("verdict", [](const Row& r) { return cost_sentence(*r.input); }),
-      column<&Row::sums, &CostSummary::contacts>("contacts"),
-      column<&Row::sums, &CostSummary::pairs>("pairs"),
-      column<&Row::sums, &CostSummary::on>("effects_on"),
-      column<&Row::sums, &CostSummary::known>("effects"),
-      column<&Row::sums, &CostSummary::loop_ns>("loop_ns"),
-      column<&Row::sums, &CostSummary::flags_ns>("flags_ns"),
-      column<&Row::sums, &CostSummary::all_ns>("all_ns"),
-      column<&Row::input, &CycleInput::cost_repeats>("repeats"),
-      column<&Row::input, &CycleInput::processor>("processor"),
-      column("compiler", [](const Row&) { return accuracy_compiler(); })};
-  return {"costs", "All contacts together, by their pairs.", columns};
-}
+RECORD(CostsRow, "costs", "All contacts together, by their pairs.",
+       COLUMN("verdict", "", cost_sentence(*r.input)), COLUMN("contacts", "", r.sums.contacts),
+       COLUMN("pairs", "", r.sums.pairs), COLUMN("effects_on", "", r.sums.on),
+       COLUMN("effects", "", r.sums.known), COLUMN("loop_ns", "", r.sums.loop_ns),
+       COLUMN("flags_ns", "", r.sums.flags_ns), COLUMN("all_ns", "", r.sums.all_ns),
+       COLUMN("repeats", "", r.input->cost_repeats), COLUMN("processor", "", r.input->processor),
+       COLUMN("compiler", "", accuracy_compiler()));
 
 std::string cost_text(const CycleInput& input, const CycleTextOptions& options) {
   if (input.costs == nullptr) return {};

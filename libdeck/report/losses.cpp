@@ -15,15 +15,9 @@ struct LossLists {
     }};
   }
 };
-Record<LossLists> record_of(const LossLists*) {
-  using Row = LossLists;
-  static constexpr Column<Row> columns[] = {
-      column("kept", [](const Row& r) { return r.of(Loss::kept); }),
-      column("approximated", [](const Row& r) { return r.of(Loss::approximated); }),
-      column("dropped", [](const Row& r) { return r.of(Loss::dropped); }),
-      column("undecided", [](const Row& r) { return r.of(Loss::undecided); })};
-  return {"document", "", columns};
-}
+RECORD(LossLists, "document", "", COLUMN("kept", "", r.of(Loss::kept)),
+       COLUMN("approximated", "", r.of(Loss::approximated)),
+       COLUMN("dropped", "", r.of(Loss::dropped)), COLUMN("undecided", "", r.of(Loss::undecided)));
 
 constexpr DocumentHead losses_head{"deck/losses", 1,
                                    "Written by deck convert --report: cells and blocks that the "
@@ -32,23 +26,14 @@ constexpr DocumentHead losses_head{"deck/losses", 1,
 
 }  // namespace
 
-Record<LossEntry> record_of(const LossEntry*) {
-  using Row = LossEntry;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::file>("file"),
-      column<&Row::line>("line"),
-      column("column", "First column of the text that changed; not of a whole block",
-             [](const Row& r) { return if_any(r.column > 0, r.column); }),
-      column("end_column", "Last column of the text that was there",
-             [](const Row& r) { return if_any(r.column > 0, r.end_column); }),
-      column<&Row::keyword>("keyword"),
-      column<&Row::id>("id"),
-      column<&Row::field>("field", "Empty: the block as a whole"),
-      column<&Row::old_text>("old"),
-      column<&Row::new_text>("new"),
-      column<&Row::note>("note")};
-  return {"entry", "", columns};
-}
+RECORD(LossEntry, "entry", "", COLUMN("file", "", r.file), COLUMN("line", "", r.line),
+       COLUMN("column", "First column of the text that changed; not of a whole block",
+              if_any(r.column > 0, r.column)),
+       COLUMN("end_column", "Last column of the text that was there",
+              if_any(r.column > 0, r.end_column)),
+       COLUMN("keyword", "", r.keyword), COLUMN("id", "", r.id),
+       COLUMN("field", "Empty: the block as a whole", r.field), COLUMN("old", "", r.old_text),
+       COLUMN("new", "", r.new_text), COLUMN("note", "", r.note));
 
 DocumentSchema losses_schema() { return document_schema<LossLists>(losses_head); }
 

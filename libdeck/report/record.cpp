@@ -11,6 +11,8 @@
 namespace deck {
 namespace {
 
+constexpr std::size_t most_columns = 115;  ///< properties share a line that is no longer
+
 std::string json_text(std::string_view text) {
   std::string out;
   append_json_string(out, text);
@@ -50,15 +52,19 @@ JsonForm SchemaDefinitions::reference(const char* name, bool common,
 std::string object_form(std::string_view says,
                         const std::vector<std::pair<std::string, std::string>>& members,
                         const std::vector<std::string>& required) {
-  std::string out = "{\n";
-  if (!says.empty()) out += fmt::format("      \"description\": {},\n", json_text(says));
-  out += "      \"type\": \"object\", \"additionalProperties\": false,\n";
-  if (!required.empty()) out += fmt::format("      \"required\": [{}],\n", joined(required));
-  out += "      \"properties\": {\n";
-  for (std::size_t i = 0; i < members.size(); ++i)
-    out += fmt::format("        {}: {}{}\n", json_text(members[i].first), members[i].second,
-                       i + 1 < members.size() ? "," : "");
-  return out + "      } }";
+  std::string out = "{ ";
+  if (!says.empty()) out += fmt::format("\"description\": {}, ", json_text(says));
+  out += "\"type\": \"object\", \"additionalProperties\": false,\n      ";
+  if (!required.empty()) out += fmt::format("\"required\": [{}], ", joined(required));
+  out += "\"properties\": {";
+  std::size_t end = most_columns;  // of the line under way
+  for (const auto& [name, form] : members) {
+    const std::string member = fmt::format("{}: {}", json_text(name), form);
+    const bool first = out.ends_with('{'), fits = end + member.size() + 3 <= most_columns;
+    out += (first ? "" : ",") + std::string(fits ? " " : "\n        ") + member;
+    end = (fits ? end + 2 : 8) + member.size();
+  }
+  return out + " } }";
 }
 
 std::string described(const char* says, const JsonForm& form) {

@@ -1,16 +1,15 @@
 // Records: the members of a JSON object, written once as a table of columns. From a table come the
 // object in a document and its JSON schema.
 //
-// A type becomes a record by a function next to it:
+// A type becomes a record by a line next to it:
 //
-//   Record<Crossing> record_of(const Crossing*) {
-//     static constexpr Column<Crossing> columns[] = {
-//         column<&Crossing::edge>("edge", "Node ids"),
-//         column("side", "1 to 4", [](const Crossing& c) { return c.side + 1; })};
-//     return {"crossing", "An edge through a segment.", columns};
-//   }
+//   LINE_RECORD(Crossing, "crossing", "An edge through a segment.",
+//               COLUMN("edge", "Node ids", r.edge), COLUMN("side", "1 to 4", r.side + 1));
 //
-// The type that a column's function returns decides the form of the member:
+// It has a name, a sentence and its columns; a LINE_RECORD stands on one line of a document, the
+// schema of a COMMON_RECORD in the file that all documents share.
+// A column is a name, a sentence for the schema, and an expression of the row `r`. The type of the
+// expression decides the form of the member:
 //
 //   double                       a number; null if it is not finite
 //   integers, bool, texts        as they are; an unsigned integer is 0 or more
@@ -21,10 +20,10 @@
 //   Counts                       an object of names and counts; TallCounts: one a line
 //   Scalar                       a number or a text
 //   Named<T>                     an object whose names are data, each with a T
-//   a type that has record_of()  an object
+//   a record                     an object
 //   Rows<T>                      a list of such objects, each written as it comes
 //
-// group<record>("name") is an object of further columns of the same row.
+// An OBJECT or LINE_OBJECT among the columns is an object of further columns of the same row.
 #pragma once
 #include <array>
 #include <concepts>
@@ -77,11 +76,11 @@ class SchemaDefinitions {
 
 template <class Row>
 struct Column {
-  const char* name;
-  const char* says;  ///< description in the schema; may be empty
-  bool required;
-  void (*write)(JsonOut&, std::string_view name, const Row&);
-  JsonForm (*form)(SchemaDefinitions&);
+  const char* name = nullptr;
+  const char* says = nullptr;  ///< description in the schema; may be empty
+  bool required = true;
+  void (*write)(JsonOut&, std::string_view name, const Row&) = nullptr;
+  JsonForm (*form)(SchemaDefinitions&) = nullptr;
 };
 
 template <class Row>
@@ -113,6 +112,32 @@ auto rows_of(List&& list, Make make = {}) {
   return Rows<T>{[kept = std::tuple<List>(std::forward<List>(list)), make](const auto& add) {
     for (const auto& value : std::get<0>(kept)) add(make(value));
   }};
+}
+
+/// A Row of each value of a list, made of `context` and a pointer to the value.
+template <class Row, class List, class... Context>
+Rows<Row> rows(List&& list, Context&&... context) {
+  return {[kept = std::tuple<List>(std::forward<List>(list)),
+           before = std::tuple<Context...>(std::forward<Context>(context)...)](const auto& add) {
+    for (const auto& value : std::get<0>(kept))
+      std::apply(
+          [&](const auto&... c) {
+            if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(value)>>)
+              add(Row{c..., value});
+            else
+              add(Row{c..., &value});
+          },
+          before);
+  }};
+}
+
+template <class Source, class Row>
+Row row_of_each(void (*)(const Source&, const std::function<void(const Row&)>&));
+/// The rows that a function adds: rows_from<each_contact>(document).
+template <auto Each, class Source>
+auto rows_from(const Source& source) {
+  using Row = decltype(row_of_each(Each));
+  return Rows<Row>{[&source](const std::function<void(const Row&)>& add) { Each(source, add); }};
 }
 
 template <class T>
@@ -292,75 +317,112 @@ inline constexpr bool is_if_any = false;
 template <class T>
 inline constexpr bool is_if_any<IfAny<T>> = true;
 
-template <class Row, class T>
-Row row_type(T Row::*);
-template <class Row, class T>
-Row row_type(T (*)(const Row&));
-template <class Get, class Row, class T>
-Row row_type(T (Get::*)(const Row&) const);
-template <class Get>
-using RowOf = decltype(row_type(&Get::operator()));
+/// What a column's expression gives: a reference to what outlives it, a temporary by value.
+template <class T>
+constexpr T column_value(T&& value) {
+  return std::forward<T>(value);
+}
+constexpr const char* column_value(const char* text) { return text; }
 
-/// A column; `get` is a lambda without captures from a row to the value.
-template <class Get, class Row = RowOf<Get>>
-requires std::is_empty_v<Get>
-constexpr Column<Row> column(const char* name, const char* says, Get) {
+struct ColumnText {
+  const char* name;
+  const char* says;
+};
+
+/// A column of any row that `Get` takes. Both lambdas have no captures: the type is the column.
+template <class Text, class Get>
+struct ColumnOf {
+  ColumnOf() = default;
+  constexpr ColumnOf(Text, Get) {}
+
+  template <class Row>
   using T = std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>;
-  return {name, says, !is_if_any<T>,
-          [](JsonOut& out, std::string_view key, const Row& row) {
-            const auto& value = Get{}(row);
-            if constexpr (is_if_any<T>) {
-              if (!value.value) return;
-              out.json.key(key);
-              Value<std::remove_cvref_t<decltype(*value.value)>>::write(out, *value.value);
-            } else {
-              out.json.key(key);
-              Value<T>::write(out, value);
-            }
-          },
-          [](SchemaDefinitions& d) { return Value<T>::form(d); }};
+
+  template <class Row>
+  static constexpr std::array<Column<Row>, 1> of() {
+    return {{{Text{}().name, Text{}().says, !is_if_any<T<Row>>, &write<Row>,
+              [](SchemaDefinitions& d) { return Value<T<Row>>::form(d); }}}};
+  }
+
+ private:
+  template <class Row>
+  static void write(JsonOut& out, std::string_view name, const Row& row) {
+    const auto& value = Get{}(row);
+    if constexpr (is_if_any<T<Row>>) {
+      if (!value.value) return;
+      out.json.key(name);
+      Value<std::remove_cvref_t<decltype(*value.value)>>::write(out, *value.value);
+    } else {
+      out.json.key(name);
+      Value<T<Row>>::write(out, value);
+    }
+  }
+};
+
+/// Columns that several records have: records take them among their own.
+template <class... Columns>
+struct ColumnsOf {
+  ColumnsOf() = default;
+  constexpr explicit ColumnsOf(Columns...) {}
+
+  template <class Row>
+  static constexpr auto of() {
+    std::array<Column<Row>, (Columns::template of<Row>().size() + ...)> out{};
+    std::size_t i = 0;
+    const auto add = [&](const auto& columns) {
+      for (const Column<Row>& c : columns) out[i++] = c;
+    };
+    (add(Columns::template of<Row>()), ...);
+    return out;
+  }
+  template <class Row>
+  static constexpr auto all = of<Row>();
+};
+template <class Row, class... Columns>
+constexpr Record<Row> make_record(const char* name, const char* says, bool line, bool common,
+                                  Columns...) {
+  return {name, says, ColumnsOf<Columns...>::template all<Row>, line, common};
 }
 
-template <class Get>
-constexpr auto column(const char* name, Get get) {
-  return column(name, "", get);
+/// A member that is an object of other columns of the row; in a schema a record of this name.
+template <bool line, class Text, class... Columns>
+struct ObjectOf {
+  template <class Row>
+  static constexpr std::array<Column<Row>, 1> of() {
+    return {{{Text{}().name, "", true,
+              [](JsonOut& out, std::string_view name, const Row& row) {
+                out.json.key(name).begin_object(line);
+                for (const Column<Row>& c : ColumnsOf<Columns...>::template all<Row>)
+                  c.write(out, c.name, row);
+                out.json.end_object();
+              },
+              [](SchemaDefinitions& d) {
+                return record_form(
+                    d, make_record<Row>(Text{}().name, Text{}().says, line, false, Columns{}...));
+              }}}};
+  }
+};
+template <bool line, class Text, class... Columns>
+constexpr ObjectOf<line, Text, Columns...> object_of(Text, Columns...) {
+  return {};
 }
 
-template <class Row>
-Row row_type(const Record<Row>&);
-
-/// A member that is an object of other columns of the row, those of the record `Group`.
-template <const auto& Group>
-constexpr auto group(const char* name, const char* says = "") {
-  using Row = decltype(row_type(Group));
-  return Column<Row>{name, says, true,
-                     [](JsonOut& out, std::string_view key, const Row& row) {
-                       out.json.key(key).begin_object(Group.line);
-                       for (const Column<Row>& c : Group.columns) c.write(out, c.name, row);
-                       out.json.end_object();
-                     },
-                     [](SchemaDefinitions& d) { return record_form(d, Group); }};
-}
-
-/// What a path of members and functions gives for a row; pointers on the way are followed.
-template <auto Get, auto... Rest, class Row>
-constexpr decltype(auto) value_at(const Row& row) {
-  if constexpr (std::is_pointer_v<Row>)
-    return value_at<Get, Rest...>(*row);
-  else if constexpr (sizeof...(Rest) == 0)
-    return std::invoke(Get, row);
-  else
-    return value_at<Rest...>(std::invoke(Get, row));
-}
-
-/// A column that is a member of the row, a function of it, or a path of these:
-/// column<&Row::pair, &Pair::gap>("gap", "The pair gap").
-template <auto First, auto... Rest>
-constexpr auto column(const char* name, const char* says = "") {
-  using Row = decltype(row_type(First));
-  return column(name, says,
-                [](const Row& row) -> decltype(auto) { return value_at<First, Rest...>(row); });
-}
+#define RECORD_AS(Row, line, common, name, says, ...)               \
+  Record<Row> record_of(const Row*) {                               \
+    return make_record<Row>(name, says, line, common, __VA_ARGS__); \
+  }                                                                 \
+  Record<Row> record_of(const Row*)
+#define RECORD(Row, ...) RECORD_AS(Row, false, false, __VA_ARGS__)
+#define LINE_RECORD(Row, ...) RECORD_AS(Row, true, false, __VA_ARGS__)
+#define COMMON_RECORD(Row, ...) RECORD_AS(Row, false, true, __VA_ARGS__)
+#define COMMON_LINE_RECORD(Row, ...) RECORD_AS(Row, true, true, __VA_ARGS__)
+#define COLUMN_TEXT(name, says) [] { return ColumnText{name, says}; }
+#define COLUMN(name, says, ...)                                                            \
+  ColumnOf(COLUMN_TEXT(name, says), []([[maybe_unused]] const auto& r) -> decltype(auto) { \
+    return column_value(__VA_ARGS__);                                                      \
+  })
+#define OBJECT(name, says, ...) object_of<false>(COLUMN_TEXT(name, says), __VA_ARGS__)
+#define LINE_OBJECT(name, says, ...) object_of<true>(COLUMN_TEXT(name, says), __VA_ARGS__)
 
 /// A value, and a record without its braces, where no list is long.
 template <class T>

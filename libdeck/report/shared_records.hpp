@@ -34,6 +34,15 @@ Record<DeckRow> record_of(const DeckRow*);
 DeckRow deck_row(const LoadedDeck& loaded);
 
 Record<NotExamined> record_of(const NotExamined*);
+/// The members "examined" (how many interfaces) and "not_examined" (the others, by keyword), of a
+/// row with a member `coverage`.
+inline constexpr ColumnsOf coverage_columns(
+    COLUMN("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25", r.coverage.examined),
+    COLUMN("not_examined", "Interfaces of other types, by keyword", r.coverage.not_examined));
+struct CoverageRow {
+  Coverage coverage;
+};
+Record<CoverageRow> record_of(const CoverageRow*);
 Record<Verdict> record_of(const Verdict*);
 Record<ItemCounts> record_of(const ItemCounts*);
 Record<PartPair> record_of(const PartPair*);
@@ -45,15 +54,25 @@ struct DecisionsRow {
 };
 Record<DecisionsRow> record_of(const DecisionsRow*);
 
+/// Numbers of findings, of a row with a member `linted`.
+inline constexpr ColumnsOf finding_columns(COLUMN("errors", "", r.linted->result->errors),
+                                           COLUMN("warnings", "", r.linted->result->warnings),
+                                           COLUMN("infos", "", r.linted->result->infos));
+
 /// The entity that a finding is about.
 struct EntityRow {
   const Diagnostic* d = nullptr;
 };
 Record<EntityRow> record_of(const EntityRow*);
+inline std::optional<EntityRow> entity_of(const Diagnostic& d) {
+  return d.keyword.empty() ? std::nullopt : std::optional(EntityRow{&d});
+}
 Record<ReferenceMessage> record_of(const ReferenceMessage*);
 Record<NotChecked> record_of(const NotChecked*);
 Record<LossEntry> record_of(const LossEntry*);
 Record<StepDifference> record_of(const StepDifference*);
+Record<ListedPair> record_of(const ListedPair*);
+Record<ComparedSteps> record_of(const ComparedSteps*);
 
 /// A finding of a gate.
 struct GateFinding {
@@ -103,17 +122,32 @@ std::array<std::int64_t, N> node_ids(const Model& model, const std::array<NodeIn
   return ids;
 }
 
+inline std::vector<std::int64_t> node_ids(const Model& model, const std::vector<NodeIndex>& nodes) {
+  std::vector<std::int64_t> ids;
+  for (const NodeIndex n : nodes) ids.push_back(model.node_id(n));
+  return ids;
+}
+
 /// The ids of a pair: of two edges, or of a node and a segment.
 struct PairSides {
   const Model* model = nullptr;
   const Contact* contact = nullptr;
   std::uint32_t secondary = 0, main = 0;
 
+  /// Node ids of an item of one side, of a contact that has such items.
+  template <class Item>
+  auto ids_of(bool has_items, const std::vector<Item>& items, std::uint32_t i) const {
+    using Ids = decltype(node_ids(*model, items[i].nodes));
+    return has_items ? IfAny<Ids>{node_ids(*model, items[i].nodes)} : IfAny<Ids>();
+  }
   bool edges() const { return contact->kind == ContactKind::edge_edge; }
-  IfAny<std::array<std::int64_t, 2>> edge() const;
-  IfAny<std::array<std::int64_t, 2>> main_edge() const;
-  IfAny<std::int64_t> node() const;
-  IfAny<std::array<std::int64_t, 4>> segment() const;
+  auto edge() const { return ids_of(edges(), contact->secondary_edges, secondary); }
+  auto main_edge() const { return ids_of(edges(), contact->main_edges, main); }
+  auto segment() const { return ids_of(!edges(), contact->main, main); }
+  IfAny<std::int64_t> node() const {
+    if (edges()) return {};
+    return {model->node_id(contact->secondary[secondary].node)};
+  }
 };
 
 /// A value where it is known, else null.

@@ -72,7 +72,7 @@ std::string meta_json(const HtmlInput& in, const PageContacts& page,
   write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
   write_value(j.key("verdict"), verdict_in(in));
   write_value(j.key("summary"), in.view->total);
-  write_json_coverage(j, coverage_of(*in.deck, *in.scene->interfaces, in.scene->examined));
+  write_members(j, CoverageRow{coverage_of(*in.deck, *in.scene->interfaces, in.scene->examined)});
   std::uint64_t bytes = 0;
   for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f)
     bytes += in.deck->sources[f].on_disk().size();

@@ -16,174 +16,98 @@ struct EditRow {
     return deck->deck->sources[edit->span.file].position(edit->span.offset + edit->span.length);
   }
 };
-Record<EditRow> record_of(const EditRow*) {
-  using Row = EditRow;
-  static constexpr Column<Row> columns[] = {
-      column("file", [](const Row& r) { return r.at().file; }),
-      column("line", [](const Row& r) { return r.at().line; }),
-      column("column", [](const Row& r) { return r.at().column; }),
-      column("end_line", [](const Row& r) { return r.end().line; }),
-      column("end_column", [](const Row& r) { return r.end().column; }),
-      column<&Row::edit, &TextEdit::text>("text")};
-  return {"edit", "Replace the bytes from line:column up to, not including, end_line:end_column.",
-          columns, true};
-}
+LINE_RECORD(EditRow, "edit",
+            "Replace the bytes from line:column up to, not including, end_line:end_column.",
+            COLUMN("file", "", r.at().file), COLUMN("line", "", r.at().line),
+            COLUMN("column", "", r.at().column), COLUMN("end_line", "", r.end().line),
+            COLUMN("end_column", "", r.end().column), COLUMN("text", "", r.edit->text));
 
 struct FixRow {
   const LintedDeck* deck = nullptr;
   const Fix* fix = nullptr;
-  Rows<EditRow> edits() const {
-    return rows_of(fix->edits, [this](const TextEdit& e) { return EditRow{deck, &e}; });
-  }
 };
-Record<FixRow> record_of(const FixRow*) {
-  static constexpr Column<FixRow> columns[] = {
-      column<&FixRow::fix, &Fix::title>("title"),
-      column<&FixRow::fix, &Fix::safe>("safe", "The solver does the same with the repaired deck"),
-      column<&FixRow::edits>("edits")};
-  return {"fix", "", columns};
-}
+RECORD(FixRow, "fix", "", COLUMN("title", "", r.fix->title),
+       COLUMN("safe", "The solver does the same with the repaired deck", r.fix->safe),
+       COLUMN("edits", "", rows<EditRow>(r.fix->edits, r.deck)));
 
 struct NoteRow {
   detail::Place at;
   std::string_view message;
 };
-Record<NoteRow> record_of(const NoteRow*) {
-  static constexpr Column<NoteRow> columns[] = {
-      column<&NoteRow::at, &detail::Place::file>("file"),
-      column<&NoteRow::at, &detail::Place::line>("line"),
-      column<&NoteRow::at, &detail::Place::column>("column"),
-      column<&NoteRow::at, &detail::Place::end_column>("end_column"),
-      column<&NoteRow::message>("message")};
-  return {"note", "A second place of a finding.", columns, true};
-}
+LINE_RECORD(NoteRow, "note", "A second place of a finding.", COLUMN("file", "", r.at.file),
+            COLUMN("line", "", r.at.line), COLUMN("column", "", r.at.column),
+            COLUMN("end_column", "", r.at.end_column), COLUMN("message", "", r.message));
 
 struct FindingRow {
   const LintedDeck* deck = nullptr;
   const Diagnostic* d = nullptr;
   std::string_view fingerprint;
   detail::Place at = detail::place_of(*deck, d->span);
-  std::optional<EntityRow> entity() const { return known(!d->keyword.empty(), EntityRow{d}); }
-  std::optional<FixRow> fix() const {
-    return d->fix ? std::optional<FixRow>({deck, &*d->fix}) : std::nullopt;
-  }
-  Rows<NoteRow> notes() const {
-    return {[this](const auto& add) {
-      for (const auto& [span, text] : d->notes) add({detail::place_of(*deck, span), text});
-    }};
-  }
 };
-Record<FindingRow> record_of(const FindingRow*) {
-  using Row = FindingRow;
-  static constexpr Column<Row> columns[] = {
-      column("rule", [](const Row& r) { return id_text(r.d->rule); }),
-      column<&Row::d, &Diagnostic::field>(
-          "field", "Of a rule that covers several fields (DK201); else empty"),
-      column<&Row::d, &Diagnostic::severity>("severity"),
-      column<&Row::at, &detail::Place::file>("file"),
-      column<&Row::at, &detail::Place::line>("line"),
-      column<&Row::at, &detail::Place::column>("column"),
-      column<&Row::at, &detail::Place::end_column>("end_column", "First column behind the text"),
-      column<&Row::d, &Diagnostic::message>("message", "What was read"),
-      column<&Row::d, &Diagnostic::reference_behaviour>("reference_behaviour",
-                                                        "What the solver does with it"),
-      column<&Row::d, &Diagnostic::help>("help", "How to fix it"),
-      column<&Row::d, &Diagnostic::reference>("reference"),
-      column<&Row::entity>("entity"),
-      column<&Row::notes>("notes"),
-      column<&Row::fix>("fix"),
-      column<&Row::fingerprint>(
-          "fingerprint", "Of rule, entity and card text; it stays the same when lines move")};
-  return {"finding", "", columns};
+
+void each_note(const FindingRow& r, const std::function<void(const NoteRow&)>& add) {
+  for (const auto& [span, text] : r.d->notes) add({detail::place_of(*r.deck, span), text});
 }
 
-using Stale = std::pair<const FindingKey, std::uint64_t>;
-struct StaleRow {
-  const Stale* stale = nullptr;
-};
-Record<StaleRow> record_of(const StaleRow*) {
-  static constexpr Column<StaleRow> columns[] = {
-      column<&StaleRow::stale, &Stale::first, &FindingKey::rule>("rule"),
-      column<&StaleRow::stale, &Stale::first, &FindingKey::file>("file"),
-      column<&StaleRow::stale, &Stale::first, &FindingKey::entity>("entity"),
-      column<&StaleRow::stale, &Stale::first, &FindingKey::field>("field"),
-      column<&StaleRow::stale, &Stale::second>("count")};
-  return {"stale", "An entry of the baseline that no finding matches.", columns, true};
-}
+RECORD(FindingRow, "finding", "", COLUMN("rule", "", id_text(r.d->rule)),
+       COLUMN("field", "Of a rule that covers several fields (DK201); else empty", r.d->field),
+       COLUMN("severity", "", r.d->severity), COLUMN("file", "", r.at.file),
+       COLUMN("line", "", r.at.line), COLUMN("column", "", r.at.column),
+       COLUMN("end_column", "First column behind the text", r.at.end_column),
+       COLUMN("message", "What was read", r.d->message),
+       COLUMN("reference_behaviour", "What the solver does with it", r.d->reference_behaviour),
+       COLUMN("help", "How to fix it", r.d->help), COLUMN("reference", "", r.d->reference),
+       COLUMN("entity", "", entity_of(*r.d)), COLUMN("notes", "", rows_from<each_note>(r)),
+       COLUMN("fix", "", r.d->fix ? std::optional(FixRow{r.deck, &*r.d->fix}) : std::nullopt),
+       COLUMN("fingerprint", "Of rule, entity and card text; it stays the same when lines move",
+              r.fingerprint));
 
-struct LintSummaryRow {
-  const LintResult* result = nullptr;
-};
-Record<LintSummaryRow> record_of(const LintSummaryRow*) {
-  static constexpr Column<LintSummaryRow> columns[] = {
-      column<&LintSummaryRow::result, &LintResult::errors>("errors"),
-      column<&LintSummaryRow::result, &LintResult::warnings>("warnings"),
-      column<&LintSummaryRow::result, &LintResult::infos>("infos"),
-      column<&LintSummaryRow::result, &LintResult::suppressed>("suppressed"),
-      column<&LintSummaryRow::result, &LintResult::baselined>("baselined")};
-  return {"summary", "Numbers of findings.", columns, true};
-}
+}  // namespace
+
+using FindingCount = std::pair<const FindingKey, std::uint64_t>;
+LINE_RECORD(FindingCount, "stale", "An entry of the baseline that no finding matches.",
+            COLUMN("rule", "", r.first.rule), COLUMN("file", "", r.first.file),
+            COLUMN("entity", "", r.first.entity), COLUMN("field", "", r.first.field),
+            COLUMN("count", "", r.second));
+
+namespace {
 
 struct LintDocument {
   const LintedDeck* linted = nullptr;
   std::optional<Coverage> coverage = detail::coverage_of(*linted);
   const LintResult& result() const { return *linted->result; }
-  DeckRow deck() const { return {linted->path, linted->deck, nullptr, nullptr}; }
-  Verdict verdict() const { return linted->verdict ? *linted->verdict : lint_verdict(*linted); }
-  Rows<FindingRow> findings() const {
-    return {[this](const auto& add) {
-      for (std::size_t i = 0; i < result().diagnostics.size(); ++i)
-        add({linted, &result().diagnostics[i], result().fingerprints[i]});
-    }};
-  }
-  Rows<StaleRow> stale() const {
-    return rows_of(result().stale, [this](const Stale& s) { return StaleRow{&s}; });
-  }
   TallCounts counts() const {
     TallCounts out;
     for (const auto& [rule, count] : result().counts) out.counts.emplace_back(id_text(rule), count);
     return out;
   }
-  Rows<NotChecked> not_checked() const { return rows_of(result().not_checked); }
-  IfAny<std::size_t> examined() const {
-    return if_any(coverage.has_value(), coverage ? coverage->examined : 0);
-  }
-  IfAny<std::vector<NotExamined>> not_examined() const {
-    return coverage ? IfAny<std::vector<NotExamined>>{coverage->not_examined}
-                    : IfAny<std::vector<NotExamined>>{};
-  }
 };
-Record<LintDocument> record_of(const LintDocument*) {
-  using Row = LintDocument;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::deck>("deck"),
-      column<&Row::verdict>("verdict"),
-      column<&Row::findings>("diagnostics", "Ordered by file, line, column, rule"),
-      column("summary", [](const Row& r) { return LintSummaryRow{&r.result()}; }),
-      column<&Row::stale>("baseline_stale"),
-      column<&Row::counts>("counts", "Findings per rule, those beyond the bound included"),
-      column<&Row::not_checked>("not_checked"),
-      column<&Row::examined>("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25"),
-      column<&Row::not_examined>("not_examined", "Interfaces of other types, by keyword")};
-  return {"document", "", columns};
+
+void each_finding(const LintDocument& r, const std::function<void(const FindingRow&)>& add) {
+  for (std::size_t i = 0; i < r.result().diagnostics.size(); ++i)
+    add({r.linted, &r.result().diagnostics[i], r.result().fingerprints[i]});
 }
 
+RECORD(LintDocument, "document", "",
+       COLUMN("deck", "", DeckRow{r.linted->path, r.linted->deck, nullptr, nullptr}),
+       COLUMN("verdict", "", verdict_of(*r.linted)),
+       COLUMN("diagnostics", "Ordered by file, line, column, rule", rows_from<each_finding>(r)),
+       LINE_OBJECT("summary", "Numbers of findings.", finding_columns,
+                   COLUMN("suppressed", "", r.result().suppressed),
+                   COLUMN("baselined", "", r.result().baselined)),
+       COLUMN("baseline_stale", "", rows_of(r.result().stale)),
+       COLUMN("counts", "Findings per rule, those beyond the bound included", r.counts()),
+       COLUMN("not_checked", "", rows_of(r.result().not_checked)),
+       COLUMN("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25",
+              if_any(r.coverage.has_value(), r.coverage ? r.coverage->examined : 0)),
+       COLUMN("not_examined", "Interfaces of other types, by keyword",
+              r.coverage ? if_any(true, r.coverage->not_examined)
+                         : IfAny<std::vector<NotExamined>>{}));
+
 const char* stage_name(RuleStage stage) {
-  switch (stage) {
-    case RuleStage::reading:
-      return "reading";
-    case RuleStage::model:
-      return "model";
-    case RuleStage::check:
-      return "check";
-    case RuleStage::extra:
-      return "geometry";
-    case RuleStage::gate:
-      return "gate";
-    case RuleStage::linter:
-      return "linter";
-  }
-  return "";
+  static constexpr const char* names[] = {"reading",  "model", "check",
+                                          "geometry", "gate",  "linter"};
+  return names[static_cast<std::size_t>(stage)];
 }
 
 const char* fix_name(Fixable fixable) {
@@ -194,82 +118,47 @@ struct RuleFieldRow {
   const Rule* rule = nullptr;
   const RuleField* field = nullptr;
 };
-Record<RuleFieldRow> record_of(const RuleFieldRow*) {
-  using Row = RuleFieldRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::field, &RuleField::name>("name"),
-      column("was", "The rule that it was in earlier versions",
-             [](const Row& r) { return id_text(r.field->was); }),
-      column("severity",
-             [](const Row& r) { return r.field->severity.value_or(r.rule->severity()); }),
-      column<&Row::field, &RuleField::note>("note"),
-      column(
-          "reference_behaviour", "What the solver does",
-          [](const Row& r) { return r.field->solver.empty() ? r.rule->solver : r.field->solver; }),
-      column("fix", "How to fix it",
-             [](const Row& r) { return r.field->fix.empty() ? r.rule->fix : r.field->fix; })};
-  return {"field", "A field of a rule that covers several.", columns, true};
+LINE_RECORD(RuleFieldRow, "field", "A field of a rule that covers several.",
+            COLUMN("name", "", r.field->name),
+            COLUMN("was", "The rule that it was in earlier versions", id_text(r.field->was)),
+            COLUMN("severity", "", r.field->severity.value_or(r.rule->severity())),
+            COLUMN("note", "", r.field->note),
+            COLUMN("reference_behaviour", "What the solver does",
+                   r.field->solver.empty() ? r.rule->solver : r.field->solver),
+            COLUMN("fix", "How to fix it", r.field->fix.empty() ? r.rule->fix : r.field->fix));
+
+std::optional<ReferenceMessage> first_message(const Rule& rule) {
+  return rule.messages.empty() ? std::nullopt : std::optional(rule.messages.front());
 }
 
-struct RuleRow {
-  const Rule* rule = nullptr;
-  std::optional<ReferenceMessage> reference() const {
-    return rule->messages.empty() ? std::nullopt : std::optional(rule->messages.front());
-  }
-  Rows<RuleFieldRow> fields() const {
-    return rows_of(rule->fields, [this](const RuleField& f) { return RuleFieldRow{rule, &f}; });
-  }
-};
-Record<RuleRow> record_of(const RuleRow*) {
-  using Row = RuleRow;
-  static constexpr Column<Row> columns[] = {
-      column("id", [](const Row& r) { return id_text(r.rule->id); }),
-      column<&Row::rule, &Rule::name>("name", "Unique; accepted wherever an id is"),
-      column<&Row::rule, &Rule::title>("title"),
-      column("family", [](const Row& r) { return family_of(r.rule->id); }),
-      column("severity", [](const Row& r) { return r.rule->severity(); }),
-      column("found_by", "reading, model, check, geometry, gate or linter",
-             [](const Row& r) { return stage_name(r.rule->stage); }),
-      column("fixable", "no, safe or unsafe",
-             [](const Row& r) { return fix_name(r.rule->fixable); }),
-      column<&Row::rule, &Rule::problem>("problem"),
-      column<&Row::rule, &Rule::why>("why"),
-      column<&Row::rule, &Rule::solver>("reference_behaviour", "What the solver does"),
-      column<&Row::rule, &Rule::source>("known_from", "Source of that; empty: nothing is claimed"),
-      column<&Row::reference>("reference", "Message of the solver; null: it has none"),
-      column<&Row::rule, &Rule::fix>("fix"),
-      column<&Row::rule, &Rule::ignore>("ignore_when"),
-      column<&Row::fields>("fields")};
-  return {"rule", "", columns};
-}
+}  // namespace
 
-struct RulesDocument {
-  Rows<RuleRow> rules() const {
-    return rows_of(all_rules(), [](const Rule& r) { return RuleRow{&r}; });
-  }
-};
-Record<RulesDocument> record_of(const RulesDocument*) {
-  static constexpr Column<RulesDocument> columns[] = {column<&RulesDocument::rules>("rules")};
-  return {"document", "", columns};
-}
+RECORD(Rule, "rule", "", COLUMN("id", "", id_text(r.id)),
+       COLUMN("name", "Unique; accepted wherever an id is", r.name), COLUMN("title", "", r.title),
+       COLUMN("family", "", family_of(r.id)), COLUMN("severity", "", r.severity()),
+       COLUMN("found_by", "reading, model, check, geometry, gate or linter", stage_name(r.stage)),
+       COLUMN("fixable", "no, safe or unsafe", fix_name(r.fixable)),
+       COLUMN("problem", "", r.problem), COLUMN("why", "", r.why),
+       COLUMN("reference_behaviour", "What the solver does", r.solver),
+       COLUMN("known_from", "Source of that; empty: nothing is claimed", r.source),
+       COLUMN("reference", "Message of the solver; null: it has none", first_message(r)),
+       COLUMN("fix", "", r.fix), COLUMN("ignore_when", "", r.ignore),
+       COLUMN("fields", "", rows<RuleFieldRow>(r.fields, &r)));
+
+namespace {
+
+struct RulesDocument {};
+RECORD(RulesDocument, "document", "", COLUMN("rules", "", rows_of(all_rules())));
 
 constexpr DocumentHead lint_head{"deck/lint", 1, "Written by deck lint --json."};
 constexpr DocumentHead rules_head{"deck/rules", 1, "Written by deck rules --json.", false};
 
 }  // namespace
 
-Record<ReferenceMessage> record_of(const ReferenceMessage*) {
-  static constexpr Column<ReferenceMessage> columns[] = {
-      column<&ReferenceMessage::number>("message"),
-      column<&ReferenceMessage::severity>("severity")};
-  return {"reference", "A message of the solver.", columns, true};
-}
+LINE_RECORD(ReferenceMessage, "reference", "A message of the solver.",
+            COLUMN("message", "", r.number), COLUMN("severity", "", r.severity));
 
-Record<NotChecked> record_of(const NotChecked*) {
-  static constexpr Column<NotChecked> columns[] = {column<&NotChecked::what>("what"),
-                                                   column<&NotChecked::why>("why")};
-  return {"not_checked", "", columns, true};
-}
+LINE_RECORD(NotChecked, "not_checked", "", COLUMN("what", "", r.what), COLUMN("why", "", r.why));
 
 DocumentSchema lint_schema() { return document_schema<LintDocument>(lint_head); }
 DocumentSchema rules_schema() { return document_schema<RulesDocument>(rules_head); }

@@ -7,114 +7,68 @@
 namespace deck {
 
 // Records of what a fix is made of.
-Record<FixCount> record_of(const FixCount*) {
-  static constexpr Column<FixCount> columns[] = {
-      column<&FixCount::pairs>("pairs"),
-      column<&FixCount::nodes>("nodes", "Distinct secondary nodes or edges"),
-      column<&FixCount::untreated>(
-          "untreated", "Pairs that the solver leaves as they are, or at which it stops"),
-      column<&FixCount::on_surface>("on_surface", "Pairs at distance 0"),
-      column<&FixCount::deepest>("deepest")};
-  return {"count", "Initial penetrations; lengths in working units.", columns, true};
-}
+LINE_RECORD(FixCount, "count", "Initial penetrations; lengths in working units.",
+            COLUMN("pairs", "", r.pairs),
+            COLUMN("nodes", "Distinct secondary nodes or edges", r.nodes),
+            COLUMN("untreated", "Pairs that the solver leaves as they are, or at which it stops",
+                   r.untreated),
+            COLUMN("on_surface", "Pairs at distance 0", r.on_surface),
+            COLUMN("deepest", "", r.deepest));
 
-Record<FieldChange> record_of(const FieldChange*) {
-  static constexpr Column<FieldChange> columns[] = {
-      column<&FieldChange::field>("field"),
-      column<&FieldChange::old_text>("old_text", "As on the card; empty: blank"),
-      column<&FieldChange::new_text>("new_text"),
-      column<&FieldChange::old_value>("old_value", "Effective value, working units"),
-      column<&FieldChange::new_value>("new_value")};
-  return {"change", "", columns, true};
-}
+LINE_RECORD(FieldChange, "change", "", COLUMN("field", "", r.field),
+            COLUMN("old_text", "As on the card; empty: blank", r.old_text),
+            COLUMN("new_text", "", r.new_text),
+            COLUMN("old_value", "Effective value, working units", r.old_value),
+            COLUMN("new_value", "", r.new_value));
 
-Record<NewlyTied> record_of(const NewlyTied*) {
-  static constexpr Column<NewlyTied> columns[] = {column<&NewlyTied::node>("node"),
-                                                  column<&NewlyTied::segment>("segment"),
-                                                  column<&NewlyTied::distance>("distance")};
-  return {"newly_tied", "", columns, true};
-}
+LINE_RECORD(NewlyTied, "newly_tied", "", COLUMN("node", "", r.node),
+            COLUMN("segment", "", r.segment), COLUMN("distance", "", r.distance));
 
-Record<FixedTie> record_of(const FixedTie*) {
-  using Row = FixedTie;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::id>("id"),
-      column<&Row::title>("title"),
-      column<&Row::reach>("reach", "How far its nodes may be, working units"),
-      column<&Row::before>("before"),
-      column<&Row::after>("after"),
-      column("needed", "Search distance that ties them; null: none are tied",
-             [](const Row& r) { return known(!r.nodes.empty(), r.needed); }),
-      column<&Row::nodes>("nodes", "Newly tied"),
-      column<&Row::changes>("changes")};
-  return {"fixed_tie", "A TYPE2 that loses nodes.", columns};
-}
+RECORD(FixedTie, "fixed_tie", "A TYPE2 that loses nodes.", COLUMN("id", "", r.id),
+       COLUMN("title", "", r.title),
+       COLUMN("reach", "How far its nodes may be, working units", r.reach),
+       COLUMN("before", "", r.before), COLUMN("after", "", r.after),
+       COLUMN("needed", "Search distance that ties them; null: none are tied",
+              known(!r.nodes.empty(), r.needed)),
+       COLUMN("nodes", "Newly tied", r.nodes), COLUMN("changes", "", r.changes));
 
-Record<FixedInterface> record_of(const FixedInterface*) {
-  static constexpr Column<FixedInterface> columns[] = {
-      column<&FixedInterface::id>("id"),       column<&FixedInterface::type>("type"),
-      column<&FixedInterface::title>("title"), column<&FixedInterface::before>("before"),
-      column<&FixedInterface::after>("after"), column<&FixedInterface::changes>("changes")};
-  return {"fixed_interface", "", columns};
-}
+RECORD(FixedInterface, "fixed_interface", "", COLUMN("id", "", r.id), COLUMN("type", "", r.type),
+       COLUMN("title", "", r.title), COLUMN("before", "", r.before), COLUMN("after", "", r.after),
+       COLUMN("changes", "", r.changes));
 
-Record<FixRefusal> record_of(const FixRefusal*) {
-  using Row = FixRefusal;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::interface_id>("interface"),
-      column<&Row::nodes>("nodes", "Secondary node or edge; empty: the interface as a whole"),
-      column<&Row::depth>("depth", "In the deck as it was read"),
-      column("distance", "tie: of a node from its nearest segment, working units",
-             [](const Row& r) { return known(r.distance > 0, r.distance); }),
-      column<&Row::reason>("reason"),
-      column("next",
-             "Command that goes on from here, without --interface; DECK stands for the deck",
-             [](const Row& r) { return known(!r.next.empty(), r.next); })};
-  return {"not_treated", "", columns, true};
-}
+LINE_RECORD(FixRefusal, "not_treated", "", COLUMN("interface", "", r.interface_id),
+            COLUMN("nodes", "Secondary node or edge; empty: the interface as a whole", r.nodes),
+            COLUMN("depth", "In the deck as it was read", r.depth),
+            COLUMN("distance", "tie: of a node from its nearest segment, working units",
+                   known(r.distance > 0, r.distance)),
+            COLUMN("reason", "", r.reason),
+            COLUMN("next",
+                   "Command that goes on from here, without --interface; DECK stands for the deck",
+                   known(!r.next.empty(), r.next)));
 
-Record<FixScore> record_of(const FixScore*) {
-  static constexpr Column<FixScore> columns[] = {
-      column<&FixScore::solved>("solved"), column<&FixScore::left>("left"),
-      column<&FixScore::not_treated>("not_treated"),
-      column<&FixScore::treated_already>("treated_already")};
-  return {"score", "Penetrations and untied nodes.", columns, true};
-}
+LINE_RECORD(FixScore, "score", "Penetrations and untied nodes.", COLUMN("solved", "", r.solved),
+            COLUMN("left", "", r.left), COLUMN("not_treated", "", r.not_treated),
+            COLUMN("treated_already", "", r.treated_already));
 
-Record<MovedNode> record_of(const MovedNode*) {
-  using Row = MovedNode;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::id>("node"),
-      column("part", [](const Row& r) { return known(r.part != 0, r.part); }),
-      column<&Row::by>("by", "Working units"), column<&Row::distance>("distance")};
-  return {"moved_node", "", columns, true};
-}
+LINE_RECORD(MovedNode, "moved_node", "", COLUMN("node", "", r.id),
+            COLUMN("part", "", known(r.part != 0, r.part)), COLUMN("by", "Working units", r.by),
+            COLUMN("distance", "", r.distance));
 
-Record<FixAction> record_of(const FixAction*) {
-  static constexpr Column<FixAction> columns[] = {
-      column<&FixAction::interface_id>("interface"),
-      column<&FixAction::secondary>("secondary"),
-      column<&FixAction::main>("main"),
-      column<&FixAction::depth>("depth"),
-      column<&FixAction::gap>("gap"),
-      column<&FixAction::before>("before"),
-      column<&FixAction::after>("after"),
-      column<&FixAction::stops>("solver_stops"),
-      column<&FixAction::gap0>("gap_left", "Where the gap is reduced, else 0")};
-  return {"fix_action", "inacti, fpenmax: what the solver will do with each penetration.", columns,
-          true};
-}
+LINE_RECORD(FixAction, "fix_action",
+            "inacti, fpenmax: what the solver will do with each penetration.",
+            COLUMN("interface", "", r.interface_id), COLUMN("secondary", "", r.secondary),
+            COLUMN("main", "", r.main), COLUMN("depth", "", r.depth), COLUMN("gap", "", r.gap),
+            COLUMN("before", "", r.before), COLUMN("after", "", r.after),
+            COLUMN("solver_stops", "", r.stops),
+            COLUMN("gap_left", "Where the gap is reduced, else 0", r.gap0));
 
 namespace {
 
 struct Crossings {
   std::uint64_t before = 0, after = 0;
 };
-Record<Crossings> record_of(const Crossings*) {
-  static constexpr Column<Crossings> columns[] = {column<&Crossings::before>("before"),
-                                                  column<&Crossings::after>("after")};
-  return {"crossed", "Crossed elements.", columns, true};
-}
+LINE_RECORD(Crossings, "crossed", "Crossed elements.", COLUMN("before", "", r.before),
+            COLUMN("after", "", r.after));
 Crossings crossings_of(const PenetrationFix& fix) {
   return {fix.crossings_before, fix.crossings_after};
 }
@@ -122,33 +76,24 @@ Crossings crossings_of(const PenetrationFix& fix) {
 struct TiedRow {
   std::uint64_t pairs = 0, nodes = 0;
 };
-Record<TiedRow> record_of(const TiedRow*) {
-  static constexpr Column<TiedRow> columns[] = {
-      column<&TiedRow::pairs>("pairs"), column<&TiedRow::nodes>("nodes", "Secondary nodes")};
-  return {"tied", "", columns, true};
-}
+LINE_RECORD(TiedRow, "tied", "", COLUMN("pairs", "", r.pairs),
+            COLUMN("nodes", "Secondary nodes", r.nodes));
 
 struct FixStepRow {
   const PenetrationFix* step = nullptr;
-  std::vector<std::int64_t> moved() const {
-    std::vector<std::int64_t> ids;
-    for (const MovedNode& m : step->moved) ids.push_back(m.id);
-    return ids;
-  }
 };
-Record<FixStepRow> record_of(const FixStepRow*) {
-  using Row = FixStepRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::step, &PenetrationFix::strategy>("strategy"),
-      column<&Row::step, &PenetrationFix::complete>("complete"),
-      column("crossings", [](const Row& r) { return crossings_of(*r.step); }),
-      column<&Row::step, &PenetrationFix::interfaces>("interfaces"),
-      column<&Row::step, &PenetrationFix::ties>("ties"),
-      column<&Row::moved>("moved", "Node ids"),
-      column("not_treated", "How many", [](const Row& r) { return r.step->refused.size(); }),
-      column("score", [](const Row& r) { return score_of(*r.step); })};
-  return {"step", "The result of one strategy.", columns};
+
+std::vector<std::int64_t> moved_ids(const PenetrationFix& fix) {
+  std::vector<std::int64_t> ids;
+  for (const MovedNode& m : fix.moved) ids.push_back(m.id);
+  return ids;
 }
+RECORD(FixStepRow, "step", "The result of one strategy.", COLUMN("strategy", "", r.step->strategy),
+       COLUMN("complete", "", r.step->complete), COLUMN("crossings", "", crossings_of(*r.step)),
+       COLUMN("interfaces", "", r.step->interfaces), COLUMN("ties", "", r.step->ties),
+       COLUMN("moved", "Node ids", moved_ids(*r.step)),
+       COLUMN("not_treated", "How many", r.step->refused.size()),
+       COLUMN("score", "", score_of(*r.step)));
 
 struct FixDocument {
   const LoadedDeck& loaded;
@@ -156,50 +101,28 @@ struct FixDocument {
   std::string_view written;
   const std::vector<PenetrationFix>& steps;
   Coverage coverage = coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties);
-
-  IfAny<Rows<FixStepRow>> steps_if(bool wanted) const {
-    return if_any(wanted,
-                  rows_of(steps, [](const PenetrationFix& step) { return FixStepRow{&step}; }));
-  }
 };
-Record<FixDocument> record_of(const FixDocument*) {
-  using Row = FixDocument;
-  static constexpr Column<Row> columns[] = {
-      column("deck",
-             [](const Row& r) {
-               return DeckRow{r.loaded.path(), &r.loaded.deck(), nullptr, nullptr};
-             }),
-      column<&Row::coverage, &Coverage::examined>("examined",
-                                                  "Contacts and ties that are examined"),
-      column<&Row::coverage, &Coverage::not_examined>("not_examined",
-                                                      "Interfaces of other types, by keyword"),
-      column("verdict", "Of the deck as it was read",
-             [](const Row& r) { return verdict_of(r.loaded); }),
-      column("strategy",
-             "Several by commas, in their order; null: none was asked for, see proposals",
-             [](const Row& r) { return known(!r.fix->strategy.empty(), r.fix->strategy); }),
-      column<&Row::written>("written",
-                            "no, diff, in-place, or the directory the deck was written to"),
-      column<&Row::fix, &PenetrationFix::complete>("complete",
-                                                   "Nothing is left of what the strategy treats"),
-      column<&Row::fix, &PenetrationFix::iterations>("iterations"),
-      column("tied", "Ties (TYPE2, TYPE10) that stay as they are",
-             [](const Row& r) {
-               return TiedRow{r.fix->tied_pairs, r.fix->tied_nodes};
-             }),
-      column("crossings", [](const Row& r) { return crossings_of(*r.fix); }),
-      column<&Row::fix, &PenetrationFix::interfaces>("interfaces"),
-      column<&Row::fix, &PenetrationFix::ties>("ties", "The TYPE2 that lose nodes"),
-      column("proposals", "Without a strategy: what each would do on its own",
-             [](const Row& r) { return r.steps_if(r.fix->strategy.empty()); }),
-      column(
-          "steps", "Of several strategies what each did with what the one before left",
-          [](const Row& r) { return r.steps_if(!r.fix->strategy.empty() && r.steps.size() > 1); }),
-      column<&Row::fix, &PenetrationFix::moved>("moved"),
-      column<&Row::fix, &PenetrationFix::actions>("actions"),
-      column<&Row::fix, &PenetrationFix::refused>("not_treated")};
-  return {"document", "", columns};
-}
+RECORD(FixDocument, "document", "",
+       COLUMN("deck", "", DeckRow{r.loaded.path(), &r.loaded.deck(), nullptr, nullptr}),
+       COLUMN("examined", "Contacts and ties that are examined", r.coverage.examined),
+       COLUMN("not_examined", "Interfaces of other types, by keyword", r.coverage.not_examined),
+       COLUMN("verdict", "Of the deck as it was read", verdict_of(r.loaded)),
+       COLUMN("strategy",
+              "Several by commas, in their order; null: none was asked for, see proposals",
+              known(!r.fix->strategy.empty(), r.fix->strategy)),
+       COLUMN("written", "no, diff, in-place, or the directory the deck was written to", r.written),
+       COLUMN("complete", "Nothing is left of what the strategy treats", r.fix->complete),
+       COLUMN("iterations", "", r.fix->iterations),
+       COLUMN("tied", "Ties (TYPE2, TYPE10) that stay as they are",
+              TiedRow{r.fix->tied_pairs, r.fix->tied_nodes}),
+       COLUMN("crossings", "", crossings_of(*r.fix)), COLUMN("interfaces", "", r.fix->interfaces),
+       COLUMN("ties", "The TYPE2 that lose nodes", r.fix->ties),
+       COLUMN("proposals", "Without a strategy: what each would do on its own",
+              if_any(r.fix->strategy.empty(), rows<FixStepRow>(r.steps))),
+       COLUMN("steps", "Of several strategies what each did with what the one before left",
+              if_any(!r.fix->strategy.empty() && r.steps.size() > 1, rows<FixStepRow>(r.steps))),
+       COLUMN("moved", "", r.fix->moved), COLUMN("actions", "", r.fix->actions),
+       COLUMN("not_treated", "", r.fix->refused));
 
 constexpr DocumentHead fix_head{"deck/fix", 1, "Written by deck fix --json."};
 

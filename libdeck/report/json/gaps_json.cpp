@@ -32,7 +32,8 @@ struct GapsDocument {
   const std::vector<Crossing>* crossings = nullptr;
   const GateReport* gate = nullptr;
   std::vector<PlacedRows> rows;  ///< of each contact in the solver's order, ties included
-  const PlacedRows none;
+  const PlacedRows none = {};
+  Coverage coverage = coverage_of(deck, *scene.interfaces, scene.examined);
 };
 
 /// Rows of each contact in the solver's order, penetrations and ties.
@@ -59,32 +60,28 @@ struct SideRow {
   std::optional<double> nodal_stiffness = {};
   std::optional<std::string_view> kind = {};
 };
-Record<SideRow> record_of(const SideRow*) {
-  using Row = SideRow;
-  static constexpr Column<Row> columns[] = {
-      column("node", [](const Row& r) { return IfAny<std::int64_t>{r.node}; }),
-      column("nodes", "Of a segment; triangles repeat the last",
-             [](const Row& r) { return IfAny<Ids4>{r.nodes}; }),
-      column("edge", [](const Row& r) { return IfAny<Ids2>{r.edge}; }),
-      column<&SideRow::stiffness>("stiffness"),
-      column<&SideRow::gap>("gap"),
-      column("nodal_stiffness", "Istf 2 to 5",
-             [](const Row& r) { return IfAny<double>{r.nodal_stiffness}; }),
-      column("kind", "TYPE24 and TYPE25: solid, solid-flat, shell, shell-opposite, coat, ...",
-             [](const Row& r) { return IfAny<std::string_view>{r.kind}; })};
-  return {"side", "A secondary node, main segment or edge (with --all).", columns, true};
-}
+LINE_RECORD(SideRow, "side", "A secondary node, main segment or edge (with --all).",
+            COLUMN("node", "", IfAny<std::int64_t>{r.node}),
+            COLUMN("nodes", "Of a segment; triangles repeat the last", IfAny<Ids4>{r.nodes}),
+            COLUMN("edge", "", IfAny<Ids2>{r.edge}), COLUMN("stiffness", "", r.stiffness),
+            COLUMN("gap", "", r.gap),
+            COLUMN("nodal_stiffness", "Istf 2 to 5", IfAny<double>{r.nodal_stiffness}),
+            COLUMN("kind", "TYPE24 and TYPE25: solid, solid-flat, shell, shell-opposite, coat, ...",
+                   IfAny<std::string_view>{r.kind}));
 
 /// What the solver stores of two edges.
 struct SquaredRow {
   double penetration = 0, gap = 0;
 };
-Record<SquaredRow> record_of(const SquaredRow*) {
-  static constexpr Column<SquaredRow> columns[] = {
-      column<&SquaredRow::penetration>("penetration", "Gap squared - distance"),
-      column<&SquaredRow::gap>("gap", "Gap squared")};
-  return {"squared", "What the solver stores of two edges.", columns, true};
+LINE_RECORD(SquaredRow, "squared", "What the solver stores of two edges.",
+            COLUMN("penetration", "Gap squared - distance", r.penetration),
+            COLUMN("gap", "Gap squared", r.gap));
+
+SquaredRow squared(const PenetrationRow& row) {
+  return {row.gap * row.gap - row.distance, row.gap * row.gap};
 }
+
+std::optional<ElementName> if_valid(const ElementName& e) { return known(e.valid(), e); }
 
 struct PairRow {
   const GapsDocument& document;
@@ -93,105 +90,62 @@ struct PairRow {
   const PenetrationRow* row;
   PairSides sides() const { return {document.scene.model, &contact, row->secondary, row->main}; }
 };
-Record<PairRow> record_of(const PairRow*) {
-  using Row = PairRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::sides, &PairSides::edge>("edge", "Secondary edge"),
-      column<&Row::sides, &PairSides::main_edge>("main_edge"),
-      column<&Row::sides, &PairSides::node>("node", "Secondary node"),
-      column<&Row::sides, &PairSides::segment>("segment",
-                                               "Main segment; triangles repeat the last node"),
-      column<&PairRow::row, &PenetrationRow::depth>("penetration",
-                                                    "Pair gap - distance, of edges as of nodes"),
-      column<&PairRow::row, &PenetrationRow::gap>("gap", "The pair gap"),
-      column<&PairRow::row, &PenetrationRow::distance>("distance"),
-      column("solver",
-             [](const Row& r) {
-               const double squared = r.row->gap * r.row->gap;
-               return if_any(r.sides().edges(), SquaredRow{squared - r.row->distance, squared});
-             }),
-      column("stored", "TYPE24 and TYPE25: the penetration that the solver keeps",
-             [](const Row& r) { return if_any(is_modern(r.contact.type), r.row->p0); }),
-      column("normal", "Unit vector from main to secondary; zeros on the surface",
-             [](const Row& r) { return Vector(r.row->normal); }),
-      column<&PairRow::row, &PenetrationRow::on_surface>("on_surface", "Exactly on the segment"),
-      column<&PairRow::row, &PenetrationRow::in_contact>(
-          "in_contact",
-          "false (--accuracy robust): no nearer than its gap; only the round-off of the solver's "
-          "formula makes it a penetration"),
-      column<&PairRow::row, &PenetrationRow::action>("action", "What the solver does with it"),
-      column("gap0", "Gap left by Inacti 5 or 6",
-             [](const Row& r) { return known(r.row->has_gap0, r.row->gap0); }),
-      column("p0", [](const Row& r) { return known(r.row->has_gap0, r.row->p0); }),
-      column("moved_by", "Inacti 3",
-             [](const Row& r) {
-               return known(r.row->action == PenetrationAction::node_moved,
-                            Vector(r.row->moved_by));
-             }),
-      column<&PairRow::placed, &PlacedRow::named, &NamedPenetration::at>(
-          "at", "Secondary node, or closest point of the edge"),
-      column("secondary_element",
-             [](const Row& r) {
-               const ElementName& e = r.placed->named->secondary_element;
-               return known(e.valid(), e);
-             }),
-      column("main_element",
-             [](const Row& r) {
-               const ElementName& e = r.placed->named->main_element;
-               return known(e.valid(), e);
-             }),
-      column("source", "The line of the secondary node",
-             [](const Row& r) { return place_of(r.document.deck, r.placed->span); })};
-  return {"penetration", "A pair that is nearer than its gap.", columns, true};
-}
+LINE_RECORD(
+    PairRow, "penetration", "A pair that is nearer than its gap.",
+    COLUMN("edge", "Secondary edge", r.sides().edge()),
+    COLUMN("main_edge", "", r.sides().main_edge()),
+    COLUMN("node", "Secondary node", r.sides().node()),
+    COLUMN("segment", "Main segment; triangles repeat the last node", r.sides().segment()),
+    COLUMN("penetration", "Pair gap - distance, of edges as of nodes", r.row->depth),
+    COLUMN("gap", "The pair gap", r.row->gap), COLUMN("distance", "", r.row->distance),
+    COLUMN("solver", "", if_any(r.sides().edges(), squared(*r.row))),
+    COLUMN("stored", "TYPE24 and TYPE25: the penetration that the solver keeps",
+           if_any(is_modern(r.contact.type), r.row->p0)),
+    COLUMN("normal", "Unit vector from main to secondary; zeros on the surface",
+           Vector(r.row->normal)),
+    COLUMN("on_surface", "Exactly on the segment", r.row->on_surface),
+    COLUMN("in_contact",
+           "false (--accuracy robust): no nearer than its gap; only the round-off of the solver's "
+           "formula makes it a penetration",
+           r.row->in_contact),
+    COLUMN("action", "What the solver does with it", r.row->action),
+    COLUMN("gap0", "Gap left by Inacti 5 or 6", known(r.row->has_gap0, r.row->gap0)),
+    COLUMN("p0", "", known(r.row->has_gap0, r.row->p0)),
+    COLUMN("moved_by", "Inacti 3",
+           known(r.row->action == PenetrationAction::node_moved, Vector(r.row->moved_by))),
+    COLUMN("at", "Secondary node, or closest point of the edge", r.placed->named->at),
+    COLUMN("secondary_element", "", if_valid(r.placed->named->secondary_element)),
+    COLUMN("main_element", "", if_valid(r.placed->named->main_element)),
+    COLUMN("source", "The line of the secondary node", place_of(r.document.deck, r.placed->span)));
 
 struct ThroughRow {
   const Model& model;
   const Contact &contact, &edges;
   const EdgeThroughSegment* through;
 };
-Record<ThroughRow> record_of(const ThroughRow*) {
-  using Row = ThroughRow;
-  static constexpr Column<Row> columns[] = {
-      column("edge",
-             [](const Row& r) {
-               return node_ids(r.model, r.edges.main_edges[r.through->edge].nodes);
-             }),
-      column("segment",
-             [](const Row& r) { return node_ids(r.model, r.contact.main[r.through->main].nodes); }),
-      column<&ThroughRow::through, &EdgeThroughSegment::side>(
-          "side", "1 to 4: from that corner of the segment to the next"),
-      column<&ThroughRow::through, &EdgeThroughSegment::depth>("penetration")};
-  return {"edge_through_segment", "An edge through a segment of a solid, beside one of its sides.",
-          columns, true};
-}
+LINE_RECORD(ThroughRow, "edge_through_segment",
+            "An edge through a segment of a solid, beside one of its sides.",
+            COLUMN("edge", "", node_ids(r.model, r.edges.main_edges[r.through->edge].nodes)),
+            COLUMN("segment", "", node_ids(r.model, r.contact.main[r.through->main].nodes)),
+            COLUMN("side", "1 to 4: from that corner of the segment to the next", r.through->side),
+            COLUMN("penetration", "", r.through->depth));
 
 struct CrossingRow {
   const Scene& scene;
   const Crossing& crossing;
   ElementName edge, segment;
 };
-Record<CrossingRow> record_of(const CrossingRow*) {
-  using Row = CrossingRow;
-  using Id = std::optional<std::int64_t>;
-  static constexpr Column<Row> columns[] = {
-      column("edge", [](const Row& r) { return node_ids(*r.scene.model, r.crossing.edge); }),
-      column("segment",
-             [](const Row& r) {
-               const Contact& c = r.scene.contacts[r.crossing.contact];
-               return node_ids(*r.scene.model, c.main[r.crossing.main].nodes);
-             }),
-      column("edge_element", [](const Row& r) { return known(r.edge.valid(), r.edge.id); }),
-      column("segment_element",
-             [](const Row& r) { return known(r.segment.valid(), r.segment.id); }),
-      column("parts", "Of edge and segment", [](const Row& r) {
-        return std::array<Id, 2>{known(r.edge.valid(), r.edge.part),
-                                 known(r.segment.valid(), r.segment.part)};
-      })};
-  return {"crossing",
-          "An edge of a secondary element that passes through a main segment (with --crossings).",
-          columns, true};
-}
+LINE_RECORD(CrossingRow, "crossing",
+            "An edge of a secondary element that passes through a main segment (with --crossings).",
+            COLUMN("edge", "", node_ids(*r.scene.model, r.crossing.edge)),
+            COLUMN("segment", "",
+                   node_ids(*r.scene.model,
+                            r.scene.contacts[r.crossing.contact].main[r.crossing.main].nodes)),
+            COLUMN("edge_element", "", known(r.edge.valid(), r.edge.id)),
+            COLUMN("segment_element", "", known(r.segment.valid(), r.segment.id)),
+            COLUMN("parts", "Of edge and segment",
+                   std::array{known(r.edge.valid(), r.edge.part),
+                              known(r.segment.valid(), r.segment.part)}));
 
 struct ContactRow {
   const GapsDocument& document;
@@ -200,7 +154,16 @@ struct ContactRow {
   const Contact& contact() const { return document.scene.contacts[index]; }
   const Model& model() const { return *document.scene.model; }
   bool modern() const { return is_modern(contact().type); }
+  std::size_t next() const { return edges == nullptr ? index : index + 1; }
+  bool ties() const { return contact().ties(); }
   bool of_nodes() const { return contact().kind == ContactKind::node_segment; }
+  std::vector<std::int64_t> untied_nodes() const {
+    std::vector<std::int64_t> ids;
+    if (ties())
+      for (const std::uint32_t s : untied_secondary(contact()))
+        ids.push_back(model().node_id(contact().secondary[s].node));
+    return ids;
+  }
 
   Rows<PairRow> pairs(const Contact& c, const PlacedRows& rows) const {
     return rows_of(rows, [&document = document, &c](const PlacedRow& r) {
@@ -248,120 +211,78 @@ void each_modern_edge(const ContactRow& r, const std::function<void(const SideRo
   }
 }
 
-Record<ContactRow> record_of(const ContactRow*) {
-  using Row = ContactRow;
-  static constexpr Column<Row> columns[] = {
-      column<&ContactRow::contact, &Contact::kind>("kind"),
-      column<&ContactRow::contact, &Contact::role>(
-          "role", "primary: all of it but the contacts that TYPE19 adds"),
-      column("igap", [](const Row& r) { return r.contact().igap == 0 ? 1000 : r.contact().igap; }),
-      column<&ContactRow::contact, &Contact::gapmin>("gapmin"),
-      column<&ContactRow::contact, &Contact::gapmax>("gapmax"),
-      column<&ContactRow::contact, &Contact::drad>("drad"),
-      column("gapmin_origin", "card or derived",
-             [](const Row& r) {
-               return r.contact().gapmin_origin == GapminOrigin::card ? "card" : "derived";
-             }),
-      column("gapmin_from", "How Gapmin was derived",
-             [](const Row& r) { return to_string(r.contact().gapmin_origin); }),
-      column<&ContactRow::contact, &Contact::inacti>("inacti"),
-      column<&ContactRow::contact, &Contact::candidates>("candidates",
-                                                         "Pairs within gap and margin"),
-      column<&ContactRow::contact, &Contact::evaluated>(
-          "evaluated",
-          "false: too many pairs, or coordinates that are not numbers; whether anything penetrates "
-          "is not known"),
-      column("obstacle",
-             "Why a contact with 0 penetrations is not reported as clean: empty_main, "
-             "empty_secondary, no_gap, no_area, no_element or no_stiffness",
-             [](const Row& r) {
-               const Obstacle o = obstacle_of(r.contact());
-               return known(o != Obstacle::none, to_string(o));
-             }),
-      column<&ContactRow::contact, &Contact::removed_pairs>("removed_pairs",
-                                                            "Taken out by Irem_gap 2"),
-      column<&ContactRow::contact, &Contact::max_gap>(
-          "max_gap", "Largest pair gap that the solver's search expects"),
-      column<&ContactRow::contact, &Contact::shortest_side>("shortest_main_side"),
-      column("totals", [](const Row& r) { return r.document.view.contacts[r.index]; }),
-      column("secondary", "With --all",
-             [](const Row& r) {
-               return if_any(r.document.all,
-                             Rows<SideRow>{[&r](const auto& add) { each_secondary(r, add); }});
-             }),
-      column("main", "With --all",
-             [](const Row& r) {
-               return if_any(r.document.all,
-                             Rows<SideRow>{[&r](const auto& add) { each_main(r, add); }});
-             }),
-      column("edges", "With --all: TYPE24 and TYPE25",
-             [](const Row& r) {
-               return if_any(r.document.all && r.modern(),
-                             Rows<SideRow>{[&r](const auto& add) { each_modern_edge(r, add); }});
-             }),
-      column("penetrations", "Without ties",
-             [](const Row& r) {
-               const Contact& c = r.contact();
-               return r.pairs(c, c.ties() ? r.document.none : r.document.rows[r.index]);
-             }),
-      column("tied_pairs", "TYPE10: the pairs that it ties; the solver lists them as penetrations",
-             [](const Row& r) {
-               const Contact& c = r.contact();
-               return if_any(c.ties(), r.pairs(c, r.document.rows[r.index]));
-             }),
-      column("untied_nodes", "TYPE10: nodes that it does not tie",
-             [](const Row& r) {
-               const Contact& c = r.contact();
-               std::vector<std::int64_t> ids;
-               if (c.ties())
-                 for (const std::uint32_t s : untied_secondary(c))
-                   ids.push_back(r.model().node_id(c.secondary[s].node));
-               return if_any(c.ties(), ids);
-             }),
-      column("edges_evaluated",
-             "TYPE24 and TYPE25 with Iedge; false: with Igap 2, edges against faces of solids or "
-             "points on edges were not evaluated",
-             [](const Row& r) {
-               return if_any(r.edges != nullptr, r.edges != nullptr && r.edges->evaluated);
-             }),
-      column("edge_totals", "TYPE25 with Iedge: of edge_penetrations",
-             [](const Row& r) {
-               return r.edges == nullptr
-                          ? IfAny<ContactTotals>{}
-                          : IfAny<ContactTotals>{r.document.view.contacts[r.index + 1]};
-             }),
-      column("edge_penetrations", "TYPE25 with Iedge",
-             [](const Row& r) {
-               return r.edges == nullptr
-                          ? IfAny<Rows<PairRow>>{}
-                          : IfAny<Rows<PairRow>>{r.pairs(*r.edges, r.document.rows[r.index + 1])};
-             }),
-      column("edge_solid_penetrations", "TYPE25 with Iedge of two digits",
-             [](const Row& r) {
-               return if_any(r.edges != nullptr, Rows<ThroughRow>{[&r](const auto& add) {
-                               for (const auto& e : r.edges->edges_through_segments)
-                                 add({r.model(), r.contact(), *r.edges, &e});
-                             }});
-             }),
-      column("crossings", "With --crossings", [](const Row& r) {
-        return if_any(
-            r.document.crossings != nullptr, Rows<CrossingRow>{[&r](const auto& add) {
-              const Scene& scene = r.document.scene;
-              for (const Crossing& x : *r.document.crossings)
-                if (x.contact == r.index)
-                  add({scene, x, edge_element(*scene.model, x), segment_element(scene, x)});
-            }});
-      })};
-  return {"contact", "", columns};
+void each_through(const ContactRow& r, const std::function<void(const ThroughRow&)>& add) {
+  for (const EdgeThroughSegment& e : r.edges->edges_through_segments)
+    add({r.model(), r.contact(), *r.edges, &e});
 }
+
+void each_crossing(const ContactRow& r, const std::function<void(const CrossingRow&)>& add) {
+  const Scene& scene = r.document.scene;
+  for (const Crossing& x : *r.document.crossings)
+    if (x.contact == r.index)
+      add({scene, x, edge_element(*scene.model, x), segment_element(scene, x)});
+}
+
+std::optional<std::string_view> obstacle_word(const Contact& c) {
+  const Obstacle o = obstacle_of(c);
+  return o == Obstacle::none ? std::nullopt : std::optional<std::string_view>(to_string(o));
+}
+
+RECORD(
+    ContactRow, "contact", "", COLUMN("kind", "", r.contact().kind),
+    COLUMN("role", "primary: all of it but the contacts that TYPE19 adds", r.contact().role),
+    COLUMN("igap", "", r.contact().igap == 0 ? 1000 : r.contact().igap),
+    COLUMN("gapmin", "", r.contact().gapmin), COLUMN("gapmax", "", r.contact().gapmax),
+    COLUMN("drad", "", r.contact().drad),
+    COLUMN("gapmin_origin", "card or derived",
+           r.contact().gapmin_origin == GapminOrigin::card ? "card" : "derived"),
+    COLUMN("gapmin_from", "How Gapmin was derived", to_string(r.contact().gapmin_origin)),
+    COLUMN("inacti", "", r.contact().inacti),
+    COLUMN("candidates", "Pairs within gap and margin", r.contact().candidates),
+    COLUMN(
+        "evaluated",
+        "false: too many pairs, or coordinates that are not numbers; whether anything penetrates "
+        "is not known",
+        r.contact().evaluated),
+    COLUMN("obstacle",
+           "Why a contact with 0 penetrations is not reported as clean: empty_main, "
+           "empty_secondary, no_gap, no_area, no_element or no_stiffness",
+           obstacle_word(r.contact())),
+    COLUMN("removed_pairs", "Taken out by Irem_gap 2", r.contact().removed_pairs),
+    COLUMN("max_gap", "Largest pair gap that the solver's search expects", r.contact().max_gap),
+    COLUMN("shortest_main_side", "", r.contact().shortest_side),
+    COLUMN("totals", "", r.document.view.contacts[r.index]),
+    COLUMN("secondary", "With --all", if_any(r.document.all, rows_from<each_secondary>(r))),
+    COLUMN("main", "With --all", if_any(r.document.all, rows_from<each_main>(r))),
+    COLUMN("edges", "With --all: TYPE24 and TYPE25",
+           if_any(r.modern() && r.document.all, rows_from<each_modern_edge>(r))),
+    COLUMN("penetrations", "Without ties",
+           r.pairs(r.contact(), r.ties() ? r.document.none : r.document.rows[r.index])),
+    COLUMN("tied_pairs", "TYPE10: the pairs that it ties; the solver lists them as penetrations",
+           if_any(r.ties(), r.pairs(r.contact(), r.document.rows[r.index]))),
+    COLUMN("untied_nodes", "TYPE10: nodes that it does not tie",
+           if_any(r.ties(), r.untied_nodes())),
+    COLUMN("edges_evaluated",
+           "TYPE24 and TYPE25 with Iedge; false: with Igap 2, edges against faces of solids or "
+           "points on edges were not evaluated",
+           if_any(r.edges != nullptr, r.edges != nullptr && r.edges->evaluated)),
+    COLUMN("edge_totals", "TYPE25 with Iedge: of edge_penetrations",
+           if_any(r.edges != nullptr, r.document.view.contacts[r.next()])),
+    COLUMN("edge_penetrations", "TYPE25 with Iedge",
+           if_any(r.edges != nullptr,
+                  r.pairs(r.document.scene.contacts[r.next()], r.document.rows[r.next()]))),
+    COLUMN("edge_solid_penetrations", "TYPE25 with Iedge of two digits",
+           if_any(r.edges != nullptr, rows_from<each_through>(r))),
+    COLUMN("crossings", "With --crossings",
+           if_any(r.document.crossings != nullptr, rows_from<each_crossing>(r))));
 
 struct InterfaceRow {
   const GapsDocument& document;
   const InterBase* inter;
-  InterfaceVerdict verdict;
+  InterfaceVerdict verdict = verdict_of_interface(document.scene, document.view, *inter);
 };
 
-void each_contact(const InterfaceRow& r, const std::function<void(const ContactRow&)>& add) {
+void each_gap_contact(const InterfaceRow& r, const std::function<void(const ContactRow&)>& add) {
   const std::vector<Contact>& contacts = r.document.scene.contacts;
   for (const ContactRole role : {ContactRole::primary, ContactRole::reversed, ContactRole::edges})
     for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -375,64 +296,28 @@ void each_contact(const InterfaceRow& r, const std::function<void(const ContactR
     }
 }
 
-Record<InterfaceRow> record_of(const InterfaceRow*) {
-  using Row = InterfaceRow;
-  static constexpr Column<Row> columns[] = {
-      column<&InterfaceRow::inter, &InterBase::id>("id"),
-      column<&InterfaceRow::inter, &InterBase::type>("type", "7, 10, 11, 19, 24 or 25"),
-      column<&InterfaceRow::inter, &InterBase::title>("title"),
-      column("source", [](const Row& r) { return place_of(r.document.deck, r.inter->span); }),
-      column<&InterfaceRow::verdict, &InterfaceVerdict::level>(
-          "level",
-          "What the verdict would be if the deck held this interface alone and had no other "
-          "errors"),
-      column<&InterfaceRow::verdict, &InterfaceVerdict::max_depth>("max_depth", "Of its contacts"),
-      column<&InterfaceRow::verdict, &InterfaceVerdict::max_ratio>("max_ratio",
-                                                                   "Of its contacts: depth to gap"),
-      column("contacts", [](const Row& r) {
-        return Rows<ContactRow>{[&r](const auto& add) { each_contact(r, add); }};
-      })};
-  return {"interface", "", columns};
-}
+RECORD(InterfaceRow, "interface", "", COLUMN("id", "", r.inter->id),
+       COLUMN("type", "7, 10, 11, 19, 24 or 25", r.inter->type),
+       COLUMN("title", "", r.inter->title),
+       COLUMN("source", "", place_of(r.document.deck, r.inter->span)),
+       COLUMN("level",
+              "What the verdict would be if the deck held this interface alone and had no other "
+              "errors",
+              r.verdict.level),
+       COLUMN("max_depth", "Of its contacts", r.verdict.max_depth),
+       COLUMN("max_ratio", "Of its contacts: depth to gap", r.verdict.max_ratio),
+       COLUMN("contacts", "", rows_from<each_gap_contact>(r)));
 
-Record<GapsDocument> record_of(const GapsDocument*) {
-  using Row = GapsDocument;
-  static constexpr Column<Row> columns[] = {
-      column("deck",
-             [](const Row& r) {
-               return DeckRow{r.path, &r.deck, r.scene.model, r.scene.interfaces};
-             }),
-      column("verdict", [](const Row& r) { return verdict_of(r.deck, r.scene, r.view); }),
-      column("summary", "Of all contacts", [](const Row& r) { return r.view.total; }),
-      column("gate", "null: no bounds were given",
-             [](const Row& r) { return gate_of(r.deck, r.gate); }),
-      column("compared", "null: nothing was compared",
-             [](const Row& r) { return comparison_of(r.scene, r.view, r.gate); }),
-      column("examined", "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25",
-             [](const Row& r) {
-               return coverage_of(r.deck, *r.scene.interfaces, r.scene.examined).examined;
-             }),
-      column("not_examined", "Interfaces of other types, by keyword",
-             [](const Row& r) {
-               return rows_of(
-                   coverage_of(r.deck, *r.scene.interfaces, r.scene.examined).not_examined);
-             }),
-      column("accuracy", [](const Row& r) { return DecisionsRow{&r.scene}; }),
-      column("part_pairs", "Deepest first",
-             [](const Row& r) { return rows_of(r.view.part_pairs); }),
-      column("interfaces",
-             [](const Row& r) {
-               return rows_of(r.scene.interfaces->ordered, [&r](const InterBase* inter) {
-                 return InterfaceRow{r, inter, verdict_of_interface(r.scene, r.view, *inter)};
-               });
-             }),
-      column("ties", "Every /INTER/TYPE2", [](const Row& r) {
-        return rows_of(r.scene.ties, [&r](const Tie& tie) {
-          return TieRow{*r.scene.model, &tie, r.all};
-        });
-      })};
-  return {"document", "", columns};
-}
+RECORD(GapsDocument, "document", "",
+       COLUMN("deck", "", DeckRow{r.path, &r.deck, r.scene.model, r.scene.interfaces}),
+       COLUMN("verdict", "", verdict_of(r.deck, r.scene, r.view)),
+       COLUMN("summary", "Of all contacts", r.view.total),
+       COLUMN("gate", "null: no bounds were given", gate_of(r.deck, r.gate)),
+       COLUMN("compared", "null: nothing was compared", comparison_of(r.scene, r.view, r.gate)),
+       coverage_columns, COLUMN("accuracy", "", DecisionsRow{&r.scene}),
+       COLUMN("part_pairs", "Deepest first", rows_of(r.view.part_pairs)),
+       COLUMN("interfaces", "", rows<InterfaceRow>(r.scene.interfaces->ordered, r)),
+       COLUMN("ties", "Every /INTER/TYPE2", rows<TieRow>(r.scene.ties, *r.scene.model, r.all)));
 
 constexpr DocumentHead gaps_head{
     "deck/gaps", gaps_version,
@@ -441,28 +326,21 @@ constexpr DocumentHead gaps_head{
 
 }  // namespace
 
-Record<PartPair> record_of(const PartPair*) {
-  static constexpr Column<PartPair> columns[] = {
-      column<&PartPair::secondary>("secondary", "Part id; 0: no part"),
-      column<&PartPair::main>("main"),
-      column<&PartPair::count, &ItemCounts::pairs>("pairs"),
-      column<&PartPair::count, &ItemCounts::nodes>("nodes"),
-      column<&PartPair::count, &ItemCounts::edges>("edges"),
-      column<&PartPair::on_segment>("on_segment", "Those exactly on a segment"),
-      column<&PartPair::max_depth>("max_depth"),
-      column<&PartPair::mean_depth>("mean_depth"),
-      column<&PartPair::p95_depth>("p95_depth"),
-      column<&PartPair::max_ratio>("max_ratio", "Depth to gap")};
-  return {"part_pair", "Penetrations between two parts.", columns, true};
-}
+LINE_RECORD(PartPair, "part_pair", "Penetrations between two parts.",
+            COLUMN("secondary", "Part id; 0: no part", r.secondary), COLUMN("main", "", r.main),
+            COLUMN("pairs", "", r.count.pairs), COLUMN("nodes", "", r.count.nodes),
+            COLUMN("edges", "", r.count.edges),
+            COLUMN("on_segment", "Those exactly on a segment", r.on_segment),
+            COLUMN("max_depth", "", r.max_depth), COLUMN("mean_depth", "", r.mean_depth),
+            COLUMN("p95_depth", "", r.p95_depth), COLUMN("max_ratio", "Depth to gap", r.max_ratio));
 
 DocumentSchema gaps_schema() { return document_schema<GapsDocument>(gaps_head); }
 
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
                       const SceneView& view, bool all, const std::vector<Crossing>* crossings,
                       const GateReport* gate, const TextDrain& drain) {
-  const GapsDocument document{
-      path, deck, scene, view, all, crossings, gate, rows_of_contacts(scene, view), {}};
+  const GapsDocument document{path, deck,      scene, view,
+                              all,  crossings, gate,  rows_of_contacts(scene, view)};
   return write_document(gaps_head, document, drain) + '\n';
 }
 

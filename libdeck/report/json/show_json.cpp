@@ -9,43 +9,38 @@
 
 namespace deck {
 
-Record<Entity> record_of(const Entity*) {
-  static constexpr Column<Entity> columns[] = {
-      column<&Entity::keyword>("keyword"),
-      column<&Entity::kind>("kind", "inter, part, node, shell, grnod, surf, set, mat ..."),
-      column<&Entity::id>("id"), column<&Entity::title>("title")};
-  return {"entity", "", columns, true};
-}
+LINE_RECORD(Entity, "entity", "", COLUMN("keyword", "", r.keyword),
+            COLUMN("kind", "inter, part, node, shell, grnod, surf, set, mat ...", r.kind),
+            COLUMN("id", "", r.id), COLUMN("title", "", r.title));
 
 namespace {
 
 using detail::CellKind;
 
 struct CellRow {
-  std::array<int, 2> columns;
+  const ShownCard& card;
   const Cell* cell;
 
+  /// A cell behind the end of its line has the columns of its field; free format may leave none.
+  std::array<int, 2> columns() const {
+    DecodedCard placed;
+    placed.schema = card.schema;
+    placed.line = card.line;
+    placed.free_format = card.free_format;
+    const CellColumns at = columns_of(placed, *cell);
+    return {at.first, std::max(at.first, at.last)};
+  }
   std::optional<Scalar> value() const {
-    switch (detail::kind_of(*cell)) {
-      case CellKind::integer:
-        return cell->integer;
-      case CellKind::real:
-        return cell->real;
-      case CellKind::text:
-        return std::string(cell->text);
-      default:
-        return std::nullopt;
-    }
+    const CellKind kind = detail::kind_of(*cell);
+    if (kind == CellKind::integer) return cell->integer;
+    if (kind == CellKind::real) return cell->real;
+    return known(kind == CellKind::text, Scalar(std::string(cell->text)));
   }
 };
-Record<CellRow> record_of(const CellRow*) {
-  static constexpr Column<CellRow> columns[] = {
-      column<&CellRow::cell, &Cell::field, &Field::name>("field"),
-      column<&CellRow::columns>("columns", "First and last, from 1 on"),
-      column<&CellRow::cell, &Cell::text>("text"),
-      column<&CellRow::value>("value", "null: blank; a text: a parameter, a name or no number")};
-  return {"cell", "", columns, true};
-}
+LINE_RECORD(CellRow, "cell", "", COLUMN("field", "", r.cell->field->name),
+            COLUMN("columns", "First and last, from 1 on", r.columns()),
+            COLUMN("text", "", r.cell->text),
+            COLUMN("value", "null: blank; a text: a parameter, a name or no number", r.value()));
 
 struct CardRow {
   const Deck& deck;
@@ -55,96 +50,55 @@ struct CardRow {
     if (card->schema != nullptr) return card->schema->name;
     return card->title ? "title" : "";
   }
-  /// A cell behind the end of its line has the columns of its field; free format may leave none.
-  CellRow cell(const Cell& c) const {
-    DecodedCard placed;
-    placed.schema = card->schema;
-    placed.line = card->line;
-    placed.free_format = card->free_format;
-    const CellColumns at = columns_of(placed, c);
-    return {{at.first, std::max(at.first, at.last)}, &c};
-  }
 };
-Record<CardRow> record_of(const CardRow*) {
-  using Row = CardRow;
-  static constexpr Column<Row> columns[] = {
-      column("line", "From 1 on",
-             [](const Row& r) { return r.deck.sources.position(r.card->line.whole()).line; }),
-      column("file", [](const Row& r) { return r.deck.sources[r.card->line.file].path(); }),
-      column<&Row::name>("card", "What the line is: a card, title, or empty without a schema"),
-      column<&Row::card, &ShownCard::line, &Line::text>("text"), column("cells", [](const Row& r) {
-        return rows_of(r.card->cells, [&r](const Cell& c) { return r.cell(c); });
-      })};
-  return {"card", "", columns};
-}
+RECORD(CardRow, "card", "",
+       COLUMN("line", "From 1 on", r.deck.sources.position(r.card->line.whole()).line),
+       COLUMN("file", "", r.deck.sources[r.card->line.file].path()),
+       COLUMN("card", "What the line is: a card, title, or empty without a schema", r.name()),
+       COLUMN("text", "", r.card->line.text),
+       COLUMN("cells", "", rows<CellRow>(r.card->cells, *r.card)));
 
 struct LinkRow {
+  const Deck& deck;
   const Link* link;
-  std::optional<SourcePlace> place;
+  std::optional<SourcePlace> place = place_of(deck, link->span);
 };
-Record<LinkRow> record_of(const LinkRow*) {
-  using Row = LinkRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::link, &Link::field>("field", "The cell, clause or list that names the other"),
-      column<&Row::link, &Link::keyword>("keyword", "Empty: there is no such entity"),
-      column<&Row::link, &Link::kind>("kind"),
-      column("id", [](const Row& r) { return known(r.link->id != 0, r.link->id); }),
-      column("last", "Last id of a range",
-             [](const Row& r) { return if_any(r.link->last > 0, r.link->last); }),
-      column("count", "How many, such as the elements of a part",
-             [](const Row& r) { return if_any(r.link->count > 1, r.link->count); }),
-      column<&Row::link, &Link::title>("title"),
-      column("file",
-             [](const Row& r) { return r.place ? std::optional(r.place->file) : std::nullopt; }),
-      column("line",
-             [](const Row& r) { return r.place ? std::optional(r.place->line) : std::nullopt; })};
-  return {"link", "", columns, true};
-}
+LINE_RECORD(LinkRow, "link", "",
+            COLUMN("field", "The cell, clause or list that names the other", r.link->field),
+            COLUMN("keyword", "Empty: there is no such entity", r.link->keyword),
+            COLUMN("kind", "", r.link->kind), COLUMN("id", "", known(r.link->id != 0, r.link->id)),
+            COLUMN("last", "Last id of a range", if_any(r.link->last > 0, r.link->last)),
+            COLUMN("count", "How many, such as the elements of a part",
+                   if_any(r.link->count > 1, r.link->count)),
+            COLUMN("title", "", r.link->title),
+            COLUMN("file", "", r.place ? std::optional(r.place->file) : std::nullopt),
+            COLUMN("line", "", r.place ? std::optional(r.place->line) : std::nullopt));
 
 struct ShowDocument {
   const ParamsInput& in;
   const EntityView& view;
   const Deck& deck;
-
-  Rows<LinkRow> links(const std::vector<Link>& list) const {
-    return rows_of(list, [this](const Link& l) { return LinkRow{&l, place_of(deck, l.span)}; });
-  }
 };
-Record<ShowDocument> record_of(const ShowDocument*) {
-  using Row = ShowDocument;
-  static constexpr Column<Row> columns[] = {
-      column("deck", [](const Row& r) { return deck_row(r.in.loaded); }),
-      column("entity", [](const Row& r) -> const Entity& { return r.view.entity; }),
-      column("source", [](const Row& r) { return place_of(r.deck, r.view.entity.span); }),
-      column("included_by", "Include directives from the main file down to its file",
-             [](const Row& r) {
-               return rows_of(r.view.includes, [&r](const Span& s) { return place_of(r.deck, s); });
-             }),
-      column("cards", "Its data lines",
-             [](const Row& r) {
-               return rows_of(r.view.cards, [&r](const ShownCard& c) {
-                 return CardRow{r.deck, &c};
-               });
-             }),
-      column("parameters", "Of an interface, by the names of the manual",
-             [](const Row& r) {
-               if (r.view.inter == nullptr) return IfAny<Named<ParameterRow>>{};
-               return IfAny<Named<ParameterRow>>{parameters_of(r.in, *r.view.inter)};
-             }),
-      column("model", "What the model makes of it: counts of members, coordinates ...",
-             [](const Row& r) {
-               return Named<Scalar>{[&r](const auto& add) {
-                 for (const auto& [name, value] : r.view.facts) add(name, value);
-               }};
-             }),
-      column("refers_to", "What it names; the place is that of the target's definition",
-             [](const Row& r) { return r.links(r.view.refers_to); }),
-      column("used_by", "What names it; the place is that of the cell",
-             [](const Row& r) { return r.links(r.view.used_by); }),
-      column("contacts", "Contacts that reach it over other entities or as a member of a side",
-             [](const Row& r) { return r.links(r.view.interfaces); })};
-  return {"document", "", columns};
-}
+RECORD(ShowDocument, "document", "", COLUMN("deck", "", deck_row(r.in.loaded)),
+       COLUMN("entity", "", r.view.entity),
+       COLUMN("source", "", place_of(r.deck, r.view.entity.span)),
+       COLUMN("included_by", "Include directives from the main file down to its file",
+              rows_of(r.view.includes, [&r](const Span& s) { return place_of(r.deck, s); })),
+       COLUMN("cards", "Its data lines", rows<CardRow>(r.view.cards, r.deck)),
+       COLUMN("parameters", "Of an interface, by the names of the manual",
+              r.view.inter == nullptr
+                  ? IfAny<Named<ParameterRow>>{}
+                  : IfAny<Named<ParameterRow>>{parameters_of(r.in, *r.view.inter)}),
+       COLUMN("model", "What the model makes of it: counts of members, coordinates ...",
+              Named<Scalar>{[&r](const auto& add) {
+                for (const auto& [name, value] : r.view.facts) add(name, value);
+              }}),
+       COLUMN("refers_to", "What it names; the place is that of the target's definition",
+              rows<LinkRow>(r.view.refers_to, r.deck)),
+       COLUMN("used_by", "What names it; the place is that of the cell",
+              rows<LinkRow>(r.view.used_by, r.deck)),
+       COLUMN("contacts", "Contacts that reach it over other entities or as a member of a side",
+              rows<LinkRow>(r.view.interfaces, r.deck)));
 
 constexpr DocumentHead show_head{
     "deck/show", 1,

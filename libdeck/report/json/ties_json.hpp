@@ -10,8 +10,8 @@ Record<TieCounts> record_of(const TieCounts*);
 /// With `all` every secondary node, else those that are not tied or that the solver lists.
 struct TieRow {
   const Model& model;
-  const Tie* tie;
   bool all = false;
+  const Tie* tie;
 };
 Record<TieRow> record_of(const TieRow*);
 

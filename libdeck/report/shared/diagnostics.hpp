@@ -28,6 +28,11 @@ struct LintedDeck {
 Verdict lint_verdict(const LintedDeck& deck, std::optional<ContactFacts> contacts = {},
                      bool contacts_left_out = false);
 
+/// The verdict that was made, else that of its findings.
+inline Verdict verdict_of(const LintedDeck& deck) {
+  return deck.verdict ? *deck.verdict : lint_verdict(deck);
+}
+
 struct HumanOptions {
   bool color = false;
   bool ruler = false;  ///< a line with column numbers above the card

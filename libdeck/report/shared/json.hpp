@@ -70,7 +70,5 @@ void write_json_head(JsonWriter& json, std::string_view schema_id, int schema_ve
 /// nullptr where they were not built.
 void write_json_deck(JsonWriter& json, std::string_view path, const Deck& deck, const Model* model,
                      const Interfaces* interfaces);
-/// The members "examined" (how many interfaces) and "not_examined" (the others, by keyword).
-void write_json_coverage(JsonWriter& json, const Coverage& coverage);
 
 }  // namespace deck

@@ -68,6 +68,8 @@ struct ComparedSteps {
   double largest_difference = 0;  ///< relative, of those that are equal
   std::vector<StepDifference> different;
 };
+/// "shell4", "node"
+std::string_view listed_kind(const ComparedSteps& steps);
 
 /// Steps that differ by less than this share are equal.
 inline constexpr double step_tolerance = 1e-6;

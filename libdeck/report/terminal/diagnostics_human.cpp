@@ -106,7 +106,7 @@ class Human {
 
   std::string summary() {
     const LintResult& r = *deck_.result;
-    const Verdict verdict = deck_.verdict ? *deck_.verdict : lint_verdict(deck_);
+    const Verdict verdict = verdict_of(deck_);
     std::string out = paint(bold, terminal_text(deck_.path)) + ": ", rest;
     for (const VerdictSentence& s : verdict.sentences) {
       if (&s == &verdict.sentences.front())

@@ -7,7 +7,6 @@
 #include "base/shared/columns.hpp"
 #include "base/shared/escape.hpp"
 #include "report/shared/listing.hpp"
-#include "report/shared/parts.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {
@@ -19,10 +18,6 @@ Tone tone_of(Severity s) {
 }
 
 std::string figure(double v) { return fmt::format("{:.6g}", v); }
-
-std::string kind_of(const ComparedSteps& s) {
-  return s.kind ? std::string(detail::kind_name(*s.kind)) : "node";
-}
 
 class ListingWriter {
  public:
@@ -242,7 +237,7 @@ class ListingWriter {
     TextTable table({"of", ">listed", ">equal", ">different", ">not computed", ">smallest", ">id"});
     for (const ComparedSteps& s : report_.steps) {
       const bool none = s.smallest >= 1e29;
-      table.row({kind_of(s),
+      table.row({listed_kind(s),
                  s.listed,
                  s.equal,
                  {s.different.size(), s.different.empty() ? Tone::plain : Tone::yellow},
@@ -255,7 +250,7 @@ class ListingWriter {
     out_ += table.below_heading(options_);
     for (const ComparedSteps& s : report_.steps)
       for (const StepDifference& d : shown(s.different, options_.worst))
-        paragraph(fmt::format("{} {}: {} in the listing, {}", kind_of(s), d.id, figure(d.listed),
+        paragraph(fmt::format("{} {}: {} in the listing, {}", listed_kind(s), d.id, figure(d.listed),
                               std::isnan(d.computed) ? "absent in the deck"
                                                      : figure(d.computed) + " in deck"),
                   2);

@@ -302,22 +302,19 @@ std::string params_matrix_csv(const ParamsInput& in, const ParamsTextOptions& op
   return out;
 }
 
-Record<ParameterRow> record_of(const ParameterRow*) {
-  static constexpr Column<ParameterRow> columns[] = {
-      column<&ParameterRow::input>(
-          "input",
-          "What the card says; a cell without a finite number as it is written "
-          "(\"NaN\"); null: blank cell, or no such cell in this version"),
-      column<&ParameterRow::value>(
-          "value",
-          "What the solver uses; 1000 is 'nothing'; null: follows from the mesh "
-          "and was not derived, or is no finite number"),
-      column<&ParameterRow::origin>("origin"),
-      column<&ParameterRow::by_role>("by_role", "Derived gaps of the parts of a TYPE19"),
-      column<&ParameterRow::source>("source",
-                                    "The columns of the value, also where they are blank")};
-  return {"parameter", "", columns, true, true};
-}
+COMMON_LINE_RECORD(ParameterRow, "parameter", "",
+                   COLUMN("input",
+                          "What the card says; a cell without a finite number as it is written "
+                          "(\"NaN\"); null: blank cell, or no such cell in this version",
+                          r.input),
+                   COLUMN("value",
+                          "What the solver uses; 1000 is 'nothing'; null: follows from the mesh "
+                          "and was not derived, or is no finite number",
+                          r.value),
+                   COLUMN("origin", "", r.origin),
+                   COLUMN("by_role", "Derived gaps of the parts of a TYPE19", r.by_role),
+                   COLUMN("source", "The columns of the value, also where they are blank",
+                          r.source));
 
 Named<ParameterRow> parameters_of(const ParamsInput& in, const InterBase& inter) {
   return {[&in, &inter](const auto& add) {
@@ -367,30 +364,19 @@ struct ParamsInterfaceRow {
   const ParamsInput& in;
   const InterBase* inter;
 };
-Record<ParamsInterfaceRow> record_of(const ParamsInterfaceRow*) {
-  using Row = ParamsInterfaceRow;
-  static constexpr Column<Row> columns[] = {
-      column<&Row::inter, &InterBase::id>("id"),
-      column<&Row::inter, &InterBase::type>("type", "2, 7, 10, 11, 19, 24 or 25"),
-      column<&Row::inter, &InterBase::title>("title"),
-      column("source", [](const Row& r) { return place_of(r.in.loaded.deck(), r.inter->span); }),
-      column("parameters", "By the names of the manual",
-             [](const Row& r) { return parameters_of(r.in, *r.inter); })};
-  return {"interface", "", columns};
-}
+RECORD(ParamsInterfaceRow, "interface", "", COLUMN("id", "", r.inter->id),
+       COLUMN("type", "2, 7, 10, 11, 19, 24 or 25", r.inter->type),
+       COLUMN("title", "", r.inter->title),
+       COLUMN("source", "", place_of(r.in.loaded.deck(), r.inter->span)),
+       COLUMN("parameters", "By the names of the manual", parameters_of(r.in, *r.inter)));
 
 struct OtherRow {
   const Deck& deck;
   const Block* block;
 };
-Record<OtherRow> record_of(const OtherRow*) {
-  using Row = OtherRow;
-  static constexpr Column<Row> columns[] = {
-      column("keyword", [](const Row& r) { return keyword_of(*r.block); }),
-      column("id", [](const Row& r) { return r.block->id.value; }),
-      column("source", [](const Row& r) { return place_of(r.deck, r.block->header_span); })};
-  return {"other_interface", "", columns, true};
-}
+LINE_RECORD(OtherRow, "other_interface", "", COLUMN("keyword", "", keyword_of(*r.block)),
+            COLUMN("id", "", r.block->id.value),
+            COLUMN("source", "", place_of(r.deck, r.block->header_span)));
 
 struct ParamsDocument {
   const ParamsInput& in;
@@ -398,29 +384,10 @@ struct ParamsDocument {
   const Coverage coverage;
 };
 
-Record<ParamsDocument> record_of(const ParamsDocument*) {
-  using Row = ParamsDocument;
-  static constexpr Column<Row> columns[] = {
-      column("deck", [](const Row& r) { return deck_row(r.in.loaded); }),
-      column<&Row::coverage, &Coverage::examined>("examined",
-                                                  "Interfaces of TYPE2, 7, 10, 11, 19, 24 and 25"),
-      column("not_examined", "Interfaces of other types, by keyword",
-             [](const Row& r) { return rows_of(r.coverage.not_examined); }),
-      column("interfaces",
-             [](const Row& r) {
-               return rows_of(wanted_interfaces(r.in, r.options), [&r](const InterBase* inter) {
-                 return ParamsInterfaceRow{r.in, inter};
-               });
-             }),
-      column("not_evaluated", "Interfaces of other types, which are not in 'interfaces'",
-             [](const Row& r) {
-               const Deck& deck = r.in.loaded.deck();
-               return rows_of(not_evaluated(r.in), [&deck](const Block* b) {
-                 return OtherRow{deck, b};
-               });
-             })};
-  return {"document", "", columns};
-}
+RECORD(ParamsDocument, "document", "", COLUMN("deck", "", deck_row(r.in.loaded)), coverage_columns,
+       COLUMN("interfaces", "", rows<ParamsInterfaceRow>(wanted_interfaces(r.in, r.options), r.in)),
+       COLUMN("not_evaluated", "Interfaces of other types, which are not in 'interfaces'",
+              rows<OtherRow>(not_evaluated(r.in), r.in.loaded.deck())));
 
 constexpr DocumentHead params_head{
     "deck/params", 1,
