@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "base/shared/escape.hpp"
-#include "report/shared/schemas.hpp"
 
 namespace deck {
 namespace {

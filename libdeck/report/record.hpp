@@ -448,11 +448,7 @@ struct DocumentHead {
   bool several = true;  ///< several decks: {schema, tool, decks: [document, ...]}
 };
 
-/// The JSON schema of a document whose members, after "schema" and "tool", are a record.
-struct DocumentSchema {
-  std::string text;
-  std::map<std::string, std::string> common;  ///< definitions that it shares with others
-};
+/// The schema of a document whose members, after "schema" and "tool", are a record.
 DocumentSchema document_schema(const DocumentHead& head, const SchemaDefinitions& definitions,
                                const std::string& record);
 template <class Row>

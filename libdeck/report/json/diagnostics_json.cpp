@@ -1,8 +1,6 @@
 // Findings as the project's own JSON document.
 #include "base/shared/columns.hpp"
-#include "report/diagnostics_common.hpp"
 #include "report/shared/gate.hpp"
-#include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {

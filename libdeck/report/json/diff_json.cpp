@@ -1,6 +1,5 @@
 // The document of `deck diff --json`.
-#include "report/shared/diff.hpp"
-#include "report/shared/schemas.hpp"
+#include "report/shared/inspection.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {

@@ -1,9 +1,8 @@
 // The document of a listing of the Starter beside its deck.
 #include <cmath>
 
-#include "report/shared/listing.hpp"
+#include "report/shared/inspection.hpp"
 #include "report/shared/parts.hpp"
-#include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {

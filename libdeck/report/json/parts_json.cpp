@@ -2,7 +2,6 @@
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
 #include "report/shared/parts.hpp"
-#include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {

@@ -3,8 +3,8 @@
 
 #include "keyword/shared/deck_json_cells.hpp"
 #include "keyword/shared/place.hpp"
-#include "report/shared/schemas.hpp"
-#include "report/shared/show.hpp"
+#include "report/shared/inspection.hpp"
+#include "report/shared/params_report.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {

@@ -4,6 +4,7 @@
 #pragma once
 #include <concepts>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,5 +71,32 @@ void write_json_head(JsonWriter& json, std::string_view schema_id, int schema_ve
 /// nullptr where they were not built.
 void write_json_deck(JsonWriter& json, std::string_view path, const Deck& deck, const Model* model,
                      const Interfaces* interfaces);
+
+/// The JSON schema of a document.
+struct DocumentSchema {
+  std::string text;
+  std::map<std::string, std::string> common;  ///< definitions that it shares with others
+};
+struct DocumentOfVerb {
+  const char* verb;
+  DocumentSchema (*schema)();
+};
+const std::vector<DocumentOfVerb>& documents_of_verbs();
+/// What the schemas of documents refer to as common.schema.json.
+std::string common_schema();
+
+DocumentSchema accuracy_schema();
+DocumentSchema cycle_schema();
+DocumentSchema diff_schema();
+DocumentSchema explain_schema();
+DocumentSchema fix_schema();
+DocumentSchema gaps_schema();
+DocumentSchema gate_schema();
+DocumentSchema lint_schema();
+DocumentSchema losses_schema();
+DocumentSchema params_schema();
+DocumentSchema parts_schema();
+DocumentSchema rules_schema();
+DocumentSchema show_schema();
 
 }  // namespace deck

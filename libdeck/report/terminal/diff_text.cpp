@@ -8,7 +8,7 @@
 #include "base/shared/length3.hpp"
 #include "base/shared/length_text.hpp"
 #include "deck/text/number.hpp"
-#include "report/shared/diff.hpp"
+#include "report/shared/inspection.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {

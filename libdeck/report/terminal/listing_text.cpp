@@ -6,7 +6,7 @@
 
 #include "base/shared/columns.hpp"
 #include "base/shared/escape.hpp"
-#include "report/shared/listing.hpp"
+#include "report/shared/inspection.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {

@@ -6,8 +6,9 @@
 
 #include "base/shared/columns.hpp"
 #include "base/shared/escape.hpp"
+#include "report/shared/inspection.hpp"
 #include "report/shared/json.hpp"
-#include "report/shared/show.hpp"
+#include "report/shared/params_report.hpp"
 #include "report/terminal/words.hpp"
 #include "text/shared/columns.hpp"
 
