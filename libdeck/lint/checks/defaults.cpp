@@ -148,24 +148,34 @@ void check_ignored_field(const LintContext& c, const Rule& rule, Reporter& r) {
     for (const DecodedCard& card : block.cards)
       for (const Cell& cell : card.cells)
         if (cell.field->ignored && cell.integer != 0) {
-          Diagnostic* d = r.report(rule, *block.block, cell.span,
+          Diagnostic& d = r.report(rule, *block.block, cell.span,
                                    fmt::format("{} of {} has no effect", cell.field->name,
                                                block.block->schema->keyword));
-          if (d != nullptr && !card.free_format)
-            d->fix = Fix{"blank " + cell.field->name, true, {blank_edit(cell.span)}};
+          if (!card.free_format)
+            d.fix = Fix{"blank " + cell.field->name, true, {blank_edit(cell.span)}};
         }
+}
+
+void check_default_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model->has_monitored_volume || c.model->has_ale || c.model->has_sol2sph) return;
+  for (const DecodedBlock& block : c.defaults) {
+    const Cell* cell = block.find("Ibag");
+    if (cell == nullptr || cell->integer == 0 || cell->integer == 1000) continue;
+    r.report(rule, *block.block, cell->span,
+             fmt::format("{}: Ibag = {}, but the deck has no airbag (/MONVOL), ALE or Sol2SPH",
+                         block.block->header, cell->integer));
+  }
 }
 
 void check_scaled_edge_gap(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     const FieldView* igap = card.find("Igap");
     if (igap == nullptr || igap->origin != Origin::default_block || igap->value != 2) return;
-    Diagnostic* d = report_at(r, rule, card, "Igap",
+    Diagnostic& d = report_at(r, rule, card, "Igap",
                               name_of(card) + ": Igap = 2 from /DEFAULT/INTER/TYPE19, which its " +
                                   "edge part does not have");
-    if (d == nullptr) return;
     if (const EffectiveInt* given = c.interfaces->defaults_of(19)->find("Igap"))
-      d->notes.emplace_back(given->span, "it comes from here");
+      d.notes.emplace_back(given->span, "it comes from here");
     fix_field(d, c, card, "Igap", "2", false, "write Igap 2");
   });
 }
@@ -177,7 +187,7 @@ std::span<const Checked> default_checks() {
       {RuleId::DK501, check_overrides},       {RuleId::DK502, check_unused_defaults},
       {RuleId::DK505, check_range},           {RuleId::DK506, check_no_such_default},
       {RuleId::DK507, check_all_zero},        {RuleId::DK509, check_ignored_field},
-      {RuleId::DK512, check_scaled_edge_gap},
+      {RuleId::DK512, check_scaled_edge_gap}, {RuleId::DK510, check_default_ibag},
   };
   return all;
 }

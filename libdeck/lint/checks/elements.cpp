@@ -170,11 +170,11 @@ void check_property_kind(const LintContext& c, const Rule& rule, Reporter& r) {
       const Property& prop = m.properties[m.parts[p].prop];
       const char* kind = made_for(prop.number);
       if (kind == nullptr || what == kind) continue;
-      Diagnostic* d = r.report(rule, m.element_span(family->kind, static_cast<std::uint32_t>(e)),
+      Diagnostic& d = r.report(rule, m.element_span(family->kind, static_cast<std::uint32_t>(e)),
                                fmt::format("part {} has {}, and its {} {} is for {}", m.parts[p].id,
                                            what, prop.type, prop.id, kind));
-      if (d != nullptr) d->notes.emplace_back(m.parts[p].span, "the part");
-      if (d != nullptr) d->notes.emplace_back(prop.span, "the property");
+      d.notes.emplace_back(m.parts[p].span, "the part");
+      d.notes.emplace_back(prop.span, "the property");
     }
   }
 }
@@ -250,17 +250,16 @@ void check_row_order(const LintContext& c, const Rule& rule, Reporter& r) {
     for (std::size_t k = 0; k < rows.size(); ++k)
       if (!sorted[k]->same_cells(rows[k]) && wrong++ == 0) first = sorted[k];
     if (first == nullptr) continue;
-    Diagnostic* d = r.report(
+    Diagnostic& d = r.report(
         rule, block, first->line.whole(),
         fmt::format("rows of {} {} do not ascend by id, and {} the thickness or angle of another "
                     "row; first is element {}",
                     block.schema->keyword, block.id.value,
                     count(wrong, "element gets", "elements get"), first->id));
-    if (d == nullptr) continue;
-    d->fix = Fix{"sort the rows by id", false, {}};
+    d.fix = Fix{"sort the rows by id", false, {}};
     for (std::size_t k = 0; k < rows.size(); ++k)
       if (sorted[k]->line.text != rows[k].line.text)
-        d->fix->edits.push_back({rows[k].line.whole(), std::string(sorted[k]->line.text)});
+        d.fix->edits.push_back({rows[k].line.whole(), std::string(sorted[k]->line.text)});
   }
 }
 

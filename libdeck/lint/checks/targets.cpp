@@ -86,12 +86,11 @@ const Field* acts_on_nothing(const LintContext& c, const DecodedBlock& d) {
 namespace {
 
 /// Says with which message the solver stops; 0: not known, the finding then names none.
-void set_message(Diagnostic* d, int message) {
-  if (d == nullptr) return;
+void set_message(Diagnostic& d, int message) {
   if (message > 0)
-    d->reference = ReferenceMessage{message, Severity::error};
+    d.reference = ReferenceMessage{message, Severity::error};
   else
-    d->reference.reset();
+    d.reference.reset();
 }
 
 /// Laws and properties cannot do without the curves they name; the others have their own numbers.
@@ -171,15 +170,14 @@ void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
                 const std::string_view kind = cell.field->ref;
                 if (id <= 0 || !selection_exists(c, kind, id) || !selection_is_empty(c, kind, id))
                   return;
-                Diagnostic* found =
+                Diagnostic& found =
                     r.report(rule, *d.block, cell.span,
                              fmt::format("{} of {} is {}, and {} is empty", cell.field->name,
                                          name_of(d), id, selection_name(c, kind, id)));
                 set_message(found, message_id);
-                if (found == nullptr) return;
                 const bool plain = c.selections->is_plain(kind, id);
                 if (const auto at = c.selections->where(plain ? kind : "set", id))
-                  found->notes.emplace_back(*at, "it is defined here");
+                  found.notes.emplace_back(*at, "it is defined here");
               });
 }
 
@@ -192,7 +190,7 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
         if (!field.required || !card.in_version(version) || !field.in_version(version)) continue;
         const Cell* cell = d.find(field.name);
         if (cell != nullptr && cell->integer != 0) continue;
-        Diagnostic* found = r.report(
+        Diagnostic& found = r.report(
             rule, *d.block, place_of(d, cell),
             fmt::format("{} of {} names no {}", field.name, name_of(d), kind_name(field.ref)));
         set_message(found, *field.required);
@@ -221,9 +219,9 @@ void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::int64_t id = c.resolved(block, s->kind, block.id.value);
     const auto [it, fresh] = first.try_emplace({id_family(block), id}, &block);
     if (fresh) continue;
-    Diagnostic* d = r.report(rule, block, block.header_span,
+    Diagnostic& d = r.report(rule, block, block.header_span,
                              fmt::format("the id {} of {} is used twice", id, names_of(block)));
-    if (d != nullptr) d->notes.emplace_back(it->second->header_span, "first used here");
+    d.notes.emplace_back(it->second->header_span, "first used here");
   }
 }
 
@@ -234,9 +232,9 @@ void check_friction_twice(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const auto& [id, block] : all->second) {
     const auto [it, fresh] = first.try_emplace(id, block);
     if (fresh) continue;
-    Diagnostic* d = r.report(rule, *block, block->header_span,
+    Diagnostic& d = r.report(rule, *block, block->header_span,
                              fmt::format("/FRICTION {} is defined twice", id));
-    if (d != nullptr) d->notes.emplace_back(it->second->header_span, "first defined here");
+    d.notes.emplace_back(it->second->header_span, "first defined here");
   }
 }
 

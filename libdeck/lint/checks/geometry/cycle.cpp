@@ -49,9 +49,9 @@ void report_force(const GeometryRun& run, const Contact& contact, const Interfac
                            figure_text(s.largest_acceleration));
   if (s.elastic_energy > 0)
     message += fmt::format("; stored energy {}", figure_text(s.elastic_energy));
-  Diagnostic* d = run.report(RuleId::DK401, contact, "Inacti", std::move(message), s.force_sum);
-  if (d != nullptr && s.acceleration_node != no_index)
-    d->notes.emplace_back(run.model().node_span(s.acceleration_node), "the node pushed most");
+  Diagnostic& d = run.report(RuleId::DK401, contact, "Inacti", std::move(message), s.force_sum);
+  if (s.acceleration_node != no_index)
+    d.notes.emplace_back(run.model().node_span(s.acceleration_node), "the node pushed most");
 }
 
 std::string_view element_of(cycle::StepLimit::Source source) {
@@ -74,10 +74,10 @@ void report_step(const GeometryRun& run, const Contact& contact, const Interface
           ? std::string()
           : fmt::format(" at node {}", node_name(run.model(), s.contact_dt_node)),
       s.structure_dt, s.structure_dt / s.contact_dt);
-  Diagnostic* d = run.report(RuleId::DK402, contact, "Stfac", std::move(message),
+  Diagnostic& d = run.report(RuleId::DK402, contact, "Stfac", std::move(message),
                              s.structure_dt / s.contact_dt);
-  if (d != nullptr && s.contact_dt_node != no_index)
-    d->notes.emplace_back(run.model().node_span(s.contact_dt_node), "the node that limits it");
+  if (s.contact_dt_node != no_index)
+    d.notes.emplace_back(run.model().node_span(s.contact_dt_node), "the node that limits it");
 }
 
 /// "node 5 over segment 1 2 3 4"
@@ -140,9 +140,9 @@ DeletionStep deletion_step(const LintContext& c) {
 void report_deletion(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s,
                      const DeletionStep& deletion) {
   if (!(s.contact_dt <= deletion.dt) || s.inter->type == 10) return;
-  const ContactCard* card = run.card(contact);
+  const ContactCard* card = run.card(*contact.inter);
   if (card != nullptr && card->given("dtmin")) return;
-  Diagnostic* d = run.report(
+  Diagnostic& d = run.report(
       RuleId::DK808, contact, "dtmin",
       fmt::format("{}: time step {:.4g} from {}{}, and /DT/INTER/DEL removes nodes below {:.4g}",
                   summary_name(s), s.contact_dt, element_of(s.contact_dt_source),
@@ -150,7 +150,7 @@ void report_deletion(const GeometryRun& run, const Contact& contact, const Inter
                       ? std::string()
                       : fmt::format(" at node {}", node_name(run.model(), s.contact_dt_node)),
                   deletion.dt));
-  if (d != nullptr) d->notes.emplace_back(deletion.place, "the time step of /DT/INTER/DEL");
+  d.notes.emplace_back(deletion.place, "the time step of /DT/INTER/DEL");
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
                        std::string_view item) {
   if (worst.count == 0) return;
   const Model& model = run.model();
-  Diagnostic* d = run.report(
+  Diagnostic& d = run.report(
       RuleId::DK310, c, gap_field(c),
       fmt::format("{}: {} is more than half of {} {} {}{} ({}), which is {:.6g} long; so it is at "
                   "{} of {}",
@@ -58,9 +58,8 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
                   model.node_id(worst.a), model.node_id(worst.b), where, element_text(element),
                   worst.length, count_text(worst.count, item), items),
       worst.gap / worst.length);
-  if (d == nullptr) return;
-  if (c.igap != 0 && where.size() > 0) d->reference = rule_of(RuleId::DK310).message(477);
-  d->notes.emplace_back(model.node_span(worst.a), "one end of it");
+  if (c.igap != 0 && where.size() > 0) d.reference = rule_of(RuleId::DK310).message(477);
+  d.notes.emplace_back(model.node_span(worst.a), "one end of it");
 }
 
 /// The largest gap and the shortest side are not at the same place: the reference warns all the
@@ -68,14 +67,13 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
 void report_apart(const GeometryRun& run, const Contact& c) {
   if (c.kind != ContactKind::node_segment || c.igap == 0) return;
   if (!(c.shortest_side > 0) || !(c.max_gap > 0.5 * c.shortest_side)) return;
-  Diagnostic* d = run.report(RuleId::DK310, c, gap_field(c),
+  Diagnostic& d = run.report(RuleId::DK310, c, gap_field(c),
                              fmt::format("{}: the largest gap {:.6g} is more than half of the "
                                          "shortest main side {:.6g}, but at another place",
                                          name_of(run, c), c.max_gap, c.shortest_side),
                              c.max_gap / c.shortest_side);
-  if (d == nullptr) return;
-  d->severity = Severity::info;
-  d->reference = rule_of(RuleId::DK310).message(477);
+  d.severity = Severity::info;
+  d.reference = rule_of(RuleId::DK310).message(477);
 }
 
 /// The reference compares the largest gap with the shortest side of the whole surface; here both
@@ -150,10 +148,10 @@ void check_radiation(const GeometryRun& run, const Contact& c) {
 void check_no_gap(const GeometryRun& run, const Contact& c) {
   if (c.gapmin > 0 || c.dropped) return;
   if (c.main_empty()) return;
-  Diagnostic* d = run.report(RuleId::DK314, c, gap_field(c),
+  Diagnostic& d = run.report(RuleId::DK314, c, gap_field(c),
                              fmt::format("{}: the default gap is {:.6g} ({})", name_of(run, c),
                                          c.gapmin, to_string(c.gapmin_origin)));
-  if (d != nullptr && c.igap != 0) d->reference = rule_of(RuleId::DK314).message(786);
+  if (c.igap != 0) d.reference = rule_of(RuleId::DK314).message(786);
 }
 
 void check_line_removal(const GeometryRun& run, const Contact& c) {

@@ -22,12 +22,15 @@ struct GeometryRun {
   std::vector<NotChecked>* left_out = nullptr;
 
   const Model& model() const { return *scene.model; }
-  /// The card of a contact; nullptr never happens for contacts of this deck.
-  const ContactCard* card(const Contact& contact) const;
-  /// Reports at a field of the contact's card; nullptr: enough of the rule was kept already.
-  /// `amount`: as Diagnostic::amount.
-  Diagnostic* report(RuleId rule, const Contact& contact, std::string_view field,
+  /// The card of an interface; nullptr never happens for those of this deck.
+  const ContactCard* card(const InterBase& inter) const;
+  /// Reports at a field of the card. `amount`: as Diagnostic::amount.
+  Diagnostic& report(RuleId rule, const InterBase& inter, std::string_view field,
                      std::string message, std::optional<double> amount = {}) const;
+  Diagnostic& report(RuleId rule, const Contact& contact, std::string_view field,
+                     std::string message, std::optional<double> amount = {}) const {
+    return report(rule, *contact.inter, field, std::move(message), amount);
+  }
 };
 
 /// "/INTER/TYPE19 3 (reversed)"

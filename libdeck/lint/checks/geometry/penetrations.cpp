@@ -134,7 +134,7 @@ void check_depths(const GeometryRun& run) {
     const bool edges = c.kind == ContactKind::edge_edge;
     std::vector<const PenetrationRow*> rows;
     for (const std::uint32_t i : group.rows) rows.push_back(&row_of(run, run.view.penetrations[i]));
-    Diagnostic* d = run.report(
+    Diagnostic& d = run.report(
         RuleId::DK301, c, "Inacti",
         fmt::format("{}: {} of {} within the gap of {} ({}), deepest {} of a gap of {} "
                     "between {} and {}; {}",
@@ -143,15 +143,14 @@ void check_depths(const GeometryRun& run) {
                     length_text(r.depth), length_text(r.gap), secondary_text(worst),
                     main_text(worst), treatment(c, rows)),
         r.depth);
-    if (d == nullptr) continue;
-    d->reference = rule_of(RuleId::DK301).message(counting_warning(run, c));
+    d.reference = rule_of(RuleId::DK301).message(counting_warning(run, c));
     std::set<std::uint32_t> named;
     for (const std::uint32_t i : group.rows) {
       const PenetrationRow& row = row_of(run, run.view.penetrations[i]);
       if (!named.insert(row.secondary).second) continue;
-      d->notes.emplace_back(run.model().node_span(node_of(c, row)),
-                            fmt::format("{} is {} deep", secondary_text(run.view.penetrations[i]),
-                                        length_text(row.depth)));
+      d.notes.emplace_back(run.model().node_span(node_of(c, row)),
+                           fmt::format("{} is {} deep", secondary_text(run.view.penetrations[i]),
+                                       length_text(row.depth)));
       if (named.size() == 3) break;
     }
   }
@@ -166,14 +165,14 @@ void check_untied(const GeometryRun& run, std::uint32_t contact) {
   const NodeIndex first = c.secondary[untied.front()].node;
   for (const std::uint32_t s : untied) free.push_back(run.model().node_id(c.secondary[s].node));
   std::sort(free.begin(), free.end());
-  Diagnostic* d =
+  Diagnostic& d =
       run.report(RuleId::DK308, c, "Gap",
                  fmt::format("{}: {} of {} not tied at the start, no segment is within the gap of "
                              "{:.6g}: {}",
                              name_of(run, c), count_text(free.size(), "node"), c.secondary.size(),
                              c.gapmin, list_text(free)),
-                 static_cast<double>(free.size()));
-  if (d != nullptr) d->notes.emplace_back(run.model().node_span(first), "one of the nodes");
+                 free.size());
+  d.notes.emplace_back(run.model().node_span(first), "one of the nodes");
 }
 
 void check_on_surface(const GeometryRun& run, const Contact& c) {
@@ -181,11 +180,11 @@ void check_on_surface(const GeometryRun& run, const Contact& c) {
   const auto nodes = nodes_where(run, c, [](const PenetrationRow& r) { return r.on_surface; });
   if (nodes.empty()) return;
   const int error = on_surface_error(c);
-  Diagnostic* d = run.report(error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
+  Diagnostic& d = run.report(error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
                              fmt::format("{}: {} exactly on a main segment: {}", name_of(run, c),
                                          count_text(nodes.size(), "node"), list_text(nodes)),
-                             static_cast<double>(nodes.size()));
-  if (d != nullptr && error != 0) d->reference = rule_of(RuleId::DK302).message(error);
+                             nodes.size());
+  if (error != 0) d.reference = rule_of(RuleId::DK302).message(error);
 }
 
 void check_switched_off(const GeometryRun& run, const Contact& c) {
@@ -197,7 +196,7 @@ void check_switched_off(const GeometryRun& run, const Contact& c) {
   run.report(RuleId::DK304, c, "Fpenmax",
              fmt::format("{}: Fpenmax = {:.6g} takes {} out of the contact: {}", name_of(run, c),
                          c.fpenmax, count_text(nodes.size(), "node"), list_text(nodes)),
-             static_cast<double>(nodes.size()));
+             nodes.size());
 }
 
 void check_moved_springs(const GeometryRun& run, const Contact& c) {
@@ -212,7 +211,7 @@ void check_moved_springs(const GeometryRun& run, const Contact& c) {
   run.report(RuleId::DK305, c, "Inacti",
              fmt::format("{}: Inacti = 3 moves {} of springs: {}", name_of(run, c),
                          count_text(nodes.size(), "node"), list_text(nodes)),
-             static_cast<double>(nodes.size()));
+             nodes.size());
 }
 
 void check_deep_edges(const GeometryRun& run, const Contact& c) {
@@ -233,7 +232,7 @@ void check_deep_edges(const GeometryRun& run, const Contact& c) {
                          "{} is {:.6g} from edge {} {}, gap {:.6g}",
                          name_of(run, c), count_text(edges, "secondary edge"), id(s[0]), id(s[1]),
                          worst->distance, id(m[0]), id(m[1]), worst->gap),
-             static_cast<double>(edges));
+             edges);
 }
 
 /// Tables that the solver's listing has because Ipri asks for details.
@@ -242,10 +241,9 @@ void check_tables(const GeometryRun& run) {
   const Cell level = printout_level(run.context);
   if (level.integer < pairs_from) return;
   const auto report = [&](const Contact& c, int message, std::string what) {
-    Diagnostic* d = run.report(RuleId::DK606, c, "", std::move(what));
-    if (d == nullptr) return;
-    d->reference = rule_of(RuleId::DK606).message(message);
-    d->notes.emplace_back(level.span, "asks for the table");
+    Diagnostic& d = run.report(RuleId::DK606, c, "", std::move(what));
+    d.reference = rule_of(RuleId::DK606).message(message);
+    d.notes.emplace_back(level.span, "asks for the table");
   };
   for (const Contact& c : run.scene.contacts) {
     const bool edges = c.kind == ContactKind::edge_edge;

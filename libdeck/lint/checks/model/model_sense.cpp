@@ -204,7 +204,7 @@ void check_same_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const auto& [family, what] : families)
     for (const auto& [parts, pair] : same.of(*family)) {
       const bool one = parts.first == parts.second;
-      Diagnostic* d =
+      Diagnostic& d =
           r.report(rule, m.element_span(family->kind, pair.other),
                    fmt::format("{} on the same nodes as another{}; first are elements {} and {}",
                                count(pair.count, what, std::string(what) + "s"),
@@ -212,9 +212,8 @@ void check_same_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
                                    : fmt::format(", parts {} and {}", m.parts[parts.first].id,
                                                  m.parts[parts.second].id),
                                family->id[pair.first], family->id[pair.other]));
-      if (d == nullptr) continue;
-      d->notes.emplace_back(m.element_span(family->kind, pair.first), "the other element");
-      if (!one) d->severity = Severity::info;
+      d.notes.emplace_back(m.element_span(family->kind, pair.first), "the other element");
+      if (!one) d.severity = Severity::info;
     }
 }
 
