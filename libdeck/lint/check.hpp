@@ -60,11 +60,40 @@ inline Span place_of(const DecodedBlock& d, std::string_view field) {
   return place_of(d, d.find(field));
 }
 
+/// The cell of that name on a line; nullptr: it has none.
+inline const Cell* cell_of(const DecodedCard& card, std::string_view name) {
+  for (const Cell& cell : card.cells)
+    if (cell.field->name == name) return &cell;
+  return nullptr;
+}
+
 /// Calls f(card, cell) for the cells of a block.
 template <class F>
 void each_cell(const DecodedBlock& d, F&& f) {
   for (const DecodedCard& card : d.cards)
     for (const Cell& cell : card.cells) f(card, cell);
+}
+
+/// True for fields without a list of values.
+inline bool is_legal(const Field& f, std::int64_t value) {
+  return f.values.empty() || std::find(f.values.begin(), f.values.end(), value) != f.values.end();
+}
+
+/// Calls f(cell) for the cells with a number that is not one of the legal values of their flag.
+template <class F>
+void each_illegal_flag(const DecodedBlock& d, F&& f) {
+  each_cell(d, [&](const DecodedCard&, const Cell& cell) {
+    if (!cell.blank() && cell.status != NumberStatus::not_a_number &&
+        !is_legal(*cell.field, cell.integer))
+      f(cell);
+  });
+}
+
+/// True if a block of the deck begins with one of the keywords.
+template <class... Keywords>
+bool has_block(const LintContext& c, const Keywords&... keywords) {
+  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(),
+                     [&](const Block& b) { return (b.header.starts_with(keywords) || ...); });
 }
 
 /// Calls f(block) for the blocks of a keyword that can be read.
@@ -222,6 +251,13 @@ bool selection_is_empty(const LintContext& c, std::string_view kind, std::int64_
 
 /// Whether the entity exists; no value: not known (no model, or a kind without a table).
 std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id);
+
+/// "grnod_ID of /BCS 3 is 7, and there is no /GRNOD or /SET of that id", and where there is one.
+std::string missing_text(const LintContext& c, const DecodedBlock& d, std::string_view field,
+                         std::string_view kind, std::int64_t id);
+
+/// Adds the place where a group, surface or line is defined.
+void note_definition(const LintContext& c, Diagnostic& d, std::string_view kind, std::int64_t id);
 
 /// The field of a block that names what it acts on, and whether that is there; nullptr: no such
 /// field.

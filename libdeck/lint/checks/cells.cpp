@@ -18,8 +18,7 @@ bool deck_has(const LintContext& c, std::string_view fact) {
   if (fact == "sol2sph") return model.has_sol2sph;
   if (fact == "adaptive_mesh") return model.has_adaptive_mesh;
   if (fact == "thermal_material") return model.has_thermal_material;
-  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(),
-                     [](const Block& b) { return b.header.starts_with("/SPHCEL"); });
+  return has_block(c, "/SPHCEL");
 }
 
 bool in_working_units(const LintContext& c, const ContactCard& card) {

@@ -49,17 +49,12 @@ double number_in(const Cell* cell) { return cell == nullptr ? 0 : number_of(*cel
 
 /// The cell of that name that goes with a line: on it, in its round, or where nothing repeats.
 const Cell* cell_beside(const DecodedBlock& d, const DecodedCard* line, std::string_view field) {
-  const auto in = [&](const DecodedCard& card) -> const Cell* {
-    for (const Cell& cell : card.cells)
-      if (cell.field->name == field) return &cell;
-    return nullptr;
-  };
   if (line == nullptr) return d.find(field);
-  if (const Cell* cell = in(*line)) return cell;
+  if (const Cell* cell = cell_of(*line, field)) return cell;
   for (const int round : {line->round, 0})
     for (const DecodedCard& card : d.cards)
       if (card.round == round)
-        if (const Cell* cell = in(card)) return cell;
+        if (const Cell* cell = cell_of(card, field)) return cell;
   return nullptr;
 }
 

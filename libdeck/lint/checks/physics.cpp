@@ -117,15 +117,6 @@ class MassiveNodes {
   std::vector<bool> massive_;
 };
 
-/// Options that give nodes a mass in other ways than these rules look at.
-bool has_other_masses(const LintContext& c) {
-  static constexpr std::array keywords = {"/ADMAS", "/SPHCEL", "/XELEM", "/RBE3", "/RBE2"};
-  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(), [](const Block& b) {
-    return std::any_of(keywords.begin(), keywords.end(),
-                       [&](std::string_view k) { return b.header.starts_with(k); });
-  });
-}
-
 /// The inertia on the card, with its products, is one that a body can have.
 bool has_inertia(const DecodedBlock& d) {
   const double xx = d.real("Jxx"), yy = d.real("Jyy"), zz = d.real("Jzz");
@@ -136,7 +127,8 @@ bool has_inertia(const DecodedBlock& d) {
 
 void check_rigid_mass(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model->rbodies.empty()) return;
-  if (has_other_masses(c)) return;
+  // They give nodes a mass in other ways than this rule looks at.
+  if (has_block(c, "/ADMAS", "/SPHCEL", "/XELEM", "/RBE3", "/RBE2")) return;
   const MassiveNodes massive(*c.model);
   for (const DecodedBlock& d : c.loads) {
     if (d.block->schema->keyword != "/RBODY" || d.real("Mass") > 0 || has_inertia(d)) continue;

@@ -63,13 +63,7 @@ void check_missing_entity(const LintContext& c, const Rule& rule, Reporter& r) {
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
     if (id < 0 || selection_exists(c, side.kind, id) || !other_kind(c, side.kind, id).empty())
       return;
-    std::string message = fmt::format("{} of {} is {}, and there is no {} or /SET of that id",
-                                      side.field, name_of(card), id, kind_name(side.kind));
-    const std::int64_t offset = c.deck.offset_of(*card.block, side.kind);
-    if (offset != 0 && selection_exists(c, side.kind, id - offset))
-      message +=
-          fmt::format("; {} exists outside the submodel, whose offset is {}", id - offset, offset);
-    report_at(r, rule, card, side.field, std::move(message));
+    report_at(r, rule, card, side.field, missing_text(c, card.decoded, side.field, side.kind, id));
   });
 }
 
@@ -90,12 +84,6 @@ void check_kind(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void note_definition(const LintContext& c, Diagnostic& d, const Side& side, std::int64_t id) {
-  const bool plain = c.selections->is_plain(side.kind, id);
-  if (const auto at = c.selections->where(plain ? side.kind : "set", id))
-    d.notes.emplace_back(*at, "it is defined here");
-}
-
 /// A set of which a side takes nothing but its nodes.
 bool has_nodes_only(const LintContext& c, std::string_view kind, std::int64_t id) {
   return kind != "grnod" && !c.selections->is_plain(kind, id) && selection_size(c, "grnod", id) > 0;
@@ -114,7 +102,7 @@ void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
                                   ? ": the set has nodes, and no " +
                                         std::string(side.kind == "surf" ? "segments" : "edges")
                                   : ""));
-    note_definition(c, d, side, id);
+    note_definition(c, d, side.kind, id);
     if (secondary && side.kind != "grnod") {
       d.severity = Severity::error;
       d.reference = rule.message(118);
@@ -128,11 +116,10 @@ void check_analytical(const LintContext& c, const Rule& rule, Reporter& r) {
     if (side.kind != "surf") return;
     const auto s = c.selections->outline(id);
     if (!s || !s->analytical) return;
-    note_definition(c,
-                    report_at(r, rule, card, side.field,
+    Diagnostic& d = report_at(r, rule, card, side.field,
                               fmt::format("{} of {}: surface {} is analytical and has no segments",
-                                          side.field, name_of(card), id)),
-                    side, id);
+                                          side.field, name_of(card), id));
+    note_definition(c, d, side.kind, id);
   });
 }
 
@@ -169,24 +156,6 @@ void check_ambiguous(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_duplicates(const LintContext& c, const Rule& rule, Reporter& r) {
-  const auto all = c.defined.find("inter");
-  if (all == c.defined.end()) return;
-  const Block* first = nullptr;
-  std::int64_t last = -1;
-  for (const auto& [id, block] : all->second) {
-    if (block->schema->keyword == "/INTER/SUB") continue;
-    if (first == nullptr || id != last) {
-      first = block;
-      last = id;
-      continue;
-    }
-    Diagnostic& d = r.report(rule, *block, block->header_span,
-                             fmt::format("interface id {} is used twice", id));
-    d.notes.emplace_back(first->header_span, "first used here");
-  }
-}
-
 void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts) {
     const auto sides = sides_of(card);
@@ -199,14 +168,8 @@ void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-// ---- pairs of parts of a /FRICTION, and unused entities ------
-// ------------------------------------
-
-const Cell* cell_of(const DecodedCard& card, std::string_view name) {
-  for (const Cell& cell : card.cells)
-    if (cell.field->name == name) return &cell;
-  return nullptr;
-}
+// ---- pairs of parts of a /FRICTION, and unused entities
+// ------------------------------------------
 
 /// Calls f(block, card) for the first line of every part pair.
 template <class F>
@@ -304,13 +267,13 @@ void check_unused_groups(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> reference_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK170, check_missing_entity}, {RuleId::DK171, check_kind},
-      {RuleId::DK172, check_empty},          {RuleId::DK173, check_empty},
-      {RuleId::DK174, check_analytical},     {RuleId::DK179, check_duplicates},
-      {RuleId::DK181, check_no_main},        {RuleId::DK187, check_negative},
-      {RuleId::DK190, check_ambiguous},      {RuleId::DK183, check_parts},
-      {RuleId::DK184, check_repeated},       {RuleId::DK185, check_unused_friction},
-      {RuleId::DK186, check_incomplete},     {RuleId::DK188, check_unused_groups},
+      {RuleId::DK170, check_missing_entity},  {RuleId::DK171, check_kind},
+      {RuleId::DK172, check_empty},           {RuleId::DK173, check_empty},
+      {RuleId::DK174, check_analytical},      {RuleId::DK181, check_no_main},
+      {RuleId::DK187, check_negative},        {RuleId::DK190, check_ambiguous},
+      {RuleId::DK183, check_parts},           {RuleId::DK184, check_repeated},
+      {RuleId::DK185, check_unused_friction}, {RuleId::DK186, check_incomplete},
+      {RuleId::DK188, check_unused_groups},
   };
   return all;
 }

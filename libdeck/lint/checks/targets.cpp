@@ -62,6 +62,23 @@ std::optional<bool> target_exists(const LintContext& c, std::string_view kind, s
   return all != c.defined.end() && all->second.count(id) > 0;
 }
 
+std::string missing_text(const LintContext& c, const DecodedBlock& d, std::string_view field,
+                         std::string_view kind, std::int64_t id) {
+  const bool group = kind == "grnod" || kind == "surf" || kind == "line";
+  std::string out = fmt::format("{} of {} is {}, and there is no {}{} of that id", field,
+                                name_of(d), id, kind_name(kind), group ? " or /SET" : "");
+  const std::int64_t offset = c.deck.offset_of(*d.block, kind);
+  if (offset != 0 && target_exists(c, kind, id - offset).value_or(false))
+    out += fmt::format("; {} exists outside the submodel, whose offset is {}", id - offset, offset);
+  return out;
+}
+
+void note_definition(const LintContext& c, Diagnostic& d, std::string_view kind, std::int64_t id) {
+  const bool plain = c.selections->is_plain(kind, id);
+  if (const auto at = c.selections->where(plain ? kind : "set", id))
+    d.notes.emplace_back(*at, "it is defined here");
+}
+
 std::pair<const Field*, bool> acts_on(const LintContext& c, const DecodedBlock& d) {
   const int version = d.block->version;
   for (const CardSchema& card : d.block->schema->cards)
@@ -134,18 +151,13 @@ bool table_exists(const LintContext& c, std::int64_t id) {
 void check_missing_target(const LintContext& c, const Rule& rule, Reporter& r) {
   each_demand(c, &Field::missing,
               [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
-                if (id == 0 || target_exists(c, cell.field->ref, id).value_or(true)) return;
                 const std::string_view kind = cell.field->ref;
-                if (kind == "funct" && table_exists(c, id)) return;
-                const bool group = kind == "grnod" || kind == "surf" || kind == "line";
-                std::string message =
-                    fmt::format("{} of {} is {}, and there is no {}{} of that id", cell.field->name,
-                                name_of(d), id, kind_name(kind), group ? " or /SET" : "");
-                const std::int64_t offset = c.deck.offset_of(*d.block, kind);
-                if (offset != 0 && target_exists(c, kind, id - offset).value_or(false))
-                  message += fmt::format("; {} exists outside the submodel, whose offset is {}",
-                                         id - offset, offset);
-                set_message(r.report(rule, *d.block, cell.span, std::move(message)), message_id);
+                if (id == 0 || target_exists(c, kind, id).value_or(true) ||
+                    (kind == "funct" && table_exists(c, id)))
+                  return;
+                set_message(r.report(rule, *d.block, cell.span,
+                                     missing_text(c, d, cell.field->name, kind, id)),
+                            message_id);
               });
 }
 
@@ -175,9 +187,7 @@ void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
                              fmt::format("{} of {} is {}, and {} is empty", cell.field->name,
                                          name_of(d), id, selection_name(c, kind, id)));
                 set_message(found, message_id);
-                const bool plain = c.selections->is_plain(kind, id);
-                if (const auto at = c.selections->where(plain ? kind : "set", id))
-                  found.notes.emplace_back(*at, "it is defined here");
+                note_definition(c, found, kind, id);
               });
 }
 
@@ -225,17 +235,27 @@ void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void check_friction_twice(const LintContext& c, const Rule& rule, Reporter& r) {
-  const auto all = c.defined.find("friction");
+void check_defined_twice(const LintContext& c, const Rule& rule, Reporter& r, std::string_view kind,
+                         std::string_view text, std::string_view first_time) {
+  const auto all = c.defined.find(kind);
   if (all == c.defined.end()) return;
   std::map<std::int64_t, const Block*> first;
   for (const auto& [id, block] : all->second) {
+    if (block->schema->keyword == "/INTER/SUB") continue;
     const auto [it, fresh] = first.try_emplace(id, block);
     if (fresh) continue;
-    Diagnostic& d = r.report(rule, *block, block->header_span,
-                             fmt::format("/FRICTION {} is defined twice", id));
-    d.notes.emplace_back(it->second->header_span, "first defined here");
+    r.report(rule, *block, block->header_span, fmt::format(fmt::runtime(text), id))
+        .notes.emplace_back(it->second->header_span, first_time);
   }
+}
+
+void check_friction_twice(const LintContext& c, const Rule& rule, Reporter& r) {
+  check_defined_twice(c, rule, r, "friction", "/FRICTION {} is defined twice",
+                      "first defined here");
+}
+
+void check_interface_twice(const LintContext& c, const Rule& rule, Reporter& r) {
+  check_defined_twice(c, rule, r, "inter", "interface id {} is used twice", "first used here");
 }
 
 }  // namespace
@@ -245,6 +265,7 @@ std::span<const Checked> target_checks() {
       {RuleId::DK120, check_missing_target},  {RuleId::DK121, check_empty_target},
       {RuleId::DK122, check_required_target}, {RuleId::DK128, check_twice},
       {RuleId::DK138, check_acts_on_nothing}, {RuleId::DK191, check_friction_twice},
+      {RuleId::DK179, check_interface_twice},
   };
   return all;
 }

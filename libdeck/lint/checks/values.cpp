@@ -35,11 +35,6 @@ bool is_excepted(const Rule& rule, std::string_view keyword, std::string_view fi
   return rule.lists("except", all) || rule.lists("except", fmt::format("{} {}", all, value));
 }
 
-/// True for fields without a list of values.
-bool is_legal(const Field& f, std::int64_t value) {
-  return f.values.empty() || std::find(f.values.begin(), f.values.end(), value) != f.values.end();
-}
-
 void add_doc(Diagnostic& d, const Field& f) {
   if (!f.doc.empty()) d.help += " " + f.name + ": " + f.doc + ".";
 }
@@ -47,10 +42,9 @@ void add_doc(Diagnostic& d, const Field& f) {
 /// `only`: no other field; empty: all of them.
 void check_block(const Rule& rule, const DecodedBlock& block, Reporter& r,
                  std::string_view only = {}) {
-  each_cell(block, [&](const DecodedCard&, const Cell& cell) {
+  each_illegal_flag(block, [&](const Cell& cell) {
     const Field& f = *cell.field;
-    if (cell.blank() || cell.status == NumberStatus::not_a_number || is_legal(f, cell.integer) ||
-        !is_about(rule, f.name) || (!only.empty() && f.name != only) ||
+    if (!is_about(rule, f.name) || (!only.empty() && f.name != only) ||
         is_excepted(rule, block.block->schema->keyword, f.name, cell.integer))
       return;
     add_doc(r.report(rule, f.name, *block.block, cell.span,

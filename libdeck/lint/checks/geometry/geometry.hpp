@@ -9,6 +9,9 @@
 
 namespace deck::detail {
 
+/// "/INTER/TYPE19 3 (reversed)"
+std::string name_of(const Contact& contact);
+
 /// A built scene with its views, and where findings go.
 struct GeometryRun {
   const LintContext& context;
@@ -24,17 +27,16 @@ struct GeometryRun {
   const Model& model() const { return *scene.model; }
   /// The card of an interface; nullptr never happens for those of this deck.
   const ContactCard* card(const InterBase& inter) const;
-  /// Reports at a field of the card. `amount`: as Diagnostic::amount.
+  /// Reports at a field of the card. `amount`: as Diagnostic::amount. Of a contact the message has
+  /// its name in front: "/INTER/TYPE19 3 (reversed): ".
   Diagnostic& report(RuleId rule, const InterBase& inter, std::string_view field,
                      std::string message, std::optional<double> amount = {}) const;
   Diagnostic& report(RuleId rule, const Contact& contact, std::string_view field,
                      std::string message, std::optional<double> amount = {}) const {
-    return report(rule, *contact.inter, field, std::move(message), amount);
+    return report(rule, *contact.inter, field, name_of(contact) + ": " + message, amount);
   }
 };
 
-/// "/INTER/TYPE19 3 (reversed)"
-std::string name_of(const GeometryRun& run, const Contact& contact);
 /// The name that the minimum gap has on the card.
 inline std::string_view gap_field(const Contact& contact) { return traits_of(*contact.inter).gap; }
 /// "1 2 3 4" or, for triangles, "1 2 3".

@@ -136,12 +136,12 @@ void check_depths(const GeometryRun& run) {
     for (const std::uint32_t i : group.rows) rows.push_back(&row_of(run, run.view.penetrations[i]));
     Diagnostic& d = run.report(
         RuleId::DK301, c, "Inacti",
-        fmt::format("{}: {} of {} within the gap of {} ({}), deepest {} of a gap of {} "
+        fmt::format("{} of {} within the gap of {} ({}), deepest {} of a gap of {} "
                     "between {} and {}; {}",
-                    name_of(run, c), count_text(group.distinct.size(), edges ? "edge" : "node"),
-                    part_text(from), part_text(to), count_text(group.rows.size(), "pair"),
-                    length_text(r.depth), length_text(r.gap), secondary_text(worst),
-                    main_text(worst), treatment(c, rows)),
+                    count_text(group.distinct.size(), edges ? "edge" : "node"), part_text(from),
+                    part_text(to), count_text(group.rows.size(), "pair"), length_text(r.depth),
+                    length_text(r.gap), secondary_text(worst), main_text(worst),
+                    treatment(c, rows)),
         r.depth);
     d.reference = rule_of(RuleId::DK301).message(counting_warning(run, c));
     std::set<std::uint32_t> named;
@@ -165,13 +165,12 @@ void check_untied(const GeometryRun& run, std::uint32_t contact) {
   const NodeIndex first = c.secondary[untied.front()].node;
   for (const std::uint32_t s : untied) free.push_back(run.model().node_id(c.secondary[s].node));
   std::sort(free.begin(), free.end());
-  Diagnostic& d =
-      run.report(RuleId::DK308, c, "Gap",
-                 fmt::format("{}: {} of {} not tied at the start, no segment is within the gap of "
-                             "{:.6g}: {}",
-                             name_of(run, c), count_text(free.size(), "node"), c.secondary.size(),
-                             c.gapmin, list_text(free)),
-                 free.size());
+  Diagnostic& d = run.report(
+      RuleId::DK308, c, "Gap",
+      fmt::format("{} of {} not tied at the start, no segment is within the gap of "
+                  "{:.6g}: {}",
+                  count_text(free.size(), "node"), c.secondary.size(), c.gapmin, list_text(free)),
+      free.size());
   d.notes.emplace_back(run.model().node_span(first), "one of the nodes");
 }
 
@@ -181,7 +180,7 @@ void check_on_surface(const GeometryRun& run, const Contact& c) {
   if (nodes.empty()) return;
   const int error = on_surface_error(c);
   Diagnostic& d = run.report(error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
-                             fmt::format("{}: {} exactly on a main segment: {}", name_of(run, c),
+                             fmt::format("{} exactly on a main segment: {}",
                                          count_text(nodes.size(), "node"), list_text(nodes)),
                              nodes.size());
   if (error != 0) d.reference = rule_of(RuleId::DK302).message(error);
@@ -194,8 +193,8 @@ void check_switched_off(const GeometryRun& run, const Contact& c) {
   });
   if (nodes.empty()) return;
   run.report(RuleId::DK304, c, "Fpenmax",
-             fmt::format("{}: Fpenmax = {:.6g} takes {} out of the contact: {}", name_of(run, c),
-                         c.fpenmax, count_text(nodes.size(), "node"), list_text(nodes)),
+             fmt::format("Fpenmax = {:.6g} takes {} out of the contact: {}", c.fpenmax,
+                         count_text(nodes.size(), "node"), list_text(nodes)),
              nodes.size());
 }
 
@@ -209,8 +208,8 @@ void check_moved_springs(const GeometryRun& run, const Contact& c) {
   });
   if (nodes.empty()) return;
   run.report(RuleId::DK305, c, "Inacti",
-             fmt::format("{}: Inacti = 3 moves {} of springs: {}", name_of(run, c),
-                         count_text(nodes.size(), "node"), list_text(nodes)),
+             fmt::format("Inacti = 3 moves {} of springs: {}", count_text(nodes.size(), "node"),
+                         list_text(nodes)),
              nodes.size());
 }
 
@@ -228,10 +227,10 @@ void check_deep_edges(const GeometryRun& run, const Contact& c) {
   const auto id = [&](NodeIndex n) { return run.model().node_id(n); };
   const auto &s = c.secondary_edges[worst->secondary].nodes, &m = c.main_edges[worst->main].nodes;
   run.report(RuleId::DK306, c, "Inacti",
-             fmt::format("{}: {} out of the contact, more than 99.5 % of the gap used up; edge {} "
+             fmt::format("{} out of the contact, more than 99.5 % of the gap used up; edge {} "
                          "{} is {:.6g} from edge {} {}, gap {:.6g}",
-                         name_of(run, c), count_text(edges, "secondary edge"), id(s[0]), id(s[1]),
-                         worst->distance, id(m[0]), id(m[1]), worst->gap),
+                         count_text(edges, "secondary edge"), id(s[0]), id(s[1]), worst->distance,
+                         id(m[0]), id(m[1]), worst->gap),
              edges);
 }
 
@@ -251,13 +250,13 @@ void check_tables(const GeometryRun& run) {
                                      [](const PenetrationRow& r) { return !r.on_surface; });
     if (!edges && pairs > 0)
       report(c, 1164,
-             fmt::format("{}: the listing has a table of its {} (Ipri = {})", name_of(run, c),
+             fmt::format("the listing has a table of its {} (Ipri = {})",
                          count_text(static_cast<std::size_t>(pairs), "penetrating pair"),
                          level.integer));
     if (level.integer >= segments_from && c.reoriented_segments > 0)
       report(c, 3024,
              fmt::format(
-                 "{}: the listing has a table of its {} (Ipri = {})", name_of(run, c),
+                 "the listing has a table of its {} (Ipri = {})",
                  count_text(static_cast<std::size_t>(c.reoriented_segments), "turned main segment"),
                  level.integer));
   }

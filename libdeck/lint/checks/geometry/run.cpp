@@ -24,7 +24,7 @@ Diagnostic& GeometryRun::report(RuleId id, const InterBase& inter, std::string_v
   return d;
 }
 
-std::string name_of(const GeometryRun&, const Contact& contact) {
+std::string name_of(const Contact& contact) {
   std::string name = fmt::format("/INTER/TYPE{} {}", contact.inter->type, contact.inter->id);
   if (contact.role != ContactRole::primary) name += fmt::format(" ({})", to_string(contact.role));
   return name;

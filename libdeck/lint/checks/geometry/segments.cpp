@@ -22,9 +22,9 @@ Diagnostic* about_segments(const GeometryRun& run, RuleId rule, const Contact& c
   const ElementName e = carrier_name(run.model(), m.carrier, m.element);
   Diagnostic& d = run.report(
       rule, c, main_field(c),
-      fmt::format("{}: {} of {} {}, for example {} ({})", name_of(run, c),
-                  count_text(which.size(), "segment"), c.main.size(),
-                  which.size() == 1 ? one : many, nodes_text(run.model(), m), element_text(e)),
+      fmt::format("{} of {} {}, for example {} ({})", count_text(which.size(), "segment"),
+                  c.main.size(), which.size() == 1 ? one : many, nodes_text(run.model(), m),
+                  element_text(e)),
       which.size());
   d.notes.emplace_back(run.model().node_span(m.nodes[0]), "first node of that segment");
   return &d;
@@ -65,10 +65,10 @@ void check_stiffness(const GeometryRun& run, const Contact& c) {
     if (first == nullptr) continue;
     Diagnostic& d = run.report(
         RuleId::DK322, c, main ? main_field(c) : traits_of(*c.inter).secondary.field,
-        fmt::format("{}: {} of {} on the {} side {} to no element, for example {} {}",
-                    name_of(run, c), count_text(count, "edge"), edges.size(),
-                    main ? "main" : "secondary", count == 1 ? "belongs" : "belong",
-                    run.model().node_id(first->nodes[0]), run.model().node_id(first->nodes[1])),
+        fmt::format("{} of {} on the {} side {} to no element, for example {} {}",
+                    count_text(count, "edge"), edges.size(), main ? "main" : "secondary",
+                    count == 1 ? "belongs" : "belong", run.model().node_id(first->nodes[0]),
+                    run.model().node_id(first->nodes[1])),
         count);
     // The texts of the two messages are swapped for lines.
     if (main) d.reference = rule_of(RuleId::DK322).message(481);
@@ -80,12 +80,12 @@ void check_shape(const GeometryRun& run, const Contact& c) {
                  "have no area or cross themselves");
   if (c.repaired_segments > 0)
     run.report(RuleId::DK324, c, main_field(c),
-               fmt::format("{}: {} with a node given twice, taken for triangles", name_of(run, c),
+               fmt::format("{} with a node given twice, taken for triangles",
                            count_text(static_cast<std::size_t>(c.repaired_segments), "segment")),
                c.repaired_segments);
   if (c.reoriented_segments > 0)
     run.report(RuleId::DK325, c, main_field(c),
-               fmt::format("{}: {} of {} turned to face outward from their solids", name_of(run, c),
+               fmt::format("{} of {} turned to face outward from their solids",
                            count_text(static_cast<std::size_t>(c.reoriented_segments), "segment"),
                            c.main.size()),
                c.reoriented_segments);
@@ -126,8 +126,7 @@ void check_duplicates(const GeometryRun& run, const Contact& c) {
 void check_dropped(const GeometryRun& run, const Contact& c) {
   if (!c.dropped) return;
   run.report(RuleId::DK327, c, "Iedge",
-             fmt::format("{}: one of its sides has no edges, so it has no contact between edges",
-                         name_of(run, c)));
+             fmt::format("one of its sides has no edges, so it has no contact between edges"));
 }
 
 void check_solids(const GeometryRun& run, const Contact& c) {
@@ -172,10 +171,10 @@ void check_crossings(const GeometryRun& run) {
     const Crossing& x = *g.first;
     const Contact& c = run.scene.contacts[x.contact];
     std::string message = fmt::format(
-        "{}: elements of part {} and part {} pass through each other in {}; edge {} {} goes "
+        "elements of part {} and part {} pass through each other in {}; edge {} {} goes "
         "through {}",
-        name_of(run, c), parts.first, parts.second, count_text(g.places, "place"),
-        model.node_id(x.edge[0]), model.node_id(x.edge[1]), nodes_text(model, c.main[x.main]));
+        parts.first, parts.second, count_text(g.places, "place"), model.node_id(x.edge[0]),
+        model.node_id(x.edge[1]), nodes_text(model, c.main[x.main]));
     Diagnostic& d = run.report(RuleId::DK328, c, main_field(c), std::move(message), g.places);
     d.notes.emplace_back(model.node_span(x.edge[0]), "one end of the edge");
   }

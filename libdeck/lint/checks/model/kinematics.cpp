@@ -83,8 +83,7 @@ void check_conflicts(const LintContext& c, const Rule& rule, Reporter& r) {
             ? fmt::format("node {}{}: {} holds it twice", k.node(p.first), more, k.name(later))
             : fmt::format("node {}{}: {} and {} both hold it ({})", k.node(p.first), more,
                           k.name(earlier), k.name(later), directions_text(p.directions)));
-    if (earlier != later)
-      d.notes.emplace_back(k.block(earlier).header_span, "the other condition");
+    if (earlier != later) d.notes.emplace_back(k.block(earlier).header_span, "the other condition");
     if (each_pair) d.reference = rule.message(147);
   }
 }
@@ -106,8 +105,7 @@ void check_walls(const LintContext& c, const Rule& rule, Reporter& r) {
         fmt::format("{} loses {}: node {} belongs to {}", k.name(w.wall),
                     count(w.nodes.size(), "node", "nodes"), k.node(n),
                     other == sources.end() ? std::string("another condition") : k.name(*other)));
-    if (other != sources.end())
-      d.notes.emplace_back(k.block(*other).header_span, "holds the node");
+    if (other != sources.end()) d.notes.emplace_back(k.block(*other).header_span, "holds the node");
   }
 }
 
