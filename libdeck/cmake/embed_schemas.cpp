@@ -28,6 +28,25 @@ std::string contents(const char* path) {
 /// Field names of each keyword.
 using Fields = std::map<std::string, std::set<std::string>>;
 
+/// What is wrong with the values of which the solver speaks on a page; empty: nothing.
+std::string problem_of_limits(const std::string& name, const deck::Rule& rule,
+                              const Fields& fields) {
+  for (std::size_t i = 1; i < rule.cells.size(); ++i) {
+    const auto limits = deck::detail::Limit::read(rule.id, rule.cells[i]);
+    if (!limits) return name + ": " + limits.error().message;
+    for (const auto& limit : *limits) {
+      const auto known = fields.find(limit.keyword);
+      if (known == fields.end()) return name + ": no keyword " + limit.keyword;
+      std::vector<std::string> names = limit.fields();
+      names.push_back(limit.field);
+      for (const std::string& field : names)
+        if (!field.empty() && field != deck::detail::this_field && !known->second.contains(field))
+          return name + ": " + limit.keyword + " has no field " + field;
+    }
+  }
+  return {};
+}
+
 /// What is wrong with the page of a rule; empty: nothing. `names`: those of the pages before.
 std::string problem_of_page(const char* path, const Fields& fields, std::set<std::string>& names) {
   const std::string name = std::filesystem::path(path).filename().string();
@@ -35,6 +54,7 @@ std::string problem_of_page(const char* path, const Fields& fields, std::set<std
   if (!rule) return rule.error().message;
   if (!names.insert(rule->name).second) return name + ": another rule is called " + rule->name;
   if (rule->cells.empty()) return {};
+  if (rule->cells.back().contains("keywords")) return problem_of_limits(name, *rule, fields);
   const auto cells = deck::detail::CellRule::read(rule->cells);
   if (!cells) return name + ": " + cells.error().message;
   for (const std::string& field : cells->fields()) {

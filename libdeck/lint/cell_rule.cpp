@@ -14,10 +14,13 @@ constexpr std::pair<std::string_view, Op> functions[] = {
     {"input", Op::input},   {"value", Op::value},     {"flag", Op::flag},
     {"given", Op::given},   {"bounds", Op::bounds},   {"has", Op::has},
     {"exists", Op::exists}, {"written", Op::written}, {"default", Op::from_default},
-    {"deck", Op::deck}};
+    {"column", Op::column}, {"law", Op::law},         {"deck", Op::deck}};
 /// Without a field.
-constexpr std::pair<std::string_view, Op> words[] = {
-    {"type", Op::type}, {"version", Op::version}, {"working_units", Op::working_units}};
+constexpr std::pair<std::string_view, Op> words[] = {{"type", Op::type},
+                                                     {"version", Op::version},
+                                                     {"working_units", Op::working_units},
+                                                     {"self_contact", Op::self_contact},
+                                                     {"others", Op::others}};
 constexpr std::pair<std::string_view, Op> comparisons[] = {
     {"==", Op::equal},         {"!=", Op::not_equal}, {"<=", Op::less_equal},
     {">=", Op::greater_equal}, {"<", Op::less},       {">", Op::greater}};
@@ -27,7 +30,7 @@ bool is_word(char c) {
          c == '%';
 }
 
-/// Recursive descent: either > both > negated > comparison > leaf.
+/// Recursive descent: either > both > negated > comparison > sum > product > leaf.
 class Parser {
  public:
   explicit Parser(std::string_view text) : rest_(text) {}
@@ -86,9 +89,31 @@ class Parser {
     return node;
   }
   std::size_t compared() {
-    const std::size_t left = leaf();
+    const std::size_t left = sum();
     for (const auto& [token, op] : comparisons)
-      if (take(token)) return add({op, 0, {}, left, leaf()});
+      if (take(token)) return add({op, 0, {}, left, sum()});
+    return left;
+  }
+  std::size_t sum() {
+    std::size_t left = product();
+    while (problem_.empty())
+      if (take("+"))
+        left = add({Op::plus, 0, {}, left, product()});
+      else if (take("-"))
+        left = add({Op::minus, 0, {}, left, product()});
+      else
+        break;
+    return left;
+  }
+  std::size_t product() {
+    std::size_t left = leaf();
+    while (problem_.empty())
+      if (take("*"))
+        left = add({Op::times, 0, {}, left, leaf()});
+      else if (take("/"))
+        left = add({Op::over, 0, {}, left, leaf()});
+      else
+        break;
     return left;
   }
   std::size_t leaf() {
@@ -200,46 +225,140 @@ std::vector<MessagePiece> pieces_of(std::string_view message) {
   return out;
 }
 
-Result<CellRule> CellRule::read(const std::map<std::string, std::string, std::less<>>& keys) {
+namespace {
+
+std::string replaced(std::string text, std::string_view word, std::string_view by) {
+  if (const auto at = text.find(word); at != text.npos) text.replace(at, word.size(), by);
+  return text;
+}
+
+/// The names that a condition asks for.
+void add_names(const Predicate& condition, std::vector<std::string>& out) {
+  for (const Predicate::Node& n : condition.nodes)
+    if (!n.name.empty() && n.op != Op::deck) out.push_back(n.name);
+}
+
+Result<CellRule::Case> read_case(const CellKeys& keys) {
   const auto text = [&](std::string_view key) {
     const auto found = keys.find(key);
     return found == keys.end() ? std::string() : found->second;
   };
-  auto when = Predicate::parse(text("when"));
-  if (!when) return Error{Error::Code::config, "when: " + when.error().message};
-  CellRule out{std::move(*when),
-               list_of_words(text("at")),
-               text("message"),
-               list_of_words(text("note")),
-               text("interfaces") == "all",
-               read_repair(text("fix"))};
+  CellRule::Case out;
+  if (keys.contains("if")) {
+    auto when = Predicate::parse(text("if"));
+    if (!when) return Error{Error::Code::config, "if: " + when.error().message};
+    out.when = std::move(*when);
+  }
+  out.at = list_of_words(text("at"));
+  out.message = replaced(text("message"), "{because}", text("because"));
+  out.notes = list_of_words(text("note"));
+  out.fix = read_repair(text("fix"));
+  const std::string of = text("of"), per = text("per");
+  out.all_interfaces = of == "all";
+  out.interfaces = of != "frictions";
+  out.frictions = of == "frictions" || of == "with frictions";
+  out.per_card = per == "card";
   if (out.at.empty() || out.message.empty())
     return Error{Error::Code::config, "a rule of cells has 'when', 'at' and a message in quotes"};
+  for (const MessagePiece& p : pieces_of(out.message))
+    if (p.what == "=")
+      if (const auto parsed = Predicate::parse(p.field); !parsed)
+        return Error{Error::Code::config, "message: " + parsed.error().message};
   if (!out.fix && keys.contains("fix"))
     return Error{Error::Code::config,
                  "fix: expected {FIELD: TEXT, if: CONDITION, safe: BOOL, title: WORDS}"};
-  if (!out.all_interfaces && keys.contains("interfaces"))
-    return Error{Error::Code::config, "interfaces: expected 'all'"};
+  if (!of.empty() && !out.all_interfaces && !out.frictions)
+    return Error{Error::Code::config, "of: expected 'all', 'frictions' or 'with frictions'"};
+  if (!per.empty() && !out.per_card && per != "deck")
+    return Error{Error::Code::config, "per: expected 'card' or 'deck'"};
+  return out;
+}
+
+/// "error 497"; nullopt: not of that form.
+std::optional<ReferenceMessage> read_message(std::string_view text) {
+  const auto blank = std::min(text.find(' '), text.size());
+  const std::string_view severity = text.substr(0, blank), digits = trimmed(text.substr(blank));
+  ReferenceMessage out{0, severity == "error" ? Severity::error : Severity::warning};
+  const auto [end, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), out.number);
+  if (error != std::errc() || end != digits.data() + digits.size() ||
+      severity != to_string(out.severity))
+    return std::nullopt;
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<Limit>> Limit::read(RuleId rule, const CellKeys& keys) {
+  const auto text = [&](std::string_view key) {
+    const auto found = keys.find(key);
+    return found == keys.end() ? std::string() : found->second;
+  };
+  const auto message = read_message(text("message"));
+  if (!message) return Error{Error::Code::config, "message: expected 'error N' or 'warning N'"};
+  std::vector<std::string> cells = list_of_words(text("at")),
+                           beside = list_of_words(text("beside"));
+  if (cells.empty()) cells.emplace_back();
+  beside.resize(cells.size());
+  std::vector<Limit> out;
+  for (const std::string& keyword : list_of_words(text("keywords")))
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      Limit one{keyword,         cells[i],   {},       text("sum") == "true",
+                text("not_a"),   rule,       *message, text("legal"),
+                text("because"), text("fix")};
+      if (const std::string when = replaced(text("if"), "beside", beside[i]); !when.empty()) {
+        auto parsed = Predicate::parse(when);
+        if (!parsed) return Error{Error::Code::config, "if: " + parsed.error().message};
+        one.when = std::move(*parsed);
+      }
+      out.push_back(std::move(one));
+    }
+  return out;
+}
+
+std::vector<std::string> Limit::fields() const {
+  std::vector<std::string> out;
+  if (when) add_names(*when, out);
+  return out;
+}
+
+Result<CellRule> CellRule::read(const std::vector<CellKeys>& keys) {
+  const auto key = [&](const char* name) {
+    const auto found = keys.front().find(name);
+    return found == keys.front().end() ? std::string() : found->second;
+  };
+  auto when = Predicate::parse(key("when"));
+  if (!when) return Error{Error::Code::config, "when: " + when.error().message};
+  CellRule out{std::move(*when), {}, key("per") == "deck"};
+  for (std::size_t i = keys.size() > 1 ? 1 : 0; i < keys.size(); ++i) {
+    CellKeys all = keys[i];
+    all.insert(keys.front().begin(), keys.front().end());
+    auto one = read_case(all);
+    if (!one) return one.error();
+    out.cases.push_back(std::move(*one));
+  }
   return out;
 }
 
 std::vector<std::string> CellRule::fields() const {
-  std::vector<std::string> out = notes;
-  out.insert(out.end(), at.begin(), at.end());
-  const auto add_condition = [&](const Predicate& condition) {
-    for (const Predicate::Node& n : condition.nodes)
-      if (!n.name.empty() && n.op != Op::deck) out.push_back(n.name);
-  };
+  std::vector<std::string> out;
+  add_names(when, out);
   const auto add_message = [&](std::string_view text) {
     for (const MessagePiece& p : pieces_of(text))
-      if (!p.field.empty() && !p.what.empty()) out.emplace_back(p.field);
+      if (p.what == "=")
+        add_names(*Predicate::parse(p.field), out);
+      else if (!p.field.empty() && !p.what.empty())
+        out.emplace_back(p.field);
   };
-  add_condition(when);
-  add_message(message);
-  if (fix) {
-    out.push_back(fix->field);
-    add_message(fix->title);
-    if (fix->when) add_condition(*fix->when);
+  for (const Case& one : cases) {
+    out.insert(out.end(), one.notes.begin(), one.notes.end());
+    out.insert(out.end(), one.at.begin(), one.at.end());
+    if (one.when) add_names(*one.when, out);
+    add_message(one.message);
+    if (!one.fix) continue;
+    out.push_back(one.fix->field);
+    add_message(one.fix->title);
+    if (one.fix->when) add_names(*one.fix->when, out);
   }
   std::erase(out, this_field);
   return out;

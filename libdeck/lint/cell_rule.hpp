@@ -5,13 +5,38 @@
 //   message: "{name}: Gapmax ({input Gapmax}) is below Gapmin ({input Gapmin})"
 //   note: Gapmin
 //   fix: {Igap: 1000, if: input(Igap) == 2, safe: false, title: write Igap 1000}
-//   interfaces: all
+//   of: all
+//   per: deck
+//   cases:
+//   - if: given(Gap)
+//     at: Gap
 //
-// `when`, and `if` of a fix, have numbers, the functions of `Predicate::Op`, == != < <= > >=, not,
-// and, or, brackets. `message` and the title of a fix have {name}, the interface, {at}, and
-// {show F}, {text F}, {input F}, {value F} of its fields F.
+// `when` and `if` have numbers, the functions of `Predicate::Op`, + - * /, == != < <= > >=, not,
+// and, or, brackets. `message` and the title of a fix have {name}, the interface, {at}, {because},
+// the key of that name, {show F}, {text F}, {input F}, {value F} of fields F, and {= EXPRESSION}.
 // `at` may list fields: each of them for which `when` is true is a finding, and is called `at`.
-// `interfaces: all`: also of types that the page does not list.
+// `note` lists fields that a finding about an interface shows as well.
+// `of` is "all", interfaces of types that the page does not list as well; "frictions", /FRICTION
+// alone; "with frictions". `per: card`: only the first field of `at` is a finding; `per: deck`:
+// only the first interface, and `others` says how many more there are. A case has the keys of the
+// page where it has none of its own, and counts where its `if` is true; of several about the same
+// cell the first one counts.
+//
+// Cases with `keywords` are values of cells of other blocks of which the solver speaks:
+//
+//   - keywords: /PROP/TRUSS
+//     at: Area
+//     if: input(at) <= 0
+//     legal: above 0
+//     message: error 497
+//     because: what the solver says, one line
+//     fix: what to write instead, where that is more than the legal values
+//     known_from: what shows that the solver does so
+//
+// Each of the cells `at` is meant for itself, with the cell `beside` at the same place of its list;
+// without `at` it is the keyword as a whole. `if` has input(F): 0 for a cell that is blank or not
+// there. `sum: true`: all cells of that name together. `not_a: /MAT/GAS`: the id in the cell names
+// something of another keyword.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -20,7 +45,9 @@
 #include <string_view>
 #include <vector>
 
+#include "deck/text/diagnostic.hpp"
 #include "deck/text/result.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck::detail {
 
@@ -41,6 +68,14 @@ struct Predicate {
     version,        ///< input version of the block
     working_units,  ///< the block has the working units of the deck
     deck,           ///< deck(airbag): the deck has one; see `deck_facts`
+    column,         ///< first column of the cell; 0: the card has none
+    law,            ///< Ifric of the /FRICTION whose id is in the cell; 0: there is none
+    self_contact,   ///< the two sides have nodes in common, or it is not known
+    others,         ///< further interfaces of a finding of the deck
+    plus,
+    minus,
+    times,
+    over,
     equal,
     not_equal,
     less,
@@ -76,6 +111,14 @@ struct Predicate {
     switch (n.op) {
       case Op::number:
         return n.number;
+      case Op::plus:
+        return left() + right();
+      case Op::minus:
+        return left() - right();
+      case Op::times:
+        return left() * right();
+      case Op::over:
+        return left() / right();
       case Op::equal:
         return left() == right();
       case Op::not_equal:
@@ -104,22 +147,48 @@ struct Predicate {
 inline constexpr std::string_view deck_facts[] = {
     "airbag", "ale", "sol2sph", "adaptive_mesh", "thermal_material", "sph"};
 
+/// Keys of a page or a case, with their values.
+using CellKeys = std::map<std::string, std::string, std::less<>>;
+
 struct CellRule {
-  Predicate when;
-  std::vector<std::string> at;     ///< fields of the findings
-  std::string message;             ///< with placeholders
-  std::vector<std::string> notes;  ///< fields that it also shows
-  bool all_interfaces = false;
   struct Repair {
     std::string field, text, title;  ///< writes `text` into the cell
     bool safe = false;
     std::optional<Predicate> when;  ///< only then
   };
-  std::optional<Repair> fix;
+  struct Case {
+    std::optional<Predicate> when;   ///< beside that of the rule
+    std::vector<std::string> at;     ///< fields of the findings
+    std::string message;             ///< with placeholders
+    std::vector<std::string> notes;  ///< fields that it also shows
+    bool interfaces = true, all_interfaces = false, frictions = false;  ///< what it looks at
+    bool per_card = false;
+    std::optional<Repair> fix;
+  };
+  Predicate when;
+  std::vector<Case> cases;
+  bool per_deck = false;
 
-  /// From the keys of a page. Error: the key, what was expected, and the text from there on.
-  static Result<CellRule> read(const std::map<std::string, std::string, std::less<>>& keys);
+  /// From the keys of a page and those of its cases. Error: the key, what was expected, and the
+  /// text from there on.
+  static Result<CellRule> read(const std::vector<CellKeys>& keys);
   /// Fields that the rule names.
+  std::vector<std::string> fields() const;
+};
+
+/// Values of one cell, while a condition is true. Without a cell the solver speaks of the keyword.
+struct Limit {
+  std::string keyword, field;
+  std::optional<Predicate> when;
+  bool sum = false;
+  std::string not_a;
+  RuleId rule = RuleId::none;  ///< that reports it
+  ReferenceMessage message;
+  std::string legal, says, fix;
+
+  /// From a case with `keywords`: one for each keyword and cell. Error: what was expected.
+  static Result<std::vector<Limit>> read(RuleId rule, const CellKeys& keys);
+  /// Fields that the condition names, `at` for that of the value.
   std::vector<std::string> fields() const;
 };
 
@@ -128,7 +197,7 @@ inline constexpr std::string_view this_field = "at";
 
 /// A piece of a message: text, or what a placeholder asks for of a field ("show", "Istf").
 struct MessagePiece {
-  std::string_view what, field;  ///< what empty: `field` is text
+  std::string_view what, field;  ///< what empty: `field` is text; "=": it is an expression
 };
 std::vector<MessagePiece> pieces_of(std::string_view message);
 

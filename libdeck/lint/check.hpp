@@ -16,6 +16,7 @@
 #include "deck/keyword/schema.hpp"
 #include "deck/lint/lint.hpp"
 #include "deck/text/diagnostic.hpp"
+#include "lint/cell_rule.hpp"
 #include "lint/shared/fix.hpp"
 #include "text/shared/columns.hpp"
 
@@ -59,11 +60,40 @@ inline Span place_of(const DecodedBlock& d, std::string_view field) {
   return place_of(d, d.find(field));
 }
 
+/// The cell of that name on a line; nullptr: it has none.
+inline const Cell* cell_of(const DecodedCard& card, std::string_view name) {
+  for (const Cell& cell : card.cells)
+    if (cell.field->name == name) return &cell;
+  return nullptr;
+}
+
 /// Calls f(card, cell) for the cells of a block.
 template <class F>
 void each_cell(const DecodedBlock& d, F&& f) {
   for (const DecodedCard& card : d.cards)
     for (const Cell& cell : card.cells) f(card, cell);
+}
+
+/// True for fields without a list of values.
+inline bool is_legal(const Field& f, std::int64_t value) {
+  return f.values.empty() || std::find(f.values.begin(), f.values.end(), value) != f.values.end();
+}
+
+/// Calls f(cell) for the cells with a number that is not one of the legal values of their flag.
+template <class F>
+void each_illegal_flag(const DecodedBlock& d, F&& f) {
+  each_cell(d, [&](const DecodedCard&, const Cell& cell) {
+    if (!cell.blank() && cell.status != NumberStatus::not_a_number &&
+        !is_legal(*cell.field, cell.integer))
+      f(cell);
+  });
+}
+
+/// True if a block of the deck begins with one of the keywords.
+template <class... Keywords>
+bool has_block(const LintContext& c, const Keywords&... keywords) {
+  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(),
+                     [&](const Block& b) { return (b.header.starts_with(keywords) || ...); });
 }
 
 /// Calls f(block) for the blocks of a keyword that can be read.
@@ -85,6 +115,18 @@ std::vector<bool> marked(const Model& model, Each&& each) {
     if (n != no_index) out[n] = true;
   });
   return out;
+}
+
+/// By node: on the surface.
+std::vector<bool> nodes_of(const Model& model, const SegmentList& surface);
+
+inline bool is_friction(const ContactCard& card) { return card.block->schema->kind == "friction"; }
+
+/// Calls f(card) for all interfaces and frictions.
+template <class F>
+void each_card(const LintContext& c, F&& f) {
+  for (const auto* cards : {&c.contacts, &c.frictions})
+    for (const ContactCard& card : *cards) f(card);
 }
 
 /// The first of several interfaces that one finding is about.
@@ -110,22 +152,20 @@ inline std::string list_of(const std::vector<std::int64_t>& values) {
   return out;
 }
 
-inline Diagnostic* report_at(Reporter& r, const Rule& rule, const ContactCard& card,
+inline Diagnostic& report_at(Reporter& r, const Rule& rule, const ContactCard& card,
                              std::string_view field, std::string message) {
   return r.report(rule, field, *card.block, card.span(field), std::move(message));
 }
 
 /// Adds "because of this" with the place of another field of the card.
-inline void note_field(Diagnostic* d, const ContactCard& card, std::string_view field) {
-  if (d == nullptr) return;
+inline void note_field(Diagnostic& d, const ContactCard& card, std::string_view field) {
   const FieldView* f = card.find(field);
-  if (f != nullptr && f->span.valid()) d->notes.emplace_back(f->span, card.show(field));
+  if (f != nullptr && f->span.valid()) d.notes.emplace_back(f->span, card.show(field));
 }
 
 /// A fix that writes `text` into the cell of a field, or blanks it if `text` is empty.
-inline void fix_field(Diagnostic* d, const LintContext& c, const ContactCard& card,
+inline void fix_field(Diagnostic& d, const LintContext& c, const ContactCard& card,
                       std::string_view field, std::string_view text, bool safe, std::string title) {
-  if (d == nullptr) return;
   const FieldView* f = card.find(field);
   // In free format a cell has no columns to write to.
   if (f == nullptr || f->field == nullptr || !f->span.valid()) return;
@@ -142,7 +182,7 @@ inline void fix_field(Diagnostic* d, const LintContext& c, const ContactCard& ca
     fix.edits.push_back(
         CellWriter::edit(c.deck.sources, f->span, f->field->first, f->field->last, text));
   }
-  d->fix = std::move(fix);
+  d.fix = std::move(fix);
 }
 
 /// True if f(field) holds for a field of the rule; f("") for a rule without fields.
@@ -212,6 +252,13 @@ bool selection_is_empty(const LintContext& c, std::string_view kind, std::int64_
 /// Whether the entity exists; no value: not known (no model, or a kind without a table).
 std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id);
 
+/// "grnod_ID of /BCS 3 is 7, and there is no /GRNOD or /SET of that id", and where there is one.
+std::string missing_text(const LintContext& c, const DecodedBlock& d, std::string_view field,
+                         std::string_view kind, std::int64_t id);
+
+/// Adds the place where a group, surface or line is defined.
+void note_definition(const LintContext& c, Diagnostic& d, std::string_view kind, std::int64_t id);
+
 /// The field of a block that names what it acts on, and whether that is there; nullptr: no such
 /// field.
 std::pair<const Field*, bool> acts_on(const LintContext& c, const DecodedBlock& d);
@@ -220,29 +267,7 @@ std::pair<const Field*, bool> acts_on(const LintContext& c, const DecodedBlock& 
 /// nothing of it: its target is 0, or there is none and no such block has any. Else nullptr.
 const Field* acts_on_nothing(const LintContext& c, const DecodedBlock& d);
 
-/// A number in a cell of that name. A cell that is blank or not there is 0.
-struct NumberTest {
-  std::string field;
-  std::vector<double> is, is_not;  ///< one of these (empty: not tested), and none of these
-  std::optional<double> above, below, at_least, at_most;
-  bool holds(double value) const;
-};
-
-/// Values of one cell, while all of `when` hold. Without a cell the solver speaks of the keyword.
-struct Limit {
-  std::string keyword;
-  NumberTest of;
-  bool sum = false;   ///< the sum of all cells of that name is tested
-  std::string not_a;  ///< an id: what it names exists, and is no such keyword ("/MAT/GAS")
-  std::vector<NumberTest> when;
-  Severity severity = Severity::error;  ///< info: only some builds of the solver speak of it
-  int message = 0;
-  std::string rule;        ///< rule that reports it
-  std::string says;        ///< what the message says, one line
-  std::string fix;         ///< what to write instead, where that is more than the legal range
-  std::string known_from;  ///< what shows that the solver does so
-};
-
+/// Values of which the solver speaks, from the pages of rules.
 const std::vector<Limit>& all_limits();
 /// Those of a keyword.
 const std::vector<const Limit*>& limits_of(const Schema& schema);

@@ -130,6 +130,14 @@ std::string number_text(double value) {
   return length_text(value);
 }
 
+std::vector<bool> nodes_of(const Model& model, const SegmentList& surface) {
+  return marked(model, [&](auto&& mark) {
+    surface.each([&](const Segment& s) {
+      for (const NodeIndex n : s.nodes) mark(n);
+    });
+  });
+}
+
 Cell printout_level(const LintContext& c) {
   for (const Block& b : c.deck.blocks) {
     if (b.schema == nullptr || b.schema->keyword != "/IOFLAG") continue;
@@ -215,20 +223,16 @@ LintContext build_context(const LoadedDeck& loaded, Diagnostics& sink) {
     const std::string_view keyword = block.schema->keyword;
     DecodedBlock decoded = decode(deck, block, &sink);
     collect_references(context, decoded);
-    if (keyword.starts_with("/INTER/")) {
-      ContactCard card;
+    if (const bool contact = keyword.starts_with("/INTER/"); contact || keyword == "/FRICTION") {
+      ContactCard& card = (contact ? context.contacts : context.frictions).emplace_back();
       card.block = &block;
       card.decoded = std::move(decoded);
-      context.contacts.push_back(std::move(card));
-      ContactCard& kept = context.contacts.back();
       if (const auto it = typed.find(&block); it != typed.end())
-        bind(deck, *it->second, kept);
+        bind(deck, *it->second, card);
       else
-        add_plain_fields(kept);
+        add_plain_fields(card);
     } else if (keyword.starts_with("/DEFAULT/INTER/")) {
       context.defaults.push_back(std::move(decoded));
-    } else if (keyword == "/FRICTION") {
-      context.frictions.push_back(std::move(decoded));
     } else if (keyword.starts_with("/TH/")) {
       context.histories.push_back(std::move(decoded));
     } else if (asks_for_targets(*block.schema)) {

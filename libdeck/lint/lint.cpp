@@ -74,9 +74,9 @@ class FileIgnores {
   std::map<std::uint32_t, std::vector<const std::vector<std::string>*>> rules_;
 };
 
-/// Zeros behind column 100 are tolerated by the solver itself.
+/// `zeros: info`: the solver itself tolerates text of zeros.
 void soften(const Deck& deck, Diagnostic& d) {
-  if (d.rule == RuleId::DK012 &&
+  if (rule_of(d.rule).lists("zeros", "info") &&
       deck.sources.text(d.span).find_first_not_of("0.+- ") == std::string_view::npos)
     d.severity = Severity::info;
 }
@@ -95,27 +95,19 @@ void override_severity(const LintOptions& options, Diagnostic& d) {
   }
 }
 
-/// Where one finding lies within another that says more, it is left out.
-constexpr std::pair<RuleId, RuleId> says_more[] = {
-    {RuleId::DK047, RuleId::DK027},
-    {RuleId::DK047, RuleId::DK028},
-    {RuleId::DK240, RuleId::DK029},
-    {RuleId::DK241, RuleId::DK030},
-};
-
-/// False for findings about what the schema of the keyword leaves open: text outside the cells and
-/// missing lines where it does not describe every cell, surplus lines of properties and materials,
-/// which are described as far as contact needs them, and of keywords that it knows by name only.
+/// `only_where` of a rule: False for findings about what the schema of the keyword leaves open:
+/// text outside the cells and missing lines where it does not describe every cell ("cells"),
+/// surplus lines of properties and materials, which are described as far as contact needs them
+/// ("lines"), and keywords that it knows by name only ("keyword").
 bool certain(const SchemaSet& schemas, const Diagnostic& d) {
-  const bool columns = d.rule == RuleId::DK027 || d.rule == RuleId::DK028;
-  const bool lines = d.rule == RuleId::DK029 || d.rule == RuleId::DK030;
-  const bool header = d.rule == RuleId::DK049;
-  if ((!columns && !lines && !header) || d.keyword.empty()) return true;
-  const Schema* s = schemas.match(d.keyword);
+  const Rule& rule = rule_of(d.rule);
+  const Schema* s = rule.exceptions.contains("only_where") && !d.keyword.empty()
+                        ? schemas.match(d.keyword)
+                        : nullptr;
   if (s == nullptr) return true;
-  if (header) return s->kind != "other";
+  if (rule.lists("only_where", "keyword")) return s->kind != "other";
   // /BEGIN is read before the version is known, by no layout.
-  if (columns || d.rule == RuleId::DK029)
+  if (rule.lists("only_where", "cells"))
     return s->layout_known() && s->kind != "engine" && s->keyword != "/BEGIN";
   return !s->opaque_tail && s->kind != "prop" && s->kind != "mat" && s->kind != "other";
 }
@@ -149,25 +141,24 @@ struct Pool {
         std::unique(kept.begin(), kept.end(),
                     [&](const Diagnostic& a, const Diagnostic& b) { return key(a) == key(b); }),
         kept.end());
-    drop_lesser();
+    drop_covered();
   }
 
-  void drop_lesser() {
-    struct Larger {
-      RuleId lesser;
-      Span span;
-    };
-    std::vector<Larger> all;
+  /// `covers` of a rule: where a finding of those rules lies within one of this, which says more,
+  /// it is left out.
+  void drop_covered() {
+    std::vector<std::pair<const Rule*, Span>> larger;
     for (const Diagnostic& d : kept)
-      for (const auto& [more, less] : says_more)
-        if (d.rule == more) all.push_back({less, d.span});
-    if (all.empty()) return;
+      if (const Rule& rule = rule_of(d.rule); rule.exceptions.contains("covers"))
+        larger.emplace_back(&rule, d.span);
+    if (larger.empty()) return;
     std::erase_if(kept, [&](const Diagnostic& d) {
-      return std::any_of(all.begin(), all.end(), [&](const Larger& l) {
-        if (d.rule != l.lesser || d.span.file != l.span.file) return false;
-        const bool within = d.span.offset >= l.span.offset &&
-                            d.span.offset + d.span.length <= l.span.offset + l.span.length;
-        return within || d.span.offset == l.span.offset;
+      return std::any_of(larger.begin(), larger.end(), [&](const auto& l) {
+        const auto& [rule, span] = l;
+        if (d.span.file != span.file || !rule->lists("covers", id_text(d.rule))) return false;
+        const bool within = d.span.offset >= span.offset &&
+                            d.span.offset + d.span.length <= span.offset + span.length;
+        return within || d.span.offset == span.offset;
       });
     });
   }
@@ -335,24 +326,24 @@ std::uint64_t fnv1a(std::uint64_t hash, std::string_view text) {
 
 }  // namespace
 
-Diagnostic* Reporter::report(const Rule& rule, Span span, std::string message) {
-  if (!sink_->wants(rule.id)) return nullptr;
-  return &sink_->add(finding_of(rule.id, span, std::move(message)));
+Diagnostic& Reporter::report(const Rule& rule, Span span, std::string message) {
+  if (!sink_->wants(rule.id)) return unseen();
+  return sink_->add(finding_of(rule.id, span, std::move(message)));
 }
 
-Diagnostic* Reporter::report(const Rule& rule, const Block& block, Span span, std::string message) {
+Diagnostic& Reporter::report(const Rule& rule, const Block& block, Span span, std::string message) {
   return report(rule, {}, block, span, std::move(message));
 }
 
-Diagnostic* Reporter::report(const Rule& rule, std::string_view field, const Block& block,
+Diagnostic& Reporter::report(const Rule& rule, std::string_view field, const Block& block,
                              Span span, std::string message) {
   if (rule.fields.empty()) field = {};
-  if (!field.empty() && options_ != nullptr && !enabled(*options_, rule.id, field)) return nullptr;
-  if (!sink_->wants(rule.id)) return nullptr;
+  if (!field.empty() && options_ != nullptr && !enabled(*options_, rule.id, field)) return unseen();
+  if (!sink_->wants(rule.id)) return unseen();
   Diagnostic& d = sink_->add(finding_of(rule.id, span, std::move(message), {.field = field}));
   d.keyword = block.schema ? block.schema->keyword : detail::clipped(block.keyword);
   d.id = block.id.value;
-  return &d;
+  return d;
 }
 
 FindingKey finding_key(const Deck& deck, const Diagnostic& d) {

@@ -73,8 +73,7 @@ std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& i
           reporter.report(unknown, s.span,
                           "no comment switches off '" + rule + "', a rule of the gate");
         else if (std::string now = renamed_selector(rule); !now.empty())
-          if (Diagnostic* d = reporter.report(unknown, s.span, std::move(now)); d != nullptr)
-            d->severity = Severity::info;
+          reporter.report(unknown, s.span, std::move(now)).severity = Severity::info;
       }
       if (s.reason.empty()) {
         reporter.report(no_reason, s.span, "the suppression gives no reason and has no effect");

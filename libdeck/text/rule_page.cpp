@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <initializer_list>
 #include <optional>
 
 namespace deck::detail {
@@ -116,20 +117,24 @@ class PageReader {
   void skip_blank() {
     while (!done() && peek().empty()) next();
   }
-  /// The name in "**name.** text" at the start of the next paragraph; empty: none stands there.
+  /// The name in "- **name.** text" on the next line that is not blank; empty: none stands there.
   std::string_view next_heading() {
     skip_blank();
     const std::string_view line = peek();
     const auto end = line.find(".**");
-    return line.starts_with("**") && end != std::string_view::npos ? line.substr(2, end - 2)
-                                                                   : std::string_view();
+    return line.starts_with("- **") && end != std::string_view::npos ? line.substr(4, end - 4)
+                                                                     : std::string_view();
   }
 
   void read_front_matter() {
     if (next() != "---") fail("a page starts with '---'");
     bool id = false;
     while (!done() && peek() != "---") {
-      const std::string_view line = next();
+      std::string_view line = next();
+      if (line == "cases:") continue;
+      const bool first = line.starts_with("- "), of_case = first || line.starts_with("  ");
+      if (first) rule_.cells.resize(std::max<std::size_t>(rule_.cells.size(), 1) + 1);
+      if (of_case) line.remove_prefix(2);
       const auto colon = line.find(": ");
       if (colon == std::string_view::npos) {
         fail("expected 'key: value', '---' after the last one");
@@ -137,7 +142,8 @@ class PageReader {
       }
       const std::string_view key = line.substr(0, colon), value = trimmed(line.substr(colon + 2));
       id = id || key == "id";
-      if (!read_key(key, value)) fail("'" + std::string(line) + "' is not understood");
+      if (of_case ? !read_cell_key(key, value) : !read_key(key, value))
+        fail("'" + std::string(line) + "' is not understood");
     }
     next();
     if (!id || rule_.name.empty() || rule_.title.empty() || rule_.severities.empty() || !stage_)
@@ -153,6 +159,21 @@ class PageReader {
       if (end == list.size()) return true;
       list.remove_prefix(end + 1);
     }
+  }
+
+  static bool is_one_of(std::string_view key, std::initializer_list<std::string_view> keys) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  }
+
+  /// A key of a rule that is a predicate of cells, or of one of its cases.
+  bool read_cell_key(std::string_view key, std::string_view value) {
+    if (rule_.cells.empty() ||
+        !is_one_of(key, {"when", "if", "at", "message", "because", "note", "fix", "of", "per",
+                         "keywords", "beside", "legal", "sum", "not_a", "known_from"}))
+      return false;
+    if (value.size() > 2 && value.starts_with('"') && value.ends_with('"'))
+      value = value.substr(1, value.size() - 2);
+    return rule_.cells.back().emplace(key, value).second;
   }
 
   bool read_key(std::string_view key, std::string_view value) {
@@ -177,10 +198,16 @@ class PageReader {
       rule_.stage = stage_.value_or(RuleStage::check);
       return stage_.has_value();
     }
-    const bool text = value.size() > 2 && value.starts_with('"') && value.ends_with('"');
-    if (key == "when" || key == "at" || key == "note" || key == "fix" || key == "interfaces" ||
-        (key == "message" && text))
-      return rule_.cells.emplace(key, text ? value.substr(1, value.size() - 2) : value).second;
+    if (is_one_of(key, {"when", "at", "note", "fix", "of", "per"}) ||
+        (key == "message" && value.starts_with('"'))) {
+      if (rule_.cells.empty()) rule_.cells.emplace_back();
+      return rule_.cells.size() == 1 && read_cell_key(key, value);  // cases come last
+    }
+    if (is_one_of(key, {"covers", "only_where", "zeros", "flag", "except"}))
+      return each_item(value, [&](std::string_view item) {
+        rule_.exceptions[std::string(key)].emplace_back(item);
+        return !item.empty();
+      });
     if (key == "message")
       return each_item(value, [&](std::string_view item) {
         const auto blank = std::min(item.find(' '), item.size());
@@ -268,11 +295,11 @@ class PageReader {
     const bool expected = next_heading() == section.heading;
     const std::string_view first = next();
     if (!expected) {
-      fail("expected the section '**" + std::string(section.heading) + ".**'");
+      fail("expected the section '- **" + std::string(section.heading) + ".**'");
       return;
     }
     const std::string_view rest =
-        trimmed(first.substr(std::min(first.size(), section.heading.size() + 5)));
+        trimmed(first.substr(std::min(first.size(), section.heading.size() + 7)));
     std::string& text = rule_.*section.text;
     if (section.example) {
       read_example(text, rest);
@@ -374,6 +401,12 @@ const RuleField* Rule::field(std::string_view field_name) const {
   const auto it = std::find_if(fields.begin(), fields.end(),
                                [&](const RuleField& f) { return f.name == field_name; });
   return it == fields.end() ? nullptr : &*it;
+}
+
+bool Rule::lists(std::string_view key, std::string_view item) const {
+  const auto it = exceptions.find(key);
+  return it != exceptions.end() &&
+         std::find(it->second.begin(), it->second.end(), item) != it->second.end();
 }
 
 }  // namespace deck

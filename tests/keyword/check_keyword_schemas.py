@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Validates schemas/keywords/*.json, and the examples of tools/docs/schemas.md, against
-schemas/keyword.schema.json, as 2020-12 and as draft-7; schemas/limits/*.json against
-schemas/limits.schema.json, and against the cells of the keywords they name; schemas/messages/*.json
-against schemas/messages.schema.json.
+schemas/keyword.schema.json, as 2020-12 and as draft-7; schemas/messages/*.json against
+schemas/messages.schema.json.
 
 Prints every violation with file and JSON path, then "N passed, 0 failed"; exit code 1 on failure.
 Some deliberately wrong documents must be refused as well, so that a lax schema is noticed.
@@ -14,7 +13,6 @@ import re
 import sys
 
 import jsonschema
-from schema_files import keyword_schemas
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GOOD = {"keyword": "/A", "doc": "d", "cards": [{"name": "c", "fields": [
@@ -125,24 +123,6 @@ def violations(schema, document):
     return [f"/{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in validator.iter_errors(document)]
 
 
-def check_limits():
-    """Returns (passed, failed) of the tables of limits."""
-    cells = {}
-    for keyword in keyword_schemas():
-        cells[keyword["keyword"]] = {field["name"]: field["type"] for card in keyword.get("cards", [])
-                                     for field in card.get("fields", [])}
-    found = {}
-    for file in sorted((ROOT / "schemas/limits").glob("*.json")):
-        table = json.loads(file.read_text(encoding="utf-8"))
-        found[file] = violations("limits.schema.json", table)
-        for number, limit in enumerate(table["limits"]):
-            for keyword in limit["keywords"]:
-                for name in limit.get("of", []) + [test["field"] for test in limit.get("when", [])]:
-                    if cells.get(keyword, {}).get(name, "text") == "text":
-                        found[file].append(f"/limits/{number}: {keyword} has no number '{name}'")
-    return report("limits", found)
-
-
 def check_messages():
     """Returns (passed, failed) of the catalogues of solver messages."""
     found = {}
@@ -157,7 +137,7 @@ def check_messages():
 def main():
     schema = json.loads((ROOT / "schemas/keyword.schema.json").read_text(encoding="utf-8"))
     counts = [check(cls, schema) for cls in (jsonschema.Draft202012Validator,
-                                             jsonschema.Draft7Validator)] + [check_limits(), check_messages()]
+                                             jsonschema.Draft7Validator)] + [check_messages()]
     passed, failed = (sum(column) for column in zip(*counts))
     print(f"{passed} passed, {failed} failed")
     return 1 if failed else 0

@@ -27,6 +27,8 @@ TEST(Predicates, HaveValues) {
       {"input(F) <= 7 and value(F) < 8 and flag(F) > 6", 1},
       {"not input(F)", 0},
       {"not (input(F) == 1 or input(F) == 2)", 1},
+      {"1 + 2 * 3 - 4 / 2 == 5", 1},
+      {"0.5 * input(F) - 1", 2.5},
       {"1 or 0 and 0", 1},
       {"(1 or 0) and 0", 0},
       {"not 0 and 0", 0},
@@ -61,43 +63,72 @@ TEST(Predicates, ANestingWithoutEndIsRefused) {
 }
 
 TEST(CellRules, NameAllTheirFields) {
-  const auto rule = CellRule::read({{"when", "flag(A) == 1 and given(B)"},
-                                    {"at", "C"},
-                                    {"message", "{name}: {show D}, {input E}"},
-                                    {"note", "F, G"},
-                                    {"fix",
-                                     "{H: 1000, if: given(I) and working_units, safe: true, "
-                                     "title: write {input J}, or so}"}});
+  const auto rule = CellRule::read({{{"when", "flag(A) == 1 and given(B)"},
+                                     {"at", "C"},
+                                     {"message", "{name}: {show D}, {= value(E) / 2}"},
+                                     {"note", "F, G"},
+                                     {"fix",
+                                      "{H: 1000, if: given(I) and working_units, safe: true, "
+                                      "title: write {input J}, or so}"}}});
   ASSERT_TRUE(rule) << rule.error().message;
   auto fields = rule->fields();
   std::sort(fields.begin(), fields.end());
   EXPECT_EQ(fields, (std::vector<std::string>{"A", "B", "C", "D", "E", "F", "G", "H", "I", "J"}));
-  EXPECT_EQ(rule->fix->title, "write {input J}, or so");
-  EXPECT_TRUE(rule->fix->safe);
+  EXPECT_EQ(rule->cases[0].fix->title, "write {input J}, or so");
+  EXPECT_TRUE(rule->cases[0].fix->safe);
 }
 
 TEST(CellRules, HaveAFindingForEachFieldOfAList) {
-  const auto rule = CellRule::read({{"when", "input(at) > 1"},
-                                    {"at", "A, B"},
-                                    {"message", "{at} of {name}: {text at}"},
-                                    {"fix", "{at: blank, safe: true, title: blank {at}}"}});
+  const auto rule = CellRule::read({{{"when", "input(at) > 1"},
+                                     {"at", "A, B"},
+                                     {"message", "{at} of {name}: {text at}"},
+                                     {"fix", "{at: blank, safe: true, title: blank {at}}"}}});
   ASSERT_TRUE(rule) << rule.error().message;
-  EXPECT_EQ(rule->at, (std::vector<std::string>{"A", "B"}));
-  EXPECT_EQ(rule->fields(), rule->at);
+  EXPECT_EQ(rule->cases[0].at, (std::vector<std::string>{"A", "B"}));
+  EXPECT_EQ(rule->fields(), rule->cases[0].at);
 }
 
 TEST(CellRules, ThatBreakTheFormAreRefused) {
   const auto refused = [](const std::string& key, const std::string& value) {
-    std::map<std::string, std::string, std::less<>> keys = {
-        {"when", "1"}, {"at", "C"}, {"message", "m"}};
-    EXPECT_TRUE(CellRule::read(keys));
+    CellKeys keys = {{"when", "1"}, {"at", "C"}, {"message", "m"}};
+    EXPECT_TRUE(CellRule::read({keys}));
     keys[key] = value;
-    return !CellRule::read(keys);
+    return !CellRule::read({keys});
   };
   EXPECT_TRUE(refused("message", ""));
   EXPECT_TRUE(refused("fix", "{H: 1}"));
   EXPECT_TRUE(refused("fix", "{H: 1, if: given, safe: true, title: t}"));
-  EXPECT_TRUE(refused("interfaces", "some"));
+  EXPECT_TRUE(refused("of", "some"));
+  EXPECT_TRUE(refused("per", "block"));
+  EXPECT_TRUE(refused("if", "given"));
+  EXPECT_TRUE(refused("message", "{= 1 +}"));
+}
+
+TEST(CellRules, HaveCasesWithTheKeysOfThePage) {
+  const auto rule =
+      CellRule::read({{{"when", "given(A)"}, {"at", "A"}, {"message", "{name}: {because}"}},
+                      {{"if", "input(A) > 1"}, {"because", "large"}},
+                      {{"at", "B"}, {"of", "with frictions"}, {"because", "small"}}});
+  ASSERT_TRUE(rule) << rule.error().message;
+  ASSERT_EQ(rule->cases.size(), 2u);
+  EXPECT_EQ(rule->cases[0].message, "{name}: large");
+  EXPECT_TRUE(rule->cases[0].when);
+  EXPECT_EQ(rule->cases[1].at, std::vector<std::string>{"B"});
+  EXPECT_TRUE(rule->cases[1].frictions);
+}
+
+TEST(Limits, AreOneForEachKeywordAndCell) {
+  const auto limits = Limit::read(RuleId::DK641, {{"keywords", "/A, /B"},
+                                                  {"at", "X, Y"},
+                                                  {"beside", "U, V"},
+                                                  {"if", "input(at) == 0 and input(beside) > 0"},
+                                                  {"message", "warning 663"}});
+  ASSERT_TRUE(limits) << limits.error().message;
+  ASSERT_EQ(limits->size(), 4u);
+  EXPECT_EQ(limits->back().keyword + limits->back().field, "/BY");
+  EXPECT_EQ(limits->back().fields(), (std::vector<std::string>{"at", "V"}));
+  EXPECT_EQ(limits->back().message.severity, Severity::warning);
+  EXPECT_FALSE(Limit::read(RuleId::DK641, {{"keywords", "/A"}, {"message", "663"}}));
 }
 
 }  // namespace

@@ -23,11 +23,11 @@ NO_CLAIM = ("Not known", "Nothing")
 
 def page(path):
     head, body = open(path, encoding="utf-8").read().split("\n---\n", 1)
-    keys = dict(line.split(": ", 1) for line in head.split("\n")[1:])
+    keys = dict(line.split(": ", 1) for line in head.split("\n")[1:] if ": " in line)
     rows = [line.strip("| ").split("|") for line in body.splitlines() if line.startswith("| ")]
     body = re.sub(r"^\|.*\n", "", body, flags=re.M)
     sections = {m.group(1): " ".join(m.group(2).split())
-                for m in re.finditer(r"^\*\*(.*?)\.\*\*\s(.*?)(?=\n\n\*\*|\s*\Z)", body, re.S | re.M)}
+                for m in re.finditer(r"^- \*\*(.*?)\.\*\*\s(.*?)(?=\n- \*\*|\s*\Z)", body, re.S | re.M)}
     for row in rows[1:]:
         sections.update({"%s, column %d" % (row[0].strip(), n): cell.strip() for n, cell in enumerate(row[1:], 2) if cell.strip()})
     return keys, sections

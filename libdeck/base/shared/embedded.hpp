@@ -19,7 +19,6 @@ struct EmbeddedSchema {
 
 const std::vector<EmbeddedSchema>& embedded_schemas();
 const std::vector<EmbeddedFile>& embedded_rules();     // schemas/rules/*.md
-const std::vector<EmbeddedFile>& embedded_limits();    // schemas/limits/*.json
 const std::vector<EmbeddedFile>& embedded_messages();  // schemas/messages/*.json
 
 }  // namespace deck::detail

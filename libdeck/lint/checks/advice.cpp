@@ -1,10 +1,14 @@
 // Known traps: legal cards that often do not give what their author wants. Nothing here needs
 // geometry.
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
 #include <vector>
 
+#include "base/shared/count.hpp"
+#include "base/shared/length3.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {
@@ -47,26 +51,6 @@ void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_edge_removal(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    if (card.flag("Irem_gap") != 2) return;
-    if (card.type == 7 && card.flag("Igap") != 3) return;
-    const char* const where = card.type == 7    ? " with Igap = 3"
-                              : card.type == 19 ? ", which its edge contact gets too"
-                                                : "";
-    note_field(report_at(r, rule, card, "Irem_gap", name_of(card) + " has Irem_gap = 2" + where),
-               card, "Igap");
-  });
-}
-
-void check_tied_lever(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, rule, [&](const ContactCard& card) {
-    report_at(r, rule, card, "Gap",
-              name_of(card) + " ties over a distance: " +
-                  (card.input("Gap") > 0 ? card.show("Gap") : "the default gap, from the mesh"));
-  });
-}
-
 void check_same_sides(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<std::tuple<int, double, double>, const ContactCard*> seen;
   each(c, rule, [&](const ContactCard& card) {
@@ -78,10 +62,10 @@ void check_same_sides(const LintContext& c, const Rule& rule, Reporter& r) {
     const auto [it, fresh] =
         seen.emplace(std::tuple{card.type, card.value(one), card.value(two)}, &card);
     if (fresh) return;
-    Diagnostic* d = report_at(
+    Diagnostic& d = report_at(
         r, rule, card, one,
         fmt::format("{} has the same two sides as {}", name_of(card), name_of(*it->second)));
-    if (d != nullptr) d->notes.emplace_back(it->second->block->header_span, "the other interface");
+    d.notes.emplace_back(it->second->block->header_span, "the other interface");
   });
 }
 
@@ -107,23 +91,221 @@ void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
       if (part.mat == no_index) continue;
       const Material& m = c.model->materials[part.mat];
       if (m.law != 0 || m.young != 0 || !m.stiffness_known) continue;
-      Diagnostic* d =
+      Diagnostic& d =
           report_at(r, rule, card, "surf_IDm",
                     fmt::format("{}: shells of part {} have material {} without Young's modulus, "
                                 "so their contact stiffness is 0",
                                 name_of(card), part.id, m.id));
-      if (d != nullptr) d->notes.emplace_back(m.span, "the material is defined here");
+      d.notes.emplace_back(m.span, "the material is defined here");
     }
   }
+}
+
+/// Edges of one segment only: the border of the surface.
+std::size_t count_free_edges(const Selections& selections, const SegmentList& surface) {
+  std::vector<Segment> room;
+  const auto edges = selections.edges_of(surface.some(0, surface.size(), room), true);
+  return static_cast<std::size_t>(std::count_if(
+      edges.begin(), edges.end(), [](const Edge& e) { return e.nodes[1] != no_index; }));
+}
+
+void check_edge_companion(const LintContext& c, const Rule& rule, Reporter& r) {
+  bool edges_seen = false;
+  for (const ContactCard& card : c.contacts)
+    edges_seen = edges_seen || card.type == 11 || card.type == 19;
+  if (edges_seen) return;
+  FirstCard first;
+  std::size_t free = 0;
+  each(c, rule, [&](const ContactCard& card) {
+    const auto s = c.selections->outline(card.id("surf_IDm"));
+    const std::size_t n = s ? count_free_edges(*c.selections, s->segments) : 0;
+    if (n > 0 && first.add(card)) free = n;
+  });
+  if (first.card == nullptr) return;
+  report_at(r, rule, *first.card, "surf_IDm",
+            fmt::format("the main surface of {} has {} free edge{}{}, but the deck has no "
+                        "interface for edges (TYPE11, TYPE19)",
+                        name_of(*first.card), free, free == 1 ? "" : "s",
+                        first.others == 0
+                            ? ""
+                            : fmt::format(" (as have those of {} more interfaces)", first.others)));
+}
+
+/// Nodes that follow a rigid body.
+std::vector<bool> rigid_nodes(const LintContext& c) {
+  return marked(*c.model, [&](auto&& mark) {
+    for (const DecodedBlock& d : c.loads) {
+      if (d.block->schema->keyword != "/RBODY") continue;
+      const std::int64_t group = c.resolved(*d.block, "grnod", d.integer("grnd_ID"));
+      if (const NodeSet* set = c.selections->node_group(group))
+        for (const NodeIndex n : set->nodes) mark(n);
+    }
+  });
+}
+
+/// Shortest side of a surface; 0: it has none.
+double shortest_side(const Model& model, const SegmentList& surface) {
+  const auto& x = model.nodes;
+  double least = 0;
+  surface.each([&](const Segment& s) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const NodeIndex a = s.nodes[k], b = s.nodes[(k + 1) % 4];
+      if (a == b || a == no_index || b == no_index) continue;
+      const double length = length3(x.x[a] - x.x[b], x.y[a] - x.y[b], x.z[a] - x.z[b]);
+      if (length > 0 && (least == 0 || length < least)) least = length;
+    }
+  });
+  return least;
+}
+
+/// A node of either side that follows a rigid body; no_index: none.
+NodeIndex rigid_side(const LintContext& c, const ContactCard& card, const std::vector<bool>& rigid,
+                     const SegmentList& main) {
+  const auto first = [&](const auto& nodes) {
+    for (const NodeIndex n : nodes)
+      if (n != no_index && rigid[n]) return n;
+    return no_index;
+  };
+  const auto of_surface = [&](const SegmentList& surface) {
+    const auto found = surface.find([&](const Segment& s) { return first(s.nodes) != no_index; });
+    return found ? first(found->nodes) : no_index;
+  };
+  NodeIndex found = no_index;
+  if (card.type == 19) {
+    if (const auto s = c.selections->outline(card.id("surf_IDs"))) found = of_surface(s->segments);
+  } else if (const NodeSet* set = c.selections->node_group(card.id("grnd_IDs"))) {
+    found = first(set->nodes);
+  }
+  return found != no_index ? found : of_surface(main);
+}
+
+/// Nodes that an /INTER/TYPE2 ties to a surface.
+struct Ties {
+  const ContactCard* card;
+  const NodeSet* nodes;
+  std::vector<bool> on_main;  ///< by node
+};
+
+std::vector<Ties> ties_of(const LintContext& c) {
+  std::vector<Ties> out;
+  for (const ContactCard& card : c.contacts) {
+    if (card.block->schema->keyword != "/INTER/TYPE2") continue;
+    const auto id = [&](std::string_view field, std::string_view kind) {
+      return c.resolved(*card.block, kind, card.id(field));
+    };
+    const NodeSet* nodes = c.selections->node_group(id("grnd_IDs", "grnod"));
+    const auto main = c.selections->outline(id("surf_IDm", "surf"));
+    if (nodes == nullptr || !main) continue;
+    out.push_back({&card, nodes, nodes_of(*c.model, main->segments)});
+  }
+  return out;
+}
+
+/// First node of `tie` that the contact may push off the surface that it is tied to.
+NodeIndex pushed_tied_node(const LintContext& c, const ContactCard& card, const Ties& tie) {
+  const auto main = c.selections->outline(card.id("surf_IDm"));
+  if (!main) return no_index;
+  std::vector<bool> secondary(c.model->nodes.size(), false);
+  if (card.type == 7) {
+    const NodeSet* group = c.selections->node_group(card.id("grnd_IDs"));
+    if (group == nullptr) return no_index;
+    for (const NodeIndex n : group->nodes)
+      if (n != no_index) secondary[n] = true;
+  } else if (const auto other = c.selections->outline(card.id("surf_IDs"))) {
+    secondary = nodes_of(*c.model, other->segments);
+  }
+  const auto met = [&](const Segment& s) {
+    return std::any_of(s.nodes.begin(), s.nodes.end(),
+                       [&](NodeIndex n) { return n != no_index && tie.on_main[n]; });
+  };
+  if (!main->segments.find(met)) return no_index;
+  for (const NodeIndex n : tie.nodes->nodes)
+    if (n != no_index && secondary[n]) return n;
+  return no_index;
+}
+
+/// One finding for the deck: spot welds in a contact of everything are common.
+void check_tied_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
+  const std::vector<Ties> ties = ties_of(c);
+  if (ties.empty()) return;
+  FirstCard first;
+  const Ties* tie = nullptr;
+  NodeIndex node = no_index;
+  each(c, rule, [&](const ContactCard& card) {
+    const FieldView* f = card.find("Irem_i2");
+    if (f == nullptr || f->field == nullptr || card.value("Irem_i2") == 1) return;
+    for (const Ties& t : ties) {
+      const NodeIndex n = pushed_tied_node(c, card, t);
+      if (n == no_index) continue;
+      if (!first.add(card)) return;
+      tie = &t;
+      node = n;
+      return;
+    }
+  });
+  if (first.card == nullptr) return;
+  Diagnostic& d =
+      report_at(r, rule, *first.card, "Irem_i2",
+                fmt::format("{}{}: node {} may be pushed off the surface that {} ties it to",
+                            name_of(*first.card),
+                            first.others == 0 ? "" : fmt::format(" (and {} more)", first.others),
+                            c.model->node_id(node), name_of(*tie->card)));
+  d.notes.emplace_back(tie->card->block->header_span, "the tie");
+}
+
+void check_rigid_gap(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model->rbodies.empty()) return;
+  constexpr double small = 0.02;  // of the shortest main side; usual gaps are a tenth and more
+  std::vector<bool> rigid;
+  each(c, rule, [&](const ContactCard& card) {
+    const double gap = card.input("Gapmin");
+    // With a variable gap Gapmin is only its floor.
+    if (!(gap > 0) || card.flag("Igap") != 0) return;
+    const auto main = c.selections->outline(card.id("surf_IDm"));
+    if (!main) return;
+    const double side = shortest_side(*c.model, main->segments);
+    if (!(gap < small * side)) return;
+    if (rigid.empty()) rigid = rigid_nodes(c);
+    const NodeIndex n = rigid_side(c, card, rigid, main->segments);
+    if (n == no_index) return;
+    report_at(
+        r, rule, card, "Gapmin",
+        fmt::format("{}: {} is {:.2g} of the shortest main side ({:.4g}), and node {} follows "
+                    "a rigid body",
+                    name_of(card), card.show("Gapmin"), gap / side, side, c.model->node_id(n)));
+  });
+}
+
+/// Stefan-Boltzmann constant, W/(m2 K4) (CODATA 2018, exact).
+constexpr double stefan_boltzmann = 5.670374419e-8;
+
+void check_radiation_factor(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (!c.deck.begin.has_working && !c.deck.begin.has_input) return;  // units unknown
+  const UnitSystem& u = c.deck.begin.has_working ? c.deck.begin.working : c.deck.begin.input;
+  // M T^-3 per kelvin^4: so many kg/s3 are one unit of the deck.
+  const double sigma = stefan_boltzmann / (u.mass / (u.time * u.time * u.time));
+  if (!std::isfinite(sigma) || !(sigma > 0)) return;
+  each(c, rule, [&](const ContactCard& card) {
+    const double frad = card.value("Frad");
+    if (card.input("Ithe") != 1 || !(frad > 0)) return;
+    // 1 / (1/e1 + 1/e2 - 1) is at most 1, and above 1e-3 for any surface that people make.
+    if (frad <= sigma * (1 + 1e-6) && frad >= 1e-3 * sigma) return;
+    report_at(r, rule, card, "Frad",
+              fmt::format("{}: Frad = {} is {} what two surfaces can radiate: the "
+                          "Stefan-Boltzmann constant is {:.6g} in the units of the deck",
+                          name_of(card), number_text(frad),
+                          frad > sigma ? "more than" : "far below", sigma));
+  });
 }
 
 }  // namespace
 
 std::span<const Checked> advice_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK901, check_inacti3},    {RuleId::DK905, check_edge_removal},
-      {RuleId::DK907, check_tied_lever}, {RuleId::DK912, check_same_sides},
-      {RuleId::DK913, check_void},
+      {RuleId::DK901, check_inacti3},    {RuleId::DK912, check_same_sides},
+      {RuleId::DK913, check_void},       {RuleId::DK916, check_edge_companion},
+      {RuleId::DK917, check_rigid_gap},  {RuleId::DK919, check_radiation_factor},
+      {RuleId::DK920, check_tied_nodes},
   };
   return all;
 }

@@ -18,8 +18,7 @@ bool deck_has(const LintContext& c, std::string_view fact) {
   if (fact == "sol2sph") return model.has_sol2sph;
   if (fact == "adaptive_mesh") return model.has_adaptive_mesh;
   if (fact == "thermal_material") return model.has_thermal_material;
-  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(),
-                     [](const Block& b) { return b.header.starts_with("/SPHCEL"); });
+  return has_block(c, "/SPHCEL");
 }
 
 bool in_working_units(const LintContext& c, const ContactCard& card) {
@@ -27,15 +26,37 @@ bool in_working_units(const LintContext& c, const ContactCard& card) {
   return units == nullptr || *units == c.deck.begin.working;
 }
 
+/// Some secondary node belongs to the main surface (TYPE7); also where one of them is unknown.
+bool share_nodes(const LintContext& c, const ContactCard& card) {
+  const NodeSet* group = c.selections->node_group(card.id("grnd_IDs"));
+  const auto main = c.selections->outline(card.id("surf_IDm"));
+  if (group == nullptr || !main) return true;
+  const std::vector<bool> on_main = nodes_of(*c.model, main->segments);
+  return std::any_of(group->nodes.begin(), group->nodes.end(),
+                     [&](NodeIndex n) { return n != no_index && on_main[n]; });
+}
+
+/// False between two sides without common nodes.
+bool is_self_contact(const LintContext& c, const ContactCard& card) {
+  const InterfaceTraits* const traits = traits_of(card.type);
+  if (traits == nullptr) return true;
+  const std::string_view one = traits->secondary.field, two = traits->main.field;
+  if (!card.given(one) || !card.given(two)) return true;
+  return card.type == 7 ? share_nodes(c, card) : card.input(one) == card.input(two);
+}
+
 /// Cells of a card as a rule asks for them; `at` is the field that a finding is about.
 class CellReader {
  public:
-  CellReader(const LintContext& c, const ContactCard& card, std::string_view at)
-      : c_(c), card_(card), at_(at) {}
+  CellReader(const LintContext& c, const ContactCard& card, std::string_view at,
+             std::size_t others = 0)
+      : c_(c), card_(card), at_(at), others_(others) {}
 
-  bool holds(const Predicate& when) const {
-    return when.evaluate([&](const Predicate::Node& n) { return leaf(n); }) != 0;
+  double value_of(const Predicate& p) const {
+    return p.evaluate([&](const Predicate::Node& n) { return leaf(n); });
   }
+  bool holds(const Predicate& when) const { return value_of(when) != 0; }
+  bool holds(const std::optional<Predicate>& when) const { return !when || holds(*when); }
   std::string_view field(std::string_view name) const { return name == this_field ? at_ : name; }
   std::string text_of(std::string_view message) const {
     std::string out;
@@ -69,6 +90,16 @@ class CellReader {
         return f != nullptr && f->origin == Origin::default_block;
       case Op::deck:
         return deck_has(c_, name);
+      case Op::column:
+        return f == nullptr || f->field == nullptr ? 0 : f->field->first;
+      case Op::law: {
+        const Friction* friction = c_.interfaces->friction(card_.id(name));
+        return friction == nullptr ? 0 : static_cast<double>(friction->Ifric);
+      }
+      case Op::self_contact:
+        return is_self_contact(c_, card_);
+      case Op::others:
+        return static_cast<double>(others_);
       case Op::version:
         return card_.block->version;
       case Op::working_units:
@@ -82,6 +113,8 @@ class CellReader {
     if (p.what.empty()) return std::string(p.field);
     if (p.what == "name") return name_of(card_);
     if (p.what == this_field) return std::string(at_);
+    if (p.what == "others") return std::to_string(others_);
+    if (p.what == "=") return number_text(value_of(*Predicate::parse(p.field)));
     const std::string_view name = field(p.field);
     if (p.what == "show") return card_.show(name);
     if (p.what == "input") return number_text(card_.input(name));
@@ -93,6 +126,7 @@ class CellReader {
   const LintContext& c_;
   const ContactCard& card_;
   std::string_view at_;
+  std::size_t others_;
 };
 
 /// Conditions of all rules that are data. The tests read every page, so a tested library never
@@ -101,7 +135,7 @@ const std::map<RuleId, CellRule>& cell_rules() {
   static const std::map<RuleId, CellRule> all = [] {
     std::map<RuleId, CellRule> out;
     for (const Rule& rule : all_rules()) {
-      if (rule.cells.empty()) continue;
+      if (rule.cells.empty() || rule.cells.back().contains("keywords")) continue;
       auto cells = CellRule::read(rule.cells);
       if (!cells)
         throw std::logic_error(std::string(id_text(rule.id)) + ": " + cells.error().message);
@@ -112,24 +146,64 @@ const std::map<RuleId, CellRule>& cell_rules() {
   return all;
 }
 
+void report_cell(const LintContext& c, const Rule& rule, Reporter& r, const CellRule::Case& one,
+                 const ContactCard& card, const CellReader& reader) {
+  const std::string_view at = reader.field(this_field);
+  Diagnostic& d = report_at(r, rule, card, at, reader.text_of(one.message));
+  if (!is_friction(card))
+    for (const std::string& note : one.notes) note_field(d, card, note);
+  const auto& fix = one.fix;
+  if (fix && reader.holds(fix->when))
+    fix_field(d, c, card, reader.field(fix->field), fix->text, fix->safe,
+              reader.text_of(fix->title));
+}
+
+/// Reports each field of the card once, by the first case that is true for it.
+void check_card(const LintContext& c, const Rule& rule, Reporter& r, const CellRule& cells,
+                const ContactCard& card) {
+  const bool of_types =
+      std::find(rule.types.begin(), rule.types.end(), card.type) != rule.types.end();
+  std::vector<std::string_view> reported;
+  for (const CellRule::Case& one : cells.cases) {
+    const bool wanted = of_types || one.all_interfaces;
+    if (is_friction(card) ? !one.frictions : !one.interfaces || !wanted) continue;
+    for (const std::string& at : one.at) {
+      const CellReader reader(c, card, at);
+      if (std::find(reported.begin(), reported.end(), at) != reported.end() ||
+          !reader.holds(cells.when) || !reader.holds(one.when))
+        continue;
+      report_cell(c, rule, r, one, card, reader);
+      reported.push_back(at);
+      if (one.per_card) break;
+    }
+  }
+}
+
+/// Reports the first card for which the rule is true, and how many others there are.
+void check_deck(const LintContext& c, const Rule& rule, Reporter& r, const CellRule& cells) {
+  const CellRule::Case& general = cells.cases.front();
+  FirstCard first;
+  std::string_view where;
+  const auto look = [&](const ContactCard& card) {
+    const auto at = std::find_if(
+        general.at.begin(), general.at.end(),
+        [&](const std::string& field) { return CellReader(c, card, field).holds(cells.when); });
+    if (at != general.at.end() && first.add(card)) where = *at;
+  };
+  each(c, rule, look);
+  if (general.frictions)
+    for (const ContactCard& card : c.frictions) look(card);
+  if (first.card == nullptr) return;
+  const CellReader reader(c, *first.card, where, first.others);
+  const auto one = std::find_if(cells.cases.begin(), cells.cases.end(),
+                                [&](const CellRule::Case& k) { return reader.holds(k.when); });
+  if (one != cells.cases.end()) report_cell(c, rule, r, *one, *first.card, reader);
+}
+
 void check_cells(const LintContext& c, const Rule& rule, Reporter& r) {
   const CellRule& cells = cell_rules().at(rule.id);
-  const auto check = [&](const ContactCard& card) {
-    for (const std::string& at : cells.at) {
-      const CellReader reader(c, card, at);
-      if (!reader.holds(cells.when)) continue;
-      Diagnostic* d = report_at(r, rule, card, at, reader.text_of(cells.message));
-      for (const std::string& note : cells.notes) note_field(d, card, note);
-      const auto& fix = cells.fix;
-      if (fix && (!fix->when || reader.holds(*fix->when)))
-        fix_field(d, c, card, reader.field(fix->field), fix->text, fix->safe,
-                  reader.text_of(fix->title));
-    }
-  };
-  if (cells.all_interfaces)
-    for (const ContactCard& card : c.contacts) check(card);
-  else
-    each(c, rule, check);
+  if (cells.per_deck) return check_deck(c, rule, r, cells);
+  each_card(c, [&](const ContactCard& card) { check_card(c, rule, r, cells, card); });
 }
 
 }  // namespace

@@ -71,20 +71,19 @@ std::vector<const ContactCard*> takers(const LintContext& c, const DecodedBlock&
 void check_overrides(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& block : c.defaults) {
     if (!honoured(c, block)) continue;
-    for (const DecodedCard& card : block.cards)
-      for (const Cell& cell : card.cells) {
-        if (cell.integer == 0 || cell.field->ignored) continue;
-        const auto who = takers(c, block, cell, Takes::yes);
-        if (who.empty()) continue;
-        std::string ids;
-        constexpr std::size_t shown = 8;
-        for (std::size_t i = 0; i < std::min(shown, who.size()); ++i)
-          ids += (i > 0 ? ", " : "") + std::to_string(who[i]->block->id.value);
-        if (who.size() > shown) ids += " and " + std::to_string(who.size() - shown) + " more";
-        r.report(rule, *block.block, cell.span,
-                 fmt::format("{} = {} applies to {} interface{}: {}", cell.field->name,
-                             cell.integer, who.size(), who.size() > 1 ? "s" : "", ids));
-      }
+    each_cell(block, [&](const DecodedCard&, const Cell& cell) {
+      if (cell.integer == 0 || cell.field->ignored) return;
+      const auto who = takers(c, block, cell, Takes::yes);
+      if (who.empty()) return;
+      std::string ids;
+      constexpr std::size_t shown = 8;
+      for (std::size_t i = 0; i < std::min(shown, who.size()); ++i)
+        ids += (i > 0 ? ", " : "") + std::to_string(who[i]->block->id.value);
+      if (who.size() > shown) ids += " and " + std::to_string(who.size() - shown) + " more";
+      r.report(rule, *block.block, cell.span,
+               fmt::format("{} = {} applies to {} interface{}: {}", cell.field->name, cell.integer,
+                           who.size(), who.size() > 1 ? "s" : "", ids));
+    });
   }
 }
 
@@ -92,13 +91,12 @@ void check_unused_defaults(const LintContext& c, const Rule& rule, Reporter& r) 
   for (const DecodedBlock& block : c.defaults) {
     if (!honoured(c, block)) continue;
     bool any = false, used = false;
-    for (const DecodedCard& card : block.cards)
-      for (const Cell& cell : card.cells) {
-        if (cell.integer == 0 || cell.field->ignored) continue;
-        any = true;
-        used = used || !takers(c, block, cell, Takes::yes).empty() ||
-               !takers(c, block, cell, Takes::unknown).empty();
-      }
+    each_cell(block, [&](const DecodedCard&, const Cell& cell) {
+      if (cell.integer == 0 || cell.field->ignored) return;
+      any = true;
+      used = used || !takers(c, block, cell, Takes::yes).empty() ||
+             !takers(c, block, cell, Takes::unknown).empty();
+    });
     if (any && !used)
       r.report(rule, *block.block, block.span(),
                "no interface takes a value from " + block.block->schema->keyword);
@@ -107,17 +105,13 @@ void check_unused_defaults(const LintContext& c, const Rule& rule, Reporter& r) 
 
 void check_range(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& block : c.defaults)
-    for (const DecodedCard& card : block.cards)
-      for (const Cell& cell : card.cells) {
-        const Field& f = *cell.field;
-        if (f.values.empty() || cell.blank() || f.name == "Iedge") continue;
-        if (cell.status == NumberStatus::not_a_number) continue;
-        if (std::find(f.values.begin(), f.values.end(), cell.integer) != f.values.end()) continue;
-        r.report(
-            rule, *block.block, cell.span,
-            fmt::format("{} of {} is {}; legal values are {}", f.name, block.block->schema->keyword,
-                        cell.integer, fmt::join(f.values, ", ")));
-      }
+    each_illegal_flag(block, [&](const Cell& cell) {
+      if (cell.field->name == "Iedge") return;  // it has DK201
+      r.report(rule, *block.block, cell.span,
+               fmt::format("{} of {} is {}; legal values are {}", cell.field->name,
+                           block.block->schema->keyword, cell.integer,
+                           fmt::join(cell.field->values, ", ")));
+    });
 }
 
 void check_no_such_default(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -145,27 +139,36 @@ void check_all_zero(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_ignored_field(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& block : c.defaults)
-    for (const DecodedCard& card : block.cards)
-      for (const Cell& cell : card.cells)
-        if (cell.field->ignored && cell.integer != 0) {
-          Diagnostic* d = r.report(rule, *block.block, cell.span,
-                                   fmt::format("{} of {} has no effect", cell.field->name,
-                                               block.block->schema->keyword));
-          if (d != nullptr && !card.free_format)
-            d->fix = Fix{"blank " + cell.field->name, true, {blank_edit(cell.span)}};
-        }
+    each_cell(block, [&](const DecodedCard& card, const Cell& cell) {
+      if (!cell.field->ignored || cell.integer == 0) return;
+      Diagnostic& d = r.report(
+          rule, *block.block, cell.span,
+          fmt::format("{} of {} has no effect", cell.field->name, block.block->schema->keyword));
+      if (!card.free_format)
+        d.fix = Fix{"blank " + cell.field->name, true, {blank_edit(cell.span)}};
+    });
+}
+
+void check_default_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model->has_monitored_volume || c.model->has_ale || c.model->has_sol2sph) return;
+  for (const DecodedBlock& block : c.defaults) {
+    const Cell* cell = block.find("Ibag");
+    if (cell == nullptr || cell->integer == 0 || cell->integer == 1000) continue;
+    r.report(rule, *block.block, cell->span,
+             fmt::format("{}: Ibag = {}, but the deck has no airbag (/MONVOL), ALE or Sol2SPH",
+                         block.block->header, cell->integer));
+  }
 }
 
 void check_scaled_edge_gap(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     const FieldView* igap = card.find("Igap");
     if (igap == nullptr || igap->origin != Origin::default_block || igap->value != 2) return;
-    Diagnostic* d = report_at(r, rule, card, "Igap",
+    Diagnostic& d = report_at(r, rule, card, "Igap",
                               name_of(card) + ": Igap = 2 from /DEFAULT/INTER/TYPE19, which its " +
                                   "edge part does not have");
-    if (d == nullptr) return;
     if (const EffectiveInt* given = c.interfaces->defaults_of(19)->find("Igap"))
-      d->notes.emplace_back(given->span, "it comes from here");
+      d.notes.emplace_back(given->span, "it comes from here");
     fix_field(d, c, card, "Igap", "2", false, "write Igap 2");
   });
 }
@@ -177,7 +180,7 @@ std::span<const Checked> default_checks() {
       {RuleId::DK501, check_overrides},       {RuleId::DK502, check_unused_defaults},
       {RuleId::DK505, check_range},           {RuleId::DK506, check_no_such_default},
       {RuleId::DK507, check_all_zero},        {RuleId::DK509, check_ignored_field},
-      {RuleId::DK512, check_scaled_edge_gap},
+      {RuleId::DK512, check_scaled_edge_gap}, {RuleId::DK510, check_default_ibag},
   };
   return all;
 }

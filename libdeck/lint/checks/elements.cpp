@@ -80,7 +80,7 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
   const auto walk = [&](auto width) {
     ElementCorners p;
     for (std::size_t e = 0, size = family.size(); e < size; ++e) {
-      if (!corners_of(m.nodes, family.of(e), width, p) || !bad(p)) continue;
+      if (!corners_of(m.nodes, family.of(e), width, p) || !bad(p, e)) continue;
       auto& [count, first] = found[family.part[e]];
       if (count++ == 0) first = static_cast<std::uint32_t>(e);
     }
@@ -101,19 +101,46 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
 void check_area(const LintContext& c, const Rule& rule, Reporter& r) {
   const auto each_family = [&](const Elements& family, std::string_view what) {
     count_bad(c, rule, r, family, what, "without area",
-              [](const ElementCorners& p) { return without_area(p); });
+              [](const ElementCorners& p, std::size_t) { return without_area(p); });
   };
   each_family(c.model->shell4, "shell");
   each_family(c.model->shell3, "triangular shell");
 }
 
 void check_volume(const LintContext& c, const Rule& rule, Reporter& r) {
-  count_bad(c, rule, r, c.model->solid8, "solid", "without volume",
-            [](const ElementCorners& p) { return p.size() == 8 && without_volume(p); });
+  count_bad(
+      c, rule, r, c.model->solid8, "solid", "without volume",
+      [](const ElementCorners& p, std::size_t) { return p.size() == 8 && without_volume(p); });
+}
+
+/// True if the edges at a corner of a solid with eight nodes turn the wrong way round, beyond
+/// rounding. The solver turns a solid whose whole volume is below zero; a fold stays.
+bool is_folded(const ElementCorners& p) {
+  // Next and previous corner of the face, corner of the other face.
+  static constexpr std::size_t edges[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                              {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  constexpr double most = 1e-9;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Vec u = p[edges[i][0]] - p[i], v = p[edges[i][1]] - p[i], w = p[edges[i][2]] - p[i];
+    if (dot(cross(u, v), w) < -most * std::sqrt(dot(u, u) * dot(v, v) * dot(w, w))) return true;
+  }
+  return false;
+}
+
+void check_folded(const LintContext& c, const Rule& rule, Reporter& r) {
+  const Elements& solids = c.model->solid8;
+  count_bad(c, rule, r, solids, "solid", "folded at a corner",
+            [&](const ElementCorners& p, std::size_t e) {
+              if (solids.shape[e] != SolidShape::brick8 || !is_folded(p)) return false;
+              const NodeIndex* n = solids.of(e);
+              for (std::size_t i = 1; i < 8; ++i)  // a degenerate one has no such corners
+                if (std::find(n, n + i, n[i]) != n + i) return false;
+              return true;
+            });
 }
 
 void check_length(const LintContext& c, const Rule& rule, Reporter& r) {
-  const auto short_one = [](const ElementCorners& p) {
+  const auto short_one = [](const ElementCorners& p, std::size_t) {
     return p[0].x == p[1].x && p[0].y == p[1].y && p[0].z == p[1].z;
   };
   count_bad(c, rule, r, c.model->truss, "truss element", "without length", short_one);
@@ -170,11 +197,11 @@ void check_property_kind(const LintContext& c, const Rule& rule, Reporter& r) {
       const Property& prop = m.properties[m.parts[p].prop];
       const char* kind = made_for(prop.number);
       if (kind == nullptr || what == kind) continue;
-      Diagnostic* d = r.report(rule, m.element_span(family->kind, static_cast<std::uint32_t>(e)),
+      Diagnostic& d = r.report(rule, m.element_span(family->kind, static_cast<std::uint32_t>(e)),
                                fmt::format("part {} has {}, and its {} {} is for {}", m.parts[p].id,
                                            what, prop.type, prop.id, kind));
-      if (d != nullptr) d->notes.emplace_back(m.parts[p].span, "the part");
-      if (d != nullptr) d->notes.emplace_back(prop.span, "the property");
+      d.notes.emplace_back(m.parts[p].span, "the part");
+      d.notes.emplace_back(prop.span, "the property");
     }
   }
 }
@@ -224,10 +251,8 @@ std::vector<ShellRow> shell_rows(const DecodedBlock& d) {
   for (const DecodedCard& card : d.cards) {
     if (card.missing() || card.cells.empty() || card.cells[0].blank()) continue;
     ShellRow row{card.cells[0].integer, 0, 0, card.line};
-    for (const Cell& cell : card.cells) {
-      if (cell.field->name == "Phi") row.angle = cell.real;
-      if (cell.field->name == "Thick") row.thickness = cell.real;
-    }
+    if (const Cell* cell = cell_of(card, "Phi")) row.angle = cell->real;
+    if (const Cell* cell = cell_of(card, "Thick")) row.thickness = cell->real;
     out.push_back(row);
   }
   return out;
@@ -250,17 +275,16 @@ void check_row_order(const LintContext& c, const Rule& rule, Reporter& r) {
     for (std::size_t k = 0; k < rows.size(); ++k)
       if (!sorted[k]->same_cells(rows[k]) && wrong++ == 0) first = sorted[k];
     if (first == nullptr) continue;
-    Diagnostic* d = r.report(
+    Diagnostic& d = r.report(
         rule, block, first->line.whole(),
         fmt::format("rows of {} {} do not ascend by id, and {} the thickness or angle of another "
                     "row; first is element {}",
                     block.schema->keyword, block.id.value,
                     count(wrong, "element gets", "elements get"), first->id));
-    if (d == nullptr) continue;
-    d->fix = Fix{"sort the rows by id", false, {}};
+    d.fix = Fix{"sort the rows by id", false, {}};
     for (std::size_t k = 0; k < rows.size(); ++k)
       if (sorted[k]->line.text != rows[k].line.text)
-        d->fix->edits.push_back({rows[k].line.whole(), std::string(sorted[k]->line.text)});
+        d.fix->edits.push_back({rows[k].line.whole(), std::string(sorted[k]->line.text)});
   }
 }
 
@@ -271,7 +295,7 @@ std::span<const Checked> element_checks() {
       {RuleId::DK129, check_property_kind}, {RuleId::DK130, check_area},
       {RuleId::DK131, check_volume},        {RuleId::DK132, check_length},
       {RuleId::DK133, check_curves},        {RuleId::DK140, check_table},
-      {RuleId::DK141, check_row_order},
+      {RuleId::DK141, check_row_order},     {RuleId::DK616, check_folded},
   };
   return all;
 }

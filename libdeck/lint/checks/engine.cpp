@@ -225,13 +225,12 @@ void check_outputs(const LintContext& c, const Rule& rule, Reporter& r) {
                  fmt::format("{} begins at {}, the run ends at {}", clipped(b.keyword),
                              number_text(n[*first]), number_text(*end)));
       else if (*end > begin && interval > *end - begin) {
-        Diagnostic* d =
+        Diagnostic& d =
             r.report(rule, b.lines[0],
                      fmt::format("{} writes every {}, the run takes {}", clipped(b.keyword),
                                  number_text(interval), number_text(*end - begin)));
-        if (d == nullptr) continue;
-        d->severity = Severity::info;
-        d->reference_behaviour = "It writes the state at the start of the run only.";
+        d.severity = Severity::info;
+        d.reference_behaviour = "It writes the state at the start of the run only.";
       }
     }
     begin = *end;
@@ -253,10 +252,10 @@ void check_late_interfaces(const LintContext& c, const Rule& rule, Reporter& r) 
   for (const ContactCard& card : c.contacts) {
     const double start = card.value("Tstart");
     if (start < *last) continue;
-    Diagnostic* d = report_at(r, rule, card, "Tstart",
+    Diagnostic& d = report_at(r, rule, card, "Tstart",
                               fmt::format("{} begins at {}, the last run ends at {}", name_of(card),
                                           number_text(start), number_text(*last)));
-    if (d != nullptr) d->notes.emplace_back(place, "the end of the last run");
+    d.notes.emplace_back(place, "the end of the last run");
   }
 }
 

@@ -55,9 +55,9 @@ void check_unknown(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string_view close = it->second;
     std::string message = "keyword " + clipped(b.keyword) + " is unknown";
     if (!close.empty()) message += "; did you mean " + std::string(close) + "?";
-    Diagnostic* d = r.report(rule, b, keyword_span(b), std::move(message));
-    if (d != nullptr && !close.empty())
-      d->fix = Fix{"write " + std::string(close), false, {{keyword_span(b), std::string(close)}}};
+    Diagnostic& d = r.report(rule, b, keyword_span(b), std::move(message));
+    if (!close.empty())
+      d.fix = Fix{"write " + std::string(close), false, {{keyword_span(b), std::string(close)}}};
   }
 }
 
@@ -66,9 +66,8 @@ void check_lower_case(const LintContext& c, const Rule& rule, Reporter& r) {
     if (b.schema != nullptr) continue;
     const std::string big = in_capitals(b.keyword);
     if (big == b.keyword || c.schemas.match(in_capitals(b.header)) == nullptr) continue;
-    if (Diagnostic* d = r.report(rule, b, keyword_span(b),
-                                 "keyword " + clipped(b.keyword) + " is not in upper case"))
-      d->fix = Fix{"write " + big, false, {{keyword_span(b), big}}};
+    r.report(rule, b, keyword_span(b), "keyword " + clipped(b.keyword) + " is not in upper case")
+        .fix = Fix{"write " + big, false, {{keyword_span(b), big}}};
   }
 }
 
@@ -185,6 +184,16 @@ void check_title(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
+void check_title_length(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const ContactCard& card : c.contacts) {
+    const Line& title = card.decoded.title_line;
+    if (!title.valid() || title.text.size() <= 100) continue;
+    r.report(rule, *card.block, title.columns(101, static_cast<int>(title.text.size())),
+             fmt::format("the title of {} has {} characters; the solver keeps the first 100",
+                         name_of(card), title.text.size()));
+  }
+}
+
 void check_missing_id(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks) {
     if (b.schema == nullptr || !b.schema->has_id) continue;
@@ -228,14 +237,14 @@ void check_next_version_field(const LintContext& c, const Rule& rule, Reporter& 
             });
         if (shared) continue;
         const bool later = f.from > card.block->version;
-        Diagnostic* d = r.report(
+        Diagnostic& d = r.report(
             rule, *card.block, span,
             fmt::format("'{}' is in columns where version {} has {}; version {} has no field there",
                         text, later ? f.from : f.until, f.name, card.block->version));
         const bool between = std::any_of(
             line.schema->fields.begin(), line.schema->fields.end(),
             [&](const Field& g) { return g.in_version(card.block->version) && g.first > f.last; });
-        if (d != nullptr && !between) d->reference = rule.message(100213);
+        if (!between) d.reference = rule.message(100213);
       }
     }
 }
@@ -257,7 +266,7 @@ std::span<const Checked> header_checks() {
       {RuleId::DK046, check_newer_keyword},   {RuleId::DK060, check_unread_keyword},
       {RuleId::DK061, check_increment},       {RuleId::DK047, check_next_version_field},
       {RuleId::DK048, check_title},           {RuleId::DK049, check_missing_id},
-      {RuleId::DK050, check_old_layout},
+      {RuleId::DK050, check_old_layout},      {RuleId::DK246, check_title_length},
   };
   return all;
 }

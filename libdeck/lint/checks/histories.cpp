@@ -56,13 +56,13 @@ void check_variable(const LintContext& c, const Rule& rule, Reporter& r) {
       const Word word = judge(c, schema, cell.text);
       if (word == Word::known) return;
       const bool sure = word == Word::unknown;
-      Diagnostic* found =
+      Diagnostic& found =
           r.report(rule, *d.block, cell.span,
                    fmt::format("'{}' {} variable of {}", cell.text,
                                sure ? "is no" : "is no documented", schema.keyword));
-      if (found == nullptr || sure) return;
-      found->severity = Severity::warning;
-      found->reference.reset();
+      if (sure) return;
+      found.severity = Severity::warning;
+      found.reference.reset();
     });
   }
 }
@@ -144,13 +144,12 @@ class MissingObjects {
 
   /// The solver warns of what is missing in a list of objects and stops in a list of lines.
   void report(const DecodedBlock& d, Span span, bool warning, int message, std::string text) {
-    Diagnostic* found = r_.report(rule_, *d.block, span, std::move(text));
-    if (found == nullptr) return;
-    if (warning) found->severity = Severity::warning;
+    Diagnostic& found = r_.report(rule_, *d.block, span, std::move(text));
+    if (warning) found.severity = Severity::warning;
     if (message == 0)
-      found->reference.reset();
+      found.reference.reset();
     else
-      found->reference = ReferenceMessage{message, found->severity};
+      found.reference = ReferenceMessage{message, found.severity};
   }
 
   const LintContext& c_;
@@ -180,10 +179,10 @@ void check_two_histories(const LintContext& c, const Rule& rule, Reporter& r) {
         if (fresh) block_of.emplace(&cell, &d);
         const DecodedBlock* other = block_of.at(it->second);
         if (other == &d) continue;
-        Diagnostic* found = r.report(rule, *d.block, cell.span,
+        Diagnostic& found = r.report(rule, *d.block, cell.span,
                                      fmt::format("{} {} is in {} and in {}", kind_name(kind), id,
                                                  name_of(*other), name_of(d)));
-        if (found != nullptr) found->notes.emplace_back(it->second->span, "the other one is here");
+        found.notes.emplace_back(it->second->span, "the other one is here");
       }
   }
 }

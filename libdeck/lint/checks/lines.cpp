@@ -18,8 +18,7 @@ struct Flags {
 
 std::optional<Flags> flags_card(const DecodedBlock& block) {
   for (std::size_t i = 0; i < block.cards.size(); ++i)
-    for (const Cell& cell : block.cards[i].cells)
-      if (cell.field->name == "IBCX") return Flags{i, &block.cards[i]};
+    if (cell_of(block.cards[i], "IBCX") != nullptr) return Flags{i, &block.cards[i]};
   return std::nullopt;
 }
 
@@ -102,7 +101,7 @@ void check_second_line(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     const bool missing = second_line_missing(card);
     if (!missing && !second_line_extra(card)) return;
-    Diagnostic* d = r.report(
+    Diagnostic& d = r.report(
         rule, *card.block, card.decoded.cards[1].line.whole(),
         missing ? fmt::format("{} lacks its second line (Stmin, Stmax, ...), which exists from "
                               "version 110 on; this deck is of version {}",
@@ -110,15 +109,14 @@ void check_second_line(const LintContext& c, const Rule& rule, Reporter& r) {
                 : fmt::format("{} has a second line (Stmin, Stmax, ...), which exists from version "
                               "110 on only; this deck is of version {}",
                               name_of(card), card.block->version));
-    if (d == nullptr) return;
-    if (!missing) d->help = "Delete the line, or raise the version in /BEGIN.";
+    if (!missing) d.help = "Delete the line, or raise the version in /BEGIN.";
     if (missing) {
       Span at = card.decoded.cards[1].line.whole();
       at.length = 0;
       // As the line before it ends.
       const std::string_view before = c.deck.sources[at.file].bytes().substr(0, at.offset);
       const char* const end = before.ends_with("\r\n") ? "\r\n" : "\n";
-      d->fix = Fix{"insert a blank second line", false, {{at, end}}};
+      d.fix = Fix{"insert a blank second line", false, {{at, end}}};
     }
   });
 }
@@ -137,7 +135,7 @@ void check_missing(const LintContext& c, const Rule& rule, Reporter& r) {
       if (!again) flags.push_back(o.flag);
     }
     if (causes.empty()) continue;
-    Diagnostic* d = r.report(rule, *card.block, card.block->header_span,
+    Diagnostic& d = r.report(rule, *card.block, card.block->header_span,
                              fmt::format("{} is {} line{} short: {}", name_of(card), missing,
                                          missing > 1 ? "s" : "", causes));
     for (const std::string& f : flags) note_field(d, card, f);
@@ -187,7 +185,7 @@ void check_shift(const LintContext& c, const Rule& rule, Reporter& r) {
     message += above   ? "the line above does, so a line is missing before it"
                : below ? "the line below does, so there is an extra line before it"
                        : "there are data in columns 1-7 or 11-30";
-    Diagnostic* d = r.report(rule, *card.block, flags->card->line.whole(), std::move(message));
+    Diagnostic& d = r.report(rule, *card.block, flags->card->line.whole(), std::move(message));
     for (const Optional& o : optional_cards(card))
       if (o.present && above) note_field(d, card, o.flag);
   });
@@ -197,11 +195,10 @@ void check_shift(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_order(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts) {
     const DecodedCard *adaptive = nullptr, *heat = nullptr;
-    for (const DecodedCard& line : card.decoded.cards)
-      for (const Cell& cell : line.cells) {
-        if (cell.field->name == "NRadm") adaptive = &line;
-        if (cell.field->name == "Kthe" || cell.field->name == "Rthe") heat = &line;
-      }
+    for (const DecodedCard& line : card.decoded.cards) {
+      if (cell_of(line, "NRadm") != nullptr) adaptive = &line;
+      if (cell_of(line, "Kthe") != nullptr || cell_of(line, "Rthe") != nullptr) heat = &line;
+    }
     if (adaptive == nullptr || heat == nullptr || adaptive->missing() || heat->missing()) continue;
     // NRadm is an integer in columns 1-10; a coefficient in 1-20 reaches beyond column 10.
     const std::string_view first = adaptive->line.text, second = heat->line.text;

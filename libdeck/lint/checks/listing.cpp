@@ -53,11 +53,11 @@ void check_global_integration(const LintContext& c, const Rule& rule, Reporter& 
   each_shell_pair(c, [&](const Property& p, const Material& mat, const DecodedBlock& d) {
     const bool has_it = mat.law <= 1 || mat.law == 91 || mat.law == 136;
     if (has_it || d.integer("N") != 0 || !seen.emplace(&p, mat.law).second) return;
-    Diagnostic* found = r.report(rule, *p.block, place_of(d, "N"),
+    Diagnostic& found = r.report(rule, *p.block, place_of(d, "N"),
                                  fmt::format("{} {} has N = 0, which law {} of material {} does "
                                              "not support; three integration points are used",
                                              p.type, p.id, mat.law, mat.id));
-    if (found != nullptr) found->notes.emplace_back(mat.span, "the material");
+    found.notes.emplace_back(mat.span, "the material");
   });
 }
 
@@ -89,11 +89,11 @@ void check_plain_triangles(const LintContext& c, const Rule& rule, Reporter& r) 
     const std::int64_t own = d.integer("Ishell");
     const std::int64_t used = own == 0 && p.number != 51 ? shell : own;
     if (used != 4 || d.integer("Ish3n") != 0) continue;
-    Diagnostic* found = r.report(rule, *p.block, place_of(d, "Ish3n"),
+    Diagnostic& found = r.report(rule, *p.block, place_of(d, "Ish3n"),
                                  fmt::format("{} {} has Ishell = 4 and no Ish3n: its triangles are "
                                              "plain C0 triangles",
                                              p.type, p.id));
-    if (found != nullptr) found->notes.emplace_back(defaults, "the default of the triangles");
+    found.notes.emplace_back(defaults, "the default of the triangles");
   }
 }
 
@@ -105,12 +105,7 @@ void check_vents(const LintContext& c, const Rule& rule, Reporter& r) {
     const DecodedBlock d = decode(c.deck, b);
     int place = 0;
     for (const DecodedCard& card : d.cards) {
-      const Cell *surface = nullptr, *area = nullptr;
-      for (const Cell& cell : card.cells) {
-        const std::string_view name = cell.field->name;
-        if (name == "surf_IDv") surface = &cell;
-        if (name == "Avent") area = &cell;
-      }
+      const Cell *surface = cell_of(card, "surf_IDv"), *area = cell_of(card, "Avent");
       if (surface == nullptr || area == nullptr) continue;
       ++place;
       if (surface->integer != 0 || surface->parameter || area->real != 0) continue;
@@ -130,9 +125,9 @@ bool engine_file_missing(const LintContext& c) {
 void check_engine_file(const LintContext& c, const Rule& rule, Reporter& r) {
   if (!engine_file_missing(c)) return;
   const auto report = [&](Span place, int message, const std::string& what) {
-    Diagnostic* d =
+    Diagnostic& d =
         r.report(rule, place, fmt::format("there is no {}_0001.rad: {}", c.engine->run, what));
-    if (d != nullptr) d->reference = rule.message(message);
+    d.reference = rule.message(message);
   };
   const auto shapes = [&](SolidShape shape) {
     const Elements& solids = c.model->solid8;

@@ -26,13 +26,12 @@ void check_codes(const LintContext& c, const Rule& rule, Reporter& r) {
       if (!cell.field->wrong || card.missing()) return;
       const std::string legal = legal_codes(cell);
       if (legal.empty()) return;
-      Diagnostic* found = r.report(
+      Diagnostic& found = r.report(
           rule, *d.block, place_of(d, &cell),
           fmt::format("{} of {} is {}; legal: {}", cell.field->name, name_of(d),
                       cell.blank() ? "blank" : fmt::format("'{}'", clipped(trim(cell.text))),
                       legal));
-      if (found != nullptr && *cell.field->wrong > 0)
-        found->reference = {*cell.field->wrong, Severity::error};
+      if (*cell.field->wrong > 0) found.reference = {*cell.field->wrong, Severity::error};
     });
   }
 }

@@ -43,12 +43,12 @@ void check_not_positive(const LintContext& c, const Rule& rule, Reporter& r,
       const Cell* cell = d.find(field);
       if (cell != nullptr && (cell->real > 0 || cell->parameter)) continue;
       const bool written = cell != nullptr && cell->span.valid() && !cell->blank();
-      Diagnostic* found = r.report(rule, *m.block, place_of(d, cell),
+      Diagnostic& found = r.report(rule, *m.block, place_of(d, cell),
                                    fmt::format("{} of {} {} is {}", field, m.type, m.id,
                                                written ? trim(cell->text) : "blank"));
-      if (found == nullptr || stops) continue;
-      found->severity = Severity::warning;
-      found->reference.reset();
+      if (stops) continue;
+      found.severity = Severity::warning;
+      found.reference.reset();
     }
   }
 }
@@ -117,15 +117,6 @@ class MassiveNodes {
   std::vector<bool> massive_;
 };
 
-/// Options that give nodes a mass in other ways than these rules look at.
-bool has_other_masses(const LintContext& c) {
-  static constexpr std::array keywords = {"/ADMAS", "/SPHCEL", "/XELEM", "/RBE3", "/RBE2"};
-  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(), [](const Block& b) {
-    return std::any_of(keywords.begin(), keywords.end(),
-                       [&](std::string_view k) { return b.header.starts_with(k); });
-  });
-}
-
 /// The inertia on the card, with its products, is one that a body can have.
 bool has_inertia(const DecodedBlock& d) {
   const double xx = d.real("Jxx"), yy = d.real("Jyy"), zz = d.real("Jzz");
@@ -136,7 +127,8 @@ bool has_inertia(const DecodedBlock& d) {
 
 void check_rigid_mass(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model->rbodies.empty()) return;
-  if (has_other_masses(c)) return;
+  // They give nodes a mass in other ways than this rule looks at.
+  if (has_block(c, "/ADMAS", "/SPHCEL", "/XELEM", "/RBE3", "/RBE2")) return;
   const MassiveNodes massive(*c.model);
   for (const DecodedBlock& d : c.loads) {
     if (d.block->schema->keyword != "/RBODY" || d.real("Mass") > 0 || has_inertia(d)) continue;
@@ -220,10 +212,9 @@ void check_thickness(const LintContext& c, const Rule& rule, Reporter& r) {
   const bool any = !thin.empty();
   if (below.empty() && !any) return;
   const Severity severity = any && searched(c, thin) ? Severity::error : Severity::warning;
-  const auto report = [&](Diagnostic* d) {
-    if (d == nullptr) return;
-    d->severity = severity;
-    if (severity != Severity::error) d->reference.reset();
+  const auto report = [&](Diagnostic& d) {
+    d.severity = severity;
+    if (severity != Severity::error) d.reference.reset();
   };
   for (const Property* p : below)
     report(r.report(

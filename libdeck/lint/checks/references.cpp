@@ -63,13 +63,7 @@ void check_missing_entity(const LintContext& c, const Rule& rule, Reporter& r) {
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
     if (id < 0 || selection_exists(c, side.kind, id) || !other_kind(c, side.kind, id).empty())
       return;
-    std::string message = fmt::format("{} of {} is {}, and there is no {} or /SET of that id",
-                                      side.field, name_of(card), id, kind_name(side.kind));
-    const std::int64_t offset = c.deck.offset_of(*card.block, side.kind);
-    if (offset != 0 && selection_exists(c, side.kind, id - offset))
-      message +=
-          fmt::format("; {} exists outside the submodel, whose offset is {}", id - offset, offset);
-    report_at(r, rule, card, side.field, std::move(message));
+    report_at(r, rule, card, side.field, missing_text(c, card.decoded, side.field, side.kind, id));
   });
 }
 
@@ -78,24 +72,16 @@ void check_kind(const LintContext& c, const Rule& rule, Reporter& r) {
     if (id < 0 || selection_exists(c, side.kind, id)) return;
     const std::string_view other = other_kind(c, side.kind, id);
     if (other.empty()) return;
-    Diagnostic* d = report_at(
+    Diagnostic& d = report_at(
         r, rule, card, side.field,
         fmt::format("{} of {} is {}: there is a {} of that id, but a {} is expected here",
                     side.field, name_of(card), id, kind_name(other), kind_name(side.kind)));
-    if (d == nullptr) return;
     if (const auto at = c.selections->where(other, id))
-      d->notes.emplace_back(
+      d.notes.emplace_back(
           *at, std::string(kind_name(other)) + " " + std::to_string(id) + " is defined here");
     if (side.kind == "grnod" && other == "surf")
-      d->help = fmt::format("Define a /GRNOD/SURF of surface {} and refer to that.", id);
+      d.help = fmt::format("Define a /GRNOD/SURF of surface {} and refer to that.", id);
   });
-}
-
-void note_definition(const LintContext& c, Diagnostic* d, const Side& side, std::int64_t id) {
-  if (d == nullptr) return;
-  const bool plain = c.selections->is_plain(side.kind, id);
-  if (const auto at = c.selections->where(plain ? side.kind : "set", id))
-    d->notes.emplace_back(*at, "it is defined here");
 }
 
 /// A set of which a side takes nothing but its nodes.
@@ -108,7 +94,7 @@ void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
     if (side.secondary != secondary || id < 0 || !selection_exists(c, side.kind, id)) return;
     if (!selection_is_empty(c, side.kind, id)) return;
-    Diagnostic* d =
+    Diagnostic& d =
         report_at(r, rule, card, side.field,
                   fmt::format("the {} side of {}, {}, is empty{}", secondary ? "secondary" : "main",
                               name_of(card), selection_name(c, side.kind, id),
@@ -116,13 +102,12 @@ void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
                                   ? ": the set has nodes, and no " +
                                         std::string(side.kind == "surf" ? "segments" : "edges")
                                   : ""));
-    note_definition(c, d, side, id);
-    if (d == nullptr) return;
+    note_definition(c, d, side.kind, id);
     if (secondary && side.kind != "grnod") {
-      d->severity = Severity::error;
-      d->reference = rule.message(118);
+      d.severity = Severity::error;
+      d.reference = rule.message(118);
     }
-    if (!secondary && (card.type == 7 || card.type == 19)) d->reference = rule.message(3160);
+    if (!secondary && (card.type == 7 || card.type == 19)) d.reference = rule.message(3160);
   });
 }
 
@@ -131,11 +116,10 @@ void check_analytical(const LintContext& c, const Rule& rule, Reporter& r) {
     if (side.kind != "surf") return;
     const auto s = c.selections->outline(id);
     if (!s || !s->analytical) return;
-    note_definition(c,
-                    report_at(r, rule, card, side.field,
+    Diagnostic& d = report_at(r, rule, card, side.field,
                               fmt::format("{} of {}: surface {} is analytical and has no segments",
-                                          side.field, name_of(card), id)),
-                    side, id);
+                                          side.field, name_of(card), id));
+    note_definition(c, d, side.kind, id);
   });
 }
 
@@ -143,15 +127,14 @@ void check_analytical(const LintContext& c, const Rule& rule, Reporter& r) {
 /// looked for only if its id is positive.
 void negative_reference(Reporter& r, const Rule& rule, const ContactCard& card,
                         const FieldView& f) {
-  Diagnostic* d = report_at(r, rule, card, f.name,
+  Diagnostic& d = report_at(r, rule, card, f.name,
                             fmt::format("{} of {} is negative: {}", f.name, name_of(card), f.text));
-  if (d == nullptr) return;
-  if (f.field->ref == "sensor") d->reference = rule.message(1010);
-  if (f.field->ref == "node") d->reference = rule.message(78);
+  if (f.field->ref == "sensor") d.reference = rule.message(1010);
+  if (f.field->ref == "node") d.reference = rule.message(78);
   if (f.field->ref != "funct" && f.field->ref != "friction") return;
-  d->severity = Severity::warning;
-  d->reference.reset();
-  d->reference_behaviour = "It continues silently, as if the cell were blank.";
+  d.severity = Severity::warning;
+  d.reference.reset();
+  d.reference_behaviour = "It continues silently, as if the cell were blank.";
 }
 
 void check_negative(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -166,29 +149,11 @@ void check_ambiguous(const LintContext& c, const Rule& rule, Reporter& r) {
     if (!c.selections->is_plain(side.kind, id)) return;
     const auto set = c.selections->where("set", id);
     if (!set) return;
-    Diagnostic* d = report_at(r, rule, card, side.field,
+    Diagnostic& d = report_at(r, rule, card, side.field,
                               fmt::format("{} of {}: {} {} and /SET {} both exist", side.field,
                                           name_of(card), kind_name(side.kind), id, id));
-    if (d != nullptr) d->notes.emplace_back(*set, "the set that is not used");
+    d.notes.emplace_back(*set, "the set that is not used");
   });
-}
-
-void check_duplicates(const LintContext& c, const Rule& rule, Reporter& r) {
-  const auto all = c.defined.find("inter");
-  if (all == c.defined.end()) return;
-  const Block* first = nullptr;
-  std::int64_t last = -1;
-  for (const auto& [id, block] : all->second) {
-    if (block->schema->keyword == "/INTER/SUB") continue;
-    if (first == nullptr || id != last) {
-      first = block;
-      last = id;
-      continue;
-    }
-    Diagnostic* d = r.report(rule, *block, block->header_span,
-                             fmt::format("interface id {} is used twice", id));
-    if (d != nullptr) d->notes.emplace_back(first->header_span, "first used here");
-  }
 }
 
 void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -198,26 +163,20 @@ void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string_view main = sides.back().field;
     if (card.given(main) || (card.type == 19 && card.given("surf_IDs"))) continue;
     if (is_modern(card.type) && card.given("surf_ID1")) continue;
-    Diagnostic* d = report_at(r, rule, card, main, name_of(card) + " has no main surface");
-    if (d != nullptr && card.type == 0) d->reference = rule.message(119);
+    Diagnostic& d = report_at(r, rule, card, main, name_of(card) + " has no main surface");
+    if (card.type == 0) d.reference = rule.message(119);
   }
 }
 
-// ---- pairs of parts of a /FRICTION, and unused entities ------
-// ------------------------------------
-
-const Cell* cell_of(const DecodedCard& card, std::string_view name) {
-  for (const Cell& cell : card.cells)
-    if (cell.field->name == name) return &cell;
-  return nullptr;
-}
+// ---- pairs of parts of a /FRICTION, and unused entities
+// ------------------------------------------
 
 /// Calls f(block, card) for the first line of every part pair.
 template <class F>
 void each_pair(const LintContext& c, F&& f) {
-  for (const DecodedBlock& block : c.frictions)
-    for (const DecodedCard& card : block.cards)
-      if (cell_of(card, "part_ID1") != nullptr && !card.missing()) f(block, card);
+  for (const ContactCard& friction : c.frictions)
+    for (const DecodedCard& card : friction.decoded.cards)
+      if (cell_of(card, "part_ID1") != nullptr && !card.missing()) f(friction.decoded, card);
 }
 
 void check_parts(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -250,9 +209,9 @@ void check_repeated(const LintContext& c, const Rule& rule, Reporter& r) {
     const auto [it, fresh] = seen.emplace(
         Key{block.block, one.first, one.second, two.first, two.second}, card.line.whole());
     if (fresh) return;
-    Diagnostic* d = r.report(rule, *block.block, card.line.whole(),
+    Diagnostic& d = r.report(rule, *block.block, card.line.whole(),
                              name_of(block) + " gives the same pair of parts twice");
-    if (d != nullptr) d->notes.emplace_back(it->second, "first given here");
+    d.notes.emplace_back(it->second, "first given here");
   });
 }
 
@@ -266,12 +225,11 @@ void check_incomplete(const LintContext& c, const Rule& rule, Reporter& r) {
     const bool first = given("1"), second = given("2");
     if (first && second) return;
     if (!first && !second) {
-      Diagnostic* d = r.report(rule, *block.block, card.line.whole(),
+      Diagnostic& d = r.report(rule, *block.block, card.line.whole(),
                                "a pair of " + name_of(block) + " names no parts");
-      if (d == nullptr) return;
-      d->severity = Severity::warning;
-      d->reference.reset();
-      d->reference_behaviour = "It continues silently.";
+      d.severity = Severity::warning;
+      d.reference.reset();
+      d.reference_behaviour = "It continues silently.";
       return;
     }
     const char* side = first ? "2" : "1";
@@ -287,10 +245,10 @@ bool used(const LintContext& c, std::string_view kind, std::int64_t id) {
 }
 
 void check_unused_friction(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const DecodedBlock& block : c.frictions) {
-    const std::int64_t id = c.resolved(*block.block, "friction", block.block->id.value);
-    if (!used(c, "friction", id))
-      r.report(rule, *block.block, block.span(), "no interface uses " + name_of(block));
+  for (const ContactCard& friction : c.frictions) {
+    const Block& block = *friction.block;
+    if (!used(c, "friction", c.resolved(block, "friction", block.id.value)))
+      r.report(rule, block, block.header_span, "no interface uses " + name_of(friction));
   }
 }
 
@@ -309,13 +267,13 @@ void check_unused_groups(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> reference_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK170, check_missing_entity}, {RuleId::DK171, check_kind},
-      {RuleId::DK172, check_empty},          {RuleId::DK173, check_empty},
-      {RuleId::DK174, check_analytical},     {RuleId::DK179, check_duplicates},
-      {RuleId::DK181, check_no_main},        {RuleId::DK187, check_negative},
-      {RuleId::DK190, check_ambiguous},      {RuleId::DK183, check_parts},
-      {RuleId::DK184, check_repeated},       {RuleId::DK185, check_unused_friction},
-      {RuleId::DK186, check_incomplete},     {RuleId::DK188, check_unused_groups},
+      {RuleId::DK170, check_missing_entity},  {RuleId::DK171, check_kind},
+      {RuleId::DK172, check_empty},           {RuleId::DK173, check_empty},
+      {RuleId::DK174, check_analytical},      {RuleId::DK181, check_no_main},
+      {RuleId::DK187, check_negative},        {RuleId::DK190, check_ambiguous},
+      {RuleId::DK183, check_parts},           {RuleId::DK184, check_repeated},
+      {RuleId::DK185, check_unused_friction}, {RuleId::DK186, check_incomplete},
+      {RuleId::DK188, check_unused_groups},
   };
   return all;
 }

@@ -62,6 +62,23 @@ std::optional<bool> target_exists(const LintContext& c, std::string_view kind, s
   return all != c.defined.end() && all->second.count(id) > 0;
 }
 
+std::string missing_text(const LintContext& c, const DecodedBlock& d, std::string_view field,
+                         std::string_view kind, std::int64_t id) {
+  const bool group = kind == "grnod" || kind == "surf" || kind == "line";
+  std::string out = fmt::format("{} of {} is {}, and there is no {}{} of that id", field,
+                                name_of(d), id, kind_name(kind), group ? " or /SET" : "");
+  const std::int64_t offset = c.deck.offset_of(*d.block, kind);
+  if (offset != 0 && target_exists(c, kind, id - offset).value_or(false))
+    out += fmt::format("; {} exists outside the submodel, whose offset is {}", id - offset, offset);
+  return out;
+}
+
+void note_definition(const LintContext& c, Diagnostic& d, std::string_view kind, std::int64_t id) {
+  const bool plain = c.selections->is_plain(kind, id);
+  if (const auto at = c.selections->where(plain ? kind : "set", id))
+    d.notes.emplace_back(*at, "it is defined here");
+}
+
 std::pair<const Field*, bool> acts_on(const LintContext& c, const DecodedBlock& d) {
   const int version = d.block->version;
   for (const CardSchema& card : d.block->schema->cards)
@@ -86,12 +103,11 @@ const Field* acts_on_nothing(const LintContext& c, const DecodedBlock& d) {
 namespace {
 
 /// Says with which message the solver stops; 0: not known, the finding then names none.
-void set_message(Diagnostic* d, int message) {
-  if (d == nullptr) return;
+void set_message(Diagnostic& d, int message) {
   if (message > 0)
-    d->reference = ReferenceMessage{message, Severity::error};
+    d.reference = ReferenceMessage{message, Severity::error};
   else
-    d->reference.reset();
+    d.reference.reset();
 }
 
 /// Laws and properties cannot do without the curves they name; the others have their own numbers.
@@ -135,18 +151,13 @@ bool table_exists(const LintContext& c, std::int64_t id) {
 void check_missing_target(const LintContext& c, const Rule& rule, Reporter& r) {
   each_demand(c, &Field::missing,
               [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
-                if (id == 0 || target_exists(c, cell.field->ref, id).value_or(true)) return;
                 const std::string_view kind = cell.field->ref;
-                if (kind == "funct" && table_exists(c, id)) return;
-                const bool group = kind == "grnod" || kind == "surf" || kind == "line";
-                std::string message =
-                    fmt::format("{} of {} is {}, and there is no {}{} of that id", cell.field->name,
-                                name_of(d), id, kind_name(kind), group ? " or /SET" : "");
-                const std::int64_t offset = c.deck.offset_of(*d.block, kind);
-                if (offset != 0 && target_exists(c, kind, id - offset).value_or(false))
-                  message += fmt::format("; {} exists outside the submodel, whose offset is {}",
-                                         id - offset, offset);
-                set_message(r.report(rule, *d.block, cell.span, std::move(message)), message_id);
+                if (id == 0 || target_exists(c, kind, id).value_or(true) ||
+                    (kind == "funct" && table_exists(c, id)))
+                  return;
+                set_message(r.report(rule, *d.block, cell.span,
+                                     missing_text(c, d, cell.field->name, kind, id)),
+                            message_id);
               });
 }
 
@@ -171,15 +182,12 @@ void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
                 const std::string_view kind = cell.field->ref;
                 if (id <= 0 || !selection_exists(c, kind, id) || !selection_is_empty(c, kind, id))
                   return;
-                Diagnostic* found =
+                Diagnostic& found =
                     r.report(rule, *d.block, cell.span,
                              fmt::format("{} of {} is {}, and {} is empty", cell.field->name,
                                          name_of(d), id, selection_name(c, kind, id)));
                 set_message(found, message_id);
-                if (found == nullptr) return;
-                const bool plain = c.selections->is_plain(kind, id);
-                if (const auto at = c.selections->where(plain ? kind : "set", id))
-                  found->notes.emplace_back(*at, "it is defined here");
+                note_definition(c, found, kind, id);
               });
 }
 
@@ -192,7 +200,7 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
         if (!field.required || !card.in_version(version) || !field.in_version(version)) continue;
         const Cell* cell = d.find(field.name);
         if (cell != nullptr && cell->integer != 0) continue;
-        Diagnostic* found = r.report(
+        Diagnostic& found = r.report(
             rule, *d.block, place_of(d, cell),
             fmt::format("{} of {} names no {}", field.name, name_of(d), kind_name(field.ref)));
         set_message(found, *field.required);
@@ -221,23 +229,33 @@ void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::int64_t id = c.resolved(block, s->kind, block.id.value);
     const auto [it, fresh] = first.try_emplace({id_family(block), id}, &block);
     if (fresh) continue;
-    Diagnostic* d = r.report(rule, block, block.header_span,
+    Diagnostic& d = r.report(rule, block, block.header_span,
                              fmt::format("the id {} of {} is used twice", id, names_of(block)));
-    if (d != nullptr) d->notes.emplace_back(it->second->header_span, "first used here");
+    d.notes.emplace_back(it->second->header_span, "first used here");
+  }
+}
+
+void check_defined_twice(const LintContext& c, const Rule& rule, Reporter& r, std::string_view kind,
+                         std::string_view text, std::string_view first_time) {
+  const auto all = c.defined.find(kind);
+  if (all == c.defined.end()) return;
+  std::map<std::int64_t, const Block*> first;
+  for (const auto& [id, block] : all->second) {
+    if (block->schema->keyword == "/INTER/SUB") continue;
+    const auto [it, fresh] = first.try_emplace(id, block);
+    if (fresh) continue;
+    r.report(rule, *block, block->header_span, fmt::format(fmt::runtime(text), id))
+        .notes.emplace_back(it->second->header_span, first_time);
   }
 }
 
 void check_friction_twice(const LintContext& c, const Rule& rule, Reporter& r) {
-  const auto all = c.defined.find("friction");
-  if (all == c.defined.end()) return;
-  std::map<std::int64_t, const Block*> first;
-  for (const auto& [id, block] : all->second) {
-    const auto [it, fresh] = first.try_emplace(id, block);
-    if (fresh) continue;
-    Diagnostic* d = r.report(rule, *block, block->header_span,
-                             fmt::format("/FRICTION {} is defined twice", id));
-    if (d != nullptr) d->notes.emplace_back(it->second->header_span, "first defined here");
-  }
+  check_defined_twice(c, rule, r, "friction", "/FRICTION {} is defined twice",
+                      "first defined here");
+}
+
+void check_interface_twice(const LintContext& c, const Rule& rule, Reporter& r) {
+  check_defined_twice(c, rule, r, "inter", "interface id {} is used twice", "first used here");
 }
 
 }  // namespace
@@ -247,6 +265,7 @@ std::span<const Checked> target_checks() {
       {RuleId::DK120, check_missing_target},  {RuleId::DK121, check_empty_target},
       {RuleId::DK122, check_required_target}, {RuleId::DK128, check_twice},
       {RuleId::DK138, check_acts_on_nothing}, {RuleId::DK191, check_friction_twice},
+      {RuleId::DK179, check_interface_twice},
   };
   return all;
 }

@@ -2,66 +2,50 @@
 // means. Flags: the legal values come from the schemas, so a rule holds for every keyword and
 // version that has the flag; values that deserve a message of their own have a rule of their own.
 // For keywords without rules of their own, those of users' schemas above all: what the schema
-// allows.
+// allows. Values of one card that do not go together, where it takes the mesh or arithmetic of the
+// solver to see it; the other such rules are data (cells.cpp).
 #include <algorithm>
-#include <cmath>
+#include <numbers>
 
 #include "lint/check.hpp"
 
 namespace deck::detail {
 namespace {
 
-void check_sign_in(const Rule& rule, const DecodedBlock& block, Reporter& r) {
-  each_cell(block, [&](const DecodedCard&, const Cell& cell) {
-    const std::string& field = cell.field->name;
-    if (cell.blank() || !(number_of(cell) < 0) || rule.field(field) == nullptr) return;
-    r.report(rule, field, *block.block, cell.span,
-             fmt::format("{} of {} is negative: {}", field, name_of(block), cell.text));
+void check_sign(const LintContext& c, const Rule& rule, Reporter& r) {
+  each_card(c, [&](const ContactCard& card) {
+    each_cell(card.decoded, [&](const DecodedCard&, const Cell& cell) {
+      const std::string& field = cell.field->name;
+      if (cell.blank() || !(number_of(cell) < 0) || rule.field(field) == nullptr) return;
+      r.report(rule, field, *card.block, cell.span,
+               fmt::format("{} of {} is negative: {}", field, name_of(card), cell.text));
+    });
   });
 }
 
-void check_sign(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const ContactCard& card : c.contacts) check_sign_in(rule, card.decoded, r);
-  for (const DecodedBlock& block : c.frictions) check_sign_in(rule, block, r);
+/// The flags of a rule: its fields, or the one of its key `flag`.
+bool is_about(const Rule& rule, const std::string& field) {
+  return rule.field(field) != nullptr || rule.lists("flag", field);
 }
 
-/// Flags with a rule of their own, of /INTER/TYPE2; DK201 lists the others.
-constexpr std::pair<RuleId, std::string_view> own_rules[] = {
-    {RuleId::DK352, "Spotflag"}, {RuleId::DK353, "Ignore"}, {RuleId::DK354, "Isearch"},
-    {RuleId::DK355, "Idel2"},    {RuleId::DK356, "Rupt"},
-};
-
-/// Values with a rule of their own.
-bool special(std::string_view keyword, std::string_view field, std::int64_t value) {
-  if (keyword == "/INTER/TYPE19")
-    return (field == "Istf" && value == 6) || (field == "Idel" && value == 3) || field == "Iedge";
-  if (keyword == "/INTER/TYPE11") return field == "Igap" && value == 2;
-  return keyword == "/INTER/TYPE10" && field == "Inacti" && value == 5;
+/// Values with a rule of their own: "/INTER/TYPE19 Istf 6", "/INTER/TYPE19 Iedge" for all values.
+bool is_excepted(const Rule& rule, std::string_view keyword, std::string_view field,
+                 std::int64_t value) {
+  const std::string all = fmt::format("{} {}", keyword, field);
+  return rule.lists("except", all) || rule.lists("except", fmt::format("{} {}", all, value));
 }
 
-bool is_about(const Rule& rule, std::string_view field) {
-  if (rule.field(field) != nullptr) return true;
-  return std::any_of(std::begin(own_rules), std::end(own_rules),
-                     [&](const auto& own) { return own == std::pair(rule.id, field); });
-}
-
-/// True for fields without a list of values.
-bool is_legal(const Field& f, std::int64_t value) {
-  return f.values.empty() || std::find(f.values.begin(), f.values.end(), value) != f.values.end();
-}
-
-void add_doc(Diagnostic* d, const Field& f) {
-  if (d != nullptr && !f.doc.empty()) d->help += " " + f.name + ": " + f.doc + ".";
+void add_doc(Diagnostic& d, const Field& f) {
+  if (!f.doc.empty()) d.help += " " + f.name + ": " + f.doc + ".";
 }
 
 /// `only`: no other field; empty: all of them.
 void check_block(const Rule& rule, const DecodedBlock& block, Reporter& r,
                  std::string_view only = {}) {
-  each_cell(block, [&](const DecodedCard&, const Cell& cell) {
+  each_illegal_flag(block, [&](const Cell& cell) {
     const Field& f = *cell.field;
-    if (cell.blank() || cell.status == NumberStatus::not_a_number || is_legal(f, cell.integer) ||
-        !is_about(rule, f.name) || (!only.empty() && f.name != only) ||
-        special(block.block->schema->keyword, f.name, cell.integer))
+    if (!is_about(rule, f.name) || (!only.empty() && f.name != only) ||
+        is_excepted(rule, block.block->schema->keyword, f.name, cell.integer))
       return;
     add_doc(r.report(rule, f.name, *block.block, cell.span,
                      fmt::format("{} of {} is {}; legal values are {}", f.name, name_of(block),
@@ -71,8 +55,7 @@ void check_block(const Rule& rule, const DecodedBlock& block, Reporter& r,
 }
 
 void check_flag(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const ContactCard& card : c.contacts) check_block(rule, card.decoded, r);
-  for (const DecodedBlock& block : c.frictions) check_block(rule, block, r);
+  each_card(c, [&](const ContactCard& card) { check_block(rule, card.decoded, r); });
   // Iedge is read from /DEFAULT only; the other flags of a default have DK505.
   for (const DecodedBlock& block : c.defaults) check_block(rule, block, r, "Iedge");
 }
@@ -82,11 +65,89 @@ void check_ibc(const LintContext& c, const Rule& rule, Reporter& r) {
     for (const std::string_view name : {"IBCX", "IBCY", "IBCZ"}) {
       const Cell* cell = card.decoded.find(name);
       if (cell == nullptr || cell->blank() || cell->text == "0" || cell->text == "1") continue;
-      Diagnostic* d = r.report(rule, *card.block, cell->span,
+      Diagnostic& d = r.report(rule, *card.block, cell->span,
                                fmt::format("column {} ({}) of {} holds '{}'; only 1 has an effect",
                                            cell->field->first, name, name_of(card), cell->text));
-      if (d != nullptr) d->fix = Fix{"write 0", true, {{cell->span, "0"}}};
+      d.fix = Fix{"write 0", true, {{cell->span, "0"}}};
     }
+}
+
+/// The two nodes of the axis are one node, or stand at the same place.
+bool axis_is_a_point(const LintContext& c, const ContactCard& card) {
+  if (card.value("node_ID1") == card.value("node_ID2")) return true;
+  const auto place = [&](std::string_view field) { return c.model->find_node(card.id(field)); };
+  const NodeIndex a = place("node_ID1"), b = place("node_ID2");
+  if (a == no_index || b == no_index) return false;
+  const auto& x = c.model->nodes;
+  return x.x[a] == x.x[b] && x.y[a] == x.y[b] && x.z[a] == x.z[b];
+}
+
+void check_curvature_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, rule, [&](const ContactCard& card) {
+    const auto icurv = card.flag("Icurv");
+    const bool first = card.given("node_ID1"), second = card.given("node_ID2");
+    if (icurv == 2 && first && second && axis_is_a_point(c, card)) {
+      note_field(report_at(r, rule, card, "node_ID2",
+                           fmt::format("{}: Icurv = 2, but node_ID1 and node_ID2 are at one place: "
+                                       "the axis has no direction",
+                                       name_of(card))),
+                 card, "node_ID1");
+      return;
+    }
+    if ((icurv != 1 && icurv != 2) || (first && (icurv == 1 || second))) return;
+    Diagnostic& d = report_at(
+        r, rule, card, first ? "node_ID2" : "node_ID1",
+        icurv == 1 ? name_of(card) + ": Icurv = 1 needs node_ID1, the centre of the sphere"
+                   : name_of(card) + ": Icurv = 2 needs node_ID1 and node_ID2 on the axis");
+    d.reference = rule.message(icurv == 1 ? 1727 : 1728);
+    note_field(d, card, "Icurv");
+  });
+}
+
+/// The solver's filter factor of Xfreq.
+double filter_factor(std::int64_t ifiltr, double xfreq) {
+  constexpr double two_pi = 2 * std::numbers::pi;
+  if (ifiltr == 1) return xfreq;
+  return ifiltr == 2 ? two_pi / xfreq : two_pi * xfreq;
+}
+
+std::string filter_problem(std::int64_t ifiltr, double xfreq) {
+  if (ifiltr < 1 || ifiltr > 3 || xfreq == 0) return {};
+  const double alpha = filter_factor(ifiltr, xfreq);
+  if (alpha < 0) return "the filter factor is negative: " + number_text(alpha);
+  if (alpha > 1 && ifiltr <= 2)
+    return "the filter factor is " + number_text(alpha) + "; it must be at most 1";
+  return {};
+}
+
+void check_filter(const LintContext& c, const Rule& rule, Reporter& r) {
+  const auto check = [&](const ContactCard& card, double xfreq) {
+    if (card.given("fric_ID")) return;
+    const std::string problem =
+        filter_problem(static_cast<std::int64_t>(card.input("Ifiltr")), xfreq);
+    if (problem.empty()) return;
+    Diagnostic& d = report_at(r, rule, card, "Xfreq", name_of(card) + ": " + problem);
+    if (is_friction(card))
+      d.reference = rule.message(1591);
+    else
+      note_field(d, card, "Ifiltr");
+  };
+  each(c, rule, [&](const ContactCard& card) { check(card, card.input("Xfreq")); });
+  for (const ContactCard& friction : c.frictions)
+    if (const Cell* cell = friction.decoded.find("Xfreq"); cell != nullptr)
+      check(friction, working_value(c.deck, friction.decoded, *cell));
+}
+
+void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, rule, [&](const ContactCard& card) {
+    if (!card.given("fric_ID")) return;
+    const Friction* f = c.interfaces->friction(card.id("fric_ID"));
+    if (f == nullptr || f->Ifric == 0) return;
+    Diagnostic& d = report_at(
+        r, rule, card, "fric_ID",
+        fmt::format("{} uses /FRICTION {} with Ifric = {}", name_of(card), f->id, f->Ifric));
+    d.notes.emplace_back(f->span, "the friction is defined here");
+  });
 }
 
 bool bounded(const Field& f) { return !f.values.empty() || f.min || f.max; }
@@ -124,11 +185,14 @@ std::string legal_instead(const Cell& cell) {
 
 /// The solver says something of this value itself, and rules of their own report it.
 bool solver_speaks(const Schema& schema, const Cell& cell) {
-  const double value = number_of(cell);
+  const auto value = [&](const Predicate::Node&) { return number_of(cell); };
   const auto& limits = limits_of(schema);
   return std::any_of(limits.begin(), limits.end(), [&](const Limit* limit) {
-    return limit->of.field == cell.field->name && limit->when.empty() && !limit->sum &&
-           limit->not_a.empty() && limit->of.holds(value);
+    const auto fields = limit->fields();
+    const bool alone = std::all_of(fields.begin(), fields.end(),
+                                   [](const std::string& f) { return f == this_field; });
+    return limit->field == cell.field->name && alone && !limit->sum && limit->when &&
+           limit->when->evaluate(value) != 0;
   });
 }
 
@@ -155,9 +219,17 @@ void check_bounds(const LintContext&, const Rule& rule, Reporter& r, const Decod
 
 std::span<const Checked> value_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK221, check_sign}, {RuleId::DK201, check_flag}, {RuleId::DK217, check_ibc},
-      {RuleId::DK352, check_flag}, {RuleId::DK353, check_flag}, {RuleId::DK354, check_flag},
-      {RuleId::DK355, check_flag}, {RuleId::DK356, check_flag},
+      {RuleId::DK221, check_sign},
+      {RuleId::DK201, check_flag},
+      {RuleId::DK217, check_ibc},
+      {RuleId::DK352, check_flag},
+      {RuleId::DK353, check_flag},
+      {RuleId::DK354, check_flag},
+      {RuleId::DK355, check_flag},
+      {RuleId::DK356, check_flag},
+      {RuleId::DK253, check_curvature_nodes},
+      {RuleId::DK260, check_filter},
+      {RuleId::DK264, check_angles},
   };
   return all;
 }

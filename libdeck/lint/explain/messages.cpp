@@ -65,11 +65,10 @@ std::string cells_of(int number, const SchemaSet& schemas, std::size_t width) {
   std::string out;
   for (const Schema* s : contacts_first(schemas)) {
     for (const detail::Limit* limit : detail::limits_of(*s))
-      if (limit->message == number)
-        out +=
-            wrapped(fmt::format("{}{}{}: {}", s->keyword, limit->of.field.empty() ? "" : ".",
-                                limit->of.field, limit->says.empty() ? "its value" : limit->says),
-                    2, width);
+      if (limit->message.number == number)
+        out += wrapped(fmt::format("{}{}{}: {}", s->keyword, limit->field.empty() ? "" : ".",
+                                   limit->field, limit->says.empty() ? "its value" : limit->says),
+                       2, width);
     for (const CardSchema& card : s->cards)
       for (const Field& f : card.fields) {
         const auto says = [&](const std::optional<int>& n, const char* why) {
@@ -155,10 +154,9 @@ MessageSummary summary_of_message(int number) {
   for (const Rule& r : all_rules())
     if (solver_message::reports(r, number)) return {r.title, r.problem, r.fix};
   for (const detail::Limit& limit : detail::all_limits())
-    if (limit.message == number)
-      return {
-          fmt::format("{}{}{}", limit.keyword, limit.of.field.empty() ? "" : ".", limit.of.field),
-          limit.says, limit.fix};
+    if (limit.message.number == number)
+      return {fmt::format("{}{}{}", limit.keyword, limit.field.empty() ? "" : ".", limit.field),
+              limit.says, limit.fix};
   return {};
 }
 

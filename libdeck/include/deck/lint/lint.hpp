@@ -93,7 +93,7 @@ class LintContext {
   const LoadedDeck* loaded;
   std::vector<ContactCard> contacts;
   std::vector<DecodedBlock> defaults;   ///< /DEFAULT/INTER blocks
-  std::vector<DecodedBlock> frictions;  ///< /FRICTION blocks
+  std::vector<ContactCard> frictions;   ///< /FRICTION blocks, of type 0, fields as written
   std::vector<DecodedBlock> histories;  ///< /TH blocks
   /// Other blocks with ids whose target the solver asks for (Field::missing, empty, required).
   std::vector<DecodedBlock> loads;
@@ -121,15 +121,18 @@ class Reporter {
   /// `options`: fields that they switch off are not reported.
   explicit Reporter(Diagnostics& sink, const LintOptions* options = nullptr)
       : sink_(&sink), options_(options) {}
-  /// nullptr: enough findings of this rule were kept already (it is counted).
-  Diagnostic* report(const Rule& rule, Span span, std::string message);
+  /// The finding, until the next one is reported. One that nobody sees where enough of this rule
+  /// were kept already (it is counted), or the field is switched off.
+  Diagnostic& report(const Rule& rule, Span span, std::string message);
   /// The same, about a block.
-  Diagnostic* report(const Rule& rule, const Block& block, Span span, std::string message);
+  Diagnostic& report(const Rule& rule, const Block& block, Span span, std::string message);
   /// The same, about a field; rules that have no fields do not mind which.
-  Diagnostic* report(const Rule& rule, std::string_view field, const Block& block, Span span,
+  Diagnostic& report(const Rule& rule, std::string_view field, const Block& block, Span span,
                      std::string message);
 
  private:
+  Diagnostic& unseen() { return unseen_ = Diagnostic{}; }
+  Diagnostic unseen_;
   Diagnostics* sink_;
   const LintOptions* options_;
 };

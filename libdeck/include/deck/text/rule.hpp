@@ -60,13 +60,17 @@ struct Rule {
   std::vector<RuleField> fields;  ///< that its findings are about; empty: it is about none
   /// What shows that the solver does what `solver` says: a run, a record, ...; empty: no claim.
   std::string source;
-  /// Keys when, at, message, note, fix and interfaces of a rule that is a predicate of cells; else
-  /// empty.
-  std::map<std::string, std::string, std::less<>> cells;
+  /// Keys of a rule that is a predicate of cells (lint/cell_rule.hpp): those of the page, then those
+  /// of each of its cases. Empty: another rule.
+  std::vector<std::map<std::string, std::string, std::less<>>> cells;
+  /// Exceptions: covers, only_where, zeros, flag, except (see lint/lint.cpp, lint/checks/values.cpp).
+  std::map<std::string, std::vector<std::string>, std::less<>> exceptions;
 
   Severity severity() const { return severities.front(); }
   /// nullptr: the rule is not about this field.
   const RuleField* field(std::string_view field_name) const;
+  /// The page has `item` in the list of that key of `exceptions`.
+  bool lists(std::string_view key, std::string_view item) const;
   /// The solver's message of that number; it is on the page.
   ReferenceMessage message(int number) const;
 };

@@ -17,13 +17,6 @@ std::string node_name(const Model& model, NodeIndex n) {
   return n == no_index ? std::string("?") : std::to_string(model.node_id(n));
 }
 
-/// One contact of the interface; its card is where findings go.
-const Contact* contact_of(const cycle::SceneOutcome& outcome, const InterfaceSummary& s) {
-  for (const cycle::ContactOutcome& c : outcome.contacts)
-    if (c.contact->inter == s.inter) return c.contact;
-  return nullptr;
-}
-
 std::string summary_name(const InterfaceSummary& s) {
   return fmt::format("/INTER/TYPE{} {}", s.inter->type, s.id);
 }
@@ -37,7 +30,7 @@ bool counts(const cycle::SceneOutcome& outcome, const InterfaceSummary& s) {
                      });
 }
 
-void report_force(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s) {
+void report_force(const GeometryRun& run, const InterfaceSummary& s) {
   if (s.pairs_with_force == 0) return;
   std::string message =
       fmt::format("{}: {} with a force before anything moves, {} in all, {} at most",
@@ -49,9 +42,9 @@ void report_force(const GeometryRun& run, const Contact& contact, const Interfac
                            figure_text(s.largest_acceleration));
   if (s.elastic_energy > 0)
     message += fmt::format("; stored energy {}", figure_text(s.elastic_energy));
-  Diagnostic* d = run.report(RuleId::DK401, contact, "Inacti", std::move(message), s.force_sum);
-  if (d != nullptr && s.acceleration_node != no_index)
-    d->notes.emplace_back(run.model().node_span(s.acceleration_node), "the node pushed most");
+  Diagnostic& d = run.report(RuleId::DK401, *s.inter, "Inacti", std::move(message), s.force_sum);
+  if (s.acceleration_node != no_index)
+    d.notes.emplace_back(run.model().node_span(s.acceleration_node), "the node pushed most");
 }
 
 std::string_view element_of(cycle::StepLimit::Source source) {
@@ -65,19 +58,24 @@ std::string_view element_of(cycle::StepLimit::Source source) {
   }
 }
 
-void report_step(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s) {
+/// "time step 1.2e-06 from contact stiffness against nodal mass at node 5"
+std::string step_text(const GeometryRun& run, const InterfaceSummary& s) {
+  std::string out =
+      fmt::format("time step {:.4g} from {}", s.contact_dt, element_of(s.contact_dt_source));
+  if (s.contact_dt_node != no_index)
+    out += fmt::format(" at node {}", node_name(run.model(), s.contact_dt_node));
+  return out;
+}
+
+void report_step(const GeometryRun& run, const InterfaceSummary& s) {
   if (!(s.contact_dt < s.structure_dt) || s.structure_dt >= 1e30) return;
-  std::string message = fmt::format(
-      "{}: time step {:.4g} from {}{}, the mesh allows {:.4g}: {:.1f} times as many steps",
-      summary_name(s), s.contact_dt, element_of(s.contact_dt_source),
-      s.contact_dt_node == no_index
-          ? std::string()
-          : fmt::format(" at node {}", node_name(run.model(), s.contact_dt_node)),
-      s.structure_dt, s.structure_dt / s.contact_dt);
-  Diagnostic* d = run.report(RuleId::DK402, contact, "Stfac", std::move(message),
+  std::string message =
+      fmt::format("{}: {}, the mesh allows {:.4g}: {:.1f} times as many steps", summary_name(s),
+                  step_text(run, s), s.structure_dt, s.structure_dt / s.contact_dt);
+  Diagnostic& d = run.report(RuleId::DK402, *s.inter, "Stfac", std::move(message),
                              s.structure_dt / s.contact_dt);
-  if (d != nullptr && s.contact_dt_node != no_index)
-    d->notes.emplace_back(run.model().node_span(s.contact_dt_node), "the node that limits it");
+  if (s.contact_dt_node != no_index)
+    d.notes.emplace_back(run.model().node_span(s.contact_dt_node), "the node that limits it");
 }
 
 /// "node 5 over segment 1 2 3 4"
@@ -91,7 +89,7 @@ std::string pair_text(const Model& model, const Contact& c, const PairOutcome& p
                      model.node_id(b[0]), model.node_id(b[1]));
 }
 
-void report_singular(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s,
+void report_singular(const GeometryRun& run, const InterfaceSummary& s,
                      const cycle::SceneOutcome& outcome) {
   const Contact* where = nullptr;
   const PairOutcome* worst = nullptr;
@@ -115,7 +113,7 @@ void report_singular(const GeometryRun& run, const Contact& contact, const Inter
   if (s.gap_closed > 0)
     message += fmt::format("{} {} already at the end of the gap, without a force",
                            worst != nullptr ? ";" : "", count_text(s.gap_closed, "pair"));
-  run.report(RuleId::DK403, contact, gap_field(contact), std::move(message),
+  run.report(RuleId::DK403, *s.inter, traits_of(*s.inter).gap, std::move(message),
              static_cast<double>(s.near_singular + s.gap_closed));
 }
 
@@ -137,20 +135,15 @@ DeletionStep deletion_step(const LintContext& c) {
 }
 
 /// dtmin of the card goes before /DT/INTER/DEL, and TYPE10 does not look at it.
-void report_deletion(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s,
+void report_deletion(const GeometryRun& run, const InterfaceSummary& s,
                      const DeletionStep& deletion) {
   if (!(s.contact_dt <= deletion.dt) || s.inter->type == 10) return;
-  const ContactCard* card = run.card(contact);
+  const ContactCard* card = run.card(*s.inter);
   if (card != nullptr && card->given("dtmin")) return;
-  Diagnostic* d = run.report(
-      RuleId::DK808, contact, "dtmin",
-      fmt::format("{}: time step {:.4g} from {}{}, and /DT/INTER/DEL removes nodes below {:.4g}",
-                  summary_name(s), s.contact_dt, element_of(s.contact_dt_source),
-                  s.contact_dt_node == no_index
-                      ? std::string()
-                      : fmt::format(" at node {}", node_name(run.model(), s.contact_dt_node)),
-                  deletion.dt));
-  if (d != nullptr) d->notes.emplace_back(deletion.place, "the time step of /DT/INTER/DEL");
+  Diagnostic& d = run.report(RuleId::DK808, *s.inter, "dtmin",
+                             fmt::format("{}: {}, and /DT/INTER/DEL removes nodes below {:.4g}",
+                                         summary_name(s), step_text(run, s), deletion.dt));
+  d.notes.emplace_back(deletion.place, "the time step of /DT/INTER/DEL");
 }
 
 }  // namespace
@@ -162,21 +155,18 @@ cycle::SceneOutcome check_cycle(const GeometryRun& run) {
   for (const cycle::ContactOutcome& c : outcome.contacts)
     if (c.undecided() && c.contact->evaluated && !c.notes.empty()) {
       if (run.left_out != nullptr)
-        run.left_out->push_back(too_many_pairs(name_of(run, *c.contact), "forces"));
+        run.left_out->push_back(too_many_pairs(name_of(*c.contact), "forces"));
       else
-        run.report(RuleId::DK381, *c.contact, gap_field(*c.contact),
-                   fmt::format("{}: {}", name_of(run, *c.contact), c.notes.back()));
+        run.report(RuleId::DK381, *c.contact, gap_field(*c.contact), c.notes.back());
     }
   const DeletionStep deletion = deletion_step(run.context);
   for (const InterfaceSummary& s : cycle::summarize(run.scene, outcome)) {
-    const Contact* contact = contact_of(outcome, s);
-    if (contact == nullptr) continue;
     if (s.inter->type != 10) {
-      if (counts(outcome, s)) report_force(run, *contact, s);
-      report_singular(run, *contact, s, outcome);
+      if (counts(outcome, s)) report_force(run, s);
+      report_singular(run, s, outcome);
     }
-    report_step(run, *contact, s);
-    report_deletion(run, *contact, s, deletion);
+    report_step(run, s);
+    report_deletion(run, s, deletion);
   }
   return outcome;
 }

@@ -50,17 +50,16 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
                        std::string_view item) {
   if (worst.count == 0) return;
   const Model& model = run.model();
-  Diagnostic* d = run.report(
+  Diagnostic& d = run.report(
       RuleId::DK310, c, gap_field(c),
-      fmt::format("{}: {} is more than half of {} {} {}{} ({}), which is {:.6g} long; so it is at "
+      fmt::format("{} is more than half of {} {} {}{} ({}), which is {:.6g} long; so it is at "
                   "{} of {}",
-                  name_of(run, c), gap_text(c, worst.gap), where.empty() ? "edge" : "side",
-                  model.node_id(worst.a), model.node_id(worst.b), where, element_text(element),
-                  worst.length, count_text(worst.count, item), items),
+                  gap_text(c, worst.gap), where.empty() ? "edge" : "side", model.node_id(worst.a),
+                  model.node_id(worst.b), where, element_text(element), worst.length,
+                  count_text(worst.count, item), items),
       worst.gap / worst.length);
-  if (d == nullptr) return;
-  if (c.igap != 0 && where.size() > 0) d->reference = rule_of(RuleId::DK310).message(477);
-  d->notes.emplace_back(model.node_span(worst.a), "one end of it");
+  if (c.igap != 0 && where.size() > 0) d.reference = rule_of(RuleId::DK310).message(477);
+  d.notes.emplace_back(model.node_span(worst.a), "one end of it");
 }
 
 /// The largest gap and the shortest side are not at the same place: the reference warns all the
@@ -68,14 +67,13 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
 void report_apart(const GeometryRun& run, const Contact& c) {
   if (c.kind != ContactKind::node_segment || c.igap == 0) return;
   if (!(c.shortest_side > 0) || !(c.max_gap > 0.5 * c.shortest_side)) return;
-  Diagnostic* d = run.report(RuleId::DK310, c, gap_field(c),
-                             fmt::format("{}: the largest gap {:.6g} is more than half of the "
+  Diagnostic& d = run.report(RuleId::DK310, c, gap_field(c),
+                             fmt::format("the largest gap {:.6g} is more than half of the "
                                          "shortest main side {:.6g}, but at another place",
-                                         name_of(run, c), c.max_gap, c.shortest_side),
+                                         c.max_gap, c.shortest_side),
                              c.max_gap / c.shortest_side);
-  if (d == nullptr) return;
-  d->severity = Severity::info;
-  d->reference = rule_of(RuleId::DK310).message(477);
+  d.severity = Severity::info;
+  d.reference = rule_of(RuleId::DK310).message(477);
 }
 
 /// The reference compares the largest gap with the shortest side of the whole surface; here both
@@ -122,8 +120,8 @@ void check_short_sides(const GeometryRun& run, const Contact& c) {
 void check_upper_bound(const GeometryRun& run, const Contact& c) {
   if (c.gapmin_origin == GapminOrigin::card || c.igap < 2 || !(c.gapmin > c.gapmax)) return;
   run.report(RuleId::DK311, c, "Gapmax",
-             fmt::format("{}: the default Gapmin {:.6g} ({}) is above Gapmax = {:.6g}",
-                         name_of(run, c), c.gapmin, to_string(c.gapmin_origin), c.gapmax));
+             fmt::format("the default Gapmin {:.6g} ({}) is above Gapmax = {:.6g}", c.gapmin,
+                         to_string(c.gapmin_origin), c.gapmax));
 }
 
 void check_thickness(const GeometryRun& run, const Contact& c) {
@@ -133,27 +131,27 @@ void check_thickness(const GeometryRun& run, const Contact& c) {
   for (const MainSegment& m : c.main) thickest = std::max(thickest, m.thickness);
   if (thickest == 0 || !(c.gapmin > thickest)) return;
   run.report(RuleId::DK312, c, gap_field(c),
-             fmt::format("{}: {} is more than the thickest main shell ({:.6g})", name_of(run, c),
-                         gap_text(c, c.gapmin), thickest),
+             fmt::format("{} is more than the thickest main shell ({:.6g})", gap_text(c, c.gapmin),
+                         thickest),
              c.gapmin / thickest);
 }
 
 void check_radiation(const GeometryRun& run, const Contact& c) {
   if (!(c.drad > c.shortest_side) || !(c.shortest_side > 0)) return;
   run.report(RuleId::DK313, c, "Drad",
-             fmt::format("{}: the radiation distance {:.6g} is longer than the shortest main side "
+             fmt::format("the radiation distance {:.6g} is longer than the shortest main side "
                          "({:.6g})",
-                         name_of(run, c), c.drad, c.shortest_side),
+                         c.drad, c.shortest_side),
              c.drad / c.shortest_side);
 }
 
 void check_no_gap(const GeometryRun& run, const Contact& c) {
   if (c.gapmin > 0 || c.dropped) return;
   if (c.main_empty()) return;
-  Diagnostic* d = run.report(RuleId::DK314, c, gap_field(c),
-                             fmt::format("{}: the default gap is {:.6g} ({})", name_of(run, c),
-                                         c.gapmin, to_string(c.gapmin_origin)));
-  if (d != nullptr && c.igap != 0) d->reference = rule_of(RuleId::DK314).message(786);
+  Diagnostic& d = run.report(
+      RuleId::DK314, c, gap_field(c),
+      fmt::format("the default gap is {:.6g} ({})", c.gapmin, to_string(c.gapmin_origin)));
+  if (c.igap != 0) d.reference = rule_of(RuleId::DK314).message(786);
 }
 
 void check_line_removal(const GeometryRun& run, const Contact& c) {
@@ -162,10 +160,10 @@ void check_line_removal(const GeometryRun& run, const Contact& c) {
   if (std::equal(c.main_edges.begin(), c.main_edges.end(), c.secondary_edges.begin(),
                  c.secondary_edges.end(), same))
     return;
-  run.report(RuleId::DK315, c, "Irem_gap",
+  run.report(RuleId::DK315, *c.inter, "Irem_gap",
              fmt::format("{} has Irem_gap = 2 and two different lists of edges ({} secondary, {} "
                          "main)",
-                         name_of(run, c), c.secondary_edges.size(), c.main_edges.size()));
+                         name_of(c), c.secondary_edges.size(), c.main_edges.size()));
 }
 
 }  // namespace

@@ -9,6 +9,9 @@
 
 namespace deck::detail {
 
+/// "/INTER/TYPE19 3 (reversed)"
+std::string name_of(const Contact& contact);
+
 /// A built scene with its views, and where findings go.
 struct GeometryRun {
   const LintContext& context;
@@ -22,16 +25,18 @@ struct GeometryRun {
   std::vector<NotChecked>* left_out = nullptr;
 
   const Model& model() const { return *scene.model; }
-  /// The card of a contact; nullptr never happens for contacts of this deck.
-  const ContactCard* card(const Contact& contact) const;
-  /// Reports at a field of the contact's card; nullptr: enough of the rule was kept already.
-  /// `amount`: as Diagnostic::amount.
-  Diagnostic* report(RuleId rule, const Contact& contact, std::string_view field,
+  /// The card of an interface; nullptr never happens for those of this deck.
+  const ContactCard* card(const InterBase& inter) const;
+  /// Reports at a field of the card. `amount`: as Diagnostic::amount. Of a contact the message has
+  /// its name in front: "/INTER/TYPE19 3 (reversed): ".
+  Diagnostic& report(RuleId rule, const InterBase& inter, std::string_view field,
                      std::string message, std::optional<double> amount = {}) const;
+  Diagnostic& report(RuleId rule, const Contact& contact, std::string_view field,
+                     std::string message, std::optional<double> amount = {}) const {
+    return report(rule, *contact.inter, field, name_of(contact) + ": " + message, amount);
+  }
 };
 
-/// "/INTER/TYPE19 3 (reversed)"
-std::string name_of(const GeometryRun& run, const Contact& contact);
 /// The name that the minimum gap has on the card.
 inline std::string_view gap_field(const Contact& contact) { return traits_of(*contact.inter).gap; }
 /// "1 2 3 4" or, for triangles, "1 2 3".

@@ -33,7 +33,7 @@ void check_part_defaults(const GeometryRun& run) {
     for (const Contact* o : it->second)
       list += fmt::format("{}{} {:.6g}", list.empty() ? "" : ", ", to_string(o->role), o->gapmin);
     run.report(RuleId::DK316, c, "Gapmin",
-               fmt::format("{}: its parts have different default gaps: {}", name_of(run, c), list));
+               fmt::format("its parts have different default gaps: {}", list));
   }
 }
 
@@ -44,11 +44,10 @@ void check_tied_default(const GeometryRun& run, const Contact& c) {
   for (const MainSegment& m : c.main)
     if (on_shell(m)) smallest = std::min(smallest, m.thickness);
   if (!(smallest < c.gapmin)) return;
-  run.report(
-      RuleId::DK317, c, "Gap",
-      fmt::format("{}: the default gap is {:.6g}, the mean thickness of the main shells; the "
-                  "thinnest has {:.6g}",
-                  name_of(run, c), c.gapmin, smallest));
+  run.report(RuleId::DK317, c, "Gap",
+             fmt::format("the default gap is {:.6g}, the mean thickness of the main shells; the "
+                         "thinnest has {:.6g}",
+                         c.gapmin, smallest));
 }
 
 /// DK318: Igap 3 limits the gap of a node by the main segments that it belongs to.
@@ -59,10 +58,10 @@ void check_no_mesh_limit(const GeometryRun& run, const Contact& c) {
                     [](const SecondaryNode& s) { return s.length >= no_limit && s.gap > 0; }));
   if (unlimited == 0) return;
   run.report(RuleId::DK318, c, "Igap",
-             fmt::format("{}: Igap = 3 does not limit the gap of {} of {}, which {} to no main "
+             fmt::format("Igap = 3 does not limit the gap of {} of {}, which {} to no main "
                          "segment",
-                         name_of(run, c), count_text(unlimited, "secondary node"),
-                         c.secondary.size(), unlimited == 1 ? "belongs" : "belong"));
+                         count_text(unlimited, "secondary node"), c.secondary.size(),
+                         unlimited == 1 ? "belongs" : "belong"));
 }
 
 /// Segments of solids that a shell with the same nodes covers.
@@ -109,14 +108,14 @@ void check_solid_segments(const GeometryRun& run, const Contact& c, Covered& cov
   }
   if (solids != 0 && c.inter->type != 10)  // a tied contact acts with all of it
     run.report(RuleId::DK307, c, "Istf",
-               fmt::format("{}: {} of solids store up to {:.6g}; half of it acts", name_of(run, c),
+               fmt::format("{} of solids store up to {:.6g}; half of it acts",
                            count_text(solids, "main segment"), largest));
   if (first != nullptr)
     run.report(
         RuleId::DK319, c, "surf_IDm",
-        fmt::format("{}: {} of {} {} the stiffness of the solids, "
+        fmt::format("{} of {} {} the stiffness of the solids, "
                     "because the surface was made from the solids; the first is {}",
-                    name_of(run, c), count_text(under_shells, "main segment"), c.main.size(),
+                    count_text(under_shells, "main segment"), c.main.size(),
                     under_shells == 1 ? "lies under shells and keeps" : "lie under shells and keep",
                     nodes_text(run.model(), *first)));
 }

@@ -134,24 +134,23 @@ void check_depths(const GeometryRun& run) {
     const bool edges = c.kind == ContactKind::edge_edge;
     std::vector<const PenetrationRow*> rows;
     for (const std::uint32_t i : group.rows) rows.push_back(&row_of(run, run.view.penetrations[i]));
-    Diagnostic* d = run.report(
+    Diagnostic& d = run.report(
         RuleId::DK301, c, "Inacti",
-        fmt::format("{}: {} of {} within the gap of {} ({}), deepest {} of a gap of {} "
+        fmt::format("{} of {} within the gap of {} ({}), deepest {} of a gap of {} "
                     "between {} and {}; {}",
-                    name_of(run, c), count_text(group.distinct.size(), edges ? "edge" : "node"),
-                    part_text(from), part_text(to), count_text(group.rows.size(), "pair"),
-                    length_text(r.depth), length_text(r.gap), secondary_text(worst),
-                    main_text(worst), treatment(c, rows)),
+                    count_text(group.distinct.size(), edges ? "edge" : "node"), part_text(from),
+                    part_text(to), count_text(group.rows.size(), "pair"), length_text(r.depth),
+                    length_text(r.gap), secondary_text(worst), main_text(worst),
+                    treatment(c, rows)),
         r.depth);
-    if (d == nullptr) continue;
-    d->reference = rule_of(RuleId::DK301).message(counting_warning(run, c));
+    d.reference = rule_of(RuleId::DK301).message(counting_warning(run, c));
     std::set<std::uint32_t> named;
     for (const std::uint32_t i : group.rows) {
       const PenetrationRow& row = row_of(run, run.view.penetrations[i]);
       if (!named.insert(row.secondary).second) continue;
-      d->notes.emplace_back(run.model().node_span(node_of(c, row)),
-                            fmt::format("{} is {} deep", secondary_text(run.view.penetrations[i]),
-                                        length_text(row.depth)));
+      d.notes.emplace_back(run.model().node_span(node_of(c, row)),
+                           fmt::format("{} is {} deep", secondary_text(run.view.penetrations[i]),
+                                       length_text(row.depth)));
       if (named.size() == 3) break;
     }
   }
@@ -166,14 +165,13 @@ void check_untied(const GeometryRun& run, std::uint32_t contact) {
   const NodeIndex first = c.secondary[untied.front()].node;
   for (const std::uint32_t s : untied) free.push_back(run.model().node_id(c.secondary[s].node));
   std::sort(free.begin(), free.end());
-  Diagnostic* d =
-      run.report(RuleId::DK308, c, "Gap",
-                 fmt::format("{}: {} of {} not tied at the start, no segment is within the gap of "
-                             "{:.6g}: {}",
-                             name_of(run, c), count_text(free.size(), "node"), c.secondary.size(),
-                             c.gapmin, list_text(free)),
-                 static_cast<double>(free.size()));
-  if (d != nullptr) d->notes.emplace_back(run.model().node_span(first), "one of the nodes");
+  Diagnostic& d = run.report(
+      RuleId::DK308, c, "Gap",
+      fmt::format("{} of {} not tied at the start, no segment is within the gap of "
+                  "{:.6g}: {}",
+                  count_text(free.size(), "node"), c.secondary.size(), c.gapmin, list_text(free)),
+      free.size());
+  d.notes.emplace_back(run.model().node_span(first), "one of the nodes");
 }
 
 void check_on_surface(const GeometryRun& run, const Contact& c) {
@@ -181,11 +179,11 @@ void check_on_surface(const GeometryRun& run, const Contact& c) {
   const auto nodes = nodes_where(run, c, [](const PenetrationRow& r) { return r.on_surface; });
   if (nodes.empty()) return;
   const int error = on_surface_error(c);
-  Diagnostic* d = run.report(error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
-                             fmt::format("{}: {} exactly on a main segment: {}", name_of(run, c),
+  Diagnostic& d = run.report(error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
+                             fmt::format("{} exactly on a main segment: {}",
                                          count_text(nodes.size(), "node"), list_text(nodes)),
-                             static_cast<double>(nodes.size()));
-  if (d != nullptr && error != 0) d->reference = rule_of(RuleId::DK302).message(error);
+                             nodes.size());
+  if (error != 0) d.reference = rule_of(RuleId::DK302).message(error);
 }
 
 void check_switched_off(const GeometryRun& run, const Contact& c) {
@@ -195,9 +193,9 @@ void check_switched_off(const GeometryRun& run, const Contact& c) {
   });
   if (nodes.empty()) return;
   run.report(RuleId::DK304, c, "Fpenmax",
-             fmt::format("{}: Fpenmax = {:.6g} takes {} out of the contact: {}", name_of(run, c),
-                         c.fpenmax, count_text(nodes.size(), "node"), list_text(nodes)),
-             static_cast<double>(nodes.size()));
+             fmt::format("Fpenmax = {:.6g} takes {} out of the contact: {}", c.fpenmax,
+                         count_text(nodes.size(), "node"), list_text(nodes)),
+             nodes.size());
 }
 
 void check_moved_springs(const GeometryRun& run, const Contact& c) {
@@ -210,9 +208,9 @@ void check_moved_springs(const GeometryRun& run, const Contact& c) {
   });
   if (nodes.empty()) return;
   run.report(RuleId::DK305, c, "Inacti",
-             fmt::format("{}: Inacti = 3 moves {} of springs: {}", name_of(run, c),
-                         count_text(nodes.size(), "node"), list_text(nodes)),
-             static_cast<double>(nodes.size()));
+             fmt::format("Inacti = 3 moves {} of springs: {}", count_text(nodes.size(), "node"),
+                         list_text(nodes)),
+             nodes.size());
 }
 
 void check_deep_edges(const GeometryRun& run, const Contact& c) {
@@ -229,11 +227,11 @@ void check_deep_edges(const GeometryRun& run, const Contact& c) {
   const auto id = [&](NodeIndex n) { return run.model().node_id(n); };
   const auto &s = c.secondary_edges[worst->secondary].nodes, &m = c.main_edges[worst->main].nodes;
   run.report(RuleId::DK306, c, "Inacti",
-             fmt::format("{}: {} out of the contact, more than 99.5 % of the gap used up; edge {} "
+             fmt::format("{} out of the contact, more than 99.5 % of the gap used up; edge {} "
                          "{} is {:.6g} from edge {} {}, gap {:.6g}",
-                         name_of(run, c), count_text(edges, "secondary edge"), id(s[0]), id(s[1]),
-                         worst->distance, id(m[0]), id(m[1]), worst->gap),
-             static_cast<double>(edges));
+                         count_text(edges, "secondary edge"), id(s[0]), id(s[1]), worst->distance,
+                         id(m[0]), id(m[1]), worst->gap),
+             edges);
 }
 
 /// Tables that the solver's listing has because Ipri asks for details.
@@ -242,10 +240,9 @@ void check_tables(const GeometryRun& run) {
   const Cell level = printout_level(run.context);
   if (level.integer < pairs_from) return;
   const auto report = [&](const Contact& c, int message, std::string what) {
-    Diagnostic* d = run.report(RuleId::DK606, c, "", std::move(what));
-    if (d == nullptr) return;
-    d->reference = rule_of(RuleId::DK606).message(message);
-    d->notes.emplace_back(level.span, "asks for the table");
+    Diagnostic& d = run.report(RuleId::DK606, c, "", std::move(what));
+    d.reference = rule_of(RuleId::DK606).message(message);
+    d.notes.emplace_back(level.span, "asks for the table");
   };
   for (const Contact& c : run.scene.contacts) {
     const bool edges = c.kind == ContactKind::edge_edge;
@@ -253,13 +250,13 @@ void check_tables(const GeometryRun& run) {
                                      [](const PenetrationRow& r) { return !r.on_surface; });
     if (!edges && pairs > 0)
       report(c, 1164,
-             fmt::format("{}: the listing has a table of its {} (Ipri = {})", name_of(run, c),
+             fmt::format("the listing has a table of its {} (Ipri = {})",
                          count_text(static_cast<std::size_t>(pairs), "penetrating pair"),
                          level.integer));
     if (level.integer >= segments_from && c.reoriented_segments > 0)
       report(c, 3024,
              fmt::format(
-                 "{}: the listing has a table of its {} (Ipri = {})", name_of(run, c),
+                 "the listing has a table of its {} (Ipri = {})",
                  count_text(static_cast<std::size_t>(c.reoriented_segments), "turned main segment"),
                  level.integer));
   }

@@ -8,23 +8,23 @@
 namespace deck {
 namespace detail {
 
-const ContactCard* GeometryRun::card(const Contact& contact) const {
+const ContactCard* GeometryRun::card(const InterBase& inter) const {
   for (const ContactCard& card : context.contacts)
-    if (card.inter == contact.inter) return &card;
+    if (card.block == inter.block) return &card;
   return nullptr;
 }
 
-Diagnostic* GeometryRun::report(RuleId id, const Contact& contact, std::string_view field,
+Diagnostic& GeometryRun::report(RuleId id, const InterBase& inter, std::string_view field,
                                 std::string message, std::optional<double> amount) const {
-  const ContactCard* c = card(contact);
+  const ContactCard* c = card(inter);
   const Rule& rule = rule_of(id);
-  Diagnostic* d = c == nullptr ? reporter.report(rule, contact.inter->span, std::move(message))
+  Diagnostic& d = c == nullptr ? reporter.report(rule, inter.span, std::move(message))
                                : report_at(reporter, rule, *c, field, std::move(message));
-  if (d != nullptr) d->amount = amount;
+  d.amount = amount;
   return d;
 }
 
-std::string name_of(const GeometryRun&, const Contact& contact) {
+std::string name_of(const Contact& contact) {
   std::string name = fmt::format("/INTER/TYPE{} {}", contact.inter->type, contact.inter->id);
   if (contact.role != ContactRole::primary) name += fmt::format(" ({})", to_string(contact.role));
   return name;
@@ -141,7 +141,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
           detail::too_many_pairs(fmt::format("{} {}", d.keyword, d.id), "penetrations and forces"));
       continue;
     }
-    if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message)) *out = d;
+    reporter.report(rule_of(d.rule), d.span, d.message) = d;
   }
   if (const auto large = found.counts().find(RuleId::DK390);
       chosen.quick && chosen.too_large != nullptr && large != found.counts().end())
@@ -164,11 +164,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   if (chosen.gate == nullptr) return left_out;
   for (const Diagnostic& d :
        check_gate(*chosen.gate, scene, view, &forces, chosen.earlier, chosen.changed))
-    if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message)) {
-      out->keyword = d.keyword;
-      out->id = d.id;
-      out->notes = d.notes;
-    }
+    reporter.report(rule_of(d.rule), d.span, d.message) = d;
   return left_out;
 }
 

@@ -20,15 +20,14 @@ Diagnostic* about_segments(const GeometryRun& run, RuleId rule, const Contact& c
   if (which.empty()) return nullptr;
   const MainSegment& m = c.main[which.front()];
   const ElementName e = carrier_name(run.model(), m.carrier, m.element);
-  Diagnostic* d = run.report(
+  Diagnostic& d = run.report(
       rule, c, main_field(c),
-      fmt::format("{}: {} of {} {}, for example {} ({})", name_of(run, c),
-                  count_text(which.size(), "segment"), c.main.size(),
-                  which.size() == 1 ? one : many, nodes_text(run.model(), m), element_text(e)),
-      static_cast<double>(which.size()));
-  if (d != nullptr)
-    d->notes.emplace_back(run.model().node_span(m.nodes[0]), "first node of that segment");
-  return d;
+      fmt::format("{} of {} {}, for example {} ({})", count_text(which.size(), "segment"),
+                  c.main.size(), which.size() == 1 ? one : many, nodes_text(run.model(), m),
+                  element_text(e)),
+      which.size());
+  d.notes.emplace_back(run.model().node_span(m.nodes[0]), "first node of that segment");
+  return &d;
 }
 
 bool has_material(const Model& model, const MainSegment& m) {
@@ -64,15 +63,15 @@ void check_stiffness(const GeometryRun& run, const Contact& c) {
       if (first == nullptr) first = &e;
     }
     if (first == nullptr) continue;
-    Diagnostic* d = run.report(
+    Diagnostic& d = run.report(
         RuleId::DK322, c, main ? main_field(c) : traits_of(*c.inter).secondary.field,
-        fmt::format("{}: {} of {} on the {} side {} to no element, for example {} {}",
-                    name_of(run, c), count_text(count, "edge"), edges.size(),
-                    main ? "main" : "secondary", count == 1 ? "belongs" : "belong",
-                    run.model().node_id(first->nodes[0]), run.model().node_id(first->nodes[1])),
-        static_cast<double>(count));
+        fmt::format("{} of {} on the {} side {} to no element, for example {} {}",
+                    count_text(count, "edge"), edges.size(), main ? "main" : "secondary",
+                    count == 1 ? "belongs" : "belong", run.model().node_id(first->nodes[0]),
+                    run.model().node_id(first->nodes[1])),
+        count);
     // The texts of the two messages are swapped for lines.
-    if (d != nullptr && main) d->reference = rule_of(RuleId::DK322).message(481);
+    if (main) d.reference = rule_of(RuleId::DK322).message(481);
   }
 }
 
@@ -81,15 +80,15 @@ void check_shape(const GeometryRun& run, const Contact& c) {
                  "have no area or cross themselves");
   if (c.repaired_segments > 0)
     run.report(RuleId::DK324, c, main_field(c),
-               fmt::format("{}: {} with a node given twice, taken for triangles", name_of(run, c),
+               fmt::format("{} with a node given twice, taken for triangles",
                            count_text(static_cast<std::size_t>(c.repaired_segments), "segment")),
-               static_cast<double>(c.repaired_segments));
+               c.repaired_segments);
   if (c.reoriented_segments > 0)
     run.report(RuleId::DK325, c, main_field(c),
-               fmt::format("{}: {} of {} turned to face outward from their solids", name_of(run, c),
+               fmt::format("{} of {} turned to face outward from their solids",
                            count_text(static_cast<std::size_t>(c.reoriented_segments), "segment"),
                            c.main.size()),
-               static_cast<double>(c.reoriented_segments));
+               c.reoriented_segments);
 }
 
 void check_duplicates(const GeometryRun& run, const Contact& c) {
@@ -127,8 +126,7 @@ void check_duplicates(const GeometryRun& run, const Contact& c) {
 void check_dropped(const GeometryRun& run, const Contact& c) {
   if (!c.dropped) return;
   run.report(RuleId::DK327, c, "Iedge",
-             fmt::format("{}: one of its sides has no edges, so it has no contact between edges",
-                         name_of(run, c)));
+             fmt::format("one of its sides has no edges, so it has no contact between edges"));
 }
 
 void check_solids(const GeometryRun& run, const Contact& c) {
@@ -145,8 +143,7 @@ void check_solids(const GeometryRun& run, const Contact& c) {
   for (std::uint32_t i = 0; i < c.main.size(); ++i)
     if (c.main[i].carrier == Carrier::solid) solid.push_back(i);
   if (Diagnostic* d =
-          about_segments(run, RuleId::DK331, c, solid, "is on a solid", "are on solids");
-      d != nullptr)
+          about_segments(run, RuleId::DK331, c, solid, "is on a solid", "are on solids"))
     d->notes.emplace_back(fill->header_span, "the fill fractions");
 }
 
@@ -174,13 +171,12 @@ void check_crossings(const GeometryRun& run) {
     const Crossing& x = *g.first;
     const Contact& c = run.scene.contacts[x.contact];
     std::string message = fmt::format(
-        "{}: elements of part {} and part {} pass through each other in {}; edge {} {} goes "
+        "elements of part {} and part {} pass through each other in {}; edge {} {} goes "
         "through {}",
-        name_of(run, c), parts.first, parts.second, count_text(g.places, "place"),
-        model.node_id(x.edge[0]), model.node_id(x.edge[1]), nodes_text(model, c.main[x.main]));
-    Diagnostic* d = run.report(RuleId::DK328, c, main_field(c), std::move(message),
-                               static_cast<double>(g.places));
-    if (d != nullptr) d->notes.emplace_back(model.node_span(x.edge[0]), "one end of the edge");
+        parts.first, parts.second, count_text(g.places, "place"), model.node_id(x.edge[0]),
+        model.node_id(x.edge[1]), nodes_text(model, c.main[x.main]));
+    Diagnostic& d = run.report(RuleId::DK328, c, main_field(c), std::move(message), g.places);
+    d.notes.emplace_back(model.node_span(x.edge[0]), "one end of the edge");
   }
 }
 

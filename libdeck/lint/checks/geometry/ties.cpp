@@ -15,21 +15,6 @@ namespace {
 
 std::string tie_name(const Tie& tie) { return fmt::format("/INTER/TYPE2 {}", tie.inter->id); }
 
-/// Reports at a field of the card of a tie. `amount`: nodes or ties that it is about.
-Diagnostic* report(const GeometryRun& run, RuleId id, const Tie& tie, std::string_view field,
-                   std::string message, std::size_t amount) {
-  const Rule& rule = rule_of(id);
-  Diagnostic* d = nullptr;
-  const auto card = std::find_if(run.context.contacts.begin(), run.context.contacts.end(),
-                                 [&](const ContactCard& c) { return c.block == tie.inter->block; });
-  if (card == run.context.contacts.end())
-    d = run.reporter.report(rule, tie.inter->span, std::move(message));
-  else
-    d = report_at(run.reporter, rule, *card, field, std::move(message));
-  if (d != nullptr) d->amount = static_cast<double>(amount);
-  return d;
-}
-
 struct Nodes {
   std::vector<const TiedNode*> all;
   std::string text(const Model& model) const {
@@ -47,16 +32,23 @@ Nodes nodes_where(const Tie& tie, F&& test) {
   return out;
 }
 
+/// Reports nodes of a tie: "/INTER/TYPE2 3: 2 nodes WHAT: 5, 6". nullptr: there are none.
+Diagnostic* about_nodes(const GeometryRun& run, RuleId rule, const Tie& tie, std::string_view field,
+                        const Nodes& nodes, std::string_view what) {
+  if (nodes.all.empty()) return nullptr;
+  return &run.report(
+      rule, *tie.inter, field,
+      fmt::format("{}: {} {}: {}", tie_name(tie), count_text(nodes.all.size(), "node"), what,
+                  nodes.text(run.model())),
+      nodes.all.size());
+}
+
 /// One finding for the nodes that a message lists; the first three are shown with the reason.
 void check_message(const GeometryRun& run, const Tie& tie, RuleId rule, int message,
                    std::string_view field, std::string_view what) {
   const Nodes nodes = nodes_where(tie, [&](const TiedNode& n) { return n.message == message; });
-  if (nodes.all.empty()) return;
   Diagnostic* d =
-      report(run, rule, tie, field,
-             fmt::format("{}: {} of {} {}: {}", tie_name(tie), count_text(nodes.all.size(), "node"),
-                         tie.nodes.size(), what, nodes.text(run.model())),
-             nodes.all.size());
+      about_nodes(run, rule, tie, field, nodes, fmt::format("of {} {}", tie.nodes.size(), what));
   if (d == nullptr) return;
   d->reference = rule_of(rule).message(message);
   constexpr std::size_t most = 3;
@@ -75,38 +67,31 @@ void check_messages(const GeometryRun& run, const Tie& tie) {
     check_message(run, tie, RuleId::DK343, message, "dsearch",
                   "tied from beyond the rim of their segment");
   for (const RepeatedTies& r : tie.repeated)
-    report(run, RuleId::DK344, tie, "grnd_IDs",
-           fmt::format("{}: /INTER/TYPE2 {} already makes {} of its ties", tie_name(tie),
-                       r.interface_id, r.count),
-           static_cast<std::size_t>(r.count));
+    run.report(RuleId::DK344, *tie.inter, "grnd_IDs",
+               fmt::format("{}: /INTER/TYPE2 {} already makes {} of its ties", tie_name(tie),
+                           r.interface_id, r.count),
+               static_cast<std::size_t>(r.count));
 }
 
 void check_conditions(const GeometryRun& run, const Tie& tie) {
   const Model& model = run.model();
-  if (tie.spotflag == 27 || tie.spotflag == 28) {
-    const Nodes nodes = nodes_where(tie, [](const TiedNode& n) { return n.penalty; });
-    if (!nodes.all.empty())
-      report(run, RuleId::DK345, tie, "Spotflag",
-             fmt::format("{}: {} tied by penalty, because something else holds or moves them: {}",
-                         tie_name(tie), count_text(nodes.all.size(), "node"), nodes.text(model)),
-             nodes.all.size());
-  }
-  const Nodes mid = nodes_where(tie, [](const TiedNode& n) { return n.removed_by == 1209; });
-  if (!mid.all.empty())
-    report(run, RuleId::DK346, tie, "grnd_IDs",
-           fmt::format("{}: {} left out, condensed mid nodes of 10-node tetrahedra: {}",
-                       tie_name(tie), count_text(mid.all.size(), "node"), mid.text(model)),
-           mid.all.size());
+  if (tie.spotflag == 27 || tie.spotflag == 28)
+    about_nodes(run, RuleId::DK345, tie, "Spotflag",
+                nodes_where(tie, [](const TiedNode& n) { return n.penalty; }),
+                "tied by penalty, because something else holds or moves them");
+  about_nodes(run, RuleId::DK346, tie, "grnd_IDs",
+              nodes_where(tie, [](const TiedNode& n) { return n.removed_by == 1209; }),
+              "left out, condensed mid nodes of 10-node tetrahedra");
   if (tie.main_and_tied.empty()) return;
   std::vector<std::int64_t> ids;
   for (const NodeIndex n : tie.main_and_tied) ids.push_back(model.node_id(n));
   std::sort(ids.begin(), ids.end());
-  Diagnostic* d = report(run, RuleId::DK347, tie, "surf_IDm",
-                         fmt::format("{}: {} of segments in use tied as secondary nodes: {}",
-                                     tie_name(tie), count_text(ids.size(), "node"), list_text(ids)),
-                         ids.size());
-  if (d != nullptr)
-    d->notes.emplace_back(model.node_span(tie.main_and_tied.front()), "one of the nodes");
+  Diagnostic& d =
+      run.report(RuleId::DK347, *tie.inter, "surf_IDm",
+                 fmt::format("{}: {} of segments in use tied as secondary nodes: {}", tie_name(tie),
+                             count_text(ids.size(), "node"), list_text(ids)),
+                 ids.size());
+  d.notes.emplace_back(model.node_span(tie.main_and_tied.front()), "one of the nodes");
 }
 
 Vec place(const Coordinates& x, NodeIndex n) { return {x.x[n], x.y[n], x.z[n]}; }
@@ -142,12 +127,12 @@ void check_in_line(const GeometryRun& run, const Tie& tie) {
   const auto farthest = std::max_element(
       nodes.all.begin(), nodes.all.end(),
       [](const TiedNode* a, const TiedNode* b) { return a->distance < b->distance; });
-  report(run, RuleId::DK348, tie, "dsearch",
-         fmt::format(
-             "{}: {} tied to the rim of a segment without lying over it, up to {:.6g} away: {}",
-             tie_name(tie), count_text(nodes.all.size(), "node"), (*farthest)->distance,
-             nodes.text(run.model())),
-         nodes.all.size());
+  run.report(RuleId::DK348, *tie.inter, "dsearch",
+             fmt::format(
+                 "{}: {} tied to the rim of a segment without lying over it, up to {:.6g} away: {}",
+                 tie_name(tie), count_text(nodes.all.size(), "node"), (*farthest)->distance,
+                 nodes.text(run.model())),
+             nodes.all.size());
 }
 
 /// The distance is 0 for the solver where a sub-triangle has no area, wherever the node is.
@@ -176,11 +161,12 @@ void check_collapsed(const GeometryRun& run, const Tie& tie) {
   std::vector<std::int64_t> first;
   for (const NodeIndex corner : tie.main[caught.begin()->first])
     first.push_back(run.model().node_id(corner));
-  report(run, RuleId::DK349, tie, "surf_IDm",
-         fmt::format("{}: {} tied at distance 0 to {} without area; the first one is {}",
-                     tie_name(tie), count_text(nodes, "node"), count_text(caught.size(), "segment"),
-                     fmt::format("{}", fmt::join(first, " "))),
-         nodes);
+  run.report(
+      RuleId::DK349, *tie.inter, "surf_IDm",
+      fmt::format("{}: {} tied at distance 0 to {} without area; the first one is {}",
+                  tie_name(tie), count_text(nodes, "node"), count_text(caught.size(), "segment"),
+                  fmt::format("{}", fmt::join(first, " "))),
+      nodes);
 }
 
 /// What hangs on the numbering of elements, or on a wrong place in the solver's tables.
@@ -192,21 +178,18 @@ void check_thickness(const GeometryRun& run, const Tie& tie) {
            n.nearest_distance < n.most_search;
   });
   if (!nodes.all.empty())
-    report(run, RuleId::DK350, tie, "dsearch",
-           fmt::format("{}: whether {} tied depends on the order of corners in the shells around: "
-                       "{}",
-                       tie_name(tie),
-                       nodes.all.size() == 1 ? std::string("1 node is")
-                                             : fmt::format("{} nodes are", nodes.all.size()),
-                       nodes.text(run.model())),
-           nodes.all.size());
-  const Nodes missed = nodes_where(tie, [](const TiedNode& n) { return n.missed; });
-  if (!missed.all.empty())
-    report(
-        run, RuleId::DK351, tie, "dsearch",
-        fmt::format("{}: {} not tied, although a segment is within the search distance: {}",
-                    tie_name(tie), count_text(missed.all.size(), "node"), missed.text(run.model())),
-        missed.all.size());
+    run.report(
+        RuleId::DK350, *tie.inter, "dsearch",
+        fmt::format("{}: whether {} tied depends on the order of corners in the shells around: "
+                    "{}",
+                    tie_name(tie),
+                    nodes.all.size() == 1 ? std::string("1 node is")
+                                          : fmt::format("{} nodes are", nodes.all.size()),
+                    nodes.text(run.model())),
+        nodes.all.size());
+  about_nodes(run, RuleId::DK351, tie, "dsearch",
+              nodes_where(tie, [](const TiedNode& n) { return n.missed; }),
+              "not tied, although a segment is within the search distance");
 }
 
 }  // namespace

@@ -77,16 +77,14 @@ void check_conflicts(const LintContext& c, const Rule& rule, Reporter& r) {
     const Block& block = k.block(later);
     const std::string more =
         p.nodes.size() > 1 ? fmt::format(" (and {} more)", p.nodes.size() - 1) : std::string();
-    Diagnostic* d = r.report(
+    Diagnostic& d = r.report(
         rule, block, block.header_span,
         earlier == later
             ? fmt::format("node {}{}: {} holds it twice", k.node(p.first), more, k.name(later))
             : fmt::format("node {}{}: {} and {} both hold it ({})", k.node(p.first), more,
                           k.name(earlier), k.name(later), directions_text(p.directions)));
-    if (d == nullptr) continue;
-    if (earlier != later)
-      d->notes.emplace_back(k.block(earlier).header_span, "the other condition");
-    if (each_pair) d->reference = rule.message(147);
+    if (earlier != later) d.notes.emplace_back(k.block(earlier).header_span, "the other condition");
+    if (each_pair) d.reference = rule.message(147);
   }
 }
 
@@ -102,13 +100,12 @@ void check_walls(const LintContext& c, const Rule& rule, Reporter& r) {
       return t == ConditionType::rbody || t == ConditionType::tied;
     });
     const Block& block = k.block(w.wall);
-    Diagnostic* d = r.report(
+    Diagnostic& d = r.report(
         rule, block, block.header_span,
         fmt::format("{} loses {}: node {} belongs to {}", k.name(w.wall),
                     count(w.nodes.size(), "node", "nodes"), k.node(n),
                     other == sources.end() ? std::string("another condition") : k.name(*other)));
-    if (d != nullptr && other != sources.end())
-      d->notes.emplace_back(k.block(*other).header_span, "holds the node");
+    if (other != sources.end()) d.notes.emplace_back(k.block(*other).header_span, "holds the node");
   }
 }
 
@@ -129,16 +126,15 @@ void check_shared_bodies(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const SharedBody& s : k->shared) pairs[{s.first, s.second}].push_back(&s);
   for (const auto& [key, shared] : pairs) {
     const Block& block = k.block(key.second);
-    Diagnostic* d = r.report(
+    Diagnostic& d = r.report(
         rule, block, block.header_span,
         fmt::format("{} of both {} and {}, for example node {}",
                     count(shared.size(), "node is a secondary node", "nodes are secondary nodes"),
                     k.name(key.first), k.name(key.second), k.node(shared.front()->node)));
-    if (d == nullptr) continue;
-    d->notes.emplace_back(k.block(key.first).header_span, "the other body");
+    d.notes.emplace_back(k.block(key.first).header_span, "the other body");
     if (!shared.front()->sensor) continue;
-    d->severity = Severity::warning;
-    d->reference = rule.message(1026);
+    d.severity = Severity::warning;
+    d.reference = rule.message(1026);
   }
 }
 
@@ -170,15 +166,14 @@ void check_refused(const LintContext& c, const Rule& rule, Reporter& r) {
     const auto message = static_cast<int>(key[0]);
     const Block& block = k.block(key[1]);
     const char* what = what_happens(message);
-    Diagnostic* d = r.report(
+    Diagnostic& d = r.report(
         rule, block, block.header_span,
         fmt::format("node {}{}: {} and {} {}", k.node(nodes.front()),
                     nodes.size() > 1 ? fmt::format(" (and {} more)", nodes.size() - 1) : "",
                     k.name(key[1]), k.name(key[2]), what));
-    if (d == nullptr) continue;
-    d->notes.emplace_back(k.block(key[2]).header_span, "the other condition");
-    d->reference = rule.message(message);
-    if (is_warning(message)) d->severity = Severity::warning;
+    d.notes.emplace_back(k.block(key[2]).header_span, "the other condition");
+    d.reference = rule.message(message);
+    if (is_warning(message)) d.severity = Severity::warning;
   }
 }
 

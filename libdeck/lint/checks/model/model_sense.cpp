@@ -94,49 +94,6 @@ void check_units(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-/// True if the edges at a corner of a solid with eight nodes turn the wrong way round, beyond
-/// rounding. The solver turns a solid whose whole volume is below zero; a fold stays.
-bool is_folded(const deck::Nodes& nodes, const NodeIndex* n) {
-  std::array<Point3<double>, 8> p;
-  for (std::size_t i = 0; i < 8; ++i) {
-    if (n[i] >= nodes.size()) return false;
-    for (std::size_t k = 0; k < i; ++k)
-      if (n[i] == n[k]) return false;  // a degenerate one has no such corners
-    p[i] = {nodes.x[n[i]], nodes.y[n[i]], nodes.z[n[i]]};
-  }
-  // Next and previous corner of the face, corner of the other face.
-  static constexpr std::size_t edges[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
-                                              {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
-  constexpr double rounding = 1e-9;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const auto u = p[edges[i][0]] - p[i], v = p[edges[i][1]] - p[i], w = p[edges[i][2]] - p[i];
-    if (dot(cross(u, v), w) < -rounding * std::sqrt(dot(u, u) * dot(v, v) * dot(w, w))) return true;
-  }
-  return false;
-}
-
-struct PartTally {
-  std::uint64_t count = 0;
-  std::uint32_t first = no_index;
-};
-
-void check_folded(const LintContext& c, const Rule& rule, Reporter& r) {
-  const Model& m = *c.model;
-  const Elements& solids = m.solid8;
-  std::map<std::uint32_t, PartTally> found;
-  for (std::size_t e = 0; e < solids.size(); ++e) {
-    if (solids.shape[e] != SolidShape::brick8 || !is_folded(m.nodes, solids.of(e))) continue;
-    PartTally& t = found[solids.part[e]];
-    if (t.count++ == 0) t.first = static_cast<std::uint32_t>(e);
-  }
-  for (const auto& [part, t] : found)
-    r.report(rule, m.element_span(solids.kind, t.first),
-             fmt::format("{}{} folded at a corner; first is element {}",
-                         count(t.count, "solid", "solids"),
-                         part == no_index ? "" : fmt::format(" of part {}", m.parts[part].id),
-                         solids.id[t.first]));
-}
-
 /// Elements of one family on the same nodes, by pair of parts.
 class SameNodes {
  public:
@@ -204,7 +161,7 @@ void check_same_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const auto& [family, what] : families)
     for (const auto& [parts, pair] : same.of(*family)) {
       const bool one = parts.first == parts.second;
-      Diagnostic* d =
+      Diagnostic& d =
           r.report(rule, m.element_span(family->kind, pair.other),
                    fmt::format("{} on the same nodes as another{}; first are elements {} and {}",
                                count(pair.count, what, std::string(what) + "s"),
@@ -212,9 +169,8 @@ void check_same_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
                                    : fmt::format(", parts {} and {}", m.parts[parts.first].id,
                                                  m.parts[parts.second].id),
                                family->id[pair.first], family->id[pair.other]));
-      if (d == nullptr) continue;
-      d->notes.emplace_back(m.element_span(family->kind, pair.first), "the other element");
-      if (!one) d->severity = Severity::info;
+      d.notes.emplace_back(m.element_span(family->kind, pair.first), "the other element");
+      if (!one) d.severity = Severity::info;
     }
 }
 
@@ -272,14 +228,8 @@ std::vector<char> nodes_of_elements(const Model& m) {
   return out;
 }
 
-bool has_particles(const LintContext& c) {
-  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(), [](const Block& b) {
-    return b.header.starts_with("/SPHCEL") || b.header.starts_with("/XELEM");
-  });
-}
-
 void check_free_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
-  if (c.contacts.empty() || has_particles(c)) return;
+  if (c.contacts.empty() || has_block(c, "/SPHCEL", "/XELEM")) return;
   const std::vector<char> used = nodes_of_elements(*c.model);
   if (std::find(used.begin(), used.end(), 0) == used.end()) return;
   for (const ContactCard& card : c.contacts) {
@@ -306,8 +256,9 @@ void check_free_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> sense_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK614, check_units},      {RuleId::DK615, check_massless},
-      {RuleId::DK616, check_folded},     {RuleId::DK617, check_same_nodes},
+      {RuleId::DK614, check_units},
+      {RuleId::DK615, check_massless},
+      {RuleId::DK617, check_same_nodes},
       {RuleId::DK618, check_free_nodes},
   };
   return all;
