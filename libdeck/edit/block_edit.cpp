@@ -9,7 +9,7 @@
 #include "base/shared/spelling.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/version_cards.hpp"
+#include "edit/convert/lines.hpp"
 #include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/place.hpp"

@@ -6,11 +6,10 @@
 #include <charconv>
 #include <map>
 #include <optional>
-#include <unordered_map>
 
+#include "base/shared/count.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/units/unit_system_state.hpp"
-#include "edit/convert/version_cards.hpp"
+#include "edit/convert/lines.hpp"
 #include "keyword/shared/reader.hpp"
 #include "keyword/shared/references.hpp"
 #include "text/shared/edits.hpp"
@@ -225,9 +224,8 @@ class Renumbering {
       block(b);
       const std::size_t ids = out_.edits.size() - before;
       if (ids == 0) continue;
-      LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
-      entry.note = std::to_string(ids) + (ids == 1 ? " id" : " ids") + " changed";
-      out_.losses.push_back(std::move(entry));
+      out_.losses.push_back(loss_entry(deck_, Loss::kept, b, b.header_span,
+                                       {.note = count(ids, "id", "ids") + " changed"}));
     }
     for (std::string& why : detail::contradicting_copies(deck_.sources, out_.edits))
       out_.refusals.push_back(std::move(why));
@@ -306,45 +304,26 @@ class Renumbering {
     out_.edits.push_back({b.id.span, std::to_string(r.written)});
   }
 
-  /// `cell_text` is the cell, trimmed.
-  void write(const Block& b, const Line& line, Span cell, int first, int last, bool free_format,
-             std::string_view field, const Renamed& r) {
-    if (!r.why.empty()) return undecided(b, cell, std::string(field), r.why);
-    const std::string text = std::to_string(r.written);
-    if (free_format) {
-      int& spare = spare_
-                       .try_emplace((std::uint64_t{line.file} << 40) ^ line.offset,
-                                    detail::line_columns - static_cast<int>(line.text.size()))
-                       .first->second;
-      const int growth = static_cast<int>(text.size()) - static_cast<int>(cell.length);
-      if (growth > 0 && growth > spare)
-        return undecided(b, cell, std::string(field),
-                         "the new id makes this free-format line longer than 100 columns");
-      spare -= growth;
-      out_.edits.push_back({cell, text});
-      return;
-    }
-    if (static_cast<int>(text.size()) > last - first + 1)
-      return undecided(b, cell, std::string(field),
-                       "the new id " + text + " does not fit its columns");
-    out_.edits.push_back(CellWriter::edit_in_place(deck_.sources, line.whole(), first, last, text));
-  }
-
-  void cell(const Block& b, const DecodedCard& card, const Cell& c, std::string_view kind,
+  /// A cell with the number that it holds.
+  void cell(const detail::CellPlace& place, const Cell& c, std::string_view kind,
             bool definition) {
     if (c.blank() || c.integer == 0) return;
-    const Renamed r = rename(b, kind, c.integer, definition);
-    if (!r.changes) return;
-    set_id(b, card, c, r);
+    set_id(place, c, rename(*place.block, kind, c.integer, definition));
   }
 
-  void set_id(const Block& b, const DecodedCard& card, const Cell& c, const Renamed& r) {
-    if (c.parameter) return undecided(b, c.span, c.field->name, "the id is made by a parameter");
-    if (c.status != NumberStatus::ok)
-      return undecided(b, c.span, c.field->name, "the cell holds more than a number");
-    const int first = static_cast<int>(c.span.offset - card.line.offset) + 1;
-    write(b, card.line, c.span, first, first + c.field->last - c.field->first, card.free_format,
-          c.field->name, r);
+  void set_id(const detail::CellPlace& place, const Cell& c, const Renamed& r) {
+    if (!r.changes) return;
+    const std::string text = std::to_string(r.written);
+    std::string why = r.why;
+    if (c.parameter)
+      why = "the id is made by a parameter";
+    else if (c.status != NumberStatus::ok)
+      why = "the cell holds more than a number";
+    else if (why.empty() && !cells_.put(place, text))
+      why = place.free_format
+                ? "the new id makes this free-format line longer than 100 columns"
+                : "the new id " + text + " does not fit its columns";
+    if (!why.empty()) undecided(*place.block, c.span, std::string(place.field), std::move(why));
   }
 
   // ---- blocks ---------------------------------------------------------------------------------
@@ -393,7 +372,7 @@ class Renumbering {
     else if (c.range())
       range(b, c);
     else
-      cell(b, *c.card, *c.cell, c.kind, false);
+      cell(detail::place_of(b, *c.card, *c.cell), *c.cell, c.kind, false);
   }
 
   /// Nodes and elements: many lines, few kinds of cells.
@@ -403,15 +382,13 @@ class Renumbering {
       std::string_view kind;
       bool definition;
     };
+    detail::ItemLines lines(deck_, b);
     std::vector<std::vector<Column>> rows;
-    std::vector<const CardSchema*> cards;
     bool any = false;
-    for (const CardSchema& card : b.schema->cards) {
-      if (!card.in_version(b.version)) continue;
-      cards.push_back(&card);
+    for (const CardSchema* card : lines.cards()) {
       rows.emplace_back();
-      for (const Field& f : card.fields) {
-        const bool own = cards.size() == 1 && &f == &card.fields[0];
+      for (const Field& f : card->fields) {
+        const bool own = rows.size() == 1 && &f == &card->fields[0];
         const std::string_view kind = own ? std::string_view(b.schema->kind) : f.ref;
         const IdSpace* target = kind.empty() ? nullptr : space(kind);
         if (!f.in_version(b.version) || target == nullptr || !target->changes) continue;
@@ -420,34 +397,23 @@ class Renumbering {
       }
     }
     if (!any) return;
-    LineCursor cursor(deck_.sources, b);
-    std::size_t at = 0;
-    for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
-      if (at == 0 && line.text.empty()) continue;
-      const std::string_view text = line.text.substr(0, detail::line_columns);
-      if (text.find_first_of(",&") != std::string_view::npos) {
-        const DecodedCard card = decode_line(deck_, b, *cards[at], line, nullptr);
-        for (const Column& column : rows[at])
+    while (lines.next_line()) {
+      const std::vector<Column>& columns = rows[lines.row()];
+      if (!lines.plain(lines.row())) {
+        const DecodedCard card = lines.decoded(lines.row());
+        for (const Column& column : columns)
           for (const Cell& c : card.cells)
-            if (c.field == column.field) cell(b, card, c, column.kind, column.definition);
-      } else {
-        for (const Column& column : rows[at])
-          plain_cell(b, line, *column.field, column.kind, column.definition);
+            if (c.field == column.field)
+              cell(detail::place_of(b, card, c), c, column.kind, column.definition);
+        continue;
       }
-      at = at + 1 == cards.size() ? 0 : at + 1;
+      const Line& line = lines.line();
+      for (const auto& [field, kind, definition] : columns) {
+        const IntegerCell n = read_integer(detail::columns(line.text, field->first, field->last));
+        Cell c{field, line.columns(field->first, field->last), {}, n.status, n.value};
+        cell({&b, c.span, field->name, line, field->first, field->last}, c, kind, definition);
+      }
     }
-  }
-
-  void plain_cell(const Block& b, const Line& line, const Field& f, std::string_view kind,
-                  bool definition) {
-    const IntegerCell n = read_integer(detail::columns(line.text, f.first, f.last));
-    if (n.status == NumberStatus::blank || n.value == 0) return;
-    const Renamed r = rename(b, kind, n.value, definition);
-    if (!r.changes) return;
-    if (n.status != NumberStatus::ok)
-      return undecided(b, line.columns(f.first, f.last), f.name,
-                       "the cell holds more than a number");
-    write(b, line, line.columns(f.first, f.last), f.first, f.last, false, f.name, r);
   }
 
   // ---- ranges and sets ------------------------------------------------------------------------
@@ -487,8 +453,10 @@ class Renumbering {
     }
     if (new_from - offset < 1 || new_to > detail::largest_id)
       return refuse("the new range is not legal");
-    if (new_from != from) set_id(b, *c.card, *c.cell, {true, new_from - offset, {}});
-    if (new_to != to) set_id(b, *c.last_card, *c.last, {true, new_to - offset, {}});
+    if (new_from != from)
+      set_id(detail::place_of(b, *c.card, *c.cell), *c.cell, {true, new_from - offset, {}});
+    if (new_to != to)
+      set_id(detail::place_of(b, *c.last_card, *c.last), *c.last, {true, new_to - offset, {}});
   }
 
   // ---- text that no schema describes ----------------------------------------------------------
@@ -550,7 +518,7 @@ class Renumbering {
   const RenumberOptions& options_;
   IdSpaces spaces_;
   Rewrite out_;
-  std::unordered_map<std::uint64_t, int> spare_;  // columns left on free-format lines
+  detail::CellEdits cells_{deck_.sources, out_.edits};
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
+#include "edit/convert/lines.hpp"
 #include "edit/convert/version_cards.hpp"
 
 namespace deck {
@@ -53,13 +54,9 @@ class Resolver {
  private:
   LossEntry& report(Loss loss, Span span, std::string_view field, std::string old_text,
                     std::string new_text, std::string note) {
-    LossEntry entry = loss_entry(c_.deck(), loss, block_, span);
-    entry.field = std::string(field);
-    entry.old_text = std::move(old_text);
-    entry.new_text = std::move(new_text);
-    entry.note = std::move(note);
-    out_.losses.push_back(std::move(entry));
-    return out_.losses.back();
+    return out_.losses.emplace_back(loss_entry(
+        c_.deck(), loss, block_, span,
+        {std::string(field), std::move(old_text), std::move(new_text), std::move(note)}));
   }
 
   /// Cell of this version on a card that the block has or, at its end, should have.

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "deck/text/number.hpp"
+#include "edit/convert/lines.hpp"
 #include "edit/convert/version_cards.hpp"
 #include "keyword/shared/older_decks.hpp"
 #include "text/shared/columns.hpp"
@@ -83,12 +84,9 @@ class VersionRewriter {
 
   LossEntry& report(Loss loss, const Block& block, Span span, std::string_view field,
                     std::string_view old_text, std::string note) {
-    LossEntry entry = loss_entry(c_.deck(), loss, block, span);
-    entry.field = std::string(field);
-    entry.old_text = std::string(old_text);
-    entry.note = std::move(note);
-    out_.losses.push_back(std::move(entry));
-    return out_.losses.back();
+    return out_.losses.emplace_back(
+        loss_entry(c_.deck(), loss, block, span,
+                   {std::string(field), std::string(old_text), {}, std::move(note)}));
   }
   /// Text that had no effect goes without a refusal.
   void removed(const Block& block, Span span, std::string_view field, std::string_view text,
