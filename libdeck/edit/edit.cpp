@@ -18,7 +18,7 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
 #include "edit/block_edit.hpp"
-#include "edit/fix/nodes/depenetrate_cells.hpp"
+#include "edit/fix/nodes/node_cells.hpp"
 #include "edit/shared/edit_set.hpp"
 #include "edit/shared/write.hpp"
 #include "keyword/shared/include_scan.hpp"

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "deck/contact/view.hpp"
-#include "edit/fix/type_rules.hpp"
 #include "keyword/shared/line_check.hpp"
 
 namespace deck::detail {

@@ -7,7 +7,6 @@
 #include "deck/contact/view.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
-#include "edit/fix/type_rules.hpp"
 
 namespace deck {
 namespace {

@@ -8,7 +8,6 @@
 #include "base/shared/count.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
-#include "edit/fix/type_rules.hpp"
 
 namespace deck {
 namespace {

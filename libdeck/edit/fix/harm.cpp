@@ -7,7 +7,6 @@
 #include <set>
 
 #include "edit/fix/common.hpp"
-#include "edit/fix/type_rules.hpp"
 
 namespace deck::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "deck/edit/fix.hpp"
-#include "edit/fix/nodes/depenetrate_rows.hpp"
+#include "edit/fix/nodes/ways_out.hpp"
 
 namespace deck::detail {
 

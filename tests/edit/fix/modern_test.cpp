@@ -2,7 +2,6 @@
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
 #include "edit/fix/support.hpp"
-#include "edit/fix/type_rules.hpp"
 
 namespace deck::test {
 namespace {

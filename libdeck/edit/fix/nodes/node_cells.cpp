@@ -1,5 +1,5 @@
 // Finds the coordinate cells of moved nodes and rounds new values to what fits them.
-#include "edit/fix/nodes/depenetrate_cells.hpp"
+#include "edit/fix/nodes/node_cells.hpp"
 
 #include <algorithm>
 
