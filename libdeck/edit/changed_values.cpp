@@ -1,5 +1,5 @@
 // Finds the block and the cell of every edit.
-#include "edit/shared/changed_values.hpp"
+#include "edit/shared/conversion.hpp"
 
 #include <algorithm>
 #include <map>

@@ -17,7 +17,7 @@
 #include "deck/front/loaded_deck.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
-#include "edit/block_edit.hpp"
+#include "edit/cells.hpp"
 #include "edit/fix/nodes/node_cells.hpp"
 #include "edit/shared/edit_set.hpp"
 #include "edit/shared/write.hpp"

@@ -12,7 +12,7 @@
 
 #include "deck/edit/convert.hpp"
 #include "deck/model/selection.hpp"
-#include "edit/convert/lines.hpp"
+#include "edit/cells.hpp"
 #include "keyword/shared/references.hpp"
 #include "model/shared/families.hpp"
 

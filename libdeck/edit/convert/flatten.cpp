@@ -6,8 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "edit/convert/lines.hpp"
-#include "edit/convert/version_cards.hpp"
+#include "edit/cells.hpp"
 #include "keyword/shared/header_line.hpp"
 #include "keyword/shared/reader.hpp"
 #include "text/shared/columns.hpp"

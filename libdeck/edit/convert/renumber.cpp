@@ -9,7 +9,7 @@
 
 #include "base/shared/count.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/lines.hpp"
+#include "edit/cells.hpp"
 #include "keyword/shared/reader.hpp"
 #include "keyword/shared/references.hpp"
 #include "text/shared/edits.hpp"

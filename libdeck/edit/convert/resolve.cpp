@@ -1,5 +1,5 @@
 // Compares effective values with the cells of the card and writes those that differ.
-#include "edit/shared/resolve.hpp"
+#include "edit/shared/conversion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,7 @@
 
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/lines.hpp"
-#include "edit/convert/version_cards.hpp"
+#include "edit/cells.hpp"
 
 namespace deck {
 namespace {

@@ -9,7 +9,7 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/lines.hpp"
+#include "edit/cells.hpp"
 #include "keyword/shared/render.hpp"
 #include "text/shared/columns.hpp"
 

@@ -6,8 +6,7 @@
 #include <unordered_map>
 
 #include "deck/text/number.hpp"
-#include "edit/convert/lines.hpp"
-#include "edit/convert/version_cards.hpp"
+#include "edit/cells.hpp"
 #include "keyword/shared/older_decks.hpp"
 #include "text/shared/columns.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "deck/edit/convert.hpp"
-#include "edit/convert/lines.hpp"
+#include "edit/cells.hpp"
 
 namespace deck::detail {
 

@@ -1,5 +1,5 @@
 // Puts texts into cells, adds and removes lines, and finds what else a conversion has to look at.
-#include "edit/convert/lines.hpp"
+#include "edit/cells.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Moves cells from the lines of one layout to those of another; evaluates the conditions of both
 // layouts and pairs their lines.
-#include "edit/convert/version_cards.hpp"
+#include "edit/cells.hpp"
 
 #include <algorithm>
 

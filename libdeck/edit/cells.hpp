@@ -1,6 +1,6 @@
 // Cells and lines of a deck that is written again: where a cell stands and what is put into it,
-// lines that are added and removed, words that no schema describes, names of parameters. Private to
-// the stage.
+// lines that are added and removed, the lines of a block in another input version, words that no
+// schema describes, names of parameters. Private to the stage.
 #pragma once
 #include <bitset>
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "deck/edit/edit.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
@@ -123,5 +124,80 @@ std::vector<std::string> unread_files(const Deck& deck);
 /// edits.
 std::vector<std::string> contradicting_copies(const SourceSet& sources,
                                               const std::vector<TextEdit>& edits);
+
+// ---- one value into one block (block_edit.cpp) -------------------------------------------------
+
+/// What one value needs. A cell in fixed columns that is there goes to the writer of the caller;
+/// all else are edits of lines.
+struct BlockEdit {
+  std::vector<TextEdit> edits;
+  bool read_again = false;  ///< what comes next must see this change: other cells depend on it
+  std::string note;         ///< digits were lost
+};
+
+/// The error "file:line:column: /KEYWORD/id field: why".
+Error block_error(const Deck& deck, const Block& block, Span place, std::string_view field,
+                  const std::string& why);
+
+/// Puts `value` into the cell called `field`, `occurrence` cells of that name later. On an error
+/// nothing is collected. `absent` is set where the block as it is has no such cell.
+Result<BlockEdit> set_value(const Deck& deck, const Block& block, std::string_view field,
+                            const CellValue& value, int occurrence, CellWriter& cells,
+                            bool& absent);
+
+/// Edits that remove the header and the lines of a block up to its last data line. Error: some of
+/// them are in an included file.
+Result<std::vector<TextEdit>> erase_block(const Deck& deck, const Block& block);
+/// Edits that put blocks before /END of the main file.
+std::vector<TextEdit> insert_blocks(const Deck& deck, std::string_view blocks);
+
+// ---- layouts of a keyword (target_layout.cpp) --------------------------------------------------
+
+/// True if some card or cell of `schema` is in one of the versions only.
+bool layout_differs(const Schema& schema, int a, int b);
+/// One name for a cell that was renamed between versions.
+std::string_view canonical_name(std::string_view field);
+/// Only zeros, points and signs, or nothing.
+bool is_zero_text(std::string_view text);
+
+/// A line of the new layout and the old line it comes from.
+struct NewLine {
+  const CardSchema* card = nullptr;
+  const DecodedCard* old = nullptr;
+  int round = 0;  ///< as in DecodedCard
+};
+
+/// The cards of a block in version `target`, with the conditions evaluated on its old values. A
+/// field that the new version does not have counts as 0.
+class TargetLayout {
+ public:
+  TargetLayout(const Block& block, const DecodedBlock& decoded, int target)
+      : block_(block), decoded_(decoded), target_(target) {}
+
+  /// Lines in order, as far as the old block has rounds for them. Old lines are used once.
+  std::vector<NewLine> lines() const;
+  /// Cells that the line has.
+  std::vector<const Field*> fields(const CardSchema& card, int round) const;
+  /// The old cell of that name in the same round, on another line than `not_here`.
+  const Cell* elsewhere(std::string_view field, int round, const DecodedCard* not_here) const;
+  /// True if the number of lines of the block decides what the lines are.
+  bool counts_lines() const;
+
+ private:
+  using Group = std::vector<const CardSchema*>;
+  bool holds(const CardSchema& card, int round) const;
+  bool holds(const std::vector<Condition>& when, int round) const;
+  std::int64_t value(std::string_view field, int round) const;
+  bool has_field(std::string_view field) const;
+  int rounds(const CardSchema& card) const;
+  const DecodedCard* take(const CardSchema& card, int round, std::vector<bool>& used) const;
+
+  const Block& block_;
+  const DecodedBlock& decoded_;
+  int target_;
+};
+
+/// Cell of that name on a line; nullptr if it has none.
+const Cell* cell_of(const DecodedCard& card, std::string_view field);
 
 }  // namespace deck::detail
