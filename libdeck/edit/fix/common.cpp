@@ -168,22 +168,18 @@ std::map<std::uint32_t, const PenetrationRow*> deepest_rows(const Contact& conta
   return out;
 }
 
-std::vector<std::int64_t> secondary_ids(const Model& model, const Contact& contact,
-                                        const PenetrationRow& row) {
-  if (contact.kind == ContactKind::node_segment)
-    return {model.node_id(contact.secondary[row.secondary].node)};
-  const auto& n = contact.secondary_edges[row.secondary].nodes;
-  return {model.node_id(n[0]), model.node_id(n[1])};
-}
-
-std::vector<std::int64_t> main_ids(const Model& model, const Contact& contact,
-                                   const PenetrationRow& row) {
+std::vector<std::int64_t> node_ids(const Model& model, const Contact& contact,
+                                   const PenetrationRow& row, bool main) {
   std::vector<std::int64_t> out;
-  if (contact.kind == ContactKind::node_segment) {
-    for (const NodeIndex n : contact.main[row.main].nodes) out.push_back(model.node_id(n));
-  } else {
-    for (const NodeIndex n : contact.main_edges[row.main].nodes) out.push_back(model.node_id(n));
-  }
+  const auto add = [&](const auto& nodes) {
+    for (const NodeIndex n : nodes) out.push_back(model.node_id(n));
+  };
+  if (contact.kind == ContactKind::edge_edge)
+    add(main ? contact.main_edges[row.main].nodes : contact.secondary_edges[row.secondary].nodes);
+  else if (main)
+    add(contact.main[row.main].nodes);
+  else
+    out.push_back(model.node_id(contact.secondary[row.secondary].node));
   return out;
 }
 

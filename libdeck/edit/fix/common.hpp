@@ -66,11 +66,9 @@ FixedInterface& interface_entry(PenetrationFix& fix, const InterBase& inter);
 /// The deepest penetration of every secondary node or edge of a contact, by its position.
 std::map<std::uint32_t, const PenetrationRow*> deepest_rows(const Contact& contact);
 
-/// Ids of the secondary node or edge, and of the main segment or edge, of a row.
-std::vector<std::int64_t> secondary_ids(const Model& model, const Contact& contact,
-                                        const PenetrationRow& row);
-std::vector<std::int64_t> main_ids(const Model& model, const Contact& contact,
-                                   const PenetrationRow& row);
+/// Node ids of the secondary node or edge of a row, or of its main segment or edge.
+std::vector<std::int64_t> node_ids(const Model& model, const Contact& contact,
+                                   const PenetrationRow& row, bool main);
 
 /// A cell of an interface card that can be set.
 struct FieldPlace {

@@ -63,8 +63,8 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
 
   using Key = std::tuple<std::int64_t, int, std::vector<std::int64_t>, std::vector<std::int64_t>>;
   const auto key = [](const Model& model, const Contact& c, const PenetrationRow& r) {
-    return Key{c.inter->id, static_cast<int>(c.role), secondary_ids(model, c, r),
-               main_ids(model, c, r)};
+    return Key{c.inter->id, static_cast<int>(c.role), node_ids(model, c, r, false),
+               node_ids(model, c, r, true)};
   };
   std::map<Key, PenetrationAction> earlier;
   for (const Contact& c : before.contacts)
@@ -77,8 +77,8 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
       if (!is_penetration(r)) continue;
       FixAction action;
       action.interface_id = c.inter->id;
-      action.secondary = secondary_ids(*after.model, c, r);
-      action.main = main_ids(*after.model, c, r);
+      action.secondary = node_ids(*after.model, c, r, false);
+      action.main = node_ids(*after.model, c, r, true);
       action.depth = r.depth;
       action.gap = r.gap;
       const auto it = earlier.find(key(*after.model, c, r));

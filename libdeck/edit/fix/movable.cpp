@@ -208,14 +208,14 @@ void MovableDeck::report(const Scene& before, const Scene& after,
   std::map<std::pair<std::int64_t, std::vector<std::int64_t>>, double> depth;
   for (const Contact& contact : before.contacts)
     for (const auto& [secondary, row] : deepest_rows(contact)) {
-      double& deepest = depth[{contact.inter->id, secondary_ids(*before.model, contact, *row)}];
+      double& deepest = depth[{contact.inter->id, node_ids(*before.model, contact, *row, false)}];
       deepest = std::max(deepest, row->depth);
     }
   for (std::uint32_t c = 0; c < after.contacts.size(); ++c) {
     const Contact& contact = after.contacts[c];
     if (!is_wanted(options_, contact)) continue;
     for (const auto& [secondary, row] : deepest_rows(contact)) {
-      std::vector<std::int64_t> ids = secondary_ids(*after.model, contact, *row);
+      std::vector<std::int64_t> ids = node_ids(*after.model, contact, *row, false);
       const auto was = depth.find({contact.inter->id, ids});
       auto [reason, next] = reason_of(after, {c, row->secondary, row->main});
       fix_.refused.push_back({contact.inter->id, std::move(ids),

@@ -1,7 +1,6 @@
 // Multiplies every cell of known dimension by its factor, block by block.
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "base/shared/count.hpp"
 #include "deck/text/number.hpp"
@@ -27,15 +26,13 @@ bool free_of_units(std::string_view keyword) {
       "/RBE2",        "/SHFRA",     "/CAA",         "/REFSTA",    "/UPWIND", "/ALE/GRID/ZERO",
       "/RLINK",       "/ALE/BCS",   "/DUMMY_START", "/DUMMY_END", "/AMS",    "/TABLE",
       "/FUNCT_PYTHON"};
-  for (const std::string_view k : list)
-    if (keyword == k || (keyword.starts_with(k) && keyword[k.size()] == '/')) return true;
-  return false;
+  return std::any_of(std::begin(list), std::end(list),
+                     [&](std::string_view k) { return detail::is_below(keyword, k); });
 }
 
 /// Blocks that name units or parameters, or hold no values; treated elsewhere or not at all.
 bool outside_conversion(const Block& b) {
-  return b.schema->kind == "engine" || b.schema->kind == "parameter" || b.header == "/BEGIN" ||
-         b.header.starts_with("/BEGIN/") || b.header.starts_with("//") ||
+  return b.schema->kind == "engine" || b.schema->kind == "parameter" || detail::is_below(b.header, "/BEGIN") || b.header.starts_with("//") ||
          b.header.starts_with("/UNIT") || b.header.starts_with("/TITLE") ||
          free_of_units(b.keyword) || free_of_units(b.header);
 }
@@ -133,6 +130,7 @@ class BlockConverter {
       columns.emplace_back(&f, factor);
     }
     if (columns.empty()) return;
+    ones_ = {};
     DecodedBlock none;
     none.block = &b;
     for (detail::ItemLines lines(deck_, b); lines.next_line();) {
@@ -147,14 +145,10 @@ class BlockConverter {
 
   void convert_cards(const Block& b) {
     const DecodedBlock d = decode(deck_, b);
-    brought_.clear();
-    absent_.clear();
-    for (const DecodedCard& card : d.cards) {
-      if (card.missing()) continue;
-      for (const Cell& cell : card.cells) function_use(b, d, card, cell);
-      for (const Cell& cell : card.cells)
-        if (detail::measures(d, card, cell)) brought_.insert(&cell);
-    }
+    ones_ = detail::implied_ones(d);
+    for (const DecodedCard& card : d.cards)
+      if (!card.missing())
+        for (const Cell& cell : card.cells) function_use(b, d, card, cell);
     for (const DecodedCard& card : d.cards)
       if (!card.missing()) convert_card(b, d, card);
     add_lines(b, d);
@@ -164,10 +158,12 @@ class BlockConverter {
   /// Blank scales on lines that the block leaves away at its end are written out, too.
   void add_lines(const Block& b, const DecodedBlock& d) {
     std::map<const CardSchema*, std::string> texts;
-    for (const std::string& name : absent_)
+    for (const std::string& name : ones_.absent)
       for (const CardSchema& card : b.schema->cards)
         for (const Field& f : card.fields) {
-          if (f.name != name || !card.in_version(b.version) || !f.in_version(b.version)) continue;
+          if (f.name != name || !card.in_version(b.version) || !f.in_version(b.version) ||
+              keeps_number(d, name))
+            continue;
           if (!holds(card.when, d) || !holds(f.when, d)) continue;
           const UnitFactor factor = c_.factors.of(written_dimension(
               f, dimension_of(f, d), f.solver_dimension && holds(f.solver_when, d)));
@@ -203,7 +199,7 @@ class BlockConverter {
       lines.push_back(text == texts.end() ? std::string() : text->second);
     }
     if (added < texts.size() || !d.extra.empty() || detail::lacks_title(d)) {
-      c_.undecided(b, {}, *absent_.begin(), "this scale has no line in the block; add the line");
+      c_.undecided(b, {}, *ones_.absent.begin(), "this scale has no line in the block; add the line");
       return;
     }
     detail::LineEdits edits(deck_.sources);
@@ -226,10 +222,7 @@ class BlockConverter {
           scaled = scaled || name[0] != 'A';
           continue;
         }
-        const detail::AxisScale scale = detail::axis_scale(d, card, cell, name);
-        if (scale.cell != nullptr) brought_.insert(scale.cell);
-        if (scale.absent) absent_.insert(name);
-        scaled = scaled || scale.counts();
+        scaled = scaled || detail::axis_scale(d, card, cell, name).counts();
       }
       Dimension points;
       if (axis.scales.empty()) {
@@ -300,7 +293,7 @@ class BlockConverter {
       }
       if (f.type != FieldType::real) continue;
       const bool zero = cell.blank() || (cell.status == NumberStatus::ok && cell.real == 0);
-      const bool brought = brought_.contains(&cell);
+      const bool brought = ones_.cells.contains(&cell);
       if (!f.dimension_known) {
         if (!own_units_ && (!zero || cell.parameter || brought))
           c_.undecided(b, cell.span, f.name, "the dimension of this value is not known");
@@ -336,7 +329,7 @@ class BlockConverter {
       // The number counts times that of the scale: where the scale's number changes, it does not.
       const Cell* scale = detail::cell_beside(d, card, cell, f.over);
       if (scale != nullptr &&
-          (brought_.contains(scale) || scale->parameter || (!scale->blank() && scale->real != 0)))
+          (ones_.cells.contains(scale) || scale->parameter || (!scale->blank() && scale->real != 0)))
         physical = minus(physical, dimension_of(*scale->field, d, &card));
     }
     return written_dimension(f, physical, f.solver_dimension && holds(f.solver_when, d, &card));
@@ -503,8 +496,7 @@ class BlockConverter {
   bool own_units_ = false;
   detail::UnitFactors from_working_{{}, {}};
   CellWriter grown_{deck_.sources};  // cells behind the end of their line
-  std::set<const Cell*> brought_;    // of this block: blank is 1 and has to be said
-  std::set<std::string> absent_;     // the same, where the block has no line for the cell
+  detail::ImpliedOnes ones_;         // of this block: blank is 1 and has to be said
 };
 }  // namespace
 
