@@ -22,12 +22,22 @@ Span span_in_header(const Block& block, std::string_view part) {
           block.header_span.offset + offset};
 }
 
+int CellPlace::room() const {
+  if (!free_format) return last - first + 1;
+  return static_cast<int>(span.length) +
+         std::max(0, line_columns - static_cast<int>(line.text.size()));
+}
+
+void CellPlace::write(CellWriter& cells, std::string_view text) const {
+  if (free_format)
+    cells.replace(span, text);
+  else
+    cells.set(line.whole(), first, last, text);
+}
+
 int CellEdits::room(const CellPlace& place) const {
-  if (!place.free_format) return place.last - place.first + 1;
-  const int size = static_cast<int>(place.line.text.size());
   const auto grown = grown_.find(key_of(place.line));
-  const int spare = std::max(0, line_columns - size) - (grown == grown_.end() ? 0 : grown->second);
-  return static_cast<int>(place.span.length) + spare;
+  return place.room() - (grown == grown_.end() || !place.free_format ? 0 : grown->second);
 }
 
 bool CellEdits::put(const CellPlace& place, const std::string& text) {

@@ -30,6 +30,10 @@ struct CellPlace {
   Line line;
   int first = 0, last = 0;  ///< columns, unless
   bool free_format = false;
+  /// Columns that a text may have: what comes behind on a line with commas must stay on it.
+  int room() const;
+  /// Puts a text there, at the right end of its columns.
+  void write(CellWriter& cells, std::string_view text) const;
 };
 CellPlace place_of(const Block& block, const DecodedCard& card, const Cell& cell);
 /// Of a part of a block's header.
@@ -39,7 +43,7 @@ Span span_in_header(const Block& block, std::string_view part);
 class CellEdits {
  public:
   CellEdits(const SourceSet& sources, std::vector<TextEdit>& out) : sources_(sources), out_(out) {}
-  /// Columns that a text of the cell may have.
+  /// Columns that a text of the cell may have after those put before.
   int room(const CellPlace& place) const;
   /// The new text ends where the old one did. False: there is no room for it.
   bool put(const CellPlace& place, const std::string& text);

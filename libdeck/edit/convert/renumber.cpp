@@ -398,21 +398,11 @@ class Renumbering {
     }
     if (!any) return;
     while (lines.next_line()) {
-      const std::vector<Column>& columns = rows[lines.row()];
-      if (!lines.plain(lines.row())) {
-        const DecodedCard card = lines.decoded(lines.row());
-        for (const Column& column : columns)
-          for (const Cell& c : card.cells)
-            if (c.field == column.field)
-              cell(detail::place_of(b, card, c), c, column.kind, column.definition);
-        continue;
-      }
-      const Line& line = lines.line();
-      for (const auto& [field, kind, definition] : columns) {
-        const IntegerCell n = read_integer(detail::columns(line.text, field->first, field->last));
-        Cell c{field, line.columns(field->first, field->last), {}, n.status, n.value};
-        cell({&b, c.span, field->name, line, field->first, field->last}, c, kind, definition);
-      }
+      if (rows[lines.row()].empty()) continue;
+      const DecodedCard card = lines.decoded(lines.row());
+      for (const auto& [field, kind, definition] : rows[lines.row()])
+        for (const Cell& c : card.cells)
+          if (c.field == field) cell(detail::place_of(b, card, c), c, kind, definition);
     }
   }
 

@@ -1,6 +1,7 @@
 // What the strategies share: scenes in which no node is moved at start-up, counting, reading the
 // deck again with proposed text, and setting single fields of a card. Private to the stage.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -9,8 +10,7 @@
 #include <vector>
 
 #include "deck/edit/fix.hpp"
-#include "deck/keyword/decode.hpp"
-#include "text/shared/edits.hpp"
+#include "edit/cells.hpp"
 
 namespace deck::detail {
 
@@ -38,6 +38,10 @@ class AfterRewrite {
   std::optional<Scene> own_;
   const Scene* before_ = nullptr;
 };
+
+/// Notes what a strategy does not treat; `next`: see FixRefusal.
+void refuse(PenetrationFix& fix, std::int64_t interface_id, std::string reason,
+            std::string next = {}, double depth = 0);
 
 /// Why nothing can be said about a wanted interface; nothing: all were evaluated. TYPE24 and TYPE25
 /// are told by note_unevaluated: what is known of them is treated.
@@ -71,15 +75,10 @@ std::vector<std::int64_t> node_ids(const Model& model, const Contact& contact,
                                    const PenetrationRow& row, bool main);
 
 /// A cell of an interface card that can be set.
-struct FieldPlace {
-  const Field* field = nullptr;
-  Cell cell;
-  Line line;
-  bool free_format = false;
-  double factor = 1;  ///< deck units to working units
-  /// Columns that a text may have: on a line with commas what comes behind must stay on it.
-  int width() const;
-  void write(CellWriter& edits, std::string_view text) const;
+struct FieldPlace : CellPlace {
+  std::string_view text;  ///< what it holds
+  double factor = 1;      ///< deck units to working units
+  int width() const { return std::min(last - first + 1, room()); }
 };
 /// Error: the card of this input version has no such cell, or its line is missing.
 Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_view name);
@@ -95,8 +94,6 @@ std::optional<RoundedText> round_down(double bound, int digits, int width,
 /// The smallest one that is >= `bound`.
 std::optional<RoundedText> round_up(double bound, int digits, int width);
 
-/// "file:line:column" of the interface card.
-std::string place_of(const Deck& deck, const InterBase& inter);
 /// "/INTER/TYPE7/12"
 std::string name_of(const InterBase& inter);
 

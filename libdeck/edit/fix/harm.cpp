@@ -106,12 +106,8 @@ void verify_harmless(PenetrationFix& fix, const Interfaces& interfaces, const Fi
   fix.interfaces.clear();
   fix.actions.clear();
   set_interfaces(fix, interfaces, options, before, before);
-  fix.refused.push_back({interface_of(after, harm.front().pair).id,
-                         {},
-                         0,
-                         "nothing done: with the change " + *why,
-                         0,
-                         "deck fix DECK --strategy move-nodes"});
+  refuse(fix, interface_of(after, harm.front().pair).id, "nothing done: with the change " + *why,
+         "deck fix DECK --strategy move-nodes");
   fix.complete = false;
 }
 

@@ -134,7 +134,7 @@ class TieFix {
 
  private:
   void refuse(const Tie& tie, std::string reason) {
-    fix_.refused.push_back({tie.inter->id, {}, 0, std::move(reason), 0});
+    detail::refuse(fix_, tie.inter->id, std::move(reason));
   }
   void refuse(const Tie& tie, const TiedNode& node, double distance, std::string reason) {
     fix_.refused.push_back(
@@ -423,7 +423,7 @@ class TieFix {
     for (const Plan& plan : plans_) {
       if (plan.at != at) continue;
       out.needed = plan.needed;
-      out.changes.push_back({"dsearch", std::string(plan.place.cell.text), plan.text.text,
+      out.changes.push_back({"dsearch", std::string(plan.place.text), plan.text.text,
                              before.search_distance, plan.value});
       for (const TiedNode& n : after.nodes) {
         if (!plan.nodes.contains(n.node)) continue;

@@ -81,19 +81,6 @@ void UnitConversion::convert(const CellPlace& place, const UnitFactor& factor) {
                                            "slightly different value"}));
 }
 
-void UnitConversion::note_dimension(const Dimension& d, const UnitFactor& factor) {
-  std::string name;
-  const auto add = [&](const char* base, int exponent) {
-    if (exponent == 0) return;
-    name += (name.empty() ? "" : " ") + std::string(base);
-    if (exponent != 1) name += "^" + std::to_string(exponent);
-  };
-  add("mass", d.mass);
-  add("length", d.length);
-  add("time", d.time);
-  if (const auto [it, is_new] = used_factors.try_emplace(name); is_new) it->second = factor.text();
-}
-
 namespace {
 
 /// The /PARAMETER block that holds this line.

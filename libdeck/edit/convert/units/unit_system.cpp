@@ -119,25 +119,31 @@ bool convert_begin(UnitConversion& c) {
 }  // namespace detail
 
 using detail::UnitConversion;
+using detail::UnitFactor;
 
 namespace {
 
+constexpr std::string_view base_names[] = {"mass", "length", "time"};
+
 void add_notes(UnitConversion& c) {
-  const auto code = [](const std::string& name, double factor) {
-    const auto value = format_real(factor, 24);
-    return !name.empty() ? name : value ? value->text : std::string("?");
-  };
-  const UnitSystem &from = c.deck.begin.input, &to = c.target;
+  const auto from = detail::codes(c.deck.begin.input), to = detail::codes(c.target);
+  const UnitFactor factors[] = {c.factors.mass(), c.factors.length(), c.factors.time()};
   auto& notes = c.out.notes;
-  notes.push_back("mass " + code(from.mass_code, from.mass) + " -> " + code(to.mass_code, to.mass) +
-                  ": factor " + c.factors.mass().text());
-  notes.push_back("length " + code(from.length_code, from.length) + " -> " +
-                  code(to.length_code, to.length) + ": factor " + c.factors.length().text());
-  notes.push_back("time " + code(from.time_code, from.time) + " -> " + code(to.time_code, to.time) +
-                  ": factor " + c.factors.time().text());
-  for (const auto& [dimension, factor] : c.used_factors)
-    if (dimension != "mass" && dimension != "length" && dimension != "time")
-      notes.push_back(dimension + ": factor " + factor);
+  for (std::size_t i = 0; i < 3; ++i)
+    notes.push_back(std::string(base_names[i]) + " " + from[i] + " -> " + to[i] + ": factor " +
+                    factors[i].text());
+  std::map<std::string, std::string> others;
+  for (const auto& [exponents, factor] : c.used_factors) {
+    std::string name;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (exponents[i] == 0) continue;
+      name += (name.empty() ? "" : " ") + std::string(base_names[i]);
+      if (exponents[i] != 1) name += "^" + std::to_string(exponents[i]);
+    }
+    if (std::find(std::begin(base_names), std::end(base_names), name) == std::end(base_names))
+      others.emplace(name, factor.text());
+  }
+  for (const auto& [name, factor] : others) notes.push_back(name + ": factor " + factor);
   notes.push_back(std::to_string(c.changed_cells) + " values converted");
   if (c.own_unit_blocks > 0)
     notes.push_back(std::to_string(c.own_unit_blocks) +
@@ -157,7 +163,6 @@ Result<UnitSystem> parse_unit_system(std::string_view text) {
   double* const factors[3] = {&units.mass, &units.length, &units.time};
   std::string* const codes[3] = {&units.mass_code, &units.length_code, &units.time_code};
   constexpr char bases[3] = {'g', 'm', 's'};
-  constexpr const char* names[3] = {"mass", "length", "time"};
   for (int i = 0; i < 3; ++i) {
     const auto comma = i < 2 ? text.find(',') : text.size();
     if (comma == std::string_view::npos)
@@ -166,7 +171,7 @@ Result<UnitSystem> parse_unit_system(std::string_view text) {
     const auto factor = unit_factor(code, bases[i]);
     if (!factor || code.size() > 20)
       return Error{Error::Code::config, "'" + std::string(code.substr(0, 40)) + "' is not a " +
-                                            names[i] + " unit; expected a prefix and '" + bases[i] +
+                                            std::string(base_names[i]) + " unit; expected a prefix and '" + bases[i] +
                                             "', or a positive number"};
     *factors[i] = *factor;
     *codes[i] = std::string(code);

@@ -1,5 +1,6 @@
 // What the steps of unit conversion share. Private to unit conversion.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -123,8 +124,11 @@ struct UnitConversion {
   void leave_blocks();
 
   std::uint64_t changed_cells = 0, own_unit_blocks = 0;
-  std::map<std::string, std::string> used_factors;  ///< dimension -> factor, for the notes
-  void note_dimension(const Dimension& dimension, const UnitFactor& factor);
+  /// Exponents of mass, length and time -> factor, for the notes.
+  std::map<std::array<int, 3>, UnitFactor> used_factors;
+  void note_dimension(const Dimension& d, const UnitFactor& factor) {
+    used_factors.try_emplace({d.mass, d.length, d.time}, factor);
+  }
 };
 
 /// /BEGIN, or the /UNIT/LENGTH ... of old versions. False: refused.

@@ -96,51 +96,19 @@ class BlockConverter {
       return;
     }
     if (!worth_decoding(*b.schema)) return;
-    if (const CardSchema* rows = plain_rows(b); rows != nullptr)
-      convert_rows(b, *rows);
+    if (b.schema->bulk)
+      convert_items(b);
     else
       convert_cards(b);
   }
 
-  /// The one repeated card of a block without conditions; nullptr: the block is another one.
-  static const CardSchema* plain_rows(const Block& b) {
-    const CardSchema* only = nullptr;
-    for (const CardSchema& card : b.schema->cards) {
-      if (!card.in_version(b.version)) continue;
-      if (only != nullptr || card.repeat != Repeat::rows || !card.when.empty()) return nullptr;
-      only = &card;
-    }
-    if (only == nullptr || b.schema->opaque_tail || b.schema->has_title) return nullptr;
-    for (const Field& f : only->fields)
-      if (!f.dimension_when.empty() || !f.dimension_known || f.ref == "funct" ||
-          detail::ordinary_default(f))
-        return nullptr;
-    return only;
-  }
-
-  /// Nodes and elements: many lines, few kinds of cells.
-  void convert_rows(const Block& b, const CardSchema& card) {
-    if (own_units_) return;
-    std::vector<std::pair<const Field*, UnitFactor>> columns;
-    for (const Field& f : card.fields) {
-      if (f.type != FieldType::real || !f.in_version(b.version) || !has_dimension(f)) continue;
-      const UnitFactor factor = c_.factors.of(f.dimension);
-      if (factor.one()) continue;
-      c_.note_dimension(f.dimension, factor);
-      columns.emplace_back(&f, factor);
-    }
-    if (columns.empty()) return;
+  /// Nodes and elements line by line: there are many.
+  void convert_items(const Block& b) {
     ones_ = {};
     DecodedBlock none;
     none.block = &b;
-    for (detail::ItemLines lines(deck_, b); lines.next_line();) {
-      if (!lines.plain(lines.row())) {
-        convert_card(b, none, lines.decoded(lines.row()));
-        continue;
-      }
-      for (const auto& [field, factor] : columns)
-        c_.convert(b, lines.line(), field->first, field->last, field->name, factor);
-    }
+    for (detail::ItemLines lines(deck_, b); lines.next_line();)
+      convert_card(b, none, lines.decoded(lines.row()));
   }
 
   void convert_cards(const Block& b) {
