@@ -22,6 +22,20 @@ Span span_in_header(const Block& block, std::string_view part) {
           block.header_span.offset + offset};
 }
 
+bool carry(const Cell& cell, const Field& field, std::string& line) {
+  const int width = field.last - field.first + 1;
+  std::string text(cell.text);
+  if (static_cast<int>(text.size()) > width) {
+    const auto shorter = field.type == FieldType::real && !cell.parameter
+                             ? format_real(cell.real, width)
+                             : std::nullopt;
+    if (!shorter || !shorter->exact) return false;
+    text = shorter->text;
+  }
+  CellWriter::put(line, field.first, field.last, text);
+  return true;
+}
+
 int CellPlace::room() const {
   if (!free_format) return last - first + 1;
   return static_cast<int>(span.length) +

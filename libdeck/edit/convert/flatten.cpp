@@ -8,6 +8,7 @@
 
 #include "edit/cells.hpp"
 #include "keyword/shared/header_line.hpp"
+#include "keyword/shared/include_file.hpp"
 #include "keyword/shared/reader.hpp"
 #include "text/shared/columns.hpp"
 
@@ -132,18 +133,6 @@ class Flattener {
     if (!out_.empty() && out_.back() != '\n') out_ += line_end(file);
   }
 
-  /// End of an include directive, its continuation lines included.
-  static std::uint64_t directive_end(std::string_view bytes, std::uint64_t pos) {
-    for (bool more = true; more && pos < bytes.size();) {
-      const auto nl = std::min<std::size_t>(bytes.find('\n', pos), bytes.size());
-      const std::string_view line = trim_right(bytes.substr(pos, nl - pos));
-      pos = std::min<std::uint64_t>(nl + 1, bytes.size());
-      more = line.ends_with(" +") || line.ends_with("...") || line.ends_with("&") ||
-             (pos < bytes.size() && bytes[pos] == '+');
-    }
-    return pos;
-  }
-
   /// The lines of a directive as comments.
   void comment_out(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
     const std::string_view bytes = deck_.sources[file].bytes();
@@ -182,9 +171,9 @@ class Flattener {
       const std::uint64_t next = std::min<std::uint64_t>(nl + 1, bytes.size());
       if (edge != children_[file].end() && (*edge)->directive.offset == pos) {
         append(file, run, pos);
-        run = directive_end(bytes, pos);
+        detail::include_path(bytes, pos);
+        run = pos;
         include(file, **edge++, run);
-        pos = run;
         continue;
       }
       const std::string_view line = bytes.substr(pos, nl - pos);
@@ -233,10 +222,9 @@ bool repeated_begin(const Deck& deck, const Block& b) {
 
 /// Comment marks in front of the lines of a block.
 void disable(const Deck& deck, const Block& b, std::vector<TextEdit>& edits) {
-  const std::string_view bytes = deck.sources[b.header_span.file].bytes();
-  const auto nl = b.header_span.offset == 0 ? std::string_view::npos
-                                            : bytes.rfind('\n', b.header_span.offset - 1);
-  edits.push_back({Span{b.header_span.file, 0, nl == std::string_view::npos ? 0 : nl + 1}, "#"});
+  const Source& source = deck.sources[b.header_span.file];
+  const auto header = source.line_at(b.header_span.offset).data() - source.bytes().data();
+  edits.push_back({Span{b.header_span.file, 0, static_cast<std::uint64_t>(header)}, "#"});
   LineCursor cursor(deck.sources, b);
   for (Line line = cursor.next(); line.valid(); line = cursor.next())
     edits.push_back({Span{line.file, 0, line.offset}, "#"});

@@ -196,13 +196,12 @@ class Resolver {
           card.schema->fields.begin(), card.schema->fields.end(),
           [&](const Field& f) { return f.in_version(block_.version) && texts_.count(&f) > 0; });
       if (card.missing()) {
-        behind.push_back(changed ? fixed_text(card) : std::string());
+        behind.push_back(changed ? new_text(card) : std::string());
         if (changed) needed = behind.size();
         continue;
       }
       anchor = card.line.whole();
-      if (changed)
-        lines_.change(card.line, card.free_format ? fixed_text(card) : edited(card), out_.edits);
+      if (changed) lines_.change(card.line, new_text(card), out_.edits);
     }
     behind.resize(needed);
     // A header without any line: the first one would be taken for the title.
@@ -210,33 +209,14 @@ class Resolver {
     for (const std::string& text : behind) lines_.insert_after(anchor, text);
   }
 
-  std::string edited(const DecodedCard& card) const {
-    std::string text(card.line.text);
-    for (const Field& f : card.schema->fields)
-      if (const auto it = texts_.find(&f); it != texts_.end())
-        CellWriter::put(text, f.first, f.last, it->second);
-    return text;
-  }
-
-  /// A line in fixed columns from the cells there are, for lines with commas and missing ones.
-  std::string fixed_text(const DecodedCard& card) {
-    std::string text;
-    for (const Cell& cell : card.cells) {
-      const Field& f = *cell.field;
-      const int width = f.last - f.first + 1;
-      if (cell.text.size() <= static_cast<std::size_t>(width)) {
-        CellWriter::put(text, f.first, f.last, cell.text);
-        continue;
-      }
-      const auto shorter = f.type == FieldType::real && !cell.parameter
-                               ? format_real(cell.real, width)
-                               : std::nullopt;
-      if (shorter && shorter->exact)
-        CellWriter::put(text, f.first, f.last, shorter->text);
-      else
-        out_.refusals.push_back(c_.deck().sources.where(cell.span) + ": " + f.name +
+  /// The line with the new texts; lines with commas and missing ones get fixed columns.
+  std::string new_text(const DecodedCard& card) {
+    const bool fixed = !card.missing() && !card.free_format;
+    std::string text(fixed ? card.line.text : std::string_view());
+    for (const Cell& cell : card.cells)
+      if (!fixed && !detail::carry(cell, *cell.field, text))
+        out_.refusals.push_back(c_.deck().sources.where(cell.span) + ": " + cell.field->name +
                                 " does not fit its columns; shorten it");
-    }
     for (const Field& f : card.schema->fields)
       if (const auto it = texts_.find(&f); it != texts_.end())
         CellWriter::put(text, f.first, f.last, it->second);

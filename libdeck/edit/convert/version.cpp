@@ -411,22 +411,11 @@ class VersionRewriter {
 
   void carry(const Compose& compose, const Field& field, const Cell& cell,
              std::string& text) const {
-    const auto width = static_cast<std::size_t>(field.last - field.first + 1);
-    if (cell.blank()) return;
-    if (cell.text.size() <= width) {
-      CellWriter::put(text, field.first, field.last, cell.text);
-      return;
-    }
-    const auto shorter = field.type == FieldType::real && !cell.parameter
-                             ? format_real(cell.real, static_cast<int>(width))
-                             : std::nullopt;
-    if (shorter && shorter->exact)
-      CellWriter::put(text, field.first, field.last, shorter->text);
-    else if (compose.findings != nullptr)
-      compose.findings->undecided(compose.block, cell.span, field.name, cell.text,
-                                  "the value does not fit its " +
-                                      number(field.last - field.first + 1) +
-                                      " columns in version " + number(target_) + "; shorten it");
+    if (cell.blank() || detail::carry(cell, field, text) || compose.findings == nullptr) return;
+    compose.findings->undecided(compose.block, cell.span, field.name, cell.text,
+                                "the value does not fit its " +
+                                    number(field.last - field.first + 1) +
+                                    " columns in version " + number(target_) + "; shorten it");
   }
 
   /// A line with commas stays as it is if it has the same cells; otherwise it gets fixed columns.
