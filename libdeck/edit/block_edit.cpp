@@ -1,5 +1,4 @@
 // Finds the cell of a field, formats a value into it, and makes lines longer or adds them.
-#include "edit/block_edit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +8,7 @@
 #include "base/shared/spelling.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/version_cards.hpp"
+#include "edit/cells.hpp"
 #include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/place.hpp"

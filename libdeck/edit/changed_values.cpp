@@ -1,41 +1,15 @@
 // Finds the block and the cell of every edit.
-#include "edit/shared/changed_values.hpp"
+#include "edit/shared/conversion.hpp"
 
 #include <algorithm>
 #include <map>
-#include <optional>
-#include <tuple>
 
 #include "deck/keyword/decode.hpp"
-#include "keyword/shared/reader.hpp"
+#include "keyword/shared/place.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {
-
-/// Blocks by place, to find the one that holds an offset.
-class BlockFinder {
- public:
-  explicit BlockFinder(const Deck& deck) {
-    for (const Block& b : deck.blocks) {
-      places_.emplace_back(b.header_span.file, b.header_span.offset, &b);
-      for (const Piece& p : b.body) places_.emplace_back(p.file, p.begin, &b);
-    }
-    std::sort(places_.begin(), places_.end());
-  }
-  const Block* find(const Span& span) const {
-    auto it =
-        std::upper_bound(places_.begin(), places_.end(), span, [](const Span& s, const Place& p) {
-          return std::pair{s.file, s.offset} < std::pair{std::get<0>(p), std::get<1>(p)};
-        });
-    if (it == places_.begin()) return nullptr;
-    --it;
-    return std::get<0>(*it) == span.file ? std::get<2>(*it) : nullptr;
-  }
-
- private:
-  using Place = std::tuple<std::uint32_t, std::uint64_t, const Block*>;
-  std::vector<Place> places_;
-};
 
 /// The cells of one block by place; decoded when asked for the first time.
 class CellFinder {
@@ -90,7 +64,7 @@ std::string shown(std::string_view text) {
 
 void add_changed_values(const LoadedDeck& context, std::string_view option, Rewrite& rewrite) {
   const Deck& deck = context.deck();
-  const BlockFinder blocks(deck);
+  const BlockIndex blocks(deck);
   CellFinder cells(deck);
   // What the conversion has told already, by line.
   std::multimap<std::pair<std::string_view, std::uint64_t>, std::size_t> told;
@@ -106,7 +80,8 @@ void add_changed_values(const LoadedDeck& context, std::string_view option, Rewr
   for (const TextEdit* edit : edits) {
     const std::string_view before = deck.sources.text(edit->span);
     if (before == edit->text) continue;
-    const Block* block = blocks.find(edit->span);
+    const std::int64_t index = blocks.find(edit->span.file, edit->span.offset);
+    const Block* block = index < 0 ? nullptr : &deck.blocks[static_cast<std::size_t>(index)];
     const CellFinder::Place* cell = block == nullptr ? nullptr : cells.find(*block, edit->span);
     Span span = edit->span;
     std::string now = edit->text;

@@ -46,14 +46,18 @@ Result<ChangedFiles> apply_rewrite(const SourceSet& sources, const Rewrite& rewr
   return changed;
 }
 
-LossEntry loss_entry(const Deck& deck, Loss loss, const Block& block, Span span) {
+LossEntry loss_entry(const Deck& deck, Loss loss, const Block& block, Span span, LossText text) {
+  const Span place = span.valid() ? span : block.header_span;
   LossEntry entry;
   entry.loss = loss;
   entry.keyword = std::string(block.keyword);
   entry.id = block.id.value;
-  const Span place = span.valid() ? span : block.header_span;
   entry.file = deck.sources[place.file].path();
   entry.line = deck.sources.position(place).line;
+  entry.field = std::move(text.field);
+  entry.old_text = std::move(text.old_text);
+  entry.new_text = std::move(text.new_text);
+  entry.note = std::move(text.note);
   return entry;
 }
 
@@ -62,11 +66,9 @@ void leave_undecided(Rewrite& out, const Deck& deck, const Block& block, Span pl
   const Span at = place.valid() ? place : block.header_span;
   if (accepted) {
     constexpr std::size_t longest = 100;
-    LossEntry entry = loss_entry(deck, Loss::undecided, block, at);
-    entry.field = std::move(field);
-    entry.old_text = std::string(detail::trim(deck.sources.text(at)).substr(0, longest));
-    entry.note = std::move(why);
-    out.losses.push_back(std::move(entry));
+    std::string old_text(detail::trim(deck.sources.text(at)).substr(0, longest));
+    out.losses.push_back(loss_entry(deck, Loss::undecided, block, at,
+                                    {std::move(field), std::move(old_text), {}, std::move(why)}));
     return;
   }
   constexpr std::size_t most = 1000;

@@ -146,7 +146,9 @@ IntegerCell read_integer(std::string_view cell) {
 }
 
 namespace detail {
+namespace {
 
+/// "12.5", "0.05" or, without `leading_zero`, ".05"; always with a point.
 std::string fixed_text(const Decimal& d, bool leading_zero) {
   std::string text = d.negative ? "-" : "";
   const int count = static_cast<int>(d.digits.size());
@@ -162,6 +164,7 @@ std::string fixed_text(const Decimal& d, bool leading_zero) {
   return text;
 }
 
+/// "1.25e3". `before`: digits in front of the point; all of them: no point at all.
 std::string scientific_text(const Decimal& d, std::size_t before) {
   std::string text = d.negative ? "-" : "";
   text += d.digits.substr(0, before);
@@ -169,13 +172,26 @@ std::string scientific_text(const Decimal& d, std::size_t before) {
   return text + "e" + std::to_string(d.point - static_cast<int>(before));
 }
 
+}  // namespace
+
+std::string readable_text(const Decimal& d, std::size_t room) {
+  const bool plain = d.point > -4 && d.point <= 10;
+  std::string text = plain ? fixed_text(d, true) : scientific_text(d, 1);
+  if (text.size() <= room) return text;
+  for (const bool leading_zero : {true, false})
+    if (text = fixed_text(d, leading_zero); text.size() <= room) return text;
+  if (text = scientific_text(d, 1); text.size() <= room) return text;
+  // Without the point one more digit fits.
+  if (text = scientific_text(d, d.digits.size()); text.size() <= room) return text;
+  return {};
+}
+
 }  // namespace detail
 
 namespace {
 
 using detail::Decimal;
-using detail::fixed_text;
-using detail::scientific_text;
+using detail::readable_text;
 
 /// `significant` digits, correctly rounded; 0: the fewest that read back to the same double.
 Decimal to_decimal(double value, int significant, char (&buffer)[32]) {
@@ -203,19 +219,6 @@ Decimal to_decimal(double value, int significant, char (&buffer)[32]) {
   return out;
 }
 
-/// The most readable text of these digits that fits, empty if none does.
-std::string text_of(const Decimal& d, std::size_t room) {
-  const bool plain = d.point > -4 && d.point <= 10;
-  std::string text = plain ? fixed_text(d, true) : scientific_text(d, 1);
-  if (text.size() <= room) return text;
-  for (const bool leading_zero : {true, false})
-    if (text = fixed_text(d, leading_zero); text.size() <= room) return text;
-  if (text = scientific_text(d, 1); text.size() <= room) return text;
-  // Without the point one more digit fits.
-  if (text = scientific_text(d, d.digits.size()); text.size() <= room) return text;
-  return {};
-}
-
 }  // namespace
 
 std::optional<FormattedReal> format_real(double value, int width) {
@@ -227,18 +230,18 @@ std::optional<FormattedReal> format_real(double value, int width) {
     if (room < 2) return std::nullopt;
     return FormattedReal{room > 2 ? "0.0" : "0.", true};
   }
-  if (std::string text = text_of(shortest, room); !text.empty())
+  if (std::string text = readable_text(shortest, room); !text.empty())
     return FormattedReal{std::move(text), true};
   for (int digits = static_cast<int>(shortest.digits.size()) - 1; digits > 0; --digits) {
     char other[32];
     Decimal decimal = to_decimal(value, digits, other);
     // Rounding up may leave the range ("2e308" is no number): then the digits are cut.
-    if (std::string text = text_of(decimal, room); !text.empty()) {
+    if (std::string text = readable_text(decimal, room); !text.empty()) {
       RealCell read = read_real(text);
       if (read.status != NumberStatus::ok) {
         decimal = shortest;
         decimal.digits = decimal.digits.substr(0, static_cast<std::size_t>(digits));
-        text = text_of(decimal, room);
+        text = readable_text(decimal, room);
         read = read_real(text);
       }
       if (read.status == NumberStatus::ok)

@@ -1,5 +1,5 @@
 // Effective values on the cards: nothing changes but where they come from.
-#include "edit/shared/resolve.hpp"
+#include "edit/shared/conversion.hpp"
 
 #include <gtest/gtest.h>
 

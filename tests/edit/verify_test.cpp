@@ -1,5 +1,5 @@
 // Verification: conversions that keep the model pass, changes of one value are named.
-#include "edit/shared/verify.hpp"
+#include "edit/shared/conversion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 
 #include "contact/small_deck.hpp"
 #include "deck/edit/convert.hpp"
-#include "edit/shared/changed_values.hpp"
 #include "edit/version_support.hpp"
 
 namespace deck::test {

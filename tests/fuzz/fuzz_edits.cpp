@@ -5,7 +5,7 @@
 
 #include "deck/edit/convert.hpp"
 #include "deck/edit/fix.hpp"
-#include "edit/shared/resolve.hpp"
+#include "edit/shared/conversion.hpp"
 #include "support.hpp"
 
 namespace {

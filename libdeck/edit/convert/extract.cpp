@@ -1,40 +1,11 @@
 // Finds what the wanted interfaces need, from block to block, until nothing new is named.
-#include "deck/edit/convert.hpp"
-
 #include <algorithm>
 
-#include "edit/convert/extract_state.hpp"
+#include "edit/convert/extract.hpp"
 #include "keyword/shared/reader.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {
-
-ItemLines::ItemLines(const Deck& deck, const Block& block)
-    : deck_(&deck), block_(&block), cursor_(deck.sources, block) {
-  for (const CardSchema& card : block.schema->cards)
-    if (card.in_version(block.version)) cards_.push_back(&card);
-}
-
-bool ItemLines::next() {
-  lines_.clear();
-  if (cards_.empty()) return false;
-  while (lines_.size() < cards_.size()) {
-    const Line line = cursor_.next();
-    if (!line.valid()) return false;
-    if (lines_.empty() && line.text.empty()) continue;
-    lines_.push_back(line);
-  }
-  const std::string_view text = lines_[0].text;
-  const Field& f = cards_[0]->fields[0];
-  if (text.find_first_of(",&") == std::string_view::npos) {
-    id_ = read_integer(columns(text, f.first, f.last)).value;
-  } else {
-    const DecodedCard card = decode_line(*deck_, *block_, *cards_[0], lines_[0], nullptr);
-    id_ = card.cells.empty() ? 0 : card.cells[0].integer;
-  }
-  if (id_ > 0) id_ += deck_->offset_of(*block_, block_->schema->kind);
-  return true;
-}
 
 namespace {
 
@@ -294,29 +265,47 @@ void Extraction::tokens(const Block& b, const DecodedBlock& d) {
   if (b.schema->kind != "mat" && b.schema->kind != "prop" && b.schema->kind != "sensor" &&
       b.schema->kind != "other")
     return;
-  const auto line_tokens = [&](const Line& line) {
-    const std::string_view text = line.text.substr(0, 100);
-    for (std::size_t at = 0; at < text.size();) {
-      const auto begin = text.find_first_not_of(" \t,", at);
-      if (begin == std::string_view::npos) break;
-      const auto end = std::min(text.find_first_of(" \t,", begin), text.size());
-      const std::string_view token = text.substr(begin, end - begin);
-      at = end;
-      if (token.find_first_not_of("0123456789") != std::string_view::npos) continue;
-      const std::int64_t id = read_integer(token).value;
-      if (id <= 0) continue;
-      for (const std::string_view kind : {"funct", "skew", "sensor"})
-        keep_block(kind, id + deck_.offset_of(b, kind));
-      if (b.schema->kind == "prop") keep_block("mat", id + deck_.offset_of(b, "mat"));
-    }
+  const auto keep_named = [&](const Line& line, std::size_t begin, std::size_t end) {
+    const std::string_view token = line.text.substr(begin, end - begin);
+    const std::int64_t id = read_integer(token).value;
+    if (token.find_first_not_of("0123456789") != std::string_view::npos || id <= 0) return false;
+    for (const std::string_view kind : {"funct", "skew", "sensor"})
+      keep_block(kind, id + deck_.offset_of(b, kind));
+    if (b.schema->kind == "prop") keep_block("mat", id + deck_.offset_of(b, "mat"));
+    return false;  // look on
   };
   for (const DecodedCard& card : d.cards)
-    if (!card.missing()) line_tokens(card.line);
-  for (const Line& line : d.extra) line_tokens(line);
+    if (!card.missing()) find_words(card.line, {}, keep_named);
+  for (const Line& line : d.extra) find_words(line, {}, keep_named);
 }
 
-// ---- from the selections to everything around them
-// -----------------------------------------------
+// ---- from the selections to everything around them ----------------------------------------------
+
+std::int64_t Extraction::id_of(const Block& bulk, const ItemLines& item) const {
+  const Field& f = item.cards()[0]->fields[0];
+  std::int64_t id = 0;
+  if (item.plain(0)) {
+    id = read_integer(columns(item.lines()[0].text, f.first, f.last)).value;
+  } else if (const DecodedCard card = item.decoded(0); !card.cells.empty()) {
+    id = card.cells[0].integer;
+  }
+  return deck_.shifted_id(bulk, bulk.schema->kind, id);
+}
+
+bool Extraction::keeps(const Block& bulk, const ItemLines& item) const {
+  const auto family = family_of_kind(bulk.schema->kind);
+  const IdMap& map = family ? model_.family(*family).map : model_.nodes.map;
+  const std::uint32_t i = map.find(id_of(bulk, item));
+  const auto& kept = family ? element_kept[static_cast<std::size_t>(*family)] : node_kept;
+  return i != no_index && kept[i] != 0;
+}
+
+/// True if a block has its number from something that stays.
+bool Extraction::names_kept(std::string_view kind, const Block& b) const {
+  const auto it =
+      definitions_.find(std::pair{std::string(kind), own_id(b) + deck_.offset_of(b, kind)});
+  return it != definitions_.end() && block_kept[it->second] != 0;
+}
 
 void Extraction::keep_switches() {
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
@@ -367,19 +356,23 @@ void Extraction::scan_elements() {
     const Elements& elements = model_.family(*family);
     ItemLines items(deck_, b);
     while (items.next()) {
-      const std::uint32_t e = elements.map.find(items.id());
+      const std::uint32_t e = elements.map.find(id_of(b, items));
       if (e == no_index || element_kept[k][e] == 0 || scanned_[k][e] != 0) continue;
       scanned_[k][e] = 1;
       if (elements.part[e] != no_index) keep_block("part", model_.parts[elements.part[e]].id);
-      items.references([&](std::string_view kind, std::int64_t id) {
-        if (kind == "node") {
+      for (std::size_t row = 0; row < items.cards().size(); ++row)
+        for (const Cell& cell : items.decoded(row).cells) {
+          if (cell.field->type != FieldType::id || cell.integer <= 0) continue;
+          const std::string_view kind = cell.field->ref;
+          const std::int64_t id = cell.integer + deck_.offset_of(b, kind);
+          if (kind != "node") {
+            keep_block(kind, id);
+            continue;
+          }
           // The node as written, and the one it was merged with.
           keep_node(model_.nodes.map.find(id), false);
           keep_node(model_.find_node(id), false);
-        } else {
-          keep_block(kind, id);
         }
-      });
     }
   }
 }
@@ -401,13 +394,9 @@ void Extraction::transforms() {
 
 /// What changes a function under the function's own id.
 void Extraction::functions() {
-  for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
-    const Block& b = deck_.blocks[i];
-    if (header_reference(b) != "funct") continue;
-    const auto it =
-        definitions_.find(std::pair{std::string("funct"), own_id(b) + deck_.offset_of(b, "funct")});
-    if (it != definitions_.end() && block_kept[it->second] != 0) keep_block(i);
-  }
+  for (std::size_t i = 0; i < deck_.blocks.size(); ++i)
+    if (header_reference(deck_.blocks[i]) == "funct" && names_kept("funct", deck_.blocks[i]))
+      keep_block(i);
 }
 
 /// What belongs to a material under the material's own id.
@@ -417,13 +406,12 @@ void Extraction::materials() {
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
     const Block& b = deck_.blocks[i];
     if (header_reference(b) != "mat") continue;
-    const auto it =
-        definitions_.find(std::pair{std::string("mat"), own_id(b) + deck_.offset_of(b, "mat")});
-    const bool kept = it != definitions_.end() && block_kept[it->second] != 0;
+    const bool kept = names_kept("mat", b);
     if (kept) keep_block(i);
     if (!detail::is_below(b.header, "/HEAT/MAT")) continue;
     thermal = thermal || kept;
-    if (first_thermal == deck_.blocks.size() && it != definitions_.end()) first_thermal = i;
+    const std::pair material{std::string("mat"), own_id(b) + deck_.offset_of(b, "mat")};
+    if (first_thermal == deck_.blocks.size() && definitions_.contains(material)) first_thermal = i;
   }
   // Heat exchange needs a thermal material somewhere in the model.
   if (thermal || first_thermal == deck_.blocks.size()) return;
@@ -442,15 +430,8 @@ void Extraction::materials() {
 void Extraction::submodel_frames() {
   std::vector<std::uint8_t> wanted(deck_.submodels.size(), 0);
   const auto bulk_kept = [&](const Block& b) {
-    const auto family = family_of_kind(b.schema->kind);
-    ItemLines items(deck_, b);
-    while (items.next()) {
-      const std::uint32_t i =
-          family ? model_.family(*family).map.find(items.id()) : model_.nodes.map.find(items.id());
-      if (i != no_index &&
-          (family ? element_kept[static_cast<std::size_t>(*family)][i] : node_kept[i]) != 0)
-        return true;
-    }
+    for (ItemLines items(deck_, b); items.next();)
+      if (keeps(b, items)) return true;
     return false;
   };
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {

@@ -7,8 +7,7 @@
 #include "deck/contact/scene.hpp"
 #include "deck/edit/convert.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/extract_state.hpp"
-#include "edit/convert/units/unit_system_state.hpp"
+#include "edit/convert/extract.hpp"
 
 namespace deck {
 namespace {
@@ -27,8 +26,8 @@ Result<LoadedDeck> read_small(const LoadedDeck& whole, std::string text) {
 /// A file without includes, cut down to what stays.
 class Writer {
  public:
-  Writer(const Deck& deck, const Model& model, const Extraction& kept)
-      : deck_(deck), model_(model), kept_(kept), bytes_(deck.sources[0].bytes()) {}
+  Writer(const Deck& deck, const Extraction& kept)
+      : deck_(deck), kept_(kept), bytes_(deck.sources[0].bytes()) {}
 
   std::string run(const std::string& about) {
     const auto nl = bytes_.find('\n');
@@ -71,16 +70,9 @@ class Writer {
   }
 
   void bulk(const Block& b) {
-    const auto family = detail::family_of_kind(b.schema->kind);
     bool open = false;
-    ItemLines items(deck_, b);
-    while (items.next()) {
-      const std::uint32_t i =
-          family ? model_.family(*family).map.find(items.id()) : model_.nodes.map.find(items.id());
-      if (i == no_index) continue;
-      const auto& list =
-          family ? kept_.element_kept[static_cast<std::size_t>(*family)] : kept_.node_kept;
-      if (list[i] == 0) continue;
+    for (ItemLines items(deck_, b); items.next();) {
+      if (!kept_.keeps(b, items)) continue;
       if (!open) copy(line_start(b.header_span.offset), line_end(b.header_span.offset));
       open = true;
       for (const Line& l : items.lines()) copy(l.offset, line_end(l.offset));
@@ -88,7 +80,6 @@ class Writer {
   }
 
   const Deck& deck_;
-  const Model& model_;
   const Extraction& kept_;
   std::string_view bytes_;
   std::string_view end_ = "\n";
@@ -115,53 +106,65 @@ std::vector<std::pair<std::string, std::string>> values_of(const Interfaces& all
   return out;
 }
 
-std::vector<double> edge_numbers(const Model& model, const std::vector<ContactEdge>& edges) {
-  std::vector<double> out;
-  for (const ContactEdge& e : edges)
-    for (const double v : {static_cast<double>(model.node_id(e.nodes[0])),
-                           static_cast<double>(model.node_id(e.nodes[1])),
-                           static_cast<double>(e.carrier), e.stiffness, e.gap, e.length})
-      out.push_back(v);
-  return out;
-}
+/// What is compared of the contacts and ties of a deck: numbers by interface and what they are.
+class SceneNumbers {
+ public:
+  using Numbers = std::map<std::pair<std::int64_t, std::string>, std::vector<double>>;
 
-/// Everything about the sides of a contact as numbers, by what they are.
-std::map<std::string, std::vector<double>> numbers_of(const Model& model, const Contact& c) {
-  std::map<std::string, std::vector<double>> out;
-  out["gap limits"] = {c.gapmin, c.gapmax, c.max_gap, c.shortest_side};
-  for (const SecondaryNode& s : c.secondary)
-    for (const double v : {static_cast<double>(model.node_id(s.node)), s.gap, s.length,
-                           s.nodal_stiffness, s.multiplier})
-      out["secondary nodes"].push_back(v);
-  for (const MainSegment& m : c.main) {
-    for (const NodeIndex n : m.nodes)
-      out["main segments"].push_back(static_cast<double>(model.node_id(n)));
-    for (const double v :
-         {static_cast<double>(m.carrier), m.stiffness, m.gap, m.thickness, m.length})
-      out["main segments"].push_back(v);
+  SceneNumbers(const LoadedDeck& deck, const SceneOptions& options) : model_(deck.model()) {
+    Diagnostics ignored;
+    const Scene scene = deck.scene_with(options, ignored);
+    for (const Tie& tie : scene.ties) add(tie);
+    for (const Contact& contact : scene.contacts) add(contact);
   }
-  out["secondary edges"] = edge_numbers(model, c.secondary_edges);
-  out["main edges"] = edge_numbers(model, c.main_edges);
-  return out;
-}
+  const Numbers& all() const { return all_; }
 
-/// What becomes of the nodes of a tie.
-std::map<std::string, std::vector<double>> numbers_of(const Model& model, const Tie& tie) {
-  std::map<std::string, std::vector<double>> out;
-  for (const auto& segment : tie.main)
-    for (const NodeIndex n : segment)
-      out["main segments"].push_back(static_cast<double>(model.node_id(n)));
-  for (const TiedNode& n : tie.nodes) {
-    const double segment = n.segment == no_index ? -1 : static_cast<double>(n.segment);
-    for (const double v :
-         {static_cast<double>(model.node_id(n.node)), segment, n.s, n.t, n.distance, n.search,
-          static_cast<double>(n.message), static_cast<double>(n.tied)})
-      out["tied nodes"].push_back(v);
-    out["ties by penalty (other conditions on the nodes are not carried)"].push_back(
-        static_cast<double>(n.penalty));
+ private:
+  void add(const Contact& c) {
+    const auto put = [&](const char* what, std::initializer_list<double> values) {
+      append(c.inter->id, std::string(what) + " (" + to_string(c.role) + ")", values);
+    };
+    const auto edges = [&](const char* what, const std::vector<ContactEdge>& list) {
+      put(what, {});
+      for (const ContactEdge& e : list)
+        put(what, {id(e.nodes[0]), id(e.nodes[1]), static_cast<double>(e.carrier), e.stiffness,
+                   e.gap, e.length});
+    };
+    put("gap limits", {c.gapmin, c.gapmax, c.max_gap, c.shortest_side});
+    for (const SecondaryNode& s : c.secondary)
+      put("secondary nodes", {id(s.node), s.gap, s.length, s.nodal_stiffness, s.multiplier});
+    for (const MainSegment& m : c.main)
+      put("main segments",
+          {id(m.nodes[0]), id(m.nodes[1]), id(m.nodes[2]), id(m.nodes[3]),
+           static_cast<double>(m.carrier), m.stiffness, m.gap, m.thickness, m.length});
+    edges("secondary edges", c.secondary_edges);
+    edges("main edges", c.main_edges);
   }
-  return out;
-}
+
+  /// What becomes of the nodes of a tie.
+  void add(const Tie& tie) {
+    for (const auto& s : tie.main)
+      append(tie.inter->id, "main segments", {id(s[0]), id(s[1]), id(s[2]), id(s[3])});
+    for (const TiedNode& n : tie.nodes) {
+      const double segment = n.segment == no_index ? -1 : static_cast<double>(n.segment);
+      append(tie.inter->id, "tied nodes",
+             {id(n.node), segment, n.s, n.t, n.distance, n.search, static_cast<double>(n.message),
+              static_cast<double>(n.tied)});
+      append(tie.inter->id, "ties by penalty (other conditions on the nodes are not carried)",
+             {static_cast<double>(n.penalty)});
+    }
+  }
+
+  double id(NodeIndex n) const { return static_cast<double>(model_.node_id(n)); }
+  void append(std::int64_t interface_id, const std::string& what,
+              std::initializer_list<double> values) {
+    std::vector<double>& list = all_[{interface_id, what}];
+    list.insert(list.end(), values);
+  }
+
+  const Model& model_;
+  Numbers all_;
+};
 
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -172,16 +175,13 @@ void compare(const LoadedDeck& whole, const LoadedDeck& small, const std::vector
              Rewrite& out) {
   const auto differs = [&](std::int64_t id, std::string field, std::string before,
                            std::string after) {
-    for (const InterBase* inter : whole.interfaces().all) {
-      if (inter->id != id) continue;
-      LossEntry entry = loss_entry(whole.deck(), Loss::approximated, *inter->block, inter->span);
-      entry.field = std::move(field);
-      entry.old_text = std::move(before);
-      entry.new_text = std::move(after);
-      entry.note = "differs in the small deck";
-      out.losses.push_back(std::move(entry));
-      return;
-    }
+    const auto& all = whole.interfaces().all;
+    const auto inter =
+        std::find_if(all.begin(), all.end(), [&](const InterBase* i) { return i->id == id; });
+    if (inter != all.end())
+      out.losses.push_back(loss_entry(
+          whole.deck(), Loss::approximated, *(*inter)->block, (*inter)->span,
+          {std::move(field), std::move(before), std::move(after), "differs in the small deck"}));
   };
   for (const std::int64_t id : ids) {
     const auto a = values_of(whole.interfaces(), id), b = values_of(small.interfaces(), id);
@@ -193,29 +193,11 @@ void compare(const LoadedDeck& whole, const LoadedDeck& small, const std::vector
   options.only = ids;
   options.penetrations = options.candidates = false;
   options.ties = true;
-  Diagnostics ignored;
-  const Scene before = whole.scene_with(options, ignored);
-  const Scene after = small.scene_with(options, ignored);
-  for (std::size_t i = 0; i < before.ties.size() && i < after.ties.size(); ++i) {
-    const auto a = numbers_of(whole.model(), before.ties[i]),
-               b = numbers_of(small.model(), after.ties[i]);
-    for (const auto& [what, numbers] : a)
-      if (const auto it = b.find(what); it == b.end() || !same(numbers, it->second))
-        differs(before.ties[i].inter->id, what, "", "");
-  }
-  for (std::size_t i = 0; i < before.contacts.size(); ++i) {
-    const Contact& x = before.contacts[i];
-    if (i >= after.contacts.size() || after.contacts[i].inter->id != x.inter->id) {
-      differs(x.inter->id, to_string(x.role), "", "no such contact");
-      continue;
-    }
-    const auto a = numbers_of(whole.model(), x), b = numbers_of(small.model(), after.contacts[i]);
-    for (const auto& [what, numbers] : a) {
-      const auto it = b.find(what);
-      if (it == b.end() || !same(numbers, it->second))
-        differs(x.inter->id, what + " (" + to_string(x.role) + ")", "", "");
-    }
-  }
+  const SceneNumbers before(whole, options), after(small, options);
+  for (const auto& [what, numbers] : before.all())
+    if (const auto it = after.all().find(what);
+        it == after.all().end() || !same(numbers, it->second))
+      differs(what.first, what.second, "", "");
 }
 
 /// True if a tie of the deck is not among the interfaces.
@@ -231,39 +213,23 @@ void remarks(const LoadedDeck& c, const std::vector<std::int64_t>& ids, Rewrite&
   std::int64_t mover = 0;
   for (const InterBase* inter : c.interfaces().ordered) {
     const bool wanted = std::find(ids.begin(), ids.end(), inter->id) != ids.end();
-    const auto check = [&](const auto& list) {
-      for (const auto& i : list) {
-        if (&i != inter) continue;
-        if (!wanted && i.Inacti.value == 3 && mover == 0) mover = i.id;
-        if (!wanted) continue;
-        if (mover != 0) {
-          LossEntry entry = loss_entry(c.deck(), Loss::undecided, *inter->block, inter->span);
-          entry.field = "Inacti";
-          entry.note =
-              "interface " + std::to_string(mover) +
-              " comes first and moves nodes (Inacti 3); extract it too if they share nodes";
-          out.losses.push_back(std::move(entry));
-        }
-      }
+    const bool may_move = inter->type == 7 || inter->type == 11 || inter->type == 19;
+    const auto remark = [&](Loss loss, const char* field, std::string note) {
+      out.losses.push_back(loss_entry(c.deck(), loss, *inter->block, inter->span,
+                                      {.field = field, .note = std::move(note)}));
     };
-    check(c.interfaces().type7);
-    check(c.interfaces().type11);
-    check(c.interfaces().type19);
-    const auto tied = [&](const auto& list) {
-      for (const auto& i : list)
-        if (&i == inter && wanted && i.Irem_i2.value == 1 && loses_ties(c, ids)) {
-          LossEntry entry = loss_entry(c.deck(), Loss::dropped, *inter->block, inter->span);
-          entry.field = "Irem_i2";
-          entry.note =
-              "nodes tied by /INTER/TYPE2 are removed from this interface in the whole "
-              "deck; extract these ties too where that matters";
-          out.losses.push_back(std::move(entry));
-        }
-    };
-    tied(c.interfaces().type7);
-    tied(c.interfaces().type19);
-    tied(c.interfaces().type24);
-    tied(c.interfaces().type25);
+    visit_interface(*inter, [&](const auto& i) {
+      if (may_move && !wanted && i.Inacti.value == 3 && mover == 0) mover = i.id;
+      if (may_move && wanted && mover != 0)
+        remark(Loss::undecided, "Inacti",
+               "interface " + std::to_string(mover) +
+                   " comes first and moves nodes (Inacti 3); extract it too if they share nodes");
+      if constexpr (requires { i.Irem_i2; })
+        if (wanted && i.Irem_i2.value == 1 && loses_ties(c, ids))
+          remark(Loss::dropped, "Irem_i2",
+                 "nodes tied by /INTER/TYPE2 are removed from this interface in the whole deck; "
+                 "extract these ties too where that matters");
+    });
   }
 }
 
@@ -284,9 +250,10 @@ void report_dropped(const Deck& deck, const Extraction& kept, const Model& model
     if (entry.second++ == 0) entry.first = &b;
   }
   for (const auto& [keyword, entry] : dropped) {
-    out.losses.push_back(loss_entry(deck, Loss::dropped, *entry.first, entry.first->header_span));
-    out.losses.back().note =
-        std::to_string(entry.second) + " not needed by the interfaces (the first one is named)";
+    out.losses.push_back(loss_entry(deck, Loss::dropped, *entry.first, entry.first->header_span,
+                                    {.note = std::to_string(entry.second) +
+                                             " not needed by the interfaces (the first one is "
+                                             "named)"}));
   }
   out.notes.push_back(std::to_string(nodes) + " of " + std::to_string(model.nodes.size()) +
                       " nodes and " + std::to_string(elements) + " of " +
@@ -302,7 +269,7 @@ Rewrite extract_flat(const LoadedDeck& c, const std::vector<std::int64_t>& ids) 
   for (const std::int64_t id : ids) about += " " + std::to_string(id);
   about += " of " + c.deck().sources[0].path() + " and what they need";
   std::erase_if(about, [](char ch) { return static_cast<unsigned char>(ch) < ' '; });
-  std::string text = Writer(c.deck(), c.model(), kept).run(about);
+  std::string text = Writer(c.deck(), kept).run(about);
   const auto small = read_small(c, text);
   if (!small) {
     out.refusals.push_back(small.error().message);

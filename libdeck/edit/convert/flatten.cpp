@@ -6,8 +6,9 @@
 #include <optional>
 #include <set>
 
-#include "edit/convert/units/unit_system_state.hpp"
+#include "edit/cells.hpp"
 #include "keyword/shared/header_line.hpp"
+#include "keyword/shared/include_file.hpp"
 #include "keyword/shared/reader.hpp"
 #include "text/shared/columns.hpp"
 
@@ -18,49 +19,6 @@ using detail::header_columns;
 using detail::starts_with_nocase;
 using detail::trim;
 using detail::trim_right;
-
-// ---- parameters of one file ------------------------------------------------------------------
-
-using Places = std::map<std::string, std::vector<Span>, std::less<>>;
-
-void add_place(Places& places, std::uint32_t file, std::string_view bytes, std::size_t begin,
-               std::size_t end) {
-  places[std::string(bytes.substr(begin, end - begin))].push_back(
-      {file, static_cast<std::uint32_t>(end - begin), begin});
-}
-
-/// Where parameters are named (without the &): in cells, headers and expressions.
-Places find_places(const Deck& deck) {
-  Places places;
-  for (std::uint32_t f = 0; f < deck.sources.size(); ++f) {
-    const std::string_view bytes = deck.sources[f].bytes();
-    for (std::size_t at = bytes.find('&'); at != std::string_view::npos;
-         at = bytes.find('&', at + 1)) {
-      const auto nl = bytes.rfind('\n', at);
-      const char first = bytes[nl == std::string_view::npos ? 0 : nl + 1];
-      if (first == '#' || first == '$') continue;
-      std::size_t end = at + 1;
-      while (end < bytes.size() && detail::name_character(bytes[end])) ++end;
-      if (end > at + 1) add_place(places, f, bytes, at + 1, end);
-    }
-  }
-  // Expressions may leave the & away.
-  for (const auto& [name, p] : deck.parameters) {
-    if (p.expression.empty()) continue;
-    const std::string_view bytes = deck.sources[p.span.file].bytes();
-    const std::size_t stop = p.span.offset + std::min<std::size_t>(p.span.length, 100);
-    for (std::size_t at = p.span.offset + 10; at < stop;) {
-      std::size_t end = at;
-      while (end < stop && detail::name_character(bytes[end])) ++end;
-      const bool number = end > at && bytes[at] >= '0' && bytes[at] <= '9';
-      const bool function = end < stop && bytes[end] == '(';
-      if (end > at && !number && !function && bytes[at - 1] != '&')
-        add_place(places, p.span.file, bytes, at, end);
-      at = end + 1;
-    }
-  }
-  return places;
-}
 
 /// An unused name of the same length.
 std::optional<std::string> free_name(const std::string& name, std::set<std::string>& taken) {
@@ -90,18 +48,17 @@ std::vector<TextEdit> rename_local_parameters(const Deck& deck, std::vector<std:
   bool any_local = false;
   for (const auto& [name, p] : deck.parameters) any_local = any_local || p.local;
   if (!any_local) return edits;
-  const Places places = find_places(deck);
+  const detail::ParameterPlaces places = detail::find_parameters(deck);
   std::set<std::string> taken;
   for (const auto& [name, p] : deck.parameters) taken.insert(name);
   for (const auto& [name, spans] : places) taken.insert(name);
   for (auto it = deck.parameters.begin(); it != deck.parameters.end();) {
     const std::string& name = it->first;
     const auto last = deck.parameters.upper_bound(name);
-    const Parameter* merged = nullptr;  // what the name means when all files are one
-    for (auto p = it; p != last; ++p)
-      if (p->second.local && merged == nullptr) merged = &p->second;
-    for (auto p = it; p != last; ++p)
-      if (!p->second.local && merged == nullptr) merged = &p->second;
+    // What the name means when all files are one: the first local one, or the first.
+    const auto local_one =
+        std::find_if(it, last, [](const auto& entry) { return entry.second.local; });
+    const Parameter* merged = &(local_one != last ? local_one : it)->second;
     const auto used = places.find(name);
     bool conflict = false;
     if (used != places.end())
@@ -176,18 +133,6 @@ class Flattener {
     if (!out_.empty() && out_.back() != '\n') out_ += line_end(file);
   }
 
-  /// End of an include directive, its continuation lines included.
-  static std::uint64_t directive_end(std::string_view bytes, std::uint64_t pos) {
-    for (bool more = true; more && pos < bytes.size();) {
-      const auto nl = std::min<std::size_t>(bytes.find('\n', pos), bytes.size());
-      const std::string_view line = trim_right(bytes.substr(pos, nl - pos));
-      pos = std::min<std::uint64_t>(nl + 1, bytes.size());
-      more = line.ends_with(" +") || line.ends_with("...") || line.ends_with("&") ||
-             (pos < bytes.size() && bytes[pos] == '+');
-    }
-    return pos;
-  }
-
   /// The lines of a directive as comments.
   void comment_out(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
     const std::string_view bytes = deck_.sources[file].bytes();
@@ -226,9 +171,9 @@ class Flattener {
       const std::uint64_t next = std::min<std::uint64_t>(nl + 1, bytes.size());
       if (edge != children_[file].end() && (*edge)->directive.offset == pos) {
         append(file, run, pos);
-        run = directive_end(bytes, pos);
+        detail::include_path(bytes, pos);
+        run = pos;
         include(file, **edge++, run);
-        pos = run;
         continue;
       }
       const std::string_view line = bytes.substr(pos, nl - pos);
@@ -277,23 +222,12 @@ bool repeated_begin(const Deck& deck, const Block& b) {
 
 /// Comment marks in front of the lines of a block.
 void disable(const Deck& deck, const Block& b, std::vector<TextEdit>& edits) {
-  const std::string_view bytes = deck.sources[b.header_span.file].bytes();
-  const auto nl = b.header_span.offset == 0 ? std::string_view::npos
-                                            : bytes.rfind('\n', b.header_span.offset - 1);
-  edits.push_back({Span{b.header_span.file, 0, nl == std::string_view::npos ? 0 : nl + 1}, "#"});
+  const Source& source = deck.sources[b.header_span.file];
+  const auto header = source.line_at(b.header_span.offset).data() - source.bytes().data();
+  edits.push_back({Span{b.header_span.file, 0, static_cast<std::uint64_t>(header)}, "#"});
   LineCursor cursor(deck.sources, b);
   for (Line line = cursor.next(); line.valid(); line = cursor.next())
     edits.push_back({Span{line.file, 0, line.offset}, "#"});
-}
-
-/// True if the columns of a keyword are the same in both input versions.
-bool same_layout(const Schema& schema, int a, int b) {
-  for (const CardSchema& card : schema.cards) {
-    if (card.in_version(a) != card.in_version(b)) return false;
-    for (const Field& f : card.fields)
-      if (f.in_version(a) != f.in_version(b)) return false;
-  }
-  return true;
 }
 
 /// The cells of two readings of a block, compared by name and content.
@@ -366,7 +300,8 @@ class Comparison {
   /// Only parameters and versions can change what a cell means.
   bool same_cells(const Block& b, const Block& now) const {
     if (b.schema == nullptr || b.header.starts_with("/PARAMETER")) return true;
-    const bool moved = b.version != now.version && !same_layout(*b.schema, b.version, now.version);
+    const bool moved =
+        b.version != now.version && detail::layout_differs(*b.schema, b.version, now.version);
     if (!moved && deck_.parameters.empty()) return true;
     const DecodedBlock x = decode(deck_, b), y = decode(flat_, now);
     return CellTexts(x) == CellTexts(y);
@@ -376,11 +311,12 @@ class Comparison {
   void note_version(const Block& b, int version, std::vector<LossEntry>& losses) {
     if (b.schema != nullptr && (b.schema->layout_known() || b.schema->kind == "engine")) return;
     if (!noted_.insert(b.keyword).second) return;
-    losses.push_back(loss_entry(deck_, Loss::undecided, b, b.header_span));
-    losses.back().note = "written for input version " + std::to_string(b.version) +
-                         ", read as version " + std::to_string(version) +
-                         " from now on; the keyword is not described completely, so compare its "
-                         "columns in both versions (this and further blocks of the keyword)";
+    losses.push_back(loss_entry(
+        deck_, Loss::undecided, b, b.header_span,
+        {.note = "written for input version " + std::to_string(b.version) + ", read as version " +
+                 std::to_string(version) +
+                 " from now on; the keyword is not described completely, so compare its columns in "
+                 "both versions (this and further blocks of the keyword)"}));
   }
 
   const Deck& deck_;
@@ -403,9 +339,8 @@ Rewrite flatten(const LoadedDeck& context, const FlattenOptions& options) {
   for (const Block& b : deck.blocks) {
     if (!repeated_begin(deck, b)) continue;
     disable(deck, b, edits);
-    LossEntry entry = loss_entry(deck, Loss::dropped, b, b.header_span);
-    entry.note = "a comment now: one file has one /BEGIN";
-    rewrite.losses.push_back(std::move(entry));
+    rewrite.losses.push_back(loss_entry(deck, Loss::dropped, b, b.header_span,
+                                        {.note = "a comment now: one file has one /BEGIN"}));
   }
   if (!rewrite.refusals.empty()) return rewrite;
   std::string text = Flattener(deck, options, std::move(edits)).run();

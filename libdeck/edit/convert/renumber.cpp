@@ -6,14 +6,13 @@
 #include <charconv>
 #include <map>
 #include <optional>
-#include <unordered_map>
 
+#include "base/shared/count.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/units/unit_system_state.hpp"
-#include "edit/convert/version_cards.hpp"
+#include "edit/cells.hpp"
 #include "keyword/shared/reader.hpp"
 #include "keyword/shared/references.hpp"
-#include "text/shared/edits.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck {
 namespace {
@@ -22,6 +21,7 @@ using detail::trim;
 
 // ---- id spaces --------------------------------------------------------------------------------
 
+/// In the order of all_families.
 constexpr std::string_view elements[] = {"shell", "sh3n",  "solid", "quad",
                                          "tria",  "truss", "beam",  "spring"};
 constexpr std::string_view groups[] = {"grnod",  "grshel", "grsh3n", "grtria", "grbric",
@@ -64,67 +64,26 @@ std::string_view space_of(std::string_view kind) {
 struct IdSpace {
   std::vector<std::int64_t> ids;  ///< defined ones, ascending, unique
   bool changes = false, compact = false;
-  std::int64_t value = 0, only = 0;  ///< as in RenumberRule
+  std::int64_t value = 0;  ///< as in RenumberRule
 
-  bool defined(std::int64_t id) const;
+  bool defined(std::int64_t id) const { return std::binary_search(ids.begin(), ids.end(), id); }
   /// New number of a defined id, or of one that only a reference names; nullopt: it cannot have
-  /// one.
-  std::optional<std::int64_t> mapped(std::int64_t id) const;
-  /// Those of the ids from, from + step ... to that are defined.
-  std::vector<std::int64_t> members(std::int64_t from, std::int64_t to, std::int64_t step) const;
+  /// one, because it must not come to mean something.
+  std::optional<std::int64_t> mapped(std::int64_t id) const {
+    if (!changes) return id;
+    if (!compact) return id + value;
+    if (defined(id)) return value + (std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+    return taken(id) ? std::nullopt : std::optional(id);
+  }
   /// A number that a defined id has afterwards.
-  bool taken(std::int64_t new_id) const;
+  bool taken(std::int64_t new_id) const {
+    if (!changes) return defined(new_id);
+    if (!compact) return defined(new_id - value);
+    return new_id >= value && new_id < value + static_cast<std::int64_t>(ids.size());
+  }
 };
 
 using IdSpaces = std::map<std::string, IdSpace, std::less<>>;
-
-bool IdSpace::defined(std::int64_t id) const {
-  return std::binary_search(ids.begin(), ids.end(), id);
-}
-
-std::optional<std::int64_t> IdSpace::mapped(std::int64_t id) const {
-  if (!changes) return id;
-  if (only != 0) {
-    if (id == only) return value;
-    return id == value ? std::nullopt : std::optional(id);
-  }
-  if (!compact) return id + value;
-  const auto it = std::lower_bound(ids.begin(), ids.end(), id);
-  if (it != ids.end() && *it == id) return value + (it - ids.begin());
-  // Named but not defined: it must not come to mean something.
-  if (taken(id)) return std::nullopt;
-  return id;
-}
-
-std::vector<std::int64_t> IdSpace::members(std::int64_t from, std::int64_t to,
-                                           std::int64_t step) const {
-  std::vector<std::int64_t> out;
-  for (auto it = std::lower_bound(ids.begin(), ids.end(), from); it != ids.end() && *it <= to; ++it)
-    if ((*it - from) % std::max<std::int64_t>(step, 1) == 0) out.push_back(*it);
-  return out;
-}
-
-bool IdSpace::taken(std::int64_t new_id) const {
-  if (!changes) return defined(new_id);
-  if (only != 0) return new_id == value || (new_id != only && defined(new_id));
-  if (!compact) return defined(new_id - value);
-  return new_id >= value && new_id < value + static_cast<std::int64_t>(ids.size());
-}
-
-/// One id gets another number: it has to be there, and the number has to be free and legal.
-void check_single(const std::string& name, IdSpace& space, std::vector<std::string>& refusals) {
-  const std::string from = name + " " + std::to_string(space.only);
-  const std::string to = std::to_string(space.value);
-  if (space.value == space.only) {
-    space.changes = false;
-  } else if (!space.defined(space.only)) {
-    refusals.push_back("renumber: there is no " + from);
-  } else if (space.defined(space.value)) {
-    refusals.push_back("renumber: " + from + " would become " + to + ", which exists");
-  } else if (space.value < 1 || space.value > detail::largest_id) {
-    refusals.push_back("renumber: " + from + " would become " + to + ", which is no legal id");
-  }
-}
 
 /// All definitions of the deck with the rules applied. `refusals` gets rules that make no sense.
 IdSpaces collect_spaces(const LoadedDeck& context, const RenumberOptions& options,
@@ -139,7 +98,6 @@ IdSpaces collect_spaces(const LoadedDeck& context, const RenumberOptions& option
       space.changes = true;
       space.compact = rule.compact;
       space.value = rule.value;
-      space.only = rule.only;
     }
   }
   const Deck& deck = context.deck();
@@ -150,19 +108,13 @@ IdSpaces collect_spaces(const LoadedDeck& context, const RenumberOptions& option
     if (!space.empty())
       spaces[std::string(space)].ids.push_back(b.id.value + deck.offset_of(b, b.schema->kind));
   }
-  const auto add = [&](const char* space, const std::vector<std::int64_t>& ids) {
-    auto& list = spaces[space].ids;
+  const auto add = [&](std::string_view space, const std::vector<std::int64_t>& ids) {
+    auto& list = spaces[std::string(space)].ids;
     list.insert(list.end(), ids.begin(), ids.end());
   };
   add("node", m.nodes.id);
-  add("shell", m.shell4.id);
-  add("sh3n", m.shell3.id);
-  add("solid", m.solid8.id);
-  add("quad", m.quad.id);
-  add("tria", m.tria.id);
-  add("truss", m.truss.id);
-  add("beam", m.beam.id);
-  add("spring", m.spring.id);
+  for (std::size_t k = 0; k < std::size(elements); ++k)
+    add(elements[k], m.family(detail::all_families[k]).id);
   for (auto& [name, space] : spaces) {
     std::erase_if(space.ids, [](std::int64_t id) { return id <= 0; });
     std::sort(space.ids.begin(), space.ids.end());
@@ -173,45 +125,36 @@ IdSpaces collect_spaces(const LoadedDeck& context, const RenumberOptions& option
       space.changes = false;
       continue;
     }
-    if (space.only != 0) {
-      check_single(name, space, refusals);
-      continue;
-    }
-    if (space.compact
-            ? space.ids.front() == space.value &&
-                  space.ids.back() == space.value + static_cast<std::int64_t>(space.ids.size()) - 1
-            : space.value == 0)
-      space.changes = false;
-    const std::int64_t last = space.compact
-                                  ? space.value + static_cast<std::int64_t>(space.ids.size()) - 1
-                                  : space.ids.back() + space.value;
-    if (last > 2147483647)
+    const auto size = static_cast<std::int64_t>(space.ids.size());
+    const std::int64_t first = space.compact ? space.value : space.ids.front() + space.value;
+    const std::int64_t last = space.compact ? first + size - 1 : space.ids.back() + space.value;
+    space.changes = first != space.ids.front() || last != space.ids.back();
+    if (last > detail::largest_id)
       refusals.push_back("renumber: " + std::string(name) + " ids would reach " +
                          std::to_string(last) + "; the largest possible one is 2147483647");
-    if (!space.compact && space.ids.front() + space.value < 1)
+    if (first < 1)
       refusals.push_back("renumber: " + std::string(name) + " id " +
                          std::to_string(space.ids.front()) + " would become " +
-                         std::to_string(space.ids.front() + space.value));
+                         std::to_string(first));
   }
   return spaces;
 }
 
 // ---- cells ------------------------------------------------------------------------------------
 
-/// Spaces whose ids the undescribed text of a keyword may name; nullopt: any.
-std::optional<std::vector<std::string_view>> possible_spaces(const Block& b) {
+/// True if undescribed text of a block may name ids of this space.
+bool may_name(const Block& b, std::string_view space) {
   constexpr std::string_view none[] = {
       "/ANALY", "/DEF_SHELL", "/DEF_SOLID", "/IOFLAG", "/MEMORY", "/SPMD",  "/TITLE", "/RANDOM",
       "/AMS",   "/CAA",       "/SHFRA",     "/UPWIND", "/REFSTA", "/BEGIN", "/UNIT",  "/INTTHICK"};
-  for (const std::string_view k : none)
-    if (detail::is_below(b.header, k)) return std::vector<std::string_view>{};
+  constexpr std::string_view of_materials[] = {"funct", "mat", "skew", "sensor"};
+  constexpr std::string_view of_properties[] = {"funct", "mat", "prop", "skew", "frame", "sensor"};
+  const auto below = [&](std::string_view keyword) { return detail::is_below(b.header, keyword); };
+  if (std::any_of(std::begin(none), std::end(none), below)) return false;
   if (b.schema != nullptr && (b.schema->kind == "engine" || b.schema->kind == "parameter"))
-    return std::vector<std::string_view>{};
-  if (detail::is_below(b.header, "/MAT") || header_reference(b) == "mat")
-    return std::vector<std::string_view>{"funct", "mat", "skew", "sensor"};
-  if (detail::is_below(b.header, "/PROP"))
-    return std::vector<std::string_view>{"funct", "mat", "prop", "skew", "frame", "sensor"};
-  return std::nullopt;
+    return false;
+  if (below("/MAT") || header_reference(b) == "mat") return among(of_materials, space);
+  return !below("/PROP") || among(of_properties, space);
 }
 
 class Renumbering {
@@ -225,9 +168,8 @@ class Renumbering {
       block(b);
       const std::size_t ids = out_.edits.size() - before;
       if (ids == 0) continue;
-      LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
-      entry.note = std::to_string(ids) + (ids == 1 ? " id" : " ids") + " changed";
-      out_.losses.push_back(std::move(entry));
+      out_.losses.push_back(loss_entry(deck_, Loss::kept, b, b.header_span,
+                                       {.note = count(ids, "id", "ids") + " changed"}));
     }
     for (std::string& why : detail::contradicting_copies(deck_.sources, out_.edits))
       out_.refusals.push_back(std::move(why));
@@ -245,10 +187,9 @@ class Renumbering {
   };
 
   static std::string note_of(const IdSpace& space) {
-    const bool one = space.only != 0;
-    const std::int64_t first = one ? space.only : space.ids.front();
-    return std::to_string(one ? 1 : space.ids.size()) + (one ? " id, " : " ids, ") +
-           std::to_string(first) + " becomes " + std::to_string(*space.mapped(first));
+    const std::int64_t first = space.ids.front();
+    return std::to_string(space.ids.size()) + " ids, " + std::to_string(first) + " becomes " +
+           std::to_string(*space.mapped(first));
   }
 
   const IdSpace* space(std::string_view kind) const {
@@ -306,45 +247,26 @@ class Renumbering {
     out_.edits.push_back({b.id.span, std::to_string(r.written)});
   }
 
-  /// `cell_text` is the cell, trimmed.
-  void write(const Block& b, const Line& line, Span cell, int first, int last, bool free_format,
-             std::string_view field, const Renamed& r) {
-    if (!r.why.empty()) return undecided(b, cell, std::string(field), r.why);
-    const std::string text = std::to_string(r.written);
-    if (free_format) {
-      int& spare = spare_
-                       .try_emplace((std::uint64_t{line.file} << 40) ^ line.offset,
-                                    detail::line_columns - static_cast<int>(line.text.size()))
-                       .first->second;
-      const int growth = static_cast<int>(text.size()) - static_cast<int>(cell.length);
-      if (growth > 0 && growth > spare)
-        return undecided(b, cell, std::string(field),
-                         "the new id makes this free-format line longer than 100 columns");
-      spare -= growth;
-      out_.edits.push_back({cell, text});
-      return;
-    }
-    if (static_cast<int>(text.size()) > last - first + 1)
-      return undecided(b, cell, std::string(field),
-                       "the new id " + text + " does not fit its columns");
-    out_.edits.push_back(CellWriter::edit_in_place(deck_.sources, line.whole(), first, last, text));
-  }
-
-  void cell(const Block& b, const DecodedCard& card, const Cell& c, std::string_view kind,
+  /// A cell with the number that it holds.
+  void cell(const detail::CellPlace& place, const Cell& c, std::string_view kind,
             bool definition) {
     if (c.blank() || c.integer == 0) return;
-    const Renamed r = rename(b, kind, c.integer, definition);
-    if (!r.changes) return;
-    set_id(b, card, c, r);
+    set_id(place, c, rename(*place.block, kind, c.integer, definition));
   }
 
-  void set_id(const Block& b, const DecodedCard& card, const Cell& c, const Renamed& r) {
-    if (c.parameter) return undecided(b, c.span, c.field->name, "the id is made by a parameter");
-    if (c.status != NumberStatus::ok)
-      return undecided(b, c.span, c.field->name, "the cell holds more than a number");
-    const int first = static_cast<int>(c.span.offset - card.line.offset) + 1;
-    write(b, card.line, c.span, first, first + c.field->last - c.field->first, card.free_format,
-          c.field->name, r);
+  void set_id(const detail::CellPlace& place, const Cell& c, const Renamed& r) {
+    if (!r.changes) return;
+    const std::string text = std::to_string(r.written);
+    std::string why = r.why;
+    if (c.parameter)
+      why = "the id is made by a parameter";
+    else if (c.status != NumberStatus::ok)
+      why = "the cell holds more than a number";
+    else if (why.empty() && !cells_.put(place, text))
+      why = place.free_format
+                ? "the new id makes this free-format line longer than 100 columns"
+                : "the new id " + text + " does not fit its columns";
+    if (!why.empty()) undecided(*place.block, c.span, std::string(place.field), std::move(why));
   }
 
   // ---- blocks ---------------------------------------------------------------------------------
@@ -357,10 +279,8 @@ class Renumbering {
     else if (!s.bulk && s.has_id && !space_of(s.kind).empty())
       header_id(b, s.kind, true);
     if (b.opaque) {
-      const auto spaces = possible_spaces(b);
       for (const auto& [name, space] : spaces_)
-        if (space.changes &&
-            (!spaces || std::find(spaces->begin(), spaces->end(), name) != spaces->end()))
+        if (space.changes && may_name(b, name))
           return undecided(b, {}, "", "the block is encrypted; it may hold ids of kind " + name);
       return;
     }
@@ -393,7 +313,7 @@ class Renumbering {
     else if (c.range())
       range(b, c);
     else
-      cell(b, *c.card, *c.cell, c.kind, false);
+      cell(detail::place_of(b, *c.card, *c.cell), *c.cell, c.kind, false);
   }
 
   /// Nodes and elements: many lines, few kinds of cells.
@@ -403,15 +323,13 @@ class Renumbering {
       std::string_view kind;
       bool definition;
     };
+    detail::ItemLines lines(deck_, b);
     std::vector<std::vector<Column>> rows;
-    std::vector<const CardSchema*> cards;
     bool any = false;
-    for (const CardSchema& card : b.schema->cards) {
-      if (!card.in_version(b.version)) continue;
-      cards.push_back(&card);
+    for (const CardSchema* card : lines.cards()) {
       rows.emplace_back();
-      for (const Field& f : card.fields) {
-        const bool own = cards.size() == 1 && &f == &card.fields[0];
+      for (const Field& f : card->fields) {
+        const bool own = rows.size() == 1 && &f == &card->fields[0];
         const std::string_view kind = own ? std::string_view(b.schema->kind) : f.ref;
         const IdSpace* target = kind.empty() ? nullptr : space(kind);
         if (!f.in_version(b.version) || target == nullptr || !target->changes) continue;
@@ -420,34 +338,13 @@ class Renumbering {
       }
     }
     if (!any) return;
-    LineCursor cursor(deck_.sources, b);
-    std::size_t at = 0;
-    for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
-      if (at == 0 && line.text.empty()) continue;
-      const std::string_view text = line.text.substr(0, detail::line_columns);
-      if (text.find_first_of(",&") != std::string_view::npos) {
-        const DecodedCard card = decode_line(deck_, b, *cards[at], line, nullptr);
-        for (const Column& column : rows[at])
-          for (const Cell& c : card.cells)
-            if (c.field == column.field) cell(b, card, c, column.kind, column.definition);
-      } else {
-        for (const Column& column : rows[at])
-          plain_cell(b, line, *column.field, column.kind, column.definition);
-      }
-      at = at + 1 == cards.size() ? 0 : at + 1;
+    while (lines.next_line()) {
+      if (rows[lines.row()].empty()) continue;
+      const DecodedCard card = lines.decoded(lines.row());
+      for (const auto& [field, kind, definition] : rows[lines.row()])
+        for (const Cell& c : card.cells)
+          if (c.field == field) cell(detail::place_of(b, card, c), c, kind, definition);
     }
-  }
-
-  void plain_cell(const Block& b, const Line& line, const Field& f, std::string_view kind,
-                  bool definition) {
-    const IntegerCell n = read_integer(detail::columns(line.text, f.first, f.last));
-    if (n.status == NumberStatus::blank || n.value == 0) return;
-    const Renamed r = rename(b, kind, n.value, definition);
-    if (!r.changes) return;
-    if (n.status != NumberStatus::ok)
-      return undecided(b, line.columns(f.first, f.last), f.name,
-                       "the cell holds more than a number");
-    write(b, line, line.columns(f.first, f.last), f.first, f.last, false, f.name, r);
   }
 
   // ---- ranges and sets ------------------------------------------------------------------------
@@ -462,22 +359,7 @@ class Renumbering {
     };
     if (c.cell->integer <= 0 || c.last->integer <= 0) return refuse("a range with a negative id");
     std::int64_t new_from = from + target->value, new_to = to + target->value;
-    if (target->only != 0) {
-      // The same members under their new ids, with the ends as they are or moved with the id.
-      const bool ends = from == target->only || to == target->only;
-      new_from = from == target->only ? target->value : from;
-      new_to = to == target->only ? target->value : to;
-      std::vector<std::int64_t> before = target->members(from, to, c.step);
-      const bool inside = std::binary_search(before.begin(), before.end(), target->only);
-      std::vector<std::int64_t> after = target->members(new_from, new_to, c.step);
-      std::erase(before, target->only);
-      std::erase(after, target->only);
-      const bool reaches = target->value >= new_from && target->value <= new_to &&
-                           (target->value - new_from) % c.step == 0;
-      if (before != after || inside != reaches)
-        return refuse("the range does not stay the same with the new id");
-      if (!ends) return;
-    } else if (target->compact) {
+    if (target->compact) {
       const auto lower = std::lower_bound(target->ids.begin(), target->ids.end(), from);
       const auto upper = std::upper_bound(target->ids.begin(), target->ids.end(), to);
       if (lower >= upper) return refuse("the range holds no id and has no new place");
@@ -487,18 +369,18 @@ class Renumbering {
     }
     if (new_from - offset < 1 || new_to > detail::largest_id)
       return refuse("the new range is not legal");
-    if (new_from != from) set_id(b, *c.card, *c.cell, {true, new_from - offset, {}});
-    if (new_to != to) set_id(b, *c.last_card, *c.last, {true, new_to - offset, {}});
+    if (new_from != from)
+      set_id(detail::place_of(b, *c.card, *c.cell), *c.cell, {true, new_from - offset, {}});
+    if (new_to != to)
+      set_id(detail::place_of(b, *c.last_card, *c.last), *c.last, {true, new_to - offset, {}});
   }
 
   // ---- text that no schema describes ----------------------------------------------------------
 
   /// True: the number could be an id that changes; reported.
   bool number(const Block& b, Span place, std::int64_t value) {
-    const auto spaces = possible_spaces(b);
     for (const auto& [name, space] : spaces_) {
-      if (!space.changes) continue;
-      if (spaces && std::find(spaces->begin(), spaces->end(), name) == spaces->end()) continue;
+      if (!space.changes || !may_name(b, name)) continue;
       const std::string_view kind = name == "solid" ? std::string_view("brick") : name;
       const std::int64_t id = std::abs(value) + deck_.offset_of(b, kind);
       if (!space.defined(id) || space.mapped(id) == id) continue;
@@ -527,7 +409,10 @@ class Renumbering {
 
   /// One finding a block is enough.
   void tokens(const Block& b, const DecodedBlock& d) {
-    if (const auto spaces = possible_spaces(b); spaces && spaces->empty()) return;
+    if (std::none_of(spaces_.begin(), spaces_.end(), [&](const auto& space) {
+          return space.second.changes && may_name(b, space.first);
+        }))
+      return;
     const auto scan = [&](const Line& line, std::size_t begin, std::size_t end) {
       const std::string_view token = line.text.substr(begin, end - begin);
       const Span place = line.columns(static_cast<int>(begin) + 1, static_cast<int>(end));
@@ -550,7 +435,7 @@ class Renumbering {
   const RenumberOptions& options_;
   IdSpaces spaces_;
   Rewrite out_;
-  std::unordered_map<std::uint64_t, int> spare_;  // columns left on free-format lines
+  detail::CellEdits cells_{deck_.sources, out_.edits};
 };
 
 }  // namespace
@@ -568,7 +453,7 @@ Result<RenumberRule> parse_renumber_rule(std::string_view text) {
   const std::string_view number = trim(text.substr(mark + 1));
   const auto end = std::from_chars(number.data(), number.data() + number.size(), rule.value);
   if (number.empty() || end.ec != std::errc() || end.ptr != number.data() + number.size() ||
-      rule.value < 0 || rule.value > 2147483647)
+      rule.value < 0 || rule.value > detail::largest_id)
     return bad("no id behind the sign");
   rule.compact = text[mark] == '=';
   if (rule.compact && rule.value < 1) return bad("the first id must be 1 or more");

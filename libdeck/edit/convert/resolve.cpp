@@ -1,5 +1,5 @@
 // Compares effective values with the cells of the card and writes those that differ.
-#include "edit/shared/resolve.hpp"
+#include "edit/shared/conversion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/version_cards.hpp"
+#include "edit/cells.hpp"
 
 namespace deck {
 namespace {
@@ -53,13 +53,9 @@ class Resolver {
  private:
   LossEntry& report(Loss loss, Span span, std::string_view field, std::string old_text,
                     std::string new_text, std::string note) {
-    LossEntry entry = loss_entry(c_.deck(), loss, block_, span);
-    entry.field = std::string(field);
-    entry.old_text = std::move(old_text);
-    entry.new_text = std::move(new_text);
-    entry.note = std::move(note);
-    out_.losses.push_back(std::move(entry));
-    return out_.losses.back();
+    return out_.losses.emplace_back(loss_entry(
+        c_.deck(), loss, block_, span,
+        {std::string(field), std::move(old_text), std::move(new_text), std::move(note)}));
   }
 
   /// Cell of this version on a card that the block has or, at its end, should have.
@@ -200,13 +196,12 @@ class Resolver {
           card.schema->fields.begin(), card.schema->fields.end(),
           [&](const Field& f) { return f.in_version(block_.version) && texts_.count(&f) > 0; });
       if (card.missing()) {
-        behind.push_back(changed ? fixed_text(card) : std::string());
+        behind.push_back(changed ? new_text(card) : std::string());
         if (changed) needed = behind.size();
         continue;
       }
       anchor = card.line.whole();
-      if (changed)
-        lines_.change(card.line, card.free_format ? fixed_text(card) : edited(card), out_.edits);
+      if (changed) lines_.change(card.line, new_text(card), out_.edits);
     }
     behind.resize(needed);
     // A header without any line: the first one would be taken for the title.
@@ -214,33 +209,14 @@ class Resolver {
     for (const std::string& text : behind) lines_.insert_after(anchor, text);
   }
 
-  std::string edited(const DecodedCard& card) const {
-    std::string text(card.line.text);
-    for (const Field& f : card.schema->fields)
-      if (const auto it = texts_.find(&f); it != texts_.end())
-        CellWriter::put(text, f.first, f.last, it->second);
-    return text;
-  }
-
-  /// A line in fixed columns from the cells there are, for lines with commas and missing ones.
-  std::string fixed_text(const DecodedCard& card) {
-    std::string text;
-    for (const Cell& cell : card.cells) {
-      const Field& f = *cell.field;
-      const int width = f.last - f.first + 1;
-      if (cell.text.size() <= static_cast<std::size_t>(width)) {
-        CellWriter::put(text, f.first, f.last, cell.text);
-        continue;
-      }
-      const auto shorter = f.type == FieldType::real && !cell.parameter
-                               ? format_real(cell.real, width)
-                               : std::nullopt;
-      if (shorter && shorter->exact)
-        CellWriter::put(text, f.first, f.last, shorter->text);
-      else
-        out_.refusals.push_back(c_.deck().sources.where(cell.span) + ": " + f.name +
+  /// The line with the new texts; lines with commas and missing ones get fixed columns.
+  std::string new_text(const DecodedCard& card) {
+    const bool fixed = !card.missing() && !card.free_format;
+    std::string text(fixed ? card.line.text : std::string_view());
+    for (const Cell& cell : card.cells)
+      if (!fixed && !detail::carry(cell, *cell.field, text))
+        out_.refusals.push_back(c_.deck().sources.where(cell.span) + ": " + cell.field->name +
                                 " does not fit its columns; shorten it");
-    }
     for (const Field& f : card.schema->fields)
       if (const auto it = texts_.find(&f); it != texts_.end())
         CellWriter::put(text, f.first, f.last, it->second);

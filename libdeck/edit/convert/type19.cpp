@@ -9,7 +9,7 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/version_cards.hpp"
+#include "edit/cells.hpp"
 #include "keyword/shared/render.hpp"
 #include "text/shared/columns.hpp"
 
@@ -87,14 +87,12 @@ class Expander {
     std::string made = "/INTER/TYPE7/" + std::to_string(i_.id);
     if (two_sides) made += ", " + reversed();
     made += edges();
-    LossEntry entry = loss_entry(c_.deck(), Loss::kept, block_, {});
-    entry.old_text = "/INTER/TYPE19/" + std::to_string(i_.id);
-    entry.new_text = made;
+    LossText text{.old_text = "/INTER/TYPE19/" + std::to_string(i_.id), .new_text = made};
     if (i_.Iedge.has_input && i_.Iedge.input != 0 && i_.Iedge.input != i_.Iedge.value)
-      entry.note =
+      text.note =
           "Iedge = " + std::to_string(i_.Iedge.input) + " on the card is not read by the solver";
-    out_.losses.push_back(std::move(entry));
-    flush();
+    out_.losses.push_back(loss_entry(c_.deck(), Loss::kept, block_, {}, std::move(text)));
+    for (const std::string& line : behind_) lines_.insert_after(local_ ? last_ : anchor_, line);
   }
 
  private:
@@ -107,11 +105,8 @@ class Expander {
   }
 
   void undecided(std::string_view field, std::string text, const std::string& why) {
-    LossEntry entry = loss_entry(c_.deck(), Loss::undecided, block_, {});
-    entry.field = std::string(field);
-    entry.old_text = std::move(text);
-    entry.note = why;
-    out_.losses.push_back(std::move(entry));
+    out_.losses.push_back(loss_entry(c_.deck(), Loss::undecided, block_, {},
+                                     {std::string(field), std::move(text), {}, why}));
     out_.refusals.push_back(c_.deck().sources.where(block_.header_span) + ": TYPE19 " +
                             std::to_string(i_.id) + " " + std::string(field) + ": " + why);
   }
@@ -338,9 +333,9 @@ class Expander {
 
   std::string edges() {
     if (!has_edges(s_) || !has_edges(m_)) {
-      LossEntry entry = loss_entry(c_.deck(), Loss::kept, block_, {});
-      entry.note = "no TYPE11: a side has no edges, and the solver drops this part too (1577)";
-      out_.losses.push_back(std::move(entry));
+      out_.losses.push_back(loss_entry(
+          c_.deck(), Loss::kept, block_, {},
+          {.note = "no TYPE11: a side has no edges, and the solver drops this part too (1577)"}));
       return "";
     }
     Texts t = edge_to_edge();
@@ -410,12 +405,6 @@ class Expander {
       if (columns(line, f) != want) CellWriter::put(line, f.first, f.last, want);
     }
     return line;
-  }
-
-  /// Writes the new blocks down.
-  void flush() {
-    const Span anchor = local_ ? last_ : anchor_;
-    for (const std::string& line : behind_) lines_.insert_after(anchor, line);
   }
 
   const LoadedDeck& c_;

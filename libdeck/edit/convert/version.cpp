@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "deck/text/number.hpp"
-#include "edit/convert/version_cards.hpp"
+#include "edit/cells.hpp"
 #include "keyword/shared/older_decks.hpp"
 #include "text/shared/columns.hpp"
 
@@ -83,12 +83,9 @@ class VersionRewriter {
 
   LossEntry& report(Loss loss, const Block& block, Span span, std::string_view field,
                     std::string_view old_text, std::string note) {
-    LossEntry entry = loss_entry(c_.deck(), loss, block, span);
-    entry.field = std::string(field);
-    entry.old_text = std::string(old_text);
-    entry.note = std::move(note);
-    out_.losses.push_back(std::move(entry));
-    return out_.losses.back();
+    return out_.losses.emplace_back(
+        loss_entry(c_.deck(), loss, block, span,
+                   {std::string(field), std::string(old_text), {}, std::move(note)}));
   }
   /// Text that had no effect goes without a refusal.
   void removed(const Block& block, Span span, std::string_view field, std::string_view text,
@@ -414,22 +411,11 @@ class VersionRewriter {
 
   void carry(const Compose& compose, const Field& field, const Cell& cell,
              std::string& text) const {
-    const auto width = static_cast<std::size_t>(field.last - field.first + 1);
-    if (cell.blank()) return;
-    if (cell.text.size() <= width) {
-      CellWriter::put(text, field.first, field.last, cell.text);
-      return;
-    }
-    const auto shorter = field.type == FieldType::real && !cell.parameter
-                             ? format_real(cell.real, static_cast<int>(width))
-                             : std::nullopt;
-    if (shorter && shorter->exact)
-      CellWriter::put(text, field.first, field.last, shorter->text);
-    else if (compose.findings != nullptr)
-      compose.findings->undecided(compose.block, cell.span, field.name, cell.text,
-                                  "the value does not fit its " +
-                                      number(field.last - field.first + 1) +
-                                      " columns in version " + number(target_) + "; shorten it");
+    if (cell.blank() || detail::carry(cell, field, text) || compose.findings == nullptr) return;
+    compose.findings->undecided(compose.block, cell.span, field.name, cell.text,
+                                "the value does not fit its " +
+                                    number(field.last - field.first + 1) +
+                                    " columns in version " + number(target_) + "; shorten it");
   }
 
   /// A line with commas stays as it is if it has the same cells; otherwise it gets fixed columns.

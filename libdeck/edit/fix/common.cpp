@@ -6,7 +6,6 @@
 #include <set>
 
 #include "deck/contact/view.hpp"
-#include "edit/fix/type_rules.hpp"
 #include "keyword/shared/line_check.hpp"
 
 namespace deck::detail {
@@ -71,6 +70,11 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& 
   return build_scene(model, interfaces, unused, scene);
 }
 
+void refuse(PenetrationFix& fix, std::int64_t interface_id, std::string reason, std::string next,
+            double depth) {
+  fix.refused.push_back({interface_id, {}, depth, std::move(reason), 0, std::move(next)});
+}
+
 std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options) {
   for (const Contact& contact : scene.contacts)
     if (!contact.evaluated && is_wanted(options, contact) && !is_modern(contact.type))
@@ -86,15 +90,11 @@ void note_unevaluated(PenetrationFix& fix, const Scene& scene, const FixOptions&
   for (const Contact& contact : scene.contacts) {
     const std::int64_t id = contact.inter->id;
     if (contact.evaluated || !is_modern(contact.type) || !asks_for(options, id)) continue;
-    fix.refused.push_back(
-        {id,
-         {},
-         0,
-         contact.kind == ContactKind::edge_edge
-             ? "a part of what its edges touch is not evaluated ('deck gaps' says which)"
-             : "its penetrations are not evaluated ('deck gaps' says why)",
-         0,
-         "deck gaps DECK"});
+    refuse(fix, id,
+           contact.kind == ContactKind::edge_edge
+               ? "a part of what its edges touch is not evaluated ('deck gaps' says which)"
+               : "its penetrations are not evaluated ('deck gaps' says why)",
+           "deck gaps DECK");
     fix.complete = false;
   }
 }
@@ -169,22 +169,18 @@ std::map<std::uint32_t, const PenetrationRow*> deepest_rows(const Contact& conta
   return out;
 }
 
-std::vector<std::int64_t> secondary_ids(const Model& model, const Contact& contact,
-                                        const PenetrationRow& row) {
-  if (contact.kind == ContactKind::node_segment)
-    return {model.node_id(contact.secondary[row.secondary].node)};
-  const auto& n = contact.secondary_edges[row.secondary].nodes;
-  return {model.node_id(n[0]), model.node_id(n[1])};
-}
-
-std::vector<std::int64_t> main_ids(const Model& model, const Contact& contact,
-                                   const PenetrationRow& row) {
+std::vector<std::int64_t> node_ids(const Model& model, const Contact& contact,
+                                   const PenetrationRow& row, bool main) {
   std::vector<std::int64_t> out;
-  if (contact.kind == ContactKind::node_segment) {
-    for (const NodeIndex n : contact.main[row.main].nodes) out.push_back(model.node_id(n));
-  } else {
-    for (const NodeIndex n : contact.main_edges[row.main].nodes) out.push_back(model.node_id(n));
-  }
+  const auto add = [&](const auto& nodes) {
+    for (const NodeIndex n : nodes) out.push_back(model.node_id(n));
+  };
+  if (contact.kind == ContactKind::edge_edge)
+    add(main ? contact.main_edges[row.main].nodes : contact.secondary_edges[row.secondary].nodes);
+  else if (main)
+    add(contact.main[row.main].nodes);
+  else
+    out.push_back(model.node_id(contact.secondary[row.secondary].node));
   return out;
 }
 
@@ -247,11 +243,9 @@ Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_
       const auto end = std::min<std::size_t>(card.line.text.size(), line_columns);
       if (card.free_format && cell.blank() && cell.span.offset >= card.line.offset + end)
         return fail("its line with commas ends before " + std::string(name));
-      FieldPlace place;
-      place.field = cell.field;
-      place.cell = cell;
-      place.line = card.line;
-      place.free_format = card.free_format;
+      const Field& f = *cell.field;
+      FieldPlace place{{&block, cell.span, f.name, card.line, f.first, f.last, card.free_format},
+                       cell.text};
       if (cell.field->type == FieldType::real) {
         if (deck.units_of(block) == nullptr) return fail("its unit system is not defined");
         Cell one = cell;
@@ -263,20 +257,6 @@ Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_
   }
   return fail("the card has no " + std::string(name) + " in input version " +
               std::to_string(block.version));
-}
-
-int FieldPlace::width() const {
-  const int columns = field->last - field->first + 1;
-  if (!free_format) return columns;
-  const int room = line_columns - static_cast<int>(line.text.size());
-  return std::min(columns, static_cast<int>(cell.span.length) + std::max(0, room));
-}
-
-void FieldPlace::write(CellWriter& edits, std::string_view text) const {
-  if (free_format)
-    edits.replace(cell.span, text);
-  else
-    edits.set(line.whole(), field->first, field->last, text);
 }
 
 namespace {
@@ -351,10 +331,6 @@ std::optional<RoundedText> round_down(double bound, int digits, int width,
 
 std::optional<RoundedText> round_up(double bound, int digits, int width) {
   return search(bound, digits, width, +1, [&](double v) { return v >= bound; });
-}
-
-std::string place_of(const Deck& deck, const InterBase& inter) {
-  return deck.sources.where(inter.span);
 }
 
 std::string name_of(const InterBase& inter) {

@@ -1,15 +1,16 @@
 // What the strategies share: scenes in which no node is moved at start-up, counting, reading the
 // deck again with proposed text, and setting single fields of a card. Private to the stage.
 #pragma once
+#include <algorithm>
+#include <array>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "deck/edit/fix.hpp"
-#include "deck/keyword/decode.hpp"
-#include "text/shared/edits.hpp"
+#include "edit/cells.hpp"
 
 namespace deck::detail {
 
@@ -38,6 +39,10 @@ class AfterRewrite {
   const Scene* before_ = nullptr;
 };
 
+/// Notes what a strategy does not treat; `next`: see FixRefusal.
+void refuse(PenetrationFix& fix, std::int64_t interface_id, std::string reason,
+            std::string next = {}, double depth = 0);
+
 /// Why nothing can be said about a wanted interface; nothing: all were evaluated. TYPE24 and TYPE25
 /// are told by note_unevaluated: what is known of them is treated.
 std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options);
@@ -65,22 +70,15 @@ FixedInterface& interface_entry(PenetrationFix& fix, const InterBase& inter);
 /// The deepest penetration of every secondary node or edge of a contact, by its position.
 std::map<std::uint32_t, const PenetrationRow*> deepest_rows(const Contact& contact);
 
-/// Ids of the secondary node or edge, and of the main segment or edge, of a row.
-std::vector<std::int64_t> secondary_ids(const Model& model, const Contact& contact,
-                                        const PenetrationRow& row);
-std::vector<std::int64_t> main_ids(const Model& model, const Contact& contact,
-                                   const PenetrationRow& row);
+/// Node ids of the secondary node or edge of a row, or of its main segment or edge.
+std::vector<std::int64_t> node_ids(const Model& model, const Contact& contact,
+                                   const PenetrationRow& row, bool main);
 
 /// A cell of an interface card that can be set.
-struct FieldPlace {
-  const Field* field = nullptr;
-  Cell cell;
-  Line line;
-  bool free_format = false;
-  double factor = 1;  ///< deck units to working units
-  /// Columns that a text may have: on a line with commas what comes behind must stay on it.
-  int width() const;
-  void write(CellWriter& edits, std::string_view text) const;
+struct FieldPlace : CellPlace {
+  std::string_view text;  ///< what it holds
+  double factor = 1;      ///< deck units to working units
+  int width() const { return std::min(last - first + 1, room()); }
 };
 /// Error: the card of this input version has no such cell, or its line is missing.
 Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_view name);
@@ -96,9 +94,31 @@ std::optional<RoundedText> round_down(double bound, int digits, int width,
 /// The smallest one that is >= `bound`.
 std::optional<RoundedText> round_up(double bound, int digits, int width);
 
-/// "file:line:column" of the interface card.
-std::string place_of(const Deck& deck, const InterBase& inter);
 /// "/INTER/TYPE7/12"
 std::string name_of(const InterBase& inter);
+
+/// The fields of a type; an empty name: it has none of the kind.
+struct TypeRules {
+  int type = 7;
+  std::string_view scale;                ///< of the gap that follows the thickness
+  std::array<std::string_view, 2> caps;  ///< of that gap: of pairs, or of each of the two sides
+  bool with_igap_2 = false;              ///< scale and caps count with Igap 2 and 3 only
+  int usual_inacti = 6;
+  bool fpenmax = false;
+};
+const TypeRules& rules_of(int type);
+
+/// Why the solver cannot use this Inacti for the type; empty if it can.
+std::string why_not_inacti(int type, int value);
+
+/// False for pairs that a tie holds: they stand in the list and are never in contact.
+inline bool is_penetration(const PenetrationRow& row) {
+  return row.action != PenetrationAction::removed_tied;
+}
+/// The gap below which a pair is free; not above 0: no gap leaves it free. TYPE24 and TYPE25 give
+/// the depth by the rules of their borders and solids, which the distance does not say.
+inline double free_gap(const Contact& contact, const PenetrationRow& row) {
+  return is_modern(contact.type) ? row.gap - row.depth : row.distance;
+}
 
 }  // namespace deck::detail

@@ -4,10 +4,10 @@
 #include <map>
 #include <tuple>
 
+#include "base/shared/count.hpp"
 #include "deck/contact/view.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
-#include "edit/fix/type_rules.hpp"
 
 namespace deck {
 namespace {
@@ -18,18 +18,9 @@ constexpr double inflation = 1 + 1e-8;  // the solver compares the depth times t
 
 const std::string next_inacti = "deck fix DECK --strategy inacti";
 
-void refuse(PenetrationFix& fix, const InterBase& inter, std::string reason,
-            std::string next = {}) {
-  fix.refused.push_back({inter.id, {}, 0, std::move(reason), 0, std::move(next)});
-}
-
 /// What keeps the solver from stopping at nodes on a segment: they leave the interface.
 std::string next_without_nodes(int type) {
   return rules_of(type).fpenmax ? "deck fix DECK --strategy fpenmax" : next_inacti + " --inacti 1";
-}
-
-std::string count_of(std::uint64_t n, const char* what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
 /// What is left of an interface with the new values: pairs for which the solver does nothing, and
@@ -44,11 +35,11 @@ std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
   }
   std::string text;
   if (nothing > 0)
-    text = "the solver still does nothing about " + count_of(nothing, "pair") + ": Inacti is 0";
+    text = "the solver still does nothing about " + count(nothing, "pair", "pairs") + ": Inacti is 0";
   if (stops > 0)
     text +=
         (text.empty() ? "the solver" : "; it") + std::string(" stops at ") +
-        count_of(stops, "pair") +
+        count(stops, "pair", "pairs") +
         " whose nodes lie exactly on a segment (error 611/612): move the nodes, or take them out "
         "of the interface for the whole run";
   return text;
@@ -64,8 +55,8 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
 
   using Key = std::tuple<std::int64_t, int, std::vector<std::int64_t>, std::vector<std::int64_t>>;
   const auto key = [](const Model& model, const Contact& c, const PenetrationRow& r) {
-    return Key{c.inter->id, static_cast<int>(c.role), secondary_ids(model, c, r),
-               main_ids(model, c, r)};
+    return Key{c.inter->id, static_cast<int>(c.role), node_ids(model, c, r, false),
+               node_ids(model, c, r, true)};
   };
   std::map<Key, PenetrationAction> earlier;
   for (const Contact& c : before.contacts)
@@ -78,8 +69,8 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
       if (!is_penetration(r)) continue;
       FixAction action;
       action.interface_id = c.inter->id;
-      action.secondary = secondary_ids(*after.model, c, r);
-      action.main = main_ids(*after.model, c, r);
+      action.secondary = node_ids(*after.model, c, r, false);
+      action.main = node_ids(*after.model, c, r, true);
       action.depth = r.depth;
       action.gap = r.gap;
       const auto it = earlier.find(key(*after.model, c, r));
@@ -104,12 +95,8 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
     const bool stops = std::any_of(fix.actions.begin(), fix.actions.end(), [&](const FixAction& a) {
       return a.interface_id == i.id && a.stops;
     });
-    fix.refused.push_back({i.id,
-                           {},
-                           i.before.deepest,
-                           left_over(fix, i.id),
-                           0,
-                           stops ? next_without_nodes(i.type) : next_inacti});
+    refuse(fix, i.id, left_over(fix, i.id), stops ? next_without_nodes(i.type) : next_inacti,
+           i.before.deepest);
   }
   note_unevaluated(fix, after, options);
   std::stable_sort(
@@ -139,14 +126,9 @@ std::map<std::int64_t, std::uint64_t> stops_with(const LoadedDeck& context,
 
 void add_change(PenetrationFix& fix, const InterBase& inter, CellWriter& edits,
                 const FieldPlace& place, std::string text, double old_value, double new_value) {
-  FieldChange change;
-  change.field = place.field->name;
-  change.old_text = std::string(place.cell.text);
-  change.new_text = text;
-  change.old_value = old_value;
-  change.new_value = new_value;
   place.write(edits, text);
-  interface_entry(fix, inter).changes.push_back(std::move(change));
+  interface_entry(fix, inter).changes.push_back({std::string(place.field), std::string(place.text),
+                                                 std::move(text), old_value, new_value});
 }
 
 // ---- Inacti -----------------------------------------------------------------------------------
@@ -183,7 +165,7 @@ Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions
     if (!counts.contains(inter->id)) continue;
     const int effective = effective_for(*inter);
     if (const std::string why = why_not_inacti(inter->type, effective); !why.empty()) {
-      refuse(fix, *inter, why);
+      refuse(fix, inter->id, why);
       continue;
     }
     if (inacti_in_effect(*inter) == effective) continue;
@@ -198,8 +180,8 @@ Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions
   for (const InterBase* inter : chosen) {
     const int effective = effective_for(*inter);
     if (const auto it = stops.find(inter->id); it != stops.end()) {
-      refuse(fix, *inter,
-             count_of(it->second, "pair") +
+      refuse(fix, inter->id,
+             count(it->second, "pair", "pairs") +
                  " at distance 0, at which the solver stops with Inacti " +
                  std::to_string(effective) + " (error " + (effective == 0 ? "612" : "611") +
                  "): move these nodes, or take them out of the interface for the whole run",
@@ -208,7 +190,7 @@ Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions
     }
     const auto place = find_field(context.deck(), *inter->block, "Inacti");
     if (!place) {
-      refuse(fix, *inter, place.error().message);
+      refuse(fix, inter->id, place.error().message);
       continue;
     }
     // A 0 on the card asks for the /DEFAULT/INTER of that type; 1000 is the 0 that does not.
@@ -240,7 +222,7 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
     if (!rules_of(inter.type).fpenmax) {
       if (contact.role == ContactRole::primary || contact.kind == ContactKind::edge_edge)
         if (fix.refused.empty() || fix.refused.back().interface_id != inter.id)
-          refuse(fix, inter, "TYPE" + std::to_string(inter.type) + " has no Fpenmax",
+          refuse(fix, inter.id, "TYPE" + std::to_string(inter.type) + " has no Fpenmax",
                  inter.type == 10 ? "" : next_inacti);
       continue;
     }
@@ -259,7 +241,7 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
     } else if (on_surface == 0 || on_surface_error(contact) == 0) {
       continue;  // the solver does not stop: nothing to drop
     } else if (deepest >= 1) {
-      refuse(fix, inter,
+      refuse(fix, inter.id,
              "a pair is so close to distance 0 that no Fpenmax drops only the pairs at 0",
              "deck fix DECK --strategy fpenmax --fpenmax 99%");
       continue;
@@ -269,7 +251,7 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
     if (card.Fpenmax.value != 0 && card.Fpenmax.value == wanted) continue;
     const auto place = find_field(context.deck(), *inter.block, "Fpenmax");
     if (!place) {
-      refuse(fix, inter, place.error().message);
+      refuse(fix, inter.id, place.error().message);
       continue;
     }
     std::optional<RoundedText> text;
@@ -284,7 +266,7 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
       }
     }
     if (!text) {
-      refuse(fix, inter, "the value does not fit the cell of Fpenmax");
+      refuse(fix, inter.id, "the value does not fit the cell of Fpenmax");
       continue;
     }
     if (card.Fpenmax.has_input && card.Fpenmax.value == text->value) continue;

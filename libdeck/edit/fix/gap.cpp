@@ -8,7 +8,6 @@
 #include "base/shared/count.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
-#include "edit/fix/type_rules.hpp"
 
 namespace deck {
 namespace {
@@ -131,7 +130,7 @@ class GapReduction {
     if (!needs_igap_2()) return;
     const auto place = find_field(context_->deck(), *inter_->block, "Igap");
     place->write(edits, "2");
-    entry.changes.push_back({"Igap", std::string(place->cell.text), "2", 1, 2});
+    entry.changes.push_back({"Igap", std::string(place->text), "2", 1, 2});
   }
 
   std::string why;
@@ -140,7 +139,7 @@ class GapReduction {
   static void write(const FieldPlace& place, const Knob& knob, CellWriter& edits,
                     FixedInterface& entry) {
     place.write(edits, knob.text->text);
-    entry.changes.push_back({std::string(place.field->name), std::string(place.cell.text),
+    entry.changes.push_back({std::string(place.field), std::string(place.text),
                              knob.text->text, knob.present, knob.value});
   }
 
@@ -331,12 +330,10 @@ Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOpt
     if (it == counts.end()) continue;
     std::size_t& same = cards[inter->id];
     if (same > 1) {
-      fix.refused.push_back({inter->id,
-                             {},
-                             it->second.deepest,
-                             count(same, "interface has", "interfaces have") +
-                                 " this id: the solver stops; give each its own",
-                             0});
+      refuse(fix, inter->id,
+             count(same, "interface has", "interfaces have") +
+                 " this id: the solver stops; give each its own",
+             {}, it->second.deepest);
       same = 0;  // said; a search for each of them would evaluate all of them
     }
     if (same == 0) continue;
@@ -345,12 +342,8 @@ Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOpt
     if (reduction.solve(before))
       reduction.write(fix, edits);
     else
-      fix.refused.push_back({inter->id,
-                             {},
-                             it->second.deepest,
-                             reduction.why,
-                             0,
-                             "deck fix DECK --strategy move-nodes"});
+      refuse(fix, inter->id, reduction.why, "deck fix DECK --strategy move-nodes",
+             it->second.deepest);
   }
   fix.rewrite.edits = edits.finish();
   const auto again = AfterRewrite::read(context, fix.rewrite, options, false, before);

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "edit/fix/common.hpp"
-#include "edit/fix/type_rules.hpp"
 
 namespace deck::detail {
 namespace {
@@ -38,39 +37,9 @@ StateBefore::StateBefore(const Scene& scene, const FixOptions& options) : option
   for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
     const Contact& contact = scene.contacts[c];
     const bool tie = contact.ties() && !is_wanted(options, contact);
-    for (const PenetrationRow& row : contact.penetrations) {
-      if (!is_penetration(row)) continue;
-      const PairKey pair = key_of(scene, {c, row.secondary, row.main});
-      rows_.push_back({judged(pair), pair, row.depth, tie});
-    }
+    for (const PenetrationRow& row : contact.penetrations)
+      if (is_penetration(row)) add(key_of(scene, {c, row.secondary, row.main}), row.depth, tie);
   }
-  add_ties(scene);
-  sort_rows();
-}
-
-/// Sorts rows; of those with one key the last stays, as deep as the deepest.
-void StateBefore::sort_rows() {
-  std::stable_sort(rows_.begin(), rows_.end(),
-                   [](const Row& a, const Row& b) { return a.key < b.key; });
-  std::size_t kept = 0;
-  for (const Row& row : rows_) {
-    if (kept > 0 && !(rows_[kept - 1].key < row.key)) {
-      Row& same = rows_[kept - 1];
-      same = {row.key, row.pair, std::max(same.depth, row.depth), row.tie};
-    } else {
-      rows_[kept++] = row;
-    }
-  }
-  rows_.resize(kept);
-}
-
-const StateBefore::Row* StateBefore::find(const PairKey& key) const {
-  const auto it = std::lower_bound(rows_.begin(), rows_.end(), key,
-                                   [](const Row& row, const PairKey& k) { return row.key < k; });
-  return it != rows_.end() && !(key < it->key) ? &*it : nullptr;
-}
-
-void StateBefore::add_ties(const Scene& scene) {
   for (std::size_t t = 0; t < scene.ties.size(); ++t)
     for (const TiedNode& n : scene.ties[t].nodes) {
       if (!n.tied) continue;
@@ -79,19 +48,24 @@ void StateBefore::add_ties(const Scene& scene) {
       pair.secondary = {n.node, 0};
       pair.main = scene.ties[t].main[n.segment];
       std::sort(pair.main.begin(), pair.main.end());
-      rows_.push_back({pair, pair, 1, true});
+      add(pair, 1, true);
     }
+}
+
+void StateBefore::add(const PairKey& pair, double depth, bool tie) {
+  Row& row = rows_[judged(pair)];
+  row = {pair, std::max(row.depth, depth), tie};
 }
 
 std::size_t StateBefore::tied_pairs() const {
   return static_cast<std::size_t>(
-      std::count_if(rows_.begin(), rows_.end(), [](const Row& row) { return row.tie; }));
+      std::count_if(rows_.begin(), rows_.end(), [](const auto& row) { return row.second.tie; }));
 }
 
 std::size_t StateBefore::tied_nodes() const {
   std::set<std::pair<std::uint32_t, std::array<NodeIndex, 2>>> nodes;
-  for (const Row& row : rows_)
-    if (row.tie) nodes.insert({row.key.contact, row.key.secondary});
+  for (const auto& [key, row] : rows_)
+    if (row.tie) nodes.insert({key.contact, key.secondary});
   return nodes.size();
 }
 
@@ -99,16 +73,17 @@ std::vector<Harm> StateBefore::harm(const Scene& now) const {
   if (options_ == nullptr) return {};
   const StateBefore after(now, *options_);
   std::vector<Harm> out;
-  const auto add = [&](const Row& row, double before, double depth) {
+  const auto report = [&](const Row& row, double before, double depth) {
     out.push_back({row.pair, nodes_of(now, row.pair), row.tie, before, depth});
   };
-  for (const Row& row : after.rows_) {
-    const Row* const known = find(row.key);
-    const double before = known == nullptr ? 0 : known->depth;
-    if (row.tie ? known == nullptr : row.depth > before * deeper) add(row, before, row.depth);
+  for (const auto& [key, row] : after.rows_) {
+    const auto known = rows_.find(key);
+    const double before = known == rows_.end() ? 0 : known->second.depth;
+    if (row.tie ? known == rows_.end() : row.depth > before * deeper)
+      report(row, before, row.depth);
   }
-  for (const Row& row : rows_)
-    if (row.tie && after.find(row.key) == nullptr) add(row, row.depth, 0);
+  for (const auto& [key, row] : rows_)
+    if (row.tie && !after.rows_.contains(key)) report(row, row.depth, 0);
   std::stable_sort(out.begin(), out.end(),
                    [](const Harm& a, const Harm& b) { return a.tie > b.tie; });
   return out;
@@ -131,12 +106,8 @@ void verify_harmless(PenetrationFix& fix, const Interfaces& interfaces, const Fi
   fix.interfaces.clear();
   fix.actions.clear();
   set_interfaces(fix, interfaces, options, before, before);
-  fix.refused.push_back({interface_of(after, harm.front().pair).id,
-                         {},
-                         0,
-                         "nothing done: with the change " + *why,
-                         0,
-                         "deck fix DECK --strategy move-nodes"});
+  refuse(fix, interface_of(after, harm.front().pair).id, "nothing done: with the change " + *why,
+         "deck fix DECK --strategy move-nodes");
   fix.complete = false;
 }
 

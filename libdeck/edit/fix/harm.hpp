@@ -1,13 +1,13 @@
 // What a fix must leave as it is, and whether it did: no pair penetrates that did not or deeper
 // than before, and what is tied stays tied. Private to the stage.
 #pragma once
-#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "deck/edit/fix.hpp"
-#include "edit/fix/nodes/depenetrate_rows.hpp"
+#include "edit/fix/nodes/ways_out.hpp"
 
 namespace deck::detail {
 
@@ -27,7 +27,7 @@ class StateBefore {
   StateBefore() = default;
   /// With FixOptions::ties ties of the interfaces asked for count as penetrations.
   StateBefore(const Scene& scene, const FixOptions& options);
-  bool contains(const PairKey& pair) const { return find(judged(pair)) != nullptr; }
+  bool contains(const PairKey& pair) const { return rows_.contains(judged(pair)); }
   std::size_t tied_pairs() const;
   std::size_t tied_nodes() const;  ///< secondary ones
   /// Everything that is worse in `now`, a scene of the same deck. Ties first.
@@ -35,7 +35,6 @@ class StateBefore {
 
  private:
   struct Row {
-    PairKey key;  ///< judged()
     PairKey pair;
     double depth = 0;
     bool tie = false;
@@ -45,13 +44,11 @@ class StateBefore {
     if (pair.contact < by_node_.size() && by_node_[pair.contact]) pair.main = {};
     return pair;
   }
-  void add_ties(const Scene& scene);
-  void sort_rows();
-  const Row* find(const PairKey& key) const;
+  void add(const PairKey& pair, double depth, bool tie);
   const FixOptions* options_ = nullptr;
   std::vector<bool> by_node_;  ///< by contact
-  /// Keys with contacts beyond those of the scene: its ties.
-  std::vector<Row> rows_;  ///< by key, each once
+  /// By judged(), with contacts beyond those of the scene: its ties. As deep as the deepest of them.
+  std::map<PairKey, Row> rows_;
 };
 
 /// Takes all of a fix back if the deck read again with it is worse than before, and says so in

@@ -1,23 +1,138 @@
-// Tries translations of whole parts and keeps the one that frees the most.
+// Tries translations of whole parts, with all that hangs on them, and keeps the one that frees the
+// most.
 #include "edit/shared/depenetrate.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
-#include "edit/fix/common.hpp"
-#include "edit/fix/harm.hpp"
 #include "edit/fix/movable.hpp"
-#include "edit/fix/nodes/depenetrate_locks.hpp"
-#include "edit/fix/nodes/depenetrate_mesh.hpp"
-#include "edit/fix/nodes/depenetrate_rows.hpp"
-#include "edit/fix/part_groups.hpp"
-#include "edit/fix/translations.hpp"
+#include "model/shared/families.hpp"
+#include "model/shared/kinematics.hpp"
 
 namespace deck {
 namespace {
 
 using namespace detail;
+
+// ---- parts that hang together ------------------------------------------------------------------
+
+/// Which parts hang together, so that one cannot be moved without the others: a forest over the
+/// nodes. Joined are the nodes of an element, of a rigid body, rigid element or joint, of a tie of
+/// /INTER/TYPE2 with its segment, and the pairs of contacts that tie, unless FixOptions::ties treats
+/// these as penetrations.
+class PartGroups {
+ public:
+  PartGroups(const LoadedDeck& context, const Scene& scene, const FixOptions& options)
+      : model_(context.model()), above_(model_.nodes.size()) {
+    std::iota(above_.begin(), above_.end(), 0U);
+    join_elements();
+    join_conditions(context);
+    join_contacts(scene, options);
+    for (NodeIndex& n : above_) n = top(n);
+  }
+
+  std::uint32_t of(NodeIndex n) const { return above_[n]; }
+  /// Ascending.
+  std::vector<NodeIndex> nodes_of(std::uint32_t group) const {
+    std::vector<NodeIndex> out;
+    for (NodeIndex n = 0; n < above_.size(); ++n)
+      if (above_[n] == group) out.push_back(n);
+    return out;
+  }
+  /// "part 2", "parts 2, 3 and 4 (they hang together)"
+  std::string name_of(std::uint32_t group) const {
+    std::set<std::int64_t> ids;
+    for (const ElementKind kind : all_families) {
+      const Elements& family = model_.family(kind);
+      for (std::size_t e = 0; e < family.size(); ++e)
+        if (const NodeIndex n = family.of(e)[0];
+            n != no_index && above_[n] == group && family.part[e] != no_index)
+          ids.insert(model_.parts[family.part[e]].id);
+    }
+    if (ids.empty()) return "node " + std::to_string(model_.node_id(group));
+    if (ids.size() == 1) return "part " + std::to_string(*ids.begin());
+    constexpr std::size_t most = 5;
+    std::string out = "parts";
+    std::size_t shown = 0;
+    for (const std::int64_t id : ids) {
+      if (shown++ == most) break;
+      out += (shown > 1 ? ", " : " ") + std::to_string(id);
+    }
+    if (ids.size() > most) out += " and " + std::to_string(ids.size() - most) + " more";
+    return out + " (they hang together)";
+  }
+
+ private:
+  NodeIndex top(NodeIndex n) {
+    while (above_[n] != n) n = above_[n] = above_[above_[n]];
+    return n;
+  }
+  void join(NodeIndex a, NodeIndex b) {
+    if (a == no_index || b == no_index) return;
+    a = top(a);
+    b = top(b);
+    above_[std::max(a, b)] = std::min(a, b);
+  }
+
+  void join_elements() {
+    for (const ElementKind kind : all_families) {
+      const Elements& family = model_.family(kind);
+      for (std::size_t e = 0; e < family.size(); ++e) {
+        const NodeIndex* const nodes = family.of(e);
+        const NodeIndex* const last = nodes + family.width;
+        const NodeIndex* const first =
+            std::find_if(nodes, last, [](NodeIndex n) { return n != no_index; });
+        for (const NodeIndex* n = first; n != last; ++n) join(*first, *n);
+      }
+    }
+    const Elements& solids = model_.solid8;  // their mid nodes
+    for (std::size_t e = 0; e < solids.extra.size(); ++e) {
+      if (solids.extra[e] == no_index) continue;
+      const std::size_t first = solids.extra[e], count = static_cast<std::size_t>(
+                                                     extra_node_count(solids.shape[e]));
+      for (std::size_t k = first; k < std::min(first + count, solids.extra_nodes.size()); ++k)
+        join(solids.of(e)[0], solids.extra_nodes[k]);
+    }
+  }
+
+  /// What keeps nodes in place against each other.
+  void join_conditions(const LoadedDeck& context) {
+    using enum ConditionType;
+    constexpr ConditionType joining[] = {rlink, rbe2, rbe3, rbody, cyl_joint};
+    const Kinematics& kinematics = context.kinematics();
+    std::vector<NodeIndex> first(kinematics.sources.size(), no_index);
+    for (NodeIndex n = 0; n + 1 < kinematics.first.size(); ++n)
+      for (const std::uint32_t source : kinematics.of(n)) {
+        const ConditionType type = kinematics.sources[source].type;
+        if (std::find(std::begin(joining), std::end(joining), type) == std::end(joining)) continue;
+        if (first[source] == no_index) first[source] = n;
+        join(first[source], n);
+      }
+    for (const Tie& tie : context.ties())
+      for (const TiedNode& n : tie.nodes)
+        if (n.tied && n.segment != no_index)
+          for (const NodeIndex corner : tie.main[n.segment]) join(n.node, corner);
+  }
+
+  void join_contacts(const Scene& scene, const FixOptions& options) {
+    for (const Contact& contact : scene.contacts) {
+      if (!contact.ties() || is_wanted(options, contact)) continue;
+      for (const PenetrationRow& row : contact.penetrations)
+        if (contact.kind == ContactKind::node_segment)
+          join(contact.secondary[row.secondary].node, contact.main[row.main].nodes[0]);
+        else
+          join(contact.secondary_edges[row.secondary].nodes[0],
+               contact.main_edges[row.main].nodes[0]);
+    }
+  }
+
+  const Model& model_;
+  std::vector<NodeIndex> above_;
+};
+
+// ---- translations ------------------------------------------------------------------------------
 
 constexpr std::size_t most_tried = 12;  // translations that are evaluated
 constexpr double usual_bound = 2;       // times the deepest penetration

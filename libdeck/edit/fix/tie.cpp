@@ -34,7 +34,7 @@ std::string why_not_treated(const Tie& tie) {
 class Holders {
  public:
   Holders(const LoadedDeck& context, const Scene& scene)
-      : deck_(&context.deck()), model_(scene.model), kinematics_(&context.kinematics()) {
+      : model_(scene.model), kinematics_(&context.kinematics()) {
     for (const Tie& tie : scene.ties) {
       for (const TiedNode& n : tie.nodes)
         if (n.tied) add(tie, n.node, n.segment);
@@ -81,7 +81,6 @@ class Holders {
     return {};
   }
 
-  const Deck* deck_;
   const Model* model_;
   const Kinematics* kinematics_;
   std::map<NodeIndex, std::int64_t> tied_, dependent_, in_use_;  ///< by which interface
@@ -126,7 +125,7 @@ class TieFix {
       const std::vector<Tie> wide = ties_with();
       Holders holders(context_, before_);
       for (Plan& plan : plans_) decide(plan, wide[plan.at], holders);
-      std::erase_if(plans_, [](const Plan& plan) { return plan.nodes.empty(); });
+      std::erase_if(plans_, [](const Plan& plan) { return plan.taken.empty(); });
       drop_harmful();
     }
     return finish();
@@ -134,7 +133,7 @@ class TieFix {
 
  private:
   void refuse(const Tie& tie, std::string reason) {
-    fix_.refused.push_back({tie.inter->id, {}, 0, std::move(reason), 0});
+    detail::refuse(fix_, tie.inter->id, std::move(reason));
   }
   void refuse(const Tie& tie, const TiedNode& node, double distance, std::string reason) {
     fix_.refused.push_back(
@@ -423,7 +422,7 @@ class TieFix {
     for (const Plan& plan : plans_) {
       if (plan.at != at) continue;
       out.needed = plan.needed;
-      out.changes.push_back({"dsearch", std::string(plan.place.cell.text), plan.text.text,
+      out.changes.push_back({"dsearch", std::string(plan.place.text), plan.text.text,
                              before.search_distance, plan.value});
       for (const TiedNode& n : after.nodes) {
         if (!plan.nodes.contains(n.node)) continue;

@@ -1,5 +1,5 @@
 // Evaluates a deck, and compares masses and time steps of two.
-#include "edit/shared/verify.hpp"
+#include "edit/shared/conversion.hpp"
 
 #include <fmt/format.h>
 

@@ -295,41 +295,28 @@ namespace {
 /// One effective value, whatever its type.
 struct NamedValue {
   std::string_view name;
-  const std::string* text = nullptr;  ///< of a text
-  std::int64_t integer = 0;           ///< of a number without unit
+  std::string shown;  ///< of a text or a number without unit
   double number = 0;
   bool real = false;
   bool written = true;  ///< in the deck, not built into the solver
-
-  std::string shown() const { return text != nullptr ? *text : std::to_string(integer); }
-  bool is_shown_like(const NamedValue& other) const {
-    if (text != nullptr && other.text != nullptr) return *text == *other.text;
-    return text == other.text && integer == other.integer;
-  }
 };
 
-template <class T>
-NamedValue named_value(std::string_view name, const Effective<T>& field) {
-  NamedValue out;
-  out.name = name;
-  if constexpr (std::is_same_v<T, std::string>) {
-    out.text = &field.value;
-  } else if constexpr (std::is_same_v<T, double>) {
-    out.number = field.value;
-    out.real = true;
-    out.written = field.origin != Origin::built_in;
-  } else {
-    out.integer = static_cast<std::int64_t>(field.value);
-  }
-  return out;
-}
-
-void values_of(const InterBase& inter, std::vector<NamedValue>& out) {
-  out.clear();
-  visit_any_interface(inter, [&](const auto& typed) {
-    typed.for_each(
-        [&](std::string_view name, const auto& field) { out.push_back(named_value(name, field)); });
+std::vector<NamedValue> values_of(const InterBase& inter) {
+  std::vector<NamedValue> out;
+  for_each_field(inter, [&]<class T>(std::string_view name, const Effective<T>& field) {
+    NamedValue& value = out.emplace_back();
+    value.name = name;
+    value.real = std::is_same_v<T, double>;
+    if constexpr (std::is_same_v<T, std::string>) {
+      value.shown = field.value;
+    } else if constexpr (std::is_same_v<T, double>) {
+      value.number = field.value;
+      value.written = field.origin != Origin::built_in;
+    } else {
+      value.shown = std::to_string(static_cast<std::int64_t>(field.value));
+    }
   });
+  return out;
 }
 
 /// The cell of an interface with a name; nullptr: there is none.
@@ -359,7 +346,6 @@ DeckComparison::Difference DeckComparison::values() const {
   if (by_place && was.size() != now.size())
     return fmt::format("the deck has {} interfaces of {}, expected {}", now.size(),
                        examined_types(Examined::contacts_and_ties), was.size());
-  std::vector<NamedValue> a, b;
   for (std::size_t i = 0; i < now.size(); ++i) {
     const InterBase* old = by_place ? was[interfaces_[i]] : nullptr;
     if (!by_place)
@@ -374,16 +360,15 @@ DeckComparison::Difference DeckComparison::values() const {
     if (old->type != now[i]->type || (!relation.new_ids && old->id != now[i]->id))
       return fmt::format("{} is a TYPE{}, expected TYPE{} and id {}", name, now[i]->type, old->type,
                          old->id);
-    values_of(*old, a);
-    values_of(*now[i], b);
+    const std::vector<NamedValue> a = values_of(*old), b = values_of(*now[i]);
     for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
       const NamedValue &value_was = a[k], &value_now = b[k];
       const auto what = [&] { return name + " " + std::string(value_was.name); };
       if (!value_was.real) {
-        if (value_was.is_shown_like(value_now)) continue;
+        if (value_was.shown == value_now.shown) continue;
         const Field* field = cell_of(*old, value_was.name);
         if (relation.new_ids && field != nullptr && field->type == FieldType::id) continue;
-        return fmt::format("{} is {}, expected {}", what(), value_now.shown(), value_was.shown());
+        return fmt::format("{} is {}, expected {}", what(), value_now.shown, value_was.shown);
       }
       // A default that is one of its unit in any: it acts on a function that is not there,
       // otherwise the conversion has written it out. Nothing is nothing in every unit.

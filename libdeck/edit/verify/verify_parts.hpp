@@ -8,7 +8,7 @@
 
 #include "deck/contact/scene.hpp"
 #include "deck/cycle/scene_cycle.hpp"
-#include "edit/shared/verify.hpp"
+#include "edit/shared/conversion.hpp"
 
 namespace deck::detail {
 

@@ -242,13 +242,6 @@ void EditSet::add_outsider(const FileIdentity& file, const std::string& deck) {
 
 // ---- below another directory -------------------------------------------------------------------
 
-namespace {
-
-using detail::lies_below;
-Error no_tree(std::string why) { return {Error::Code::config, std::move(why)}; }
-
-}  // namespace
-
 /// Order and places of the files: where the directives lead from `main`, where the main
 /// file is taken to lie. What no directive names lies beside it and belongs to it: Engine files.
 void EditSet::lay_out(Member& member, const Deck& now, const std::string& main) const {
@@ -305,15 +298,15 @@ Result<std::vector<std::string>> EditSet::tops() const {
   fs::path shared;
   bool one_place = false;
   for (const Member& member : decks_) {
-    if (!member.no_place.empty()) return no_tree(member.no_place);
+    if (!member.no_place.empty()) return refuse(member.no_place);
     fs::path top = root_;
     if (root_.empty() && !member.uses.front().places.empty())
       top = fs::path(*member.uses.front().places.begin()).parent_path();
     for (const Use& use : member.uses)
       for (const fs::path place : use.places)
-        while (!lies_below(place, top)) {
+        while (!detail::lies_below(place, top)) {
           if (!root_.empty())
-            return no_tree(use.path + " lies above the directory whose tree is written; name a " +
+            return refuse(use.path + " lies above the directory whose tree is written; name a " +
                            "directory that also contains it");
           top = top.parent_path();
         }
@@ -323,7 +316,7 @@ Result<std::vector<std::string>> EditSet::tops() const {
         one_place = one_place || files.emplace(target, use.file).first->second != use.file;
       }
     if (out.empty()) shared = top;
-    while (top != shared && !lies_below(top, shared)) shared = shared.parent_path();
+    while (top != shared && !detail::lies_below(top, shared)) shared = shared.parent_path();
     out.push_back(top.string());
   }
   if (one_place) std::fill(out.begin(), out.end(), shared.string());
@@ -343,7 +336,7 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
       outside.insert(path);
       if (const auto use = member.by_path.find(path);
           use != member.by_path.end() && member.uses[use->second].text != 0)
-        return no_tree(path +
+        return refuse(path +
                        " is included by its absolute path and would have to change; change it "
                        "with --in-place, or make one file with deck convert --flatten");
     }
@@ -360,7 +353,7 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
                                  files_[use.file].identity == FileIdentity();
         if (other->file != use.file &&
             (text_of(*other) != text_of(use) || (deck != d && !from_memory)))
-          return no_tree("both " + other->path + " (" + decks_[deck].name + ") and " + use.path +
+          return refuse("both " + other->path + " (" + decks_[deck].name + ") and " + use.path +
                          " (" + member.name + ") would be written to " + target +
                          "; nothing was written. Write the decks to different directories");
       }

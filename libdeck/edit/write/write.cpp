@@ -2,6 +2,7 @@
 #include "edit/shared/write.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,7 +11,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -19,10 +22,89 @@
 #include "deck/text/source.hpp"
 #include "edit/write/write_plan.hpp"
 
+#if __has_include(<sys/xattr.h>) && defined(__linux__)
+#include <sys/xattr.h>
+#define DECK_FILE_ATTRIBUTES 1
+#endif
+
 namespace deck {
-namespace {
 namespace fs = std::filesystem;
 using namespace detail;
+
+// ---- extended attributes: those of the file that is replaced are kept, and a result has a note of
+// what it was made from ---------------------------------------------------------------------------
+
+#ifdef DECK_FILE_ATTRIBUTES
+namespace {
+
+constexpr const char* origin_note = "user.libdeck.origin";
+constexpr const char* access_list = "system.posix_acl_access";
+
+/// A value of `get(buffer, size)`, which gives its size; nullopt: there is none.
+template <class Get>
+std::optional<std::string> attribute_of(const Get& get) {
+  std::string value(65536, '\0');  // the most that Linux keeps
+  const ssize_t size = get(value.data(), value.size());
+  if (size < 0) return std::nullopt;
+  value.resize(static_cast<std::size_t>(size));
+  return value;
+}
+
+std::string note_of(std::string_view origin, std::string_view bytes) {
+  return fmt::format("{:016x} {}", content_hash(bytes), origin);
+}
+
+/// Gives the open file the extended attributes of the file that it will replace, its access list
+/// among them, and no other access list. Error: one that cannot be kept.
+Result<void> keep_attributes(const std::string& from, int to) {
+  const auto names =
+      attribute_of([&](char* b, std::size_t n) { return llistxattr(from.c_str(), b, n); });
+  if (!names) return {};  // this file system has none
+  bool listed = false;
+  for (std::size_t at = 0; at < names->size(); at += std::strlen(names->c_str() + at) + 1) {
+    const char* const name = names->c_str() + at;
+    listed = listed || std::string_view(name) == access_list;
+    const auto old =
+        attribute_of([&](char* b, std::size_t n) { return lgetxattr(from.c_str(), name, b, n); });
+    const auto fresh =
+        attribute_of([&](char* b, std::size_t n) { return fgetxattr(to, name, b, n); });
+    if (old && old != fresh && fsetxattr(to, name, old->data(), old->size(), 0) != 0)
+      return io_error("cannot keep " + std::string(name) + " of", from, errno);
+  }
+  // The directory may have given the new file one.
+  if (!listed && fremovexattr(to, access_list) != 0 && errno != ENODATA && errno != ENOTSUP)
+    return io_error("cannot keep the permissions of", from, errno);
+  return {};
+}
+
+/// Notes on the open file that it was made from `origin`, and of which bytes it consists; nothing
+/// where the file system keeps no such notes. See deck::is_unchanged_output.
+void note_origin(int fd, std::string_view origin, std::string_view bytes) {
+  const std::string note = note_of(origin, bytes);
+  // Without it the file is like any other: that is all that can be lost.
+  if (!origin.empty() && fsetxattr(fd, origin_note, note.data(), note.size(), 0) != 0) return;
+}
+
+}  // namespace
+
+bool is_unchanged_output(const std::string& path, std::string_view origin) {
+  const auto note = attribute_of(
+      [&](char* b, std::size_t n) { return lgetxattr(path.c_str(), origin_note, b, n); });
+  if (origin.empty() || !note || !note->ends_with(origin)) return false;
+  const auto source = Source::open(path, Limits{});
+  return source && *note == note_of(origin, (*source)->bytes());
+}
+#else
+namespace {
+Result<void> keep_attributes(const std::string&, int) { return {}; }
+void note_origin(int, std::string_view, std::string_view) {}
+}  // namespace
+bool is_unchanged_output(const std::string&, std::string_view) { return false; }
+#endif
+
+// ---- one set of files --------------------------------------------------------------------------
+
+namespace {
 
 Result<void> write_all(int fd, std::string_view bytes, const std::string& path) {
   while (!bytes.empty()) {
@@ -355,9 +437,8 @@ Result<void> Transaction::commit() {
   for (const Entry& e : entries_)
     if (e.special)
       if (auto done = write_through(*e.file); !done) return done;
-  std::set<std::string> rewritten;
-  for (const Entry& e : entries_)
-    if (e.file->read) rewritten.insert(directory_of(e.target));
+  const bool rewrites = std::any_of(entries_.begin(), entries_.end(),
+                                    [](const Entry& e) { return e.file->read.has_value(); });
   if (auto locked = lock_directories(); !locked) return locked;
   for (const Entry& e : entries_) {
     if (e.special) continue;
@@ -372,14 +453,14 @@ Result<void> Transaction::commit() {
     if (!options_.backup_suffix.empty() && e.exists && !e.special)
       if (auto done = back_up(e); !done) return done;
   if (entries_.size() > 1) {
-    if (!rewritten.empty())
+    if (rewrites)
       if (auto done = lay_note(); !done) return done;
     // To be able to go back. Without hard links that is not possible.
     for (Entry& e : entries_)
       if (const std::string name = former_name(e.target, suffix_of(e.temporary));
           e.exists && !e.special && link(e.target.c_str(), name.c_str()) == 0)
         e.former = name;
-    if (!rewritten.empty())
+    if (rewrites)
       if (auto done = flush_directories(); !done) return done;
   }
   for (Entry& e : entries_)

@@ -44,11 +44,4 @@ Result<void> flush_directory(const std::string& path);
 /// "what path: the system's reason"
 Error io_error(const std::string& what, const std::string& path, int code);
 
-/// attributes.cpp. Gives the open file the extended attributes of the file that it will replace,
-/// its access list among them, and no other access list. Error: one that cannot be kept.
-Result<void> keep_attributes(const std::string& from, int to);
-/// Notes on the open file that it was made from `origin`, and of which bytes it consists; nothing
-/// where the file system keeps no such notes. See deck::is_unchanged_output.
-void note_origin(int fd, std::string_view origin, std::string_view bytes);
-
 }  // namespace deck::detail

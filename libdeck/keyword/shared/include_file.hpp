@@ -1,5 +1,4 @@
-// The directive #include: its path and the places where the file may lie. Private to the keyword
-// stage.
+// The directive #include: its path and the places where the file may lie. Private to the library.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -23,9 +23,7 @@ inline std::to_chars_result write_scientific(char* first, char* last, double val
                           : std::to_chars(first, last, value, form, significant - 1);
 }
 
-/// "12.5", "0.05" or, without `leading_zero`, ".05"; always with a point.
-std::string fixed_text(const Decimal& d, bool leading_zero);
-/// "1.25e3". `before`: digits in front of the point; all of them: no point at all.
-std::string scientific_text(const Decimal& d, std::size_t before);
+/// The most readable text of all these digits that fits, empty if none does.
+std::string readable_text(const Decimal& d, std::size_t room);
 
 }  // namespace deck::detail

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "edit/fix/common.hpp"
-#include "edit/fix/nodes/depenetrate_bounds.hpp"
-#include "edit/fix/nodes/depenetrate_rows.hpp"
+#include "edit/fix/nodes/ways_out.hpp"
 
 namespace deck::test {
 namespace {

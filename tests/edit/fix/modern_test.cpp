@@ -2,7 +2,6 @@
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
 #include "edit/fix/support.hpp"
-#include "edit/fix/type_rules.hpp"
 
 namespace deck::test {
 namespace {
@@ -15,7 +14,7 @@ std::map<std::pair<std::int64_t, std::vector<std::int64_t>>, double> depths(cons
   for (const Contact& c : b.scene.contacts)
     for (const PenetrationRow& r : c.penetrations)
       if (detail::is_penetration(r))
-        out[{c.inter->id, detail::secondary_ids(b.model, c, r)}] = r.depth;
+        out[{c.inter->id, detail::node_ids(b.model, c, r, false)}] = r.depth;
   return out;
 }
 

@@ -2,7 +2,7 @@
 #include "edit/shared/depenetrate.hpp"
 
 #include "edit/fix/support.hpp"
-#include "edit/fix/translations.hpp"
+#include "edit/fix/nodes/ways_out.hpp"
 
 namespace deck::test {
 namespace {

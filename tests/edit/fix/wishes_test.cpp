@@ -1,6 +1,6 @@
 // Moving nodes: the sweeps over the wishes against the exact solution of the same quadratic
 // program, by an active set with Eigen's dense factorisation.
-#include "edit/fix/nodes/depenetrate_rows.hpp"
+#include "edit/fix/nodes/ways_out.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "edit/fix/nodes/depenetrate_bounds.hpp"
 
 namespace deck::detail {
 namespace {

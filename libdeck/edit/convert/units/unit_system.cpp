@@ -1,42 +1,149 @@
-// Converts a deck to other units: header, blocks, functions, parameters, notes, and the times of
-// Engine files.
+// Converts a deck to other units: the places that name units, blocks, functions, parameters, notes,
+// and the times of Engine files.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
-#include "deck/edit/convert.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/units/unit_system_state.hpp"
+#include "edit/convert/units/unit_system.hpp"
 #include "keyword/shared/engine_layout.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck {
+namespace detail {
+namespace {
+
+/// The three codes of a unit system as a deck writes them.
+std::array<std::string, 3> codes(const UnitSystem& u) {
+  const auto text = [](const std::string& code, double factor) {
+    if (!code.empty()) return code;
+    const auto number = format_real(factor, 20);
+    return number ? number->text : std::string("1.");
+  };
+  return {text(u.mass_code, u.mass), text(u.length_code, u.length), text(u.time_code, u.time)};
+}
+
+bool readable(const UnitSystem& u) {
+  return (u.mass_code.empty() || unit_factor(u.mass_code, 'g')) &&
+         (u.length_code.empty() || unit_factor(u.length_code, 'm')) &&
+         (u.time_code.empty() || unit_factor(u.time_code, 's'));
+}
+
+bool refuse(UnitConversion& c, const std::string& why) {
+  const Span at = c.deck.begin.span;
+  c.out.refusals.push_back(
+      (at.valid() ? c.deck.sources.where(at) : c.deck.sources[0].path() + ":1:1") + ": " + why);
+  return false;
+}
+
+void write_codes(CellWriter& cells, const Line& line, const UnitSystem& units) {
+  const auto text = codes(units);
+  for (int i = 0; i < 3; ++i)
+    cells.set(line.whole(), 20 * i + 1, 20 * i + 20, text[static_cast<std::size_t>(i)]);
+}
+
+/// Versions up to 90 name the units in headers: /UNIT/LENGTH/mm.
+bool convert_headers(UnitConversion& c) {
+  const auto text = codes(c.target);
+  constexpr std::string_view keywords[3] = {"/UNIT/MASS/", "/UNIT/LENGTH/", "/UNIT/TIME/"};
+  const double from[3] = {c.deck.begin.input.mass, c.deck.begin.input.length,
+                          c.deck.begin.input.time};
+  const double to[3] = {c.target.mass, c.target.length, c.target.time};
+  for (std::size_t i = 0; i < 3; ++i) {
+    bool found = false;
+    for (const Block& b : c.deck.blocks) {
+      if (!b.header.starts_with(keywords[i])) continue;
+      found = true;
+      const std::string_view code = trim(b.header.substr(keywords[i].size()));
+      c.out.edits.push_back({span_in_header(b, code), text[i]});
+    }
+    if (!found && from[i] != to[i])
+      return refuse(c, "the deck has no " + std::string(keywords[i]) +
+                           " block to name the new unit in; add it");
+  }
+  return true;
+}
+
+bool blank_units(const Line& line) { return trim(columns(line.text, 1, 60)).empty(); }
+
+}  // namespace
+
+bool convert_begin(UnitConversion& c) {
+  const Begin& begin = c.deck.begin;
+  const SourceSet& sources = c.deck.sources;
+  if (!begin.span.valid()) return refuse(c, "no /BEGIN: the units of the deck are not known");
+  if (!begin.has_input && !begin.has_working)
+    return refuse(c, "/BEGIN names no units: those of the deck are not known");
+  if (!readable(begin.input) || !readable(begin.working))
+    return refuse(c, "a unit of /BEGIN cannot be read");
+  Line lines[4];
+  for (const Block& b : c.deck.blocks) {
+    if (!(b.header_span == begin.span)) continue;
+    LineCursor cursor(sources, b);
+    for (Line& line : lines) line = cursor.next();
+    break;
+  }
+  const Line &input = lines[2], &working = lines[3];
+  const bool has_input = input.valid() && !blank_units(input);
+  const bool has_working = working.valid() && !blank_units(working);
+  if (!has_input && !has_working) {
+    if (c.options.keep_working && !(begin.working == c.target))
+      return refuse(c, "this version names one unit system only; the working units cannot stay");
+    return convert_headers(c);
+  }
+  CellWriter cells(sources);
+  if (input.valid()) write_codes(cells, input, c.target);
+  if (c.working_changes) {
+    if (has_working) write_codes(cells, working, c.target);
+  } else if (!has_working) {
+    // Blank would mean the new input units.
+    if (working.valid()) {
+      write_codes(cells, working, begin.working);
+    } else {
+      std::string text;
+      int column = 1;
+      for (const std::string& code : codes(begin.working)) {
+        CellWriter::put(text, column, column + 19, code);
+        column += 20;
+      }
+      LineEdits added(sources);
+      added.insert_after(input.whole(), text);
+      added.finish(c.out.edits);
+    }
+  }
+  for (TextEdit& e : cells.finish()) c.out.edits.push_back(std::move(e));
+  return true;
+}
+
+}  // namespace detail
 
 using detail::UnitConversion;
 using detail::UnitFactor;
 
 namespace {
 
+constexpr std::string_view base_names[] = {"mass", "length", "time"};
+
 void add_notes(UnitConversion& c) {
-  const auto text = [](const UnitFactor& f) {
-    const auto value = format_real(static_cast<double>(f.value), 24);
-    return f.power ? "1e" + std::to_string(*f.power) : (value ? value->text : std::string("?"));
-  };
-  const auto code = [](const std::string& name, double factor) {
-    const auto value = format_real(factor, 24);
-    return !name.empty() ? name : value ? value->text : std::string("?");
-  };
-  const UnitSystem &from = c.deck.begin.input, &to = c.target;
+  const auto from = detail::codes(c.deck.begin.input), to = detail::codes(c.target);
+  const UnitFactor factors[] = {c.factors.mass(), c.factors.length(), c.factors.time()};
   auto& notes = c.out.notes;
-  notes.push_back("mass " + code(from.mass_code, from.mass) + " -> " + code(to.mass_code, to.mass) +
-                  ": factor " + text(c.factors.mass()));
-  notes.push_back("length " + code(from.length_code, from.length) + " -> " +
-                  code(to.length_code, to.length) + ": factor " + text(c.factors.length()));
-  notes.push_back("time " + code(from.time_code, from.time) + " -> " + code(to.time_code, to.time) +
-                  ": factor " + text(c.factors.time()));
-  for (const auto& [dimension, factor] : c.used_factors)
-    if (dimension != "mass" && dimension != "length" && dimension != "time")
-      notes.push_back(dimension + ": factor " + factor);
+  for (std::size_t i = 0; i < 3; ++i)
+    notes.push_back(std::string(base_names[i]) + " " + from[i] + " -> " + to[i] + ": factor " +
+                    factors[i].text());
+  std::map<std::string, std::string> others;
+  for (const auto& [exponents, factor] : c.used_factors) {
+    std::string name;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (exponents[i] == 0) continue;
+      name += (name.empty() ? "" : " ") + std::string(base_names[i]);
+      if (exponents[i] != 1) name += "^" + std::to_string(exponents[i]);
+    }
+    if (std::find(std::begin(base_names), std::end(base_names), name) == std::end(base_names))
+      others.emplace(name, factor.text());
+  }
+  for (const auto& [name, factor] : others) notes.push_back(name + ": factor " + factor);
   notes.push_back(std::to_string(c.changed_cells) + " values converted");
   if (c.own_unit_blocks > 0)
     notes.push_back(std::to_string(c.own_unit_blocks) +
@@ -56,7 +163,6 @@ Result<UnitSystem> parse_unit_system(std::string_view text) {
   double* const factors[3] = {&units.mass, &units.length, &units.time};
   std::string* const codes[3] = {&units.mass_code, &units.length_code, &units.time_code};
   constexpr char bases[3] = {'g', 'm', 's'};
-  constexpr const char* names[3] = {"mass", "length", "time"};
   for (int i = 0; i < 3; ++i) {
     const auto comma = i < 2 ? text.find(',') : text.size();
     if (comma == std::string_view::npos)
@@ -65,7 +171,7 @@ Result<UnitSystem> parse_unit_system(std::string_view text) {
     const auto factor = unit_factor(code, bases[i]);
     if (!factor || code.size() > 20)
       return Error{Error::Code::config, "'" + std::string(code.substr(0, 40)) + "' is not a " +
-                                            names[i] + " unit; expected a prefix and '" + bases[i] +
+                                            std::string(base_names[i]) + " unit; expected a prefix and '" + bases[i] +
                                             "', or a positive number"};
     *factors[i] = *factor;
     *codes[i] = std::string(code);

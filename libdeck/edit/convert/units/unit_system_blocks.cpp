@@ -1,11 +1,10 @@
 // Multiplies every cell of known dimension by its factor, block by block.
 #include <algorithm>
 #include <optional>
-#include <set>
 
+#include "base/shared/count.hpp"
 #include "deck/text/number.hpp"
-#include "edit/convert/units/unit_system_state.hpp"
-#include "edit/convert/version_cards.hpp"
+#include "edit/convert/units/unit_system.hpp"
 #include "keyword/shared/implied_one.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/reader.hpp"
@@ -27,15 +26,13 @@ bool free_of_units(std::string_view keyword) {
       "/RBE2",        "/SHFRA",     "/CAA",         "/REFSTA",    "/UPWIND", "/ALE/GRID/ZERO",
       "/RLINK",       "/ALE/BCS",   "/DUMMY_START", "/DUMMY_END", "/AMS",    "/TABLE",
       "/FUNCT_PYTHON"};
-  for (const std::string_view k : list)
-    if (keyword == k || (keyword.starts_with(k) && keyword[k.size()] == '/')) return true;
-  return false;
+  return std::any_of(std::begin(list), std::end(list),
+                     [&](std::string_view k) { return detail::is_below(keyword, k); });
 }
 
 /// Blocks that name units or parameters, or hold no values; treated elsewhere or not at all.
 bool outside_conversion(const Block& b) {
-  return b.schema->kind == "engine" || b.schema->kind == "parameter" || b.header == "/BEGIN" ||
-         b.header.starts_with("/BEGIN/") || b.header.starts_with("//") ||
+  return b.schema->kind == "engine" || b.schema->kind == "parameter" || detail::is_below(b.header, "/BEGIN") || b.header.starts_with("//") ||
          b.header.starts_with("/UNIT") || b.header.starts_with("/TITLE") ||
          free_of_units(b.keyword) || free_of_units(b.header);
 }
@@ -65,11 +62,10 @@ class BlockConverter {
     const auto before = c_.out.edits.size();
     convert_block(b);
     for (TextEdit& e : grown_.finish()) c_.out.edits.push_back(std::move(e));
-    if (const auto values = c_.out.edits.size() - before; values > 0) {
-      LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
-      entry.note = std::to_string(values) + (values == 1 ? " value" : " values") + " converted";
-      c_.out.losses.push_back(std::move(entry));
-    }
+    if (const auto values = c_.out.edits.size() - before; values > 0)
+      c_.out.losses.push_back(
+          loss_entry(deck_, Loss::kept, b, b.header_span,
+                     {.note = count(values, "value", "values") + " converted"}));
   }
 
  private:
@@ -100,69 +96,27 @@ class BlockConverter {
       return;
     }
     if (!worth_decoding(*b.schema)) return;
-    if (const CardSchema* rows = plain_rows(b); rows != nullptr)
-      convert_rows(b, *rows);
+    if (b.schema->bulk)
+      convert_items(b);
     else
       convert_cards(b);
   }
 
-  /// The one repeated card of a block without conditions; nullptr: the block is another one.
-  static const CardSchema* plain_rows(const Block& b) {
-    const CardSchema* only = nullptr;
-    for (const CardSchema& card : b.schema->cards) {
-      if (!card.in_version(b.version)) continue;
-      if (only != nullptr || card.repeat != Repeat::rows || !card.when.empty()) return nullptr;
-      only = &card;
-    }
-    if (only == nullptr || b.schema->opaque_tail || b.schema->has_title) return nullptr;
-    for (const Field& f : only->fields)
-      if (!f.dimension_when.empty() || !f.dimension_known || f.ref == "funct" ||
-          detail::ordinary_default(f))
-        return nullptr;
-    return only;
-  }
-
-  /// Nodes and elements: many lines, few kinds of cells.
-  void convert_rows(const Block& b, const CardSchema& card) {
-    struct Column {
-      const Field* field;
-      UnitFactor factor;
-    };
-    if (own_units_) return;
-    std::vector<Column> columns;
-    for (const Field& f : card.fields) {
-      if (f.type != FieldType::real || !f.in_version(b.version) || !has_dimension(f)) continue;
-      const UnitFactor factor = c_.factors.of(f.dimension);
-      if (factor.one()) continue;
-      c_.note_dimension(f.dimension, factor);
-      columns.push_back({&f, factor});
-    }
-    if (columns.empty()) return;
-    LineCursor cursor(deck_.sources, b);
-    for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
-      const std::string_view text = line.text.substr(0, detail::line_columns);
-      if (text.find(',') != std::string_view::npos || text.find('&') != std::string_view::npos) {
-        DecodedBlock none;
-        none.block = &b;
-        convert_card(b, none, decode_line(deck_, b, card, line, nullptr));
-        continue;
-      }
-      for (const Column& column : columns)
-        c_.convert_fixed(b, line, column.field->first, column.field->last, column.field->name,
-                         column.factor);
-    }
+  /// Nodes and elements line by line: there are many.
+  void convert_items(const Block& b) {
+    ones_ = {};
+    DecodedBlock none;
+    none.block = &b;
+    for (detail::ItemLines lines(deck_, b); lines.next_line();)
+      convert_card(b, none, lines.decoded(lines.row()));
   }
 
   void convert_cards(const Block& b) {
     const DecodedBlock d = decode(deck_, b);
-    brought_.clear();
-    absent_.clear();
-    for (const DecodedCard& card : d.cards) {
-      if (card.missing()) continue;
-      for (const Cell& cell : card.cells) function_use(b, d, card, cell);
-      for (const Cell& cell : card.cells)
-        if (detail::measures(d, card, cell)) brought_.insert(&cell);
-    }
+    ones_ = detail::implied_ones(d);
+    for (const DecodedCard& card : d.cards)
+      if (!card.missing())
+        for (const Cell& cell : card.cells) function_use(b, d, card, cell);
     for (const DecodedCard& card : d.cards)
       if (!card.missing()) convert_card(b, d, card);
     add_lines(b, d);
@@ -172,25 +126,27 @@ class BlockConverter {
   /// Blank scales on lines that the block leaves away at its end are written out, too.
   void add_lines(const Block& b, const DecodedBlock& d) {
     std::map<const CardSchema*, std::string> texts;
-    for (const std::string& name : absent_)
+    for (const std::string& name : ones_.absent)
       for (const CardSchema& card : b.schema->cards)
         for (const Field& f : card.fields) {
-          if (f.name != name || !card.in_version(b.version) || !f.in_version(b.version)) continue;
+          if (f.name != name || !card.in_version(b.version) || !f.in_version(b.version) ||
+              keeps_number(d, name))
+            continue;
           if (!holds(card.when, d) || !holds(f.when, d)) continue;
           const UnitFactor factor = c_.factors.of(written_dimension(
               f, dimension_of(f, d), f.solver_dimension && holds(f.solver_when, d)));
           if (factor.one()) continue;
-          const auto text = detail::scale_text("1.0", f.last - f.first + 1, factor);
+          const auto text = detail::scale_text("1", f.last - f.first + 1, factor);
           if (!text) {
             c_.undecided(b, {}, name, "blank means 1, which does not fit in the new units");
             continue;
           }
           CellWriter::put(texts[&card], f.first, f.last, text->text);
-          LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
-          entry.field = name;
-          entry.new_text = text->text;
-          entry.note = "its line was missing; blank is 1 in the units of the block, which change";
-          c_.out.losses.push_back(std::move(entry));
+          c_.out.losses.push_back(loss_entry(
+              deck_, Loss::kept, b, b.header_span,
+              {.field = name,
+               .new_text = text->text,
+               .note = "its line was missing; blank is 1 in the units of the block, which change"}));
         }
     if (texts.empty()) return;
     const CardSchema* next = b.schema->cards.data();
@@ -211,7 +167,7 @@ class BlockConverter {
       lines.push_back(text == texts.end() ? std::string() : text->second);
     }
     if (added < texts.size() || !d.extra.empty() || detail::lacks_title(d)) {
-      c_.undecided(b, {}, *absent_.begin(), "this scale has no line in the block; add the line");
+      c_.undecided(b, {}, *ones_.absent.begin(), "this scale has no line in the block; add the line");
       return;
     }
     detail::LineEdits edits(deck_.sources);
@@ -226,8 +182,7 @@ class BlockConverter {
                     const Cell& cell) {
     const Field& f = *cell.field;
     if (f.axes.empty() || (cell.integer == 0 && !cell.parameter)) return;
-    UnitConversion::FunctionUse use{
-        UnitConversion::place_of(b, card, cell), std::abs(cell.integer), {}};
+    UnitConversion::FunctionUse use{detail::place_of(b, card, cell), std::abs(cell.integer), {}};
     for (const Axis& axis : f.axes) {
       bool scaled = axis.scales.empty();
       for (const std::string& name : axis.scales) {
@@ -235,10 +190,7 @@ class BlockConverter {
           scaled = scaled || name[0] != 'A';
           continue;
         }
-        const detail::AxisScale scale = detail::axis_scale(d, card, cell, name);
-        if (scale.cell != nullptr) brought_.insert(scale.cell);
-        if (scale.absent) absent_.insert(name);
-        scaled = scaled || scale.counts();
+        scaled = scaled || detail::axis_scale(d, card, cell, name).counts();
       }
       Dimension points;
       if (axis.scales.empty()) {
@@ -305,11 +257,11 @@ class BlockConverter {
                        "the units of the axes of this function are not known");
         else if (f.ref == "funct")
           c_.function_uses.push_back(
-              {UnitConversion::place_of(b, card, cell), std::abs(cell.integer), {}});
+              {detail::place_of(b, card, cell), std::abs(cell.integer), {}});
       }
       if (f.type != FieldType::real) continue;
       const bool zero = cell.blank() || (cell.status == NumberStatus::ok && cell.real == 0);
-      const bool brought = brought_.contains(&cell);
+      const bool brought = ones_.cells.contains(&cell);
       if (!f.dimension_known) {
         if (!own_units_ && (!zero || cell.parameter || brought))
           c_.undecided(b, cell.span, f.name, "the dimension of this value is not known");
@@ -345,7 +297,7 @@ class BlockConverter {
       // The number counts times that of the scale: where the scale's number changes, it does not.
       const Cell* scale = detail::cell_beside(d, card, cell, f.over);
       if (scale != nullptr &&
-          (brought_.contains(scale) || scale->parameter || (!scale->blank() && scale->real != 0)))
+          (ones_.cells.contains(scale) || scale->parameter || (!scale->blank() && scale->real != 0)))
         physical = minus(physical, dimension_of(*scale->field, d, &card));
     }
     return written_dimension(f, physical, f.solver_dimension && holds(f.solver_when, d, &card));
@@ -367,20 +319,13 @@ class BlockConverter {
 
   void convert_cell(const Block& b, const DecodedCard& card, const Cell& cell,
                     const Dimension& dimension) {
-    const Field& f = *cell.field;
     const UnitFactor factor = c_.factors.of(dimension);
     if (factor.one()) return;
     c_.note_dimension(dimension, factor);
-    const UnitConversion::Place place = UnitConversion::place_of(b, card, cell);
-    if (cell.parameter) {
-      std::string_view name = cell.text;
-      name.remove_prefix(name.starts_with('-') ? 2 : 1);
-      c_.parameter_uses[std::string(name)].push_back({place, dimension, cell.real});
-    } else if (card.free_format) {
-      c_.convert_free(b, card.line, cell.span, f.name, factor);
-    } else {
-      c_.convert_fixed(b, card.line, place.first, place.last, f.name, factor);
-    }
+    const detail::CellPlace place = detail::place_of(b, card, cell);
+    if (!cell.parameter) return c_.convert(place, factor);
+    const std::string_view name = cell.text.substr(cell.text.starts_with('-') ? 2 : 1);
+    c_.parameter_uses[std::string(name)].push_back({place, dimension, cell.real});
   }
 
   /// The power of the units with which the number of Stfac changes, in an interface whose effective
@@ -405,7 +350,7 @@ class BlockConverter {
     const Field& f = *cell.field;
     const UnitFactor factor = c_.factors.of(dimension);
     if (factor.one()) return;
-    const auto text = detail::scale_text("1.0", f.last - f.first + 1, factor);
+    const auto text = detail::scale_text("1", f.last - f.first + 1, factor);
     if (!text) {
       c_.undecided(b, cell.span, f.name, "blank means 1, which does not fit in the new units");
       return;
@@ -422,9 +367,7 @@ class BlockConverter {
     const auto value = detail::ordinary_default(f);
     const UnitFactor factor = from_working_.of(dimension);
     if (!value || factor.one()) return;
-    const bool whole = f.default_text.find_first_of(".eE") == std::string::npos;
-    const auto text =
-        detail::scale_text(f.default_text + (whole ? ".0" : ""), f.last - f.first + 1, factor);
+    const auto text = detail::scale_text(f.default_text, f.last - f.first + 1, factor);
     if (!text) {
       c_.undecided(b, cell.span, f.name,
                    "blank means " + f.default_text + " in working units, which change");
@@ -438,28 +381,24 @@ class BlockConverter {
   void write_out(const Block& b, const DecodedCard& card, const Cell& cell, const std::string& text,
                  std::string note) {
     const Field& f = *cell.field;
+    const detail::CellPlace place = detail::place_of(b, card, cell);
     const Line& line = card.line;
-    const UnitConversion::Place place = UnitConversion::place_of(b, card, cell);
-    if (card.free_format) {
+    if (!card.free_format && static_cast<int>(line.text.size()) < place.first) {
+      grown_.set(line.whole(), place.first, place.last, text);
+    } else {
       const bool there = cell.span.offset + cell.span.length <= line.offset + line.text.size();
-      if (!there || line.text.size() + text.size() > detail::line_columns) {
+      if ((card.free_format && !there) || !c_.cells.put(place, text)) {
         c_.undecided(b, cell.span, f.name,
                      "blank means a number that has to be written out, and this free-format line "
                      "has no room for it");
         return;
       }
-      c_.out.edits.push_back({cell.span, text});
-    } else if (static_cast<int>(line.text.size()) >= place.first) {
-      c_.replace_fixed(line, place.first, place.last, text);
-    } else {
-      grown_.set(line.whole(), place.first, place.last, text);
     }
-    LossEntry entry = loss_entry(deck_, Loss::kept, b, cell.span);
-    entry.field = f.name;
-    entry.old_text = std::string(cell.text);
-    entry.new_text = text;
-    entry.note = std::move(note);
-    c_.out.losses.push_back(std::move(entry));
+    c_.out.losses.push_back(loss_entry(deck_, Loss::kept, b, cell.span,
+                                       {.field = f.name,
+                                        .old_text = std::string(cell.text),
+                                        .new_text = text,
+                                        .note = std::move(note)}));
   }
 
   // ---- text that no schema describes ----------------------------------------------------------
@@ -480,16 +419,12 @@ class BlockConverter {
 
   /// /CNODE/tolerance: a length in the header.
   void tolerance(const Block& b) {
-    Dimension length;
-    length.length = 1;
-    const UnitFactor factor = c_.factors.of(length);
+    const UnitFactor& factor = c_.factors.length();
     const std::string_view text = detail::trim(b.header.substr(7));
     const RealCell value = read_real(text);
     if (text.empty() || factor.one()) return;
     if (value.status == NumberStatus::ok && value.value == 0) return;
-    const auto offset = static_cast<std::uint64_t>(text.data() - b.header.data());
-    const Span place{b.header_span.file, static_cast<std::uint32_t>(text.size()),
-                     b.header_span.offset + offset};
+    const Span place = detail::span_in_header(b, text);
     const auto scaled = detail::scale_text(text, 24, factor);
     if (!scaled) {
       c_.undecided(b, place, "tolerance", "'" + std::string(text) + "' is not a plain number");
@@ -501,9 +436,8 @@ class BlockConverter {
 
   /// PLANE and ELLIPS clauses of a set hold lengths on two lines.
   void set_clauses(const Block& b) {
-    Dimension length;
-    length.length = 1;
-    const UnitFactor factor = c_.factors.of(length);
+    constexpr Dimension length{0, 1, 0, 0};
+    const UnitFactor& factor = c_.factors.length();
     LineCursor cursor(deck_.sources, b);
     cursor.next();  // title
     for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
@@ -520,7 +454,7 @@ class BlockConverter {
           continue;
         }
         for (int cell = 0; cell < 3; ++cell)
-          c_.convert_fixed(b, line, 11 + 20 * cell, 30 + 20 * cell, clause, factor);
+          c_.convert(b, line, 11 + 20 * cell, 30 + 20 * cell, clause, factor);
       }
     }
   }
@@ -530,8 +464,7 @@ class BlockConverter {
   bool own_units_ = false;
   detail::UnitFactors from_working_{{}, {}};
   CellWriter grown_{deck_.sources};  // cells behind the end of their line
-  std::set<const Cell*> brought_;    // of this block: blank is 1 and has to be said
-  std::set<std::string> absent_;     // the same, where the block has no line for the cell
+  detail::ImpliedOnes ones_;         // of this block: blank is 1 and has to be said
 };
 }  // namespace
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "deck/text/number.hpp"
-#include "edit/convert/units/unit_system_state.hpp"
+#include "edit/convert/units/unit_system.hpp"
 #include "keyword/shared/reader.hpp"
 
 namespace deck::detail {
@@ -35,20 +35,12 @@ bool middle_changes(const UnitConversion& c, const Use& use) {
   return false;
 }
 
-std::vector<const Block*> definitions(const Deck& deck, std::int64_t id) {
+/// Blocks of a function: its definitions, or those that scale and shift it.
+std::vector<const Block*> blocks_of(const Deck& deck, std::int64_t id, bool moves) {
   std::vector<const Block*> found;
   for (const Block& b : deck.blocks)
-    if (b.schema != nullptr && b.schema->kind == "funct" &&
-        b.id.value + deck.offset_of(b, "funct") == id)
-      found.push_back(&b);
-  return found;
-}
-
-/// Scales and shifts of the function by a block of its own.
-std::vector<const Block*> moves(const Deck& deck, std::int64_t id) {
-  std::vector<const Block*> found;
-  for (const Block& b : deck.blocks)
-    if (b.schema != nullptr && b.schema->keyword == "/MOVE_FUNCT" &&
+    if (b.schema != nullptr &&
+        (moves ? b.schema->keyword == "/MOVE_FUNCT" : b.schema->kind == "funct") &&
         b.id.value + deck.offset_of(b, "funct") == id)
       found.push_back(&b);
   return found;
@@ -65,10 +57,8 @@ void convert_points(UnitConversion& c, const Block& b, const PointFactors& facto
       if (factor.one() || cell.blank()) continue;
       if (cell.parameter)
         c.undecided(b, cell.span, std::string(name), "a point of the function is a parameter");
-      else if (card.free_format)
-        c.convert_free(b, card.line, cell.span, name, factor);
       else
-        c.convert_fixed(b, card.line, cell.field->first, cell.field->last, name, factor);
+        c.convert(place_of(b, card, cell), factor);
     }
 }
 
@@ -142,21 +132,20 @@ bool copy_function(UnitConversion& c, std::int64_t id, const std::vector<const B
   }
   for (const Use* use : uses) {
     const UnitConversion::OpenShare share(c, *use->block);
-    if (!c.put(*use,
-               (c.deck.sources.text(use->span).find('-') == std::string_view::npos ? "" : "-") +
-                   local(*use->block))) {
-      c.undecided(*use->block, use->span, use->field,
+    const bool minus = c.deck.sources.text(use->span).find('-') != std::string_view::npos;
+    if (!c.cells.put(*use, (minus ? "-" : "") + local(*use->block))) {
+      c.undecided(*use->block, use->span, std::string(use->field),
                   "function " + std::to_string(id) + " needs a copy for this use, and its new id " +
                       "has no room here");
       continue;
     }
-    LossEntry entry = loss_entry(c.deck, Loss::kept, *use->block, use->span);
-    entry.field = use->field;
-    entry.old_text = std::to_string(id);
-    entry.new_text = local(*use->block);
-    entry.note = "other uses read function " + std::to_string(id) +
-                 " in other units; this one has a converted copy";
-    c.out.losses.push_back(std::move(entry));
+    c.out.losses.push_back(
+        loss_entry(c.deck, Loss::kept, *use->block, use->span,
+                   {.field = std::string(use->field),
+                    .old_text = std::to_string(id),
+                    .new_text = local(*use->block),
+                    .note = "other uses read function " + std::to_string(id) +
+                            " in other units; this one has a converted copy"}));
   }
   return true;
 }
@@ -169,12 +158,13 @@ void convert_function(UnitConversion& c, std::int64_t id, const std::vector<cons
   if (!between) return;
   // Uses that want the same points, in the order of the deck.
   std::vector<std::vector<const Use*>> groups;
-  const bool is_table = definitions(c.deck, id).empty();
+  const std::vector<const Block*> blocks = blocks_of(c.deck, id, false);
+  const std::vector<const Block*> moves = blocks_of(c.deck, id, true);
   bool as_they_are = c.deck.has("/TABLE");  // a table may use the points
   for (const Use* use : uses) {
     const PointFactors factors = factors_of(c, *use);
-    if (is_table && middle_changes(c, *use)) {
-      c.undecided(*use->block, use->span, use->field,
+    if (blocks.empty() && middle_changes(c, *use)) {
+      c.undecided(*use->block, use->span, std::string(use->field),
                   "an abscissa of this table has units, and tables are not read");
       continue;
     }
@@ -192,9 +182,8 @@ void convert_function(UnitConversion& c, std::int64_t id, const std::vector<cons
       same->push_back(use);
   }
   const auto refuse = [&](const std::vector<const Use*>& group, const std::string& why) {
-    for (const Use* use : group) c.undecided(*use->block, use->span, use->field, why);
+    for (const Use* use : group) c.undecided(*use->block, use->span, std::string(use->field), why);
   };
-  std::vector<const Block*> blocks = definitions(c.deck, id);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (blocks.empty()) {
       refuse(groups[i], "the points of this table have units, and tables are not read");
@@ -203,7 +192,7 @@ void convert_function(UnitConversion& c, std::int64_t id, const std::vector<cons
       refuse(groups[i], "the function is computed by a script, which cannot be converted");
     } else if (as_they_are || i > 0) {
       std::vector<const Block*> all = blocks;
-      for (const Block* b : moves(c.deck, id)) all.push_back(b);
+      all.insert(all.end(), moves.begin(), moves.end());
       if (!copy_function(c, id, all, groups[i]))
         refuse(groups[i], "function " + std::to_string(id) +
                               " is used in several units, and a copy of it cannot be made; give "
@@ -214,7 +203,7 @@ void convert_function(UnitConversion& c, std::int64_t id, const std::vector<cons
         const UnitConversion::OpenShare share(c, *b);
         convert_points(c, *b, factors);
       }
-      for (const Block* b : moves(c.deck, id)) convert_points(c, *b, factors);
+      for (const Block* b : moves) convert_points(c, *b, factors);
     }
   }
 }

@@ -75,8 +75,6 @@ struct RenumberRule {
   std::string kind;
   bool compact = false;    ///< new ids follow one another from `value` on, in the order of the old
   std::int64_t value = 0;  ///< added to every id; with `compact` the first id
-  /// Not 0: only this id changes, to `value`. Ids may then come in another order.
-  std::int64_t only = 0;
 };
 
 /// "node+1000", "part-50" (offset), "node=1" (compact from 1). Error: what is wrong with it.

@@ -53,8 +53,13 @@ Result<ChangedFiles> apply_edits(const SourceSet& sources, const std::vector<Tex
 /// The same for a whole rewrite: with new_text, that is the main file's content.
 Result<ChangedFiles> apply_rewrite(const SourceSet& sources, const Rewrite& rewrite);
 
-/// Place of a span for a LossEntry, and the start of one with keyword and id of a block.
-LossEntry loss_entry(const Deck& deck, Loss loss, const Block& block, Span span);
+/// What a LossEntry says of a value.
+struct LossText {
+  std::string field = {}, old_text = {}, new_text = {}, note = {};
+};
+/// An entry about a block; an invalid `span` stands for its header.
+LossEntry loss_entry(const Deck& deck, Loss loss, const Block& block, Span span,
+                     LossText text = {});
 
 /// Notes what a conversion cannot decide: an `undecided` loss if the user accepts that, a refusal
 /// "file:line:column: /KEYWORD/id field: why" otherwise (the first thousand of them). An invalid

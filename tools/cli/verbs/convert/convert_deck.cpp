@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "edit/shared/changed_values.hpp"
-#include "edit/shared/verify.hpp"
+#include "edit/shared/conversion.hpp"
 #include "report/shared/deck_json.hpp"
 #include "verbs/convert/convert_run.hpp"
 

@@ -2,7 +2,7 @@
 #include "verbs/convert/convert_run.hpp"
 
 #include "deck/edit/convert.hpp"
-#include "edit/shared/resolve.hpp"
+#include "edit/shared/conversion.hpp"
 
 namespace deck::cli {
 

@@ -1,11 +1,12 @@
-// Decimal digits times a factor without a detour over binary numbers.
-#include "edit/convert/units/unit_system_decimal.hpp"
-
+// Numbers of a deck times a unit factor, as decimal text: powers of ten move the point and keep
+// every digit, other factors are computed and rounded once.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "deck/text/number.hpp"
+#include "edit/convert/units/unit_system.hpp"
+#include "text/shared/columns.hpp"
 #include "text/shared/decimal.hpp"
 #include "text/shared/number_scan.hpp"
 
@@ -17,19 +18,20 @@ struct Digits {
   bool negative = false;
   std::string digits;
   int point = 0;
-
-  Decimal view() const { return {negative, digits, point}; }
 };
 
 /// Exponents beyond this are no numbers that a deck can hold.
 constexpr int most_exponent = 10000;
 
 std::optional<Digits> parse(std::string_view cell) {
-  while (!cell.empty() && static_cast<unsigned char>(cell.front()) <= ' ') cell.remove_prefix(1);
-  while (!cell.empty() && static_cast<unsigned char>(cell.back()) <= ' ') cell.remove_suffix(1);
-  Digits d;
+  cell = trim(cell);
   std::size_t i = 0;
-  if (i < cell.size() && (cell[i] == '+' || cell[i] == '-')) d.negative = cell[i++] == '-';
+  const auto read_sign = [&] {
+    const bool sign = i < cell.size() && (cell[i] == '+' || cell[i] == '-');
+    return sign && cell[i++] == '-';
+  };
+  Digits d;
+  d.negative = read_sign();
   bool any = false, point = false;
   for (; i < cell.size() && (is_digit(cell[i]) || (cell[i] == '.' && !point)); ++i) {
     if (cell[i] == '.') {
@@ -37,19 +39,16 @@ std::optional<Digits> parse(std::string_view cell) {
       continue;
     }
     any = true;
-    if (!d.digits.empty() || cell[i] != '0') {
-      d.digits += cell[i];
-      if (!point) ++d.point;
-    } else if (point) {
-      --d.point;  // a zero between the point and the first digit
-    }
+    const bool counts = !d.digits.empty() || cell[i] != '0';
+    if (counts) d.digits += cell[i];
+    if (counts && !point) ++d.point;
+    if (!counts && point) --d.point;  // a zero between the point and the first digit
   }
   if (!any) return std::nullopt;
   if (i < cell.size()) {
     const char c = static_cast<char>(cell[i] | 0x20);
     if (c == 'e' || c == 'd') ++i;
-    bool minus = false;
-    if (i < cell.size() && (cell[i] == '+' || cell[i] == '-')) minus = cell[i++] == '-';
+    const bool minus = read_sign();
     int exponent = 0;
     const std::size_t first = i;
     for (; i < cell.size() && is_digit(cell[i]); ++i)
@@ -71,16 +70,7 @@ Digits decimal_of(double value, int significant = 0) {
 /// All digits of `d` in at most `room` columns; empty: they do not fit.
 std::string print(const Digits& d, std::size_t room) {
   if (d.digits.empty()) return room >= 3 ? "0.0" : room == 2 ? "0." : "0";
-  const bool reads_well = d.point > -4 && d.point <= 10;
-  const bool fixed_possible = d.point > -30 && d.point < 30;
-  std::string text = reads_well ? fixed_text(d.view(), true) : scientific_text(d.view(), 1);
-  if (text.size() <= room) return text;
-  for (const bool leading_zero : {true, false})
-    if (fixed_possible && (text = fixed_text(d.view(), leading_zero)).size() <= room) return text;
-  if ((text = scientific_text(d.view(), 1)).size() <= room) return text;
-  // Without the point one more digit fits.
-  if ((text = scientific_text(d.view(), d.digits.size())).size() <= room) return text;
-  return {};
+  return readable_text({d.negative, d.digits, d.point}, room);
 }
 
 /// `d` rounded to `count` digits, half away from zero.
@@ -89,11 +79,9 @@ Digits rounded(Digits d, std::size_t count) {
   const bool up = d.digits[count] >= '5';
   d.digits.resize(count);
   if (up) {
-    std::size_t i = count;
-    while (i > 0 && d.digits[i - 1] == '9') --i;
-    d.digits.resize(i);
-    if (i > 0) {
-      ++d.digits[i - 1];
+    while (!d.digits.empty() && d.digits.back() == '9') d.digits.pop_back();
+    if (!d.digits.empty()) {
+      ++d.digits.back();
     } else {
       d.digits = "1";
       ++d.point;
@@ -101,77 +89,6 @@ Digits rounded(Digits d, std::size_t count) {
   }
   while (!d.digits.empty() && d.digits.back() == '0') d.digits.pop_back();
   return d;
-}
-
-/// How a number was written, so that its successor looks like it.
-struct Spelling {
-  bool point = false, leading_zero = true;
-  std::size_t decimals = 0;  ///< digits behind the point
-  char letter = 0;           ///< of the exponent; 0: none
-  bool plus = false;         ///< a positive exponent has a sign
-  std::size_t exponent_digits = 0;
-};
-
-Spelling spelling_of(std::string_view cell) {
-  Spelling s;
-  const auto letter = cell.find_first_of("eEdD");
-  const std::string_view mantissa = cell.substr(0, letter);
-  if (const auto point = mantissa.find('.'); point != std::string_view::npos) {
-    s.point = true;
-    s.leading_zero = point > 0 && is_digit(mantissa[point - 1]);
-    for (std::size_t i = point + 1; i < mantissa.size() && is_digit(mantissa[i]); ++i) ++s.decimals;
-  }
-  if (letter == std::string_view::npos) return s;
-  s.letter = cell[letter];
-  const std::string_view exponent = cell.substr(letter + 1);
-  for (const char c : exponent)
-    if (is_digit(c)) ++s.exponent_digits;
-  s.plus = exponent.starts_with('+') || (exponent.starts_with('-') && s.exponent_digits > 1);
-  return s;
-}
-
-/// One digit, the point, at least `decimals` more, and the exponent in the spelling of the old one.
-std::string exponent_text(const Digits& d, const Spelling& like, std::size_t decimals) {
-  std::string text = d.negative ? "-" : "";
-  text += d.digits[0];
-  if (like.point || d.digits.size() > 1) text += '.';
-  text.append(d.digits, 1);
-  if (d.digits.size() - 1 < decimals) text.append(decimals - (d.digits.size() - 1), '0');
-  const int exponent = d.point - 1;
-  std::string digits = std::to_string(std::abs(exponent));
-  if (digits.size() < like.exponent_digits)
-    digits.insert(0, like.exponent_digits - digits.size(), '0');
-  text += like.letter;
-  if (exponent < 0 || like.plus) text += exponent < 0 ? '-' : '+';
-  return text + digits;
-}
-
-/// All digits of `d` in at most `room` columns, spelled as the number that it replaces: with or
-/// without an exponent, a point, digits behind it. Empty: they do not fit in any spelling.
-std::string print_like(const Digits& d, const Spelling& like, std::size_t room) {
-  if (d.digits.empty()) return print(d, room);
-  if (like.letter != 0) {
-    for (const std::size_t decimals : {like.decimals, std::size_t{0}})
-      if (std::string text = exponent_text(d, like, decimals); text.size() <= room) return text;
-    return print(d, room);
-  }
-  std::string text = print(d, room);
-  if (text.empty() || text.find('e') != std::string::npos) return text;
-  if (!like.leading_zero)
-    if (const auto zero = text.find("0."); zero == (d.negative ? 1U : 0U)) text.erase(zero, 1);
-  if (!text.ends_with('.')) return text;
-  if (!like.point)
-    text.pop_back();
-  else if (like.decimals > 0 && text.size() < room)
-    text += '0';
-  return text;
-}
-
-/// With as many digits as fit.
-std::string print_rounded(const Digits& d, const Spelling& like, std::size_t room) {
-  for (std::size_t count = std::max<std::size_t>(d.digits.size(), 1); count > 0; --count)
-    if (std::string text = print_like(rounded(d, count), like, room); !text.empty()) return text;
-  return {};
 }
 
 /// A computed product. Digits behind the twelfth that are there only because doubles are not
@@ -205,13 +122,6 @@ std::optional<Digits> scaled(std::string_view cell, const UnitFactor& factor) {
   return d->digits.empty() ? std::nullopt : d;
 }
 
-/// True if `text` holds every digit of `d`.
-bool shows_all(std::string_view text, const Digits& d) {
-  const auto shown = parse(text);
-  return shown && shown->negative == d.negative && shown->digits == d.digits &&
-         shown->point == d.point;
-}
-
 std::optional<int> power_of_ten(double ratio) {
   if (!(ratio > 0) || !std::isfinite(ratio)) return std::nullopt;
   const int power = static_cast<int>(std::lround(std::log10(ratio)));
@@ -221,17 +131,21 @@ std::optional<int> power_of_ten(double ratio) {
 
 UnitFactor base_factor(double from, double to) {
   UnitFactor f;
-  if (from == to) {
-    f.power = 0;
-    return f;
-  }
   f.value = static_cast<long double>(from) / static_cast<long double>(to);
   const auto a = power_of_ten(from), b = power_of_ten(to);
-  if (a && b) f.power = *a - *b;
+  if (from == to)
+    f.power = 0;
+  else if (a && b)
+    f.power = *a - *b;
   return f;
 }
 
 }  // namespace
+
+std::string UnitFactor::text() const {
+  const auto number = format_real(static_cast<double>(value), 24);
+  return power ? "1e" + std::to_string(*power) : number ? number->text : std::string("?");
+}
 
 UnitFactor UnitFactor::inverse() const {
   UnitFactor f;
@@ -261,20 +175,18 @@ UnitFactor UnitFactors::of(const Dimension& dimension) const {
 }
 
 std::optional<ScaledText> scale_text(std::string_view cell, int width, const UnitFactor& factor) {
-  if (width < 1) return std::nullopt;
-  const auto result = scaled(cell, factor);
+  const auto result = width < 1 ? std::nullopt : scaled(cell, factor);
   if (!result) return std::nullopt;
+  const auto room = static_cast<std::size_t>(width);
   ScaledText out;
-  out.text = print_rounded(*result, spelling_of(cell), static_cast<std::size_t>(width));
-  if (out.text.empty()) return std::nullopt;
+  std::size_t count = std::max<std::size_t>(result->digits.size(), 1);
+  while (count > 0 && (out.text = print(rounded(*result, count), room)).empty()) --count;
   const RealCell now = read_real(out.text);
   if (now.status != NumberStatus::ok || (now.value == 0 && !result->digits.empty()))
     return std::nullopt;
   // All digits are there and only the point has moved: it moves back.
-  if (factor.power && shows_all(out.text, *result)) {
-    out.exact = true;
-    return out;
-  }
+  out.exact = factor.power && count >= result->digits.size();
+  if (out.exact) return out;
   const auto back = scaled(out.text, factor.inverse());
   out.exact = back && read_real(print(*back, 400)).value == read_real(cell).value;
   return out;

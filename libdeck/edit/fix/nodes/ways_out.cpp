@@ -1,13 +1,16 @@
-// Depth and direction of one penetration where the nodes are now, and which nodes may give way.
-#include "edit/fix/nodes/depenetrate_rows.hpp"
+// Depth and direction of one penetration where the nodes are now, which nodes may give way, and the
+// least moves for many of them. Least moves come by Hildreth's method: each condition pulls along
+// its normal, and may give back what it has pulled, but not more.
+#include "edit/fix/nodes/ways_out.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <map>
 
+#include "base/shared/parallel.hpp"
 #include "deck/contact/closest.hpp"
-#include "edit/fix/type_rules.hpp"
+#include "edit/fix/common.hpp"
 
 namespace deck::detail {
 namespace {
@@ -218,7 +221,6 @@ NodeMoves solve_wishes(const std::vector<Wish>& wishes, const std::vector<std::u
     // Where only a far corner of a side can give way nothing it may do moves the pair.
     rows[r].scale = sum > least_share ? 1 / sum : 0;
   }
-  // Hildreth's method: a multiplier per wish that may shrink again, but not below 0.
   std::vector<double> multiplier(wishes.size(), 0);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     bool changed = false;
@@ -246,6 +248,186 @@ NodeMoves solve_wishes(const std::vector<Wish>& wishes, const std::vector<std::u
   for (NodeIndex n = 0; n < index.size(); ++n)
     if (const std::uint32_t i = index[n]; i != no_index && dot(move[i], move[i]) > 0)
       out.emplace_back(n, move[i]);
+  return out;
+}
+
+// ---- bounds of moves ---------------------------------------------------------------------------
+
+namespace {
+
+constexpr int most_projections = 100;  // of the projection; one is exact for one direction
+/// A move as deep along each of three faces at right angles is that much longer than deep.
+const double sharpest_corner = std::sqrt(3.0);
+constexpr double same_way = 1 - 1e-12;  // cosine of directions that are one
+
+/// The point closest to `wanted` of all sums of shares of the directions, none negative.
+Vec project(const std::vector<Vec>& directions, const Vec& wanted) {
+  std::vector<double> shares(directions.size(), 0);
+  Vec sum;
+  const double enough = 1e-12 * norm(wanted);
+  for (int sweep = 0; sweep < most_projections; ++sweep) {
+    double change = 0;
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      const double next = std::max(0.0, shares[k] + dot(wanted - sum, directions[k]));
+      const double by = next - shares[k];
+      shares[k] = next;
+      sum = sum + by * directions[k];
+      change = std::max(change, std::abs(by));
+    }
+    if (change <= enough) break;
+  }
+  return sum;
+}
+
+}  // namespace
+
+void DepthBounds::add(const PairKey& key, const PairState& state, const Vec& normal, double reach) {
+  for (int i = 0; i < state.count; ++i) {
+    Bound& bound = nodes_[state.nodes[static_cast<std::size_t>(i)]];
+    bound.reach = std::max(bound.reach, reach);
+    bound.pairs.push_back(key);
+    const Vec way = i < state.secondary_count ? normal : -1.0 * normal;
+    // Nodes at one place are in many pairs without a direction: one stands for them all.
+    const bool none = !(dot(way, way) > 0);
+    if (std::none_of(bound.directions.begin(), bound.directions.end(), [&](const Vec& known) {
+          return none ? !(dot(known, known) > 0) : dot(known, way) > same_way;
+        }))
+      bound.directions.push_back(way);
+  }
+}
+
+std::vector<DepthBounds::Place> DepthBounds::allowed(const NodeMoves& wanted, int threads) const {
+  std::vector<Place> out(wanted.size());
+  parallel_pieces(threads, wanted.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      out[i] = closest_place(nodes_.at(wanted[i].first), wanted[i].second);
+  });
+  return out;
+}
+
+DepthBounds::Place DepthBounds::closest_place(const Bound& bound, const Vec& wanted) {
+  Place out;
+  out.by = project(bound.directions, wanted);
+  double farthest = norm(out.by) / (bound.directions.size() > 1 ? sharpest_corner : 1);
+  for (const Vec& way : bound.directions) farthest = std::max(farthest, dot(way, out.by));
+  out.at_bound = farthest >= bound.reach;
+  if (farthest > bound.reach) out.by = (bound.reach / farthest) * out.by;
+  return out;
+}
+
+// ---- translations ------------------------------------------------------------------------------
+
+namespace {
+
+constexpr double same_normal = 1e-3;       // normals that differ by less are one
+constexpr double least_along = 0.05;       // of a translation along a normal that it is to free
+constexpr double against = 1e-9;           // along a normal that is nothing but round-off
+constexpr double least_part = 1e-3;        // of a translation: a smaller component is left out
+constexpr std::size_t most_normals = 400;  // directions tried by themselves
+constexpr std::size_t most_paired = 24;    // and in pairs
+constexpr int most_pulls = 400;
+
+/// Ways with equal normals as one, which needs as much as the most of them.
+std::vector<WayOut> distinct(const std::vector<WayOut>& ways) {
+  std::map<std::array<long long, 3>, WayOut> out;
+  for (const WayOut& way : ways) {
+    const auto cell = [](double x) { return std::llround(x / same_normal); };
+    const auto [it, is_new] =
+        out.try_emplace({cell(way.normal.x), cell(way.normal.y), cell(way.normal.z)}, way);
+    if (!is_new && way.needs > it->second.needs) it->second = way;
+  }
+  std::vector<WayOut> list;
+  for (const auto& [key, way] : out) list.push_back(way);
+  std::stable_sort(list.begin(), list.end(),
+                   [](const WayOut& a, const WayOut& b) { return a.needs > b.needs; });
+  return list;
+}
+
+/// The shortest translation that gives every way what it needs, as far as the sweeps come.
+Vec shortest(const std::vector<WayOut>& ways) {
+  std::vector<double> pulled(ways.size(), 0);
+  Vec u{};
+  for (int sweep = 0; sweep < most_pulls; ++sweep)
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const double step = std::max(ways[i].needs - dot(ways[i].normal, u), -pulled[i]);
+      pulled[i] += step;
+      u = u + step * ways[i].normal;
+    }
+  return u;
+}
+
+std::vector<Vec> directions_of(const std::vector<WayOut>& ways) {
+  std::vector<WayOut> wanted;
+  for (const WayOut& way : distinct(ways))
+    if (way.wanted) wanted.push_back(way);
+  std::vector<Vec> out = {unit(shortest(wanted))};
+  Vec mean{};
+  for (const WayOut& way : wanted) mean = mean + way.normal;
+  out.push_back(unit(mean));
+  for (const double sign : {1.0, -1.0})
+    for (const Vec axis : {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}) out.push_back(sign * axis);
+  for (std::size_t i = 0; i < std::min(most_normals, wanted.size()); ++i)
+    out.push_back(wanted[i].normal);
+  for (std::size_t i = 0; i < std::min(most_paired, wanted.size()); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      out.push_back(unit(wanted[i].normal + wanted[k].normal));
+      out.push_back(unit(shortest({wanted[i], wanted[k]})));
+    }
+  return out;
+}
+
+/// Three digits, away from zero; what hardly counts is left out.
+double three_digits(double x, double length) {
+  if (std::abs(x) <= least_part * length) return 0;
+  const double digit = std::pow(10.0, std::floor(std::log10(std::abs(x))) - 2);
+  return std::copysign(std::ceil(std::abs(x) / digit - 1e-9) * digit, x);
+}
+
+Vec three_digits(const Vec& u) {
+  const double l = norm(u);
+  return {three_digits(u.x, l), three_digits(u.y, l), three_digits(u.z, l)};
+}
+
+/// The longest of the lengths that free something within the bound: it frees all of them.
+double length_along(const Vec& direction, const std::vector<WayOut>& ways, double longest) {
+  double length = 0;
+  for (const WayOut& way : ways) {
+    const double share = dot(way.normal, direction);
+    if (share < -against) return 0;
+    if (!way.wanted || share < least_along) continue;
+    if (const double needed = way.needs / share; needed <= longest)
+      length = std::max(length, needed);
+  }
+  return length;
+}
+
+}  // namespace
+
+std::vector<Translation> translations_for(const std::vector<WayOut>& ways, double longest,
+                                          std::size_t most) {
+  std::vector<Translation> out;
+  for (const Vec& direction : directions_of(ways)) {
+    const double length = length_along(direction, ways, longest);
+    if (length == 0) continue;
+    Translation t{three_digits(length * direction), 0};
+    if (norm(t.by) > longest) t.by = length * direction;  // the bound goes before round numbers
+    bool fits = true;
+    for (const WayOut& way : ways) {
+      const double along = dot(way.normal, t.by);
+      fits = fits && along >= -against * length;
+      t.frees += way.wanted && along >= way.needs * (1 - 1e-12);
+    }
+    if (!fits || t.frees == 0) continue;
+    const bool known = std::any_of(out.begin(), out.end(), [&](const Translation& other) {
+      return norm(other.by - t.by) <= same_normal * length;
+    });
+    if (!known) out.push_back(t);
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Translation& a, const Translation& b) {
+    if (a.frees != b.frees) return a.frees > b.frees;
+    return norm(a.by) < norm(b.by);
+  });
+  if (out.size() > most) out.resize(most);
   return out;
 }
 

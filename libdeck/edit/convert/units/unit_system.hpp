@@ -1,18 +1,52 @@
 // What the steps of unit conversion share. Private to unit conversion.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "deck/edit/convert.hpp"
-#include "edit/convert/units/unit_system_decimal.hpp"
+#include "edit/cells.hpp"
 
 namespace deck::detail {
+
+/// new value = old value * factor.
+struct UnitFactor {
+  std::optional<int> power;  ///< the factor is 10^power exactly
+  long double value = 1;
+  bool one() const { return power && *power == 0; }
+  UnitFactor inverse() const;
+  std::string text() const;  ///< "1e-3", "0.0254"
+};
+
+/// Factors of the base units and of everything made of them.
+class UnitFactors {
+ public:
+  UnitFactors(const UnitSystem& from, const UnitSystem& to);
+  UnitFactor of(const Dimension& dimension) const;
+  const UnitFactor& mass() const { return base_[0]; }
+  const UnitFactor& length() const { return base_[1]; }
+  const UnitFactor& time() const { return base_[2]; }
+
+ private:
+  UnitFactor base_[3];
+};
+
+/// A number in other units.
+struct ScaledText {
+  std::string text;
+  bool exact = false;  ///< converting the text back gives the old value
+};
+
+/// `cell` times `factor` with the most significant digits that fit `width` columns: 210.0 becomes
+/// 0.21 and comes back as 210. nullopt: the cell holds no plain number, or the result does not fit
+/// or is out of range.
+std::optional<ScaledText> scale_text(std::string_view cell, int width, const UnitFactor& factor);
 
 /// The working units follow the input units: everything that is in working units gets new numbers.
 inline bool working_units_change(const Deck& deck, const UnitSystem& target,
@@ -28,7 +62,8 @@ struct UnitConversion {
         target(t),
         options(o),
         factors(c.deck().begin.input, t),
-        working_changes(working_units_change(c.deck(), t, o)) {}
+        working_changes(working_units_change(c.deck(), t, o)),
+        cells(deck.sources, out.edits) {}
 
   const LoadedDeck& context;
   const Deck& deck;
@@ -41,36 +76,23 @@ struct UnitConversion {
   /// Something that cannot be converted: a refusal, or with `partial` an undecided loss; the block
   /// then stays as it is as a whole.
   void undecided(const Block& block, Span place, std::string field, std::string why);
-  /// New text for the cell in columns first..last of a fixed-column line.
-  void convert_fixed(const Block& block, const Line& line, int first, int last,
-                     std::string_view field, const UnitFactor& factor);
-  /// New text for a cell of a free-format line.
-  void convert_free(const Block& block, const Line& line, Span cell, std::string_view field,
-                    const UnitFactor& factor);
-  /// Puts `text` into the columns, as far right as the old text stood.
-  void replace_fixed(const Line& line, int first, int last, std::string_view text);
+  /// Multiplies the number in a cell.
+  void convert(const CellPlace& place, const UnitFactor& factor);
+  /// The same for the cell in columns first..last of a line in fixed columns.
+  void convert(const Block& block, const Line& line, int first, int last, std::string_view field,
+               const UnitFactor& factor) {
+    convert({&block, line.columns(first, last), field, line, first, last}, factor);
+  }
+  CellEdits cells;
 
-  /// Where a cell stands and how to write into it.
-  struct Place {
-    const Block* block = nullptr;
-    Span span;
-    std::string field;
-    Line line;
-    int first = 0, last = 0;  ///< columns, unless
-    bool free_format = false;
-  };
-  static Place place_of(const Block& block, const DecodedCard& card, const Cell& cell);
-  /// Other text for the cell; false: its line has no room for it.
-  bool put(const Place& place, const std::string& text);
-
-  struct ParameterUse : Place {
+  struct ParameterUse : CellPlace {
     Dimension dimension;
     double value = 0;
   };
   std::map<std::string, std::vector<ParameterUse>, std::less<>> parameter_uses;
 
   /// An id of a function or table in a block.
-  struct FunctionUse : Place {
+  struct FunctionUse : CellPlace {
     std::int64_t id = 0;
     std::vector<Dimension> points;  ///< dimension that the points themselves carry, axis by axis
   };
@@ -102,13 +124,11 @@ struct UnitConversion {
   void leave_blocks();
 
   std::uint64_t changed_cells = 0, own_unit_blocks = 0;
-  std::map<std::string, std::string> used_factors;  ///< dimension -> factor, for the notes
-  void note_dimension(const Dimension& dimension, const UnitFactor& factor);
-
- private:
-  void changed(const Block& block, Span place, std::string_view field, std::string_view before,
-               const ScaledText& after, int width);
-  std::unordered_map<std::uint64_t, int> spare_;  // columns left on free-format lines
+  /// Exponents of mass, length and time -> factor, for the notes.
+  std::map<std::array<int, 3>, UnitFactor> used_factors;
+  void note_dimension(const Dimension& d, const UnitFactor& factor) {
+    used_factors.try_emplace({d.mass, d.length, d.time}, factor);
+  }
 };
 
 /// /BEGIN, or the /UNIT/LENGTH ... of old versions. False: refused.
@@ -122,13 +142,5 @@ void convert_parameters(UnitConversion& conversion);
 /// The points of functions whose axes have no scale; a function that is read in several units gets
 /// a copy for each.
 void convert_functions(UnitConversion& conversion);
-
-/// Refusals for includes that could not be read: a rewrite of half a deck is none.
-std::vector<std::string> unread_files(const Deck& deck);
-
-/// Refusals for files that the deck includes more than once and whose copies would get different
-/// edits.
-std::vector<std::string> contradicting_copies(const SourceSet& sources,
-                                              const std::vector<TextEdit>& edits);
 
 }  // namespace deck::detail

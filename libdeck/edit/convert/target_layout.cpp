@@ -1,13 +1,8 @@
 // Moves cells from the lines of one layout to those of another; evaluates the conditions of both
 // layouts and pairs their lines.
-#include "edit/convert/version_cards.hpp"
+#include "edit/cells.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "deck/text/number.hpp"
-#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 
@@ -27,119 +22,6 @@ std::string_view canonical_name(std::string_view field) {
 
 bool is_zero_text(std::string_view text) {
   return text.find_first_not_of("0.+- \t") == std::string_view::npos;
-}
-
-std::optional<FormattedReal> cell_text(double value, double factor, int width) {
-  const double start = value / factor;
-  std::optional<FormattedReal> best = format_real(start, width);
-  if (!best) return std::nullopt;
-  best->exact = read_real(best->text).value * factor == value;
-  double up = start, down = start;
-  for (int step = 0; step < 4 && !best->exact; ++step) {
-    up = std::nextafter(up, std::numeric_limits<double>::infinity());
-    down = std::nextafter(down, -std::numeric_limits<double>::infinity());
-    for (const double candidate : {up, down}) {
-      const auto text = format_real(candidate, width);
-      if (text && read_real(text->text).value * factor == value) {
-        best = text;
-        best->exact = true;
-        break;
-      }
-    }
-  }
-  return best;
-}
-
-bool lacks_title(const DecodedBlock& block) {
-  const Schema* schema = block.block->schema;
-  return schema != nullptr && schema->has_title && !block.title_line.valid();
-}
-
-Span end_of_main(const Deck& deck) {
-  const std::string_view bytes = deck.sources[0].bytes();
-  std::uint64_t end = bytes.size();
-  if (deck.end_seen) {
-    std::uint64_t from = 0;
-    for (const Block& b : deck.blocks)
-      if (b.header_span.file == 0) from = std::max(from, b.header_span.offset);
-    for (std::uint64_t at = bytes.find('\n', from); at < bytes.size(); at = bytes.find('\n', at)) {
-      ++at;
-      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), bytes.size());
-      if (trim(bytes.substr(at, nl - at)) != "/END") continue;
-      end = at;
-      break;
-    }
-  }
-  return end == 0 ? Span{} : Span{0, 1, end - 1};
-}
-
-void LineEdits::change(const Line& line, const std::string& text,
-                       std::vector<TextEdit>& out) const {
-  const std::string_view old = line.text;
-  if (old == text) return;
-  std::size_t same = 0;
-  const std::size_t shorter = std::min(old.size(), text.size());
-  while (same < shorter && old[same] == text[same]) ++same;
-  std::size_t tail = 0;
-  while (tail < shorter - same && old[old.size() - 1 - tail] == text[text.size() - 1 - tail])
-    ++tail;
-  out.push_back(
-      {Span{line.file, static_cast<std::uint32_t>(old.size() - same - tail), line.offset + same},
-       text.substr(same, text.size() - same - tail)});
-}
-
-void LineEdits::remove(const Line& line, std::vector<TextEdit>& out) const {
-  const std::string_view bytes = sources_[line.file].bytes();
-  const std::uint64_t nl = bytes.find('\n', line.offset);
-  const std::uint64_t end = nl == std::string_view::npos ? bytes.size() : nl + 1;
-  out.push_back({Span{line.file, static_cast<std::uint32_t>(end - line.offset), line.offset}, {}});
-}
-
-void LineEdits::insert_after(Span anchor, const std::string& text) {
-  const std::string_view bytes = sources_[anchor.file].bytes();
-  const std::uint64_t nl = bytes.find('\n', anchor.offset);
-  const bool open_end = nl == std::string_view::npos;
-  const std::uint64_t at = open_end ? bytes.size() : nl + 1;
-  // The line end of the line before; without one, that of the file's first line.
-  const std::uint64_t sample = open_end ? bytes.find('\n') : nl;
-  const bool carriage = sample != std::string_view::npos && sample > 0 && bytes[sample - 1] == '\r';
-  const std::string end = carriage ? "\r\n" : "\n";
-  std::string& to = inserted_[{anchor.file, at}];
-  to += open_end ? end + text : text + end;
-}
-
-void LineEdits::finish(std::vector<TextEdit>& out) const {
-  for (const auto& [place, text] : inserted_)
-    out.push_back({Span{place.first, 0, place.second}, text});
-}
-
-bool find_words(const Line& line, const std::bitset<line_columns + 1>& known,
-                const FoundWord& found) {
-  const std::string_view text = line.text.substr(0, line_columns);
-  const auto hidden = [&](std::size_t i) {
-    return known.test(i + 1) || static_cast<unsigned char>(text[i]) <= ' ' || text[i] == ',';
-  };
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    if (hidden(at)) continue;
-    const std::size_t begin = at;
-    while (at < text.size() && !hidden(at)) ++at;
-    if (found(line, begin, at)) return true;
-  }
-  return false;
-}
-
-void find_undescribed_words(const DecodedBlock& block, const FoundWord& found) {
-  for (const DecodedCard& card : block.cards) {
-    if (card.missing() || card.free_format) continue;
-    std::bitset<line_columns + 1> known;
-    for (const Field& f : card.schema->fields)
-      if (f.in_version(block.block->version))
-        for (int c = f.first; c <= std::min(f.last, line_columns); ++c)
-          known.set(static_cast<std::size_t>(c));
-    if (find_words(card.line, known, found)) return;
-  }
-  for (const Line& line : block.extra)
-    if (find_words(line, {}, found)) return;
 }
 
 const Cell* cell_of(const DecodedCard& card, std::string_view field) {

@@ -12,6 +12,7 @@
 
 #include "deck/edit/convert.hpp"
 #include "deck/model/selection.hpp"
+#include "edit/cells.hpp"
 #include "keyword/shared/references.hpp"
 #include "model/shared/families.hpp"
 
@@ -19,41 +20,13 @@ namespace deck::detail {
 
 inline constexpr std::size_t element_families = 8;
 
-/// The data lines of the items of a bulk block: one element may take several.
-class ItemLines {
- public:
-  ItemLines(const Deck& deck, const Block& block);
-  /// False: no further item. Lines that belong to no complete item are skipped.
-  bool next();
-  std::span<const Line> lines() const { return lines_; }
-  /// With the submodel's offset.
-  std::int64_t id() const { return id_; }
-  /// Calls f(kind, id with offset) for every reference of the item.
-  template <class F>
-  void references(F&& f) const {
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const DecodedCard card = decode_line(*deck_, *block_, *cards_[i], lines_[i], nullptr);
-      for (const Cell& cell : card.cells)
-        if (cell.field->type == FieldType::id && cell.integer > 0)
-          f(std::string_view(cell.field->ref),
-            cell.integer + deck_->offset_of(*block_, cell.field->ref));
-    }
-  }
-
- private:
-  const Deck* deck_;
-  const Block* block_;
-  LineCursor cursor_;
-  std::vector<const CardSchema*> cards_;
-  std::vector<Line> lines_;
-  std::int64_t id_ = 0;
-};
-
 /// Which blocks, nodes and elements the interfaces need.
 class Extraction {
  public:
   Extraction(const LoadedDeck& context, std::span<const std::int64_t> interfaces);
   void run();
+  /// True if an item of a bulk block stays.
+  bool keeps(const Block& bulk, const ItemLines& item) const;
 
   const LoadedDeck& context;
   std::vector<std::uint8_t> block_kept;                                  ///< by Deck::blocks
@@ -86,6 +59,8 @@ class Extraction {
   void keep_carrier(Carrier carrier, std::uint32_t e, bool touch);
   void whole_part(std::uint32_t part, bool touch);
   void everything();
+  std::int64_t id_of(const Block& bulk, const ItemLines& item) const;
+  bool names_kept(std::string_view kind, const Block& b) const;
   void keep_switches();
   void drain();
   void neighbours();

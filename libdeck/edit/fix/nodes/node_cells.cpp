@@ -1,5 +1,5 @@
 // Finds the coordinate cells of moved nodes and rounds new values to what fits them.
-#include "edit/fix/nodes/depenetrate_cells.hpp"
+#include "edit/fix/nodes/node_cells.hpp"
 
 #include <algorithm>
 
@@ -70,7 +70,6 @@ NodeCells::Cells NodeCells::read(NodeIndex n, const Block& block, const Span& li
                                  [&](const CardSchema& c) { return c.in_version(block.version); });
   if (card == block.schema->cards.end()) return blocked("its line was not understood");
   const DecodedCard decoded = decode_line(deck, block, *card, out.line, nullptr);
-  out.free_format = decoded.free_format;
   const double coordinates[3] = {context_.model().nodes.x[n], context_.model().nodes.y[n],
                                  context_.model().nodes.z[n]};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -87,32 +86,20 @@ NodeCells::Cells NodeCells::read(NodeIndex n, const Block& block, const Span& li
     out.offset[axis] = coordinates[axis] - cell->real * out.factor;
     if (out.offset[axis] != 0 && !noise_only_)
       return blocked("its place is not the one on its line (/TRANSFORM)");
-    out.span[axis] = cell->span;
-    out.columns[axis] = {cell->field->first, cell->field->last};
+    out.places[axis] = place_of(block, decoded, *cell);
   }
   return out;
 }
 
-const std::string& NodeCells::obstacle(NodeIndex n) const { return known_.at(n).obstacle; }
-
 std::optional<NodeCells::Printed> NodeCells::print(NodeIndex n, int axis, double value) const {
   const Cells& cells = known_.at(n);
-  const auto& [first, last] = cells.columns[static_cast<std::size_t>(axis)];
+  const CellPlace& place = cells.places[static_cast<std::size_t>(axis)];
   // One column stays blank: people and scripts read the numbers as words.
   const double offset = cells.offset[static_cast<std::size_t>(axis)];
-  const auto text =
-      format_real((value - offset) / cells.factor, cells.free_format ? free_width : last - first);
+  const auto text = format_real((value - offset) / cells.factor,
+                                place.free_format ? free_width : place.last - place.first);
   if (!text) return std::nullopt;
   return Printed{text->text, read_real(text->text).value * cells.factor + offset};
-}
-
-void NodeCells::write(CellWriter& out, NodeIndex n, int axis, std::string_view text) const {
-  const Cells& cells = known_.at(n);
-  const auto a = static_cast<std::size_t>(axis);
-  if (cells.free_format)
-    out.replace(cells.span[a], text);
-  else
-    out.set(cells.line.whole(), cells.columns[a].first, cells.columns[a].second, text);
 }
 
 std::vector<TextEdit> NodeCells::edits(

@@ -1,5 +1,5 @@
 // Neighbours of nodes, crossings and inverted elements around moved ones.
-#include "edit/fix/nodes/depenetrate_mesh.hpp"
+#include "edit/fix/nodes/fix_mesh.hpp"
 
 #include <algorithm>
 #include <map>
@@ -14,36 +14,17 @@
 namespace deck::detail {
 namespace {
 
-/// Rows node -> items, for items with any number of nodes.
-template <class Items>
-IndexRows rows_by_node(const Items& items, std::size_t nodes) {
-  IndexRows rows;
-  rows.first.assign(nodes + 1, 0);
-  const auto each = [&](const auto& f) {
-    for (std::uint32_t i = 0; i < items.size(); ++i)
-      for (std::size_t k = 0; k < items[i].size(); ++k) {
-        bool repeated = false;
-        for (std::size_t j = 0; j < k; ++j) repeated |= items[i][j] == items[i][k];
-        if (!repeated) f(items[i][k], i);
-      }
-  };
-  each([&](NodeIndex n, std::uint32_t) { ++rows.first[n + 1]; });
-  std::partial_sum(rows.first.begin(), rows.first.end(), rows.first.begin());
-  rows.entries.resize(rows.first.back());
-  std::vector<std::uint32_t> at(rows.first.begin(), rows.first.end() - 1);
-  each([&](NodeIndex n, std::uint32_t i) { rows.entries[at[n]++] = i; });
-  return rows;
-}
-
-/// The items around some nodes, each once, ascending. `count`: of all items.
-std::vector<std::uint32_t> items_around(const IndexRows& rows, std::span<const NodeIndex> nodes,
-                                        std::size_t count) {
-  std::vector<bool> around(count);
-  for (const NodeIndex n : nodes)
-    for (const std::uint32_t i : rows.row(n)) around[i] = true;
+/// The items that have one of the marked nodes, ascending.
+template <class NodesOf>
+std::vector<std::uint32_t> items_around(std::size_t count, const std::vector<bool>& marked,
+                                        const NodesOf& nodes_of) {
   std::vector<std::uint32_t> out;
-  for (std::size_t i = 0; i < count; ++i)
-    if (around[i]) out.push_back(static_cast<std::uint32_t>(i));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::span<const NodeIndex> nodes = nodes_of(i);
+    if (std::any_of(nodes.begin(), nodes.end(),
+                    [&](NodeIndex n) { return n != no_index && marked[n]; }))
+      out.push_back(i);
+  }
   return out;
 }
 
@@ -58,17 +39,16 @@ FixMesh::FixMesh(const Scene& scene) : model_(*scene.model) {
   const std::size_t n = model_.nodes.size();
   collect_edges();
   collect_faces(scene);
-  edges_of_ = rows_by_node(edges_, n);
-  faces_of_ = rows_by_node(faces_, n);
-  neighbours_.first.assign(1, 0);
-  for (NodeIndex a = 0; a < n; ++a) {
-    for (const std::uint32_t e : edges_of_.row(a))
-      neighbours_.entries.push_back(edges_[e][0] == a ? edges_[e][1] : edges_[e][0]);
-    neighbours_.first.push_back(static_cast<std::uint32_t>(neighbours_.entries.size()));
+  neighbours_.first.assign(n + 1, 0);
+  for (const auto& edge : edges_)
+    for (const NodeIndex end : edge) ++neighbours_.first[end + 1];
+  std::partial_sum(neighbours_.first.begin(), neighbours_.first.end(), neighbours_.first.begin());
+  neighbours_.entries.resize(2 * edges_.size());
+  std::vector<std::uint32_t> next(neighbours_.first.begin(), neighbours_.first.end() - 1);
+  for (const auto& [a, b] : edges_) {
+    neighbours_.entries[next[a]++] = b;
+    neighbours_.entries[next[b]++] = a;
   }
-  shells4_ = connect_nodes(model_.shell4, n);
-  shells3_ = connect_nodes(model_.shell3, n);
-  solids_ = connect_nodes(model_.solid8, n);
   part_.assign(n, no_index);
   part_nodes_.assign(model_.parts.size(), 0);
   for (const ElementKind kind : families_with_edges) {
@@ -145,21 +125,30 @@ bool FixMesh::connected_within(const Coordinates& x, NodeIndex from, std::span<c
   return false;
 }
 
+std::vector<bool> FixMesh::marks_of(std::span<const NodeIndex> nodes) const {
+  std::vector<bool> out(model_.nodes.size());
+  for (const NodeIndex n : nodes) out[n] = true;
+  return out;
+}
+
 // ---- crossings --------------------------------------------------------------------------------
 
 std::vector<FixMesh::Crossed> FixMesh::crossings(const Coordinates& x,
                                                  std::span<const NodeIndex> nodes,
                                                  int threads) const {
-  std::vector<Crossed> out;
+  const std::vector<bool> marked = marks_of(nodes);
   // Moved edges against all faces, then all edges against the moved faces.
+  const auto moved_edges =
+      items_around(edges_.size(), marked, [&](std::uint32_t e) { return std::span(edges_[e]); });
+  const auto moved_faces =
+      items_around(faces_.size(), marked, [&](std::uint32_t f) { return std::span(faces_[f]); });
   std::vector<std::array<NodeIndex, 2>> edges;
-  const std::vector<std::uint32_t> moved_edges = items_around(edges_of_, nodes, edges_.size());
   for (const std::uint32_t e : moved_edges) edges.push_back(edges_[e]);
+  std::vector<std::array<NodeIndex, 4>> faces;
+  for (const std::uint32_t f : moved_faces) faces.push_back(faces_[f]);
+  std::vector<Crossed> out;
   for (const CandidatePair& p : find_crossing_pairs({x.x, x.y, x.z}, edges, faces_, threads))
     out.emplace_back(moved_edges[p.secondary], p.main);
-  std::vector<std::array<NodeIndex, 4>> faces;
-  const std::vector<std::uint32_t> moved_faces = items_around(faces_of_, nodes, faces_.size());
-  for (const std::uint32_t f : moved_faces) faces.push_back(faces_[f]);
   for (const CandidatePair& p : find_crossing_pairs({x.x, x.y, x.z}, edges_, faces, threads))
     out.emplace_back(p.secondary, moved_faces[p.main]);
   std::sort(out.begin(), out.end());
@@ -219,14 +208,13 @@ double tetra_volume(const Coordinates& x, const NodeIndex* n) {
 
 bool turned_solid(const Coordinates& before, const Coordinates& now, const NodeIndex* n,
                   SolidShape shape) {
-  if (shape == SolidShape::tetra4 || shape == SolidShape::tetra10) {
-    const double was = tetra_volume(before, n), is = tetra_volume(now, n);
+  const auto turned = [](double was, double is) {
     return (was > 0 && !(is > 0)) || (was < 0 && !(is < 0));
-  }
-  for (int k = 0; k < 8; ++k) {
-    const double was = corner_volume(before, n, k), is = corner_volume(now, n, k);
-    if ((was > 0 && !(is > 0)) || (was < 0 && !(is < 0))) return true;
-  }
+  };
+  if (shape == SolidShape::tetra4 || shape == SolidShape::tetra10)
+    return turned(tetra_volume(before, n), tetra_volume(now, n));
+  for (int k = 0; k < 8; ++k)
+    if (turned(corner_volume(before, n, k), corner_volume(now, n, k))) return true;
   return false;
 }
 
@@ -235,18 +223,21 @@ bool turned_solid(const Coordinates& before, const Coordinates& now, const NodeI
 std::vector<NodeIndex> FixMesh::inverted(const Coordinates& before, const Coordinates& now,
                                          std::span<const NodeIndex> nodes) const {
   std::vector<NodeIndex> out;
-  const auto look = [&](const IndexRows& rows, const Elements& family, const auto& turned) {
-    if (family.size() == 0) return;
-    for (const std::uint32_t e : items_around(rows, nodes, family.size())) {
+  const std::vector<bool> marked = marks_of(nodes);
+  const auto look = [&](const Elements& family, const auto& turned) {
+    const auto nodes_of = [&](std::uint32_t e) {
+      return std::span(family.of(e), static_cast<std::size_t>(family.width));
+    };
+    for (const std::uint32_t e : items_around(family.size(), marked, nodes_of)) {
       const NodeIndex* n = family.of(e);
       if (complete(n, family.width) && turned(n, e)) out.insert(out.end(), n, n + family.width);
     }
   };
-  look(shells4_, model_.shell4,
-       [&](const NodeIndex* n, std::uint32_t) { return turned_shell(before, now, n, 4); });
-  look(shells3_, model_.shell3,
-       [&](const NodeIndex* n, std::uint32_t) { return turned_shell(before, now, n, 3); });
-  look(solids_, model_.solid8, [&](const NodeIndex* n, std::uint32_t e) {
+  for (const Elements* shells : {&model_.shell4, &model_.shell3})
+    look(*shells, [&](const NodeIndex* n, std::uint32_t) {
+      return turned_shell(before, now, n, shells->width);
+    });
+  look(model_.solid8, [&](const NodeIndex* n, std::uint32_t e) {
     return turned_solid(before, now, n, model_.solid8.shape[e]);
   });
   std::sort(out.begin(), out.end());

@@ -48,11 +48,11 @@ class FixMesh {
  private:
   void collect_faces(const Scene& scene);
   void collect_edges();
+  std::vector<bool> marks_of(std::span<const NodeIndex> nodes) const;
   const Model& model_;
   std::vector<std::array<NodeIndex, 2>> edges_;
   std::vector<std::array<NodeIndex, 4>> faces_;
-  IndexRows edges_of_, faces_of_, neighbours_;
-  IndexRows shells4_, shells3_, solids_;
+  IndexRows neighbours_;
   std::vector<std::uint32_t> part_, part_nodes_;
 };
 

@@ -1,15 +1,17 @@
-// Penetrations as conditions on the displacements of nodes, and the solution of many of them
-// together. Private to the stage.
+// Ways out of penetrations: the direction and length that each asks for, the displacements of nodes
+// that solve many of them together, how far a node may go, and translations of whole bodies.
+// Private to the stage.
 #pragma once
 #include <array>
 #include <cstdint>
 #include <string>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "contact/shared/scene_parts.hpp"
-#include "edit/fix/nodes/depenetrate_mesh.hpp"
+#include "edit/fix/nodes/fix_mesh.hpp"
 
 namespace deck::detail {
 
@@ -82,5 +84,54 @@ using NodeMoves = std::vector<std::pair<NodeIndex, Vec>>;
 /// other the result is a compromise.
 NodeMoves solve_wishes(const std::vector<Wish>& wishes, const std::vector<std::uint8_t>& held,
                        int sweeps);
+
+/// How far and which way a node may move: out of the penetrations it is in, along their normals, and
+/// by no more than the depth that it repairs there.
+class DepthBounds {
+ public:
+  /// A penetration as it is before anything moves: `normal` leads from main to secondary, its nodes
+  /// may move by `reach`, the secondary ones along it, the main ones against it.
+  void add(const PairKey& key, const PairState& state, const Vec& normal, double reach);
+
+  bool contains(NodeIndex n) const { return nodes_.contains(n); }
+  /// The penetrations that a node is in; none of one that follows.
+  const std::vector<PairKey>& pairs_of(NodeIndex n) const { return nodes_.at(n).pairs; }
+  double reach_of(NodeIndex n) const { return nodes_.at(n).reach; }
+  /// The closest to `wanted` that a node may be away from its place: a sum of shares of its
+  /// normals, none negative, and along none of them farther than its reach.
+  struct Place {
+    Vec by;
+    bool at_bound = false;
+  };
+  std::vector<Place> allowed(const NodeMoves& wanted, int threads) const;
+
+ private:
+  struct Bound {
+    double reach = 0;
+    std::vector<Vec> directions;  ///< unit, all different
+    std::vector<PairKey> pairs;
+  };
+  static Place closest_place(const Bound& bound, const Vec& wanted);
+  std::unordered_map<NodeIndex, Bound> nodes_;
+};
+
+/// A penetration of a body that moves as a whole: it is free where the translation is `needs` long
+/// along `normal` (unit), and it must never move against it.
+struct WayOut {
+  Vec normal;
+  double needs = 0;
+  bool wanted = true;  ///< it counts; else it must only get no deeper
+};
+
+struct Translation {
+  Vec by;
+  std::size_t frees = 0;  ///< of those that are wanted
+};
+
+/// Translations no longer than `longest` that move against no normal, those that free more first,
+/// of equals the shortest; at most `most`, and none that frees nothing. Components are rounded to
+/// three digits, away from zero.
+std::vector<Translation> translations_for(const std::vector<WayOut>& ways, double longest,
+                                          std::size_t most);
 
 }  // namespace deck::detail

@@ -8,21 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
 
 #include "base/shared/parallel.hpp"
-#include "edit/fix/common.hpp"
-#include "edit/fix/harm.hpp"
 #include "edit/fix/movable.hpp"
-#include "edit/fix/nodes/depenetrate_bounds.hpp"
-#include "edit/fix/nodes/depenetrate_cells.hpp"
-#include "edit/fix/nodes/depenetrate_locks.hpp"
-#include "edit/fix/nodes/depenetrate_mesh.hpp"
-#include "edit/fix/nodes/depenetrate_rows.hpp"
-#include "edit/fix/type_rules.hpp"
 
 namespace deck {
 namespace {
@@ -55,8 +46,6 @@ class Depenetrator : MovableDeck {
 
  private:
   void begin(const Scene& scene) {
-    moved_in_part_.assign(model_.parts.size(), 0);
-    looked_up_.assign(model_.nodes.size(), false);
     for (const Crossing& c : crossed_) {
       for (const NodeIndex n : c.edge) hold(n, Hold::crossed);
       for (const NodeIndex n : scene.contacts[c.contact].main[c.main].nodes) hold(n, Hold::crossed);
@@ -106,33 +95,23 @@ class Depenetrator : MovableDeck {
     double best = std::numeric_limits<double>::infinity();
     for (int waited = 0; fix_.iterations < most_passes && waited < patience; ++fix_.iterations) {
       const Scene& scene = evaluate();
-      std::vector<PairAt> too_close;
+      std::size_t left = 0;
       double total = 0;
       for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
         for (const PenetrationRow& row : scene.contacts[c].penetrations)
           if (is_task(scene, {c, row.secondary, row.main}) && is_penetration(row)) {
-            too_close.push_back({c, row.secondary, row.main});
+            active_.insert({c, row.secondary, row.main});
+            ++left;
             total += row.depth / row.gap;
           }
-      const std::size_t left = too_close.size();
       if (fix_.iterations == 0) first_left_ = left;
       if (options_.progress)
         options_.progress("moving nodes", first_left_ - std::min(first_left_, left), first_left_);
       if (left == 0) return;
       waited = total < 0.99 * best ? 0 : waited + 1;
       best = std::min(best, total);
-      remember(std::move(too_close));
       if (!step(scene)) return;
     }
-  }
-
-  /// Adds pairs to those that were ever too close.
-  void remember(std::vector<PairAt> pairs) {
-    std::sort(pairs.begin(), pairs.end());
-    std::vector<PairAt> all;
-    std::set_union(active_.begin(), active_.end(), pairs.begin(), pairs.end(),
-                   std::back_inserter(all));
-    active_ = std::move(all);
   }
 
   /// A penetration that should go: of the interfaces asked for, or one that was not there before.
@@ -181,33 +160,28 @@ class Depenetrator : MovableDeck {
   void hold_unwritable(const std::vector<Wish>& wishes) {
     std::vector<NodeIndex> nodes;
     for (const Wish& w : wishes)
-      for (int i = 0; i < w.state.count; ++i) {
-        const NodeIndex n = w.state.nodes[static_cast<std::size_t>(i)];
-        if (!looked_up_[n]) nodes.push_back(n);
-        looked_up_[n] = true;
-      }
+      nodes.insert(nodes.end(), w.state.nodes.begin(), w.state.nodes.begin() + w.state.count);
     cells_.look_up(nodes);
     for (const NodeIndex n : nodes)
       if (!cells_.obstacle(n).empty()) hold(n, Hold::not_writable);
   }
 
-  /// Counts the moved nodes of each part. False: parts would pass their share. These are left
-  /// alone as a whole from now on, since a few moved nodes of a part are a dent and no repair.
+  /// Adds to the moved nodes. False: parts would pass their share. These are left alone as a whole
+  /// from now on, since a few moved nodes of a part are a dent and no repair.
   bool admit(const NodeMoves& moves) {
-    std::map<std::uint32_t, std::uint32_t> added;
-    for (const auto& [n, move] : moves)
-      if (const std::uint32_t part = mesh_->part_of(n); part != no_index && !moved_.contains(n))
-        ++added[part];
+    std::set<NodeIndex> all = moved_;
+    for (const auto& [n, move] : moves) all.insert(n);
+    std::map<std::uint32_t, std::uint32_t> counts;
+    for (const NodeIndex n : all)
+      if (const std::uint32_t part = mesh_->part_of(n); part != no_index) ++counts[part];
     bool fits = true;
-    for (const auto& [part, count] : added)
-      if (moved_in_part_[part] + count > may_move(part)) {
-        leave_alone(part, moved_in_part_[part] + count);
+    for (const auto& [part, count] : counts)
+      if (count > may_move(part)) {
+        leave_alone(part, count);
         fits = false;
       }
-    if (!fits) return false;
-    for (const auto& [part, count] : added) moved_in_part_[part] += count;
-    for (const auto& [n, move] : moves) moved_.insert(n);
-    return true;
+    if (fits) moved_ = std::move(all);
+    return fits;
   }
 
   void leave_alone(std::uint32_t part, std::uint32_t needed) {
@@ -252,7 +226,6 @@ class Depenetrator : MovableDeck {
   void take_back(NodeIndex n, Hold why) {
     if (moved_.erase(n) == 0) return;
     put_back(n);
-    if (const std::uint32_t part = mesh_->part_of(n); part != no_index) --moved_in_part_[part];
     if (why == Hold::depth)
       hold(n, why);  // unless something else holds it already
     else
@@ -384,10 +357,8 @@ class Depenetrator : MovableDeck {
                        it->second, all);
   }
 
-  std::vector<bool> looked_up_;  ///< by cells_
   std::set<NodeIndex> moved_;
-  std::vector<std::uint32_t> moved_in_part_;
-  std::vector<PairAt> active_;                     ///< every pair that was ever too close
+  std::set<PairAt> active_;                        ///< every pair that was ever too close
   DepthBounds bounds_;                             ///< of the nodes in penetrations
   std::map<std::uint32_t, std::uint32_t> needed_;  ///< nodes, of parts that are left alone
   std::size_t first_left_ = 0;

@@ -9,9 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "deck/edit/rewrite.hpp"
-#include "deck/keyword/decode.hpp"
-#include "text/shared/edits.hpp"
+#include "edit/cells.hpp"
 
 namespace deck::detail {
 
@@ -22,7 +20,7 @@ class NodeCells {
   void look_up(std::span<const NodeIndex> nodes);
   /// Why the coordinates of a node that was looked up cannot be changed on its line; empty: they
   /// can.
-  const std::string& obstacle(NodeIndex n) const;
+  const std::string& obstacle(NodeIndex n) const { return known_.at(n).obstacle; }
   /// The line of a node that was looked up; invalid: it was not found.
   Span line(NodeIndex n) const {
     return known_.at(n).line.valid() ? known_.at(n).line.whole() : Span{};
@@ -36,16 +34,16 @@ class NodeCells {
   };
   std::optional<Printed> print(NodeIndex n, int axis, double value) const;
   /// Puts the text of a coordinate into its cell.
-  void write(CellWriter& cells, NodeIndex n, int axis, std::string_view text) const;
+  void write(CellWriter& cells, NodeIndex n, int axis, std::string_view text) const {
+    known_.at(n).places[static_cast<std::size_t>(axis)].write(cells, text);
+  }
   /// Edits for new texts per node and axis.
   std::vector<TextEdit> edits(const std::map<std::pair<NodeIndex, int>, std::string>& texts) const;
 
  private:
   struct Cells {
     Line line;
-    std::array<Span, 3> span;
-    std::array<std::pair<int, int>, 3> columns{};
-    bool free_format = false;
+    std::array<CellPlace, 3> places;
     double factor = 1;
     std::array<double, 3> offset{};  ///< from the line to the model: noise of /RANDOM
     std::string obstacle;

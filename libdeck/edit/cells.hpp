@@ -1,0 +1,211 @@
+// Cells and lines of a deck that is written again: where a cell stands and what is put into it,
+// lines that are added and removed, the lines of a block in another input version, words that no
+// schema describes, names of parameters. Private to the stage.
+#pragma once
+#include <bitset>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "deck/edit/edit.hpp"
+#include "deck/edit/rewrite.hpp"
+#include "deck/keyword/decode.hpp"
+#include "deck/text/number.hpp"
+#include "keyword/shared/line_check.hpp"
+#include "text/shared/edits.hpp"
+
+namespace deck::detail {
+
+/// Where a cell stands and how to write into it.
+struct CellPlace {
+  const Block* block = nullptr;
+  Span span;
+  std::string_view field;
+  Line line;
+  int first = 0, last = 0;  ///< columns, unless
+  bool free_format = false;
+  /// Columns that a text may have: what comes behind on a line with commas must stay on it.
+  int room() const;
+  /// Puts a text there, at the right end of its columns.
+  void write(CellWriter& cells, std::string_view text) const;
+};
+CellPlace place_of(const Block& block, const DecodedCard& card, const Cell& cell);
+/// Of a part of a block's header.
+Span span_in_header(const Block& block, std::string_view part);
+
+/// Puts what a cell holds into the columns of `field`, with fewer characters if it has to; false: it
+/// does not fit.
+bool carry(const Cell& cell, const Field& field, std::string& line);
+
+/// Puts texts into cells. A line in free format does not grow beyond the columns that are read.
+class CellEdits {
+ public:
+  CellEdits(const SourceSet& sources, std::vector<TextEdit>& out) : sources_(sources), out_(out) {}
+  /// Columns that a text of the cell may have after those put before.
+  int room(const CellPlace& place) const;
+  /// The new text ends where the old one did. False: there is no room for it.
+  bool put(const CellPlace& place, const std::string& text);
+
+ private:
+  using LineKey = std::uint64_t;
+  static LineKey key_of(const Line& line) { return (LineKey{line.file} << 40) ^ line.offset; }
+  const SourceSet& sources_;
+  std::vector<TextEdit>& out_;
+  std::unordered_map<LineKey, int> grown_;  // columns that lines in free format have more
+};
+
+/// Edits of whole lines, collected so that several at one place come out in order.
+class LineEdits {
+ public:
+  explicit LineEdits(const SourceSet& sources) : sources_(sources) {}
+  /// The line's text becomes `text`; only the bytes that differ are touched.
+  void change(const Line& line, const std::string& text, std::vector<TextEdit>& out) const;
+  /// Takes the line away with its line end.
+  void remove(const Line& line, std::vector<TextEdit>& out) const;
+  /// Puts a line behind the one that holds `anchor`, after those put there before.
+  void insert_after(Span anchor, const std::string& text);
+  /// The insertions, in file order.
+  void finish(std::vector<TextEdit>& out) const;
+
+ private:
+  const SourceSet& sources_;
+  std::map<std::pair<std::uint32_t, std::uint64_t>, std::string> inserted_;
+};
+
+/// The data lines of a bulk block (nodes, elements): an item may take several.
+class ItemLines {
+ public:
+  ItemLines(const Deck& deck, const Block& block);
+  /// The next line. False: there is none.
+  bool next_line();
+  /// The next item that has all its lines. False: there is none.
+  bool next();
+
+  const std::vector<const CardSchema*>& cards() const { return cards_; }
+  /// Lines of the item up to the last one that was read, and which of its cards that is.
+  const std::vector<Line>& lines() const { return lines_; }
+  const Line& line() const { return lines_.back(); }
+  std::size_t row() const { return lines_.size() - 1; }
+  /// False: the cells of a line are not simply its columns; decoded() has them.
+  bool plain(std::size_t row) const;
+  DecodedCard decoded(std::size_t row) const;
+
+ private:
+  const Deck& deck_;
+  const Block& block_;
+  LineCursor cursor_;
+  std::vector<const CardSchema*> cards_;
+  std::vector<Line> lines_;
+};
+
+/// The text that gives `value` back when it is read in `width` columns and multiplied by `factor`,
+/// or the closest one there is. nullopt: nothing fits.
+std::optional<FormattedReal> cell_text(double value, double factor, int width);
+
+/// True for a block that ends before its title line: a line put there would be taken for the title.
+bool lacks_title(const DecodedBlock& block);
+
+/// Calls found(line, begin, end) for every word of a block that no schema describes, by its bytes
+/// in the line, until it returns true. The first: of one line, less what lies in `known` columns.
+using FoundWord = std::function<bool(const Line& line, std::size_t begin, std::size_t end)>;
+bool find_words(const Line& line, const std::bitset<line_columns + 1>& known,
+                const FoundWord& found);
+void find_undescribed_words(const DecodedBlock& block, const FoundWord& found);
+
+/// A byte of the line behind which the end of the main file begins; invalid: there is none.
+Span end_of_main(const Deck& deck);
+
+/// Where parameters are named (without the &): in cells, headers and expressions.
+using ParameterPlaces = std::map<std::string, std::vector<Span>, std::less<>>;
+ParameterPlaces find_parameters(const Deck& deck);
+
+/// Refusals for includes that could not be read: converting only part of a deck would corrupt it.
+std::vector<std::string> unread_files(const Deck& deck);
+
+/// Refusals for files that the deck includes more than once and whose copies would get different
+/// edits.
+std::vector<std::string> contradicting_copies(const SourceSet& sources,
+                                              const std::vector<TextEdit>& edits);
+
+// ---- one value into one block (block_edit.cpp) -------------------------------------------------
+
+/// What one value needs. A cell in fixed columns that is there goes to the writer of the caller;
+/// all else are edits of lines.
+struct BlockEdit {
+  std::vector<TextEdit> edits;
+  bool read_again = false;  ///< what comes next must see this change: other cells depend on it
+  std::string note;         ///< digits were lost
+};
+
+/// The error "file:line:column: /KEYWORD/id field: why".
+Error block_error(const Deck& deck, const Block& block, Span place, std::string_view field,
+                  const std::string& why);
+
+/// Puts `value` into the cell called `field`, `occurrence` cells of that name later. On an error
+/// nothing is collected. `absent` is set where the block as it is has no such cell.
+Result<BlockEdit> set_value(const Deck& deck, const Block& block, std::string_view field,
+                            const CellValue& value, int occurrence, CellWriter& cells,
+                            bool& absent);
+
+/// Edits that remove the header and the lines of a block up to its last data line. Error: some of
+/// them are in an included file.
+Result<std::vector<TextEdit>> erase_block(const Deck& deck, const Block& block);
+/// Edits that put blocks before /END of the main file.
+std::vector<TextEdit> insert_blocks(const Deck& deck, std::string_view blocks);
+
+// ---- layouts of a keyword (target_layout.cpp) --------------------------------------------------
+
+/// True if some card or cell of `schema` is in one of the versions only.
+bool layout_differs(const Schema& schema, int a, int b);
+/// One name for a cell that was renamed between versions.
+std::string_view canonical_name(std::string_view field);
+/// Only zeros, points and signs, or nothing.
+bool is_zero_text(std::string_view text);
+
+/// A line of the new layout and the old line it comes from.
+struct NewLine {
+  const CardSchema* card = nullptr;
+  const DecodedCard* old = nullptr;
+  int round = 0;  ///< as in DecodedCard
+};
+
+/// The cards of a block in version `target`, with the conditions evaluated on its old values. A
+/// field that the new version does not have counts as 0.
+class TargetLayout {
+ public:
+  TargetLayout(const Block& block, const DecodedBlock& decoded, int target)
+      : block_(block), decoded_(decoded), target_(target) {}
+
+  /// Lines in order, as far as the old block has rounds for them. Old lines are used once.
+  std::vector<NewLine> lines() const;
+  /// Cells that the line has.
+  std::vector<const Field*> fields(const CardSchema& card, int round) const;
+  /// The old cell of that name in the same round, on another line than `not_here`.
+  const Cell* elsewhere(std::string_view field, int round, const DecodedCard* not_here) const;
+  /// True if the number of lines of the block decides what the lines are.
+  bool counts_lines() const;
+
+ private:
+  using Group = std::vector<const CardSchema*>;
+  bool holds(const CardSchema& card, int round) const;
+  bool holds(const std::vector<Condition>& when, int round) const;
+  std::int64_t value(std::string_view field, int round) const;
+  bool has_field(std::string_view field) const;
+  int rounds(const CardSchema& card) const;
+  const DecodedCard* take(const CardSchema& card, int round, std::vector<bool>& used) const;
+
+  const Block& block_;
+  const DecodedBlock& decoded_;
+  int target_;
+};
+
+/// Cell of that name on a line; nullptr if it has none.
+const Cell* cell_of(const DecodedCard& card, std::string_view field);
+
+}  // namespace deck::detail
