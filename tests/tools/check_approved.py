@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the verbs say of four samples is as kept in tests/approved/VERB/DECK.json: numbers to nine digits, of a
+"""What the verbs say of samples is as kept in tests/approved/VERB/DECK.json: numbers to nine digits, of a
 list the first two rows (three of interfaces) and how many there are, a place in a file as file:line:column. DECK_RECORD=1 writes the records anew: read the difference."""
 import csv
 import io
@@ -11,15 +11,16 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(
 from common import ROOT, Checks  # noqa: E402
 
 FOLDER = os.path.join(ROOT, "tests", "approved")
-DECKS = ("crash_box", "tied_layer", "airbag_fold", "include_tree")  # airbag_fold: TYPE24 and TYPE25
-VERBS = {
-    "params": ("--matrix", "--csv", "-"),
-    "gaps": ("--all", "--json", "-"),
-    "cycle": ("--all", "--json", "-"),
-    "parts": ("--all", "--json", "-"),
-    "lint": ("--geometry", "--json", "-"),
-    "fix": ("--json", "-"),
-    "show": ("1", "--json", "-"),
+SHORT = ("crash_box", "airbag_fold")  # airbag_fold: TYPE24 and TYPE25
+DECKS = SHORT + ("tied_layer", "include_tree")
+VERBS = {  # what is asked of which decks
+    "params": (DECKS, "--matrix", "--csv", "-"),
+    "gaps": (DECKS, "--all", "--json", "-"),
+    "cycle": (("crash_box", "tied_layer"), "--all", "--json", "-"),
+    "parts": (("crash_box", "include_tree"), "--all", "--json", "-"),
+    "lint": (SHORT, "--geometry", "--json", "-"),
+    "fix": (SHORT, "--json", "-"),
+    "show": (SHORT, "1", "--json", "-"),
 }
 MOST_LINES = 2000
 WIDTH = 140
@@ -84,8 +85,8 @@ def document(verb, text):
 def main():
     c = Checks()
     lines = 0
-    for verb, arguments in VERBS.items():
-        for deck in DECKS:
+    for verb, (decks, *arguments) in VERBS.items():
+        for deck in decks:
             r = c.run(verb, os.path.join("samples", deck + "_0000.rad"), *arguments, cwd=ROOT)
             path = os.path.join(FOLDER, verb, deck + ".json")
             found = "\n".join(lay({"exit": r.code, verb: document(verb, r.out.decode())})) + "\n"
