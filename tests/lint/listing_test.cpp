@@ -63,12 +63,13 @@ TEST(MissingEngineFile, IsOfNoConcernWithoutTetrahedra) {
   EXPECT_FALSE(run.fires(RuleId::DK604)) << run.list();
 }
 
-TEST(BlankColumns, OfBeginAreNoFinding) {
+TEST(BlankColumns, OfBeginAreNoFindingNorIsABlankInTheBanner) {
   const auto run = lint_example(
-      "@deck\n#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0                   1\n"
+      "@deck\n# RADIOSS \n/BEGIN\nrun\n      2022         0                   1\n"
       "                  kg                  mm                  ms\n"
       "                  kg                  mm                  ms\n/END\n");
   EXPECT_FALSE(run.fires(RuleId::DK028)) << run.list();
+  EXPECT_FALSE(run.fires(RuleId::DK001)) << run.list();
 }
 
 TEST(ShortBlocks, AreOneRemarkWhereBlankLinesWouldSayTheSame) {
@@ -85,15 +86,6 @@ TEST(ValuesOfOtherVersions, AreOneFindingWithTheMessageOfTheirPlace) {
   ASSERT_TRUE(d->reference);
   EXPECT_EQ(d->reference->number, 100213);  // nothing is read behind it
   EXPECT_FALSE(run.fires(RuleId::DK028)) << run.list();
-}
-
-TEST(TheFirstLine, MayHaveABlankInTheBanner) {
-  const auto run = lint_example(
-      "@deck\n# RADIOSS \n/BEGIN\nrun\n      2022         0\n"
-      "                  kg                  mm                  ms\n"
-      "                  kg                  mm                  ms\n"
-      "/END\n");
-  EXPECT_FALSE(run.fires(RuleId::DK001)) << run.list();
 }
 
 TEST(ManyRemarksOfAKind, AreOneLineWithTheirNumber) {
