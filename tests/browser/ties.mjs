@@ -1,9 +1,7 @@
 // Ties, TYPE24 and TYPE25 on the page against the JSON: tables, lines and marks in the picture, the panel; what was not
 // evaluated is said; and the side view of a pair, to scale.
-import { readFileSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
 import { accessible } from "./axe.mjs";
-import { cells, check, corpus, deck, done, gaps, open, page, pageOf, same, sample, scratch, settled, shot } from "./support.mjs";
+import { cells, check, corpus, deck, done, gaps, open, page, same, sample, settled, shot } from "./support.mjs";
 
 
 async function ties(browser) {
@@ -131,22 +129,9 @@ async function untied10(browser) {
   await done(p, "TYPE10");
 }
 
-/** The page of a comparison counts as its text and JSON do. */
-async function counts(browser) {
-  const changed = join(scratch, "wider_0000.rad");
-  writeFileSync(changed, readFileSync(sample("too_close"), "utf8").replace("                1.25", "                2.25"));
-  const json = JSON.parse(deck("diff", sample("too_close"), changed, "--json", "-", "--quiet"));
-  const p = await open(browser, pageOf("diff", "diff", sample("too_close"), changed));
-  const chips = await p.$$eval(".compare .chip", (c) => Object.fromEntries(c.map((e) => [e.textContent.replace(/^[\d\s]+/, "").trim(), Number(e.textContent.replace(/\D/g, ""))])));
-  const list = json.penetrations;
-  same("diff: the chips are the counts of the JSON", [chips.new, chips.worse, chips.better, chips.same, chips.solved], [list.new.length, list.worse.length, list.better.length, list.same, list.gone.length]);
-  await p.close();
-}
-
 export async function tiesAndModern(browser) {
   await ties(browser);
   await untied10(browser);
-  await counts(browser);
   await modern(browser);
   await sideViews(browser);
   await leftOut(browser);

@@ -15,16 +15,7 @@
 namespace deck::cycle {
 namespace {
 
-using testing::cross;
-using testing::dot;
-using testing::norm;
-using testing::Outcome;
-using testing::Pair;
-using testing::run;
-using testing::Vec;
-using testing::operator+;
-using testing::operator-;
-using testing::operator*;
+using namespace testing;
 
 // --- the bicubic surface
 

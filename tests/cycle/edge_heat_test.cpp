@@ -13,12 +13,7 @@
 namespace deck::cycle {
 namespace {
 
-using testing::Outcome;
-using testing::Packet;
-using testing::Pair;
-using testing::Vec;
-using testing::operator+;
-using testing::operator-;
+using namespace testing;
 
 ContactCard edge_card(int form = 1) {
   ContactCard card;

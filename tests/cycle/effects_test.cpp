@@ -13,12 +13,7 @@
 namespace deck::cycle {
 namespace {
 
-using testing::Outcome;
-using testing::Packet;
-using testing::Pair;
-using testing::Vec;
-using testing::operator-;
-using testing::operator*;
+using namespace testing;
 
 /// A pair that slides fast enough to be at its friction limit.
 Pair sliding_pair(double speed = 5e4) {

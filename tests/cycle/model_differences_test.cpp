@@ -10,13 +10,7 @@
 namespace deck::cycle {
 namespace {
 
-using testing::elastic_card;
-using testing::Outcome;
-using testing::Pair;
-using testing::quad_pair;
-using testing::Vec;
-using testing::operator-;
-using testing::operator*;
+using namespace testing;
 
 constexpr Model reference = Model::reference, robust = Model::robust;
 

@@ -12,20 +12,7 @@
 namespace deck::cycle {
 namespace {
 
-using testing::cross;
-using testing::dot;
-using testing::elastic_card;
-using testing::norm;
-using testing::Outcome;
-using testing::Packet;
-using testing::Pair;
-using testing::quad_pair;
-using testing::run;
-using testing::triangle_pair;
-using testing::Vec;
-using testing::operator*;
-using testing::operator+;
-using testing::operator-;
+using namespace testing;
 
 constexpr Model models[] = {Model::reference, Model::robust};
 

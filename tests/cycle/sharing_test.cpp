@@ -14,11 +14,7 @@
 namespace deck::cycle {
 namespace {
 
-using testing::Packet;
-using testing::Pair;
-using testing::Vec;
-using testing::operator+;
-using testing::operator*;
+using namespace testing;
 
 /// Quads by corner numbers over a list of points; one node above.
 struct Surface {

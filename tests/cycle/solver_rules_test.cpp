@@ -13,13 +13,7 @@
 namespace deck::cycle {
 namespace {
 
-using testing::elastic_card;
-using testing::Outcome;
-using testing::Pair;
-using testing::triangle_pair;
-using testing::Vec;
-using testing::operator-;
-using testing::operator*;
+using namespace testing;
 
 constexpr Model models[] = {Model::reference, Model::robust};
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <random>
 #include <vector>
 
@@ -44,85 +45,61 @@ struct Pair {
   std::array<double, 2> ortho_direction{1.0, 0.0};
 };
 
-/// A packet that owns its arrays.
+/// A packet that owns its arrays. Not to be copied: its view leads into them.
 class Packet {
  public:
-  explicit Packet(const std::vector<Pair>& pairs) : n_(pairs.size()) {
-    for (const Pair& p : pairs) {
-      for (std::size_t r = 0; r < 5; ++r) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          x_[r][c].push_back(p.x[r][c]);
-          v_[r][c].push_back(p.v[r][c]);
-        }
-        m_[r].push_back(p.m[r]);
-        t_[r].push_back(p.temperature[r]);
-      }
-      for (std::size_t c = 0; c < 3; ++c) {
-        ft_[c].push_back(p.ft[c]);
-        for (std::size_t k = 0; k < 4; ++k) n3_[k][c].push_back(p.normal[k][c]);
-      }
-      for (std::size_t k = 0; k < 8; ++k) tie_[k].push_back(p.tie[k]);
-      for (std::size_t k = 0; k < 4; ++k) edge_conductivity_[k].push_back(p.edge_conductivity[k]);
-      for (std::size_t k = 0; k < 2; ++k) {
-        edge_width_[k].push_back(p.edge_width[k]);
-        ortho_mu_[k].push_back(p.ortho_mu[k]);
-        ortho_direction_[k].push_back(p.ortho_direction[k]);
-      }
-      triangle_.push_back(p.triangle);
-      k0_.push_back(p.k0);
-      gap_.push_back(p.gap);
-      p0_.push_back(p.p0);
-      area_.push_back(p.area);
-      conductivity_.push_back(p.conductivity);
-      fric_.push_back(p.fric);
-    }
-  }
-  [[nodiscard]] PacketView view(double dt1 = 0.0, double dt12 = 0.0) const {
-    PacketView w;
-    w.size = n_;
-    w.dt1 = dt1;
-    w.dt12 = dt12;
+  explicit Packet(const std::vector<Pair>& pairs) {
+    // An array of a member of all pairs.
+    const auto array = [&](const double*& to, const auto& member) {
+      auto& values = reals_.emplace_back();
+      for (const Pair& p : pairs) values.push_back(member(p));
+      to = values.data();
+    };
+    view_.size = pairs.size();
     for (std::size_t r = 0; r < 5; ++r) {
       for (std::size_t c = 0; c < 3; ++c) {
-        w.position[r][c] = x_[r][c].data();
-        w.velocity[r][c] = v_[r][c].data();
+        array(view_.position[r][c], [=](const Pair& p) { return p.x[r][c]; });
+        array(view_.velocity[r][c], [=](const Pair& p) { return p.v[r][c]; });
       }
-      w.mass[r] = m_[r].data();
-      w.temperature[r] = t_[r].data();
+      array(view_.mass[r], [=](const Pair& p) { return p.m[r]; });
+      array(view_.temperature[r], [=](const Pair& p) { return p.temperature[r]; });
     }
     for (std::size_t c = 0; c < 3; ++c) {
-      w.ft_old[c] = ft_[c].data();
-      for (std::size_t k = 0; k < 4; ++k) w.normal[k][c] = n3_[k][c].data();
+      array(view_.ft_old[c], [=](const Pair& p) { return p.ft[c]; });
+      for (std::size_t k = 0; k < 4; ++k)
+        array(view_.normal[k][c], [=](const Pair& p) { return p.normal[k][c]; });
     }
-    for (std::size_t k = 0; k < 4; ++k) w.edge_conductivity[k] = edge_conductivity_[k].data();
+    for (std::size_t k = 0; k < 4; ++k)
+      array(view_.edge_conductivity[k], [=](const Pair& p) { return p.edge_conductivity[k]; });
     for (std::size_t k = 0; k < 2; ++k) {
-      w.edge_width[k] = edge_width_[k].data();
-      w.ortho_mu[k] = ortho_mu_[k].data();
-      w.ortho_direction[k] = ortho_direction_[k].data();
+      array(view_.edge_width[k], [=](const Pair& p) { return p.edge_width[k]; });
+      array(view_.ortho_mu[k], [=](const Pair& p) { return p.ortho_mu[k]; });
+      array(view_.ortho_direction[k], [=](const Pair& p) { return p.ortho_direction[k]; });
     }
-    for (std::size_t k = 0; k < 8; ++k) w.tie[k] = tie_[k].data();
-    w.triangle = triangle_.data();
-    w.k0 = k0_.data();
-    w.gap = gap_.data();
-    w.p0 = p0_.data();
-    w.area = area_.data();
-    w.conductivity = conductivity_.data();
-    w.fric = fric_.data();
+    for (std::size_t k = 0; k < 8; ++k)
+      array(view_.tie[k], [=](const Pair& p) { return p.tie[k]; });
+    for (const Pair& p : pairs) triangle_.push_back(p.triangle);
+    view_.triangle = triangle_.data();
+    array(view_.k0, [](const Pair& p) { return p.k0; });
+    array(view_.gap, [](const Pair& p) { return p.gap; });
+    array(view_.p0, [](const Pair& p) { return p.p0; });
+    array(view_.area, [](const Pair& p) { return p.area; });
+    array(view_.conductivity, [](const Pair& p) { return p.conductivity; });
+    array(view_.fric, [](const Pair& p) { return p.fric; });
+  }
+  Packet(const Packet&) = delete;
+  Packet& operator=(const Packet&) = delete;
+  [[nodiscard]] PacketView view(double dt1 = 0.0, double dt12 = 0.0) const {
+    PacketView w = view_;
+    w.dt1 = dt1;
+    w.dt12 = dt12;
     return w;
   }
 
  private:
-  using Triple = std::array<std::vector<double>, 3>;
-  std::size_t n_;
-  std::array<Triple, 5> x_, v_;
-  std::array<std::vector<double>, 5> m_, t_;
-  Triple ft_;
-  std::array<Triple, 4> n3_;
-  std::array<std::vector<double>, 8> tie_;
-  std::array<std::vector<double>, 2> ortho_mu_, ortho_direction_, edge_width_;
-  std::array<std::vector<double>, 4> edge_conductivity_;
+  std::deque<std::vector<double>> reals_;
   std::vector<std::uint8_t> triangle_;
-  std::vector<double> k0_, gap_, p0_, area_, conductivity_, fric_;
+  PacketView view_;
 };
 
 /// Result of one pair.

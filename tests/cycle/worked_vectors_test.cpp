@@ -9,17 +9,7 @@
 namespace deck::cycle {
 namespace {
 
-using testing::elastic_card;
-using testing::expect_digits;
-using testing::Outcome;
-using testing::Pair;
-using testing::quad_pair;
-using testing::run;
-using testing::triangle_pair;
-using testing::Vec;
-using testing::operator*;
-using testing::operator+;
-using testing::operator-;
+using namespace testing;
 
 TEST(Geometry, FlatQuadNearItsDiagonalTiltsTheReferenceNormal) {
   const Outcome r = run(elastic_card(), quad_pair({6, 3.2, 0.4}));

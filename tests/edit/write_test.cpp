@@ -13,12 +13,11 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <thread>
 
 #include "base/shared/hash.hpp"
+#include "folder.hpp"
 
 namespace deck {
 namespace {
@@ -27,24 +26,9 @@ namespace fs = std::filesystem;
 
 class AtomicWriting : public testing::Test {
  protected:
-  AtomicWriting() {
-    static int number = 0;
-    dir_ = fs::temp_directory_path() /
-           ("atomic_writing_" + std::to_string(getpid()) + "_" + std::to_string(number++));
-    fs::create_directories(dir_);
-  }
-  ~AtomicWriting() override {
-    std::error_code ec;
-    fs::remove_all(dir_, ec);
-  }
   std::string at(const std::string& name) const { return (dir_ / name).string(); }
-  void put(const std::string& name, const std::string& text) const {
-    std::ofstream(at(name), std::ios::binary) << text;
-  }
-  std::string get(const std::string& name) const {
-    std::ifstream in(at(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  void put(const std::string& name, const std::string& text) const { folder_.write(name, text); }
+  std::string get(const std::string& name) const { return folder_.read(name); }
   std::size_t entries() const {
     return static_cast<std::size_t>(
         std::distance(fs::recursive_directory_iterator(dir_), fs::recursive_directory_iterator()));
@@ -53,7 +37,8 @@ class AtomicWriting : public testing::Test {
     struct stat status {};
     return stat(at(name).c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
   }
-  fs::path dir_;
+  const test::Folder folder_;
+  const fs::path dir_ = folder_.path();
 };
 
 TEST_F(AtomicWriting, NewFilesFollowUmaskReplacedOnesKeepTheirMode) {

@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::corpus;
+using test::Folder;
 using test::follows_schema;
 using test::quote;
-using test::Scratch;
 using test::shell;
 
 /// The document of `deck cycle --all`.
@@ -50,7 +50,7 @@ TEST(GoldenCycle, EveryPairForceOfTheInflatedDummyAgrees) {
   const fs::path plain = corpus() / "corpus" / "EuroSID_II" / "EuroSID_II_0000.rad";
   if (!fs::exists(golden) || !fs::exists(plain))
     GTEST_SKIP() << golden << " is not there (DECK_CORPUS)";
-  const Scratch scratch;
+  const Folder scratch;
   const fs::path deck = scratch / "inflated_0000.rad";
   ASSERT_TRUE(test::inflate(plain, deck));
   const std::string json = document(deck, cycle::Model::reference, 2);
@@ -62,7 +62,7 @@ TEST(GoldenCycle, EveryPairForceOfTheInflatedDummyAgrees) {
 }
 
 TEST(GoldenCycle, DocumentsFollowTheirSchema) {
-  const Scratch scratch;
+  const Folder scratch;
   for (const char* name : {"crash_box", "crossing_edges", "hot_contact", "tied_layer"}) {
     const fs::path deck = deck::test::source_dir() / "samples" / (std::string(name) + "_0000.rad");
     ASSERT_TRUE(fs::exists(deck)) << deck;

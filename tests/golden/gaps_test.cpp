@@ -18,9 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using deck::test::corpus;
 using deck::test::deck_for;
+using deck::test::Folder;
 using deck::test::follows_schema;
 using deck::test::quote;
-using deck::test::Scratch;
 using deck::test::shell;
 using deck::test::text_of;
 
@@ -35,7 +35,7 @@ TEST_P(GoldenGaps, EveryContactAgreesWithTheReferenceSolver) {
     GTEST_SKIP() << "no reference results under " << corpus();
   if (shell("python3 -c pass") != 0) GTEST_SKIP() << "no python3";
   if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
-  const Scratch scratch;
+  const Folder scratch;
   int compared = 0;
   for (const auto& entry : fs::directory_iterator(goldens)) {
     if (!entry.path().string().ends_with(".json.gz")) continue;
@@ -60,7 +60,7 @@ TEST(GoldenOrder, BlocksAreTakenInTheSolversOrder) {
   const fs::path script = corpus() / "check" / "compare_order.py";
   if (!fs::exists(script)) GTEST_SKIP() << "no reference results under " << corpus();
   if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
-  const Scratch scratch;
+  const Folder scratch;
   const fs::path report = scratch / "report.txt";
   EXPECT_EQ(shell("python3 " + quote(script) + " " + quote(binary()) + " > " + quote(report)), 0)
       << text_of(report);
@@ -82,7 +82,7 @@ TEST(GoldenGeometryRules, SayWhatTheReferenceSolverSays) {
   if (!fs::exists(goldens)) GTEST_SKIP() << "no reference results under " << corpus();
   if (shell("python3 -c pass") != 0) GTEST_SKIP() << "no python3";
   if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
-  const Scratch scratch;
+  const Folder scratch;
   std::ofstream(scratch / "compare.py") << compare_messages;
   for (const auto& entry : fs::directory_iterator(goldens)) {
     if (!entry.path().string().ends_with(".json.gz")) continue;
@@ -102,7 +102,7 @@ void expect_valid(const std::string& options, const std::vector<fs::path>& decks
   if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
   if (shell("python3 -c 'import jsonschema' 2> /dev/null") != 0)
     GTEST_SKIP() << "no python3 with jsonschema";
-  const Scratch scratch;
+  const Folder scratch;
   const fs::path json = scratch / "gaps.json";
   std::string names;
   for (const fs::path& deck : decks) {
@@ -129,7 +129,7 @@ TEST(GapsCommand, WritesVtkFilesIntoTheDirectoryOrOnePerDeckBelowIt) {
   const fs::path a = synthetic / "syna_0000.rad", b = synthetic / "sync_0000.rad";
   if (!fs::exists(a) || !fs::exists(b)) GTEST_SKIP() << "no decks in " << synthetic;
   if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
-  const Scratch scratch;
+  const Folder scratch;
   const auto run = [&](const fs::path& to, const std::string& decks) {
     return shell(quote(binary()) + " gaps --quiet --vtk " + quote(to) + " " + decks);
   };
@@ -145,7 +145,7 @@ TEST(GoldenGaps, SameBytesForAnyNumberOfThreads) {
   const fs::path deck = corpus() / "corpus" / "EuroSID_II" / "EuroSID_II_0000.rad";
   if (!fs::exists(deck)) GTEST_SKIP() << "no deck " << deck;
   if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
-  const Scratch scratch;
+  const Folder scratch;
   const auto run = [&](const std::string& threads) {
     const fs::path json = scratch / ("gaps" + threads + ".json");
     shell(quote(binary()) + " gaps --all --quiet --threads " + threads + " --json " + quote(json) +

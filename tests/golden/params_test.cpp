@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 using test::corpus;
 using test::deck_for;
+using test::Folder;
 using test::follows_schema;
 using test::quote;
-using test::Scratch;
 using test::shell;
 using test::text_of;
 
@@ -39,7 +39,7 @@ TEST_P(GoldenParams, AgreeWithTheEchoOfTheReferenceSolver) {
   if (!fs::exists(goldens) || !fs::exists(script))
     GTEST_SKIP() << "no reference results under " << corpus();
   if (shell("python3 -c pass") != 0) GTEST_SKIP() << "no python3";
-  const Scratch scratch;
+  const Folder scratch;
   int compared = 0;
   for (const auto& entry : fs::directory_iterator(goldens)) {
     if (!entry.path().string().ends_with(".json.gz")) continue;
@@ -67,7 +67,7 @@ TEST(GoldenParams, SameBytesForAnyNumberOfThreads) {
 TEST(ParamsDocument, FollowsItsSchema) {
   if (shell("python3 -c 'import jsonschema' 2> /dev/null") != 0)
     GTEST_SKIP() << "no python3 with jsonschema";
-  const Scratch scratch;
+  const Folder scratch;
   const fs::path deck = scratch / "small_0000.rad";
   std::ofstream(deck) << "#RADIOSS STARTER\n/BEGIN\nsmall \xe9\n      2022\n"
                          "                  Mg                  mm                   s\n"

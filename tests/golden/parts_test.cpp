@@ -18,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::corpus;
+using test::Folder;
 using test::follows_schema;
 using test::quote;
-using test::Scratch;
 using test::shell;
 
 std::string parts_of(const fs::path& path, int threads = 1) {
@@ -37,7 +37,7 @@ void hold(const char* kind, const std::string& name, const fs::path& deck) {
   const fs::path script = corpus() / "check" / ("compare_" + std::string(kind) + ".py");
   if (!fs::exists(record) || !fs::exists(script) || !fs::exists(deck))
     GTEST_SKIP() << "no record or deck of " << name;
-  const Scratch scratch;
+  const Folder scratch;
   const fs::path json = scratch / "parts.json";
   std::ofstream(json) << parts_of(deck);
   EXPECT_EQ(shell("python3 " + quote(script) + " " + quote(record) + " " + quote(json)), 0) << name;
@@ -105,7 +105,7 @@ TEST(PartsDocument, NamesContactsThatShareParts) {
 TEST(PartsDocument, FollowsItsSchema) {
   if (shell("python3 -c 'import jsonschema' 2> /dev/null") != 0)
     GTEST_SKIP() << "no python3 with jsonschema";
-  const Scratch scratch;
+  const Folder scratch;
   const fs::path json = scratch / "parts.json";
   std::ofstream(json) << parts_of(test::source_dir() / "samples" / "crash_box_0000.rad");
   EXPECT_TRUE(follows_schema("parts", json));

@@ -4,10 +4,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
-#include <system_error>
 
+#include "folder.hpp"
 #include "where.hpp"
 
 namespace deck::test {
@@ -15,25 +14,6 @@ namespace deck::test {
 namespace fs = std::filesystem;
 
 inline fs::path corpus() { return shared_dir(); }
-
-/// A directory that goes with the test.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "golden_test_XXXXXX").string();
-    if (mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~Scratch() {
-    std::error_code ec;
-    if (!path_.empty()) fs::remove_all(path_, ec);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 inline int shell(const std::string& command) { return std::system(command.c_str()); }
 inline std::string quote(const fs::path& path) { return "'" + path.string() + "'"; }
@@ -61,7 +41,7 @@ inline bool inflate(const fs::path& plain, const fs::path& out) {
 }
 
 /// The deck whose reference results are in `golden`; empty if it cannot be found or made.
-inline fs::path deck_for(const fs::path& golden, const Scratch& scratch) {
+inline fs::path deck_for(const fs::path& golden, const Folder& scratch) {
   const std::string stem = golden.filename().string();
   const std::string name = stem.substr(0, stem.find(".json"));
   if (golden.parent_path().filename() == "params")

@@ -1,5 +1,5 @@
-// The layouts of the contact keywords against the published tables: number of lines, cells that
-// came or moved with a version, dimensions of the coefficients of friction.
+// The layouts of the contact keywords against the published tables: number of lines,
+// dimensions of the coefficients of friction.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -48,15 +48,6 @@ std::vector<std::string> cards(std::string_view keyword, int version, const Valu
   for (const auto& card : schema(keyword).cards)
     if (card.in_version(version) && holds(card.when, values)) names.push_back(card.name);
   return names;
-}
-
-/// The cell `name` of a version as "first-last", empty if the version has none.
-std::string columns(std::string_view keyword, std::string_view name, int version) {
-  for (const auto& card : schema(keyword).cards)
-    for (const auto& field : card.fields)
-      if (field.name == name && card.in_version(version) && field.in_version(version))
-        return std::to_string(field.first) + "-" + std::to_string(field.last);
-  return {};
 }
 
 Dimension dimension(std::string_view keyword, std::string_view name, const Values& values) {
@@ -122,29 +113,6 @@ TEST(InterLayout, NumberOfLines) {
       }
 }
 
-TEST(InterType7Layout, ThermalLineComesBeforeAdaptiveLineUpTo100) {
-  const Values both{{"Ithe", 1}, {"Iadm", 2}};
-  const auto tail = [&](int version, std::size_t n, Values values) {
-    auto names = cards("/INTER/TYPE7", version, values);
-    return std::vector<std::string>(names.end() - static_cast<std::ptrdiff_t>(n), names.end());
-  };
-  EXPECT_THAT(tail(90, 2, {{"Ithe", 2}, {"Iadm", 2}}),
-              ElementsAre("heat exchange", "adaptive meshing"));
-  EXPECT_THAT(tail(100, 2, both), ElementsAre("heat exchange", "adaptive meshing"));
-  for (const int version : {110, 120})
-    EXPECT_THAT(tail(version, 2, both), ElementsAre("adaptive meshing", "heat exchange"));
-  EXPECT_THAT(tail(2026, 3, both),
-              ElementsAre("adaptive meshing", "heat exchange", "radiation and frictional heat"));
-}
-
-TEST(InterLagmulLayout, BlankLinesMoveWithTheVersion) {
-  EXPECT_EQ(cards("/INTER/LAGMUL/TYPE7", 51)[1], "gap");
-  for (const int version : {90, 100, 140}) {
-    EXPECT_EQ(cards("/INTER/LAGMUL/TYPE7", version)[3], "gap") << version;
-    EXPECT_EQ(cards("/INTER/LAGMUL/TYPE7", version)[4], "sorting") << version;
-  }
-}
-
 /// The lines of a default block: names of their cells with their last columns, "-" for a blank one.
 std::vector<std::string> default_lines(int type, int version, const Values& values = {}) {
   std::vector<std::string> out;
@@ -196,45 +164,6 @@ TEST(DefaultInterLayout, LinesPerTypeAndVersion) {
                                              : t25 + " Iedge 90",
                             "-", version < 2019 ? "Igap0 50" : "Igap0 50 Ishape 60", "-",
                             "Inacti 40", "-"));
-  }
-}
-
-// ---------------------------------------------------------------------------------------------
-// Cells that moved or came with a version
-
-TEST(InterCells, ComeWithTheirVersion) {
-  struct Row {
-    const char *keyword, *name;
-    int without, with;  ///< neighbouring versions
-    const char* columns;
-  };
-  constexpr int never = 0;
-  const Row rows[] = {
-      {"/INTER/TYPE7", "grnd_IDs", never, 51, "1-10"},
-      {"/INTER/TYPE7", "Multimp", 120, 110, "51-60"},
-      {"/INTER/TYPE7", "Fpenmax", 110, 120, "41-60"},
-      {"/INTER/TYPE7", "%mesh_size", 100, 110, "41-60"},
-      {"/INTER/TYPE7", "ITIED", 2019, 2020, "81-90"},
-      {"/INTER/TYPE7", "Irem_i2", 120, 130, "91-100"},
-      {"/INTER/TYPE7", "fric_ID", 2017, 2018, "91-100"},
-      {"/INTER/TYPE7", "Ists", 2025, 2026, "91-100"},
-      {"/INTER/TYPE7", "AscaleK", 90, 2024, "71-90"},
-      {"/INTER/TYPE11", "AscaleK", 90, 2024, "31-50"},
-      {"/INTER/TYPE11", "Tint", never, 2024, "51-70"},
-      {"/INTER/TYPE11", "Ithe_form", never, 2024, "71-80"},
-      {"/INTER/TYPE11", "Irem_gap", 2019, 2020, "61-70"},
-      {"/INTER/TYPE11", "Iform", 110, 120, "81-90"},
-      {"/INTER/TYPE11", "fric_ID", 2017, 2018, "91-100"},
-      {"/INTER/TYPE19", "Iedge", 140, 90, "51-60"},
-      {"/INTER/TYPE19", "Iedge", 140, 120, "51-60"},
-      {"/INTER/TYPE19", "Iedge", 140, 2017, "51-60"},
-      {"/INTER/TYPE19", "Edge_scale_gap", 2023, 2024, "41-60"},
-  };
-  for (const Row& r : rows) {
-    EXPECT_EQ(columns(r.keyword, r.name, r.with), r.columns) << r.keyword << r.name;
-    if (r.without != never) {
-      EXPECT_EQ(columns(r.keyword, r.name, r.without), "") << r.keyword << r.name;
-    }
   }
 }
 

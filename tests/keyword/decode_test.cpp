@@ -370,44 +370,6 @@ TEST(Decode, WithoutSchemaNothingIsGuessed) {
   EXPECT_TRUE(b.extra.empty());
 }
 
-/// Right-justified cells of a width side by side.
-std::string row(std::initializer_list<const char*> texts, std::size_t width = 20) {
-  std::string line;
-  for (const std::string text : texts) line += std::string(width - text.size(), ' ') + text;
-  return line + "\n";
-}
-
-TEST(BuiltInLayouts, FunctionsOfLaw11FollowItsBlankLineFrom2019On) {
-  const Deck deck =
-      read(deck_of("/MAT/LAW11/1\nt\n" + row({"1e-9"}) + row({"2"}, 10) + "\n" + row({"5"}, 10) +
-                       row({"8"}, 10) + row({"1"}, 10) + "\n\n" + row({"9", "4"}, 10),
-                   "2020"));
-  const DecodedBlock b = decode(deck, *block(deck, "/MAT/LAW11/1"));
-  EXPECT_EQ(b.integer("fun_IDRHO"), 5);
-  EXPECT_EQ(b.integer("funct_IDp"), 8);
-  EXPECT_EQ(b.integer("funct_IDE"), 1);
-  EXPECT_EQ(b.integer("funct_IDT"), 9);
-  EXPECT_EQ(b.integer("funct_IDQ"), 4);
-  EXPECT_TRUE(b.extra.empty());
-}
-
-TEST(BuiltInLayouts, PhasesOfLaw51HaveAsManyLinesAsTheirVersionKnows) {
-  const std::string phase = row({"0.5", "1e-9", "2.0"}) + row({"10.0", "20.0"}) + row({"-1", "3"});
-  const Deck deck = read(
-      deck_of("/MAT/LAW51/1\nt\n\n" + row({"5"}, 10) + row({"2.0", "0.1"}) + phase + phase + phase,
-              "2023"));
-  const DecodedBlock b = decode(deck, *block(deck, "/MAT/LAW51/1"));
-  int fractions = 0, pressures = 0;
-  for (const DecodedCard& card : b.cards)
-    for (const Cell& cell : card.cells) {
-      fractions += cell.field->name == "ALPHA_1" && cell.real == 0.5;
-      pressures += cell.field->name == "P_min1" && cell.real == -1;
-    }
-  EXPECT_EQ(fractions, 3);
-  EXPECT_EQ(pressures, 3);
-  EXPECT_TRUE(b.extra.empty());
-}
-
 // ---- lines without content ----------------------------------------------------------------------
 
 /// `text` so that it ends in `column`, behind `line`.

@@ -1,15 +1,14 @@
 // Helpers of the reading tests: decks in memory and on disk, look-up of findings.
 #pragma once
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "deck/keyword/deck.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/text/rule_id.hpp"
+#include "folder.hpp"
 
 namespace deck::testing_support {
 
@@ -62,26 +61,16 @@ inline std::vector<std::string> lines(const Deck& deck, const Block& b) {
 /// A directory that lives as long as the test.
 class Folder : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    dir_ = std::filesystem::temp_directory_path() /
-           ("deck_" + std::string(info->test_suite_name()) + "_" + info->name() + "_" +
-            std::to_string(::getpid()));
-    std::filesystem::create_directories(dir_);
-  }
-  void TearDown() override { std::filesystem::remove_all(dir_); }
   std::string file(const std::string& name, const std::string& text) {
-    const std::filesystem::path path = dir_ / name;
-    std::filesystem::create_directories(path.parent_path());
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
+    return folder_.write(name, text);
   }
   Deck read_file(const std::string& path, const ReadOptions& options = {}) {
     auto deck = read_deck(path, SchemaSet::built_in(), options);
     EXPECT_TRUE(deck.ok()) << (deck.ok() ? "" : deck.error().message);
     return deck.ok() ? std::move(*deck) : Deck();
   }
-  std::filesystem::path dir_;
+  test::Folder folder_;
+  const std::filesystem::path dir_ = folder_.path();
 };
 
 }  // namespace deck::testing_support

@@ -33,27 +33,15 @@ class BoundsOfASchema : public testing::Test {
   test::Folder folder_;
 };
 
-TEST_F(BoundsOfASchema, SayNothingOfLegalValues) {
+TEST_F(BoundsOfASchema, NameWhatIsLegalAndLeaveTheRestAlone) {
   EXPECT_EQ(said("         4                 0.5"), "");
-}
-
-TEST_F(BoundsOfASchema, TakeZeroAndBlankForTheDefault) {
-  EXPECT_EQ(said("         0                 0.0"), "");
+  EXPECT_EQ(said("         0                 0.0"), "") << "0 is the default";
   EXPECT_EQ(said(""), "");
-}
-
-TEST_F(BoundsOfASchema, NameTheLegalValuesOfAFlag) {
   EXPECT_EQ(said("         2                 0.5"), "Imode of /WINCH 3 is 2; legal: 1 or 4");
-}
-
-TEST_F(BoundsOfASchema, NameTheRangeAndThatAnOpenBoundIsNotInIt) {
   EXPECT_EQ(said("         1                 1.0"),
             "share of /WINCH 3 is 1.0; legal: from 0.1 up to 1 (not itself)");
   EXPECT_EQ(said("         1               0.999"), "");
-}
-
-TEST_F(BoundsOfASchema, LeaveWhatIsNoNumberToItsOwnRule) {
-  EXPECT_EQ(said("       two                 0.5"), "");
+  EXPECT_EQ(said("       two                 0.5"), "") << "its own rule says that";
 }
 
 }  // namespace

@@ -43,13 +43,12 @@ TEST_F(EngineFilesOfADeck, AreNamedWhereTheFindingStands) {
             "car_0001.rad:5:6");
 }
 
-TEST_F(EngineFilesOfADeck, AreReadUpToTheFirstNumberThatIsMissing) {
-  const Linted run = lint({{"car_0001.rad", "/RUN/car/1\n1.\n"}, {"car_0003.rad", "/TFILE\n1.\n"}});
-  EXPECT_FALSE(run.fires(RuleId::DK800)) << run.list();
-}
-
-TEST_F(EngineFilesOfADeck, OfAnotherNameAreNotLookedAt) {
+TEST_F(EngineFilesOfADeck, AreThoseOfItsNameUpToTheFirstNumberThatIsMissing) {
   EXPECT_FALSE(lint({{"bus_0001.rad", "/TFILE\n1.\n"}}).fires(RuleId::DK800));
+  EXPECT_FALSE(lint({{"car_0001.rad", "/RUN/car/1\n1.\n"}, {"car_0003.rad", "/TFILE\n1.\n"}})
+                   .fires(RuleId::DK800));
+  EXPECT_FALSE(lint({{"car_0001.rad", "/RUN/car/1\r\n1."}}).fires(RuleId::DK803));
+  EXPECT_EQ(where(lint({{"car_0001.rad", ""}}), RuleId::DK800), "car_0001.rad:1:1");
 }
 
 TEST_F(EngineFilesOfADeck, MayBePackedWhereTheDeckIs) {
@@ -79,73 +78,41 @@ TEST_F(EngineFilesOfADeck, AboveTheBoundAreNotRead) {
   EXPECT_EQ(engine.unread.size(), 1u);
 }
 
-TEST_F(EngineFilesOfADeck, AreNotEmptyOnlyBecauseTheyHaveNoLineEnd) {
-  EXPECT_FALSE(lint({{"car_0001.rad", "/RUN/car/1\r\n1."}}).fires(RuleId::DK803));
-}
-
-TEST_F(EngineFilesOfADeck, WithoutAnythingInThemHaveNoRun) {
-  EXPECT_EQ(where(lint({{"car_0001.rad", ""}}), RuleId::DK800), "car_0001.rad:1:1");
-}
-
-TEST(EngineFile, ReadsTheFinalTimeOfSeveralRunsInTurn) {
-  Folder folder;
-  folder.write("car_0001.rad", "/RUN/car/1\n10.\n");
-  folder.write("car_0002.rad", "/RUN/car/2\n5.\n");
-  const Linted run =
-      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
-  ASSERT_TRUE(run.fires(RuleId::DK803));
-  EXPECT_NE(run.find(RuleId::DK803)->message.find("ends at 5, the run before it at 10"),
-            std::string::npos);
-}
-
-TEST(EngineFile, HoldsElementsAgainstTheirOwnKind) {
-  Folder folder;
-  folder.write("car_0001.rad",
-               "/RUN/car/1\n10.\n/DEL/BRICK\n1\n/DEL/SHELL/1\n1 900\n3 800\n-5 0\n"
-               "/DEL/SHELL\n2 9\n");
-  const Linted run =
-      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
-  // Brick 1 and shell 9 do not exist, nor any shell from 3 to 800 or up to 0; of a range some ids
-  // may be missing.
-  EXPECT_EQ(run.count(RuleId::DK804), 4u) << run.list();
-}
-
-TEST(EngineFile, MayHaveACardThatIsNotFilledIn) {
-  Folder folder;
-  folder.write("car_0001.rad", "/RUN/car/1\n10.\n/DEL/SHELL/1\n0 0\n/DEL/INTER\n0\n");
-  const Linted run =
-      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
-  EXPECT_FALSE(run.fires(RuleId::DK804)) << run.list();
-}
-
-TEST(EngineFile, WithAnotherNameOrNumberInItsRunIsAnInfo) {
-  Folder folder;
-  folder.write("car_0001.rad", "/RUN/bus/2\n10.\n");
-  const Linted run =
-      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
-  for (const RuleId rule : {RuleId::DK801, RuleId::DK802}) {
-    ASSERT_TRUE(run.fires(rule)) << run.list();
-    EXPECT_EQ(run.find(rule)->severity, Severity::info);
+TEST_F(EngineFilesOfADeck, AreHeldAgainstTheDeckAndTheRunBefore) {
+  struct Row {
+    const char *first, *second;
+    RuleId rule;
+    std::size_t count;
+    Severity severity;
+  };
+  using enum RuleId;
+  const Row rows[] = {
+      {"/RUN/car/1\n10.\n", "/RUN/car/2\n5.\n", DK803, 1, Severity::error},
+      // Brick 1 and shell 9 do not exist, nor any shell from 3 to 800 or up to 0; of a range some
+      // ids may be missing.
+      {"/RUN/car/1\n10.\n/DEL/BRICK\n1\n/DEL/SHELL/1\n1 900\n3 800\n-5 0\n/DEL/SHELL\n2 9\n", "",
+       DK804, 4, Severity::warning},
+      {"/RUN/car/1\n10.\n/DEL/SHELL/1\n0 0\n/DEL/INTER\n0\n", "", DK804, 0, {}},
+      {"/RUN/bus/2\n10.\n", "", DK801, 1, Severity::info},
+      {"/RUN/bus/2\n10.\n", "", DK802, 1, Severity::info},
+      // The first state is written all the same.
+      {"/RUN/car/1\n4.\n/ANIM/DT\n0. 5.\n/H3D/DT\n7. 1.\n", "", DK805, 2, Severity::info},
+      {"/RUN/car/1\n10.\n", "/RUN/car/2\n12.\n/TFILE\n3.\n", DK805, 1, Severity::warning},
+  };
+  for (const Row& row : rows) {
+    std::filesystem::remove(folder_.path() + "/car_0002.rad");
+    std::vector<std::pair<std::string, std::string>> files = {{"car_0001.rad", row.first}};
+    if (row.second[0] != 0) files.emplace_back("car_0002.rad", row.second);
+    const Linted run = lint(files, "");
+    ASSERT_EQ(run.count(row.rule), row.count) << row.first << run.list();
+    if (row.count > 0) {
+      EXPECT_EQ(run.find(row.rule)->severity, row.severity) << row.first << run.list();
+    }
+    if (row.rule == DK803) {
+      EXPECT_NE(run.find(DK803)->message.find("ends at 5, the run before it at 10"),
+                std::string::npos);
+    }
   }
-}
-
-TEST(EngineFile, WithAnIntervalLongerThanTheRunWritesItsFirstState) {
-  Folder folder;
-  folder.write("car_0001.rad", "/RUN/car/1\n4.\n/ANIM/DT\n0. 5.\n/H3D/DT\n7. 1.\n");
-  const Linted run =
-      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
-  ASSERT_EQ(run.count(RuleId::DK805), 2u) << run.list();
-  EXPECT_EQ(run.find(RuleId::DK805)->severity, Severity::info);
-  EXPECT_EQ(run.result.warnings, 1u) << run.list();
-}
-
-TEST(EngineFile, OfALaterRunHasTheTimeSinceTheRunBefore) {
-  Folder folder;
-  folder.write("car_0001.rad", "/RUN/car/1\n10.\n");
-  folder.write("car_0002.rad", "/RUN/car/2\n12.\n/TFILE\n3.\n");
-  const Linted run =
-      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
-  EXPECT_TRUE(run.fires(RuleId::DK805)) << run.list();
 }
 
 TEST(EngineFile, DoesNotRemoveByItsStepWhereDtminOfTheCardGoesFirst) {

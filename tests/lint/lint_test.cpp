@@ -1,6 +1,8 @@
 // The engine: suppressions, selection, order, bounds, what was not checked.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "lint/plain_glob.hpp"
 #include "lint/shared/config.hpp"
 #include "lint/support.hpp"
@@ -13,20 +15,33 @@ constexpr const char* negative = "@/INTER/TYPE7/1 Stfac=-1.0\n";
 
 const std::string known = "# decklint: ignore[DK221] reason=a test\n";
 
-TEST(Suppression, InFrontOfTheHeaderCoversTheBlockBehindIt) {
-  const Linted run = lint_example(known + negative);
-  EXPECT_FALSE(run.fires(RuleId::DK221)) << run.list();
-  EXPECT_EQ(run.result.suppressed, 1u);
-  EXPECT_FALSE(run.fires(RuleId::DK091));
-}
-
-TEST(Suppression, InsideABlockCoversTheWholeBlock) {
+TEST(Suppression, CoversItsBlockOrItsFileAndNothingElse) {
+  // Where the comment goes in, what it says, which rules fire then, and how many it hides.
+  struct Row {
+    const char *before, *comment;
+    std::set<RuleId> fire;
+    std::size_t hidden;
+  };
+  using enum RuleId;
+  const Row rows[] = {
+      {"/INTER/TYPE7/1", "ignore[DK221] reason=a test", {}, 1},
+      {"example\n", "ignore[DK2] reason=a prefix works too", {}, 1},  // inside of the block
+      {"/FUNCT", "ignore[DK221] reason=the block before", {DK221, DK091}, 0},
+      {"/INTER/TYPE7/1", "ignore[DK221]", {DK221, DK090}, 0},
+      {"/BEGIN", "ignore-file[DK221] reason=at its top", {}, 1},
+      {"/INTER/TYPE7/1", "ignore-file[DK221] reason=too late", {DK221, DK093}, 0},
+  };
   const std::string text = example_deck(negative, SchemaSet::built_in()).main;
-  const auto at = text.find("example\n", text.find("/INTER/TYPE7/1"));
-  const Linted run = lint_text(
-      std::string(text).insert(at + 8, "# decklint: ignore[DK2] reason=a prefix works too\n"));
-  EXPECT_FALSE(run.fires(RuleId::DK221)) << run.list();
-  EXPECT_EQ(run.result.suppressed, 1u);
+  for (const Row& row : rows) {
+    const auto at = text.find(row.before, row.before[0] == 'e' ? text.find("/INTER") : 0);
+    ASSERT_NE(at, text.npos) << row.before;
+    const auto line = row.before[0] == 'e' ? text.find('\n', at) + 1 : at;
+    const Linted run =
+        lint_text(std::string(text).insert(line, "# decklint: " + std::string(row.comment) + "\n"));
+    for (const RuleId rule : {DK221, DK090, DK091, DK093})
+      EXPECT_EQ(run.fires(rule), row.fire.contains(rule)) << row.comment << run.list();
+    EXPECT_EQ(run.result.suppressed, row.hidden) << row.comment;
+  }
 }
 
 TEST(Suppression, IsFoundWhereTwoStretchesOfALargeFileMeet) {
@@ -43,61 +58,21 @@ TEST(Suppression, IsFoundWhereTwoStretchesOfALargeFileMeet) {
   }
 }
 
-TEST(Suppression, DoesNotReachTheNextBlock) {
-  const Linted run = lint_example(known + "@/INTER/TYPE7/2 Fric=0.1\n" + negative);
-  EXPECT_TRUE(run.fires(RuleId::DK221));
-  EXPECT_TRUE(run.fires(RuleId::DK091)) << "the suppression covers nothing";
-}
-
-TEST(Suppression, WithoutReasonHasNoEffectAndIsAFinding) {
-  const Linted run = lint_example(std::string("# decklint: ignore[DK221]\n") + negative);
-  EXPECT_TRUE(run.fires(RuleId::DK221));
-  EXPECT_TRUE(run.fires(RuleId::DK090));
-  EXPECT_EQ(run.result.suppressed, 0u);
-}
-
-TEST(Suppression, OfAFileStandsAtItsTop) {
-  std::string text = example_deck(negative, SchemaSet::built_in()).main;
-  const std::string comment = "# decklint: ignore-file[DK221] reason=a test\n";
-  const Linted top = lint_text(std::string(text).insert(text.find("/BEGIN"), comment));
-  EXPECT_FALSE(top.fires(RuleId::DK221)) << top.list();
-  const Linted late = lint_text(std::string(text).insert(text.find("/INTER"), comment));
-  EXPECT_TRUE(late.fires(RuleId::DK221));
-  EXPECT_TRUE(late.fires(RuleId::DK093));
-}
-
-TEST(Suppression, OfARuleThatIsSwitchedOffIsNotCalledUnused) {
-  LintOptions options;
-  options.ignore = {"DK221"};
-  const Linted run = lint_example(known + "@/INTER/TYPE7/1\n", options);
-  EXPECT_FALSE(run.fires(RuleId::DK091)) << run.list();
-}
-
-TEST(Selection, SelectAndIgnoreTakeIdsAndPrefixes) {
-  LintOptions only;
+TEST(Selection, FollowsIdsPrefixesAndGlobs) {
+  LintOptions only, without, file;
   only.select = {"DK221"};
   const Linted a = lint_example(negative, only);
   ASSERT_EQ(a.result.diagnostics.size(), 1u) << a.list();
   EXPECT_EQ(a.result.diagnostics[0].rule, RuleId::DK221);
-  LintOptions without;
   without.ignore = {"DK2"};
   EXPECT_FALSE(lint_example(negative, without).fires(RuleId::DK221));
-}
-
-TEST(Selection, SeverityOverrideWithTheLongestSelectorWins) {
-  LintOptions options;
-  options.severity = {{"DK2", Severity::info}, {"DK221", Severity::warning}};
-  const Linted run = lint_example(negative, options);
-  ASSERT_TRUE(run.fires(RuleId::DK221));
-  EXPECT_EQ(run.find(RuleId::DK221)->severity, Severity::warning);
-}
-
-TEST(Selection, PerFileIgnoresFollowTheGlob) {
-  LintOptions options;
-  options.per_file_ignores = {{"*_0000.rad", {"DK221"}}};
-  EXPECT_FALSE(lint_example(negative, options).fires(RuleId::DK221));
-  options.per_file_ignores = {{"*.inc", {"DK221"}}};
-  EXPECT_TRUE(lint_example(negative, options).fires(RuleId::DK221));
+  file.per_file_ignores = {{"*_0000.rad", {"DK221"}}};
+  EXPECT_FALSE(lint_example(negative, file).fires(RuleId::DK221));
+  file.per_file_ignores = {{"*.inc", {"DK221"}}};
+  EXPECT_TRUE(lint_example(negative, file).fires(RuleId::DK221));
+  LintOptions severity;
+  severity.severity = {{"DK2", Severity::info}, {"DK221", Severity::warning}};
+  EXPECT_EQ(lint_example(negative, severity).find(RuleId::DK221)->severity, Severity::warning);
 }
 
 constexpr const char* two_negative = "@/INTER/TYPE7/1 Stfac=-1.0 Gapmin=-0.5\n";
@@ -159,20 +134,6 @@ TEST(FormerIds, AreAnsweredWithTheFieldsThatTheyMean) {
   EXPECT_EQ(run.find(RuleId::DK092)->severity, Severity::info);
 }
 
-/// Baselines that were written before the rules became one.
-TEST(FormerIds, KeepTheirFingerprints) {
-  const auto print = [](const char* example) {
-    const Linted run = lint_example(example);
-    for (std::size_t i = 0; i < run.result.diagnostics.size(); ++i)
-      if (!run.result.diagnostics[i].field.empty()) return run.result.fingerprints[i];
-    return std::string();
-  };
-  EXPECT_EQ(print("@/INTER/TYPE7/1 Istf=7\n"), "aa938647f5703a2d");
-  EXPECT_EQ(print("@/INTER/TYPE7/1 Igap=9\n"), "b164de3499dcbf3e");
-  EXPECT_EQ(print(negative), "b9e13d04dd7fdf4b");
-  EXPECT_EQ(print("@/INTER/TYPE7/1 Igap=2 %mesh_size=0.4\n"), "de43601330fefe7c");
-}
-
 TEST(Order, FollowsFileLineColumnRule) {
   const Linted run = lint_example(std::string(negative) + "@/INTER/TYPE7/2 Istf=7 Fric=-1.0\n");
   const auto& all = run.result.diagnostics;
@@ -187,11 +148,6 @@ TEST(Order, FollowsFileLineColumnRule) {
       EXPECT_LE(all[i - 1].rule, all[i].rule);
     }
   }
-}
-
-TEST(Order, NoFindingAppearsTwice) {
-  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=two\n");
-  EXPECT_EQ(run.count(RuleId::DK020), 1u) << run.list();
 }
 
 TEST(NotChecked, CountsRulesOnlyWhereSomeAreOff) {

@@ -36,11 +36,6 @@ TEST(SolverMessages, HaveTheSeverityOfTheRulesThatReportThem) {
     }
 }
 
-TEST(SolverMessages, OfAListingHaveTheirPage) {
-  for (const int number : {147, 312, 343, 446, 499, 680, 1078, 1084, 1164, 1220, 1741, 1912, 3121})
-    EXPECT_TRUE(explain_message(number, schemas(), 0).starts_with("Message ")) << number;
-}
-
 TEST(MessageNumber, IsFoundInTheWordsOfAListing) {
   EXPECT_EQ(message_number("611"), 611);
   EXPECT_EQ(message_number("error 611"), 611);
@@ -71,12 +66,6 @@ TEST(ExplainTopic, WordsOfAMessageLeadToIt) {
   }
   EXPECT_TRUE(explain_topic("initial nonsense", schemas()).empty());
   EXPECT_TRUE(explain_topic("there are", schemas()).empty());
-}
-
-TEST(ExplainMessage, NamesARuleThatMentionsItAndNoOther) {
-  // "Inacti 5" is no mention of message 5.
-  EXPECT_FALSE(has(explain_message(5, schemas(), 0), "DK254"));
-  EXPECT_TRUE(has(explain_message(21, schemas(), 0), "DK130"));  // "error 21"
 }
 
 TEST(SummaryOfMessage, ComesFromItsEntryElseFromARule) {

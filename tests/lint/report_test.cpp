@@ -21,22 +21,6 @@ LintOptions only(std::string rule) {
   return o;
 }
 
-TEST(HumanReport, CutsLongLinesAroundTheCaretAndFloodsPerRule) {
-  std::string text = "/SKEW/FIX/1\naxes\n";
-  for (int i = 0; i < 3; ++i) text += std::string(99, ' ') + "0" + std::string(400, 'x') + "\n";
-  const Linted run = lint_example(text, only("DK012"));
-  ASSERT_EQ(run.count(RuleId::DK012), 3u) << run.list();
-  HumanOptions options;
-  options.per_rule = 1;
-  const std::string out = lint_human(one(run), options);
-  EXPECT_NE(out.find("2 more findings of DK012"), std::string::npos) << out;
-  for (std::size_t at = 0; at < out.size();) {
-    const auto nl = out.find('\n', at);
-    EXPECT_LT(nl - at, 260u) << out.substr(at, nl - at);
-    at = nl + 1;
-  }
-}
-
 /// The columns at which the carets of a text begin, and the characters over them.
 std::pair<std::string, std::string> card_and_caret(const std::string& text) {
   const auto caret = text.find('^');
@@ -67,12 +51,6 @@ TEST(HumanReport, TheCaretIsUnderItsCellWhateverStandsBeforeAndBehindIt) {
       EXPECT_EQ(card.substr(over, 3), "xyz") << card << "\n" << caret;
       EXPECT_TRUE(caret.ends_with(" ^^^")) << caret;
     }
-}
-
-TEST(HumanReport, ShowsBytesThatAreNoUtf8AsReplacementCharacters) {
-  const Linted run = lint_example("/GRNOD/NODE/7\nnodes\n         1\xb5\n", only("DK020"));
-  ASSERT_TRUE(run.fires(RuleId::DK020)) << run.list();
-  EXPECT_NE(lint_human(one(run), {}).find("         1\xef\xbf\xbd\n"), std::string::npos);
 }
 
 /// Findings written out here about the third line of a deck.
@@ -239,14 +217,6 @@ TEST(RulesReport, FitsTheTerminalAndLosesNoTitle) {
     at = nl + 1;
   }
   for (const Rule& r : all_rules()) EXPECT_NE(words.find(r.title), std::string::npos) << r.title;
-}
-
-TEST(RulesReport, TableAndJsonAgree) {
-  const auto json = nlohmann::json::parse(rules_json());
-  EXPECT_EQ(json["rules"].size(), all_rules().size());
-  const std::string table = rules_table(false);
-  for (const auto& r : json["rules"])
-    EXPECT_NE(table.find(r["id"].get<std::string>()), std::string::npos);
 }
 
 }  // namespace

@@ -140,128 +140,101 @@ TEST_P(RuleTypes, FiresForExactlyTheTypesOfItsPage) {
 INSTANTIATE_TEST_SUITE_P(Rules, RuleTypes, testing::ValuesIn(rules_with_types()),
                          [](const auto& one) { return one.param; });
 
-/// A field of a rule that says the same of several: a card that fires, one that does not ("PAIR":
-/// of a /FRICTION), and the interface types; without any it fires for every type that has the
-/// field.
+/// A field of a rule that says the same of several: a card with "{fires|does not}" ("PAIR": of a
+/// /FRICTION), and the interface types; without any it fires for every type that has the field.
 struct FieldExample {
   RuleId rule;
-  std::string_view field, bad, good;
+  std::string_view field, card;
   std::vector<int> types = {};
 
-  std::string text(std::string_view card) const {
-    if (card.starts_with('@')) return std::string(card) + "\n";
-    if (card.starts_with("PAIR"))
-      return "@/FRICTION/1 Fric=0.1 grpart_ID1=0 part_ID1=1 part_ID2=2" +
-             std::string(card.substr(4)) + "\n@/INTER/TYPE7/1 fric_ID=1\n";
-    return "@/INTER/TYPE" + std::to_string(types.empty() ? 7 : types.front()) + "/1 " +
-           std::string(card) + "\n";
+  /// The card that fires, or the one that does not.
+  std::string text(bool bad) const {
+    const auto open = card.find('{'), bar = card.find('|'), close = card.find('}');
+    std::string one(card.substr(0, open));
+    one += bad ? card.substr(open + 1, bar - open - 1) : card.substr(bar + 1, close - bar - 1);
+    one += card.substr(close + 1);
+    if (one.starts_with('@')) return one + "\n";
+    if (one.starts_with("PAIR"))
+      return "@/FRICTION/1 Fric=0.1 grpart_ID1=0 part_ID1=1 part_ID2=2" + one.substr(4) +
+             "\n@/INTER/TYPE7/1 fric_ID=1\n";
+    return "@/INTER/TYPE" + std::to_string(types.empty() ? 7 : types.front()) + "/1 " + one + "\n";
   }
 };
 
 const std::vector<FieldExample>& field_examples() {
   using enum RuleId;
   static const std::vector<FieldExample> all = {
-      {DK201, "Istf", "Istf=7", "Istf=4"},
-      {DK201, "Igap", "Igap=9", "Igap=3"},
-      {DK201, "Ibag", "Ibag=4", "Ibag=1000"},
-      {DK201, "Idel", "Idel=5", "Idel=-2"},
-      {DK201, "Icurv", "Icurv=5", "Icurv=3"},
-      {DK201, "Iadm", "Iadm=3", "Iadm=1"},
-      {DK201, "Inacti", "Inacti=8", "Inacti=6"},
-      {DK201, "Irem_gap", "Irem_gap=4", "Irem_gap=2"},
-      {DK201, "Irem_i2", "Irem_i2=5", "Irem_i2=3"},
-      {DK201, "Iform", "Iform=6", "Iform=2"},
-      {DK201, "ITIED", "ITIED=7", "ITIED=1"},
-      {DK201, "Ifric", "Ifric=6 C1=0.1 C6=0.1", "Ifric=1 C1=0.1"},
-      {DK201, "Ifiltr", "Fric=0.1 Ifiltr=5 Xfreq=0.5", "Fric=0.1 Ifiltr=1 Xfreq=0.5"},
-      {DK201, "Ithe", "Ithe=3", "Ithe=1 Kthe=1.0"},
-      {DK201, "Ithe_form", "Ithe=1 Kthe=1.0 Ithe_form=3", "Ithe=1 Kthe=1.0 Ithe_form=1"},
-      {DK201,
-       "Iedge",
-       "@/DEFAULT/INTER/TYPE19 Iedge=7\n@/INTER/TYPE19/1",
-       "@/DEFAULT/INTER/TYPE19 Iedge=1\n@/INTER/TYPE19/1",
-       {19}},
-      {DK201,
-       "Idir",
-       "PAIR Idir=4 C1_pair=0.0 Fric_pair=0.2",
-       "PAIR Idir=0 C1_pair=0.0 Fric_pair=0.2",
-       {7}},
-      {DK221, "Gapmin", "Gapmin=-0.5", "Gapmin=0.5", {7, 11, 19}},
-      {DK221, "Gapmax", "Igap=2 Gapmax=-0.5", "Igap=2 Gapmax=0.5"},
-      {DK221, "Stfac", "Stfac=-0.5", "Stfac=0.5"},
-      {DK221, "Fric", "Fric=-0.5", "Fric=0.5"},
-      {DK221, "VISs", "VISs=-0.5", "VISs=0.5"},
-      {DK221, "VISF", "Fric=0.2 VISF=-0.5", "Fric=0.2 VISF=0.5"},
-      {DK221, "Bumult", "Bumult=-0.5", "Bumult=0.5"},
-      {DK221, "Fscalegap", "Igap=2 Fscalegap=-0.5", "Igap=2 Fscalegap=0.5"},
-      {DK221, "Fpenmax", "Fpenmax=-0.5", "Fpenmax=0.5"},
-      {DK221, "Stmin", "Istf=4 Stmin=-0.5", "Istf=4 Stmin=0.5"},
-      {DK221, "Stmax", "Istf=4 Stmax=-0.5", "Istf=4 Stmax=0.5"},
-      {DK221, "%mesh_size", "Igap=3 %mesh_size=-0.5", "Igap=3 %mesh_size=0.5"},
-      {DK221, "dtmin", "dtmin=-0.5", "dtmin=0.5"},
-      {DK221, "Tstart", "Tstart=-0.5", "Tstart=0.5"},
-      {DK221, "Tstop", "Tstop=-0.5", "Tstop=0.5"},
-      {DK221, "Kthe", "Ithe=1 Kthe=-0.5", "Ithe=1 Kthe=0.5"},
-      {DK221, "Frad", "Ithe=1 Kthe=1.0 Frad=-0.5", "Ithe=1 Kthe=1.0 Frad=0.5"},
-      {DK221, "Drad", "Ithe=1 Kthe=1.0 Drad=-0.5", "Ithe=1 Kthe=1.0 Drad=0.5"},
-      {DK221, "NRadm", "Iadm=2 Padm=1.0 NRadm=-1", "Iadm=2 Padm=1.0 NRadm=1"},
-      {DK221, "Padm", "Iadm=2 NRadm=3 Padm=-0.5", "Iadm=2 NRadm=3 Padm=0.5"},
-      {DK221, "Angladm", "Iadm=2 NRadm=3 Padm=1.0 Angladm=-0.5",
-       "Iadm=2 NRadm=3 Padm=1.0 Angladm=0.5"},
-      {DK221, "Gap", "Gap=-0.5", "Gap=0.5", {10}},
-      {DK221,
-       "Edge_scale_gap",
-       "@version 2024\n@/INTER/TYPE19/1 Edge_scale_gap=-0.5",
-       "@version 2024\n@/INTER/TYPE19/1 Edge_scale_gap=0.5",
-       {19}},
-      {DK221, "Rthe", "@version 120\n@/INTER/TYPE7/1 Ithe=1 Rthe=-1.0",
-       "@version 120\n@/INTER/TYPE7/1 Ithe=1 Rthe=1.0"},
-      {DK221,
-       "Fric_pair",
-       "PAIR C1_pair=0.0 Fric_pair=-0.2",
-       "PAIR C1_pair=0.0 Fric_pair=0.2",
-       {7}},
+      {DK201, "Istf", "Istf={7|4}"},
+      {DK201, "Igap", "Igap={9|3}"},
+      {DK201, "Ibag", "Ibag={4|1000}"},
+      {DK201, "Idel", "Idel={5|-2}"},
+      {DK201, "Icurv", "Icurv={5|3}"},
+      {DK201, "Iadm", "Iadm={3|1}"},
+      {DK201, "Inacti", "Inacti={8|6}"},
+      {DK201, "Irem_gap", "Irem_gap={4|2}"},
+      {DK201, "Irem_i2", "Irem_i2={5|3}"},
+      {DK201, "Iform", "Iform={6|2}"},
+      {DK201, "ITIED", "ITIED={7|1}"},
+      {DK201, "Ifric", "Ifric={6 C1=0.1 C6=0.1|1 C1=0.1}"},
+      {DK201, "Ifiltr", "Fric=0.1 Ifiltr={5|1} Xfreq=0.5"},
+      {DK201, "Ithe", "Ithe={3|1 Kthe=1.0}"},
+      {DK201, "Ithe_form", "Ithe=1 Kthe=1.0 Ithe_form={3|1}"},
+      {DK201, "Iedge", "@/DEFAULT/INTER/TYPE19 Iedge={7|1}\n@/INTER/TYPE19/1", {19}},
+      {DK201, "Idir", "PAIR Idir={4|0} C1_pair=0.0 Fric_pair=0.2", {7}},
+      {DK221, "Gapmin", "Gapmin={-0.5|0.5}", {7, 11, 19}},
+      {DK221, "Gapmax", "Igap=2 Gapmax={-0.5|0.5}"},
+      {DK221, "Stfac", "Stfac={-0.5|0.5}"},
+      {DK221, "Fric", "Fric={-0.5|0.5}"},
+      {DK221, "VISs", "VISs={-0.5|0.5}"},
+      {DK221, "VISF", "Fric=0.2 VISF={-0.5|0.5}"},
+      {DK221, "Bumult", "Bumult={-0.5|0.5}"},
+      {DK221, "Fscalegap", "Igap=2 Fscalegap={-0.5|0.5}"},
+      {DK221, "Fpenmax", "Fpenmax={-0.5|0.5}"},
+      {DK221, "Stmin", "Istf=4 Stmin={-0.5|0.5}"},
+      {DK221, "Stmax", "Istf=4 Stmax={-0.5|0.5}"},
+      {DK221, "%mesh_size", "Igap=3 %mesh_size={-0.5|0.5}"},
+      {DK221, "dtmin", "dtmin={-0.5|0.5}"},
+      {DK221, "Tstart", "Tstart={-0.5|0.5}"},
+      {DK221, "Tstop", "Tstop={-0.5|0.5}"},
+      {DK221, "Kthe", "Ithe=1 Kthe={-0.5|0.5}"},
+      {DK221, "Frad", "Ithe=1 Kthe=1.0 Frad={-0.5|0.5}"},
+      {DK221, "Drad", "Ithe=1 Kthe=1.0 Drad={-0.5|0.5}"},
+      {DK221, "NRadm", "Iadm=2 Padm=1.0 NRadm={-1|1}"},
+      {DK221, "Padm", "Iadm=2 NRadm=3 Padm={-0.5|0.5}"},
+      {DK221, "Angladm", "Iadm=2 NRadm=3 Padm=1.0 Angladm={-0.5|0.5}"},
+      {DK221, "Gap", "Gap={-0.5|0.5}", {10}},
+      {DK221, "Edge_scale_gap", "@version 2024\n@/INTER/TYPE19/1 Edge_scale_gap={-0.5|0.5}", {19}},
+      {DK221, "Rthe", "@version 120\n@/INTER/TYPE7/1 Ithe=1 Rthe={-1.0|1.0}"},
+      {DK221, "Fric_pair", "PAIR C1_pair=0.0 Fric_pair={-0.2|0.2}", {7}},
       {DK221,
        "Fric_dir2",
-       "PAIR Idir=1 C1_pair=0.0 Fric_pair=0.2 C1_dir2=0.0 Fric_dir2=-0.2",
-       "PAIR Idir=1 C1_pair=0.0 Fric_pair=0.2 C1_dir2=0.0 Fric_dir2=0.2",
+       "PAIR Idir=1 C1_pair=0.0 Fric_pair=0.2 C1_dir2=0.0 Fric_dir2={-0.2|0.2}",
        {7}},
-      {DK221,
-       "VISF_pair",
-       "PAIR C1_pair=0.0 VISF_pair=-0.2",
-       "PAIR C1_pair=0.0 VISF_pair=0.2",
-       {7}},
+      {DK221, "VISF_pair", "PAIR C1_pair=0.0 VISF_pair={-0.2|0.2}", {7}},
       {DK221,
        "VISF_dir2",
-       "PAIR Idir=1 C1_pair=0.0 Fric_pair=0.2 C1_dir2=0.0 VISF_dir2=-0.2",
-       "PAIR Idir=1 C1_pair=0.0 Fric_pair=0.2 C1_dir2=0.0 VISF_dir2=0.2",
+       "PAIR Idir=1 C1_pair=0.0 Fric_pair=0.2 C1_dir2=0.0 VISF_dir2={-0.2|0.2}",
        {7}},
-      {DK265, "Gapmax", "Igap=1000 Gapmin=1.0 Gapmax=2.0", "Igap=2 Gapmin=1.0 Gapmax=2.0"},
-      {DK265, "Fscalegap", "Igap=1 Fscalegap=0.5", "Igap=2 Fscalegap=0.5"},
-      {DK265, "%mesh_size", "Igap=1 %mesh_size=0.4", "Igap=3 %mesh_size=0.4"},
-      {DK265, "Stmin", "Istf=1 Stmin=5.0", "Istf=4 Stmin=5.0"},
-      {DK265, "Stmax", "Istf=1 Stmax=5.0", "Istf=4 Stmax=5.0"},
-      {DK265, "node_ID2", "Icurv=1 node_ID1=1 node_ID2=2", "Icurv=1 node_ID1=1"},
-      {DK265, "VISF", "Fric=0.2 Iform=2 VISF=0.5", "Fric=0.2 Iform=1 VISF=0.5"},
-      {DK265, "Ifiltr", "Fric=0 Ifiltr=1 Xfreq=0.5", "Fric=0.2 Ifiltr=1 Xfreq=0.5"},
-      {DK265, "Fheats", "Ithe=1 Kthe=1.0 Fheats=0.5", "Fric=0.2 Ithe=1 Kthe=1.0 Fheats=0.5"},
-      {DK265, "Fheatm", "Ithe=1 Kthe=1.0 Fheatm=0.5", "Fric=0.2 Ithe=1 Kthe=1.0 Fheatm=0.5"},
-      {DK265, "Iedge", "Iedge=1", "Igap=1", {19}},
-      {DK265, "Multimp", "@version 110\n@/INTER/TYPE7/1 Multimp=12",
-       "@version 110\n@/INTER/TYPE7/1"},
-      {DK265, "AscaleF", "Fric=0.2 AscaleF=2.0", "Fric=0.2 fct_IDF=1"},
-      {DK265, "AscaleK", "Ithe=1 Kthe=1.0 AscaleK=2.0", "Ithe=1 Kthe=1.0 AscaleK=2.0 fct_IDK=1"},
-      {DK265, "Tint", "Ithe=1 Kthe=1.0 Ithe_form=1 Tint=300.0",
-       "Ithe=1 Kthe=1.0 Ithe_form=0 Tint=300.0"},
-      {DK265, "Drad", "Ithe=1 Kthe=1.0 Drad=5.0", "Ithe=1 Kthe=1.0 Frad=1.0e-12 Drad=5.0"},
-      {DK265, "Inacti", "Inacti=6", "Idel=1", {10}},
-      {DK265,
-       "Irem_gap",
-       "line_IDs=2 line_IDm=1 Irem_gap=2",
-       "line_IDs=1 line_IDm=1 Irem_gap=2",
-       {11}},
-      {DK265, "Irem_gap", "Irem_gap=2", "Irem_gap=1", {7}},
-      {DK265, "Irem_gap", "Irem_gap=2", "surf_IDs=1 Irem_gap=2", {19}},
+      {DK265, "Gapmax", "Igap={1000|2} Gapmin=1.0 Gapmax=2.0"},
+      {DK265, "Fscalegap", "Igap={1|2} Fscalegap=0.5"},
+      {DK265, "%mesh_size", "Igap={1|3} %mesh_size=0.4"},
+      {DK265, "Stmin", "Istf={1|4} Stmin=5.0"},
+      {DK265, "Stmax", "Istf={1|4} Stmax=5.0"},
+      {DK265, "node_ID2", "Icurv=1 node_ID1={1 node_ID2=2|1}"},
+      {DK265, "VISF", "Fric=0.2 Iform={2|1} VISF=0.5"},
+      {DK265, "Ifiltr", "Fric={0|0.2} Ifiltr=1 Xfreq=0.5"},
+      {DK265, "Fheats", "{Ithe=1|Fric=0.2 Ithe=1} Kthe=1.0 Fheats=0.5"},
+      {DK265, "Fheatm", "{Ithe=1|Fric=0.2 Ithe=1} Kthe=1.0 Fheatm=0.5"},
+      {DK265, "Iedge", "{Iedge=1|Igap=1}", {19}},
+      {DK265, "Multimp", "@version {110\n@/INTER/TYPE7/1 Multimp=12|110\n@/INTER/TYPE7/1}"},
+      {DK265, "AscaleF", "Fric=0.2 {AscaleF=2.0|fct_IDF=1}"},
+      {DK265, "AscaleK", "Ithe=1 Kthe=1.0 AscaleK={2.0|2.0 fct_IDK=1}"},
+      {DK265, "Tint", "Ithe=1 Kthe=1.0 Ithe_form={1|0} Tint=300.0"},
+      {DK265, "Drad", "Ithe=1 Kthe=1.0 {Drad=5.0|Frad=1.0e-12 Drad=5.0}"},
+      {DK265, "Inacti", "{Inacti=6|Idel=1}", {10}},
+      {DK265, "Irem_gap", "line_IDs={2|1} line_IDm=1 Irem_gap=2", {11}},
+      {DK265, "Irem_gap", "Irem_gap={2|1}", {7}},
+      {DK265, "Irem_gap", "{Irem_gap=2|surf_IDs=1 Irem_gap=2}", {19}},
   };
   return all;
 }
@@ -275,9 +248,9 @@ bool fires(std::string_view example, const FieldExample& of) {
 TEST(RuleFields, FireForTheTypesThatHaveThem) {
   for (const FieldExample& e : field_examples()) {
     const std::string name = std::string(id_text(e.rule)) + ":" + std::string(e.field);
-    const std::string bad = e.text(e.bad);
+    const std::string bad = e.text(true);
     EXPECT_TRUE(fires(bad, e)) << name << "\n" << bad;
-    EXPECT_FALSE(fires(e.text(e.good), e)) << name << "\n" << e.good;
+    EXPECT_FALSE(fires(e.text(false), e)) << name << "\n" << e.text(false);
     for (const int type : all_types) {
       const auto example = asked_about(bad, type);
       // One that says its types asks for these alone: its text is another card for the others.
@@ -306,11 +279,6 @@ TEST(RuleTypesTable, EveryRuleThatNamesAnInterfaceInItsExampleHasTypes) {
       EXPECT_FALSE(r.types.empty()) << id_text(r.id);
     }
   }
-}
-
-TEST(RuleTypesTable, ThePageNamesTheTypes) {
-  const std::string page = explain_rule(rule_of(RuleId::DK289), SchemaSet::built_in());
-  EXPECT_NE(page.find("About TYPE11, TYPE19"), std::string::npos) << page;
 }
 
 /// A TYPE19 has its parts look at both surfaces: what is true of one side is found on the other.

@@ -11,14 +11,21 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string page_of(const Built& b, const char* path = "small_0000.rad") {
-  const SceneView view = make_view(b.scene);
+/// A page about to be made of a deck.
+struct Paged {
+  explicit Paged(const Built& b) : view(make_view(b.scene)) {
+    input.path = "somewhere/small_0000.rad";
+    input.deck = &b.deck;
+    input.scene = &b.scene;
+    input.view = &view;
+  }
+  SceneView view;
   HtmlInput input;
-  input.path = path;
-  input.deck = &b.deck;
-  input.scene = &b.scene;
-  input.view = &view;
-  const auto page = gaps_html(input);
+};
+
+std::string page_of(const Built& b) {
+  const auto page = gaps_html(Paged(b).input);
+  EXPECT_TRUE(page.ok());
   return page ? *page : "";
 }
 
@@ -116,33 +123,8 @@ TEST_F(WholePage, HasTheNodesThatATYPE10DoesNotTie) {
   EXPECT_FALSE(block(page, "deck-ties").empty());
 }
 
-TEST_F(WholePage, OfADeckWithoutTiesHasNoBlockOfThem) {
-  const Built b(plate().add("@/INTER/TYPE7/1 Gapmin=1"));
-  EXPECT_TRUE(block(page_of(b), "deck-ties").empty());
-}
-
-/// A page about to be made of a plate with a node in its gap.
-struct Paged {
-  explicit Paged(SmallDeck d = plate().add("@/INTER/TYPE7/1 Gapmin=1.5"),
-                 const SceneOptions& options = {})
-      : b(d, options), view(make_view(b.scene)) {
-    input.path = "somewhere/small_0000.rad";
-    input.deck = &b.deck;
-    input.scene = &b.scene;
-    input.view = &view;
-  }
-  std::string text() const {
-    const auto page = gaps_html(input);
-    EXPECT_TRUE(page.ok());
-    return page.ok() ? *page : "";
-  }
-  Built b;
-  SceneView view;
-  HtmlInput input;
-};
-
 TEST_F(WholePage, IsOneDocumentWithViewerAndPolicy) {
-  const std::string page = Paged().text();
+  const std::string page = page_of(Built(plate().add("@/INTER/TYPE7/1 Gapmin=1.5")));
   const detail::ViewerBundle& viewer = detail::viewer_bundle();
   EXPECT_EQ(
       page.rfind("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n", 0), 0u);
@@ -167,23 +149,14 @@ TEST(ScriptSafe, NoElementCanBeginOrEnd) {
             "{\"a\": \"\\u003c/script>\\u003c!--\"}");
 }
 
-std::string touches_of(const Built& b) {
-  const SceneView view = make_view(b.scene);
-  HtmlInput input;
-  input.path = "small_0000.rad";
-  input.deck = &b.deck;
-  input.scene = &b.scene;
-  input.view = &view;
-  return touches_svg(input);
-}
-
 TEST(Touches, PartsThatPenetrateAreRedAndNeighboursAreNot) {
   const auto deep = [](double height) {
     SmallDeck d = plate();
     d.node(11, 1, 1, height).node(12, 3, 1, height).node(13, 2, 3, height);
     d.shell_part(2, 1).shell3(2, 7, 11, 12, 13).group("/GRNOD/PART/3", {2});
     d.add("@/INTER/TYPE7/1 grnd_IDs=3 surf_IDm=1 Gapmin=1");
-    return touches_of(Built(d));
+    const Built b(d);
+    return touches_svg(Paged(b).input);
   };
   const std::string red = deep(0.5), near = deep(1.5), far = deep(90);
   EXPECT_NE(red.find("class=\"deep\""), std::string::npos);

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "contact/small_deck.hpp"
-#include "deck/contact/view.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck::test {
@@ -74,12 +73,6 @@ class PageBlock {
       out.push_back(static_cast<double>(n) / std::pow(10, places - 1));
     return out;
   }
-  /// Each in one byte.
-  Ids small(std::size_t count) {
-    Ids out;
-    for (; count > 0; --count) out.push_back(byte());
-    return out;
-  }
   std::vector<double> palette(std::size_t count) {
     const std::size_t n = u();
     const std::vector<double> values = reals(n);
@@ -94,45 +87,14 @@ class PageBlock {
   std::size_t at_ = 0;
 };
 
+/// A page under way of a small deck.
 struct Page {
-  explicit Page(const SmallDeck& d, const SceneOptions& options = {})
-      : b(d, options), view(make_view(b.scene)), nodes(b.model.nodes.size()) {
-    input.path = "x";
-    input.deck = &b.deck;
-    input.scene = &b.scene;
-    input.view = &view;
-  }
-  void collect() {
-    page = detail::collect_contacts(input, nodes);
-    nodes.number();
-  }
-  Json contacts() const {
-    std::string text;
-    JsonWriter j(text);
-    j.begin_object();
-    detail::write_contacts(j, input, page);
-    j.end_object();
-    return Json::parse(text)["contacts"];
-  }
+  explicit Page(const SmallDeck& d) : b(d), nodes(b.model.nodes.size()) {}
   std::int64_t id(std::int64_t number) const {
     return b.model.node_id(nodes.list().at(static_cast<std::size_t>(number)));
   }
   Built b;
-  SceneView view;
-  HtmlInput input;
   detail::PageNodes nodes;
-  detail::PageContacts page;
 };
-
-/// What `write` adds to an object.
-template <class Write>
-Json members(const Write& write) {
-  std::string text;
-  JsonWriter j(text);
-  j.begin_object();
-  write(j);
-  j.end_object();
-  return Json::parse(text);
-}
 
 }  // namespace deck::test

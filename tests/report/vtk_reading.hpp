@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "folder.hpp"
 #include "report/shared/vtk.hpp"
 
 namespace deck::test {
@@ -60,19 +61,16 @@ inline std::string python_with_vtk() {
 inline json read_with_vtk(const std::vector<VtkFile>& files) {
   const std::string python = python_with_vtk();
   if (python.empty()) return nullptr;
-  std::string name = (fs::temp_directory_path() / "vtk_test_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) return nullptr;
-  const fs::path folder = name;
-  for (const VtkFile& f : files) std::ofstream(folder / f.name, std::ios::binary) << f.bytes;
-  std::ofstream(folder / "dump.py") << vtk_dump;
+  const Folder folder;
+  for (const VtkFile& f : files) folder.write(f.name, f.bytes);
+  folder.write("dump.py", vtk_dump);
   const auto quoted = [&](const char* file) { return "'" + (folder / file).string() + "'"; };
   const int code = std::system(
-      (python + " " + quoted("dump.py") + " '" + name + "' " + quoted("dump.json")).c_str());
+      (python + " " + quoted("dump.py") + " '" + folder.path() + "' " + quoted("dump.json"))
+          .c_str());
   EXPECT_EQ(code, 0);
   json out = json::object();
   if (code == 0) out = json::parse(std::ifstream(folder / "dump.json"));
-  std::error_code ec;
-  fs::remove_all(folder, ec);
   return out;
 }
 

@@ -14,7 +14,7 @@ from common import Checks
 
 PLACES = {"source", "file", "line", "column", "path", "places", "place", "deck", "tool", "schema", "span", "defined_at",
           "input", "origin", "gapmin_origin", "accuracy"}
-VERSIONS = (2018, 2020, 2022, 2024, 2026)
+VERSIONS = (2018, 2022, 2026)
 EVERY_VERSION = (110, 120, 130, 140) + tuple(range(2017, 2027))  # with --all
 SLOW = 1_000_000  # bytes; larger decks go through fewer rounds
 

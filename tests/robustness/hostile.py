@@ -195,7 +195,7 @@ def no_files(c, folder):
 
 
 def damaged(c, folder):
-    count = 2000 if c.options.all else 100 if c.sanitized else 200
+    count = 2000 if c.options.all else 100
     for name in ("every_mistake", "variable_gap", "solid_and_skin"):
         for k, data in enumerate(mutations(read(os.path.join(ROOT, "samples", name + "_0000.rad")), count)):
             path = write(os.path.join(folder, "m_0000.rad"), data)

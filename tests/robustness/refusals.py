@@ -32,12 +32,6 @@ def described():
     return known
 
 
-def keyword_of(refusal):
-    """"/INTER/TYPE7" of "…: /INTER/TYPE7/3 Gap: why"; "" where no block is named."""
-    found = re.search(r":\d+:\d+: (/[^\s:]+)", refusal)
-    return re.sub(r"(/\d+)+$", "", found.group(1)) if found else ""
-
-
 # What a refusal says where a schema is to blame, not the deck.
 BY_SCHEMA = re.compile(r"not known|described|has columns|in working units, which change")
 

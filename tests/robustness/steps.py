@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Conversions in one call: every pair and every three steps of `deck convert`, on small decks of several unit systems.
+"""Conversions in one call: every pair of `deck convert` on small decks of several unit systems, every three on one.
 
 Every step is verified against the deck before it, so that none refuses what the other steps have changed, and none lets
 pass what it has changed itself."""
@@ -38,7 +38,7 @@ def all_steps(c, tmp):
         if own:
             c.no_crash("%s in %s" % (name, own), c.run("convert", deck, "--units", own, "-o", os.path.join(tmp, "own")), (0,))
             deck = os.path.join(tmp, "own", name + "_0000.rad")
-        for steps in itertools.chain(*(itertools.combinations(STEPS, n) for n in (1, 2, 3))):
+        for steps in itertools.chain(*(itertools.combinations(STEPS, n) for n in ((1, 2, 3) if own else (1, 2)))):
             asked = words(steps, interface, units)
             what = "%s%s %s" % (name, " in " + own if own else "", " ".join(asked))
             results = []

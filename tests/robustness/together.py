@@ -216,7 +216,7 @@ def other_folders(c, work):
 
 def random_libraries(c, tmp):
     r, counts = random.Random(20), {}
-    for number in range(400 if c.options.all else 60):
+    for number in range(400 if c.options.all else 40):
         case(c, r, number, os.path.join(tmp, "case"), counts)
     for verb in ("convert", "fix", "lint"):
         done = sum(n for (v, what, _), n in counts.items() if v == verb and what == "done")
@@ -227,7 +227,7 @@ def random_libraries(c, tmp):
 
 def random_directories(c, tmp):
     r, counts = random.Random(21), {}
-    for number in range(300 if c.options.all else 40):
+    for number in range(300 if c.options.all else 25):
         whole_directory(c, r, number, os.path.join(tmp, "case"), counts)
     c.check("decks were written in some cases", counts.get(True, 0) > 3, str(counts))
 

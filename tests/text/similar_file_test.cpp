@@ -8,7 +8,6 @@ namespace {
 
 struct SimilarFile : testing_support::Folder {
   void SetUp() override {
-    Folder::SetUp();
     for (const char* name : {"Mesh/Front.inc", "Mesh/front_rail.inc", "a_0000.rad"})
       file(name, "x");
     std::filesystem::create_directories(dir_ / "b_0000.rad");

@@ -2,7 +2,6 @@
 #pragma once
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <iterator>
 #include <string>
 
+#include "folder.hpp"
 #include "where.hpp"
 
 namespace deck::testing_support {
@@ -41,13 +41,6 @@ inline constexpr const char* contact =
 /// Runs `deck` in a directory of its own.
 class CommandLine : public testing::Test {
  protected:
-  CommandLine() : dir_(fs::temp_directory_path() / ("command_line_" + std::to_string(getpid()))) {
-    fs::create_directories(dir_);
-  }
-  ~CommandLine() override {
-    std::error_code ec;
-    fs::remove_all(dir_, ec);
-  }
   void SetUp() override {
     if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
   }
@@ -67,7 +60,8 @@ class CommandLine : public testing::Test {
   }
   std::string out() const { return read(dir_ / "stdout"); }
   std::string err() const { return read(dir_ / "stderr"); }
-  fs::path dir_;
+  const test::Folder folder_;
+  const fs::path dir_ = folder_.path();
 };
 
 }  // namespace deck::testing_support

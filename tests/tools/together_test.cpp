@@ -31,78 +31,10 @@ class Together : public CommandLine {
   std::string shared() const { return read(dir_ / "common/x.inc"); }
 };
 
-TEST_F(Together, ASharedIncludeIsConvertedOnce) {
-  ASSERT_EQ(deck("convert a/a_0000.rad --units kg,m,s -o alone"), 0) << err();
-  const std::string alone = read(dir_ / "alone/common/x.inc");
-  ASSERT_NE(alone, contact);
-  ASSERT_EQ(deck("convert a/a_0000.rad b/b_0000.rad --units kg,m,s -o both"), 0) << err();
-  EXPECT_EQ(read(dir_ / "both/common/x.inc"), alone);
-  ASSERT_EQ(deck("convert a/a_0000.rad b/b_0000.rad --units kg,m,s --in-place --backup"), 0)
-      << err();
-  EXPECT_EQ(shared(), alone);
-  EXPECT_EQ(read(dir_ / "common/x.inc.orig"), contact);
-  EXPECT_FALSE(fs::exists(dir_ / "common/x.inc.orig.2"));
-}
-
-TEST_F(Together, DecksThatWantDifferentTextsAreRefusedBeforeAByteIsWritten) {
-  std::string metres = main_deck("");
-  for (auto at = metres.find("  mm"); at != metres.npos; at = metres.find("  mm"))
-    metres.replace(at, 4, "   m");
-  write(dir_ / "b/b_0000.rad", metres);
-  for (const char* where : {"-o out", "--in-place", "--diff"}) {
-    EXPECT_EQ(deck(std::string("convert a/a_0000.rad b/b_0000.rad --units Mg,m,s ") + where), 2)
-        << where;
-    EXPECT_NE(err().find("a/a_0000.rad"), std::string::npos) << err();
-    EXPECT_NE(err().find("b/b_0000.rad"), std::string::npos) << err();
-    EXPECT_EQ(out(), "");
-  }
-  EXPECT_FALSE(fs::exists(dir_ / "out"));
-  EXPECT_EQ(shared(), contact);
-  EXPECT_EQ(read(dir_ / "a/a_0000.rad"), main_deck(""));
-}
-
-TEST_F(Together, ADeckThatCannotBeConvertedKeepsTheOthersFromIt) {
-  put("b", "/UNKNOWN/KEYWORD/1\n1.0\n");
-  EXPECT_EQ(deck("convert a/a_0000.rad b/b_0000.rad --units kg,m,s --in-place"), 1);
-  EXPECT_EQ(shared(), contact);
-  EXPECT_EQ(deck("convert a/a_0000.rad no_0000.rad --units kg,m,s --in-place"), 3);
-  EXPECT_EQ(shared(), contact);
-}
-
 TEST_F(Together, TheReportHasWhatIsSharedOnce) {
   write(dir_ / "common/x.inc", std::string(contact) + "/UNKNOWN/KEYWORD/1\n1.0\n");
   deck("convert a/a_0000.rad b/b_0000.rad --units kg,m,s --partial -o out --report r.json");
   EXPECT_EQ(nlohmann::json::parse(read(dir_ / "r.json"))["undecided"].size(), 1u);
-}
-
-TEST_F(Together, ASuppressionThatAnotherDeckNeedsStays) {
-  const std::string suppressed =
-      "# decklint: ignore[DK170] reason=the surface of b comes later\n" + std::string(contact);
-  write(dir_ / "common/x.inc", suppressed);
-  const std::string surface =
-      "/SURF/SEG/2\ns\n         1         1         2         3         3\n/GRNOD/NODE/1\ng\n      "
-      "   1\n";
-  put("a", surface);
-  for (const char* option : {"--fix", "--unsafe-fixes"}) {
-    deck(std::string("lint a/a_0000.rad b/b_0000.rad --no-config --select DK091,DK170 ") + option);
-    EXPECT_EQ(shared(), suppressed) << option << err();
-  }
-  // Alone, only the unsafe fix touches an include.
-  deck("lint a/a_0000.rad --root a --no-config --select DK091,DK170 --fix");
-  EXPECT_EQ(shared(), suppressed);
-  deck("lint a/a_0000.rad --root a --no-config --select DK091,DK170 --unsafe-fixes");
-  EXPECT_EQ(shared(), contact) << out() << err();
-}
-
-TEST_F(Together, DecksOfALintCallDoNotUndoOneAnothersFixes) {
-  const std::string tab =
-      "/TITLE\nx\n/SURF/SEG/7\ns\n\t 1         1         2         3         3\n";
-  write(dir_ / "common/x.inc", tab);
-  put("a", "# decklint: ignore[DK221] reason=unused in a\n/TITLE\na\n");
-  ASSERT_LE(deck("lint a/a_0000.rad b/b_0000.rad --no-config --select DK013,DK091,DK221 --fix"), 1)
-      << err();
-  EXPECT_EQ(shared().find('\t'), std::string::npos) << shared();
-  EXPECT_EQ(read(dir_ / "a/a_0000.rad").find("decklint"), std::string::npos);
 }
 
 TEST_F(Together, ResultsAreNotWrittenOverDecks) {
@@ -218,19 +150,6 @@ TEST_F(Together, AListThatCannotBePrintedLeavesNoDoubtThatDecksWereWritten) {
   EXPECT_EQ(WEXITSTATUS(status), 2);
   EXPECT_NE(shared().find("/INTER/TYPE10/12"), std::string::npos) << shared();
   EXPECT_NE(err().find("the decks were written"), std::string::npos) << err();
-}
-
-TEST_F(Together, ADeckInAnotherFolderThatIncludesTheFileIsFoundWithoutGit) {
-  EXPECT_EQ(deck("convert a/a_0000.rad --units kg,m,s --in-place"), 2);
-  EXPECT_NE(err().find("b/b_0000.rad"), std::string::npos) << err();
-  EXPECT_NE(err().find("searched for other decks that include these files below " +
-                       fs::canonical(dir_).string() + ";"),
-            std::string::npos)
-      << err();
-  EXPECT_EQ(shared(), contact);
-  EXPECT_EQ(deck("convert a/a_0000.rad --units kg,m,s --in-place --root a"), 0) << err();
-  EXPECT_EQ(err().find("searched for other decks"), std::string::npos) << err();
-  EXPECT_NE(shared(), contact);
 }
 
 TEST_F(Together, AResultThatIsReadIsNotReplaced) {
