@@ -1,5 +1,5 @@
-// The smallest useful programs on libdeck: what holds for every interface of a deck, what
-// penetrates at its start, and another Gapmin written to another directory.
+// The examples of deck/deck.hpp: values of the interfaces of a deck, its penetrations, findings
+// and first cycle, and another Gapmin written to another directory.
 //   consumer DECK [DIRECTORY]
 #include <cstdio>
 #include <string>
@@ -31,9 +31,22 @@ void print_penetrations(const deck::LoadedDeck& loaded) {
   const deck::Scene& scene = loaded.scene();
   for (const deck::NamedPenetration& p : deck::make_view(scene).penetrations) {
     const deck::PenetrationRow& row = scene.contacts[p.contact].penetrations[p.row];
-    std::printf("node %lld: %g of a gap of %g\n", static_cast<long long>(p.secondary[0]), row.depth,
-                row.gap);
+    const auto node = static_cast<long long>(p.secondary[0]);
+    std::printf("node %lld: %g of a gap of %g\n", node, row.depth, row.gap);
   }
+}
+
+void print_verdict(const deck::LoadedDeck& loaded) {
+  for (const deck::Diagnostic& finding : loaded.findings().all())
+    std::printf("%s: %s\n", loaded.deck().sources.where(finding.span).c_str(),
+                finding.message.c_str());
+  std::printf("%s\n", deck::verdict_of(loaded).text.c_str());
+}
+
+void print_forces(const deck::LoadedDeck& loaded) {
+  const deck::cycle::SceneOutcome& outcome = loaded.cycle().outcome;
+  std::printf("largest nodal force %g\n", outcome.largest_nodal_force);
+  std::printf("time step of the contacts %g\n", outcome.contact_dt);
 }
 
 int set_gap(const deck::LoadedDeck& loaded, const char* directory) {
@@ -62,5 +75,7 @@ int main(int argc, char** argv) {
   print_defaults(loaded);
   print_gaps(loaded);
   print_penetrations(loaded);
+  print_verdict(loaded);
+  print_forces(loaded);
   return argc > 2 ? set_gap(loaded, argv[2]) : 0;
 }

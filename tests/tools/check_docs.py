@@ -228,6 +228,14 @@ def check_blocks(c, page):
             c.check(name + " stands in tests/consumer", not lacking, "; ".join(lacking))
 
 
+def check_manual(c):
+    """The examples of the manual in deck.hpp, its lines with three blanks, are code of tests/consumer."""
+    manual = re.findall(r"(?m)^//   (.*)$", read("libdeck", "include", "deck", "deck.hpp"))
+    have = [x.strip() for x in read("tests", "consumer", "main.cpp").split("\n")]
+    lacking = [x for x in manual if x.strip() not in have]
+    c.check("examples of deck.hpp stand in tests/consumer", len(manual) > 20 and not lacking, "; ".join(lacking))
+
+
 def check_workflows(c):
     try:
         import yaml
@@ -289,6 +297,7 @@ def main():
         run_commands(c, page)
     check_readme(c, verbs)
     check_building(c)
+    check_manual(c)
     check_workflows(c)
     c.finish()
 
