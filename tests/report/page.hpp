@@ -106,14 +106,6 @@ struct Page {
     page = detail::collect_contacts(input, nodes);
     nodes.number();
   }
-  Json contacts() const {
-    std::string text;
-    JsonWriter j(text);
-    j.begin_object();
-    detail::write_contacts(j, input, page);
-    j.end_object();
-    return Json::parse(text)["contacts"];
-  }
   std::int64_t id(std::int64_t number) const {
     return b.model.node_id(nodes.list().at(static_cast<std::size_t>(number)));
   }
@@ -123,16 +115,5 @@ struct Page {
   detail::PageNodes nodes;
   detail::PageContacts page;
 };
-
-/// What `write` adds to an object.
-template <class Write>
-Json members(const Write& write) {
-  std::string text;
-  JsonWriter j(text);
-  j.begin_object();
-  write(j);
-  j.end_object();
-  return Json::parse(text);
-}
 
 }  // namespace deck::test

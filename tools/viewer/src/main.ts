@@ -10,7 +10,7 @@ import { button, fileName, group, h, onceShown } from "./dom";
 import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save, tclMarks } from "./exports";
 import { distribution, exportMenu, listSection, pairsSection } from "./sections/lists";
 import type { ContourKind, Look } from "./look";
-import type { FieldName, Overrides } from "./meta";
+import type { Overrides } from "./card";
 import { interfaces } from "./sections/overview";
 import { printing } from "./paper";
 import { movedSection } from "./sections/moved";
@@ -216,7 +216,6 @@ function evaluateFor(report: Report, id: number, change: Overrides): unknown {
     };
   });
 }
-export type { FieldName };
 
 function dragDivider(divider: HTMLElement, split: HTMLElement): void {
   const set = (wanted: number) => {

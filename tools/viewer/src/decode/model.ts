@@ -1,7 +1,7 @@
 // The model of a page from its blocks: mesh with what is drawn of it, and contacts. The same beside the page, in a thread,
 // and in the page where it can have none.
 import { inflateText, readContacts, readMesh, type Contacts, type Mesh } from "../data";
-import type { Meta } from "../meta";
+import type { Meta } from "schema/page";
 import { shapesOf, type Shape } from "./shape";
 
 export interface Blocks {

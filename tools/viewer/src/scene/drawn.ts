@@ -3,7 +3,7 @@
 import { Vector3 } from "three";
 import type { Report } from "../report";
 import type { Row } from "../rows";
-import { footOn } from "./tied";
+import { footOn } from "../tied";
 
 /** Exact place of a node of a carried pair. */
 export function exactAt(report: Report, node: number): Vector3 {

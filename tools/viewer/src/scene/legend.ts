@@ -1,6 +1,6 @@
 // The scale of the colours: its title with unit, ticks, and what can be set: map, steps, limits, equal ratios, the label of
 // the largest value.
-import type { Units } from "../meta";
+import type { Units } from "schema/page";
 import { contourNames, ofCycle, type ContourKind, type Look } from "../look";
 import { h, num, replace } from "../dom";
 import { colorAt, cssColor, mapNames, type MapName } from "./colormap";

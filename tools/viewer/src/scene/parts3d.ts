@@ -6,7 +6,7 @@ import {
   Mesh as Mesh3, MeshLambertMaterial, Object3D, type Plane, RGBAFormat, Sphere, SRGBColorSpace, Vector3,
 } from "three";
 import { acceleratedRaycast, MeshBVH } from "three-mesh-bvh";
-import type { MovedRow } from "../meta";
+import type { Moved } from "schema/page";
 import type { Mesh, MeshPart } from "../data";
 import type { Shape } from "../decode/shape";
 import { Coarser, contourAttribute, fillContour, ranges, type Marks } from "./coarser";
@@ -360,7 +360,7 @@ export class Parts3D {
 
   private shifted = false;
   /** Puts moved nodes where they stood before, or back. */
-  showBefore(rows: MovedRow[], on: boolean): void {
+  showBefore(rows: Moved["rows"], on: boolean): void {
     if (on === this.shifted) return;
     this.shifted = on;
     const by = new Map(rows.map((r) => [r[0], r]));

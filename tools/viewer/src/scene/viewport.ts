@@ -9,10 +9,9 @@ import { Ruler } from "./ruler";
 import { nearText } from "../sections/nearest";
 import type { Row } from "../rows";
 import { pointOf, wayOut } from "./drawn";
-import type { Crossed } from "../meta";
+import type { Crossings } from "schema/page";
 import { crossingText, segmentOf } from "../sections/crossed";
-import { cornersOf, nodeOf, type Untied } from "../sections/untied";
-import { tieLines } from "./tied";
+import { cornersOf, nodeOf, tieLines, type Untied } from "../tied";
 import { button, fileName, h, icon, num, plural, replace, svg } from "../dom";
 import { drawAxes, elementText } from "./marks/names";
 import { copyImage, saveDataUrl } from "../exports";
@@ -269,9 +268,9 @@ export class Viewport {
     view.flyToPoints([from, foot, ...main.map((n) => this.at(n))]);
     this.showTip(`Nearest: ${nearText(report, row)}`);
   }
-  private crossing: Crossed["rows"][0] | null = null;
+  private crossing: Crossings["rows"][0] | null = null;
   /** Shows the two elements of a crossing, the rest of their parts see-through, and says which they are. */
-  openCrossed(row: Crossed["rows"][0]): void {
+  openCrossed(row: Crossings["rows"][0]): void {
     this.report.select(null);
     if (!this.view) return;
     this.crossing = row;

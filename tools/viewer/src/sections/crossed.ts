@@ -1,12 +1,12 @@
 // Crossed elements: edges that pass through main segments, however deep or shallow the gap.
 import { kindNames } from "../data";
 import { h, plural } from "../dom";
-import type { Crossed } from "../meta";
+import type { Crossings } from "schema/page";
 import type { Report } from "../report";
 import { named } from "../table/names";
 import { VirtualTable } from "../table/table";
 
-type Row = Crossed["rows"][0];
+type Row = Crossings["rows"][0];
 
 /** Corners of the crossed segment as page nodes. */
 export function segmentOf(report: Report, row: Row): number[] {

@@ -1,11 +1,11 @@
 // Forces, energies and time steps of the first cycle, where the page carries them.
 import { group, h, num, plural, replace } from "../dom";
-import type { Cycle } from "../meta";
+import type { CycleContact } from "schema/page";
 import type { Report } from "../report";
 import { VirtualTable } from "../table/table";
 
 /** `known`: something of it was evaluated; `left`: why the rest was not. */
-type Whole = Omit<Cycle["contacts"][0], "rows" | "active" | "acceleration" | "complete"> & { known: boolean; left: string };
+type Whole = Omit<CycleContact, "rows" | "active" | "acceleration" | "complete"> & { known: boolean; left: string };
 
 /** The first cycle of an interface: sums over its contacts, the smallest step; null: settings have changed. */
 export function wholeOf(report: Report, inter: number): Whole | null {

@@ -1,11 +1,12 @@
 // What a repair has moved: nodes by part, and each node with its way. The picture shows the mesh before and after.
 import { loadMoved } from "../data";
 import { button, group, h, lengthText, num, plural, replace, sectionHead } from "../dom";
-import type { MovedRow } from "../meta";
+import type { Moved } from "schema/page";
 import type { Report } from "../report";
 import { named } from "../table/names";
 import { VirtualTable } from "../table/table";
 
+type MovedRow = Moved["rows"][0];
 interface PartRow {
   part: number;
   nodes: number;

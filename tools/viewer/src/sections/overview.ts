@@ -1,10 +1,9 @@
 // The table of interfaces and the settings under test.
-import { cardText, changedCard } from "../card";
+import { cardText, changedCard, type FieldName } from "../card";
 import { button, group, h, lengthText, num, percent, plural, replace, sectionHead } from "../dom";
 import { copyText, deckCommand } from "../exports";
-import type { FieldName, Totals } from "../meta";
 import type { Report } from "../report";
-import { stopsSolver, type Action } from "../rows";
+import { stopsSolver, type Action, type Totals } from "../rows";
 import { commonStart, named } from "../table/names";
 import { VirtualTable } from "../table/table";
 import { igapWords, inactiWords, modernIgapWords, modernInactiWords } from "../words";

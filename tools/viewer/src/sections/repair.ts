@@ -2,11 +2,9 @@
 import { loadRepair } from "../data";
 import { button, fileName, h, lengthText, plural, sectionHead } from "../dom";
 import { copyText, save } from "../exports";
-import type { Repair } from "../meta";
+import type { NotTreated, Repair } from "schema/page";
 import type { Report } from "../report";
 import { VirtualTable } from "../table/table";
-
-type Refusal = Repair["not_treated"][0];
 
 /** `fly` goes to a node by its number in the page. */
 export function repairSection(report: Report, fly: (node: number) => void): HTMLElement | null {
@@ -28,9 +26,9 @@ export function repairSection(report: Report, fly: (node: number) => void): HTML
 }
 
 function refusals(report: Report, repair: Repair, fly: (node: number) => void): HTMLElement {
-  const interfaceName = (r: Refusal) => String(r.interface);
-  const nodes = (r: Refusal) => r.nodes.join("–") || "–";
-  const table = new VirtualTable<Refusal>(
+  const interfaceName = (r: NotTreated) => String(r.interface);
+  const nodes = (r: NotTreated) => r.nodes.join("–") || "–";
+  const table = new VirtualTable<NotTreated>(
     [
       { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: (r) => r.interface, text: interfaceName },
       { key: "nodes", title: "Node / edge", kind: "id", value: (r) => r.nodes[0] ?? 0, text: nodes },

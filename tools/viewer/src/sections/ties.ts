@@ -1,10 +1,10 @@
 // Ties: what `deck gaps` says of each /INTER/TYPE2 and TYPE10, and the nodes that are not tied.
 import { fileName, group, h, num, plural, sectionHead } from "../dom";
-import { Holds, type TieMeta } from "../meta";
+import type { TieMeta } from "schema/page";
 import type { Report } from "../report";
 import { named } from "../table/names";
 import { VirtualTable } from "../table/table";
-import { cornersOf, nodeOf, type Untied } from "./untied";
+import { cornersOf, Holds, nodeOf, type Untied } from "../tied";
 
 function listOfTies(report: Report): VirtualTable<TieMeta> {
   const inter = (t: TieMeta) => report.meta.interfaces[t.interface];

@@ -1,12 +1,12 @@
 // The first cycle with and without one effect, side by side: deck cycle --without EFFECT --html.
 import { h, num, sectionHead } from "../dom";
 import type { Report } from "../report";
-import type { CycleDocument } from "./effects";
+import type { Document } from "schema/cycle";
 import { wholeOf } from "./cycle";
 
 const figures = [["force", "Sum of forces"], ["elastic", "Elastic energy"], ["dt", "Time step"]] as const;
 
-export function withoutSection(report: Report, doc: CycleDocument): HTMLElement | null {
+export function withoutSection(report: Report, doc: Document): HTMLElement | null {
   const other = doc.without;
   if (!other) return null;
   const text = (v: number | null) => (v === null ? "–" : num(v));

@@ -1,12 +1,12 @@
 // What of the model penetrates, crosses or is pushed: elements that stand out, and arrows of nodal forces.
 import { Color } from "three";
-import type { Crossed } from "../../meta";
+import type { Crossings } from "schema/page";
 import type { Report } from "../../report";
 import { segmentOf } from "../../sections/crossed";
 import type { Arrow } from "./markers";
 import { elementKey, type Parts3D } from "../parts3d";
 
-type Crossing = Crossed["rows"][0];
+type Crossing = Crossings["rows"][0];
 
 /** The two elements of a crossing. */
 export function crossedElements(report: Report, row: Crossing): Set<number> {
@@ -48,7 +48,7 @@ export function markHot(parts: Parts3D, report: Report, crossing: Crossing | nul
 /** Nodal forces, largest first: length by size, colour by what the colours show. */
 export function forceArrows(report: Report, color: (node: number) => [number, number, number]): Arrow[] {
   const x = report.nodePositions;
-  const size = (n: readonly (number | null)[]) => Math.hypot(n[1]!, n[2]!, n[3]!);
+  const size = (n: readonly number[]) => Math.hypot(n[1], n[2], n[3]);
   const nodes = (report.acted ?? []).filter((n) => size(n) > 0).sort((a, b) => size(b) - size(a));
   const c = new Color();
   return nodes.map((n) => {

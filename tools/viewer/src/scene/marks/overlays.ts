@@ -1,12 +1,12 @@
 // Lines over the picture: edges of crossed elements, ties, the ways of nodes that a repair has moved.
-import type { Crossed } from "../../meta";
+import type { Crossings } from "schema/page";
 import type { Look } from "../../look";
 import type { Report } from "../../report";
 import { segmentOf } from "../../sections/crossed";
-import { tieLines } from "../tied";
+import { tieLines } from "../../tied";
 import type { View3D } from "../view3d";
 
-type Crossing = Crossed["rows"][0];
+type Crossing = Crossings["rows"][0];
 
 /** Sides of a polygon of page nodes, six numbers each. */
 export function outline(report: Report, nodes: number[]): number[] {
