@@ -310,14 +310,6 @@ export function loadMeta(): Meta {
   return JSON.parse(blockText("deck-meta")!) as Meta;
 }
 
-export function loadMesh(): Mesh {
-  return readMesh(inflate("deck-mesh")!);
-}
-
-export function loadContacts(meta: Meta, mesh: Mesh): Contacts {
-  return readContacts(inflate("deck-shared")!, inflate("deck-contacts")!, meta, mesh.nodeId.length);
-}
-
 const text = (id: string): string | null => {
   const bytes = inflate(id);
   return bytes && new TextDecoder().decode(bytes);

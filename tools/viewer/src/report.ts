@@ -4,7 +4,7 @@ import type { Crossings, CycleContact, Earlier, FirstCycle, Meta, Moved, TieLine
 import type { FieldName, Overrides } from "./card";
 import { kindNames, type Contacts, type Mesh, type Steps } from "./data";
 import { lengthText, onceShown } from "./dom";
-import { commonStart } from "./table/names";
+import { commonStart } from "./table/columns";
 import { ratioOf, stopsSolver, Tally, type Action, type Row, type Totals } from "./rows";
 import type { Untied } from "./tied";
 import { Evaluator, type Result } from "./what_if";

@@ -7,11 +7,10 @@ import { Parts3D, type Look, type Part3D } from "./parts3d";
 import { Section, type Cut } from "./section";
 import { Marked } from "./marks/marked";
 import { Slices } from "./slices";
-import { LineLayer } from "./layer";
 import type { TieStrokes } from "../tied";
 import { Markers, type Arrow } from "./marks/markers";
-import { discTexture } from "./shapes";
-import type { Shape } from "../decode/shape";
+import { discTexture, LineLayer } from "./shapes";
+import type { Shape } from "../decode/model";
 import type { Hit, Report } from "../report";
 
 export interface Picked {

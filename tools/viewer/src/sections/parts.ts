@@ -3,7 +3,7 @@ import type { Document, Part, Step } from "schema/parts";
 import { blockText, loadSteps } from "../data";
 import { group, h, num, plural, sectionHead } from "../dom";
 import type { Report } from "../report";
-import { named } from "../table/names";
+import { named } from "../table/columns";
 import { VirtualTable } from "../table/table";
 
 export function loadPartsDocument(report: Report): Document | null {
@@ -56,7 +56,7 @@ export function partsSection(report: Report, doc: Document, open: (part: number 
       { key: "body", title: "Rigid body", hint: "Holds all nodes of the part", kind: "id", rank: 2, value: (p) => p.rigid_body ?? 0, text: (p) => (p.rigid_body === null ? "–" : String(p.rigid_body)) },
     ],
     {
-      label: "Parts", sort: "step", descending: false,
+      label: "Parts", name: "parts", rows: [2, 14], sort: "step", descending: false,
       select: (p) => {
         chosen = p === chosen ? null : p;
         open(chosen ? report.meta.parts.findIndex((m) => m.id === chosen!.id) : null);
@@ -65,9 +65,7 @@ export function partsSection(report: Report, doc: Document, open: (part: number 
       same: (a, b) => a === b,
     },
   );
-  table.element.classList.add("parts-table");
   table.setRows(doc.parts);
-  table.element.style.setProperty("--rows", String(Math.max(2, Math.min(doc.parts.length, 14))));
   return h("section", { id: "parts" },
     sectionHead(h("h2", null, "Parts", h("span", { class: "muted count" }, plural(doc.parts.length, "part", "parts"))), table.chooser()),
     table.element, ...notes(report, doc));

@@ -35,14 +35,12 @@ function refusals(report: Report, repair: Repair, fly: (node: number) => void): 
       { key: "depth", title: "Depth", kind: "number", value: (r) => r.depth, text: (r) => (r.depth > 0 ? lengthText(report, r.depth) : "–") },
       { key: "reason", title: "Because", kind: "text", least: 200, value: (r) => r.reason, text: (r) => r.reason },
     ],
-    { label: "Not treated", sort: "depth", descending: true, select: (r) => {
+    { label: "Not treated", name: "refused", rows: [0, 8], sort: "depth", descending: true, select: (r) => {
       const at = r?.nodes.length ? report.mesh.nodeId.indexOf(r.nodes[0]) : -1;
       if (at >= 0) fly(at);
     } },
   );
-  table.element.classList.add("refused-table");
   table.setRows(repair.not_treated);
-  table.element.style.setProperty("--rows", String(Math.min(repair.not_treated.length, 8)));
   return h("div", null,
     h("ul", { class: "reasons" }, ...repair.groups.map((g) => h("li", null, `${g.text}: `, h("code", null, g.command)))), table.element);
 }
