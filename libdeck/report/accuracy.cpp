@@ -146,9 +146,9 @@ void each_worst(const FamilyRow& r, const std::function<void(const WorstRow&)>& 
     if (r.in(c).wrong > 0) add({c.accuracy, &r.in(c)});
 }
 
-RECORD(FamilyRow, "family", "A kind of hard cases.", COLUMN("id", "", r.first->kind.id),
-       COLUMN("name", "", r.first->kind.name), COLUMN("group", "", r.first->kind.group),
-       COLUMN("expected", "", r.first->kind.expected), COLUMN("pairs", "", r.first->pairs),
+RECORD(FamilyRow, "family", "A kind of hard cases.", COLUMN("id", "", r.first->kind->id),
+       COLUMN("name", "", r.first->kind->name), COLUMN("group", "", r.first->kind->group),
+       COLUMN("expected", "", r.first->kind->expected), COLUMN("pairs", "", r.first->pairs),
        COLUMN("wrong", "Wrong decisions of each word", r.wrong()),
        COLUMN("worst", "Of each word that is wrong: the wrong decision with the largest error",
               rows_from<each_worst>(r)));

@@ -1,10 +1,16 @@
 // TextTable: columns of text lined up for a terminal or a file, with optional colour per cell.
+// CsvTable: rows as CSV.
 #pragma once
+#include <array>
 #include <concepts>
+#include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "deck/report/gaps.hpp"
 
 namespace deck {
 
@@ -60,6 +66,59 @@ class TextTable {
   std::vector<Column> columns_;
   std::vector<bool> left_out_;  ///< of the cells of a row
   std::vector<std::vector<Cell>> rows_;
+};
+
+/// One or more cells of a line of CSV: texts, numbers in their shortest form, 1 or 0 for a bool; an
+/// array has as many as its title has names.
+struct CsvCells {
+  std::string text;
+  CsvCells(std::string_view t);                                      // NOLINT
+  CsvCells(const std::string& t) : CsvCells(std::string_view(t)) {}  // NOLINT
+  CsvCells(const char* t) : CsvCells(std::string_view(t)) {}         // NOLINT
+  CsvCells(std::integral auto v) : text(std::to_string(+v)) {}       // NOLINT
+  CsvCells(double v);                                                // NOLINT
+  template <class T>
+  CsvCells(const std::optional<T>& v) : CsvCells(v ? CsvCells(*v) : CsvCells("")) {}  // NOLINT
+  template <class T, std::size_t N>
+  CsvCells(const std::array<T, N>& v) {  // NOLINT
+    for (const T& x : v) text += (&x == v.data() ? "" : ",") + CsvCells(x).text;
+  }
+};
+
+/// A column of a CsvTable: its title, and the cells of a row `r`.
+#define CSV(title, ...)                                           \
+  CsvColumn {                                                     \
+    title, [&](const auto& r) -> CsvCells { return __VA_ARGS__; } \
+  }
+template <class Cells>
+struct CsvColumn {
+  const char* title;
+  Cells cells;
+};
+
+/// RFC 4180.
+template <class Row>
+class CsvTable {
+ public:
+  template <class... Cells>
+  explicit CsvTable(TextDrain drain, CsvColumn<Cells>... columns)
+      : drain_(std::move(drain)), cells_{columns.cells...} {
+    for (const char* title : {columns.title...})
+      text_ += (text_.empty() ? "" : ",") + std::string(title);
+    text_ += "\r\n";
+  }
+  void add(const Row& row) {
+    for (const auto& cell : cells_) text_ += (&cell == cells_.data() ? "" : ",") + cell(row).text;
+    text_ += "\r\n";
+    drain_text(drain_, text_);
+  }
+  /// What the drain did not take.
+  std::string text() { return std::move(text_); }
+
+ private:
+  TextDrain drain_;
+  std::vector<std::function<CsvCells(const Row&)>> cells_;
+  std::string text_;
 };
 
 }  // namespace deck

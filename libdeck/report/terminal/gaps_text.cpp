@@ -343,37 +343,4 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
   return out;
 }
 
-std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view,
-                     const TextDrain& drain) {
-  std::string out =
-      "interface,type,role,kind,secondary_1,secondary_2,main_1,main_2,main_3,main_4,depth,gap,"
-      "distance,ratio,normal_x,normal_y,normal_z,on_surface,in_contact,action,gap0,p0,x,y,z,"
-      "secondary_element,secondary_part,main_element,main_part,file,line\r\n";
-  const std::vector<Span> spans =
-      detail::node_spans(*scene.model, first_nodes(scene, view.penetrations));
-  for (std::size_t row = 0; row < view.penetrations.size(); ++row) {
-    const NamedPenetration& p = view.penetrations[row];
-    const Contact& c = scene.contacts[p.contact];
-    const PenetrationRow& r = row_of(scene, p);
-    const Span& span = spans[row];
-    const auto length = [](double v) { return is_unbounded(v) ? "" : fmt::format("{}", v); };
-    const auto id = [](std::int64_t v) { return v == 0 ? std::string() : fmt::format("{}", v); };
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},",
-                   c.inter->id, c.inter->type, to_string(c.role), to_string(c.kind), p.secondary[0],
-                   id(p.secondary[1]), p.main[0], p.main[1], id(p.main[2]), id(p.main[3]),
-                   length(r.depth), length(r.gap), length(r.distance),
-                   r.gap > 0 ? r.depth / r.gap : 0.0);
-    fmt::format_to(
-        std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n",
-        r.normal[0], r.normal[1], r.normal[2], r.on_surface ? 1 : 0, r.in_contact ? 1 : 0,
-        to_string(r.action), r.has_gap0 ? length(r.gap0) : "", r.has_gap0 ? length(r.p0) : "",
-        p.at[0], p.at[1], p.at[2], id(p.secondary_element.id), id(p.secondary_element.part),
-        id(p.main_element.id), id(p.main_element.part),
-        span.valid() ? csv_text(terminal_text(deck.sources[span.file].path())) : std::string(),
-        span.valid() ? fmt::format("{}", deck.sources.position(span).line) : "");
-    drain_text(drain, out);
-  }
-  return out;
-}
-
 }  // namespace deck

@@ -250,10 +250,11 @@ class ListingWriter {
     out_ += table.below_heading(options_);
     for (const ComparedSteps& s : report_.steps)
       for (const StepDifference& d : shown(s.different, options_.worst))
-        paragraph(fmt::format("{} {}: {} in the listing, {}", listed_kind(s), d.id, figure(d.listed),
-                              std::isnan(d.computed) ? "absent in the deck"
-                                                     : figure(d.computed) + " in deck"),
-                  2);
+        paragraph(
+            fmt::format(
+                "{} {}: {} in the listing, {}", listed_kind(s), d.id, figure(d.listed),
+                std::isnan(d.computed) ? "absent in the deck" : figure(d.computed) + " in deck"),
+            2);
   }
 
   void not_listed() {

@@ -112,34 +112,32 @@ std::string parts_text(const LoadedDeck& loaded, const PartsTextOptions& options
 }
 
 std::string parts_csv(const LoadedDeck& loaded) {
+  struct PartLine {
+    const Part& part;
+    const detail::PartView& v;
+    const PartFigures& f;
+  };
   const Model& model = loaded.model();
-  const Mesh& mesh = loaded.mesh();
+  const auto number = [](double x) { return std::isfinite(x) ? shortest(x) : std::string(); };
+  const auto limits = [](const PartFigures& f) { return f.slowest.element != no_index; };
+  const auto slowest_id = [&](const ElementRef& e) { return model.family(e.kind).id[e.element]; };
+  CsvTable<PartLine> table(
+      {}, CSV("part", r.part.id), CSV("title", r.part.title), CSV("elements", elements_text(r.v)),
+      CSV("material", r.part.mat_id), CSV("property", r.part.prop_id),
+      CSV("thickness", number(r.v.thickness)), CSV("mass", number(r.f.mass)),
+      CSV("centre_x", number(r.f.centre[0])), CSV("centre_y", number(r.f.centre[1])),
+      CSV("centre_z", number(r.f.centre[2])), CSV("inertia_xx", number(r.f.inertia[0])),
+      CSV("inertia_yy", number(r.f.inertia[1])), CSV("inertia_zz", number(r.f.inertia[2])),
+      CSV("inertia_xy", number(r.f.inertia[3])), CSV("inertia_yz", number(r.f.inertia[4])),
+      CSV("inertia_zx", number(r.f.inertia[5])), CSV("dt", r.f.dt >= 1e29 ? "" : shortest(r.f.dt)),
+      CSV("dt_kind", limits(r.f) ? detail::kind_name(r.f.slowest.kind) : ""),
+      CSV("dt_element", limits(r.f) ? std::to_string(slowest_id(r.f.slowest)) : ""),
+      CSV("interfaces", fmt::format("{}", fmt::join(r.v.interfaces, " "))),
+      CSV("rigid_body", r.v.rigid_body == 0 ? "" : std::to_string(r.v.rigid_body)));
   const detail::PartsView view = detail::view_parts(loaded);
-  std::string out =
-      "part,title,elements,material,property,thickness,mass,centre_x,centre_y,centre_z,inertia_xx,"
-      "inertia_yy,inertia_zz,inertia_xy,inertia_yz,inertia_zx,dt,dt_kind,dt_element,interfaces,"
-      "rigid_body\r\n";
-  for (std::size_t p = 0; p < model.parts.size(); ++p) {
-    const Part& part = model.parts[p];
-    const detail::PartView& v = view.parts[p];
-    const PartFigures& f = mesh.parts[p];
-    out += fmt::format("{},{},{},{},{}", part.id, csv_text(part.title), csv_text(elements_text(v)),
-                       part.mat_id, part.prop_id);
-    const auto add = [&](double x) {
-      out += "," + (std::isfinite(x) ? shortest(x) : std::string());
-    };
-    add(v.thickness);
-    add(f.mass);
-    for (const double x : f.centre) add(x);
-    for (const double x : f.inertia) add(x);
-    const bool slowest = f.slowest.element != no_index;
-    out += fmt::format(
-        ",{},{},{},{},{}\r\n", f.dt >= 1e29 ? "" : shortest(f.dt),
-        slowest ? detail::kind_name(f.slowest.kind) : "",
-        slowest ? std::to_string(model.family(f.slowest.kind).id[f.slowest.element]) : "",
-        fmt::join(v.interfaces, " "), v.rigid_body == 0 ? "" : std::to_string(v.rigid_body));
-  }
-  return out;
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    table.add({model.parts[p], view.parts[p], loaded.mesh().parts[p]});
+  return table.text();
 }
 
 }  // namespace deck

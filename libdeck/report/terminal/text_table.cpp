@@ -30,6 +30,9 @@ TextTable::TextTable(std::initializer_list<const char*> titles, bool all) {
 
 TextTable::Cell::Cell(double v) : text(fmt::format("{:.6g}", v)) {}
 
+CsvCells::CsvCells(std::string_view t) : text(csv_text(t)) {}
+CsvCells::CsvCells(double v) : text(fmt::format("{}", v)) {}
+
 void TextTable::row(std::vector<Cell> cells) {
   std::vector<Cell>& shown = rows_.emplace_back();
   for (std::size_t i = 0; i < cells.size(); ++i)
