@@ -77,6 +77,14 @@ JsonForm list_form(const JsonForm& items, std::size_t size) {
   return {"array", rest};
 }
 
+JsonForm tuple_form(const std::vector<JsonForm>& items) {
+  std::string all;
+  for (const JsonForm& item : items)
+    all += fmt::format("{}{{ {} }}", all.empty() ? "" : ", ", item.members());
+  return {"array",
+          fmt::format(R"("prefixItems": [{}], "items": false, "minItems": {})", all, items.size())};
+}
+
 JsonForm words_form(const std::vector<std::string>& words) {
   return {"", fmt::format(R"("enum": [{}])", joined(words))};
 }
@@ -129,15 +137,15 @@ DocumentSchema document_schema(const DocumentHead& head, const SchemaDefinitions
   const std::string text = fmt::format(
       R"({{
   "$schema": "https://json-schema.org/draft/2020-12/schema",
-  "title": "deck {} --json, version {}",
+  "title": "{}, version {}",
   "description": {},
 {}  "$defs": {{
 {}
   }}
 }}
 )",
-      std::string_view(head.id).substr(5), head.version, json_text(head.says), body,
-      definitions_text(own));
+      head.title != nullptr ? head.title : fmt::format("deck {} --json", head.id + 5), head.version,
+      json_text(head.says), body, definitions_text(own));
   return {text, definitions.common()};
 }
 
@@ -161,11 +169,11 @@ std::string common_schema() {
 
 const std::vector<DocumentOfVerb>& documents_of_verbs() {
   static const std::vector<DocumentOfVerb> documents = {
-      {"accuracy", accuracy_schema}, {"cycle", cycle_schema}, {"diff", diff_schema},
-      {"explain", explain_schema},   {"fix", fix_schema},     {"gaps", gaps_schema},
-      {"gate", gate_schema},         {"lint", lint_schema},   {"losses", losses_schema},
-      {"params", params_schema},     {"parts", parts_schema}, {"rules", rules_schema},
-      {"show", show_schema}};
+      {"accuracy", accuracy_schema}, {"cycle", cycle_schema},   {"diff", diff_schema},
+      {"explain", explain_schema},   {"fix", fix_schema},       {"gaps", gaps_schema},
+      {"gate", gate_schema},         {"lint", lint_schema},     {"losses", losses_schema},
+      {"page", page_schema},         {"params", params_schema}, {"parts", parts_schema},
+      {"rules", rules_schema},       {"show", show_schema}};
   return documents;
 }
 

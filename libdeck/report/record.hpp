@@ -18,6 +18,7 @@
 //   IfAny<T>                     a T, or the object does not have the member
 //   std::array, std::vector      a list on one line; of records: as Rows
 //   Counts                       an object of names and counts; TallCounts: one a line
+//   std::tuple                   a list on one line whose values have forms of their own
 //   Scalar                       a number or a text
 //   Named<T>                     an object whose names are data, each with a T
 //   a record                     an object
@@ -175,6 +176,7 @@ std::string object_form(std::string_view says,
                         const std::vector<std::string>& required);
 std::string described(const char* says, const JsonForm& form);
 JsonForm list_form(const JsonForm& items, std::size_t size = 0);
+JsonForm tuple_form(const std::vector<JsonForm>& items);
 JsonForm words_form(const std::vector<std::string>& words);
 
 template <class Row>
@@ -257,6 +259,16 @@ struct Value<std::vector<T>> {
       write_list(out, v);
   }
   static JsonForm form(SchemaDefinitions& d) { return list_form(Value<T>::form(d)); }
+};
+
+template <class... T>
+struct Value<std::tuple<T...>> {
+  static void write(JsonOut& out, const std::tuple<T...>& row) {
+    out.json.begin_array(true);
+    std::apply([&](const T&... values) { (Value<T>::write(out, values), ...); }, row);
+    out.json.end_array();
+  }
+  static JsonForm form(SchemaDefinitions& d) { return tuple_form({Value<T>::form(d)...}); }
 };
 
 template <>
@@ -445,7 +457,8 @@ struct DocumentHead {
   const char* id;  ///< "deck/gaps"
   int version;
   const char* says;
-  bool several = true;  ///< several decks: {schema, tool, decks: [document, ...]}
+  bool several = true;          ///< several decks: {schema, tool, decks: [document, ...]}
+  const char* title = nullptr;  ///< nullptr: "deck VERB --json"
 };
 
 /// The schema of a document whose members, after "schema" and "tool", are a record.

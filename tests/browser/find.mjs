@@ -51,8 +51,8 @@ export async function find(browser, file, path) {
     report.setOverride(0, "Gapmin", 2.25);
     report.setFilter({ perNode: false, depth: [0.1, 3] });
     report.select(report.filtered[2]);
-    viewport.toggleClip();
-    viewport.toggleSolid();
+    viewport.toggle("clip");
+    viewport.toggle("solid");
   });
   await p.click("#worst details:has(.columns) summary");
   await p.click("#worst details:has(.columns) input[value=action]");

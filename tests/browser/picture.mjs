@@ -34,7 +34,7 @@ export async function picture(p, path) {
   await p.keyboard.press("o");
 
   // An interface is isolated, zoomed to, and its sides told apart.
-  await p.evaluate(() => window.deckReport.viewport.toggleCrossed());
+  await p.evaluate(() => window.deckReport.viewport.toggle("crossed"));
   const all = await p.evaluate(() => window.deckReport.viewport.crossedShown.length);
   await p.click(".interfaces-table .vt-row:has-text('tube rim on barrier')");
   await settled(p);
@@ -52,7 +52,7 @@ export async function picture(p, path) {
   check("both sides have a colour of their own", chosen.secondary > 0 && chosen.main > 0, JSON.stringify(chosen));
   check("crossed elements are those of the chosen interface", chosen.crossed && chosen.count < all, `${chosen.count} of ${all}`);
   check("the picture zooms to the penetrations of the interface", (await inSight(p)) === 1);
-  await p.evaluate(() => window.deckReport.viewport.toggleCrossed());
+  await p.evaluate(() => window.deckReport.viewport.toggle("crossed"));
   same("crossed elements can be switched off", await p.evaluate(() => window.deckReport.viewport.crossedShown.length), 0);
 
   // A row: node and segment are named.
@@ -76,7 +76,7 @@ export async function picture(p, path) {
   check("deeper is darker all the way", lightness.length > 20 && lightness.every((l, i) => i === 0 || l <= lightness[i - 1] + 0.5), lightness.join(" "));
 
   // Picking and measuring.
-  await p.evaluate(() => window.deckReport.viewport.toggleSolid());
+  await p.evaluate(() => window.deckReport.viewport.toggle("solid"));
   const pickable = () => p.evaluate(() => {
     const { viewport } = window.deckReport;
     const r = viewport.view.canvas.getBoundingClientRect();
@@ -114,7 +114,7 @@ export async function picture(p, path) {
     check("the ruler says the distance of two nodes", Math.abs(parseFloat(measured) - want.d) <= 1e-5 * want.d && want.ids.every((id) => measured.includes(`node ${id}`)), `${measured} ${JSON.stringify(want)}`);
     await p.keyboard.press("m");
   }
-  await p.evaluate(() => window.deckReport.viewport.toggleSolid());
+  await p.evaluate(() => window.deckReport.viewport.toggle("solid"));
 }
 
 /** Section planes through solids and shells. */

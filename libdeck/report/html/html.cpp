@@ -30,6 +30,11 @@ std::string script_safe(std::string_view json) {
   return out;
 }
 
+Verdict page_verdict(const HtmlInput& in) {
+  return in.effects != nullptr ? cycle_verdict(*in.effects)
+                               : verdict_of(*in.deck, *in.scene, *in.view);
+}
+
 namespace {
 
 std::string_view file_name(std::string_view path) {
@@ -37,115 +42,10 @@ std::string_view file_name(std::string_view path) {
   return slash == std::string_view::npos ? path : path.substr(slash + 1);
 }
 
-/// First id above all node groups and sets, for exported groups.
-std::int64_t free_group_id(const Deck& deck) {
-  std::int64_t highest = 0;
-  for (const Block& b : deck.blocks)
-    if (b.header.starts_with("/GRNOD") || b.header.starts_with("/SET"))
-      highest = std::max(highest, b.id.value + deck.offset_of(b, "grnod"));
-  return highest + 1;
-}
-
-/// The verb that writes the page.
-const char* page_name(const HtmlInput& in) {
-  return in.verb != nullptr      ? in.verb
-         : in.effects != nullptr ? "cycle"
-         : in.parts != nullptr   ? "parts"
-                                 : "gaps";
-}
-
-/// What is said of the deck: with its forces where the page is about them.
-Verdict verdict_in(const HtmlInput& in) {
-  return in.effects != nullptr ? cycle_verdict(*in.effects)
-                               : verdict_of(*in.deck, *in.scene, *in.view);
-}
-
-std::string meta_json(const HtmlInput& in, const PageContacts& page,
-                      const std::vector<Touch>& touches) {
-  const Model& model = *in.scene->model;
-  std::string out;
-  JsonWriter j(out);
-  j.begin_object();
-  write_json_head(j, "deck/gaps-html", 1);
-  j.field("page", page_name(in));
-  write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
-  write_value(j.key("verdict"), verdict_in(in));
-  write_value(j.key("summary"), in.view->total);
-  write_members(j, CoverageRow{coverage_of(*in.deck, *in.scene->interfaces, in.scene->examined)});
-  std::uint64_t bytes = 0;
-  for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f)
-    bytes += in.deck->sources[f].on_disk().size();
-  j.field("bytes", bytes).field("largest_gap", largest_bounded_gap(model));
-  j.key("files").begin_array();
-  for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f) j.value(in.deck->sources[f].path());
-  j.end_array().key("parts").begin_array();
-  for (const Part& p : model.parts) {
-    j.begin_object(true).field("id", p.id).field("title", p.title);
-    j.field("prop", p.prop_id).field("mat", p.mat_id);
-    if (p.prop != no_index) {
-      const Property& property = model.properties[p.prop];
-      j.field("prop_type", property.type).field("thickness", property.thickness);
-    }
-    j.end_object();
-  }
-  j.end_array();
-  j.field("free_group_id", free_group_id(*in.deck));
-  j.key("actions").begin_object();
-  for (std::size_t a = 0; a < penetration_actions; ++a) {
-    const auto action = static_cast<PenetrationAction>(a);
-    write_row(j.key(to_string(action)), action_words(action, 1), action_words(action, 2));
-  }
-  j.end_object();
-  write_what_if(j, in.what_if);
-  write_interfaces(j, in);
-  write_contacts(j, in, page);
-  write_page_ties(j, in);
-  write_touches(j, touches);
-  j.end_object();
-  return out;
-}
-
-/// What became of the rows of an earlier run: of what penetrates now under the names that it has
-/// now, so that the page finds it by ids.
-std::vector<PageTrend> trends_in(const HtmlInput& in) {
-  if (in.trends != nullptr) return *in.trends;
-  std::vector<PageTrend> out;
-  const GapsComparison compared = compare_gaps(*in.earlier, *in.scene, *in.view);
-  for (const GapsComparison::Row& r : compared.rows) {
-    const NamedPenetration& p = in.view->penetrations[r.penetration];
-    const Contact& c = in.scene->contacts[p.contact];
-    PageTrend t{c.inter->id, to_string(c.role), p.secondary, 0, 0, to_string(r.trend)};
-    if (r.earlier != no_index) {
-      t.depth = in.earlier->rows[r.earlier].depth;
-      t.gap = in.earlier->rows[r.earlier].gap;
-    }
-    out.push_back(std::move(t));
-  }
-  for (const std::uint32_t i : compared.solved) {
-    const EarlierGaps::Row& r = in.earlier->rows[i];
-    out.push_back({r.interface_id, r.role, r.secondary, r.depth, r.gap, "solved"});
-  }
-  return out;
-}
-
-std::string earlier_json(const HtmlInput& in) {
-  std::string out;
-  JsonWriter j(out);
-  j.begin_object(true).field("path", in.earlier->path).field("deck", in.earlier->deck_path);
-  j.field("same_depth", same_depth).key("rows").begin_array(true);
-  for (const PageTrend& t : trends_in(in)) {
-    std::array<std::int64_t, 2> nodes = t.secondary;
-    if (nodes[1] != 0 && nodes[1] < nodes[0]) std::swap(nodes[0], nodes[1]);
-    write_row(j, t.interface_id, t.role, nodes[0], nodes[1], t.depth, t.gap, t.trend);
-  }
-  j.end_array().end_object();
-  return out;
-}
-
 /// What a reader without scripts gets: the verdict and a table of the contacts.
 std::string static_body(const HtmlInput& in) {
   std::string out = "<main id=\"static\"><h1>" + html_text(file_name(in.path)) + "</h1>\n";
-  const Verdict verdict = verdict_in(in);
+  const Verdict verdict = page_verdict(in);
   out += fmt::format("<p data-level=\"{}\">{}</p>\n", to_string(verdict.level),
                      html_text(verdict.text));
   if (in.effects != nullptr) out += cost_html(*in.effects);
@@ -201,7 +101,7 @@ std::vector<Packed> packed_blocks(const HtmlInput& in, const std::vector<MeshPar
   const ContactBlocks contacts = contact_blocks(in, page, nodes);
   add(true, "deck-shared", contacts.shared);
   add(true, "deck-contacts", contacts.contacts);
-  add(has_ties(*in.scene), "deck-ties", [&] { return ties_block(in, nodes); });
+  add(has_ties(*in.scene), "deck-ties", [&] { return ties_block(*in.scene, nodes); });
   add(true, "deck-mesh", [&] { return mesh_block(model, mesh, nodes); });
   add(true, "deck-elements", [&] { return elements_block(model, mesh); });
   add(in.earlier != nullptr, "deck-earlier", [&] { return packed_text(earlier_json(in)); });

@@ -12,9 +12,9 @@
 
 #include "contact/shared/scene_parts.hpp"
 #include "deck/report/html.hpp"
+#include "deck/verdict.hpp"
 #include "report/html/stream.hpp"
-#include "report/html/viewer_bundle.hpp"
-#include "report/shared/json.hpp"
+#include "report/record.hpp"
 
 namespace deck {
 struct Mesh;  // model/shared/mesh.hpp
@@ -22,8 +22,24 @@ struct Mesh;  // model/shared/mesh.hpp
 
 namespace deck::detail {
 
+/// The viewer as compiled in (generated at build): script and style sheet; empty script: none,
+/// and `missing` says why.
+struct ViewerBundle {
+  std::string_view script, style, missing;
+};
+const ViewerBundle& viewer_bundle();
+
 /// JSON as it may stand in a script element: '<' occurs in it only inside strings.
 std::string script_safe(std::string_view json);
+
+/// A value as the JSON of a block.
+template <class T>
+std::string block_json(const T& value) {
+  std::string out;
+  JsonWriter json(out);
+  write_value(json, value);
+  return out;
+}
 
 /// Numbers the nodes that occur in the page in the order of the model.
 class PageNodes {
@@ -49,14 +65,6 @@ inline std::vector<std::uint32_t> marked(const std::vector<std::uint8_t>& marks)
   for (std::uint32_t i = 0; i < marks.size(); ++i)
     if (marks[i] != 0) out.push_back(i);
   return out;
-}
-
-/// An array on one line; numbers that are not finite become null.
-template <class... T>
-void write_row(JsonWriter& json, const T&... values) {
-  json.begin_array(true);
-  (json.value(values), ...);
-  json.end_array();
 }
 
 /// Of more than `most` rows those with the largest `size`, these first.
@@ -137,16 +145,6 @@ struct ContactBlocks {
 };
 ContactBlocks contact_blocks(const HtmlInput& input, PageContacts& page, const PageNodes& nodes);
 
-// ties.cpp — /INTER/TYPE2 and TYPE10: lines from nodes to segments, and the nodes that are not tied
-/// Marks the nodes of all ties. Given back are those that the picture does not show by itself (no
-/// element has them) or that a line ends at which is looked at closely: of nodes that are not tied.
-std::vector<NodeIndex> use_nodes(const Scene& scene, PageNodes& nodes);
-bool has_ties(const Scene& scene);
-std::string ties_block(const HtmlInput& input, const PageNodes& nodes);
-/// The member "ties": counts and what is said, one entry per tie, in the order of the block: first
-/// those of TYPE2.
-void write_page_ties(JsonWriter& json, const HtmlInput& input);
-
 // touches.cpp — who touches whom
 struct Touch {
   int secondary = -1, main = -1;          ///< positions in Model::parts, -1: no part
@@ -156,19 +154,26 @@ struct Touch {
 };
 /// Part pairs with a pair within the page's reach, or a penetration; by secondary, then main.
 std::vector<Touch> collect_touches(const HtmlInput& input, const PageContacts& page);
-/// The member "touches".
-void write_touches(JsonWriter& json, const std::vector<Touch>& touches);
 /// As SVG: the deepest 60 parts of each side.
 std::string touches_drawing(const HtmlInput& input, const std::vector<Touch>& touches);
 
-// interfaces.cpp — the members "interfaces", "what_if" and "contacts"
-/// What the page calls interfaces, by position: contacts in the solver's order, then the ties of
-/// the scene.
-void write_interfaces(JsonWriter& json, const HtmlInput& input);
-void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);
-void write_contacts(JsonWriter& json, const HtmlInput& input, const PageContacts& page);
+// page_data.cpp — JSON of the blocks deck-meta and deck-earlier
+std::string meta_json(const HtmlInput& input, const PageContacts& page,
+                      const std::vector<Touch>& touches);
+std::string earlier_json(const HtmlInput& input);
+/// What is said of the deck: with its forces where the page is about them.
+Verdict page_verdict(const HtmlInput& input);
 
-// verb_blocks.cpp — crossed elements
+// blocks.cpp — blocks that only some pages have
+/// Their JSON.
+void block_forms(SchemaDefinitions& definitions);
+// lines from nodes of ties to segments, and the nodes that are not tied
+/// Marks the nodes of all ties. Given back are those that the picture does not show by itself (no
+/// element has them) or that a line ends at which is looked at closely: of nodes that are not tied.
+std::vector<NodeIndex> use_nodes(const Scene& scene, PageNodes& nodes);
+bool has_ties(const Scene& scene);
+std::string ties_block(const Scene& scene, const PageNodes& nodes);
+// crossed elements
 void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes);
 std::string crossings_block(const Model& model, const std::vector<Crossing>& crossings,
                             const PageNodes& nodes);

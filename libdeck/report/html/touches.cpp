@@ -193,16 +193,6 @@ std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContac
   return out;
 }
 
-void detail::write_touches(JsonWriter& j, const std::vector<Touch>& touches) {
-  j.key("touches").begin_array();
-  for (const Touch& t : touches) {
-    j.begin_array(true).value(t.secondary).value(t.main);
-    for (const std::uint32_t i : t.interfaces) j.value(i);
-    j.end_array();
-  }
-  j.end_array();
-}
-
 std::string detail::touches_drawing(const HtmlInput& in, const std::vector<Touch>& touches) {
   return Drawing(in, touches).run();
 }

@@ -128,20 +128,34 @@ constexpr DocumentHead fix_head{"deck/fix", 1, "Written by deck fix --json."};
 
 DocumentSchema fix_schema() { return document_schema<FixDocument>(fix_head); }
 
+LINE_RECORD(RefusedGroup, "group", "What was not treated for one reason.",
+            COLUMN("text", "", r.text), COLUMN("command", "", r.command));
+
+LINE_RECORD(NextCommand, "next", "", COLUMN("does", "", r.does), COLUMN("command", "", r.command));
+
+namespace {
+
+struct RepairBlock {
+  const PenetrationFix& fix;
+  std::string_view deck;
+  const std::vector<NextCommand>& next;
+  std::string_view patch;
+};
+RECORD(RepairBlock, "repair", "The block deck-repair of the page of deck fix.",
+       COLUMN("strategy", "", r.fix.strategy), COLUMN("crossings", "", crossings_of(r.fix)),
+       COLUMN("not_treated", "", r.fix.refused),
+       COLUMN("groups", "At most eight, the largest first", refused_groups({r.fix}, r.deck)),
+       COLUMN("next", "", r.next), COLUMN("patch", "", r.patch));
+
+}  // namespace
+
+void repair_form(SchemaDefinitions& definitions) { record_form<RepairBlock>(definitions); }
+
 std::string repair_json(const PenetrationFix& fix, std::string_view deck,
                         const std::vector<NextCommand>& next, std::string_view patch) {
   std::string out;
-  JsonWriter j(out);
-  j.begin_object().field("strategy", fix.strategy);
-  write_value(j.key("crossings"), crossings_of(fix));
-  write_value(j.key("not_treated"), fix.refused);
-  j.key("groups").begin_array();
-  for (const RefusedGroup& g : refused_groups({fix}, deck))
-    j.begin_object(true).field("text", g.text).field("command", g.command).end_object();
-  j.end_array().key("next").begin_array();
-  for (const NextCommand& n : next)
-    j.begin_object(true).field("does", n.does).field("command", n.command).end_object();
-  j.end_array().field("patch", patch).end_object();
+  JsonWriter json(out);
+  write_value(json, RepairBlock{fix, deck, next, patch});
   return out;
 }
 

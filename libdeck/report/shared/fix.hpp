@@ -58,5 +58,8 @@ struct NextCommand {
 /// treated, what to call next, and the patch.
 std::string repair_json(const PenetrationFix& fix, std::string_view deck,
                         const std::vector<NextCommand>& next, std::string_view patch);
+/// Its form.
+class SchemaDefinitions;
+void repair_form(SchemaDefinitions& definitions);
 
 }  // namespace deck

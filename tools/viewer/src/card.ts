@@ -1,6 +1,10 @@
 // The card of an interface with other values in its cells: only the columns of changed fields differ.
 import { shortest } from "./dom";
-import type { Cell, FieldName, InterfaceMeta, Overrides } from "./meta";
+import type { CardValues, Cell, InterfaceMeta } from "schema/page";
+
+export type FieldName = Exclude<keyof CardValues, "Edge_scale_gap">;
+export const fieldNames: FieldName[] = ["Igap", "Gapmin", "Fscalegap", "Gapmax", "Inacti", "Fpenmax"];
+export type Overrides = Partial<Record<FieldName, number>>;
 
 export interface ChangedCard {
   lines: { text: string; was: string | null }[]; // `was`: the line before, where it changed

@@ -1,7 +1,7 @@
 // The blocks of the page (see libdeck/report/html/*.cpp for the writers) and what they hold.
 import { unzlibSync } from "fflate";
 import { fromBase64, fromPlanes, Reader } from "./decode/reader";
-import type { ContactMeta, Crossed, Cycle, Earlier, Meta, Moved, Repair, TieData } from "./meta";
+import type { ContactMeta, Crossings, Earlier, FirstCycle, Meta, Moved, Repair, TieLines } from "schema/page";
 
 export const kindNames = ["shell", "sh3n", "solid", "quad", "tria", "truss", "beam", "spring"];
 
@@ -310,14 +310,6 @@ export function loadMeta(): Meta {
   return JSON.parse(blockText("deck-meta")!) as Meta;
 }
 
-export function loadMesh(): Mesh {
-  return readMesh(inflate("deck-mesh")!);
-}
-
-export function loadContacts(meta: Meta, mesh: Mesh): Contacts {
-  return readContacts(inflate("deck-shared")!, inflate("deck-contacts")!, meta, mesh.nodeId.length);
-}
-
 const text = (id: string): string | null => {
   const bytes = inflate(id);
   return bytes && new TextDecoder().decode(bytes);
@@ -329,8 +321,8 @@ const json = (id: string): unknown => {
 /** The drawing of who touches whom, as SVG. */
 export const loadTouches = () => text("deck-touches");
 export const loadEarlier = () => json("deck-earlier") as Earlier | null;
-export const loadCycle = () => json("deck-cycle") as Cycle | null;
-export const loadTies = () => (json("deck-ties") as TieData[] | null) ?? [];
+export const loadCycle = () => json("deck-cycle") as FirstCycle | null;
+export const loadTies = () => (json("deck-ties") as TieLines[] | null) ?? [];
 export const loadMoved = () => json("deck-moved") as Moved | null;
 export const loadRepair = () => json("deck-repair") as Repair | null;
-export const loadCrossed = () => json("deck-crossed") as Crossed | null;
+export const loadCrossed = () => json("deck-crossed") as Crossings | null;

@@ -88,6 +88,12 @@ export function sectionHead(title: Node, ...tools: Child[]): HTMLElement {
   return h("div", { class: "section-head" }, title, h("div", { class: "tools" }, ...tools));
 }
 
+/** A small table of texts. */
+export function plainTable(titles: string[], rows: (string | number)[][]): HTMLElement {
+  return h("table", { class: "plain" }, h("thead", null, h("tr", null, ...titles.map((t) => h("th", null, t)))),
+    h("tbody", null, ...rows.map((r) => h("tr", null, ...r.map((t) => h("td", null, t))))));
+}
+
 /** Four significant digits as an engineer writes them; the full value belongs into a title. */
 export function num(v: number, digits = 4): string {
   if (v === 0) return "0";

@@ -1,25 +1,16 @@
 // What can be taken out of the page: node lists, a node group for the deck, a table, changed cards,
 // a picture.
 import { cardText, changedCard } from "./card";
-import { shortest } from "./dom";
+import { h, shortest } from "./dom";
 import type { Hit, Report } from "./report";
 
-export function save(name: string, content: string | Blob): void {
-  const blob = typeof content === "string" ? new Blob([content], { type: "text/plain" }) : content;
-  const url = URL.createObjectURL(blob);
-  const a = document.createElement("a");
-  a.href = url;
-  a.download = name;
-  a.click();
+export function save(name: string, content: string): void {
+  const url = URL.createObjectURL(new Blob([content], { type: "text/plain" }));
+  saveDataUrl(name, url);
   setTimeout(() => URL.revokeObjectURL(url), 10000);
 }
 
-export function saveDataUrl(name: string, url: string): void {
-  const a = document.createElement("a");
-  a.href = url;
-  a.download = name;
-  a.click();
-}
+export const saveDataUrl = (name: string, url: string): void => h("a", { href: url, download: name }).click();
 
 export async function copyText(text: string): Promise<boolean> {
   try {
@@ -50,20 +41,18 @@ export function plainNodes(hits: Hit[]): string {
   return nodeIds(hits).join("\n") + "\n";
 }
 
-export function grnodBlock(hits: Hit[], id: number, title: string): string {
-  const lines = [`/GRNOD/NODE/${id}`, title.slice(0, 100)];
+function idBlock(lines: string[], hits: Hit[], begin: string, perLine: number): string {
   const ids = nodeIds(hits);
-  for (let i = 0; i < ids.length; i += 10)
-    lines.push(ids.slice(i, i + 10).map((n) => String(n).padStart(10)).join(""));
+  for (let i = 0; i < ids.length; i += perLine) lines.push(begin + ids.slice(i, i + perLine).map((n) => String(n).padStart(10)).join(""));
   return lines.join("\n") + "\n";
 }
 
+export function grnodBlock(hits: Hit[], id: number, title: string): string {
+  return idBlock([`/GRNOD/NODE/${id}`, title.slice(0, 100)], hits, "", 10);
+}
+
 export function setBlock(hits: Hit[], id: number, title: string): string {
-  const lines = [`/SET/GENERAL/${id}`, title.slice(0, 100)];
-  const ids = nodeIds(hits);
-  for (let i = 0; i < ids.length; i += 9)
-    lines.push("NODE      " + ids.slice(i, i + 9).map((n) => String(n).padStart(10)).join(""));
-  return lines.join("\n") + "\n";
+  return idBlock([`/SET/GENERAL/${id}`, title.slice(0, 100)], hits, "NODE      ", 9);
 }
 
 /** Public commands of HyperMesh that mark the nodes and keep them as a set. */

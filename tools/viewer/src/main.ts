@@ -1,35 +1,35 @@
 // The page: reads its data, builds the sections, wires keys and exports.
-import { begun } from "./decode/begun";
-import { crossedSection } from "./sections/crossed";
-import { cycleSection } from "./sections/cycle";
-import { loadCrossed, loadCycle, loadEarlier, loadMeta, loadTies, unpack } from "./data";
 import { loadModel } from "./decode/client";
+import { crossedSection } from "./sections/crossed";
+import { cycleSection, withoutSection } from "./sections/cycle";
+import { loadCrossed, loadCycle, loadEarlier, loadMeta, loadTies, unpack } from "./data";
 import type { Model } from "./decode/model";
 import { detail, notChecked } from "./sections/detail";
 import { button, fileName, group, h, onceShown } from "./dom";
 import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save, tclMarks } from "./exports";
 import { distribution, exportMenu, listSection, pairsSection } from "./sections/lists";
 import type { ContourKind, Look } from "./look";
-import type { FieldName, Overrides } from "./meta";
+import type { Overrides } from "./card";
 import { interfaces } from "./sections/overview";
 import { printing } from "./paper";
 import { movedSection } from "./sections/moved";
 import { repairSection } from "./sections/repair";
 import { loadPartsDocument, partsSection } from "./sections/parts";
+import type { Document as CycleDocument } from "schema/cycle";
+import type { Document as PartsDocument } from "schema/parts";
 import { effectsSection, loadCycleDocument } from "./sections/effects";
 import { findBox } from "./find";
 import { openMenu, rowItems } from "./menu";
 import { ViewState } from "./state";
-import { withoutSection } from "./sections/without";
 import { touchesSection } from "./sections/touches";
 import { verdict } from "./sections/verdict";
 import { tiesSection } from "./sections/ties";
 import { nearestSection } from "./sections/nearest";
 import { noFilter, Report, type Hit } from "./report";
 import type { WebGLRenderer } from "three";
-import { drawsInSoftware } from "./scene/machine";
-import { readyToDraw } from "./scene/ready";
-import { mouseSchemes, type MouseScheme } from "./scene/mouse";
+import { drawsInSoftware, readyToDraw } from "./scene/ready";
+import { switchHelp, switchOf } from "./scene/toolbar";
+import { mouseSchemes, type MouseScheme } from "./scene/camera";
 import { Viewport } from "./scene/viewport";
 
 const started = performance.now();
@@ -41,7 +41,7 @@ async function start(): Promise<void> {
   const wait = h("div", { class: "unpacking", role: "status" }, bar, said);
   document.body.prepend(wait);
   const software = drawsInSoftware();
-  const model = loadModel(begun, software, (done, next) => {
+  const model = loadModel(software, (done, next) => {
     bar.value = done;
     said.textContent = next;
   });
@@ -59,6 +59,35 @@ async function start(): Promise<void> {
 
 const telephone = "(max-width: 600px)";
 const oneColumn = "(max-width: 1100px)";
+
+interface Page {
+  report: Report;
+  viewport: Viewport;
+  look: Look;
+  doc: CycleDocument | null; // of deck cycle
+  parts: PartsDocument | null; // of deck parts
+  stem: string; // of names of files
+  pictured: Promise<void>; // the first picture is there
+}
+/** The sections in their order: id, name among the links above them, and what makes it; null: the page has none. */
+const sections: [string, string, (p: Page) => HTMLElement | null][] = [
+  ["verdict", "", (p) => verdict(p.report)],
+  ["moved", "Moved", (p) => movedSection(p.report, (node) => p.viewport.openNode(node), (on) => p.viewport.showBefore(on))],
+  ["repair", "Not treated", (p) => repairSection(p.report, (node) => p.viewport.showNode(node))],
+  ["parts", "Parts", (p) => p.parts && partsSection(p.report, p.parts, (part) => p.viewport.showPart(part))],
+  ["nearest", "Nearest", (p) => nearestSection(p.report, (row) => p.viewport.openNear(row), p.pictured)],
+  ["interfaces", "Interfaces", (p) => interfaces(p.report)],
+  ["pairs", "Part pairs", (p) => pairsSection(p.report, p.look)],
+  ["touches", "Contacts", (p) => touchesSection(p.report, `${p.stem}_contacts.svg`, p.pictured)],
+  ["distribution", "Distribution", (p) => distribution(p.report, p.look)],
+  ["worst", "Worst first", () => null], // made before the others, which export it
+  ["ties", "Ties", (p) => tiesSection(p.report, (x) => p.viewport.openTie(x))],
+  ["crossed", "Crossed", (p) => crossedSection(p.report, (row) => p.viewport.openCrossed(row))],
+  ["cycle", "First cycle", (p) => cycleSection(p.report)],
+  ["without", "With and without", (p) => p.doc && withoutSection(p.report, p.doc)],
+  ["effects", "Effects", (p) => p.doc && effectsSection(p.report, p.doc, `${p.stem}_effects.svg`)],
+  ["notes", "About", (p) => notChecked(p.report)],
+];
 
 // Over 80 lines: header, picture, tables and keys know one another, and the order decides what is painted first.
 function build(model: Model & { beside: boolean }, software: boolean, machine: WebGLRenderer | null): void {
@@ -139,12 +168,13 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
       { label: "Picture to the clipboard", run: () => void viewport.copyPicture() },
     ], "export");
     const list = listSection(report, fly, exports, () => state?.note());
-    const nav = h("nav", { "aria-label": "Sections" },
-      ...([["moved", "Moved"], ["repair", "Not treated"], ["parts", "Parts"], ["nearest", "Nearest"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["ties", "Ties"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["without", "With and without"], ["effects", "Effects"], ["notes", "About"]] as const)
-        .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-    const sections = [nav, verdict(report), movedSection(report, (node) => viewport.openNode(node), (on) => viewport.showBefore(on)), repairSection(report, (node) => viewport.showNode(node)), parts && partsSection(report, parts, (part) => viewport.showPart(part)), doc && cycleSection(report), doc && withoutSection(report, doc), doc && effectsSection(report, doc, `${stem}_effects.svg`), nearestSection(report, (row) => viewport.openNear(row), pictured), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, tiesSection(report, (x) => viewport.openTie(x)), crossedSection(report, (row) => viewport.openCrossed(row)), !doc && cycleSection(report), notChecked(report)];
-    left.append(...sections.filter((s) => !!s));
-    for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
+    const page: Page = { report, viewport, look, doc, parts, stem, pictured };
+    const all = sections.map(([id, name, make]) => ({ id, name, element: id === "worst" ? list.element : make(page) }));
+    const there = all.flatMap(({ element }) => element ?? []);
+    const nav = h("nav", { "aria-label": "Sections" }, ...all.filter((s) => s.name).map((s) => h("a", { href: `#${s.id}`, hidden: s.element?.hidden ?? true }, s.name)));
+    // The page of deck cycle begins with what it is about.
+    const first = there.filter((e) => doc && ["verdict", "cycle", "without", "effects"].includes(e.id));
+    left.append(nav, ...first, ...there.filter((e) => !first.includes(e)));
     // Sections are scrolled to; the address belongs to the state of the page.
     nav.addEventListener("click", (e) => {
       const link = (e.target as Element).closest("a");
@@ -216,7 +246,6 @@ function evaluateFor(report: Report, id: number, change: Overrides): unknown {
     };
   });
 }
-export type { FieldName };
 
 function dragDivider(divider: HTMLElement, split: HTMLElement): void {
   const set = (wanted: number) => {
@@ -237,6 +266,7 @@ function dragDivider(divider: HTMLElement, split: HTMLElement): void {
   });
 }
 
+/** What is written beside the keys of the page. */
 const keyList: [string, string][] = [
   ["j  k", "next and previous row"],
   ["Enter", "fly to the chosen row"],
@@ -246,18 +276,9 @@ const keyList: [string, string][] = [
   ["u  U", "undo and redo"],
   ["Menu", "copy ids and cards of the row; in the picture: hide or isolate the part"],
   ["f", "fit the visible parts"],
-  ["i", "isolate the chosen pair, or not"],
-  ["h", "only what penetrates; or the rest see-through"],
-  ["o", "all parts solid"],
-  ["m", "measure: node to node, or node to surface"],
+  ...switchHelp.slice(0, 4),
   ["s", "show everything again"],
-  ["a", "arrows"],
-  ["w", "element sides"],
-  ["v", "parallel projection"],
-  ["x", "section planes"],
-  ["p", "list of parts"],
-  ["c", "edges of crossed elements"],
-  ["n", "lines of ties, from node to segment"],
+  ...switchHelp.slice(4),
   ["1 … 9", "colours: depth, depth ÷ gap, gap, gap ÷ side, parts, force, stiffness, time step of node, of element"],
   ["t", "dark or light"],
   ["wheel", "zoom"],
@@ -305,18 +326,7 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
     k: () => list.move(-1),
     Enter: () => report.selected && viewport.open(report.selected),
     f: () => viewport.fit(),
-    i: () => viewport.toggleFollow(),
-    h: () => viewport.toggleRest(),
-    o: () => viewport.toggleSolid(),
-    m: () => viewport.toggleMeasure(),
     s: () => viewport.showAll(),
-    a: () => viewport.toggleArrows(),
-    w: () => viewport.toggleEdges(),
-    x: () => viewport.toggleClip(),
-    v: () => viewport.toggleParallel(),
-    p: () => viewport.toggleParts(),
-    c: () => viewport.toggleCrossed(),
-    n: () => viewport.toggleTies(),
     t: () => changeLook({ dark: !look.dark }),
     "?": () => help.showModal(),
     "/": () => document.getElementById("find")?.focus(),
@@ -343,11 +353,11 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
       return;
     }
     if (e.key === "Enter" && at.matches("button, summary, a, .vt-body")) return;
-    const action = run[e.key];
-    if (action) {
-      action();
-      e.preventDefault();
-    }
+    const flip = switchOf[e.key];
+    if (flip) viewport.toggle(flip);
+    else if (run[e.key]) run[e.key]();
+    else return;
+    e.preventDefault();
   });
 }
 

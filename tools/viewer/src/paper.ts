@@ -1,6 +1,6 @@
 // Two pages of paper: verdict, picture with its legend, the ten worst of all, those of a filter, the interfaces.
 import { deckCommand } from "./exports";
-import { group, h, lengthText, num, percent, plural, replace } from "./dom";
+import { group, h, lengthText, num, percent, plainTable, plural, replace } from "./dom";
 import type { Hit, Report } from "./report";
 import type { Viewport } from "./scene/viewport";
 
@@ -21,14 +21,9 @@ export function filterText(report: Report): string {
   ].filter((t) => t).join(", ");
 }
 
-function table(titles: string[], rows: (string | number)[][]): HTMLElement {
-  return h("table", { class: "plain" }, h("thead", null, h("tr", null, ...titles.map((t) => h("th", null, t)))),
-    h("tbody", null, ...rows.map((r) => h("tr", null, ...r.map((t) => h("td", null, t))))));
-}
-
 function worst(report: Report, hits: Hit[]): HTMLElement {
   const id = (x: Hit) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id;
-  return table(["Depth", "Gap", "Interface", "Node / edge", "Segment / edge", "Part", "Main part", "Action"],
+  return plainTable(["Depth", "Gap", "Interface", "Node / edge", "Segment / edge", "Part", "Main part", "Action"],
     hits.slice(0, 10).map((x) => [lengthText(report, x.depth, 5), lengthText(report, x.row.gap), id(x), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), report.fateText(x.row)]));
 }
 
@@ -40,7 +35,7 @@ function ties(report: Report): HTMLElement[] {
   const name = (i: number) => report.meta.interfaces[i];
   const rest = all.length - Math.min(bad.length, mostTies);
   return [h("h2", null, "Ties"),
-    ...(bad.length > 0 ? [table(["Id", "Title", "Result", "What happens"], bad.slice(0, mostTies).map((t) => [name(t.interface).id, name(t.interface).title, t.text, t.losses]))] : []),
+    ...(bad.length > 0 ? [plainTable(["Id", "Title", "Result", "What happens"], bad.slice(0, mostTies).map((t) => [name(t.interface).id, name(t.interface).title, t.text, t.losses]))] : []),
     ...(rest > 0 ? [h("p", { class: "note" }, bad.length > mostTies ? `… and ${plural(rest, "tie", "ties")}` : `${plural(rest, "tie holds", "ties hold")} all nodes`)] : [])];
 }
 
@@ -63,7 +58,7 @@ export function printing(report: Report, viewport: Viewport): void {
       filter !== "" && h("h2", { class: "selection" }, `Ten worst of the selection: ${filter}`),
       filter !== "" && worst(report, report.filtered),
       h("h2", { class: "second" }, "Interfaces"),
-      table(["Id", "Title", "Kind", "Gapmin", "Pairs", "Nodes", "Edges", "Deepest", "Of gap"],
+      plainTable(["Id", "Title", "Kind", "Gapmin", "Pairs", "Nodes", "Edges", "Deepest", "Of gap"],
         all.slice(0, most).map(({ inter, contacts, t }) => [inter.id, inter.title, `TYPE${inter.type}`, lengthText(report, report.results[contacts[0]].setting.gapmin), ...[t.pairs, t.nodes, t.edges].map((n) => (contacts.some((c) => meta.contacts[c].evaluated) ? group(n) : "–")), t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth) : "–", t.pairs && !t.unbounded ? percent(t.max_ratio) : "–"])),
       all.length > most && h("p", { class: "note" }, `… and ${group(all.length - most)} with shallower penetrations or none`),
       ...ties(report),

@@ -1,12 +1,13 @@
 // The state of the page: data, settings under test, results, filters, selection; and who is told
 // when one of them changes.
+import type { Crossings, CycleContact, Earlier, FirstCycle, Meta, Moved, TieLines, TieMeta } from "schema/page";
+import type { FieldName, Overrides } from "./card";
 import { kindNames, type Contacts, type Mesh, type Steps } from "./data";
 import { lengthText, onceShown } from "./dom";
-import { commonStart } from "./table/names";
-import { ratioOf, stopsSolver, Tally, type Action, type Row } from "./rows";
-import type { Untied } from "./sections/untied";
+import { commonStart } from "./table/columns";
+import { ratioOf, stopsSolver, Tally, type Action, type Row, type Totals } from "./rows";
+import type { Untied } from "./tied";
 import { Evaluator, type Result } from "./what_if";
-import type { Crossed, Cycle, Earlier, FieldName, Meta, Moved, Overrides, TieData, TieMeta, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
 
@@ -122,9 +123,9 @@ export class Report {
     readonly mesh: Mesh,
     readonly data: Contacts,
     readonly earlier: Earlier | null,
-    readonly cycle: Cycle | null,
-    readonly crossed: Crossed | null,
-    readonly ties: TieData[], // in the order of Meta.ties
+    readonly cycle: FirstCycle | null,
+    readonly crossed: Crossings | null,
+    readonly ties: TieLines[], // in the order of Meta.ties
   ) {
     this.forces = cycle && cycle.contacts.map((c) => new Map(c.rows.map((r) => [`${r[0]}/${r[1]}`, { force: r[2], stiffness: r[3] }])));
     this.overrides = meta.interfaces.map((inter) => {
@@ -191,9 +192,10 @@ export class Report {
   get verified(): boolean {
     return this.meta.contacts.every((c, i) => {
       const t = this.evaluator.written[i].totals;
+      const written: Totals = c.totals;
       return (
         !c.complete ||
-        (Object.keys(t) as (keyof Totals)[]).every((k) => (t.unbounded && (k === "unbounded" || k.startsWith("max_"))) || JSON.stringify(t[k]) === JSON.stringify(c.totals[k]))
+        (Object.keys(t) as (keyof Totals)[]).every((k) => (t.unbounded && (k === "unbounded" || k.startsWith("max_"))) || JSON.stringify(t[k]) === JSON.stringify(written[k]))
       );
     });
   }
@@ -365,7 +367,7 @@ export class Report {
     return contact < 0 ? t.lost : t.nodes - new Set(this.results[contact].rows.map((r) => r.secondary)).size;
   }
   /** The tie that an interface is; null: it is a contact. */
-  tieOf(inter: number): TieData | null {
+  tieOf(inter: number): TieLines | null {
     return this.ties[this.meta.ties.findIndex((t) => t.interface === inter)] ?? null;
   }
   interfaceName(inter: number): string {
@@ -436,12 +438,12 @@ export class Report {
     return JSON.stringify(this.overrides[inter]) !== JSON.stringify(this.started[inter]);
   }
   /** The first cycle of a contact; null as above. */
-  cycleOf(contact: number): Cycle["contacts"][0] | null {
+  cycleOf(contact: number): CycleContact | null {
     return this.cycle && !this.settingsDiffer(contact) ? this.cycle.contacts[contact] : null;
   }
 
   /** Nodes that contact acts on in the first cycle, of an interface or part pair that is chosen those of its rows; null as above. */
-  get acted(): Cycle["nodes"] | null {
+  get acted(): FirstCycle["nodes"] | null {
     if (!this.cycle || this.meta.contacts.some((_, i) => this.settingsDiffer(i))) return null;
     const { interface: inter, pair } = this.filter;
     if (inter === null && pair === null) return this.cycle.nodes;
@@ -469,7 +471,7 @@ export class Report {
           const old = this.earlierRows.get(key);
           seen.add(key);
           hit.earlier = old && old[6] !== "new" ? old[4] : null;
-          hit.status = this.settingsDiffer(contact) ? trendOf(row.depth, hit.earlier, this.earlier.same_depth) : old && old[6] !== "solved" ? old[6] : null;
+          hit.status = this.settingsDiffer(contact) ? trendOf(row.depth, hit.earlier, this.earlier.same_depth) : old && old[6] !== "solved" ? (old[6] as Status) : null;
         }
         this.hits.push(hit);
       }

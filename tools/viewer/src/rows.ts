@@ -1,20 +1,13 @@
 // Penetrations: what is known of each, and how they are counted.
 import type { ContactData, Figures } from "./data";
-import type { ContactMeta, Meta, Totals } from "./meta";
+import type { ContactMeta, Meta, Totals as WrittenTotals } from "schema/page";
 
-export type Action =
-  | "none"
-  | "node-stiffness-zero"
-  | "segment-stiffness-zero"
-  | "node-moved"
-  | "gap-reduced"
-  | "edge-stiffness-zero"
-  | "ignored"
-  | "offset-stored"
-  | "initial-force"
-  | "removed-tied"
-  | "error-611"
-  | "error-612";
+export type Action = keyof Meta["actions"];
+
+/** Secondary nodes and edges, each once, and pairs: never added up. */
+export interface Totals extends Omit<WrittenTotals, "tied" | "crossed_elements"> {
+  unbounded?: number; // pairs that are left out of max_depth and max_ratio
+}
 
 /** The solver stops at such a penetration. */
 export const stopsSolver = (action: Action): boolean => action.startsWith("error-");

@@ -1,9 +1,8 @@
 // The view as text: what stands behind the '#' of the address, so that a link opens the same view; and undo, which is the
 // same texts in order.
-import { fieldNames, type Overrides } from "./meta";
-import type { ContourKind, Look } from "./look";
+import { fieldNames, type Overrides } from "./card";
+import type { ContourKind, Look, MapName } from "./look";
 import type { Filter, Report, Status } from "./report";
-import type { MapName } from "./scene/colormap";
 import type { Viewport } from "./scene/viewport";
 
 interface Table {

@@ -2,8 +2,9 @@
 // libdeck/contact/rules and deck/contact/pair_gap.hpp form it, operation by operation, less its distance. So the numbers are
 // those of `deck gaps --what-if` to the last bit (tests/browser/what_if.mjs).
 import { lengths, type ContactData, type Contacts } from "./data";
-import type { ContactMeta, Meta, Overrides, Samples, Totals } from "./meta";
-import { distanceOf, emptyTotals, enlarged, foundRows, Row, Tally, type Action } from "./rows";
+import type { ContactMeta, Meta } from "schema/page";
+import type { Overrides } from "./card";
+import { distanceOf, emptyTotals, enlarged, foundRows, Row, Tally, type Action, type Totals } from "./rows";
 
 /** Effective options of one contact. */
 export interface Setting {
@@ -40,11 +41,12 @@ function writtenSetting(c: ContactMeta): Setting {
   return { igap: c.igap, rule, inacti: c.inacti, fpenmax: c.fpenmax, scale: c.gap_scale, gapmin: c.gapmin ?? NaN, gapminFrom: c.gapmin_from, gapmax: c.gapmax, maxGap: c.max_gap ?? NaN };
 }
 
+type Samples = ContactMeta["default"][0];
 /** Default gap of one side of a line contact. */
 function defaultOfSide([count, sum, smallest, , shortest]: Samples, variable: boolean): number {
   const half = 0.5 * shortest;
   if (count === 0) return 0.2 * half;
-  return Math.min(half, variable ? smallest! : sum / count);
+  return Math.min(half, variable ? smallest : sum / count);
 }
 
 /** The gap that the mesh gives where the card has none, and of what. */
@@ -54,7 +56,7 @@ function defaultGap(c: ContactMeta, variable: boolean, scale: number): [number, 
   const [count, sum, smallest, largest, shortest] = main;
   if (count === 0) return [0.1 * shortest, "a tenth of the shortest main side"];
   const scaled = variable && c.type !== 10;
-  const t = scaled ? scale * (scale < 0 ? largest! : smallest!) : sum / count;
+  const t = scaled ? scale * (scale < 0 ? largest : smallest) : sum / count;
   const half = 0.5 * shortest;
   if (half < t) return [half, "half the shortest main side"];
   if (!scaled) return [t, "mean thickness of the main shells"];

@@ -1,4 +1,5 @@
-// Asks a thread for the model. The thread's source lies in the page, which is one file.
+// Asks a thread for the model; imported first, so that it decodes before anything else of the page is there. The thread's source
+// lies in the page, which is one file.
 import { blockText } from "../data";
 import { decode, type Blocks, type Model } from "./model";
 import source from "./worker.ts?text";
@@ -39,17 +40,18 @@ class Thread {
 
 const blocks = (): Blocks => ({ meta: blockText("deck-meta")!, mesh: blockText("deck-mesh")!, shared: blockText("deck-shared")!, contacts: blockText("deck-contacts")! });
 
-/** Begins to decode; null: the browser gives the page no thread. */
-export function begin(): Thread | null {
+/** null: the browser gives the page no thread. */
+function begin(): Thread | null {
   try {
     return new Thread(blocks());
   } catch {
     return null;
   }
 }
+const begun = begin();
 
 /** The model, and whether a thread made it: where the browser gives the page none, it is decoded here. */
-export async function loadModel(begun: Thread | null, coarse: boolean, say: Say): Promise<Model & { beside: boolean }> {
+export async function loadModel(coarse: boolean, say: Say): Promise<Model & { beside: boolean }> {
   try {
     if (begun) return { ...(await begun.finish(coarse, say)), beside: true };
   } catch {

@@ -8,23 +8,9 @@ declare global {
 
 export function fromBase64(text: string): Uint8Array {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
-  const table = new Uint8Array(128);
-  const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (let i = 0; i < 64; i++) table[digits.charCodeAt(i)] = i;
-  let end = text.length;
-  while (end > 0 && text.charCodeAt(end - 1) === 61) end--;
-  const out = new Uint8Array((end * 3) >> 2);
-  let o = 0;
-  for (let i = 0; i < end; i += 4) {
-    const v =
-      (table[text.charCodeAt(i)] << 18) |
-      (table[text.charCodeAt(i + 1)] << 12) |
-      (i + 2 < end ? table[text.charCodeAt(i + 2)] << 6 : 0) |
-      (i + 3 < end ? table[text.charCodeAt(i + 3)] : 0);
-    out[o++] = v >> 16;
-    if (o < out.length) out[o++] = (v >> 8) & 255;
-    if (o < out.length) out[o++] = v & 255;
-  }
+  const bytes = atob(text);
+  const out = new Uint8Array(bytes.length);
+  for (let i = 0; i < out.length; i++) out[i] = bytes.charCodeAt(i);
   return out;
 }
 

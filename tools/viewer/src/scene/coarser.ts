@@ -2,7 +2,8 @@
 // picture. Vertices of a cell of a grid are one; a cell that touches something that penetrates is drawn as penetrating.
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, type MeshLambertMaterial, Object3D, Sphere, Vector3 } from "three";
 import type { MeshPart } from "../data";
-import type { Coarse } from "../decode/shape";
+import type { Coarse } from "../decode/model";
+import { discard } from "./shapes";
 
 /** What penetrates: nodes and elements (see elementKey in parts3d.ts). */
 export interface Marks {
@@ -29,6 +30,17 @@ export function fillContour(geometry: BufferGeometry, node: Uint32Array, vertex:
   }
   if (any) attribute.needsUpdate = true;
 }
+
+/** `sphere`: around all of it. */
+export function geometryOf(sphere: Sphere, index: BufferAttribute, position: BufferAttribute, contour?: BufferAttribute): BufferGeometry {
+  const geometry = new BufferGeometry().setAttribute("position", position).setIndex(index);
+  if (contour) geometry.setAttribute("contour", contour);
+  geometry.boundingSphere = sphere.clone();
+  return geometry;
+}
+/** Other triangles or lines between the same vertices. */
+export const sharing = (from: BufferGeometry, index: BufferAttribute): BufferGeometry =>
+  geometryOf(from.boundingSphere!, index, from.getAttribute("position") as BufferAttribute, from.getAttribute("contour") as BufferAttribute);
 
 const span = 3 * 8192; // indices
 
@@ -82,17 +94,11 @@ export class Coarser {
     if (this.hot) this.hot.visible = hot;
   }
 
-  private geometry(position: BufferAttribute, contour: BufferAttribute, index: BufferAttribute): BufferGeometry {
-    const geometry = new BufferGeometry().setAttribute("position", position).setAttribute("contour", contour).setIndex(index);
-    geometry.boundingSphere = this.sphere.clone();
-    return geometry;
-  }
-
   private make(): Mesh {
     const { vertex, index } = this.coarse;
     const position = new Float32Array(3 * vertex.length);
     for (let i = 0; i < vertex.length; i++) for (let k = 0; k < 3; k++) position[3 * i + k] = this.data.position[3 * vertex[i] + k];
-    const made = new Mesh(this.geometry(new BufferAttribute(position, 3), contourAttribute(vertex.length), new BufferAttribute(index, 1)));
+    const made = new Mesh(geometryOf(this.sphere, new BufferAttribute(index, 1), new BufferAttribute(position, 3), contourAttribute(vertex.length)));
     this.group.add(made);
     return made;
   }
@@ -121,14 +127,10 @@ export class Coarser {
       if (cell[index[t]] + cell[index[t + 1]] + cell[index[t + 2]] === 0) continue;
       for (let k = 0; k < 3; k++) out[m++] = index[t + k];
     }
-    if (this.hot) {
-      this.group.remove(this.hot);
-      this.hot.geometry.dispose();
-      this.hot = null;
-    }
+    discard(this.group, [this.hot]);
+    this.hot = null;
     if (m === 0) return;
-    const from = this.faces!.geometry;
-    this.hot = new Mesh(this.geometry(from.getAttribute("position") as BufferAttribute, from.getAttribute("contour") as BufferAttribute, new BufferAttribute(out.slice(0, m), 1)), solid);
+    this.hot = new Mesh(sharing(this.faces!.geometry, new BufferAttribute(out.slice(0, m), 1)), solid);
     this.group.add(this.hot);
   }
 }

@@ -3,7 +3,10 @@
 import { Vector3 } from "three";
 import type { Report } from "../report";
 import type { Row } from "../rows";
-import { footOn } from "./tied";
+import { footOn } from "../tied";
+
+/** Place of a node by its number in the page; NaN: in no element. */
+export const placeOf = (report: Report, node: number): Vector3 => new Vector3().fromArray(report.nodePositions, 3 * node);
 
 /** Exact place of a node of a carried pair. */
 export function exactAt(report: Report, node: number): Vector3 {

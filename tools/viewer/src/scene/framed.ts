@@ -1,7 +1,8 @@
-// A picture that says by itself what it shows: title above, axes in it, legend below.
+// The axes of the deck as the view is turned; and a picture that says by itself what it shows: title above, axes in it, legend below.
 import { Vector3, type Quaternion } from "three";
+import { replace, svg } from "../dom";
 
-export interface Frame {
+interface Frame {
   title: string; // the deck
   about: string; // interface and what the colours show
   white: boolean; // dark ink on light ground
@@ -12,15 +13,26 @@ export interface Frame {
 
 const axisColours = [["X", "#c0392b", 1, 0, 0], ["Y", "#2e8b57", 0, 1, 0], ["Z", "#2f6fde", 0, 0, 1]] as const;
 
-function drawAxes(g: CanvasRenderingContext2D, x: number, y: number, turned: Quaternion): void {
+/** Those behind first. */
+function axesOf(turned: Quaternion) {
   const back = turned.clone().invert();
   const all = axisColours.map(([name, colour, ...along]) => ({ name, colour, v: new Vector3(...along).applyQuaternion(back) }));
-  all.sort((a, b) => a.v.z - b.v.z);
+  return all.sort((a, b) => a.v.z - b.v.z);
+}
+
+/** In the corner of the view. */
+export function showAxes(element: SVGElement, turned: Quaternion): void {
+  replace(element, ...axesOf(turned).flatMap(({ name, colour, v }) => [
+    svg("line", { x1: 0, y1: 0, x2: 18 * v.x, y2: -18 * v.y, stroke: colour, "stroke-width": 2, "stroke-linecap": "round" }),
+    svg("text", { x: 25 * v.x, y: -25 * v.y + 3, fill: colour }, name)]));
+}
+
+function drawAxes(g: CanvasRenderingContext2D, x: number, y: number, turned: Quaternion): void {
   g.lineWidth = 2.5;
   g.textAlign = "center";
   g.textBaseline = "middle";
   g.font = "bold 12px system-ui, sans-serif";
-  for (const { name, colour, v } of all) {
+  for (const { name, colour, v } of axesOf(turned)) {
     g.strokeStyle = g.fillStyle = colour;
     g.beginPath();
     g.moveTo(x, y);

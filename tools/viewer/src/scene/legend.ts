@@ -1,9 +1,8 @@
 // The scale of the colours: its title with unit, ticks, and what can be set: map, steps, limits, equal ratios, the label of
 // the largest value.
-import type { Units } from "../meta";
-import { contourNames, ofCycle, type ContourKind, type Look } from "../look";
+import type { Units } from "schema/page";
+import { colorAt, contourNames, cssColor, mapNames, ofCycle, type ContourKind, type Look, type MapName } from "../look";
 import { h, num, replace } from "../dom";
-import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
 import type { Contour } from "./contour";
 
 const prefixes: Record<string, number> = { "": 1, G: 1e9, M: 1e6, k: 1e3, d: 0.1, c: 0.01, m: 1e-3, u: 1e-6, mu: 1e-6, n: 1e-9 };

@@ -6,10 +6,11 @@ import {
   Mesh as Mesh3, MeshLambertMaterial, Object3D, type Plane, RGBAFormat, Sphere, SRGBColorSpace, Vector3,
 } from "three";
 import { acceleratedRaycast, MeshBVH } from "three-mesh-bvh";
-import type { MovedRow } from "../meta";
+import type { Moved } from "schema/page";
 import type { Mesh, MeshPart } from "../data";
-import type { Shape } from "../decode/shape";
-import { Coarser, contourAttribute, fillContour, ranges, type Marks } from "./coarser";
+import type { Shape } from "../decode/model";
+import { Coarser, contourAttribute, fillContour, geometryOf, ranges, sharing, type Marks } from "./coarser";
+import { discard } from "./shapes";
 
 Mesh3.prototype.raycast = acceleratedRaycast;
 
@@ -99,11 +100,7 @@ export class Parts3D {
       hot: null, hotLines: null, sphere: empty ? new Sphere() : new Sphere(middle, shape.radius), triangleElement, element, elementKind,
     };
     if (triangleElement.length > 0) {
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("position", position);
-      geometry.setAttribute("contour", contourAttribute(data.node.length));
-      geometry.setIndex(new BufferAttribute(shape.index, 1));
-      geometry.boundingSphere = part.sphere.clone();
+      const geometry = geometryOf(part.sphere, new BufferAttribute(shape.index, 1), position, contourAttribute(data.node.length));
       const material = new MeshLambertMaterial({
         color, side: DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
       });
@@ -115,11 +112,7 @@ export class Parts3D {
       for (const c of part.coarser) this.group.add(c.group);
     }
     if (shape.wires.length > 0) {
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("position", position);
-      geometry.setIndex(new BufferAttribute(shape.wires, 1));
-      geometry.boundingSphere = part.sphere.clone();
-      part.wires = new LineSegments(geometry, this.wire);
+      part.wires = new LineSegments(geometryOf(part.sphere, new BufferAttribute(shape.wires, 1), position), this.wire);
       this.group.add(part.wires);
     }
     this.parts.push(part);
@@ -148,11 +141,7 @@ export class Parts3D {
       index[m++] = Math.floor(sorted[i] / n);
       index[m++] = sorted[i] % n;
     }
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", part.faces.geometry.getAttribute("position"));
-    geometry.setIndex(new BufferAttribute(index.slice(0, m), 1));
-    geometry.boundingSphere = part.sphere.clone();
-    part.lines = new LineSegments(geometry, this.line);
+    part.lines = new LineSegments(geometryOf(part.sphere, new BufferAttribute(index.slice(0, m), 1), part.faces.geometry.getAttribute("position") as BufferAttribute), this.line);
     this.group.add(part.lines);
     return part.lines;
   }
@@ -219,11 +208,7 @@ export class Parts3D {
   }
 
   private drawHot(part: Part3D, from: BufferGeometry): void {
-    for (const old of [part.hot, part.hotLines]) {
-      if (!old) continue;
-      this.group.remove(old);
-      old.geometry.dispose();
-    }
+    discard(this.group, [part.hot, part.hotLines]);
     part.hot = part.hotLines = null;
     const { node } = this.marks;
     const elements = (this.marks.elements ??= this.elements());
@@ -246,14 +231,7 @@ export class Parts3D {
         for (let k = 0; k < g.corners; k++) lines.push(v[k], v[(k + 1) % g.corners]);
       }
     if (triangles.length === 0) return;
-    const share = (index: number[]) => {
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("position", from.getAttribute("position"));
-      geometry.setAttribute("contour", from.getAttribute("contour"));
-      geometry.setIndex(index);
-      geometry.boundingSphere = part.sphere.clone();
-      return geometry;
-    };
+    const share = (index: number[]) => sharing(from, new BufferAttribute(part.data.node.length > 65535 ? new Uint32Array(index) : new Uint16Array(index), 1));
     part.hot = new Mesh3(share(triangles), this.materialOf(part));
     part.hot.userData = { part, triangleElement: Uint32Array.from(owner) };
     part.hotLines = new LineSegments(share(lines), this.line);
@@ -360,7 +338,7 @@ export class Parts3D {
 
   private shifted = false;
   /** Puts moved nodes where they stood before, or back. */
-  showBefore(rows: MovedRow[], on: boolean): void {
+  showBefore(rows: Moved["rows"], on: boolean): void {
     if (on === this.shifted) return;
     this.shifted = on;
     const by = new Map(rows.map((r) => [r[0], r]));

@@ -1,10 +1,21 @@
 // What draws, made while the model is still being decoded: the context, and the programs that the first picture needs, which
 // take longer to compile than that picture to draw.
 import { BufferAttribute, BufferGeometry, DirectionalLight, HemisphereLight, PerspectiveCamera, Points, Scene, Sphere, Vector3, WebGLRenderer } from "three";
-import { shapesOf } from "../decode/shape";
+import { shapesOf } from "../decode/model";
 import type { Mesh, MeshPart } from "../data";
 import { Parts3D } from "./parts3d";
 import { discTexture, dotMaterial } from "./shapes";
+
+/** True where the browser has no graphics processor: smoothing would cost most of the time. */
+export function drawsInSoftware(): boolean {
+  // Most browsers refuse at once where everything would be slow; the others are asked for a name.
+  const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+  if (!gl) return true;
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
 
 /** Throws where there is no WebGL. */
 export function machineFor(software: boolean): WebGLRenderer {

@@ -3,6 +3,7 @@ import { Triangle, Vector3, type Mesh } from "three";
 import type { MeshBVH } from "three-mesh-bvh";
 import { h, icon, num, replace } from "../dom";
 import type { Report } from "../report";
+import { placeOf } from "./drawn";
 import type { Parts3D } from "./parts3d";
 import type { Picked, View3D } from "./view3d";
 
@@ -46,15 +47,11 @@ export class Ruler {
     this.measured = nodes;
     this.draw();
   }
-  private at(n: number): Vector3 {
-    const x = this.report.nodePositions;
-    return new Vector3(x[3 * n], x[3 * n + 1], x[3 * n + 2]);
-  }
   private get unit(): string {
     return this.report.meta.deck.units.working?.length ?? "";
   }
   private draw(): void {
-    const points = this.measured.map((n) => this.at(n));
+    const points = this.measured.map((n) => placeOf(this.report, n));
     this.view()?.setRule(points);
     const ids = this.measured.map((n) => `node ${this.report.nodeId(n)}`);
     if (points.length < 2) return replace(this.said, `${ids[0]} – click ${this.toSurface ? "a part" : "another node"}`);
@@ -66,7 +63,7 @@ export class Ruler {
   private surface(p: Picked): void {
     const view = this.view();
     const part = p.part!;
-    const from = this.at(this.measured[0]);
+    const from = placeOf(this.report, this.measured[0]);
     const own = part.data.node.includes(this.measured[0]);
     const foot = part.faces && nearestOn(view!.parts, part.faces, from, own ? (t) => part.triangleElement[t] === p.item : null);
     if (!foot) return;

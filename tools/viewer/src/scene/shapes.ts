@@ -1,5 +1,8 @@
-// Shapes that the 3D view draws many times: the arrow of a force or depth, the dot of a node.
-import { BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, CylinderGeometry, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, PointsMaterial, Vector3 } from "three";
+// Shapes that the 3D view draws many times: the arrow of a force or depth, the dot of a node, lines and dots that lie over everything.
+import {
+  BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, CylinderGeometry, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, type Object3D, Points,
+  PointsMaterial, type Scene, Vector3,
+} from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
@@ -56,4 +59,65 @@ export function coneAt(from: Vector3, to: Vector3, color: string): Mesh {
   cone.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), to.clone().sub(from).divideScalar(length));
   cone.renderOrder = 8;
   return cone;
+}
+
+/** Dots of one colour. */
+export function dotsOver(geometry: BufferGeometry, disc: CanvasTexture, size: number, color: string, order: number): Points {
+  const dots = new Points(geometry, new PointsMaterial({ size, color, sizeAttenuation: false, map: disc, alphaTest: 0.3, depthTest: false, transparent: true }));
+  dots.frustumCulled = false;
+  dots.renderOrder = order;
+  return dots;
+}
+
+/** Takes things out of the scene that nothing will draw again. */
+export function discard(scene: Object3D, things: ((Object3D & { geometry: BufferGeometry }) | null)[]): void {
+  for (const thing of things) {
+    if (!thing) continue;
+    scene.remove(thing);
+    thing.geometry.dispose();
+  }
+}
+
+const mostThickLines = 4000; // thick lines are triangles
+
+interface Strokes {
+  ends: Float32Array; // six numbers a line
+  color: string;
+  width: number;
+}
+
+export class LineLayer {
+  readonly lines: (LineSegments2 | LineSegments)[] = [];
+  private readonly dots: Points[] = [];
+  private shown = true;
+
+  constructor(
+    private readonly scene: Scene,
+    private readonly thick: (ends: Float32Array, color: string, width: number) => LineSegments2,
+    private readonly disc: CanvasTexture,
+    private readonly changed: () => void,
+  ) {}
+
+  set visible(on: boolean) {
+    this.shown = on;
+    for (const l of this.lines) l.visible = on;
+  }
+
+  /** In place of what was there: the strokes, the later above the earlier, and dots. */
+  set(strokes: Strokes[], dots: { at: Float32Array; color: string } | null = null): void {
+    discard(this.scene, this.lines.splice(0));
+    discard(this.scene, this.dots.splice(0));
+    for (const { ends, color, width } of strokes) {
+      if (ends.length === 0) continue;
+      const l = ends.length > 6 * mostThickLines ? thinLines(ends, color) : this.thick(ends, color, width);
+      l.visible = this.shown;
+      this.lines.push(l);
+      this.scene.add(l);
+    }
+    if (dots && dots.at.length > 0) {
+      this.dots.push(dotsOver(new BufferGeometry().setAttribute("position", new BufferAttribute(dots.at, 3)), this.disc, 10, dots.color, 7));
+      this.scene.add(...this.dots);
+    }
+    this.changed();
+  }
 }

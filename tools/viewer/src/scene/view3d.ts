@@ -7,11 +7,10 @@ import { Parts3D, type Look, type Part3D } from "./parts3d";
 import { Section, type Cut } from "./section";
 import { Marked } from "./marks/marked";
 import { Slices } from "./slices";
-import { LineLayer } from "./layer";
-import type { TieLines } from "./tied";
+import type { TieStrokes } from "../tied";
 import { Markers, type Arrow } from "./marks/markers";
-import { discTexture } from "./shapes";
-import type { Shape } from "../decode/shape";
+import { discTexture, LineLayer } from "./shapes";
+import type { Shape } from "../decode/model";
 import type { Hit, Report } from "../report";
 
 export interface Picked {
@@ -342,7 +341,7 @@ export class View3D {
   readonly moved: LineLayer;
 
   /** All lines of ties in sight. */
-  fitPoints({ tied, lost, lostNodes }: TieLines): void {
+  fitPoints({ tied, lost, lostNodes }: TieStrokes): void {
     const points = [tied, lost, lostNodes].flatMap((x) => Array.from({ length: x.length / 3 }, (_, i) => new Vector3().fromArray(x, 3 * i)));
     if (points.length === 0) return this.fit();
     const s = new Sphere().setFromPoints(points);

@@ -2,37 +2,36 @@
 import { Vector3, type WebGLRenderer } from "three";
 import { contourOf, type Contour } from "./contour";
 import { colorOf, hasValues, largestOf, Legend, rescaled, titleOf } from "./legend";
-import { drawCrossed, drawMoved, drawTies, outline } from "./marks/overlays";
-import { crossedElements, forceArrows, markHot } from "./marks/hot";
-import { toolbar } from "./toolbar";
+import { crossedElements, drawCrossed, drawMoved, drawTies, forceArrows, markHot, outline } from "./marks/overlays";
+import { toolbar, type SwitchName } from "./toolbar";
 import { Ruler } from "./ruler";
 import { nearText } from "../sections/nearest";
 import type { Row } from "../rows";
-import { pointOf, wayOut } from "./drawn";
-import type { Crossed } from "../meta";
+import { placeOf, pointOf, wayOut } from "./drawn";
+import type { Crossings } from "schema/page";
 import { crossingText, segmentOf } from "../sections/crossed";
-import { cornersOf, nodeOf, type Untied } from "../sections/untied";
-import { tieLines } from "./tied";
+import { cornersOf, nodeOf, tieLines, type Untied } from "../tied";
 import { button, fileName, h, icon, num, plural, replace, svg } from "../dom";
-import { drawAxes, elementText } from "./marks/names";
 import { copyImage, saveDataUrl } from "../exports";
-import { framed } from "./framed";
+import { framed, showAxes } from "./framed";
 import { frameOf } from "../find";
 import { contourNames, ofCycle, type Look } from "../look";
 import { loadElements, kindNames, type ElementOrigin } from "../data";
-import type { Shape } from "../decode/shape";
+import type { Shape } from "../decode/model";
 import { elementKey, type Look as PartLook, type Part3D } from "./parts3d";
 import type { Cut } from "./section";
 import type { Hit, Report } from "../report";
 import { machineFor } from "./ready";
-import { ClipPanel } from "./clippanel";
-import { Labels } from "./marks/labels";
-import { PartList } from "./partlist";
+import { elementText, Labels } from "./marks/labels";
+import { ClipPanel, PartList } from "./panels";
 import type { MenuItem } from "../menu";
-import type { MouseScheme } from "./mouse";
+import type { MouseScheme } from "./camera";
 import { View3D, type Picked } from "./view3d";
 
 const mostArrowsAtFirst = 400;
+/** Switches that the address keeps: by which word, and what they are without it. */
+const kept: [SwitchName, [string, string, boolean]][] = [
+  ["solid", ["all", "solid", false]], ["rest", ["rest", "hidden", false]], ["follow", ["isolate", "no", true]], ["crossed", ["crossed", "yes", false]], ["ties", ["ties", "yes", false]]];
 
 export class Viewport {
   readonly element = h("div", { class: "viewport", id: "view" });
@@ -47,17 +46,14 @@ export class Viewport {
   private readonly clip = new ClipPanel(() => this.view?.setSection(this.clip.cuts.filter((c) => c !== null)), () => this.cutThroughRow());
   private readonly hidden = new Set<Part3D>();
   private isolated: Set<Part3D> | null = null;
-  private rest: "ghost" | "hidden" = "ghost";
   /** How much of the parts that are not chosen is seen, 0 to 1. */
   private context = 0;
-  private allSolid = false;
   private readonly ruler: Ruler;
   private origins: ((part: number, item: number) => ElementOrigin) | null = null;
-  private follow = true;
-  private arrows = true;
-  private edges = true;
   private contour: Contour | null = null;
-  private readonly toggles = new Map<string, HTMLButtonElement>();
+  /** What is switched on; the buttons of the tool bar show it. */
+  readonly on: Record<SwitchName, boolean> = { arrows: true, edges: true, rest: false, solid: false, follow: true, crossed: false, ties: false, clip: false, measure: false, parts: false, parallel: false };
+  private readonly buttons = new Map<string, HTMLButtonElement>();
 
   constructor(
     private readonly report: Report,
@@ -96,13 +92,13 @@ export class Viewport {
     }
     const view = this.view;
     view.control.mouse = this.mouse;
-    this.tiesOn = this.report.meta.ties.some((t) => t.lost > 0);
-    // So many arrows hide what they point at.
-    this.arrows = this.report.filtered.length <= mostArrowsAtFirst || ofCycle(this.look.contour);
-    view.setArrows(this.arrows);
     this.axes.toggleAttribute("hidden", false);
-    this.element.append(toolbar(this, this.report, this.look, this.changeLook, this.toggles));
-    this.press("solid", (this.allSolid = this.report.meta.page === "parts"));
+    this.element.append(toolbar(this, this.report, this.look, this.changeLook, this.buttons));
+    this.press("ties", this.report.meta.ties.some((t) => t.lost > 0));
+    // So many arrows hide what they point at.
+    this.press("arrows", this.report.filtered.length <= mostArrowsAtFirst || ofCycle(this.look.contour));
+    view.setArrows(this.on.arrows);
+    this.press("solid", this.report.meta.page === "parts");
     this.buildParts();
     this.clip.build();
     view.onPick = (p) => {
@@ -112,7 +108,7 @@ export class Viewport {
       this.showTip(p.part ? this.elementText(p.part, p.item, p.node) : "");
     };
     view.onFrame = () => {
-      drawAxes(this.axes, view.control.camera.quaternion);
+      showAxes(this.axes, view.control.camera.quaternion);
       this.placeLabels();
     };
     let zoomed = "";
@@ -155,88 +151,63 @@ export class Viewport {
     } });
     return slider;
   }
-  /** Whether a button of the tool bar is down when the view begins. */
-  isOn(key: string): boolean {
-    return { arrows: this.arrows, edges: this.edges, follow: this.follow, ties: this.tiesOn }[key] ?? false;
+  private press(name: SwitchName, on: boolean): void {
+    this.on[name] = on;
+    this.buttons.get(name)?.setAttribute("aria-pressed", on ? "true" : "false");
   }
-  private press(key: string, on: boolean): void {
-    this.toggles.get(key)?.setAttribute("aria-pressed", on ? "true" : "false");
-  }
-  toggleArrows(): void {
-    this.arrows = !this.arrows;
-    this.press("arrows", this.arrows);
-    this.view?.setArrows(this.arrows);
-  }
-  toggleEdges(): void {
-    this.edges = !this.edges;
-    this.press("edges", this.edges);
-    this.view?.parts.setEdges(this.edges);
-    this.view?.request();
-  }
-  toggleRest(): void {
-    this.rest = this.rest === "ghost" ? "hidden" : "ghost";
-    this.press("rest", this.rest === "hidden");
-    this.applyLooks();
-  }
-  toggleSolid(): void {
-    this.allSolid = !this.allSolid;
-    this.press("solid", this.allSolid);
-    this.applyLooks();
-  }
-  toggleMeasure(): void {
-    this.ruler.show(!this.ruler.on);
-    this.press("measure", this.ruler.on);
+  /** What follows when something is switched. */
+  private readonly switched: Record<SwitchName, (on: boolean) => void> = {
+    arrows: (on) => this.view?.setArrows(on),
+    edges: (on) => {
+      this.view?.parts.setEdges(on);
+      this.view?.request();
+    },
+    rest: () => this.applyLooks(),
+    solid: () => this.applyLooks(),
+    follow: () => {
+      this.isolate();
+      this.applyLooks();
+    },
+    crossed: () => this.drawCrossed(),
+    ties: () => this.drawTies(),
+    clip: (on) => this.clip.show(on),
+    measure: (on) => this.ruler.show(on),
+    parts: (on) => (this.partList.element.hidden = !on),
+    parallel: (on) => {
+      this.view!.control.parallel = on;
+      this.view!.request();
+    },
+  };
+  toggle(name: SwitchName): void {
+    if (!this.view && (name === "clip" || name === "parallel")) return;
+    this.press(name, !this.on[name]);
+    this.switched[name](this.on[name]);
   }
   private mouse: MouseScheme = "page";
   setMouse(scheme: MouseScheme): void {
     this.mouse = scheme;
     if (this.view) this.view.control.mouse = scheme;
   }
-  toggleParallel(): void {
-    if (!this.view) return;
-    const { control } = this.view;
-    control.parallel = !control.parallel;
-    this.press("parallel", control.parallel);
-    this.view.request();
-  }
   private elementText(part: Part3D, item: number, node: number): string {
     this.origins ??= loadElements(this.report.mesh);
     return elementText(this.report, this.origins(part.index, item), part, item, node);
   }
-  toggleFollow(): void {
-    this.follow = !this.follow;
-    this.press("follow", this.follow);
-    this.isolate();
-    this.applyLooks();
-  }
-  private crossedOn = false;
   crossedShown: readonly (readonly number[])[] = [];
-  toggleCrossed(): void {
-    this.crossedOn = !this.crossedOn;
-    this.press("crossed", this.crossedOn);
-    this.drawCrossed();
-  }
   private drawCrossed(): void {
     const parts = this.isolated && new Set([...this.isolated].map((p) => p.data.part));
     const inter = this.report.filter.interface;
     const own = (r: readonly number[]) =>
       (inter === null || this.report.meta.contacts[r[0]].interface === inter) && (!parts || parts.has(this.report.data.contacts[r[0]].mainOwner.part[r[5]]));
-    const rows = this.crossing ? [this.crossing] : this.crossedOn ? (this.report.crossed?.rows ?? []).filter(own) : [];
+    const rows = this.crossing ? [this.crossing] : this.on.crossed ? (this.report.crossed?.rows ?? []).filter(own) : [];
     this.crossedShown = rows;
     if (this.view) drawCrossed(this.view, this.report, rows, this.look.dark);
   }
-  private tiesOn = false;
   private tiesShown = "";
-  toggleTies(): void {
-    this.tiesOn = !this.tiesOn;
-    this.press("ties", this.tiesOn);
-    this.drawTies();
-  }
   /** Ties that are switched on; a tie that is chosen is shown in any case, and alone. */
   private drawTies(): void {
     const { interface: inter } = this.report.filter;
     const chosen = inter !== null && this.report.tieOf(inter) !== null;
-    const on = chosen || (this.tiesOn && inter === null);
+    const on = chosen || (this.on.ties && inter === null);
     const key = `${on}/${inter}/${this.look.dark}`;
     if (!this.view || key === this.tiesShown) return;
     this.tiesShown = key;
@@ -244,15 +215,14 @@ export class Viewport {
   }
   /** Flies to a node of a tie and its segment, and says why it is not tied. */
   openTie(x: Untied): void {
-    if (!this.tiesOn) this.toggleTies();
+    if (!this.on.ties) this.toggle("ties");
     const node = nodeOf(this.report, x);
     this.report.select(null, x);
     this.view?.setRule([this.at(node)]);
     this.view?.flyToPoints([node, ...cornersOf(this.report, x.tie, x.row[0])].map((n) => this.at(n)));
   }
   private at(node: number): Vector3 {
-    const x = this.report.nodePositions;
-    return new Vector3(x[3 * node], x[3 * node + 1], x[3 * node + 2]);
+    return placeOf(this.report, node);
   }
   /** Flies to a pair that does not penetrate, its parts alone, and says how far it is from doing so. */
   openNear(row: Row): void {
@@ -269,13 +239,13 @@ export class Viewport {
     view.flyToPoints([from, foot, ...main.map((n) => this.at(n))]);
     this.showTip(`Nearest: ${nearText(report, row)}`);
   }
-  private crossing: Crossed["rows"][0] | null = null;
+  private crossing: Crossings["rows"][0] | null = null;
   /** Shows the two elements of a crossing, the rest of their parts see-through, and says which they are. */
-  openCrossed(row: Crossed["rows"][0]): void {
+  openCrossed(row: Crossings["rows"][0]): void {
     this.report.select(null);
     if (!this.view) return;
     this.crossing = row;
-    if (!this.crossedOn) this.toggleCrossed();
+    if (!this.on.crossed) this.toggle("crossed");
     this.refresh();
     this.view.flyToPoints([row[1], row[2], ...segmentOf(this.report, row)].map((n) => this.at(n)));
     this.showTip(crossingText(this.report, row));
@@ -297,22 +267,10 @@ export class Viewport {
   private drawMoved(): void {
     if (this.view) drawMoved(this.view, this.report, this.look);
   }
-  toggleParts(): void {
-    const list = this.partList.element;
-    list.hidden = !list.hidden;
-    this.press("parts", !list.hidden);
-  }
-  toggleClip(): void {
-    if (!this.view) return;
-    const on = !!this.clip.element.hidden;
-    this.press("clip", on);
-    this.clip.show(on);
-  }
   /** Shows everything again. */
   showAll(): void {
     this.hidden.clear();
     this.isolated = null;
-    this.allSolid = true;
     this.press("solid", true);
     this.applyLooks();
     this.buildParts();
@@ -401,31 +359,22 @@ export class Viewport {
   /** What the address of the page keeps of the picture. */
   get state(): Record<string, string> {
     const out: Record<string, string> = {};
-    if (this.allSolid) out.all = "solid";
-    if (this.rest === "hidden") out.rest = "hidden";
-    if (!this.follow) out.isolate = "no";
+    for (const [name, [key, text, otherwise]] of kept) if (this.on[name] !== otherwise) out[key] = text;
     if (this.context > 0) out.context = String(this.context);
-    if (this.crossedOn) out.crossed = "yes";
-    if (this.tiesOn) out.ties = "yes";
     if (this.hidden.size > 0) out.hidden = [...this.hidden].map((p) => this.report.partId(p.data.part)).join(",");
     if (this.clip.any) out.section = this.clip.state;
     if (this.ruler.measured.length === 2) out.ruler = this.ruler.measured.map((n) => this.report.nodeId(n)).join(",");
-    if (this.view?.control.parallel) out.parallel = "yes";
+    if (this.view && this.on.parallel) out.parallel = "yes";
     if (this.view) out.camera = this.view.control.pose;
     return out;
   }
   set state(s: Record<string, string>) {
-    this.allSolid = s.all === "solid";
-    this.rest = s.rest === "hidden" ? "hidden" : "ghost";
-    this.follow = s.isolate !== "no";
+    for (const [name, [key, text, otherwise]] of kept) this.press(name, (s[key] === text) !== otherwise);
     this.context = Math.min(Math.max(Number(s.context ?? 0) || 0, 0), 1);
-    this.crossedOn = s.crossed === "yes";
-    this.tiesOn = s.ties === "yes";
     if (!this.view) {
       this.later = s;
       return;
     }
-    for (const [key, on] of [["solid", this.allSolid], ["rest", this.rest === "hidden"], ["follow", this.follow], ["crossed", this.crossedOn], ["ties", this.tiesOn]] as const) this.press(key, on);
     const hidden = new Set((s.hidden ?? "").split(",").filter(Boolean).map(Number));
     this.hidden.clear();
     for (const p of this.view.parts.parts) if (hidden.has(this.report.partId(p.data.part))) this.hidden.add(p);
@@ -434,8 +383,7 @@ export class Viewport {
     this.ruler.set((s.ruler ?? "").split(",").filter(Boolean).map((id) => this.report.mesh.nodeId.indexOf(Number(id))).filter((n) => n >= 0));
     this.press("measure", this.ruler.on);
     if (!this.ruler.on) this.view.setRule([]);
-    this.view.control.parallel = s.parallel === "yes";
-    this.press("parallel", this.view.control.parallel);
+    this.press("parallel", (this.view.control.parallel = s.parallel === "yes"));
     this.refresh();
     if (s.camera) this.view.control.pose = s.camera;
   }
@@ -458,7 +406,7 @@ export class Viewport {
       p.side = a === b ? "none" : a ? "secondary" : "main";
     }
     const parts = (this.view?.parts.parts ?? []).filter((p) => sides?.secondary.has(p.data.part) || sides?.main.has(p.data.part));
-    this.isolated = this.follow && parts.length > 0 ? new Set(parts) : null;
+    this.isolated = this.on.follow && parts.length > 0 ? new Set(parts) : null;
     if (!this.crossing) return;
     const own = crossedElements(this.report, this.crossing);
     this.isolated = new Set((this.view?.parts.parts ?? []).filter((p) => p.element.some((id, i) => own.has(elementKey(p.elementKind[i], id)))));
@@ -467,12 +415,12 @@ export class Viewport {
   /** Chosen pairs are solid; of everything else only what penetrates is. */
   private lookOf(p: Part3D): PartLook {
     if (this.hidden.has(p)) return "hidden";
-    if (this.isolated && !this.isolated.has(p)) return this.context > 0 ? this.rest : "hidden";
+    if (this.isolated && !this.isolated.has(p)) return this.context > 0 && !this.on.rest ? "ghost" : "hidden";
     if (this.crossing) return "hot";
     const chosen = this.isolated !== null && (this.report.selected !== null || this.report.filter.pair !== null || this.report.filter.interface === null);
     const tie = this.report.filter.interface !== null && this.report.tieOf(this.report.filter.interface) !== null;
-    if (this.allSolid || chosen || (this.isolated && tie) || this.report.filtered.length === 0) return "solid";
-    return this.rest === "ghost" ? "hot" : "only";
+    if (this.on.solid || chosen || (this.isolated && tie) || this.report.filtered.length === 0) return "solid";
+    return this.on.rest ? "only" : "hot";
   }
 
   private applyLooks(): void {

@@ -1,12 +1,12 @@
 // Crossed elements: edges that pass through main segments, however deep or shallow the gap.
 import { kindNames } from "../data";
 import { h, plural } from "../dom";
-import type { Crossed } from "../meta";
+import type { Crossings } from "schema/page";
 import type { Report } from "../report";
-import { named } from "../table/names";
+import { interfaceColumn, partColumn } from "../table/columns";
 import { VirtualTable } from "../table/table";
 
-type Row = Crossed["rows"][0];
+type Row = Crossings["rows"][0];
 
 /** Corners of the crossed segment as page nodes. */
 export function segmentOf(report: Report, row: Row): number[] {
@@ -21,35 +21,27 @@ export function crossingText(report: Report, r: Row): string {
   return `Edge ${report.nodeId(r[1])}–${report.nodeId(r[2])} of ${kindNames[r[3]]} ${r[4]} passes through segment ${segmentOf(report, r).map((n) => report.nodeId(n)).join(" ")}${element}`;
 }
 
-export function crossedSection(report: Report, open: (row: Row) => void): HTMLElement {
+export function crossedSection(report: Report, open: (row: Row) => void): HTMLElement | null {
   const crossed = report.crossed;
-  const section = h("section", { id: "crossed" });
-  if (!crossed || report.tiesOnly) {
-    section.hidden = true;
-    return section;
-  }
-  section.append(h("h2", null, "Crossed elements", h("span", { class: "muted count" }, plural(crossed.total, "crossed element", "crossed elements"))));
+  if (!crossed || report.tiesOnly) return null;
+  const section = h("section", { id: "crossed" }, h("h2", null, "Crossed elements", h("span", { class: "muted count" }, plural(crossed.total, "crossed element", "crossed elements"))));
   if (crossed.total === 0) {
     section.append(h("p", { class: "note" }, "No edge of the secondary side passes through a main segment. The search is exact."));
     return section;
   }
-  const part = (r: Row) => report.data.contacts[r[0]].mainOwner.part[r[5]];
-  const inter = (r: Row) => report.meta.interfaces[report.meta.contacts[r[0]].interface];
   const edge = (r: Row) => `${report.nodeId(r[1])}–${report.nodeId(r[2])}`;
   const table = new VirtualTable<Row>(
     [
-      { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: (r) => inter(r).id, text: (r) => String(inter(r).id) },
+      interfaceColumn(report, (r) => report.meta.contacts[r[0]].interface),
       { key: "kind", title: "Kind", kind: "text", rank: 2, value: (r) => report.roleText(r[0]), text: (r) => report.roleText(r[0]) },
       { key: "edge", title: "Edge", kind: "id", value: (r) => report.nodeId(r[1]), text: edge },
       { key: "element", title: "of element", kind: "id", rank: 1, value: (r) => r[4], text: (r) => `${kindNames[r[3]]} ${r[4]}` },
       { key: "segment", title: "Segment", kind: "id", rank: 4, value: (r) => report.nodeId(segmentOf(report, r)[0]), text: (r) => segmentOf(report, r).map((n) => report.nodeId(n)).join(" ") },
-      { key: "part", title: "Main part", kind: "text", rank: 3, value: (r) => report.partText(part(r)), text: (r) => report.partText(part(r)),
-        cell: (r) => (part(r) < 0 ? "(no part)" : named(report.meta.parts[part(r)].id, report.meta.parts[part(r)].title, report.commonPrefix)) },
+      partColumn(report, "part", "Main part", (r) => report.data.contacts[r[0]].mainOwner.part[r[5]], { rank: 3 }),
     ],
-    { label: "Crossed elements", sort: "inter", descending: false, select: (r) => r && open(r) },
+    { label: "Crossed elements", rows: [0, 8], sort: "inter", descending: false, select: (r) => r && open(r) },
   );
   table.setRows(crossed.rows);
-  table.element.style.setProperty("--rows", String(Math.min(crossed.rows.length, 8)));
   section.append(table.element, h("p", { class: "note" }, crossed.rows.length < crossed.total ? `The first ${crossed.rows.length} are listed. ` : "",
     "Crossed parts stay entangled with any gap: repair crossings before depths. The reference solver does not check them."));
   return section;

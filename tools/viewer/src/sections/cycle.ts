@@ -1,11 +1,13 @@
-// Forces, energies and time steps of the first cycle, where the page carries them.
-import { group, h, num, plural, replace } from "../dom";
-import type { Cycle } from "../meta";
+// Forces, energies and time steps of the first cycle, where the page carries them; and with and without one effect, side by side:
+// deck cycle --without EFFECT --html.
+import type { Document } from "schema/cycle";
+import type { CycleContact } from "schema/page";
+import { group, h, num, plural, replace, sectionHead } from "../dom";
 import type { Report } from "../report";
 import { VirtualTable } from "../table/table";
 
 /** `known`: something of it was evaluated; `left`: why the rest was not. */
-type Whole = Omit<Cycle["contacts"][0], "rows" | "active" | "acceleration" | "complete"> & { known: boolean; left: string };
+type Whole = Omit<CycleContact, "rows" | "active" | "acceleration" | "complete"> & { known: boolean; left: string };
 
 /** The first cycle of an interface: sums over its contacts, the smallest step; null: settings have changed. */
 export function wholeOf(report: Report, inter: number): Whole | null {
@@ -34,13 +36,9 @@ function notComputed(report: Report): string {
   return left.length > 0 ? ` Forces of ${left.join(" and ")} are not computed.` : "";
 }
 
-export function cycleSection(report: Report): HTMLElement {
-  const section = h("section", { id: "cycle" });
-  const cycle = report.cycle;
-  if (!cycle) {
-    section.hidden = true;
-    return section;
-  }
+export function cycleSection(report: Report): HTMLElement | null {
+  const { cycle } = report;
+  if (!cycle) return null;
   const of = (i: number) => wholeOf(report, i);
   // An interface of several contacts, TYPE19, is one row, as in the other tables.
   const rows = report.meta.interfaces.flatMap((_, i) => {
@@ -67,7 +65,7 @@ export function cycleSection(report: Report): HTMLElement {
       { key: "dt", title: "Time step", hint: "Smallest step that this interface allows", kind: "number", value: (i) => of(i)?.dt ?? Infinity, text: (i) => dash(i, (c) => step(c.dt)) },
       { key: "because", title: "Because of", kind: "text", rank: 1, value: (i) => of(i)?.because ?? "", text: why },
     ],
-    { label: "First cycle", sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: i, pair: null }) },
+    { label: "First cycle", rows: [1, 8], hideEmpty: true, sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: i, pair: null }) },
   );
   const sentence = h("p", { class: "note" });
   const draw = () => {
@@ -80,10 +78,40 @@ export function cycleSection(report: Report): HTMLElement {
       notComputed(report),
       " Evaluated by the program with the deck's settings (deck cycle).");
   };
-  table.element.style.setProperty("--rows", String(Math.max(1, Math.min(rows.length, 8))));
-  table.element.hidden = rows.length === 0;
-  replace(section, h("h2", null, "First cycle"), table.element, sentence);
   report.on("results", draw);
   draw();
-  return section;
+  return h("section", { id: "cycle" }, h("h2", null, "First cycle"), table.element, sentence);
+}
+
+const figures = [["force", "Sum of forces"], ["elastic", "Elastic energy"], ["dt", "Time step"]] as const;
+
+export function withoutSection(report: Report, doc: Document): HTMLElement | null {
+  const other = doc.without;
+  if (!other) return null;
+  const text = (v: number | null) => (v === null ? "–" : num(v));
+  /** Both figures; what the effect changes is marked, with by how much. */
+  const pair = (a: number | null, b: number | null): HTMLElement[] => {
+    const change = a !== null && b !== null && a !== b ? (a !== 0 ? ` (${b > a ? "+" : "−"}${num(100 * Math.abs(b / a - 1), 3)} %)` : "") : "";
+    return [h("td", { class: "right" }, text(a)), h("td", { class: `right${a === b ? " muted" : " changed"}` }, text(b), change)];
+  };
+  const rows = other.interfaces.flatMap((o) => {
+    const at = report.meta.interfaces.findIndex((i) => i.id === o.id);
+    const own = at < 0 ? null : wholeOf(report, at);
+    if (!own) return [];
+    const without = { force: o.force_sum, elastic: o.elastic_energy, dt: o.contact_dt };
+    const same = figures.every(([k]) => own[k] === without[k]);
+    return [{ same, row: h("tr", { "data-interface": o.id, class: same ? "quiet" : "" }, h("th", { scope: "row" }, report.interfaceName(at)), ...figures.flatMap(([k]) => pair(own[k], without[k]))) }];
+  });
+  const changed = rows.filter((r) => !r.same).length;
+  const [force, dt] = [[doc.nodal_force.max, other.largest_nodal_force], [doc.dt.contact, other.contact_dt]] as const;
+  return h("section", { id: "without" },
+    sectionHead(h("h2", null, `With and without ${other.effect}`)),
+    h("p", { class: "note" }, `${changed === 0 ? "No interface has another force, energy or step" : `${changed} of ${rows.length} interfaces change`} without ${other.effect}. `,
+      `Largest nodal force ${text(force[0])}, without ${text(force[1])}; time step of contact ${text(dt[0])}, without ${text(dt[1])}.`),
+    h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `With and without ${other.effect}` },
+      h("table", { class: "plain without" },
+        h("thead", null,
+          h("tr", null, h("th", { scope: "col", rowspan: 2 }, "Interface"), ...figures.map(([, name]) => h("th", { scope: "colgroup", colspan: 2 }, name))),
+          h("tr", null, ...figures.flatMap(() => [h("th", { scope: "col" }, "with"), h("th", { scope: "col" }, "without")]))),
+        h("tbody", null, ...rows.sort((a, b) => Number(a.same) - Number(b.same)).map((r) => r.row)))));
 }

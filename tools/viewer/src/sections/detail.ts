@@ -3,7 +3,7 @@ import { button, fileName, group, h, lengthText, num, percent, plural, replace }
 import type { Hit, Report } from "../report";
 import { stopsSolver, type Row } from "../rows";
 import { outcomeOf } from "../what_if";
-import { cornersOf, nodeOf, type Untied } from "./untied";
+import { cornersOf, nodeOf, type Untied } from "../tied";
 import { sideView } from "./sideview";
 import { actionLong, inactiWords } from "../words";
 

@@ -1,66 +1,19 @@
 // Which effects run in which interface and why, and what each costs on this deck: the document of `deck cycle --json` as a
 // matrix, one effect in words, and folded the chart of costs.
+import type { Document, Effect, EffectCost, Interface } from "schema/cycle";
 import { blockText } from "../data";
 import { button, fileName, group, h, num, plural, replace, svg } from "../dom";
 import { save } from "../exports";
 import type { Report } from "../report";
 
-interface Cost {
-  name: string;
-  on: boolean;
-  why_not?: string;
-  against: string;
-  ns: number;
-  low: number;
-  high: number;
-  change: number;
-}
-interface ContactCost {
-  pairs: number;
-  measured: number;
-  margin: number;
-  problem: string;
-  loop_ns: number;
-  flags_ns: number;
-  all_ns: number;
-  all: string;
-  effects: Cost[];
-}
-interface Effect {
-  name: string;
-  on: boolean;
-  because: string;
-  source: { file: string; line: number; column: number } | null;
-}
-interface Inter {
-  id: number;
-  type: number;
-  title: string;
-  effects: Effect[];
-  contacts: { role: string; cost: ContactCost | null }[];
-}
-/** What `deck cycle --json` writes, as far as it is shown here. */
-export interface CycleDocument {
-  costs: { verdict: string; pairs: number; loop_ns: number; flags_ns: number; all_ns: number; repeats: number; processor: string; compiler: string } | null;
-  interfaces: Inter[];
-  nodal_force: { max: number };
-  dt: { contact: number | null };
-  /** The same evaluation without an effect, where it was asked for. */
-  without?: {
-    effect: string;
-    interfaces: { id: number; force_sum: number; elastic_energy: number; contact_dt: number | null }[];
-    largest_nodal_force: number;
-    contact_dt: number | null;
-  };
-}
-
-export function loadCycleDocument(): CycleDocument | null {
+export function loadCycleDocument(): Document | null {
   const text = blockText("cycle-json");
-  return text === null ? null : (JSON.parse(text) as CycleDocument);
+  return text === null ? null : (JSON.parse(text) as Document);
 }
 
 const ns = (v: number) => `${Math.abs(v) < 10 ? v.toFixed(1) : v.toFixed(0)} ns`;
-const known = (e: Cost) => e.why_not === undefined;
+type Cost = EffectCost & Required<Pick<EffectCost, "against" | "ns" | "low" | "high" | "change">>;
+const known = (e: EffectCost): e is Cost => e.why_not === undefined;
 /** The quartiles leave no doubt about the sign. */
 const sure = (e: { low: number; high: number }) => e.low > 0 || e.high < 0;
 const added = (e: { ns: number; low: number; high: number }) => (sure(e) ? ns(e.ns) : `under ${ns(Math.max(e.high, -e.low))}`);
@@ -81,7 +34,7 @@ interface Bar {
 }
 
 /** What each effect adds: where it runs, over the contacts that ask for it; else over all that could have it. */
-export function costBars(doc: CycleDocument): Bar[] {
+export function costBars(doc: Document): Bar[] {
   const of = new Map<string, { pairs: number; cost: Cost }[]>();
   for (const i of doc.interfaces)
     for (const { cost } of i.contacts)
@@ -98,7 +51,7 @@ export function costBars(doc: CycleDocument): Bar[] {
   return bars.sort((a, b) => Number(b.on) - Number(a.on) || b.value - a.value);
 }
 
-function chart(doc: CycleDocument): SVGElement {
+function chart(doc: Document): SVGElement {
   const costs = doc.costs!;
   const whole: Bar[] = [
     ["only what is asked for", costs.loop_ns, true], ["the same, flags asked for in the loop", costs.flags_ns, false], ["everything that can run", costs.all_ns, false],
@@ -134,7 +87,7 @@ function chart(doc: CycleDocument): SVGElement {
   return svg("svg", { xmlns: "http://www.w3.org/2000/svg", class: "ef", viewBox: `0 0 ${w} ${hgt}`, width: w, height: hgt, role: "img", "aria-label": "Cost of the effects in nanoseconds per pair" }, ...out);
 }
 
-export function effectsSection(report: Report, doc: CycleDocument, name: string): HTMLElement {
+export function effectsSection(report: Report, doc: Document, name: string): HTMLElement {
   const detail = h("div", { class: "panel effect-detail", "aria-live": "polite", hidden: true });
   const names = (list: Effect[]) => new Set(list.map((e) => e.name)).size;
   const all = doc.interfaces.flatMap((i) => i.effects);
@@ -159,7 +112,7 @@ export function effectsSection(report: Report, doc: CycleDocument, name: string)
 }
 
 /** Interfaces down, effects across. One tab stop; arrows move in it. */
-function matrix(doc: CycleDocument, choose: (i: Inter, e: Effect) => void): HTMLElement {
+function matrix(doc: Document, choose: (i: Interface, e: Effect) => void): HTMLElement {
   const names = [...new Set(doc.interfaces.flatMap((i) => i.effects.map((e) => e.name)))];
   const runs = (n: string) => doc.interfaces.filter((i) => i.effects.some((e) => e.name === n && e.on)).length;
   names.sort((a, b) => runs(b) - runs(a));
@@ -167,7 +120,7 @@ function matrix(doc: CycleDocument, choose: (i: Inter, e: Effect) => void): HTML
   const body = doc.interfaces.map((inter, row) => {
     const line = names.map((n, column) => {
       const e = inter.effects.find((x) => x.name === n);
-      const costs = inter.contacts.flatMap((c) => (c.cost?.effects ?? []).filter((x) => x.name === n && known(x) && x.on).map((cost) => ({ pairs: c.cost!.pairs, cost })));
+      const costs = inter.contacts.flatMap((c) => (c.cost?.effects ?? []).filter(known).filter((x) => x.name === n && x.on).map((cost) => ({ pairs: c.cost!.pairs, cost })));
       const range = costs.length > 0 && { low: mean(costs, (c) => c.low), high: mean(costs, (c) => c.high) };
       const text = !e?.on ? "" : !range ? "•" : sure(range) ? mean(costs, (c) => c.ns).toFixed(1) : "~0";
       const cell = h("td", { role: "gridcell", id: `ef-${row}-${column}`, class: e?.on ? "on" : "off", "aria-label": `${inter.id} ${n}: ${e?.on ? "runs" : "off"}${text && text !== "•" ? `, ${text} ns` : ""}`, title: e ? `${n}: ${e.because}` : n }, text);
@@ -208,7 +161,7 @@ function matrix(doc: CycleDocument, choose: (i: Inter, e: Effect) => void): HTML
 }
 
 /** One effect of one interface: the field that decides, and what was measured in each of its contacts. */
-function show(panel: HTMLElement, inter: Inter, e: Effect): void {
+function show(panel: HTMLElement, inter: Interface, e: Effect): void {
   const where = e.source ? `${fileName(e.source.file)}:${e.source.line}, column ${e.source.column}` : "no field of the card";
   const rows = inter.contacts.map(({ role, cost }) => {
     const c = cost?.effects.find((x) => x.name === e.name);

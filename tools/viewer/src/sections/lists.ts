@@ -1,10 +1,9 @@
 // Part pairs as table and matrix, distributions, and the list of penetrations.
-import { colorAt, cssColor, inkOn } from "../scene/colormap";
-import { button, fileName, group, h, lengthText, num, percent, plural, replace, sectionHead, svg } from "../dom";
-import type { Look } from "../look";
+import { button, fileName, group, h, lengthText, num, percent, plainTable, plural, replace, sectionHead, svg } from "../dom";
+import { colorAt, cssColor, inkOn, type Look } from "../look";
 import type { Hit, Report } from "../report";
 import { openMenu, rowItems } from "../menu";
-import { named } from "../table/names";
+import { interfaceColumn, partColumn } from "../table/columns";
 import { VirtualTable, type Column } from "../table/table";
 
 interface PairRow {
@@ -47,17 +46,11 @@ export function partPairs(report: Report, hits: Hit[]): PairRow[] {
     .sort((a, b) => b.max - a.max || report.partId(a.secondary) - report.partId(b.secondary));
 }
 
-function partName(report: Report, part: number): HTMLElement | string {
-  if (part < 0) return "(no part)";
-  const p = report.meta.parts[part];
-  return named(p.id, p.title, report.commonPrefix);
-}
-
 export function pairsSection(report: Report, look: Look): HTMLElement {
   const table = new VirtualTable<PairRow>(
     [
-      { key: "s", title: "Secondary part", kind: "text", least: 150, value: (r) => report.partText(r.secondary), text: (r) => report.partText(r.secondary), cell: (r) => partName(report, r.secondary) },
-      { key: "m", title: "Main part", kind: "text", least: 150, value: (r) => report.partText(r.main), text: (r) => report.partText(r.main), cell: (r) => partName(report, r.main) },
+      partColumn(report, "s", "Secondary part", (r) => r.secondary, { least: 150 }),
+      partColumn(report, "m", "Main part", (r) => r.main, { least: 150 }),
       { key: "pairs", title: "Pairs", kind: "number", value: (r) => r.pairs, text: (r) => group(r.pairs) },
       { key: "nodes", title: "Nodes", kind: "number", rank: 3, value: (r) => r.nodes, text: (r) => group(r.nodes) },
       { key: "edges", title: "Edges", kind: "number", rank: 4, value: (r) => r.edges, text: (r) => group(r.edges) },
@@ -67,7 +60,7 @@ export function pairsSection(report: Report, look: Look): HTMLElement {
       { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => r.ratio, text: (r) => percent(r.ratio) },
     ],
     {
-      label: "Part pairs", sort: "max", descending: true,
+      label: "Part pairs", rows: [1, 8], hideEmpty: true, sort: "max", descending: true,
       select: (r) => {
         const on = r && report.filter.pair?.[0] === r.secondary && report.filter.pair[1] === r.main;
         report.setFilter({ pair: !r || on ? null : [r.secondary, r.main] });
@@ -84,8 +77,6 @@ export function pairsSection(report: Report, look: Look): HTMLElement {
     table.setRows(rows);
     const pair = report.filter.pair;
     table.setSelected(pair ? (rows.find((r) => r.secondary === pair[0] && r.main === pair[1]) ?? null) : null, true);
-    table.element.style.setProperty("--rows", String(Math.max(1, Math.min(rows.length, 8))));
-    table.element.hidden = rows.length === 0;
     empty.hidden = rows.length > 0;
     count.textContent = rows.length ? plural(rows.length, "pair", "pairs") : "";
     replace(matrix, rows.length > 1 ? drawMatrix(report, rows, look) : null);
@@ -229,7 +220,6 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
 
 // Over 80 lines: the columns of the list and its filters share what a row is.
 export function listSection(report: Report, open: (hit: Hit) => void, exportsMenu: HTMLElement, changed: () => void): { element: HTMLElement; table: VirtualTable<Hit> } {
-  const interfaceId = (x: Hit) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id;
   const action = (x: Hit) => report.fateText(x.row);
   const place = (x: Hit) => report.place(x.row);
   const columns: Column<Hit>[] = [
@@ -237,13 +227,13 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     { key: "gap", title: "Gap", kind: "number", rank: 3, value: (x) => x.row.gap, text: (x) => lengthText(report, x.row.gap) },
     { key: "ratio", title: "Of gap", kind: "number", rank: 4, value: (x) => x.ratio, text: (x) => percent(x.ratio) },
     { key: "distance", title: "Distance", hint: "Residual distance of node and segment, or of the two edges", kind: "number", rank: 8, value: (x) => x.row.distance, text: (x) => num(x.row.distance) },
-    { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: interfaceId, text: (x) => String(interfaceId(x)) },
+    interfaceColumn(report, (x) => report.meta.contacts[x.contact].interface),
     { key: "node", title: "Node / edge", kind: "id", value: (x) => x.nodes[0], text: (x) => report.secondaryText(x.row) },
     { key: "segment", title: "Segment / edge", kind: "id", rank: 5, value: (x) => report.nodeId(report.mainNodes(x.row)[0]), text: (x) => report.mainText(x.row) },
     { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 2, value: (x) => x.row.action, text: action,
       cell: (x) => (report.stops(x.row) ? h("span", { class: "bad" }, action(x)) : action(x)) },
-    { key: "sp", title: "Part", kind: "text", least: 130, rank: 1, value: (x) => report.partText(x.secondaryPart), text: (x) => report.partText(x.secondaryPart), cell: (x) => partName(report, x.secondaryPart) },
-    { key: "mp", title: "Main part", kind: "text", least: 130, rank: 1, value: (x) => report.partText(x.mainPart), text: (x) => report.partText(x.mainPart), cell: (x) => partName(report, x.mainPart) },
+    partColumn(report, "sp", "Part", (x) => x.secondaryPart, { least: 130, rank: 1 }),
+    partColumn(report, "mp", "Main part", (x) => x.mainPart, { least: 130, rank: 1 }),
     { key: "place", title: "Defined at", kind: "text", rank: 7, value: (x) => place(x)?.line ?? 0, text: (x) => (place(x) ? `${place(x)!.file}:${place(x)!.line}` : ""),
       cell: (x) => (place(x) ? `${fileName(place(x)!.file)}:${place(x)!.line}` : "") },
   ];
@@ -262,14 +252,13 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
       cell: (x) => (x.status ? h("span", { class: `chip tiny ${x.status}`, title: x.earlier !== null ? `was ${num(x.earlier)}` : "" }, x.status) : ""),
     });
   const table = new VirtualTable<Hit>(columns, {
-    label: "Penetrations", sort: "depth", descending: true,
+    label: "Penetrations", name: "list", rows: [3, 15], hideEmpty: true, sort: "depth", descending: true,
     select: (x) => report.select(x),
     open,
     context: (x, left, top) => openMenu(rowItems(report, x), left, top),
     changed,
     same: (a, b) => a.key === b.key,
   });
-  table.element.classList.add("list-table");
   const chips = h("div", { class: "filters" });
   const count = h("span", { class: "muted count" });
   const perNode = h("input", { type: "checkbox", checked: true, onchange: () => report.setFilter({ perNode: perNode.checked }) });
@@ -282,10 +271,8 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     const f = report.filter;
     table.setRows(report.filtered);
     table.setSelected(report.selected, false);
-    table.element.hidden = report.filtered.length === 0;
     empty.hidden = report.filtered.length > 0;
     empty.textContent = report.hits.length ? "No row passes the filters." : `Nothing penetrates with these settings${report.leftOut}.`;
-    table.element.style.setProperty("--rows", String(Math.max(3, Math.min(report.filtered.length, 15))));
     perNode.checked = f.perNode;
     count.textContent = report.hits.length ? `${group(report.filtered.length)} of ${plural(report.hits.length, "pair", "pairs")}` : "";
     const chip = (text: string, clear: Partial<typeof f>) =>
@@ -301,8 +288,8 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
       f.text && chip(`“${f.text}”`, { text: "" }));
     const gone = report.solved;
     replace(solved, f.status === "solved" && gone.length > 0
-      ? h("table", { class: "plain" }, h("thead", null, h("tr", null, ...["Interface", "Part of it", "Node / edge", "Depth before", "Gap before"].map((t) => h("th", null, t)))),
-          h("tbody", null, ...gone.slice(0, 500).map((s) => h("tr", null, h("td", null, s.interfaceId), h("td", null, s.role), h("td", null, s.nodes.filter((n) => n).join("–")), h("td", null, num(s.depth)), h("td", null, num(s.gap))))))
+      ? plainTable(["Interface", "Part of it", "Node / edge", "Depth before", "Gap before"],
+          gone.slice(0, 500).map((s) => [s.interfaceId, s.role, s.nodes.filter((n) => n).join("–"), num(s.depth), num(s.gap)]))
       : null);
   };
   report.on("filter", draw);

@@ -1,11 +1,12 @@
 // What a repair has moved: nodes by part, and each node with its way. The picture shows the mesh before and after.
 import { loadMoved } from "../data";
 import { button, group, h, lengthText, num, plural, replace, sectionHead } from "../dom";
-import type { MovedRow } from "../meta";
+import type { Moved } from "schema/page";
 import type { Report } from "../report";
-import { named } from "../table/names";
+import { partColumn } from "../table/columns";
 import { VirtualTable } from "../table/table";
 
+type MovedRow = Moved["rows"][0];
 interface PartRow {
   part: number;
   nodes: number;
@@ -35,37 +36,30 @@ export function movedSection(report: Report, fly: (node: number) => void, before
   }
   const part = partsOf(report, moved.rows);
   const partOf = (r: MovedRow) => part.get(r[0]) ?? -1;
-  const name = (p: number) => (p < 0 ? "(no part)" : report.meta.parts[p].title ? named(report.meta.parts[p].id, report.meta.parts[p].title, report.commonPrefix) : String(report.meta.parts[p].id));
   const byPart = [...new Set(moved.rows.map(partOf))].map((p): PartRow => {
     const own = moved.rows.filter((r) => partOf(r) === p).map(lengthOf);
     return { part: p, nodes: own.length, longest: Math.max(...own), mean: own.reduce((a, b) => a + b, 0) / own.length };
   });
   const parts = new VirtualTable<PartRow>(
     [
-      { key: "part", title: "Part", kind: "text", least: 150, value: (r) => report.partText(r.part), text: (r) => report.partText(r.part), cell: (r) => name(r.part) },
+      partColumn(report, "part", "Part", (r) => r.part, { least: 150 }),
       { key: "nodes", title: "Nodes", kind: "number", value: (r) => r.nodes, text: (r) => group(r.nodes) },
       { key: "longest", title: "Longest way", kind: "number", value: (r) => r.longest, text: (r) => lengthText(report, r.longest, 6) },
       { key: "mean", title: "Mean", kind: "number", value: (r) => r.mean, text: (r) => num(r.mean) },
     ],
-    { label: "Moved nodes by part", sort: "longest", descending: true, select: (r) => draw(r === null ? null : r.part) },
+    { label: "Moved nodes by part", rows: [0, 6], sort: "longest", descending: true, select: (r) => draw(r === null ? null : r.part) },
   );
   parts.setRows(byPart);
-  parts.element.style.setProperty("--rows", String(Math.min(byPart.length, 6)));
   const nodes = new VirtualTable<MovedRow>(
     [
       { key: "node", title: "Node", kind: "id", value: (r) => report.nodeId(r[0]), text: (r) => String(report.nodeId(r[0])) },
-      { key: "part", title: "Part", kind: "text", rank: 1, least: 100, value: (r) => report.partText(partOf(r)), text: (r) => report.partText(partOf(r)), cell: (r) => name(partOf(r)) },
+      partColumn(report, "part", "Part", partOf, { rank: 1, least: 100 }),
       { key: "length", title: "Moved by", kind: "number", value: lengthOf, text: (r) => num(lengthOf(r), 6) },
       ...(["dx", "dy", "dz"] as const).map((key, k) => ({ key, title: key, kind: "number" as const, rank: 2 + k, value: (r: MovedRow) => r[k + 1], text: (r: MovedRow) => num(r[k + 1], 4) })),
     ],
-    { label: "Moved nodes", sort: "length", descending: true, select: (r) => r && fly(r[0]) },
+    { label: "Moved nodes", name: "moved", rows: [0, 8], sort: "length", descending: true, select: (r) => r && fly(r[0]) },
   );
-  nodes.element.classList.add("moved-table");
-  const draw = (only: number | null) => {
-    const rows = only === null ? moved.rows : moved.rows.filter((r) => partOf(r) === only);
-    nodes.setRows(rows);
-    nodes.element.style.setProperty("--rows", String(Math.min(rows.length, 8)));
-  };
+  const draw = (only: number | null) => nodes.setRows(only === null ? moved.rows : moved.rows.filter((r) => partOf(r) === only));
   draw(null);
   const choice = h("span", { class: "buttons", role: "group", "aria-label": "Mesh in the picture" });
   const show = (old: boolean) => {

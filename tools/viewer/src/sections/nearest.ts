@@ -3,6 +3,7 @@ import { kindNames } from "../data";
 import { h, lengthText, num, percent, replace } from "../dom";
 import type { Report } from "../report";
 import type { Row } from "../rows";
+import { interfaceColumn } from "../table/columns";
 import { VirtualTable } from "../table/table";
 
 /** How far the two sides of a pair are from their gap. */
@@ -45,7 +46,7 @@ export function nearestSection(report: Report, open: (row: Row) => void, ready: 
   const inter = (r: Row) => report.meta.interfaces[report.meta.contacts[r.contact].interface];
   const table = new VirtualTable<Row>(
     [
-      { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: (r) => inter(r).id, text: (r) => String(inter(r).id) },
+      interfaceColumn(report, (r) => report.meta.contacts[r.contact].interface),
       { key: "title", title: "Interface", kind: "text", rank: 3, value: (r) => inter(r).title, text: (r) => inter(r).title || "(no title)" },
       { key: "node", title: "Node / edge", kind: "id", value: (r) => report.nodeId(report.secondaryNodes(r)[0]), text: (r) => report.secondaryText(r) },
       { key: "segment", title: "Segment / edge", kind: "id", rank: 2, value: (r) => report.nodeId(report.mainNodes(r)[0]), text: (r) => report.mainText(r) },
@@ -53,17 +54,14 @@ export function nearestSection(report: Report, open: (row: Row) => void, ready: 
       { key: "gap", title: "Gap", kind: "number", rank: 4, value: (r) => r.gap, text: (r) => lengthText(report, r.gap) },
       { key: "share", title: "Of gap", hint: "Room as a share of the gap", kind: "number", rank: 1, value: (r) => (r.gap > 0 ? room(r) / r.gap : Infinity), text: (r) => (r.gap > 0 ? percent(room(r) / r.gap) : "–") },
     ],
-    { label: "Nearest pairs", sort: "room", descending: false, select: (r) => r && open(r) },
+    { label: "Nearest pairs", name: "nearest", rows: [0, 8], hideEmpty: true, sort: "room", descending: false, select: (r) => r && open(r) },
   );
-  table.element.classList.add("nearest-table");
   section.append(table.element);
   const draw = () => {
     section.hidden = report.hits.length > 0;
     if (section.hidden) return;
     const rows = nearestPairs(report);
     const first = rows[0];
-    table.element.hidden = rows.length === 0;
-    table.element.style.setProperty("--rows", String(Math.min(rows.length, 8)));
     table.setRows(rows);
     const reach = report.meta.contacts.reduce((m, c) => Math.max(m, c.reach), 0);
     replace(said, first ? h("span", null, "Nothing penetrates. Nearest is ", h("button", { type: "button", class: "link", onclick: () => open(first) }, pairText(report, first)), ` of interface ${inter(first).id}: ${lengthText(report, room(first))} beyond the gap of ${lengthText(report, first.gap)}. `)

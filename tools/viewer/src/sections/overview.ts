@@ -1,11 +1,10 @@
 // The table of interfaces and the settings under test.
-import { cardText, changedCard } from "../card";
+import { cardText, changedCard, type FieldName } from "../card";
 import { button, group, h, lengthText, num, percent, plural, replace, sectionHead } from "../dom";
 import { copyText, deckCommand } from "../exports";
-import type { FieldName, Totals } from "../meta";
 import type { Report } from "../report";
-import { stopsSolver, type Action } from "../rows";
-import { commonStart, named } from "../table/names";
+import { stopsSolver, type Action, type Totals } from "../rows";
+import { commonStart, named } from "../table/columns";
 import { VirtualTable } from "../table/table";
 import { igapWords, inactiWords, modernIgapWords, modernInactiWords } from "../words";
 import type { Result } from "../what_if";
@@ -35,13 +34,8 @@ export function interfaces(report: Report): HTMLElement {
   const igap = (r: ContactRow, of: Result[]) => (inter(r).type === 24 ? "–" : String(setting(r, of).igap));
   const gapmin = (r: ContactRow) => !report.meta.contacts[r.contacts[0]].modern;
   // Nodes and edges count once in an interface: totals of contacts do not add up.
-  const whole = { now: new Map<number, Totals>(), base: new Map<number, Totals>() };
-  const totals = (r: ContactRow, which: "now" | "base" = "now"): Totals => {
-    if (r.contacts.length === 1) return (which === "now" ? report.results : report.base)[r.contacts[0]].totals;
-    let t = whole[which].get(r.inter);
-    if (!t) whole[which].set(r.inter, (t = report.totals(which, r.inter)));
-    return t;
-  };
+  const totals = (r: ContactRow, which: "now" | "base" = "now"): Totals =>
+    r.part ? (which === "now" ? report.results : report.base)[r.contacts[0]].totals : report.totals(which, r.inter);
   // Parts stay below their interface however the table is sorted.
   const head = (r: ContactRow): ContactRow => (r.part ? { inter: r.inter, contacts: report.contactsOf(r.inter), part: false } : r);
   const changedCell = (text: string, was: string) =>
@@ -109,17 +103,14 @@ export function interfaces(report: Report): HTMLElement {
         } },
     ],
     {
-      label: "Interfaces", sort: "depth", descending: true, toggle: unfold,
+      label: "Interfaces", name: "interfaces", rows: [0, 11], sort: "depth", descending: true, toggle: unfold,
       select: (r) => report.setFilter({ interface: r && report.filter.interface !== r.inter ? r.inter : null, pair: null, depth: null, ratio: null }),
       classOf: (r) => `${clean(r) ? "quiet" : ""} ${report.filter.interface === r.inter ? "group" : ""}`,
       same: (a, b) => a.inter === b.inter && a.part === b.part && a.contacts[0] === b.contacts[0],
     },
   );
-  table.element.classList.add("interfaces-table");
   const draw = () => {
-    whole.now.clear();
     rows = rowsNow();
-    table.element.style.setProperty("--rows", String(Math.min(rows.length, 11)));
     table.setRows(rows, report.held);
   };
   draw();

@@ -1,51 +1,26 @@
 // The parts with mass, smallest time step and the interfaces that see them: the document of `deck parts --json`.
+import type { Document, Part, Step } from "schema/parts";
 import { blockText, loadSteps } from "../data";
 import { group, h, num, plural, sectionHead } from "../dom";
 import type { Report } from "../report";
-import { named } from "../table/names";
+import { named } from "../table/columns";
 import { VirtualTable } from "../table/table";
 
-interface Step {
-  min: number | null;
-  element: { kind: string; id: number } | null;
-  not_computed: number;
-}
-interface PartRow {
-  id: number;
-  title: string;
-  elements: Record<string, number>;
-  material: number;
-  property: number;
-  thickness: number;
-  mass: number | null;
-  dt: Step;
-  interfaces: number[];
-  rigid_body: number | null;
-}
-/** What `deck parts --json` writes, as far as it is shown here. */
-export interface PartsDocument {
-  parts: PartRow[];
-  total: { mass: number | null; dt: Step };
-  unconnected: { nodes: number; parts: number[]; unseen_parts: number[] };
-  repeated_contacts: { interfaces: number[]; pairs: number; parts: number[] }[];
-  not_computed: { what: string; why: string; count: number }[];
-}
-
-export function loadPartsDocument(report: Report): PartsDocument | null {
+export function loadPartsDocument(report: Report): Document | null {
   const text = blockText("parts-json");
   if (text === null) return null;
   report.steps = loadSteps(report.mesh.nodeId.length);
-  return JSON.parse(text) as PartsDocument;
+  return JSON.parse(text) as Document;
 }
 
 const mostIds = 12;
 const ids = (list: number[]) => list.slice(0, mostIds).join(", ") + (list.length > mostIds ? ` and ${list.length - mostIds} more` : "");
-const count = (p: PartRow) => Object.values(p.elements).reduce((a, b) => a + b, 0);
-const elementsText = (p: PartRow) => Object.entries(p.elements).map(([kind, n]) => `${group(n)} ${kind}`).join(", ") || "none";
+const count = (p: Part) => Object.values(p.elements).reduce((a, b) => a + b, 0);
+const elementsText = (p: Part) => Object.entries(p.elements).map(([kind, n]) => `${group(n)} ${kind}`).join(", ") || "none";
 const amount = (v: number | null) => (v === null ? "–" : num(v));
 const element = (dt: Step) => (dt.element ? `${dt.element.kind} ${dt.element.id}` : "–");
 
-function notes(report: Report, doc: PartsDocument): HTMLElement[] {
+function notes(report: Report, doc: Document): HTMLElement[] {
   const { unconnected: u, total } = doc;
   const units = report.meta.deck.units.working;
   const touching = doc.repeated_contacts.map((c) => `interfaces ${ids(c.interfaces)} on ${plural(c.pairs, "pair", "pairs")} of parts (for example ${c.parts[0]} and ${c.parts[1]})`);
@@ -62,9 +37,9 @@ function notes(report: Report, doc: PartsDocument): HTMLElement[] {
 }
 
 /** `open` shows a part alone; null: all again. */
-export function partsSection(report: Report, doc: PartsDocument, open: (part: number | null) => void): HTMLElement {
-  let chosen: PartRow | null = null;
-  const table = new VirtualTable<PartRow>(
+export function partsSection(report: Report, doc: Document, open: (part: number | null) => void): HTMLElement {
+  let chosen: Part | null = null;
+  const table = new VirtualTable<Part>(
     [
       { key: "id", title: "Id", kind: "id", value: (p) => p.id, text: (p) => String(p.id) },
       { key: "title", title: "Part", kind: "text", least: 120, value: (p) => p.title.toLowerCase(), text: (p) => p.title || "(no title)",
@@ -81,7 +56,7 @@ export function partsSection(report: Report, doc: PartsDocument, open: (part: nu
       { key: "body", title: "Rigid body", hint: "Holds all nodes of the part", kind: "id", rank: 2, value: (p) => p.rigid_body ?? 0, text: (p) => (p.rigid_body === null ? "–" : String(p.rigid_body)) },
     ],
     {
-      label: "Parts", sort: "step", descending: false,
+      label: "Parts", name: "parts", rows: [2, 14], sort: "step", descending: false,
       select: (p) => {
         chosen = p === chosen ? null : p;
         open(chosen ? report.meta.parts.findIndex((m) => m.id === chosen!.id) : null);
@@ -90,9 +65,7 @@ export function partsSection(report: Report, doc: PartsDocument, open: (part: nu
       same: (a, b) => a === b,
     },
   );
-  table.element.classList.add("parts-table");
   table.setRows(doc.parts);
-  table.element.style.setProperty("--rows", String(Math.max(2, Math.min(doc.parts.length, 14))));
   return h("section", { id: "parts" },
     sectionHead(h("h2", null, "Parts", h("span", { class: "muted count" }, plural(doc.parts.length, "part", "parts"))), table.chooser()),
     table.element, ...notes(report, doc));

@@ -2,11 +2,9 @@
 import { loadRepair } from "../data";
 import { button, fileName, h, lengthText, plural, sectionHead } from "../dom";
 import { copyText, save } from "../exports";
-import type { Repair } from "../meta";
+import type { NotTreated, Repair } from "schema/page";
 import type { Report } from "../report";
 import { VirtualTable } from "../table/table";
-
-type Refusal = Repair["not_treated"][0];
 
 /** `fly` goes to a node by its number in the page. */
 export function repairSection(report: Report, fly: (node: number) => void): HTMLElement | null {
@@ -28,23 +26,21 @@ export function repairSection(report: Report, fly: (node: number) => void): HTML
 }
 
 function refusals(report: Report, repair: Repair, fly: (node: number) => void): HTMLElement {
-  const interfaceName = (r: Refusal) => String(r.interface);
-  const nodes = (r: Refusal) => r.nodes.join("–") || "–";
-  const table = new VirtualTable<Refusal>(
+  const interfaceName = (r: NotTreated) => String(r.interface);
+  const nodes = (r: NotTreated) => r.nodes.join("–") || "–";
+  const table = new VirtualTable<NotTreated>(
     [
       { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: (r) => r.interface, text: interfaceName },
       { key: "nodes", title: "Node / edge", kind: "id", value: (r) => r.nodes[0] ?? 0, text: nodes },
       { key: "depth", title: "Depth", kind: "number", value: (r) => r.depth, text: (r) => (r.depth > 0 ? lengthText(report, r.depth) : "–") },
       { key: "reason", title: "Because", kind: "text", least: 200, value: (r) => r.reason, text: (r) => r.reason },
     ],
-    { label: "Not treated", sort: "depth", descending: true, select: (r) => {
+    { label: "Not treated", name: "refused", rows: [0, 8], sort: "depth", descending: true, select: (r) => {
       const at = r?.nodes.length ? report.mesh.nodeId.indexOf(r.nodes[0]) : -1;
       if (at >= 0) fly(at);
     } },
   );
-  table.element.classList.add("refused-table");
   table.setRows(repair.not_treated);
-  table.element.style.setProperty("--rows", String(Math.min(repair.not_treated.length, 8)));
   return h("div", null,
     h("ul", { class: "reasons" }, ...repair.groups.map((g) => h("li", null, `${g.text}: `, h("code", null, g.command)))), table.element);
 }

@@ -1,10 +1,10 @@
 // Ties: what `deck gaps` says of each /INTER/TYPE2 and TYPE10, and the nodes that are not tied.
 import { fileName, group, h, num, plural, sectionHead } from "../dom";
-import { Holds, type TieMeta } from "../meta";
+import type { TieMeta } from "schema/page";
 import type { Report } from "../report";
-import { named } from "../table/names";
+import { interfaceColumn, partColumn } from "../table/columns";
 import { VirtualTable } from "../table/table";
-import { cornersOf, nodeOf, type Untied } from "./untied";
+import { cornersOf, Holds, nodeOf, type Untied } from "../tied";
 
 function listOfTies(report: Report): VirtualTable<TieMeta> {
   const inter = (t: TieMeta) => report.meta.interfaces[t.interface];
@@ -19,49 +19,40 @@ function listOfTies(report: Report): VirtualTable<TieMeta> {
       { key: "farthest", title: "Farthest", hint: "Largest distance of a node that is tied", kind: "number", rank: 3, value: (t) => t.farthest, text: (t) => (t.tied > 0 ? num(t.farthest) : "–") },
     ],
     {
-      label: "Ties", sort: "text", descending: true,
+      label: "Ties", name: "ties", rows: [0, 8], sort: "text", descending: true,
       select: (t) => report.setFilter({ interface: t && report.filter.interface !== t.interface ? t.interface : null, pair: null, depth: null, ratio: null }),
       classOf: (t) => (t.lost === 0 && t.evaluated ? "quiet" : ""),
       same: (a, b) => a.interface === b.interface,
     },
   );
-  table.element.classList.add("ties-table");
   table.setRows(report.meta.ties);
-  table.element.style.setProperty("--rows", String(Math.min(report.meta.ties.length, 8)));
   return table;
 }
 
 function listOfNodes(report: Report, open: (x: Untied) => void): VirtualTable<Untied> {
-  const inter = (x: Untied) => report.meta.interfaces[report.meta.ties[x.tie].interface];
   const node = (x: Untied) => report.nodeId(nodeOf(report, x));
   const segment = (x: Untied) => cornersOf(report, x.tie, x.row[0]).map((n) => report.nodeId(n)).join(" ") || "–";
   const number = (v: number | null) => (v === null ? "–" : num(v, 6));
-  const part = (x: Untied) => (x.row[3] < 0 ? null : report.meta.parts[x.row[3]]);
   const place = (x: Untied) => (x.row[6] < 0 ? "" : `${report.meta.files[x.row[6]]}:${x.row[7]}`);
-  const table = new VirtualTable<Untied>(
+  return new VirtualTable<Untied>(
     [
-      { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: (x) => inter(x).id, text: (x) => String(inter(x).id) },
+      interfaceColumn(report, (x) => report.meta.ties[x.tie].interface),
       { key: "node", title: "Node", kind: "id", value: node, text: (x) => String(node(x)) },
-      { key: "part", title: "Part", kind: "text", rank: 2, least: 90, value: (x) => report.partText(x.row[3]), text: (x) => report.partText(x.row[3]),
-        cell: (x) => (part(x) ? named(part(x)!.id, part(x)!.title, report.commonPrefix) : "(no part)") },
+      partColumn(report, "part", "Part", (x) => x.row[3], { rank: 2, least: 90 }),
       { key: "segment", title: "Nearest segment", kind: "id", rank: 3, value: segment, text: segment },
       { key: "distance", title: "Distance", kind: "number", value: (x) => x.row[1] ?? Infinity, text: (x) => number(x.row[1]) },
       { key: "search", title: "Search", hint: "How far the solver looks", kind: "number", rank: 1, value: (x) => x.row[2] ?? 0, text: (x) => number(x.row[2]) },
       { key: "why", title: "Why", kind: "text", least: 145, value: (x) => x.row[4], text: (x) => x.row[4], cell: (x) => h("span", { title: x.row[5] }, x.row[4]) },
       { key: "place", title: "Defined at", kind: "text", rank: 6, value: (x) => x.row[7], text: place, cell: (x) => fileName(place(x)) },
     ],
-    { label: "Nodes that are not tied", sort: "inter", descending: false, select: (x) => x && open(x), open, same: (a, b) => a.tie === b.tie && a.row === b.row },
+    { label: "Nodes that are not tied", name: "untied", rows: [2, 10], hideEmpty: true, sort: "inter", descending: false, select: (x) => x && open(x), open, same: (a, b) => a.tie === b.tie && a.row === b.row },
   );
-  table.element.classList.add("untied-table");
-  return table;
 }
 
 /** `open` shows a node and its segment in the picture. */
-export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElement {
-  const section = h("section", { id: "ties" });
+export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElement | null {
   const { ties } = report.meta;
-  section.hidden = ties.length === 0;
-  if (section.hidden) return section;
+  if (ties.length === 0) return null;
   const list = listOfTies(report);
   const table = listOfNodes(report, open);
   const said = h("p", { class: "note", "aria-live": "polite" });
@@ -79,9 +70,7 @@ export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElem
     const none = !own.includes(true);
     const rows = all.filter((x) => (none || own[x.tie]) && (lost(x) || beyond.checked));
     table.setRows(rows);
-    table.element.hidden = rows.length === 0;
     head.hidden = rows.length === 0 && rims === 0;
-    table.element.style.setProperty("--rows", String(Math.max(2, Math.min(rows.length, 10))));
     const wanted = ties.reduce((n, t, i) => n + (none || own[i] ? t.lost + (beyond.checked ? t.beyond_rim : 0) : 0), 0);
     count.textContent = rows.length > 0 ? plural(rows.length, "node", "nodes") : "";
     const unknown = ties.filter((t, i) => (none || own[i]) && !t.evaluated).length;
@@ -91,11 +80,10 @@ export function tiesSection(report: Report, open: (x: Untied) => void): HTMLElem
   };
   report.on("filter", draw);
   draw();
-  section.append(
+  return h("section", { id: "ties" },
     sectionHead(h("h2", null, "Ties", h("span", { class: "muted count" }, plural(ties.length, "tie", "ties"))), list.chooser()),
     list.element,
     said,
     head,
     table.element);
-  return section;
 }

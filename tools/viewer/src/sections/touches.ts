@@ -6,15 +6,14 @@ import { save } from "../exports";
 import type { Report } from "../report";
 
 /** `pictured`: the first picture is there. */
-export function touchesSection(report: Report, name: string, pictured: Promise<void>): HTMLElement {
+export function touchesSection(report: Report, name: string, pictured: Promise<void>): HTMLElement | null {
+  if (report.meta.touches.length === 0) return null;
   const frame = h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Who touches whom" });
   const count = h("span", { class: "muted count" });
   let drawing: SVGElement | null = null;
   const saveIt = button("Save as SVG", "save", () => save(name, drawn().outerHTML), { class: "small" });
   const section = h("section", { id: "touches" }, sectionHead(h("h2", null, "Who touches whom", count), saveIt), frame,
     h("p", { class: "note" }, "Interfaces by number of the part pairs that come near each other; red where they penetrate. Choose a cell to see the pair."));
-  section.hidden = report.meta.touches.length === 0;
-  if (section.hidden) return section;
   const pairOf = (cell: SVGElement): [number, number] => [Number(cell.dataset.s), Number(cell.dataset.m)];
   frame.addEventListener("click", (e) => {
     const cell = (e.target as Element).closest<SVGElement>(".touch");

@@ -1,6 +1,6 @@
 // The verdict above everything: sentences and level as the program made them, and while settings are under test their numbers.
 import { group, h, lengthText, num, percent, plural, replace } from "../dom";
-import type { Verdict } from "../meta";
+import type { Verdict } from "schema/page";
 import type { Report } from "../report";
 import { settingsBar } from "./overview";
 

@@ -1,7 +1,6 @@
 // A table that draws only the rows in sight and gives every column the width of what stands in it: ids and numbers are
 // never cut, text gives way, and what does not fit at all is left out by rank and offered in the chooser.
 import { h, replace } from "../dom";
-import { fullText } from "./tooltip";
 
 export interface Column<T> {
   key: string;
@@ -31,6 +30,22 @@ function widthOf(text: string, bold: boolean): number {
   const font = `${bold ? 600 : 400} ${bold ? 12 : 13}px ${family}`;
   if (pen.font !== font) pen.font = font;
   return pen.measureText(text).width;
+}
+
+// ---- a small box that says in full what a cell has no room for, on hover and on keyboard focus ----
+
+const box = h("div", { class: "full-text", role: "tooltip", hidden: true });
+
+/** Shows `text` below `at`; null hides it. */
+export function fullText(text: string | null, at?: DOMRect): void {
+  box.hidden = text === null || !at;
+  if (text === null || !at) return;
+  if (!box.isConnected) document.body.append(box);
+  box.textContent = text;
+  const left = Math.min(Math.max(at.left, 6), window.innerWidth - box.offsetWidth - 6);
+  const below = at.bottom + 4 + box.offsetHeight < window.innerHeight;
+  box.style.left = `${Math.max(6, left)}px`;
+  box.style.top = `${below ? at.bottom + 2 : at.top - box.offsetHeight - 2}px`;
 }
 
 export class VirtualTable<T> {
@@ -65,6 +80,10 @@ export class VirtualTable<T> {
     private readonly all: Column<T>[],
     private readonly options: {
       label: string;
+      name?: string; // class of the element: name-table
+      /** How many rows are in sight, at least and at most, as long as they are there. */
+      rows?: [number, number];
+      hideEmpty?: boolean;
       sort: string;
       descending: boolean;
       select(row: T | null): void;
@@ -81,7 +100,7 @@ export class VirtualTable<T> {
     this.descending = options.descending;
     this.spacer = h("div", { class: "vt-spacer", role: "rowgroup" }, this.window);
     this.body = h("div", { class: "vt-body", tabindex: 0, role: "grid", "aria-label": options.label }, this.head, this.spacer);
-    this.element = h("div", { class: "vt" }, this.body);
+    this.element = h("div", { class: `vt${options.name ? ` ${options.name}-table` : ""}` }, this.body);
     this.body.addEventListener("scroll", () => {
       fullText(null);
       this.room.top = this.body.scrollTop;
@@ -122,6 +141,9 @@ export class VirtualTable<T> {
   /** `hold`: rows stay where they are, new ones last: a row that is changed does not leave the pointer. */
   setRows(rows: T[], hold = false): void {
     const before = this.shown;
+    const { rows: sight, hideEmpty } = this.options;
+    if (sight) this.element.style.setProperty("--rows", String(Math.max(sight[0], Math.min(rows.length, sight[1]))));
+    if (hideEmpty) this.element.hidden = rows.length === 0;
     this.rows = rows;
     this.measure();
     this.layOut();

@@ -1,14 +1,32 @@
-// Names of the chosen node and segment in the picture: beside what they name, never on it, with a line that leads there.
+// Names in the picture: of an element that is picked; of the chosen node and segment, beside what they name, never on it, with a
+// line that leads there.
 import { Vector3 } from "three";
-import { h, lengthText, num, replace, svg } from "../../dom";
+import { kindNames, type ElementOrigin } from "../../data";
+import { fileName, h, lengthText, num, replace, svg } from "../../dom";
 import type { Hit, Report } from "../../report";
 import { exactAt, pointOf, wayOut } from "../drawn";
+import type { Part3D } from "../parts3d";
 
-export interface Point {
+/** Id, part, property, thickness, and where the element is defined. */
+export function elementText(report: Report, o: ElementOrigin, part: Part3D, item: number, node: number): string {
+  const meta = part.data.part < 0 ? null : report.meta.parts[part.data.part];
+  const thickness = o.thickness || meta?.thickness || 0;
+  const file = report.meta.files[o.file];
+  return [
+    `${kindNames[part.elementKind[item]]} ${part.element[item]}`,
+    `part ${report.partText(part.data.part)}`,
+    meta && `property ${meta.prop}${meta.prop_type ? ` ${meta.prop_type.replace("/PROP/", "")}` : ""}`,
+    thickness > 0 && `thickness ${num(thickness)}`,
+    node >= 0 && `node ${report.nodeId(node)}`,
+    o.line > 0 && file && `${fileName(file)}:${o.line}`,
+  ].filter(Boolean).join(" · ");
+}
+
+interface Point {
   x: number;
   y: number;
 }
-export interface Box {
+interface Box {
   left: number;
   top: number;
   right: number;
@@ -23,7 +41,7 @@ const distance = (b: Box, p: Point) => Math.hypot(Math.max(b.left - p.x, 0, p.x 
 const overlap = (a: Box, b: Box) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
 /** A place for a box near `at`: inside `room`, off the points and the boxes; `angle` is tried first, 0: to the right, clockwise. */
-export function placeFor(at: Point, size: { width: number; height: number }, room: Box, points: Point[], boxes: Box[], angle: number): Box {
+function placeFor(at: Point, size: { width: number; height: number }, room: Box, points: Point[], boxes: Box[], angle: number): Box {
   let best: Box | null = null;
   let fewest = Infinity;
   for (const r of rings)

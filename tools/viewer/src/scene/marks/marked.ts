@@ -1,9 +1,9 @@
 // What is marked in the picture: the chosen row with its outline and the way out, and the line between measured points.
-import { BufferGeometry, type CanvasTexture, type Mesh, Points, PointsMaterial, type Scene, Vector3 } from "three";
+import { BufferGeometry, type CanvasTexture, type Mesh, type Points, type Scene, Vector3 } from "three";
 import type { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import type { Hit, Report } from "../../report";
 import { exactAt, pointOf, wayOut } from "../drawn";
-import { coneAt, thickLines } from "../shapes";
+import { coneAt, discard, dotsOver, thickLines } from "../shapes";
 
 export class Marked {
   readonly selection: (LineSegments2 | Points | Mesh)[] = [];
@@ -20,10 +20,7 @@ export class Marked {
 
   /** Outline of the main side, the node or edge, the way out, and the residual distance. */
   select(hit: Hit | null, dark: boolean): void {
-    for (const s of this.selection.splice(0)) {
-      this.scene.remove(s);
-      s.geometry.dispose();
-    }
+    discard(this.scene, this.selection.splice(0));
     if (!hit) return;
     const at = (n: number) => exactAt(this.report, n);
     const main = this.report.mainNodes(hit.row).map(at);
@@ -42,9 +39,7 @@ export class Marked {
     }
     const dot = new BufferGeometry().setFromPoints([point]);
     for (const [size, color] of [[17, dark ? "#0b0f14" : "#ffffff"], [12, dark ? "#7cc7ff" : "#1d4ed8"]] as const) {
-      const p = new Points(dot, new PointsMaterial({ size, color, sizeAttenuation: false, map: this.disc, alphaTest: 0.3, depthTest: false, transparent: true }));
-      p.renderOrder = 8;
-      p.frustumCulled = false;
+      const p = dotsOver(dot, this.disc, size, color, 8);
       this.scene.add(p);
       this.selection.push(p);
     }
@@ -69,14 +64,8 @@ export class Marked {
 
   /** Line between measured points. */
   measure(points: Vector3[], dark: boolean, outlines: number[]): void {
-    for (const old of this.rule.splice(0)) {
-      this.scene.remove(old);
-      old.geometry.dispose();
-    }
-    const dots = new Points(new BufferGeometry().setFromPoints(points), new PointsMaterial({ size: 11, color: dark ? "#f7f" : "#a0a", sizeAttenuation: false, map: this.disc, alphaTest: 0.3, depthTest: false, transparent: true }));
-    dots.frustumCulled = false;
-    dots.renderOrder = 9;
-    this.rule.push(dots);
+    discard(this.scene, this.rule.splice(0));
+    this.rule.push(dotsOver(new BufferGeometry().setFromPoints(points), this.disc, 11, dark ? "#f7f" : "#a0a", 9));
     if (points.length === 2) this.rule.push(this.lines(Float32Array.from(points.flatMap((p) => p.toArray())), dark ? "#ff77ff" : "#aa00aa", 2.5));
     if (outlines.length > 0) this.rule.push(this.lines(Float32Array.from(outlines), dark ? "#ffb454" : "#c2410c", 3));
     this.scene.add(...this.rule);

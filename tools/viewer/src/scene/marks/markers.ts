@@ -5,7 +5,7 @@ import {
 } from "three";
 import type { CameraControl } from "../camera";
 import { pointOf, wayOut } from "../drawn";
-import { arrowGeometry, dotMaterial } from "../shapes";
+import { arrowGeometry, discard, dotMaterial } from "../shapes";
 import type { Hit, Report } from "../../report";
 
 export interface Arrow {
@@ -33,11 +33,7 @@ export class Markers {
 
   /** `colorOf` gives a colour of 0..255 parts. */
   set(hits: Hit[], colorOf: (h: Hit) => [number, number, number], instead: Arrow[] | null): void {
-    for (const points of [this.dots, this.hollow]) {
-      if (!points) continue;
-      this.scene.remove(points);
-      points.geometry.dispose();
-    }
+    discard(this.scene, [this.dots, this.hollow]);
     this.hollow = null;
     if (this.arrows) {
       this.scene.remove(this.arrows);

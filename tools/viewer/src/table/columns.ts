@@ -1,5 +1,24 @@
-// Names of parts and interfaces: ids are never cut, what many titles start with is folded, and a title is cut in its middle.
+// Columns that several tables have, and the names of parts and interfaces in them: ids are never cut, what many titles start
+// with is folded, and a title is cut in its middle.
 import { h } from "../dom";
+import type { Report } from "../report";
+import type { Column } from "./table";
+
+/** Id of an interface, by its position. */
+export function interfaceColumn<T>(report: Report, inter: (row: T) => number): Column<T> {
+  const id = (r: T) => report.meta.interfaces[inter(r)].id;
+  return { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: id, text: (r) => String(id(r)) };
+}
+
+/** Id and title of a part, by its position; -1: none. */
+export function partColumn<T>(report: Report, key: string, title: string, part: (row: T) => number, more: Partial<Column<T>>): Column<T> {
+  const text = (r: T) => report.partText(part(r));
+  const cell = (r: T) => {
+    const p = report.meta.parts[part(r)];
+    return p ? named(p.id, p.title, report.commonPrefix) : "(no part)";
+  };
+  return { key, title, kind: "text", value: text, text, cell, ...more };
+}
 
 /** Id and title of a part or interface: the id is never cut, and what the titles have in common is folded. */
 export function named(id: number | string, title: string, prefix: string): HTMLElement {
