@@ -74,6 +74,25 @@ TEST(Schemas, ATableGivesOneSchemaForEachRow) {
               HasSubstr("schemas\" is missing"));
 }
 
+TEST(Schemas, ATableInAListOfCardsOrFieldsGivesItsItemsForEachRow) {
+  SchemaSet set;
+  const auto added = set.add_json("x.json", R"({"keyword":"/A","doc":"d","cards":[
+    {"name":"first","blank":true},
+    {"for":[["n"],["1"],["2"]],"cards":[{"name":"card {n}","fields":[
+      {"for":[["axis","at"],["x","m"]],"fields":[
+        {"name":"{axis}{n}{at}","cols":[1,10],"type":"int"}]},
+      {"name":"last{n}","cols":[11,20],"type":"int"}]}]}]})");
+  ASSERT_TRUE(added) << added.error().message;
+  const Schema& a = *set.find("/A");
+  ASSERT_EQ(a.cards.size(), 3u);
+  EXPECT_EQ(a.cards[2].name, "card 2");
+  ASSERT_EQ(a.cards[2].fields.size(), 2u);
+  EXPECT_EQ(a.cards[2].fields[0].name, "x2m");
+  EXPECT_EQ(a.cards[2].fields[1].name, "last2");
+  EXPECT_THAT(error_of(R"({"keyword":"/A","cards":[{"for":[["n"],["1"]],"fields":[]}]})"),
+              HasSubstr("/cards/0: unknown key \"fields\" (known: for, cards)"));
+}
+
 TEST(BuiltInSchemas, NoVersionIsLeftWithoutCards) {
   // A hole in the version ranges would make a keyword lose its first line in some version.
   for (const auto* s : SchemaSet::built_in().all()) {
