@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "deck/text/number.hpp"
-#include "keyword/shared/header_line.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/reader.hpp"
 #include "keyword/shared/references.hpp"

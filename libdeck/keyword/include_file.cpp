@@ -1,7 +1,6 @@
 // The directive #include: its path over continued lines, the places where the file may lie, and
 // what a path that leads nowhere was probably meant to be; looking for it and nothing else, which
 // decks share a file.
-#include "keyword/shared/include_file.hpp"
 
 #include <sys/stat.h>
 
@@ -16,7 +15,6 @@
 #include "deck/text/source.hpp"
 #include "keyword/shared/include_scan.hpp"
 #include "keyword/shared/reader.hpp"
-#include "text/shared/similar_file.hpp"
 
 namespace deck::detail {
 namespace fs = std::filesystem;

@@ -17,7 +17,7 @@
 #include "deck/keyword/decode.hpp"
 #include "keyword/reading.hpp"
 #include "keyword/schema/json.hpp"
-#include "keyword/shared/older_decks.hpp"
+#include "keyword/shared/schema_facts.hpp"
 #include "where.hpp"
 
 namespace deck {

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "edit/convert/units/unit_system_state.hpp"
-#include "keyword/shared/header_line.hpp"
 #include "keyword/shared/reader.hpp"
 #include "text/shared/columns.hpp"
 

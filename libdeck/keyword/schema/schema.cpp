@@ -1,5 +1,5 @@
 // SchemaSet: the table of keywords and aliases, and the search for the longest one that begins a
-// header. Reading the JSON is in json.cpp.
+// header; the legal words of a keyword. Reading the JSON is in json.cpp.
 #include "deck/keyword/schema.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +14,7 @@
 #include "deck/keyword/deck.hpp"
 #include "deck/text/source.hpp"
 #include "keyword/schema/json.hpp"
+#include "keyword/shared/schema_facts.hpp"
 
 namespace deck {
 bool Condition::holds(std::int64_t value) const {
@@ -191,5 +192,42 @@ std::vector<const Schema*> SchemaSet::all() const {
     if (name == entry->keyword) schemas.push_back(&entry->get());
   return schemas;
 }
+
+namespace detail {
+namespace {
+
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+bool begins_with(std::string_view text, std::string_view word) {
+  return text.size() >= word.size() &&
+         std::equal(word.begin(), word.end(), text.begin(),
+                    [](char w, char t) { return upper(w) == upper(t); });
+}
+
+bool matches(std::string_view text, std::string_view word) {
+  if (!word.ends_with('*')) return text.size() == word.size() && begins_with(text, word);
+  word.remove_suffix(1);
+  if (text.size() <= word.size() || !begins_with(text, word)) return false;
+  const char next = text[word.size()];
+  return next == '_' || (next >= '0' && next <= '9');
+}
+
+}  // namespace
+
+std::span<const std::string> legal_words(const Schema& schema) {
+  for (const CardSchema& card : schema.cards)
+    if (card.words)
+      for (const Field& field : card.fields)
+        if (!field.words.empty()) return field.words;
+  return {};
+}
+
+bool has_word(const Schema& schema, std::string_view text) {
+  const auto words = legal_words(schema);
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return matches(text, word); });
+}
+
+}  // namespace detail
 
 }  // namespace deck

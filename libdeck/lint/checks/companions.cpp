@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/shared/count.hpp"
-#include "base/shared/length3.hpp"
+#include "base/shared/vec.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {

@@ -5,10 +5,13 @@
 #include <emmintrin.h>
 #endif
 
-#include <algorithm>
 #include <bit>
+#include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
+#include <string_view>
 
 #include "deck/text/number.hpp"
 
@@ -264,5 +267,28 @@ inline bool scan_plain_twenty(const char* p, double& value) {
   std::memcpy(&front, p, 4);
   return front == 0x20202020u && scan_sixteen(p + 4, value);
 }
+
+// ---- decimal digits as text, in the two forms a deck knows -------------------------------------
+
+/// value = 0.d1d2d3… * 10^point, without trailing zeros.
+struct Decimal {
+  bool negative = false;
+  std::string_view digits;
+  int point = 0;
+};
+
+/// A finite number as "-d.ddde+XX" with `significant` digits, exactly rounded; 0: the fewest that
+/// read back to the same double.
+inline std::to_chars_result write_scientific(char* first, char* last, double value,
+                                             int significant) {
+  constexpr auto form = std::chars_format::scientific;
+  return significant == 0 ? std::to_chars(first, last, value, form)
+                          : std::to_chars(first, last, value, form, significant - 1);
+}
+
+/// "12.5", "0.05" or, without `leading_zero`, ".05"; always with a point.
+std::string fixed_text(const Decimal& d, bool leading_zero);
+/// "1.25e3". `before`: digits in front of the point; all of them: no point at all.
+std::string scientific_text(const Decimal& d, std::size_t before);
 
 }  // namespace deck::detail

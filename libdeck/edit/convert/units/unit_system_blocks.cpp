@@ -6,7 +6,7 @@
 #include "deck/text/number.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
 #include "edit/convert/version_cards.hpp"
-#include "keyword/shared/implied_one.hpp"
+#include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/reader.hpp"
 #include "model/shared/constant_stiffness.hpp"

@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "deck/text/number.hpp"
-#include "text/shared/decimal.hpp"
 #include "text/shared/number_scan.hpp"
 
 namespace deck::detail {
