@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 
 bool is_include(std::string_view line) {
   if (!starts_with_nocase(line, "#include")) return false;
-  return line.size() == 8 || static_cast<unsigned char>(line[8]) <= ' ' || line[8] == '\'' ||
-         line[8] == '"';
+  return line.size() == 8 || is_blank(line[8]) || line[8] == '\'' || line[8] == '"';
 }
 
 std::string include_path(std::string_view bytes, std::uint64_t& pos) {

@@ -33,8 +33,7 @@ double integer_power(double base, int power) {
 }  // namespace
 
 std::optional<double> unit_factor(std::string_view code, char base) {
-  while (!code.empty() && static_cast<unsigned char>(code.front()) <= ' ') code.remove_prefix(1);
-  while (!code.empty() && static_cast<unsigned char>(code.back()) <= ' ') code.remove_suffix(1);
+  code = detail::trim(code);
   if (code.empty()) return std::nullopt;
   const RealCell number = read_real(code);
   if (number.status == NumberStatus::ok || number.status == NumberStatus::implicit_exponent)

@@ -15,6 +15,7 @@
 #include "deck/text/source.hpp"
 #include "keyword/schema/json.hpp"
 #include "keyword/shared/schema_facts.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 bool Condition::holds(std::int64_t value) const {
@@ -157,21 +158,15 @@ Result<void> SchemaSet::add_directory(const std::string& dir) {
 }
 
 const Schema* SchemaSet::match(std::string_view header) const {
-  const auto blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
-  const auto trim = [&](std::string_view text) {
-    while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-    while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-    return text;
-  };
-  header = trim(header);
+  header = detail::trim(header);
   if (header.empty() || header.front() != '/') return nullptr;
   // "/ SHELL/1" is no keyword: the solver looks for the name right behind the slash.
-  if (header.size() > 1 && blank(header[1])) return nullptr;
+  if (header.size() > 1 && detail::is_blank(header[1])) return nullptr;
   const Entry* best = nullptr;
   std::string prefix;
   for (std::size_t begin = 1; begin <= header.size();) {
     const auto end = std::min(header.find('/', begin), header.size());
-    const auto field = trim(header.substr(begin, end - begin));
+    const auto field = detail::trim(header.substr(begin, end - begin));
     begin = end + 1;
     if (field == "ADDD") continue;  // a sub-field without meaning, dropped before matching
     prefix += '/';

@@ -27,13 +27,9 @@ void check_header_line(Deck& deck, const HeaderPlace& place, std::string_view he
 
 /// The header without its comment: a '#' behind a blank starts one.
 inline std::string_view without_comment(std::string_view header) {
-  const auto blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
-  for (std::size_t hash = 1; hash < header.size(); ++hash) {
-    if (header[hash] != '#' || !blank(header[hash - 1])) continue;
-    header = header.substr(0, hash);
-    while (!header.empty() && blank(header.back())) header.remove_suffix(1);
-    break;
-  }
+  for (std::size_t hash = 1; hash < header.size(); ++hash)
+    if (header[hash] == '#' && is_blank(header[hash - 1]))
+      return trim_right(header.substr(0, hash));
   return header;
 }
 

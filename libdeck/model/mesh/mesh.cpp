@@ -22,10 +22,8 @@ bool engine_asks(const EngineFiles* engine, std::string_view keyword) {
   if (engine == nullptr || engine->files.empty()) return false;
   const EngineFile& first = engine->files.front();
   if (first.number != 1) return false;
-  return std::any_of(first.blocks.begin(), first.blocks.end(), [&](const EngineBlock& b) {
-    return b.keyword.starts_with(keyword) &&
-           (b.keyword.size() == keyword.size() || b.keyword[keyword.size()] == '/');
-  });
+  return std::any_of(first.blocks.begin(), first.blocks.end(),
+                     [&](const EngineBlock& b) { return is_below(b.keyword, keyword); });
 }
 
 /// Sums of one part about a place near it.

@@ -14,14 +14,12 @@
 #include <string_view>
 
 #include "deck/text/number.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 
 inline constexpr std::uint64_t every_byte = 0x0101010101010101u;
 inline constexpr std::uint64_t high_bits = 0x80 * every_byte;
-
-inline bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20; }
-inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
 
 /// Eight bytes, the first one in the low bits whatever the machine's byte order.
 inline std::uint64_t load8(const char* p) {
