@@ -10,6 +10,7 @@
 #include "deck/keyword/decode.hpp"
 #include "model/mesh/mesh_parts.hpp"
 #include "model/shared/families.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {
