@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <initializer_list>
 #include <iterator>
+#include <utility>
 
 namespace deck {
 
@@ -102,47 +104,28 @@ bool spell_command(std::string& out, std::string_view text, const TextUnit& unit
   return true;
 }
 
-bool add_markup(std::string& out, const TextUnit& unit) {
-  if (!unit.character) return false;
-  switch (unit.code) {
-    case '&':
-      out += "&amp;";
-      return true;
-    case '<':
-      out += "&lt;";
-      return true;
-    case '>':
-      out += "&gt;";
-      return true;
-    case '"':
-      out += "&quot;";
-      return true;
-    case '\'':
-      out += "&#39;";
-      return true;
-    case '\t':
-      out += "&#9;";
-      return true;
-    default:
-      return false;
-  }
+/// `text` with some characters replaced by what stands for them in a medium.
+using Replacements = std::initializer_list<std::pair<char, std::string_view>>;
+std::string replaced(std::string_view text, Replacements replacements) {
+  return escaped(text, [&](std::string& out, const TextUnit& unit, std::size_t) {
+    if (unit.code >= 0x80) return false;
+    for (const auto& [character, replacement] : replacements)
+      if (unit.code == static_cast<unsigned char>(character)) {
+        out += replacement;
+        return true;
+      }
+    return false;
+  });
 }
 
-bool add_percent(std::string& out, const TextUnit& unit) {
-  if (!unit.character) return false;
-  switch (unit.code) {
-    case '%':
-      out += "%25";
-      return true;
-    case '\r':
-      out += "%0D";
-      return true;
-    case '\n':
-      out += "%0A";
-      return true;
-    default:
-      return false;
-  }
+std::string markup_text(std::string_view text, std::string_view line_feed) {
+  return replaced(text, {{'&', "&amp;"},
+                         {'<', "&lt;"},
+                         {'>', "&gt;"},
+                         {'"', "&quot;"},
+                         {'\'', "&#39;"},
+                         {'\t', "&#9;"},
+                         {'\n', line_feed}});
 }
 
 }  // namespace
@@ -189,25 +172,9 @@ std::string terminal_columns(std::string_view text) {
   return out;
 }
 
-std::string xml_text(std::string_view text) {
-  return escaped(text, [](std::string& out, const TextUnit& unit, std::size_t) {
-    if (unit.code == '\n') {
-      out += "&#10;";
-      return true;
-    }
-    return add_markup(out, unit);
-  });
-}
+std::string xml_text(std::string_view text) { return markup_text(text, "&#10;"); }
 
-std::string html_text(std::string_view text) {
-  return escaped(text, [](std::string& out, const TextUnit& unit, std::size_t) {
-    if (unit.code == '\n') {
-      out += '\n';
-      return true;
-    }
-    return add_markup(out, unit);
-  });
-}
+std::string html_text(std::string_view text) { return markup_text(text, "\n"); }
 
 std::string csv_text(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
@@ -220,19 +187,11 @@ std::string csv_text(std::string_view text) {
 }
 
 std::string workflow_text(std::string_view text) {
-  return escaped(text, [](std::string& out, const TextUnit& unit, std::size_t) {
-    return add_percent(out, unit);
-  });
+  return replaced(text, {{'%', "%25"}, {'\r', "%0D"}, {'\n', "%0A"}});
 }
 
 std::string workflow_property(std::string_view text) {
-  return escaped(text, [](std::string& out, const TextUnit& unit, std::size_t) {
-    if (unit.code == ':' || unit.code == ',') {
-      out += unit.code == ':' ? "%3A" : "%2C";
-      return true;
-    }
-    return add_percent(out, unit);
-  });
+  return replaced(text, {{'%', "%25"}, {'\r', "%0D"}, {'\n', "%0A"}, {':', "%3A"}, {',', "%2C"}});
 }
 
 void append_json_string(std::string& out, std::string_view text) {

@@ -1,4 +1,4 @@
-// Words in capitals; distance of two words, one row of the table at a time.
+// Words in capitals and small letters; distance of two words, one row of the table at a time.
 #include "base/shared/spelling.hpp"
 
 #include <algorithm>
@@ -10,6 +10,13 @@ std::string in_capitals(std::string_view text) {
   std::string out(text);
   for (char& c : out)
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+  return out;
+}
+
+std::string in_lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
   return out;
 }
 

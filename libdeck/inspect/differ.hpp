@@ -13,7 +13,7 @@
 #include "deck/keyword/decode.hpp"
 #include "inspect/match.hpp"
 #include "inspect/shared/diff.hpp"
-#include "keyword/shared/implied_one.hpp"
+#include "keyword/shared/decode_parts.hpp"
 
 namespace deck::detail {
 

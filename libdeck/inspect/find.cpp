@@ -13,13 +13,6 @@
 namespace deck {
 namespace {
 
-std::string in_lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  return out;
-}
-
 /// Kinds under the names that people use.
 std::string kind_named(std::string_view name) {
   constexpr std::pair<std::string_view, std::string_view> names[] = {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "keyword/shared/implied_one.hpp"
+#include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/references.hpp"
 
 namespace deck::detail {

@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/shared/spelling.hpp"
 #include "deck/model/selection.hpp"
 #include "inspect/match.hpp"
 #include "inspect/shared/show.hpp"
@@ -270,8 +271,7 @@ class Viewer {
         Link link;
         link.field = "node";
         link.keyword = detail::keyword_of_family(kind);
-        link.kind = link.keyword.substr(1);
-        for (char& c : link.kind) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+        link.kind = in_lower_case(link.keyword.substr(1));
         link.id = family.id[e];
         link.span = model_.element_span(kind, e);
         view_.used_by.push_back(std::move(link));

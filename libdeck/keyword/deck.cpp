@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "deck/text/number.hpp"
-#include "keyword/shared/header_line.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/reader.hpp"
 #include "keyword/shared/references.hpp"
@@ -126,7 +125,7 @@ std::vector<const Block*> in_solver_order(const Deck& deck, std::string_view cat
 namespace {
 
 bool all_digits(std::string_view s) {
-  return !s.empty() && std::all_of(s.begin(), s.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return !s.empty() && std::all_of(s.begin(), s.end(), is_digit);
 }
 
 /// Without a number in its header an object has number 1, except for these: an interface keeps a
@@ -144,8 +143,7 @@ bool keeps_zero(const Block& block) {
 
 /// Length of `name` if `header` starts with it as whole header fields, else 0.
 std::size_t name_length(std::string_view header, std::string_view name) {
-  if (!header.starts_with(name)) return 0;
-  return header.size() == name.size() || header[name.size()] == '/' ? name.size() : 0;
+  return is_below(header, name) ? name.size() : 0;
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // What can be wrong with the form of a keyword line: its length and its blanks.
-#include "keyword/shared/header_line.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,6 @@
 // The directive #include: its path over continued lines, the places where the file may lie, and
 // what a path that leads nowhere was probably meant to be; looking for it and nothing else, which
 // decks share a file.
-#include "keyword/shared/include_file.hpp"
 
 #include <sys/stat.h>
 
@@ -16,15 +15,13 @@
 #include "deck/text/source.hpp"
 #include "keyword/shared/include_scan.hpp"
 #include "keyword/shared/reader.hpp"
-#include "text/shared/similar_file.hpp"
 
 namespace deck::detail {
 namespace fs = std::filesystem;
 
 bool is_include(std::string_view line) {
   if (!starts_with_nocase(line, "#include")) return false;
-  return line.size() == 8 || static_cast<unsigned char>(line[8]) <= ' ' || line[8] == '\'' ||
-         line[8] == '"';
+  return line.size() == 8 || is_blank(line[8]) || line[8] == '\'' || line[8] == '"';
 }
 
 std::string include_path(std::string_view bytes, std::uint64_t& pos) {

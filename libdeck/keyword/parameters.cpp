@@ -38,7 +38,7 @@ class Expression {
   static constexpr int max_depth = 300;
 
   void blanks() {
-    while (at_ < text_.size() && static_cast<unsigned char>(text_[at_]) <= ' ') ++at_;
+    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
   }
   bool eat(std::string_view token) {
     blanks();

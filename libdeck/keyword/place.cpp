@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "keyword/shared/include_file.hpp"
+#include "keyword/shared/include_scan.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck {

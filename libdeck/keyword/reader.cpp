@@ -8,8 +8,7 @@
 #include <set>
 
 #include "deck/text/number.hpp"
-#include "keyword/shared/header_line.hpp"
-#include "keyword/shared/include_file.hpp"
+#include "keyword/shared/include_scan.hpp"
 #include "text/shared/gzip.hpp"
 #include "text/shared/number_scan.hpp"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "deck/text/number.hpp"
-#include "keyword/blank_units.hpp"
 #include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/reader.hpp"
@@ -237,97 +236,6 @@ void mark_opaque(Deck& deck) {
 void report(Deck& deck, RuleId rule, Span span, std::string message, Case particular) {
   if (deck.diagnostics.wants(rule))
     deck.diagnostics.add(finding_of(rule, span, std::move(message), std::move(particular)));
-}
-
-void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSystem& other,
-                      const char* which) {
-  struct Cell {
-    std::string UnitSystem::*code;
-    double UnitSystem::*factor;
-    const char* name;
-  };
-  constexpr Cell cells[] = {{&UnitSystem::mass_code, &UnitSystem::mass, "mass"},
-                            {&UnitSystem::length_code, &UnitSystem::length, "length"},
-                            {&UnitSystem::time_code, &UnitSystem::time, "time"}};
-  for (const Cell& cell : cells) {
-    if (!(units.*cell.code).empty()) continue;
-    const std::string what = std::string("the ") + cell.name + " unit of the " + which;
-    if ((other.*cell.code).empty()) {
-      report(deck, RuleId::DK015, begin,
-             what + " is blank or 0 in both systems; deck takes it as 1 in kg, m, s",
-             {.severity = Severity::warning,
-              .message = 0,
-              .solver = "it continues; the unit that it uses is not known"});
-      continue;
-    }
-    units.*cell.code = other.*cell.code;
-    units.*cell.factor = other.*cell.factor;
-    report(deck, RuleId::DK015, begin,
-           what + " is blank or 0; '" + units.*cell.code + "' of the other one is taken",
-           {.severity = Severity::warning,
-            .message = 0,
-            .solver = "it continues with the unit of the other system",
-            .fix = "write all three units on both lines"});
-  }
-}
-
-namespace {
-
-bool is_zero(std::string_view cell) {
-  const RealCell number = read_real(cell);
-  return number.status == NumberStatus::ok && number.value == 0;
-}
-
-}  // namespace
-
-bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_one) {
-  Span spans[3] = {line.columns(1, 20), line.columns(21, 40), line.columns(41, 60)};
-  // The lines of /BEGIN are read before anything else, in their columns.
-  if (blank_is_one && is_free(line)) {
-    const FreeCells free = split_free(line);
-    for (std::size_t i = 0; i < 3; ++i)
-      spans[i] = i < free.size() ? free[i].second : line.columns(101, 101);
-  }
-  const std::string_view cells[3] = {trim(deck.sources.text(spans[0])),
-                                     trim(deck.sources.text(spans[1])),
-                                     trim(deck.sources.text(spans[2]))};
-  if (cells[0].empty() && cells[1].empty() && cells[2].empty()) return false;
-  units.mass_code = cells[0];
-  units.length_code = cells[1];
-  units.time_code = cells[2];
-  double* const factors[3] = {&units.mass, &units.length, &units.time};
-  std::string* const codes[3] = {&units.mass_code, &units.length_code, &units.time_code};
-  constexpr char bases[3] = {'g', 'm', 's'};
-  constexpr const char* names[3] = {"mass", "length", "time"};
-  for (int i = 0; i < 3; ++i) {
-    if (blank_is_one && cells[i].find_first_not_of("0.+-") == std::string_view::npos) continue;
-    if (cells[i].empty()) continue;  // the other system says what is meant
-    if (is_zero(cells[i])) {         // counts as blank
-      *codes[i] = {};
-      continue;
-    }
-    if (const auto factor = unit_factor(cells[i], bases[i])) {
-      *factors[i] = *factor;
-      continue;
-    }
-    const std::string_view word = cells[i].substr(0, cells[i].find_first_of(" \t"));
-    if (const RealCell number = read_real(word);
-        word.size() < cells[i].size() && number.status == NumberStatus::ok && number.value > 0) {
-      *factors[i] = number.value;
-      report(deck, RuleId::DK015, spans[i],
-             "'" + std::string(cells[i]) + "' is not a " + names[i] + " unit; it is read as " +
-                 std::string(word),
-             {.severity = Severity::warning,
-              .message = 0,
-              .solver = "it reads the number and ignores the rest silently"});
-      continue;
-    }
-    report(deck, RuleId::DK015, spans[i],
-           "'" + std::string(cells[i]) + "' is not a " + names[i] +
-               " unit; expected a prefix and '" + bases[i] + "', or a positive number",
-           {.solver = "it stops with an error"});
-  }
-  return true;
 }
 
 void finish_deck(Deck& deck, ReaderNotes& notes, const ReadOptions& options) {

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/shared/escape.hpp"
+#include "base/shared/spelling.hpp"
 #include "keyword/shared/reader.hpp"
 #include "text/shared/number_scan.hpp"
 
@@ -31,21 +32,12 @@ constexpr Magic magics[] = {
     {"\x89PNG", "a picture (PNG)"},
 };
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  return out;
-}
-
 /// First line that is neither blank nor a comment of any of these formats.
 std::string_view first_line(std::string_view text) {
   while (!text.empty()) {
     const auto nl = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, nl);
+    const std::string_view line = detail::trim(text.substr(0, nl));
     text.remove_prefix(std::min(nl + 1, text.size()));
-    while (!line.empty() && static_cast<unsigned char>(line.front()) <= ' ') line.remove_prefix(1);
-    while (!line.empty() && static_cast<unsigned char>(line.back()) <= ' ') line.remove_suffix(1);
     if (!line.empty() && line[0] != '$' && line[0] != '#') return line;
   }
   return {};
@@ -64,9 +56,8 @@ bool mostly_binary(std::string_view head) {
 }
 
 bool has_block(const Deck& deck, std::string_view start) {
-  return std::any_of(deck.blocks.begin(), deck.blocks.end(), [&](const Block& b) {
-    return b.header == start || b.header.starts_with(std::string(start) + "/");
-  });
+  return std::any_of(deck.blocks.begin(), deck.blocks.end(),
+                     [&](const Block& b) { return detail::is_below(b.header, start); });
 }
 
 /// Keywords that only an Engine file has.
@@ -80,7 +71,7 @@ bool is_engine(const Deck& deck) {
 }
 
 std::string text_kind(const Deck& deck, std::string_view head) {
-  const std::string small = lower(head.substr(0, 1024));
+  const std::string small = in_lower_case(head.substr(0, 1024));
   const std::string_view line = first_line(head);
   const std::string shown = "'" + std::string(line.substr(0, 60)) + "'";
   if (small.find("<html") != std::string::npos || small.find("<!doctype html") != std::string::npos)
@@ -92,7 +83,7 @@ std::string text_kind(const Deck& deck, std::string_view head) {
   if (line.size() > 1 && line[0] == '*' && ((line[1] | 0x20) >= 'a' && (line[1] | 0x20) <= 'z'))
     return "a deck of LS-DYNA or Abaqus (it begins with " + shown +
            "); OpenRadioss itself reads decks of LS-DYNA";
-  if (const std::string first = lower(line);
+  if (const std::string first = in_lower_case(line);
       first.starts_with("begin bulk") || first.starts_with("cend") || first.starts_with("sol "))
     return "a deck of Nastran (it begins with " + shown + ")";
   if (!deck.blocks.empty() && small.find("\n/begin\n") != std::string::npos)

@@ -1,9 +1,13 @@
-// Unit codes of headers and of /UNIT as factors to kilogram, metre, second.
+// Systems of units: codes as factors to kilogram, metre, second; the header of a deck, /BEGIN (run
+// name, input version and two systems of units); the lines of /UNIT.
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
 #include "deck/keyword/deck.hpp"
 #include "deck/text/number.hpp"
+#include "keyword/shared/decode_parts.hpp"
+#include "keyword/shared/reader.hpp"
 
 namespace deck {
 namespace {
@@ -29,8 +33,7 @@ double integer_power(double base, int power) {
 }  // namespace
 
 std::optional<double> unit_factor(std::string_view code, char base) {
-  while (!code.empty() && static_cast<unsigned char>(code.front()) <= ' ') code.remove_prefix(1);
-  while (!code.empty() && static_cast<unsigned char>(code.back()) <= ' ') code.remove_suffix(1);
+  code = detail::trim(code);
   if (code.empty()) return std::nullopt;
   const RealCell number = read_real(code);
   if (number.status == NumberStatus::ok || number.status == NumberStatus::implicit_exponent)
@@ -53,5 +56,145 @@ double conversion_factor(const UnitSystem& from, const UnitSystem& to, const Dim
          integer_power(from.length / to.length, d.length) *
          integer_power(from.time / to.time, d.time);
 }
+
+namespace detail {
+namespace {
+
+/// The first four data lines behind /BEGIN, as far as there are any.
+void begin_lines(const Deck& deck, std::uint32_t file, std::uint64_t pos, Line (&lines)[4]) {
+  const std::string_view bytes = deck.sources[file].bytes();
+  for (int have = 0; have < 4 && pos < bytes.size();) {
+    const auto nl = std::min(bytes.find('\n', pos), bytes.size());
+    const std::string_view text = bytes.substr(pos, std::min<std::size_t>(nl - pos, 100));
+    const bool comment = text.starts_with('#') || text.starts_with('$');
+    if (!comment && trim(text).starts_with('/')) break;
+    if (!comment) lines[have++] = {trim_right(text), file, pos};
+    pos = nl + 1;
+  }
+}
+
+/// A blank cell of a unit line takes the unit of the other line (DK015), as a blank line does.
+/// `which` names the line in messages, `begin` is the header.
+void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSystem& other,
+                      const char* which) {
+  struct Cell {
+    std::string UnitSystem::*code;
+    double UnitSystem::*factor;
+    const char* name;
+  };
+  constexpr Cell cells[] = {{&UnitSystem::mass_code, &UnitSystem::mass, "mass"},
+                            {&UnitSystem::length_code, &UnitSystem::length, "length"},
+                            {&UnitSystem::time_code, &UnitSystem::time, "time"}};
+  for (const Cell& cell : cells) {
+    if (!(units.*cell.code).empty()) continue;
+    const std::string what = std::string("the ") + cell.name + " unit of the " + which;
+    if ((other.*cell.code).empty()) {
+      report(deck, RuleId::DK015, begin,
+             what + " is blank or 0 in both systems; deck takes it as 1 in kg, m, s",
+             {.severity = Severity::warning,
+              .message = 0,
+              .solver = "it continues; the unit that it uses is not known"});
+      continue;
+    }
+    units.*cell.code = other.*cell.code;
+    units.*cell.factor = other.*cell.factor;
+    report(deck, RuleId::DK015, begin,
+           what + " is blank or 0; '" + units.*cell.code + "' of the other one is taken",
+           {.severity = Severity::warning,
+            .message = 0,
+            .solver = "it continues with the unit of the other system",
+            .fix = "write all three units on both lines"});
+  }
+}
+
+bool is_zero(std::string_view cell) {
+  const RealCell number = read_real(cell);
+  return number.status == NumberStatus::ok && number.value == 0;
+}
+
+}  // namespace
+
+bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_one) {
+  Span spans[3] = {line.columns(1, 20), line.columns(21, 40), line.columns(41, 60)};
+  // The lines of /BEGIN are read before anything else, in their columns.
+  if (blank_is_one && is_free(line)) {
+    const FreeCells free = split_free(line);
+    for (std::size_t i = 0; i < 3; ++i)
+      spans[i] = i < free.size() ? free[i].second : line.columns(101, 101);
+  }
+  const std::string_view cells[3] = {trim(deck.sources.text(spans[0])),
+                                     trim(deck.sources.text(spans[1])),
+                                     trim(deck.sources.text(spans[2]))};
+  if (cells[0].empty() && cells[1].empty() && cells[2].empty()) return false;
+  units.mass_code = cells[0];
+  units.length_code = cells[1];
+  units.time_code = cells[2];
+  double* const factors[3] = {&units.mass, &units.length, &units.time};
+  std::string* const codes[3] = {&units.mass_code, &units.length_code, &units.time_code};
+  constexpr char bases[3] = {'g', 'm', 's'};
+  constexpr const char* names[3] = {"mass", "length", "time"};
+  for (int i = 0; i < 3; ++i) {
+    if (blank_is_one && cells[i].find_first_not_of("0.+-") == std::string_view::npos) continue;
+    if (cells[i].empty()) continue;  // the other system says what is meant
+    if (is_zero(cells[i])) {         // counts as blank
+      *codes[i] = {};
+      continue;
+    }
+    if (const auto factor = unit_factor(cells[i], bases[i])) {
+      *factors[i] = *factor;
+      continue;
+    }
+    const std::string_view word = cells[i].substr(0, cells[i].find_first_of(" \t"));
+    if (const RealCell number = read_real(word);
+        word.size() < cells[i].size() && number.status == NumberStatus::ok && number.value > 0) {
+      *factors[i] = number.value;
+      report(deck, RuleId::DK015, spans[i],
+             "'" + std::string(cells[i]) + "' is not a " + names[i] + " unit; it is read as " +
+                 std::string(word),
+             {.severity = Severity::warning,
+              .message = 0,
+              .solver = "it reads the number and ignores the rest silently"});
+      continue;
+    }
+    report(deck, RuleId::DK015, spans[i],
+           "'" + std::string(cells[i]) + "' is not a " + names[i] +
+               " unit; expected a prefix and '" + bases[i] + "', or a positive number",
+           {.solver = "it stops with an error"});
+  }
+  return true;
+}
+
+Begin read_begin(Deck& deck, Span header, std::uint64_t pos) {
+  Line lines[4];
+  begin_lines(deck, header.file, pos, lines);
+  Begin begin;
+  begin.span = header;
+  begin.run_name = std::string(trim(lines[0].text));
+  const std::string_view cell = columns(lines[1].text, 1, 10);
+  begin.version_span = lines[1].valid() ? lines[1].columns(1, 10) : header;
+  const IntegerCell number = read_integer(cell);
+  begin.version_written = static_cast<int>(std::clamp<std::int64_t>(number.value, 0, 99999));
+  begin.version_known = is_known_version(begin.version_written);
+  begin.version_unread =
+      begin.version_written == 41 || begin.version_written == 42 || begin.version_written == 44;
+  begin.has_input = read_units(deck, lines[2], begin.input);
+  begin.has_working = read_units(deck, lines[3], begin.working);
+  if (begin.has_input) fill_blank_units(deck, header, begin.input, begin.working, "input system");
+  if (begin.has_working)
+    fill_blank_units(deck, header, begin.working, begin.input, "working system");
+  if (begin.version_unread)
+    report(deck, RuleId::DK050, begin.version_span,
+           "input version " + std::to_string(begin.version_written) +
+               " has cells of eight columns, which deck does not read",
+           {.severity = Severity::error});
+  else if (!begin.version_known)
+    report(deck, RuleId::DK003, begin.version_span,
+           "input version " + std::string(trim(cell).empty() ? "(blank)" : trim(cell)) +
+               " is unknown; the columns of version " + std::to_string(newest_version) +
+               " are assumed");
+  return begin;
+}
+
+}  // namespace detail
 
 }  // namespace deck

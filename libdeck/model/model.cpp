@@ -40,7 +40,7 @@ int number_of_digits(std::string_view digits) {
   if (digits.empty() || digits.size() > 4) return -1;
   int value = 0;
   for (const char ch : digits) {
-    if (ch < '0' || ch > '9') return -1;
+    if (!is_digit(ch)) return -1;
     value = value * 10 + (ch - '0');
   }
   return value;
@@ -55,10 +55,8 @@ std::vector<std::string_view> header_fields(const Block& block) {
     std::string_view field = header.substr(at, end - at);
     while (!field.empty() && field.back() == ' ') field.remove_suffix(1);
     while (!field.empty() && field.front() == ' ') field.remove_prefix(1);
-    const bool number =
-        !field.empty() &&
-        (field.front() == '&' ||
-         std::all_of(field.begin(), field.end(), [](char ch) { return ch >= '0' && ch <= '9'; }));
+    const bool number = !field.empty() &&
+                        (field.front() == '&' || std::all_of(field.begin(), field.end(), is_digit));
     if (number || field.empty()) break;
     if (field != "ADDD") fields.push_back(field);
     at = end + 1;

@@ -32,8 +32,7 @@ Finding finding_about(const Block& block, RuleId rule, std::string message, Case
 /// {"SURF", "PART", "EXT"}; the meaningless field ADDD is dropped.
 std::vector<std::string_view> header_fields(const Block& block);
 inline bool header_starts(const Block& block, std::string_view prefix) {
-  return block.header.starts_with(prefix) &&
-         (block.header.size() == prefix.size() || block.header[prefix.size()] == '/');
+  return is_below(block.header, prefix);
 }
 
 /// Cells of a block in working units.

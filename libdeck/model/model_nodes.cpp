@@ -7,8 +7,8 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "base/shared/length3.hpp"
 #include "base/shared/parallel.hpp"
+#include "base/shared/vec.hpp"
 #include "deck/text/number.hpp"
 #include "model/bulk/bulk.hpp"
 #include "model/model_build.hpp"

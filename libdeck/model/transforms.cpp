@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/shared/length3.hpp"
+#include "base/shared/vec.hpp"
 #include "deck/model/selection.hpp"
 #include "model/model_build.hpp"
 

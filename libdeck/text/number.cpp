@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "text/shared/decimal.hpp"
 #include "text/shared/number_scan.hpp"
 
 namespace deck {

@@ -18,17 +18,24 @@ def filled(value, row):
     return value
 
 
-def written_out(items):
-    for item in items:
-        if "for" in item:
+def written_out(value, key=None):
+    """A JSON value with the tables of its lists written out; `key` names the list."""
+    if isinstance(value, dict):
+        return {name: written_out(item, name) for name, item in value.items()}
+    if not isinstance(value, list):
+        return value
+    items = []
+    for item in value:
+        if isinstance(item, dict) and "for" in item:
             names, *rows = item["for"]
             for words in rows:
-                yield from written_out(filled(item["schemas"], dict(zip(names, words))))
+                items += written_out(filled(item[key], dict(zip(names, words))), key)
         else:
-            yield item
+            items.append(written_out(item, key))
+    return items
 
 
 def keyword_schemas():
     for file in sorted(FOLDER.glob("*.json")):
         document = json.loads(file.read_text(encoding="utf-8"))
-        yield from written_out(document.get("schemas", [document]))
+        yield from written_out(document.get("schemas", [document]), "schemas")

@@ -17,7 +17,7 @@
 #include "deck/keyword/decode.hpp"
 #include "keyword/reading.hpp"
 #include "keyword/schema/json.hpp"
-#include "keyword/shared/older_decks.hpp"
+#include "keyword/shared/schema_facts.hpp"
 #include "where.hpp"
 
 namespace deck {
@@ -72,6 +72,25 @@ TEST(Schemas, ATableGivesOneSchemaForEachRow) {
   EXPECT_THAT(error(R"([["G"],[1]])"), HasSubstr("/schemas/0/for/1/0: expected text"));
   EXPECT_THAT(error_of(R"({"schemas":[{"for":[["G"],["a"]]}]})"),
               HasSubstr("schemas\" is missing"));
+}
+
+TEST(Schemas, ATableInAListOfCardsOrFieldsGivesItsItemsForEachRow) {
+  SchemaSet set;
+  const auto added = set.add_json("x.json", R"({"keyword":"/A","doc":"d","cards":[
+    {"name":"first","blank":true},
+    {"for":[["n"],["1"],["2"]],"cards":[{"name":"card {n}","fields":[
+      {"for":[["axis","at"],["x","m"]],"fields":[
+        {"name":"{axis}{n}{at}","cols":[1,10],"type":"int"}]},
+      {"name":"last{n}","cols":[11,20],"type":"int"}]}]}]})");
+  ASSERT_TRUE(added) << added.error().message;
+  const Schema& a = *set.find("/A");
+  ASSERT_EQ(a.cards.size(), 3u);
+  EXPECT_EQ(a.cards[2].name, "card 2");
+  ASSERT_EQ(a.cards[2].fields.size(), 2u);
+  EXPECT_EQ(a.cards[2].fields[0].name, "x2m");
+  EXPECT_EQ(a.cards[2].fields[1].name, "last2");
+  EXPECT_THAT(error_of(R"({"keyword":"/A","cards":[{"for":[["n"],["1"]],"fields":[]}]})"),
+              HasSubstr("/cards/0: unknown key \"fields\" (known: for, cards)"));
 }
 
 TEST(BuiltInSchemas, NoVersionIsLeftWithoutCards) {

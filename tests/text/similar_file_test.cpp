@@ -1,5 +1,5 @@
 // Files whose name is nearly the wanted one.
-#include "text/shared/similar_file.hpp"
+#include "base/shared/paths.hpp"
 
 #include "keyword/reading.hpp"
 

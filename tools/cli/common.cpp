@@ -17,6 +17,7 @@
 
 #include "base/shared/columns.hpp"
 #include "base/shared/escape.hpp"
+#include "base/shared/paths.hpp"
 #include "base/shared/spelling.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/model/interfaces.hpp"
@@ -25,7 +26,6 @@
 #include "keyword/shared/recognise.hpp"
 #include "library.hpp"
 #include "report/shared/json.hpp"
-#include "text/shared/similar_file.hpp"
 #include "writing/frame.hpp"
 
 namespace deck::cli {

@@ -5,17 +5,20 @@
 // cells of cards that every newer deck has in this place. Where the next card depends on what an earlier
 // one says, cells are coloured by what stands in them.
 
-/** The schemas of a file: tables ("for") written out, a schema for each row. */
+/** The schemas of a file, with the tables ("for") of its lists written out: their items once for each row. */
 export function schemasOf(document) {
   const filled = (json, row) =>
     JSON.parse(JSON.stringify(json), (_, v) => (typeof v === "string" ? row.reduce((text, [name, word]) => text.replaceAll(`{${name}}`, word), v) : v));
-  const written = (list) =>
-    list.flatMap((item) => {
-      if (!item.for) return [item];
+  const written = (json, key) => {
+    if (typeof json !== "object" || json === null) return json;
+    if (!Array.isArray(json)) return Object.fromEntries(Object.entries(json).map(([name, value]) => [name, written(value, name)]));
+    return json.flatMap((item) => {
+      if (!item?.for) return [written(item, key)];
       const [names, ...rows] = item.for;
-      return rows.flatMap((words) => written(filled(item.schemas, names.map((name, k) => [name, words[k]]))));
+      return rows.flatMap((words) => written(filled(item[key], names.map((name, k) => [name, words[k]])), key));
     });
-  return written(document.schemas ?? [document]);
+  };
+  return written(document.schemas ?? [document], "schemas");
 }
 
 /** Scopes of cells by the type of the field; themes have colours for what comes before '.radioss'. */

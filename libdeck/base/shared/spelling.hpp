@@ -16,7 +16,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b,
 /// empty: none is close. The shorter the word, the closer it has to be.
 std::string closest_word(std::string_view word, const std::vector<std::string>& known);
 
-/// With the letters a to z as A to Z, whatever the locale.
+/// With the letters a to z as A to Z, or the other way, whatever the locale.
 std::string in_capitals(std::string_view text);
+std::string in_lower_case(std::string_view text);
 
 }  // namespace deck

@@ -17,4 +17,14 @@ inline Vec unit(const Vec& a) {
   return l > 0.0 ? (1.0 / l) * a : Vec{};
 }
 
+/// Length of three doubles without overflow, with the same bits whatever the standard library: the
+/// three-argument std::hypot is scaled differently in each. All are divided by the largest of them
+/// first; 0 for three zeros.
+inline double length3(double x, double y, double z) {
+  x = std::abs(x), y = std::abs(y), z = std::abs(z);
+  const double a = x < y ? (y < z ? z : y) : (x < z ? z : x);
+  if (a == 0.0) return 0.0;
+  return a * std::sqrt((x / a) * (x / a) + (y / a) * (y / a) + (z / a) * (z / a));
+}
+
 }  // namespace deck

@@ -6,8 +6,8 @@
 #include "keyword/shared/deck_json_cells.hpp"
 #include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/line_check.hpp"
-#include "keyword/shared/older_decks.hpp"
 #include "keyword/shared/reader.hpp"
+#include "keyword/shared/schema_facts.hpp"
 
 namespace deck {
 namespace {

@@ -13,7 +13,7 @@ detail::FreeCells detail::split_free(const Line& line) {
   FreeCells cells;
   const std::string_view text = line.text.substr(0, line_columns);
   std::size_t at = 0;
-  const auto blank = [&](std::size_t k) { return static_cast<unsigned char>(text[k]) <= ' '; };
+  const auto blank = [&](std::size_t k) { return is_blank(text[k]); };
   bool after_comma = true;
   while (at <= text.size()) {
     while (at < text.size() && blank(at)) ++at;

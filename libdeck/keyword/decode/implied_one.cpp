@@ -1,5 +1,5 @@
 // Finds the cells that scale functions or that values are measured by: blank, they are 1.
-#include "keyword/shared/implied_one.hpp"
+#include "keyword/shared/decode_parts.hpp"
 
 #include <cmath>
 #include <vector>

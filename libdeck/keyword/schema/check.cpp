@@ -52,34 +52,29 @@ std::string check_conditions(const Schema& schema, std::size_t index) {
       return fmt::format(
           "/cards/{}/when: in version {} no earlier card has an integer field \"{}\"", index,
           version, condition.field);
-  const auto at_least_once = [&](std::string_view name) {
-    for (const int version : known_versions())
-      if (knows_before(schema, index + 1, version, name)) return true;
-    return name == Condition::data_lines;
+  // In some version, among the first `cards` cards.
+  const auto ever = [&](std::size_t cards, std::string_view name, bool text = false) {
+    return name == Condition::data_lines ||
+           std::any_of(known_versions().begin(), known_versions().end(), [&](int version) {
+             return knows_before(schema, cards, version, name, text);
+           });
   };
   for (std::size_t f = 0; f < card.fields.size(); ++f)
     for (const auto& condition : card.fields[f].when)
-      if (!at_least_once(condition.field))
+      if (!ever(index + 1, condition.field))
         return fmt::format(
             "/cards/{}/fields/{}/when: neither this nor an earlier card has an integer field "
             "\"{}\"",
             index, f, condition.field);
   const bool number = card.count.find_first_not_of("0123456789") == std::string::npos;
-  if (!number && !at_least_once(card.count))
+  if (!number && !ever(index + 1, card.count))
     return fmt::format("/cards/{}/count: no earlier card has an integer field \"{}\"", index,
                        card.count);
   // A dimension may ask for a cell of any line and version: where it is not, it counts as 0.
-  const auto ever = [&](const Condition& condition) {
-    for (const int version : known_versions())
-      if (knows_before(schema, schema.cards.size(), version, condition.field,
-                       !condition.words.empty()))
-        return true;
-    return condition.field == Condition::data_lines;
-  };
   for (std::size_t f = 0; f < card.fields.size(); ++f)
     for (const auto& entry : card.fields[f].dimension_when)
       for (const auto& condition : entry.first)
-        if (!ever(condition))
+        if (!ever(schema.cards.size(), condition.field, !condition.words.empty()))
           return fmt::format("/cards/{}/fields/{}/dim_when: no card has {} field \"{}\"", index, f,
                              condition.words.empty() ? "an integer" : "a text", condition.field);
   return {};
@@ -87,16 +82,12 @@ std::string check_conditions(const Schema& schema, std::size_t index) {
 
 /// Cells that another cell's unit depends on must be real fields of the schema.
 std::string check_relations(const Schema& schema, std::size_t index) {
-  const auto real = [&](std::string_view name) {
+  const auto known = [&](std::string_view name, bool real) {
     for (const auto& card : schema.cards)
       for (const auto& field : card.fields)
-        if (field.name == name && field.type == FieldType::real) return true;
-    return false;
-  };
-  const auto number = [&](std::string_view name) {
-    for (const auto& card : schema.cards)
-      for (const auto& field : card.fields)
-        if (field.name == name && field.type != FieldType::text) return true;
+        if (field.name == name &&
+            (real ? field.type == FieldType::real : field.type != FieldType::text))
+          return true;
     return false;
   };
   const auto& card = schema.cards[index];
@@ -107,10 +98,10 @@ std::string check_relations(const Schema& schema, std::size_t index) {
     };
     for (const auto& axis : card.fields[f].axes)
       for (const auto& name : axis.scales)
-        if (!real(name)) return wrong("axes", name);
+        if (!known(name, true)) return wrong("axes", name);
     for (const auto& name : card.fields[f].unit_for)
-      if (!number(name)) return wrong("unit_for", name);
-    if (const auto& over = card.fields[f].over; !over.empty() && !real(over))
+      if (!known(name, false)) return wrong("unit_for", name);
+    if (const auto& over = card.fields[f].over; !over.empty() && !known(over, true))
       return wrong("over", over);
   }
   return {};

@@ -1,5 +1,5 @@
 // Strict reader of keyword schemas: a mistyped key would otherwise become a column that is silently
-// never read. Over 600 lines because each key of the format has its check in this one file.
+// never read.
 #include "keyword/schema/json.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
 
 #include "deck/keyword/deck.hpp"
 #include "deck/text/number.hpp"
@@ -74,15 +75,53 @@ const Json& expect_array(const Json& json, const Path& path) {
   return json;
 }
 
+void require(const Json& json, const Path& path, const char* key) {
+  if (!json.contains(key)) fail(path, fmt::format("the key \"{}\" is missing", key));
+}
+
+/// Value of a key by of(json, path) if the object has the key.
+template <class T, class Of>
+void read(const Json& json, const Path& path, const char* key, T& out, const Of& of) {
+  if (const auto it = json.find(key); it != json.end()) out = of(*it, at(path, key));
+}
+
+template <class Of>
+auto list_of(const Json& json, const Path& path, const Of& of) {
+  std::vector<decltype(of(json, path))> out;
+  for (const auto& item : expect_array(json, path)) out.push_back(of(item, at(path, out.size())));
+  return out;
+}
+
+/// The same of a list that has an item.
+template <class Of>
+auto some_of(const Json& json, const Path& path, const Of& of) {
+  auto out = list_of(json, path, of);
+  if (out.empty()) fail(path, "the list is empty");
+  return out;
+}
+
 std::string text_of(const Json& json, const Path& path) {
   if (!json.is_string()) fail(path, fmt::format("expected text, found {}", json.type_name()));
   return json.get<std::string>();
+}
+
+std::vector<std::string> texts_of(const Json& json, const Path& path) {
+  return some_of(json, path, text_of);
+}
+
+bool bool_of(const Json& json, const Path& path) {
+  if (!json.is_boolean()) fail(path, "expected true or false");
+  return json.get<bool>();
 }
 
 std::int64_t integer_of(const Json& json, const Path& path) {
   if (!json.is_number_integer())
     fail(path, fmt::format("expected a whole number, found {}", json.dump()));
   return json.get<std::int64_t>();
+}
+
+std::vector<std::int64_t> integers_of(const Json& json, const Path& path) {
+  return some_of(json, path, integer_of);
 }
 
 int small_of(const Json& json, const Path& path) {
@@ -96,27 +135,28 @@ double number_of(const Json& json, const Path& path) {
   return json.get<double>();
 }
 
+int message_of(const Json& json, const Path& path) {
+  const int message = small_of(json, path);
+  if (message < 0) fail(path, "a message number is not negative");
+  return message;
+}
+
 void read(const Json& json, const Path& path, const char* key, std::string& out) {
-  if (const auto it = json.find(key); it != json.end()) out = text_of(*it, at(path, key));
+  read(json, path, key, out, text_of);
 }
 
 void read(const Json& json, const Path& path, const char* key, bool& out) {
-  const auto it = json.find(key);
-  if (it == json.end()) return;
-  if (!it->is_boolean()) fail(at(path, key), "expected true or false");
-  out = it->get<bool>();
+  read(json, path, key, out, bool_of);
 }
 
-std::vector<std::int64_t> integers_of(const Json& json, const Path& path) {
-  std::vector<std::int64_t> values;
-  for (const auto& item : expect_array(json, path))
-    values.push_back(integer_of(item, at(path, values.size())));
-  if (values.empty()) fail(path, "the list is empty");
-  return values;
-}
-
-void require(const Json& json, const Path& path, const char* key) {
-  if (!json.contains(key)) fail(path, fmt::format("the key \"{}\" is missing", key));
+/// What one of some words stands for. `expected`: what another word is not.
+template <class T>
+T meaning_of(const Json& json, const Path& path, std::string_view expected,
+             std::initializer_list<std::pair<std::string_view, T>> words) {
+  const std::string text = text_of(json, path);
+  for (const auto& [word, meaning] : words)
+    if (word == text) return meaning;
+  fail(path, fmt::format("\"{}\" is not {}", text, expected));
 }
 
 int version_of(const Json& json, const Path& path) {
@@ -137,37 +177,33 @@ void read_versions(const Json& json, const Path& path, int& from, int& until) {
   if (until < from) fail(here, "the range is empty");
 }
 
-/// `words`: conditions on text cells are possible here.
-std::vector<Condition> conditions_of(const Json& json, const Path& path, bool words = false) {
-  std::vector<Condition> conditions;
-  for (const auto& item : expect_array(json, path)) {
-    const auto here = at(path, conditions.size());
-    expect_object(item, here, {"field", "lines", "words", "in", "not_in", "min", "max"});
-    Condition condition;
-    bool lines = false;
-    read(item, here, "lines", lines);
-    if (lines == item.contains("field")) fail(here, "expected \"field\" or \"lines\": true");
-    read(item, here, "field", condition.field);
-    if (lines) condition.field = Condition::data_lines;
-    if (item.contains("words")) {
-      const auto list = at(here, "words");
-      if (!words || lines) fail(list, "words are tested by dimensions only");
-      for (const auto& word : expect_array(item["words"], list))
-        condition.words.push_back(text_of(word, at(list, condition.words.size())));
-      if (condition.words.empty()) fail(list, "the list is empty");
-      if (item.size() != 2) fail(here, "\"words\" goes with \"field\" alone");
-    }
-    if (item.contains("in")) condition.in = integers_of(item["in"], at(here, "in"));
-    if (item.contains("not_in")) condition.not_in = integers_of(item["not_in"], at(here, "not_in"));
-    if (item.contains("min")) condition.min = integer_of(item["min"], at(here, "min"));
-    if (item.contains("max")) condition.max = integer_of(item["max"], at(here, "max"));
-    if (condition.words.empty() && condition.in.empty() && condition.not_in.empty() &&
-        !condition.min && !condition.max)
-      fail(here, "the condition tests nothing: give \"in\", \"not_in\", \"min\" or \"max\"");
-    conditions.push_back(std::move(condition));
-  }
-  if (conditions.empty()) fail(path, "the list is empty");
-  return conditions;
+Condition condition_of(const Json& json, const Path& path) {
+  expect_object(json, path, {"field", "lines", "words", "in", "not_in", "min", "max"});
+  Condition condition;
+  bool lines = false;
+  read(json, path, "lines", lines);
+  if (lines == json.contains("field")) fail(path, "expected \"field\" or \"lines\": true");
+  read(json, path, "field", condition.field);
+  if (lines) condition.field = Condition::data_lines;
+  read(json, path, "words", condition.words, texts_of);
+  if (!condition.words.empty() && (lines || json.size() != 2))
+    fail(path, "\"words\" goes with \"field\" alone");
+  read(json, path, "in", condition.in, integers_of);
+  read(json, path, "not_in", condition.not_in, integers_of);
+  read(json, path, "min", condition.min, integer_of);
+  read(json, path, "max", condition.max, integer_of);
+  if (condition.words.empty() && condition.in.empty() && condition.not_in.empty() &&
+      !condition.min && !condition.max)
+    fail(path, "the condition tests nothing: give \"in\", \"not_in\", \"min\" or \"max\"");
+  return condition;
+}
+
+std::vector<Condition> conditions_of(const Json& json, const Path& path) {
+  return some_of(json, path, [](const Json& item, const Path& here) {
+    Condition condition = condition_of(item, here);
+    if (!condition.words.empty()) fail(at(here, "words"), "words are tested by dimensions only");
+    return condition;
+  });
 }
 
 Dimension dimension_of(const Json& json, const Path& path) {
@@ -183,14 +219,24 @@ Dimension dimension_of(const Json& json, const Path& path) {
   return {power[0], power[1], power[2], power[3]};
 }
 
-FieldType type_of(const Json& json, const Path& path) {
-  const auto name = text_of(json, path);
-  if (name == "int") return FieldType::integer;
-  if (name == "real") return FieldType::real;
-  if (name == "text") return FieldType::text;
-  if (name == "flag") return FieldType::flag;
-  if (name == "id") return FieldType::id;
-  fail(path, fmt::format("\"{}\" is not a field type (int, real, text, flag, id)", name));
+using ConditionalDimension = std::pair<std::vector<Condition>, Dimension>;
+
+/// {"when": [...], "dim": [...]}, the conditions by of(json, path).
+template <class Of>
+ConditionalDimension conditional_dimension(const Json& json, const Path& path, const Of& of) {
+  expect_object(json, path, {"when", "dim"});
+  require(json, path, "when");
+  require(json, path, "dim");
+  return {of(json["when"], at(path, "when")), dimension_of(json["dim"], at(path, "dim"))};
+}
+
+/// Conditions on text cells are possible here.
+std::vector<ConditionalDimension> dimensions_of(const Json& json, const Path& path) {
+  return list_of(json, path, [](const Json& item, const Path& here) {
+    return conditional_dimension(item, here, [](const Json& conditions, const Path& when) {
+      return some_of(conditions, when, condition_of);
+    });
+  });
 }
 
 void read_columns(const Json& json, const Path& path, Field& field) {
@@ -204,28 +250,17 @@ void read_columns(const Json& json, const Path& path, Field& field) {
     fail(here, fmt::format("columns {}-{} do not lie in 1-100", field.first, field.last));
 }
 
-using DimensionWhen = std::vector<std::pair<std::vector<Condition>, Dimension>>;
-
-void read_dimension_when(const Json& json, const Path& path, DimensionWhen& out) {
-  if (!json.contains("dim_when")) return;
-  const auto here = at(path, "dim_when");
-  std::size_t n = 0;
-  for (const auto& item : expect_array(json["dim_when"], here)) {
-    const auto entry = at(here, n++);
-    expect_object(item, entry, {"when", "dim"});
-    require(item, entry, "when");
-    require(item, entry, "dim");
-    out.emplace_back(conditions_of(item["when"], at(entry, "when"), true),
-                     dimension_of(item["dim"], at(entry, "dim")));
-  }
-}
-
-std::vector<std::string> names_of(const Json& json, const Path& path) {
-  std::vector<std::string> names;
-  for (const auto& item : expect_array(json, path))
-    names.push_back(text_of(item, at(path, names.size())));
-  if (names.empty()) fail(path, "the list is empty");
-  return names;
+Axis axis_of(const Json& json, const Path& path) {
+  expect_object(json, path, {"scale", "dim", "dim_when"});
+  Axis axis;
+  if (json.contains("scale") && json.size() != 1)
+    fail(path, "an axis has a scale, or points with a dimension");
+  read(json, path, "scale", axis.scales, [](const Json& scale, const Path& here) {
+    return scale.is_string() ? std::vector{scale.get<std::string>()} : texts_of(scale, here);
+  });
+  read(json, path, "dim", axis.dimension, dimension_of);
+  read(json, path, "dim_when", axis.dimension_when, dimensions_of);
+  return axis;
 }
 
 /// The axes of the function or table that an id names.
@@ -235,66 +270,40 @@ void read_axes(const Json& json, const Path& path, Field& field) {
   if (field.type != FieldType::id || (field.ref != "funct" && field.ref != "table"))
     fail(here, "only ids of functions and tables have axes");
   if (!field.dimension_known) fail(path, "\"axes\" and \"dim_unknown\" exclude each other");
-  for (const auto& item : expect_array(json["axes"], here)) {
-    const auto entry = at(here, field.axes.size());
-    expect_object(item, entry, {"scale", "dim", "dim_when"});
-    Axis axis;
-    if (item.contains("scale")) {
-      const auto scale = at(entry, "scale");
-      if (item.size() != 1) fail(entry, "an axis has a scale, or points with a dimension");
-      if (item["scale"].is_string())
-        axis.scales = {item["scale"].get<std::string>()};
-      else
-        axis.scales = names_of(item["scale"], scale);
-    }
-    if (item.contains("dim")) axis.dimension = dimension_of(item["dim"], at(entry, "dim"));
-    read_dimension_when(item, entry, axis.dimension_when);
-    field.axes.push_back(std::move(axis));
-  }
+  field.axes = list_of(json["axes"], here, axis_of);
   if (field.axes.size() < 2) fail(here, "expected the axes, the ordinate last");
 }
 
 /// What the value of a real cell depends on besides its own number.
 void read_relations(const Json& json, const Path& path, Field& field) {
-  const auto real_only = [&](const char* key) {
-    if (field.type != FieldType::real) fail(at(path, key), "only real fields have it");
-  };
-  if (json.contains("solver_dim")) {
-    real_only("solver_dim");
+  for (const char* key : {"solver_dim", "unit_for", "over"})
+    if (json.contains(key) && field.type != FieldType::real)
+      fail(at(path, key), "only real fields have it");
+  if (const auto it = json.find("solver_dim"); it != json.end()) {
     const auto here = at(path, "solver_dim");
-    const Json& solver = json["solver_dim"];
-    if (solver.is_object()) {
-      expect_object(solver, here, {"when", "dim"});
-      require(solver, here, "when");
-      require(solver, here, "dim");
-      field.solver_when = conditions_of(solver["when"], at(here, "when"));
-      field.solver_dimension = dimension_of(solver["dim"], at(here, "dim"));
-    } else {
-      field.solver_dimension = dimension_of(solver, here);
-    }
+    if (it->is_object())
+      std::tie(field.solver_when, field.solver_dimension) =
+          conditional_dimension(*it, here, conditions_of);
+    else
+      field.solver_dimension = dimension_of(*it, here);
   }
-  if (json.contains("unit_for")) {
-    real_only("unit_for");
-    field.unit_for = names_of(json["unit_for"], at(path, "unit_for"));
-  }
-  if (json.contains("over")) {
-    real_only("over");
+  read(json, path, "unit_for", field.unit_for, texts_of);
+  if (const auto it = json.find("over"); it != json.end()) {
     const auto here = at(path, "over");
-    expect_object(json["over"], here, {"field", "when"});
-    require(json["over"], here, "field");
-    read(json["over"], here, "field", field.over);
-    if (json["over"].contains("when"))
-      field.over_when = conditions_of(json["over"]["when"], at(here, "when"));
+    expect_object(*it, here, {"field", "when"});
+    require(*it, here, "field");
+    read(*it, here, "field", field.over);
+    read(*it, here, "when", field.over_when, conditions_of);
   }
 }
 
 void read_dimension(const Json& json, const Path& path, Field& field) {
-  if (json.contains("dim")) field.dimension = dimension_of(json["dim"], at(path, "dim"));
+  read(json, path, "dim", field.dimension, dimension_of);
   bool unknown = false;
   read(json, path, "dim_unknown", unknown);
   field.dimension_known = !unknown;
   if (unknown && json.contains("dim")) fail(path, "\"dim\" and \"dim_unknown\" exclude each other");
-  read_dimension_when(json, path, field.dimension_when);
+  read(json, path, "dim_when", field.dimension_when, dimensions_of);
   const bool any = json.contains("dim") || json.contains("dim_when") || unknown;
   const bool axes = unknown && field.type == FieldType::id;  // of the function or table
   if (any && field.type != FieldType::real && !axes)
@@ -302,9 +311,9 @@ void read_dimension(const Json& json, const Path& path, Field& field) {
 }
 
 void read_range(const Json& json, const Path& path, Field& field) {
-  if (json.contains("values")) field.values = integers_of(json["values"], at(path, "values"));
-  if (json.contains("min")) field.min = number_of(json["min"], at(path, "min"));
-  if (json.contains("max")) field.max = number_of(json["max"], at(path, "max"));
+  read(json, path, "values", field.values, integers_of);
+  read(json, path, "min", field.min, number_of);
+  read(json, path, "max", field.max, number_of);
   read(json, path, "min_open", field.min_open);
   read(json, path, "max_open", field.max_open);
   if ((field.min_open && !field.min) || (field.max_open && !field.max))
@@ -317,40 +326,25 @@ void read_range(const Json& json, const Path& path, Field& field) {
     fail(path, "a text field has no range");
 }
 
-int message_of(const Json& json, const Path& path) {
-  const int message = small_of(json, path);
-  if (message < 0) fail(path, "a message number is not negative");
-  return message;
-}
-
 /// The texts that are legal, and the message about a cell that is not.
 void read_legal(const Json& json, const Path& path, Field& field) {
-  if (json.contains("words")) {
-    const auto here = at(path, "words");
-    if (field.type != FieldType::text) fail(here, "only text fields have a list of words");
-    for (const auto& item : expect_array(json["words"], here))
-      field.words.push_back(text_of(item, at(here, field.words.size())));
-    if (field.words.empty()) fail(here, "the list is empty");
-  }
-  if (!json.contains("wrong")) return;
-  if (field.words.empty() && field.type != FieldType::flag)
+  if (json.contains("words") && field.type != FieldType::text)
+    fail(at(path, "words"), "only text fields have a list of words");
+  read(json, path, "words", field.words, texts_of);
+  if (json.contains("wrong") && field.words.empty() && field.type != FieldType::flag)
     fail(at(path, "wrong"), "only flags and texts with \"words\" can be wrong");
-  field.wrong = message_of(json["wrong"], at(path, "wrong"));
+  read(json, path, "wrong", field.wrong, message_of);
 }
 
 /// Message numbers of the reference solver about the target of an id.
 void read_target(const Json& json, const Path& path, Field& field) {
-  const std::pair<const char*, std::optional<int>*> keys[] = {
-      {"missing", &field.missing}, {"empty", &field.empty}, {"required", &field.required}};
-  for (const auto& [key, out] : keys) {
-    const auto it = json.find(key);
-    if (it == json.end()) continue;
-    if (field.type != FieldType::id) fail(at(path, key), "only ids have a target");
-    *out = message_of(*it, at(path, key));
-  }
+  for (const char* key : {"missing", "empty", "required", "acts_on"})
+    if (json.contains(key) && field.type != FieldType::id)
+      fail(at(path, key), "only ids have a target");
+  read(json, path, "missing", field.missing, message_of);
+  read(json, path, "empty", field.empty, message_of);
+  read(json, path, "required", field.required, message_of);
   read(json, path, "acts_on", field.acts_on);
-  if (field.acts_on && field.type != FieldType::id)
-    fail(at(path, "acts_on"), "only ids have a target");
 }
 
 /// A default that is a number in full needs no other; words have theirs beside them.
@@ -359,19 +353,24 @@ void read_default(const Json& json, const Path& path, Field& field) {
   if (const RealCell number = read_real(field.default_text);
       !field.default_text.empty() && number.status == NumberStatus::ok)
     field.default_value = number.value;
-  if (json.contains("default_value")) {
-    if (field.default_value)
-      fail(at(path, "default_value"), "\"default\" is this number already, or another one");
-    field.default_value = number_of(json["default_value"], at(path, "default_value"));
-  }
-  if (!json.contains("default_varies")) return;
-  std::string varies;
-  read(json, path, "default_varies", varies);
-  if (varies != "deck" && varies != "model" && varies != "fields")
-    fail(at(path, "default_varies"), fmt::format("\"{}\" is not deck, model or fields", varies));
-  field.default_varies = varies == "deck"    ? DefaultVaries::deck
-                         : varies == "model" ? DefaultVaries::model
-                                             : DefaultVaries::fields;
+  if (field.default_value && json.contains("default_value"))
+    fail(at(path, "default_value"), "\"default\" is this number already, or another one");
+  read(json, path, "default_value", field.default_value, number_of);
+  read(json, path, "default_varies", field.default_varies, [](const Json& word, const Path& here) {
+    return meaning_of<DefaultVaries>(word, here, "deck, model or fields",
+                                     {{"deck", DefaultVaries::deck},
+                                      {"model", DefaultVaries::model},
+                                      {"fields", DefaultVaries::fields}});
+  });
+}
+
+FieldType type_of(const Json& json, const Path& path) {
+  return meaning_of<FieldType>(json, path, "a field type (int, real, text, flag, id)",
+                               {{"int", FieldType::integer},
+                                {"real", FieldType::real},
+                                {"text", FieldType::text},
+                                {"flag", FieldType::flag},
+                                {"id", FieldType::id}});
 }
 
 Field field_of(const Json& json, const Path& path) {
@@ -397,7 +396,7 @@ Field field_of(const Json& json, const Path& path) {
     fail(path, "\"ref\" is required for fields of type id and only for those");
   read_target(json, path, field);
   read_versions(json, path, field.from, field.until);
-  if (json.contains("when")) field.when = conditions_of(json["when"], at(path, "when"));
+  read(json, path, "when", field.when, conditions_of);
   read_range(json, path, field);
   read_legal(json, path, field);
   read_default(json, path, field);
@@ -407,25 +406,27 @@ Field field_of(const Json& json, const Path& path) {
   read(json, path, "ignored", field.ignored);
   read(json, path, "doc", field.doc);
   read(json, path, "manual", field.from_manual);
-  if (json.contains("help")) {
-    const auto here = at(path, "help");
-    for (const auto& item : expect_array(json["help"], here))
-      field.help.push_back(text_of(item, at(here, field.help.size())));
-    if (field.help.empty()) fail(here, "the list is empty");
-  }
+  read(json, path, "help", field.help, texts_of);
   read(json, path, "help_of", field.help_of);
   return field;
 }
 
-void read_count(const Json& json, const Path& path, CardSchema& card) {
-  if (const auto it = json.find("count"); it != json.end()) {
-    if (card.repeat == Repeat::once || card.words)
-      fail(at(path, "count"), "only repeated cards can have a count");
-    card.count = it->is_number_integer() ? std::to_string(integer_of(*it, at(path, "count")))
-                                         : text_of(*it, at(path, "count"));
-  }
-  if (const auto it = json.find("per_line"); it != json.end())
-    card.per_line = small_of(*it, at(path, "per_line"));
+void read_repeat(const Json& json, const Path& path, CardSchema& card) {
+  card.words = json.contains("repeat") && json["repeat"] == "words";
+  read(json, path, "repeat", card.repeat, [](const Json& word, const Path& here) {
+    return meaning_of<Repeat>(word, here, "rows, ids, words or group",
+                              {{"rows", Repeat::rows},
+                               {"ids", Repeat::ids},
+                               {"words", Repeat::ids},
+                               {"group", Repeat::group}});
+  });
+  if (json.contains("count") && (card.repeat == Repeat::once || card.words))
+    fail(at(path, "count"), "only repeated cards can have a count");
+  read(json, path, "count", card.count, [](const Json& count, const Path& here) {
+    return count.is_number_integer() ? std::to_string(integer_of(count, here))
+                                     : text_of(count, here);
+  });
+  read(json, path, "per_line", card.per_line, small_of);
   const bool counted_list = card.repeat == Repeat::ids && !card.count.empty();
   if (counted_list ? card.per_line < 1 : card.per_line != 0)
     fail(path, "\"per_line\" goes with lists that have a \"count\", and with those only");
@@ -440,20 +441,8 @@ CardSchema card_of(const Json& json, const Path& path) {
   read(json, path, "name", card.name);
   read(json, path, "doc", card.doc);
   read_versions(json, path, card.from, card.until);
-  if (json.contains("when")) card.when = conditions_of(json["when"], at(path, "when"));
-  std::string repeat;
-  read(json, path, "repeat", repeat);
-  card.words = repeat == "words";
-  if (repeat == "rows") {
-    card.repeat = Repeat::rows;
-  } else if (repeat == "ids" || card.words) {
-    card.repeat = Repeat::ids;
-  } else if (repeat == "group") {
-    card.repeat = Repeat::group;
-  } else if (json.contains("repeat")) {
-    fail(at(path, "repeat"), fmt::format("\"{}\" is not rows, ids, words or group", repeat));
-  }
-  read_count(json, path, card);
+  read(json, path, "when", card.when, conditions_of);
+  read_repeat(json, path, card);
   read(json, path, "optional", card.optional);
   bool blank = false;
   read(json, path, "blank", blank);
@@ -461,20 +450,21 @@ CardSchema card_of(const Json& json, const Path& path) {
   if (blank) return card;
   require(json, path, "fields");
   const auto here = at(path, "fields");
-  for (const auto& item : expect_array(json["fields"], here))
-    card.fields.push_back(field_of(item, at(here, card.fields.size())));
+  card.fields = list_of(json["fields"], here, field_of);
   if (card.fields.empty())
     fail(here, "the list is empty; for a line without fields write \"blank\"");
   return card;
 }
 
-void check_keyword(const std::string& keyword, const Path& path) {
+std::string keyword_of(const Json& json, const Path& path) {
+  const std::string keyword = text_of(json, path);
   std::string_view rest = keyword;
   if (rest.substr(0, 2) == "//") rest.remove_prefix(1);
   bool good = rest.size() > 1 && rest[0] == '/' && rest.back() != '/' &&
               rest.find("//") == std::string_view::npos;
   for (const char c : rest) good = good && c > ' ';
   if (!good) fail(path, fmt::format("\"{}\" is not a keyword like /INTER/TYPE7", keyword));
+  return keyword;
 }
 
 /// What a deck older than the keyword is read with: the oldest layout, so what that has is there in
@@ -500,29 +490,22 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   Schema schema;
   schema.source = source;
   require(json, path, "keyword");
-  read(json, path, "keyword", schema.keyword);
-  check_keyword(schema.keyword, at(path, "keyword"));
-  if (json.contains("aliases")) {
-    const auto here = at(path, "aliases");
-    for (const auto& item : expect_array(json["aliases"], here)) {
-      const auto entry = at(here, schema.aliases.size());
-      schema.aliases.push_back(text_of(item, entry));
-      check_keyword(schema.aliases.back(), entry);
-    }
-  }
+  read(json, path, "keyword", schema.keyword, keyword_of);
+  read(json, path, "aliases", schema.aliases, [](const Json& names, const Path& here) {
+    return list_of(names, here, keyword_of);
+  });
   read(json, path, "kind", schema.kind);
   read(json, path, "id", schema.has_id);
   read(json, path, "title", schema.has_title);
   read(json, path, "unit", schema.has_unit);
   read(json, path, "unique", schema.unique);
-  if (json.contains("unknown_unit"))
-    schema.unknown_unit = message_of(json["unknown_unit"], at(path, "unknown_unit"));
+  read(json, path, "unknown_unit", schema.unknown_unit, message_of);
   read(json, path, "bulk", schema.bulk);
   read(json, path, "opaque_tail", schema.opaque_tail);
   read(json, path, "full_layout", schema.full_layout);
   if (schema.full_layout && !schema.opaque_tail)
     fail(at(path, "full_layout"), "without opaque_tail a schema already describes everything");
-  if (json.contains("from")) schema.from = version_of(json["from"], at(path, "from"));
+  read(json, path, "from", schema.from, version_of);
   std::string older = "oldest layout";
   read(json, path, "older", older);
   const bool unread = older == "unread";
@@ -530,11 +513,9 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   if (unread && schema.from == 0)
     fail(at(path, "older"), "\"from\" must say which decks are older");
   read(json, path, "doc", schema.doc);
-  if (json.contains("cards")) {
-    const auto here = at(path, "cards");
-    for (const auto& item : expect_array(json["cards"], here))
-      schema.cards.push_back(card_of(item, at(here, schema.cards.size())));
-  }
+  read(json, path, "cards", schema.cards, [](const Json& cards, const Path& here) {
+    return list_of(cards, here, card_of);
+  });
   extend_to_older_decks(schema, unread);
   if (const auto wrong = check_schema(schema); !wrong.empty()) throw Wrong{path.text() + wrong};
   return schema;
@@ -584,39 +565,44 @@ Json filled(const Json& json, const Row& row) {
   return out;
 }
 
-void add_schemas(const Json& list, const Path& path, std::string_view source,
-                 std::vector<ReadSchema>& out);
+Json written_out(const Json& json, const Path& path);
 
-/// A table of words, and the schemas that are read once for each of its rows:
-/// {"for": [[NAME, ...], [WORD, ...], ...], "schemas": [...]}.
-void add_family(const Json& family, const Path& path, std::string_view source,
-                std::vector<ReadSchema>& out) {
-  expect_object(family, path, {"for", "schemas"});
-  require(family, path, "schemas");
+/// Adds the items of a table to the list of that name.
+void add_rows(const Json& family, const Path& path, const std::string& name, Json& list) {
+  expect_object(family, path, {"for", name});
+  require(family, path, name.c_str());
   const auto here = at(path, "for");
   const Json& table = expect_array(family["for"], here);
   if (table.size() < 2) fail(here, "expected a row of names and rows of words");
   for (std::size_t k = 0; k < table.size(); ++k) {
     const auto entry = at(here, k);
-    names_of(table[k], entry);
+    texts_of(table[k], entry);
     if (table[k].size() != table[0].size())
       fail(entry, fmt::format("expected {} words, one for each name", table[0].size()));
-    if (k > 0)
-      add_schemas(filled(family["schemas"], {&table[0], &table[k]}), at(path, "schemas"), source,
-                  out);
+    if (k == 0) continue;
+    const Json items = filled(family[name], {&table[0], &table[k]});
+    for (const Json& item : written_out(expect_array(items, at(path, name)), at(path, name)))
+      list.push_back(item);
   }
 }
 
-void add_schemas(const Json& list, const Path& path, std::string_view source,
-                 std::vector<ReadSchema>& out) {
-  std::size_t n = 0;
-  for (const auto& item : expect_array(list, path)) {
-    const auto here = at(path, n++);
-    if (item.is_object() && item.contains("for"))
-      add_family(item, here, source, out);
+/// `json` with the tables of its lists written out. A table {"for": [[NAME, ...], [WORD, ...],
+/// ...], LIST: [...]} is an item of a list of that name: its own items come once for each row.
+Json written_out(const Json& json, const Path& path) {
+  Json out = json;
+  if (json.is_object())
+    for (const auto& item : json.items())
+      out[item.key()] = written_out(item.value(), at(path, item.key()));
+  if (!json.is_array()) return out;
+  out.clear();
+  for (std::size_t n = 0; n < json.size(); ++n) {
+    const auto here = at(path, n);
+    if (json[n].is_object() && json[n].contains("for"))
+      add_rows(json[n], here, std::string(path.key), out);
     else
-      out.push_back({schema_of(item, here, source), item.dump()});
+      out.push_back(written_out(json[n], here));
   }
+  return out;
 }
 
 /// What `read` gives; what it throws as an error that begins with the name of the text.
@@ -643,18 +629,17 @@ Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_
   return reading(name, [&] {
     if (is_nested_too_deep(text)) throw Wrong{"nested too deep for a schema"};
     DuplicateKeys duplicates;
-    const auto json = Json::parse(text, [&](int, Json::parse_event_t event, Json& parsed) {
-      return duplicates(event, parsed);
+    const Path root;
+    const auto one = [&](const Json& schema, const Path& path) {
+      return ReadSchema{schema_of(schema, path, name), schema.dump()};
+    };
+    const auto parsed = Json::parse(text, [&](int, Json::parse_event_t event, Json& json) {
+      return duplicates(event, json);
     });
-    std::vector<ReadSchema> schemas;
-    if (json.is_object() && json.contains("schemas")) {
-      const Path root;
-      expect_object(json, root, {"$schema", "schemas"});
-      add_schemas(json["schemas"], at(root, "schemas"), name, schemas);
-    } else {
-      schemas.push_back({schema_of(json, {}, name), json.dump()});
-    }
-    return schemas;
+    const Json json = written_out(parsed, root);
+    if (!json.is_object() || !json.contains("schemas")) return std::vector{one(json, root)};
+    expect_object(json, root, {"$schema", "schemas"});
+    return list_of(json["schemas"], at(root, "schemas"), one);
   });
 }
 

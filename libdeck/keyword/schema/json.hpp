@@ -18,9 +18,8 @@ struct ReadSchema {
   std::string json;
 };
 
-/// Reads a file of schemas: an object with "keyword", or one with "schemas" (a list of such
-/// objects, or of tables: add_family() in json.cpp). `name` goes into messages and into
-/// Schema::source.
+/// Reads a file of schemas: an object with "keyword", or one with "schemas", a list of such objects.
+/// Lists may hold tables: written_out() in json.cpp. `name` goes into messages and Schema::source.
 Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_view text);
 
 /// One schema of a text that read_schemas() has accepted, without looking for keys that occur

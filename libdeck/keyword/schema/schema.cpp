@@ -1,5 +1,5 @@
 // SchemaSet: the table of keywords and aliases, and the search for the longest one that begins a
-// header. Reading the JSON is in json.cpp.
+// header; the legal words of a keyword. Reading the JSON is in json.cpp.
 #include "deck/keyword/schema.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +14,8 @@
 #include "deck/keyword/deck.hpp"
 #include "deck/text/source.hpp"
 #include "keyword/schema/json.hpp"
+#include "keyword/shared/schema_facts.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 bool Condition::holds(std::int64_t value) const {
@@ -156,21 +158,15 @@ Result<void> SchemaSet::add_directory(const std::string& dir) {
 }
 
 const Schema* SchemaSet::match(std::string_view header) const {
-  const auto blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
-  const auto trim = [&](std::string_view text) {
-    while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-    while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-    return text;
-  };
-  header = trim(header);
+  header = detail::trim(header);
   if (header.empty() || header.front() != '/') return nullptr;
   // "/ SHELL/1" is no keyword: the solver looks for the name right behind the slash.
-  if (header.size() > 1 && blank(header[1])) return nullptr;
+  if (header.size() > 1 && detail::is_blank(header[1])) return nullptr;
   const Entry* best = nullptr;
   std::string prefix;
   for (std::size_t begin = 1; begin <= header.size();) {
     const auto end = std::min(header.find('/', begin), header.size());
-    const auto field = trim(header.substr(begin, end - begin));
+    const auto field = detail::trim(header.substr(begin, end - begin));
     begin = end + 1;
     if (field == "ADDD") continue;  // a sub-field without meaning, dropped before matching
     prefix += '/';
@@ -191,5 +187,42 @@ std::vector<const Schema*> SchemaSet::all() const {
     if (name == entry->keyword) schemas.push_back(&entry->get());
   return schemas;
 }
+
+namespace detail {
+namespace {
+
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+bool begins_with(std::string_view text, std::string_view word) {
+  return text.size() >= word.size() &&
+         std::equal(word.begin(), word.end(), text.begin(),
+                    [](char w, char t) { return upper(w) == upper(t); });
+}
+
+bool matches(std::string_view text, std::string_view word) {
+  if (!word.ends_with('*')) return text.size() == word.size() && begins_with(text, word);
+  word.remove_suffix(1);
+  if (text.size() <= word.size() || !begins_with(text, word)) return false;
+  const char next = text[word.size()];
+  return next == '_' || (next >= '0' && next <= '9');
+}
+
+}  // namespace
+
+std::span<const std::string> legal_words(const Schema& schema) {
+  for (const CardSchema& card : schema.cards)
+    if (card.words)
+      for (const Field& field : card.fields)
+        if (!field.words.empty()) return field.words;
+  return {};
+}
+
+bool has_word(const Schema& schema, std::string_view text) {
+  const auto words = legal_words(schema);
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return matches(text, word); });
+}
+
+}  // namespace detail
 
 }  // namespace deck

@@ -10,6 +10,7 @@
 #include "deck/keyword/schema.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 
@@ -94,8 +95,7 @@ struct ColumnMap {
 /// 0, which the reference solver tolerates there.
 inline std::string_view tail_of(std::string_view line) {
   if (line.size() <= line_columns) return {};
-  line.remove_prefix(line_columns);
-  while (!line.empty() && static_cast<unsigned char>(line.front()) <= ' ') line.remove_prefix(1);
+  line = trim_left(line.substr(line_columns));
   return line.find_first_not_of("0.+- ") == std::string_view::npos ? std::string_view() : line;
 }
 
@@ -104,9 +104,7 @@ inline std::string_view tail_of(std::string_view line) {
 template <class F>
 void for_each_gap_text(const ColumnMap& map, std::string_view line, F&& f) {
   const int size = static_cast<int>(std::min<std::size_t>(line.size(), line_columns));
-  const auto blank = [&](int k) {
-    return static_cast<unsigned char>(line[static_cast<std::size_t>(k - 1)]) <= ' ';
-  };
+  const auto blank = [&](int k) { return is_blank(line[static_cast<std::size_t>(k - 1)]); };
   for (int c = 1; c <= size;) {
     if (map.covered[c] || blank(c)) {
       ++c;

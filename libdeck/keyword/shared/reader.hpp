@@ -13,6 +13,26 @@ namespace deck::detail {
 /// Splits a header line into keyword, ids and schema. `header` is trimmed and starts with '/'.
 void parse_header(const SchemaSet& schemas, Block& block);
 
+/// The line buffer of the reference solver, counted from the first slash.
+inline constexpr std::size_t header_columns = 202;
+
+/// Bytes [begin, end) of a keyword line. Only blanks stand before `slash`.
+struct HeaderPlace {
+  std::uint32_t file;
+  std::uint64_t begin, slash, end;
+};
+/// Reports text behind the last column (DK012) and blanks at which the solver reads another keyword
+/// (DK052). `header` is the line from the slash on, without its comment.
+void check_header_line(Deck& deck, const HeaderPlace& place, std::string_view header);
+
+/// The header without its comment: a '#' behind a blank starts one.
+inline std::string_view without_comment(std::string_view header) {
+  for (std::size_t hash = 1; hash < header.size(); ++hash)
+    if (header[hash] == '#' && is_blank(header[hash - 1]))
+      return trim_right(header.substr(0, hash));
+  return header;
+}
+
 /// Adds a finding of reading.
 void report(Deck& deck, RuleId rule, Span span, std::string message, Case particular = {});
 

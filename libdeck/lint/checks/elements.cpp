@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/shared/count.hpp"
-#include "base/shared/length3.hpp"
+#include "base/shared/vec.hpp"
 #include "deck/base/point3.hpp"
 #include "lint/check.hpp"
 #include "model/shared/item_spans.hpp"

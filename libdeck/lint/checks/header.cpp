@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/shared/spelling.hpp"
-#include "keyword/shared/older_decks.hpp"
+#include "keyword/shared/schema_facts.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {

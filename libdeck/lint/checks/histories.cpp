@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "keyword/shared/words.hpp"
+#include "keyword/shared/schema_facts.hpp"
 #include "lint/check.hpp"
 #include "model/shared/families.hpp"
 

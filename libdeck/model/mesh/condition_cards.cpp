@@ -102,9 +102,7 @@ class Reader {
       to.insert(to.end(), set->nodes.begin(), set->nodes.end());
   }
 
-  NodeIndex node(const Block& b, std::int64_t id) const {
-    return id > 0 ? model_.find_node(deck_.shifted_id(b, "node", id)) : no_index;
-  }
+  NodeIndex node(const Block& b, std::int64_t id) const { return node_of(model_, b, id); }
 
   ConditionCard& add(const Block& b, ConditionType type, Turn turn, int rank, const char* kind) {
     ConditionCard& c = out_.cards.emplace_back();
@@ -359,6 +357,10 @@ class Reader {
 
 }  // namespace
 
+NodeIndex node_of(const Model& model, const Block& block, std::int64_t id) {
+  return id > 0 ? model.find_node(model.deck->shifted_id(block, "node", id)) : no_index;
+}
+
 const NodeSet* group_of(const Model& model, const Block& block, std::int64_t id) {
   if (id == 0 || model.selections == nullptr) return nullptr;
   return model.selections->node_group(model.deck->shifted_id(block, "grnod", id));
@@ -386,15 +388,13 @@ std::vector<RigidBody> rigid_bodies(const Model& model) {
       // Main node and group stand where /RBODY has them.
       const Line line = first_data_line(deck, block);
       if (!line.valid()) continue;
-      if (const std::int64_t main = integer_at(line, 0); main > 0)
-        body.main = model.find_node(main + deck.offset_of(block, "node"));
+      body.main = node_of(model, block, integer_at(line, 0));
       take_nodes(model, integer_at(line, 60), body);
       out.push_back(std::move(body));
       continue;
     }
     const DecodedBlock d = decode(deck, block);
-    const std::int64_t main = d.integer("node_ID");
-    if (main > 0) body.main = model.find_node(main + deck.offset_of(block, "node"));
+    body.main = node_of(model, block, d.integer("node_ID"));
     body.sensor = d.integer("sens_ID");
     body.ikrem = static_cast<int>(d.integer("Ikrem"));
     if (const auto c = static_cast<int>(d.integer("ICoG")); c != 0) body.centre = c;
@@ -419,10 +419,8 @@ std::optional<RigidElement> rigid_element(const Model& model, const Block& block
   for (unsigned i = 0; i < 6; ++i)
     if (line.text.size() > columns[i] && line.text[columns[i]] == '1')
       out.directions = static_cast<std::uint8_t>(out.directions | 1u << i);
-  if (const std::int64_t skew = integer_at(line, 20); skew > 0)
-    out.skew = skew + deck.offset_of(block, "skew");
-  if (const std::int64_t main = integer_at(line, 0); main > 0)
-    out.main = model.find_node(main + deck.offset_of(block, "node"));
+  out.skew = std::max<std::int64_t>(deck.shifted_id(block, "skew", integer_at(line, 20)), 0);
+  out.main = node_of(model, block, integer_at(line, 0));
   take_nodes(model, integer_at(line, 30), out);
   return out;
 }

@@ -10,6 +10,7 @@
 #include "deck/keyword/decode.hpp"
 #include "model/mesh/mesh_parts.hpp"
 #include "model/shared/families.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck {
 namespace {
@@ -22,10 +23,8 @@ bool engine_asks(const EngineFiles* engine, std::string_view keyword) {
   if (engine == nullptr || engine->files.empty()) return false;
   const EngineFile& first = engine->files.front();
   if (first.number != 1) return false;
-  return std::any_of(first.blocks.begin(), first.blocks.end(), [&](const EngineBlock& b) {
-    return b.keyword.starts_with(keyword) &&
-           (b.keyword.size() == keyword.size() || b.keyword[keyword.size()] == '/');
-  });
+  return std::any_of(first.blocks.begin(), first.blocks.end(),
+                     [&](const EngineBlock& b) { return is_below(b.keyword, keyword); });
 }
 
 /// Sums of one part about a place near it.

@@ -89,6 +89,8 @@ void beam_outcome(const PartRow& row, double length, ElementOutcome& out);
 /// `on_body`: an end is a secondary node of a rigid body.
 void spring_outcome(const PartRow& row, double length, bool on_body, ElementOutcome& out);
 
+/// The node that a block names; no_index: none.
+NodeIndex node_of(const Model& model, const Block& block, std::int64_t id);
 /// The node group of that id in the block's submodel; nullptr: there is none.
 const NodeSet* group_of(const Model& model, const Block& block, std::int64_t id);
 /// What the tie of a block holds; nullptr: that is not known.

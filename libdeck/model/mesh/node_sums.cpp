@@ -118,10 +118,8 @@ void NodeSums::walls() {
   for (const Block& block : deck.blocks) {
     if (!block.header.starts_with("/RWALL/") || block.schema == nullptr || block.opaque) continue;
     const DecodedBlock d = decode(deck, block);
-    const std::int64_t node = d.integer("node_ID");
-    if (node <= 0 || working_value(deck, d, "Mass") == 0.0) continue;
-    const NodeIndex n = model_.find_node(deck.shifted_id(block, "node", node));
-    if (n == no_index) continue;
+    const NodeIndex n = node_of(model_, block, d.integer("node_ID"));
+    if (n == no_index || working_value(deck, d, "Mass") == 0.0) continue;
     to_.mass[n] = not_known;
     ++count;
   }

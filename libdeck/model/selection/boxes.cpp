@@ -2,7 +2,7 @@
 // groups.
 #include "model/selection/selection_impl.hpp"
 
-#include "base/shared/length3.hpp"
+#include "base/shared/vec.hpp"
 
 namespace deck {
 

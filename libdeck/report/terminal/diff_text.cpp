@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "base/shared/escape.hpp"
-#include "base/shared/length3.hpp"
 #include "base/shared/length_text.hpp"
+#include "base/shared/vec.hpp"
 #include "deck/text/number.hpp"
 #include "report/shared/inspection.hpp"
 #include "report/terminal/words.hpp"

@@ -19,12 +19,19 @@ inline bool name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
+inline bool is_blank(char c) { return static_cast<unsigned char>(c) <= ' '; }
+inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
+
 inline std::string_view trim_right(std::string_view s) {
-  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
+  while (!s.empty() && is_blank(s.back())) s.remove_suffix(1);
+  return s;
+}
+inline std::string_view trim_left(std::string_view s) {
+  while (!s.empty() && is_blank(s.front())) s.remove_prefix(1);
   return s;
 }
 inline std::string_view trim(std::string_view s) {
-  while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);
+  s = trim_left(s);
   return trim_right(s);
 }
 /// Columns first to last, counted from 1, as far as the line reaches.

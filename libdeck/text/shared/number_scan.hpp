@@ -5,20 +5,21 @@
 #include <emmintrin.h>
 #endif
 
-#include <algorithm>
 #include <bit>
+#include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
+#include <string_view>
 
 #include "deck/text/number.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 
 inline constexpr std::uint64_t every_byte = 0x0101010101010101u;
 inline constexpr std::uint64_t high_bits = 0x80 * every_byte;
-
-inline bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20; }
-inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
 
 /// Eight bytes, the first one in the low bits whatever the machine's byte order.
 inline std::uint64_t load8(const char* p) {
@@ -204,7 +205,8 @@ inline std::uint64_t unlike_id(const char* p, std::uint64_t& value) {
   return unlike_digits(p + 2, value) | (front ^ 0x2020u);
 }
 
-/// A real in sixteen columns as scan_plain_real() takes it.
+/// A real in sixteen columns as scan_plain_real() takes it; false on other processors, where all
+/// cells are left to scan_real().
 #if defined(__SSE2__) && defined(__x86_64__)
 inline bool scan_sixteen(const char* p, double& value) {
   const __m128i text = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
@@ -244,43 +246,7 @@ inline bool scan_sixteen(const char* p, double& value) {
   return true;
 }
 #else
-inline bool scan_sixteen(const char* p, double& value) {
-  const std::uint64_t text[2] = {load8(p), load8(p + 8)};
-  std::uint64_t digits[2], others[2];  // others: what is no digit, as difference to a blank
-  std::uint32_t marks = 0;             // bit k: no digit in column k
-  for (int h = 0; h < 2; ++h) {
-    const std::uint64_t x = text[h] ^ ('0' * every_byte);
-    const std::uint64_t stop = not_digits(x) >> 7;
-    const std::uint64_t mask = stop * 0xff;
-    digits[h] = x & ~mask;
-    others[h] = (text[h] ^ (' ' * every_byte)) & mask;
-    marks |= static_cast<std::uint32_t>(stop * 0x0102040810204080u >> 56) << (8 * h);
-  }
-  if (marks == 0 || marks == 0xffff) return false;
-  const int point = 31 - std::countl_zero(marks);
-  const std::uint32_t front = marks ^ (std::uint32_t{1} << point);
-  if ((front & (front + 1)) != 0) return false;
-  others[point / 8] ^= std::uint64_t{'.' ^ ' '} << (point % 8 * 8);
-  // Signs are as good as random: no branch on them.
-  const int sign = std::max(0, std::countr_zero(front + 1) - 1);
-  const bool negative = p[sign] == '-';
-  others[sign / 8] ^= static_cast<std::uint64_t>(negative) * ('-' ^ ' ') << (sign % 8 * 8);
-  if ((others[0] | others[1]) != 0) return false;
-  // The digits in front of the point move up to those behind it.
-  const auto close = [](std::uint64_t x, int at) {
-    return x + (x & ((std::uint64_t{1} << (8 * at)) - 1)) * 0xff;
-  };
-  if (point >= 8) {
-    digits[1] = close(digits[1], point - 8) | digits[0] >> 56;
-    digits[0] <<= 8;
-  } else {
-    digits[0] = close(digits[0], point);
-  }
-  const std::uint64_t mantissa =
-      value_of_digits(digits[0]) * 100000000 + value_of_digits(digits[1]);
-  value = with_sign(static_cast<double>(mantissa) / power_of_ten[15 - point], negative);
-  return true;
-}
+inline bool scan_sixteen(const char*, double&) { return false; }
 #endif
 
 /// The spelling coordinates have in practice: blanks, perhaps a minus, then digits and one point up
@@ -299,5 +265,26 @@ inline bool scan_plain_twenty(const char* p, double& value) {
   std::memcpy(&front, p, 4);
   return front == 0x20202020u && scan_sixteen(p + 4, value);
 }
+
+// ---- decimal digits as text, in the two forms a deck knows -------------------------------------
+
+/// value = 0.d1d2d3… * 10^point, without trailing zeros.
+struct Decimal {
+  bool negative = false;
+  std::string_view digits;
+  int point = 0;
+};
+
+/// A finite number as "-d.ddde+XX" with `significant` digits, exactly rounded; 0: the fewest that
+/// read back to the same double.
+inline std::to_chars_result write_scientific(char* first, char* last, double value,
+                                             int significant) {
+  constexpr auto form = std::chars_format::scientific;
+  return significant == 0 ? std::to_chars(first, last, value, form)
+                          : std::to_chars(first, last, value, form, significant - 1);
+}
+
+/// The most readable text of all these digits that fits, empty if none does.
+std::string readable_text(const Decimal& d, std::size_t room);
 
 }  // namespace deck::detail

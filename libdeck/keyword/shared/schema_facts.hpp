@@ -1,10 +1,19 @@
-// Decks older than a keyword: read with its oldest layout, or with none of its lines.
+// What follows from a schema: the legal words of a keyword with lists of words (the variables of a
+// time history), and whether a deck older than the keyword has its lines. Private to the library.
 #pragma once
 #include <algorithm>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "deck/keyword/schema.hpp"
 
 namespace deck::detail {
+
+/// Empty: not known. "SX*" is SX, then a digit or '_', then any rest.
+std::span<const std::string> legal_words(const Schema& schema);
+/// Whether the text is one of them, in any case.
+bool has_word(const Schema& schema, std::string_view text);
 
 /// False if the solver takes the keyword and none of its lines in a deck of this version ("older":
 /// "unread" in the schema).
