@@ -14,15 +14,6 @@ void pick(const double* from, const std::vector<std::uint32_t>& index, std::vect
   for (std::size_t i = 0; i < index.size(); ++i) to[i] = from[index[i]];
 }
 
-template <class Arrays>
-auto pointers(const Arrays& arrays) {
-  std::array<const double*, std::tuple_size_v<Arrays>> out{};
-  for (std::size_t c = 0; c < out.size(); ++c) {
-    out[c] = arrays[c].empty() ? nullptr : arrays[c].data();
-  }
-  return out;
-}
-
 /// Share of the pair force (main side) that a role receives.
 double force_share(ContactKind kind, const PacketResult& r, std::size_t pair, std::size_t role) {
   if (kind == ContactKind::edge_edge) {
@@ -105,39 +96,34 @@ void PacketBuffer::gather(const NodalState& nodes, const PairList& pairs, Field 
   for (std::size_t role = 0; role < roles; ++role) {
     const auto& index = pairs.node[role];
     for (std::size_t c = 0; c < 3; ++c) {
-      if (contains(needs, Field::position)) pick(nodes.position[c], index, position_[role][c]);
+      if (contains(needs, Field::position)) pick(nodes.position[c], index, of_.position[role][c]);
       if (contains(needs, Field::velocity)) {
         if (nodes.velocity[c] != nullptr)
-          pick(nodes.velocity[c], index, velocity_[role][c]);
+          pick(nodes.velocity[c], index, of_.velocity[role][c]);
         else if (role == 0)
-          velocity_[0][c].assign(size_, 0.0);  // at rest: one array for all roles, see view()
+          of_.velocity[0][c].assign(size_, 0.0);  // at rest: one array for all roles, see view()
       }
     }
     const Field mass = role == 0 ? Field::mass_secondary : Field::mass_main;
     const bool edge_mass = role == 1 && pairs.kind == ContactKind::edge_edge;
     if (contains(needs, edge_mass ? Field::mass_secondary : mass)) {
-      pick(nodes.mass, index, mass_[role]);
+      pick(nodes.mass, index, of_.mass[role]);
     }
     if (!contains(needs, Field::temperature)) continue;
     if (nodes.temperature != nullptr)
-      pick(nodes.temperature, index, temperature_[role]);
+      pick(nodes.temperature, index, of_.temperature[role]);
     else
-      temperature_[role].assign(size_, 0.0);
+      of_.temperature[role].assign(size_, 0.0);
   }
 }
 
 PacketView PacketBuffer::view() const {
   PacketView v;
   v.size = size_;
-  for (std::size_t role = 0; role < 5; ++role) {
-    v.position[role] = pointers(position_[role]);
-    v.velocity[role] = pointers(velocity_[role]);
-    if (role > 0 && (role < 4 || !position_[4][0].empty()))
-      for (std::size_t c = 0; c < 3; ++c)
-        if (v.velocity[role][c] == nullptr) v.velocity[role][c] = v.velocity[0][c];
-  }
-  v.mass = pointers(mass_);
-  v.temperature = pointers(temperature_);
+  v.point_at(of_);
+  for (std::size_t role = 1; role < (of_.position[4][0].empty() ? 4 : 5); ++role)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (v.velocity[role][c] == nullptr) v.velocity[role][c] = v.velocity[0][c];
   v.triangle = triangle_.empty() ? nullptr : triangle_.data();
   return v;
 }

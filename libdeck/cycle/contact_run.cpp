@@ -51,7 +51,7 @@ PairInputs recall(const ContactPairs& pairs, std::size_t begin, std::size_t end,
           memory.used[0][pairs.at[begin + i].secondary] + memory.used[1][pairs.at[begin + i].main];
   }
   if (known.empty()) return in;
-  for (auto& a : in.ft) a = in.zero;
+  for (auto& a : in.ft_old) a = in.zero;
   for (auto& a : in.tie) a = in.zero;
   auto next =
       std::lower_bound(known.begin(), known.end(), pairs.at[begin],
@@ -61,7 +61,7 @@ PairInputs recall(const ContactPairs& pairs, std::size_t begin, std::size_t end,
     while (next != known.end() && next->at < at) ++next;
     if (next == known.end() || next->at != at) continue;
     if (card.kind != ContactKind::edge_edge) in.p0[i] = next->p0;
-    for (std::size_t c = 0; c < 3; ++c) in.ft[c][i] = next->ft[c];
+    for (std::size_t c = 0; c < 3; ++c) in.ft_old[c][i] = next->ft[c];
     for (std::size_t c = 0; c < 8; ++c) in.tie[c][i] = next->tie[c];
   }
   return in;
@@ -397,32 +397,10 @@ void refresh(const RunContext& run, const Contact& contact, const ContactCard& c
 }  // namespace
 
 void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in, std::size_t begin) {
-  const auto data = [begin](const std::vector<double>& v) {
-    return v.empty() ? nullptr : v.data() + begin;
-  };
-  const auto or_zero = [&](const std::vector<double>& v) {
-    return v.empty() ? in.zero.data() : v.data();
-  };
-  view.k0 = in.k0.data();
-  view.gap = data(pairs.gap);
-  view.p0 = in.p0.data();
-  for (std::size_t c = 0; c < 3; ++c) view.ft_old[c] = or_zero(in.ft[c]);
-  for (std::size_t c = 0; c < 8; ++c) view.tie[c] = or_zero(in.tie[c]);
-  view.area = data(pairs.area);
-  view.conductivity = data(pairs.conductivity);
-  for (std::size_t k = 0; k < 2; ++k) {
-    view.edge_width[k] = data(pairs.edge_width[k]);
-    view.ortho_mu[k] = data(pairs.ortho_mu[k]);
-    view.ortho_direction[k] = data(pairs.ortho_direction[k]);
-  }
-  for (std::size_t k = 0; k < 4; ++k) view.edge_conductivity[k] = data(pairs.edge_conductivity[k]);
-  view.fric = data(pairs.fric);
-  view.visf2 = data(pairs.visf2);
-  for (std::size_t k = 0; k < 6; ++k) view.c[k] = data(pairs.c[k]);
-  for (std::size_t k = 0; k < 6; ++k) view.c2[k] = data(pairs.c2[k]);
-  view.directed = data(pairs.directed);
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t c = 0; c < 3; ++c) view.normal[k][c] = data(pairs.normal[k][c]);
+  view.point_at(pairs, begin);
+  for (const double*& p : view.ft_old) p = in.zero.data();
+  for (const double*& p : view.tie) p = in.zero.data();
+  view.point_at(in);
 }
 
 namespace {

@@ -68,11 +68,10 @@ struct ContactMemory {
   std::size_t searches = 0, deaths = 0;
 };
 
-/// What the pairs of one evaluation bring along, beside the values they were found with.
-struct PairInputs {
-  std::vector<double> k0, p0, zero;
-  std::array<std::vector<double>, 3> ft;   ///< empty: all 0
-  std::array<std::vector<double>, 8> tie;  ///< empty: all 0
+/// What the pairs of one evaluation bring along, beside the values they were found with: stiffness,
+/// residual penetration, friction memory and ties; those that are empty are 0.
+struct PairInputs : PairArrays<std::vector<double>> {
+  std::vector<double> zero;
 };
 
 /// Points the view at the pairs' own arrays, from pair `begin` on; `in` starts with that pair. Both

@@ -34,10 +34,8 @@ class PacketBuffer {
   [[nodiscard]] PacketView view() const;
 
  private:
-  using Triple = std::array<std::vector<double>, 3>;
   std::size_t size_ = 0;
-  std::array<Triple, 5> position_, velocity_;
-  std::array<std::vector<double>, 5> mass_, temperature_;
+  PairArrays<std::vector<double>> of_;
   std::vector<std::uint8_t> triangle_;
 };
 
