@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck {
 

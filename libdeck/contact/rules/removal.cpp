@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/shared/vec.hpp"
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck::detail {
 namespace {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact/search/sweep.hpp"
+#include "contact/shared/closest.hpp"
 
 #if defined(__x86_64__)
 #include <immintrin.h>

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 #include "edit/fix/type_rules.hpp"
 
 namespace deck::detail {
