@@ -7,7 +7,6 @@
 
 #include "base/shared/parallel.hpp"
 #include "cycle/adapter/parts.hpp"
-#include "cycle/shared/sharing.hpp"
 
 namespace deck::cycle::detail {
 namespace {
@@ -510,7 +509,7 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
   collect_criteria(nodes, criteria, out);
   collect_nodes(nodes, sums, out, all);
   collect_releases(nodes, sums, run.fixed, out);
-  out.step = step_limit(out.totals, sums, nodes.mass().data(), step_factor, from_velocity);
+  out.step = step_limit(out.totals, sums, nodes.mass().data(), step_scale, from_velocity);
   if (out.step.source == StepLimit::Source::nodal)
     out.step_node = nodes.global(out.step.index);
   else if (out.step.source == StepLimit::Source::kinematic)

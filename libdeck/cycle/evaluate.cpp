@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "cycle/curvature.hpp"
 #include "cycle/kernel/effects.hpp"
-#include "cycle/kernel/vector.hpp"
 #include "deck/cycle/kernel.hpp"
 
 namespace deck::cycle {

@@ -13,7 +13,6 @@ namespace deck::cycle {
 namespace {
 
 using detail::NodeStiffness;
-using detail::step_factor;
 
 /// Nodes that several contacts of one interface stiffen, as those of a TYPE19 do, allow less than
 /// each of these contacts by itself: that is the step of the one that stiffens the node most.
@@ -38,7 +37,7 @@ void limit_interfaces(const State& state, const std::vector<NodeStiffness>& by_c
     for (const auto& [n, sum] : sums) {
       if (!(sum.most > 0.0 && state.mass[n] > 0.0)) continue;
       ContactOutcome& c = out.contacts[sum.contact];
-      const double dt = step_factor * std::sqrt(2.0 * state.mass[n] / sum.all);
+      const double dt = step_scale * std::sqrt(2.0 * state.mass[n] / sum.all);
       if (!(dt < c.step.dt)) continue;
       c.step = {StepLimit::Source::nodal, dt, n};
       c.step_node = n;
@@ -63,7 +62,7 @@ void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,
   for (NodeIndex n = 0; n < state.mass.size(); ++n) {
     const double s = out.nodes.stiffness[n];
     if (!(s > 0.0 && state.mass[n] > 0.0)) continue;
-    const double dt = step_factor * std::sqrt(2.0 * state.mass[n] / s);
+    const double dt = step_scale * std::sqrt(2.0 * state.mass[n] / s);
     if (!(dt < out.contact_dt)) continue;
     out.contact_dt = dt;
     out.contact_dt_source = StepLimit::Source::nodal;
@@ -176,7 +175,7 @@ std::vector<ActedNode> acted_nodes(const State& state, const SceneOutcome& outco
     const bool pushed = a.force[0] != 0.0 || a.force[1] != 0.0 || a.force[2] != 0.0;
     if (!pushed && a.stiffness == 0.0) continue;
     if (a.stiffness > 0.0 && state.mass[n] > 0.0)
-      a.dt = detail::step_factor * std::sqrt(2.0 * state.mass[n] / a.stiffness);
+      a.dt = step_scale * std::sqrt(2.0 * state.mass[n] / a.stiffness);
     out.push_back(a);
   }
   return out;
