@@ -83,8 +83,8 @@ void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,
 }  // namespace
 
 /// What the contacts of a scene keep between evaluations.
-struct RunMemory {
-  explicit RunMemory(const Scene& scene) : connectivity(*scene.model) {
+struct CycleRun::Memory {
+  explicit Memory(const Scene& scene) : connectivity(*scene.model) {
     contacts.resize(scene.contacts.size());
     bool releases = false;
     for (const Contact& c : scene.contacts) {
@@ -99,17 +99,6 @@ struct RunMemory {
   Connectivity connectivity;
 };
 
-namespace {
-
-SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
-                          const Coordinates& x, const State& state, const CycleOptions& options);
-
-}  // namespace
-
-struct CycleRun::Memory : RunMemory {
-  using RunMemory::RunMemory;
-};
-
 CycleRun::CycleRun(const Scene& scene, bool remember)
     : scene_(&scene), remember_(remember), memory_(std::make_unique<Memory>(scene)) {}
 CycleRun::~CycleRun() = default;
@@ -122,15 +111,10 @@ std::size_t CycleRun::searches() const {
 
 SceneOutcome CycleRun::evaluate(const Coordinates& x, const State& state,
                                 const CycleOptions& options) {
-  return evaluate_all(*scene_, *memory_, remember_, x, state, options);
-}
-
-namespace {
-
-SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
-                          const Coordinates& x, const State& state, const CycleOptions& options) {
+  const Scene& scene = *scene_;
+  Memory& memory = *memory_;
   const detail::RunContext run{
-      scene, x, state, options, remember, memory.fixed, memory.connectivity};
+      scene, x, state, options, remember_, memory.fixed, memory.connectivity};
   SceneOutcome out;
   // Nodes are many; sums of heat that no contact adds to are not kept.
   out.nodes.resize(scene.model->nodes.size(),
@@ -160,11 +144,8 @@ SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
   return out;
 }
 
-}  // namespace
-
 SceneOutcome run_cycle(const Scene& scene, const State& state, const CycleOptions& options) {
-  RunMemory memory(scene);
-  return evaluate_all(scene, memory, false, scene.coordinates, state, options);
+  return CycleRun(scene, false).evaluate(scene.coordinates, state, options);
 }
 
 std::vector<ActedNode> acted_nodes(const State& state, const SceneOutcome& outcome) {
