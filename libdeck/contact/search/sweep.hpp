@@ -78,7 +78,7 @@ class Sink {
   }
 
  private:
-  void grow() {
+  [[gnu::noinline]] void grow() {
     fill_ = 0;
     if (allowance_ != nullptr && !chunks_.empty() &&
         allowance_->fetch_sub(static_cast<std::int64_t>(chunk_items)) <
