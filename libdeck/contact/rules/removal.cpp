@@ -1,6 +1,6 @@
 // Finds what Irem_gap = 2 takes out: distances grow along the mesh, ring by ring from each main
 // item.
-#include "contact/shared/removal.hpp"
+#include "contact/shared/sides.hpp"
 
 #include <algorithm>
 #include <cmath>

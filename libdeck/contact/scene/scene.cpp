@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <type_traits>
 
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
@@ -454,6 +455,44 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics&
     scene.examined = Examined::contacts_and_ties;
   }
   return scene;
+}
+
+// ---- what contacts derived from the mesh, back in the fields of their interfaces ----------------
+
+const Contact* first_contact(const Scene& scene, const InterBase& inter) {
+  for (const Contact& c : scene.contacts)
+    if (c.inter == &inter && !c.dropped) return &c;
+  return nullptr;
+}
+
+double geometry_value(const Contact& contact, std::string_view field) {
+  return field == "Drad" ? contact.drad : contact.gapmin;
+}
+
+bool waits_for_geometry(const Interfaces& interfaces) {
+  bool waits = false;
+  for (const InterBase* inter : interfaces.ordered)
+    if (!inter->resolved)
+      visit_interface(*inter, [&](const auto& t) {
+        t.for_each([&](std::string_view, const auto& e) {
+          waits = waits || e.origin == Origin::geometry;
+        });
+      });
+  return waits;
+}
+
+void resolve(Interfaces& interfaces, const Scene& scene) {
+  interfaces.each_list([&](auto& list) {
+    for (auto& inter : list) {
+      const Contact* const contact = first_contact(scene, inter);
+      if (contact == nullptr) continue;
+      inter.for_each([&](std::string_view name, auto& field) {
+        if constexpr (std::is_same_v<decltype(field), EffectiveReal&>)
+          if (field.origin == Origin::geometry) field.value = geometry_value(*contact, name);
+      });
+      inter.resolved = true;
+    }
+  });
 }
 
 }  // namespace deck

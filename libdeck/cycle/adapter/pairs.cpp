@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "contact/shared/closest.hpp"
-#include "contact/shared/removal.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
 #include "cycle/adapter/parts.hpp"
