@@ -7,7 +7,6 @@
 #include <map>
 
 #include "accuracy/shared/choice.hpp"
-#include "accuracy/words.hpp"
 
 namespace deck {
 namespace {

@@ -1,20 +1,20 @@
 // Times the pair loop of each contact with and without each effect. A loop is compared with itself
 // chosen in another way (flags instead of a composition) before it is timed, and with its first
 // answer afterwards.
-#include "accuracy/effect_cards.hpp"
+#include "accuracy/shared/effect_cost.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <optional>
 
-#include "accuracy/shared/thread_time.hpp"
+#include "accuracy/shared/accuracy.hpp"
 #include "cycle/shared/contact_run.hpp"
 
 namespace deck {
 namespace {
 
-using accuracy::OtherCard;
 using cycle::KernelPlan;
 using cycle::PacketResult;
 using cycle::PacketView;
@@ -180,10 +180,14 @@ std::string why_not_given(const cycle::ContactCard& card, const Switch& s) {
   return {};
 }
 
-}  // namespace
+/// A card that differs in one effect or more, and in which words.
+struct OtherCard {
+  cycle::ContactCard card;
+  std::string says;
+};
 
-namespace accuracy {
-
+/// The card without the effect where it asks for it, else with it; or why there is none. `e` is the
+/// effect in the account of this card (cycle::effect_plan).
 std::optional<OtherCard> other_card(const cycle::ContactCard& card, const cycle::EffectState& e,
                                     std::string& why_not) {
   const Switch* s = switch_of(e.name);
@@ -194,6 +198,8 @@ std::optional<OtherCard> other_card(const cycle::ContactCard& card, const cycle:
   return out;
 }
 
+/// The card with every effect that it can have together with its own. Deletion and a tie exclude
+/// each other; the tie is more work.
 OtherCard everything(const cycle::ContactCard& card) {
   OtherCard out{card, {}};
   for (const cycle::EffectState& e : cycle::effect_plan(card)) {
@@ -209,10 +215,6 @@ OtherCard everything(const cycle::ContactCard& card) {
   }
   return out;
 }
-
-}  // namespace accuracy
-
-namespace {
 
 /// The packet of one contact with all arrays that any loop could ask for.
 class Packet {
@@ -388,7 +390,7 @@ class Measure {
     const Race own = race(*base, flags, how_);
     out.loop_ns = quantile(own.a, 0.5) * per_pair_;
     out.flags_ns = quantile(own.b, 0.5) * per_pair_;
-    OtherCard all = accuracy::everything(card);
+    OtherCard all = everything(card);
     std::string why_not;
     if (std::optional<Loop> loop = proven(all.card, options_, view_, why_not)) {
       out.all_ns = quantile(race(*base, *loop, how_).b, 0.5) * per_pair_;
@@ -405,7 +407,7 @@ class Measure {
  private:
   /// The loop as it is and the one with everything, in turn.
   void loops(const cycle::ContactCard& card, Loop& base, ContactCost& out) {
-    OtherCard all = accuracy::everything(card);
+    OtherCard all = everything(card);
     std::string why_not;
     std::optional<Loop> loop = proven(all.card, options_, view_, why_not);
     const Race both = race(base, loop ? *loop : base, how_);
@@ -416,7 +418,7 @@ class Measure {
   }
   void effect(const cycle::ContactCard& card, const cycle::EffectState& e, Loop& base,
               EffectCost& out) {
-    const std::optional<OtherCard> other = accuracy::other_card(card, e, out.why_not);
+    const std::optional<OtherCard> other = other_card(card, e, out.why_not);
     if (!other) return;
     std::optional<Loop> loop = proven(other->card, options_, view_, out.why_not);
     if (!loop) return;
@@ -436,10 +438,6 @@ class Measure {
   const PacketView& view_;
   double per_pair_;
 };
-
-}  // namespace
-
-namespace {
 
 /// Effects that are taken together.
 const std::pair<const char*, std::vector<const char*>> groups[] = {

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "accuracy/pair_rewriting.hpp"
+#include "accuracy/shared/accuracy.hpp"
 #include "accuracy/shared/choice.hpp"
-#include "accuracy/shared/thread_time.hpp"
-#include "accuracy/words.hpp"
 #include "contact/shared/exact.hpp"
 #include "contact/shared/filtered.hpp"
 

@@ -1,5 +1,5 @@
 // A node passes a sliver: where the force jumps though the node does not.
-#include "accuracy/shared/motion.hpp"
+#include "accuracy/shared/choice.hpp"
 
 #include <fmt/format.h>
 

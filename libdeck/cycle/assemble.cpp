@@ -4,23 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/shared/parallel.hpp"
-
 namespace deck::cycle {
 namespace {
 
 void pick(const double* from, const std::vector<std::uint32_t>& index, std::vector<double>& to) {
   to.resize(index.size());
   for (std::size_t i = 0; i < index.size(); ++i) to[i] = from[index[i]];
-}
-
-template <class Arrays>
-auto pointers(const Arrays& arrays) {
-  std::array<const double*, std::tuple_size_v<Arrays>> out{};
-  for (std::size_t c = 0; c < out.size(); ++c) {
-    out[c] = arrays[c].empty() ? nullptr : arrays[c].data();
-  }
-  return out;
 }
 
 /// Share of the pair force (main side) that a role receives.
@@ -31,19 +20,6 @@ double force_share(ContactKind kind, const PacketResult& r, std::size_t pair, st
   return role == 0 ? -1.0 : r.weights[role - 1][pair];
 }
 
-/// What a pair gives to the node of one of its roles.
-struct Gift {
-  double share = 0.0;
-  bool secondary = false;  ///< the node is on the secondary side
-  bool conducts = false;
-};
-
-Gift gift_of(const KernelPlan& plan, const PacketResult& r, std::size_t pair, std::size_t role) {
-  const ContactKind kind = plan.card.kind;
-  const bool secondary = role < (kind == ContactKind::edge_edge ? 2u : 1u);
-  return {force_share(kind, r, pair, role), secondary, secondary || plan.card.ithe_form == 1};
-}
-
 /// A triangle has no fourth corner: its third is there twice.
 bool is_repeated(const PairList& pairs, std::size_t pair, std::size_t role) {
   return role == 4 && !pairs.triangle.empty() && pairs.triangle[pair] != 0;
@@ -51,49 +27,14 @@ bool is_repeated(const PairList& pairs, std::size_t pair, std::size_t role) {
 
 std::size_t roles_of(const PairList& pairs) { return pairs.kind == ContactKind::edge_edge ? 4 : 5; }
 
-/// Marks what the status bits of a node's pairs mean for it.
-void mark(const KernelPlan& plan, std::int64_t all, std::int64_t secondary, std::size_t n,
+/// Marks what the status bits of a pair mean for a node of one of its roles.
+void mark(const KernelPlan& plan, std::int64_t status, bool secondary, std::size_t n,
           NodalSums& sums) {
-  if ((all & status_contact) != 0) sums.contact[n] = 1;
-  if ((secondary & (status_gap_closed | status_step_deleted)) != 0) sums.removed[n] = 1;
-  if ((secondary & status_bc_release) != 0)
+  if ((status & status_contact) != 0) sums.contact[n] = 1;
+  if (!secondary) return;
+  if ((status & (status_gap_closed | status_step_deleted)) != 0) sums.removed[n] = 1;
+  if ((status & status_bc_release) != 0)
     sums.released[n] |= static_cast<std::uint8_t>(plan.card.ibc & 7);
-}
-
-/// Adds what a pair gives to the node of a role to sums: a NodalSums at the node, or one node's.
-template <class Force>
-void give(const PacketResult& r, const Gift& gift, std::size_t pair, const Force& force,
-          double& stiffness) {
-  for (std::size_t c = 0; c < 3; ++c) force(c) += gift.share * r.force[c][pair];
-  stiffness += std::abs(gift.share) * r.k_nodal[pair];
-}
-void give_heat(const PacketResult& r, const Gift& gift, std::size_t pair, std::size_t role,
-               double& heat, double& conductance) {
-  heat += r.heat[role][pair];
-  if (gift.conducts) conductance += std::abs(gift.share) * r.conductance[pair];
-}
-
-struct NodeSum {
-  double f[3] = {0.0, 0.0, 0.0};
-  double stiffness = 0.0, heat = 0.0, conductance = 0.0;
-  std::int64_t all = 0;        ///< status bits of its pairs
-  std::int64_t secondary = 0;  ///< of pairs where it is on the secondary side
-};
-
-NodeSum sum_node(const KernelPlan& plan, const Incidence& incidence, const PacketResult& r,
-                 std::size_t node) {
-  const bool heated = contains(plan.writes, Field::heat);
-  NodeSum s;
-  for (const std::uint64_t* e = incidence.begin(node); e != incidence.end(node); ++e) {
-    const std::size_t pair = *e / 8, role = *e % 8;
-    const Gift gift = gift_of(plan, r, pair, role);
-    give(
-        r, gift, pair, [&](std::size_t c) -> double& { return s.f[c]; }, s.stiffness);
-    s.all |= r.status[pair];
-    if (gift.secondary) s.secondary |= r.status[pair];
-    if (heated) give_heat(r, gift, pair, role, s.heat, s.conductance);
-  }
-  return s;
 }
 
 }  // namespace
@@ -105,59 +46,36 @@ void PacketBuffer::gather(const NodalState& nodes, const PairList& pairs, Field 
   for (std::size_t role = 0; role < roles; ++role) {
     const auto& index = pairs.node[role];
     for (std::size_t c = 0; c < 3; ++c) {
-      if (contains(needs, Field::position)) pick(nodes.position[c], index, position_[role][c]);
+      if (contains(needs, Field::position)) pick(nodes.position[c], index, of_.position[role][c]);
       if (contains(needs, Field::velocity)) {
         if (nodes.velocity[c] != nullptr)
-          pick(nodes.velocity[c], index, velocity_[role][c]);
+          pick(nodes.velocity[c], index, of_.velocity[role][c]);
         else if (role == 0)
-          velocity_[0][c].assign(size_, 0.0);  // at rest: one array for all roles, see view()
+          of_.velocity[0][c].assign(size_, 0.0);  // at rest: one array for all roles, see view()
       }
     }
     const Field mass = role == 0 ? Field::mass_secondary : Field::mass_main;
     const bool edge_mass = role == 1 && pairs.kind == ContactKind::edge_edge;
     if (contains(needs, edge_mass ? Field::mass_secondary : mass)) {
-      pick(nodes.mass, index, mass_[role]);
+      pick(nodes.mass, index, of_.mass[role]);
     }
     if (!contains(needs, Field::temperature)) continue;
     if (nodes.temperature != nullptr)
-      pick(nodes.temperature, index, temperature_[role]);
+      pick(nodes.temperature, index, of_.temperature[role]);
     else
-      temperature_[role].assign(size_, 0.0);
+      of_.temperature[role].assign(size_, 0.0);
   }
 }
 
 PacketView PacketBuffer::view() const {
   PacketView v;
   v.size = size_;
-  for (std::size_t role = 0; role < 5; ++role) {
-    v.position[role] = pointers(position_[role]);
-    v.velocity[role] = pointers(velocity_[role]);
-    if (role > 0 && (role < 4 || !position_[4][0].empty()))
-      for (std::size_t c = 0; c < 3; ++c)
-        if (v.velocity[role][c] == nullptr) v.velocity[role][c] = v.velocity[0][c];
-  }
-  v.mass = pointers(mass_);
-  v.temperature = pointers(temperature_);
+  v.point_at(of_);
+  for (std::size_t role = 1; role < (of_.position[4][0].empty() ? 4 : 5); ++role)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (v.velocity[role][c] == nullptr) v.velocity[role][c] = v.velocity[0][c];
   v.triangle = triangle_.empty() ? nullptr : triangle_.data();
   return v;
-}
-
-Incidence::Incidence(const PairList& pairs, std::size_t node_count) {
-  const std::size_t roles = roles_of(pairs);
-  first_.assign(node_count + 1, 0);
-  for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
-    for (std::size_t role = 0; role < roles; ++role) {
-      if (!is_repeated(pairs, pair, role)) ++first_[pairs.node[role][pair] + 1];
-    }
-  }
-  for (std::size_t n = 0; n < node_count; ++n) first_[n + 1] += first_[n];
-  entry_.resize(first_.back());
-  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
-    for (std::size_t role = 0; role < roles; ++role) {
-      if (!is_repeated(pairs, pair, role)) entry_[next[pairs.node[role][pair]]++] = pair * 8 + role;
-    }
-  }
 }
 
 void NodalSums::resize(std::size_t nodes, bool heated) {
@@ -167,37 +85,23 @@ void NodalSums::resize(std::size_t nodes, bool heated) {
   for (auto* a : {&contact, &removed, &released}) a->assign(nodes, 0);
 }
 
-void assemble(const KernelPlan& plan, const Incidence& incidence, const PacketResult& result,
-              NodalSums& sums, unsigned threads) {
-  const std::size_t nodes = incidence.node_count();
-  const std::size_t parts = std::max<std::size_t>(1, std::min<std::size_t>(threads, nodes));
-  const auto run = [&](std::size_t part) {
-    for (std::size_t n = part * nodes / parts; n < (part + 1) * nodes / parts; ++n) {
-      if (incidence.begin(n) == incidence.end(n)) continue;
-      const NodeSum s = sum_node(plan, incidence, result, n);
-      for (std::size_t c = 0; c < 3; ++c) sums.force[c][n] += s.f[c];
-      sums.stiffness[n] += s.stiffness;
-      sums.heat[n] += s.heat;
-      sums.conductance[n] += s.conductance;
-      mark(plan, s.all, s.secondary, n, sums);
-    }
-  };
-  parallel_items(static_cast<int>(parts), parts, run);
-}
-
 void assemble(const KernelPlan& plan, const PairList& pairs, const PacketResult& r,
               NodalSums& sums) {
   const bool heated = contains(plan.writes, Field::heat);
+  const ContactKind kind = plan.card.kind;
   for (std::size_t pair = 0; pair < r.size; ++pair)
     for (std::size_t role = 0; role < roles_of(pairs); ++role) {
       if (is_repeated(pairs, pair, role)) continue;
       const std::size_t n = pairs.node[role][pair];
-      const Gift gift = gift_of(plan, r, pair, role);
-      give(
-          r, gift, pair, [&](std::size_t c) -> double& { return sums.force[c][n]; },
-          sums.stiffness[n]);
-      if (heated) give_heat(r, gift, pair, role, sums.heat[n], sums.conductance[n]);
-      mark(plan, r.status[pair], gift.secondary ? r.status[pair] : 0, n, sums);
+      const double share = force_share(kind, r, pair, role);
+      const bool secondary = role < (kind == ContactKind::edge_edge ? 2u : 1u);
+      for (std::size_t c = 0; c < 3; ++c) sums.force[c][n] += share * r.force[c][pair];
+      sums.stiffness[n] += std::abs(share) * r.k_nodal[pair];
+      mark(plan, r.status[pair], secondary, n, sums);
+      if (!heated) continue;
+      sums.heat[n] += r.heat[role][pair];
+      if (secondary || plan.card.ithe_form == 1)
+        sums.conductance[n] += std::abs(share) * r.conductance[pair];
     }
 }
 

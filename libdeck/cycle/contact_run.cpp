@@ -7,7 +7,6 @@
 
 #include "base/shared/parallel.hpp"
 #include "cycle/adapter/parts.hpp"
-#include "cycle/shared/sharing.hpp"
 
 namespace deck::cycle::detail {
 namespace {
@@ -51,7 +50,7 @@ PairInputs recall(const ContactPairs& pairs, std::size_t begin, std::size_t end,
           memory.used[0][pairs.at[begin + i].secondary] + memory.used[1][pairs.at[begin + i].main];
   }
   if (known.empty()) return in;
-  for (auto& a : in.ft) a = in.zero;
+  for (auto& a : in.ft_old) a = in.zero;
   for (auto& a : in.tie) a = in.zero;
   auto next =
       std::lower_bound(known.begin(), known.end(), pairs.at[begin],
@@ -61,7 +60,7 @@ PairInputs recall(const ContactPairs& pairs, std::size_t begin, std::size_t end,
     while (next != known.end() && next->at < at) ++next;
     if (next == known.end() || next->at != at) continue;
     if (card.kind != ContactKind::edge_edge) in.p0[i] = next->p0;
-    for (std::size_t c = 0; c < 3; ++c) in.ft[c][i] = next->ft[c];
+    for (std::size_t c = 0; c < 3; ++c) in.ft_old[c][i] = next->ft[c];
     for (std::size_t c = 0; c < 8; ++c) in.tie[c][i] = next->tie[c];
   }
   return in;
@@ -397,32 +396,10 @@ void refresh(const RunContext& run, const Contact& contact, const ContactCard& c
 }  // namespace
 
 void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in, std::size_t begin) {
-  const auto data = [begin](const std::vector<double>& v) {
-    return v.empty() ? nullptr : v.data() + begin;
-  };
-  const auto or_zero = [&](const std::vector<double>& v) {
-    return v.empty() ? in.zero.data() : v.data();
-  };
-  view.k0 = in.k0.data();
-  view.gap = data(pairs.gap);
-  view.p0 = in.p0.data();
-  for (std::size_t c = 0; c < 3; ++c) view.ft_old[c] = or_zero(in.ft[c]);
-  for (std::size_t c = 0; c < 8; ++c) view.tie[c] = or_zero(in.tie[c]);
-  view.area = data(pairs.area);
-  view.conductivity = data(pairs.conductivity);
-  for (std::size_t k = 0; k < 2; ++k) {
-    view.edge_width[k] = data(pairs.edge_width[k]);
-    view.ortho_mu[k] = data(pairs.ortho_mu[k]);
-    view.ortho_direction[k] = data(pairs.ortho_direction[k]);
-  }
-  for (std::size_t k = 0; k < 4; ++k) view.edge_conductivity[k] = data(pairs.edge_conductivity[k]);
-  view.fric = data(pairs.fric);
-  view.visf2 = data(pairs.visf2);
-  for (std::size_t k = 0; k < 6; ++k) view.c[k] = data(pairs.c[k]);
-  for (std::size_t k = 0; k < 6; ++k) view.c2[k] = data(pairs.c2[k]);
-  view.directed = data(pairs.directed);
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t c = 0; c < 3; ++c) view.normal[k][c] = data(pairs.normal[k][c]);
+  view.point_at(pairs, begin);
+  for (const double*& p : view.ft_old) p = in.zero.data();
+  for (const double*& p : view.tie) p = in.zero.data();
+  view.point_at(in);
 }
 
 namespace {
@@ -532,7 +509,7 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
   collect_criteria(nodes, criteria, out);
   collect_nodes(nodes, sums, out, all);
   collect_releases(nodes, sums, run.fixed, out);
-  out.step = step_limit(out.totals, sums, nodes.mass().data(), step_factor, from_velocity);
+  out.step = step_limit(out.totals, sums, nodes.mass().data(), step_scale, from_velocity);
   if (out.step.source == StepLimit::Source::nodal)
     out.step_node = nodes.global(out.step.index);
   else if (out.step.source == StepLimit::Source::kinematic)

@@ -1,12 +1,10 @@
 // Curved main surfaces: sphere, cylinder and bicubic interpolation (Icurv 1 to 3), and Iadm.
-#include "cycle/curvature.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "cycle/kernel/block.hpp"
-#include "cycle/kernel/vector.hpp"
 
 namespace deck::cycle::detail {
 namespace {

@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "cycle/curvature.hpp"
 #include "cycle/kernel/effects.hpp"
-#include "cycle/kernel/vector.hpp"
 #include "deck/cycle/kernel.hpp"
 
 namespace deck::cycle {
@@ -84,7 +82,7 @@ class PaddedView {
  public:
   PaddedView(const PacketView& view, std::size_t width) : view_(view), width_(width) {
     const std::size_t n = view.size;
-    PacketView::each_array(view_, [&](auto& arrays) { pad(arrays, n); });
+    PacketView::each([&](const double*& p) { pad(p, n); }, view_);
     if (view.triangle != nullptr) {
       triangle_.assign(width, view.triangle[n - 1]);
       std::copy(view.triangle, view.triangle + n, triangle_.begin());
@@ -100,10 +98,6 @@ class PaddedView {
     std::vector<double>& own = store_.emplace_back(width_, p[n - 1]);
     std::copy(p, p + n, own.begin());
     p = own.data();
-  }
-  template <class T, std::size_t N>
-  void pad(std::array<T, N>& arrays, std::size_t n) {
-    for (auto& a : arrays) pad(a, n);
   }
 
   PacketView view_;

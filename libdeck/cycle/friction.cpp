@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "cycle/kernel/effects.hpp"
-#include "cycle/kernel/vector.hpp"
 #include "deck/cycle/kernel.hpp"
 
 namespace deck::cycle {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "cycle/kernel/block.hpp"
-#include "cycle/kernel/vector.hpp"
 
 namespace deck::cycle {
 namespace {

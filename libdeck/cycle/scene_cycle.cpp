@@ -13,7 +13,6 @@ namespace deck::cycle {
 namespace {
 
 using detail::NodeStiffness;
-using detail::step_factor;
 
 /// Nodes that several contacts of one interface stiffen, as those of a TYPE19 do, allow less than
 /// each of these contacts by itself: that is the step of the one that stiffens the node most.
@@ -38,7 +37,7 @@ void limit_interfaces(const State& state, const std::vector<NodeStiffness>& by_c
     for (const auto& [n, sum] : sums) {
       if (!(sum.most > 0.0 && state.mass[n] > 0.0)) continue;
       ContactOutcome& c = out.contacts[sum.contact];
-      const double dt = step_factor * std::sqrt(2.0 * state.mass[n] / sum.all);
+      const double dt = step_scale * std::sqrt(2.0 * state.mass[n] / sum.all);
       if (!(dt < c.step.dt)) continue;
       c.step = {StepLimit::Source::nodal, dt, n};
       c.step_node = n;
@@ -63,7 +62,7 @@ void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,
   for (NodeIndex n = 0; n < state.mass.size(); ++n) {
     const double s = out.nodes.stiffness[n];
     if (!(s > 0.0 && state.mass[n] > 0.0)) continue;
-    const double dt = step_factor * std::sqrt(2.0 * state.mass[n] / s);
+    const double dt = step_scale * std::sqrt(2.0 * state.mass[n] / s);
     if (!(dt < out.contact_dt)) continue;
     out.contact_dt = dt;
     out.contact_dt_source = StepLimit::Source::nodal;
@@ -84,8 +83,8 @@ void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,
 }  // namespace
 
 /// What the contacts of a scene keep between evaluations.
-struct RunMemory {
-  explicit RunMemory(const Scene& scene) : connectivity(*scene.model) {
+struct CycleRun::Memory {
+  explicit Memory(const Scene& scene) : connectivity(*scene.model) {
     contacts.resize(scene.contacts.size());
     bool releases = false;
     for (const Contact& c : scene.contacts) {
@@ -100,17 +99,6 @@ struct RunMemory {
   Connectivity connectivity;
 };
 
-namespace {
-
-SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
-                          const Coordinates& x, const State& state, const CycleOptions& options);
-
-}  // namespace
-
-struct CycleRun::Memory : RunMemory {
-  using RunMemory::RunMemory;
-};
-
 CycleRun::CycleRun(const Scene& scene, bool remember)
     : scene_(&scene), remember_(remember), memory_(std::make_unique<Memory>(scene)) {}
 CycleRun::~CycleRun() = default;
@@ -123,15 +111,10 @@ std::size_t CycleRun::searches() const {
 
 SceneOutcome CycleRun::evaluate(const Coordinates& x, const State& state,
                                 const CycleOptions& options) {
-  return evaluate_all(*scene_, *memory_, remember_, x, state, options);
-}
-
-namespace {
-
-SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
-                          const Coordinates& x, const State& state, const CycleOptions& options) {
+  const Scene& scene = *scene_;
+  Memory& memory = *memory_;
   const detail::RunContext run{
-      scene, x, state, options, remember, memory.fixed, memory.connectivity};
+      scene, x, state, options, remember_, memory.fixed, memory.connectivity};
   SceneOutcome out;
   // Nodes are many; sums of heat that no contact adds to are not kept.
   out.nodes.resize(scene.model->nodes.size(),
@@ -161,11 +144,8 @@ SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
   return out;
 }
 
-}  // namespace
-
 SceneOutcome run_cycle(const Scene& scene, const State& state, const CycleOptions& options) {
-  RunMemory memory(scene);
-  return evaluate_all(scene, memory, false, scene.coordinates, state, options);
+  return CycleRun(scene, false).evaluate(scene.coordinates, state, options);
 }
 
 std::vector<ActedNode> acted_nodes(const State& state, const SceneOutcome& outcome) {
@@ -176,7 +156,7 @@ std::vector<ActedNode> acted_nodes(const State& state, const SceneOutcome& outco
     const bool pushed = a.force[0] != 0.0 || a.force[1] != 0.0 || a.force[2] != 0.0;
     if (!pushed && a.stiffness == 0.0) continue;
     if (a.stiffness > 0.0 && state.mass[n] > 0.0)
-      a.dt = detail::step_factor * std::sqrt(2.0 * state.mass[n] / a.stiffness);
+      a.dt = step_scale * std::sqrt(2.0 * state.mass[n] / a.stiffness);
     out.push_back(a);
   }
   return out;

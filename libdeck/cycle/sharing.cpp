@@ -1,12 +1,12 @@
 // Finds the pairs of neighbouring segments that meet the other side in one point, so that it pushes
 // once.
-#include "cycle/shared/sharing.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <compare>
 #include <map>
+
+#include "cycle/shared/contact_run.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "cycle/kernel/block.hpp"
-#include "cycle/kernel/vector.hpp"
 
 namespace deck::cycle::detail {
 namespace {

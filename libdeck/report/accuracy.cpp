@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "accuracy/shared/motion.hpp"
+#include "accuracy/shared/choice.hpp"
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "report/shared/text_table.hpp"

@@ -1,5 +1,5 @@
 // Closest points of nodes, segments and edges: worked cases with known answers, and invariances.
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 
 #include <gtest/gtest.h>
 

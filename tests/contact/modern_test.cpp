@@ -14,8 +14,8 @@
 
 #include "contact/modern/parts.hpp"
 #include "contact/modern/patch_rule.hpp"
+#include "contact/shared/closest.hpp"
 #include "contact/small_deck.hpp"
-#include "deck/contact/closest.hpp"
 
 namespace deck::test {
 namespace {

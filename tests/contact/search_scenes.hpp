@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/shared/closest.hpp"
 #include "deck/contact/search.hpp"
 
 namespace deck::scenes {

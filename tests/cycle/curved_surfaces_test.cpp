@@ -7,7 +7,7 @@
 #include <random>
 
 #include "contact/small_deck.hpp"
-#include "cycle/curvature.hpp"
+#include "cycle/kernel/block.hpp"
 #include "cycle/shared/heat.hpp"
 #include "cycle/support.hpp"
 #include "deck/cycle/adapter.hpp"

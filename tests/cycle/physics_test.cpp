@@ -253,7 +253,7 @@ NodalSums evaluate_scene(const Scene& s, const ContactCard& card, Model model, u
   evaluate(plan, view, r, threads);
   NodalSums sums;
   sums.resize(s.mass.size());
-  assemble(plan, Incidence(s.pairs, s.mass.size()), r, sums, threads);
+  assemble(plan, s.pairs, r, sums);
   return sums;
 }
 
@@ -298,7 +298,7 @@ TEST(Assembly, PiecesInPairOrderGiveTheBitsOfTheWhole) {
   run(s.pairs, 0, whole, of_whole);
   NodalSums expected;
   expected.resize(s.mass.size());
-  assemble(plan, Incidence(s.pairs, s.mass.size()), whole, expected);
+  assemble(plan, s.pairs, whole, expected);
 
   RunningTotals of_pieces(plan);
   NodalSums sums;

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "contact/small_deck.hpp"
+#include "cycle/adapter/parts.hpp"
 #include "cycle/plates.hpp"
-#include "cycle/state/state_parts.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 #include "deck/cycle/steps.hpp"

@@ -1,5 +1,5 @@
 // Nodes over shared edges and corners are pushed once, by the right segment, without jumps.
-#include "cycle/shared/sharing.hpp"
+#include "cycle/shared/contact_run.hpp"
 
 #include <gtest/gtest.h>
 

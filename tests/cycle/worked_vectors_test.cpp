@@ -135,7 +135,7 @@ TEST(FrictionViscous, SplitsToTheNodesAndSumsToNothing) {
   pairs.triangle = {1};
   NodalSums sums;
   sums.resize(4);
-  assemble(plan, Incidence(pairs, 4), r, sums);
+  assemble(plan, pairs, r, sums);
   const double main[3][3] = {{353.5533906, -471.4045208, -16678.66511},
                              {141.4213562, -188.5618083, -6671.466046},
                              {212.1320344, -282.8427125, -10007.19907}};

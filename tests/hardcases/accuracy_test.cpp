@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "accuracy/shared/choice.hpp"
-#include "accuracy/shared/motion.hpp"
 #include "contact/shared/exact.hpp"
 #include "contact/small_deck.hpp"
 

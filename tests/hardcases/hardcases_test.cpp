@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <limits>
 
-#include "accuracy/pair_rewriting.hpp"
 #include "accuracy/shared/accuracy.hpp"
 #include "contact/shared/exact.hpp"
 #include "contact/shared/filtered.hpp"

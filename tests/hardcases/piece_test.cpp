@@ -1,6 +1,6 @@
 // Distances from the one plane, line or corner that is closest: what they claim to have proved,
 // held against exact rationals on ordinary pairs, and that ordinary pairs need nothing else.
-#include "contact/distance/filtered_piece.hpp"
+#include "contact/distance/filtered_bounds.hpp"
 
 #include <gtest/gtest.h>
 

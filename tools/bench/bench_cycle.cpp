@@ -503,11 +503,10 @@ nlohmann::json assembly_race(const Scene& scene, int rounds) {
   const KernelPlan plan = make_plan(card, Model::reference, option(false, false));
   PacketResult r;
   evaluate(plan, scene.view(), r);
-  const Incidence incidence(scene.pairs, scene.mass.size());
   NodalSums ordered, scattered;
   const auto in_order = [&] {
     ordered.resize(scene.mass.size());
-    assemble(plan, incidence, r, ordered);
+    assemble(plan, scene.pairs, r, ordered);
   };
   const auto scatter = [&] {
     scattered.resize(scene.mass.size());

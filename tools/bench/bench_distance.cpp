@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "accuracy/shared/thread_time.hpp"
+#include "accuracy/shared/accuracy.hpp"
 #include "deck/front/loaded_deck.hpp"
 #include "distance/tiers.hpp"
 

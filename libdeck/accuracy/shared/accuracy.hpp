@@ -1,14 +1,17 @@
 // The hard cases: pairs made to break arithmetic, by kind. What they are measured for stands in
 // choice.hpp.
 #pragma once
+#include <time.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck {
 
@@ -38,4 +41,57 @@ std::span<const HardFamily> hard_families();
 // that are not sampled, and for unknown ids.
 std::vector<PairSample> hard_cases(int family, std::size_t samples, std::uint64_t seed = 1);
 
+// ---- the same pair written down in another way: what may not change an answer -------------------
+
+inline PairSample other_order(PairSample s) {
+  if (s.edges) {
+    std::swap(s.x[0], s.x[1]);
+  } else if (s.triangle) {
+    s.x = {s.x[1], s.x[2], s.x[0], s.x[0], s.x[4]};
+  } else {
+    s.x = {s.x[1], s.x[2], s.x[3], s.x[0], s.x[4]};
+  }
+  return s;
+}
+
+inline PairSample turned_over(PairSample s) {
+  if (s.edges) {
+    s.x = {s.x[2], s.x[3], s.x[0], s.x[1], s.x[4]};
+  } else if (s.triangle) {
+    std::swap(s.x[0], s.x[1]);
+  } else {
+    std::swap(s.x[1], s.x[3]);
+  }
+  return s;
+}
+
+inline PairSample other_axes(PairSample s) {
+  for (Point3<double>& p : s.x) p = {-p.z, p.x, -p.y};
+  return s;
+}
+
+// False if a coordinate or the gap does not fit.
+inline bool scale(PairSample& s, int power) {
+  bool exact = true;
+  const auto one = [&](double& v) {
+    const double y = std::ldexp(v, power);
+    exact &= std::isfinite(y) && std::ldexp(y, -power) == v && (y == 0.0 || std::isnormal(y));
+    v = y;
+  };
+  for (Point3<double>& p : s.x) one(p.x), one(p.y), one(p.z);
+  one(s.gap);
+  return exact;
+}
+
 }  // namespace deck
+
+namespace deck::accuracy {
+
+// Processor time of this thread in nanoseconds: others on the machine do not count.
+inline double thread_nanoseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace deck::accuracy

@@ -2,6 +2,7 @@
 // arithmetic: the answer of `deck accuracy`.
 // Example: std::vector<AccuracyChoice> choices = measure_hard_cases({});
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -108,4 +109,41 @@ std::string ratio_text(double ratio);  // "2.7 x"
 // "14 %", "0.3 %", "0".
 std::string share_text(std::uint64_t part, std::uint64_t all);
 
+// ---- one hard case in motion: a node passes a sliver in a hundred straight steps, judged as each
+// word of --accuracy does
+// --------------------------------------------------------------------------
+
+struct HardMotion {
+  std::array<Point3<double>, 3> corners{};
+  Point3<double> from, to;  // of the node, at the first and the last step
+  double gap = 0.0;
+  double way = 0.0;  // of the node in one step
+  struct Line {
+    Accuracy accuracy{};
+    std::vector<double> depth, force;  // by step; the elastic force of a stiffness of 1
+    // Steps where the depth changes by more than the way of the node. No distance can do that, so
+    // it is the formula that jumps.
+    std::vector<std::size_t> jumps;
+  };
+  std::vector<Line> lines;  // reference, fast, robust, exact
+};
+
+HardMotion hard_motion();
+// One sentence a step with a jump: who jumps, from which force to which, and the exact one. Names
+// stand in elements `tag`; without one they stand alone.
+std::vector<std::string> motion_sentences(const HardMotion& motion, const std::string& tag = {});
+
 }  // namespace deck
+
+namespace deck::accuracy {
+
+// How each word of --accuracy decides a pair. Private to the accuracy stage.
+struct Word {
+  Accuracy accuracy;
+  bool (*closer)(const PairSample&);      // the distance is below the gap
+  double (*distance)(const PairSample&);  // by its formula
+};
+
+const Word& word(Accuracy accuracy);
+
+}  // namespace deck::accuracy

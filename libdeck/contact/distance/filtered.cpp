@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "contact/distance/filtered_bounds.hpp"
-#include "contact/distance/filtered_piece.hpp"
-#include "contact/distance/fused.hpp"
 #include "contact/shared/exact.hpp"
 
 namespace deck {

@@ -18,6 +18,32 @@
 #include "contact/shared/dd.hpp"
 #include "contact/shared/filtered.hpp"
 
+namespace deck {
+
+// Double-double is half as long where the processor multiplies and adds in one step: the same text
+// compiled for such processors too, and chosen when it runs. The bits are the same: the error of a
+// product is exact either way.
+// Work::run(arguments...), with all that it calls compiled into it. What it calls by name only
+// (exact proofs) stays as it is.
+template <class Work, class... Arguments>
+#if defined(__x86_64__)
+[[gnu::target("avx2,fma"), gnu::flatten]]
+#endif
+auto run_fused(const Arguments&... arguments) {
+  return Work::run(arguments...);
+}
+
+template <class Work, class... Arguments>
+auto fused(const Arguments&... arguments) {
+#if defined(__x86_64__)
+  static const bool can = __builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2");
+  if (can) return run_fused<Work>(arguments...);
+#endif
+  return Work::run(arguments...);
+}
+
+}  // namespace deck
+
 namespace deck::filter {
 
 using scalar::larger;
@@ -435,5 +461,34 @@ inline Answer proved(std::optional<bool> closer) {
   if (!closer) return Answer::unknown;
   return *closer ? Answer::yes : Answer::no;
 }
+
+// --- one piece of a pair ----------------------------------------------------------------------
+
+// The distance of a pair from the plane, line or corner that double found closest, in a few
+// double-double operations: what most distances and decisions need beyond double.
+//
+// Let q be any point of that plane or line. Its squared distance is the squared length of q less
+// that of the part of q along the plane or line, which is small to the second order: double gives
+// it well enough. And it is the distance of the whole pair where every other vertex lies beyond the
+// plane through the closest point across its own direction: that, too, is proved in double, with
+// room for all round-off.
+
+// A bracket of the squared distance.
+struct PieceDistance {
+  DoubleDouble squared;
+  double error = 0.0;              // the exact square is within this of `squared`
+  std::array<double, 2> weight{};  // edges, if asked for: of the first nodes, s and m, rounded once
+  bool one_part = true;  // no other part of the pair is as close: the feature is certain too
+  SegmentPiece piece;    // what it is the distance of; not of edges
+  // The double nearest to the root, at the original scale, if the bracket tells.
+  std::optional<double> rounded(int shift) const;
+  Answer closer_than(double gap) const;
+};
+
+// `c`: what double says of the pair. Nothing where the proof fails.
+std::optional<PieceDistance> piece_distance(const SegmentPair& pair,
+                                            const SegmentClosest<double>& c);
+std::optional<PieceDistance> piece_distance(const EdgePair& pair, const EdgeClosest<double>& c,
+                                            bool weights = false);
 
 }  // namespace deck::filter

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck {
 

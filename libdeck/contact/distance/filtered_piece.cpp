@@ -1,11 +1,9 @@
 // Squared distance to the plane, line or corner that double found nearest, if nothing else can be
 // nearer.
-#include "contact/distance/filtered_piece.hpp"
+#include "contact/distance/filtered_bounds.hpp"
 
 #include <cmath>
 #include <initializer_list>
-
-#include "contact/distance/fused.hpp"
 
 namespace deck::filter {
 namespace piece_detail {

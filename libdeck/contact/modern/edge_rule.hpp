@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "base/shared/vec.hpp"
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck::detail::modern {
 

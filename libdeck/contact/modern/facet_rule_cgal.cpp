@@ -22,12 +22,9 @@ Q root(const Q& square) {
   return CGAL::is_positive(square) ? Q(long_square_root(square.exact())) : Q(0);
 }
 
-class ExactRule {
+class ExactRule : public FacetSteps<ExactRule, Q> {
  public:
-  explicit ExactRule(const FacetRule& rule) : r_(rule), q_(lift(rule.node)), s_(rule.node_gap) {
-    for (std::size_t k = 0; k < 4; ++k) p_[k] = lift(rule.corner[k]);
-    centre_ = rule.triangle ? p_[2] : Q(0.25) * ((p_[0] + p_[1]) + (p_[2] + p_[3]));
-  }
+  explicit ExactRule(const FacetRule& rule) : FacetSteps(rule), around_(rule) {}
 
   const Q& distance_squared() const { return f_.distance_squared; }
   const Q& penetration() const { return depth_; }
@@ -42,211 +39,53 @@ class ExactRule {
   }
   /// False: the pair is left out.
   bool counts(bool adhesion) {
-    choose_facet();
-    const bool sheet = r_.kind == FacetRule::Kind::sheet;
+    std::vector<Facet<Q>> all;
+    for (std::size_t k = 0; k < facet_count(); ++k) all.push_back(facet(k));
+    choose(all);
+    const bool sheet = r_.kind == Kind::sheet;
     if (sheet && CGAL::is_positive(f_.behind)) return false;
-    beside_ = f_.a < Q(-0.001) || f_.b < Q(-0.001) || f_.a + f_.b > Q(1.001);
-    foot_ = q_ + (CGAL::is_zero(f_.size) ? Q(0) : f_.behind / f_.size) * f_.normal;
-    depth_ = raw();
-    const bool out = excluded();
-    if (out) depth_ = Q(0);
-    if (out && (adhesion || r_.kind != FacetRule::Kind::solid)) return false;
-    if (thin() && penetrates()) at_border();
+    if (!judge() && (adhesion || r_.kind != Kind::solid)) return false;
     return !(adhesion && sheet) || penetrates();
   }
 
  private:
-  struct Facet {
-    std::size_t side = 0;
-    Q a, b;  // weights before they are kept within the facet
-    Q distance_squared, gap;
-    V normal;        // not a unit vector
-    Q size, behind;  // its square; the place behind times its length
-    V closest;
-  };
+  friend FacetSteps;
+  static Q root(const Q& square) { return modern::root(square); }
+  static Q length_of(const Facet<Q>& f) { return root(f.normal_size); }
+  static void weigh(const Q&) {}
 
-  Facet facet(std::size_t k) const {
+  Facet<Q> facet(std::size_t k) const {
     const V &p1 = p_[k], &p2 = p_[(k + 1) % 4];
-    Facet f;
+    Facet<Q> f;
     f.side = k;
     f.normal = cross(p1 - centre_, p2 - centre_);
-    f.size = dot(f.normal, f.normal);
+    f.normal_size = dot(f.normal, f.normal);
     f.behind = dot(f.normal, centre_ - q_);
-    if (CGAL::is_positive(f.size)) {
-      f.a = dot(f.normal, cross(p2 - q_, centre_ - q_)) / f.size;
-      f.b = dot(f.normal, cross(centre_ - q_, p1 - q_)) / f.size;
+    if (CGAL::is_positive(f.normal_size)) {
+      f.a = dot(f.normal, cross(p2 - q_, centre_ - q_)) / f.normal_size;
+      f.b = dot(f.normal, cross(centre_ - q_, p1 - q_)) / f.normal_size;
     }
     const auto c = closest_detail::reference_sub_triangle(q_, centre_, p1, p2);
     f.distance_squared = c.distance_squared;
     f.closest = q_ - c.vector;
-    const auto gap = [&](std::size_t i) { return Q(r_.corner_gap[i % 4]); };
-    const Q middle = r_.triangle ? gap(2) : Q(0.25) * ((gap(0) + gap(1)) + (gap(2) + gap(3)));
-    f.gap = s_ + c.weight_o * middle + c.weight_a * gap(k) + c.weight_b * gap(k + 1);
-    if (r_.most_gap < 1e300 && f.gap > Q(r_.most_gap)) f.gap = Q(r_.most_gap);
+    f.gap = gap_at(k, c.weight_o, c.weight_a, c.weight_b);
     return f;
   }
-
-  void choose_facet() {
-    std::vector<Facet> all;
-    for (std::size_t k = 0; k < (r_.triangle ? 1U : 4U); ++k) all.push_back(facet(k));
-    Q least = all[0].distance_squared;
-    for (const Facet& f : all) least = std::min(least, f.distance_squared);
-    bool found = false;
-    Q best(0);
-    for (const Facet& f : all) {
-      if (f.distance_squared > Q(1.03) * least) continue;
-      Q excess(0);
-      if (CGAL::is_negative(f.a) || CGAL::is_negative(f.b)) {
-        const Q square = CGAL::is_zero(f.size) ? Q(0) : f.behind * f.behind / f.size;
-        excess = std::max(Q(0), Q(f.distance_squared - square));
-      }
-      if (found && excess >= best) continue;
-      found = true;
-      best = excess;
-      f_ = f;
-    }
-    length_ = root(f_.size);
-    behind_ = CGAL::is_zero(f_.size) ? Q(0) : Q(f_.behind / length_);
-  }
-
-  bool thin() const { return r_.kind != FacetRule::Kind::solid || CGAL::is_positive(s_); }
-  Q raw() const {
-    const bool behind = CGAL::is_positive(f_.behind);
-    if (r_.kind != FacetRule::Kind::sheet && behind) return f_.gap + behind_;
-    if (r_.kind == FacetRule::Kind::solid || !(f_.distance_squared < f_.gap * f_.gap)) return Q(0);
+  Q near() const {
+    if (!(f_.distance_squared < f_.gap * f_.gap)) return Q(0);
     return f_.gap - root(f_.distance_squared);
   }
-
-  Q over(std::size_t side) const { return dot(foot_ - p_[side], lift(r_.beta[side])); }
-
-  std::size_t lone_border_corner() const {
-    std::size_t found = 4, count = 0;
-    const auto look = [&](std::size_t k) {
-      if (!r_.border[k]) return;
-      found = k;
-      ++count;
-    };
-    if (r_.triangle) {
-      for (std::size_t k = 0; k < 3; ++k) look(k);
-    } else {
-      look(f_.side);
-      look((f_.side + 1) % 4);
-    }
-    return count == 1 ? found : 4;
-  }
-
-  bool past_bisector(std::size_t side) const {
-    const V out = cross(p_[(side + 1) % 4] - p_[side], lift(r_.beta[side])), to = p_[side] - q_;
+  static bool past_bisector(const V& to, const V& out) {
     const Q along = dot(to, out);
     return CGAL::is_negative(along) &&
            along * along > Q(0.01) * Q(0.01) * dot(to, to) * dot(out, out);
   }
+  bool is_free(std::size_t side) const { return around_.free[side]; }
+  const Vec& beta(std::size_t side) const { return around_.beta[side]; }
+  bool on_border(std::size_t corner) const { return around_.at_corner[corner].border; }
+  const BorderCorner& vertex(std::size_t corner) const { return around_.at_corner[corner]; }
 
-  bool past_corner() const {
-    const std::size_t k = lone_border_corner();
-    if (k == 4 || !thin()) return false;
-    const V h = foot_ - p_[k];
-    return dot(h, lift(r_.first[k])) >= s_ && dot(h, lift(r_.second[k])) >= s_;
-  }
-
-  bool excluded() const {
-    const bool turns = beside_ || !CGAL::is_positive(f_.behind);
-    if (!r_.triangle) {
-      if (r_.free[f_.side] ? thin() && over(f_.side) >= s_ : past_corner()) return true;
-      return turns && past_bisector(f_.side);
-    }
-    bool any_free = false;
-    for (const std::size_t side : {0U, 1U, 3U}) {
-      if (!r_.free[side]) continue;
-      any_free = true;
-      if (thin() && over(side) >= s_) return true;
-    }
-    if (!any_free && past_corner()) return true;
-    for (const std::size_t side : {0U, 1U, 3U})
-      if (turns && !r_.free[side] && past_bisector(side)) return true;
-    return false;
-  }
-
-  bool overhang(V& direction, Q& v, int& times) const {
-    times = 1;
-    if (!r_.triangle && r_.free[f_.side]) {
-      direction = lift(r_.beta[f_.side]);
-      v = over(f_.side);
-      return true;
-    }
-    if (!r_.triangle || (!r_.free[0] && !r_.free[1] && !r_.free[3])) {
-      const std::size_t k = lone_border_corner();
-      if (k == 4) return false;
-      const V h = foot_ - p_[k];
-      const bool first = dot(h, lift(r_.first[k])) < s_, second = dot(h, lift(r_.second[k])) < s_;
-      if (!first && !second) return false;
-      direction = lift(first && second ? r_.both[k] : first ? r_.first[k] : r_.second[k]);
-      v = dot(h, direction);
-      return true;
-    }
-    times = 0;
-    v = s_;
-    for (const std::size_t side : {0U, 1U, 3U}) {
-      if (!r_.free[side]) continue;
-      // As in double: the direction of the last side has its length taken out once more.
-      const V b = lift(side == 3 ? unit(r_.beta[side]) : r_.beta[side]);
-      const Q here = dot(foot_ - (side == 3 ? centre_ : p_[side]), b);
-      if (here >= v) continue;
-      v = here;
-      direction = b;
-      ++times;
-    }
-    return times > 0;
-  }
-
-  void at_border() {
-    V direction;
-    Q v(0);
-    int times = 0;
-    if (!overhang(direction, v, times)) return;
-    for (int i = 0; i < times; ++i)
-      if (r_.ishape == 1)
-        square(v);
-      else if (r_.ishape == 2)
-        cylinder(v, direction);
-  }
-
-  static Q length(const V& v) { return root(dot(v, v)); }
-
-  void square(Q& v) {
-    const Q rim = f_.gap - s_;
-    if (CGAL::is_positive(v) && CGAL::is_negative(behind_ + rim)) {
-      const Q scale = CGAL::is_zero(length_) ? Q(0) : Q(rim / length_);
-      const Q d = length(q_ - (f_.closest + scale * f_.normal));
-      if (d > Q(1e-4)) {
-        depth_ = std::max(Q(0), Q(s_ - d));
-        return;
-      }
-    }
-    v -= s_;
-    if (!CGAL::is_negative(v))
-      depth_ = Q(0);
-    else if (CGAL::is_positive(f_.gap + v))
-      depth_ = -behind_ < f_.gap + v ? Q(-v) : std::max(Q(0), Q(f_.gap + behind_));
-  }
-
-  void cylinder(Q& v, const V& direction) {
-    v -= s_;
-    if (!(CGAL::is_negative(v) && CGAL::is_positive(f_.gap + v))) return;
-    const Q d = length(q_ - (foot_ - (f_.gap + v) * direction));
-    if (d > Q(1e-4)) depth_ = std::max(Q(0), Q(f_.gap - d));
-  }
-
-  const FacetRule& r_;
-  V q_;
-  Q s_;
-  std::array<V, 4> p_;
-  V centre_;
-  Facet f_;
-  Q length_, behind_;
-  V foot_;
-  bool beside_ = false;
-  Q depth_;
+  const FacetRule& around_;
 };
 
 }  // namespace

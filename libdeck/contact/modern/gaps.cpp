@@ -7,7 +7,7 @@
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
-#include "contact/search/margin.hpp"
+#include "contact/search/sweep.hpp"
 
 namespace deck::detail::modern {
 namespace {

@@ -10,7 +10,7 @@
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/search/sweep.hpp"
-#include "contact/shared/removal.hpp"
+#include "contact/shared/sides.hpp"
 
 namespace deck::detail::modern {
 namespace {

@@ -26,14 +26,6 @@ inline Vec unit_of(const Vec& v) {
   return l > 0 ? Vec{v.x / l, v.y / l, v.z / l} : Vec{};
 }
 
-/// Sum of two directions of borders, which the solver has in single precision.
-inline Vec sum_single(const Vec& a, const Vec& b) {
-  const auto sum = [](double u, double v) {
-    return static_cast<double>(static_cast<float>(u) + static_cast<float>(v));
-  };
-  return {sum(a.x, b.x), sum(a.y, b.y), sum(a.z, b.z)};
-}
-
 /// Where a node or segment comes from.
 constexpr std::uint8_t from_first = 1, from_second = 2, from_group = 4;
 
@@ -147,11 +139,7 @@ class Topology {
     std::uint32_t face = no_index, side = 0;
     bool free() const { return face == no_index; }
   };
-  /// Corners of segments that hang together over sides.
-  struct Vertex {
-    bool border = false;
-    Vec first, second;  ///< directions of free sides that end here; null: none
-  };
+  using Vertex = BorderCorner;  ///< corners of segments that hang together over sides
   Across across(std::uint32_t face, std::uint32_t side) const;
   /// Outward where the side is free; in single precision, as the solver has it.
   Vec direction(std::uint32_t face, std::uint32_t side) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/shared/vec.hpp"
+#include "contact/shared/closest.hpp"
 #include "deck/contact/scene.hpp"
 
 namespace deck::detail {

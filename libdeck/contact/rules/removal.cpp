@@ -1,6 +1,6 @@
 // Finds what Irem_gap = 2 takes out: distances grow along the mesh, ring by ring from each main
 // item.
-#include "contact/shared/removal.hpp"
+#include "contact/shared/sides.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/shared/vec.hpp"
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck::detail {
 namespace {

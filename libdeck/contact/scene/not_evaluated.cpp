@@ -1,11 +1,10 @@
 // Finds groups with members that are left out, smoothed sides, and nodes whose transform is not
 // evaluated.
-#include "contact/scene/not_evaluated.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "contact/scene/complete_contacts.hpp"
 #include "deck/text/rule_id.hpp"
 #include "keyword/shared/place.hpp"
 #include "text/shared/columns.hpp"

@@ -12,7 +12,6 @@
 #include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/shared/filtered_decisions.hpp"
-#include "contact/shared/removal.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
 #include "deck/text/rule.hpp"

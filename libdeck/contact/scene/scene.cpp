@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <type_traits>
 
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/rules/gaps.hpp"
-#include "contact/scene/finish.hpp"
+#include "contact/scene/complete_contacts.hpp"
 #include "contact/shared/filtered_decisions.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/tie_parts.hpp"
@@ -85,31 +86,26 @@ class Builder {
       : c_(context),
         selections_(selections),
         threads_(effective_threads(context.options.threads)),
-        not_evaluated_(context.model, selections),
-        finisher_(
-            context, not_evaluated_, [this](detail::OpenContact& open) { conclude(open); },
-            [this](std::size_t finished) { show_progress(finished); }) {}
+        not_evaluated_(context.model, selections) {}
 
   void build() {
-    std::size_t most_contacts = 0;
     for (const InterBase* base : c_.scene.interfaces->ordered) {
       if (!wanted(*base)) continue;
-      most_contacts += 3;
       ++total_;
       if (base->type != 19) continue;
       const auto& i = static_cast<const InterType19&>(*base);
       total_ += sides(i).first == sides(i).second ? 1 : 2;
     }
-    c_.scene.contacts.reserve(most_contacts);  // others are finished while some are added
-    finisher_.run([this] { select(); });
+    select();
+    complete();
     // The solver looks at these two types after all others, and after the ties.
     for (const InterBase* base : c_.scene.interfaces->ordered) {
       if (!wanted(*base) || (base->type != 24 && base->type != 25)) continue;
       detail::modern::build_contacts(c_, selections_, *base, [this](Contact& contact) {
         report_empty_sides(contact, selections_.complete());
         report(contact,
-               detail::obstacle_to(c_, not_evaluated_, not_evaluated_.reason_in_card(contact),
-                                   selections_.complete(), contact));
+               detail::check_evaluation(c_, not_evaluated_, not_evaluated_.reason_in_card(contact),
+                                        selections_.complete(), contact));
         return contact.evaluated;
       });
       step();
@@ -178,7 +174,7 @@ class Builder {
     } else if (surface) {
       set_secondary(contact, selections_.nodes_of(surface->segments));
     }
-    finish(std::move(contact), card, surface);
+    add(std::move(contact), card, surface);
   }
 
   void type10(const InterType10& i) {
@@ -186,7 +182,7 @@ class Builder {
     Contact contact = make_contact(card, 10, ContactRole::primary);
     if (const NodeSet* group = selections_.node_group(i.grnd_IDs.value))
       set_secondary(contact, group->nodes);
-    finish(std::move(contact), card, selections_.outline(i.surf_IDm.value));
+    add(std::move(contact), card, selections_.outline(i.surf_IDm.value));
   }
 
   void type11(const InterType11& i) {
@@ -196,7 +192,7 @@ class Builder {
     if (const LineSet* line = selections_.line(i.line_IDs.value))
       set_edges(contact.secondary_edges, line->edges);
     if (const LineSet* line = selections_.line(main)) set_edges(contact.main_edges, line->edges);
-    finish(std::move(contact), card, {});
+    add(std::move(contact), card, {});
   }
 
   void type19_nodes(const InterType19& i, ContactRole role) {
@@ -209,7 +205,7 @@ class Builder {
     set_secondary(contact, nodes_of_surface(from));
     // Nodes and edges of a set are wanted later: its segments are formed with them.
     if (!selections_.is_plain("surf", to)) selections_.set(to);
-    finish(std::move(contact), card, selections_.outline(to));
+    add(std::move(contact), card, selections_.outline(to));
   }
 
   void type19_edges(const InterType19& i) {
@@ -221,7 +217,7 @@ class Builder {
     set_edges(contact.secondary_edges, edges_of_surface(s, free_only));
     set_edges(contact.main_edges, edges_of_surface(m, free_only));
     contact.dropped = selections_.complete() && (contact.secondary_empty() || contact.main_empty());
-    if (!contact.dropped) return finish(std::move(contact), card, {});
+    if (!contact.dropped) return add(std::move(contact), card, {});
     contact.secondary_edges.clear();
     contact.main_edges.clear();
     c_.scene.contacts.push_back(std::move(contact));
@@ -270,36 +266,42 @@ class Builder {
     }
   }
 
-  /// Adds a contact whose members are known. It is finished with those that follow, next to each
+  /// Adds a contact whose members are known. It is completed with those that follow, next to each
   /// other, where there are threads for it. Inacti 3 moves nodes: contacts before do not see it.
-  void finish(Contact contact, const Card& card, std::optional<SurfaceOutline> surface) {
+  void add(Contact contact, const Card& card, std::optional<SurfaceOutline> surface) {
     const bool moves_nodes = contact.inacti == 3;
     if (moves_nodes) {
-      finisher_.finish_all();
+      complete();
       c_.all_placed = false;
     }
-    detail::OpenContact open;
-    open.place = c_.scene.contacts.size();
-    open.surface = std::move(surface);
-    open.gapmin = card.gapmin;
-    open.drad = card.drad;
-    open.thermal = card.thermal;
-    open.complete = selections_.complete();
-    if (c_.options.penetrations) open.card_reason = not_evaluated_.reason_in_card(contact);
+    detail::PendingContact pending;
+    pending.place = c_.scene.contacts.size();
+    pending.surface = std::move(surface);
+    pending.gapmin = card.gapmin;
+    pending.drad = card.drad;
+    pending.thermal = card.thermal;
+    pending.complete = selections_.complete();
+    if (c_.options.penetrations) pending.card_reason = not_evaluated_.reason_in_card(contact);
     c_.scene.contacts.push_back(std::move(contact));
-    finisher_.add(std::move(open));
-    if (moves_nodes) finisher_.finish_all();
+    pending_.push_back(std::move(pending));
+    if (moves_nodes || threads_ == 1) complete();
   }
 
-  /// Of a finished contact.
-  void conclude(detail::OpenContact& open) {
-    const Contact& contact = c_.scene.contacts[open.place];
+  /// Completes the contacts added since, and reports what was found, in their order.
+  void complete() {
+    detail::complete_contacts(c_, not_evaluated_, pending_,
+                              [this](std::size_t ahead) { show_progress(ahead); });
+    for (detail::PendingContact& pending : pending_) conclude(pending);
+    pending_.clear();
+  }
+  void conclude(detail::PendingContact& pending) {
+    const Contact& contact = c_.scene.contacts[pending.place];
     if (c_.options.penetrations) {
-      report_empty_sides(contact, open.complete);
-      report(contact, open.obstacle);
+      report_empty_sides(contact, pending.complete);
+      report(contact, pending.failure);
     }
-    c_.diagnostics.merge(std::move(open.found));
-    detail::add_decisions(open.decisions, open.place, c_.scene.decisions);
+    c_.diagnostics.merge(std::move(pending.found));
+    detail::add_decisions(pending.decisions, pending.place, c_.scene.decisions);
     step();
   }
 
@@ -307,7 +309,7 @@ class Builder {
     ++done_;
     show_progress(0);
   }
-  /// `ahead`: finished, but not concluded. What was shown once is not taken back.
+  /// `ahead`: complete, but not concluded. What was shown once is not taken back.
   void show_progress(std::size_t ahead) {
     if (done_ + ahead <= shown_) return;
     shown_ = done_ + ahead;
@@ -344,8 +346,8 @@ class Builder {
     c_.diagnostics.report(std::move(d));
   }
 
-  void report(const Contact& contact, const detail::Obstacle& obstacle) {
-    const auto& [why, severity, of_interface] = obstacle;
+  void report(const Contact& contact, const detail::EvaluationFailure& failure) {
+    const auto& [why, severity, of_interface] = failure;
     if (why.empty() || (of_interface && !reported_.insert(contact.inter).second)) return;
     const std::string keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
     Case particular{.severity = severity};
@@ -368,7 +370,7 @@ class Builder {
   detail::NotEvaluated not_evaluated_;
   std::set<const InterBase*> reported_;           ///< interfaces whose reason was reported
   std::size_t done_ = 0, shown_ = 0, total_ = 0;  ///< contacts
-  detail::Finisher finisher_;
+  std::vector<detail::PendingContact> pending_;
 };
 
 void copy_coordinates(const Nodes& nodes, Coordinates& out, int threads) {
@@ -453,6 +455,44 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics&
     scene.examined = Examined::contacts_and_ties;
   }
   return scene;
+}
+
+// ---- what contacts derived from the mesh, back in the fields of their interfaces ----------------
+
+const Contact* first_contact(const Scene& scene, const InterBase& inter) {
+  for (const Contact& c : scene.contacts)
+    if (c.inter == &inter && !c.dropped) return &c;
+  return nullptr;
+}
+
+double geometry_value(const Contact& contact, std::string_view field) {
+  return field == "Drad" ? contact.drad : contact.gapmin;
+}
+
+bool waits_for_geometry(const Interfaces& interfaces) {
+  bool waits = false;
+  for (const InterBase* inter : interfaces.ordered)
+    if (!inter->resolved)
+      visit_interface(*inter, [&](const auto& t) {
+        t.for_each([&](std::string_view, const auto& e) {
+          waits = waits || e.origin == Origin::geometry;
+        });
+      });
+  return waits;
+}
+
+void resolve(Interfaces& interfaces, const Scene& scene) {
+  interfaces.each_list([&](auto& list) {
+    for (auto& inter : list) {
+      const Contact* const contact = first_contact(scene, inter);
+      if (contact == nullptr) continue;
+      inter.for_each([&](std::string_view name, auto& field) {
+        if constexpr (std::is_same_v<decltype(field), EffectiveReal&>)
+          if (field.origin == Origin::geometry) field.value = geometry_value(*contact, name);
+      });
+      inter.resolved = true;
+    }
+  });
 }
 
 }  // namespace deck

@@ -5,7 +5,6 @@
 
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
-#include "contact/search/margin.hpp"
 
 namespace deck::detail {
 

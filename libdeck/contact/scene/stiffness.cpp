@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/shared/parallel.hpp"
-#include "contact/search/margin.hpp"
+#include "contact/search/sweep.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "model/shared/faces.hpp"
 

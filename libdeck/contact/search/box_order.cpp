@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "contact/search/box_tree.hpp"
-#include "contact/search/margin.hpp"
 
 namespace deck::order_detail {
 namespace {

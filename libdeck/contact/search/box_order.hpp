@@ -10,9 +10,14 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "deck/contact/closest.hpp"
+#include "deck/base/point3.hpp"
 
 namespace deck {
+
+// Threads for a loop that does little for each of `count` things. A thread takes as long to start
+// as some thousand of them, and to wait for it where other programs have the processors much
+// longer.
+inline int threads_for(std::size_t count, int threads) { return count < 32768 ? 1 : threads; }
 
 // Where a thing is, and its size class (0..7): things of different class are never mixed.
 struct Place {

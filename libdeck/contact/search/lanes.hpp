@@ -1,35 +1,100 @@
-// The inner loops of the pair search on vectors of DECK_LANES doubles. No include guard on
-// purpose: kernels.cpp includes this text once per instruction set, each time inside a
-// namespace of its own. The arithmetic is that of closest_on_segment, operation by operation, so
-// that every version gives the same bits.
+// The inner loops of the pair search as templates on the registers R of an instruction set. The
+// arithmetic is that of closest_on_segment, operation by operation, and contraction is off: every
+// instruction set gives the same bits. kernels.cpp has all of a sweep compiled into one function
+// for each; what is called by name only (growth of lists, the robust formula) stays as it is.
+#pragma once
 
-typedef double Lanes __attribute__((vector_size(8 * DECK_LANES)));
-typedef long long LaneMask __attribute__((vector_size(8 * DECK_LANES)));
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <vector>
 
-inline Lanes load(const double* from) {
-  Lanes v;
-  __builtin_memcpy(&v, from, sizeof v);
+#include "contact/search/sweep.hpp"
+#include "contact/shared/closest.hpp"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+// Nothing is passed in registers where all is compiled into one function.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace deck::sweep {
+
+// The four sub-triangles of a segment side by side.
+typedef double Subs __attribute__((vector_size(32)));
+typedef long long SubMask __attribute__((vector_size(32)));
+
+// Registers of N doubles, or twice as many floats and numbers of nodes.
+template <unsigned N>
+struct Registers {
+  static constexpr unsigned lanes = N;
+  typedef double Real __attribute__((vector_size(8 * N)));
+  typedef long long Mask __attribute__((vector_size(8 * N)));
+  typedef float Single __attribute__((vector_size(8 * N)));
+  typedef std::int32_t SingleMask __attribute__((vector_size(8 * N)));
+  typedef std::uint32_t Id __attribute__((vector_size(8 * N)));
+};
+// Those that every processor of the kind has.
+struct TwoLanes : Registers<2> {
+#if defined(__x86_64__)
+  static unsigned bits(const Mask& m) {
+    return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(m)));
+  }
+  static unsigned bits(const SingleMask& m) {
+    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(m)));
+  }
+#else
+  template <class M>
+  static unsigned bits(const M& m) {
+    unsigned out = 0;
+    for (unsigned k = 0; k < sizeof m / sizeof m[0]; ++k) out |= unsigned{m[k] != 0} << k;
+    return out;
+  }
+#endif
+  static bool any(const SubMask& m) { return (m[0] | m[1] | m[2] | m[3]) != 0; }
+};
+
+#if defined(__x86_64__)
+// For functions that are compiled for AVX2.
+struct FourLanes : Registers<4> {
+  [[gnu::target("avx2")]] static unsigned bits(const Mask& m) {
+    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(m)));
+  }
+  [[gnu::target("avx2")]] static unsigned bits(const SingleMask& m) {
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(m)));
+  }
+  [[gnu::target("avx2")]] static bool any(const SubMask& m) { return bits(m) != 0; }
+};
+#endif
+
+template <class V, class T>
+V load(const T* from) {
+  V v;
+  std::memcpy(&v, from, sizeof v);
   return v;
 }
-inline void store(double* to, Lanes v) { __builtin_memcpy(to, &v, sizeof v); }
-inline Lanes all(double value) { return value - Lanes{}; }
-inline Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
-
-typedef float Floats __attribute__((vector_size(8 * DECK_LANES)));
+template <class V>
+V larger(const V& a, const V& b) {
+  return a > b ? a : b;
+}
 
 // Which of eight boxes overlap box `b`, as bit mask.
-inline unsigned overlaps(const BoxBlock& block, const FloatBox& b) {
+template <class R>
+unsigned overlaps(const BoxBlock& block, const FloatBox& b) {
   unsigned bits = 0;
-  for (unsigned c = 0; c < BoxBlock::width; c += 2 * DECK_LANES) {
-    const auto floats = [c](const std::array<float, BoxBlock::width>& from) {
-      Floats v;
-      __builtin_memcpy(&v, &from[c], sizeof v);
-      return v;
+  for (unsigned c = 0; c < BoxBlock::width; c += 2 * R::lanes) {
+    const auto meets = [&](std::size_t k) -> typename R::SingleMask {
+      using Single = typename R::Single;
+      return (load<Single>(&block.low[k][c]) <= b.high[k]) &
+             (load<Single>(&block.high[k][c]) >= b.low[k]);
     };
-    auto in = (floats(block.low[0]) <= b.high[0]) & (floats(block.high[0]) >= b.low[0]);
-    in &= (floats(block.low[1]) <= b.high[1]) & (floats(block.high[1]) >= b.low[1]);
-    in &= (floats(block.low[2]) <= b.high[2]) & (floats(block.high[2]) >= b.low[2]);
-    bits |= DECK_ID_BITS(in) << c;
+    const typename R::SingleMask in = meets(0) & meets(1) & meets(2);
+    bits |= R::bits(in) << c;
   }
   return bits;
 }
@@ -40,6 +105,7 @@ struct Hit {
   std::uint32_t mask;
 };
 
+template <class R>
 struct Walk {
   struct Step {
     std::uint32_t level, block;
@@ -53,7 +119,7 @@ struct Walk {
   void keep_near(const std::vector<BoxBlock>& leaves, const FloatBox& b) {
     near.clear();
     for (const Hit& hit : hits)
-      if (const unsigned mask = overlaps(leaves[hit.block], b) & hit.mask; mask != 0)
+      if (const unsigned mask = overlaps<R>(leaves[hit.block], b) & hit.mask; mask != 0)
         near.push_back({hit.block, mask});
   }
 
@@ -63,7 +129,7 @@ struct Walk {
     steps[0] = {static_cast<std::uint32_t>(tree.levels() - 1), 0};
     while (waiting > 0) {
       const auto [level, block] = steps[--waiting];
-      unsigned mask = overlaps(tree.level(level)[block], b);
+      unsigned mask = overlaps<R>(tree.level(level)[block], b);
       if (level == 0) {
         if (mask != 0) hits.push_back({block, mask});
         continue;
@@ -118,49 +184,40 @@ struct Shape {
 };
 
 // Which points of a leaf may be within `r` of a segment: within r of its box and of its slab.
-inline unsigned near_points(const PointBlock& p, const Shape& s, double r) {
+template <class R>
+unsigned near_points(const PointBlock& p, const Shape& s, double r) {
+  using Real = typename R::Real;
   unsigned bits = 0;
-  const Lanes zero = all(0.0), limit = all(r * r);
-  for (unsigned c = 0; c < PointBlock::width; c += DECK_LANES) {
-    const Lanes x = load(&p.x[c]), y = load(&p.y[c]), z = load(&p.z[c]);
-    const Lanes dx = larger(larger(s.box.low[0] - x, x - s.box.high[0]), zero);
-    const Lanes dy = larger(larger(s.box.low[1] - y, y - s.box.high[1]), zero);
-    const Lanes dz = larger(larger(s.box.low[2] - z, z - s.box.high[2]), zero);
-    const Lanes h = s.normal.x * x + s.normal.y * y + s.normal.z * z;
-    LaneMask in = (dx * dx + dy * dy + dz * dz <= limit);
-    in &= (h >= all(s.slab_low - r));
-    in &= (h <= all(s.slab_high + r));
-    bits |= DECK_LANE_BITS(in) << c;
+  for (unsigned c = 0; c < PointBlock::width; c += R::lanes) {
+    const Real x = load<Real>(&p.x[c]), y = load<Real>(&p.y[c]), z = load<Real>(&p.z[c]), zero{};
+    const Real dx = larger<Real>(larger<Real>(s.box.low[0] - x, x - s.box.high[0]), zero);
+    const Real dy = larger<Real>(larger<Real>(s.box.low[1] - y, y - s.box.high[1]), zero);
+    const Real dz = larger<Real>(larger<Real>(s.box.low[2] - z, z - s.box.high[2]), zero);
+    const Real h = s.normal.x * x + s.normal.y * y + s.normal.z * z;
+    const typename R::Mask in =
+        (dx * dx + dy * dy + dz * dz <= r * r) & (h >= s.slab_low - r) & (h <= s.slab_high + r);
+    bits |= R::bits(in) << c;
   }
   return bits;
 }
 
 // Which nodes of a leaf are corners of a segment.
-typedef std::uint32_t Ids __attribute__((vector_size(8 * DECK_LANES)));
-
-inline unsigned own_points(const std::uint32_t* nodes,
-                           const std::array<std::uint32_t, 4>& corners) {
+template <class R>
+unsigned own_points(const std::uint32_t* nodes, const std::array<std::uint32_t, 4>& corners) {
   unsigned bits = 0;
-  for (unsigned c = 0; c < PointBlock::width; c += 2 * DECK_LANES) {
-    Ids ids;
-    __builtin_memcpy(&ids, nodes + c, sizeof ids);
-    const auto own =
+  for (unsigned c = 0; c < PointBlock::width; c += 2 * R::lanes) {
+    const auto ids = load<typename R::Id>(nodes + c);
+    const typename R::SingleMask own =
         (ids == corners[0]) | (ids == corners[1]) | (ids == corners[2]) | (ids == corners[3]);
-    bits |= DECK_ID_BITS(own) << c;
+    bits |= R::bits(own) << c;
   }
   return bits;
 }
-
-// The four sub-triangles of a segment side by side.
-typedef double Subs __attribute__((vector_size(32)));
-typedef long long SubMask __attribute__((vector_size(32)));
 
 struct SubPoint {
   Subs x, y, z;
 };
 
-// Results by reference: vectors are not returned, as how is another matter in every instruction
-// set.
 inline void dot(const SubPoint& a, const SubPoint& b, Subs& out) {
   out = a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -287,10 +344,11 @@ struct Threshold {
 };
 
 // The smallest of the four distances is below the limit if any is.
-inline bool any_below(const Subs& squared, const Threshold& t) {
+template <class R>
+bool any_below(const Subs& squared, const Threshold& t) {
   const Subs zero{};
-  const bool certain = DECK_SUB_BITS((squared < zero + t.low)) != 0;
-  const bool possible = DECK_SUB_BITS((squared < zero + t.high)) != 0;
+  const bool certain = R::any(squared < zero + t.low);
+  const bool possible = R::any(squared < zero + t.high);
   if (certain == possible) [[likely]]
     return certain;
   for (unsigned k = 0; k < 4; ++k) {
@@ -299,7 +357,15 @@ inline bool any_below(const Subs& squared, const Threshold& t) {
   return false;
 }
 
+// Rarely asked for: called, not compiled in.
+[[gnu::noinline]] inline double robust_distance(const Point3<double>& p,
+                                                const std::array<Point3<double>, 4>& corners,
+                                                bool triangle) {
+  return closest_on_segment<Form::robust>(p, corners, triangle).distance();
+}
+
 // Tests points against one segment.
+template <class R>
 struct SegmentTest {
   const NodeSweep& w;
   const Shape& shape;
@@ -331,10 +397,10 @@ struct SegmentTest {
     const RobustLimit bound(zero + most, zero + shape.largest);
     SubMask below, not_below;
     bound.judge(offsets, below, not_below);
-    if (DECK_SUB_BITS(~not_below) == 0) [[likely]]
+    if (!R::any(~not_below)) [[likely]]
       return false;
-    if (DECK_SUB_BITS(below) != 0) return true;
-    return closest_on_segment<Form::robust>(p, shape.corner, shape.triangle).distance() < most;
+    if (R::any(below)) return true;
+    return robust_distance(p, shape.corner, shape.triangle) < most;
   }
 
   void point(const PointBlock& leaf, std::uint32_t rank, Found& found) {
@@ -348,7 +414,7 @@ struct SegmentTest {
     }
     ++found.tested;
     const Offsets offsets = sub.offsets(p);
-    const bool near = reference ? any_below(offsets.squared, threshold)
+    const bool near = reference ? any_below<R>(offsets.squared, threshold)
                                 : robust_below(p, offsets, threshold.limit);
     const CandidatePair pair{w.items[rank], segment};
     found.pairs.push_if(near, pair);
@@ -361,13 +427,14 @@ struct SegmentTest {
 // The part of a group's walk that belongs to one segment. Masks of eight blocks, then of eight
 // leaves, are put together into words of 64 bits: few long loops are predicted better than many
 // short ones. `box`: the wide one of the shape.
-inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, const Shape& s,
-                          const FloatBox& box, std::uint32_t segment, Found& found) {
+template <class R>
+void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, const Shape& s,
+                   const FloatBox& box, std::uint32_t segment, Found& found) {
   const std::vector<BoxBlock>& blocks = w.tree.level(0);
   const auto last_leaf = static_cast<std::uint32_t>(w.points.size() - 1);
   const unsigned last_bits = (2U << ((w.items.size() - 1) % 8)) - 1U;
   const std::array<std::uint32_t, 4>& corners = w.input->segments[segment];
-  std::optional<SegmentTest> test;  // most segments have nothing near but their own corners
+  std::optional<SegmentTest<R>> test;  // most segments have nothing near but their own corners
   std::array<std::uint32_t, 8> leaf;
   unsigned leaves = 0;
   std::uint64_t points = 0;
@@ -385,14 +452,15 @@ inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, cons
     std::uint64_t masks = 0;
     for (std::size_t k = 0; k < count; ++k) {
       const Hit& hit = hits[first + k];
-      masks |= std::uint64_t{overlaps(blocks[hit.block], box) & hit.mask} << (8 * k);
+      masks |= std::uint64_t{overlaps<R>(blocks[hit.block], box) & hit.mask} << (8 * k);
     }
     for (; masks != 0; masks &= masks - 1) {
       const auto bit = static_cast<unsigned>(__builtin_ctzll(masks));
       const std::uint32_t i = hits[first + bit / 8].block * 8 + bit % 8;
-      unsigned bits = near_points(w.points[i], s, Reach::widened(s.reach + w.reach[i], s.largest));
+      unsigned bits =
+          near_points<R>(w.points[i], s, Reach::widened(s.reach + w.reach[i], s.largest));
       if (i == last_leaf) bits &= last_bits;
-      bits &= ~own_points(&w.nodes[std::size_t{i} * 8], corners);
+      bits &= ~own_points<R>(&w.nodes[std::size_t{i} * 8], corners);
       points |= std::uint64_t{bits} << (8 * leaves);
       leaf[leaves] = i;
       leaves += bits != 0;
@@ -402,10 +470,11 @@ inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, cons
   test_points();
 }
 
-inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, Found& found) {
+template <class R>
+void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, Found& found) {
   if (w.tree.levels() == 0) return;
   const NodeSegmentInput& in = *w.input;
-  Walk walk;
+  Walk<R> walk;
   std::array<Shape, items_at_once> shapes;
   std::array<FloatBox, items_at_once> boxes;
   for (std::size_t first = begin; first < end; first += items_at_once) {
@@ -436,7 +505,7 @@ inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, 
     for (std::size_t i = 0; i < count; ++i) {
       if (found.full()) return;
       if (!shared) walk.find(w.tree, boxes[i]);
-      sweep_segment(w, walk.hits, shapes[i], boxes[i], w.segments[first + i], found);
+      sweep_segment<R>(w, walk.hits, shapes[i], boxes[i], w.segments[first + i], found);
     }
   }
 }
@@ -497,79 +566,86 @@ inline void near_distances(const NodeSegmentInput& in, std::span<const Candidate
 }
 
 // Which of eight segments have a node of an edge.
-inline unsigned with_node(const CornerBlock& corners, const EdgeNodes& edge) {
+template <class R>
+unsigned with_node(const CornerBlock& corners, const EdgeNodes& edge) {
   unsigned bits = 0;
-  for (unsigned c = 0; c < 8; c += 2 * DECK_LANES) {
-    Ids ids;
-    __builtin_memcpy(&ids, &corners.node[0][c], sizeof ids);
-    auto any = (ids == edge[0]) | (ids == edge[1]);
-    for (unsigned k = 1; k < 4; ++k) {
-      __builtin_memcpy(&ids, &corners.node[k][c], sizeof ids);
+  for (unsigned c = 0; c < 8; c += 2 * R::lanes) {
+    typename R::SingleMask any{};
+    for (const auto& nodes : corners.node) {
+      const auto ids = load<typename R::Id>(&nodes[c]);
       any |= (ids == edge[0]) | (ids == edge[1]);
     }
-    bits |= DECK_ID_BITS(any) << c;
+    bits |= R::bits(any) << c;
   }
   return bits;
 }
 
-// Boxes first, first+1, ... of a list against a tree: as one if they lie together, else by halves.
+// Boxes begin ... end-1 of a list against a tree: as one if they lie together, else by halves.
 // dropped(block, box): bit mask of leaves that are not wanted.
-template <class Dropped>
-inline void meet_some(const BoxTree& tree, std::span<const FloatBox> boxes, std::size_t first,
-                      const Dropped& dropped, Walk& walk, std::vector<Meeting>& out) {
-  FloatBox group;
-  double sizes = 0.0;
-  for (const FloatBox& b : boxes) {
-    group.add(b);
-    sizes += b.size();
-  }
-  if (boxes.size() > 1 && !worth_sharing(group.size(), sizes)) {
-    const std::size_t half = boxes.size() / 2;
-    meet_some(tree, boxes.first(half), first, dropped, walk, out);
-    meet_some(tree, boxes.subspan(half), first + half, dropped, walk, out);
-    return;
-  }
-  const std::vector<BoxBlock>& leaves = tree.level(0);
-  walk.find(tree, group);
-  for (std::size_t i = 0; i < boxes.size();) {
-    const std::size_t end = std::min(boxes.size(), i + items_at_once);
-    FloatBox some;
-    for (std::size_t k = i; k < end; ++k) some.add(boxes[k]);
-    walk.keep_near(leaves, some);
-    for (; i < end; ++i)
-      for (const Hit& hit : walk.near) {
-        unsigned mask = overlaps(leaves[hit.block], boxes[i]) & hit.mask;
-        if (mask == 0) continue;
-        for (mask &= ~dropped(hit.block, first + i); mask != 0; mask &= mask - 1)
-          out.push_back({static_cast<std::uint32_t>(first + i),
-                         hit.block * 8 + static_cast<std::uint32_t>(__builtin_ctz(mask))});
-      }
-  }
-}
-
-template <class Dropped>
-inline void meet(const BoxTree& tree, std::span<const Box> boxes, const Dropped& dropped,
-                 std::vector<Meeting>& out) {
+template <class R, class Dropped>
+void meet(const BoxTree& tree, std::span<const Box> boxes, const Dropped& dropped,
+          std::vector<Meeting>& out) {
   if (tree.levels() == 0) return;
-  Walk walk;
+  const std::vector<BoxBlock>& leaves = tree.level(0);
+  Walk<R> walk;
   // A walk costs more than tests of some boxes more.
-  std::array<FloatBox, 4 * items_at_once> some;
-  for (std::size_t first = 0; first < boxes.size(); first += some.size()) {
-    const std::size_t count = std::min(some.size(), boxes.size() - first);
+  constexpr std::size_t most = 4 * items_at_once;
+  std::array<FloatBox, most> some;
+  struct Range {
+    std::size_t begin, end;
+  };
+  std::array<Range, most> open;  // the next one last
+  for (std::size_t first = 0; first < boxes.size(); first += most) {
+    const std::size_t count = std::min(most, boxes.size() - first);
     for (std::size_t i = 0; i < count; ++i) some[i] = tree.rounded(boxes[first + i]);
-    meet_some(tree, std::span(some).first(count), first, dropped, walk, out);
+    open[0] = {0, count};
+    for (std::size_t waiting = 1; waiting > 0;) {
+      const auto [begin, end] = open[--waiting];
+      FloatBox group;
+      double sizes = 0.0;
+      for (std::size_t i = begin; i < end; ++i) {
+        group.add(some[i]);
+        sizes += some[i].size();
+      }
+      if (end - begin > 1 && !worth_sharing(group.size(), sizes)) {
+        const std::size_t middle = begin + (end - begin) / 2;
+        open[waiting++] = {middle, end};
+        open[waiting++] = {begin, middle};
+        continue;
+      }
+      walk.find(tree, group);
+      for (std::size_t i = begin; i < end;) {
+        const std::size_t stop = std::min(end, i + items_at_once);
+        FloatBox near;
+        for (std::size_t k = i; k < stop; ++k) near.add(some[k]);
+        walk.keep_near(leaves, near);
+        for (; i < stop; ++i)
+          for (const Hit& hit : walk.near) {
+            unsigned mask = overlaps<R>(leaves[hit.block], some[i]) & hit.mask;
+            if (mask == 0) continue;
+            for (mask &= ~dropped(hit.block, first + i); mask != 0; mask &= mask - 1)
+              out.push_back({static_cast<std::uint32_t>(first + i),
+                             hit.block * 8 + static_cast<std::uint32_t>(__builtin_ctz(mask))});
+          }
+      }
+    }
   }
 }
 
-inline void meet_boxes(const BoxTree& tree, std::span<const Box> boxes, std::vector<Meeting>& out) {
-  meet(
+template <class R>
+void meet_boxes(const BoxTree& tree, std::span<const Box> boxes, std::vector<Meeting>& out) {
+  meet<R>(
       tree, boxes, [](std::uint32_t, std::size_t) { return 0U; }, out);
 }
 
-inline void meet_edges(const BoxTree& tree, std::span<const CornerBlock> corners,
-                       std::span<const Box> boxes, std::span<const EdgeNodes> edges,
-                       std::vector<Meeting>& out) {
-  meet(
+template <class R>
+void meet_edges(const BoxTree& tree, std::span<const CornerBlock> corners,
+                std::span<const Box> boxes, std::span<const EdgeNodes> edges,
+                std::vector<Meeting>& out) {
+  meet<R>(
       tree, boxes,
-      [&](std::uint32_t block, std::size_t i) { return with_node(corners[block], edges[i]); }, out);
+      [&](std::uint32_t block, std::size_t i) { return with_node<R>(corners[block], edges[i]); },
+      out);
 }
+
+}  // namespace deck::sweep

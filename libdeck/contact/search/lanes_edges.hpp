@@ -1,5 +1,16 @@
-// The inner loop of the edge search; included after lanes.hpp, once per instruction set as that is,
-// and without an include guard for the same reason.
+// The inner loop of the edge search, as those of lanes.hpp.
+#pragma once
+
+#include "contact/search/lanes.hpp"
+
+namespace deck::sweep {
+
+// Rarely asked for: called, not compiled in.
+[[gnu::noinline]] inline double robust_distance(const Point3<double>& s1, const Point3<double>& s2,
+                                                const Point3<double>& m1,
+                                                const Point3<double>& m2) {
+  return closest_between_edges<Form::robust>(s1, s2, m1, m2).distance;
+}
 
 // Secondary edges waiting for the distance to one main edge, four at a time.
 struct EdgeTest {
@@ -67,8 +78,7 @@ struct EdgeTest {
       if ((which >> k & 1U) == 0 || !(limits[k] > 0.0) || no[k] != 0) continue;
       const auto s = w.input->secondary[item[k]];
       if (yes[k] != 0 ||
-          closest_between_edges<Form::robust>(point(nodes, s[0]), point(nodes, s[1]), m1, m2)
-                  .distance < limits[k])
+          robust_distance(point(nodes, s[0]), point(nodes, s[1]), m1, m2) < limits[k])
         sink.push({item[k], edge});
     }
   }
@@ -133,12 +143,13 @@ struct EdgeTest {
 };
 
 // The part of a group's walk that belongs to one main edge.
-inline void sweep_edge(const EdgeSweep& w, const std::vector<Hit>& hits, const FloatBox& box,
-                       std::uint32_t edge, Found& found) {
+template <class R>
+void sweep_edge(const EdgeSweep& w, const std::vector<Hit>& hits, const FloatBox& box,
+                std::uint32_t edge, Found& found) {
   const std::vector<BoxBlock>& leaves = w.tree.level(0);
   EdgeTest test(w, edge);
   for (const Hit& hit : hits) {
-    unsigned mask = overlaps(leaves[hit.block], box) & hit.mask;
+    unsigned mask = overlaps<R>(leaves[hit.block], box) & hit.mask;
     for (; mask != 0; mask &= mask - 1) {
       test.add(w.items[hit.block * 8 + static_cast<std::size_t>(__builtin_ctz(mask))], found);
     }
@@ -146,10 +157,11 @@ inline void sweep_edge(const EdgeSweep& w, const std::vector<Hit>& hits, const F
   test.flush(found);
 }
 
-inline void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, Found& found) {
+template <class R>
+void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, Found& found) {
   if (w.tree.levels() == 0) return;
   const EdgeEdgeInput& in = *w.input;
-  Walk walk;
+  Walk<R> walk;
   std::array<FloatBox, items_at_once> boxes;
   for (std::size_t first = begin; first < end; first += items_at_once) {
     const std::size_t count = std::min(items_at_once, end - first);
@@ -167,7 +179,9 @@ inline void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, 
     for (std::size_t i = 0; i < count; ++i) {
       if (found.full()) return;
       if (!shared) walk.find(w.tree, boxes[i]);
-      sweep_edge(w, walk.hits, boxes[i], w.mains[first + i], found);
+      sweep_edge<R>(w, walk.hits, boxes[i], w.mains[first + i], found);
     }
   }
 }
+
+}  // namespace deck::sweep

@@ -1,5 +1,5 @@
 // What the sweeps of the pair search share: the packed points, the shape of one segment, the
-// sinks, and the table of sweeps by instruction set.
+// sinks, and the table of sweeps by instruction set; and margins of the reference solver.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,31 @@
 #include "contact/search/box_tree.hpp"
 #include "deck/contact/search.hpp"
 
-namespace deck::sweep {
+namespace deck {
+
+namespace detail {
+
+/// Length of the edge between nodes a and b; the squares of its parts may overflow.
+inline double edge_length(const NodeArrays& nodes, std::uint32_t a, std::uint32_t b) {
+  const auto point = [&](std::uint32_t i) {
+    return Point3<double>{nodes.x[i], nodes.y[i], nodes.z[i]};
+  };
+  return deck::length(point(b) - point(a));
+}
+
+/// The solver's margin from the sum of the lengths of `count` edges.
+inline double margin_of(double sum, std::size_t count) {
+  constexpr double factor = static_cast<double>(0.2F);
+  return factor * (sum / static_cast<double>(count));
+}
+
+}  // namespace detail
+
+/// As candidate_margin without threads: the same sum, digit for digit, for any number of them.
+double candidate_margin(const NodeArrays& nodes,
+                        std::span<const std::array<std::uint32_t, 4>> segments, int threads);
+
+namespace sweep {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -78,7 +102,7 @@ class Sink {
   }
 
  private:
-  void grow() {
+  [[gnu::noinline]] void grow() {
     fill_ = 0;
     if (allowance_ != nullptr && !chunks_.empty() &&
         allowance_->fetch_sub(static_cast<std::int64_t>(chunk_items)) <
@@ -413,4 +437,5 @@ BothForms find_both_forms(const NodeSegmentInput& input, const SearchOptions& op
 BothForms find_both_forms(const EdgeEdgeInput& input, const SearchOptions& options,
                           double robust_margin);
 
-}  // namespace deck::sweep
+}  // namespace sweep
+}  // namespace deck

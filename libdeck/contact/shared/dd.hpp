@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 
 #ifdef __FAST_MATH__
 #error "double-double arithmetic needs strict IEEE semantics; build without -ffast-math"

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck {
 

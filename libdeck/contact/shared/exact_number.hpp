@@ -5,7 +5,7 @@
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Lazy_exact_nt.h>
 
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck {
 

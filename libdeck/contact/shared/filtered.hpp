@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/scene/not_evaluated.hpp"
+#include "contact/scene/complete_contacts.hpp"
 #include "contact/shared/tie_parts.hpp"
 #include "deck/text/rule.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "contact/shared/scene_parts.hpp"
 #include "cycle/adapter/parts.hpp"
-#include "cycle/kernel/vector.hpp"
+#include "cycle/kernel/block.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
 #include "model/shared/families.hpp"

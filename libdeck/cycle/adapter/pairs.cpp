@@ -5,11 +5,10 @@
 #include <map>
 #include <optional>
 
-#include "contact/shared/removal.hpp"
+#include "contact/shared/closest.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
 #include "cycle/adapter/parts.hpp"
-#include "deck/contact/closest.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/kernel.hpp"
 

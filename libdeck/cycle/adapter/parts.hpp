@@ -1,11 +1,31 @@
 // What only some effects want to know about a contact's pairs, each filled into ContactPairs on its
-// own. Private to the stage.
+// own, and quantities of elements for heat and initial conditions. Private to the stage.
 #pragma once
+#include <optional>
+#include <vector>
+
 #include "contact/shared/node_elements.hpp"
-#include "cycle/state/state_parts.hpp"
 #include "deck/cycle/adapter.hpp"
 
 namespace deck::cycle::detail {
+
+/// The part that an element of a contact carrier belongs to.
+std::uint32_t part_of(const deck::Model& model, Carrier carrier, std::uint32_t element);
+
+/// Conductivity of a material as its /HEAT/MAT gives it: A + B T, from T1 on that of the liquid.
+struct Conductivity {
+  double solid_a = 0.0, solid_b = 0.0, liquid_a = 0.0, liquid_b = 0.0, melting = 1e30;
+  double operator()(double t) const {
+    return t < melting ? solid_a + solid_b * t : liquid_a + liquid_b * t;
+  }
+};
+/// By material index, working units; zeros for materials without /HEAT/MAT.
+std::vector<Conductivity> conductivities(const deck::Model& model);
+
+/// Area of a shell (kind shell4 or shell3).
+double shell_area(const Coordinates& x, ElementKind kind, const NodeIndex* n);
+/// Axes of a skew that is fixed in space, as a map from local to global components.
+std::optional<AffineMap> fixed_axes(const deck::Model& model, std::int64_t skew);
 
 /// Area of each secondary node: its share of the shells around it, 0 where there are none.
 void node_areas(const Scene& scene, const Contact& contact, ContactPairs& out);

@@ -1,5 +1,6 @@
 // What the stages of one evaluation share: constants derived from the card, the scratch of a block
-// of pairs between geometry and force, and the table of compiled kernels.
+// of pairs between geometry and force, the table of compiled kernels, and vectors of the stages
+// that work on one pair at a time.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -7,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/shared/vec.hpp"
 #include "deck/cycle/kernel.hpp"
 #include "deck/cycle/packet.hpp"
 
@@ -56,6 +58,45 @@ const KernelTable* find_avx512(ContactKind kind, Model model, EffectSet effects,
 
 Constants make_constants(const KernelPlan& plan, const PacketView& view);
 
+using deck::Vec;
+
+inline Vec at(const std::array<const double*, 3>& p, std::size_t i) {
+  return {p[0][i], p[1][i], p[2][i]};
+}
+/// Corners of the segment of a pair.
+template <class View>
+std::array<Vec, 4> corners(const View& view, std::size_t i) {
+  return {at(view.position[1], i), at(view.position[2], i), at(view.position[3], i),
+          at(view.position[4], i)};
+}
+
+/// The frame that ties ride on: first diagonal, its companion in the surface, the normal.
+struct Frame {
+  Vec t1, t2, n;
+  Frame(const std::array<Vec, 4>& corner) {
+    t1 = unit(corner[2] - corner[0]);
+    n = unit(cross(t1, corner[3] - corner[1]));
+    t2 = cross(n, t1);
+  }
+  [[nodiscard]] Vec along(double fn, double f1, double f2) const {
+    return fn * n + (f1 * t1 + f2 * t2);
+  }
+};
+
+/// Axes of a segment for directed friction: the mean directions of its sides (a triangle: its first
+/// side and the one from corner 1 to 3), turned against one another until they are square.
+struct SegmentAxes {
+  Vec first, second, normal;
+  SegmentAxes(const Vec& x1, const Vec& x2, const Vec& x3, const Vec& x4, bool triangle) {
+    const Vec a = triangle ? x2 - x1 : (x2 + x3) - (x1 + x4);
+    const Vec b = triangle ? x3 - x1 : (x3 + x4) - (x1 + x2);
+    normal = unit(cross(a, b));
+    const double ratio = norm(b) > 0.0 ? norm(a) / norm(b) : 0.0;
+    first = unit(a + ratio * cross(b, normal));
+    second = cross(normal, first);
+  }
+};
+
 // Stages in plain scalar code, for effects too rare to be worth a composition.
 void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                      std::size_t n, int width, GeometryBlock& block);
@@ -87,5 +128,11 @@ void apply_edge_heat(const KernelPlan& plan, const PacketView& view, std::size_t
                      std::size_t end, PacketResult& out);
 void apply_criteria(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                     std::size_t end, PacketResult& out);
+
+/// How far the bicubic surface of pair i may leave its facet: added to the gap for weights and
+/// search. 0 for a triangle, which keeps its facet.
+double bicubic_allowance(const PacketView& view, std::size_t i);
+/// How far beyond its gap a pair is kept: for Icurv 1 and 2 half the largest extent of its segment.
+double curvature_allowance(const ContactCard& card, const PacketView& view, std::size_t i);
 
 }  // namespace deck::cycle::detail

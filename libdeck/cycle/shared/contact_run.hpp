@@ -7,7 +7,28 @@
 #include "contact/shared/node_elements.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 
-namespace deck::cycle::detail {
+namespace deck::cycle {
+
+// One contact point, one force: pairs of neighbouring segments or edges that meet the other side at
+// the same edge or corner share its force instead of adding up. Part of the robust model; works on
+// finished packets, as single pairs know nothing of one another.
+
+/// Share of each pair, 0 to 1. A pair whose closest point lies on an edge or corner of its segment
+/// (its edges) yields to pairs of the same secondary side that contain this edge or corner: it
+/// counts nothing where one of them comes closer elsewhere, and 1/n where n pairs meet in the same
+/// point. So a node over a flat mesh is pushed once wherever it is, and over a convex edge the
+/// force turns without a jump. In an obtuse valley, where both sides push by right, a side lets go
+/// at once when the node's foot on it leaves the segment. Pairs without contact have the share 1.
+///
+/// Weights below 1e-12 count as 0, distances as equal within 1e-12 of themselves: the numbers come
+/// from different segments with different roundings.
+[[nodiscard]] std::vector<double> pair_shares(const PairList& pairs, const PacketResult& result);
+
+/// Multiplies what adds up at the nodes: forces, stiffness, energies, heat. A pair with the share 0
+/// is no contact any more and limits no step; its penetration stays.
+void apply_shares(const std::vector<double>& share, PacketResult& result);
+
+namespace detail {
 
 /// What a pair takes into the next evaluation; pairs with nothing to remember are not kept.
 struct PairMemory {
@@ -68,20 +89,16 @@ struct ContactMemory {
   std::size_t searches = 0, deaths = 0;
 };
 
-/// What the pairs of one evaluation bring along, beside the values they were found with.
-struct PairInputs {
-  std::vector<double> k0, p0, zero;
-  std::array<std::vector<double>, 3> ft;   ///< empty: all 0
-  std::array<std::vector<double>, 8> tie;  ///< empty: all 0
+/// What the pairs of one evaluation bring along, beside the values they were found with: stiffness,
+/// residual penetration, friction memory and ties; those that are empty are 0.
+struct PairInputs : PairArrays<std::vector<double>> {
+  std::vector<double> zero;
 };
 
 /// Points the view at the pairs' own arrays, from pair `begin` on; `in` starts with that pair. Both
 /// outlive the view.
 void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in,
             std::size_t begin = 0);
-
-/// Share of a node's stable step that the solver takes.
-inline constexpr double step_factor = 0.9;
 
 /// What all contacts of one evaluation share.
 struct RunContext {
@@ -121,4 +138,5 @@ std::vector<CandidatePair> pairs_around_ties(const RunContext& run, const Contac
 void follow_dead_elements(const RunContext& run, const Contact& contact, int idel,
                           ContactMemory& memory, std::vector<Removal>& removed);
 
-}  // namespace deck::cycle::detail
+}  // namespace detail
+}  // namespace deck::cycle

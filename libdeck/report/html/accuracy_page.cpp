@@ -10,7 +10,6 @@
 #include <cmath>
 
 #include "accuracy/shared/choice.hpp"
-#include "accuracy/shared/motion.hpp"
 #include "base/shared/escape.hpp"
 #include "deck/contact/scene.hpp"
 #include "report/html/parts.hpp"

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "base/shared/parallel.hpp"
+#include "contact/shared/closest.hpp"
 #include "contact/shared/element_names.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
-#include "deck/contact/closest.hpp"
 #include "deck/contact/search.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/html/parts.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "deck/contact/closest.hpp"
+#include "contact/shared/closest.hpp"
 #include "deck/contact/ties.hpp"
 #include "deck/contact/view.hpp"
 #include "report/html/stream.hpp"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "cycle/adapter/parts.hpp"
 
@@ -45,15 +46,6 @@ std::vector<std::string> needed_columns(const std::string& kind) {
   triples({"vs", "v1", "v2", "v3", "v4", "F"});
   more({"dt12", "K0", "gap", "ms"});
   return names;
-}
-
-/// Points at rows from `first` on.
-void shift(const double*& p, std::size_t first) {
-  if (p != nullptr) p += first;
-}
-template <class T, std::size_t N>
-void shift(std::array<T, N>& arrays, std::size_t first) {
-  for (T& a : arrays) shift(a, first);
 }
 
 template <std::size_t N>
@@ -249,36 +241,19 @@ void States::take_own_friction(const Table& t, const RecordedDeck& deck, std::st
     ContactPairs some;
     for (const std::size_t i : list) some.at.push_back(deck.place(i)->pair);
     pair_friction(deck.scene(), *contact, some);
-    spread(some.fric, list, own_.fric);
-    spread(some.visf2, list, own_.visf2);
-    spread(some.directed, list, own_.directed);
-    for (std::size_t k = 0; k < 6; ++k) {
-      spread(some.c[k], list, own_.c[k]);
-      spread(some.c2[k], list, own_.c2[k]);
-    }
-    for (std::size_t k = 0; k < 2; ++k) {
-      spread(some.ortho_mu[k], list, own_.ortho_mu[k]);
-      spread(some.ortho_direction[k], list, own_.ortho_direction[k]);
-    }
+    ContactPairs::each([&, &list = list](const auto& from, auto& all) { spread(from, list, all); },
+                       std::as_const(some), own_);
   }
-  const auto data = [](const std::vector<double>& v) { return v.empty() ? nullptr : v.data(); };
-  view_.fric = data(own_.fric);
-  view_.visf2 = data(own_.visf2);
-  view_.directed = data(own_.directed);
-  for (std::size_t k = 0; k < 6; ++k) {
-    view_.c[k] = data(own_.c[k]);
-    view_.c2[k] = data(own_.c2[k]);
-  }
-  for (std::size_t k = 0; k < 2; ++k) {
-    view_.ortho_mu[k] = data(own_.ortho_mu[k]);
-    view_.ortho_direction[k] = data(own_.ortho_direction[k]);
-  }
+  view_.point_at(own_);
 }
 
 PacketView States::rows(std::size_t first, std::size_t n) const {
   PacketView v = view_;
   v.size = n;
-  PacketView::each_array(v, [first](auto& arrays) { shift(arrays, first); });
+  const auto shift = [first](const double*& p) {
+    if (p != nullptr) p += first;
+  };
+  PacketView::each(shift, v);
   v.triangle = triangle_.empty() ? nullptr : triangle_.data() + first;
   return v;
 }

@@ -7,6 +7,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/box_intersection_d.h>
 
+#include "contact/shared/closest.hpp"
 #include "rivals/pair_test.hpp"
 
 namespace bench {

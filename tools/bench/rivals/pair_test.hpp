@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/shared/closest.hpp"
 #include "deck/contact/search.hpp"
 
 namespace bench {

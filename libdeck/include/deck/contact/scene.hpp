@@ -13,7 +13,6 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/contact/closest.hpp"
 #include "deck/contact/search.hpp"
 #include "deck/contact/ties.hpp"
 #include "deck/model/interfaces.hpp"

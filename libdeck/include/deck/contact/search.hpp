@@ -10,9 +10,20 @@
 #include <span>
 #include <vector>
 
-#include "deck/contact/closest.hpp"
+#include "deck/base/point3.hpp"
 
 namespace deck {
+
+// Which formulas are used.
+enum class Form : std::uint8_t {
+  reference,  // the published solver's, with its absolute floors 1e-30 and 1e-20
+  robust      // exact closest point, relative guards only, residual form of the distance
+};
+
+// The part of a segment that holds its closest point. Index (0-based):
+// face: sub-triangle; edge: i joins corner i and i+1; corner: i; spoke: joins the centre and
+// corner i; centre: 0. A triangle has no spokes and no centre; its edges are 0, 1, 2 as well.
+enum class Feature : std::uint8_t { face, edge, corner, spoke, centre };
 
 /// Where the minimum gap of a contact came from.
 enum class GapminOrigin : std::uint8_t {

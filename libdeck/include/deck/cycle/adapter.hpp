@@ -27,24 +27,13 @@ struct FieldPlace {
 /// Nothing when interfaces of this type have no such field.
 [[nodiscard]] std::optional<FieldPlace> field_place(const InterBase& inter, std::string_view field);
 
-/// All pairs of a contact within reach, in the order of the search: by secondary, then main.
-struct ContactPairs {
+/// All pairs of a contact within reach, in the order of the search: by secondary, then main. Filled
+/// are k0, gap and p0; with Ithe area or edge_width, and what add_conductivity adds; with fric_ID
+/// what its pairs of parts say; with Icurv 3 and Iadm the nodal normals.
+struct ContactPairs : PairArrays<std::vector<double>> {
   std::vector<CandidatePair> at;  ///< positions in the contact's lists
   PairList nodes;                 ///< node indices of the model, by role
-  std::vector<double> k0;         ///< pair stiffness before the 1/2; 0: switched off at start-up
-  std::vector<double> gap;
-  std::vector<double> p0;    ///< Inacti 5, 6: residual penetration (edges: sum of both sides)
-  std::vector<double> area;  ///< with Ithe only; edges: edge_width instead
-  std::vector<double> conductivity;  ///< of add_conductivity; edges: edge_conductivity
-  std::array<std::vector<double>, 2> edge_width;
-  std::array<std::vector<double>, 4> edge_conductivity;
-  std::vector<double> fric, visf2;                               ///< with fric_ID only
-  std::array<std::vector<double>, 6> c;                          ///< with fric_ID only
-  std::array<std::vector<double>, 2> ortho_mu, ortho_direction;  ///< with orthotropic pairs only
-  std::array<std::vector<double>, 6> c2;                         ///< with orthotropic pairs only
-  std::vector<double> directed;                                  ///< with orthotropic pairs only
-  std::array<std::array<std::vector<double>, 3>, 4> normal;      ///< with Icurv 3 and Iadm only
-  bool complete = true;  ///< false: too many pairs, none was kept
+  bool complete = true;           ///< false: too many pairs, none was kept
   [[nodiscard]] std::size_t size() const { return at.size(); }
 };
 

@@ -34,29 +34,9 @@ class PacketBuffer {
   [[nodiscard]] PacketView view() const;
 
  private:
-  using Triple = std::array<std::vector<double>, 3>;
   std::size_t size_ = 0;
-  std::array<Triple, 5> position_, velocity_;
-  std::array<std::vector<double>, 5> mass_, temperature_;
+  PairArrays<std::vector<double>> of_;
   std::vector<std::uint8_t> triangle_;
-};
-
-/// For each node, the pairs and roles it takes part in, in pair order.
-class Incidence {
- public:
-  Incidence(const PairList& pairs, std::size_t node_count);
-  [[nodiscard]] std::size_t node_count() const { return first_.size() - 1; }
-  /// Entries of a node: pair * 8 + role.
-  [[nodiscard]] const std::uint64_t* begin(std::size_t node) const {
-    return entry_.data() + first_[node];
-  }
-  [[nodiscard]] const std::uint64_t* end(std::size_t node) const {
-    return entry_.data() + first_[node + 1];
-  }
-
- private:
-  std::vector<std::size_t> first_;
-  std::vector<std::uint64_t> entry_;
 };
 
 /// Sums at the nodes.
@@ -73,14 +53,8 @@ struct NodalSums {
   void resize(std::size_t nodes, bool heated = true);
 };
 
-/// Adds a result to the nodes. Each node adds its pairs in pair order, so the sums are the same
-/// for any number of threads. `sums` must be sized; it is added to, so several interfaces in turn
-/// can share it.
-void assemble(const KernelPlan& plan, const Incidence& incidence, const PacketResult& result,
-              NodalSums& sums, unsigned threads = 1);
-
-/// The same numbers from one thread and without the lists by node: for results that come piece by
-/// piece, in pair order.
+/// Adds a result to the nodes in pair order, from one thread. `sums` must be sized; it is added to,
+/// so several interfaces in turn can share it, and results can come piece by piece.
 void assemble(const KernelPlan& plan, const PairList& pairs, const PacketResult& result,
               NodalSums& sums);
 

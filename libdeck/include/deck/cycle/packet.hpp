@@ -1,5 +1,4 @@
 // A packet of contact pairs as structure of arrays: what the kernel reads, what it writes.
-// Arrays belong to the caller; one that no active effect needs may be null.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -7,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 namespace deck::cycle {
@@ -50,51 +51,78 @@ constexpr Field operator&(Field a, Field b) {
 constexpr Field& operator|=(Field& a, Field b) { return a = a | b; }
 constexpr bool contains(Field set, Field part) { return (set & part) == part; }
 
-/// Inputs of n pairs; every array has n entries. Roles of a node–segment pair: 0 the secondary
-/// node, 1..4 the corners of the segment (a triangle repeats corner 3 and sets `triangle`).
-/// Roles of an edge–edge pair: 0, 1 the secondary edge, 2, 3 the main edge.
-struct PacketView {
-  std::size_t size = 0;
-  double dt1 = 0.0;   ///< last completed step; 0 at the start
-  double dt12 = 0.0;  ///< mid-step interval, for incremental friction
+/// f(arrays...) for each array of one or more structures of arrays, side by side.
+template <class F, class First, class... Others>
+void each_of(const F& f, First& first, Others&... others) {
+  if constexpr (requires { std::tuple_size<std::remove_const_t<First>>::value; }) {
+    for (std::size_t k = 0; k < first.size(); ++k) each_of(f, first[k], others[k]...);
+  } else {
+    f(first, others...);
+  }
+}
 
-  std::array<std::array<const double*, 3>, 5> position{};
-  std::array<std::array<const double*, 3>, 5> velocity{};
-  std::array<const double*, 5> mass{};
+/// What is known of n pairs, an array of n entries each: pointers where a kernel reads them,
+/// vectors where they are made. Roles of a node–segment pair: 0 the secondary node, 1..4 the
+/// corners of the segment (a triangle repeats corner 3). Roles of an edge–edge pair: 0, 1 the
+/// secondary edge, 2, 3 the main edge.
+template <class Array>
+struct PairArrays {
+  std::array<std::array<Array, 3>, 5> position{};
+  std::array<std::array<Array, 3>, 5> velocity{};
+  std::array<Array, 5> mass{};
+
+  Array k0{};   ///< pair stiffness before the 1/2 of the law; 0: switched off at start-up
+  Array gap{};  ///< pair gap
+  Array p0{};   ///< Inacti 5, 6: residual penetration (edges: sum of both sides')
+  std::array<Array, 3> ft_old{};
+  std::array<Array, 8> tie{};  ///< Fn Ft1 Ft2 H1 H2 H3 [p side]; TYPE10 has six
+
+  std::array<Array, 5> temperature{};
+  Array area{};                              ///< secondary contact area; 0: take the segment's
+  Array conductivity{};                      ///< of the secondary side's material, 0: none
+  std::array<Array, 2> edge_width{};         ///< of the secondary and the main edge
+  std::array<Array, 4> edge_conductivity{};  ///< at each end, 0: none
+  Array fric{};                              ///< per-pair friction coefficient
+  Array visf2{};                    ///< per-pair factor of A in the tangential dashpot's square
+  std::array<Array, 6> c{};         ///< per-pair friction law coefficients
+  Array directed{};                 ///< orthotropic contacts: 0 for isotropic pairs; none: all are
+  std::array<Array, 2> ortho_mu{};  ///< per pair, along and across the direction
+  std::array<Array, 6> c2{};        ///< coefficients of the law across the direction
+  std::array<Array, 2> ortho_direction{};  ///< A, B in the segment's own axes
+  /// Unit directions along and across; none: formed from ortho_direction.
+  std::array<std::array<Array, 3>, 2> ortho_axis{};
+  /// Icurv 3: how far beyond the gap weights are formed; none: from the pair's nodal normals.
+  Array allowance{};
+  std::array<std::array<Array, 3>, 4> normal{};  ///< nodal normals of the corners
+
+  /// f(arrays...) for each member of some PairArrays, side by side. The one list of them: what
+  /// shifts, pads, copies or points at arrays goes over it.
+  template <class F, class... Arrays>
+  static void each(const F& f, Arrays&... a) {
+    each_of(f, a.position...), each_of(f, a.velocity...), each_of(f, a.mass...);
+    each_of(f, a.k0...), each_of(f, a.gap...), each_of(f, a.p0...);
+    each_of(f, a.ft_old...), each_of(f, a.tie...), each_of(f, a.temperature...);
+    each_of(f, a.area...), each_of(f, a.conductivity...);
+    each_of(f, a.edge_width...), each_of(f, a.edge_conductivity...);
+    each_of(f, a.fric...), each_of(f, a.visf2...), each_of(f, a.c...), each_of(f, a.directed...);
+    each_of(f, a.ortho_mu...), each_of(f, a.c2...), each_of(f, a.ortho_direction...);
+    each_of(f, a.ortho_axis...), each_of(f, a.allowance...), each_of(f, a.normal...);
+  }
+};
+
+/// Inputs of n pairs. Arrays that no active effect needs may be null.
+struct PacketView : PairArrays<const double*> {
+  std::size_t size = 0;
+  double dt1 = 0.0;                        ///< last completed step; 0 at the start
+  double dt12 = 0.0;                       ///< mid-step interval, for incremental friction
   const std::uint8_t* triangle = nullptr;  ///< null: every segment has four corners
 
-  const double* k0 = nullptr;   ///< pair stiffness before the 1/2 of the law
-  const double* gap = nullptr;  ///< pair gap
-  const double* p0 = nullptr;   ///< residual penetration (TYPE11: sum of both edges')
-  std::array<const double*, 3> ft_old{};
-  std::array<const double*, 8> tie{};  ///< Fn Ft1 Ft2 H1 H2 H3 [p side]; TYPE10 has six
-
-  std::array<const double*, 5> temperature{};
-  const double* area = nullptr;               ///< secondary contact area; 0: take the segment's
-  const double* conductivity = nullptr;       ///< of the secondary side's material, 0: none
-  std::array<const double*, 2> edge_width{};  ///< of the secondary and the main edge
-  std::array<const double*, 4> edge_conductivity{};  ///< at each end, 0: none
-  const double* fric = nullptr;                      ///< per-pair friction coefficient
-  const double* visf2 = nullptr;     ///< per-pair factor of A in the tangential dashpot's square
-  std::array<const double*, 6> c{};  ///< per-pair friction law coefficients
-  const double* directed = nullptr;  ///< orthotropic contacts: 0 for isotropic pairs; null: none is
-  std::array<const double*, 2> ortho_mu{};         ///< per pair, along and across the direction
-  std::array<const double*, 6> c2{};               ///< coefficients of the law across the direction
-  std::array<const double*, 2> ortho_direction{};  ///< A, B in the segment's own axes
-  /// Unit directions along and across; null: formed from ortho_direction.
-  std::array<std::array<const double*, 3>, 2> ortho_axis{};
-  /// Icurv 3: how far beyond the gap weights are formed; null: from the pair's nodal normals.
-  const double* allowance = nullptr;
-  std::array<std::array<const double*, 3>, 4> normal{};  ///< nodal normals of the corners
-
-  /// f(arrays) for every member but `triangle`: a pointer, or std::arrays of such. The one list of
-  /// what a kernel reads; what shifts, pads or copies a view goes over it.
-  template <class View, class F>
-  static void each_array(View& v, F&& f) {
-    f(v.position), f(v.velocity), f(v.mass), f(v.k0), f(v.gap), f(v.p0), f(v.ft_old), f(v.tie);
-    f(v.temperature), f(v.area), f(v.conductivity), f(v.edge_width), f(v.edge_conductivity);
-    f(v.fric), f(v.visf2), f(v.c), f(v.directed), f(v.ortho_mu), f(v.c2), f(v.ortho_direction);
-    f(v.ortho_axis), f(v.allowance), f(v.normal);
+  /// Points at the arrays that are there, from entry `begin` on. They outlive the view.
+  void point_at(const PairArrays<std::vector<double>>& arrays, std::size_t begin = 0) {
+    const auto point = [begin](const double*& to, const std::vector<double>& from) {
+      if (!from.empty()) to = from.data() + begin;
+    };
+    each(point, static_cast<PairArrays<const double*>&>(*this), arrays);
   }
 };
 

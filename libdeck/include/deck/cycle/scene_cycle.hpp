@@ -23,6 +23,10 @@ struct PartVelocity {
   std::array<double, 3> velocity{};
 };
 
+/// The share of a stable step that the solver takes, of elements (unless the Engine file says
+/// otherwise) and of nodes.
+inline constexpr double step_scale = 0.9;
+
 /// Smallest time step that the elements allow: nine tenths of what the mesh gives.
 struct StructureStep {
   double dt = 1e30;

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "base/shared/vec.hpp"
-#include "deck/contact/closest.hpp"
 #include "deck/contact/ties.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 

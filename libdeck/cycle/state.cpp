@@ -7,8 +7,7 @@
 #include <memory>
 
 #include "contact/shared/scene_parts.hpp"
-#include "cycle/shared/step_scale.hpp"
-#include "cycle/state/state_parts.hpp"
+#include "cycle/adapter/parts.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"

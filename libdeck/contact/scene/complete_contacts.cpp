@@ -1,0 +1,177 @@
+// Completes contacts side by side: what they share is formed first, findings are kept apart.
+#include "contact/scene/complete_contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "base/shared/parallel.hpp"
+#include "base/shared/side_by_side.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// The last node of the items that has no place; no_index: all have one.
+template <class Items, class EachNodeOf>
+NodeIndex last_lost(const Coordinates& x, int threads, const Items& items,
+                    const EachNodeOf& each_node_of) {
+  std::vector<NodeIndex> parts(pieces_of(threads, items.size()), no_index);
+  parallel_pieces(threads, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    NodeIndex lost = no_index;
+    for (std::size_t i = begin; i < end; ++i)
+      each_node_of(items[i], [&](NodeIndex n) {
+        if (!std::isfinite(x.x[n]) || !std::isfinite(x.y[n]) || !std::isfinite(x.z[n])) lost = n;
+      });
+    parts[part] = lost;
+  });
+  NodeIndex last = no_index;
+  for (const NodeIndex n : parts)
+    if (n != no_index) last = n;
+  return last;
+}
+
+/// The largest gap shows none that is not a number.
+bool gaps_are_finite(const Contact& c) {
+  const auto finite = [](const auto& list) {
+    return std::all_of(list.begin(), list.end(),
+                       [](const auto& item) { return std::isfinite(item.gap); });
+  };
+  return std::isfinite(c.max_gap) && std::isfinite(c.gapmin) && finite(c.secondary) &&
+         finite(c.main) && finite(c.secondary_edges) && finite(c.main_edges);
+}
+
+}  // namespace
+
+EvaluationFailure check_evaluation(const SceneContext& c, const NotEvaluated& not_evaluated,
+                                   const std::string& card_reason, bool complete,
+                                   Contact& contact) {
+  contact.evaluated = false;
+  const std::string why =
+      card_reason.empty() ? not_evaluated.reason_in_nodes(contact) : card_reason;
+  if (!why.empty()) return {why, Severity::warning, true};
+  NodeIndex lost = no_index;
+  const auto look = [&](const auto& items, const auto& each_node_of) {
+    const NodeIndex last =
+        last_lost(c.scene.coordinates, effective_threads(c.options.threads), items, each_node_of);
+    if (last != no_index) lost = last;
+  };
+  if (!c.all_placed) {
+    look(contact.secondary, [](const SecondaryNode& s, const auto& f) { f(s.node); });
+    look(contact.main, [](const MainSegment& m, const auto& f) {
+      for (const NodeIndex n : m.nodes) f(n);
+    });
+    for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
+      look(*edges, [](const ContactEdge& e, const auto& f) {
+        for (const NodeIndex n : e.nodes) f(n);
+      });
+  }
+  if (lost != no_index)
+    return {"node " + std::to_string(c.model.nodes.id[lost]) +
+            " has a coordinate that is not a finite number"};
+  if (std::string cell = unusable_cell(*c.model.deck, *contact.inter); !cell.empty())
+    return {std::move(cell), Severity::error, true};
+  if (!gaps_are_finite(contact)) return {"the gap is not a finite number"};
+  contact.evaluated = complete;
+  return {};
+}
+
+namespace {
+
+void complete_nodes(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
+                    Contact& contact) {
+  if (pending.surface) make_main_segments(c, pending.surface->segments, contact);
+  set_main_stiffness(c, contact);
+  set_gaps(c, contact, pending.gapmin);
+  contact.drad =
+      radiation_distance(pending.thermal, pending.drad, contact.max_gap, contact.shortest_side);
+  if (c.options.penetrations) {
+    pending.failure =
+        check_evaluation(c, not_evaluated, pending.card_reason, pending.complete, contact);
+    if (contact.evaluated) find_penetrations(c, contact, pending.decisions);
+  }
+  report_one_place(c, contact);
+  if (c.options.nodal_stiffness && contact.istf >= 2) set_nodal_stiffness(c, contact);
+}
+
+void complete_edges(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
+                    Contact& contact) {
+  set_edge_stiffness(c, contact.main_edges, contact);
+  set_edge_stiffness(c, contact.secondary_edges, contact);
+  set_edge_gaps(c, contact, pending.gapmin);
+  contact.drad =
+      radiation_distance(pending.thermal, pending.drad, contact.max_gap, contact.shortest_side);
+  if (c.options.penetrations) {
+    pending.failure =
+        check_evaluation(c, not_evaluated, pending.card_reason, pending.complete, contact);
+    if (contact.evaluated) find_edge_penetrations(c, contact, pending.decisions);
+  }
+  report_one_place(c, contact);
+}
+
+constexpr ElementKind lines[] = {ElementKind::truss, ElementKind::beam, ElementKind::spring};
+constexpr ElementKind areas[] = {ElementKind::solid8, ElementKind::shell4, ElementKind::shell3};
+
+/// What contacts look up in common. It is formed before several threads read it.
+struct Common {
+  std::array<bool, 8> families{};
+  bool half_thickness = false, nodal_stiffness = false;
+
+  void want(std::span<const ElementKind> some) {
+    for (const ElementKind kind : some) families[static_cast<std::size_t>(kind)] = true;
+  }
+  void want_for(const SceneOptions& options, const PendingContact& pending,
+                const Contact& contact) {
+    const bool edges = contact.kind == ContactKind::edge_edge;
+    if (edges || (pending.surface && !pending.surface->segments.held_by_elements())) want(areas);
+    if (edges || contact.igap != 0) want(lines);
+    half_thickness |= !edges && contact.igap != 0 && !contact.secondary.empty();
+    if (edges || !options.nodal_stiffness || contact.istf < 2) return;
+    want(lines);
+    want(std::span(areas).first(1));
+    nodal_stiffness = true;
+  }
+  void prepare(SceneContext& c, int threads) const {
+    parallel_items(threads, families.size(), [&](std::size_t kind) {
+      if (families[kind]) c.connectivity.prepare(static_cast<ElementKind>(kind));
+    });
+    if (half_thickness)
+      shell_half_thickness({c.model, c.connectivity, *c.shells, c.scene.coordinates, threads});
+    if (nodal_stiffness) shell_stiffness_at_nodes(c);
+  }
+};
+
+}  // namespace
+
+void complete_contacts(SceneContext& c, const NotEvaluated& not_evaluated,
+                       std::vector<PendingContact>& pending,
+                       const std::function<void(std::size_t)>& progress) {
+  const int threads = effective_threads(c.options.threads);
+  SceneOptions alone = c.options;
+  alone.threads = 1;
+  std::vector<std::size_t> sizes;
+  Common common;
+  for (const PendingContact& p : pending) {
+    const Contact& contact = c.scene.contacts[p.place];
+    sizes.push_back((p.surface ? p.surface->segments.size() : 0) + contact.secondary.size() +
+                    contact.secondary_edges.size() + contact.main_edges.size());
+    common.want_for(c.options, p, contact);
+  }
+  if (pending.size() > 1) common.prepare(c, threads);
+  std::atomic<std::size_t> completed{0};
+  side_by_side(threads, sizes, [&](std::size_t i, const Share& share) {
+    PendingContact& p = pending[i];
+    SceneContext own{
+        c.model,  c.connectivity, c.scene, p.found, share.threads > 1 ? c.options : alone,
+        c.shells, c.all_placed};
+    Contact& contact = c.scene.contacts[p.place];
+    const auto complete = contact.kind == ContactKind::edge_edge ? complete_edges : complete_nodes;
+    complete(own, not_evaluated, p, contact);
+    const std::size_t so_far = ++completed;
+    if (share.worker == 0 && so_far < pending.size()) progress(so_far);
+  });
+}
+
+}  // namespace deck::detail
