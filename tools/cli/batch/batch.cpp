@@ -7,8 +7,8 @@
 
 #include "batch/record.hpp"
 #include "batch/run.hpp"
+#include "changes.hpp"
 #include "library.hpp"
-#include "writing/changes.hpp"
 
 namespace deck::cli::verb_batch {
 namespace {
@@ -40,8 +40,6 @@ void parse_writing(BatchTask& task, const CommandLine& line) {
   task.in_place = task.verb.name == "lint" || line.given("--in-place");
   task.root = value_among(task.words, "--root");
 }
-
-Error config_error(std::string why) { return {Error::Code::config, std::move(why)}; }
 
 /// Error: no such verb, or options that it does not take.
 Result<BatchTask> parse_task(const BatchOptions& o) {
@@ -120,7 +118,7 @@ int merge(const BatchOptions& o) {
   auto merged = merge_shards(o.directory);
   if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
     merged = config_error("--merge takes no decks: it merges the summaries in DIR");
-  if (!merged) return failed(o.common, merged.error().message);
+  if (!merged) return failed(o.common, merged.error());
   remove_strays(o.directory);
   return write_overview(o, {}, *merged, 0);
 }
@@ -177,29 +175,23 @@ Action setup(CommandLine& line) {
   line.existing("--json").describe("Write the summary to FILE too; '-' is standard output");
   line.existing("--threads")
       .describe("Threads of each worker; 0 divides the processors among them");
-  line.option("-o,--output", o.directory, "Directory of the results; made if missing")
-      .required()
-      .value("DIR");
-  line.option("--manifest", o.manifest,
-              "File with one deck per line, # begins a comment; '-' is standard input")
-      .value("FILE");
+  line.option("-o,--output DIR", o.directory, "Directory of the results; made if missing")
+      .required();
+  line.option("--manifest FILE", o.manifest,
+              "File with one deck per line, # begins a comment; '-' is standard input");
   line.option(
-          "--verb", o.verb,
-          "What to do with each deck: lint, params, gaps (default), cycle, convert or fix, with "
-          "options: --verb 'lint --geometry', --verb 'convert --units kg,m,s'")
-      .value("VERB");
-  line.option("-j,--jobs", o.jobs, "Decks at the same time; 0 takes all processors")
-      .range(0, 4096)
-      .value("N");
+      "--verb VERB", o.verb,
+      "What to do with each deck: lint, params, gaps (default), cycle, convert or fix, with "
+      "options: --verb 'lint --geometry', --verb 'convert --units kg,m,s'");
+  line.option("-j,--jobs N", o.jobs, "Decks at the same time; 0 takes all processors")
+      .range(0, 4096);
   line.option(
-          "--timeout", o.timeout,
+          "--timeout SECONDS", o.timeout,
           "Stop a deck (or decks that are written together) after SECONDS (default 3600); 0: never")
-      .number(0, 1e9)
-      .value("SECONDS");
-  line.option("--shard", o.shard,
+      .number(0, 1e9);
+  line.option("--shard i/n", o.shard,
               "Only part i of n: every n-th deck of the list; decks that are written together stay "
-              "together")
-      .value("i/n");
+              "together");
   add_require_examined(line, o.common);
   line.flag("--merge", o.merge, "Merge the summaries of all shards in DIR");
   line.flag("--force", o.force, "Do finished decks again");

@@ -73,7 +73,7 @@ int show(const Options& o, const AccuracyChoices& choices, const AccuracyContext
     if (const auto written =
             o.common.session->write_output(o.html, accuracy_html(choices, context));
         !written) {
-      return failed(o.common, written.error().message);
+      return failed(o.common, written.error());
     }
   if (o.common.wants_text() && o.html != "-")
     print_lines(accuracy_text(choices, context, o.common.color_on(1), text_width()));
@@ -116,8 +116,8 @@ Action setup(CommandLine& line) {
   line.option("--repeats", options->hard.repeats, "Timings of each accuracy")
       .range(1, 1000)
       .show_default();
-  line.option("--html", options->html, "Write the choices and kinds to FILE: one page, no network")
-      .value("FILE");
+  line.option("--html FILE", options->html,
+              "Write the choices and kinds to FILE: one page, no network");
   return [options] { return run(*options); };
 }
 

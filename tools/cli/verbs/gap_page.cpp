@@ -28,7 +28,7 @@ Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input, const std::ato
   const std::vector<Crossing> crossings = find_crossings(scene, input.threads);
   const SceneView view = make_view(scene, &crossings);
   const FirstCycle& forces = loaded.cycle();
-  if (stop != nullptr && *stop) return Error{Error::Code::config, "cancelled"};
+  if (stop != nullptr && *stop) return config_error("cancelled");
   input.view = &view;
   input.cycle = &forces.outcome;
   input.acted = acted_in_page(forces.state, forces.outcome);

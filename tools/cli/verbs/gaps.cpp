@@ -118,19 +118,18 @@ class GapsRun {
 
  private:
   bool writes_baseline() const { return !o_.write_baseline.empty(); }
-  int usage(const Error& error) const { return failed(o_.common, error.message); }
+  int usage(const Error& error) const { return failed(o_.common, error); }
 
   /// Everything that can be said without a deck.
   Result<void> prepare() {
-    const auto bad = [](std::string what) { return Error{Error::Code::config, std::move(what)}; };
     if (std::string why; !o_.html.empty() && !html_available(&why))
-      return bad("--html: this build has no viewer: " + why);
+      return config_error("--html: this build has no viewer: " + why);
     if (auto legal = check_fail_on(o_.gate); !legal) return legal;
     if (o_.fail && (o_.gate.fails_on("never") || o_.gate.fails_on("error")))
-      return bad("--fail-on-penetration and --fail-on " + o_.gate.level() +
-                 " contradict one another");
+      return config_error("--fail-on-penetration and --fail-on " + o_.gate.level() +
+                          " contradict one another");
     if ((!o_.html.empty() || !o_.svg.empty()) && o_.common.decks.size() > 1)
-      return bad("--html and --svg take one deck at a time");
+      return config_error("--html and --svg take one deck at a time");
     scene_.threads = o_.common.thread_count();
     scene_.only = o_.only;
     scene_.accuracy = accuracy_of(o_.accuracy);
@@ -244,45 +243,37 @@ Action setup(CommandLine& line) {
   allow_directories(line);
   line.flag("--all", options->all,
             "JSON with every secondary node, main segment and edge, not only penetrations");
-  line.option("--csv", options->csv,
-              "Write one line per penetration to FILE ('-': standard output)")
-      .value("FILE");
-  line.option("--ties-csv", options->ties_csv,
-              "Write one line per secondary node of every TYPE2 to FILE ('-': standard output)")
-      .value("FILE");
+  line.option("--csv FILE", options->csv,
+              "Write one line per penetration to FILE ('-': standard output)");
+  line.option("--ties-csv FILE", options->ties_csv,
+              "Write one line per secondary node of every TYPE2 to FILE ('-': standard output)");
   line.flag("--crossings", options->crossings,
             "List the crossed elements: edges of the secondary side through main segments");
-  line.option("--svg", options->svg,
-              "Draw the parts and their contacts to FILE, red if they penetrate")
-      .value("FILE");
-  line.option("--vtk", options->vtk,
+  line.option("--svg FILE", options->svg,
+              "Draw the parts and their contacts to FILE, red if they penetrate");
+  line.option("--vtk DIR", options->vtk,
               "Write the contacts and penetrations as VTK files into DIR, with a script that opens "
-              "them in ParaView")
-      .value("DIR");
-  line.option("--html", options->html,
-              "Write the interactive report to FILE: one page, no network needed")
-      .value("FILE");
+              "them in ParaView");
+  line.option("--html FILE", options->html,
+              "Write the interactive report to FILE: one page, no network needed");
   add_accuracy(line, options->accuracy);
   line.option("--worst", options->worst, "Rows of the list of deepest penetrations").show_default();
-  line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
+  line.option("--interface ID", options->only, "Only these interface ids").by_commas();
   add_require_examined(line, options->common);
   add_verbose(line, options->common,
               "Every interface, the parts of a TYPE19 in separate rows, and more columns");
-  line.option("--what-if", options->what_if,
+  line.option("--what-if ID:FIELD=VALUE,...", options->what_if,
               "Evaluate an interface with other values, e.g. 3:Gapmin=2,Inacti=6 (repeatable); "
-              "the deck is not changed")
-      .value("ID:FIELD=VALUE,...");
+              "the deck is not changed");
   line.flag("--fail-on-penetration", options->fail,
             "Exit 1 for any initial penetration, as --fail-on warning");
   add_gate_with_config(line, options->gate, "the solver stops",
                        "any initial penetration, crossed element, or node that is not tied");
-  line.option("--baseline", options->gate.baseline,
+  line.option("--baseline FILE", options->gate.baseline,
               "Accept the penetrations in FILE, of the decks listed there: only new and worse ones "
-              "exit with 1")
-      .value("FILE");
-  line.option("--write-baseline", options->write_baseline,
-              "Write all penetrations to FILE as a baseline; entries of other decks stay")
-      .value("FILE");
+              "exit with 1");
+  line.option("--write-baseline FILE", options->write_baseline,
+              "Write all penetrations to FILE as a baseline; entries of other decks stay");
   return [options] {
     const int wrong = open_directories(options->common);
     return wrong != exit_clean ? wrong : GapsRun(*options).run();

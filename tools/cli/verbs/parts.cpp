@@ -25,19 +25,17 @@ Result<void> write_html(const Options& o, LoadedDeck& loaded) {
 /// Options that do not go together.
 Result<void> check_options(const Options& o) {
   if (!o.csv.empty() && o.common.decks.size() > 1 && o.csv != "-")
-    return Error{Error::Code::config, "--csv FILE takes one deck at a time"};
+    return config_error("--csv FILE takes one deck at a time");
   if (o.html.empty()) return {};
-  if (o.common.decks.size() > 1)
-    return Error{Error::Code::config, "--html takes one deck at a time"};
+  if (o.common.decks.size() > 1) return config_error("--html takes one deck at a time");
   if (std::string why; !html_available(&why))
-    return Error{Error::Code::config, "--html: this build has no viewer: " + why};
+    return config_error("--html: this build has no viewer: " + why);
   return {};
 }
 
 int run(const Options& options) {
   const CommonOptions& common = options.common;
-  if (const auto legal = check_options(options); !legal)
-    return failed(common, legal.error().message);
+  if (const auto legal = check_options(options); !legal) return failed(common, legal.error());
   if (const int bad = check_outputs(common, {common.json, options.csv, options.html});
       bad != exit_clean)
     return bad;
@@ -49,10 +47,10 @@ int run(const Options& options) {
     if (!options.csv.empty())
       if (auto written = options.common.session->write_output(options.csv, parts_csv(loaded));
           !written)
-        return failed(common, written.error().message);
+        return failed(common, written.error());
     if (!options.html.empty())
       if (auto written = write_html(options, loaded); !written)
-        return failed(common, written.error().message);
+        return failed(common, written.error());
     if (common.wants_text() && options.csv != "-" && options.html != "-") {
       PartsTextOptions text;
       text.color = common.color_on(1);
@@ -71,12 +69,10 @@ Action setup(CommandLine& line) {
   line.flag("--all", options->all,
             "With --json: the time step of every element, and step, mass and stiffness of every "
             "node");
-  line.option("--csv", options->csv, "Write one line per part to FILE ('-': standard output)")
-      .value("FILE");
+  line.option("--csv FILE", options->csv, "Write one line per part to FILE ('-': standard output)");
   line.option(
-          "--html", options->html,
-          "Write a page with the table of the parts and a picture coloured by time step to FILE")
-      .value("FILE");
+      "--html FILE", options->html,
+      "Write a page with the table of the parts and a picture coloured by time step to FILE");
   return [options] { return run(*options); };
 }
 

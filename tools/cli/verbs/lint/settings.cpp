@@ -1,5 +1,5 @@
 // Lists what holds: options go before the configuration, the configuration before defaults.
-#include "verbs/settings.hpp"
+#include "verbs/lint/lint_run.hpp"
 
 #include <fmt/format.h>
 
@@ -198,12 +198,11 @@ Result<std::string> write_settings_file(const std::string& directory) {
   std::error_code ec;
   const std::string path = (fs::path(directory) / ".decklint.toml").string();
   if (!directory.empty() && !fs::is_directory(directory, ec))
-    return Error{Error::Code::config,
-                 directory + " is not a directory; --init takes the directory for .decklint.toml"};
+    return config_error(directory +
+                        " is not a directory; --init takes the directory for .decklint.toml");
   if (fs::symlink_status(path, ec).type() != fs::file_type::not_found)
-    return Error{
-        Error::Code::config,
-        path + " already exists and was not changed; 'deck lint --show-config' shows its settings"};
+    return config_error(
+        path + " already exists and was not changed; 'deck lint --show-config' shows its settings");
   if (auto written = write_file_atomic(path, config_template()); !written) return written.error();
   return path;
 }
