@@ -15,7 +15,7 @@
 #include "deck/report/html.hpp"
 #include "deck/text/number.hpp"
 #include "report/shared/cycle.hpp"
-#include "text/shared/gzip.hpp"
+#include "verbs/gap_page.hpp"
 #include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_cycle {
@@ -110,33 +110,14 @@ double fastest(const cycle::State& state) {
   return most;
 }
 
-/// Writes VTK files: into the directory itself, or one below it per deck if there are several.
-/// Several steps bring their own script.
-Result<void> write_vtk(const Options& o, std::string_view path, const std::vector<VtkFile>& vtk,
-                       const std::optional<VtkFile>& script = {}) {
-  std::filesystem::path directory = o.vtk;
-  if (o.common.decks.size() > 1) directory /= std::filesystem::path(without_gz(path)).stem();
-  std::vector<OutputFile> files;
-  for (const VtkFile& f : vtk) files.push_back({(directory / f.name).string(), f.bytes});
-  if (script) files.push_back({(directory / script->name).string(), script->bytes});
-  return o.common.session->write_outputs(files, {}, {"", true, true, true, o.vtk});
-}
-
 /// Writes the page: the report of `deck gaps` with the effects and their costs first.
-Result<void> write_html(const Options& o, const CycleInput& cycle, const SceneView& view) {
-  HtmlInput input;
-  input.path = cycle.path;
-  input.deck = cycle.deck;
-  input.scene = cycle.scene;
-  input.view = &view;
-  input.only = o.only;
+Result<void> write_html(const Options& o, const LoadedDeck& loaded, const CycleInput& cycle) {
+  HtmlInput input = page_input(loaded, *cycle.view);
   input.cycle = cycle.outcome;
   input.acted = acted_in_page(*cycle.state, *cycle.outcome);
   input.effects = &cycle;
-  input.threads = cycle.options.threads;
   auto page = gaps_html(input);
-  if (!page) return page.error();
-  return o.common.session->write_output(o.html, *page);
+  return page ? o.common.session->write_output(o.html, *page) : Result<void>(page.error());
 }
 
 /// Options that do not go together.
@@ -150,11 +131,7 @@ Result<void> check_page(const Options& o) {
                                     o.without, fmt::join(effects, ", ")));
   if (!o.without.empty() && o.steps > 1)
     return config_error("--without compares one evaluation: leave out --steps");
-  if (o.html.empty()) return {};
-  if (std::string why; !html_available(&why))
-    return config_error("--html: this build has no viewer: " + why);
-  if (o.common.decks.size() > 1) return config_error("--html takes one deck at a time");
-  return {};
+  return check_html(o.common, o.html);
 }
 
 /// The evaluation again with cards that do not ask for an effect.
@@ -254,7 +231,7 @@ class CycleRun {
       e.input.without = &e.without;
       e.input.without_effect = o_.without;
     }
-    if (!o_.html.empty() && written) written = write_html(o_, e.input, e.view);
+    if (!o_.html.empty() && written) written = write_html(o_, loaded, e.input);
     print_findings(loaded, o_.common);
     if (json_.wanted())
       json_.add([&](const TextDrain& drain) { return cycle_json(e.input, o_.all, drain); });
@@ -333,7 +310,7 @@ class CycleRun {
       CycleInput one = input;
       one.outcome = &now;
       one.coordinates = &x;
-      written = write_vtk(o_, loaded.path(), cycle_vtk(one, suffix_of(step)));
+      written = write_vtk(o_.common, o_.vtk, loaded.path(), cycle_vtk(one, suffix_of(step)), {});
     };
     e.steps =
         cycle::run_steps(scene, e.state, options_, static_cast<std::size_t>(o_.steps), {}, watch);
@@ -349,12 +326,12 @@ class CycleRun {
   Result<void> write_rest(std::string_view path, const Evaluation& e, bool series) const {
     if (!series) {
       const std::vector<VtkFile> files = cycle_vtk(e.input);
-      return write_vtk(o_, path, files, paraview_script(files));
+      return write_vtk(o_.common, o_.vtk, path, files, paraview_script(files));
     }
     std::vector<std::string> suffixes;
     for (std::size_t k = 0; k < e.steps.lines.size(); ++k) suffixes.push_back(suffix_of(k));
     const std::vector<VtkFile> collections = cycle_vtk_series(e.steps, suffixes);
-    return write_vtk(o_, path, collections, paraview_script(collections));
+    return write_vtk(o_.common, o_.vtk, path, collections, paraview_script(collections));
   }
 
   /// What effects cost: as asked for, or what the text always says.

@@ -98,8 +98,7 @@ int run(const Options& o) {
     return wrong_usage("diff", wanted == 1 ? "--git takes one deck: REV is the other side"
                                            : "expected DECK DECK, or --git REV DECK");
   if (const int bad = check_outputs(o.common, {o.html}); bad != exit_clean) return bad;
-  if (std::string why; !o.html.empty() && !html_available(&why))
-    return wrong_usage("diff", "--html: this build has no viewer: " + why);
+  if (const std::string why = no_viewer(o.html); !why.empty()) return wrong_usage("diff", why);
   if (!o.html.empty() && o.no_geometry)
     return wrong_usage("diff", "--html shows contacts: leave out --no-geometry");
   const auto schemas = load_schemas(o.common);

@@ -456,9 +456,7 @@ std::string wrong_usage(const Options& o) {
       if (given)
         return std::string(option) +
                " needs --strategy; without these options 'deck fix DECK' says what each would do";
-  if (!o.html.empty() && o.common.decks.size() > 1) return "--html takes one deck at a time";
-  if (std::string why; !o.html.empty() && !html_available(&why))
-    return "--html: this build has no viewer: " + why;
+  if (auto page = check_html(o.common, o.html); !page) return page.error().message;
   if (std::string wrong = deck::cli::usage_error(o.write); !wrong.empty()) return wrong;
   if (!share(o.max_moved)) return "--max-moved needs a share like 10% or 0.1";
   if (!share(o.min_gap)) return "--min-gap needs a share like 50% or 0.5";

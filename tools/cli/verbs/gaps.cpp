@@ -1,7 +1,6 @@
 // deck gaps: gaps, stiffness, initial penetrations and what the solver does about them.
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -12,8 +11,7 @@
 #include "deck/report/gaps.hpp"
 #include "deck/report/html.hpp"
 #include "report/shared/json.hpp"
-#include "report/shared/vtk.hpp"
-#include "text/shared/gzip.hpp"
+#include "verbs/gap_page.hpp"
 #include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_gaps {
@@ -44,33 +42,6 @@ Result<void> check_options(const Options& o, const LoadedDeck& loaded,
         if (auto fits = check_what_if(w, *inter); !fits) return fits;
   }
   return {};
-}
-
-/// Writes the VTK files: into the directory itself, or one below it per deck if there are several.
-Result<void> write_vtk(const Options& o, const LoadedDeck& loaded, const Scene& scene,
-                       const SceneView& view) {
-  namespace fs = std::filesystem;
-  fs::path directory = o.vtk;
-  if (o.common.decks.size() > 1) directory /= fs::path(without_gz(loaded.path())).stem();
-  const std::vector<VtkFile> written = gaps_vtk(scene, view);
-  std::vector<OutputFile> files;
-  for (const VtkFile& f : written) files.push_back({(directory / f.name).string(), f.bytes});
-  const VtkFile script = paraview_script(written);
-  files.push_back({(directory / script.name).string(), script.bytes});
-  return o.common.session->write_outputs(files, {}, {"", true, true, true, o.vtk});
-}
-
-/// What page and drawing are made from.
-HtmlInput page_input(const LoadedDeck& loaded, const SceneView& view) {
-  HtmlInput input;
-  input.path = loaded.path();
-  input.deck = &loaded.deck();
-  input.scene = &loaded.scene();
-  input.view = &view;
-  input.what_if = loaded.scene_options().what_if;
-  input.only = loaded.scene_options().only;
-  input.threads = loaded.options().threads;
-  return input;
 }
 
 /// Writes the HTML report; what can be wrong is wrong usage or a file.
@@ -122,8 +93,7 @@ class GapsRun {
 
   /// Everything that can be said without a deck.
   Result<void> prepare() {
-    if (std::string why; !o_.html.empty() && !html_available(&why))
-      return config_error("--html: this build has no viewer: " + why);
+    if (const std::string why = no_viewer(o_.html); !why.empty()) return config_error(why);
     if (auto legal = check_fail_on(o_.gate); !legal) return legal;
     if (o_.fail && (o_.gate.fails_on("never") || o_.gate.fails_on("error")))
       return config_error("--fail-on-penetration and --fail-on " + o_.gate.level() +
@@ -200,7 +170,11 @@ class GapsRun {
            return session.write_output(
                o_.ties_csv, [&](const TextDrain& drain) { return ties_csv(deck, scene, drain); });
          }},
-        {o_.vtk, [&] { return write_vtk(o_, loaded, scene, view); }},
+        {o_.vtk,
+         [&] {
+           const std::vector<VtkFile> files = gaps_vtk(scene, view);
+           return write_vtk(o_.common, o_.vtk, loaded.path(), files, paraview_script(files));
+         }},
         {o_.html, [&] { return write_html(o_, loaded, view, crossings, report); }},
         {o_.svg,
          [&] { return session.write_output(o_.svg, touches_svg(page_input(loaded, view))); }},

@@ -26,11 +26,7 @@ Result<void> write_html(const Options& o, LoadedDeck& loaded) {
 Result<void> check_options(const Options& o) {
   if (!o.csv.empty() && o.common.decks.size() > 1 && o.csv != "-")
     return config_error("--csv FILE takes one deck at a time");
-  if (o.html.empty()) return {};
-  if (o.common.decks.size() > 1) return config_error("--html takes one deck at a time");
-  if (std::string why; !html_available(&why))
-    return config_error("--html: this build has no viewer: " + why);
-  return {};
+  return check_html(o.common, o.html);
 }
 
 int run(const Options& options) {
