@@ -169,10 +169,8 @@ Result<LoadedSchemas> load_schemas(const CommonOptions& options) {
   SchemaSet set = SchemaSet::built_in();
   for (const std::string& dir : options.schema_dirs) {
     if (auto added = set.add_directory(dir); !added) return added.error();
-    std::error_code ec;
-    for (auto it = std::filesystem::directory_iterator(dir, ec);
-         !ec && it != std::filesystem::directory_iterator(); it.increment(ec))
-      if (it->path().extension() == ".json") options.session->remember_read(it->path().string());
+    for (const std::filesystem::path& file : entries_of(dir))
+      if (file.extension() == ".json") options.session->remember_read(file.string());
   }
   return LoadedSchemas(std::move(set));
 }
@@ -277,18 +275,14 @@ int for_each_deck(const CommonOptions& options, const std::function<int(LoadedDe
   if (const int refused = check_outputs(options, {options.json}); refused != exit_clean)
     return refused;
   int worst = exit_clean;
-  for (const std::string& path : options.decks) {
-    if (BatchFrame* frame = options.session->frame) frame->begin(path);
-    int code = exit_clean;
-    if (auto loaded = load(path, *schemas, options); !loaded) {
-      code = failed(options, loaded.error(), reading_code(loaded.error()));
-    } else {
-      code = std::max(body(*loaded), examined_code(*loaded, options));
-      if (loaded->incomplete()) code = std::max<int>(code, exit_input);
-    }
-    if (BatchFrame* frame = options.session->frame) frame->end(code);
-    worst = std::max(worst, code);
-  }
+  const auto one = [&](const std::string& path) {
+    auto loaded = load(path, *schemas, options);
+    if (!loaded) return failed(options, loaded.error(), reading_code(loaded.error()));
+    const int code = std::max(body(*loaded), examined_code(*loaded, options));
+    return loaded->incomplete() ? std::max<int>(code, exit_input) : code;
+  };
+  for (const std::string& path : options.decks)
+    worst = std::max(worst, options.session->about(path, [&] { return one(path); }));
   return worst;
 }
 

@@ -81,6 +81,14 @@ class Session {
   /// Of `deck batch`, which runs the verb; nullptr: the verb was called by itself.
   BatchFrame* frame = nullptr;
 
+  /// Does what is about one deck; errors meanwhile are its own. Returns the exit code.
+  int about(const std::string& deck, const std::function<int()>& work) const {
+    if (frame != nullptr) frame->begin(deck);
+    const int code = work();
+    if (frame != nullptr) frame->end(code);
+    return code;
+  }
+
   /// From now on no output is written over these files.
   void remember_read(const SourceSet& sources);
   void remember_read(const Source& source);

@@ -136,7 +136,6 @@ Result<Shard> parse_shard(const std::string& text) {
   return config_error("--shard " + text + ": expected i/n, part i of n, for example 1/8 ... 8/8");
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 /// Every member by its name in the file.
@@ -189,19 +188,14 @@ std::string record_name(const std::string& result) {
 
 std::map<std::string, Record> read_records(const std::string& directory) {
   std::map<std::string, Record> out;
-  std::error_code ec;
-  for (auto it = fs::directory_iterator(directory + "/.batch", ec);
-       !ec && it != fs::directory_iterator(); it.increment(ec)) {
-    if (it->path().extension() != ".record") continue;
-    const auto source = Source::open(it->path().string(), Limits{});
+  for (const fs::path& file : entries_of(directory + "/.batch")) {
+    if (file.extension() != ".record") continue;
+    const auto source = Source::open(file.string(), Limits{});
     auto record = source ? parse_record((*source)->bytes()) : std::nullopt;
-    if (record) out.emplace(".batch/" + it->path().filename().string(), std::move(*record));
+    if (record) out.emplace(".batch/" + file.filename().string(), std::move(*record));
   }
   return out;
 }
-
-namespace fs = std::filesystem;
-namespace {}  // namespace
 
 std::string as_utf8(std::string_view text) {
   std::string json;
@@ -325,15 +319,13 @@ std::string summary_name(const Shard& shard) {
 
 Result<Json> merge_shards(const std::string& directory) try {
   std::map<std::string, Json> parts;
-  std::error_code ec;
-  for (auto it = fs::directory_iterator(directory, ec); !ec && it != fs::directory_iterator();
-       it.increment(ec)) {
-    const std::string name = it->path().filename().string();
+  for (const fs::path& file : entries_of(directory)) {
+    const std::string name = file.filename().string();
     if (!name.starts_with("summary-") || !name.ends_with(".json")) continue;
-    const auto source = Source::open(it->path().string(), Limits{});
+    const auto source = Source::open(file.string(), Limits{});
     if (!source) return source.error();
     parts[name] = read_json<Json>((*source)->bytes());
-    if (parts[name].is_discarded()) return config_error(it->path().string() + " is not JSON");
+    if (parts[name].is_discarded()) return config_error(file.string() + " is not JSON");
   }
   if (parts.empty()) return config_error("there is no summary-i-of-n.json in " + directory);
   const Json first = parts.begin()->second;

@@ -142,20 +142,18 @@ int write_overview(const BatchOptions& o, const Shard& shard, const Json& s, std
   return worst_code(s.at("decks"));
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 /// A path with what the file contains; with the JSON files (schemas) of a directory.
 std::string with_contents(const std::string& path) {
   std::string text = "\n" + path;
-  std::set<std::string> files;
+  const auto add = [&](const std::string& file) {
+    text += " " + file + " " + std::to_string(file_hash(file));
+  };
   std::error_code ec;
-  if (fs::is_regular_file(path, ec)) files.insert(path);
-  if (fs::is_directory(path, ec))
-    for (auto it = fs::directory_iterator(path, ec); !ec && it != fs::directory_iterator();
-         it.increment(ec))
-      if (it->path().extension() == ".json") files.insert(it->path().string());
-  for (const std::string& file : files) text += " " + file + " " + std::to_string(file_hash(file));
+  if (fs::is_regular_file(path, ec)) add(path);
+  for (const fs::path& file : entries_of(path))
+    if (file.extension() == ".json") add(file.string());
   return text;
 }
 

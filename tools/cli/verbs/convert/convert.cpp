@@ -519,12 +519,9 @@ int run(ConvertOptions& options) {
   work.together =
       decks->size() > 1 && options.common.session->frame == nullptr && options.to == "rad";
   int worst = exit_clean;
-  for (const std::string& path : *decks) {
-    if (BatchFrame* frame = options.common.session->frame) frame->begin(path);
-    const int code = convert_one(work, path, *schemas);
-    if (BatchFrame* frame = options.common.session->frame) frame->end(code);
-    worst = std::max(worst, code);
-  }
+  for (const std::string& path : *decks)
+    worst = std::max(worst, options.common.session->about(
+                                path, [&] { return convert_one(work, path, *schemas); }));
   unite(work.losses);
   if (BatchFrame* frame = options.common.session->frame) frame->losses = work.losses;
   if (!work.refused)

@@ -131,12 +131,8 @@ int LintRun::run() {
     decks = decks_in_directories(common_.decks);
   if (rewrites && decks) decks = changes_.decks(*decks);
   if (!decks) return failed(common_, decks.error(), reading_code(decks.error()));
-  for (const std::string& path : *decks) {
-    if (BatchFrame* frame = common_.session->frame) frame->begin(path);
-    const int code = lint_one(path);
-    if (BatchFrame* frame = common_.session->frame) frame->end(code);
-    worst = std::max(worst, code);
-  }
+  for (const std::string& path : *decks)
+    worst = std::max(worst, common_.session->about(path, [&] { return lint_one(path); }));
   if (rewrites) {
     const int code = std::any_of(common_.decks.begin(), common_.decks.end(),
                                  [](const std::string& d) { return d == "-"; }) &&
