@@ -450,7 +450,7 @@ int run_program(int argc, char** argv, const std::string& version, Session& sess
   for (const Verb& v : all) {
     CLI::App* sub = app.add_subcommand(std::string(v.name), std::string(v.summary));
     sub->set_help_flag("-h,--help", "This help");
-    if (!v.examples.empty()) sub->footer("Examples:\n" + std::string(v.examples));
+    if (!v.examples.empty()) sub->footer("Examples:\n" + std::string(v.examples) + "\n");
     CommandLine line(sub, session);
     actions[sub] = v.setup(line);
     group_options(*sub);

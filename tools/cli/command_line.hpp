@@ -34,7 +34,7 @@ namespace deck::cli {
 //   }
 //   const deck::cli::VerbRegistration registration{
 //       {"gaps", 30, "Gaps, stiffness and initial penetrations",
-//        "  deck gaps car_0000.rad\n  deck gaps car_0000.rad --json gaps.json\n", setup}};
+//        "  deck gaps car_0000.rad\n  deck gaps car_0000.rad --json gaps.json", setup}};
 //   }  // namespace
 
 class CommandLine;

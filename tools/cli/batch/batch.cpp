@@ -200,21 +200,20 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"batch", 60, "One verb over many decks: a result for each, a summary, resumable",
-     "  deck batch -o results models/ --jobs 8\n"
-     "  deck batch -o results --manifest decks.txt --verb 'lint --geometry'\n"
-     "  deck batch -o metric models/ --verb 'convert --units kg,m,s'\n"
-     "  deck batch -o results models/ --verb 'lint --fix'\n"
-     "  deck batch -o results models/ --shard 2/8    part of the decks, for another machine\n"
-     "  deck batch -o results --merge                one summary of all shards\n"
-     "\n"
-     "DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks.\n"
-     "Decks of the same name get the name of their directory as prefix: left--car_0000.json.\n"
-     "convert and fix write the decks below DIR, with their paths relative to the directory that\n"
-     "holds all of them (or in place, with --in-place among the options of the verb). Decks that\n"
-     "share files are written together or not at all; every result is verified (--no-verify).\n"
-     "After an interruption run the same command again: a deck is done again only if a file that "
-     "it\n"
-     "reads, the options or the program changed, or if it failed.\n",
+     R"(  deck batch -o results models/ --jobs 8
+  deck batch -o results --manifest decks.txt --verb 'lint --geometry'
+  deck batch -o metric models/ --verb 'convert --units kg,m,s'
+  deck batch -o results models/ --verb 'lint --fix'
+  deck batch -o results models/ --shard 2/8    part of the decks, for another machine
+  deck batch -o results --merge                one summary of all shards
+
+DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks.
+Decks of the same name get the name of their directory as prefix: left--car_0000.json.
+convert and fix write the decks below DIR, with their paths relative to the directory that
+holds all of them (or in place, with --in-place among the options of the verb). Decks that
+share files are written together or not at all; every result is verified (--no-verify).
+After an interruption run the same command again: a deck is done again only if a file that it
+reads, the options or the program changed, or if it failed.)",
      setup}};
 
 }  // namespace

@@ -334,8 +334,8 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"lsp", 85, "Language server: findings, hover, completion and more in an editor",
-     "  deck lsp                       as an editor starts it (see tools/docs/editors.md)\n"
-     "  deck lsp --include-path lib\n",
+     R"(  deck lsp                       as an editor starts it (see tools/docs/editors.md)
+  deck lsp --include-path lib)",
      setup}};
 
 }  // namespace

@@ -123,10 +123,10 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"accuracy", 60, "What each --accuracy costs in time and gets wrong, on hard cases and a deck",
-     "  deck accuracy\n"
-     "  deck accuracy car_0000.rad\n"
-     "  deck accuracy car_0000.rad --html accuracy.html\n"
-     "  deck accuracy car_0000.rad --json accuracy.json\n",
+     R"(  deck accuracy
+  deck accuracy car_0000.rad
+  deck accuracy car_0000.rad --html accuracy.html
+  deck accuracy car_0000.rad --json accuracy.json)",
      setup}};
 
 }  // namespace

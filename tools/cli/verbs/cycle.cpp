@@ -422,16 +422,17 @@ Action setup(CommandLine& line) {
   };
 }
 
-const VerbRegistration registration{
-    {"cycle", 40, "Contact forces, energies and time step of the first cycle",
-     "  deck cycle car_0000.rad\n"
-     "  deck cycle car_0000.rad --interface 3 --effects\n"
-     "  deck cycle car_0000.rad --without friction\n"
-     "  deck cycle car_0000.rad --html cycle.html\n"
-     "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3\n"
-     "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview\n"
-     "  deck cycle car_0000.rad --model reference --all --json cycle.json\n",
-     setup}};
+const VerbRegistration registration{{"cycle", 40,
+                                     "Contact forces, energies and time step of the first cycle",
+                                     R"(  deck cycle car_0000.rad
+  deck cycle car_0000.rad --interface 3 --effects
+  deck cycle car_0000.rad --without friction
+  deck cycle car_0000.rad --html cycle.html
+  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3
+  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview
+  deck cycle car_0000.rad --model reference --all --json cycle.json
+)",
+                                     setup}};
 
 }  // namespace
 

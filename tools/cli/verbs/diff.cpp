@@ -196,13 +196,13 @@ Action setup(CommandLine& line) {
 const VerbRegistration registration{
     {"diff", 24,
      "Differences in meaning between two decks; comments, order and format do not count",
-     "  deck diff old_0000.rad new_0000.rad\n"
-     "  deck diff old_0000.rad new_0000.rad --markdown > comment.md\n"
-     "  deck diff --git main car_0000.rad                          what this branch changes\n"
-     "  deck diff old_0000.rad renumbered_0000.rad --match position\n"
-     "  deck diff old_0000.rad new_0000.rad --tolerance 1e-9       without round-off\n"
-     "\n"
-     "Exit code 0: equal in meaning, 1: different.\n",
+     R"(  deck diff old_0000.rad new_0000.rad
+  deck diff old_0000.rad new_0000.rad --markdown > comment.md
+  deck diff --git main car_0000.rad                          what this branch changes
+  deck diff old_0000.rad renumbered_0000.rad --match position
+  deck diff old_0000.rad new_0000.rad --tolerance 1e-9       without round-off
+
+Exit code 0: equal in meaning, 1: different.)",
      setup}};
 
 }  // namespace

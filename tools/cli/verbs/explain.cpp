@@ -149,16 +149,16 @@ Action setup(CommandLine& line) {
 const VerbRegistration registration{
     {"explain", 81,
      "The page of a rule, keyword, field or solver message; a listing beside its deck",
-     "  deck explain DK254\n"
-     "  deck explain DK1                  the rules of a family\n"
-     "  deck explain TYPE7\n"
-     "  deck explain Gapmin               also TYPE7.Gapmin, /INTER/TYPE19.Gapmin\n"
-     "  deck explain 611                  message of the solver, also 'ERROR 611'\n"
-     "  deck explain 'initial penetrations'\n"
-     "  deck explain car_0000.out         the messages of a run, beside car_0000.rad\n"
-     "\n"
-     "Exit code of a listing: 1 if it has errors, or penetrations or time steps that differ from\n"
-     "those of deck gaps and deck parts.\n",
+     R"(  deck explain DK254
+  deck explain DK1                  the rules of a family
+  deck explain TYPE7
+  deck explain Gapmin               also TYPE7.Gapmin, /INTER/TYPE19.Gapmin
+  deck explain 611                  message of the solver, also 'ERROR 611'
+  deck explain 'initial penetrations'
+  deck explain car_0000.out         the messages of a run, beside car_0000.rad
+
+Exit code of a listing: 1 if it has errors, or penetrations or time steps that differ from
+those of deck gaps and deck parts.)",
      setup}};
 
 }  // namespace

@@ -553,32 +553,29 @@ const VerbRegistration registration{
     {"fix", 35,
      "Repair initial penetrations and ties: move nodes, reduce gaps, set Inacti, Fpenmax or "
      "dsearch",
-     "  deck fix car_0000.rad                                  what each strategy would do\n"
-     "  deck fix car_0000.rad --strategy move-nodes            what this one would do\n"
-     "  deck fix car_0000.rad --strategy move-nodes --diff     the same as a patch\n"
-     "  deck fix car_0000.rad --strategy move-nodes --max-moved 100% --lock 12,13 --in-place "
-     "--backup\n"
-     "  deck fix car_0000.rad --strategy move-part --lock 12 --max-displacement 2 --diff\n"
-     "  deck fix car_0000.rad --strategy reduce-gap --min-gap 80% -o fixed\n"
-     "  deck fix car_0000.rad --strategy reduce-gap,move-nodes --html fixed.html --diff\n"
-     "  deck fix car_0000.rad --strategy inacti --inacti 6 --interface 3 --in-place\n"
-     "  deck fix car_0000.rad --strategy fpenmax --fpenmax 0.9 --diff | git apply\n"
-     "  deck fix car_0000.rad --strategy tie --reach 5 -o fixed\n"
-     "\n"
-     "Which strategy? Moving nodes cures the cause and keeps the gap; it changes the mesh a "
-     "little. Moving a part keeps the shape of both sides.\n"
-     "Reducing the gap is right where gap and thickness disagree; the contact then acts later.\n"
-     "Inacti leaves deck and mesh alone and lets the solver start with a smaller gap for the\n"
-     "pairs that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones.\n"
-     "Nodes of a TYPE2 that find no segment fall off: tie raises its dsearch to what those within\n"
-     "--reach need. A node that something else holds stays untied: another tie, a rigid body ...\n"
-     "\n"
-     "Every change is verified before it is shown: the deck is read again with the new values as\n"
-     "printed. What would penetrate deeper than before, or come loose, is not written.\n"
-     "\n"
-     "Exit code: 0 all treated or nothing to treat, 1 something remains, the solver stops with "
-     "the\n"
-     "result, or nothing was examined, 2 wrong usage, 3 unreadable input.\n",
+     R"(  deck fix car_0000.rad                                  what each strategy would do
+  deck fix car_0000.rad --strategy move-nodes            what this one would do
+  deck fix car_0000.rad --strategy move-nodes --diff     the same as a patch
+  deck fix car_0000.rad --strategy move-nodes --max-moved 100% --lock 12,13 --in-place --backup
+  deck fix car_0000.rad --strategy move-part --lock 12 --max-displacement 2 --diff
+  deck fix car_0000.rad --strategy reduce-gap --min-gap 80% -o fixed
+  deck fix car_0000.rad --strategy reduce-gap,move-nodes --html fixed.html --diff
+  deck fix car_0000.rad --strategy inacti --inacti 6 --interface 3 --in-place
+  deck fix car_0000.rad --strategy fpenmax --fpenmax 0.9 --diff | git apply
+  deck fix car_0000.rad --strategy tie --reach 5 -o fixed
+
+Which strategy? Moving nodes cures the cause and keeps the gap; it changes the mesh a little. Moving a part keeps the shape of both sides.
+Reducing the gap is right where gap and thickness disagree; the contact then acts later.
+Inacti leaves deck and mesh alone and lets the solver start with a smaller gap for the
+pairs that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones.
+Nodes of a TYPE2 that find no segment fall off: tie raises its dsearch to what those within
+--reach need. A node that something else holds stays untied: another tie, a rigid body ...
+
+Every change is verified before it is shown: the deck is read again with the new values as
+printed. What would penetrate deeper than before, or come loose, is not written.
+
+Exit code: 0 all treated or nothing to treat, 1 something remains, the solver stops with the
+result, or nothing was examined, 2 wrong usage, 3 unreadable input.)",
      setup}};
 
 }  // namespace

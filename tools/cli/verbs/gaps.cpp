@@ -254,18 +254,19 @@ Action setup(CommandLine& line) {
   };
 }
 
-const VerbRegistration registration{
-    {"gaps", 30, "Gaps, stiffness and initial penetrations of every contact",
-     "  deck gaps car_0000.rad\n"
-     "  deck gaps car_0000.rad --html gaps.html\n"
-     "  deck gaps car_0000.rad --json gaps.json --all\n"
-     "  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6\n"
-     "  deck gaps car_0000.rad --max-depth 0.5 --max-count 20\n"
-     "  deck gaps car_0000.rad --compare main.json --fail-on new,worse\n"
-     "  deck gaps car_0000.rad --compare git:main --fail-on new,worse\n"
-     "  deck gaps car_0000.rad --write-baseline gaps-baseline.json\n"
-     "  deck gaps car_0000.rad --baseline gaps-baseline.json\n",
-     setup}};
+const VerbRegistration registration{{"gaps", 30,
+                                     "Gaps, stiffness and initial penetrations of every contact",
+                                     R"(  deck gaps car_0000.rad
+  deck gaps car_0000.rad --html gaps.html
+  deck gaps car_0000.rad --json gaps.json --all
+  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6
+  deck gaps car_0000.rad --max-depth 0.5 --max-count 20
+  deck gaps car_0000.rad --compare main.json --fail-on new,worse
+  deck gaps car_0000.rad --compare git:main --fail-on new,worse
+  deck gaps car_0000.rad --write-baseline gaps-baseline.json
+  deck gaps car_0000.rad --baseline gaps-baseline.json
+)",
+                                     setup}};
 
 }  // namespace
 }  // namespace deck::cli::verb_gaps

@@ -80,18 +80,16 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"params", 20, "Effective values of every interface, and where each came from",
-     "  deck params car_0000.rad\n"
-     "  deck params car_0000.rad --matrix          one row per interface\n"
-     "  deck params car_0000.rad --changed         only values on the card that are not the "
-     "default\n"
-     "  deck params car_0000.rad --filled-in       only values that the solver fills in or "
-     "replaces\n"
-     "  deck params car_0000.rad --interface 3,4 --csv params.csv\n"
-     "  deck params car_0000.rad --json params.json\n"
-     "\n"
-     "Origins: card, default-block (/DEFAULT/INTER), built-in (the solver's default),\n"
-     "derived (follows from other values, from /FRICTION or from the mesh).\n"
-     "1000 means 'nothing' (no deletion, constant gap, main stiffness only ...).\n",
+     R"(  deck params car_0000.rad
+  deck params car_0000.rad --matrix          one row per interface
+  deck params car_0000.rad --changed         only values on the card that are not the default
+  deck params car_0000.rad --filled-in       only values that the solver fills in or replaces
+  deck params car_0000.rad --interface 3,4 --csv params.csv
+  deck params car_0000.rad --json params.json
+
+Origins: card, default-block (/DEFAULT/INTER), built-in (the solver's default),
+derived (follows from other values, from /FRICTION or from the mesh).
+1000 means 'nothing' (no deletion, constant gap, main stiffness only ...).)",
      setup}};
 
 }  // namespace

@@ -74,14 +74,14 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"parts", 22, "Parts with mass, smallest time step and the interfaces that see them",
-     "  deck parts car_0000.rad\n"
-     "  deck parts car_0000.rad --csv parts.csv\n"
-     "  deck parts car_0000.rad --html parts.html\n"
-     "  deck parts car_0000.rad --json parts.json        also kinematic conditions\n"
-     "  deck parts car_0000.rad --all --json parts.json  every element and node\n"
-     "\n"
-     "Time steps and masses are those that the solver lists at the start, without a factor.\n"
-     "What cannot be computed is left blank, and named below the table.\n",
+     R"(  deck parts car_0000.rad
+  deck parts car_0000.rad --csv parts.csv
+  deck parts car_0000.rad --html parts.html
+  deck parts car_0000.rad --json parts.json        also kinematic conditions
+  deck parts car_0000.rad --all --json parts.json  every element and node
+
+Time steps and masses are those that the solver lists at the start, without a factor.
+What cannot be computed is left blank, and named below the table.)",
      setup}};
 
 }  // namespace

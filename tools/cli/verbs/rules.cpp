@@ -20,8 +20,8 @@ Action setup(CommandLine& line) {
   return [options] { return run(*options); };
 }
 
-const VerbRegistration registration{{"rules", 80, "All rules of deck lint",
-                                     "  deck rules\n  deck rules --json rules.json\n", setup}};
+const VerbRegistration registration{
+    {"rules", 80, "All rules of deck lint", "  deck rules\n  deck rules --json rules.json", setup}};
 
 }  // namespace
 }  // namespace deck::cli::verb_rules

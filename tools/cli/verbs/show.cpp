@@ -91,11 +91,11 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"show", 22, "One entity: its card by field, effective values, users and references",
-     "  deck show car_0000.rad 3                   interface 3\n"
-     "  deck show car_0000.rad /GRNOD/PART/12\n"
-     "  deck show car_0000.rad node:5712           also part:4 shell:12 mat:1 set:9 ...\n"
-     "  deck show car_0000.rad pair:57/30-38-44-31 --svg > pair.svg\n"
-     "  deck show car_0000.rad 3 --json show.json\n",
+     R"(  deck show car_0000.rad 3                   interface 3
+  deck show car_0000.rad /GRNOD/PART/12
+  deck show car_0000.rad node:5712           also part:4 shell:12 mat:1 set:9 ...
+  deck show car_0000.rad pair:57/30-38-44-31 --svg > pair.svg
+  deck show car_0000.rad 3 --json show.json)",
      setup}};
 
 }  // namespace

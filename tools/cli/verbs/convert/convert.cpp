@@ -578,24 +578,23 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"convert", 50, "Write a deck in another version, unit system, layout or format",
-     "  deck convert car_0000.rad -o copy                      the deck and its includes\n"
-     "  deck convert car_0000.rad --version 2022 --diff        what another version would change\n"
-     "  deck convert car_0000.rad --units kg,mm,ms -o metric --report losses.json\n"
-     "  deck convert models/ --version 2026 --check            what a library would lose\n"
-     "  deck convert car_0000.rad --resolve-defaults --in-place --backup\n"
-     "  deck convert car_0000.rad --extract-contacts 7 -o bug  one interface and what it needs\n"
-     "  deck convert car_0000.rad --to json -o car.json\n"
-     "\n"
-     "Conversions are done in the order of their options above, whatever their order on the\n"
-     "command line. A conversion that would lose a value is refused with the place of the value\n"
-     "(exit code 1), and nothing is written. If something was written but must be decided by "
-     "hand,\n"
-     "the exit code is 1 too.\n"
-     "Several decks are converted together: a file that they share is read and written once. If\n"
-     "they need different texts for it, nothing is written (exit code 2). Nothing is written\n"
-     "if another program changed a file after it was read.\n"
-     "Files that are included from above the deck's directory (#include ../common/x.inc) keep\n"
-     "their place too: the deck is then written one or more directories further down.\n",
+     R"(  deck convert car_0000.rad -o copy                      the deck and its includes
+  deck convert car_0000.rad --version 2022 --diff        what another version would change
+  deck convert car_0000.rad --units kg,mm,ms -o metric --report losses.json
+  deck convert models/ --version 2026 --check            what a library would lose
+  deck convert car_0000.rad --resolve-defaults --in-place --backup
+  deck convert car_0000.rad --extract-contacts 7 -o bug  one interface and what it needs
+  deck convert car_0000.rad --to json -o car.json
+
+Conversions are done in the order of their options above, whatever their order on the
+command line. A conversion that would lose a value is refused with the place of the value
+(exit code 1), and nothing is written. If something was written but must be decided by hand,
+the exit code is 1 too.
+Several decks are converted together: a file that they share is read and written once. If
+they need different texts for it, nothing is written (exit code 2). Nothing is written
+if another program changed a file after it was read.
+Files that are included from above the deck's directory (#include ../common/x.inc) keep
+their place too: the deck is then written one or more directories further down.)",
      setup}};
 
 }  // namespace

@@ -209,15 +209,14 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"gate", 35, "Lint and gaps against the gate of the repository, in one command",
-     "  deck gate                          all decks below the current directory\n"
-     "  deck gate models/ --since origin/main --format github -o sarif=deck.sarif\n"
-     "  deck gate car_0000.rad --compare git:main --fail-on new,worse\n"
-     "  deck gate models/ --init           sets the repository up\n"
-     "  deck gate --accept car_0000.rad    a change of this deck is meant\n"
-     "\n"
-     "Exit code 1: an error of lint, a contact beyond a bound, or one that is new or worse than "
-     "in\n"
-     "the document of [gate] in .decklint.toml.\n",
+     R"(  deck gate                          all decks below the current directory
+  deck gate models/ --since origin/main --format github -o sarif=deck.sarif
+  deck gate car_0000.rad --compare git:main --fail-on new,worse
+  deck gate models/ --init           sets the repository up
+  deck gate --accept car_0000.rad    a change of this deck is meant
+
+Exit code 1: an error of lint, a contact beyond a bound, or one that is new or worse than in
+the document of [gate] in .decklint.toml.)",
      setup}};
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -194,56 +195,52 @@ std::string config_text() {
 
 std::string package() { return "./tools/libdeck_" + std::string(library_version()) + "_amd64.deb"; }
 
-/// `decks`: as words of a shell, each after a blank.
-std::string github_text(const std::string& decks) {
-  return "# Written by 'deck gate --init'. " + package() +
-         " has to be in the repository, or be fetched here.\n"
-         "name: deck gate\n"
-         "on: [pull_request]\n"
-         "jobs:\n"
-         "  gate:\n"
-         "    runs-on: ubuntu-latest\n"
-         "    container: debian:12\n"
-         "    permissions: { contents: read, security-events: write }\n"
-         "    steps:\n"
-         "      - run: apt-get update && apt-get install -y ca-certificates git\n"
-         "      - uses: actions/checkout@v4\n"
-         "        with: { fetch-depth: 0 }\n"
-         "      - run: git config --global --add safe.directory \"$GITHUB_WORKSPACE\"\n"
-         "      - run: apt-get install -y " +
-         package() +
-         "\n"
-         "      - run: >-\n"
-         "          deck gate" +
-         decks +
-         " --since \"origin/$GITHUB_BASE_REF\"\n"
-         "          --format github -o sarif=deck.sarif\n"
-         "      - uses: github/codeql-action/upload-sarif@v3\n"
-         "        if: always()\n"
-         "        with: { sarif_file: deck.sarif }\n";
-}
+constexpr std::string_view github_workflow =
+    R"(# Written by 'deck gate --init'. @PACKAGE@ has to be in the repository, or be fetched here.
+name: deck gate
+on: [pull_request]
+jobs:
+  gate:
+    runs-on: ubuntu-latest
+    container: debian:12
+    permissions: { contents: read, security-events: write }
+    steps:
+      - run: apt-get update && apt-get install -y ca-certificates git
+      - uses: actions/checkout@v4
+        with: { fetch-depth: 0 }
+      - run: git config --global --add safe.directory "$GITHUB_WORKSPACE"
+      - run: apt-get install -y @PACKAGE@
+      - run: >-
+          deck gate@DECKS@ --since "origin/$GITHUB_BASE_REF"
+          --format github -o sarif=deck.sarif
+      - uses: github/codeql-action/upload-sarif@v3
+        if: always()
+        with: { sarif_file: deck.sarif }
+)";
 
-std::string gitlab_text(const std::string& decks) {
-  return "# Written by 'deck gate --init'. In .gitlab-ci.yml: include: [{ local: "
-         ".gitlab/deck-gate.yml }]\n"
-         "# " +
-         package() +
-         " has to be in the repository, or be fetched here.\n"
-         "deck-gate:\n"
-         "  image: debian:12\n"
-         "  variables: { GIT_DEPTH: \"0\" }\n"
-         "  rules: [{ if: '$CI_PIPELINE_SOURCE == \"merge_request_event\"' }]\n"
-         "  script:\n"
-         "    - apt-get update && apt-get install -y git " +
-         package() +
-         "\n"
-         "    - git config --global --add safe.directory \"$CI_PROJECT_DIR\"\n"
-         "    - >-\n"
-         "      deck gate" +
-         decks +
-         " --since \"$CI_MERGE_REQUEST_DIFF_BASE_SHA\"\n"
-         "      -o gitlab=deck.json -o junit=deck.xml\n"
-         "  artifacts: { when: always, reports: { codequality: deck.json, junit: deck.xml } }\n";
+constexpr std::string_view gitlab_workflow =
+    R"(# Written by 'deck gate --init'. In .gitlab-ci.yml: include: [{ local: .gitlab/deck-gate.yml }]
+# @PACKAGE@ has to be in the repository, or be fetched here.
+deck-gate:
+  image: debian:12
+  variables: { GIT_DEPTH: "0" }
+  rules: [{ if: '$CI_PIPELINE_SOURCE == "merge_request_event"' }]
+  script:
+    - apt-get update && apt-get install -y git @PACKAGE@
+    - git config --global --add safe.directory "$CI_PROJECT_DIR"
+    - >-
+      deck gate@DECKS@ --since "$CI_MERGE_REQUEST_DIFF_BASE_SHA"
+      -o gitlab=deck.json -o junit=deck.xml
+  artifacts: { when: always, reports: { codequality: deck.json, junit: deck.xml } }
+)";
+
+/// A workflow for these decks: words of a shell, each after a blank.
+std::string filled(std::string_view workflow, const std::string& decks) {
+  std::string out(workflow);
+  for (const auto& [mark, text] : {std::pair{"@PACKAGE@", package()}, {"@DECKS@", decks}})
+    for (auto at = out.find(mark); at != out.npos; at = out.find(mark, at + text.size()))
+      out.replace(at, std::strlen(mark), text);
+  return out;
 }
 
 /// What the repository looks like: its own files, else its remotes.
@@ -300,7 +297,7 @@ std::vector<NewFile> files_of(const Today& today, const fs::path& root, const st
           {today.lint.path(), today.lint.text()},
           {today.gaps.path(), today.gaps.text()},
           {(root / (github ? ".github/workflows/deck-gate.yml" : ".gitlab/deck-gate.yml")).string(),
-           github ? github_text(decks) : gitlab_text(decks)}};
+           filled(github ? github_workflow : gitlab_workflow, decks)}};
 }
 
 /// The arguments as words of a shell, as they are called from the top of the work tree. Error: a

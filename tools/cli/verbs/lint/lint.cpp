@@ -118,17 +118,16 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"lint", 10, "Findings with file, line and column: what is wrong and how to fix it",
-     "  deck lint car_0000.rad\n"
-     "  deck lint car_0000.rad --format github --fail-on warning\n"
-     "  deck lint car_0000.rad -o sarif=lint.sarif -o junit=lint.xml\n"
-     "  deck lint car_0000.rad --write-baseline lint-baseline.json\n"
-     "  deck lint car_0000.rad --diff | git apply\n"
-     "  deck lint models/ --format concise\n"
-     "  deck lint models/ --statistics\n"
-     "\n"
-     "Settings come from .decklint.toml beside or above the deck. A finding is switched off for "
-     "one\n"
-     "block by a comment in or above it:  # decklint: ignore[DK104] reason=...\n",
+     R"(  deck lint car_0000.rad
+  deck lint car_0000.rad --format github --fail-on warning
+  deck lint car_0000.rad -o sarif=lint.sarif -o junit=lint.xml
+  deck lint car_0000.rad --write-baseline lint-baseline.json
+  deck lint car_0000.rad --diff | git apply
+  deck lint models/ --format concise
+  deck lint models/ --statistics
+
+Settings come from .decklint.toml beside or above the deck. A finding is switched off for one
+block by a comment in or above it:  # decklint: ignore[DK104] reason=...)",
      setup}};
 
 }  // namespace
