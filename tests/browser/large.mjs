@@ -7,7 +7,7 @@ import { check, open, page, ROOT, same, scratch, settled } from "./support.mjs";
 
 export async function largeModel(browser, timings) {
   const path = join(scratch, "sheets_0000.rad");
-  execFileSync("python3", [join(ROOT, "samples/generate.py"), "--sheets", "300", path], { stdio: "ignore" });
+  execFileSync("python3", [join(ROOT, "tools/bench/sheets"), "300", path], { stdio: "ignore" });
   const file = page("sheets", path);
 
   const context = await browser.newContext();

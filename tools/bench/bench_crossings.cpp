@@ -6,14 +6,13 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
-#include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <set>
 
 #include "deck/contact/crossings.hpp"
+#include "harness.hpp"
 
 namespace {
 
@@ -78,18 +77,6 @@ Pairs deck_pairs(const Sheets& s) {
   return out;
 }
 
-template <class F>
-double best_of_three(const F& f, Pairs& result) {
-  double best = 1e300;
-  for (int k = 0; k < 3; ++k) {
-    const auto start = std::chrono::steady_clock::now();
-    result = f();
-    best = std::min(
-        best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  return best;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -100,8 +87,9 @@ int main(int argc, char** argv) {
   s.first = s.triangles.size();
   add_sheet(s, n, -0.03, 0.37);
   Pairs ours, theirs;
-  const double deck = best_of_three([&] { return deck_pairs(s); }, ours);
-  const double cgal = best_of_three([&] { return cgal_pairs(s); }, theirs);
+  const auto times =
+      bench::take_turns({[&] { ours = deck_pairs(s); }, [&] { theirs = cgal_pairs(s); }}, 3);
+  const double deck = bench::best(times[0]).wall, cgal = bench::best(times[1]).wall;
   if (ours != theirs) {
     fmt::print("answers differ: {} pairs and {}\n", ours.size(), theirs.size());
     return 1;

@@ -3,10 +3,7 @@
 // Pairs are gathered already (structure of arrays); tables say whether geometry is included.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -14,6 +11,7 @@
 #include "cycle/kernel/force.hpp"
 #include "cycle/kernel/geometry.hpp"
 #include "cycle_scene.hpp"
+#include "harness.hpp"
 
 // One pair at a time, for the rival that tests flags per pair.
 template <>
@@ -27,37 +25,37 @@ struct deck::cycle::detail::Registers<1> {
 namespace {
 
 using namespace deck::cycle;  // NOLINT: a program, not a header
-using namespace deck::cycle::bench;
+using namespace deck::cycle::sheet;
 
 /// The force stage alone, over geometry computed before.
 class ForceStage {
  public:
-  ForceStage(const KernelPlan& plan, const PacketView& view) : plan_(plan), view_(view) {
-    const detail::Constants k = detail::make_constants(plan_, view_);
-    blocks_.resize(view.size / detail::block_pairs);
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      plan_.table->geometry(k, view_, b * detail::block_pairs, detail::block_pairs, blocks_[b]);
-    }
+  ForceStage(const KernelPlan& plan, const PacketView& view)
+      : plan_(plan), view_(view), blocks_(view.size / detail::block_pairs) {
+    geometry();
     out_.resize(view.size);
   }
   void geometry() {
-    const detail::Constants k = detail::make_constants(plan_, view_);
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      plan_.table->geometry(k, view_, b * detail::block_pairs, detail::block_pairs, blocks_[b]);
-    }
+    each_block([this](const detail::Constants& k, std::size_t at, detail::GeometryBlock& block) {
+      plan_.table->geometry(k, view_, at, detail::block_pairs, block);
+    });
   }
   void force() {
-    const detail::Constants k = detail::make_constants(plan_, view_);
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      plan_.table->force(k, plan_.effects, view_, b * detail::block_pairs, detail::block_pairs,
-                         blocks_[b], out_);
-    }
+    each_block([this](const detail::Constants& k, std::size_t at, detail::GeometryBlock& block) {
+      plan_.table->force(k, plan_.effects, view_, at, detail::block_pairs, block, out_);
+    });
   }
   [[nodiscard]] std::size_t pairs() const { return blocks_.size() * detail::block_pairs; }
   [[nodiscard]] const std::vector<detail::GeometryBlock>& blocks() const { return blocks_; }
   [[nodiscard]] const PacketResult& out() const { return out_; }
 
  private:
+  template <class F>
+  void each_block(const F& f) {
+    const detail::Constants k = detail::make_constants(plan_, view_);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) f(k, b * detail::block_pairs, blocks_[b]);
+  }
+
   KernelPlan plan_;
   PacketView view_;
   std::vector<detail::GeometryBlock> blocks_;
@@ -150,11 +148,19 @@ double worst_difference(const PacketResult& a, const PacketResult& b, std::size_
   return size > 0.0 ? off / size : INFINITY;  // all zero would prove nothing
 }
 
-void require_equal(double difference, const char* what) {
+void require_equal(double difference, const std::string& what) {
   if (difference == 0.0) return;
-  std::fprintf(stderr, "bench_cycle: %s: answers differ by %.3e of the largest; no times\n", what,
-               difference);
+  fmt::print(stderr, "bench_cycle: {}: answers differ by {:.3e} of the largest; no times\n", what,
+             difference);
   std::exit(1);
+}
+
+/// Best seconds of each, after a round that warms up.
+std::vector<double> race(const bench::Contestants& all, int rounds) {
+  for (const auto& contestant : all) contestant();
+  std::vector<double> out;
+  for (const auto& times : bench::take_turns(all, rounds)) out.push_back(bench::best(times).wall);
+  return out;
 }
 
 struct Composition {
@@ -203,11 +209,6 @@ PlanOptions option(bool energies, bool generic, Isa isa = Isa::automatic) {
 nlohmann::json composition_table(ContactKind kind, Model model, const Scene& scene, int rounds) {
   const PacketView view = scene.view();
   const double per_pair = 1e9 / static_cast<double>(view.size);
-  std::printf("\n%s, %s model: ns per pair, geometry included in the first three columns\n",
-              kind == ContactKind::edge_edge ? "edge-edge" : "node-quad",
-              model == Model::reference ? "reference" : "robust");
-  std::printf("%-40s %9s %9s %9s %9s %9s %9s\n", "composition", "composed", "flags", "baseline",
-              "force", "f.flags", "Mpairs/s");
   nlohmann::json rows = nlohmann::json::array();
   for (const Composition& c : compositions(kind)) {
     const KernelPlan fixed = make_plan(c.card, model, option(c.energies, false));
@@ -217,23 +218,31 @@ nlohmann::json composition_table(ContactKind kind, Model model, const Scene& sce
     evaluate(fixed, view, a);
     evaluate(flags, view, b);
     evaluate(base, view, d);
-    require_equal(worst_difference(a, b, view.size), (c.name + ", flags").c_str());
-    require_equal(worst_difference(a, d, view.size), (c.name + ", baseline").c_str());
+    require_equal(worst_difference(a, b, view.size), c.name + ", flags");
+    require_equal(worst_difference(a, d, view.size), c.name + ", baseline");
     ForceStage stage(fixed, view), stage_flags(flags, view);
     const std::vector<double> t = race(
         {[&] { evaluate(fixed, view, a); }, [&] { evaluate(flags, view, b); },
          [&] { evaluate(base, view, d); }, [&] { stage.force(); }, [&] { stage_flags.force(); }},
         rounds);
-    std::printf("%-40s %9.1f %9.1f %9.1f %9.1f %9.1f %9.1f\n", c.name.c_str(), t[0] * per_pair,
-                t[1] * per_pair, t[2] * per_pair, t[3] * per_pair, t[4] * per_pair,
-                1e3 / (t[0] * per_pair));
     rows.push_back({{"composition", c.name},
                     {"composed_ns", t[0] * per_pair},
                     {"flags_ns", t[1] * per_pair},
                     {"baseline_ns", t[2] * per_pair},
                     {"force_only_ns", t[3] * per_pair},
-                    {"force_only_flags_ns", t[4] * per_pair}});
+                    {"force_only_flags_ns", t[4] * per_pair},
+                    {"million_pairs_per_second", 1e3 / (t[0] * per_pair)}});
   }
+  bench::print_table(fmt::format("{}, {} model: ns per pair, geometry included in the first three",
+                                 kind == ContactKind::edge_edge ? "edge-edge" : "node-quad",
+                                 model == Model::reference ? "reference" : "robust"),
+                     rows, {"composition", "composition"},
+                     {{"composed_ns", "composed"},
+                      {"flags_ns", "flags"},
+                      {"baseline_ns", "baseline"},
+                      {"force_only_ns", "force"},
+                      {"force_only_flags_ns", "f.flags"},
+                      {"million_pairs_per_second", "Mpairs/s"}});
   return rows;
 }
 
@@ -352,16 +361,11 @@ std::vector<EffectRow> effect_rows(ContactKind kind) {
   return rows;
 }
 
-struct EffectCost {
-  std::string name;
-  double without = 0, with = 0, baseline = 0, flags = 0, per_pair = 0;  ///< ns; per_pair 0: none
-};
-
 template <ContactKind K>
-std::vector<EffectCost> effect_costs(const Scene& scene, int rounds) {
+nlohmann::json effect_costs(const char* title, const Scene& scene, int rounds) {
   const PacketView view = scene.view();
   const double ns = 1e9 / static_cast<double>(view.size);
-  std::vector<EffectCost> out;
+  nlohmann::json rows = nlohmann::json::array();
   for (const EffectRow& row : effect_rows(K)) {
     const Model m = Model::reference;
     const KernelPlan less = make_plan(row.without, m, option(false, false));
@@ -373,82 +377,34 @@ std::vector<EffectCost> effect_costs(const Scene& scene, int rounds) {
     evaluate(more, view, b);
     evaluate(base, view, c);
     evaluate(flags, view, d);
-    require_equal(worst_difference(b, c, view.size), (row.name + ", baseline").c_str());
-    require_equal(worst_difference(b, d, view.size), (row.name + ", flags").c_str());
+    require_equal(worst_difference(b, c, view.size), row.name + ", baseline");
+    require_equal(worst_difference(b, d, view.size), row.name + ", flags");
     std::vector<std::function<void()>> all = {
         [&] { evaluate(less, view, a); }, [&] { evaluate(more, view, b); },
         [&] { evaluate(base, view, c); }, [&] { evaluate(flags, view, d); }};
     if (row.in_kernel) {
       flags_per_pair<Model::reference, K>(more, view, e);
-      require_equal(worst_difference(b, e, view.size), (row.name + ", flags per pair").c_str());
+      require_equal(worst_difference(b, e, view.size), row.name + ", flags per pair");
       all.push_back([&] { flags_per_pair<Model::reference, K>(more, view, e); });
     }
     const std::vector<double> t = race(all, rounds);
-    out.push_back(
-        {row.name, t[0] * ns, t[1] * ns, t[2] * ns, t[3] * ns, row.in_kernel ? t[4] * ns : 0.0});
+    rows.push_back({{"effect", row.name},
+                    {"without_ns", t[0] * ns},
+                    {"with_ns", t[1] * ns},
+                    {"added_ns", (t[1] - t[0]) * ns},
+                    {"baseline_ns", t[2] * ns},
+                    {"flags_ns", t[3] * ns},
+                    {"flags_per_pair_ns", row.in_kernel ? t[4] * ns : 0.0}});
   }
-  return out;
-}
-
-nlohmann::json print_costs(const char* title, const std::vector<EffectCost>& costs) {
-  std::printf(
-      "\n%s, reference model, ns per pair, geometry included\n%-46s %8s %8s %8s %9s %8s %9s\n",
-      title, "effect", "without", "with", "added", "baseline", "flags", "per pair");
-  nlohmann::json rows = nlohmann::json::array();
-  for (const EffectCost& c : costs) {
-    std::printf("%-46s %8.1f %8.1f %8.1f %9.1f %8.1f ", c.name.c_str(), c.without, c.with,
-                c.with - c.without, c.baseline, c.flags);
-    if (c.per_pair > 0) std::printf("%9.1f", c.per_pair);
-    std::printf("\n");
-    rows.push_back({{"effect", c.name},
-                    {"without_ns", c.without},
-                    {"with_ns", c.with},
-                    {"added_ns", c.with - c.without},
-                    {"baseline_ns", c.baseline},
-                    {"flags_ns", c.flags},
-                    {"flags_per_pair_ns", c.per_pair}});
-  }
+  bench::print_table(fmt::format("{}, reference model, ns per pair, geometry included", title),
+                     rows, {"effect", "effect"},
+                     {{"without_ns", "without"},
+                      {"with_ns", "with"},
+                      {"added_ns", "added"},
+                      {"baseline_ns", "baseline"},
+                      {"flags_ns", "flags"},
+                      {"flags_per_pair_ns", "per pair"}});
   return rows;
-}
-
-/// The same as a table for a page.
-std::string markdown(const nlohmann::json& all) {
-  const auto ns = [](const nlohmann::json& v) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f", v.get<double>());
-    return std::string(text);
-  };
-  std::string out =
-      "| elastic force alone, geometry excluded | composed kernel | hand-written loop | ratio of "
-      "speeds | geometry |\n|---|---:|---:|---:|---:|\n";
-  for (const auto& r : all["hand_written"]) {
-    char line[128];
-    std::snprintf(line, sizeof line, "| %s | %.2f | %.2f | %.2f | %.1f |\n",
-                  r["isa"].get<std::string>().c_str(), r["composed_ns"].get<double>(),
-                  r["hand_written_ns"].get<double>(), r["speed_ratio"].get<double>(),
-                  r["geometry_ns"].get<double>());
-    out += line;
-  }
-  for (const char* kind : {"node_segment", "edge_edge"}) {
-    out += std::string("\n| ") +
-           (std::string(kind) == "edge_edge" ? "edge against edge" : "node against quad") +
-           " | without | with | adds | SSE2 | flags per pack | flags per pair |\n"
-           "|---|---:|---:|---:|---:|---:|---:|\n";
-    for (const auto& r : all["effects"][kind]) {
-      const double pair = r["flags_per_pair_ns"];
-      out += "| " + r["effect"].get<std::string>() + " | " + ns(r["without_ns"]) + " | " +
-             ns(r["with_ns"]) + " | " + ns(r["added_ns"]) + " | " + ns(r["baseline_ns"]) + " | " +
-             ns(r["flags_ns"]) + " | " + (pair > 0 ? ns(r["flags_per_pair_ns"]) : "") + " |\n";
-    }
-  }
-  return out;
-}
-
-void write_text(const char* path, const std::string& text) {
-  if (std::FILE* file = std::fopen(path, "w")) {
-    std::fputs(text.c_str(), file);
-    std::fclose(file);
-  }
 }
 
 nlohmann::json hand_written_race(const Scene& scene, int rounds) {
@@ -483,10 +439,10 @@ nlohmann::json hand_written_race(const Scene& scene, int rounds) {
       t[1] = std::min(t[1], race({by_hand}, 3 * rounds)[0]);
     }
 #endif
-    std::printf(
-        "%s: elastic force, geometry excluded: composed %.2f ns, hand-written %.2f ns, "
-        "ratio of speeds %.3f; geometry alone %.1f ns\n",
-        plan.isa.c_str(), t[0] * per_pair, t[1] * per_pair, t[1] / t[0], t[2] * per_pair);
+    fmt::print(
+        "{}: elastic force, geometry excluded: composed {:.2f} ns, hand-written {:.2f} ns, "
+        "ratio of speeds {:.3f}; geometry alone {:.1f} ns\n",
+        plan.isa, t[0] * per_pair, t[1] * per_pair, t[1] / t[0], t[2] * per_pair);
     rows.push_back({{"isa", plan.isa},
                     {"composed_ns", t[0] * per_pair},
                     {"hand_written_ns", t[1] * per_pair},
@@ -529,8 +485,8 @@ nlohmann::json assembly_race(const Scene& scene, int rounds) {
   }
   const std::vector<double> t = race({gather, in_order, scatter}, rounds);
   const double per_pair = 1e9 / static_cast<double>(r.size);
-  std::printf("gather %.1f ns, ordered sums %.1f ns, plain scatter %.1f ns, ratio %.2f\n",
-              t[0] * per_pair, t[1] * per_pair, t[2] * per_pair, t[1] / t[2]);
+  fmt::print("gather {:.1f} ns, ordered sums {:.1f} ns, plain scatter {:.1f} ns, ratio {:.2f}\n",
+             t[0] * per_pair, t[1] * per_pair, t[2] * per_pair, t[1] / t[2]);
   return {{"gather_ns", t[0] * per_pair},
           {"ordered_ns", t[1] * per_pair},
           {"scatter_ns", t[2] * per_pair}};
@@ -538,12 +494,17 @@ nlohmann::json assembly_race(const Scene& scene, int rounds) {
 
 }  // namespace
 
-/// bench_cycle [CELLS] [ROUNDS] [OUT.json] [OUT.md]: CELLS^2 pairs.
+/// bench_cycle [CELLS] [ROUNDS] [--json FILE]: CELLS^2 pairs.
 int main(int argc, char** argv) {
-  const std::size_t cells = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 128;
-  const int rounds = argc > 2 ? std::atoi(argv[2]) : 15;
+  bench::Arguments arguments(argc, argv);
+  const auto json = arguments.value("--json");
+  const auto number = [&](std::size_t k, int usual) {
+    return arguments.words.size() > k ? std::atoi(arguments.words[k].c_str()) : usual;
+  };
+  const auto cells = static_cast<std::size_t>(number(0, 128));
+  const int rounds = number(1, 15);
   const Scene nodes = make_scene(cells, false), edges = make_scene(cells, true);
-  std::printf("%zu pairs, one thread\n", nodes.pairs.size());
+  fmt::print("{} pairs, one thread\n", nodes.pairs.size());
   nlohmann::json all;
   all["hand_written"] = hand_written_race(nodes, rounds);
   all["assembly"] = assembly_race(nodes, rounds);
@@ -553,10 +514,8 @@ int main(int argc, char** argv) {
     all[name]["edge_edge"] = composition_table(ContactKind::edge_edge, model, edges, rounds);
   }
   all["effects"]["node_segment"] =
-      print_costs("node-quad", effect_costs<ContactKind::node_segment>(nodes, rounds));
-  all["effects"]["edge_edge"] =
-      print_costs("edge-edge", effect_costs<ContactKind::edge_edge>(edges, rounds));
-  if (argc > 3) write_text(argv[3], all.dump(2) + "\n");
-  if (argc > 4) write_text(argv[4], markdown(all));
+      effect_costs<ContactKind::node_segment>("node-quad", nodes, rounds);
+  all["effects"]["edge_edge"] = effect_costs<ContactKind::edge_edge>("edge-edge", edges, rounds);
+  bench::write_json(json, all);
   return 0;
 }

@@ -5,19 +5,15 @@
 //   bench_distance [--samples N] [--rounds K] [--json FILE] [DECK...]
 //
 // The tiers of the JSON are those of the hard cases; "ratios" are for tools/bench/ratios.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "accuracy/shared/accuracy.hpp"
 #include "deck/front/loaded_deck.hpp"
 #include "distance/tiers.hpp"
+#include "harness.hpp"
 
 namespace {
 
@@ -26,13 +22,6 @@ using deck::PairSample;
 using deck::bench::Outcome;
 using deck::bench::Tier;
 using Pairs = std::vector<PairSample>;
-
-struct Settings {
-  std::size_t samples = 300;
-  int rounds = 9;
-  std::string json;
-  std::vector<std::string> decks;
-};
 
 // Exact tiers take hundreds of times as long: they have fewer pairs, and one round.
 constexpr std::size_t slow_pairs = 1000;
@@ -152,43 +141,29 @@ Pairs pairs_of(const std::string& path) {
   return deck::bench::scene_pairs(loaded->scene_with(options, ignored), 40000);
 }
 
-Settings parse(int argc, char** argv) {
-  Settings s;
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view arg = argv[i];
-    const auto value = [&] { return ++i < argc ? argv[i] : ""; };
-    if (arg == "--samples")
-      s.samples = std::strtoull(value(), nullptr, 10);
-    else if (arg == "--rounds")
-      s.rounds = std::atoi(value());
-    else if (arg == "--json")
-      s.json = value();
-    else
-      s.decks.emplace_back(arg);
-  }
-  return s;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Settings settings = parse(argc, argv);
+  bench::Arguments decks(argc, argv);
+  const auto samples_of_kind = decks.number("--samples", std::size_t{300});
+  const int rounds = decks.number("--rounds", 9);
+  const auto json = decks.value("--json");
   nlohmann::json out = nlohmann::json::object();
   Pairs samples;
   for (const deck::HardFamily& family : deck::hard_families()) {
-    const auto some = deck::hard_cases(family.id, settings.samples);
+    const auto some = deck::hard_cases(family.id, samples_of_kind);
     samples.insert(samples.end(), some.begin(), some.end());
   }
-  if (!race("hard cases", samples, settings.rounds, out)) return 1;
-  for (const std::string& path : settings.decks) {
+  if (!race("hard cases", samples, rounds, out)) return 1;
+  for (const std::string& path : decks.words) {
     const auto pairs = pairs_of(path);
     const std::string name = path.substr(path.find_last_of('/') + 1);
     if (pairs.empty()) {
       fmt::print(stderr, "{}: no pairs\n", path);
       return 1;
     }
-    if (!race(name, pairs, settings.rounds, out)) return 1;
+    if (!race(name, pairs, rounds, out)) return 1;
   }
-  if (!settings.json.empty()) std::ofstream(settings.json) << out.dump(2) << "\n";
+  bench::write_json(json, out);
   return 0;
 }

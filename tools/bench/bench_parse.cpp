@@ -5,13 +5,11 @@
 // work on the machine disturbs least; the gain of a second thread is of elapsed time and needs an
 // idle machine. Usage: bench_parse [--quick] [--megabytes N]
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -21,12 +19,13 @@
 
 #include "deck/keyword/deck.hpp"
 #include "deck/text/number.hpp"
+#include "harness.hpp"
 #include "model/bulk/bulk.hpp"
 
 namespace {
 
+using bench::Times;
 using deck::Model;
-using Clock = std::chrono::steady_clock;
 
 // ---- decks --------------------------------------------------------------------------------------
 
@@ -221,39 +220,24 @@ struct Parsed {
   deck::Deck deck;
   Model model;
   deck::Diagnostics diagnostics;
-  double blocks_wall = 0, blocks_cpu = 0, typed_wall = 0, typed_cpu = 0;  // seconds
-};
-
-/// A moment in elapsed and in processor time.
-struct Stamp {
-  double wall = 0, cpu = 0;
-  static Stamp now() {
-    timespec t{};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return {std::chrono::duration<double>(Clock::now().time_since_epoch()).count(),
-            static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec)};
-  }
+  Times blocks, typed;
 };
 
 /// The library: include tree and blocks, then nodes and elements with all diagnostics.
 std::unique_ptr<Parsed> library(const std::string& path, int threads) {
   auto out = std::make_unique<Parsed>();
-  Stamp start = Stamp::now();
+  const Times start = Times::now();
   auto deck = deck::read_deck(path, deck::SchemaSet::built_in());
   if (!deck) throw std::runtime_error(deck.error().message);
   out->deck = std::move(*deck);
-  const Stamp middle = Stamp::now();
-  out->blocks_wall = middle.wall - start.wall;
-  out->blocks_cpu = middle.cpu - start.cpu;
-  start = middle;
+  const Times middle = Times::now();
+  out->blocks = middle - start;
   const auto nodes = deck::detail::node_blocks(out->deck);
   const auto elements = deck::detail::element_blocks(out->deck);
   deck::detail::read_nodes(out->deck, nodes, out->model.nodes, out->model.node_blocks,
                            out->diagnostics, threads);
   deck::detail::read_elements(out->deck, elements, out->model, out->diagnostics, threads);
-  const Stamp end = Stamp::now();
-  out->typed_wall = end.wall - start.wall;
-  out->typed_cpu = end.cpu - start.cpu;
+  out->typed = Times::now() - middle;
   return out;
 }
 
@@ -292,39 +276,21 @@ double peak_megabytes(const std::string& self, const std::string& path, int thre
   return static_cast<double>(kb) / 1024;
 }
 
-struct Times {
-  double wall = 1e30, cpu = 1e30;
-  void keep_best(const Times& other) {
-    wall = std::min(wall, other.wall);
-    cpu = std::min(cpu, other.cpu);
-  }
-};
-
-Times since(const Stamp& start) {
-  const Stamp now = Stamp::now();
-  return {now.wall - start.wall, now.cpu - start.cpu};
-}
-
-template <class F>
-Times time_of(F&& f) {
-  const Stamp start = Stamp::now();
-  f();
-  return since(start);
-}
-
 void row(std::string_view what, const Times& t, double base, double bytes) {
   fmt::print("  {:<44} {:8.3f} s {:8.3f} s {:7.3f} GB/s {:7.2f}x\n", what, t.wall, t.cpu,
              bytes / t.cpu / 1e9, base / t.cpu);
 }
 
+/// The library's own times: of the typed parse, and with the include tree and blocks.
 struct LibraryTimes {
-  Times typed, all;
+  std::vector<Times> typed_runs, all_runs;
   void run(const std::string& path, int threads) {
     const auto parsed = library(path, threads);
-    typed.keep_best({parsed->typed_wall, parsed->typed_cpu});
-    all.keep_best(
-        {parsed->typed_wall + parsed->blocks_wall, parsed->typed_cpu + parsed->blocks_cpu});
+    typed_runs.push_back(parsed->typed);
+    all_runs.push_back(parsed->typed + parsed->blocks);
   }
+  Times typed() const { return bench::best(typed_runs); }
+  Times all() const { return bench::best(all_runs); }
 };
 
 /// What a second thread is worth at the moment for work that touches no memory.
@@ -333,16 +299,14 @@ double idle_gain() {
     volatile double sum = 0;
     for (int i = 0; i < 30'000'000; ++i) sum = sum + i;
   };
-  Times one, two;
-  for (int i = 0; i < 3; ++i) {
-    one.keep_best(time_of(spin));
-    two.keep_best(time_of([&] {
-      std::thread other(spin);
-      spin();
-      other.join();
-    }));
-  }
-  return 2 * one.wall / two.wall;
+  const auto times = bench::take_turns({spin,
+                                        [&] {
+                                          std::thread other(spin);
+                                          spin();
+                                          other.join();
+                                        }},
+                                       3);
+  return 2 * bench::best(times[0]).wall / bench::best(times[1]).wall;
 }
 
 bool same_findings(const deck::Diagnostics& a, const deck::Diagnostics& b) {
@@ -370,31 +334,28 @@ int compare(const std::string& self, const std::string& path, std::string_view t
     fmt::print("{}: {:.0f} MB, {} nodes, {} elements, {} findings; all answers agree\n", title,
                bytes / 1e6, expected.id.size(), expected.element.size(), findings);
   }
-  Times ours, standard, scan;
   LibraryTimes one, two;
-  for (int i = 0; i < runs; ++i) {
-    ours.keep_best(time_of([&] { bare_libdeck(path); }));
-    one.run(path, 1);
-    standard.keep_best(time_of([&] { bare_from_chars(path); }));
-    two.run(path, 2);
-  }
-  scan.keep_best(time_of([&] { with_sscanf(path); }));
+  const auto times = bench::take_turns({[&] { bare_libdeck(path); }, [&] { one.run(path, 1); },
+                                        [&] { bare_from_chars(path); }, [&] { two.run(path, 2); }},
+                                       runs);
+  const Times ours = bench::best(times[0]), standard = bench::best(times[2]),
+              scan = bench::time_of([&] { with_sscanf(path); });
   const double base = ours.cpu;
   fmt::print("  {:<44} {:>10} {:>10} {:>12} {:>8}\n", "", "elapsed", "processor", "per core",
              "ratio");
   row("bare loop, read_real (base of the ratios)", ours, base, bytes);
   row("bare loop, std::from_chars", standard, base, bytes);
   row("sscanf reader", scan, base, bytes);
-  row("typed parse with diagnostics, 1 thread", one.typed, base, bytes);
-  row("typed parse with diagnostics, 2 threads", two.typed, base, bytes);
-  row("with the include tree and blocks, 1 thread", one.all, base, bytes);
-  row("with the include tree and blocks, 2 threads", two.all, base, bytes);
+  row("typed parse with diagnostics, 1 thread", one.typed(), base, bytes);
+  row("typed parse with diagnostics, 2 threads", two.typed(), base, bytes);
+  row("with the include tree and blocks, 1 thread", one.all(), base, bytes);
+  row("with the include tree and blocks, 2 threads", two.all(), base, bytes);
   fmt::print(
       "  2 threads against 1, elapsed: {:.2f}x (with blocks: {:.2f}x); two threads that only "
       "compute gain {:.2f}x on this machine now\n",
-      one.typed.wall / two.typed.wall, one.all.wall / two.all.wall, idle_gain());
+      one.typed().wall / two.typed().wall, one.all().wall / two.all().wall, idle_gain());
   fmt::print("  against the sscanf reader: {:.1f}x (with blocks: {:.1f}x)\n",
-             scan.cpu / one.typed.cpu, scan.cpu / one.all.cpu);
+             scan.cpu / one.typed().cpu, scan.cpu / one.all().cpu);
   for (const int threads : {1, 2}) {
     const double peak = peak_megabytes(self, path, threads);
     fmt::print("  peak memory, {} thread(s): {:.0f} MB = {:.2f} x deck\n", threads, peak,
@@ -418,28 +379,22 @@ void compare_broken(const std::string& clean, const std::string& broken, int run
   }
   const double scale = size(clean) / size(broken);
   fmt::print("broken lines: {} findings, {} kept; {:.3f} s against {:.3f} s clean = {:.2f}x\n",
-             findings, parsed->diagnostics.all().size(), faulty.typed.cpu * scale, whole.typed.cpu,
-             faulty.typed.cpu * scale / whole.typed.cpu);
+             findings, parsed->diagnostics.all().size(), faulty.typed().cpu * scale,
+             whole.typed().cpu, faulty.typed().cpu * scale / whole.typed().cpu);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) try {
-  double megabytes = 177;
-  int runs = 5;
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
-    if (word == "--child" && i + 2 < argc) {
-      const auto parsed = library(argv[i + 1], std::atoi(argv[i + 2]));
-      fmt::print("{}\n", own_peak());
-      return parsed->model.nodes.size() > 0 ? 0 : 1;
-    }
-    if (word == "--quick") {
-      megabytes = 40;
-      runs = 1;
-    }
-    if (word == "--megabytes" && i + 1 < argc) megabytes = std::atof(argv[++i]);
+  bench::Arguments arguments(argc, argv);
+  if (arguments.flag("--child")) {
+    const auto parsed = library(arguments.words.at(0), std::atoi(arguments.words.at(1).c_str()));
+    fmt::print("{}\n", own_peak());
+    return parsed->model.nodes.size() > 0 ? 0 : 1;
   }
+  const bool quick = arguments.flag("--quick");
+  const int runs = quick ? 1 : 5;
+  const double megabytes = arguments.number("--megabytes", quick ? 40.0 : 177.0);
   const std::filesystem::path dir =
       std::filesystem::temp_directory_path() / fmt::format("bench_parse_{}", ::getpid());
   std::filesystem::create_directories(dir);

@@ -4,17 +4,9 @@
 //
 //   bench_search [--quick] [--size N]... [--repeat K] [--largest N] [--scene NAME] [--no-rivals]
 //                [--json FILE]
-#include <fmt/format.h>
-
-#include <chrono>
-#include <cstdlib>
-#include <ctime>
-#include <fstream>
 #include <functional>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <string_view>
 
+#include "harness.hpp"
 #include "rivals/cgal.hpp"
 #include "rivals/scenes.hpp"
 #ifdef DECK_HAVE_EMBREE
@@ -28,7 +20,8 @@ struct Settings {
   std::vector<std::size_t> sizes;
   std::size_t largest = 0;  // also measure the library alone at this size
   int repeat = 3;
-  std::string scene, json;
+  std::string scene;
+  std::optional<std::string> json;
   bool rivals = true;
 };
 
@@ -52,24 +45,6 @@ Answer ours(const Scene& s, int threads, std::size_t* bytes = nullptr,
   if (bytes != nullptr) *bytes = result.structure_bytes;
   if (tested != nullptr) *tested = result.tested;
   return {std::move(result.pairs)};
-}
-
-// Wall time and processor time of this process.
-struct Time {
-  double wall = 0.0, cpu = 0.0;
-};
-
-Time time_of(const std::function<void()>& body) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::clock_t cpu_start = std::clock();
-  body();
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-          static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC};
-}
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
 }
 
 std::vector<Contestant<Scene>> rivals() {
@@ -96,52 +71,34 @@ double exponent(const std::vector<std::pair<double, double>>& points) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-struct Measured {
-  Digest answer;
-  Time time;
-};
-
-// All contestants in turn, `repeat` times; the medians.
-template <class Input>
-std::vector<Measured> measure(const std::vector<Contestant<Input>>& all, const Input& s,
-                              int repeat) {
-  std::vector<Measured> out(all.size());
-  std::vector<std::vector<double>> wall(all.size()), cpu(all.size());
-  for (int round = 0; round < repeat; ++round) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      Answer answer;
-      const Time time = time_of([&] { answer = all[i].run(s); });
-      out[i].answer = Digest(answer);
-      wall[i].push_back(time.wall);
-      cpu[i].push_back(time.cpu);
-    }
-  }
-  for (std::size_t i = 0; i < all.size(); ++i) out[i].time = {median(wall[i]), median(cpu[i])};
-  return out;
-}
-
 // Measures all contestants; false (and no time printed) if their answers differ.
 template <class Input>
 bool compare(const std::string& title, const std::vector<Contestant<Input>>& all,
              const Input& input, std::size_t items, const Settings& settings, double& own_time) {
-  const std::vector<Measured> measured = measure(all, input, settings.repeat);
+  std::vector<Answer> answers(all.size());
+  Contestants contestants;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    contestants.emplace_back([&, i] { answers[i] = all[i].run(input); });
+  std::vector<Times> times;
+  for (const auto& of_one : take_turns(contestants, settings.repeat))
+    times.push_back(median(of_one));
+  const Digest own(answers[0]);
   for (std::size_t i = 1; i < all.size(); ++i) {
-    if (measured[i].answer == measured[0].answer) continue;
-    fmt::print(stderr, "{}: {} finds {} pairs, {} finds {}\n", title, all[0].name,
-               measured[0].answer.count, all[i].name, measured[i].answer.count);
+    if (Digest(answers[i]) == own) continue;
+    fmt::print(stderr, "{}: {} finds {} pairs, {} finds {}\n", title, all[0].name, own.count,
+               all[i].name, answers[i].pairs.size());
     return false;
   }
-  fmt::print("\n{}: {} pairs, the same for all\n", title, measured[0].answer.count);
+  fmt::print("\n{}: {} pairs, the same for all\n", title, own.count);
   fmt::print("  {:<40} {:>9} {:>9} {:>9} {:>7}\n", "", "wall s", "cpu s", "ns/item", "ratio");
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Time& t = measured[i].time;
+    const Times& t = times[i];
     fmt::print("  {:<40} {:>9.4f} {:>9.4f} {:>9.1f} {:>7.2f}\n", all[i].name, t.wall, t.cpu,
-               1e9 * t.cpu / static_cast<double>(items), t.cpu / measured[0].time.cpu);
+               1e9 * t.cpu / static_cast<double>(items), t.cpu / times[0].cpu);
   }
-  own_time = measured[0].time.cpu;
+  own_time = times[0].cpu;
   for (std::size_t i = 2; i < all.size(); ++i)
-    ratios()[fmt::format("search, {}: {}", title, all[i].name)] =
-        measured[i].time.cpu / measured[0].time.cpu;
+    ratios()[fmt::format("search, {}: {}", title, all[i].name)] = times[i].cpu / times[0].cpu;
   return true;
 }
 
@@ -167,7 +124,7 @@ bool run_scene(const std::string& title, const std::function<Scene(std::size_t)>
   }
   if (settings.largest != 0) {
     const Scene s = make(settings.largest);
-    const Time time = time_of([&] { ours(s, 1); });
+    const Times time = time_of([&] { ours(s, 1); });
     fmt::print("  {} segments: {:.3f} s\n", s.segments.size(), time.cpu);
     growth.emplace_back(static_cast<double>(s.segments.size()), time.cpu);
   }
@@ -214,31 +171,20 @@ bool run_edges(const Settings& settings) {
 }
 
 std::optional<Settings> parse(int argc, char** argv) {
+  Arguments arguments(argc, argv);
   Settings settings;
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view arg = argv[i];
-    const auto number = [&] { return ++i < argc ? std::strtoull(argv[i], nullptr, 10) : 0ULL; };
-    if (arg == "--quick") {
-      settings.sizes = {10000, 50000};
-      settings.repeat = 1;
-    } else if (arg == "--size") {
-      settings.sizes.push_back(number());
-    } else if (arg == "--repeat") {
-      settings.repeat = static_cast<int>(number());
-    } else if (arg == "--largest") {
-      settings.largest = number();
-    } else if (arg == "--scene" && i + 1 < argc) {
-      settings.scene = argv[++i];
-    } else if (arg == "--json" && i + 1 < argc) {
-      settings.json = argv[++i];
-    } else if (arg == "--no-rivals") {
-      settings.rivals = false;
-    } else {
-      return std::nullopt;
-    }
-  }
-  if (settings.sizes.empty()) settings.sizes = {100000, 1000000};
-  return settings;
+  const bool quick = arguments.flag("--quick");
+  settings.repeat = arguments.number("--repeat", quick ? 1 : 3);
+  settings.largest = arguments.number("--largest", std::size_t{0});
+  settings.scene = arguments.value("--scene").value_or("");
+  settings.json = arguments.value("--json");
+  settings.rivals = !arguments.flag("--no-rivals");
+  while (const auto size = arguments.number("--size", std::size_t{0}))
+    settings.sizes.push_back(size);
+  if (settings.sizes.empty())
+    settings.sizes =
+        quick ? std::vector<std::size_t>{10000, 50000} : std::vector<std::size_t>{100000, 1000000};
+  return arguments.words.empty() ? std::optional(settings) : std::nullopt;
 }
 
 int run(const Settings& settings) {
@@ -260,8 +206,7 @@ int run(const Settings& settings) {
     }
   }
   if (!run_edges(settings)) return 1;
-  if (!settings.json.empty())
-    std::ofstream(settings.json) << nlohmann::json{{"ratios", ratios()}}.dump(2) << "\n";
+  write_json(settings.json, {{"ratios", ratios()}});
   return 0;
 }
 

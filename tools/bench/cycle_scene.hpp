@@ -1,15 +1,13 @@
-// What the kernel benchmark runs on: a sheet of pairs, and races of contestants in turn.
+// What the kernel benchmark runs on: a sheet of pairs.
 #pragma once
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
-#include <functional>
 #include <random>
 #include <vector>
 
 #include "deck/cycle/assemble.hpp"
 
-namespace deck::cycle::bench {
+namespace deck::cycle::sheet {
 
 /// A sheet of quads with nodes close to it, one candidate pair per node, as a search would leave.
 struct Scene {
@@ -98,22 +96,4 @@ inline Scene make_scene(std::size_t cells, bool edges) {
   return s;
 }
 
-inline double seconds(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Best of several rounds, contestants in turn so that a slow spell hits all alike.
-inline std::vector<double> race(const std::vector<std::function<void()>>& contestants, int rounds) {
-  std::vector<double> best(contestants.size(), 1e30);
-  for (const auto& c : contestants) c();  // warm
-  for (int r = 0; r < rounds; ++r) {
-    for (std::size_t k = 0; k < contestants.size(); ++k) {
-      best[k] = std::min(best[k], seconds(contestants[k]));
-    }
-  }
-  return best;
-}
-
-}  // namespace deck::cycle::bench
+}  // namespace deck::cycle::sheet

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <map>
 #include <sstream>
@@ -16,7 +17,6 @@
 #include "base/shared/spelling.hpp"
 #include "common.hpp"
 #include "deck/text/number.hpp"
-#include "removed.hpp"
 
 namespace deck::cli {
 
@@ -146,9 +146,22 @@ CommandLine::CommandLine(CLI::App* app, Session& session) : app_(app), session_(
 CommandLine::~CommandLine() = default;
 CommandLine::CommandLine(CommandLine&&) noexcept = default;
 
+namespace {
+
+std::string before_blank(const std::string& names) { return names.substr(0, names.find(' ')); }
+
+/// What the help calls the value: the word behind the names.
+void name_value(CLI::Option& option, const std::string& names) {
+  if (const auto blank = names.find(' '); blank != names.npos)
+    option.type_name(names.substr(blank + 1));
+}
+
+}  // namespace
+
 template <class T>
 Option CommandLine::option(const std::string& names, T& target, const std::string& help) {
-  CLI::Option* const option = app_->add_option(names, target, help);
+  CLI::Option* const option = app_->add_option(before_blank(names), target, help);
+  name_value(*option, names);
   if constexpr (std::is_unsigned_v<T>)  // the parser takes "-1" for the largest number
     option->check(CLI::Validator(
         [](const std::string& text) {
@@ -172,7 +185,8 @@ template Option CommandLine::option(const std::string&, std::vector<std::int64_t
 Option CommandLine::bytes(const std::string& names, std::function<void(std::uint64_t)> take,
                           const std::string& help) {
   CLI::Option* option = app_->add_option_function<std::uint64_t>(
-      names, [take](std::uint64_t n) { take(n); }, help);
+      before_blank(names), [take](std::uint64_t n) { take(n); }, help);
+  name_value(*option, names);
   const CLI::AsSizeValue size(false);
   option->transform(described_by(size, [size](std::string& text) -> std::string {
     const std::string given = text;
@@ -209,6 +223,41 @@ bool CommandLine::given(const std::string& name) const {
 // ---- wrong usage
 
 namespace {
+
+/// Verbs and options that were taken away, and what to use instead: exit code 2 and one sentence.
+struct Removed {
+  std::string_view verb, option;  ///< option empty: the verb itself
+  std::string_view instead;
+};
+
+constexpr std::string_view naming_all =
+    "the names of all decks that include the file, or of their directory";
+
+constexpr std::array removed_words = {
+    Removed{"fix", "--smooth", "--max-moved 100%, or --strategy move-part"},
+    Removed{"fix", "--step", "deck fix without it"},
+    Removed{"fix", "--iterations", "deck fix without it"},
+    Removed{"accuracy", "--again", "deck accuracy, which measures the hard cases every time"},
+    Removed{"accuracy", "--verbose", "--json, or bench_distance of tools/bench for number types"},
+    Removed{"accuracy", "-v", "--json, or bench_distance of tools/bench for number types"},
+    Removed{"convert", "--from", "libdeck in Python, or deck::Edit in C++"},
+    Removed{"convert", "--round", "libdeck in Python, or deck::Edit in C++"},
+    Removed{"convert", "--with-dependents", naming_all},
+    Removed{"fix", "--with-dependents", naming_all},
+    Removed{"lint", "--with-dependents", naming_all},
+    Removed{"completion", "", "the file deck.bash that is installed with the program"},
+    Removed{"replay", "", "the program replay of tools/bench, which is built with the tests"},
+    Removed{"man", "", "the installed man pages, or deck help VERB"},
+};
+
+/// "'deck man' was removed: use …"; empty: there was no such verb or option.
+std::string removed(std::string_view verb, std::string_view option) {
+  for (const Removed& r : removed_words)
+    if (r.verb == verb && r.option == option)
+      return "'deck " + std::string(verb) + (option.empty() ? "" : " ") + std::string(option) +
+             "' was removed: use " + std::string(r.instead);
+  return {};
+}
 
 /// Names of the options of a verb, those of its groups (verbs without a name) included.
 void collect_names(const CLI::App& app, std::vector<std::string>& names) {
@@ -279,10 +328,10 @@ Result<void> CommandLine::parse(std::vector<std::string> words) {
   try {
     app_->parse(words);
   } catch (const CLI::ParseError& e) {
-    return Error{Error::Code::config, what_is_wrong(*app_, e)};
+    return config_error(what_is_wrong(*app_, e));
   }
   if (std::string text = no_value(*app_, *app_); !text.empty())
-    return Error{Error::Code::config, std::move(text)};
+    return config_error(std::move(text));
   return {};
 }
 
@@ -401,7 +450,7 @@ int run_program(int argc, char** argv, const std::string& version, Session& sess
   for (const Verb& v : all) {
     CLI::App* sub = app.add_subcommand(std::string(v.name), std::string(v.summary));
     sub->set_help_flag("-h,--help", "This help");
-    if (!v.examples.empty()) sub->footer("Examples:\n" + std::string(v.examples));
+    if (!v.examples.empty()) sub->footer("Examples:\n" + std::string(v.examples) + "\n");
     CommandLine line(sub, session);
     actions[sub] = v.setup(line);
     group_options(*sub);

@@ -13,7 +13,6 @@
 
 #include "deck/text/result.hpp"
 #include "session.hpp"
-#include "verb.hpp"
 
 namespace CLI {
 class App;
@@ -21,6 +20,45 @@ class Option;
 }  // namespace CLI
 
 namespace deck::cli {
+
+// ---- verbs: how a subcommand announces itself to `deck`. A verb is one file holding one
+// VerbRegistration; no other file is edited.
+//
+//   namespace {
+//   struct Options { deck::cli::CommonOptions common; bool all = false; };
+//   deck::cli::Action setup(CommandLine& line) {
+//     auto options = std::make_shared<Options>();
+//     deck::cli::add_common(line, options->common);
+//     line.flag("--all", options->all, "Show everything");
+//     return [options] { return run(*options); };   // the exit code
+//   }
+//   const deck::cli::VerbRegistration registration{
+//       {"gaps", 30, "Gaps, stiffness and initial penetrations",
+//        "  deck gaps car_0000.rad\n  deck gaps car_0000.rad --json gaps.json", setup}};
+//   }  // namespace
+
+class CommandLine;
+
+/// Does the work once the command line is understood; returns the exit code.
+using Action = std::function<int()>;
+
+struct Verb {
+  std::string_view name;
+  int rank = 100;             ///< place in the list of verbs; ties by name
+  std::string_view summary;   ///< one line
+  std::string_view examples;  ///< command lines, two blanks before each, for the end of --help
+  Action (*setup)(CommandLine&) = nullptr;  ///< adds the options
+};
+
+/// Makes a verb known; meant for one static object per verb.
+struct VerbRegistration {
+  explicit VerbRegistration(const Verb& verb);
+};
+
+/// All verbs, ordered.
+std::vector<Verb> verbs();
+
+// ---- options
 
 /// One option or flag; every call returns the option itself.
 class Option {
@@ -73,9 +111,10 @@ class CommandLine {
   CommandLine(CommandLine&&) noexcept;
   CommandLine& operator=(CommandLine&&) = delete;
 
-  /// `names` as "-o,--output"; without dashes it is an argument without a name. T: std::string,
-  /// int, std::int64_t, std::size_t, double, or a vector of std::string or std::int64_t
-  /// (command_line.cpp lists them). `target` has to outlive the parsing.
+  /// `names` as "-o,--output DIR": names, and what the help calls the value; without dashes it is
+  /// an argument without a name. T: std::string, int, std::int64_t, std::size_t, double, or a
+  /// vector of std::string or std::int64_t (command_line.cpp lists them). `target` has to outlive
+  /// the parsing.
   template <class T>
   Option option(const std::string& names, T& target, const std::string& help);
   /// A number of bytes, also as 500MB or 2GB (1000 and 1000^3 bytes).

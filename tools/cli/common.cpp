@@ -26,6 +26,7 @@
 #include "keyword/shared/recognise.hpp"
 #include "library.hpp"
 #include "report/shared/json.hpp"
+#include "text/shared/similar_file.hpp"
 #include "writing/frame.hpp"
 
 namespace deck::cli {
@@ -80,34 +81,30 @@ std::size_t text_width() {
 
 void add_common_without_decks(CommandLine& line, CommonOptions& options) {
   options.session = &line.session();
-  line.option("--json", options.json, "Write JSON to FILE; '-' is standard output").value("FILE");
+  line.option("--json FILE", options.json, "Write JSON to FILE; '-' is standard output");
   line.flag("-q,--quiet", options.quiet, "Print nothing but errors");
-  line.option("--color", options.color, "Colours: auto, always or never (NO_COLOR is respected)")
-      .one_of({"auto", "always", "never"})
-      .value("WHEN");
-  line.option("--schemas", options.schema_dirs, "Add the keyword schemas (*.json) of DIR")
-      .value("DIR")
+  line.option("--color WHEN", options.color,
+              "Colours: auto, always or never (NO_COLOR is respected)")
+      .one_of({"auto", "always", "never"});
+  line.option("--schemas DIR", options.schema_dirs, "Add the keyword schemas (*.json) of DIR")
       .one_each();
 }
 
 void add_common(CommandLine& line, CommonOptions& options, bool with_json) {
-  line.option("decks", options.decks, "Starter decks (*_0000.rad); '-' is standard input")
-      .required()
-      .value("DECK");
+  line.option("decks DECK", options.decks, "Starter decks (*_0000.rad); '-' is standard input")
+      .required();
   add_common_without_decks(line, options);
   if (!with_json) line.remove("--json");
-  line.option("--threads", options.threads, "Threads; 0: all processors").range(0, 1024).value("N");
+  line.option("--threads N", options.threads, "Threads; 0: all processors").range(0, 1024);
   line.bytes(
-          "--max-memory",
-          [&options](std::uint64_t bytes) {
-            options.limits.pair_bytes = options.limits.selection_bytes = bytes;
-          },
-          "Memory for the pairs of one contact (default 2GB), and for the members of all groups "
-          "(default 4GB); a contact that needs more is not evaluated, with a finding")
-      .value("SIZE");
-  line.option("--include-path", options.include_paths,
+      "--max-memory SIZE",
+      [&options](std::uint64_t bytes) {
+        options.limits.pair_bytes = options.limits.selection_bytes = bytes;
+      },
+      "Memory for the pairs of one contact (default 2GB), and for the members of all groups "
+      "(default 4GB); a contact that needs more is not evaluated, with a finding");
+  line.option("--include-path DIR", options.include_paths,
               "Also search included files in DIR (repeatable)")
-      .value("DIR")
       .one_each();
 }
 
@@ -128,7 +125,7 @@ void allow_directories(CommandLine& line) {
 
 int open_directories(CommonOptions& options) {
   auto decks = decks_in_directories(options.decks);
-  if (!decks) return failed(options, decks.error().message, exit_input);
+  if (!decks) return failed(options, decks.error(), exit_input);
   options.decks = std::move(*decks);
   return exit_clean;
 }
@@ -174,10 +171,8 @@ Result<LoadedSchemas> load_schemas(const CommonOptions& options) {
   SchemaSet set = SchemaSet::built_in();
   for (const std::string& dir : options.schema_dirs) {
     if (auto added = set.add_directory(dir); !added) return added.error();
-    std::error_code ec;
-    for (auto it = std::filesystem::directory_iterator(dir, ec);
-         !ec && it != std::filesystem::directory_iterator(); it.increment(ec))
-      if (it->path().extension() == ".json") options.session->remember_read(it->path().string());
+    for (const std::filesystem::path& file : entries_of(dir))
+      if (file.extension() == ".json") options.session->remember_read(file.string());
   }
   return LoadedSchemas(std::move(set));
 }
@@ -210,9 +205,9 @@ Result<void> check_mapped(const Deck& deck, const Limits& limits, const timespec
     if (stat(source.path().c_str(), &status) != 0) continue;
     const auto moment = [](const timespec& t) { return std::pair{t.tv_sec, t.tv_nsec}; };
     if (moment(status.st_mtim) >= moment(since))
-      return Error{Error::Code::config, source.path() +
-                                            " was changed while it was read; nothing was written. "
-                                            "Run the command again"};
+      return config_error(source.path() +
+                          " was changed while it was read; nothing was written. "
+                          "Run the command again");
   }
   return {};
 }
@@ -278,23 +273,18 @@ Result<LoadedDeck> load(const std::string& given, const SchemaSet& schemas,
 
 int for_each_deck(const CommonOptions& options, const std::function<int(LoadedDeck&)>& body) {
   const auto schemas = load_schemas(options);
-  if (!schemas) return failed(options, schemas.error().message);
+  if (!schemas) return failed(options, schemas.error());
   if (const int refused = check_outputs(options, {options.json}); refused != exit_clean)
     return refused;
   int worst = exit_clean;
-  for (const std::string& path : options.decks) {
-    if (BatchFrame* frame = options.session->frame) frame->begin(path);
-    int code = exit_clean;
-    if (auto loaded = load(path, *schemas, options); !loaded) {
-      print_error(options, loaded.error().message);
-      code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
-    } else {
-      code = std::max(body(*loaded), examined_code(*loaded, options));
-      if (loaded->incomplete()) code = std::max<int>(code, exit_input);
-    }
-    if (BatchFrame* frame = options.session->frame) frame->end(code);
-    worst = std::max(worst, code);
-  }
+  const auto one = [&](const std::string& path) {
+    auto loaded = load(path, *schemas, options);
+    if (!loaded) return failed(options, loaded.error(), reading_code(loaded.error()));
+    const int code = std::max(body(*loaded), examined_code(*loaded, options));
+    return loaded->incomplete() ? std::max<int>(code, exit_input) : code;
+  };
+  for (const std::string& path : options.decks)
+    worst = std::max(worst, options.session->about(path, [&] { return one(path); }));
   return worst;
 }
 
@@ -338,7 +328,7 @@ Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::i
       if (std::find(n.ids.begin(), n.ids.end(), id) != n.ids.end())
         text += fmt::format("; {}/{} is of a type that is not examined", n.keyword, id);
     text += known.empty() ? "; it has none at all" : "; it has " + list_of(known, id);
-    return Error{Error::Code::config, text};
+    return config_error(text);
   }
   return {};
 }
@@ -350,10 +340,9 @@ Result<void> check_parts(const LoadedDeck& loaded, const std::vector<std::int64_
     std::vector<std::int64_t> known;
     for (const Part& p : loaded.model().parts) known.push_back(p.id);
     std::sort(known.begin(), known.end());
-    return Error{
-        Error::Code::config,
+    return config_error(
         fmt::format("{} {}: {} has no part {}; {}", option, id, loaded.path(), id,
-                    known.empty() ? "it has none at all" : "it has " + list_of(known, id))};
+                    known.empty() ? "it has none at all" : "it has " + list_of(known, id)));
   }
   return {};
 }
@@ -386,6 +375,14 @@ void print_error(const CommonOptions& options, std::string_view message) {
 int failed(const CommonOptions& options, std::string_view message, int code) {
   print_error(options, message);
   return code;
+}
+
+int failed(const CommonOptions& options, const Error& error, int code) {
+  return failed(options, std::string_view(error.message), code);
+}
+
+int reading_code(const Error& error) {
+  return error.code == Error::Code::config ? exit_usage : exit_input;
 }
 
 std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options,
@@ -468,6 +465,57 @@ int JsonOutput::finish(int code) const {
     return std::max<int>(code, exit_usage);
   }
   return code;
+}
+
+// ---- progress ------------------------------------------------------------------------------
+
+using std::chrono::steady_clock;
+constexpr std::chrono::milliseconds patience{300}, refresh{100};
+
+Progress::Progress(bool enabled)
+    : enabled_(enabled && isatty(2) == 1), start_(steady_clock::now()), last_(start_) {}
+
+Progress::~Progress() { clear(); }
+
+void Progress::step(std::string_view what) {
+  if (!enabled_) return;
+  what_ = terminal_text(what);
+  if (steady_clock::now() - start_ > patience) draw(-1);
+}
+
+void Progress::update(std::uint64_t done, std::uint64_t total, std::string_view what) {
+  if (!enabled_) return;
+  if (!what.empty()) what_ = terminal_text(what);
+  const auto now = steady_clock::now();
+  if (now - start_ < patience || now - last_ < refresh) return;
+  last_ = now;
+  draw(total == 0 ? -1 : static_cast<double>(done) / static_cast<double>(total));
+}
+
+void Progress::draw(double share) {
+  constexpr int width = 30;
+  // A line that the terminal breaks could not be drawn over.
+  constexpr std::size_t bar = width + 10;
+  const std::size_t columns = std::max<std::size_t>(terminal_width(2), bar + 10);
+  std::string line = "\r\x1b[K" + cut_to(what_, columns - bar);
+  if (share >= 0) {
+    const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * width);
+    line += fmt::format(" [{}{}] {:3.0f} %", std::string(static_cast<std::size_t>(full), '#'),
+                        std::string(static_cast<std::size_t>(width - full), '.'),
+                        100 * std::clamp(share, 0.0, 1.0));
+  } else {
+    line += " ...";
+  }
+  std::fwrite(line.data(), 1, line.size(), stderr);
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void Progress::clear() {
+  if (!drawn_) return;
+  std::fputs("\r\x1b[K", stderr);
+  std::fflush(stderr);
+  drawn_ = false;
 }
 
 }  // namespace deck::cli

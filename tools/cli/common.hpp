@@ -1,6 +1,7 @@
 // What all verbs share: options, loading of decks, exit codes, output to files and terminals.
 // Messages for people go to standard error, results to standard output or the files asked for.
 #pragma once
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -14,8 +15,6 @@
 #include "deck/front/loaded_deck.hpp"
 #include "deck/text/source.hpp"
 #include "edit/shared/write.hpp"
-#include "progress.hpp"
-#include "verb.hpp"
 
 namespace deck::cli {
 
@@ -90,6 +89,32 @@ Accuracy accuracy_of(const std::string& value);
 /// The processor that a time was measured on, for the reports that say one.
 std::string processor_name();
 
+/// One line on the terminal that says what is being done and how far it is. Prints nothing where
+/// standard error is no terminal, and nothing for work shorter than a moment.
+class Progress {
+ public:
+  /// `enabled` is further restricted to terminals.
+  explicit Progress(bool enabled);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Begins a step of unknown length.
+  void step(std::string_view what);
+  /// `done` of `total` of the step, which is called `what` from now on unless that is empty; cheap
+  /// enough to call often. Not thread safe.
+  void update(std::uint64_t done, std::uint64_t total, std::string_view what = {});
+  /// Removes the line; later calls of step() bring it back.
+  void clear();
+
+ private:
+  void draw(double share);
+  bool enabled_;
+  bool drawn_ = false;
+  std::string what_;
+  std::chrono::steady_clock::time_point start_, last_;
+};
+
 /// LoadedDeck::mesh_values() with progress on the terminal.
 const Scene& resolve_geometry(const LoadedDeck& loaded, const CommonOptions& options);
 
@@ -136,6 +161,10 @@ std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& opti
 void print_error(const CommonOptions& options, std::string_view message);
 /// The same; returns `code`, the exit code.
 int failed(const CommonOptions& options, std::string_view message, int code = exit_usage);
+int failed(const CommonOptions& options, const Error& error, int code = exit_usage);
+/// The exit code of an error on the way to a deck: exit_usage if the call is wrong, else
+/// exit_input.
+int reading_code(const Error& error);
 
 /// Prints results on standard output. A failure (full disk) is noticed at the end of the program.
 void print_text(std::string_view text);

@@ -49,6 +49,15 @@ std::string find_deck(const std::string& given) {
   return given;
 }
 
+std::vector<fs::path> entries_of(const fs::path& directory) {
+  std::vector<fs::path> out;
+  std::error_code ec;
+  for (fs::directory_iterator it(directory, ec), end; !ec && it != end; it.increment(ec))
+    out.push_back(it->path());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 Result<std::vector<std::string>> files_below(const std::string& directory,
                                              const std::string& output,
                                              fs::directory_options closed) {

@@ -19,6 +19,9 @@ inline constexpr std::string_view deck_ending = "_0000.rad";
 /// is there, then crash_box.rad, then one of them packed (".gz"). What exists stands for itself.
 std::string find_deck(const std::string& given);
 
+/// The files and directories of a directory, by name; none where it cannot be read.
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& directory);
+
 /// All decks (*_0000.rad) below a directory, packed (".gz") ones included where the plain one is
 /// not there as well, sorted; hidden directories and `output`, where results go, are passed over.
 /// `closed`: what is done about directories that may not be read.

@@ -62,9 +62,9 @@ bool holds(const std::string& path, std::uint64_t size, std::string_view bytes) 
 }
 
 Error refused(const std::string& path, const std::string& why) {
-  return {Error::Code::config, path + " would be written over: " + why +
-                                   "; nothing was written. Name another file (does an option lack "
-                                   "its value?)"};
+  return config_error(path + " would be written over: " + why +
+                      "; nothing was written. Name another file (does an option lack "
+                      "its value?)");
 }
 
 }  // namespace
@@ -96,10 +96,10 @@ Result<void> Session::check_output(const std::string& path, const OutputRules& r
   if (const auto read = files_read_.find({status.st_dev, status.st_ino});
       read != files_read_.end()) {
     if (rules.deck_tree)
-      return Error{Error::Code::config, path +
-                                            " is a file of the decks that are read; nothing was "
-                                            "written. Name another directory, or change them with "
-                                            "--in-place"};
+      return config_error(path +
+                          " is a file of the decks that are read; nothing was "
+                          "written. Name another directory, or change them with "
+                          "--in-place");
     return refused(path, read->second == path ? "this call reads it"
                                               : "this call reads it, as " + read->second);
   }
@@ -108,10 +108,9 @@ Result<void> Session::check_output(const std::string& path, const OutputRules& r
   if (!rules.deck_tree && !file_looks_like_deck(path)) return {};
   if (bytes && holds(path, static_cast<std::uint64_t>(status.st_size), *bytes)) return {};
   if (rules.deck_tree)
-    return Error{Error::Code::config,
-                 path +
-                     " already exists with other contents; nothing was written. Name another "
-                     "directory, or add --overwrite to replace it"};
+    return config_error(path +
+                        " already exists with other contents; nothing was written. Name another "
+                        "directory, or add --overwrite to replace it");
   return refused(path, "it begins as a deck");
 }
 
@@ -132,9 +131,8 @@ std::string place_of(const std::string& path) {
 }
 
 Error two_outputs(const std::string& path) {
-  return {Error::Code::config, "two outputs go to " +
-                                   (path == "-" ? std::string("standard output") : path) +
-                                   "; nothing was written. Name another file for one of them"};
+  return config_error("two outputs go to " + (path == "-" ? std::string("standard output") : path) +
+                      "; nothing was written. Name another file for one of them");
 }
 
 }  // namespace

@@ -8,15 +8,58 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "deck/edit/rewrite.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/text/result.hpp"
 #include "deck/text/source.hpp"
 #include "edit/shared/write.hpp"
+#include "keyword/shared/include_scan.hpp"
 
 namespace deck::cli {
 
-struct BatchFrame;
+/// What `deck batch` tells a verb that writes decks, and what it learns of it.
+struct BatchFrame {
+  // ---- told
+  std::string root;  ///< absolute: every deck is written where it lies below this directory
+  /// Files that decks outside the batch include, with one of these decks.
+  std::map<FileIdentity, std::string> outsiders;
+  /// True if the file was written by this batch before, and may be replaced.
+  std::function<bool(const std::string& path)> ours;
+  /// Called with all that will be written, before anything is.
+  std::function<Result<void>(const std::vector<OutputFile>&)> before_writing;
+
+  // ---- learnt
+  struct Deck {
+    int code = 0;
+    std::string error;   ///< the first
+    std::string target;  ///< its main file or document, as written; empty: in place
+    std::size_t changed = 0;
+    std::size_t losses[4] = {};  ///< by Loss
+  };
+  std::map<std::string, Deck> decks;  ///< by name as given
+  std::string error;                  ///< the first that is about all decks together
+  std::vector<LossEntry> losses;
+  bool written = false;
+
+  /// Errors are about this deck from now on; empty: about all.
+  void begin(const std::string& deck) { current_ = deck; }
+  void end(int code) {
+    if (!current_.empty()) decks[current_].code = std::max(decks[current_].code, code);
+    current_.clear();
+  }
+  void note_error(std::string_view message) {
+    std::string& first = current_.empty() ? error : decks[current_].error;
+    if (first.empty()) first = message;
+  }
+
+ private:
+  std::string current_;
+};
+
+/// Wrong usage or configuration: exit code 2.
+inline Error config_error(std::string message) { return {Error::Code::config, std::move(message)}; }
 
 /// What an output may replace. Never a file that the call has read.
 struct OutputRules {
@@ -37,6 +80,14 @@ class Session {
  public:
   /// Of `deck batch`, which runs the verb; nullptr: the verb was called by itself.
   BatchFrame* frame = nullptr;
+
+  /// Does what is about one deck; errors meanwhile are its own. Returns the exit code.
+  int about(const std::string& deck, const std::function<int()>& work) const {
+    if (frame != nullptr) frame->begin(deck);
+    const int code = work();
+    if (frame != nullptr) frame->end(code);
+    return code;
+  }
 
   /// From now on no output is written over these files.
   void remember_read(const SourceSet& sources);

@@ -2,7 +2,10 @@
 
 Everything is compiled, unless LIBDECK_PREFIX names where a libdeck of the same version is installed.
 """
+import ast
+import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -12,6 +15,36 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 here = Path(__file__).resolve().parent
+
+
+def signature(member):
+    """What pybind11 wrote into the docstring: the arguments, and the type of the result."""
+    head = re.sub(r"\b(libdeck\.)?_native\.", "", (member.__doc__ or "").partition("\n")[0])
+    try:
+        ast.parse("def f%s: ..." % head[head.index("("):])
+    except (SyntaxError, ValueError):  # a type that has no name in Python
+        return "(*args: Any)", "Any"
+    arguments, _, result = head[head.index("("):].partition(" -> ")
+    return arguments, result
+
+
+def write_stub(module):
+    """The native part as type checkers read it, beside the module."""
+    spec = importlib.util.spec_from_file_location("libdeck._native", module)
+    native = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(native)
+    lines = ["# The native part. Use the module libdeck; this is what it is made of.", "from typing import *", "import numpy", "version: str"]
+    for name, member in vars(native).items():
+        if isinstance(member, type):
+            lines.append("class %s:" % name)
+            for of, inner in vars(member).items():
+                if isinstance(inner, property):
+                    lines.append("    %s: %s" % (of, signature(inner.fget)[1]))
+                elif callable(inner) and (of == "__len__" or not of.startswith("_")):
+                    lines.append("    def %s%s -> %s: ..." % (of, *signature(inner)))
+        elif callable(member):
+            lines.append("def %s%s -> %s: ..." % (name, *signature(member)))
+    module.with_name("_native.pyi").write_text("\n".join(lines) + "\n")
 
 
 class CMakeBuild(build_ext):
@@ -33,6 +66,7 @@ class CMakeBuild(build_ext):
         target = Path(self.get_ext_fullpath(ext.name))
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(next(iter(sorted(folder.glob("_native.*")))), target)
+        write_stub(target)
         strip = shutil.which("strip")
         if strip:
             subprocess.run([strip, "--strip-unneeded", str(target)], check=False)

@@ -7,8 +7,8 @@
 
 #include "batch/record.hpp"
 #include "batch/run.hpp"
+#include "changes.hpp"
 #include "library.hpp"
-#include "writing/changes.hpp"
 
 namespace deck::cli::verb_batch {
 namespace {
@@ -40,8 +40,6 @@ void parse_writing(BatchTask& task, const CommandLine& line) {
   task.in_place = task.verb.name == "lint" || line.given("--in-place");
   task.root = value_among(task.words, "--root");
 }
-
-Error config_error(std::string why) { return {Error::Code::config, std::move(why)}; }
 
 /// Error: no such verb, or options that it does not take.
 Result<BatchTask> parse_task(const BatchOptions& o) {
@@ -120,7 +118,7 @@ int merge(const BatchOptions& o) {
   auto merged = merge_shards(o.directory);
   if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
     merged = config_error("--merge takes no decks: it merges the summaries in DIR");
-  if (!merged) return failed(o.common, merged.error().message);
+  if (!merged) return failed(o.common, merged.error());
   remove_strays(o.directory);
   return write_overview(o, {}, *merged, 0);
 }
@@ -177,29 +175,23 @@ Action setup(CommandLine& line) {
   line.existing("--json").describe("Write the summary to FILE too; '-' is standard output");
   line.existing("--threads")
       .describe("Threads of each worker; 0 divides the processors among them");
-  line.option("-o,--output", o.directory, "Directory of the results; made if missing")
-      .required()
-      .value("DIR");
-  line.option("--manifest", o.manifest,
-              "File with one deck per line, # begins a comment; '-' is standard input")
-      .value("FILE");
+  line.option("-o,--output DIR", o.directory, "Directory of the results; made if missing")
+      .required();
+  line.option("--manifest FILE", o.manifest,
+              "File with one deck per line, # begins a comment; '-' is standard input");
   line.option(
-          "--verb", o.verb,
-          "What to do with each deck: lint, params, gaps (default), cycle, convert or fix, with "
-          "options: --verb 'lint --geometry', --verb 'convert --units kg,m,s'")
-      .value("VERB");
-  line.option("-j,--jobs", o.jobs, "Decks at the same time; 0 takes all processors")
-      .range(0, 4096)
-      .value("N");
+      "--verb VERB", o.verb,
+      "What to do with each deck: lint, params, gaps (default), cycle, convert or fix, with "
+      "options: --verb 'lint --geometry', --verb 'convert --units kg,m,s'");
+  line.option("-j,--jobs N", o.jobs, "Decks at the same time; 0 takes all processors")
+      .range(0, 4096);
   line.option(
-          "--timeout", o.timeout,
+          "--timeout SECONDS", o.timeout,
           "Stop a deck (or decks that are written together) after SECONDS (default 3600); 0: never")
-      .number(0, 1e9)
-      .value("SECONDS");
-  line.option("--shard", o.shard,
+      .number(0, 1e9);
+  line.option("--shard i/n", o.shard,
               "Only part i of n: every n-th deck of the list; decks that are written together stay "
-              "together")
-      .value("i/n");
+              "together");
   add_require_examined(line, o.common);
   line.flag("--merge", o.merge, "Merge the summaries of all shards in DIR");
   line.flag("--force", o.force, "Do finished decks again");
@@ -208,21 +200,20 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"batch", 60, "One verb over many decks: a result for each, a summary, resumable",
-     "  deck batch -o results models/ --jobs 8\n"
-     "  deck batch -o results --manifest decks.txt --verb 'lint --geometry'\n"
-     "  deck batch -o metric models/ --verb 'convert --units kg,m,s'\n"
-     "  deck batch -o results models/ --verb 'lint --fix'\n"
-     "  deck batch -o results models/ --shard 2/8    part of the decks, for another machine\n"
-     "  deck batch -o results --merge                one summary of all shards\n"
-     "\n"
-     "DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks.\n"
-     "Decks of the same name get the name of their directory as prefix: left--car_0000.json.\n"
-     "convert and fix write the decks below DIR, with their paths relative to the directory that\n"
-     "holds all of them (or in place, with --in-place among the options of the verb). Decks that\n"
-     "share files are written together or not at all; every result is verified (--no-verify).\n"
-     "After an interruption run the same command again: a deck is done again only if a file that "
-     "it\n"
-     "reads, the options or the program changed, or if it failed.\n",
+     R"(  deck batch -o results models/ --jobs 8
+  deck batch -o results --manifest decks.txt --verb 'lint --geometry'
+  deck batch -o metric models/ --verb 'convert --units kg,m,s'
+  deck batch -o results models/ --verb 'lint --fix'
+  deck batch -o results models/ --shard 2/8    part of the decks, for another machine
+  deck batch -o results --merge                one summary of all shards
+
+DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks.
+Decks of the same name get the name of their directory as prefix: left--car_0000.json.
+convert and fix write the decks below DIR, with their paths relative to the directory that
+holds all of them (or in place, with --in-place among the options of the verb). Decks that
+share files are written together or not at all; every result is verified (--no-verify).
+After an interruption run the same command again: a deck is done again only if a file that it
+reads, the options or the program changed, or if it failed.)",
      setup}};
 
 }  // namespace

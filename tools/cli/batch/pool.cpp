@@ -1,6 +1,6 @@
 // Forks workers, hands out jobs, notices those that die or take too long. What a worker says goes
 // to files in memory that it shares with the parent, which it then wakes as its end would.
-#include "batch/pool.hpp"
+#include "batch/run.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

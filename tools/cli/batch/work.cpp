@@ -10,7 +10,6 @@
 #include "base/shared/paths.hpp"
 #include "batch/run.hpp"
 #include "report/shared/deck_json.hpp"
-#include "writing/frame.hpp"
 
 namespace deck::cli {
 namespace fs = std::filesystem;
@@ -87,8 +86,7 @@ class GroupWork {
           fs::path(absolute_path(f.path)).lexically_relative(directory).string();
       if (!task_.in_place &&
           (name == "index.html" || name == "summary.json" || name == "losses.json"))
-        return Error{Error::Code::config,
-                     f.path + " is a file of the batch itself; give the deck another name"};
+        return config_error(f.path + " is a file of the batch itself; give the deck another name");
       record_.outputs[name] = content_hash(f.bytes);
     }
     if (!task_.in_place || !task_.converts() || files.empty()) return {};

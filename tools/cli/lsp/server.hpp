@@ -53,9 +53,9 @@ class Server {
   void execute_command(const Json& id, const Json& params);
   void gap_report(const Json& id, const Json& params);
   void open_gap_report(const Json& id, const Json& argument);
-  /// Forms the page beside everything else; `then` gets it, or why there is none.
+  /// Forms the page beside everything else, for `then`; without one the request fails.
   void form_report(const Json& id, const View& view, std::vector<std::int64_t> only,
-                   std::function<void(std::string html, std::string why)> then);
+                   std::function<void(std::string html)> then);
   Json explain(const Json& params) const;
   void cursor_moved(const Json& params);
 

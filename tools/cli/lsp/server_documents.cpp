@@ -15,13 +15,20 @@
 #include "verbs/gap_page.hpp"
 
 namespace deck::lsp {
+namespace {
+
+std::string path_in(const Json& params) {
+  return path_of_uri(params.at("textDocument").at("uri").get<std::string>());
+}
+
+}  // namespace
 
 void Server::did_open(const Json& params) {
   const Json& d = params.at("textDocument");
-  const std::string uri = d.at("uri").get<std::string>();
-  const std::string path = path_of_uri(uri);
+  const std::string path = path_in(params);
   if (path.empty()) return;
-  workspace_.open(path, uri, d.value("version", std::int64_t{0}), d.at("text").get<std::string>());
+  workspace_.open(path, d.at("uri"), d.value("version", std::int64_t{0}),
+                  d.at("text").get<std::string>());
   schedule(path, true);
   if (OpenDeck* deck = workspace_.deck_of(path);
       geometry_on_save_ && deck != nullptr && deck->geometry == nullptr)
@@ -30,7 +37,7 @@ void Server::did_open(const Json& params) {
 
 void Server::did_change(const Json& params) {
   const Json& d = params.at("textDocument");
-  const std::string path = path_of_uri(d.at("uri").get<std::string>());
+  const std::string path = path_in(params);
   Document* document = workspace_.find(path);
   if (document == nullptr) return;
   std::string& text = workspace_.text(path);
@@ -42,10 +49,8 @@ void Server::did_change(const Json& params) {
       document->lines = std::make_shared<const LineTable>(text);
       continue;
     }
-    const auto place = [&](const Json& p) {
-      return document->lines->offset(
-          text, {p.at("line").get<std::uint64_t>(), p.at("character").get<std::uint64_t>()},
-          client_.encoding);
+    const auto place = [&](const Json& position) {
+      return document->lines->offset(text, place_of(position), client_.encoding);
     };
     const std::uint64_t begin = place(range->at("start")), end = place(range->at("end"));
     replace(text, *document, begin, std::max(begin, end), by);
@@ -56,7 +61,7 @@ void Server::did_change(const Json& params) {
 }
 
 void Server::did_close(const Json& params) {
-  const std::string path = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
+  const std::string path = path_in(params);
   if (workspace_.find(path) == nullptr) return;
   workspace_.close(path);
   for (const OpenDeck& gone : workspace_.forget_closed()) {
@@ -71,7 +76,7 @@ void Server::did_close(const Json& params) {
 }
 
 void Server::did_save(const Json& params) {
-  const std::string path = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
+  const std::string path = path_in(params);
   OpenDeck* deck = workspace_.deck_of(path);
   if (deck == nullptr) return;
   // Engine files count as they are on disk: what was read of one is old now.
@@ -109,37 +114,33 @@ void Server::execute_command(const Json& id, const Json& params) {
 
 namespace {
 
-struct Report {
-  std::string html, why;
-};
-
 /// The page of `deck gaps --html`.
-Report write_report(const std::string& path, const std::map<std::string, std::string>& texts,
-                    const SchemaSet& schemas, const Settings& settings,
-                    const std::vector<std::int64_t>& only, const std::atomic<bool>& stop) {
+Result<std::string> write_report(const std::string& path,
+                                 const std::map<std::string, std::string>& texts,
+                                 const SchemaSet& schemas, const Settings& settings,
+                                 const std::vector<std::int64_t>& only,
+                                 const std::atomic<bool>& stop) {
   auto loaded = load(path, load_options(settings, texts, schemas));
-  if (!loaded) return {{}, loaded.error().message};
+  if (!loaded) return loaded.error();
   if (std::string other = no_starter_deck(loaded->deck()); !other.empty())
-    return {{}, std::move(other)};
+    return cli::config_error(std::move(other));
   loaded->interfaces();
-  if (stop) return {{}, "cancelled"};
+  if (stop) return cli::config_error("cancelled");
   SceneOptions options = loaded->scene_options();
   options.only = only;
   options.ties = true;
   loaded->set_scene_options(options);
   loaded->scene();
-  if (stop) return {{}, "cancelled"};
+  if (stop) return cli::config_error("cancelled");
   HtmlInput input;
   input.path = path;
-  auto page = cli::gap_page(*loaded, input, &stop);
-  if (!page) return {{}, page.error().message};
-  return {std::move(*page), {}};
+  return cli::gap_page(*loaded, input, &stop);
 }
 
 }  // namespace
 
 void Server::form_report(const Json& id, const View& view, std::vector<std::int64_t> only,
-                         std::function<void(std::string, std::string)> then) {
+                         std::function<void(std::string html)> then) {
   auto progress = begin_progress("Gap report");
   {
     const std::lock_guard lock(cancelling_);
@@ -148,8 +149,8 @@ void Server::form_report(const Json& id, const View& view, std::vector<std::int6
   geometer_->push([this, id, progress, only = std::move(only), then = std::move(then),
                    path = view.open.path, texts = workspace_.texts(),
                    &schemas = workspace_.schemas(), settings = workspace_.settings()] {
-    Report report = write_report(path, texts, schemas, settings, only, progress->stop);
-    queue_.push([this, id, progress, then, report = std::move(report)]() mutable {
+    auto page = write_report(path, texts, schemas, settings, only, progress->stop);
+    queue_.push([this, id, progress, then, page = std::move(page)]() mutable {
       end_progress(progress);
       {
         const std::lock_guard lock(cancelling_);
@@ -157,7 +158,8 @@ void Server::form_report(const Json& id, const View& view, std::vector<std::int6
         cancelled_.erase(id.dump());
       }
       if (progress->stop) return fail(id, request_cancelled, "cancelled");
-      then(std::move(report.html), std::move(report.why));
+      if (!page) return fail(id, request_failed, page.error().message);
+      then(std::move(*page));
     });
   });
 }
@@ -179,8 +181,7 @@ void Server::gap_report(const Json& id, const Json& params) {
   const std::string file = params.value("file", std::string());
   if (!file.empty() && !file.ends_with(".html"))
     return fail(id, invalid_params, "'file' has to end with .html");
-  form_report(id, *view, wanted_interfaces(params), [this, id, file](auto html, auto why) {
-    if (!why.empty()) return fail(id, request_failed, why);
+  form_report(id, *view, wanted_interfaces(params), [this, id, file](std::string html) {
     if (file.empty()) return respond(id, {{"html", std::move(html)}});
     if (auto written = write_files_atomic({{file, html}}); !written)
       return fail(id, request_failed, written.error().message);
@@ -201,8 +202,7 @@ void Server::open_gap_report(const Json& id, const Json& argument) {
   }
   const std::string file =
       report_folder_ + "/" + std::filesystem::path(view->open.path).stem().string() + ".html";
-  form_report(id, *view, wanted_interfaces(argument), [this, id, file](auto html, auto why) {
-    if (!why.empty()) return fail(id, request_failed, why);
+  form_report(id, *view, wanted_interfaces(argument), [this, id, file](std::string html) {
     if (auto written = write_files_atomic({{file, html}}); !written)
       return fail(id, request_failed, written.error().message);
     request("window/showDocument", {{"uri", uri_of_path(file)}, {"external", true}});
@@ -220,12 +220,10 @@ Json Server::explain(const Json& params) const {
 
 /// {"textDocument", "position"}: the client says where the cursor is.
 void Server::cursor_moved(const Json& params) {
-  const std::string path = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
-  const Json& p = params.at("position");
-  const Place place{p.at("line").get<std::uint64_t>(), p.at("character").get<std::uint64_t>()};
+  const std::string path = path_in(params);
   OpenDeck* deck = workspace_.deck_of(path);
   if (deck == nullptr) return;
-  deck->cursor = Cursor{path, place};
+  deck->cursor = Cursor{path, place_of(params.at("position"))};
   if (client_.refresh_hints) request("workspace/inlayHint/refresh", nullptr);
 }
 

@@ -32,10 +32,12 @@ const InterBase* View::interface_of(const Block& block) const {
   return nullptr;
 }
 
+Place place_of(const Json& position) {
+  return {position.at("line").get<std::uint64_t>(), position.at("character").get<std::uint64_t>()};
+}
+
 std::uint64_t View::offset(const Json& position) const {
-  const Place place{position.at("line").get<std::uint64_t>(),
-                    position.at("character").get<std::uint64_t>()};
-  return syntax->lines(file).offset(text(), place, client.encoding);
+  return syntax->lines(file).offset(text(), place_of(position), client.encoding);
 }
 
 PlacedLine View::line_at(std::uint64_t offset) const {

@@ -26,6 +26,9 @@ struct Client {
   std::string show_report = "deck.openGapReport";  ///< command of a lens
 };
 
+/// A position of the protocol.
+Place place_of(const Json& position);
+
 /// A document of a deck at one moment.
 class View {
  public:

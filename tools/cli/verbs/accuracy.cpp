@@ -73,7 +73,7 @@ int show(const Options& o, const AccuracyChoices& choices, const AccuracyContext
     if (const auto written =
             o.common.session->write_output(o.html, accuracy_html(choices, context));
         !written) {
-      return failed(o.common, written.error().message);
+      return failed(o.common, written.error());
     }
   if (o.common.wants_text() && o.html != "-")
     print_lines(accuracy_text(choices, context, o.common.color_on(1), text_width()));
@@ -116,17 +116,17 @@ Action setup(CommandLine& line) {
   line.option("--repeats", options->hard.repeats, "Timings of each accuracy")
       .range(1, 1000)
       .show_default();
-  line.option("--html", options->html, "Write the choices and kinds to FILE: one page, no network")
-      .value("FILE");
+  line.option("--html FILE", options->html,
+              "Write the choices and kinds to FILE: one page, no network");
   return [options] { return run(*options); };
 }
 
 const VerbRegistration registration{
     {"accuracy", 60, "What each --accuracy costs in time and gets wrong, on hard cases and a deck",
-     "  deck accuracy\n"
-     "  deck accuracy car_0000.rad\n"
-     "  deck accuracy car_0000.rad --html accuracy.html\n"
-     "  deck accuracy car_0000.rad --json accuracy.json\n",
+     R"(  deck accuracy
+  deck accuracy car_0000.rad
+  deck accuracy car_0000.rad --html accuracy.html
+  deck accuracy car_0000.rad --json accuracy.json)",
      setup}};
 
 }  // namespace

@@ -98,12 +98,11 @@ int run(const Options& o) {
     return wrong_usage("diff", wanted == 1 ? "--git takes one deck: REV is the other side"
                                            : "expected DECK DECK, or --git REV DECK");
   if (const int bad = check_outputs(o.common, {o.html}); bad != exit_clean) return bad;
-  if (std::string why; !o.html.empty() && !html_available(&why))
-    return wrong_usage("diff", "--html: this build has no viewer: " + why);
+  if (const std::string why = no_viewer(o.html); !why.empty()) return wrong_usage("diff", why);
   if (!o.html.empty() && o.no_geometry)
     return wrong_usage("diff", "--html shows contacts: leave out --no-geometry");
   const auto schemas = load_schemas(o.common);
-  if (!schemas) return failed(o.common, schemas.error().message);
+  if (!schemas) return failed(o.common, schemas.error());
   auto a = read_old(o, *schemas);
   auto b = a ? read_side(o, o.common.decks.back(), *schemas) : Result<Side>(a.error());
   if (!a || !b) {
@@ -117,7 +116,7 @@ int run(const Options& o) {
         error.message + (pipe ? "; 'deck diff --git REV DECK' reads the old side from git, "
                                 "with its includes"
                               : ""),
-        error.code == Error::Code::config ? exit_usage : exit_input);
+        reading_code(error));
   }
   for (const Side* side : {&*a, &*b}) {
     print_findings(side->loaded, o.common);
@@ -137,7 +136,7 @@ int run(const Options& o) {
   if (!o.common.json.empty())
     if (auto written = o.common.session->write_output(o.common.json, diff_json(sa, sb, diff));
         !written)
-      return failed(o.common, written.error().message);
+      return failed(o.common, written.error());
   if (o.common.wants_text() && o.html != "-") {
     DiffTextOptions text;
     text.rows = o.rows;
@@ -157,7 +156,7 @@ int run(const Options& o) {
     const auto page = difference_page(a->loaded, b->loaded, "diff", path, {}, &trends);
     const auto written =
         page ? o.common.session->write_output(o.html, *page) : Result<void>(page.error());
-    if (!written) return failed(o.common, written.error().message);
+    if (!written) return failed(o.common, written.error());
   }
   return code;
 }
@@ -168,31 +167,26 @@ Action setup(CommandLine& line) {
   line.existing("decks")
       .takes(1, 2, "DECK DECK")
       .describe("The old and the new Starter deck; with --git the new one alone");
-  line.option("--git", options->git,
+  line.option("--git REV", options->git,
               "The old deck is DECK with its includes as git has them at REV: a branch, a tag, a "
-              "commit")
-      .value("REV");
-  line.option("--match", options->match,
+              "commit");
+  line.option("--match HOW", options->match,
               "Counterparts: id; title (nodes and elements by id); position (for renumbered decks: "
               "nodes by coordinates, elements by nodes, the rest by title, then by order)")
       .one_of({"id", "title", "position"})
-      .value("HOW")
       .show_default();
-  line.option("--format", options->format, "human, json or markdown")
+  line.option("--format FORMAT", options->format, "human, json or markdown")
       .one_of({"human", "json", "markdown"})
-      .value("FORMAT")
       .show_default();
   line.flag("--markdown", options->markdown, "Short for --format markdown: for a review comment");
-  line.option("--html", options->html,
+  line.option("--html FILE", options->html,
               "Write a page to FILE: the new deck's contacts with what is new, solved or deeper, "
-              "and the nodes that moved, before and after")
-      .value("FILE");
-  line.option("--rows", options->rows, "Rows of a table; 0: all").value("N").show_default();
-  line.option("--tolerance", options->tolerance,
+              "and the nodes that moved, before and after");
+  line.option("--rows N", options->rows, "Rows of a table; 0: all").show_default();
+  line.option("--tolerance X", options->tolerance,
               "Numbers that differ by less than this share of their size are equal (coordinates "
               "and lengths: of the size of the model)")
       .range(0.0, 1.0)
-      .value("X")
       .show_default();
   line.flag("--no-geometry", options->no_geometry,
             "Do not evaluate contacts: no penetrations, no default gaps");
@@ -202,13 +196,13 @@ Action setup(CommandLine& line) {
 const VerbRegistration registration{
     {"diff", 24,
      "Differences in meaning between two decks; comments, order and format do not count",
-     "  deck diff old_0000.rad new_0000.rad\n"
-     "  deck diff old_0000.rad new_0000.rad --markdown > comment.md\n"
-     "  deck diff --git main car_0000.rad                          what this branch changes\n"
-     "  deck diff old_0000.rad renumbered_0000.rad --match position\n"
-     "  deck diff old_0000.rad new_0000.rad --tolerance 1e-9       without round-off\n"
-     "\n"
-     "Exit code 0: equal in meaning, 1: different.\n",
+     R"(  deck diff old_0000.rad new_0000.rad
+  deck diff old_0000.rad new_0000.rad --markdown > comment.md
+  deck diff --git main car_0000.rad                          what this branch changes
+  deck diff old_0000.rad renumbered_0000.rad --match position
+  deck diff old_0000.rad new_0000.rad --tolerance 1e-9       without round-off
+
+Exit code 0: equal in meaning, 1: different.)",
      setup}};
 
 }  // namespace

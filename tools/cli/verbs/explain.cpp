@@ -41,7 +41,7 @@ std::string deck_beside(const std::string& listing) {
 int explain_one_listing(const Options& o, const std::string& path, const SchemaSet& schemas,
                         JsonOutput& json, bool first) {
   const auto listing = read_listing(path, o.common.limits);
-  if (!listing) return failed(o.common, listing.error().message, exit_input);
+  if (!listing) return failed(o.common, listing.error(), exit_input);
   o.common.session->remember_read(path);
   const std::string deck = o.deck.empty() ? deck_beside(path) : o.deck;
   std::optional<LoadedDeck> loaded;
@@ -51,7 +51,7 @@ int explain_one_listing(const Options& o, const std::string& path, const SchemaS
                  "; its messages are explained alone (--deck DECK)");
   } else {
     auto read = load(deck, schemas, o.common);
-    if (!read) return failed(o.common, read.error().message, exit_input);
+    if (!read) return failed(o.common, read.error(), exit_input);
     loaded.emplace(std::move(*read));
   }
   ListingReport report;
@@ -118,7 +118,7 @@ int explain_topics(const Options& options, const SchemaSet& schemas) {
 
 int run(const Options& options) {
   const auto schemas = load_schemas(options.common);
-  if (!schemas) return failed(options.common, schemas.error().message);
+  if (!schemas) return failed(options.common, schemas.error());
   const auto listings = static_cast<std::size_t>(
       std::count_if(options.common.decks.begin(), options.common.decks.end(), names_listing));
   if (listings == options.common.decks.size()) return explain_listings(options, *schemas);
@@ -134,11 +134,10 @@ Action setup(CommandLine& line) {
           "Rule, keyword, field, KEYWORD.FIELD, number or words of a solver message; or listings "
           "of the Starter (*_0000.out, also .gz), each beside its deck")
       .value("TOPIC");
-  line.option("--deck", options->deck,
-              "The deck of the listing (default: *_0000.rad of the same name beside it)")
-      .value("DECK");
-  line.option("--worst", options->worst, "Of a listing: rows of the deepest pairs of each contact")
-      .value("N")
+  line.option("--deck DECK", options->deck,
+              "The deck of the listing (default: *_0000.rad of the same name beside it)");
+  line.option("--worst N", options->worst,
+              "Of a listing: rows of the deepest pairs of each contact")
       .show_default();
   add_verbose(line, options->common, "Of a listing: every place and finding");
   return [options] {
@@ -150,16 +149,16 @@ Action setup(CommandLine& line) {
 const VerbRegistration registration{
     {"explain", 81,
      "The page of a rule, keyword, field or solver message; a listing beside its deck",
-     "  deck explain DK254\n"
-     "  deck explain DK1                  the rules of a family\n"
-     "  deck explain TYPE7\n"
-     "  deck explain Gapmin               also TYPE7.Gapmin, /INTER/TYPE19.Gapmin\n"
-     "  deck explain 611                  message of the solver, also 'ERROR 611'\n"
-     "  deck explain 'initial penetrations'\n"
-     "  deck explain car_0000.out         the messages of a run, beside car_0000.rad\n"
-     "\n"
-     "Exit code of a listing: 1 if it has errors, or penetrations or time steps that differ from\n"
-     "those of deck gaps and deck parts.\n",
+     R"(  deck explain DK254
+  deck explain DK1                  the rules of a family
+  deck explain TYPE7
+  deck explain Gapmin               also TYPE7.Gapmin, /INTER/TYPE19.Gapmin
+  deck explain 611                  message of the solver, also 'ERROR 611'
+  deck explain 'initial penetrations'
+  deck explain car_0000.out         the messages of a run, beside car_0000.rad
+
+Exit code of a listing: 1 if it has errors, or penetrations or time steps that differ from
+those of deck gaps and deck parts.)",
      setup}};
 
 }  // namespace

@@ -2,13 +2,51 @@
 // deck as it was before.
 #include "verbs/gap_page.hpp"
 
+#include <filesystem>
 #include <utility>
 
 #include "deck/contact/crossings.hpp"
 #include "deck/report/gaps.hpp"
 #include "report/shared/json.hpp"
+#include "text/shared/gzip.hpp"
 
 namespace deck::cli {
+
+std::string no_viewer(const std::string& html) {
+  std::string why;
+  if (html.empty() || html_available(&why)) return {};
+  return "--html: this build has no viewer: " + why;
+}
+
+Result<void> check_html(const CommonOptions& options, const std::string& html) {
+  if (const std::string why = no_viewer(html); !why.empty()) return config_error(why);
+  if (!html.empty() && options.decks.size() > 1)
+    return config_error("--html takes one deck at a time");
+  return {};
+}
+
+HtmlInput page_input(const LoadedDeck& loaded, const SceneView& view, HtmlInput input) {
+  if (input.path.empty()) input.path = loaded.path();
+  input.deck = &loaded.deck();
+  input.scene = &loaded.scene();
+  input.view = &view;
+  input.what_if = loaded.scene_options().what_if;
+  input.only = loaded.scene_options().only;
+  input.threads = loaded.options().threads;
+  return input;
+}
+
+Result<void> write_vtk(const CommonOptions& options, const std::string& directory,
+                       std::string_view deck, const std::vector<VtkFile>& vtk,
+                       const std::optional<VtkFile>& script) {
+  namespace fs = std::filesystem;
+  fs::path place = directory;
+  if (options.decks.size() > 1) place /= fs::path(without_gz(deck)).stem();
+  std::vector<OutputFile> files;
+  for (const VtkFile& f : vtk) files.push_back({(place / f.name).string(), f.bytes});
+  if (script) files.push_back({(place / script->name).string(), script->bytes});
+  return options.session->write_outputs(files, {}, {"", true, true, true, directory});
+}
 
 Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input, const std::atomic<bool>* stop) {
   const SceneOptions made = loaded.scene_options();
@@ -19,17 +57,11 @@ Result<std::string> gap_page(LoadedDeck& loaded, HtmlInput input, const std::ato
   }
   loaded.findings();  // the page says where the solver stops before its contacts
   const Scene& scene = loaded.scene();
-  if (input.path.empty()) input.path = loaded.path();
-  input.deck = &loaded.deck();
-  input.scene = &scene;
-  input.what_if = loaded.scene_options().what_if;
-  input.only = loaded.scene_options().only;
-  input.threads = loaded.options().threads;
-  const std::vector<Crossing> crossings = find_crossings(scene, input.threads);
+  const std::vector<Crossing> crossings = find_crossings(scene, loaded.options().threads);
   const SceneView view = make_view(scene, &crossings);
   const FirstCycle& forces = loaded.cycle();
-  if (stop != nullptr && *stop) return Error{Error::Code::config, "cancelled"};
-  input.view = &view;
+  if (stop != nullptr && *stop) return config_error("cancelled");
+  input = page_input(loaded, view, std::move(input));
   input.cycle = &forces.outcome;
   input.acted = acted_in_page(forces.state, forces.outcome);
   input.crossings = &crossings;

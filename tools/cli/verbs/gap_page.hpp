@@ -1,16 +1,34 @@
-// The page of `deck gaps --html` for verbs that have a scene and show it, and the report of two
-// states of a deck: penetrations as they are now against those before, and the nodes that moved.
+// Pages and VTK files: the page of `deck gaps --html` for verbs that have a scene and show it, and
+// the report of two states of a deck: penetrations as they are now against those before, and the
+// nodes that moved.
 #pragma once
 #include <atomic>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/front/loaded_deck.hpp"
 #include "deck/report/html.hpp"
+#include "report/shared/vtk.hpp"
 
 namespace deck::cli {
+
+/// Why --html cannot be done: this build has no viewer; empty: `html` is not asked for, or it can.
+std::string no_viewer(const std::string& html);
+/// no_viewer(), and one page holds one deck.
+Result<void> check_html(const CommonOptions& options, const std::string& html);
+
+/// What a page or a drawing is made from: `more` and the scene of the deck.
+HtmlInput page_input(const LoadedDeck& loaded, const SceneView& view, HtmlInput more = {});
+
+/// Writes VTK files into a directory itself, or below it into one of the deck if the call has
+/// several. Without `script` they have one already.
+Result<void> write_vtk(const CommonOptions& options, const std::string& directory,
+                       std::string_view deck, const std::vector<VtkFile>& vtk,
+                       const std::optional<VtkFile>& script);
 
 /// The page of a deck with ties, crossings and forces of the first cycle; its scene is made again
 /// if it lacks what the page needs. `input` has the path and what else the page shall know beside

@@ -1,7 +1,6 @@
 // deck gaps: gaps, stiffness, initial penetrations and what the solver does about them.
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -12,8 +11,7 @@
 #include "deck/report/gaps.hpp"
 #include "deck/report/html.hpp"
 #include "report/shared/json.hpp"
-#include "report/shared/vtk.hpp"
-#include "text/shared/gzip.hpp"
+#include "verbs/gap_page.hpp"
 #include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_gaps {
@@ -44,33 +42,6 @@ Result<void> check_options(const Options& o, const LoadedDeck& loaded,
         if (auto fits = check_what_if(w, *inter); !fits) return fits;
   }
   return {};
-}
-
-/// Writes the VTK files: into the directory itself, or one below it per deck if there are several.
-Result<void> write_vtk(const Options& o, const LoadedDeck& loaded, const Scene& scene,
-                       const SceneView& view) {
-  namespace fs = std::filesystem;
-  fs::path directory = o.vtk;
-  if (o.common.decks.size() > 1) directory /= fs::path(without_gz(loaded.path())).stem();
-  const std::vector<VtkFile> written = gaps_vtk(scene, view);
-  std::vector<OutputFile> files;
-  for (const VtkFile& f : written) files.push_back({(directory / f.name).string(), f.bytes});
-  const VtkFile script = paraview_script(written);
-  files.push_back({(directory / script.name).string(), script.bytes});
-  return o.common.session->write_outputs(files, {}, {"", true, true, true, o.vtk});
-}
-
-/// What page and drawing are made from.
-HtmlInput page_input(const LoadedDeck& loaded, const SceneView& view) {
-  HtmlInput input;
-  input.path = loaded.path();
-  input.deck = &loaded.deck();
-  input.scene = &loaded.scene();
-  input.view = &view;
-  input.what_if = loaded.scene_options().what_if;
-  input.only = loaded.scene_options().only;
-  input.threads = loaded.options().threads;
-  return input;
 }
 
 /// Writes the HTML report; what can be wrong is wrong usage or a file.
@@ -118,19 +89,17 @@ class GapsRun {
 
  private:
   bool writes_baseline() const { return !o_.write_baseline.empty(); }
-  int usage(const Error& error) const { return failed(o_.common, error.message); }
+  int usage(const Error& error) const { return failed(o_.common, error); }
 
   /// Everything that can be said without a deck.
   Result<void> prepare() {
-    const auto bad = [](std::string what) { return Error{Error::Code::config, std::move(what)}; };
-    if (std::string why; !o_.html.empty() && !html_available(&why))
-      return bad("--html: this build has no viewer: " + why);
+    if (const std::string why = no_viewer(o_.html); !why.empty()) return config_error(why);
     if (auto legal = check_fail_on(o_.gate); !legal) return legal;
     if (o_.fail && (o_.gate.fails_on("never") || o_.gate.fails_on("error")))
-      return bad("--fail-on-penetration and --fail-on " + o_.gate.level() +
-                 " contradict one another");
+      return config_error("--fail-on-penetration and --fail-on " + o_.gate.level() +
+                          " contradict one another");
     if ((!o_.html.empty() || !o_.svg.empty()) && o_.common.decks.size() > 1)
-      return bad("--html and --svg take one deck at a time");
+      return config_error("--html and --svg take one deck at a time");
     scene_.threads = o_.common.thread_count();
     scene_.only = o_.only;
     scene_.accuracy = accuracy_of(o_.accuracy);
@@ -201,7 +170,11 @@ class GapsRun {
            return session.write_output(
                o_.ties_csv, [&](const TextDrain& drain) { return ties_csv(deck, scene, drain); });
          }},
-        {o_.vtk, [&] { return write_vtk(o_, loaded, scene, view); }},
+        {o_.vtk,
+         [&] {
+           const std::vector<VtkFile> files = gaps_vtk(scene, view);
+           return write_vtk(o_.common, o_.vtk, loaded.path(), files, paraview_script(files));
+         }},
         {o_.html, [&] { return write_html(o_, loaded, view, crossings, report); }},
         {o_.svg,
          [&] { return session.write_output(o_.svg, touches_svg(page_input(loaded, view))); }},
@@ -244,63 +217,56 @@ Action setup(CommandLine& line) {
   allow_directories(line);
   line.flag("--all", options->all,
             "JSON with every secondary node, main segment and edge, not only penetrations");
-  line.option("--csv", options->csv,
-              "Write one line per penetration to FILE ('-': standard output)")
-      .value("FILE");
-  line.option("--ties-csv", options->ties_csv,
-              "Write one line per secondary node of every TYPE2 to FILE ('-': standard output)")
-      .value("FILE");
+  line.option("--csv FILE", options->csv,
+              "Write one line per penetration to FILE ('-': standard output)");
+  line.option("--ties-csv FILE", options->ties_csv,
+              "Write one line per secondary node of every TYPE2 to FILE ('-': standard output)");
   line.flag("--crossings", options->crossings,
             "List the crossed elements: edges of the secondary side through main segments");
-  line.option("--svg", options->svg,
-              "Draw the parts and their contacts to FILE, red if they penetrate")
-      .value("FILE");
-  line.option("--vtk", options->vtk,
+  line.option("--svg FILE", options->svg,
+              "Draw the parts and their contacts to FILE, red if they penetrate");
+  line.option("--vtk DIR", options->vtk,
               "Write the contacts and penetrations as VTK files into DIR, with a script that opens "
-              "them in ParaView")
-      .value("DIR");
-  line.option("--html", options->html,
-              "Write the interactive report to FILE: one page, no network needed")
-      .value("FILE");
+              "them in ParaView");
+  line.option("--html FILE", options->html,
+              "Write the interactive report to FILE: one page, no network needed");
   add_accuracy(line, options->accuracy);
   line.option("--worst", options->worst, "Rows of the list of deepest penetrations").show_default();
-  line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
+  line.option("--interface ID", options->only, "Only these interface ids").by_commas();
   add_require_examined(line, options->common);
   add_verbose(line, options->common,
               "Every interface, the parts of a TYPE19 in separate rows, and more columns");
-  line.option("--what-if", options->what_if,
+  line.option("--what-if ID:FIELD=VALUE,...", options->what_if,
               "Evaluate an interface with other values, e.g. 3:Gapmin=2,Inacti=6 (repeatable); "
-              "the deck is not changed")
-      .value("ID:FIELD=VALUE,...");
+              "the deck is not changed");
   line.flag("--fail-on-penetration", options->fail,
             "Exit 1 for any initial penetration, as --fail-on warning");
   add_gate_with_config(line, options->gate, "the solver stops",
                        "any initial penetration, crossed element, or node that is not tied");
-  line.option("--baseline", options->gate.baseline,
+  line.option("--baseline FILE", options->gate.baseline,
               "Accept the penetrations in FILE, of the decks listed there: only new and worse ones "
-              "exit with 1")
-      .value("FILE");
-  line.option("--write-baseline", options->write_baseline,
-              "Write all penetrations to FILE as a baseline; entries of other decks stay")
-      .value("FILE");
+              "exit with 1");
+  line.option("--write-baseline FILE", options->write_baseline,
+              "Write all penetrations to FILE as a baseline; entries of other decks stay");
   return [options] {
     const int wrong = open_directories(options->common);
     return wrong != exit_clean ? wrong : GapsRun(*options).run();
   };
 }
 
-const VerbRegistration registration{
-    {"gaps", 30, "Gaps, stiffness and initial penetrations of every contact",
-     "  deck gaps car_0000.rad\n"
-     "  deck gaps car_0000.rad --html gaps.html\n"
-     "  deck gaps car_0000.rad --json gaps.json --all\n"
-     "  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6\n"
-     "  deck gaps car_0000.rad --max-depth 0.5 --max-count 20\n"
-     "  deck gaps car_0000.rad --compare main.json --fail-on new,worse\n"
-     "  deck gaps car_0000.rad --compare git:main --fail-on new,worse\n"
-     "  deck gaps car_0000.rad --write-baseline gaps-baseline.json\n"
-     "  deck gaps car_0000.rad --baseline gaps-baseline.json\n",
-     setup}};
+const VerbRegistration registration{{"gaps", 30,
+                                     "Gaps, stiffness and initial penetrations of every contact",
+                                     R"(  deck gaps car_0000.rad
+  deck gaps car_0000.rad --html gaps.html
+  deck gaps car_0000.rad --json gaps.json --all
+  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6
+  deck gaps car_0000.rad --max-depth 0.5 --max-count 20
+  deck gaps car_0000.rad --compare main.json --fail-on new,worse
+  deck gaps car_0000.rad --compare git:main --fail-on new,worse
+  deck gaps car_0000.rad --write-baseline gaps-baseline.json
+  deck gaps car_0000.rad --baseline gaps-baseline.json
+)",
+                                     setup}};
 
 }  // namespace
 }  // namespace deck::cli::verb_gaps

@@ -46,7 +46,7 @@ Result<Answer> run_git(const std::vector<std::string>& words, const std::string&
   }
   const int status = pipe == nullptr ? -1 : pclose(pipe);
   answer.code = status < 0 ? not_found : WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-  if (answer.code == not_found) return Error{Error::Code::config, "git cannot be run"};
+  if (answer.code == not_found) return config_error("git cannot be run");
   return answer;
 }
 
@@ -58,12 +58,11 @@ class Revision {
   Result<void> check() const {
     // A name that begins with a dash would be an option of git.
     if (name_.empty() || name_.starts_with('-'))
-      return Error{Error::Code::config, "'" + name_ + "' is no git revision"};
+      return config_error("'" + name_ + "' is no git revision");
     const auto known =
         run_git({"-C", root_, "rev-parse", "--verify", "--quiet", name_ + "^{commit}"});
     if (!known) return known.error();
-    if (known->code != 0)
-      return Error{Error::Code::config, "git knows no revision '" + name_ + "' in " + root_};
+    if (known->code != 0) return config_error("git knows no revision '" + name_ + "' in " + root_);
     return {};
   }
 
@@ -132,8 +131,8 @@ Result<std::vector<std::string>> without_filters(const std::string& root,
   std::vector<std::string> out;
   for (const std::string& key : words_of(keys->out)) {
     if (key.find('=') != key.npos)
-      return Error{Error::Code::config, "git has a filter whose name holds '=' (" + key +
-                                            "), which cannot be switched off; rename it"};
+      return config_error("git has a filter whose name holds '=' (" + key +
+                          "), which cannot be switched off; rename it");
     out.insert(out.end(), {"-c", key + (key.ends_with(".required") ? "=false" : "=")});
   }
   out.insert(out.end(), words.begin(), words.end());

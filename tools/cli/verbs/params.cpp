@@ -19,7 +19,7 @@ struct Options {
 
 int write(const Options& o, const std::string& text) {
   if (auto written = o.common.session->write_output(o.csv, text); !written)
-    return failed(o.common, written.error().message);
+    return failed(o.common, written.error());
   return exit_clean;
 }
 
@@ -34,7 +34,7 @@ int run(const Options& options) {
     if (auto known =
             check_interfaces(loaded, options.only, "--interface", Examined::contacts_and_ties);
         !known) {
-      return failed(common, known.error().message);
+      return failed(common, known.error());
     }
     ParamsInput input{loaded};
     if (!options.no_geometry) input.scene = &resolve_geometry(loaded, common);
@@ -63,16 +63,15 @@ int run(const Options& options) {
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
-  line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
+  line.option("--interface ID", options->only, "Only these interface ids").by_commas();
   line.flag("--matrix", options->matrix, "One row per interface, one column per field");
   line.flag("--changed", options->changed,
             "Show only fields that are written on the card and are not the default");
   line.flag("--filled-in", options->filled_in,
             "Show only fields whose effective value is not the value on the card");
-  line.option("--csv", options->csv,
+  line.option("--csv FILE", options->csv,
               "Write one line per interface and field (with --matrix: per interface) to FILE ('-': "
-              "standard output)")
-      .value("FILE");
+              "standard output)");
   add_require_examined(line, options->common);
   line.flag("--no-geometry", options->no_geometry,
             "Do not derive default gaps from the mesh; such values are shown as 0");
@@ -81,18 +80,16 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"params", 20, "Effective values of every interface, and where each came from",
-     "  deck params car_0000.rad\n"
-     "  deck params car_0000.rad --matrix          one row per interface\n"
-     "  deck params car_0000.rad --changed         only values on the card that are not the "
-     "default\n"
-     "  deck params car_0000.rad --filled-in       only values that the solver fills in or "
-     "replaces\n"
-     "  deck params car_0000.rad --interface 3,4 --csv params.csv\n"
-     "  deck params car_0000.rad --json params.json\n"
-     "\n"
-     "Origins: card, default-block (/DEFAULT/INTER), built-in (the solver's default),\n"
-     "derived (follows from other values, from /FRICTION or from the mesh).\n"
-     "1000 means 'nothing' (no deletion, constant gap, main stiffness only ...).\n",
+     R"(  deck params car_0000.rad
+  deck params car_0000.rad --matrix          one row per interface
+  deck params car_0000.rad --changed         only values on the card that are not the default
+  deck params car_0000.rad --filled-in       only values that the solver fills in or replaces
+  deck params car_0000.rad --interface 3,4 --csv params.csv
+  deck params car_0000.rad --json params.json
+
+Origins: card, default-block (/DEFAULT/INTER), built-in (the solver's default),
+derived (follows from other values, from /FRICTION or from the mesh).
+1000 means 'nothing' (no deletion, constant gap, main stiffness only ...).)",
      setup}};
 
 }  // namespace

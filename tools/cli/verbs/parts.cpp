@@ -25,19 +25,13 @@ Result<void> write_html(const Options& o, LoadedDeck& loaded) {
 /// Options that do not go together.
 Result<void> check_options(const Options& o) {
   if (!o.csv.empty() && o.common.decks.size() > 1 && o.csv != "-")
-    return Error{Error::Code::config, "--csv FILE takes one deck at a time"};
-  if (o.html.empty()) return {};
-  if (o.common.decks.size() > 1)
-    return Error{Error::Code::config, "--html takes one deck at a time"};
-  if (std::string why; !html_available(&why))
-    return Error{Error::Code::config, "--html: this build has no viewer: " + why};
-  return {};
+    return config_error("--csv FILE takes one deck at a time");
+  return check_html(o.common, o.html);
 }
 
 int run(const Options& options) {
   const CommonOptions& common = options.common;
-  if (const auto legal = check_options(options); !legal)
-    return failed(common, legal.error().message);
+  if (const auto legal = check_options(options); !legal) return failed(common, legal.error());
   if (const int bad = check_outputs(common, {common.json, options.csv, options.html});
       bad != exit_clean)
     return bad;
@@ -49,10 +43,10 @@ int run(const Options& options) {
     if (!options.csv.empty())
       if (auto written = options.common.session->write_output(options.csv, parts_csv(loaded));
           !written)
-        return failed(common, written.error().message);
+        return failed(common, written.error());
     if (!options.html.empty())
       if (auto written = write_html(options, loaded); !written)
-        return failed(common, written.error().message);
+        return failed(common, written.error());
     if (common.wants_text() && options.csv != "-" && options.html != "-") {
       PartsTextOptions text;
       text.color = common.color_on(1);
@@ -71,25 +65,23 @@ Action setup(CommandLine& line) {
   line.flag("--all", options->all,
             "With --json: the time step of every element, and step, mass and stiffness of every "
             "node");
-  line.option("--csv", options->csv, "Write one line per part to FILE ('-': standard output)")
-      .value("FILE");
+  line.option("--csv FILE", options->csv, "Write one line per part to FILE ('-': standard output)");
   line.option(
-          "--html", options->html,
-          "Write a page with the table of the parts and a picture coloured by time step to FILE")
-      .value("FILE");
+      "--html FILE", options->html,
+      "Write a page with the table of the parts and a picture coloured by time step to FILE");
   return [options] { return run(*options); };
 }
 
 const VerbRegistration registration{
     {"parts", 22, "Parts with mass, smallest time step and the interfaces that see them",
-     "  deck parts car_0000.rad\n"
-     "  deck parts car_0000.rad --csv parts.csv\n"
-     "  deck parts car_0000.rad --html parts.html\n"
-     "  deck parts car_0000.rad --json parts.json        also kinematic conditions\n"
-     "  deck parts car_0000.rad --all --json parts.json  every element and node\n"
-     "\n"
-     "Time steps and masses are those that the solver lists at the start, without a factor.\n"
-     "What cannot be computed is left blank, and named below the table.\n",
+     R"(  deck parts car_0000.rad
+  deck parts car_0000.rad --csv parts.csv
+  deck parts car_0000.rad --html parts.html
+  deck parts car_0000.rad --json parts.json        also kinematic conditions
+  deck parts car_0000.rad --all --json parts.json  every element and node
+
+Time steps and masses are those that the solver lists at the start, without a factor.
+What cannot be computed is left blank, and named below the table.)",
      setup}};
 
 }  // namespace

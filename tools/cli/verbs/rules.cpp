@@ -9,7 +9,7 @@ namespace {
 int run(const CommonOptions& common) {
   if (!common.json.empty())
     if (auto written = common.session->write_output(common.json, rules_json()); !written)
-      return failed(common, written.error().message);
+      return failed(common, written.error());
   if (common.wants_text()) print_lines(rules_table(common.color_on(1), text_width()));
   return exit_clean;
 }
@@ -20,8 +20,8 @@ Action setup(CommandLine& line) {
   return [options] { return run(*options); };
 }
 
-const VerbRegistration registration{{"rules", 80, "All rules of deck lint",
-                                     "  deck rules\n  deck rules --json rules.json\n", setup}};
+const VerbRegistration registration{
+    {"rules", 80, "All rules of deck lint", "  deck rules\n  deck rules --json rules.json", setup}};
 
 }  // namespace
 }  // namespace deck::cli::verb_rules

@@ -37,7 +37,7 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"schema", 85, "JSON schema of a verb's --json",
-     "  deck schema gaps > gaps.schema.json\n  deck schema common > common.schema.json\n", setup}};
+     "  deck schema gaps > gaps.schema.json\n  deck schema common > common.schema.json", setup}};
 
 }  // namespace
 }  // namespace deck::cli::verb_schema

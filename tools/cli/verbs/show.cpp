@@ -22,7 +22,7 @@ constexpr std::string_view pair_prefix = "pair:";
 /// "pair:57/30-38-44-31": its equation, or with --svg its side view.
 int show_pair(const Options& o) {
   const auto name = parse_pair(std::string_view(o.what).substr(pair_prefix.size()));
-  if (!name) return failed(o.common, name.error().message);
+  if (!name) return failed(o.common, name.error());
   if (!o.common.json.empty())
     return failed(o.common,
                   "a pair is in the JSON of deck gaps --all; show has its side view (--svg)");
@@ -82,9 +82,8 @@ Action setup(CommandLine& line) {
   line.flag("--svg", options->svg,
             "Of a pair: its side view to scale on standard output, gap, depth and what the solver "
             "does about it");
-  line.option("--interface", options->interface,
-              "Of a pair that penetrates in several interfaces: the one to show")
-      .value("ID");
+  line.option("--interface ID", options->interface,
+              "Of a pair that penetrates in several interfaces: the one to show");
   line.flag("--all", options->all, "Every line and every user");
   line.flag("--no-geometry", options->no_geometry,
             "Do not derive default gaps from the mesh; such values are left open");
@@ -93,11 +92,11 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"show", 22, "One entity: its card by field, effective values, users and references",
-     "  deck show car_0000.rad 3                   interface 3\n"
-     "  deck show car_0000.rad /GRNOD/PART/12\n"
-     "  deck show car_0000.rad node:5712           also part:4 shell:12 mat:1 set:9 ...\n"
-     "  deck show car_0000.rad pair:57/30-38-44-31 --svg > pair.svg\n"
-     "  deck show car_0000.rad 3 --json show.json\n",
+     R"(  deck show car_0000.rad 3                   interface 3
+  deck show car_0000.rad /GRNOD/PART/12
+  deck show car_0000.rad node:5712           also part:4 shell:12 mat:1 set:9 ...
+  deck show car_0000.rad pair:57/30-38-44-31 --svg > pair.svg
+  deck show car_0000.rad 3 --json show.json)",
      setup}};
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Writes the lines about lost values, reads refusals back into entries, and groups both by their
 // causes.
-#include "verbs/convert/convert_run.hpp"
+#include "verbs/convert/convert_losses.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "deck/text/number.hpp"
 #include "report/shared/text_table.hpp"
 
-namespace deck::cli {
+namespace deck::cli::verb_convert {
 namespace {
 
 bool of_engine_file(const LossEntry& e) { return !starter_of_engine_file(e.file).empty(); }
@@ -95,7 +95,6 @@ void print_loss_counts(const std::vector<LossEntry>& losses) {
 
 // ---- by causes
 
-namespace conversion_check {
 namespace {
 
 /// Every number as "#": the ids and values of one place.
@@ -136,13 +135,11 @@ const char* name_of(Loss loss) {
 }
 
 }  // namespace
-}  // namespace conversion_check
 
 void ConversionCheck::add_cause(const std::string& deck, const char* kind, const LossEntry& e) {
   std::string field = e.keyword;
-  if (!e.field.empty())
-    field += (field.empty() ? "" : " ") + conversion_check::without_value(e.field);
-  Cause& cause = causes_[{kind, field, conversion_check::without_numbers(e.note)}];
+  if (!e.field.empty()) field += (field.empty() ? "" : " ") + without_value(e.field);
+  Cause& cause = causes_[{kind, field, without_numbers(e.note)}];
   cause.decks.insert(deck);
   const std::string place = e.file.empty() ? deck : fmt::format("{}:{}", e.file, e.line);
   if (std::string_view(kind) == "undecided" || std::string_view(kind) == "refused") {
@@ -163,7 +160,7 @@ void ConversionCheck::add(const std::string& deck, Outcome outcome,
   for (const std::string& refusal : refusals) add_cause(deck, "refused", refused_entry(refusal));
   for (const LossEntry& e : losses)  // those of a refused deck are its refusals
     if (e.loss != Loss::kept && refusals.empty())
-      add_cause(deck, e.without_effect ? "without effect" : conversion_check::name_of(e.loss), e);
+      add_cause(deck, e.without_effect ? "without effect" : name_of(e.loss), e);
   if (other.empty()) return;
   LossEntry entry;
   entry.note = other;
@@ -223,4 +220,4 @@ std::string ConversionCheck::text(bool color, std::size_t width, Tense tense) co
   return out;
 }
 
-}  // namespace deck::cli
+}  // namespace deck::cli::verb_convert

@@ -135,10 +135,10 @@ Result<void> check_gates(const LintChoice& lint) {
     const auto config = config_of(lint.gate, deck);
     if (!config) return config.error();
     if (!lint.gate.given() && !config->gated())
-      return Error{Error::Code::config,
-                   deck + ": no gate is set: run 'deck gate --init', put bounds into [gate] of " +
-                       (config->path.empty() ? ".decklint.toml" : config->path) +
-                       ", or give one, such as --max-depth 0.5"};
+      return config_error(deck +
+                          ": no gate is set: run 'deck gate --init', put bounds into [gate] of " +
+                          (config->path.empty() ? ".decklint.toml" : config->path) +
+                          ", or give one, such as --max-depth 0.5");
   }
   return {};
 }
@@ -162,7 +162,7 @@ int run(Options& o) {
   for (std::string& deck : common.decks)  // without the default directory "." in front
     if (deck.starts_with("./")) deck.erase(0, 2);
   if (auto set = o.lint.accept ? Result<void>() : check_gates(o.lint); !set)
-    return failed(common, set.error().message);
+    return failed(common, set.error());
   LintRun lint(o.lint, [&](const LintJobs& jobs, const SchemaSet& schemas) {
     return print(o, jobs, schemas);
   });
@@ -176,13 +176,11 @@ Action setup(CommandLine& line) {
   allow_directories(line);
   line.existing("decks").required(false).describe(
       "Starter decks, or directories: all *_0000.rad below them (default: the current one)");
-  line.option("--format", o.format,
+  line.option("--format FORMAT", o.format,
               "What to print: human, concise (one line a finding), json, sarif, github, junit, "
               "gitlab")
-      .one_of(lint_formats)
-      .value("FORMAT");
-  line.option("-o,--output", o.outputs, "Also write FORMAT to FILE (repeatable)")
-      .value("FORMAT=FILE")
+      .one_of(lint_formats);
+  line.option("-o,--output FORMAT=FILE", o.outputs, "Also write FORMAT to FILE (repeatable)")
       .one_each();
   add_require_examined(line, o.common);
   add_gate_with_config(line, o.gate, "an error", "an error or a warning");
@@ -196,13 +194,11 @@ Action setup(CommandLine& line) {
       "Write .decklint.toml, the two baselines of what is accepted today and the workflow for "
       "GitHub or GitLab into the git work tree, and say what the gate would have done with "
       "the last commits of the decks");
-  init.option("--forge", options->init.forge,
+  init.option("--forge NAME", options->init.forge,
               "github or gitlab (default: what the work tree looks like)")
-      .one_of({"github", "gitlab"})
-      .value("NAME");
-  init.option("--commits", options->commits, "Commits that --init looks back (default: 10)")
-      .range(0, 1000)
-      .value("N");
+      .one_of({"github", "gitlab"});
+  init.option("--commits N", options->commits, "Commits that --init looks back (default: 10)")
+      .range(0, 1000);
   init.flag("--overwrite", options->init.overwrite, "Replace what --init has written before");
   return [options] {
     options->lint.geometry = true;
@@ -213,15 +209,14 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"gate", 35, "Lint and gaps against the gate of the repository, in one command",
-     "  deck gate                          all decks below the current directory\n"
-     "  deck gate models/ --since origin/main --format github -o sarif=deck.sarif\n"
-     "  deck gate car_0000.rad --compare git:main --fail-on new,worse\n"
-     "  deck gate models/ --init           sets the repository up\n"
-     "  deck gate --accept car_0000.rad    a change of this deck is meant\n"
-     "\n"
-     "Exit code 1: an error of lint, a contact beyond a bound, or one that is new or worse than "
-     "in\n"
-     "the document of [gate] in .decklint.toml.\n",
+     R"(  deck gate                          all decks below the current directory
+  deck gate models/ --since origin/main --format github -o sarif=deck.sarif
+  deck gate car_0000.rad --compare git:main --fail-on new,worse
+  deck gate models/ --init           sets the repository up
+  deck gate --accept car_0000.rad    a change of this deck is meant
+
+Exit code 1: an error of lint, a contact beyond a bound, or one that is new or worse than in
+the document of [gate] in .decklint.toml.)",
      setup}};
 
 }  // namespace

@@ -1,11 +1,15 @@
-// Writes what a repository needs for a gate: settings, the documents to compare with, a workflow.
+// Writes what a repository needs for a gate (settings, the documents to compare with, a workflow),
+// and says what the gate would have said of the last commits of a deck: each is read as git has it,
+// linted, and held against the commit before.
 #include "verbs/gate/init.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "base/shared/count.hpp"
@@ -15,13 +19,159 @@
 #include "library.hpp"
 #include "lint/shared/config.hpp"
 #include "report/shared/json.hpp"
+#include "report/shared/text_table.hpp"
+#include "verbs/git_deck.hpp"
 #include "verbs/lint/lint_run.hpp"
 
 namespace deck::cli {
+
 namespace writing_gate {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// A deck as a commit left it.
+struct State {
+  std::map<std::pair<RuleId, std::string>, std::size_t> errors;  ///< by rule and fingerprint
+  EarlierGaps gaps;
+};
+
+/// What the gate says of a commit.
+struct Row {
+  Commit commit;
+  bool stopped = false, known = true;
+  std::string why;
+};
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
+  return out;
+}
+
+class Past {
+ public:
+  Past(const std::string& deck, const CommonOptions& common, const SchemaSet& schemas)
+      : deck_(deck), common_(common), schemas_(schemas) {}
+
+  /// To be called from the oldest commit to the newest.
+  Row look(const Commit& commit) {
+    Row row;
+    row.commit = commit;
+    const auto unknown = [&](std::string why) {
+      row.known = false;
+      row.why = std::move(why);
+      before_.reset();
+      return row;
+    };
+    const auto old = git_deck(commit.name, deck_);
+    if (!old) return unknown("it did not have the deck");
+    auto loaded = load(old->path, schemas_, common_, Stage::interfaces, &old->files);
+    if (!loaded) return unknown("it cannot be read");
+    DeckGate gate;
+    gate.gate.on_fresh = gate.gate.on_worse = true;
+    if (before_) gate.earlier = before_->gaps;
+    std::string document;
+    GapsComparison compared;
+    const LintResult result =
+        lint_loaded(*loaded, {}, Geometry::all, gate, [&](const Scene& scene, const SceneView& v) {
+          document = gaps_json(loaded->path(), loaded->deck(), scene, v, false);
+          if (gate.earlier) compared = compare_gaps(*gate.earlier, scene, v);
+        });
+    State now;
+    for (std::size_t i = 0; i < result.diagnostics.size(); ++i)
+      if (const Diagnostic& d = result.diagnostics[i];
+          d.severity == Severity::error && !is_gate_rule(d.rule))
+        ++now.errors[{d.rule, result.fingerprints[i]}];
+    if (!document.empty())
+      if (auto gaps = read_earlier_gaps(loaded->path(), document, loaded->path()))
+        now.gaps = std::move(*gaps);
+    if (before_)
+      judge(result, compared, now, row);
+    else
+      unknown("nothing before it to compare with");
+    if (loaded->incomplete()) {
+      row.known = false;
+      row.why = "an include is missing";
+    }
+    before_ = std::move(now);
+    return row;
+  }
+
+ private:
+  void judge(const LintResult& result, const GapsComparison& compared, const State& now,
+             Row& row) const {
+    std::vector<std::string> words;
+    if (const std::uint64_t n = compared.count(Trend::fresh); n > 0)
+      words.push_back(fmt::format("{} new", n));
+    if (const std::uint64_t n = compared.count(Trend::worse); n > 0)
+      words.push_back(fmt::format("{} worse", n));
+    std::size_t lost = 0;
+    for (const auto& [inter, nodes] : compared.lost_ties) lost += nodes.size();
+    if (lost > 0) words.push_back(fmt::format("{} not tied any more", lost));
+    std::map<RuleId, std::size_t> fresh;
+    for (const auto& [key, n] : now.errors) {
+      const auto it = before_->errors.find(key);
+      const std::size_t had = it == before_->errors.end() ? 0 : it->second;
+      if (n > had) fresh[key.first] += n - had;
+    }
+    for (const auto& [rule, n] : fresh)
+      words.push_back(std::string(id_text(rule)) + (n > 1 ? fmt::format(" {} times", n) : ""));
+    row.stopped =
+        !fresh.empty() || std::any_of(result.counts.begin(), result.counts.end(),
+                                      [](const auto& c) { return is_gate_rule(c.first); });
+    row.why = joined(words);
+  }
+
+  std::string deck_;
+  const CommonOptions& common_;
+  const SchemaSet& schemas_;
+  std::optional<State> before_;
+};
+
+std::string table(const std::string& deck, const std::vector<Row>& rows,
+                  const CommonOptions& common) {
+  TextTable table({{"commit"}, {"date"}, {"gate"}, {"why"}, {"subject"}});
+  std::size_t stopped = 0, known = 0;
+  for (const Row& row : rows) {
+    known += row.known;
+    stopped += row.stopped;
+    const TextTable::Cell verdict = !row.known    ? TextTable::Cell("-")
+                                    : row.stopped ? TextTable::Cell("stopped", Tone::red)
+                                                  : TextTable::Cell("passed", Tone::green);
+    table.row({row.commit.name, row.commit.date, verdict, row.why, row.commit.subject});
+  }
+  const std::string verdict =
+      known == 0 ? fmt::format("The gate cannot look back at {}:\n", terminal_text(deck))
+                 : fmt::format(
+                       "The gate would have stopped {} of the last {} of {}, compared with the "
+                       "one before:\n",
+                       stopped, count(known, "commit", "commits"), terminal_text(deck));
+  return verdict + table.fitted(text_width(), common.color_on(1), 2);
+}
+
+/// What a gate would have said of the last commits of a deck, each against the one before: a table
+/// for people; empty: fewer than two commits have the deck. Error: it is in no git work tree.
+Result<std::string> gate_history(const LoadedDeck& loaded, std::size_t commits,
+                                 const CommonOptions& common) {
+  const std::string root = library_root(loaded.path());
+  // One more than is asked for: what the oldest is held against.
+  const auto past = commits_of(root, files_in_tree(loaded, root), commits + 1);
+  if (!past) return past.error();
+  if (past->size() < 2) return std::string();
+  Past states(loaded.path(), common, loaded.schemas());
+  std::vector<Row> rows;
+  Progress progress(!common.quiet);
+  progress.step("commits");
+  for (std::size_t i = past->size(); i-- > 0;) {
+    rows.insert(rows.begin(), states.look((*past)[i]));
+    progress.update(past->size() - i, past->size());
+  }
+  if (rows.size() > commits) rows.pop_back();
+  return table(loaded.path(), rows, common);
+}
+
+// ---- what is written
 
 constexpr std::string_view config_name = ".decklint.toml", lint_name = "lint-baseline.json",
                            gaps_name = "gaps-baseline.json";
@@ -45,56 +195,52 @@ std::string config_text() {
 
 std::string package() { return "./tools/libdeck_" + std::string(library_version()) + "_amd64.deb"; }
 
-/// `decks`: as words of a shell, each after a blank.
-std::string github_text(const std::string& decks) {
-  return "# Written by 'deck gate --init'. " + package() +
-         " has to be in the repository, or be fetched here.\n"
-         "name: deck gate\n"
-         "on: [pull_request]\n"
-         "jobs:\n"
-         "  gate:\n"
-         "    runs-on: ubuntu-latest\n"
-         "    container: debian:12\n"
-         "    permissions: { contents: read, security-events: write }\n"
-         "    steps:\n"
-         "      - run: apt-get update && apt-get install -y ca-certificates git\n"
-         "      - uses: actions/checkout@v4\n"
-         "        with: { fetch-depth: 0 }\n"
-         "      - run: git config --global --add safe.directory \"$GITHUB_WORKSPACE\"\n"
-         "      - run: apt-get install -y " +
-         package() +
-         "\n"
-         "      - run: >-\n"
-         "          deck gate" +
-         decks +
-         " --since \"origin/$GITHUB_BASE_REF\"\n"
-         "          --format github -o sarif=deck.sarif\n"
-         "      - uses: github/codeql-action/upload-sarif@v3\n"
-         "        if: always()\n"
-         "        with: { sarif_file: deck.sarif }\n";
-}
+constexpr std::string_view github_workflow =
+    R"(# Written by 'deck gate --init'. @PACKAGE@ has to be in the repository, or be fetched here.
+name: deck gate
+on: [pull_request]
+jobs:
+  gate:
+    runs-on: ubuntu-latest
+    container: debian:12
+    permissions: { contents: read, security-events: write }
+    steps:
+      - run: apt-get update && apt-get install -y ca-certificates git
+      - uses: actions/checkout@v4
+        with: { fetch-depth: 0 }
+      - run: git config --global --add safe.directory "$GITHUB_WORKSPACE"
+      - run: apt-get install -y @PACKAGE@
+      - run: >-
+          deck gate@DECKS@ --since "origin/$GITHUB_BASE_REF"
+          --format github -o sarif=deck.sarif
+      - uses: github/codeql-action/upload-sarif@v3
+        if: always()
+        with: { sarif_file: deck.sarif }
+)";
 
-std::string gitlab_text(const std::string& decks) {
-  return "# Written by 'deck gate --init'. In .gitlab-ci.yml: include: [{ local: "
-         ".gitlab/deck-gate.yml }]\n"
-         "# " +
-         package() +
-         " has to be in the repository, or be fetched here.\n"
-         "deck-gate:\n"
-         "  image: debian:12\n"
-         "  variables: { GIT_DEPTH: \"0\" }\n"
-         "  rules: [{ if: '$CI_PIPELINE_SOURCE == \"merge_request_event\"' }]\n"
-         "  script:\n"
-         "    - apt-get update && apt-get install -y git " +
-         package() +
-         "\n"
-         "    - git config --global --add safe.directory \"$CI_PROJECT_DIR\"\n"
-         "    - >-\n"
-         "      deck gate" +
-         decks +
-         " --since \"$CI_MERGE_REQUEST_DIFF_BASE_SHA\"\n"
-         "      -o gitlab=deck.json -o junit=deck.xml\n"
-         "  artifacts: { when: always, reports: { codequality: deck.json, junit: deck.xml } }\n";
+constexpr std::string_view gitlab_workflow =
+    R"(# Written by 'deck gate --init'. In .gitlab-ci.yml: include: [{ local: .gitlab/deck-gate.yml }]
+# @PACKAGE@ has to be in the repository, or be fetched here.
+deck-gate:
+  image: debian:12
+  variables: { GIT_DEPTH: "0" }
+  rules: [{ if: '$CI_PIPELINE_SOURCE == "merge_request_event"' }]
+  script:
+    - apt-get update && apt-get install -y git @PACKAGE@
+    - git config --global --add safe.directory "$CI_PROJECT_DIR"
+    - >-
+      deck gate@DECKS@ --since "$CI_MERGE_REQUEST_DIFF_BASE_SHA"
+      -o gitlab=deck.json -o junit=deck.xml
+  artifacts: { when: always, reports: { codequality: deck.json, junit: deck.xml } }
+)";
+
+/// A workflow for these decks: words of a shell, each after a blank.
+std::string filled(std::string_view workflow, const std::string& decks) {
+  std::string out(workflow);
+  for (const auto& [mark, text] : {std::pair{"@PACKAGE@", package()}, {"@DECKS@", decks}})
+    for (auto at = out.find(mark); at != out.npos; at = out.find(mark, at + text.size()))
+      out.replace(at, std::strlen(mark), text);
+  return out;
 }
 
 /// What the repository looks like: its own files, else its remotes.
@@ -151,7 +297,7 @@ std::vector<NewFile> files_of(const Today& today, const fs::path& root, const st
           {today.lint.path(), today.lint.text()},
           {today.gaps.path(), today.gaps.text()},
           {(root / (github ? ".github/workflows/deck-gate.yml" : ".gitlab/deck-gate.yml")).string(),
-           github ? github_text(decks) : gitlab_text(decks)}};
+           filled(github ? github_workflow : gitlab_workflow, decks)}};
 }
 
 /// The arguments as words of a shell, as they are called from the top of the work tree. Error: a
@@ -163,9 +309,9 @@ Result<std::string> decks_in_tree(const std::vector<std::string>& given, const s
     if (inside == ".") continue;
     if (terminal_text(inside) != inside || inside.find("${{") != inside.npos ||
         inside.find("$[[") != inside.npos)
-      return Error{Error::Code::config, path +
-                                            ": a workflow cannot hold this name; rename it, or "
-                                            "give the folder above it"};
+      return config_error(path +
+                          ": a workflow cannot hold this name; rename it, or "
+                          "give the folder above it");
     if (inside.starts_with('-')) inside.insert(0, "./");
     out += " " + shell_word(inside);
   }
@@ -182,16 +328,15 @@ Result<void> check_places(const std::vector<NewFile>& files, const fs::path& roo
         fs::weakly_canonical(f.path, ec).lexically_relative(fs::weakly_canonical(root, ec));
     if (real.empty() || *real.begin() == ".." ||
         (own == fs::file_type::symlink && behind == fs::file_type::not_found))
-      return Error{Error::Code::config, f.path +
-                                            " is a link that leads out of the work tree, or "
-                                            "nowhere; nothing was written"};
+      return config_error(f.path +
+                          " is a link that leads out of the work tree, or "
+                          "nowhere; nothing was written");
     if (behind != fs::file_type::regular && behind != fs::file_type::not_found)
-      return Error{Error::Code::config, f.path + " is no regular file; nothing was written"};
+      return config_error(f.path + " is no regular file; nothing was written");
     if (!overwrite && own != fs::file_type::not_found)
-      return Error{Error::Code::config,
-                   f.path +
-                       " is there already; nothing was written (--overwrite replaces it, with "
-                       "all that --init writes)"};
+      return config_error(f.path +
+                          " is there already; nothing was written (--overwrite replaces it, with "
+                          "all that --init writes)");
   }
   return {};
 }
@@ -235,12 +380,12 @@ void tell(const Today& today, const std::vector<NewFile>& files, const fs::path&
 
 int init_gate(const CommonOptions& given, const GateInit& init) {
   using namespace writing_gate;
-  const auto fail = [&](const std::string& message, int code = exit_usage) {
-    return failed(given, message, code);
+  const auto fail = [&](const auto& why, int code = exit_usage) {
+    return failed(given, why, code);
   };
   CommonOptions common = given;
   const auto decks = decks_in_directories(given.decks);
-  if (!decks) return fail(decks.error().message, exit_input);
+  if (!decks) return fail(decks.error(), exit_input);
   common.decks = *decks;
   const std::string root = library_root(common.decks.front());
   std::error_code ec;
@@ -250,11 +395,11 @@ int init_gate(const CommonOptions& given, const GateInit& init) {
     if (library_root(path) != root) return fail(path + " is in another git work tree than " + root);
   const std::string forge = init.forge.empty() ? forge_of(root) : init.forge;
   const auto words = decks_in_tree(given.decks, root);
-  if (!words) return fail(words.error().message);
+  if (!words) return fail(words.error());
   const auto accepted = [&](std::string_view name, Baseline::Kind kind) -> Baseline {
     const std::string path = (fs::path(root) / name).string();
     const auto text = fs::is_regular_file(path, ec) ? read_config_file(path, most_baseline_bytes)
-                                                    : Error{Error::Code::config, ""};
+                                                    : config_error("");
     // Of other decks it keeps what is accepted; what is no baseline is replaced.
     auto kept = text ? Baseline::parse(*text, path, kind) : text.error();
     return kept ? std::move(*kept) : Baseline(path, kind);
@@ -263,9 +408,9 @@ int init_gate(const CommonOptions& given, const GateInit& init) {
       {}, accepted(lint_name, Baseline::Kind::lint), accepted(gaps_name, Baseline::Kind::gaps)};
   // Before the decks are looked at, which takes time.
   if (auto legal = check_places(files_of(today, root, forge, *words), root, init.overwrite); !legal)
-    return fail(legal.error().message);
+    return fail(legal.error());
   const auto schemas = load_schemas(common);
-  if (!schemas) return fail(schemas.error().message);
+  if (!schemas) return fail(schemas.error());
   if (const int code = look(common, *schemas, today); code != exit_clean) return code;
   const std::vector<NewFile> files = files_of(today, root, forge, *words);
   std::vector<OutputFile> written_files;
@@ -273,7 +418,7 @@ int init_gate(const CommonOptions& given, const GateInit& init) {
   OutputRules rules;
   rules.overwrite = init.overwrite;
   if (auto written = common.session->write_outputs(written_files, rules); !written)
-    return fail(written.error().message);
+    return fail(written.error());
   if (common.quiet) return exit_clean;
   tell(today, files, root, *words);
   print_lines(unreached_text(common.decks, root));
@@ -281,7 +426,7 @@ int init_gate(const CommonOptions& given, const GateInit& init) {
   for (const LoadedDeck& deck : today.decks) {
     if (init.commits == 0) break;
     const auto past = gate_history(deck, init.commits, common);
-    if (!past) return fail(past.error().message);
+    if (!past) return fail(past.error());
     if (past->empty())
       ++young;
     else

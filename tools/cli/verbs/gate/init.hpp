@@ -16,9 +16,4 @@ struct GateInit {
 /// or none; then says what the gate would have said of the last commits. Returns the exit code.
 int init_gate(const CommonOptions& common, const GateInit& init);
 
-/// What a gate would have said of the last commits of a deck, each against the one before: a table
-/// for people; empty: fewer than two commits have the deck. Error: it is in no git work tree.
-Result<std::string> gate_history(const LoadedDeck& loaded, std::size_t commits,
-                                 const CommonOptions& common);
-
 }  // namespace deck::cli

@@ -89,46 +89,38 @@ bool GateOptions::given() const {
 void add_gate(CommandLine& line, GateOptions& o) {
   o.session = &line.session();
   CommandLine gate = line.group("Gate (exit 1 beyond it; also [gate] in .decklint.toml)");
-  gate.option("--max-depth", o.max_depth, "Deepest penetration, in the deck's units")
-      .number(0, 1e300)
-      .value("X");
-  gate.option("--max-ratio", o.max_ratio,
+  gate.option("--max-depth X", o.max_depth, "Deepest penetration, in the deck's units")
+      .number(0, 1e300);
+  gate.option("--max-ratio R", o.max_ratio,
               "Largest share of the gap that is penetrated: 0.3 is 30 %")
-      .number(0, 1)
-      .value("R");
-  gate.option("--max-count", o.max_count, "Penetrating nodes and edges of the deck, each once")
-      .range(0, INT_MAX)
-      .value("N");
-  gate.option("--max-untied", o.max_untied,
+      .number(0, 1);
+  gate.option("--max-count N", o.max_count, "Penetrating nodes and edges of the deck, each once")
+      .range(0, INT_MAX);
+  gate.option("--max-untied N", o.max_untied,
               "Nodes of /INTER/TYPE2 in the deck that are not tied, each once")
-      .range(0, INT_MAX)
-      .value("N");
-  gate.option("--max-dt-loss", o.max_dt_loss,
+      .range(0, INT_MAX);
+  gate.option("--max-dt-loss R", o.max_dt_loss,
               "Share of the mesh's time step that a contact may take away")
-      .number(0, 1)
-      .value("R");
+      .number(0, 1);
   gate.option(
-          "--compare", o.compare,
-          "An earlier 'deck gaps --json' FILE, or git:REV, the deck at that git revision: lists "
-          "what is new, worse, better, solved; with --fail-on new,worse these exit with 1")
-      .value("FILE");
+      "--compare FILE", o.compare,
+      "An earlier 'deck gaps --json' FILE, or git:REV, the deck at that git revision: lists "
+      "what is new, worse, better, solved; with --fail-on new,worse these exit with 1");
   gate.option(
-          "--since", o.since,
-          "A git revision: report each finding at the line that changed since (node or card), so "
-          "that GitHub or GitLab shows it in the review; default: that of --compare git:REV")
-      .value("REV");
+      "--since REV", o.since,
+      "A git revision: report each finding at the line that changed since (node or card), so "
+      "that GitHub or GitLab shows it in the review; default: that of --compare git:REV");
 }
 
 void add_gate_with_config(CommandLine& line, GateOptions& o, const std::string& error,
                           const std::string& warning) {
   add_gate(line, o);
-  line.option("--fail-on", o.fail_on,
+  line.option("--fail-on WORDS", o.fail_on,
               "When to exit with 1, by commas: error (" + error + "; default), warning (" +
                   warning + "), never, and new, worse (with --compare)")
-      .comma_list()
-      .value("WORDS");
-  line.option("--config", o.config, "Use FILE instead of looking for .decklint.toml; its [gate]")
-      .value("FILE");
+      .comma_list();
+  line.option("--config FILE", o.config,
+              "Use FILE instead of looking for .decklint.toml; its [gate]");
   line.flag("--no-config", o.no_config, "Use no configuration file");
 }
 
@@ -138,11 +130,10 @@ Result<void> check_fail_on(const GateOptions& o) {
     const bool level = word == "error" || word == "warning" || word == "never";
     levels += level;
     if (!level && word != "new" && word != "worse")
-      return Error{Error::Code::config,
-                   "--fail-on: '" + word + "' is not one of new, worse, error, warning, never"};
+      return config_error("--fail-on: '" + word +
+                          "' is not one of new, worse, error, warning, never");
   }
-  if (levels > 1)
-    return Error{Error::Code::config, "--fail-on takes one of error, warning and never"};
+  if (levels > 1) return config_error("--fail-on takes one of error, warning and never");
   return {};
 }
 
@@ -178,9 +169,8 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
   if (out.since.empty() && compare.starts_with(git_prefix))
     out.since = compare.substr(git_prefix.size());
   if (!compare.empty() && !accepted.empty())
-    return Error{Error::Code::config,
-                 "a baseline and an earlier run to compare with exclude each other: " + accepted +
-                     " and " + compare};
+    return config_error("a baseline and an earlier run to compare with exclude each other: " +
+                        accepted + " and " + compare);
   if (!accepted.empty()) {
     const auto known = baseline_at(o, accepted, Baseline::Kind::gaps);
     if (!known) return known.error();
@@ -196,9 +186,9 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
     if (!read) return read.error();
     out.earlier = std::move(*read);
   } else if (out.gate.on_fresh || out.gate.on_worse) {
-    return Error{Error::Code::config,
-                 "new and worse need an earlier run: --compare FILE, or 'compare' in [gate], with "
-                 "an earlier 'deck gaps --json'"};
+    return config_error(
+        "new and worse need an earlier run: --compare FILE, or 'compare' in [gate], with "
+        "an earlier 'deck gaps --json'");
   }
   return out;
 }

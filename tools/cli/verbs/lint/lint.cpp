@@ -3,7 +3,6 @@
 #include "base/shared/escape.hpp"
 #include "common.hpp"
 #include "verbs/lint/lint_run.hpp"
-#include "verbs/settings.hpp"
 
 namespace deck::cli::verb_lint {
 namespace {
@@ -11,9 +10,9 @@ namespace {
 int init(const LintChoice& options) {
   const CommonOptions& common = options.common;
   const auto path = common.decks.size() > 1
-                        ? Error{Error::Code::config, "--init takes one directory"}
+                        ? config_error("--init takes one directory")
                         : write_settings_file(common.decks.empty() ? "" : common.decks.front());
-  if (!path) return failed(common, path.error().message);
+  if (!path) return failed(common, path.error());
   if (!common.quiet) print_text("wrote " + terminal_text(*path) + "\n");
   return exit_clean;
 }
@@ -28,7 +27,7 @@ int show_config(const LintChoice& options) {
   const std::vector<std::string>& decks = options.common.decks;
   for (const std::string& deck : decks.empty() ? std::vector<std::string>{"-"} : decks) {
     const auto config = config_of(options.gate, deck);
-    if (!config) return failed(options.common, config.error().message);
+    if (!config) return failed(options.common, config.error());
     const std::string of = deck == "-" ? "the current directory" : deck;
     print_text(terminal_text(
                    of + ": " +
@@ -52,28 +51,23 @@ Action setup(CommandLine& line) {
   auto options = std::make_shared<LintChoice>();
   LintChoice& o = *options;
   add_common(line, o.common);
-  line.option("--format", o.format,
+  line.option("--format FORMAT", o.format,
               "What to print: human, concise (one line a finding), json, sarif, github, junit, "
               "gitlab")
-      .one_of(lint_formats)
-      .value("FORMAT");
+      .one_of(lint_formats);
   line.flag("--statistics", o.statistics,
             "Print one line a rule: how many findings, and how many of them can be fixed");
-  line.option("-o,--output", o.outputs, "Also write FORMAT to FILE (repeatable)")
-      .value("FORMAT=FILE")
+  line.option("-o,--output FORMAT=FILE", o.outputs, "Also write FORMAT to FILE (repeatable)")
       .one_each();
-  line.option("--select", o.select,
+  line.option("--select RULES", o.select,
               "Only these rules: ids, names, prefixes (DK2) or fields (DK201:Istf), "
               "comma-separated")
-      .by_commas()
-      .value("RULES");
-  line.option("--ignore", o.ignore, "Not these rules").by_commas().value("RULES");
-  line.option("--baseline", o.baseline,
-              "Leave out the findings listed in FILE, of the decks listed there")
-      .value("FILE");
-  line.option("--write-baseline", o.write_baseline,
-              "Write all findings to FILE as a baseline; entries of other decks stay")
-      .value("FILE");
+      .by_commas();
+  line.option("--ignore RULES", o.ignore, "Not these rules").by_commas();
+  line.option("--baseline FILE", o.baseline,
+              "Leave out the findings listed in FILE, of the decks listed there");
+  line.option("--write-baseline FILE", o.write_baseline,
+              "Write all findings to FILE as a baseline; entries of other decks stay");
   line.existing("decks").required(false).describe(
       "Starter decks, or directories: all *_0000.rad below them; '-' is standard input. With "
       "--changed any files");
@@ -103,9 +97,8 @@ Action setup(CommandLine& line) {
   line.flag("--ruler", o.ruler, "Show column numbers above each card line");
   add_verbose(line, o.common, "Show every finding in full, without grouping");
   line.flag("--no-group", o.common.verbose, "The same");
-  line.option("--per-rule", o.per_rule, "Findings shown per rule; 0 shows all (default: 10)")
-      .range(0, 1000000)
-      .value("N");
+  line.option("--per-rule N", o.per_rule, "Findings shown per rule; 0 shows all (default: 10)")
+      .range(0, 1000000);
   return [options] {
     options->common.engine_files = options->common.unread_too = true;
     options->common.rewrites = (options->fix || options->unsafe_fixes) && !options->diff;
@@ -125,17 +118,16 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"lint", 10, "Findings with file, line and column: what is wrong and how to fix it",
-     "  deck lint car_0000.rad\n"
-     "  deck lint car_0000.rad --format github --fail-on warning\n"
-     "  deck lint car_0000.rad -o sarif=lint.sarif -o junit=lint.xml\n"
-     "  deck lint car_0000.rad --write-baseline lint-baseline.json\n"
-     "  deck lint car_0000.rad --diff | git apply\n"
-     "  deck lint models/ --format concise\n"
-     "  deck lint models/ --statistics\n"
-     "\n"
-     "Settings come from .decklint.toml beside or above the deck. A finding is switched off for "
-     "one\n"
-     "block by a comment in or above it:  # decklint: ignore[DK104] reason=...\n",
+     R"(  deck lint car_0000.rad
+  deck lint car_0000.rad --format github --fail-on warning
+  deck lint car_0000.rad -o sarif=lint.sarif -o junit=lint.xml
+  deck lint car_0000.rad --write-baseline lint-baseline.json
+  deck lint car_0000.rad --diff | git apply
+  deck lint models/ --format concise
+  deck lint models/ --statistics
+
+Settings come from .decklint.toml beside or above the deck. A finding is switched off for one
+block by a comment in or above it:  # decklint: ignore[DK104] reason=...)",
      setup}};
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A run of lint over decks: loads and lints each, then fixes, writes and prints.
+// A run of lint over decks: loads and lints each, then fixes what they want fixed together, writes
+// and prints.
 #include "verbs/lint/lint_run.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "lint/shared/geometry.hpp"
 
 namespace deck::cli {
+
 namespace linting {
 namespace {
 
@@ -38,7 +40,7 @@ Result<LintOptions> lint_options(const LintChoice& options, const LintConfig& co
   out.diagnostics_per_rule = options.common.limits.diagnostics_per_rule;
   for (const auto* list : {&options.select, &options.ignore})
     for (const std::string& s : *list)
-      if (!known_selector(s)) return Error{Error::Code::config, unknown_selector(s)};
+      if (!known_selector(s)) return config_error(unknown_selector(s));
   const std::string baseline = options.baseline.empty() ? config.baseline : options.baseline;
   // A baseline that is about to be written replaces the old one.
   if (baseline.empty() || !options.write_baseline.empty() || options.accept) return out;
@@ -128,15 +130,9 @@ int LintRun::run() {
   } else if (!rewrites)
     decks = decks_in_directories(common_.decks);
   if (rewrites && decks) decks = changes_.decks(*decks);
-  if (!decks)
-    return failed(common_, decks.error().message,
-                  decks.error().code == Error::Code::config ? exit_usage : exit_input);
-  for (const std::string& path : *decks) {
-    if (BatchFrame* frame = common_.session->frame) frame->begin(path);
-    const int code = lint_one(path);
-    if (BatchFrame* frame = common_.session->frame) frame->end(code);
-    worst = std::max(worst, code);
-  }
+  if (!decks) return failed(common_, decks.error(), reading_code(decks.error()));
+  for (const std::string& path : *decks)
+    worst = std::max(worst, common_.session->about(path, [&] { return lint_one(path); }));
   if (rewrites) {
     const int code = std::any_of(common_.decks.begin(), common_.decks.end(),
                                  [](const std::string& d) { return d == "-"; }) &&
@@ -148,8 +144,6 @@ int LintRun::run() {
   if (worst >= exit_internal) return worst;
   return options_.accept ? accept(worst) : std::max(worst, write());
 }
-
-int LintRun::usage(const std::string& message) { return failed(common_, message); }
 
 int LintRun::none_changed() const {
   if (!common_.quiet) print_note("no deck includes any of these files; nothing to lint");
@@ -168,7 +162,7 @@ int LintRun::prepare() {
   std::vector<std::string> files = {common_.json, options_.write_baseline};
   for (const std::string& o : options_.outputs) files.push_back(o.substr(o.find('=') + 1));
   if (const int bad = check_outputs(common_, files); bad != exit_clean) return bad;
-  if (auto legal = check_fail_on(options_.gate); !legal) return usage(legal.error().message);
+  if (auto legal = check_fail_on(options_.gate); !legal) return usage(legal.error());
   if (options_.geometry && options_.no_geometry)
     return usage("--geometry and --no-geometry exclude each other");
   if (options_.statistics && options_.format != "human")
@@ -176,7 +170,7 @@ int LintRun::prepare() {
   if (options_.gate.given() && options_.no_geometry)
     return usage("the bounds of the gate need geometry; leave out --no-geometry");
   auto schemas = load_schemas(common_);
-  if (!schemas) return usage(schemas.error().message);
+  if (!schemas) return usage(schemas.error());
   schemas_ = std::move(*schemas);
   return exit_clean;
 }
@@ -185,7 +179,7 @@ int LintRun::lint_one(const std::string& path) {
   auto job = std::make_unique<LintJob>();
   job->path = path;
   const auto config = config_of(options_.gate, path);
-  if (!config) return usage(config.error().message);
+  if (!config) return usage(config.error());
   const Geometry geometry = linting::geometry_of(options_, *config);
   if (geometry == Geometry::none && config->gated())
     return usage("the gate of " + config->path +
@@ -195,18 +189,18 @@ int LintRun::lint_one(const std::string& path) {
                  " names no baseline to accept it in: run 'deck gate --init'");
   // What is accepted is not held against what was.
   auto gate = options_.accept ? DeckGate{} : gate_of(options_.gate, *config, path, common_);
-  if (!gate) return std::max(usage(gate.error().message), gate_error_code(gate.error()));
+  if (!gate) return std::max(usage(gate.error()), gate_error_code(gate.error()));
   const auto lint = linting::lint_options(options_, *config, *job);
-  if (!lint) return usage(lint.error().message);
+  if (!lint) return usage(lint.error());
   if (!common_.quiet) linting::note_renamed(*lint, renamed_);
   auto loaded = load(path, schemas_, common_);
   if (!loaded) {
     job->error = loaded.error().message;
     print_error(common_, job->error);
-    job->code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
+    job->code = reading_code(loaded.error());
   } else {
     job->loaded.emplace(std::move(*loaded));
-    if (auto known = gate->find_changes(*job->loaded); !known) return usage(known.error().message);
+    if (auto known = gate->find_changes(*job->loaded); !known) return usage(known.error());
     job->gate = std::move(*gate);
     if (options_.accept) {
       job->lint_baseline = config->baseline;
@@ -260,6 +254,79 @@ int LintRun::code_of(const LintJob& job) const {
   code = std::max(code, examined_code(*job.loaded, common_));
   const bool unread = job.loaded->incomplete() || job.loaded->deck().begin.version_unread;
   return unread ? static_cast<int>(exit_input) : code;
+}
+
+/// What all decks together want fixed. A fix of a file that they share is made only if all of
+/// them want it.
+Result<std::size_t> LintRun::collect_fixes(Changes& set, std::vector<FixResult>& results) {
+  std::vector<FixedDeck> decks;
+  std::vector<const LintJob*> jobs;
+  for (const auto& job : jobs_)
+    if (job->loaded) {
+      decks.push_back({&job->loaded->deck().sources, &job->result.diagnostics});
+      jobs.push_back(job.get());
+    }
+  const AgreedFixes agreed = agree_on_fixes(decks, options_.unsafe_fixes);
+  std::size_t changed = 0;
+  for (std::size_t d = 0; d < decks.size(); ++d) {
+    const Deck& deck = jobs[d]->loaded->deck();
+    const auto member = set.add(*jobs[d]->loaded, jobs[d]->path);
+    if (!member) return member.error();
+    results.push_back(apply_fixes(deck.sources, agreed.wanted[d]));
+    ChangedFiles files;
+    for (FixedFile& f : results.back().files) {
+      const std::string& path = deck.sources[f.file].path();
+      if (const auto [it, is_new] = files.try_emplace(path, f.text);
+          !is_new && it->second != f.text)
+        return config_error(path +
+                            " is included more than once and would become two different files; "
+                            "nothing was written");
+    }
+    changed += files.size();
+    set.propose(*member, deck, files);
+  }
+  constexpr std::size_t most = 10;
+  for (std::size_t i = 0; i < std::min(most, agreed.withheld.size()) && !common_.quiet; ++i) {
+    const WithheldFix& w = agreed.withheld[i];
+    print_messages(
+        fmt::format("{}: note: not fixed ({}): {} includes this file too and needs it unchanged\n",
+                    terminal_text(jobs[w.deck]->loaded->deck().sources.where(w.diagnostic->span)),
+                    finding_name(*w.diagnostic), terminal_text(jobs[w.other]->path)));
+  }
+  if (agreed.withheld.size() > most && !common_.quiet)
+    print_note(
+        fmt::format("{} more were not fixed for this reason", agreed.withheld.size() - most));
+  return changed;
+}
+
+/// --diff prints what --fix would write; --fix writes, every file once, and lints again.
+int LintRun::fixes() {
+  int code = exit_clean;
+  std::vector<FixResult> results;
+  const auto changed = collect_fixes(changes_, results);
+  if (!changed) return usage(changed.error());
+  if (options_.diff) {
+    const auto patch = changes_.diff();
+    if (!patch) return usage(patch.error());
+    print_contents(*patch);
+  } else if (*changed > 0) {
+    if (auto written = changes_.write(false); !written) return usage(written.error());
+    for (std::size_t d = 0, r = 0; d < jobs_.size(); ++d) {
+      if (!jobs_[d]->loaded) continue;
+      const FixResult& fixed = results[r++];
+      if (!common_.quiet && !fixed.files.empty())
+        print_messages(fmt::format("{}: {} fixed in {}\n", terminal_text(jobs_[d]->path),
+                                   fixed.applied, count(fixed.files.size(), "file", "files")));
+    }
+    relint_ = true;
+  }
+  if (relint_) {
+    auto old = std::move(jobs_);
+    jobs_.clear();
+    for (const auto& job : old) code = std::max(code, lint_one(job->path));
+    after_fix_ = code;
+  }
+  return exit_clean;
 }
 
 }  // namespace deck::cli

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "changes.hpp"
 #include "common.hpp"
 #include "deck/lint/lint.hpp"
 #include "lint/shared/fix.hpp"
 #include "report/shared/diagnostics.hpp"
 #include "report/shared/gate.hpp"
 #include "verbs/gate/options.hpp"
-#include "writing/changes.hpp"
 
 namespace deck::cli {
 
@@ -94,7 +94,8 @@ class LintRun {
   const LintJobs& jobs() const { return jobs_; }
 
  private:
-  int usage(const std::string& message);
+  int usage(const std::string& message) const { return failed(common_, message); }
+  int usage(const Error& error) const { return failed(common_, error); }
   int none_changed() const;
   int prepare();
   int lint_one(const std::string& path);
@@ -118,5 +119,23 @@ class LintRun {
   bool relint_ = false;
   int after_fix_ = exit_clean;
 };
+
+// ---- the settings of lint and of the gate: what holds for a deck and where it comes from, and a
+// file to begin with
+
+/// What the command line says.
+struct GivenSettings {
+  std::vector<std::string> select, ignore;
+  std::string baseline;
+  GateOptions gate;
+  std::optional<bool> geometry;  ///< --geometry, --no-geometry
+};
+
+/// Every setting, its value and its origin: an option, a line of the configuration, or the default.
+std::string settings_text(const LintConfig& config, const GivenSettings& given);
+
+/// Writes .decklint.toml into a directory that has none. Error: there is one, or it cannot be
+/// written. Returns its path.
+Result<std::string> write_settings_file(const std::string& directory);
 
 }  // namespace deck::cli

@@ -90,13 +90,13 @@ int LintRun::accept(int worst) {
     if (!job->loaded) continue;
     if (!job->lint_baseline.empty()) {
       const auto lint = file(job->lint_baseline, Baseline::Kind::lint);
-      if (!lint) return usage(lint.error().message);
+      if (!lint) return usage(lint.error());
       (*lint)->accept(job->path, job->loaded->deck(), job->result);
       findings += job->result.diagnostics.size();
     }
     if (!job->gaps) continue;
     const auto gaps = file(job->gaps->path(), Baseline::Kind::gaps);
-    if (!gaps) return usage(gaps.error().message);
+    if (!gaps) return usage(gaps.error());
     (*gaps)->take(job->path, *job->gaps);
   }
   if (!whole) {
@@ -111,7 +111,7 @@ int LintRun::accept(int worst) {
     names += (names.empty() ? "" : ", ") + name_in_tree(path);
   }
   if (auto written = common_.session->write_outputs(outputs); !written)
-    return usage(written.error().message);
+    return usage(written.error());
   std::size_t undecided = 0;
   for (const auto& job : jobs_) undecided += job->report.undecided;
   if (!common_.quiet)
@@ -131,7 +131,7 @@ int LintRun::write() {
   int code = exit_clean;
   const auto put = [&](const std::string& file, const std::string& text) {
     if (auto written = common_.session->write_output(file, text); !written)
-      code = std::max(code, usage(written.error().message));
+      code = std::max(code, usage(written.error()));
   };
   for (const std::string& o : options_.outputs) {
     const auto equal = o.find('=');
@@ -148,7 +148,7 @@ int LintRun::write() {
         any = true;
       }
     if (!baseline)
-      code = std::max(code, usage(baseline.error().message));
+      code = std::max(code, usage(baseline.error()));
     else if (any)
       put(options_.write_baseline, baseline->text());
   }

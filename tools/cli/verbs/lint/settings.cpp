@@ -1,5 +1,5 @@
 // Lists what holds: options go before the configuration, the configuration before defaults.
-#include "verbs/settings.hpp"
+#include "verbs/lint/lint_run.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,9 @@ struct Row {
   std::string key, value, origin;
 };
 
-std::string in_quotes(std::string_view text) {
+// A value as the configuration writes it; empty where there is none.
+std::string text_of(const std::string& text) {
+  if (text.empty()) return {};
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -23,39 +25,30 @@ std::string in_quotes(std::string_view text) {
   }
   return out + "\"";
 }
-
-std::string list_text(const std::vector<std::string>& words) {
+std::string text_of(const std::vector<std::string>& words) {
   std::string out;
-  for (const std::string& w : words) out += (out.empty() ? "[" : ", ") + in_quotes(w);
-  return out + (out.empty() ? "[]" : "]");
+  for (const std::string& w : words) out += (out.empty() ? "[" : ", ") + text_of(w);
+  return out + (out.empty() ? "" : "]");
 }
-
-std::string number(double value) { return fmt::format("{}", value); }
+std::string text_of(std::optional<bool> yes) { return !yes ? "" : *yes ? "true" : "false"; }
 
 class Settings {
  public:
   Settings(const LintConfig& config, const GivenSettings& given) : config_(config), given_(given) {}
 
   std::vector<Row> rows() {
-    select();
+    row("select", text_of(config_.select), "--select", text_of(given_.select));
     ignore();
-    const std::string level = given_.gate.level();
-    if (!level.empty())
-      add("fail-on", in_quotes(level), "--fail-on");
-    else
-      add_key("fail-on", config_.fail_on.empty() ? "" : in_quotes(config_.fail_on));
-    one("baseline", given_.baseline, config_.baseline, "--baseline");
-    if (given_.geometry)
-      add("geometry", *given_.geometry ? "true" : "false",
-          *given_.geometry ? "--geometry" : "--no-geometry");
-    else
-      add_key("geometry", !config_.geometry ? "" : *config_.geometry ? "true" : "false");
+    row("fail-on", text_of(config_.fail_on), "--fail-on", text_of(given_.gate.level()));
+    row("baseline", text_of(config_.baseline), "--baseline", text_of(given_.baseline));
+    row("geometry", text_of(config_.geometry),
+        given_.geometry.value_or(true) ? "--geometry" : "--no-geometry", text_of(given_.geometry));
     table("severity");
     for (const auto& [selector, severity] : config_.severity)
-      add_key("severity." + selector, in_quotes(to_string(severity)));
+      row("severity." + selector, text_of(std::string(to_string(severity))));
     table("per-file-ignores");
     for (const auto& [pattern, rules] : config_.per_file_ignores)
-      add("per-file-ignores." + in_quotes(pattern), list_text(rules),
+      add("per-file-ignores." + text_of(pattern), rules.empty() ? "[]" : text_of(rules),
           origin("per-file-ignores." + pattern));
     gate();
     return std::move(rows_);
@@ -70,23 +63,18 @@ class Settings {
   void add(const std::string& key, std::string value, std::string from) {
     rows_.push_back({key, std::move(value), std::move(from)});
   }
-  /// A key of the configuration; without a value what holds by default.
-  void add_key(const std::string& key, std::string value) {
-    if (value.empty()) {
+  /// What the option gives, else what is configured, else what holds by default.
+  void row(const std::string& key, std::string configured, const std::string& option = {},
+           const std::string& given = {}) {
+    if (!given.empty()) return add(key, given, option);
+    if (configured.empty()) {
       const auto dot = key.rfind('.');
       const std::string table = dot == key.npos ? "" : key.substr(0, dot);
       for (const ConfigKey& k : config_keys())
         if (k.table == table && k.key == (dot == key.npos ? key : key.substr(dot + 1)))
-          value = k.fallback;
+          configured = k.fallback;
     }
-    add(key, std::move(value), origin(key));
-  }
-  void one(const std::string& key, const std::string& option, const std::string& configured,
-           const std::string& name) {
-    if (!option.empty())
-      add(key, in_quotes(option), name);
-    else
-      add_key(key, configured.empty() ? "" : in_quotes(configured));
+    add(key, std::move(configured), origin(key));
   }
   /// Says of a table that is not there that it is empty.
   void table(const std::string& name) {
@@ -96,38 +84,17 @@ class Settings {
     if (!any) add(name, "none", "default");
   }
 
-  void select() {
-    if (!given_.select.empty())
-      add("select", list_text(given_.select), "--select");
-    else
-      add_key("select", config_.select.empty() ? "" : list_text(config_.select));
-  }
   void ignore() {
-    if (given_.ignore.empty()) {
-      add_key("ignore", config_.ignore.empty() ? "" : list_text(config_.ignore));
-      return;
-    }
+    if (given_.ignore.empty()) return row("ignore", text_of(config_.ignore));
     std::vector<std::string> all = config_.ignore;
     all.insert(all.end(), given_.ignore.begin(), given_.ignore.end());
-    add("ignore", list_text(all),
+    add("ignore", text_of(all),
         (config_.ignore.empty() ? "" : origin("ignore") + " and ") + std::string("--ignore"));
   }
 
-  void bound(const std::string& key, double option, const std::optional<double>& configured) {
-    if (option >= 0)
-      add("gate." + key, number(option), "--" + key);
-    else
-      add_key("gate." + key, configured ? number(*configured) : "");
-  }
-  void whole(const std::string& key, int option, const std::optional<std::uint64_t>& configured) {
-    if (option >= 0)
-      add("gate." + key, std::to_string(option), "--" + key);
-    else
-      add_key("gate." + key, configured ? std::to_string(*configured) : "");
-  }
   static std::string scope_text(const GateScope& scope) {
     std::string out =
-        "match = " + (scope.match.size() == 1 ? in_quotes(scope.match[0]) : list_text(scope.match));
+        "match = " + (scope.match.size() == 1 ? text_of(scope.match[0]) : text_of(scope.match));
     const auto limit = [&](const char* name, const auto& value) {
       if (value) out += fmt::format(", {} = {}", name, *value);
     };
@@ -148,13 +115,17 @@ class Settings {
   void gate() {
     const GateLimits& limits = config_.gate.general;
     const GateOptions& o = given_.gate;
+    const auto bound = [&](const std::string& key, auto given, const auto& configured) {
+      row("gate." + key, configured ? fmt::format("{}", *configured) : "", "--" + key,
+          given >= 0 ? fmt::format("{}", given) : "");
+    };
     bound("max-depth", o.max_depth, limits.max_depth);
     bound("max-ratio", o.max_ratio, limits.max_ratio);
-    whole("max-count", o.max_count, limits.max_count);
-    whole("max-untied", o.max_untied, limits.max_untied);
+    bound("max-count", o.max_count, limits.max_count);
+    bound("max-untied", o.max_untied, limits.max_untied);
     bound("max-dt-loss", o.max_dt_loss, limits.max_dt_loss);
-    one("gate.compare", o.compare, config_.compare, "--compare");
-    one("gate.baseline", o.baseline, config_.accepted, "--baseline");
+    row("gate.compare", text_of(config_.compare), "--compare", text_of(o.compare));
+    row("gate.baseline", text_of(config_.accepted), "--baseline", text_of(o.baseline));
     std::vector<std::string> words, options;
     for (const char* word : {"new", "worse"}) {
       const bool configured =
@@ -163,9 +134,9 @@ class Settings {
       if (o.fails_on(word)) options.emplace_back(word);
     }
     if (options.empty())
-      add_key("gate.fail-on", words.empty() ? "" : list_text(words));
+      row("gate.fail-on", text_of(words));
     else
-      add("gate.fail-on", list_text(words),
+      add("gate.fail-on", text_of(words),
           (words == options ? "" : origin("gate.fail-on") + " and ") + std::string("--fail-on"));
     scopes("interface", config_.gate.interfaces);
     scopes("part-pair", config_.gate.part_pairs);
@@ -198,12 +169,11 @@ Result<std::string> write_settings_file(const std::string& directory) {
   std::error_code ec;
   const std::string path = (fs::path(directory) / ".decklint.toml").string();
   if (!directory.empty() && !fs::is_directory(directory, ec))
-    return Error{Error::Code::config,
-                 directory + " is not a directory; --init takes the directory for .decklint.toml"};
+    return config_error(directory +
+                        " is not a directory; --init takes the directory for .decklint.toml");
   if (fs::symlink_status(path, ec).type() != fs::file_type::not_found)
-    return Error{
-        Error::Code::config,
-        path + " already exists and was not changed; 'deck lint --show-config' shows its settings"};
+    return config_error(
+        path + " already exists and was not changed; 'deck lint --show-config' shows its settings");
   if (auto written = write_file_atomic(path, config_template()); !written) return written.error();
   return path;
 }

@@ -1,5 +1,5 @@
 // Expands the decks of a call, looks for others that include their files, and writes.
-#include "writing/changes.hpp"
+#include "changes.hpp"
 
 #include <fmt/format.h>
 
@@ -17,9 +17,8 @@ namespace fs = std::filesystem;
 }
 
 void add_write_options(CommandLine& line, WriteChoice& choice) {
-  line.option("-o,--output", choice.directory,
-              "Directory to write to; made if missing. The include tree keeps its relative names")
-      .value("DIR");
+  line.option("-o,--output DIR", choice.directory,
+              "Directory to write to; made if missing. The include tree keeps its relative names");
   line.flag("--overwrite", choice.overwrite,
             "With -o: replace decks and includes in DIR that differ (earlier results of the same "
             "files, if unchanged since, are replaced without it)");
@@ -34,10 +33,9 @@ void add_write_options(CommandLine& line, WriteChoice& choice) {
 
 void add_root_option(CommandLine& line, WriteChoice& choice) {
   line.group("Decks that share files, with --in-place")
-      .option("--root", choice.root,
+      .option("--root DIR", choice.root,
               "Where to look for other decks that include the same files (default: the git work "
-              "tree, else the deepest folder that holds the deck and its includes)")
-      .value("DIR");
+              "tree, else the deepest folder that holds the deck and its includes)");
 }
 
 std::string usage_error(const WriteChoice& choice) {

@@ -15,7 +15,7 @@
 #include "deck/report/html.hpp"
 #include "deck/text/number.hpp"
 #include "report/shared/cycle.hpp"
-#include "text/shared/gzip.hpp"
+#include "verbs/gap_page.hpp"
 #include "verbs/gate/options.hpp"
 
 namespace deck::cli::verb_cycle {
@@ -37,10 +37,9 @@ struct Options {
 /// "KIND:ID" or "KIND:ID@TIME": an element that is gone from a time on.
 Result<cycle::DeadElement> parse_gone(const Model& model, const std::string& text) {
   const auto bad = [&](const std::string& why) {
-    return Error{Error::Code::config,
-                 "--gone " + text + ": " + why +
-                     "; expected shell:ID, sh3n:ID, solid:ID, truss:ID, beam:ID "
-                     "or spring:ID, and @TIME if it is not gone from the start"};
+    return config_error("--gone " + text + ": " + why +
+                        "; expected shell:ID, sh3n:ID, solid:ID, truss:ID, beam:ID "
+                        "or spring:ID, and @TIME if it is not gone from the start");
   };
   const auto colon = text.find(':'), mark = text.find('@');
   if (colon == std::string::npos) return bad("there is no ':'");
@@ -81,8 +80,8 @@ Result<cycle::DeadElement> parse_gone(const Model& model, const std::string& tex
 /// "PART=vx,vy,vz".
 Result<cycle::PartVelocity> parse_velocity(const std::string& text) {
   const auto bad = [&](const std::string& why) {
-    return Error{Error::Code::config,
-                 "--velocity " + text + ": " + why + "; expected PART=vx,vy,vz in working units"};
+    return config_error("--velocity " + text + ": " + why +
+                        "; expected PART=vx,vy,vz in working units");
   };
   const auto equal = text.find('=');
   if (equal == std::string::npos) return bad("there is no '='");
@@ -111,53 +110,28 @@ double fastest(const cycle::State& state) {
   return most;
 }
 
-/// Writes VTK files: into the directory itself, or one below it per deck if there are several.
-/// Several steps bring their own script.
-Result<void> write_vtk(const Options& o, std::string_view path, const std::vector<VtkFile>& vtk,
-                       const std::optional<VtkFile>& script = {}) {
-  std::filesystem::path directory = o.vtk;
-  if (o.common.decks.size() > 1) directory /= std::filesystem::path(without_gz(path)).stem();
-  std::vector<OutputFile> files;
-  for (const VtkFile& f : vtk) files.push_back({(directory / f.name).string(), f.bytes});
-  if (script) files.push_back({(directory / script->name).string(), script->bytes});
-  return o.common.session->write_outputs(files, {}, {"", true, true, true, o.vtk});
-}
-
 /// Writes the page: the report of `deck gaps` with the effects and their costs first.
-Result<void> write_html(const Options& o, const CycleInput& cycle, const SceneView& view) {
-  HtmlInput input;
-  input.path = cycle.path;
-  input.deck = cycle.deck;
-  input.scene = cycle.scene;
-  input.view = &view;
-  input.only = o.only;
+Result<void> write_html(const Options& o, const LoadedDeck& loaded, const CycleInput& cycle) {
+  HtmlInput input = page_input(loaded, *cycle.view);
   input.cycle = cycle.outcome;
   input.acted = acted_in_page(*cycle.state, *cycle.outcome);
   input.effects = &cycle;
-  input.threads = cycle.options.threads;
   auto page = gaps_html(input);
-  if (!page) return page.error();
-  return o.common.session->write_output(o.html, *page);
+  return page ? o.common.session->write_output(o.html, *page) : Result<void>(page.error());
 }
 
 /// Options that do not go together.
 Result<void> check_page(const Options& o) {
   if (o.measures() && o.steps > 1)
-    return Error{Error::Code::config, std::string(o.html.empty() ? "--costs" : "--html") +
-                                          " shows one evaluation: leave out --steps"};
+    return config_error(std::string(o.html.empty() ? "--costs" : "--html") +
+                        " shows one evaluation: leave out --steps");
   const std::vector<std::string> effects = effects_to_take();
   if (!o.without.empty() && std::find(effects.begin(), effects.end(), o.without) == effects.end())
-    return Error{Error::Code::config,
-                 fmt::format("--without {}: no effect that can be left out; these can: {}",
-                             o.without, fmt::join(effects, ", "))};
+    return config_error(fmt::format("--without {}: no effect that can be left out; these can: {}",
+                                    o.without, fmt::join(effects, ", ")));
   if (!o.without.empty() && o.steps > 1)
-    return Error{Error::Code::config, "--without compares one evaluation: leave out --steps"};
-  if (o.html.empty()) return {};
-  if (std::string why; !html_available(&why))
-    return Error{Error::Code::config, "--html: this build has no viewer: " + why};
-  if (o.common.decks.size() > 1)
-    return Error{Error::Code::config, "--html takes one deck at a time"};
-  return {};
+    return config_error("--without compares one evaluation: leave out --steps");
+  return check_html(o.common, o.html);
 }
 
 /// The evaluation again with cards that do not ask for an effect.
@@ -171,8 +145,8 @@ Result<cycle::SceneOutcome> evaluate_without(const Options& o, const CycleInput&
   // In the way of the evaluation that it stands beside.
   cycle::StepsOutcome steps = cycle::run_steps(*input.scene, *input.state, options, 1);
   if (!taken)
-    return Error{Error::Code::config, fmt::format("--without {}: no contact of {} has this effect",
-                                                  o.without, input.path)};
+    return config_error(
+        fmt::format("--without {}: no contact of {} has this effect", o.without, input.path));
   return std::move(steps.last);
 }
 
@@ -211,7 +185,7 @@ class CycleRun {
   }
 
  private:
-  int usage(const Error& error) const { return failed(o_.common, error.message); }
+  int usage(const Error& error) const { return failed(o_.common, error); }
 
   /// Everything that can be said without a deck.
   Result<void> prepare() {
@@ -226,12 +200,12 @@ class CycleRun {
       velocities_.push_back(*v);
     }
     if (o_.steps > 1 && !(o_.dt > 0))
-      return Error{Error::Code::config, "--steps needs --dt: how long is a step?"};
+      return config_error("--steps needs --dt: how long is a step?");
     if (auto legal = check_fail_on(o_.gate); !legal) return legal;
     if (auto fits = check_page(o_); !fits) return fits;
     if (o_.fail && (o_.gate.fails_on("never") || o_.gate.fails_on("error")))
-      return Error{Error::Code::config,
-                   "--fail-on-force and --fail-on " + o_.gate.level() + " contradict one another"};
+      return config_error("--fail-on-force and --fail-on " + o_.gate.level() +
+                          " contradict one another");
     return {};
   }
 
@@ -257,7 +231,7 @@ class CycleRun {
       e.input.without = &e.without;
       e.input.without_effect = o_.without;
     }
-    if (!o_.html.empty() && written) written = write_html(o_, e.input, e.view);
+    if (!o_.html.empty() && written) written = write_html(o_, loaded, e.input);
     print_findings(loaded, o_.common);
     if (json_.wanted())
       json_.add([&](const TextDrain& drain) { return cycle_json(e.input, o_.all, drain); });
@@ -321,10 +295,10 @@ class CycleRun {
     // Beyond this the squares of distances are no numbers any more.
     constexpr double farthest = 1e150;
     if (const double way = fastest(e.state) * o_.dt * (o_.steps - 1); !(way < farthest))
-      return Error{Error::Code::config,
-                   fmt::format("--steps {} --dt {}: nodes would move by {:.3g}, too far to compute "
-                               "with; give a shorter step or lower velocities",
-                               o_.steps, o_.dt, way)};
+      return config_error(
+          fmt::format("--steps {} --dt {}: nodes would move by {:.3g}, too far to compute "
+                      "with; give a shorter step or lower velocities",
+                      o_.steps, o_.dt, way));
     Result<void> written;
     const bool series = o_.steps > 1 && !o_.vtk.empty();
     const auto watch = [&](std::size_t step, const cycle::SceneOutcome& now, const Coordinates& x) {
@@ -336,7 +310,7 @@ class CycleRun {
       CycleInput one = input;
       one.outcome = &now;
       one.coordinates = &x;
-      written = write_vtk(o_, loaded.path(), cycle_vtk(one, suffix_of(step)));
+      written = write_vtk(o_.common, o_.vtk, loaded.path(), cycle_vtk(one, suffix_of(step)), {});
     };
     e.steps =
         cycle::run_steps(scene, e.state, options_, static_cast<std::size_t>(o_.steps), {}, watch);
@@ -352,12 +326,12 @@ class CycleRun {
   Result<void> write_rest(std::string_view path, const Evaluation& e, bool series) const {
     if (!series) {
       const std::vector<VtkFile> files = cycle_vtk(e.input);
-      return write_vtk(o_, path, files, paraview_script(files));
+      return write_vtk(o_.common, o_.vtk, path, files, paraview_script(files));
     }
     std::vector<std::string> suffixes;
     for (std::size_t k = 0; k < e.steps.lines.size(); ++k) suffixes.push_back(suffix_of(k));
     const std::vector<VtkFile> collections = cycle_vtk_series(e.steps, suffixes);
-    return write_vtk(o_, path, collections, paraview_script(collections));
+    return write_vtk(o_.common, o_.vtk, path, collections, paraview_script(collections));
   }
 
   /// What effects cost: as asked for, or what the text always says.
@@ -401,48 +375,40 @@ Action setup(CommandLine& line) {
   line.flag("--effects", options->effects,
             "Effects against interfaces: which run, by which field, and why the others do not");
   line.option(
-          "--without", options->without,
-          "Also evaluate without an effect (friction, normal-damping, heat, gap-reduction ...), "
-          "and show force, energy and time step of both")
-      .value("EFFECT");
+      "--without EFFECT", options->without,
+      "Also evaluate without an effect (friction, normal-damping, heat, gap-reduction ...), "
+      "and show force, energy and time step of both");
   line.flag("--costs", options->costs,
             "Also measure on this deck what each effect costs in the loop over pairs, with it "
             "against without it");
-  line.option("--html", options->html,
+  line.option("--html FILE", options->html,
               "Write a page to FILE: which effects run and why, what each costs, forces and time "
-              "steps in the picture; one file, no network")
-      .value("FILE");
+              "steps in the picture; one file, no network");
   line.option(
-          "--vtk", options->vtk,
-          "Write pairs and nodes with their forces as VTK files into DIR, with a script that opens "
-          "them in ParaView")
-      .value("DIR");
+      "--vtk DIR", options->vtk,
+      "Write pairs and nodes with their forces as VTK files into DIR, with a script that opens "
+      "them in ParaView");
   line.option("--model", options->model,
               "reference: as the solver computes; robust: the same physics without its "
               "numerical quirks")
       .one_of({"reference", "robust"})
       .show_default();
   add_accuracy(line, options->accuracy);
-  line.option("--dt", options->dt, "Time step for rate effects; 0: the first evaluation")
-      .number(0, 1e30)
-      .value("DT");
-  line.option("--steps", options->steps,
+  line.option("--dt DT", options->dt, "Time step for rate effects; 0: the first evaluation")
+      .number(0, 1e30);
+  line.option("--steps N", options->steps,
               "Evaluations, --dt apart, with prescribed motion: nodes keep their velocities, "
               "forces do not move them")
       .range(1, 1000)
-      .value("N")
       .show_default();
-  line.option("--gone", options->gone,
+  line.option("--gone KIND:ID[@T]", options->gone,
               "An element that is gone (Idel), e.g. shell:1003 or shell:1003@0.02 (repeatable)")
-      .one_each()
-      .value("KIND:ID[@T]");
-  line.option("--time", options->time, "Time that decides Tstart, Tstop and sensors")
-      .number(-1e30, 1e30)
-      .value("T");
-  line.option("--velocity", options->velocities,
-              "Velocity of a part instead of the deck's, e.g. 12=0,0,-5 (repeatable)")
-      .value("PART=VX,VY,VZ");
-  line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
+      .one_each();
+  line.option("--time T", options->time, "Time that decides Tstart, Tstop and sensors")
+      .number(-1e30, 1e30);
+  line.option("--velocity PART=VX,VY,VZ", options->velocities,
+              "Velocity of a part instead of the deck's, e.g. 12=0,0,-5 (repeatable)");
+  line.option("--interface ID", options->only, "Only these interface ids").by_commas();
   add_require_examined(line, options->common);
   add_verbose(line, options->common,
               "Every interface, the parts of a TYPE19 in separate rows, and more columns");
@@ -456,16 +422,17 @@ Action setup(CommandLine& line) {
   };
 }
 
-const VerbRegistration registration{
-    {"cycle", 40, "Contact forces, energies and time step of the first cycle",
-     "  deck cycle car_0000.rad\n"
-     "  deck cycle car_0000.rad --interface 3 --effects\n"
-     "  deck cycle car_0000.rad --without friction\n"
-     "  deck cycle car_0000.rad --html cycle.html\n"
-     "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3\n"
-     "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview\n"
-     "  deck cycle car_0000.rad --model reference --all --json cycle.json\n",
-     setup}};
+const VerbRegistration registration{{"cycle", 40,
+                                     "Contact forces, energies and time step of the first cycle",
+                                     R"(  deck cycle car_0000.rad
+  deck cycle car_0000.rad --interface 3 --effects
+  deck cycle car_0000.rad --without friction
+  deck cycle car_0000.rad --html cycle.html
+  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3
+  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview
+  deck cycle car_0000.rad --model reference --all --json cycle.json
+)",
+                                     setup}};
 
 }  // namespace
 

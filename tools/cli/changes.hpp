@@ -6,7 +6,6 @@
 
 #include "common.hpp"
 #include "edit/shared/edit_set.hpp"
-#include "writing/frame.hpp"
 
 namespace deck::cli {
 
