@@ -26,8 +26,6 @@
 #include "keyword/shared/recognise.hpp"
 #include "library.hpp"
 #include "report/shared/json.hpp"
-#include "text/shared/similar_file.hpp"
-#include "writing/frame.hpp"
 
 namespace deck::cli {
 

@@ -7,9 +7,6 @@
 #include <set>
 
 #include "edit/cells.hpp"
-#include "edit/convert/units/unit_system_state.hpp"
-#include "keyword/shared/header_line.hpp"
-#include "keyword/shared/include_file.hpp"
 #include "keyword/shared/reader.hpp"
 #include "text/shared/columns.hpp"
 

@@ -7,8 +7,6 @@
 
 #include "deck/text/number.hpp"
 #include "edit/cells.hpp"
-#include "edit/convert/version_cards.hpp"
-#include "keyword/shared/older_decks.hpp"
 #include "keyword/shared/schema_facts.hpp"
 #include "text/shared/columns.hpp"
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/shared/count.hpp"
-#include "base/shared/length3.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {

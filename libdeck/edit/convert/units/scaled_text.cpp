@@ -7,7 +7,6 @@
 #include "deck/text/number.hpp"
 #include "edit/convert/units/unit_system.hpp"
 #include "text/shared/columns.hpp"
-#include "text/shared/decimal.hpp"
 #include "text/shared/number_scan.hpp"
 
 namespace deck::detail {

@@ -10,9 +10,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "contact/shared/closest.hpp"
-#include "deck/contact/closest.hpp"
 #include "edit/fix/common.hpp"
-#include "edit/fix/type_rules.hpp"
 
 namespace deck::detail {
 namespace {
