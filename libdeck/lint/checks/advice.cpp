@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/shared/count.hpp"
+#include "base/shared/vec.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {

@@ -202,7 +202,7 @@ struct Moved {
 /// model.
 std::vector<Moved> moved_nodes(const Model& model, const Model& before) {
   std::vector<Moved> out;
-  const Nodes &now = model.nodes, &was = before.nodes;
+  const deck::Nodes &now = model.nodes, &was = before.nodes;
   for (NodeIndex n = 0; n < now.size(); ++n) {
     const NodeIndex old = was.map.find(now.id[n]);
     if (old == no_index) continue;
