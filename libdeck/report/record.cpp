@@ -81,8 +81,9 @@ JsonForm tuple_form(const std::vector<JsonForm>& items) {
   std::string all;
   for (const JsonForm& item : items)
     all += fmt::format("{}{{ {} }}", all.empty() ? "" : ", ", item.members());
-  return {"array",
-          fmt::format(R"("prefixItems": [{}], "items": false, "minItems": {})", all, items.size())};
+  // Without "items", which older drafts read otherwise.
+  return {"array", fmt::format(R"("prefixItems": [{0}], "minItems": {1}, "maxItems": {1})", all,
+                               items.size())};
 }
 
 JsonForm words_form(const std::vector<std::string>& words) {

@@ -3,7 +3,7 @@
 import { execFileSync } from "node:child_process";
 import { join } from "node:path";
 import { beforeThePicture, median, spent } from "./first_picture.mjs";
-import { check, open, page, ROOT, same, scratch, settled } from "./support.mjs";
+import { check, measuring, open, page, ROOT, same, scratch, settled } from "./support.mjs";
 
 export async function largeModel(browser, timings) {
   const path = join(scratch, "sheets_0000.rad");
@@ -29,6 +29,7 @@ export async function largeModel(browser, timings) {
   const shares = said.map((s) => parseFloat(s));
   check("the page says how far it is, and never less than before", said.some((s) => s.includes("Reading the contacts")) && shares.every((v, i) => i === 0 || v >= shares[i - 1]), said.join(" | "));
   await settled(p);
+  await measuring(p);
   const drawn = await p.evaluate(() => {
     const { view } = window.deckReport.viewport;
     const all = view.parts.parts.reduce((n, x) => n + x.triangleElement.length, 0);

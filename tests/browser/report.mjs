@@ -3,7 +3,7 @@
 import { execFileSync, spawnSync } from "node:child_process";
 import { cpSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
-import { ALL, cells, check, corpus, deck, DECK_ARTEFACTS, DECK_CORPUS, deckLater, done, finish, gaps, gapsLater, launch, open, page, ROOT, run, same, sample, scratch, settled, shot, skip } from "./support.mjs";
+import { ALL, cells, check, corpus, deck, DECK_ARTEFACTS, DECK_CORPUS, deckLater, done, finish, gaps, gapsLater, launch, measuring, open, page, ROOT, run, same, sample, scratch, settled, shot, skip } from "./support.mjs";
 import { accuracyPage } from "./accuracy.mjs";
 import { accessible, reachable } from "./axe.mjs";
 import { effectsPage } from "./effects.mjs";
@@ -466,6 +466,7 @@ async function sled() {
     check(`${name}: at most 12 MB`, size <= 12 * 2 ** 20, `${size}`);
     const p = await open(browser, file);
     await settled(p);
+    await measuring(p);
     const info = await p.evaluate(() => {
       const { times, report, viewport } = window.deckReport;
       return { ...times, verified: report.verified, pairs: report.hits.length, calls: viewport.view.drawCalls, frame: viewport.view.measure(6), moving: viewport.view.measure(6, true), segments: report.meta.contacts.reduce((n, c) => n + c.main, 0) };

@@ -114,6 +114,41 @@ export const shot = (p, name) => p.screenshot({ path: join(DECK_ARTEFACTS, `${na
 export const cells = (p, selector) =>
   p.$$eval(`${selector} .vt-row`, (rows) => rows.map((r) => Object.fromEntries([...r.children].map((c) => [c.dataset.key, c.textContent.replace(/\u202f/g, "")]))));
 
+/** Gives the picture of a page what only measurements need. */
+export const measuring = (p) => p.evaluate(() => {
+  const { view } = window.deckReport.viewport;
+  const { renderer, control } = view;
+  view.picture = () => view.pictured(1, null, (canvas) => canvas.toDataURL("image/png"));
+  // The picture at rest as it is drawn on a slow machine, but at once: what each slice took, and the picture.
+  view.inSlices = () => {
+    const times = [];
+    view.setCoarse(false);
+    control.update(performance.now());
+    do {
+      const start = performance.now();
+      if (!view.slice()) view.render();
+      times.push(performance.now() - start);
+    } while (view.slices.drawing);
+    return { times, url: view.canvas.toDataURL("image/png") };
+  };
+  // Mean time of a frame over a turn of the camera, waiting for the picture each time; `coarse`: as drawn while a slow machine moves.
+  view.measure = (frames, coarse = false) => {
+    view.setCoarse(coarse);
+    const gl = renderer.getContext();
+    const start = performance.now();
+    for (let i = 0; i < frames; i++) {
+      control.rotate(4, 0);
+      control.update(performance.now());
+      view.render();
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    }
+    const mean = (performance.now() - start) / frames;
+    view.setCoarse(false);
+    view.request();
+    return mean;
+  };
+});
+
 /** Waits until the picture is drawn and no flight goes on. */
 export const settled = (p) => p.waitForFunction(() => window.deckReport.report.told && (window.deckReport.viewport.view?.resting ?? true));
 

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """What the tools write: every JSON document valid against its schema, SARIF valid against 2.1.0, the
 same bytes for any number of threads and any locale."""
+import base64
 import glob
 import json
 import os
+import re
 import shutil
 import subprocess
 import xml.dom.minidom
+import zlib
 
 import jsonschema
 from common import ROOT, SAMPLES, read, run_steps, write
@@ -211,6 +214,35 @@ def same_bytes(c, tmp):
             c.check("%s: same bytes with %d threads" % (" ".join(words), threads), r.out == first.out and r.code == first.code)
 
 
+BLOCKS = {"deck-meta": "meta", "deck-earlier": "earlier", "deck-ties": "tie_lines", "deck-crossed": "crossings", "deck-moved": "moved",
+          "deck-cycle": "first_cycle", "deck-repair": "repair"}
+
+
+def pages(c, tmp):
+    """The JSON blocks of a page against their definitions in its schema."""
+    schema = json.loads(read(os.path.join(SCHEMAS, "page.schema.json")))
+    sample = {os.path.basename(path)[:-9]: path for path in SAMPLES}
+    earlier = os.path.join(tmp, "earlier.json")
+    c.run("gaps", sample["crash_box"], "--quiet", "--json", earlier)
+    seen = set()
+    for words in (("gaps", sample["every_mistake"]), ("gaps", sample["welds"]), ("gaps", sample["crash_box"], "--crossings", "--compare", earlier),
+                  ("fix", sample["too_close"], "--strategy", "move-nodes")):
+        file = os.path.join(tmp, "page.html")
+        r = c.run(*words, "--quiet", "--html", file)
+        if "has no viewer" in r.text:
+            return
+        for kind, block, text in re.findall(r'<script type="([^"]*)" id="([^"]*)">(.*?)</script>', read(file).decode(), re.S):
+            if block not in BLOCKS:
+                continue
+            seen.add(block)
+            value = json.loads(text if kind.endswith("json") else zlib.decompress(base64.b64decode(text)))
+            form = {"$ref": "#/$defs/" + BLOCKS[block]}
+            if isinstance(value, list):
+                form = {"type": "array", "items": form}
+            check_document(c, "%s of %s" % (block, " ".join(words[:1] + words[2:])), json.dumps(value), validators({"$defs": schema["$defs"], "allOf": [form]}))
+    c.check("pages have all blocks of JSON", seen == set(BLOCKS), str(set(BLOCKS) - seen))
+
+
 def documents(c, tmp):
     for words in VERBS_WITH_JSON:
         validators = validators_of(c, words[0])
@@ -225,4 +257,4 @@ def documents(c, tmp):
 
 
 if __name__ == "__main__":
-    run_steps(documents, edit_documents, looks, lint_formats, same_bytes)
+    run_steps(documents, pages, edit_documents, looks, lint_formats, same_bytes)

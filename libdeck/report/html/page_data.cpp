@@ -59,17 +59,15 @@ struct PagePart {
   const Part* part;
   const Property* property;  ///< nullptr: none
 
-  IfAny<std::string> type() const {
-    return property == nullptr ? IfAny<std::string>{} : IfAny<std::string>{property->type};
-  }
-  IfAny<double> thickness() const {
-    return property == nullptr ? IfAny<double>{} : IfAny<double>{property->thickness};
+  template <class T>
+  IfAny<T> of(T Property::*member) const {
+    return property == nullptr ? IfAny<T>{} : IfAny<T>{property->*member};
   }
 };
 LINE_RECORD(PagePart, "part_meta", "", COLUMN("id", "", r.part->id),
             COLUMN("title", "", r.part->title), COLUMN("prop", "", r.part->prop_id),
-            COLUMN("mat", "", r.part->mat_id), COLUMN("prop_type", "", r.type()),
-            COLUMN("thickness", "", r.thickness()));
+            COLUMN("mat", "", r.part->mat_id), COLUMN("prop_type", "", r.of(&Property::type)),
+            COLUMN("thickness", "", r.of(&Property::thickness)));
 
 // ---- interfaces -------------------------------------------------------------------------------
 
@@ -283,7 +281,7 @@ RECORD(PageContactRow, "contact_meta", "",
 struct PageTie {
   std::size_t interface = 0, nodes = 0, tied = 0, lost = 0, beyond_rim = 0;
   double search_distance = 0, farthest = 0;
-  std::string text, losses;
+  std::string text = {}, losses = {};
   bool evaluated = true, stops = false;
 };
 LINE_RECORD(PageTie, "tie_meta", "A TYPE2 or TYPE10.", COLUMN("interface", "Position", r.interface),
@@ -298,29 +296,18 @@ LINE_RECORD(PageTie, "tie_meta", "A TYPE2 or TYPE10.", COLUMN("interface", "Posi
 
 PageTie page_tie(const Tie& tie, std::size_t interface) {
   const TieCounts n = count_ties(tie);
-  double farthest = 0;
+  PageTie out{interface, n.nodes, n.tied, n.lost(), n.outside, tie.search_distance};
   for (const TiedNode& node : tie.nodes)
-    if (node.tied) farthest = std::max(farthest, node.distance);
-  return {interface,
-          n.nodes,
-          n.tied,
-          n.lost(),
-          n.outside,
-          tie.search_distance,
-          farthest,
-          holds_text(tie),
-          losses_text(tie),
-          tie.not_evaluated.empty(),
-          tie.main_and_tied.size() + (tie.ignore == 0 ? n.not_found : 0) > 0};
+    if (node.tied) out.farthest = std::max(out.farthest, node.distance);
+  out.text = holds_text(tie);
+  out.losses = losses_text(tie);
+  out.evaluated = tie.not_evaluated.empty();
+  out.stops = tie.main_and_tied.size() + (tie.ignore == 0 ? n.not_found : 0) > 0;
+  return out;
 }
 
 PageTie page_tie(const Contact& c, const ContactTotals& t, std::size_t interface) {
-  PageTie out;
-  out.interface = interface;
-  out.nodes = c.secondary.size();
-  out.tied = t.tied.nodes;
-  out.lost = t.untied;
-  out.search_distance = c.gapmin;
+  PageTie out{interface, c.secondary.size(), t.tied.nodes, t.untied, 0, c.gapmin};
   for (const PenetrationRow& row : c.penetrations)
     out.farthest = std::max(out.farthest, row.distance);
   out.text = fmt::format("{} tied", count(out.nodes, "node is", "nodes are"));

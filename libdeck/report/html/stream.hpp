@@ -1,10 +1,11 @@
 // ByteStream: the compact binary blocks of the HTML report — variable-length integers, differences
 // and byte planes, made to compress well — and how a block becomes text.
 #pragma once
+#include <zlib.h>
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,9 +26,9 @@ class PackedText {
   std::string finish();
 
  private:
-  struct State;
   void run(std::string_view bytes, int flush);
-  std::unique_ptr<State> state_;
+  z_stream zip_{};
+  std::string packed_;
 };
 
 class ByteStream {

@@ -187,19 +187,6 @@ export class View3D {
     return true;
   }
 
-  /** The picture at rest as it is drawn on a slow machine, but at once: what each slice took, and the picture. */
-  inSlices(): { times: number[]; url: string } {
-    const times: number[] = [];
-    this.setCoarse(false);
-    this.control.update(performance.now());
-    do {
-      const start = performance.now();
-      if (!this.slice()) this.render();
-      times.push(performance.now() - start);
-    } while (this.slices.drawing);
-    return { times, url: this.canvas.toDataURL("image/png") };
-  }
-
   private draw(now: number): void {
     if (this.skip) {
       this.skip = false; // the first picture was this one
@@ -236,25 +223,6 @@ export class View3D {
     else this.onRest();
   }
 
-  /** Mean time of a frame over a turn of the camera, waiting for the picture each time; `coarse`: as
-   * drawn while a slow machine moves the view. */
-  measure(frames = 30, coarse = false): number {
-    this.setCoarse(coarse);
-    const gl = this.renderer.getContext();
-    const pixel = new Uint8Array(4);
-    const start = performance.now();
-    for (let i = 0; i < frames; i++) {
-      this.control.rotate(4, 0);
-      this.control.update(performance.now());
-      this.render();
-      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
-    }
-    const mean = (performance.now() - start) / frames;
-    this.setCoarse(false);
-    this.request();
-    return mean;
-  }
-
   /** Of the last picture. */
   get drawCalls(): number {
     return this.renderer.info.render.calls;
@@ -280,9 +248,6 @@ export class View3D {
     this.renderer.setSize(w, h, false);
     this.request();
     return out;
-  }
-  picture(scale = 1): string {
-    return this.pictured(scale, null, (canvas) => canvas.toDataURL("image/png"));
   }
 
   private resize(): void {
