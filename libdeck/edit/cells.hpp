@@ -39,8 +39,8 @@ CellPlace place_of(const Block& block, const DecodedCard& card, const Cell& cell
 /// Of a part of a block's header.
 Span span_in_header(const Block& block, std::string_view part);
 
-/// Puts what a cell holds into the columns of `field`, with fewer characters if it has to; false: it
-/// does not fit.
+/// Puts what a cell holds into the columns of `field`, with fewer characters if it has to; false:
+/// it does not fit.
 bool carry(const Cell& cell, const Field& field, std::string& line);
 
 /// Puts texts into cells. A line in free format does not grow beyond the columns that are read.

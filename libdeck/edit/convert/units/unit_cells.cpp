@@ -64,21 +64,22 @@ void UnitConversion::convert(const CellPlace& place, const UnitFactor& factor) {
         "'" + std::string(token.substr(0, 30)) + "' is not a plain number";
     undecided(*place.block, place.span, std::string(place.field),
               place.free_format ? "the converted value makes this free-format line longer than 100 "
-                                  "columns, or " + no_number
-              : plain           ? "the converted value does not fit its columns"
-                                : no_number);
+                                  "columns, or " +
+                                      no_number
+              : plain ? "the converted value does not fit its columns"
+                      : no_number);
     return;
   }
   cells.put(place, text->text);
   ++changed_cells;
   if (text->exact) return;
-  out.losses.push_back(loss_entry(deck, Loss::approximated, *place.block, place.span,
-                                  {.field = std::string(place.field),
-                                   .old_text = std::string(token),
-                                   .new_text = text->text,
-                                   .note = std::to_string(width) +
-                                           " columns hold no more digits; converting back gives a "
-                                           "slightly different value"}));
+  out.losses.push_back(loss_entry(
+      deck, Loss::approximated, *place.block, place.span,
+      {.field = std::string(place.field),
+       .old_text = std::string(token),
+       .new_text = text->text,
+       .note = std::to_string(width) + " columns hold no more digits; converting back gives a "
+                                       "slightly different value"}));
 }
 
 namespace {
@@ -101,8 +102,8 @@ void write_numbers(UnitConversion& c, const std::string& name,
     const UnitConversion::OpenShare share(c, *use.block);
     const int width = use.free_format ? widest : use.last - use.first + 1;
     const auto number = format_real(use.value, widest);
-    const auto text = number ? scale_text(number->text, width, c.factors.of(use.dimension))
-                             : std::nullopt;
+    const auto text =
+        number ? scale_text(number->text, width, c.factors.of(use.dimension)) : std::nullopt;
     if (!text || !c.cells.put(use, text->text)) {
       c.undecided(*use.block, use.span, std::string(use.field),
                   "parameter &" + name + " " + why + ", and the number itself has no room here; " +
@@ -110,12 +111,12 @@ void write_numbers(UnitConversion& c, const std::string& name,
       continue;
     }
     ++c.changed_cells;
-    c.out.losses.push_back(
-        loss_entry(c.deck, text->exact ? Loss::kept : Loss::approximated, *use.block, use.span,
-                   {.field = std::string(use.field),
-                    .old_text = std::string(trim(c.deck.sources.text(use.span))),
-                    .new_text = text->text,
-                    .note = "parameter &" + name + " " + why + "; the number was written instead"}));
+    c.out.losses.push_back(loss_entry(
+        c.deck, text->exact ? Loss::kept : Loss::approximated, *use.block, use.span,
+        {.field = std::string(use.field),
+         .old_text = std::string(trim(c.deck.sources.text(use.span))),
+         .new_text = text->text,
+         .note = "parameter &" + name + " " + why + "; the number was written instead"}));
   }
 }
 

@@ -171,7 +171,8 @@ Result<UnitSystem> parse_unit_system(std::string_view text) {
     const auto factor = unit_factor(code, bases[i]);
     if (!factor || code.size() > 20)
       return Error{Error::Code::config, "'" + std::string(code.substr(0, 40)) + "' is not a " +
-                                            std::string(base_names[i]) + " unit; expected a prefix and '" + bases[i] +
+                                            std::string(base_names[i]) +
+                                            " unit; expected a prefix and '" + bases[i] +
                                             "', or a positive number"};
     *factors[i] = *factor;
     *codes[i] = std::string(code);

@@ -1,6 +1,6 @@
 // Moving nodes. The mesh around them: who is next to whom, which elements cross, which turn inside
-// out. Ways out of penetrations: the direction and length that each asks for, the displacements of nodes
-// that solve many of them together, how far a node may go, and translations of whole bodies.
+// out. Ways out of penetrations: the direction and length that each asks for, the displacements of
+// nodes that solve many of them together, how far a node may go, and translations of whole bodies.
 // Private to the stage.
 #pragma once
 #include <array>
@@ -131,8 +131,8 @@ using NodeMoves = std::vector<std::pair<NodeIndex, Vec>>;
 NodeMoves solve_wishes(const std::vector<Wish>& wishes, const std::vector<std::uint8_t>& held,
                        int sweeps);
 
-/// How far and which way a node may move: out of the penetrations it is in, along their normals, and
-/// by no more than the depth that it repairs there.
+/// How far and which way a node may move: out of the penetrations it is in, along their normals,
+/// and by no more than the depth that it repairs there.
 class DepthBounds {
  public:
   /// A penetration as it is before anything moves: `normal` leads from main to secondary, its nodes
