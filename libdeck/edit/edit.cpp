@@ -18,7 +18,6 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
 #include "edit/cells.hpp"
-#include "edit/fix/nodes/node_cells.hpp"
 #include "edit/shared/edit_set.hpp"
 #include "edit/shared/write.hpp"
 #include "keyword/shared/include_scan.hpp"

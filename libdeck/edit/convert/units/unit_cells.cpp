@@ -56,8 +56,8 @@ void UnitConversion::convert(const CellPlace& place, const UnitFactor& factor) {
   const bool plain =
       value.status == NumberStatus::ok || value.status == NumberStatus::implicit_exponent;
   if (token.empty() || (value.value == 0 && (place.free_format || plain))) return;
-  constexpr int enough = 24;  // every double fits
-  const int room = cells.room(place), width = place.free_format ? std::min(enough, room) : room;
+  const int room = cells.room(place),
+            width = place.free_format ? std::min(widest_number, room) : room;
   const auto text = scale_text(token, width, factor);
   if (!text) {
     const std::string no_number =
@@ -97,11 +97,10 @@ const Block* definition_of(const Deck& deck, const Parameter& p) {
 /// The parameter stays what it is, and the cells that use it get their numbers in the new units.
 void write_numbers(UnitConversion& c, const std::string& name,
                    const std::vector<UnitConversion::ParameterUse>& uses, const std::string& why) {
-  constexpr int widest = 24;  // every double fits
   for (const auto& use : uses) {
     const UnitConversion::OpenShare share(c, *use.block);
-    const int width = use.free_format ? widest : use.last - use.first + 1;
-    const auto number = format_real(use.value, widest);
+    const int width = use.free_format ? widest_number : use.last - use.first + 1;
+    const auto number = format_real(use.value, widest_number);
     const auto text =
         number ? scale_text(number->text, width, c.factors.of(use.dimension)) : std::nullopt;
     if (!text || !c.cells.put(use, text->text)) {

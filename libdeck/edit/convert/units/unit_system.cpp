@@ -244,8 +244,7 @@ class EngineConverter {
     const std::string_view text = deck_.sources.text(cell);
     const RealCell value = read_real(text);
     if (value.status == NumberStatus::ok && value.value == 0) return;
-    constexpr int width = 24;  // every double fits; lines of Engine files are in free format
-    const auto scaled = detail::scale_text(text, width, time_);
+    const auto scaled = detail::scale_text(text, detail::widest_number, time_);
     if (!scaled) return undecided(block, cell, "this is not a plain number");
     out_.edits.push_back({cell, scaled->text});
     ++converted_;

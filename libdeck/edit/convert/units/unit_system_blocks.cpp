@@ -427,7 +427,7 @@ class BlockConverter {
     if (text.empty() || factor.one()) return;
     if (value.status == NumberStatus::ok && value.value == 0) return;
     const Span place = detail::span_in_header(b, text);
-    const auto scaled = detail::scale_text(text, 24, factor);
+    const auto scaled = detail::scale_text(text, detail::widest_number, factor);
     if (!scaled) {
       c_.undecided(b, place, "tolerance", "'" + std::string(text) + "' is not a plain number");
       return;
