@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 
 #include "deck/contact/scene.hpp"
 #include "deck/edit/convert.hpp"

@@ -1,6 +1,5 @@
 // The strategies inacti and fpenmax: writes the flag and says what the solver will then do.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 

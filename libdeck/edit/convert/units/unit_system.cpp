@@ -132,7 +132,7 @@ void add_notes(UnitConversion& c) {
   for (std::size_t i = 0; i < 3; ++i)
     notes.push_back(std::string(base_names[i]) + " " + from[i] + " -> " + to[i] + ": factor " +
                     factors[i].text());
-  std::map<std::string, std::string> others;
+  std::map<std::string, std::string> derived;
   for (const auto& [exponents, factor] : c.used_factors) {
     std::string name;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -141,9 +141,9 @@ void add_notes(UnitConversion& c) {
       if (exponents[i] != 1) name += "^" + std::to_string(exponents[i]);
     }
     if (std::find(std::begin(base_names), std::end(base_names), name) == std::end(base_names))
-      others.emplace(name, factor.text());
+      derived.emplace(name, factor.text());
   }
-  for (const auto& [name, factor] : others) notes.push_back(name + ": factor " + factor);
+  for (const auto& [name, factor] : derived) notes.push_back(name + ": factor " + factor);
   notes.push_back(std::to_string(c.changed_cells) + " values converted");
   if (c.own_unit_blocks > 0)
     notes.push_back(std::to_string(c.own_unit_blocks) +
