@@ -17,9 +17,6 @@
 namespace deck::detail {
 namespace {
 
-/// A value of a line with commas: any double fits.
-constexpr int free_width = 24;
-
 /// "Igap is 2 or 3", "Ifric is not 0".
 std::string words_of(const Condition& c) {
   const auto list = [](const std::vector<std::int64_t>& values) {
@@ -89,7 +86,8 @@ class Setter {
   Result<BlockEdit> there(const DecodedCard& card, const Cell& cell, const CellValue& value,
                           CellWriter& cells) {
     const Field& f = *cell.field;
-    const CellColumns at = card.free_format ? CellColumns{1, free_width} : columns_of(card, cell);
+    const CellColumns at =
+        card.free_format ? CellColumns{1, widest_number} : columns_of(card, cell);
     BlockEdit out;
     auto text = format(f, &card, cell.span, value, at.last - at.first + 1, out);
     if (!text) return text.error();

@@ -61,8 +61,8 @@ bool CellEdits::put(const CellPlace& place, const std::string& text) {
         static_cast<int>(text.size()) - static_cast<int>(place.span.length);
     out_.push_back({place.span, text});
   } else {
-    out_.push_back(CellWriter::edit_in_place(sources_, place.line.whole(), place.first, place.last,
-                                             text));
+    out_.push_back(
+        CellWriter::edit_in_place(sources_, place.line.whole(), place.first, place.last, text));
   }
   return true;
 }
@@ -212,8 +212,8 @@ void find_undescribed_words(const DecodedBlock& block, const FoundWord& found) {
 
 namespace {
 
-void add_place(ParameterPlaces& places, std::uint32_t file, std::string_view bytes, std::size_t begin,
-               std::size_t end) {
+void add_place(ParameterPlaces& places, std::uint32_t file, std::string_view bytes,
+               std::size_t begin, std::size_t end) {
   places[std::string(bytes.substr(begin, end - begin))].push_back(
       {file, static_cast<std::uint32_t>(end - begin), begin});
 }

@@ -2,11 +2,14 @@
 // lines that are added and removed, the lines of a block in another input version, words that no
 // schema describes, names of parameters. Private to the stage.
 #pragma once
+#include <array>
 #include <bitset>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -21,6 +24,9 @@
 #include "text/shared/edits.hpp"
 
 namespace deck::detail {
+
+/// Columns in which every double fits exactly.
+inline constexpr int widest_number = 24;
 
 /// Where a cell stands and how to write into it.
 struct CellPlace {
@@ -39,8 +45,8 @@ CellPlace place_of(const Block& block, const DecodedCard& card, const Cell& cell
 /// Of a part of a block's header.
 Span span_in_header(const Block& block, std::string_view part);
 
-/// Puts what a cell holds into the columns of `field`, with fewer characters if it has to; false: it
-/// does not fit.
+/// Puts what a cell holds into the columns of `field`, with fewer characters if it has to; false:
+/// it does not fit.
 bool carry(const Cell& cell, const Field& field, std::string& line);
 
 /// Puts texts into cells. A line in free format does not grow beyond the columns that are read.
@@ -132,6 +138,53 @@ std::vector<std::string> unread_files(const Deck& deck);
 /// edits.
 std::vector<std::string> contradicting_copies(const SourceSet& sources,
                                               const std::vector<TextEdit>& edits);
+
+// ---- coordinates of nodes (node_cells.cpp) -----------------------------------------------------
+
+/// Where the coordinates of nodes are written, and what a new coordinate is once it is printed
+/// there.
+class NodeCells {
+ public:
+  explicit NodeCells(const LoadedDeck& context);
+  /// Finds the lines of these nodes; those known already cost nothing.
+  void look_up(std::span<const NodeIndex> nodes);
+  /// Why the coordinates of a node that was looked up cannot be changed on its line; empty: they
+  /// can.
+  const std::string& obstacle(NodeIndex n) const { return known_.at(n).obstacle; }
+  /// The line of a node that was looked up; invalid: it was not found.
+  Span line(NodeIndex n) const {
+    return known_.at(n).line.valid() ? known_.at(n).line.whole() : Span{};
+  }
+
+  /// Coordinate `axis` of a node with `value` printed in its cell: what reading it gives. nullopt:
+  /// it does not fit.
+  struct Printed {
+    std::string text;
+    double value = 0;
+  };
+  std::optional<Printed> print(NodeIndex n, int axis, double value) const;
+  /// Puts the text of a coordinate into its cell.
+  void write(CellWriter& cells, NodeIndex n, int axis, std::string_view text) const {
+    known_.at(n).places[static_cast<std::size_t>(axis)].write(cells, text);
+  }
+  /// Edits for new texts per node and axis.
+  std::vector<TextEdit> edits(const std::map<std::pair<NodeIndex, int>, std::string>& texts) const;
+
+ private:
+  struct Cells {
+    Line line;
+    std::array<CellPlace, 3> places;
+    double factor = 1;
+    std::array<double, 3> offset{};  ///< from the line to the model: noise of /RANDOM
+    std::string obstacle;
+  };
+  Cells read(NodeIndex n, const Block& block, const Span& line) const;
+  const LoadedDeck& context_;
+  std::unordered_map<NodeIndex, Cells> known_;
+  std::set<std::string> twice_;  ///< files included more than once
+  std::set<NodeIndex> merged_;   ///< nodes that /CNODE merges with another
+  bool noise_only_ = false;      ///< /RANDOM is all that moves nodes from where their lines say
+};
 
 // ---- one value into one block (block_edit.cpp) -------------------------------------------------
 

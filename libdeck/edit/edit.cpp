@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -18,7 +17,6 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
 #include "edit/cells.hpp"
-#include "edit/fix/nodes/node_cells.hpp"
 #include "edit/shared/edit_set.hpp"
 #include "edit/shared/write.hpp"
 #include "keyword/shared/include_scan.hpp"

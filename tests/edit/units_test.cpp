@@ -53,8 +53,8 @@ TEST(ScaledNumber, ReadsEverySpellingOfADeck) {
 
 TEST(ScaledNumber, KeepsEveryDigitAndReadsWell) {
   const std::pair<const char*, const char*> thousandth[] = {
-      {"210.0", "0.21"},      {"210000.0", "210."},
-      {"210000", "210."},     {"-.5", "-0.0005"},
+      {"210.0", "0.21"},       {"210000.0", "210."},
+      {"210000", "210."},      {"-.5", "-0.0005"},
       {"2.60000E+02", "0.26"}, {"1.5d4", "15."},
       {"1.00000E+30", "1e27"}, {"123456789012345678901.5", "1.234567890123456789015e17"}};
   for (const auto& [before, after] : thousandth) {

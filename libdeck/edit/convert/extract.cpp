@@ -47,8 +47,7 @@ bool is_box_selection(const Block& b) { return b.header.find("/BOX") != std::str
 }  // namespace
 
 Extraction::Extraction(const LoadedDeck& c, std::span<const std::int64_t> interfaces)
-    : context(c),
-      block_kept(c.deck().blocks.size(), 0),
+    : block_kept(c.deck().blocks.size(), 0),
       node_kept(c.model().nodes.size(), 0),
       deck_(c.deck()),
       model_(c.model()),

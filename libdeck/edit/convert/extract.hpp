@@ -28,7 +28,6 @@ class Extraction {
   /// True if an item of a bulk block stays.
   bool keeps(const Block& bulk, const ItemLines& item) const;
 
-  const LoadedDeck& context;
   std::vector<std::uint8_t> block_kept;                                  ///< by Deck::blocks
   std::vector<std::uint8_t> node_kept;                                   ///< by NodeIndex
   std::array<std::vector<std::uint8_t>, element_families> element_kept;  ///< by ElementKind, index

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 
 #include "deck/contact/scene.hpp"
 #include "deck/edit/convert.hpp"
@@ -250,10 +249,10 @@ void report_dropped(const Deck& deck, const Extraction& kept, const Model& model
     if (entry.second++ == 0) entry.first = &b;
   }
   for (const auto& [keyword, entry] : dropped) {
-    out.losses.push_back(loss_entry(deck, Loss::dropped, *entry.first, entry.first->header_span,
-                                    {.note = std::to_string(entry.second) +
-                                             " not needed by the interfaces (the first one is "
-                                             "named)"}));
+    out.losses.push_back(loss_entry(
+        deck, Loss::dropped, *entry.first, entry.first->header_span,
+        {.note = std::to_string(entry.second) + " not needed by the interfaces (the first one is "
+                                                "named)"}));
   }
   out.notes.push_back(std::to_string(nodes) + " of " + std::to_string(model.nodes.size()) +
                       " nodes and " + std::to_string(elements) + " of " +

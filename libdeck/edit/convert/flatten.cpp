@@ -2,9 +2,9 @@
 #include "deck/edit/convert.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "edit/cells.hpp"
 #include "keyword/shared/reader.hpp"
@@ -228,28 +228,22 @@ void disable(const Deck& deck, const Block& b, std::vector<TextEdit>& edits) {
     edits.push_back({Span{line.file, 0, line.offset}, "#"});
 }
 
-/// The cells of two readings of a block, compared by name and content.
-struct CellTexts {
-  explicit CellTexts(const DecodedBlock& d) {
-    for (const DecodedCard& card : d.cards)
-      for (const Cell& cell : card.cells)
-        if (!cell.blank()) cells.emplace_back(&cell, cell.field->name);
-    extra = d.extra.size();
-  }
-  bool operator==(const CellTexts& other) const {
-    if (extra != other.extra || cells.size() != other.cells.size()) return false;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const auto& [p, name] = cells[i];
-      const auto& [q, other_name] = other.cells[i];
-      if (name != other_name || p->parameter != q->parameter) return false;
-      if (p->parameter ? p->integer != q->integer || p->real != q->real : p->text != q->text)
-        return false;
+/// What a reading of a block comes to: cells that hold something by name and content, and at the
+/// end the number of lines that are not read.
+using CellContent = std::tuple<std::string_view, bool, std::int64_t, double, std::string_view>;
+std::vector<CellContent> contents_of(const DecodedBlock& d) {
+  std::vector<CellContent> out;
+  for (const DecodedCard& card : d.cards)
+    for (const Cell& cell : card.cells) {
+      if (cell.blank()) continue;
+      if (cell.parameter)
+        out.emplace_back(cell.field->name, true, cell.integer, cell.real, "");
+      else
+        out.emplace_back(cell.field->name, false, 0, 0, cell.text);
     }
-    return true;
-  }
-  std::vector<std::pair<const Cell*, std::string_view>> cells;
-  std::size_t extra = 0;
-};
+  out.emplace_back("", false, d.extra.size(), 0, "");
+  return out;
+}
 
 /// Holds the flat form against the deck, block by block.
 class Comparison {
@@ -301,8 +295,7 @@ class Comparison {
     const bool moved =
         b.version != now.version && detail::layout_differs(*b.schema, b.version, now.version);
     if (!moved && deck_.parameters.empty()) return true;
-    const DecodedBlock x = decode(deck_, b), y = decode(flat_, now);
-    return CellTexts(x) == CellTexts(y);
+    return contents_of(decode(deck_, b)) == contents_of(decode(flat_, now));
   }
 
   /// What no schema describes may stand in other columns in another version.

@@ -248,8 +248,7 @@ class Renumbering {
   }
 
   /// A cell with the number that it holds.
-  void cell(const detail::CellPlace& place, const Cell& c, std::string_view kind,
-            bool definition) {
+  void cell(const detail::CellPlace& place, const Cell& c, std::string_view kind, bool definition) {
     if (c.blank() || c.integer == 0) return;
     set_id(place, c, rename(*place.block, kind, c.integer, definition));
   }
@@ -263,9 +262,8 @@ class Renumbering {
     else if (c.status != NumberStatus::ok)
       why = "the cell holds more than a number";
     else if (why.empty() && !cells_.put(place, text))
-      why = place.free_format
-                ? "the new id makes this free-format line longer than 100 columns"
-                : "the new id " + text + " does not fit its columns";
+      why = place.free_format ? "the new id makes this free-format line longer than 100 columns"
+                              : "the new id " + text + " does not fit its columns";
     if (!why.empty()) undecided(*place.block, c.span, std::string(place.field), std::move(why));
   }
 

@@ -2,9 +2,7 @@
 #include "edit/shared/conversion.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <optional>
 
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"

@@ -414,8 +414,8 @@ class VersionRewriter {
     if (cell.blank() || detail::carry(cell, field, text) || compose.findings == nullptr) return;
     compose.findings->undecided(compose.block, cell.span, field.name, cell.text,
                                 "the value does not fit its " +
-                                    number(field.last - field.first + 1) +
-                                    " columns in version " + number(target_) + "; shorten it");
+                                    number(field.last - field.first + 1) + " columns in version " +
+                                    number(target_) + "; shorten it");
   }
 
   /// A line with commas stays as it is if it has the same cells; otherwise it gets fixed columns.

@@ -70,8 +70,8 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const Limits& 
   return build_scene(model, interfaces, unused, scene);
 }
 
-void refuse(PenetrationFix& fix, std::int64_t interface_id, std::string reason, std::string next,
-            double depth) {
+void add_refusal(PenetrationFix& fix, std::int64_t interface_id, std::string reason,
+                 std::string next, double depth) {
   fix.refused.push_back({interface_id, {}, depth, std::move(reason), 0, std::move(next)});
 }
 
@@ -90,11 +90,11 @@ void note_unevaluated(PenetrationFix& fix, const Scene& scene, const FixOptions&
   for (const Contact& contact : scene.contacts) {
     const std::int64_t id = contact.inter->id;
     if (contact.evaluated || !is_modern(contact.type) || !asks_for(options, id)) continue;
-    refuse(fix, id,
-           contact.kind == ContactKind::edge_edge
-               ? "a part of what its edges touch is not evaluated ('deck gaps' says which)"
-               : "its penetrations are not evaluated ('deck gaps' says why)",
-           "deck gaps DECK");
+    add_refusal(fix, id,
+                contact.kind == ContactKind::edge_edge
+                    ? "a part of what its edges touch is not evaluated ('deck gaps' says which)"
+                    : "its penetrations are not evaluated ('deck gaps' says why)",
+                "deck gaps DECK");
     fix.complete = false;
   }
 }

@@ -40,8 +40,8 @@ class AfterRewrite {
 };
 
 /// Notes what a strategy does not treat; `next`: see FixRefusal.
-void refuse(PenetrationFix& fix, std::int64_t interface_id, std::string reason,
-            std::string next = {}, double depth = 0);
+void add_refusal(PenetrationFix& fix, std::int64_t interface_id, std::string reason,
+                 std::string next = {}, double depth = 0);
 
 /// Why nothing can be said about a wanted interface; nothing: all were evaluated. TYPE24 and TYPE25
 /// are told by note_unevaluated: what is known of them is treated.

@@ -1,6 +1,5 @@
 // The strategies inacti and fpenmax: writes the flag and says what the solver will then do.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -35,7 +34,8 @@ std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
   }
   std::string text;
   if (nothing > 0)
-    text = "the solver still does nothing about " + count(nothing, "pair", "pairs") + ": Inacti is 0";
+    text =
+        "the solver still does nothing about " + count(nothing, "pair", "pairs") + ": Inacti is 0";
   if (stops > 0)
     text +=
         (text.empty() ? "the solver" : "; it") + std::string(" stops at ") +
@@ -95,8 +95,8 @@ Result<void> evaluate(PenetrationFix& fix, const LoadedDeck& context, const FixO
     const bool stops = std::any_of(fix.actions.begin(), fix.actions.end(), [&](const FixAction& a) {
       return a.interface_id == i.id && a.stops;
     });
-    refuse(fix, i.id, left_over(fix, i.id), stops ? next_without_nodes(i.type) : next_inacti,
-           i.before.deepest);
+    add_refusal(fix, i.id, left_over(fix, i.id), stops ? next_without_nodes(i.type) : next_inacti,
+                i.before.deepest);
   }
   note_unevaluated(fix, after, options);
   std::stable_sort(
@@ -127,8 +127,9 @@ std::map<std::int64_t, std::uint64_t> stops_with(const LoadedDeck& context,
 void add_change(PenetrationFix& fix, const InterBase& inter, CellWriter& edits,
                 const FieldPlace& place, std::string text, double old_value, double new_value) {
   place.write(edits, text);
-  interface_entry(fix, inter).changes.push_back({std::string(place.field), std::string(place.text),
-                                                 std::move(text), old_value, new_value});
+  interface_entry(fix, inter)
+      .changes.push_back({std::string(place.field), std::string(place.text), std::move(text),
+                          old_value, new_value});
 }
 
 // ---- Inacti -----------------------------------------------------------------------------------
@@ -165,7 +166,7 @@ Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions
     if (!counts.contains(inter->id)) continue;
     const int effective = effective_for(*inter);
     if (const std::string why = why_not_inacti(inter->type, effective); !why.empty()) {
-      refuse(fix, inter->id, why);
+      add_refusal(fix, inter->id, why);
       continue;
     }
     if (inacti_in_effect(*inter) == effective) continue;
@@ -180,17 +181,17 @@ Result<PenetrationFix> set_inacti(const LoadedDeck& context, const InactiOptions
   for (const InterBase* inter : chosen) {
     const int effective = effective_for(*inter);
     if (const auto it = stops.find(inter->id); it != stops.end()) {
-      refuse(fix, inter->id,
-             count(it->second, "pair", "pairs") +
-                 " at distance 0, at which the solver stops with Inacti " +
-                 std::to_string(effective) + " (error " + (effective == 0 ? "612" : "611") +
-                 "): move these nodes, or take them out of the interface for the whole run",
-             next_without_nodes(inter->type));
+      add_refusal(fix, inter->id,
+                  count(it->second, "pair", "pairs") +
+                      " at distance 0, at which the solver stops with Inacti " +
+                      std::to_string(effective) + " (error " + (effective == 0 ? "612" : "611") +
+                      "): move these nodes, or take them out of the interface for the whole run",
+                  next_without_nodes(inter->type));
       continue;
     }
     const auto place = find_field(context.deck(), *inter->block, "Inacti");
     if (!place) {
-      refuse(fix, inter->id, place.error().message);
+      add_refusal(fix, inter->id, place.error().message);
       continue;
     }
     // A 0 on the card asks for the /DEFAULT/INTER of that type; 1000 is the 0 that does not.
@@ -222,8 +223,8 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
     if (!rules_of(inter.type).fpenmax) {
       if (contact.role == ContactRole::primary || contact.kind == ContactKind::edge_edge)
         if (fix.refused.empty() || fix.refused.back().interface_id != inter.id)
-          refuse(fix, inter.id, "TYPE" + std::to_string(inter.type) + " has no Fpenmax",
-                 inter.type == 10 ? "" : next_inacti);
+          add_refusal(fix, inter.id, "TYPE" + std::to_string(inter.type) + " has no Fpenmax",
+                      inter.type == 10 ? "" : next_inacti);
       continue;
     }
     double deepest = 0;  // share of the gap, of pairs that are not at distance 0
@@ -241,9 +242,9 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
     } else if (on_surface == 0 || on_surface_error(contact) == 0) {
       continue;  // the solver does not stop: nothing to drop
     } else if (deepest >= 1) {
-      refuse(fix, inter.id,
-             "a pair is so close to distance 0 that no Fpenmax drops only the pairs at 0",
-             "deck fix DECK --strategy fpenmax --fpenmax 99%");
+      add_refusal(fix, inter.id,
+                  "a pair is so close to distance 0 that no Fpenmax drops only the pairs at 0",
+                  "deck fix DECK --strategy fpenmax --fpenmax 99%");
       continue;
     } else {
       wanted = deepest > 0 ? deepest : 0.9;
@@ -251,7 +252,7 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
     if (card.Fpenmax.value != 0 && card.Fpenmax.value == wanted) continue;
     const auto place = find_field(context.deck(), *inter.block, "Fpenmax");
     if (!place) {
-      refuse(fix, inter.id, place.error().message);
+      add_refusal(fix, inter.id, place.error().message);
       continue;
     }
     std::optional<RoundedText> text;
@@ -266,7 +267,7 @@ Result<PenetrationFix> set_fpenmax(const LoadedDeck& context, const FpenmaxOptio
       }
     }
     if (!text) {
-      refuse(fix, inter.id, "the value does not fit the cell of Fpenmax");
+      add_refusal(fix, inter.id, "the value does not fit the cell of Fpenmax");
       continue;
     }
     if (card.Fpenmax.has_input && card.Fpenmax.value == text->value) continue;

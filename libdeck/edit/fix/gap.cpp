@@ -139,8 +139,8 @@ class GapReduction {
   static void write(const FieldPlace& place, const Knob& knob, CellWriter& edits,
                     FixedInterface& entry) {
     place.write(edits, knob.text->text);
-    entry.changes.push_back({std::string(place.field), std::string(place.text),
-                             knob.text->text, knob.present, knob.value});
+    entry.changes.push_back({std::string(place.field), std::string(place.text), knob.text->text,
+                             knob.present, knob.value});
   }
 
   /// The caps of both sides as one knob.
@@ -330,10 +330,10 @@ Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOpt
     if (it == counts.end()) continue;
     std::size_t& same = cards[inter->id];
     if (same > 1) {
-      refuse(fix, inter->id,
-             count(same, "interface has", "interfaces have") +
-                 " this id: the solver stops; give each its own",
-             {}, it->second.deepest);
+      add_refusal(fix, inter->id,
+                  count(same, "interface has", "interfaces have") +
+                      " this id: the solver stops; give each its own",
+                  {}, it->second.deepest);
       same = 0;  // said; a search for each of them would evaluate all of them
     }
     if (same == 0) continue;
@@ -342,8 +342,8 @@ Result<PenetrationFix> reduce_gaps(const LoadedDeck& context, const ReduceGapOpt
     if (reduction.solve(before))
       reduction.write(fix, edits);
     else
-      refuse(fix, inter->id, reduction.why, "deck fix DECK --strategy move-nodes",
-             it->second.deepest);
+      add_refusal(fix, inter->id, reduction.why, "deck fix DECK --strategy move-nodes",
+                  it->second.deepest);
   }
   fix.rewrite.edits = edits.finish();
   const auto again = AfterRewrite::read(context, fix.rewrite, options, false, before);

@@ -106,8 +106,8 @@ void verify_harmless(PenetrationFix& fix, const Interfaces& interfaces, const Fi
   fix.interfaces.clear();
   fix.actions.clear();
   set_interfaces(fix, interfaces, options, before, before);
-  refuse(fix, interface_of(after, harm.front().pair).id, "nothing done: with the change " + *why,
-         "deck fix DECK --strategy move-nodes");
+  add_refusal(fix, interface_of(after, harm.front().pair).id,
+              "nothing done: with the change " + *why, "deck fix DECK --strategy move-nodes");
   fix.complete = false;
 }
 

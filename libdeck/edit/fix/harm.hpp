@@ -47,7 +47,8 @@ class StateBefore {
   void add(const PairKey& pair, double depth, bool tie);
   const FixOptions* options_ = nullptr;
   std::vector<bool> by_node_;  ///< by contact
-  /// By judged(), with contacts beyond those of the scene: its ties. As deep as the deepest of them.
+  /// By judged(), with contacts beyond those of the scene: its ties. As deep as the deepest of
+  /// them.
   std::map<PairKey, Row> rows_;
 };
 

@@ -1,5 +1,5 @@
-// Builds the model whose nodes a strategy moves, says which of them have to stay, keeps its contacts
-// up to date, and tells what became of it.
+// Builds the model whose nodes a strategy moves, says which of them have to stay, keeps its
+// contacts up to date, and tells what became of it.
 #include "edit/fix/movable.hpp"
 
 #include <algorithm>

@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "deck/contact/crossings.hpp"
+#include "edit/cells.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
-#include "edit/fix/nodes/fix_mesh.hpp"
-#include "edit/fix/nodes/node_cells.hpp"
 #include "edit/fix/nodes/ways_out.hpp"
 #include "edit/shared/depenetrate.hpp"
 

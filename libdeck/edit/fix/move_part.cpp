@@ -20,8 +20,8 @@ using namespace detail;
 
 /// Which parts hang together, so that one cannot be moved without the others: a forest over the
 /// nodes. Joined are the nodes of an element, of a rigid body, rigid element or joint, of a tie of
-/// /INTER/TYPE2 with its segment, and the pairs of contacts that tie, unless FixOptions::ties treats
-/// these as penetrations.
+/// /INTER/TYPE2 with its segment, and the pairs of contacts that tie, unless FixOptions::ties
+/// treats these as penetrations.
 class PartGroups {
  public:
   PartGroups(const LoadedDeck& context, const Scene& scene, const FixOptions& options)
@@ -90,8 +90,8 @@ class PartGroups {
     const Elements& solids = model_.solid8;  // their mid nodes
     for (std::size_t e = 0; e < solids.extra.size(); ++e) {
       if (solids.extra[e] == no_index) continue;
-      const std::size_t first = solids.extra[e], count = static_cast<std::size_t>(
-                                                     extra_node_count(solids.shape[e]));
+      const std::size_t first = solids.extra[e],
+                        count = static_cast<std::size_t>(extra_node_count(solids.shape[e]));
       for (std::size_t k = first; k < std::min(first + count, solids.extra_nodes.size()); ++k)
         join(solids.of(e)[0], solids.extra_nodes[k]);
     }

@@ -133,7 +133,7 @@ class TieFix {
 
  private:
   void refuse(const Tie& tie, std::string reason) {
-    detail::refuse(fix_, tie.inter->id, std::move(reason));
+    add_refusal(fix_, tie.inter->id, std::move(reason));
   }
   void refuse(const Tie& tie, const TiedNode& node, double distance, std::string reason) {
     fix_.refused.push_back(

@@ -307,7 +307,7 @@ Result<std::vector<std::string>> EditSet::tops() const {
         while (!detail::lies_below(place, top)) {
           if (!root_.empty())
             return refuse(use.path + " lies above the directory whose tree is written; name a " +
-                           "directory that also contains it");
+                          "directory that also contains it");
           top = top.parent_path();
         }
     for (const Use& use : member.uses)
@@ -337,8 +337,8 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
       if (const auto use = member.by_path.find(path);
           use != member.by_path.end() && member.uses[use->second].text != 0)
         return refuse(path +
-                       " is included by its absolute path and would have to change; change it "
-                       "with --in-place, or make one file with deck convert --flatten");
+                      " is included by its absolute path and would have to change; change it "
+                      "with --in-place, or make one file with deck convert --flatten");
     }
     for (const Use& use : member.uses)
       for (const fs::path place : use.places) {
@@ -354,8 +354,8 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
         if (other->file != use.file &&
             (text_of(*other) != text_of(use) || (deck != d && !from_memory)))
           return refuse("both " + other->path + " (" + decks_[deck].name + ") and " + use.path +
-                         " (" + member.name + ") would be written to " + target +
-                         "; nothing was written. Write the decks to different directories");
+                        " (" + member.name + ") would be written to " + target +
+                        "; nothing was written. Write the decks to different directories");
       }
   }
   for (const auto& [target, claim] : targets) {

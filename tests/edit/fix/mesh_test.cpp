@@ -1,5 +1,5 @@
 // Which elements count as turned inside out, or crossed, when nodes have moved.
-#include "edit/fix/nodes/fix_mesh.hpp"
+#include "edit/fix/nodes/ways_out.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,8 +1,8 @@
 // Tests of moving a whole part.
 #include "edit/shared/depenetrate.hpp"
 
-#include "edit/fix/support.hpp"
 #include "edit/fix/nodes/ways_out.hpp"
+#include "edit/fix/support.hpp"
 
 namespace deck::test {
 namespace {

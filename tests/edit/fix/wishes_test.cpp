@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 #include <random>
 
-
 namespace deck::detail {
 namespace {
 

@@ -142,7 +142,7 @@ UnitFactor base_factor(double from, double to) {
 }  // namespace
 
 std::string UnitFactor::text() const {
-  const auto number = format_real(static_cast<double>(value), 24);
+  const auto number = format_real(static_cast<double>(value), widest_number);
   return power ? "1e" + std::to_string(*power) : number ? number->text : std::string("?");
 }
 

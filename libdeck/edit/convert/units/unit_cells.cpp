@@ -56,29 +56,30 @@ void UnitConversion::convert(const CellPlace& place, const UnitFactor& factor) {
   const bool plain =
       value.status == NumberStatus::ok || value.status == NumberStatus::implicit_exponent;
   if (token.empty() || (value.value == 0 && (place.free_format || plain))) return;
-  constexpr int enough = 24;  // every double fits
-  const int room = cells.room(place), width = place.free_format ? std::min(enough, room) : room;
+  const int room = cells.room(place),
+            width = place.free_format ? std::min(widest_number, room) : room;
   const auto text = scale_text(token, width, factor);
   if (!text) {
     const std::string no_number =
         "'" + std::string(token.substr(0, 30)) + "' is not a plain number";
     undecided(*place.block, place.span, std::string(place.field),
               place.free_format ? "the converted value makes this free-format line longer than 100 "
-                                  "columns, or " + no_number
-              : plain           ? "the converted value does not fit its columns"
-                                : no_number);
+                                  "columns, or " +
+                                      no_number
+              : plain ? "the converted value does not fit its columns"
+                      : no_number);
     return;
   }
   cells.put(place, text->text);
   ++changed_cells;
   if (text->exact) return;
-  out.losses.push_back(loss_entry(deck, Loss::approximated, *place.block, place.span,
-                                  {.field = std::string(place.field),
-                                   .old_text = std::string(token),
-                                   .new_text = text->text,
-                                   .note = std::to_string(width) +
-                                           " columns hold no more digits; converting back gives a "
-                                           "slightly different value"}));
+  out.losses.push_back(loss_entry(
+      deck, Loss::approximated, *place.block, place.span,
+      {.field = std::string(place.field),
+       .old_text = std::string(token),
+       .new_text = text->text,
+       .note = std::to_string(width) + " columns hold no more digits; converting back gives a "
+                                       "slightly different value"}));
 }
 
 namespace {
@@ -96,13 +97,12 @@ const Block* definition_of(const Deck& deck, const Parameter& p) {
 /// The parameter stays what it is, and the cells that use it get their numbers in the new units.
 void write_numbers(UnitConversion& c, const std::string& name,
                    const std::vector<UnitConversion::ParameterUse>& uses, const std::string& why) {
-  constexpr int widest = 24;  // every double fits
   for (const auto& use : uses) {
     const UnitConversion::OpenShare share(c, *use.block);
-    const int width = use.free_format ? widest : use.last - use.first + 1;
-    const auto number = format_real(use.value, widest);
-    const auto text = number ? scale_text(number->text, width, c.factors.of(use.dimension))
-                             : std::nullopt;
+    const int width = use.free_format ? widest_number : use.last - use.first + 1;
+    const auto number = format_real(use.value, widest_number);
+    const auto text =
+        number ? scale_text(number->text, width, c.factors.of(use.dimension)) : std::nullopt;
     if (!text || !c.cells.put(use, text->text)) {
       c.undecided(*use.block, use.span, std::string(use.field),
                   "parameter &" + name + " " + why + ", and the number itself has no room here; " +
@@ -110,12 +110,12 @@ void write_numbers(UnitConversion& c, const std::string& name,
       continue;
     }
     ++c.changed_cells;
-    c.out.losses.push_back(
-        loss_entry(c.deck, text->exact ? Loss::kept : Loss::approximated, *use.block, use.span,
-                   {.field = std::string(use.field),
-                    .old_text = std::string(trim(c.deck.sources.text(use.span))),
-                    .new_text = text->text,
-                    .note = "parameter &" + name + " " + why + "; the number was written instead"}));
+    c.out.losses.push_back(loss_entry(
+        c.deck, text->exact ? Loss::kept : Loss::approximated, *use.block, use.span,
+        {.field = std::string(use.field),
+         .old_text = std::string(trim(c.deck.sources.text(use.span))),
+         .new_text = text->text,
+         .note = "parameter &" + name + " " + why + "; the number was written instead"}));
   }
 }
 

@@ -132,7 +132,7 @@ void add_notes(UnitConversion& c) {
   for (std::size_t i = 0; i < 3; ++i)
     notes.push_back(std::string(base_names[i]) + " " + from[i] + " -> " + to[i] + ": factor " +
                     factors[i].text());
-  std::map<std::string, std::string> others;
+  std::map<std::string, std::string> derived;
   for (const auto& [exponents, factor] : c.used_factors) {
     std::string name;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -141,9 +141,9 @@ void add_notes(UnitConversion& c) {
       if (exponents[i] != 1) name += "^" + std::to_string(exponents[i]);
     }
     if (std::find(std::begin(base_names), std::end(base_names), name) == std::end(base_names))
-      others.emplace(name, factor.text());
+      derived.emplace(name, factor.text());
   }
-  for (const auto& [name, factor] : others) notes.push_back(name + ": factor " + factor);
+  for (const auto& [name, factor] : derived) notes.push_back(name + ": factor " + factor);
   notes.push_back(std::to_string(c.changed_cells) + " values converted");
   if (c.own_unit_blocks > 0)
     notes.push_back(std::to_string(c.own_unit_blocks) +
@@ -171,7 +171,8 @@ Result<UnitSystem> parse_unit_system(std::string_view text) {
     const auto factor = unit_factor(code, bases[i]);
     if (!factor || code.size() > 20)
       return Error{Error::Code::config, "'" + std::string(code.substr(0, 40)) + "' is not a " +
-                                            std::string(base_names[i]) + " unit; expected a prefix and '" + bases[i] +
+                                            std::string(base_names[i]) +
+                                            " unit; expected a prefix and '" + bases[i] +
                                             "', or a positive number"};
     *factors[i] = *factor;
     *codes[i] = std::string(code);
@@ -243,8 +244,7 @@ class EngineConverter {
     const std::string_view text = deck_.sources.text(cell);
     const RealCell value = read_real(text);
     if (value.status == NumberStatus::ok && value.value == 0) return;
-    constexpr int width = 24;  // every double fits; lines of Engine files are in free format
-    const auto scaled = detail::scale_text(text, width, time_);
+    const auto scaled = detail::scale_text(text, detail::widest_number, time_);
     if (!scaled) return undecided(block, cell, "this is not a plain number");
     out_.edits.push_back({cell, scaled->text});
     ++converted_;

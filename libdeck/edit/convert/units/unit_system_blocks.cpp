@@ -32,7 +32,8 @@ bool free_of_units(std::string_view keyword) {
 
 /// Blocks that name units or parameters, or hold no values; treated elsewhere or not at all.
 bool outside_conversion(const Block& b) {
-  return b.schema->kind == "engine" || b.schema->kind == "parameter" || detail::is_below(b.header, "/BEGIN") || b.header.starts_with("//") ||
+  return b.schema->kind == "engine" || b.schema->kind == "parameter" ||
+         detail::is_below(b.header, "/BEGIN") || b.header.starts_with("//") ||
          b.header.starts_with("/UNIT") || b.header.starts_with("/TITLE") ||
          free_of_units(b.keyword) || free_of_units(b.header);
 }
@@ -146,7 +147,8 @@ class BlockConverter {
               deck_, Loss::kept, b, b.header_span,
               {.field = name,
                .new_text = text->text,
-               .note = "its line was missing; blank is 1 in the units of the block, which change"}));
+               .note =
+                   "its line was missing; blank is 1 in the units of the block, which change"}));
         }
     if (texts.empty()) return;
     const CardSchema* next = b.schema->cards.data();
@@ -167,7 +169,8 @@ class BlockConverter {
       lines.push_back(text == texts.end() ? std::string() : text->second);
     }
     if (added < texts.size() || !d.extra.empty() || detail::lacks_title(d)) {
-      c_.undecided(b, {}, *ones_.absent.begin(), "this scale has no line in the block; add the line");
+      c_.undecided(b, {}, *ones_.absent.begin(),
+                   "this scale has no line in the block; add the line");
       return;
     }
     detail::LineEdits edits(deck_.sources);
@@ -256,8 +259,7 @@ class BlockConverter {
           c_.undecided(b, cell.span, f.name,
                        "the units of the axes of this function are not known");
         else if (f.ref == "funct")
-          c_.function_uses.push_back(
-              {detail::place_of(b, card, cell), std::abs(cell.integer), {}});
+          c_.function_uses.push_back({detail::place_of(b, card, cell), std::abs(cell.integer), {}});
       }
       if (f.type != FieldType::real) continue;
       const bool zero = cell.blank() || (cell.status == NumberStatus::ok && cell.real == 0);
@@ -296,8 +298,8 @@ class BlockConverter {
     if (!f.over.empty() && holds(f.over_when, d, &card)) {
       // The number counts times that of the scale: where the scale's number changes, it does not.
       const Cell* scale = detail::cell_beside(d, card, cell, f.over);
-      if (scale != nullptr &&
-          (ones_.cells.contains(scale) || scale->parameter || (!scale->blank() && scale->real != 0)))
+      if (scale != nullptr && (ones_.cells.contains(scale) || scale->parameter ||
+                               (!scale->blank() && scale->real != 0)))
         physical = minus(physical, dimension_of(*scale->field, d, &card));
     }
     return written_dimension(f, physical, f.solver_dimension && holds(f.solver_when, d, &card));
@@ -425,7 +427,7 @@ class BlockConverter {
     if (text.empty() || factor.one()) return;
     if (value.status == NumberStatus::ok && value.value == 0) return;
     const Span place = detail::span_in_header(b, text);
-    const auto scaled = detail::scale_text(text, 24, factor);
+    const auto scaled = detail::scale_text(text, detail::widest_number, factor);
     if (!scaled) {
       c_.undecided(b, place, "tolerance", "'" + std::string(text) + "' is not a plain number");
       return;

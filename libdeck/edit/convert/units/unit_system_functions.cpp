@@ -139,13 +139,12 @@ bool copy_function(UnitConversion& c, std::int64_t id, const std::vector<const B
                       "has no room here");
       continue;
     }
-    c.out.losses.push_back(
-        loss_entry(c.deck, Loss::kept, *use->block, use->span,
-                   {.field = std::string(use->field),
-                    .old_text = std::to_string(id),
-                    .new_text = local(*use->block),
-                    .note = "other uses read function " + std::to_string(id) +
-                            " in other units; this one has a converted copy"}));
+    c.out.losses.push_back(loss_entry(c.deck, Loss::kept, *use->block, use->span,
+                                      {.field = std::string(use->field),
+                                       .old_text = std::to_string(id),
+                                       .new_text = local(*use->block),
+                                       .note = "other uses read function " + std::to_string(id) +
+                                               " in other units; this one has a converted copy"}));
   }
   return true;
 }

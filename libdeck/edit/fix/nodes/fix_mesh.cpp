@@ -1,5 +1,5 @@
 // Neighbours of nodes, crossings and inverted elements around moved ones.
-#include "edit/fix/nodes/fix_mesh.hpp"
+#include "edit/fix/nodes/ways_out.hpp"
 
 #include <algorithm>
 #include <map>

@@ -192,62 +192,49 @@ std::vector<bool> inside_solids(const Scene& scene, std::uint32_t contact) {
 
 NodeMoves solve_wishes(const std::vector<Wish>& wishes, const std::vector<std::uint8_t>& held,
                        int sweeps) {
-  std::vector<std::uint32_t> index(held.size(), no_index);  // by node
-  std::uint32_t count_of_nodes = 0;
-  for (const Wish& w : wishes)
-    for (int i = 0; i < w.state.count; ++i) {
-      std::uint32_t& at = index[w.state.nodes[static_cast<std::size_t>(i)]];
-      if (at == no_index) at = count_of_nodes++;
-    }
-  std::vector<Vec> move(count_of_nodes);
+  std::vector<Vec> move(held.size());  // by node
   struct Row {
-    std::array<std::uint32_t, 6> at{};
-    std::array<double, 6> weight{}, give{};
-    double scale = 0;
+    std::array<double, 6> give{};
+    double scale = 0, multiplier = 0;
   };
   std::vector<Row> rows(wishes.size());
   for (std::size_t r = 0; r < wishes.size(); ++r) {
-    const Wish& w = wishes[r];
+    const PairState& state = wishes[r].state;
     double sum = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(w.state.count); ++i) {
-      const NodeIndex n = w.state.nodes[i];
-      const bool main = static_cast<int>(i) >= w.state.secondary_count;
-      rows[r].at[i] = index[n];
-      rows[r].weight[i] = w.state.weights[i];
-      const bool free = held[n] == 0 && (!main || w.main_gives_way);
-      rows[r].give[i] = free ? w.state.weights[i] : 0;
-      sum += rows[r].give[i] * rows[r].weight[i];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(state.count); ++i) {
+      const bool main = static_cast<int>(i) >= state.secondary_count;
+      const bool free = held[state.nodes[i]] == 0 && (!main || wishes[r].main_gives_way);
+      rows[r].give[i] = free ? state.weights[i] : 0;
+      sum += rows[r].give[i] * state.weights[i];
     }
     // Where only a far corner of a side can give way nothing it may do moves the pair.
     rows[r].scale = sum > least_share ? 1 / sum : 0;
   }
-  std::vector<double> multiplier(wishes.size(), 0);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     bool changed = false;
     for (std::size_t r = 0; r < wishes.size(); ++r) {
-      if (rows[r].scale == 0) continue;
+      auto& [give, scale, multiplier] = rows[r];
+      if (scale == 0) continue;
       const Wish& w = wishes[r];
       const auto count = static_cast<std::size_t>(w.state.count);
       double have = 0;
       for (std::size_t i = 0; i < count; ++i)
-        have += rows[r].weight[i] * dot(w.normal, move[rows[r].at[i]]);
-      const double next = std::max(0.0, multiplier[r] + (w.by - have) * rows[r].scale);
-      const double change = next - multiplier[r];
+        have += w.state.weights[i] * dot(w.normal, move[w.state.nodes[i]]);
+      const double next = std::max(0.0, multiplier + (w.by - have) * scale);
+      const double change = next - multiplier;
       if (change == 0) continue;
-      multiplier[r] = next;
+      multiplier = next;
       changed |= std::abs(change) > 1e-5 * w.state.gap;
       for (std::size_t i = 0; i < count; ++i) {
-        if (rows[r].give[i] == 0) continue;
-        Vec& m = move[rows[r].at[i]];
-        m = m + (change * rows[r].give[i]) * w.normal;
+        Vec& m = move[w.state.nodes[i]];
+        if (give[i] != 0) m = m + (change * give[i]) * w.normal;
       }
     }
     if (!changed) break;
   }
   NodeMoves out;
-  for (NodeIndex n = 0; n < index.size(); ++n)
-    if (const std::uint32_t i = index[n]; i != no_index && dot(move[i], move[i]) > 0)
-      out.emplace_back(n, move[i]);
+  for (NodeIndex n = 0; n < move.size(); ++n)
+    if (dot(move[n], move[n]) > 0) out.emplace_back(n, move[n]);
   return out;
 }
 

@@ -1,5 +1,5 @@
 // Finds the coordinate cells of moved nodes and rounds new values to what fits them.
-#include "edit/fix/nodes/node_cells.hpp"
+#include "edit/cells.hpp"
 
 #include <algorithm>
 
@@ -10,7 +10,6 @@ namespace deck::detail {
 namespace {
 
 constexpr std::string_view axis_names[3] = {"X", "Y", "Z"};
-constexpr int free_width = 24;  // columns of a value on a line with commas: any double fits exactly
 
 Line line_of(const SourceSet& sources, const Span& span) {
   Line line;
@@ -97,7 +96,7 @@ std::optional<NodeCells::Printed> NodeCells::print(NodeIndex n, int axis, double
   // One column stays blank: people and scripts read the numbers as words.
   const double offset = cells.offset[static_cast<std::size_t>(axis)];
   const auto text = format_real((value - offset) / cells.factor,
-                                place.free_format ? free_width : place.last - place.first);
+                                place.free_format ? widest_number : place.last - place.first);
   if (!text) return std::nullopt;
   return Printed{text->text, read_real(text->text).value * cells.factor + offset};
 }
