@@ -18,14 +18,14 @@ namespace deck {
 /// A number, a text or coordinates; null: blank.
 template <>
 struct Value<DiffValue> {
-  static void write(JsonOut& out, const DiffValue& value) {
+  static void write(JsonWriter& json, const DiffValue& value) {
     std::visit(
         [&](const auto& v) {
           using T = std::remove_cvref_t<decltype(v)>;
           if constexpr (std::same_as<T, std::monostate>)
-            out.json.null();
+            json.null();
           else
-            Value<T>::write(out, v);
+            Value<T>::write(json, v);
         },
         value);
   }
