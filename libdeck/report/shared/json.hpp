@@ -13,13 +13,16 @@
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
+#include "deck/report/gaps.hpp"
 #include "deck/text/number.hpp"
 
 namespace deck {
 
 class JsonWriter {
  public:
-  explicit JsonWriter(std::string& out) : out_(out) {}
+  /// From time to time the text may leave by the drain.
+  explicit JsonWriter(std::string& out, TextDrain drain = {}) : out_(out), drain_(drain) {}
+  void drain() { drain_text(drain_, out_); }
 
   /// `line` true: the container and all in it stand on one line.
   JsonWriter& begin_object(bool line = false) { return open('{', line); }
@@ -58,6 +61,7 @@ class JsonWriter {
     bool empty = true;
   };
   std::string& out_;
+  TextDrain drain_;
   std::vector<Level> levels_;
   bool after_key_ = false;
 };
