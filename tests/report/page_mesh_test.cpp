@@ -166,10 +166,11 @@ TEST(PageMoved, ListsNodesThatStandElsewhereFarthestFirst) {
   now.node(9, 1, 2, 9).node(1, 3, 4, 0).node(3, 0, 0, -5).node(4, 5, 5, 5).node(7, 8, 8, 8);
   const Built was(before);
   Page p(now);
-  detail::use_moved(p.b.model, was.model, p.nodes);
+  p.input.before = &was.model;
+  const std::vector<detail::DataBlock> blocks = detail::optional_blocks(p.input, p.nodes);
   p.nodes.number();
   ASSERT_EQ(p.nodes.list().size(), 3u);
-  Json rows = Json::parse(PageBlock(detail::moved_block(p.b.model, was.model, p.nodes)).bytes());
+  Json rows = Json::parse(PageBlock(blocks.at(0).make()).bytes());
   EXPECT_EQ(rows["total"], 3);
   for (Json& row : rows["rows"]) row[0] = p.id(row[0]);
   // 6 far; then 5 far both, in the order of the model.

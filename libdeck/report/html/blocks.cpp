@@ -29,7 +29,7 @@ constexpr double covered = 0.98;
 
 // ---- ties of /INTER/TYPE2 and TYPE10 ----------------------------------------------------------
 
-/// What the page makes of a node; the numbers are those of tools/viewer/src/sections/untied.ts.
+/// What the page makes of a node; the numbers are those of tools/viewer/src/tied.ts.
 enum class Holds { tied = 0, lost = 1, beyond_rim = 2, elsewhere = 3 };
 
 Holds holds(const TiedNode& n) {
@@ -214,6 +214,23 @@ std::vector<Moved> moved_nodes(const Model& model, const Model& before) {
   return out;
 }
 
+CrossingsBlock crossings_block(const Model& model, const std::vector<Crossing>& crossings,
+                               const PageNodes& nodes) {
+  CrossingsBlock out{crossings.size(), {}};
+  for (const Crossing& c : std::span(crossings).first(std::min(crossings.size(), most_crossings)))
+    out.rows.emplace_back(c.contact, nodes[c.edge[0]], nodes[c.edge[1]],
+                          static_cast<int>(c.edge_kind),
+                          model.family(c.edge_kind).id[c.edge_element], c.main);
+  return out;
+}
+
+MovedBlock moved_block(const std::vector<Moved>& all, const PageNodes& nodes) {
+  MovedBlock out{all.size(), {}};
+  for (const Moved& m : std::span(all).first(std::min(all.size(), most_moved)))
+    out.rows.emplace_back(nodes[m.node], m.by[0], m.by[1], m.by[2]);
+  return out;
+}
+
 // ---- time steps, first cycle ------------------------------------------------------------------
 
 /// Of every node the smallest step of its elements; infinite where none has one.
@@ -347,33 +364,6 @@ std::string ties_block(const Scene& scene, const PageNodes& nodes) {
   }}));
 }
 
-void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes) {
-  for (const Crossing& c : crossings)
-    for (const NodeIndex n : c.edge) nodes.use(n);
-}
-
-std::string crossings_block(const Model& model, const std::vector<Crossing>& crossings,
-                            const PageNodes& nodes) {
-  CrossingsBlock out{crossings.size(), {}};
-  for (const Crossing& c : std::span(crossings).first(std::min(crossings.size(), most_crossings)))
-    out.rows.emplace_back(c.contact, nodes[c.edge[0]], nodes[c.edge[1]],
-                          static_cast<int>(c.edge_kind),
-                          model.family(c.edge_kind).id[c.edge_element], c.main);
-  return packed_text(block_json(out));
-}
-
-void use_moved(const Model& model, const Model& before, PageNodes& nodes) {
-  for (const Moved& m : moved_nodes(model, before)) nodes.use(m.node);
-}
-
-std::string moved_block(const Model& model, const Model& before, const PageNodes& nodes) {
-  const std::vector<Moved> all = moved_nodes(model, before);
-  MovedBlock out{all.size(), {}};
-  for (const Moved& m : std::span(all).first(std::min(all.size(), most_moved)))
-    out.rows.emplace_back(nodes[m.node], m.by[0], m.by[1], m.by[2]);
-  return packed_text(block_json(out));
-}
-
 std::string steps_block(const Model& model, const Mesh& mesh, const PageNodes& nodes) {
   const std::vector<double> step = smallest_steps(model, mesh);
   std::vector<double> sorted;
@@ -397,13 +387,32 @@ std::string steps_block(const Model& model, const Mesh& mesh, const PageNodes& n
   return std::move(out).text();
 }
 
-void use_nodes(std::span<const cycle::ActedNode> acted, PageNodes& nodes) {
-  for (const cycle::ActedNode& n : acted) nodes.use(n.node);
-}
-
-std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycle::ActedNode> acted,
-                        const PageNodes& nodes, const Model& model) {
-  return packed_text(block_json(CycleBlock{outcome, acted, nodes, model}));
+std::vector<DataBlock> optional_blocks(const HtmlInput& in, PageNodes& nodes) {
+  const Model& model = *in.scene->model;
+  std::vector<DataBlock> out;
+  if (in.earlier != nullptr)
+    out.push_back({"deck-earlier", [&in] { return packed_text(earlier_json(in)); }});
+  if (in.before != nullptr) {
+    std::vector<Moved> moved = moved_nodes(model, *in.before);
+    for (const Moved& m : moved) nodes.use(m.node);
+    out.push_back({"deck-moved", [&nodes, moved = std::move(moved)] {
+                     return packed_text(block_json(moved_block(moved, nodes)));
+                   }});
+  }
+  if (!in.repair.empty()) out.push_back({"deck-repair", [&in] { return packed_text(in.repair); }});
+  if (in.crossings != nullptr) {
+    for (const Crossing& c : *in.crossings)
+      for (const NodeIndex n : c.edge) nodes.use(n);
+    out.push_back({"deck-crossed", [&in, &nodes, &model] {
+                     return packed_text(block_json(crossings_block(model, *in.crossings, nodes)));
+                   }});
+  }
+  for (const cycle::ActedNode& n : in.acted) nodes.use(n.node);
+  if (in.cycle != nullptr)
+    out.push_back({"deck-cycle", [&in, &nodes, &model] {
+                     return packed_text(block_json(CycleBlock{*in.cycle, in.acted, nodes, model}));
+                   }});
+  return out;
 }
 
 }  // namespace deck::detail

@@ -81,36 +81,21 @@ void add_block(std::string& out, std::string_view id, std::string_view type,
   out += "</script>\n";
 }
 
-/// A block of packed bytes.
-struct Packed {
-  const char* id;
-  std::function<std::string()> make;
-  std::string text = {};
-};
-
 /// All of them in their order, made side by side. Takes `page`.
-std::vector<Packed> packed_blocks(const HtmlInput& in, const std::vector<MeshPart>& mesh,
-                                  const std::vector<Touch>& touches, const PageNodes& nodes,
-                                  PageContacts& page) {
+std::vector<DataBlock> packed_blocks(const HtmlInput& in, const std::vector<MeshPart>& mesh,
+                                     const std::vector<Touch>& touches, const PageNodes& nodes,
+                                     PageContacts& page, std::vector<DataBlock> optional) {
   const Model& model = *in.scene->model;
-  std::vector<Packed> blocks;
-  const auto add = [&](bool wanted, const char* id, std::function<std::string()> make) {
-    if (wanted) blocks.push_back({id, std::move(make)});
-  };
-  add(true, "deck-touches", [&] { return packed_text(touches_drawing(in, touches)); });
   const ContactBlocks contacts = contact_blocks(in, page, nodes);
-  add(true, "deck-shared", contacts.shared);
-  add(true, "deck-contacts", contacts.contacts);
-  add(has_ties(*in.scene), "deck-ties", [&] { return ties_block(*in.scene, nodes); });
-  add(true, "deck-mesh", [&] { return mesh_block(model, mesh, nodes); });
-  add(true, "deck-elements", [&] { return elements_block(model, mesh); });
-  add(in.earlier != nullptr, "deck-earlier", [&] { return packed_text(earlier_json(in)); });
-  add(in.before != nullptr, "deck-moved", [&] { return moved_block(model, *in.before, nodes); });
-  add(!in.repair.empty(), "deck-repair", [&] { return packed_text(in.repair); });
-  add(in.crossings != nullptr, "deck-crossed",
-      [&] { return crossings_block(model, *in.crossings, nodes); });
-  add(in.cycle != nullptr, "deck-cycle",
-      [&] { return cycle_block(*in.cycle, in.acted, nodes, model); });
+  std::vector<DataBlock> blocks{
+      {"deck-touches", [&] { return packed_text(touches_drawing(in, touches)); }},
+      {"deck-shared", contacts.shared},
+      {"deck-contacts", contacts.contacts}};
+  if (has_ties(*in.scene))
+    blocks.push_back({"deck-ties", [&] { return ties_block(*in.scene, nodes); }});
+  blocks.push_back({"deck-mesh", [&] { return mesh_block(model, mesh, nodes); }});
+  blocks.push_back({"deck-elements", [&] { return elements_block(model, mesh); }});
+  blocks.insert(blocks.end(), optional.begin(), optional.end());
   parallel_items(effective_threads(in.threads), blocks.size(),
                  [&](std::size_t i) { blocks[i].text = blocks[i].make(); });
   return blocks;
@@ -137,9 +122,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   std::vector<NodeIndex> of_ties = detail::use_nodes(*in.scene, nodes);
   detail::PageContacts page = detail::collect_contacts(in, nodes);
   page.of_ties = std::move(of_ties);
-  if (in.crossings != nullptr) detail::use_nodes(*in.crossings, nodes);
-  if (in.before != nullptr) detail::use_moved(model, *in.before, nodes);
-  detail::use_nodes(in.acted, nodes);
+  std::vector<detail::DataBlock> optional = detail::optional_blocks(in, nodes);
   nodes.number();
 
   std::string out =
@@ -163,11 +146,12 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   const std::vector<detail::Touch> touches = detail::collect_touches(in, page);
   detail::add_block(out, "deck-meta", "application/json",
                     detail::script_safe(detail::meta_json(in, page, touches)));
-  std::vector<detail::Packed> blocks = detail::packed_blocks(in, mesh, touches, nodes, page);
+  std::vector<detail::DataBlock> blocks =
+      detail::packed_blocks(in, mesh, touches, nodes, page, std::move(optional));
   std::size_t size = out.size() + bundle.script.size();
-  for (const detail::Packed& block : blocks) size += block.text.size();
+  for (const detail::DataBlock& block : blocks) size += block.text.size();
   out.reserve(size + size / 16);  // the rest is short
-  for (detail::Packed& block : blocks) {
+  for (detail::DataBlock& block : blocks) {
     detail::add_block(out, block.id, "application/octet-stream", block.text);
     block.text = {};
   }

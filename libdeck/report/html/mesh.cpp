@@ -91,14 +91,9 @@ class Collector {
       : model_(model), nodes_(nodes), parts_(model.parts.size() + 1) {}
 
   std::vector<MeshPart> run() {
-    shells(model_.shell4);
-    shells(model_.shell3);
-    shells(model_.quad);
-    shells(model_.tria);
+    for (const auto* f : {&model_.shell4, &model_.shell3, &model_.quad, &model_.tria}) shells(*f);
     solids();
-    lines(model_.truss);
-    lines(model_.beam);
-    lines(model_.spring);
+    for (const auto* family : {&model_.truss, &model_.beam, &model_.spring}) lines(*family);
     std::vector<MeshPart> out;
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       if (parts_[p].empty()) continue;

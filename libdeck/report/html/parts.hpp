@@ -32,6 +32,13 @@ const ViewerBundle& viewer_bundle();
 /// JSON as it may stand in a script element: '<' occurs in it only inside strings.
 std::string script_safe(std::string_view json);
 
+/// A block of packed bytes.
+struct DataBlock {
+  const char* id;
+  std::function<std::string()> make;
+  std::string text = {};
+};
+
 /// A value as the JSON of a block.
 template <class T>
 std::string block_json(const T& value) {
@@ -173,21 +180,13 @@ void block_forms(SchemaDefinitions& definitions);
 std::vector<NodeIndex> use_nodes(const Scene& scene, PageNodes& nodes);
 bool has_ties(const Scene& scene);
 std::string ties_block(const Scene& scene, const PageNodes& nodes);
-// crossed elements
-void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes);
-std::string crossings_block(const Model& model, const std::vector<Crossing>& crossings,
-                            const PageNodes& nodes);
-// nodes that a repair has moved
-void use_moved(const Model& model, const Model& before, PageNodes& nodes);
-std::string moved_block(const Model& model, const Model& before, const PageNodes& nodes);
 // colours of time steps
 /// Smallest step, end of the scale and largest step, then a byte for each node of the page: 0 where
 /// no element has a step, else 1 at the end of the scale and beyond to 255 at the smallest, in
 /// equal ratios.
 std::string steps_block(const Model& model, const Mesh& mesh, const PageNodes& nodes);
-// forces, energies and time steps of the first cycle
-void use_nodes(std::span<const cycle::ActedNode> acted, PageNodes& nodes);
-std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycle::ActedNode> acted,
-                        const PageNodes& nodes, const Model& model);
+/// What became of an earlier run, moved nodes, a repair, crossed elements, the first cycle. Marks
+/// their nodes; both arguments must outlive the blocks, which are made when nodes have numbers.
+std::vector<DataBlock> optional_blocks(const HtmlInput& input, PageNodes& nodes);
 
 }  // namespace deck::detail

@@ -88,6 +88,15 @@ export function sectionHead(title: Node, ...tools: Child[]): HTMLElement {
   return h("div", { class: "section-head" }, title, h("div", { class: "tools" }, ...tools));
 }
 
+/** A menu that drops down from its summary; a click elsewhere closes it. */
+export function dropDown(props: Props, summary: HTMLElement, list: HTMLElement): HTMLDetailsElement {
+  const menu = h("details", { class: "menu", ...props }, summary, list);
+  document.addEventListener("click", (e) => {
+    if (!menu.contains(e.target as Node)) menu.open = false;
+  });
+  return menu;
+}
+
 /** A small table of texts. */
 export function plainTable(titles: string[], rows: (string | number)[][]): HTMLElement {
   return h("table", { class: "plain" }, h("thead", null, h("tr", null, ...titles.map((t) => h("th", null, t)))),

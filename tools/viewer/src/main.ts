@@ -155,7 +155,7 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
   /** Sections, keys and what the address asks for; true: it does. */
   const tables = (): boolean => {
     const stem = fileName(meta.deck.path).replace(/\.rad$/i, "");
-    const exports = exportMenu(report, [
+    const exports = exportMenu([
       { label: "Node ids, one per line", run: () => save(`${stem}_nodes.txt`, plainNodes(report.filtered)) },
       { label: "Node ids to the clipboard", run: () => void copyText(plainNodes(report.filtered)) },
       { label: "/GRNOD/NODE block", hint: "A node group for the deck, with an id that is free", run: () => save(`${stem}_grnod.inc`, grnodBlock(report.filtered, meta.free_group_id, "initial penetrations")) },
@@ -166,7 +166,7 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
       { label: "Picture (PNG)", run: () => viewport.savePicture(false) },
       { label: "Picture (PNG), white ground", run: () => viewport.savePicture(true) },
       { label: "Picture to the clipboard", run: () => void viewport.copyPicture() },
-    ], "export");
+    ]);
     const list = listSection(report, fly, exports, () => state?.note());
     const page: Page = { report, viewport, look, doc, parts, stem, pictured };
     const all = sections.map(([id, name, make]) => ({ id, name, element: id === "worst" ? list.element : make(page) }));

@@ -5,7 +5,7 @@ import type { FieldName, Overrides } from "./card";
 import { kindNames, type Contacts, type Mesh, type Steps } from "./data";
 import { lengthText, onceShown } from "./dom";
 import { commonStart } from "./table/columns";
-import { ratioOf, stopsSolver, Tally, type Action, type Row, type Totals } from "./rows";
+import { ratioOf, Tally, type Action, type Row, type Totals } from "./rows";
 import type { Untied } from "./tied";
 import { Evaluator, type Result } from "./what_if";
 
@@ -401,9 +401,6 @@ export class Report {
   fateText(row: Row): string {
     const text = row.action === "gap-reduced" && row.gap0 !== null ? `gap to ${lengthText(this, row.gap0)}` : this.actionText(row.action);
     return this.isRoundOff(row) ? `${text} (round-off)` : text;
-  }
-  stops(row: Row): boolean {
-    return stopsSolver(row.action);
   }
   /** The pair is no nearer than its gap: only the round-off of the solver's formula makes a penetration of it. Known of the
    * deck's settings. */

@@ -91,11 +91,6 @@ export class CameraControl {
     return this.flight !== null;
   }
 
-  setBounds(center: Vector3, radius: number): void {
-    this.center.copy(center);
-    this.radius = radius;
-  }
-
   /** Flies to see a sphere; looks along -`direction` (from direction towards the centre). */
   fly(center: Vector3, radius: number, direction?: Vector3, up?: Vector3, jump = false): void {
     const to: Pose = {

@@ -65,7 +65,7 @@ export class Parts3D {
   private readonly ghostLine: LineBasicMaterial;
   private readonly wire: LineBasicMaterial;
   private readonly uniforms = { contourMap: { value: null as DataTexture | null } };
-  private edgesOn = true;
+  edgesOn = true;
 
   constructor(mesh: Mesh, shapes: Shape[]) {
     this.texture = new DataTexture(new Uint8Array(256 * 4), 256, 1, RGBAFormat);
@@ -331,9 +331,6 @@ export class Parts3D {
     found = lengths.sort((a, b) => a - b)[lengths.length >> 1] ?? 0;
     this.typical.set(part, found);
     return found;
-  }
-  setEdges(on: boolean): void {
-    this.edgesOn = on;
   }
 
   private shifted = false;

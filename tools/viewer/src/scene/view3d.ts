@@ -68,14 +68,15 @@ export class View3D {
     this.control = new CameraControl(
       this.canvas,
       () => this.request(),
-      (x, y) => this.surfacePoint(x, y),
+      (x, y) => this.surface(x, y)?.point ?? null,
       (x, y, e) => (e.button === 2 ? this.onMenu(this.pick(x, y), x, y) : this.onPick(this.pick(x, y))),
     );
     this.scene.add(this.control.camera);
     this.control.camera.add(this.head);
     this.head.position.set(0.3, 0.5, 1);
     const all = this.parts.bounds(() => true) ?? new Sphere(new Vector3(), 1);
-    this.control.setBounds(all.center, all.radius);
+    this.control.center.copy(all.center);
+    this.control.radius = all.radius;
     for (const p of this.parts.parts) this.parts.setLook(p, "hidden"); // until the first view is chosen
     this.resize();
     this.control.fly(all.center, all.radius, new Vector3(-1, -1.4, 0.8), undefined, true);
@@ -434,10 +435,6 @@ export class View3D {
       if (found) return this.section.hides(found.point) ? null : found;
     }
     return null;
-  }
-
-  private surfacePoint(x: number, y: number): Vector3 | null {
-    return this.surface(x, y)?.point ?? null;
   }
 
   /** What is under the cursor: a penetrating node within a few pixels, else the surface. */

@@ -159,8 +159,9 @@ export class Viewport {
   private readonly switched: Record<SwitchName, (on: boolean) => void> = {
     arrows: (on) => this.view?.setArrows(on),
     edges: (on) => {
-      this.view?.parts.setEdges(on);
-      this.view?.request();
+      if (!this.view) return;
+      this.view.parts.edgesOn = on;
+      this.view.request();
     },
     rest: () => this.applyLooks(),
     solid: () => this.applyLooks(),

@@ -51,7 +51,7 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
           ...(force ? item("First cycle", `force ${num(force.force, 5)} · stiffness ${num(force.stiffness, 4)}`, "With the deck's settings") : []),
           ...(x.status ? item("Earlier", x.earlier === null ? "did not penetrate" : `${num(x.earlier, 6)} (${x.status})`) : []))),
       h("div", { class: "side-row" }, sideView(report, x),
-        h("p", { class: "fate" }, h("b", null, report.stops(r) ? `The solver stops with error ${r.action.slice(6)}. ` : ""), fate(report, r),
+        h("p", { class: "fate" }, h("b", null, stopsSolver(r.action) ? `The solver stops with error ${r.action.slice(6)}. ` : ""), fate(report, r),
           report.isRoundOff(r) && " Only the round-off of the solver's formula makes this pair a penetration: exactly, it is no nearer than its gap.")),
       edge || meta.type === 10 || meta.modern ? null : alternatives(report, x, setting.inacti, setting.fpenmax),
     );

@@ -1,8 +1,9 @@
 // Part pairs as table and matrix, distributions, and the list of penetrations.
-import { button, fileName, group, h, lengthText, num, percent, plainTable, plural, replace, sectionHead, svg } from "../dom";
+import { button, dropDown, fileName, group, h, lengthText, num, percent, plainTable, plural, replace, sectionHead, svg } from "../dom";
 import { colorAt, cssColor, inkOn, type Look } from "../look";
 import type { Hit, Report } from "../report";
 import { openMenu, rowItems } from "../menu";
+import { stopsSolver } from "../rows";
 import { interfaceColumn, partColumn } from "../table/columns";
 import { VirtualTable, type Column } from "../table/table";
 
@@ -231,7 +232,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     { key: "node", title: "Node / edge", kind: "id", value: (x) => x.nodes[0], text: (x) => report.secondaryText(x.row) },
     { key: "segment", title: "Segment / edge", kind: "id", rank: 5, value: (x) => report.nodeId(report.mainNodes(x.row)[0]), text: (x) => report.mainText(x.row) },
     { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 2, value: (x) => x.row.action, text: action,
-      cell: (x) => (report.stops(x.row) ? h("span", { class: "bad" }, action(x)) : action(x)) },
+      cell: (x) => (stopsSolver(x.row.action) ? h("span", { class: "bad" }, action(x)) : action(x)) },
     partColumn(report, "sp", "Part", (x) => x.secondaryPart, { least: 130, rank: 1 }),
     partColumn(report, "mp", "Main part", (x) => x.mainPart, { least: 130, rank: 1 }),
     { key: "place", title: "Defined at", kind: "text", rank: 7, value: (x) => place(x)?.line ?? 0, text: (x) => (place(x) ? `${place(x)!.file}:${place(x)!.line}` : ""),
@@ -298,15 +299,11 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
   return { element, table };
 }
 
-export function exportMenu(report: Report, actions: { label: string; run: () => void; hint?: string }[], id: string): HTMLElement {
-  void report;
-  const menu = h("details", { class: "menu", id }, h("summary", { class: "button" }, "Export"), h("div", { class: "menu-list", role: "menu" },
+export function exportMenu(actions: { label: string; run: () => void; hint?: string }[]): HTMLElement {
+  const menu = dropDown({ id: "export" }, h("summary", { class: "button" }, "Export"), h("div", { class: "menu-list", role: "menu" },
     ...actions.map((a) => button(a.label, null, () => {
       menu.open = false;
       a.run();
     }, { role: "menuitem", title: a.hint }))));
-  document.addEventListener("click", (e) => {
-    if (!menu.contains(e.target as Node)) menu.open = false;
-  });
   return menu;
 }

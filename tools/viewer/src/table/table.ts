@@ -1,6 +1,6 @@
 // A table that draws only the rows in sight and gives every column the width of what stands in it: ids and numbers are
 // never cut, text gives way, and what does not fit at all is left out by rank and offered in the chooser.
-import { h, replace } from "../dom";
+import { dropDown, h, replace } from "../dom";
 
 export interface Column<T> {
   key: string;
@@ -212,7 +212,7 @@ export class VirtualTable<T> {
   chooser(): HTMLElement {
     const summary = h("summary", { class: "button small" });
     const list = h("div", { class: "menu-list columns" });
-    const menu = h("details", { class: "menu" }, summary, list);
+    const menu = dropDown({}, summary, list);
     const draw = () => {
       summary.textContent = this.columns.length === this.all.length ? "Columns" : `Columns ${this.columns.length} of ${this.all.length}`;
       if (list.childElementCount === 0) return;
@@ -234,9 +234,6 @@ export class VirtualTable<T> {
         this.dragged.clear();
         this.changed();
       } }, "as many as fit"));
-    });
-    document.addEventListener("click", (e) => {
-      if (!menu.contains(e.target as Node)) menu.open = false;
     });
     this.choosers.push(draw);
     draw();
