@@ -29,9 +29,11 @@ void check_blanks(Deck& deck, const HeaderPlace& place, std::string_view header)
     return;
   }
   if (header.size() > 1 && is_blank(header[1])) {
+    // Control characters are blanks, too.
+    const auto end = std::find_if_not(header.begin() + 1, header.end(), is_blank);
     report(
         deck, RuleId::DK052,
-        make_span(place.file, slash + 1, slash + header.find_first_not_of(" \t", 1)),
+        make_span(place.file, slash + 1, slash + static_cast<std::uint64_t>(end - header.begin())),
         "a blank after the first slash of " + shown(),
         {.message = 0, .solver = "It does not know the keyword and reads nothing of the block."});
     return;

@@ -97,6 +97,15 @@ TEST_P(EveryFix, SafeOnesLeaveTheEffectiveValuesAlone) {
 INSTANTIATE_TEST_SUITE_P(Fixes, EveryFix, testing::ValuesIn(fixable_ids()),
                          [](const auto& one) { return one.param; });
 
+TEST(Fix, RemovesAControlCharacterBehindTheFirstSlash) {
+  const std::string head = "#RADIOSS STARTER\n/BEGIN\nexample\n      2022         0\n/";
+  LintOptions only;
+  only.select = {"DK052"};
+  const Linted run = lint_text(head + "\x01 mm\n/END\n", only);
+  EXPECT_EQ(run.count(RuleId::DK052), 1u) << run.list();
+  EXPECT_EQ(fixed(run, true), head + "mm\n/END\n");
+}
+
 TEST(SafeFixes, RemoveNoBlankInsideAKeywordLine) {
   LintOptions only;
   only.select = {"DK052"};
