@@ -10,7 +10,7 @@
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/version_cards.hpp"
-#include "keyword/shared/render.hpp"
+#include "keyword/shared/card_forms.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck {

@@ -9,7 +9,7 @@
 
 #include "base/shared/paths.hpp"
 #include "deck/keyword/decode.hpp"
-#include "keyword/shared/deck_json_cells.hpp"
+#include "keyword/shared/card_forms.hpp"
 #include "report/shared/json.hpp"
 #include "text/shared/columns.hpp"
 

@@ -1,7 +1,7 @@
 // The document of `deck show --json`.
 #include <algorithm>
 
-#include "keyword/shared/deck_json_cells.hpp"
+#include "keyword/shared/card_forms.hpp"
 #include "keyword/shared/place.hpp"
 #include "report/shared/schemas.hpp"
 #include "report/shared/show.hpp"
