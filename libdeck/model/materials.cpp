@@ -64,12 +64,8 @@ void boltzmann(const BlockCells& c, Material& m) {
   if (!c.has("G0")) m.stiffness_known = false;
 }
 
-/// Sum of mu_i alpha_i.
 void ogden(const BlockCells& c, Material& m) {
-  const double nu = c.real("Nu");
-  double twice_shear = 0;
-  for (const char* i : {"1", "2", "3", "4", "5"})
-    twice_shear += c.real(std::string("mu_") + i) * c.real(std::string("alpha_") + i);
+  const double nu = c.real("Nu"), twice_shear = ogden_sum(c);
   m.young = twice_shear * (1 + nu);
   // With viscous terms the reference solver stores the true bulk modulus.
   m.bulk = c.integer("M") > 0 ? m.young / (3 * (1 - 2 * nu)) : twice_shear;
@@ -226,6 +222,13 @@ void fill(const BuildContext& c, const DecodedBlock& d, Property& p) {
 }
 
 }  // namespace
+
+double ogden_sum(const BlockCells& c) {
+  double sum = 0;
+  for (int i = 1; i <= 10; ++i)
+    sum += c.real("mu_" + std::to_string(i)) * c.real("alpha_" + std::to_string(i));
+  return sum;
+}
 
 void read_properties(BuildContext& c) {
   Model& m = c.model;

@@ -9,6 +9,7 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/model/model.hpp"
 #include "deck/text/rule.hpp"
+#include "text/shared/columns.hpp"
 
 namespace deck::detail {
 
@@ -66,6 +67,9 @@ class BlockCells {
   const Deck& deck_;
   DecodedBlock d_;
 };
+
+/// Sum of mu_i alpha_i, i = 1 ... 10: twice the ground shear modulus of an Ogden material.
+double ogden_sum(const BlockCells& c);
 
 struct BuildContext {
   const Deck& deck;

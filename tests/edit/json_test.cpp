@@ -7,7 +7,7 @@
 #include <string>
 
 #include "edit/version_support.hpp"
-#include "keyword/shared/deck_json_cells.hpp"
+#include "keyword/shared/card_forms.hpp"
 #include "report/shared/deck_json.hpp"
 #include "where.hpp"
 

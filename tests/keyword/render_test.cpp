@@ -1,5 +1,5 @@
 // A card laid out from its schema.
-#include "keyword/shared/render.hpp"
+#include "keyword/shared/card_forms.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "edit/cells.hpp"
+#include "keyword/shared/include_scan.hpp"
 #include "keyword/shared/reader.hpp"
 #include "text/shared/columns.hpp"
 

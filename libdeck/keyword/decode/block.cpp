@@ -3,7 +3,7 @@
 #include <cctype>
 #include <span>
 
-#include "keyword/shared/deck_json_cells.hpp"
+#include "keyword/shared/card_forms.hpp"
 #include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/reader.hpp"

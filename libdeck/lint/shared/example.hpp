@@ -9,7 +9,7 @@
 
 #include "deck/keyword/schema.hpp"
 #include "deck/text/rule.hpp"
-#include "keyword/shared/render.hpp"
+#include "keyword/shared/card_forms.hpp"
 
 namespace deck {
 

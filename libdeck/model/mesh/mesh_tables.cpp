@@ -25,14 +25,6 @@ double steepest(const Model& model, std::int64_t id) {
   return most;
 }
 
-/// Sum of mu_i alpha_i over two is the ground shear modulus.
-double ground_shear(const BlockCells& c) {
-  double sum = 0;
-  for (int i = 1; i <= 10; ++i)
-    sum += c.real("mu_" + std::to_string(i)) * c.real("alpha_" + std::to_string(i));
-  return 0.5 * sum;
-}
-
 /// Largest entry of the stiffness of an orthotropic solid.
 double orthotropic_largest(const BlockCells& c) {
   const auto ratio = [&](const char* low, const char* high) {
@@ -88,15 +80,12 @@ class MaterialFiller {
       }
       case 42:
       case 69:
-        shear_ = ground_shear(c_);
+        shear_ = 0.5 * ogden_sum(c_);
         m_.young = 2 * shear_ * (1 + m_.poisson);
         break;
-      case 62: {
-        double sum = 0;
-        c_.each("mu_i", [&](const Cell&, double v) { sum += v; });
-        m_.young = 2 * sum * (1 + m_.poisson);
+      case 62:
+        m_.young = from_.young;
         break;
-      }
       case 58:
         m_.young = c_.largest({"E1", "E2"});
         break;
