@@ -77,7 +77,7 @@ TEST(FacetRule, HardCasesAreJudgedAsExactArithmeticDoes) {
       if (p.edges || !(p.gap > 0) || !std::isfinite(p.gap)) continue;
       for (const int ishape : {1, 2}) {
         const OneSegment one(p, ishape, ishape == 1 ? 0.5 : 0.25);
-        const Topology t(one.x, one.sides, 1);
+        const Topology t(one.x, one.sides);
         std::vector<FacetRule> rules;
         for (std::uint32_t face = 0; face < 2; ++face)
           rules.push_back(facet_rule(one.x, one.sides, t, one.sides.nodes[0], face));

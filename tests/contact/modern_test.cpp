@@ -323,7 +323,7 @@ struct Laid {
     make_sides(context, *built.model.selections, inter, s);
     set_gaps(context, s);
     set_stiffness(context, s);
-    topology.emplace(scene.coordinates, s, 1);
+    topology.emplace(scene.coordinates, s);
   }
   bool has(const detail::modern::Quad& nodes, NodeIndex n) const {
     return std::find(nodes.begin(), nodes.end(), n) != nodes.end();

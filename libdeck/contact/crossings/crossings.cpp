@@ -9,7 +9,6 @@
 #include <tuple>
 #include <utility>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "base/shared/side_by_side.hpp"
 #include "contact/search/box_tree.hpp"
@@ -87,7 +86,6 @@ class SegmentTree {
     const std::size_t count = order_.size();
     sweep::put_in_order(
         order_, [&](std::uint32_t i) { return hull_of(nodes, segment_of(i)); }, threads);
-    make_room(corners_, (count + width - 1) / width, threads);
     corners_.resize((count + width - 1) / width);
     const auto pack = [&](std::size_t i) {
       const std::array<std::uint32_t, 4> own = segment_of(order_[i]);

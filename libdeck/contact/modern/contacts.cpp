@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/rules/actions.hpp"
@@ -52,8 +51,8 @@ Contact head(const InterBase& inter, const Settings& set, ContactKind kind) {
 
 void list_sides(SceneContext& context, const Sides& s, Contact& out) {
   const int threads = effective_threads(context.options.threads);
-  make_room(out.secondary, s.nodes.size(), threads);
-  make_room(out.main, s.count(), threads);
+  out.secondary.reserve(s.nodes.size());
+  out.main.reserve(s.count());
   for (const SideNode& n : s.nodes) {
     SecondaryNode node;
     node.node = n.node;
@@ -124,8 +123,7 @@ bool settle(Accuracy accuracy, PairJudge& judge, const Penetration& p, Penetrati
 void list_penetrations(SceneContext& context, const Sides& s, const Found& found, Contact& out) {
   DecisionReport decisions = found.decisions;
   PairJudge judge(context.options.accuracy, decisions);
-  make_room(out.penetrations, found.penetrations.size(),
-            effective_threads(context.options.threads));
+  out.penetrations.reserve(found.penetrations.size());
   std::vector<bool> held(found.penetrations.size(), false);
   if (s.set.irem_i2 == 1 && !found.penetrations.empty())
     held = held_by_ties(context, s, found.penetrations);
@@ -234,8 +232,7 @@ void build_contacts(SceneContext& context, Selections& selections, const InterBa
   const bool ready = context.options.penetrations && evaluate(out);
   const bool ready25 = ready && inter.type == 25;
   std::optional<Topology> topology;
-  if (ready25)
-    topology.emplace(context.scene.coordinates, s, effective_threads(context.options.threads));
+  if (ready25) topology.emplace(context.scene.coordinates, s);
   if (ready) {
     const Found found = topology ? find_nodes25(context, s, *topology) : find_nodes24(context, s);
     if (found.complete)

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/search/sweep.hpp"
@@ -219,9 +218,7 @@ void set_sheet(SceneContext& c, const Settings& set, Face& face) {
 void set_margin(const Coordinates& x, int threads, Sides& s) {
   if (s.faces.empty()) return;
   const NodeArrays nodes{x.x, x.y, x.z};
-  std::vector<std::array<double, 4>> sides;
-  make_room(sides, s.faces.size(), threads);
-  sides.resize(s.faces.size());
+  std::vector<std::array<double, 4>> sides(s.faces.size());
   std::vector<double> least(static_cast<std::size_t>(threads), never);
   parallel_parts(threads, sides.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     double shortest = never;

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/search/sweep.hpp"
@@ -128,17 +127,17 @@ SearchResult in_boxes(const SceneContext& context, const Sides& sides,
 
 }  // namespace
 
-SearchLists search_lists(const Sides& sides, int threads) {
+SearchLists search_lists(const Sides& sides) {
   SearchLists out;
-  make_room(out.nodes, sides.nodes.size(), threads);
-  make_room(out.node_gaps, sides.nodes.size(), threads);
+  out.nodes.reserve(sides.nodes.size());
+  out.node_gaps.reserve(sides.nodes.size());
   for (const SideNode& n : sides.nodes) {
     out.nodes.push_back(n.node);
     out.node_gaps.push_back(n.gap);
   }
-  make_room(out.segments, sides.faces.size(), threads);
-  make_room(out.gaps, sides.faces.size(), threads);
-  make_room(out.searched, sides.faces.size(), threads);
+  out.segments.reserve(sides.faces.size());
+  out.gaps.reserve(sides.faces.size());
+  out.searched.reserve(sides.faces.size());
   for (const Face& f : sides.faces) {
     out.segments.push_back(f.nodes);
     out.gaps.push_back(f.gap);

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/search/sweep.hpp"
@@ -139,7 +138,7 @@ bool remove_near(SceneContext& c, const Sides& s, RemovalLists& lists) {
   const Coordinates& x = c.scene.coordinates;
   std::vector<std::uint8_t> bits(x.x.size(), 0);
   for (const SideNode& n : s.nodes) bits[n.node] = n.bits;
-  SearchLists of = search_lists(s, effective_threads(c.options.threads));
+  SearchLists of = search_lists(s);
   bool any = false;
   double shortest = std::numeric_limits<double>::infinity();
   std::vector<std::uint8_t> secondary(x.x.size(), 0);
@@ -165,8 +164,8 @@ bool remove_near(SceneContext& c, const Sides& s, RemovalLists& lists) {
 }
 
 /// Lists for all pairs that the solver could look at.
-SearchLists lists_of(const Sides& s, const Reach& reach, int threads) {
-  SearchLists out = search_lists(s, threads);
+SearchLists lists_of(const Sides& s, const Reach& reach) {
+  SearchLists out = search_lists(s);
   if (s.solids)
     for (std::size_t i = 0; i < s.nodes.size(); ++i)
       out.node_gaps[i] += std::max(0.0, reach.of_node[i] - s.margin);
@@ -479,7 +478,7 @@ Found find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
   out.complete = remove_near(c, s, removal);
   if (!out.complete) return out;
   const int threads = effective_threads(c.options.threads);
-  const SearchLists lists = lists_of(s, reach, threads);
+  const SearchLists lists = lists_of(s, reach);
   const PairsByNode near = near_faces(c, s, lists);
   out.complete = near.complete();
   if (!out.complete) return out;

@@ -133,7 +133,7 @@ void set_stiffness(SceneContext& context, Sides& sides);
 /// depend on the rest, and is found when it is asked for. May be asked by several threads.
 class Topology {
  public:
-  Topology(const Coordinates& x, const Sides& sides, int threads);
+  Topology(const Coordinates& x, const Sides& sides);
 
   struct Across {
     std::uint32_t face = no_index, side = 0;
@@ -282,7 +282,7 @@ struct SearchLists {
   std::vector<double> node_gaps, gaps;
   std::vector<double> searched;  ///< of segments: 0: no pairs with it are wanted
 };
-SearchLists search_lists(const Sides& sides, int threads);
+SearchLists search_lists(const Sides& sides);
 NodeSegmentInput input_of(const Coordinates& x, const SearchLists& lists);
 /// The segments near each node, from one search or two.
 struct PairsByNode {

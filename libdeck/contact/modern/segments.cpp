@@ -4,7 +4,6 @@
 #include <tuple>
 #include <utility>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 
@@ -189,11 +188,9 @@ class NodeBits {
     for (const NodeIndex n : group)
       if (n != no_index && bits_[n] == 0) bits_[n] = from_group;
   }
-  std::vector<SideNode> list(int threads) const {
+  std::vector<SideNode> list() const {
     std::vector<SideNode> out;
-    make_room(out,
-              bits_.size() - static_cast<std::size_t>(std::count(bits_.begin(), bits_.end(), 0)),
-              threads);
+    out.reserve(bits_.size() - static_cast<std::size_t>(std::count(bits_.begin(), bits_.end(), 0)));
     for (NodeIndex n = 0; n < bits_.size(); ++n)
       if (bits_[n] != 0) out.push_back({n, bits_[n], 0, never});
     return out;
@@ -249,7 +246,6 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
   };
   const auto one = level == 3 ? std::nullopt : surface(first);
   const auto two = surface(second);
-  const int threads = effective_threads(c.options.threads);
   const auto nodes_of = [&](const std::optional<SurfaceOutline>& s, const auto& use) {
     if (s && level != 3)
       s->segments.each([&](const Segment& segment) {
@@ -262,7 +258,7 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
     nodes_of(one, [&](NodeIndex n) { nodes.add(n, from_first); });
     nodes_of(two, [&](NodeIndex n) { nodes.add(n, from_second); });
     if (grnod != nullptr) nodes.add_others(grnod->nodes);
-    out.nodes = nodes.list(threads);
+    out.nodes = nodes.list();
   } else {
     NodesByMention nodes(c.model.nodes.size());
     nodes_of(two, [&](NodeIndex n) { nodes.add(n, from_second); });
@@ -271,8 +267,7 @@ void make_sides(SceneContext& c, Selections& selections, const InterBase& inter,
       for (const NodeIndex n : grnod->nodes) nodes.add(n, from_group);
     out.nodes = std::move(nodes.list);
   }
-  make_room(out.faces, (one ? one->segments.size() : 0) + (two ? two->segments.size() : 0),
-            threads);
+  out.faces.reserve((one ? one->segments.size() : 0) + (two ? two->segments.size() : 0));
   Maker maker(c, out);
   if (one) maker.add(one->segments, level == 3 ? 0 : from_first);
   if (two) maker.add(two->segments, level == 3 ? 0 : from_second);

@@ -8,7 +8,6 @@
 #include <tuple>
 #include <utility>
 
-#include "base/shared/pages.hpp"
 #include "contact/modern/parts.hpp"
 
 namespace deck::detail::modern {
@@ -58,7 +57,7 @@ bool fits(const Quad& i, const Quad& j, bool coat_i, bool coat_j, NodeIndex a, N
 
 }  // namespace
 
-Topology::Topology(const Coordinates& x, const Sides& sides, int threads)
+Topology::Topology(const Coordinates& x, const Sides& sides)
     : x_(x), s_(sides), closed_(x.x.size()) {
   first_.assign(x.x.size() + 1, 0);
   const auto each_side = [&](std::uint32_t i, const auto& use) {
@@ -70,7 +69,6 @@ Topology::Topology(const Coordinates& x, const Sides& sides, int threads)
   for (std::uint32_t i = 0; i < s_.faces.size(); ++i)
     each_side(i, [&](NodeIndex a, std::uint32_t) { ++first_[a]; });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  make_room(sides_, first_.back(), threads);
   sides_.resize(first_.back());
   // From the end of each row to its beginning, which is where the row before ends.
   for (auto i = static_cast<std::uint32_t>(s_.faces.size()); i-- > 0;)

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/shared/scene_parts.hpp"
 
@@ -56,7 +55,6 @@ std::vector<double> node_limits(std::size_t nodes, const std::vector<MainSegment
 const std::vector<double>& shell_half_thickness(const Surroundings& c) {
   std::vector<double>& half = c.shells.half_thickness;
   if (!half.empty()) return half;
-  make_room(half, c.model.nodes.size(), c.threads);
   half.assign(c.model.nodes.size(), 0);
   // Every thread writes to nodes of its own; most elements lie among those of one thread.
   parallel_parts(c.threads, half.size(), [&](std::size_t, std::size_t begin, std::size_t end) {

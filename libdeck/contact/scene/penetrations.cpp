@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/shared/filtered_decisions.hpp"
@@ -78,7 +77,6 @@ void reserve_rows(std::vector<PenetrationRow>& rows, std::size_t more, std::uint
   rows.reserve(expected < static_cast<double>(most)
                    ? std::max(least, static_cast<std::size_t>(expected))
                    : most);
-  prefer_large_pages(rows);
 }
 
 /// Irem_gap 2. False: there is no room for the lists.

@@ -6,7 +6,6 @@
 #include <set>
 #include <type_traits>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/rules/gaps.hpp"
@@ -247,7 +246,7 @@ class Builder {
   }
 
   void set_secondary(Contact& contact, const std::vector<NodeIndex>& nodes) const {
-    make_room(contact.secondary, nodes.size(), threads_);
+    contact.secondary.reserve(nodes.size());
     for (const NodeIndex n : nodes) {
       if (n == no_index) continue;
       SecondaryNode s;
@@ -373,15 +372,6 @@ class Builder {
   std::vector<detail::PendingContact> pending_;
 };
 
-void copy_coordinates(const Nodes& nodes, Coordinates& out, int threads) {
-  const std::vector<double>* const from[] = {&nodes.x, &nodes.y, &nodes.z};
-  std::vector<double>* const to[] = {&out.x, &out.y, &out.z};
-  for (std::size_t k = 0; k < 3; ++k) {
-    make_room(*to[k], nodes.size(), threads);
-    to[k]->assign(from[k]->begin(), from[k]->end());
-  }
-}
-
 bool all_placed(const Coordinates& x) {
   const auto finite = [](double v) { return std::isfinite(v); };
   return std::all_of(x.x.begin(), x.x.end(), finite) &&
@@ -443,7 +433,7 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics&
   scene.model = &model;
   scene.interfaces = &interfaces;
   scene.limits = options.limits;
-  copy_coordinates(model.nodes, scene.coordinates, effective_threads(options.threads));
+  scene.coordinates = {model.nodes.x, model.nodes.y, model.nodes.z};
   scene.judged = options.penetrations;
   if (model.selections == nullptr) return scene;
   Connectivity connectivity(model);

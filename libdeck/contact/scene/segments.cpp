@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "model/shared/faces.hpp"
@@ -224,7 +223,7 @@ void make_main_segments(SceneContext& c, const SegmentList& segments, Contact& c
   const int threads = effective_threads(c.options.threads);
   constexpr std::size_t at_once = 1024;
   prepare(c, segments);
-  make_room(contact.main, segments.size(), threads);
+  contact.main.reserve(segments.size());
   run_in_order<Piece>((segments.size() + at_once - 1) / at_once, threads,
                       [&](std::size_t k, Piece& out) {
                         out.clear();

@@ -3,7 +3,6 @@
 
 #include <atomic>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 
 namespace deck::detail {
@@ -43,12 +42,8 @@ void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<O
     parallel_pieces(threads_for(count, threads_), count,
                     [&](std::size_t, std::size_t begin, std::size_t end) { f(begin, end); });
   };
-  const auto size = [&](auto& array) {
-    make_room(array, count, threads_);
-    array.resize(count);
-  };
-  size(out);
-  if (lengths_) size(side.length);
+  out.resize(count);
+  if (lengths_) side.length.resize(count);
   std::atomic<bool> some_gap{lengths_};  // removal along the mesh reads those, too
   std::atomic<bool> some_off{false};
   each_piece([&](std::size_t begin, std::size_t end) {
@@ -63,14 +58,14 @@ void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<O
     if (off) some_off.store(true, std::memory_order_relaxed);
   });
   if (some_gap) {
-    size(side.gap);
+    side.gap.resize(count);
     each_piece([&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) side.gap[i] = items[i].gap;
     });
   }
   // Stiffness only says who takes part; mostly all do.
   if (!some_off) return;
-  size(side.stiffness);
+  side.stiffness.resize(count);
   each_piece([&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) side.stiffness[i] = active(items[i]);
   });

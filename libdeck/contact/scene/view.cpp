@@ -9,7 +9,6 @@
 #include <tuple>
 #include <utility>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/shared/element_names.hpp"
@@ -356,7 +355,6 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
   const int namers = places.size() < many ? 1 : threads;
   if (namers > 1)
     for (const ElementKind kind : families_in_view) connectivity.prepare_first(kind, namers);
-  make_room(view.penetrations, penetrations, threads);
   view.penetrations.resize(penetrations);
   view.ties.resize(places.size() - penetrations);
   parallel_pieces(namers, in_order.size(), [&](std::size_t, std::size_t begin, std::size_t end) {

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 
 namespace deck {
@@ -114,9 +113,7 @@ class BoxTree {
     // Near most of the boxes, wherever the model lies and however far away a stray node is.
     set_origin(box_of(count / 2));
     constexpr std::size_t width = BoxBlock::width;
-    std::vector<BoxBlock> leaves;
-    make_room(leaves, (count + width - 1) / width, threads);
-    leaves.resize((count + width - 1) / width);
+    std::vector<BoxBlock> leaves((count + width - 1) / width);
     parallel_pieces(threads, leaves.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin * width; i < std::min(count, end * width); ++i)
         leaves[i / width].set(i % width, rounded(box_of(i)));

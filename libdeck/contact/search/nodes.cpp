@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
 #include "contact/search/box_order.hpp"
 #include "contact/search/sweep.hpp"
@@ -84,7 +83,6 @@ void NodeSweep::pack(int threads) {
   constexpr std::size_t width = PointBlock::width;
   const NodeSegmentInput& in = *input;
   const std::size_t leaf_count = (items.size() + width - 1) / width;
-  make_room(points, leaf_count, threads);
   points.resize(leaf_count);
   reach.resize(leaf_count);
   nodes.assign(leaf_count * width, no_node);
