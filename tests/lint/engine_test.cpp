@@ -87,7 +87,7 @@ TEST_F(EngineFilesOfADeck, AreHeldAgainstTheDeckAndTheRunBefore) {
   };
   using enum RuleId;
   const Row rows[] = {
-      {"/RUN/car/1\n10.\n", "/RUN/car/2\n5.\n", DK803, 1, Severity::error},
+      {"/RUN/car/1\n10.\n", "/RUN/car/2\n5.\n", DK803, 1, Severity::warning},
       // Brick 1 and shell 9 do not exist, nor any shell from 3 to 800 or up to 0; of a range some
       // ids may be missing.
       {"/RUN/car/1\n10.\n/DEL/BRICK\n1\n/DEL/SHELL/1\n1 900\n3 800\n-5 0\n/DEL/SHELL\n2 9\n", "",
@@ -97,7 +97,7 @@ TEST_F(EngineFilesOfADeck, AreHeldAgainstTheDeckAndTheRunBefore) {
       {"/RUN/bus/2\n10.\n", "", DK802, 1, Severity::info},
       // The first state is written all the same.
       {"/RUN/car/1\n4.\n/ANIM/DT\n0. 5.\n/H3D/DT\n7. 1.\n", "", DK805, 2, Severity::info},
-      {"/RUN/car/1\n10.\n", "/RUN/car/2\n12.\n/TFILE\n3.\n", DK805, 1, Severity::warning},
+      {"/RUN/car/1\n10.\n", "/RUN/car/2\n12.\n/TFILE\n3.\n", DK805, 1, Severity::info},
   };
   for (const Row& row : rows) {
     std::filesystem::remove(folder_.path() + "/car_0002.rad");
