@@ -6,7 +6,7 @@
 
 #include "base/shared/columns.hpp"
 #include "base/shared/escape.hpp"
-#include "keyword/shared/deck_json_cells.hpp"
+#include "keyword/shared/card_forms.hpp"
 #include "keyword/shared/place.hpp"
 #include "report/shared/inspection.hpp"
 #include "report/shared/params_report.hpp"

@@ -9,9 +9,7 @@
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
 #include "edit/cells.hpp"
-#include "edit/convert/version_cards.hpp"
 #include "keyword/shared/card_forms.hpp"
-#include "keyword/shared/render.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck {

@@ -10,7 +10,6 @@
 #include "base/shared/paths.hpp"
 #include "deck/keyword/decode.hpp"
 #include "keyword/shared/card_forms.hpp"
-#include "keyword/shared/deck_json_cells.hpp"
 #include "report/shared/json.hpp"
 #include "report/shared_records.hpp"
 #include "text/shared/columns.hpp"
