@@ -8,7 +8,6 @@
 #include "accuracy/shared/motion.hpp"
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
-#include "report/shared/schemas.hpp"
 #include "report/shared/text_table.hpp"
 #include "report/shared_records.hpp"
 

@@ -12,7 +12,7 @@
 #include "lint/shared/geometry.hpp"
 #include "lint/shared/topics.hpp"
 #include "model/shared/mesh.hpp"
-#include "report/shared/listing.hpp"
+#include "report/shared/inspection.hpp"
 
 namespace deck {
 namespace listing_comparison {

@@ -1,13 +1,17 @@
-// Which effects of an interface run, and because of which field on which line. The verdict of a
-// cycle, and verdicts as a line of text.
+// Which effects of an interface run, and because of which field on which line; what they cost on a
+// deck: one sentence, JSON, tables for a terminal and for a page without scripts.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
+#include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
-#include "report/shared/cycle.hpp"
+#include "report/shared/accuracy.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/text_table.hpp"
+#include "report/shared_records.hpp"
 
 namespace deck {
 namespace {
@@ -84,6 +88,212 @@ std::string verdict_text(const Verdict& v, bool color) {
   const bool good = v.level == VerdictLevel::clean || v.level == VerdictLevel::remarks;
   const Tone tone = v.level == VerdictLevel::stops ? Tone::red : good ? Tone::green : Tone::yellow;
   return toned(terminal_text(v.text), tone, color) + "\n";
+}
+
+namespace {
+
+/// What was measured of a contact; nullptr: nothing.
+const ContactCost* cost_in(const std::vector<ContactCost>* costs, const CycleInput& input,
+                           const cycle::ContactOutcome& contact) {
+  const std::size_t i = static_cast<std::size_t>(&contact - input.outcome->contacts.data());
+  return costs == nullptr || i >= costs->size() ? nullptr : &(*costs)[i];
+}
+
+std::string nanoseconds(double v) { return fmt::format("{:.{}f}", v, std::abs(v) < 10 ? 1 : 0); }
+
+/// The change of the largest pair force, in words.
+std::string change_text(double change) {
+  if (change == 0.0) return "nothing";
+  return change < 1e-3 ? fmt::format("{:.1e}", change) : fmt::format("{:.3g} %", 100.0 * change);
+}
+
+/// An effect whose range leaves no doubt about its sign.
+bool resolved(const EffectCost& e) { return e.low > 0.0 || e.high < 0.0; }
+
+std::string added_text(const EffectCost& e) {
+  if (!e.why_not.empty()) return "-";
+  return resolved(e) ? nanoseconds(e.ns) : "under " + nanoseconds(std::max(e.high, -e.low));
+}
+
+std::string name_of(const Contact& c) {
+  return fmt::format("TYPE{}{}", c.inter->type,
+                     c.inter->type == 19 ? std::string(" ") + to_string(c.role) : std::string());
+}
+
+template <class F>
+void each_timed(const std::vector<ContactCost>* costs, const CycleInput& input, F&& f) {
+  for (const cycle::ContactOutcome& c : input.outcome->contacts)
+    if (const ContactCost* cost = cost_in(costs, input, c);
+        cost != nullptr && cost->problem.empty() && cost->loop_ns > 0.0)
+      f(c, *cost);
+}
+template <class F>
+void each_timed(const CycleInput& input, F&& f) {
+  each_timed(input.costs, input, f);
+}
+
+/// Fewer pairs give times that say nothing about the loop.
+constexpr std::size_t least_pairs = 1000;
+
+CostSummary summary_of(const std::vector<ContactCost>* costs, const CycleInput& input) {
+  CostSummary s;
+  std::set<std::string> on, known;
+  for (const cycle::ContactOutcome& c : input.outcome->contacts)
+    for (const cycle::EffectState& e : c.effects) {
+      known.insert(e.name);
+      if (e.on) on.insert(e.name);
+    }
+  s.on = on.size();
+  s.known = known.size();
+  double loop = 0, flags = 0, all = 0;
+  bool every = true;
+  each_timed(costs, input, [&](const cycle::ContactOutcome&, const ContactCost& cost) {
+    const auto n = static_cast<double>(cost.pairs);
+    ++s.contacts;
+    s.pairs += cost.pairs;
+    s.wider += cost.margin > 0.0;
+    loop += n * cost.loop_ns;
+    flags += n * cost.flags_ns;
+    all += n * cost.all_ns;
+    every = every && cost.all_ns > 0.0;
+  });
+  if (s.pairs == 0) return s;
+  const auto n = static_cast<double>(s.pairs);
+  s.loop_ns = loop / n;
+  s.flags_ns = flags / n;
+  s.all_ns = every ? all / n : 0.0;
+  return s;
+}
+
+}  // namespace
+
+CostSummary summarize_costs(const CycleInput& input) { return summary_of(input.costs, input); }
+
+bool enough_pairs_to_time(const cycle::SceneOutcome& outcome) {
+  std::size_t pairs = 0;
+  for (const cycle::ContactOutcome& c : outcome.contacts) pairs += c.pairs_in_reach;
+  return pairs >= least_pairs;
+}
+
+std::string short_cost_sentence(const CycleInput& input) {
+  const CostSummary s = summary_of(input.costs != nullptr ? input.costs : input.loops, input);
+  std::string out = fmt::format("{} of {} effects run", s.on, s.known);
+  if (input.steps != nullptr) return out + ".";
+  if (!enough_pairs_to_time(*input.outcome)) return out + "; too few pairs to time.";
+  if (s.pairs == 0) return out + ".";
+  out += fmt::format("; they take {} ns a pair", nanoseconds(s.loop_ns));
+  if (s.all_ns > 0.0) out += fmt::format(", all would take {}", nanoseconds(s.all_ns));
+  return out + ".";
+}
+
+std::string cost_sentence(const CycleInput& input) {
+  const CostSummary s = summarize_costs(input);
+  if (s.pairs == 0)
+    return fmt::format(
+        "{} of {} effects are asked for; no pair is within five times its gap at the start, so "
+        "there is no loop to time.",
+        s.on, s.known);
+  std::string out =
+      fmt::format("{} of {} effects are asked for on this deck, and only they run: {} ns per pair",
+                  s.on, s.known, nanoseconds(s.loop_ns));
+  if (s.all_ns > 0.0)
+    out +=
+        fmt::format("; with everything that these contacts could do it would be {} ns ({:.2g} x)",
+                    nanoseconds(s.all_ns), s.all_ns / s.loop_ns);
+  out +=
+      fmt::format(", with flags asked for inside the loop {} ns ({:.2f} x). Measured over {} of {}",
+                  nanoseconds(s.flags_ns), s.flags_ns / s.loop_ns, count(s.pairs, "pair", "pairs"),
+                  count(s.contacts, "contact", "contacts"));
+  if (s.wider > 0)
+    out += fmt::format(", {} of them with pairs up to five gaps apart, as none is nearer", s.wider);
+  return out + ".";
+}
+
+LINE_RECORD(EffectCost, "effect_cost", "", COLUMN("name", "", r.name),
+            COLUMN("on", "The card asks for it", r.on),
+            COLUMN("why_not", "Why there are no times", if_any(!r.why_not.empty(), r.why_not)),
+            COLUMN("against", "What the card of the other loop says",
+                   if_any(r.why_not.empty(), r.other)),
+            COLUMN("ns", "What it adds, or would add: median", if_any(r.why_not.empty(), r.ns)),
+            COLUMN("low", "Lower quartile", if_any(r.why_not.empty(), r.low)),
+            COLUMN("high", "Upper quartile", if_any(r.why_not.empty(), r.high)),
+            COLUMN("change", "Largest difference of a pair force over the largest pair force",
+                   if_any(r.why_not.empty(), r.change)));
+
+std::optional<ContactCost> measured_cost(const CycleInput& input,
+                                         const cycle::ContactOutcome& contact) {
+  const ContactCost* cost = cost_in(input.costs, input, contact);
+  return cost == nullptr ? std::nullopt : std::optional(*cost);
+}
+
+RECORD(ContactCost, "cost",
+       "The loop over pairs of this contact, in nanoseconds of processor time per pair.",
+       COLUMN("pairs", "", r.pairs),
+       COLUMN("measured", "The first of the pairs, which were timed", r.measured),
+       COLUMN("margin", "How far beyond their gap pairs were looked for, where none is nearer",
+              r.margin),
+       COLUMN("problem", "Why nothing was timed; empty: it was", r.problem),
+       COLUMN("loop_ns", "The loop that the card asks for", r.loop_ns),
+       COLUMN("flags_ns", "The same effects, asked for by flags inside the loop", r.flags_ns),
+       COLUMN("all_ns", "Every effect that this kind of contact can have together; 0: no such loop",
+              r.all_ns),
+       COLUMN("all", "What the card of that loop says in addition", r.all),
+       COLUMN("effects", "", rows_of(r.effects)));
+
+std::optional<CostsRow> measured_costs(const CycleInput& input) {
+  if (input.costs == nullptr) return std::nullopt;
+  return CostsRow{&input, summarize_costs(input)};
+}
+
+RECORD(CostsRow, "costs", "All contacts together, by their pairs.",
+       COLUMN("verdict", "", cost_sentence(*r.input)), COLUMN("contacts", "", r.sums.contacts),
+       COLUMN("pairs", "", r.sums.pairs), COLUMN("effects_on", "", r.sums.on),
+       COLUMN("effects", "", r.sums.known), COLUMN("loop_ns", "", r.sums.loop_ns),
+       COLUMN("flags_ns", "", r.sums.flags_ns), COLUMN("all_ns", "", r.sums.all_ns),
+       COLUMN("repeats", "", r.input->cost_repeats), COLUMN("processor", "", r.input->processor),
+       COLUMN("compiler", "", accuracy_compiler()));
+
+std::string cost_text(const CycleInput& input, const CycleTextOptions& options) {
+  if (input.costs == nullptr) return {};
+  TextTable table({">interface", "", ">pairs", ">ns/pair", ">with flags", ">with everything"});
+  TextTable effects({">interface", "", "effect", ">adds ns/pair", "against", "moves a force by"});
+  each_timed(input, [&](const cycle::ContactOutcome& c, const ContactCost& cost) {
+    const std::int64_t id = c.contact->inter->id;
+    const std::string name = name_of(*c.contact);
+    table.row({id, name, cost.pairs, nanoseconds(cost.loop_ns), nanoseconds(cost.flags_ns),
+               cost.all_ns > 0 ? nanoseconds(cost.all_ns) : "-"});
+    for (const EffectCost& e : cost.effects)
+      if (e.on && e.why_not.empty())
+        effects.row({id, name, e.name, added_text(e), e.other, change_text(e.change)});
+  });
+  std::string out = cost_sentence(input) + "\n";
+  out += table.below_heading(options);
+  if (effects.size() > 0) out += "Effects that run\n" + effects.below_heading(options, 3);
+  return out + fmt::format("  {} timings each, in turn; {}; {}\n", input.cost_repeats,
+                           terminal_text(input.processor), accuracy_compiler());
+}
+
+std::string cost_html(const CycleInput& input) {
+  std::string out = "<h2>Effects</h2>\n";
+  if (input.costs != nullptr) out += "<p>" + html_text(cost_sentence(input)) + "</p>\n";
+  out +=
+      "<table><thead><tr><th>Interface</th><th>Effect</th><th>Because of</th><th>Adds ns per "
+      "pair</th></tr></thead><tbody>\n";
+  for (const InterBase* inter : input.scene->interfaces->ordered)
+    for (const EffectLine& line : effect_lines(*input.deck, *input.outcome, *inter)) {
+      if (!line.on) continue;
+      std::string added;
+      each_timed(input, [&](const cycle::ContactOutcome& c, const ContactCost& cost) {
+        if (c.contact->inter != inter) return;
+        for (const EffectCost& e : cost.effects)
+          if (e.name == line.name && e.on && e.why_not.empty())
+            added += (added.empty() ? "" : ", ") + added_text(e);
+      });
+      out += "<tr><td>" + std::to_string(inter->id) + "</td><td>" + html_text(line.name) +
+             "</td><td>" + html_text(line.because) + "</td><td>" + html_text(added) +
+             "</td></tr>\n";
+    }
+  return out + "</tbody></table>\n";
 }
 
 }  // namespace deck

@@ -1,5 +1,5 @@
 // Place, severity and details of a finding as all writers of lint results show them.
-#include "report/diagnostics_common.hpp"
+#include "report/shared/diagnostics.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 // Names of what the reports of contacts show; crossed elements, and decisions of a scene by how
 // exactly they were taken, as tables for people.
-#include "report/gaps_names.hpp"
 
 #include <fmt/format.h>
 

@@ -6,9 +6,9 @@
 #include "deck/report/gaps.hpp"
 #include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
-#include "report/gaps_names.hpp"
 #include "report/shared/text_table.hpp"
 #include "report/shared_records.hpp"
+#include "report/terminal/words.hpp"
 
 namespace deck {
 namespace {

@@ -17,7 +17,7 @@
 //   std::optional<T>             a T, or null
 //   IfAny<T>                     a T, or the object does not have the member
 //   std::array, std::vector      a list on one line; of records: as Rows
-//   Counts                       an object of names and counts; TallCounts: one a line
+//   Counts                       an object of names and counts
 //   std::tuple                   a list on one line whose values have forms of their own
 //   Scalar                       a number or a text
 //   Named<T>                     an object whose names are data, each with a T
@@ -44,13 +44,6 @@
 #include "report/shared/json.hpp"
 
 namespace deck {
-
-/// A JSON document under way; after each object of a list the text may leave by the drain.
-struct JsonOut {
-  JsonWriter& json;
-  std::string& text;
-  TextDrain drain;
-};
 
 /// The form of a value as JSON schema.
 struct JsonForm {
@@ -80,7 +73,7 @@ struct Column {
   const char* name = nullptr;
   const char* says = nullptr;  ///< description in the schema; may be empty
   bool required = true;
-  void (*write)(JsonOut&, std::string_view name, const Row&) = nullptr;
+  void (*write)(JsonWriter&, std::string_view name, const Row&) = nullptr;
   JsonForm (*form)(SchemaDefinitions&) = nullptr;
 };
 
@@ -115,20 +108,21 @@ auto rows_of(List&& list, Make make = {}) {
   }};
 }
 
+template <class T>
+const T* pointer_to(const T& value) {
+  return &value;
+}
+template <class T>
+const T* pointer_to(const T* value) {
+  return value;
+}
 /// A Row of each value of a list, made of `context` and a pointer to the value.
 template <class Row, class List, class... Context>
 Rows<Row> rows(List&& list, Context&&... context) {
   return {[kept = std::tuple<List>(std::forward<List>(list)),
            before = std::tuple<Context...>(std::forward<Context>(context)...)](const auto& add) {
     for (const auto& value : std::get<0>(kept))
-      std::apply(
-          [&](const auto&... c) {
-            if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(value)>>)
-              add(Row{c..., value});
-            else
-              add(Row{c..., &value});
-          },
-          before);
+      std::apply([&](const auto&... c) { add(Row{c..., pointer_to(value)}); }, before);
   }};
 }
 
@@ -150,9 +144,6 @@ struct Named {
 
 using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
 using Scalar = std::variant<std::int64_t, double, std::string>;
-struct TallCounts {
-  Counts counts;
-};
 
 /// How many values of an enumeration, from 0 on, have a word.
 template <class E>
@@ -166,11 +157,11 @@ concept HasRecord = requires(const T* t) {
 };
 
 template <class Row>
-void write_members(JsonOut& out, const Row& row) {
-  for (const Column<Row>& c : record_of(&row).columns) c.write(out, c.name, row);
+void write_members(JsonWriter& json, const Row& row) {
+  for (const Column<Row>& c : record_of(&row).columns) c.write(json, c.name, row);
 }
 
-/// The JSON schema of a record, its columns one a line.
+/// The JSON schema of a record; as many columns share a line as fit 115 columns of text.
 std::string object_form(std::string_view says,
                         const std::vector<std::pair<std::string, std::string>>& members,
                         const std::vector<std::string>& required);
@@ -195,15 +186,15 @@ JsonForm record_form(SchemaDefinitions& definitions,
 
 template <class T>
 struct Value {
-  static void write(JsonOut& out, const T& v) {
+  static void write(JsonWriter& json, const T& v) {
     if constexpr (HasRecord<T>) {
-      out.json.begin_object(record_of(&v).line);
-      write_members(out, v);
-      out.json.end_object();
+      json.begin_object(record_of(&v).line);
+      write_members(json, v);
+      json.end_object();
     } else if constexpr (std::is_enum_v<T>) {
-      out.json.value(to_string(v));
+      json.value(to_string(v));
     } else {
-      out.json.value(v);
+      json.value(v);
     }
   }
   static JsonForm form(SchemaDefinitions& definitions) {
@@ -231,90 +222,84 @@ struct Value {
 
 template <class T>
 struct Value<std::optional<T>> {
-  static void write(JsonOut& out, const std::optional<T>& v) {
-    v ? Value<T>::write(out, *v) : void(out.json.null());
+  static void write(JsonWriter& json, const std::optional<T>& v) {
+    v ? Value<T>::write(json, *v) : void(json.null());
   }
   static JsonForm form(SchemaDefinitions& d) { return Value<T>::form(d).or_null(); }
 };
 
 template <class List>
-void write_list(JsonOut& out, const List& list) {
-  out.json.begin_array(true);
-  for (const auto& v : list) Value<std::remove_cvref_t<decltype(v)>>::write(out, v);
-  out.json.end_array();
+void write_list(JsonWriter& json, const List& list) {
+  json.begin_array(true);
+  for (const auto& v : list) Value<std::remove_cvref_t<decltype(v)>>::write(json, v);
+  json.end_array();
 }
 
 template <class T, std::size_t N>
 struct Value<std::array<T, N>> {
-  static void write(JsonOut& out, const std::array<T, N>& v) { write_list(out, v); }
+  static void write(JsonWriter& json, const std::array<T, N>& v) { write_list(json, v); }
   static JsonForm form(SchemaDefinitions& d) { return list_form(Value<T>::form(d), N); }
 };
 
 template <class T>
 struct Value<std::vector<T>> {
-  static void write(JsonOut& out, const std::vector<T>& v) {
+  static void write(JsonWriter& json, const std::vector<T>& v) {
     if constexpr (HasRecord<T>)
-      Value<Rows<T>>::write(out, rows_of(v));
+      Value<Rows<T>>::write(json, rows_of(v));
     else
-      write_list(out, v);
+      write_list(json, v);
   }
   static JsonForm form(SchemaDefinitions& d) { return list_form(Value<T>::form(d)); }
 };
 
 template <class... T>
 struct Value<std::tuple<T...>> {
-  static void write(JsonOut& out, const std::tuple<T...>& row) {
-    out.json.begin_array(true);
-    std::apply([&](const T&... values) { (Value<T>::write(out, values), ...); }, row);
-    out.json.end_array();
+  static void write(JsonWriter& json, const std::tuple<T...>& row) {
+    json.begin_array(true);
+    std::apply([&](const T&... values) { (Value<T>::write(json, values), ...); }, row);
+    json.end_array();
   }
   static JsonForm form(SchemaDefinitions& d) { return tuple_form({Value<T>::form(d)...}); }
 };
 
 template <>
 struct Value<Counts> {
-  static void write(JsonOut& out, const Counts& counts);
+  static void write(JsonWriter& json, const Counts& counts);
   static JsonForm form(SchemaDefinitions& d);
 };
 
 template <>
 struct Value<Scalar> {
-  static void write(JsonOut& out, const Scalar& scalar) {
-    std::visit([&](const auto& v) { out.json.value(v); }, scalar);
+  static void write(JsonWriter& json, const Scalar& scalar) {
+    std::visit([&](const auto& v) { json.value(v); }, scalar);
   }
   static JsonForm form(SchemaDefinitions&) { return {"", R"("type": ["number", "string"])", true}; }
 };
 
 template <class T>
 struct Value<Named<T>> {
-  static void write(JsonOut& out, const Named<T>& members) {
-    out.json.begin_object(members.line);
+  static void write(JsonWriter& json, const Named<T>& members) {
+    json.begin_object(members.line);
     members.each([&](std::string_view name, const T& value) {
-      out.json.key(name);
-      Value<T>::write(out, value);
+      json.key(name);
+      Value<T>::write(json, value);
     });
-    out.json.end_object();
+    json.end_object();
   }
   static JsonForm form(SchemaDefinitions& d) {
     return {"object", "\"additionalProperties\": { " + Value<T>::form(d).members() + " }"};
   }
 };
 
-template <>
-struct Value<TallCounts> {
-  static void write(JsonOut& out, const TallCounts& tall);
-  static JsonForm form(SchemaDefinitions& d) { return Value<Counts>::form(d); }
-};
-
 template <class T>
 struct Value<Rows<T>> {
-  static void write(JsonOut& out, const Rows<T>& rows) {
-    out.json.begin_array(rows.line);
+  static void write(JsonWriter& json, const Rows<T>& rows) {
+    json.begin_array(rows.line);
     rows.each([&](const T& row) {
-      Value<T>::write(out, row);
-      drain_text(out.drain, out.text);
+      Value<T>::write(json, row);
+      json.drain();
     });
-    out.json.end_array();
+    json.end_array();
   }
   static JsonForm form(SchemaDefinitions& d) { return list_form(Value<T>::form(d)); }
 };
@@ -358,15 +343,15 @@ struct ColumnOf {
 
  private:
   template <class Row>
-  static void write(JsonOut& out, std::string_view name, const Row& row) {
+  static void write(JsonWriter& json, std::string_view name, const Row& row) {
     const auto& value = Get{}(row);
     if constexpr (is_if_any<T<Row>>) {
       if (!value.value) return;
-      out.json.key(name);
-      Value<std::remove_cvref_t<decltype(*value.value)>>::write(out, *value.value);
+      json.key(name);
+      Value<std::remove_cvref_t<decltype(*value.value)>>::write(json, *value.value);
     } else {
-      out.json.key(name);
-      Value<T<Row>>::write(out, value);
+      json.key(name);
+      Value<T<Row>>::write(json, value);
     }
   }
 };
@@ -402,11 +387,11 @@ struct ObjectOf {
   template <class Row>
   static constexpr std::array<Column<Row>, 1> of() {
     return {{{Text{}().name, "", true,
-              [](JsonOut& out, std::string_view name, const Row& row) {
-                out.json.key(name).begin_object(line);
+              [](JsonWriter& json, std::string_view name, const Row& row) {
+                json.key(name).begin_object(line);
                 for (const Column<Row>& c : ColumnsOf<Columns...>::template all<Row>)
-                  c.write(out, c.name, row);
-                out.json.end_object();
+                  c.write(json, c.name, row);
+                json.end_object();
               },
               [](SchemaDefinitions& d) {
                 return record_form(
@@ -436,18 +421,9 @@ constexpr ObjectOf<line, Text, Columns...> object_of(Text, Columns...) {
 #define OBJECT(name, says, ...) object_of<false>(COLUMN_TEXT(name, says), __VA_ARGS__)
 #define LINE_OBJECT(name, says, ...) object_of<true>(COLUMN_TEXT(name, says), __VA_ARGS__)
 
-/// A value, and a record without its braces, where no list is long.
 template <class T>
 void write_value(JsonWriter& json, const T& value) {
-  std::string text;
-  JsonOut out{json, text, {}};
-  Value<T>::write(out, value);
-}
-template <class Row>
-void write_members(JsonWriter& json, const Row& row) {
-  std::string text;
-  JsonOut out{json, text, {}};
-  write_members(out, row);
+  Value<T>::write(json, value);
 }
 
 // ---- documents --------------------------------------------------------------------------------
@@ -461,11 +437,7 @@ struct DocumentHead {
   const char* title = nullptr;  ///< nullptr: "deck VERB --json"
 };
 
-/// The JSON schema of a document whose members, after "schema" and "tool", are a record.
-struct DocumentSchema {
-  std::string text;
-  std::map<std::string, std::string> common;  ///< definitions that it shares with others
-};
+/// The schema of a document whose members, after "schema" and "tool", are a record.
 DocumentSchema document_schema(const DocumentHead& head, const SchemaDefinitions& definitions,
                                const std::string& record);
 template <class Row>
@@ -486,12 +458,8 @@ void write_document(JsonWriter& json, const DocumentHead& head, const Row& row) 
 template <class Row>
 std::string write_document(const DocumentHead& head, const Row& row, const TextDrain& drain = {}) {
   std::string text;
-  JsonWriter json(text);
-  JsonOut out{json, text, drain};
-  json.begin_object();
-  write_json_head(json, head.id, head.version);
-  write_members(out, row);
-  json.end_object();
+  JsonWriter json(text, drain);
+  write_document(json, head, row);
   return text;
 }
 

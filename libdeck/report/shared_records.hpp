@@ -1,12 +1,14 @@
 // Records that several documents have: the deck, places in it, the verdict, counts, decisions,
 // gate.
 #pragma once
+#include "deck/contact/ties.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/verdict.hpp"
 #include "report/record.hpp"
+#include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"
-#include "report/shared/listing.hpp"
+#include "report/shared/inspection.hpp"
 
 namespace deck {
 
@@ -73,6 +75,16 @@ Record<LossEntry> record_of(const LossEntry*);
 Record<StepDifference> record_of(const StepDifference*);
 Record<ListedPair> record_of(const ListedPair*);
 Record<ComparedSteps> record_of(const ComparedSteps*);
+
+Record<RepeatedTies> record_of(const RepeatedTies*);
+Record<TieCounts> record_of(const TieCounts*);
+/// With `all` every secondary node, else those that are not tied or that the solver lists.
+struct TieRow {
+  const Model& model;
+  bool all = false;
+  const Tie* tie;
+};
+Record<TieRow> record_of(const TieRow*);
 
 /// A finding of a gate.
 struct GateFinding {
@@ -149,6 +161,18 @@ struct PairSides {
     return {model->node_id(contact->secondary[secondary].node)};
   }
 };
+
+/// The loop over the pairs of one contact; null where nothing was measured.
+std::optional<ContactCost> measured_cost(const CycleInput& input,
+                                         const cycle::ContactOutcome& contact);
+Record<ContactCost> record_of(const ContactCost*);
+/// Of all contacts together; null where nothing was measured.
+struct CostsRow {
+  const CycleInput* input = nullptr;
+  CostSummary sums;
+};
+std::optional<CostsRow> measured_costs(const CycleInput& input);
+Record<CostsRow> record_of(const CostsRow*);
 
 /// A value where it is known, else null.
 template <class T>

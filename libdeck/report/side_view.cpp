@@ -12,7 +12,7 @@
 #include "base/shared/escape.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "deck/text/number.hpp"
-#include "report/gaps_names.hpp"
+#include "report/terminal/words.hpp"
 
 namespace deck {
 namespace {

@@ -10,7 +10,7 @@
 #include "deck/text/source.hpp"
 #include "golden/reference.hpp"
 #include "lint/shared/topics.hpp"
-#include "report/shared/listing.hpp"
+#include "report/shared/inspection.hpp"
 
 namespace deck {
 namespace {

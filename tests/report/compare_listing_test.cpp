@@ -5,7 +5,7 @@
 #include "deck/text/rule_id.hpp"
 #include "model/shared/mesh.hpp"
 #include "report/inspected.hpp"
-#include "report/shared/listing.hpp"
+#include "report/shared/inspection.hpp"
 
 namespace deck::test {
 namespace {

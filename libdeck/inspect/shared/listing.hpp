@@ -1,5 +1,5 @@
 // A listing of the reference Starter (NAME_0000.out) read back: its messages, the contacts with
-// their initial penetrations and the tables of time steps. report/shared/listing.hpp holds it
+// their initial penetrations and the tables of time steps. report/shared/inspection.hpp holds it
 // beside its deck.
 #pragma once
 #include <array>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "report/diagnostics_common.hpp"
+#include "report/shared/diagnostics.hpp"
 #include "report/shared/json.hpp"
 
 namespace deck {

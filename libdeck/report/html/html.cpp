@@ -14,7 +14,6 @@
 #include "deck/contact/ties.hpp"
 #include "deck/front/loaded_deck.hpp"
 #include "deck/report/gaps.hpp"
-#include "report/cycle_costs.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"

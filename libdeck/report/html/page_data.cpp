@@ -14,7 +14,6 @@
 #include "report/html/parts.hpp"
 #include "report/shared/fix.hpp"
 #include "report/shared/gate.hpp"
-#include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 #include "verdict/shared/of_interface.hpp"
 
@@ -27,13 +26,13 @@ struct ByWord {
 };
 template <class E, class T>
 struct Value<ByWord<E, T>> {
-  static void write(JsonOut& out, const ByWord<E, T>& words) {
-    out.json.begin_object();
+  static void write(JsonWriter& json, const ByWord<E, T>& words) {
+    json.begin_object();
     for (std::size_t i = 0; i < word_count<E>; ++i) {
-      out.json.key(to_string(static_cast<E>(i)));
-      Value<T>::write(out, words.value(static_cast<E>(i)));
+      json.key(to_string(static_cast<E>(i)));
+      Value<T>::write(json, words.value(static_cast<E>(i)));
     }
-    out.json.end_object();
+    json.end_object();
   }
   static JsonForm form(SchemaDefinitions& d) {
     return {"object", fmt::format(R"("propertyNames": {{ {} }}, "additionalProperties": {{ {} }})",

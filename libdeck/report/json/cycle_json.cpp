@@ -1,7 +1,5 @@
 // The document of `deck cycle --json`.
-#include "report/cycle_costs.hpp"
 #include "report/shared/cycle.hpp"
-#include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {

@@ -1,8 +1,6 @@
 // Findings as the project's own JSON document.
 #include "base/shared/columns.hpp"
-#include "report/diagnostics_common.hpp"
 #include "report/shared/gate.hpp"
-#include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {
@@ -76,10 +74,10 @@ struct LintDocument {
   const LintedDeck* linted = nullptr;
   std::optional<Coverage> coverage = detail::coverage_of(*linted);
   const LintResult& result() const { return *linted->result; }
-  TallCounts counts() const {
-    TallCounts out;
-    for (const auto& [rule, count] : result().counts) out.counts.emplace_back(id_text(rule), count);
-    return out;
+  Named<std::uint64_t> counts() const {
+    return {[this](const auto& add) {
+      for (const auto& [rule, count] : result().counts) add(id_text(rule), count);
+    }};
   }
 };
 

@@ -1,7 +1,5 @@
 // The result of `deck fix` as a JSON document.
-#include "report/json/ties_json.hpp"
 #include "report/shared/fix.hpp"
-#include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {

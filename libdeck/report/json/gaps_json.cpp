@@ -2,10 +2,8 @@
 // the solver stores of two edges, the square of the gap and what is left of it, is in "solver".
 #include "deck/report/gaps.hpp"
 #include "model/shared/item_spans.hpp"
-#include "report/gaps_names.hpp"
-#include "report/json/ties_json.hpp"
-#include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
+#include "report/terminal/words.hpp"
 #include "verdict/shared/of_interface.hpp"
 
 namespace deck {

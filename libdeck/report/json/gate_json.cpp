@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "report/shared/gate.hpp"
-#include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {

@@ -2,7 +2,7 @@
 #include "report/shared_records.hpp"
 
 #include "deck/front/loaded_deck.hpp"
-#include "report/diagnostics_common.hpp"
+#include "report/shared/diagnostics.hpp"
 
 namespace deck {
 

@@ -1,6 +1,4 @@
 // Ties of /INTER/TYPE2 in documents.
-#include "report/json/ties_json.hpp"
-
 #include "report/shared_records.hpp"
 #include "verdict/shared/of_interface.hpp"
 

@@ -75,29 +75,29 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options 
 /// What is said of the deck with its forces.
 Verdict cycle_verdict(const CycleInput& input);
 
-/// Two files, always; the outcome must have kept its pairs:
-///
-/// * contact_pairs.vtp: a vertex per pair with a penetration or force, at the secondary node
-/// (edges:
-///   at the point of contact). Point data force (vector, on the secondary side), force_size,
-///   normal_force (negative pushes apart), penetration, gap (after Inacti), distance, left_of_gap
-///   (share), k0, k_nodal, status (bits of cycle::Status), interface, role (0 primary, 1 reversed,
-///   2 edges), node, node2 (second end of an edge, else 0), main_element, main_part.
-/// * contact_nodes.vtp: a vertex per node that any contact acts on. Point data force (vector, of
-/// all
-///   contacts), force_size, acceleration and dt (0 without mass), stiffness, mass, heat, removed
-///   (1: leaves its interface), node.
-///
-/// Coordinates are those that were evaluated, in working units. Nodes also carry released (bits of
-/// the translations that IBC frees, 4 X + 2 Y + Z) and the figures of Iadm: radius (0: none),
-/// relative_penetration and angle. A `suffix` such as "_0003" makes files of a series.
-std::vector<VtkFile> cycle_vtk(const CycleInput& input, const std::string& suffix = {});
-
-/// The two collections that put a series in time: contact_pairs.pvd and contact_nodes.pvd.
-std::vector<VtkFile> cycle_vtk_series(const cycle::StepsOutcome& steps,
-                                      const std::vector<std::string>& suffixes);
-
 /// Why a node or edge leaves the interface.
 const char* to_string(cycle::Removal::Because because);
+
+// ---- what effects cost, as pieces of the reports around it -----------------------------------
+
+/// The loops of all contacts that were timed, by pairs.
+struct CostSummary {
+  std::size_t contacts = 0;       ///< timed
+  std::size_t pairs = 0;          ///< of these
+  std::size_t wider = 0;          ///< contacts whose pairs are further apart than their gap
+  std::size_t on = 0, known = 0;  ///< effects that some interface asks for, and all that there are
+  double loop_ns = 0, flags_ns = 0, all_ns = 0;  ///< per pair; all_ns 0: no such loop anywhere
+};
+CostSummary summarize_costs(const CycleInput& input);
+
+/// "9 of 29 effects run; they take 42 ns a pair, all would take 174." Always; without times where
+/// nothing or too little was measured.
+std::string short_cost_sentence(const CycleInput& input);
+/// What the measurement says, in one sentence.
+std::string cost_sentence(const CycleInput& input);
+/// A table of contacts, and one of the effects that run; empty: nothing was measured.
+std::string cost_text(const CycleInput& input, const CycleTextOptions& options);
+/// The tables of the page for readers without scripts.
+std::string cost_html(const CycleInput& input);
 
 }  // namespace deck

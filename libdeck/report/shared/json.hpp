@@ -4,6 +4,7 @@
 #pragma once
 #include <concepts>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,13 +13,16 @@
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
+#include "deck/report/gaps.hpp"
 #include "deck/text/number.hpp"
 
 namespace deck {
 
 class JsonWriter {
  public:
-  explicit JsonWriter(std::string& out) : out_(out) {}
+  /// From time to time the text may leave by the drain.
+  explicit JsonWriter(std::string& out, TextDrain drain = {}) : out_(out), drain_(drain) {}
+  void drain() { drain_text(drain_, out_); }
 
   /// `line` true: the container and all in it stand on one line.
   JsonWriter& begin_object(bool line = false) { return open('{', line); }
@@ -57,6 +61,7 @@ class JsonWriter {
     bool empty = true;
   };
   std::string& out_;
+  TextDrain drain_;
   std::vector<Level> levels_;
   bool after_key_ = false;
 };
@@ -70,5 +75,33 @@ void write_json_head(JsonWriter& json, std::string_view schema_id, int schema_ve
 /// nullptr where they were not built.
 void write_json_deck(JsonWriter& json, std::string_view path, const Deck& deck, const Model* model,
                      const Interfaces* interfaces);
+
+/// The JSON schema of a document.
+struct DocumentSchema {
+  std::string text;
+  std::map<std::string, std::string> common;  ///< definitions that it shares with others
+};
+struct DocumentOfVerb {
+  const char* verb;
+  DocumentSchema (*schema)();
+};
+const std::vector<DocumentOfVerb>& documents_of_verbs();
+/// What the schemas of documents refer to as common.schema.json.
+std::string common_schema();
+
+DocumentSchema accuracy_schema();
+DocumentSchema cycle_schema();
+DocumentSchema diff_schema();
+DocumentSchema explain_schema();
+DocumentSchema fix_schema();
+DocumentSchema gaps_schema();
+DocumentSchema gate_schema();
+DocumentSchema lint_schema();
+DocumentSchema losses_schema();
+DocumentSchema page_schema();  ///< of the JSON in a page, see html/page_data.cpp
+DocumentSchema params_schema();
+DocumentSchema parts_schema();
+DocumentSchema rules_schema();
+DocumentSchema show_schema();
 
 }  // namespace deck

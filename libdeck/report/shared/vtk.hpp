@@ -5,8 +5,11 @@
 #include <vector>
 
 #include "deck/contact/view.hpp"
+#include "deck/cycle/steps.hpp"
 
 namespace deck {
+
+struct CycleInput;  // report/shared/cycle.hpp
 
 struct VtkFile {
   std::string name;   ///< file name without directory
@@ -32,6 +35,26 @@ struct VtkFile {
 /// Coordinates are those of the deck in working units. Contacts without any item on a side get no
 /// file for it.
 std::vector<VtkFile> gaps_vtk(const Scene& scene, const SceneView& view);
+
+/// Two files, always; the outcome must have kept its pairs:
+///
+/// * contact_pairs.vtp: a vertex per pair with a penetration or force, at the secondary node
+///   (edges: at the point of contact). Point data force (vector, on the secondary side),
+///   force_size, normal_force (negative pushes apart), penetration, gap (after Inacti), distance,
+///   left_of_gap (share), k0, k_nodal, status (bits of cycle::Status), interface, role (0 primary,
+///   1 reversed, 2 edges), node, node2 (second end of an edge, else 0), main_element, main_part.
+/// * contact_nodes.vtp: a vertex per node that any contact acts on. Point data force (vector, of
+///   all contacts), force_size, acceleration and dt (0 without mass), stiffness, mass, heat,
+///   removed (1: leaves its interface), node.
+///
+/// Coordinates are those that were evaluated, in working units. Nodes also carry released (bits of
+/// the translations that IBC frees, 4 X + 2 Y + Z) and the figures of Iadm: radius (0: none),
+/// relative_penetration and angle. A `suffix` such as "_0003" makes files of a series.
+std::vector<VtkFile> cycle_vtk(const CycleInput& input, const std::string& suffix = {});
+
+/// The two collections that put a series in time: contact_pairs.pvd and contact_nodes.pvd.
+std::vector<VtkFile> cycle_vtk_series(const cycle::StepsOutcome& steps,
+                                      const std::vector<std::string>& suffixes);
 
 /// open.py, a script for ParaView (paraview.simple) that opens files of gaps_vtk or cycle_vtk lying
 /// beside it: surfaces by depth, penetrations and forces as arrows. Of a series give the files of

@@ -9,8 +9,7 @@
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
 #include "cycle/shared/step_scale.hpp"
-#include "report/cycle_costs.hpp"
-#include "report/gaps_names.hpp"
+#include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"
 #include "report/terminal/words.hpp"
 

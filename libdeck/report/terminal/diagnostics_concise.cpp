@@ -7,7 +7,6 @@
 #include <set>
 
 #include "base/shared/escape.hpp"
-#include "report/diagnostics_common.hpp"
 #include "report/shared/gate.hpp"
 #include "report/terminal/words.hpp"
 

@@ -9,7 +9,7 @@
 #include "base/shared/columns.hpp"
 #include "base/shared/escape.hpp"
 #include "base/shared/paths.hpp"
-#include "report/diagnostics_common.hpp"
+#include "report/shared/diagnostics.hpp"
 #include "report/terminal/words.hpp"
 #include "text/shared/rule_page.hpp"
 

@@ -11,7 +11,6 @@
 #include "deck/report/gaps.hpp"
 #include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
-#include "report/gaps_names.hpp"
 #include "report/shared/gate.hpp"
 #include "report/terminal/words.hpp"
 

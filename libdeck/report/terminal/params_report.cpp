@@ -11,7 +11,6 @@
 #include <optional>
 
 #include "deck/text/number.hpp"
-#include "report/shared/schemas.hpp"
 #include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"
 #include "text/shared/columns.hpp"

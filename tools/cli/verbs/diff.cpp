@@ -1,6 +1,6 @@
 // deck diff: what two decks mean differently.
 
-#include "report/shared/diff.hpp"
+#include "report/shared/inspection.hpp"
 
 #include <algorithm>
 #include <filesystem>

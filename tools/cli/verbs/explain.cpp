@@ -6,7 +6,7 @@
 #include "base/shared/escape.hpp"
 #include "common.hpp"
 #include "lint/shared/topics.hpp"
-#include "report/shared/listing.hpp"
+#include "report/shared/inspection.hpp"
 #include "text/shared/gzip.hpp"
 
 namespace deck::cli::verb_explain {

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "common.hpp"
-#include "report/shared/schemas.hpp"
+#include "report/shared/json.hpp"
 
 namespace deck::cli::verb_schema {
 namespace {

@@ -3,7 +3,8 @@
 
 #include "inspect/shared/show.hpp"
 #include "common.hpp"
-#include "report/shared/show.hpp"
+#include "report/shared/inspection.hpp"
+#include "report/shared/params_report.hpp"
 #include "report/shared/side_view.hpp"
 
 namespace deck::cli::verb_show {

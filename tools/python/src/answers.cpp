@@ -14,11 +14,10 @@
 #include "lint/shared/gate.hpp"
 #include "lint/shared/topics.hpp"
 #include "native.hpp"
-#include "report/shared/diff.hpp"
 #include "report/shared/gate.hpp"
-#include "report/shared/listing.hpp"
+#include "report/shared/inspection.hpp"
+#include "report/shared/params_report.hpp"
 #include "report/shared/parts.hpp"
-#include "report/shared/show.hpp"
 
 namespace deck::python {
 namespace {

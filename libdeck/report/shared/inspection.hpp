@@ -1,4 +1,5 @@
-// A listing of the Starter beside its deck, compared, for people and for programs.
+// Texts and documents of `deck show` and `deck diff`, and of a listing of the Starter beside its
+// deck.
 //
 //   const auto listing = deck::read_listing("car_0000.out", {});
 //   auto loaded = deck::load("car_0000.rad");
@@ -11,9 +12,47 @@
 
 #include "deck/contact/view.hpp"
 #include "deck/front/loaded_deck.hpp"
+#include "inspect/shared/diff.hpp"
 #include "inspect/shared/listing.hpp"
+#include "inspect/shared/show.hpp"
 
 namespace deck {
+
+// ---- one entity with its card, figures and references -----------------------------------------
+
+struct ParamsInput;  // report/shared/params_report.hpp
+
+struct ShowTextOptions {
+  bool color = false;
+  bool all = false;       ///< every line and every user, however many
+  std::size_t width = 0;  ///< columns of a line; 0: any
+};
+
+/// `params` has the same deck and, if the geometry was evaluated, the default gaps.
+std::string show_text(const ParamsInput& params, const EntityView& view,
+                      const ShowTextOptions& options = {});
+/// The document of `deck show --json` (schemas/output/show.schema.json).
+std::string show_json(const ParamsInput& params, const EntityView& view);
+
+// ---- two decks ---------------------------------------------------------------------------------
+
+struct DiffTextOptions {
+  bool color = false;
+  std::size_t rows = 20;  ///< of moved nodes, of ids and of penetrations; 0: all
+  std::size_t width = 0;  ///< columns of a line; 0: any
+};
+
+/// "Equal in meaning ..." or how much of what differs.
+std::string diff_verdict(const DeckDiff& diff);
+std::string diff_text(const DiffSide& a, const DiffSide& b, const DeckDiff& diff,
+                      const DiffTextOptions& options = {});
+/// For a review comment: tables of GitHub and GitLab flavour.
+std::string diff_markdown(const DiffSide& a, const DiffSide& b, const DeckDiff& diff,
+                          const DiffTextOptions& options = {});
+/// The document of `deck diff --json` (schemas/output/diff.schema.json).
+std::string diff_json(const DiffSide& a, const DiffSide& b, const DeckDiff& diff);
+
+// ---- a listing ---------------------------------------------------------------------------------
 
 /// What one kind of message is about in one place.
 struct MessagePlace {
