@@ -14,7 +14,6 @@
 #include "report/html/parts.hpp"
 #include "report/shared/fix.hpp"
 #include "report/shared/gate.hpp"
-#include "report/shared/json.hpp"
 #include "report/shared_records.hpp"
 #include "verdict/shared/of_interface.hpp"
 

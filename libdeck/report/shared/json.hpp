@@ -98,7 +98,7 @@ DocumentSchema gaps_schema();
 DocumentSchema gate_schema();
 DocumentSchema lint_schema();
 DocumentSchema losses_schema();
-DocumentSchema page_schema();  ///< of the data in a page, see html/page_data.cpp
+DocumentSchema page_schema();  ///< of the JSON in a page, see html/page_data.cpp
 DocumentSchema params_schema();
 DocumentSchema parts_schema();
 DocumentSchema rules_schema();
