@@ -227,6 +227,11 @@ std::vector<MessagePiece> pieces_of(std::string_view message) {
 
 namespace {
 
+std::string text_of(const CellKeys& keys, std::string_view key) {
+  const auto found = keys.find(key);
+  return found == keys.end() ? std::string() : found->second;
+}
+
 std::string replaced(std::string text, std::string_view word, std::string_view by) {
   if (const auto at = text.find(word); at != text.npos) text.replace(at, word.size(), by);
   return text;
@@ -239,10 +244,7 @@ void add_names(const Predicate& condition, std::vector<std::string>& out) {
 }
 
 Result<CellRule::Case> read_case(const CellKeys& keys) {
-  const auto text = [&](std::string_view key) {
-    const auto found = keys.find(key);
-    return found == keys.end() ? std::string() : found->second;
-  };
+  const auto text = [&](std::string_view key) { return text_of(keys, key); };
   CellRule::Case out;
   if (keys.contains("if")) {
     auto when = Predicate::parse(text("if"));
@@ -290,10 +292,7 @@ std::optional<ReferenceMessage> read_message(std::string_view text) {
 }  // namespace
 
 Result<std::vector<Limit>> Limit::read(RuleId rule, const CellKeys& keys) {
-  const auto text = [&](std::string_view key) {
-    const auto found = keys.find(key);
-    return found == keys.end() ? std::string() : found->second;
-  };
+  const auto text = [&](std::string_view key) { return text_of(keys, key); };
   const auto message = read_message(text("message"));
   if (!message) return Error{Error::Code::config, "message: expected 'error N' or 'warning N'"};
   std::vector<std::string> cells = list_of_words(text("at")),
@@ -323,13 +322,9 @@ std::vector<std::string> Limit::fields() const {
 }
 
 Result<CellRule> CellRule::read(const std::vector<CellKeys>& keys) {
-  const auto key = [&](const char* name) {
-    const auto found = keys.front().find(name);
-    return found == keys.front().end() ? std::string() : found->second;
-  };
-  auto when = Predicate::parse(key("when"));
+  auto when = Predicate::parse(text_of(keys.front(), "when"));
   if (!when) return Error{Error::Code::config, "when: " + when.error().message};
-  CellRule out{std::move(*when), {}, key("per") == "deck"};
+  CellRule out{std::move(*when), {}, text_of(keys.front(), "per") == "deck"};
   for (std::size_t i = keys.size() > 1 ? 1 : 0; i < keys.size(); ++i) {
     CellKeys all = keys[i];
     all.insert(keys.front().begin(), keys.front().end());

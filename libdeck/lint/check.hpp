@@ -198,26 +198,21 @@ struct Checked {
   void (*check)(const LintContext&, const Rule&, Reporter&);
 };
 
-std::span<const Checked> cell_checks();         // predicates of cells, on the pages of rules
-std::span<const Checked> header_checks();       // keywords, titles, versions
-std::span<const Checked> target_checks();       // ids of loads
-std::span<const Checked> history_checks();      // time histories
-std::span<const Checked> physics_checks();      // density, stiffness, mass
-std::span<const Checked> element_checks();      // elements, functions
-std::span<const Checked> reference_checks();    // what interfaces and frictions refer to
-std::span<const Checked> value_checks();        // flags and ranges of numbers
-std::span<const Checked> load_checks();         // loads, walls, particles (SPH)
-std::span<const Checked> line_checks();         // optional lines
-std::span<const Checked> combination_checks();  // fields that contradict
-std::span<const Checked> ignored_checks();      // fields without effect
-std::span<const Checked> difference_checks();   // where manual and solver differ
-std::span<const Checked> companion_checks();    // what belongs beside a contact
-std::span<const Checked> default_checks();      // /DEFAULT/INTER
-std::span<const Checked> advice_checks();       // known traps
-std::span<const Checked> engine_checks();       // Engine files beside the deck
-std::span<const Checked> kinematic_checks();    // conditions that hold the same node
-std::span<const Checked> sense_checks();        // units, volumes, masses of the model
-std::span<const Checked> listing_checks();      // what the solver says in its listing only
+std::span<const Checked> cell_checks();       // predicates of cells, on the pages of rules
+std::span<const Checked> header_checks();     // keywords, titles, versions
+std::span<const Checked> target_checks();     // ids of loads
+std::span<const Checked> history_checks();    // time histories
+std::span<const Checked> physics_checks();    // density, stiffness, mass
+std::span<const Checked> element_checks();    // elements, functions
+std::span<const Checked> reference_checks();  // what interfaces and frictions refer to
+std::span<const Checked> value_checks();      // flags and ranges of numbers
+std::span<const Checked> line_checks();       // optional lines
+std::span<const Checked> default_checks();    // /DEFAULT/INTER
+std::span<const Checked> advice_checks();     // known traps
+std::span<const Checked> engine_checks();     // Engine files beside the deck
+std::span<const Checked> kinematic_checks();  // conditions that hold the same node
+std::span<const Checked> sense_checks();      // units, volumes, masses of the model
+std::span<const Checked> listing_checks();    // what the solver says in its listing only
 
 /// All of them, ordered by id.
 const std::vector<Checked>& all_checks();
@@ -229,10 +224,7 @@ struct BlockChecked {
   void (*check)(const LintContext&, const Rule&, Reporter&, const DecodedBlock&);
 };
 
-std::span<const BlockChecked> limit_checks();  // values of which the solver speaks
-std::span<const BlockChecked> bound_checks();  // what schemas allow elsewhere
-
-const std::vector<BlockChecked>& all_block_checks();
+std::span<const BlockChecked> all_block_checks();  // values.cpp
 
 /// "/GRNOD" for "grnod", "node" for "node": how people name the kind of an entity.
 std::string_view kind_name(std::string_view kind);

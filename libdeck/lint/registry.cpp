@@ -70,24 +70,12 @@ const std::vector<detail::Checked>& detail::all_checks() {
   static const std::vector<Checked> checks = [] {
     std::vector<Checked> out;
     for (const auto table :
-         {cell_checks(),       header_checks(),    target_checks(),      load_checks(),
-          history_checks(),    physics_checks(),   element_checks(),     reference_checks(),
-          value_checks(),      line_checks(),      combination_checks(), ignored_checks(),
-          difference_checks(), companion_checks(), default_checks(),     advice_checks(),
-          engine_checks(),     listing_checks(),   kinematic_checks(),   sense_checks()})
+         {cell_checks(), header_checks(), target_checks(), history_checks(), physics_checks(),
+          element_checks(), reference_checks(), value_checks(), line_checks(), default_checks(),
+          advice_checks(), engine_checks(), listing_checks(), kinematic_checks(), sense_checks()})
       out.insert(out.end(), table.begin(), table.end());
     std::sort(out.begin(), out.end(),
               [](const Checked& a, const Checked& b) { return a.id < b.id; });
-    return out;
-  }();
-  return checks;
-}
-
-const std::vector<detail::BlockChecked>& detail::all_block_checks() {
-  static const std::vector<BlockChecked> checks = [] {
-    std::vector<BlockChecked> out;
-    for (const auto table : {bound_checks(), limit_checks()})
-      out.insert(out.end(), table.begin(), table.end());
     return out;
   }();
   return checks;
