@@ -179,7 +179,10 @@ std::optional<ScaledText> scale_text(std::string_view cell, int width, const Uni
   const auto room = static_cast<std::size_t>(width);
   ScaledText out;
   std::size_t count = std::max<std::size_t>(result->digits.size(), 1);
-  while (count > 0 && (out.text = print(rounded(*result, count), room)).empty()) --count;
+  // One column stays blank where that costs no digit: people read the numbers as words.
+  out.text = print(*result, room - 1);
+  while (out.text.empty() && count > 0)
+    if (out.text = print(rounded(*result, count), room); out.text.empty()) --count;
   const RealCell now = read_real(out.text);
   if (now.status != NumberStatus::ok || (now.value == 0 && !result->digits.empty()))
     return std::nullopt;
