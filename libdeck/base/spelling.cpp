@@ -1,8 +1,14 @@
-// Words in capitals and small letters; distance of two words, one row of the table at a time.
+// Words in capitals and small letters; distance of two words, one row of the table at a time;
+// numbers as people read them.
 #include "base/shared/spelling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <vector>
+
+#include "base/shared/length_text.hpp"
 
 namespace deck {
 
@@ -48,6 +54,15 @@ std::string closest_word(std::string_view word, const std::vector<std::string>& 
     found = candidate;
   }
   return found;
+}
+
+std::string length_text(double length, int digits, double largest) {
+  if (is_unbounded(length) || std::fabs(length) > largest) return "unbounded";
+  return fmt::format("{:.{}g}", length, digits);
+}
+
+std::string figure_text(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string(not_computed);
 }
 
 }  // namespace deck

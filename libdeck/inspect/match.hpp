@@ -85,9 +85,6 @@ struct ElementCell {
 /// Elements without such a cell have no entry.
 using ElementCells = std::array<std::unordered_map<std::uint32_t, std::vector<ElementCell>>, 8>;
 
-/// Reads the rows of all elements once; those that end behind the nodes are not decoded.
-ElementCells element_cells(const Deck& deck, const Model& model);
-
 /// Numbers are equal within a share of the larger one, or of the size of what they belong to: for
 /// coordinates and lengths the size of the model, for points of a function its largest value.
 class EqualNumbers {

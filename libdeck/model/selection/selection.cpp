@@ -35,6 +35,12 @@ Indices without(const Indices& all, const Indices& some) {
   return out;
 }
 
+Indices common(const Indices& a, const Indices& b) {
+  Indices out;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
+  return out;
+}
+
 }  // namespace detail
 
 Selections::Impl::Impl(const Model& m, const SchemaSet& s, const Limits& l)

@@ -75,6 +75,8 @@ using Indices = std::vector<std::uint32_t>;
 void normalise(Indices& v);
 /// What is in `all` and not in `some`; both ascend.
 Indices without(const Indices& all, const Indices& some);
+/// What is in both, which ascend.
+Indices common(const Indices& a, const Indices& b);
 /// Adds the elements of the runs behind the others.
 void append(Indices& v, std::span<const ElementRun> runs);
 

@@ -13,12 +13,6 @@ namespace {
 
 std::size_t at(ElementKind kind) { return static_cast<std::size_t>(kind); }
 
-Indices common(const Indices& a, const Indices& b) {
-  Indices out;
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
-  return out;
-}
-
 }  // namespace
 
 // In the order of carriers, so that the final sort has little left to do.
@@ -42,7 +36,7 @@ std::vector<Segment> Selections::Impl::group_segments(const SetGroup& group) {
     const Elements& shells = model->family(kind);
     const bool four = kind == ElementKind::shell4;
     const Indices& members = four ? shells4 : shells3;
-    const Indices turned = common(members, four ? group.reversed4 : group.reversed3);
+    const Indices turned = detail::common(members, four ? group.reversed4 : group.reversed3);
     if (turned.empty()) {
       add_shells(shells, members, false, out);
       continue;

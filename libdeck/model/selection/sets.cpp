@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "keyword/shared/references.hpp"
 #include "model/selection/selection_impl.hpp"
 
 namespace deck {
@@ -21,12 +22,12 @@ enum class Operator { add, subtract, intersect };
 /// One clause with its continuation lines.
 struct Clause {
   std::string_view kind;
-  std::string options;  ///< option letters
-  Span span;            ///< the clause keyword
+  std::string_view options;  ///< option letters and '_'
+  Span span;                 ///< the clause keyword
   std::vector<const DecodedCard*> lines;
   std::vector<IdRef> ids;  ///< no offset yet
   bool of_parts() const { return kind == "PART" || kind == "SUBS" || kind == "SUBM"; }
-  bool has(char option) const { return options.find(option) != std::string::npos; }
+  bool has(char option) const { return options.find(option) != options.npos; }
 };
 
 std::vector<Clause> clauses_of(const DecodedBlock& d) {
@@ -35,14 +36,8 @@ std::vector<Clause> clauses_of(const DecodedBlock& d) {
     if (card.cells.empty()) continue;
     const Cell& head = card.cells.front();
     if (!head.blank()) {
-      Clause clause;
-      std::string_view text = head.text;
-      const std::size_t cut = std::min(text.find('_'), text.size());
-      clause.kind = text.substr(0, cut);
-      for (const char ch : text.substr(cut))
-        if (ch != '_') clause.options += ch;
-      clause.span = head.span;
-      clauses.push_back(std::move(clause));
+      const SetClause word = set_clause(head.text);
+      clauses.push_back({word.name, word.options, head.span, {}, {}});
     }
     if (clauses.empty()) continue;
     Clause& clause = clauses.back();
@@ -55,18 +50,10 @@ std::vector<Clause> clauses_of(const DecodedBlock& d) {
 }
 
 Indices combine(const Indices& a, const Indices& b, Operator op) {
+  if (op == Operator::subtract) return without(a, b);
+  if (op == Operator::intersect) return common(a, b);
   Indices out;
-  switch (op) {
-    case Operator::add:
-      std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
-      break;
-    case Operator::subtract:
-      std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
-      break;
-    case Operator::intersect:
-      std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
-      break;
-  }
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
   return out;
 }
 
@@ -226,9 +213,9 @@ class ClauseReader {
       const std::int64_t last = clause_.ids[i + 1].id + offset;
       const std::int64_t increment = clause_.ids[i + 2].id;
       if (increment <= 0) continue;
+      const IdRange range{first, last, increment};
       for (const std::int64_t id : existing)
-        if (id >= first && id <= last && (id - first) % increment == 0)
-          out.push_back({id, clause_.ids[i].span});
+        if (range.holds(id)) out.push_back({id, clause_.ids[i].span});
     }
     return out;
   }
