@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "accuracy/shared/choice.hpp"
-#include "accuracy/shared/motion.hpp"
 #include <utility>
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"

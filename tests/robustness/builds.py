@@ -29,7 +29,7 @@ def sources():
     for pattern in ("contact/distance/*.cpp", "contact/search/*.cpp", "accuracy/families.cpp", "cycle/kernel/kernels_*.cpp",
                     "cycle/kernel/packet.cpp"):
         out += sorted(glob.glob(os.path.join(LIB, pattern)))
-    for name in ("evaluate", "plan", "card", "friction", "heat", "tie", "curvature"):
+    for name in ("evaluate", "plan", "friction", "heat", "tie", "curvature"):
         out.append(os.path.join(LIB, "cycle", name + ".cpp"))
     return out
 

@@ -18,7 +18,7 @@
 namespace deck {
 namespace {
 
-constexpr std::size_t width = BoxBlock::width;
+constexpr std::size_t block_width = BoxBlock::width;
 constexpr std::size_t at_once = 512;  // edges, or elements with theirs
 
 /// Of those of its nodes that have a place.
@@ -86,10 +86,11 @@ class SegmentTree {
     const std::size_t count = order_.size();
     sweep::put_in_order(
         order_, [&](std::uint32_t i) { return hull_of(nodes, segment_of(i)); }, threads);
-    corners_.resize((count + width - 1) / width);
+    corners_.resize((count + block_width - 1) / block_width);
     const auto pack = [&](std::size_t i) {
       const std::array<std::uint32_t, 4> own = segment_of(order_[i]);
-      for (std::size_t k = 0; k < 4; ++k) corners_[i / width].node[k][i % width] = own[k];
+      for (std::size_t k = 0; k < 4; ++k)
+        corners_[i / block_width].node[k][i % block_width] = own[k];
       return all_placed(nodes, own) ? hull_of(nodes, own) : Box::nowhere();
     };
     tree_ = BoxTree(count, pack, threads);
@@ -104,7 +105,7 @@ class SegmentTree {
   }
   std::uint32_t segment(std::uint32_t leaf) const { return order_[leaf]; }
   std::array<std::uint32_t, 4> corners(std::uint32_t leaf) const {
-    return corners_[leaf / width].of(leaf % width);
+    return corners_[leaf / block_width].of(leaf % block_width);
   }
 
  private:

@@ -108,7 +108,7 @@ class Renumbering {
     std::vector<std::uint32_t> visited{origin};
     distance_[origin] = 0;
     std::uint32_t best = origin;
-    const auto beyond = [&](std::uint32_t e) {
+    const auto rank = [&](std::uint32_t e) {
       return std::tuple(-distance_[e], -static_cast<std::int64_t>(degree(e)), e);
     };
     for (std::size_t head = 0; head < visited.size(); ++head)
@@ -116,7 +116,7 @@ class Renumbering {
         if (distance_[j] < 0) {
           distance_[j] = distance_[visited[head]] + 1;
           visited.push_back(j);
-          if (beyond(j) < beyond(best)) best = j;
+          if (rank(j) < rank(best)) best = j;
         }
     const std::int64_t far = distance_[best];
     for (const std::uint32_t e : visited) distance_[e] = -1;

@@ -19,7 +19,7 @@ namespace deck::cycle {
 ///  * node-segment: the closest of the four sub-triangles gives normal, distance and weights, with
 ///    relative guards; no blending, no shift of weights, the same weights for velocity and force;
 ///  * neighbouring segments or edges that meet the other side at the same edge or corner share one
-///    force instead of adding up (sharing.cpp; whole contacts only);
+///    force instead of adding up (cycle/shared/contact_run.hpp; whole contacts only);
 ///  * the law works with the distance itself, not with gap minus penetration, its energy by log1p;
 ///    under 1e-8 of the gap it continues as its tangent down to 1e-10, where the node is dropped;
 ///  * edge-edge: relative parallel test, parallel edges meet at the middle of their overlap,
