@@ -216,7 +216,7 @@ def other_folders(c, work):
 
 def random_libraries(c, tmp):
     r, counts = random.Random(20), {}
-    for number in range(400 if c.options.all else 40):
+    for number in range(400 if c.options.all else 60):
         case(c, r, number, os.path.join(tmp, "case"), counts)
     for verb in ("convert", "fix", "lint"):
         done = sum(n for (v, what, _), n in counts.items() if v == verb and what == "done")
