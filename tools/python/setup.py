@@ -33,7 +33,8 @@ def write_stub(module):
     spec = importlib.util.spec_from_file_location("libdeck._native", module)
     native = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(native)
-    lines = ["# The native part. Use the module libdeck; this is what it is made of.", "from typing import *", "import numpy", "version: str"]
+    lines = ["# The native part. Use the module libdeck; this is what it is made of.",
+             "from typing import *", "import numpy", "version: str"]
     for name, member in vars(native).items():
         if isinstance(member, type):
             lines.append("class %s:" % name)

@@ -45,20 +45,14 @@ Result<cycle::DeadElement> parse_gone(const Model& model, const std::string& tex
   if (colon == std::string::npos) return bad("there is no ':'");
   const std::string name = text.substr(0, colon);
   cycle::DeadElement dead;
-  if (name == "shell")
-    dead.kind = ElementKind::shell4;
-  else if (name == "sh3n")
-    dead.kind = ElementKind::shell3;
-  else if (name == "solid")
-    dead.kind = ElementKind::solid8;
-  else if (name == "truss")
-    dead.kind = ElementKind::truss;
-  else if (name == "beam")
-    dead.kind = ElementKind::beam;
-  else if (name == "spring")
-    dead.kind = ElementKind::spring;
-  else
-    return bad("'" + name + "' is no kind of element");
+  constexpr std::pair<std::string_view, ElementKind> kinds[] = {
+      {"shell", ElementKind::shell4}, {"sh3n", ElementKind::shell3},
+      {"solid", ElementKind::solid8}, {"truss", ElementKind::truss},
+      {"beam", ElementKind::beam},    {"spring", ElementKind::spring}};
+  const auto* const kind = std::find_if(std::begin(kinds), std::end(kinds),
+                                        [&](const auto& k) { return k.first == name; });
+  if (kind == std::end(kinds)) return bad("'" + name + "' is no kind of element");
+  dead.kind = kind->second;
   const std::string id =
       text.substr(colon + 1, mark == std::string::npos ? mark : mark - colon - 1);
   const IntegerCell number = read_integer(id);

@@ -211,10 +211,9 @@ Result<std::vector<Commit>> commits_of(const std::string& root,
                                     "--first-parent",
                                     "--no-color",
                                     "--no-show-signature",
-                                    "--max-count=" + std::to_string(most),
                                     "--date=format:%Y-%m-%d",
-                                    "--format=%h%n%ad%n%s",
-                                    "--"};
+                                    "--format=%h%n%ad%n%s"};
+  words.insert(words.end(), {"--max-count=" + std::to_string(most), "--"});
   for (const std::string& file : files) words.push_back(":(top,literal)" + file);
   const auto answer = run_git(words);
   if (!answer) return answer.error();

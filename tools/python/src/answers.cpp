@@ -30,11 +30,11 @@ struct PyTie {
 using TiePointer = std::shared_ptr<PyTie>;
 
 std::vector<TiePointer> ties_of(const DeckPointer& deck) {
-  const py::gil_scoped_release free;
-  const std::lock_guard one(deck->mutex);
-  std::vector<TiePointer> out;
-  for (const Tie& tie : deck->loaded.ties()) out.push_back(std::make_shared<PyTie>(deck, tie));
-  return out;
+  return alone_with(*deck, [&] {
+    std::vector<TiePointer> out;
+    for (const Tie& tie : deck->loaded.ties()) out.push_back(std::make_shared<PyTie>(deck, tie));
+    return out;
+  });
 }
 
 py::dict facts_of(const PyTie& t) {
@@ -89,15 +89,11 @@ py::dict arrays_of(const TiePointer& t) {
 }
 
 std::string parts_text_of(PyDeck& d, bool all) {
-  const py::gil_scoped_release free;
-  const std::lock_guard one(d.mutex);
-  return parts_json(d.loaded, all);
+  return alone_with(d, [&] { return parts_json(d.loaded, all); });
 }
 
 std::string show_text_of(PyDeck& d, const std::string& what) {
-  auto text = [&]() -> Result<std::string> {
-    const py::gil_scoped_release free;
-    const std::lock_guard one(d.mutex);
+  auto text = alone_with(d, [&]() -> Result<std::string> {
     const LoadedDeck& loaded = d.loaded;
     const auto entity = find_entity(loaded.deck(), loaded.model(), what);
     if (!entity) return entity.error();
@@ -106,7 +102,7 @@ std::string show_text_of(PyDeck& d, const std::string& what) {
     ParamsInput params{loaded};
     if (view.inter != nullptr) params.scene = &loaded.mesh_values();
     return show_json(params, view);
-  }();
+  });
   if (!text) throw py::key_error(d.path + ": " + text.error().message);
   return *text;
 }

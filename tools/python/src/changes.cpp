@@ -31,11 +31,7 @@ void must_have_worked(const Edit& edit) {
 /// What an edit gives, or DeckError.
 template <class Make>
 auto value_of(PyChanges& c, const Make& make) {
-  auto made = [&] {
-    const py::gil_scoped_release free;
-    const std::lock_guard one(c.before->mutex);
-    return make(c.edit);
-  }();
+  auto made = alone_with(*c.before, [&] { return make(c.edit); });
   if (!made) raise_error(made.error().message);
   return std::move(*made);
 }

@@ -101,21 +101,15 @@ EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& 
   auto edit = std::make_shared<PyEdit>();
   edit->before = edit->after = d;
   for (const auto& [name, step] : steps) {
-    Rewrite rewrite = [&] {
-      const py::gil_scoped_release free;
-      const std::lock_guard one(edit->after->mutex);
-      return step(edit->after->loaded);
-    }();
+    Rewrite rewrite = alone_with(*edit->after, [&] { return step(edit->after->loaded); });
     take(*edit, *edit->after, rewrite);
     if (verify) {
       const DeckPointer next = read_again(*d, edit->changed);
-      const auto why = [&] {
-        const py::gil_scoped_release free;
-        const std::lock_guard one(edit->after->mutex);
+      const auto why = alone_with(*edit->after, [&] {
         return first_difference(edit->after->loaded, next->loaded,
                                 relation_of(name, rewrite.losses),
                                 allow_loss ? &edit->losses : nullptr);
-      }();
+      });
       if (why) raise_error("the converted deck is not the same: " + *why);
       edit->after = next;
     } else {
@@ -146,9 +140,7 @@ EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
     static_cast<FixOptions&>(options) = base;
     return options;
   };
-  auto fix = [&]() -> Result<PenetrationFix> {
-    const py::gil_scoped_release free;
-    const std::lock_guard one(d->mutex);
+  auto fix = alone_with(*d, [&]() -> Result<PenetrationFix> {
     if (strategy == "reduce-gap") {
       auto options = with(ReduceGapOptions{});
       options.least_share = min_gap;
@@ -175,7 +167,7 @@ EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
                  "strategy is 'reduce-gap', 'inacti', 'fpenmax', 'move-nodes' or "
                  "'move-part', not '" +
                      strategy + "'"};
-  }();
+  });
   if (!fix && fix.error().code == Error::Code::config) throw py::value_error(fix.error().message);
   if (!fix) raise_error(fix.error().message);
   auto edit = std::make_shared<PyEdit>();

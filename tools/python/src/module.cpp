@@ -219,21 +219,15 @@ PYBIND11_MODULE(_native, m) {
       .def("fields", &interface_fields)
       .def("findings",
            [](PyDeck& d) {
-             const Diagnostics found = [&] {
-               const py::gil_scoped_release free;
-               const std::lock_guard one(d.mutex);
-               return d.loaded.findings(Stage::cells);
-             }();
+             const Diagnostics found =
+                 alone_with(d, [&] { return d.loaded.findings(Stage::cells); });
              py::list out;
              for (const Diagnostic& f : found.all()) out.append(finding_of(d.loaded.deck(), f));
              return out;
            })
       .def("lint_json", &lint_text)
       .def("params_json", [](PyDeck& d) {
-        const py::gil_scoped_release free;
-        const std::lock_guard one(d.mutex);
-        const Scene& mesh = d.loaded.mesh_values();
-        return params_json({d.loaded, &mesh});
+        return alone_with(d, [&] { return params_json({d.loaded, &d.loaded.mesh_values()}); });
       });
   m.def("load", &load_deck);
   bind_results(m);

@@ -41,6 +41,14 @@ struct PyDeck {
 };
 using DeckPointer = std::shared_ptr<PyDeck>;
 
+/// What `make` returns, without the interpreter's lock and with the deck for itself.
+template <class Make>
+auto alone_with(PyDeck& d, const Make& make) {
+  const py::gil_scoped_release free;
+  const std::lock_guard one(d.mutex);
+  return make();
+}
+
 /// Raises libdeck.DeckError(message, diagnostics as a list of dictionaries).
 [[noreturn]] void raise_error(const std::string& message, const Deck* deck = nullptr,
                               const std::vector<Diagnostic>* diagnostics = nullptr);

@@ -235,18 +235,13 @@ py::dict force_arrays(const CyclePointer& r, std::size_t k) {
   return out;
 }
 
-std::string gaps_text_of(const PyScene& s, bool all) {
-  const py::gil_scoped_release free;
-  const std::lock_guard one(s.deck->mutex);
-  const Joined joined(s);
-  return gaps_json(s.deck->path, s.deck->loaded.deck(), s.scene, s.view, all, &s.crossings);
-}
-
-std::string gaps_verdict_of(const PyScene& s) {
-  const py::gil_scoped_release free;
-  const std::lock_guard one(s.deck->mutex);
-  const Joined joined(s);
-  return verdict_json(verdict_of(s.deck->loaded.deck(), s.scene, s.view));
+/// A text about contacts, with all that was found on the way to them among the deck's findings.
+template <class Make>
+std::string text_about(const PyScene& s, const Make& make) {
+  return alone_with(*s.deck, [&] {
+    const Joined joined(s);
+    return make(s.deck->loaded.deck());
+  });
 }
 
 CycleInput input_of(const PyCycle& r) {
@@ -261,32 +256,28 @@ CycleInput input_of(const PyCycle& r) {
   return input;
 }
 
-std::string cycle_text_of(const PyCycle& r, bool all) {
-  const py::gil_scoped_release free;
-  const std::lock_guard one(r.contacts->deck->mutex);
-  const Joined joined(*r.contacts);
-  return cycle_json(input_of(r), all);
-}
-
-std::string cycle_verdict_of(const PyCycle& r) {
-  const py::gil_scoped_release free;
-  const std::lock_guard one(r.contacts->deck->mutex);
-  const Joined joined(*r.contacts);
-  return verdict_json(cycle_verdict(input_of(r)));
-}
-
 }  // namespace
 
 void bind_results(py::module_& m) {
   py::class_<PyScene, ScenePointer>(m, "Scene")
       .def("__len__", [](const PyScene& s) { return s.scene.contacts.size(); })
-      .def("json", &gaps_text_of)
+      .def("json",
+           [](const PyScene& s, bool all) {
+             return text_about(s, [&](const Deck& deck) {
+               return gaps_json(s.deck->path, deck, s.scene, s.view, all, &s.crossings);
+             });
+           })
       .def("facts", &contact_facts)
       .def("secondary", &secondary_arrays)
       .def("main", &main_arrays)
       .def("penetrations", &penetration_arrays)
       .def("tied_pairs", &tied_arrays)
-      .def("verdict", &gaps_verdict_of)
+      .def("verdict",
+           [](const PyScene& s) {
+             return text_about(s, [&](const Deck& deck) {
+               return verdict_json(verdict_of(deck, s.scene, s.view));
+             });
+           })
       .def("coordinates", [](const ScenePointer& s) {
         const py::object owner = py::cast(s);
         const Coordinates& x = s->scene.coordinates;
@@ -294,14 +285,21 @@ void bind_results(py::module_& m) {
       });
   py::class_<PyCycle, CyclePointer>(m, "Cycle")
       .def("__len__", [](const PyCycle& r) { return r.outcome.contacts.size(); })
-      .def("json", &cycle_text_of)
+      .def("json",
+           [](const PyCycle& r, bool all) {
+             return text_about(*r.contacts,
+                               [&](const Deck&) { return cycle_json(input_of(r), all); });
+           })
       .def("facts", [](const PyCycle& r, std::size_t k) { return contact_facts(*r.contacts, k); })
       .def("secondary",
            [](const PyCycle& r, std::size_t k) { return secondary_arrays(r.contacts, k); })
       .def("main", [](const PyCycle& r, std::size_t k) { return main_arrays(r.contacts, k); })
       .def("pairs", &force_arrays)
       .def("mass", [](const CyclePointer& r) { return view_of(r->state.mass, py::cast(r)); })
-      .def("verdict", &cycle_verdict_of);
+      .def("verdict", [](const PyCycle& r) {
+        return text_about(*r.contacts,
+                          [&](const Deck&) { return verdict_json(cycle_verdict(input_of(r))); });
+      });
   m.def("gaps", [](const DeckPointer& deck, const std::vector<std::int64_t>& only,
                    const std::string& accuracy, const std::vector<std::string>& what_if) {
     return contacts_of(deck, only, accuracy, what_if, false);
