@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "accuracy/shared/motion.hpp"
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
@@ -13,6 +11,8 @@
 
 namespace deck {
 namespace {
+
+std::array<double, 3> point(const Point3<double>& p) { return {p.x, p.y, p.z}; }
 
 TextTable::Cell wrong_cell(std::uint64_t wrong, std::uint64_t all) {
   if (wrong == 0) return {"0", Tone::green};
@@ -98,9 +98,21 @@ RECORD(AccuracyChoice, "choice", "What a word of --accuracy costs and gives.",
        COLUMN("word", "", r.accuracy), COLUMN("deck", "null: no deck, or no pair in it", r.deck),
        COLUMN("hard", "", r.hard));
 
-namespace {
+RECORD(HardMotion::Line, "line", "", COLUMN("word", "", r.accuracy),
+       COLUMN("depth", "By step", r.depth),
+       COLUMN("force", "By step: the elastic force of a stiffness of 1", r.force),
+       COLUMN("jumps", "Steps where the depth changes by more than the way", r.jumps));
 
-std::array<double, 3> point(const Point3<double>& p) { return {p.x, p.y, p.z}; }
+RECORD(HardMotion, "motion",
+       "One hard case in motion: a node passes a triangle of hardly any area in straight steps of "
+       "equal length.",
+       COLUMN("corners", "",
+              std::array{point(r.corners[0]), point(r.corners[1]), point(r.corners[2])}),
+       COLUMN("from", "", point(r.from)), COLUMN("to", "", point(r.to)), COLUMN("gap", "", r.gap),
+       COLUMN("way", "Of the node in one step", r.way), COLUMN("lines", "", rows_of(r.lines)),
+       COLUMN("sentences", "", rows_of(motion_sentences(r))));
+
+namespace {
 
 struct WorstRow {
   Accuracy word;
@@ -163,24 +175,6 @@ LINE_RECORD(WrongRow, "wrong_pair", "A wrong decision about a pair of the deck."
             COLUMN("exact", "The distance; null: the interface has other rules, or moves nodes",
                    r.pair->exact),
             COLUMN("computed", "The distance by the formula of the word", r.pair->computed));
-
-}  // namespace
-
-RECORD(HardMotion::Line, "line", "", COLUMN("word", "", r.accuracy),
-       COLUMN("depth", "By step", r.depth),
-       COLUMN("force", "By step: the elastic force of a stiffness of 1", r.force),
-       COLUMN("jumps", "Steps where the depth changes by more than the way", r.jumps));
-
-RECORD(HardMotion, "motion",
-       "One hard case in motion: a node passes a triangle of hardly any area in straight steps of "
-       "equal length.",
-       COLUMN("corners", "",
-              std::array{point(r.corners[0]), point(r.corners[1]), point(r.corners[2])}),
-       COLUMN("from", "", point(r.from)), COLUMN("to", "", point(r.to)), COLUMN("gap", "", r.gap),
-       COLUMN("way", "Of the node in one step", r.way), COLUMN("lines", "", rows_of(r.lines)),
-       COLUMN("sentences", "", rows_of(motion_sentences(r))));
-
-namespace {
 
 struct AccuracyDocument {
   const AccuracyChoices* choices;

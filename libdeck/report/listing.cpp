@@ -29,6 +29,29 @@ Ids ids_of(const std::array<std::int64_t, N>& list) {
 
 std::optional<double> finite_step(double dt) { return known(dt < 1e29, dt); }
 
+}  // namespace
+
+std::string_view listed_kind(const ComparedSteps& steps) {
+  return steps.kind ? detail::kind_name(*steps.kind) : "node";
+}
+
+LINE_RECORD(ListedPair, "listed_pair", "A pair that only the listing has.",
+            COLUMN("secondary", "", ids_of(r.secondary)), COLUMN("main", "", ids_of(r.main)),
+            COLUMN("listed_penetration", "", r.depth));
+
+LINE_RECORD(StepDifference, "step_difference", "", COLUMN("id", "", r.id),
+            COLUMN("listed", "", finite_step(r.listed)),
+            COLUMN("computed", "", finite_step(r.computed)));
+
+RECORD(ComparedSteps, "steps", "", COLUMN("of", "Kind of element, or node", listed_kind(r)),
+       COLUMN("listed", "", r.listed), COLUMN("equal", "Within 1e-6", r.equal),
+       COLUMN("not_computed", "", r.not_computed),
+       COLUMN("largest_difference", "Relative, of those that are equal", r.largest_difference),
+       COLUMN("smallest", "null: no element limits the step", finite_step(r.smallest)),
+       COLUMN("smallest_id", "", r.smallest_id), COLUMN("different", "", r.different));
+
+namespace {
+
 struct ListingDocument {
   const Listing& listing;
   const ListingReport& report;
@@ -104,18 +127,6 @@ LINE_RECORD(PairOfListing, "pair", "",
                    known(r.of.c->by_pair, r.pair->listed)),
             COLUMN("listed_penetration", "", r.pair->listed_depth));
 
-}  // namespace
-
-std::string_view listed_kind(const ComparedSteps& steps) {
-  return steps.kind ? detail::kind_name(*steps.kind) : "node";
-}
-
-LINE_RECORD(ListedPair, "listed_pair", "A pair that only the listing has.",
-            COLUMN("secondary", "", ids_of(r.secondary)), COLUMN("main", "", ids_of(r.main)),
-            COLUMN("listed_penetration", "", r.depth));
-
-namespace {
-
 RECORD(ContactOfListing, "contact", "", COLUMN("interface", "", r.contact().inter->id),
        COLUMN("type", "", r.contact().inter->type), COLUMN("role", "", r.contact().role),
        COLUMN("agrees", "", r.c->agrees()),
@@ -128,21 +139,6 @@ RECORD(ContactOfListing, "contact", "", COLUMN("interface", "", r.contact().inte
               r.lines()),
        COLUMN("pairs", "", rows<PairOfListing>(r.c->pairs, r)),
        COLUMN("listed_only", "", r.c->only_listed));
-
-}  // namespace
-
-LINE_RECORD(StepDifference, "step_difference", "", COLUMN("id", "", r.id),
-            COLUMN("listed", "", finite_step(r.listed)),
-            COLUMN("computed", "", finite_step(r.computed)));
-
-RECORD(ComparedSteps, "steps", "", COLUMN("of", "Kind of element, or node", listed_kind(r)),
-       COLUMN("listed", "", r.listed), COLUMN("equal", "Within 1e-6", r.equal),
-       COLUMN("not_computed", "", r.not_computed),
-       COLUMN("largest_difference", "Relative, of those that are equal", r.largest_difference),
-       COLUMN("smallest", "null: no element limits the step", finite_step(r.smallest)),
-       COLUMN("smallest_id", "", r.smallest_id), COLUMN("different", "", r.different));
-
-namespace {
 
 RECORD(ListingDocument, "document", "",
        LINE_OBJECT("listing", "", COLUMN("path", "", r.listing.path),

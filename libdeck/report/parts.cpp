@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
 #include "deck/text/number.hpp"
 #include "model/shared/kinematics.hpp"

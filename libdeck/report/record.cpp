@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
 

@@ -27,58 +27,6 @@ constexpr const char* reasons =
     "mid-surface reached, dtmin (time to the mid-surface), dtmin (stiffness against mass) or no "
     "element left (Idel)";
 
-struct CyclePairRow {
-  PairSides sides;
-  const cycle::PairOutcome* pair;
-};
-LINE_RECORD(CyclePairRow, "pair", "A pair that has a penetration or a force.",
-            COLUMN("edge", "", r.sides.edge()), COLUMN("main_edge", "", r.sides.main_edge()),
-            COLUMN("node", "", r.sides.node()), COLUMN("segment", "", r.sides.segment()),
-            COLUMN("weights", "H1..H4; edges: h_s, 1-h_s, h_m, 1-h_m", r.pair->weights),
-            COLUMN("force", "On the main side; the secondary side gets the opposite",
-                   r.pair->force),
-            COLUMN("penetration", "Effective, after Inacti", r.pair->penetration),
-            COLUMN("gap", "Effective, after Inacti", r.pair->gap),
-            COLUMN("distance", "", r.pair->distance),
-            COLUMN("k0", "Pair stiffness before the 1/2 of the law", r.pair->k0),
-            COLUMN("k_nodal", "", r.pair->k_nodal));
-
-struct RemovedRow {
-  PairSides sides;
-  cycle::Removal::Because because;
-};
-LINE_RECORD(RemovedRow, "removed", "", COLUMN("edge", "", r.sides.edge()),
-            COLUMN("node", "", r.sides.node()), COLUMN("because", reasons, to_string(r.because)));
-
-struct TieChangeRow {
-  PairSides sides;
-  bool tied;
-};
-LINE_RECORD(TieChangeRow, "tie_change", "", COLUMN("node", "", r.sides.node()),
-            COLUMN("segment", "", r.sides.segment()), COLUMN("tied", "false: it lets go", r.tied));
-
-struct ReleaseRow {
-  std::int64_t node;
-  unsigned before, after;
-};
-LINE_RECORD(ReleaseRow, "release", "Fixed translations of a node that IBC frees.",
-            COLUMN("node", "", r.node), COLUMN("before", "Bits 4 X + 2 Y + Z", r.before),
-            COLUMN("after", "", r.after));
-
-struct CriteriaRow {
-  std::int64_t node;
-  double radius, penetration;
-  std::optional<double> angle;
-};
-LINE_RECORD(
-    CriteriaRow, "criteria", "What Iadm asks of a node.", COLUMN("node", "", r.node),
-    COLUMN("radius", "Smallest radius of curvature", r.radius),
-    COLUMN("penetration", "Secondary side: the deepest over Padm times the gap", r.penetration),
-    COLUMN("angle",
-           "Secondary side: smallest cosine between the normals of a segment and of its corners "
-           "over that of Angladm; below 1 the angle is exceeded",
-           r.angle));
-
 struct CycleDocument {
   const CycleInput* input;
   const cycle::SceneOutcome* outcome;
@@ -90,25 +38,55 @@ struct CycleDocument {
 struct CycleContactRow {
   const CycleDocument& document;
   const ContactOutcome* o;
-
   const Model& model() const { return document.model(); }
-  PairSides sides(const CandidatePair& at) const {
-    return {&model(), o->contact, at.secondary, at.main};
-  }
-  CyclePairRow row(const cycle::PairOutcome& p) const { return {sides(p.at), &p}; }
-  RemovedRow row(const cycle::Removal& r) const { return {sides({r.secondary, 0}), r.because}; }
-  TieChangeRow row(const cycle::TieChange& t) const { return {sides(t.at), t.tied}; }
-  ReleaseRow row(const cycle::NodeRelease& r) const {
-    return {model().node_id(r.node), r.before, r.after};
-  }
-  CriteriaRow row(const cycle::NodeCriteria& c) const {
-    return {model().node_id(c.node), c.radius, c.penetration, limit(c.angle)};
-  }
-  template <class T>
-  auto rows(const std::vector<T>& list) const {
-    return rows_of(list, [this](const T& value) { return row(value); });
-  }
 };
+
+/// A pair, a node or an event of a contact.
+template <class T>
+struct OfContact {
+  const CycleContactRow& contact;
+  const T* of;
+  PairSides sides(std::uint32_t secondary, std::uint32_t main = 0) const {
+    return {&contact.model(), contact.o->contact, secondary, main};
+  }
+  PairSides sides() const { return sides(of->at.secondary, of->at.main); }
+  std::int64_t node() const { return contact.model().node_id(of->node); }
+};
+using CyclePairRow = OfContact<cycle::PairOutcome>;
+
+LINE_RECORD(CyclePairRow, "pair", "A pair that has a penetration or a force.",
+            COLUMN("edge", "", r.sides().edge()), COLUMN("main_edge", "", r.sides().main_edge()),
+            COLUMN("node", "", r.sides().node()), COLUMN("segment", "", r.sides().segment()),
+            COLUMN("weights", "H1..H4; edges: h_s, 1-h_s, h_m, 1-h_m", r.of->weights),
+            COLUMN("force", "On the main side; the secondary side gets the opposite", r.of->force),
+            COLUMN("penetration", "Effective, after Inacti", r.of->penetration),
+            COLUMN("gap", "Effective, after Inacti", r.of->gap),
+            COLUMN("distance", "", r.of->distance),
+            COLUMN("k0", "Pair stiffness before the 1/2 of the law", r.of->k0),
+            COLUMN("k_nodal", "", r.of->k_nodal));
+
+LINE_RECORD(OfContact<cycle::Removal>, "removed", "",
+            COLUMN("edge", "", r.sides(r.of->secondary).edge()),
+            COLUMN("node", "", r.sides(r.of->secondary).node()),
+            COLUMN("because", reasons, to_string(r.of->because)));
+
+LINE_RECORD(OfContact<cycle::TieChange>, "tie_change", "", COLUMN("node", "", r.sides().node()),
+            COLUMN("segment", "", r.sides().segment()),
+            COLUMN("tied", "false: it lets go", r.of->tied));
+
+LINE_RECORD(OfContact<cycle::NodeRelease>, "release",
+            "Fixed translations of a node that IBC frees.", COLUMN("node", "", r.node()),
+            COLUMN("before", "Bits 4 X + 2 Y + Z", r.of->before), COLUMN("after", "", r.of->after));
+
+LINE_RECORD(
+    OfContact<cycle::NodeCriteria>, "criteria", "What Iadm asks of a node.",
+    COLUMN("node", "", r.node()), COLUMN("radius", "Smallest radius of curvature", r.of->radius),
+    COLUMN("penetration", "Secondary side: the deepest over Padm times the gap", r.of->penetration),
+    COLUMN("angle",
+           "Secondary side: smallest cosine between the normals of a segment and of its corners "
+           "over that of Angladm; below 1 the angle is exceeded",
+           limit(r.of->angle)));
+
 RECORD(
     CycleContactRow, "contact", "", COLUMN("kind", "", r.o->contact->kind),
     COLUMN("role", "", r.o->contact->role),
@@ -135,24 +113,25 @@ RECORD(
     COLUMN("dt_because", sources, source_name(r.o->step.source)),
     COLUMN("dt_node", "", id_of(r.model(), r.o->step_node)),
     COLUMN("largest_pair", "null: no pair has a force",
-           known(r.o->largest_force > 0, r.row(r.o->largest))),
+           known(r.o->largest_force > 0, CyclePairRow{r, &r.o->largest})),
     LINE_OBJECT("acceleration", "", COLUMN("max", "", r.o->largest_acceleration),
                 COLUMN("node", "", id_of(r.model(), r.o->acceleration_node)),
                 COLUMN("massless_nodes", "With a force", r.o->massless_nodes)),
     OBJECT("near_singular", "Hardly any gap left.", COLUMN("count", "", r.o->near_singular_count),
            COLUMN("gap_closed", "Pairs at their mid-surface", r.o->gap_closed),
-           COLUMN("worst", "At most 20", r.rows(r.o->near_singular))),
+           COLUMN("worst", "At most 20", rows<CyclePairRow>(r.o->near_singular, r))),
     COLUMN("pairs_tied", "", r.o->pairs_tied),
     COLUMN("removed", "What leaves the interface for good after this evaluation",
-           r.rows(r.o->removed)),
-    COLUMN("ties", "Pairs that tie or let go in this evaluation", r.rows(r.o->ties)),
-    COLUMN("released", "", r.rows(r.o->released)),
-    COLUMN("criteria", "With Iadm", r.rows(r.o->criteria)),
+           rows<OfContact<cycle::Removal>>(r.o->removed, r)),
+    COLUMN("ties", "Pairs that tie or let go in this evaluation",
+           rows<OfContact<cycle::TieChange>>(r.o->ties, r)),
+    COLUMN("released", "", rows<OfContact<cycle::NodeRelease>>(r.o->released, r)),
+    COLUMN("criteria", "With Iadm", rows<OfContact<cycle::NodeCriteria>>(r.o->criteria, r)),
     COLUMN("notes", "What the card asks for and was left out", rows_of(r.o->notes)),
     COLUMN("cost", "With --costs or --html; null: not measured",
            measured_cost(*r.document.input, *r.o)),
     COLUMN("pairs", "With --all: every pair that has a penetration",
-           if_any(r.document.all, r.rows(r.o->pairs))));
+           if_any(r.document.all, rows<CyclePairRow>(r.o->pairs, r))));
 
 struct EffectRow {
   const Deck& deck;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <unordered_map>
 
 #include "base/shared/paths.hpp"

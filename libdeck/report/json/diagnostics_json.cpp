@@ -1,9 +1,20 @@
 // Findings as the project's own JSON document.
 #include "base/shared/columns.hpp"
-#include "report/shared/gate.hpp"
 #include "report/shared_records.hpp"
 
 namespace deck {
+
+LINE_RECORD(ReferenceMessage, "reference", "A message of the solver.",
+            COLUMN("message", "", r.number), COLUMN("severity", "", r.severity));
+
+LINE_RECORD(NotChecked, "not_checked", "", COLUMN("what", "", r.what), COLUMN("why", "", r.why));
+
+using FindingCount = std::pair<const FindingKey, std::uint64_t>;
+LINE_RECORD(FindingCount, "stale", "An entry of the baseline that no finding matches.",
+            COLUMN("rule", "", r.first.rule), COLUMN("file", "", r.first.file),
+            COLUMN("entity", "", r.first.entity), COLUMN("field", "", r.first.field),
+            COLUMN("count", "", r.second));
+
 namespace {
 
 struct EditRow {
@@ -59,16 +70,6 @@ RECORD(FindingRow, "finding", "", COLUMN("rule", "", id_text(r.d->rule)),
        COLUMN("fix", "", r.d->fix ? std::optional(FixRow{r.deck, &*r.d->fix}) : std::nullopt),
        COLUMN("fingerprint", "Of rule, entity and card text; it stays the same when lines move",
               r.fingerprint));
-
-}  // namespace
-
-using FindingCount = std::pair<const FindingKey, std::uint64_t>;
-LINE_RECORD(FindingCount, "stale", "An entry of the baseline that no finding matches.",
-            COLUMN("rule", "", r.first.rule), COLUMN("file", "", r.first.file),
-            COLUMN("entity", "", r.first.entity), COLUMN("field", "", r.first.field),
-            COLUMN("count", "", r.second));
-
-namespace {
 
 struct LintDocument {
   const LintedDeck* linted = nullptr;
@@ -152,11 +153,6 @@ constexpr DocumentHead lint_head{"deck/lint", 1, "Written by deck lint --json."}
 constexpr DocumentHead rules_head{"deck/rules", 1, "Written by deck rules --json.", false};
 
 }  // namespace
-
-LINE_RECORD(ReferenceMessage, "reference", "A message of the solver.",
-            COLUMN("message", "", r.number), COLUMN("severity", "", r.severity));
-
-LINE_RECORD(NotChecked, "not_checked", "", COLUMN("what", "", r.what), COLUMN("why", "", r.why));
 
 DocumentSchema lint_schema() { return document_schema<LintDocument>(lint_head); }
 DocumentSchema rules_schema() { return document_schema<RulesDocument>(rules_head); }

@@ -1,8 +1,11 @@
-// Verdict and tables of `deck gaps`: interfaces, part pairs, the deepest penetrations, ties.
+// `deck gaps` for people: verdict and tables of interfaces, part pairs, the deepest penetrations,
+// ties, crossed elements and decisions; penetrations and ties as CSV.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <map>
 
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
@@ -12,6 +15,8 @@
 #include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/shared/gate.hpp"
+#include "report/shared/text_table.hpp"
+#include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {
@@ -20,6 +25,108 @@ namespace {
 const PenetrationRow& row_of(const Scene& scene, const NamedPenetration& p) {
   return scene.contacts[p.contact].penetrations[p.row];
 }
+
+}  // namespace
+
+std::string ids_text(const Model& model, std::span<const NodeIndex> nodes, char between) {
+  std::string out;
+  NodeIndex last = no_index;
+  for (const NodeIndex n : nodes) {
+    if (n == last) continue;
+    last = n;
+    if (!out.empty()) out += between;
+    out += std::to_string(model.node_id(n));
+  }
+  return out;
+}
+
+PairNodes pair_nodes(const Contact& c, std::uint32_t secondary, std::uint32_t main) {
+  if (c.kind == ContactKind::edge_edge)
+    return {c.secondary_edges[secondary].nodes, c.main_edges[main].nodes};
+  return {std::span(&c.secondary[secondary].node, 1), c.main[main].nodes};
+}
+
+NodeIndex first_node(const Scene& scene, const NamedPenetration& p) {
+  const PenetrationRow& row = row_of(scene, p);
+  return pair_nodes(scene.contacts[p.contact], row.secondary, row.main).secondary[0];
+}
+
+std::vector<NodeIndex> first_nodes(const Scene& scene, const std::vector<NamedPenetration>& list) {
+  std::vector<NodeIndex> out;
+  out.reserve(list.size());
+  for (const NamedPenetration& p : list) out.push_back(first_node(scene, p));
+  return out;
+}
+
+ElementName edge_element(const Model& model, const Crossing& x) {
+  const Elements& family = model.family(x.edge_kind);
+  const std::uint32_t part = family.part[x.edge_element];
+  return {x.edge_kind, x.edge_element, family.id[x.edge_element],
+          part == no_index ? 0 : model.parts[part].id};
+}
+
+ElementName segment_element(const Scene& scene, const Crossing& x) {
+  const MainSegment& m = scene.contacts[x.contact].main[x.main];
+  return carrier_name(*scene.model, m.carrier, m.element);
+}
+
+std::string crossings_text(const Scene& scene, const std::vector<Crossing>& crossings,
+                           const GapsTextOptions& options) {
+  if (crossings.empty()) return "\nNo edge of the secondary side passes through a main segment.\n";
+  const Model& model = *scene.model;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<const Crossing*>> by_parts;
+  for (const Crossing& x : crossings)
+    by_parts[{edge_element(model, x).part, segment_element(scene, x).part}].push_back(&x);
+  TextTable table({">part", ">through part", ">crossings", ">interface", "for example edge",
+                   ">of element", "through segment", ">of element"});
+  for (const auto& [parts, list] : by_parts) {
+    const Crossing& x = *list.front();
+    const Contact& c = scene.contacts[x.contact];
+    table.row({parts.first, parts.second, list.size(), c.inter->id, ids_text(model, x.edge, ' '),
+               edge_element(model, x).id, ids_text(model, c.main[x.main].nodes, ' '),
+               segment_element(scene, x).id});
+  }
+  return fmt::format("\nCrossed elements: {}\n{}", crossings.size(),
+                     table.fitted(options.width, options.color, 2, 2));
+}
+
+std::string decisions_text(const Scene& scene, std::size_t rows, bool always, bool color,
+                           std::size_t width) {
+  const DecisionReport& r = scene.decisions;
+  if (r.pairs == 0 || (!always && r.contact_differs == 0)) return {};
+  std::string out = fmt::format("Decisions ({}): {} pairs", to_string(r.mode), r.pairs);
+  if (r.mode != Accuracy::robust && r.mode != Accuracy::exact) return out + " in plain double.\n";
+  out +=
+      fmt::format(", {} ({:.2g} %) needed more than double, {} exact arithmetic.", r.fallback,
+                  100.0 * static_cast<double>(r.fallback) / static_cast<double>(r.pairs), r.exact);
+  const std::uint64_t differ = r.contact_differs + r.surface_differs;
+  if (differ == 0) return out + " The solver's arithmetic decides all of them alike.\n";
+  out += fmt::format(
+      " The solver's arithmetic decides {} otherwise: {} about contact, {} about "
+      "nodes exactly on a segment.\n",
+      differ, r.contact_differs, r.surface_differs);
+  TextTable table({">interface", "node/edge", "segment/edge", "exactly", ">gap", ">distance",
+                   ">the solver's", "action"});
+  const std::size_t shown = std::min(rows, r.differences.size());
+  for (std::size_t k = 0; k < shown; ++k) {
+    const DecisionDifference& d = r.differences[k];
+    const Contact& c = scene.contacts[d.contact];
+    const PairNodes nodes = pair_nodes(c, d.secondary, d.main);
+    const char* const decided = d.surface ? (d.exact ? "lies on it" : "does not lie on it")
+                                : d.exact ? "in contact"
+                                          : "not in contact";
+    table.row({c.inter->id, ids_text(*scene.model, nodes.secondary, '-'),
+               ids_text(*scene.model, nodes.main, ' '), decided, fmt::format("{}", d.gap),
+               fmt::format("{}", d.exact_distance),
+               std::isnan(d.solver_distance) ? "no number" : fmt::format("{}", d.solver_distance),
+               to_string(d.action)});
+  }
+  if (shown > 0) out += table.fitted(width, color, 2, 2);
+  if (shown > 0 && shown < differ) out += fmt::format("  … and {} more (--json)\n", differ - shown);
+  return out;
+}
+
+namespace {
 
 /// Why a contact with 0 penetrations is not reported as clean; empty: it is.
 std::string obstacle(const Contact& c) {
@@ -340,6 +447,98 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
   out += verdict_text(verdict_of(deck, scene, view), color);
   if (options.gate != nullptr) out += gate_text(*options.gate);
   return out;
+}
+
+namespace {
+
+std::optional<std::int64_t> known_id(std::int64_t id) { return known(id != 0, id); }
+std::optional<double> known_length(double v, bool is_there = true) {
+  return known(is_there && !is_unbounded(v), v);
+}
+
+/// "file,line"
+std::array<std::string, 2> place_cells(const Deck& deck, const Span& span) {
+  if (!span.valid()) return {};
+  return {terminal_text(deck.sources[span.file].path()),
+          std::to_string(deck.sources.position(span).line)};
+}
+
+struct PenetrationLine {
+  const NamedPenetration& pair;
+  const Span& span;
+  const Contact& contact;
+  const PenetrationRow& row;
+};
+
+struct TieLine {
+  const Tie& tie;
+  const TiedNode& node;
+  const Span& span;
+  bool found() const { return node.segment != no_index; }
+  /// Of the segment that it is tied to, or that is nearest.
+  std::array<std::optional<std::int64_t>, 4> corners(const Model& model) const {
+    std::array<std::optional<std::int64_t>, 4> out;
+    const std::uint32_t segment = found() ? node.segment : node.nearest;
+    for (std::size_t k = 0; k < 4 && segment != no_index; ++k)
+      out[k] = model.node_id(tie.main[segment][k]);
+    return out;
+  }
+};
+
+}  // namespace
+
+std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view,
+                     const TextDrain& drain) {
+  CsvTable<PenetrationLine> table(
+      drain, CSV("interface", r.contact.inter->id), CSV("type", r.contact.inter->type),
+      CSV("role", to_string(r.contact.role)), CSV("kind", to_string(r.contact.kind)),
+      CSV("secondary_1", r.pair.secondary[0]), CSV("secondary_2", known_id(r.pair.secondary[1])),
+      CSV("main_1", r.pair.main[0]), CSV("main_2", r.pair.main[1]),
+      CSV("main_3", known_id(r.pair.main[2])), CSV("main_4", known_id(r.pair.main[3])),
+      CSV("depth", known_length(r.row.depth)), CSV("gap", known_length(r.row.gap)),
+      CSV("distance", known_length(r.row.distance)),
+      CSV("ratio", r.row.gap > 0 ? r.row.depth / r.row.gap : 0.0),
+      CSV("normal_x,normal_y,normal_z", r.row.normal), CSV("on_surface", r.row.on_surface),
+      CSV("in_contact", r.row.in_contact), CSV("action", to_string(r.row.action)),
+      CSV("gap0", known_length(r.row.gap0, r.row.has_gap0)),
+      CSV("p0", known_length(r.row.p0, r.row.has_gap0)), CSV("x,y,z", r.pair.at),
+      CSV("secondary_element", known_id(r.pair.secondary_element.id)),
+      CSV("secondary_part", known_id(r.pair.secondary_element.part)),
+      CSV("main_element", known_id(r.pair.main_element.id)),
+      CSV("main_part", known_id(r.pair.main_element.part)),
+      CSV("file,line", place_cells(deck, r.span)));
+  const std::vector<Span> spans =
+      detail::node_spans(*scene.model, first_nodes(scene, view.penetrations));
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const NamedPenetration& p = view.penetrations[i];
+    table.add({p, spans[i], scene.contacts[p.contact], row_of(scene, p)});
+  }
+  return table.text();
+}
+
+std::string ties_csv(const Deck& deck, const Scene& scene, const TextDrain& drain) {
+  const Model& model = *scene.model;
+  const Nodes& nodes = model.nodes;
+  Connectivity connectivity(model);
+  CsvTable<TieLine> table(
+      drain, CSV("interface", r.tie.inter->id), CSV("node", model.node_id(r.node.node)),
+      CSV("part", known_id(element_at(model, connectivity, r.node.node).part)),
+      CSV("tied", r.node.tied), CSV("penalty", r.node.penalty),
+      CSV("message", known_id(r.node.message)),
+      CSV("main_1,main_2,main_3,main_4", r.corners(model)), CSV("s", known(r.found(), r.node.s)),
+      CSV("t", known(r.found(), r.node.t)), CSV("distance", known(r.found(), r.node.distance)),
+      CSV("search", known(r.node.search != 0, r.node.search)),
+      CSV("nearest_distance", known(r.node.nearest != no_index, r.node.nearest_distance)),
+      CSV("why", short_reason(r.tie, r.node)), CSV("x", nodes.x[r.node.node]),
+      CSV("y", nodes.y[r.node.node]), CSV("z", nodes.z[r.node.node]),
+      CSV("file,line", place_cells(deck, r.span)));
+  for (const Tie& tie : scene.ties) {
+    std::vector<NodeIndex> list;
+    for (const TiedNode& n : tie.nodes) list.push_back(n.node);
+    const std::vector<Span> spans = detail::node_spans(model, list);
+    for (std::size_t i = 0; i < tie.nodes.size(); ++i) table.add({tie, tie.nodes[i], spans[i]});
+  }
+  return table.text();
 }
 
 }  // namespace deck
