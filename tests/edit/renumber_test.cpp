@@ -14,7 +14,6 @@ namespace deck {
 namespace {
 
 using edit_test::Whole;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -40,58 +39,6 @@ TEST(RenumberRuleText, IsKindSignAndNumber) {
   for (const char* bad :
        {"", "node", "node+", "node+x", "nodes+1", "node=0", "node+99999999999", "node+1 2", "+5"})
     EXPECT_FALSE(parse_renumber_rule(bad).ok()) << bad;
-}
-
-/// One id gets another number.
-Rewrite renamed(const Whole& w, const char* kind, std::int64_t id, std::int64_t now) {
-  RenumberOptions options;
-  options.rules = {{kind, false, now, id}};
-  return renumber(w.context(), options);
-}
-
-TEST(RenumberOne, ChangesThatIdAndWhatNamesItOnly) {
-  const auto w = Whole::text(plates()
-                                 .group("/GRNOD/NODE/3", {50, 51})
-                                 .segments("/SURF/SEG/3", {{10, 20, 40, 30}})
-                                 .add("@/INTER/TYPE7/1 grnd_IDs=3 surf_IDm=3 Icurv=1 node_ID1=10")
-                                 .text());
-  const Rewrite node = renamed(*w, "node", 10, 999);
-  EXPECT_TRUE(node.refusals.empty());
-  EXPECT_EQ(node.edits.size(), 4u);  // the node, the shell, the segment, node_ID1
-  const Rewrite group = renamed(*w, "grnod", 3, 33);
-  EXPECT_TRUE(group.refusals.empty());
-  EXPECT_EQ(group.edits.size(), 2u);  // its header and grnd_IDs
-}
-
-TEST(RenumberOne, RefusesIdsThatAreTakenOrNotThere) {
-  const auto w = Whole::text(plates().text());
-  for (const auto& [id, now] : {std::pair{10, 20}, {11, 12}, {10, 0}}) {
-    const Rewrite r = renamed(*w, "node", id, now);
-    EXPECT_EQ(r.refusals.size(), 1u) << id << " " << now;
-    EXPECT_TRUE(r.edits.empty());
-  }
-  EXPECT_TRUE(renamed(*w, "node", 10, 10).edits.empty());
-  EXPECT_TRUE(renamed(*w, "node", 10, 10).refusals.empty());
-}
-
-TEST(RenumberOne, KeepsRangesTrue) {
-  const auto w = Whole::text(plates().group("/GRNOD/GENE/5", {10, 30}).text());
-  // The ends of the range move with their nodes, within the range nothing is written ...
-  EXPECT_THAT(w->after(renamed(*w, "node", 30, 35))->main_text(),
-              HasSubstr("        10        35"));
-  EXPECT_THAT(w->after(renamed(*w, "node", 10, 5))->main_text(), HasSubstr("         5        30"));
-  EXPECT_EQ(renamed(*w, "node", 20, 25).edits.size(), 2u);  // node, shell
-  // ... and a node neither leaves it nor comes into it.
-  EXPECT_FALSE(renamed(*w, "node", 20, 500).refusals.empty());
-  EXPECT_FALSE(renamed(*w, "node", 53, 25).refusals.empty());
-  // With an increment 10 and 30 are of the range, 20 and 40 are not.
-  const auto step = Whole::text(plates().group("/GRNOD/GEN_INCR/4", {10, 40, 20}).text());
-  EXPECT_THAT(renamed(*step, "node", 20, 25).refusals, IsEmpty());
-  EXPECT_EQ(renamed(*step, "node", 20, 25).edits.size(), 2u);
-  EXPECT_THAT(renamed(*step, "node", 30, 35).refusals,
-              ElementsAre(HasSubstr("the range does not stay the same with the new id")));
-  // The first one would move the whole range.
-  EXPECT_THAT(renamed(*step, "node", 10, 12).refusals, testing::SizeIs(1));
 }
 
 TEST(Renumber, SmoothedSurfaceInThePlaceOfTheNodeGroupFollowsAsASurface) {
