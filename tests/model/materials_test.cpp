@@ -57,6 +57,13 @@ TEST(Material, HasTheModuliOfItsLaw) {
   }
 }
 
+TEST(Material, OfOgdenHasTenTermsFromVersion2025On) {
+  const std::string block = "/MAT/OGDEN/1\nm\n" + reals({1e-6}) + reals({0.495}) + reals({0.5}) +
+                            reals({0.25}) + reals({2}) + reals({4});
+  EXPECT_DOUBLE_EQ(BuiltModel(block, "kg mm ms", 2025).model().materials.at(0).young, 2 * 1.495);
+  EXPECT_DOUBLE_EQ(BuiltModel(block, "kg mm ms", 2024).model().materials.at(0).young, 1.495);
+}
+
 TEST(Material, TakesOnlyABulkModulusOfAnEquationOfStateThatWasRead) {
   const std::string state = "/EOS/POLYNOMIAL/1\ne\n" + reals({0, 150, 0});
   BuiltModel b("/MAT/HYD_JCOOK/1\nm\n" + reals({1e-6}) + reals({210, 0.3}) + state);

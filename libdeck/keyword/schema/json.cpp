@@ -517,7 +517,6 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
     return list_of(cards, here, card_of);
   });
   extend_to_older_decks(schema, unread);
-  if (const auto wrong = check_schema(schema); !wrong.empty()) throw Wrong{path.text() + wrong};
   return schema;
 }
 
@@ -631,7 +630,10 @@ Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_
     DuplicateKeys duplicates;
     const Path root;
     const auto one = [&](const Json& schema, const Path& path) {
-      return ReadSchema{schema_of(schema, path, name), schema.dump()};
+      ReadSchema out{schema_of(schema, path, name), schema.dump()};
+      if (const auto wrong = check_schema(out.schema); !wrong.empty())
+        throw Wrong{path.text() + wrong};
+      return out;
     };
     const auto parsed = Json::parse(text, [&](int, Json::parse_event_t event, Json& json) {
       return duplicates(event, json);
