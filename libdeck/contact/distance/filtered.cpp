@@ -13,88 +13,63 @@ using namespace filter;
 
 namespace {
 
-// What double-double says of a pair, and on which parts it took the closest points to lie.
-struct WideSegment {
-  Answer answer;
+// The parts that the closest points of a pair lie on, and exact answers if they do.
+struct SegmentParts {
   int best;
   std::array<PartGuess, 4> guess;
-
-  static WideSegment run(const SegmentPair& pair, const SegmentClosest<double>& c, bool guided,
-                         double gap) {
-    const auto v = wide_hull<DoubleDouble>(pair);
-    const auto w = wide_closest(pair, c, v, guided);
-    return {answer_of(w, v, largest_magnitudes(v), pair.triangle, gap), w.best, guesses(w)};
-  }
 };
-struct WideEdges {
-  Answer answer;
-  EdgeFeature feature_s, feature_m;
+struct EdgeParts {
+  EdgeFeature secondary, main;
   bool parallel;
-
-  static WideEdges run(const EdgePair& pair, double gap) {
-    const auto v = pair.hull_of<DoubleDouble>();
-    const auto w = wide_closest(pair);
-    return {answer_of(w, v, largest_magnitudes(v), gap), w.feature_s, w.feature_m, w.parallel};
-  }
 };
-
-}  // namespace
-
-bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
-                    FilterCounters* counters) {
-  if (!(gap > 0.0)) return count(counters, FilterStage::double_precision), false;
-  if (gap == unbounded) return count(counters, FilterStage::double_precision), true;
-  SegmentPair pair(p, corners, triangle);
-  const double big = largest_of(pair.largest);
-  FilterStage stage = FilterStage::double_precision;
-  Answer answer = big == 0.0 ? Answer::yes : Answer::unknown;
-  const Scaled scaled = big == 0.0 ? Scaled{} : Scaled::of(pair.points, big);
-  if (scaled.shift != 0) pair.refresh();
-  const std::optional<double> limit = scaled.gap(gap);
-  if (answer == Answer::unknown && limit) {
-    if (clearly_apart(pair, *limit)) return count(counters, stage), false;
-    const auto c = closest_on_segment<Form::robust>(pair.points[4], pair.corners(), triangle);
-    answer = answer_of(c, pair.v, pair.largest, triangle, *limit);
-    const bool too_small = beyond_double_double(larger(c.distance(), *limit), big);
-    if (answer == Answer::unknown) {
-      stage = FilterStage::double_double;
-      const auto piece = too_small ? std::nullopt : piece_distance(pair, c);
-      if (piece) answer = piece->closer_than(*limit);
-      // The closest part is known and the distance is the gap to all digits: mostly it is the gap.
-      if (answer == Answer::unknown && (piece || too_small)) {
-        stage = FilterStage::exact;
-        answer = proved(piece ? is_closer_to_piece(pair.points, piece->piece, *limit)
-                              : prove_closer(pair.points, triangle, c.best, guesses(c), *limit));
-      }
-    }
-    if (answer == Answer::unknown && !too_small) {
-      // What double took for the closest parts nearly always is that: first the exact proof,
-      // then other parts.
-      for (const bool guided : {true, false}) {
-        const auto wide = fused<WideSegment>(pair, c, guided, *limit);
-        answer = wide.answer;
-        if (answer != Answer::unknown) break;
-        stage = FilterStage::exact;
-        answer = proved(prove_closer(pair.points, triangle, wide.best, wide.guess, *limit));
-        if (answer != Answer::unknown) break;
-      }
-    }
-  }
-  if (answer == Answer::unknown) {
-    stage = FilterStage::exact;
-    const bool closer = all_finite(points_of(p, corners, triangle)) &&
-                        exact_compare_distance(p, corners, triangle, gap) < 0;
-    answer = closer ? Answer::yes : Answer::no;
-  }
-  count(counters, stage);
-  return answer == Answer::yes;
+template <class T>
+SegmentParts parts_of(const SegmentClosest<T>& c) {
+  return {c.best, guesses(c)};
+}
+template <class T>
+EdgeParts parts_of(const EdgeClosest<T>& c) {
+  return {c.feature_s, c.feature_m, c.parallel};
+}
+std::optional<bool> prove(const SegmentPair& pair, const SegmentParts& on, double gap) {
+  return prove_closer(pair.points, pair.triangle, on.best, on.guess, gap);
+}
+std::optional<bool> prove(const EdgePair& pair, const EdgeParts& on, double gap) {
+  return prove_closer(pair.points, on.secondary, on.main, on.parallel, gap);
 }
 
-bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double gap,
-                    FilterCounters* counters) {
-  if (!(gap > 0.0)) return count(counters, FilterStage::double_precision), false;
-  if (gap == unbounded) return count(counters, FilterStage::double_precision), true;
-  EdgePair pair({s1, s2, m1, m2});
+// The closest part is known and the distance is the gap to all digits: mostly it is the gap.
+std::optional<bool> prove_piece(const SegmentPair& pair, const std::optional<PieceDistance>& piece,
+                                const SegmentClosest<double>& c, double gap) {
+  return piece ? is_closer_to_piece(pair.points, piece->piece, gap) : prove(pair, parts_of(c), gap);
+}
+std::optional<bool> prove_piece(const EdgePair& pair, const std::optional<PieceDistance>&,
+                                const EdgeClosest<double>& c, double gap) {
+  return prove(pair, parts_of(c), gap);
+}
+
+bool is_too_small(const SegmentClosest<double>& c, double gap, double big) {
+  return beyond_double_double(larger(c.distance(), gap), big);
+}
+bool is_too_small(const EdgeClosest<double>&, double, double) { return false; }
+
+// What double-double says of a pair, and on which parts it took the closest points to lie.
+template <class Parts>
+struct Wide {
+  Answer answer;
+  Parts parts;
+
+  template <class Pair, class Closest>
+  static Wide run(const Pair& pair, const Closest& c, bool guided, double gap) {
+    const auto v = pair.template hull_of<DoubleDouble>();
+    const auto w = wide_closest(pair, c, v, guided);
+    return {answer_of(w, v, largest_magnitudes(v), pair.triangle, gap), parts_of(w)};
+  }
+};
+
+// Sign of (gap - distance), in double as far as that tells, then in double-double, then exactly;
+// whole(): the answer of exact numbers alone.
+template <class Pair, class Whole>
+bool is_closer(Pair pair, double gap, FilterCounters* counters, const Whole& whole) {
   const double big = largest_of(pair.largest);
   FilterStage stage = FilterStage::double_precision;
   Answer answer = big == 0.0 ? Answer::yes : Answer::unknown;
@@ -104,34 +79,57 @@ bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double g
   if (answer == Answer::unknown && limit) {
     if (clearly_apart(pair, *limit)) return count(counters, stage), false;
     const auto c = closest_of(pair);
-    answer = answer_of(c, pair.v, pair.largest, *limit);
+    answer = answer_of(c, pair.v, pair.largest, pair.triangle, *limit);
+    const bool too_small = is_too_small(c, *limit, big);
     if (answer == Answer::unknown) {
       stage = FilterStage::double_double;
-      const auto piece = piece_distance(pair, c);
+      const auto piece = too_small ? std::nullopt : piece_distance(pair, c);
       if (piece) answer = piece->closer_than(*limit);
-      if (piece && answer == Answer::unknown) {
+      if (answer == Answer::unknown && (piece || too_small)) {
         stage = FilterStage::exact;
-        answer = proved(prove_closer(pair.points, c.feature_s, c.feature_m, c.parallel, *limit));
+        answer = proved(prove_piece(pair, piece, c, *limit));
       }
     }
-    if (answer == Answer::unknown) {
-      const auto wide = fused<WideEdges>(pair, *limit);
+    // What double took for the closest parts nearly always is that: first the exact proof, then
+    // other parts.
+    for (const bool guided : Pair::guided) {
+      if (answer != Answer::unknown || too_small) break;
+      const auto wide = fused<Wide<decltype(parts_of(c))>>(pair, c, guided, *limit);
       answer = wide.answer;
-      if (answer == Answer::unknown) {
-        stage = FilterStage::exact;
-        answer = proved(
-            prove_closer(pair.points, wide.feature_s, wide.feature_m, wide.parallel, *limit));
-      }
+      if (answer != Answer::unknown) break;
+      stage = FilterStage::exact;
+      answer = proved(prove(pair, wide.parts, *limit));
     }
   }
   if (answer == Answer::unknown) {
     stage = FilterStage::exact;
-    const bool closer = all_finite(std::array<P, 4>{s1, s2, m1, m2}) &&
-                        exact_compare_distance(s1, s2, m1, m2, gap) < 0;
-    answer = closer ? Answer::yes : Answer::no;
+    answer = whole() ? Answer::yes : Answer::no;
   }
   count(counters, stage);
   return answer == Answer::yes;
+}
+
+// True: the gap alone gives the answer.
+bool is_settled(double gap) { return !(gap > 0.0) || gap == unbounded; }
+
+}  // namespace
+
+bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
+                    FilterCounters* counters) {
+  if (is_settled(gap)) return count(counters, FilterStage::double_precision), gap > 0.0;
+  return is_closer(SegmentPair(p, corners, triangle), gap, counters, [&] {
+    return all_finite(points_of(p, corners, triangle)) &&
+           exact_compare_distance(p, corners, triangle, gap) < 0;
+  });
+}
+
+bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double gap,
+                    FilterCounters* counters) {
+  if (is_settled(gap)) return count(counters, FilterStage::double_precision), gap > 0.0;
+  return is_closer(EdgePair({s1, s2, m1, m2}), gap, counters, [&] {
+    return all_finite(std::array<P, 4>{s1, s2, m1, m2}) &&
+           exact_compare_distance(s1, s2, m1, m2, gap) < 0;
+  });
 }
 
 // ---- distances and depths as exact as they are asked for ---------------------------------------
@@ -167,7 +165,7 @@ struct RoundedSegment {
 
   static RoundedSegment run(const SegmentPair& pair, const SegmentClosest<double>& c, bool guided,
                             int shift) {
-    const auto v = wide_hull<DoubleDouble>(pair);
+    const auto v = pair.hull_of<DoubleDouble>();
     const auto w = wide_closest(pair, c, v, guided);
     return {w, rounded(lower_bound(w, v, largest_magnitudes(v), pair.triangle),
                        upper_bound(w.weights, v), shift)};
@@ -177,82 +175,66 @@ struct RoundedEdges {
   EdgeClosest<DoubleDouble> closest;
   std::optional<double> distance;
 
-  static RoundedEdges run(const EdgePair& pair, int shift) {
+  static RoundedEdges run(const EdgePair& pair, const EdgeClosest<double>& c, int shift) {
     const auto v = pair.hull_of<DoubleDouble>();
-    const auto w = wide_closest(pair);
-    return {w, rounded(lower_bound(w, v, largest_magnitudes(v)), upper_bound(hull_weights(w), v),
-                       shift)};
+    const auto w = wide_closest(pair, c, v, true);
+    return {w, rounded(lower_bound(w, v, largest_magnitudes(v), false),
+                       upper_bound(hull_weights(w), v), shift)};
   }
 };
-FilteredDepth in_exact_numbers(const ExactDepth& d) {
-  return {d.depth, d.distance, FilterStage::exact};
-}
-
-}  // namespace
-
-FilteredDepth filtered_depth(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
-                             FilterCounters* counters) {
+// whole(): the answer of exact numbers; asked for where the rest does not tell.
+template <class Pair, class Whole>
+FilteredDepth bracketed_depth(Pair pair, double gap, FilterCounters* counters, const Whole& whole) {
   const auto give = [counters](const FilteredDepth& out) {
     count(counters, out.stage);
     return out;
   };
   if (!(gap > 0.0)) return give({});
-  SegmentPair pair(p, corners, triangle);
-  const double big = largest_of(pair.largest);
-  const Scaled scaled = big == 0.0 ? Scaled{} : Scaled::of(pair.points, big);
-  if (scaled.shift != 0) pair.refresh();
-  if (const std::optional<double> limit = scaled.gap(gap); limit && std::isfinite(*limit)) {
-    if (clearly_apart(pair, *limit)) return give({});
-    const auto c = closest_on_segment<Form::robust>(pair.points[4], pair.corners(), triangle);
-    const auto narrow = depth_within(lower_bound(c, pair.v, pair.largest, triangle),
-                                     upper_bound(c.weights, pair.v), *limit);
-    if (narrow)
-      if (const auto out = rescaled(*narrow, scaled.shift, FilterStage::double_precision))
-        return give(*out);
-    const auto v = wide_hull<DoubleDouble>(pair);
-    const auto largest = largest_magnitudes(v);
-    for (const bool guided : {true, false}) {
-      const auto w = wide_closest(pair, c, v, guided);
-      const auto wide =
-          depth_within(lower_bound(w, v, largest, triangle), upper_bound(w.weights, v), *limit);
-      if (!wide) continue;
-      if (const auto out = rescaled(*wide, scaled.shift, FilterStage::double_double))
-        return give(*out);
-    }
-  }
-  if (!all_finite(points_of(p, corners, triangle)) || !std::isfinite(gap)) return give({});
-  return give(in_exact_numbers(exact_depth(p, corners, triangle, gap)));
-}
-
-FilteredDepth filtered_depth(const P& s1, const P& s2, const P& m1, const P& m2, double gap,
-                             FilterCounters* counters) {
-  const auto give = [counters](const FilteredDepth& out) {
-    count(counters, out.stage);
-    return out;
-  };
-  if (!(gap > 0.0)) return give({});
-  EdgePair pair({s1, s2, m1, m2});
   const double big = largest_of(pair.largest);
   const Scaled scaled = big == 0.0 ? Scaled{} : Scaled::of(pair.points, big);
   if (scaled.shift != 0) pair.refresh();
   if (const std::optional<double> limit = scaled.gap(gap); limit && std::isfinite(*limit)) {
     if (clearly_apart(pair, *limit)) return give({});
     const auto c = closest_of(pair);
-    const auto narrow = depth_within(lower_bound(c, pair.v, pair.largest),
+    const auto narrow = depth_within(lower_bound(c, pair.v, pair.largest, pair.triangle),
                                      upper_bound(hull_weights(c), pair.v), *limit);
     if (narrow)
       if (const auto out = rescaled(*narrow, scaled.shift, FilterStage::double_precision))
         return give(*out);
-    const auto v = pair.hull_of<DoubleDouble>();
-    const auto w = wide_closest(pair);
-    const auto wide = depth_within(lower_bound(w, v, largest_magnitudes(v)),
-                                   upper_bound(hull_weights(w), v), *limit);
-    if (wide)
+    const auto v = pair.template hull_of<DoubleDouble>();
+    const auto largest = largest_magnitudes(v);
+    for (const bool guided : Pair::guided) {
+      const auto w = wide_closest(pair, c, v, guided);
+      const auto wide = depth_within(lower_bound(w, v, largest, pair.triangle),
+                                     upper_bound(hull_weights(w), v), *limit);
+      if (!wide) continue;
       if (const auto out = rescaled(*wide, scaled.shift, FilterStage::double_double))
         return give(*out);
+    }
   }
-  if (!all_finite(std::array<P, 4>{s1, s2, m1, m2}) || !std::isfinite(gap)) return give({});
-  return give(in_exact_numbers(exact_depth(s1, s2, m1, m2, gap)));
+  const std::optional<ExactDepth> exact = std::isfinite(gap) ? whole() : std::nullopt;
+  return give(exact ? FilteredDepth{exact->depth, exact->distance, FilterStage::exact}
+                    : FilteredDepth{});
+}
+
+}  // namespace
+
+FilteredDepth filtered_depth(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
+                             FilterCounters* counters) {
+  return bracketed_depth(SegmentPair(p, corners, triangle), gap, counters,
+                         [&]() -> std::optional<ExactDepth> {
+                           if (!all_finite(points_of(p, corners, triangle))) return std::nullopt;
+                           return exact_depth(p, corners, triangle, gap);
+                         });
+}
+
+FilteredDepth filtered_depth(const P& s1, const P& s2, const P& m1, const P& m2, double gap,
+                             FilterCounters* counters) {
+  return bracketed_depth(EdgePair({s1, s2, m1, m2}), gap, counters,
+                         [&]() -> std::optional<ExactDepth> {
+                           if (!all_finite(std::array<P, 4>{s1, s2, m1, m2})) return std::nullopt;
+                           return exact_depth(s1, s2, m1, m2, gap);
+                         });
 }
 
 bool is_touching(const P& p, const std::array<P, 4>& corners, bool triangle) {
@@ -278,7 +260,7 @@ FilteredSegment filtered_closest_on_segment(const P& p, const std::array<P, 4>& 
   const Scaled scaled = big == 0.0 ? Scaled{0, false} : Scaled::of(pair.points, big);
   if (scaled.possible) {
     if (scaled.shift != 0) pair.refresh();
-    const auto c = closest_on_segment<Form::robust>(pair.points[4], pair.corners(), triangle);
+    const auto c = closest_of(pair);
     const auto piece = piece_distance(pair, c);
     const bool certain = piece && piece->one_part;
     if (const auto value = certain ? piece->rounded(scaled.shift) : std::nullopt) {
@@ -331,7 +313,7 @@ FilteredEdges filtered_closest_between_edges(const P& s1, const P& s2, const P& 
       count(counters, out.stage);
       return out;
     }
-    const auto wide = fused<RoundedEdges>(pair, scaled.shift);
+    const auto wide = fused<RoundedEdges>(pair, c, scaled.shift);
     const auto& w = wide.closest;
     if (wide.distance) {
       out = {*wide.distance, w.weight_s.hi(), w.weight_m.hi(),

@@ -227,7 +227,23 @@ struct SegmentPair {
     largest = largest_magnitudes(v);
   }
   std::array<P, 4> corners() const { return {points[0], points[1], points[2], points[3]}; }
+  template <class T>
+  Hull<T> hull_of() const {
+    Hull<T> out;
+    for (std::size_t k = 0; k < 4; ++k) out[k] = lift<T>(points[k]) - lift<T>(points[4]);
+    return out;
+  }
+  // Double-double may begin with what double found, or look at all parts again.
+  static constexpr std::array guided{true, false};
 };
+
+inline SegmentClosest<double> closest_of(const SegmentPair& pair) {
+  return closest_on_segment<Form::robust>(pair.points[4], pair.corners(), pair.triangle);
+}
+template <class T>
+const std::array<T, 4>& hull_weights(const SegmentClosest<T>& c) {
+  return c.weights;
+}
 
 // Lower bound from the vectors of the sub-triangles: first one for all four, then each on its own.
 template <class T>
@@ -364,13 +380,6 @@ inline SegmentClosest<DoubleDouble> wide_closest(const SegmentPair& pair,
   return out;
 }
 
-template <class T>
-Hull<T> wide_hull(const SegmentPair& pair) {
-  Hull<T> v;
-  for (std::size_t k = 0; k < 4; ++k) v[k] = lift<T>(pair.points[k]) - lift<T>(pair.points[4]);
-  return v;
-}
-
 // --- two edges ------------------------------------------------------------------------------
 
 struct EdgePair {
@@ -389,6 +398,8 @@ struct EdgePair {
                     m2 = lift<T>(points[3]);
     return {s1 - m1, s1 - m2, s2 - m2, s2 - m1};
   }
+  static constexpr bool triangle = false;
+  static constexpr std::array guided{true};
 };
 
 template <class T>
@@ -399,13 +410,13 @@ std::array<T, 4> hull_weights(const EdgeClosest<T>& c) {
 
 // The vector points from the main to the secondary edge, like the v_k: the support wants -vector.
 template <class T>
-T lower_bound(const EdgeClosest<T>& c, const Hull<T>& v, const P& largest) {
+T lower_bound(const EdgeClosest<T>& c, const Hull<T>& v, const P& largest, bool) {
   const Support<T> support(-c.vector, v, largest);
   return support.bound(support.least());
 }
 
 template <class T>
-Answer answer_of(const EdgeClosest<T>& c, const Hull<T>& v, const P& largest, double gap) {
+Answer answer_of(const EdgeClosest<T>& c, const Hull<T>& v, const P& largest, bool, double gap) {
   if (WeightedPoint<T>(hull_weights(c), v).is_closer(gap)) return Answer::yes;
   return Support<T>(-c.vector, v, largest).is_apart(gap) ? Answer::no : Answer::unknown;
 }
@@ -424,7 +435,8 @@ inline EdgeClosest<double> closest_of(const EdgePair& pair) {
   return closest_between_edges<Form::robust>(x[0], x[1], x[2], x[3]);
 }
 
-inline EdgeClosest<DoubleDouble> wide_closest(const EdgePair& pair) {
+inline EdgeClosest<DoubleDouble> wide_closest(const EdgePair& pair, const EdgeClosest<double>&,
+                                              const Hull<DoubleDouble>&, bool) {
   const auto x = [&](std::size_t k) { return lift<DoubleDouble>(pair.points[k]); };
   return closest_between_edges<Form::robust>(x(0), x(1), x(2), x(3));
 }
