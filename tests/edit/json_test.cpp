@@ -76,6 +76,10 @@ TEST(DeckJson, HasEveryKindOfLineEndAndByte) {
                         "/NODE\n1,1.,2.,3.\n,,\n\n# c\n      abc     nan  1e999  99999999999\n"),
         deck_of_version(2022, "/SURF/PART/1\n# before the title\nt\n# c\n         1,2,3\n")})
     expect_every_line(*open_text(text), text);
+  for (const std::string title : {"T\xc3\xbcr", "T\xfcr"}) {  // UTF-8, Latin-1
+    const auto deck = open_text(deck_of_version(2022, "/PART/1\n" + title + "\n         1\n"));
+    EXPECT_NE(to_json(*deck).find("T\xc3\xbcr"), std::string::npos) << title;
+  }
 }
 
 TEST(DeckJson, SeveralDecksAreOneDocument) {
