@@ -67,10 +67,10 @@ class CMakeBuild(build_ext):
         target = Path(self.get_ext_fullpath(ext.name))
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(next(iter(sorted(folder.glob("_native.*")))), target)
-        write_stub(target)
         strip = shutil.which("strip")
         if strip:
             subprocess.run([strip, "--strip-unneeded", str(target)], check=False)
+        write_stub(target)  # last: a module that is loaded must not change
 
 
 setup(ext_modules=[Extension("libdeck._native", [])], cmdclass={"build_ext": CMakeBuild})
