@@ -61,7 +61,7 @@ inline Span place_of(const DecodedBlock& d, std::string_view field) {
 }
 
 /// The cell of that name on a line; nullptr: it has none.
-inline const Cell* cell_of(const DecodedCard& card, std::string_view name) {
+inline const Cell* cell_named(const DecodedCard& card, std::string_view name) {
   for (const Cell& cell : card.cells)
     if (cell.field->name == name) return &cell;
   return nullptr;

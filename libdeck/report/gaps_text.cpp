@@ -208,7 +208,7 @@ ContactTotals sum_of(const Scene& scene, const SceneView& view,
 }
 
 /// Of a gap; where there is none there is no share.
-std::string share_text(double ratio) {
+std::string ratio_text(double ratio) {
   return ratio > 0 ? fmt::format("{:.0f} %", 100 * ratio) : "-";
 }
 
@@ -244,7 +244,7 @@ std::vector<TextTable::Cell> interface_row(const std::vector<const Contact*>& co
           known_cell(of_nodes, t.count.nodes),
           known_cell(of_edges, t.count.edges),
           t.count.pairs ? length_text(t.max_depth, 6, largest) : "-",
-          share_text(t.max_ratio),
+          ratio_text(t.max_ratio),
           {tied ? tied_words(c, t) : action_words(contacts), tone}};
 }
 
@@ -296,7 +296,7 @@ std::string part_pairs_text(const Scene& scene, const SceneView& view,
     pairs.row({part_name(model, p.secondary), part_name(model, p.main), p.count.pairs,
                p.count.nodes, p.count.edges, length_text(p.max_depth, 6, largest),
                length_text(p.mean_depth, 4, largest), length_text(p.p95_depth, 4, largest),
-               share_text(p.max_ratio)});
+               ratio_text(p.max_ratio)});
   return pairs.fitted(options.width, options.color, 2, 2) +
          more_line(view.part_pairs.size(), shown);
 }

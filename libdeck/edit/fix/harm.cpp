@@ -22,7 +22,7 @@ bool of_node(const Scene& scene, const PairKey& key) {
   return is_tie(scene, key) || scene.contacts[key.contact].kind == ContactKind::node_segment;
 }
 
-std::vector<NodeIndex> nodes_of(const Scene& scene, const PairKey& key) {
+std::vector<NodeIndex> nodes_of_pair(const Scene& scene, const PairKey& key) {
   const bool node = of_node(scene, key);
   std::vector<NodeIndex> out(key.secondary.begin(), key.secondary.begin() + (node ? 1 : 2));
   out.insert(out.end(), key.main.begin(), key.main.begin() + (node ? 4 : 2));
@@ -74,7 +74,7 @@ std::vector<Harm> StateBefore::harm(const Scene& now) const {
   const StateBefore after(now, *options_);
   std::vector<Harm> out;
   const auto report = [&](const Row& row, double before, double depth) {
-    out.push_back({row.pair, nodes_of(now, row.pair), row.tie, before, depth});
+    out.push_back({row.pair, nodes_of_pair(now, row.pair), row.tie, before, depth});
   };
   for (const auto& [key, row] : after.rows_) {
     const auto known = rows_.find(key);

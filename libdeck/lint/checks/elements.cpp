@@ -251,8 +251,8 @@ std::vector<ShellRow> shell_rows(const DecodedBlock& d) {
   for (const DecodedCard& card : d.cards) {
     if (card.missing() || card.cells.empty() || card.cells[0].blank()) continue;
     ShellRow row{card.cells[0].integer, 0, 0, card.line};
-    if (const Cell* cell = cell_of(card, "Phi")) row.angle = cell->real;
-    if (const Cell* cell = cell_of(card, "Thick")) row.thickness = cell->real;
+    if (const Cell* cell = cell_named(card, "Phi")) row.angle = cell->real;
+    if (const Cell* cell = cell_named(card, "Thick")) row.thickness = cell->real;
     out.push_back(row);
   }
   return out;

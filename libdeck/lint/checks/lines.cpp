@@ -18,7 +18,7 @@ struct Flags {
 
 std::optional<Flags> flags_card(const DecodedBlock& block) {
   for (std::size_t i = 0; i < block.cards.size(); ++i)
-    if (cell_of(block.cards[i], "IBCX") != nullptr) return Flags{i, &block.cards[i]};
+    if (cell_named(block.cards[i], "IBCX") != nullptr) return Flags{i, &block.cards[i]};
   return std::nullopt;
 }
 
@@ -196,8 +196,8 @@ void check_order(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts) {
     const DecodedCard *adaptive = nullptr, *heat = nullptr;
     for (const DecodedCard& line : card.decoded.cards) {
-      if (cell_of(line, "NRadm") != nullptr) adaptive = &line;
-      if (cell_of(line, "Kthe") != nullptr || cell_of(line, "Rthe") != nullptr) heat = &line;
+      if (cell_named(line, "NRadm") != nullptr) adaptive = &line;
+      if (cell_named(line, "Kthe") != nullptr || cell_named(line, "Rthe") != nullptr) heat = &line;
     }
     if (adaptive == nullptr || heat == nullptr || adaptive->missing() || heat->missing()) continue;
     // NRadm is an integer in columns 1-10; a coefficient in 1-20 reaches beyond column 10.

@@ -105,7 +105,7 @@ void check_vents(const LintContext& c, const Rule& rule, Reporter& r) {
     const DecodedBlock d = decode(c.deck, b);
     int place = 0;
     for (const DecodedCard& card : d.cards) {
-      const Cell *surface = cell_of(card, "surf_IDv"), *area = cell_of(card, "Avent");
+      const Cell *surface = cell_named(card, "surf_IDv"), *area = cell_named(card, "Avent");
       if (surface == nullptr || area == nullptr) continue;
       ++place;
       if (surface->integer != 0 || surface->parameter || area->real != 0) continue;

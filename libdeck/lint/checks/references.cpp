@@ -176,7 +176,7 @@ template <class F>
 void each_pair(const LintContext& c, F&& f) {
   for (const ContactCard& friction : c.frictions)
     for (const DecodedCard& card : friction.decoded.cards)
-      if (cell_of(card, "part_ID1") != nullptr && !card.missing()) f(friction.decoded, card);
+      if (cell_named(card, "part_ID1") != nullptr && !card.missing()) f(friction.decoded, card);
 }
 
 void check_parts(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -200,7 +200,7 @@ void check_repeated(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<Key, Span> seen;
   each_pair(c, [&](const DecodedBlock& block, const DecodedCard& card) {
     const auto id = [&](std::string_view name) {
-      const Cell* cell = cell_of(card, name);
+      const Cell* cell = cell_named(card, name);
       return cell ? cell->integer : 0;
     };
     auto one = std::pair{id("grpart_ID1"), id("part_ID1")};
@@ -218,8 +218,8 @@ void check_repeated(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_incomplete(const LintContext& c, const Rule& rule, Reporter& r) {
   each_pair(c, [&](const DecodedBlock& block, const DecodedCard& card) {
     const auto given = [&](const std::string& side) {
-      const Cell* group = cell_of(card, "grpart_ID" + side);
-      const Cell* part = cell_of(card, "part_ID" + side);
+      const Cell* group = cell_named(card, "grpart_ID" + side);
+      const Cell* part = cell_named(card, "part_ID" + side);
       return (group != nullptr && group->integer != 0) || (part != nullptr && part->integer != 0);
     };
     const bool first = given("1"), second = given("2");

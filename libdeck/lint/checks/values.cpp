@@ -57,11 +57,11 @@ double number_in(const Cell* cell) { return cell == nullptr ? 0 : number_of(*cel
 /// The cell of that name that goes with a line: on it, in its round, or where nothing repeats.
 const Cell* cell_beside(const DecodedBlock& d, const DecodedCard* line, std::string_view field) {
   if (line == nullptr) return d.find(field);
-  if (const Cell* cell = cell_of(*line, field)) return cell;
+  if (const Cell* cell = cell_named(*line, field)) return cell;
   for (const int round : {line->round, 0})
     for (const DecodedCard& card : d.cards)
       if (card.round == round)
-        if (const Cell* cell = cell_of(card, field)) return cell;
+        if (const Cell* cell = cell_named(card, field)) return cell;
   return nullptr;
 }
 
