@@ -25,17 +25,16 @@ std::string next_without_nodes(int type) {
 /// What is left of an interface with the new values: pairs for which the solver does nothing, and
 /// pairs at which it stops.
 std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
-  std::uint64_t nothing = 0, stops = 0;
+  std::uint64_t idle = 0, stops = 0;
   for (const FixAction& a : fix.actions) {
     if (a.interface_id != interface_id) continue;
     stops += a.stops;
-    nothing +=
+    idle +=
         !a.stops && (a.after == PenetrationAction::none || a.after == PenetrationAction::ignored);
   }
   std::string text;
-  if (nothing > 0)
-    text =
-        "the solver still does nothing about " + count(nothing, "pair", "pairs") + ": Inacti is 0";
+  if (idle > 0)
+    text = "the solver still does nothing about " + count(idle, "pair", "pairs") + ": Inacti is 0";
   if (stops > 0)
     text +=
         (text.empty() ? "the solver" : "; it") + std::string(" stops at ") +
