@@ -10,8 +10,8 @@
 #include <set>
 #include <sstream>
 
-#include "deck/edit/edit.hpp"
-#include "deck/front/loaded_deck.hpp"
+#include "deck/edit.hpp"
+#include "deck/loaded_deck.hpp"
 #include "lint/shared/example.hpp"
 #include "tools/command_line.hpp"
 

@@ -1,4 +1,4 @@
-# Generates deck/model/interface_fields.hpp in DECK_GENERATED: the fields of every interface type, from
+# Generates deck/interface_fields.hpp in DECK_GENERATED: the fields of every interface type, from
 # its schema. A field is a cell of any version; they are in the order of the newest layout that has them.
 # A script as well: cmake -DDECK_GENERATED=DIR -P libdeck/cmake/InterfaceFields.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -78,4 +78,4 @@ add_interface_fields(19 inter_type19.json)
 add_interface_fields(24 inter_other.json)
 add_interface_fields(25 inter_other.json)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/interface_fields.hpp.in
-               ${DECK_GENERATED}/deck/model/interface_fields.hpp @ONLY)
+               ${DECK_GENERATED}/deck/interface_fields.hpp @ONLY)

@@ -1,5 +1,5 @@
 // Sums pair forces and stiffnesses into the nodes.
-#include "deck/cycle/assemble.hpp"
+#include "deck/cycle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 
 #include "contact/shared/tie_parts.hpp"
 #include "cycle/shared/contact_run.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/keyword/decode.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/contacts.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
 
 namespace deck::cycle::detail {
 namespace {

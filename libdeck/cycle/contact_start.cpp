@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "cycle/shared/contact_run.hpp"
-#include "deck/model/interfaces.hpp"
+#include "deck/model.hpp"
 
 namespace deck::cycle::detail {
 

@@ -7,7 +7,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "cycle/kernel/effects.hpp"
-#include "deck/cycle/kernel.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace detail {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "cycle/kernel/effects.hpp"
-#include "deck/cycle/kernel.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 

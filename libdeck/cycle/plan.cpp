@@ -1,5 +1,5 @@
 // Chooses the effects of an interface once, before any pair is looked at.
-#include "deck/cycle/kernel.hpp"
+#include "deck/cycle.hpp"
 
 #include <algorithm>
 #include <string>

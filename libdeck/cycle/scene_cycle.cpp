@@ -1,6 +1,6 @@
 // One force evaluation of all contacts of a scene: forces, energies, time steps, and which effects
 // ran.
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/cycle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Masses, velocities and temperatures of all nodes, gathered from elements, added masses and
 // initial conditions.
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/cycle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include "contact/shared/scene_parts.hpp"
 #include "cycle/adapter/parts.hpp"
-#include "deck/keyword/decode.hpp"
-#include "deck/model/selection.hpp"
-#include "deck/text/number.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
+#include "deck/text.hpp"
 #include "model/shared/mesh.hpp"
 
 namespace deck::cycle {

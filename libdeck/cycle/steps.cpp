@@ -1,5 +1,5 @@
 // Steps of prescribed motion: moves the nodes, evaluates, and keeps what happened.
-#include "deck/cycle/steps.hpp"
+#include "deck/cycle.hpp"
 
 #include <algorithm>
 #include <cmath>

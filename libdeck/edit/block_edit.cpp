@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "base/shared/spelling.hpp"
-#include "deck/edit/rewrite.hpp"
-#include "deck/text/number.hpp"
+#include "deck/edit.hpp"
+#include "deck/text.hpp"
 #include "edit/cells.hpp"
 #include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/line_check.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
 #include "keyword/shared/place.hpp"
 #include "text/shared/columns.hpp"
 

@@ -16,10 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "deck/edit/edit.hpp"
-#include "deck/edit/rewrite.hpp"
-#include "deck/keyword/decode.hpp"
-#include "deck/text/number.hpp"
+#include "deck/edit.hpp"
+#include "deck/keyword.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "text/shared/edits.hpp"
 

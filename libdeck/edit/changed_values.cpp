@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 #include "keyword/shared/place.hpp"
 #include "text/shared/columns.hpp"
 

@@ -1,6 +1,6 @@
 // Collects the changes of an Edit, reads the deck again where one change decides about the next,
 // and writes.
-#include "deck/edit/edit.hpp"
+#include "deck/edit.hpp"
 
 #include <sys/stat.h>
 
@@ -12,10 +12,9 @@
 #include <utility>
 
 #include "base/shared/paths.hpp"
-#include "deck/edit/rewrite.hpp"
-#include "deck/front/loaded_deck.hpp"
-#include "deck/keyword/decode.hpp"
-#include "deck/text/number.hpp"
+#include "deck/keyword.hpp"
+#include "deck/loaded_deck.hpp"
+#include "deck/text.hpp"
 #include "edit/cells.hpp"
 #include "edit/shared/edit_set.hpp"
 #include "edit/shared/write.hpp"

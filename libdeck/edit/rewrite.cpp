@@ -1,5 +1,5 @@
 // Applies the edits of a conversion to the files of a deck; entries of its loss report.
-#include "deck/edit/rewrite.hpp"
+#include "deck/edit.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "deck/keyword/decode.hpp"
-#include "deck/keyword/schema.hpp"
-#include "deck/model/selection.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
+#include "deck/rule_id.hpp"
 
 namespace deck::detail {
 namespace {

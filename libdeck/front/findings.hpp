@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "deck/front/loaded_deck.hpp"
+#include "deck/loaded_deck.hpp"
 
 namespace deck::detail {
 

@@ -1,5 +1,5 @@
 // Makes each stage of a deck once, when it is asked for, within the limits of loading.
-#include "deck/front/loaded_deck.hpp"
+#include "deck/loaded_deck.hpp"
 
 #include <optional>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/tie_parts.hpp"
 #include "cycle/shared/contact_run.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
 #include "front/findings.hpp"
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "deck/model/selection.hpp"
+#include "deck/model.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {

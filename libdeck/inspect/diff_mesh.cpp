@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {

@@ -8,7 +8,7 @@
 #include <set>
 #include <type_traits>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/references.hpp"
 #include "model/shared/constant_stiffness.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 #include "inspect/match.hpp"
 #include "inspect/shared/diff.hpp"
 #include "keyword/shared/decode_parts.hpp"

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/shared/spelling.hpp"
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "inspect/match.hpp"
 #include "inspect/shared/show.hpp"
 #include "text/shared/columns.hpp"

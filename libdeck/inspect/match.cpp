@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 #include "keyword/shared/references.hpp"
 #include "text/shared/columns.hpp"
 

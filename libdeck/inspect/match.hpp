@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/model/model.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
 #include "inspect/shared/diff.hpp"
 #include "model/shared/families.hpp"
 

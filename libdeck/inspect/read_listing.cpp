@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "deck/text/number.hpp"
-#include "deck/text/source.hpp"
+#include "deck/text.hpp"
 #include "inspect/shared/listing.hpp"
 #include "text/shared/columns.hpp"
 

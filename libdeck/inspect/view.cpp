@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "base/shared/spelling.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/model.hpp"
 #include "inspect/match.hpp"
 #include "inspect/shared/show.hpp"
 #include "model/shared/families.hpp"

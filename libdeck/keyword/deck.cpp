@@ -1,11 +1,11 @@
 // Looks things up in a deck that was read: lines, headers, parameters, units, offsets of submodels;
 // what can be wrong with the form of a keyword line.
-#include "deck/keyword/deck.hpp"
+#include "deck/keyword.hpp"
 
 #include <algorithm>
 #include <cstring>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/reader.hpp"
 #include "keyword/shared/references.hpp"

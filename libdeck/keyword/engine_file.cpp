@@ -1,5 +1,5 @@
 // Finds the Engine files beside a deck and cuts them into keywords and lines.
-#include "deck/keyword/engine_file.hpp"
+#include "deck/keyword.hpp"
 
 #include <fmt/format.h>
 

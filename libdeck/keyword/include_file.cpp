@@ -12,7 +12,7 @@
 
 #include "base/shared/hash.hpp"
 #include "base/shared/paths.hpp"
-#include "deck/text/source.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/include_scan.hpp"
 #include "keyword/shared/reader.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/reader.hpp"

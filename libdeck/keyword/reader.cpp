@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <set>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/include_scan.hpp"
 #include "text/shared/gzip.hpp"
 #include "text/shared/number_scan.hpp"

@@ -2,7 +2,7 @@
 // submodel offsets, unit systems, encrypted blocks.
 #include <algorithm>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/line_check.hpp"
 #include "keyword/shared/reader.hpp"

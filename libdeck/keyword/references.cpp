@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <tuple>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "deck/keyword/deck.hpp"
-#include "deck/text/number.hpp"
+#include "deck/keyword.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/reader.hpp"
 

@@ -45,9 +45,8 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/text/diagnostic.hpp"
-#include "deck/text/result.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
+#include "deck/text.hpp"
 
 namespace deck::detail {
 

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "deck/keyword/schema.hpp"
-#include "deck/lint/lint.hpp"
-#include "deck/text/diagnostic.hpp"
+#include "deck/keyword.hpp"
+#include "deck/lint.hpp"
+#include "deck/text.hpp"
 #include "lint/cell_rule.hpp"
 #include "lint/shared/fix.hpp"
 #include "text/shared/columns.hpp"

@@ -1,5 +1,5 @@
 // Runs the rules, then suppressions and baseline, then sorts.
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "base/shared/count.hpp"
 #include "base/shared/paths.hpp"
-#include "deck/model/interfaces.hpp"
+#include "deck/model.hpp"
 #include "lint/check.hpp"
 #include "lint/shared/config.hpp"
 #include "lint/shared/fix.hpp"

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
 #include "keyword/shared/place.hpp"
 
 namespace deck::detail {
 
 struct Suppression {
-  std::vector<std::string> rules;  ///< selectors (deck/lint/lint.hpp)
+  std::vector<std::string> rules;  ///< selectors (deck/lint.hpp)
   std::string reason;
   bool whole_file = false;
   std::uint32_t file = 0;

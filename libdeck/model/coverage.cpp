@@ -1,6 +1,6 @@
 // Interfaces that are examined and those that are not, and the words for it.
-#include "deck/model/interfaces.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/model.hpp"
+#include "deck/rule_id.hpp"
 
 #include <algorithm>
 #include <map>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "deck/model/model.hpp"
+#include "deck/model.hpp"
 
 namespace deck {
 namespace {

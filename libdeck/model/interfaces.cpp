@@ -1,10 +1,10 @@
 // Builds the typed interfaces from their blocks, one function a type.
-#include "deck/model/interfaces.hpp"
+#include "deck/model.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/solver_order.hpp"
 #include "model/interfaces_card.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/solver_order.hpp"
 
 namespace deck {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/model/interfaces.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
 
 namespace deck::detail {
 

@@ -1,12 +1,11 @@
 // build_model: the order in which a deck becomes arrays. Nodes, submodel transforms, elements, then
 // everything that refers to them; node-group transforms come last because groups see the
 // coordinates before them.
-#include "deck/model/model.hpp"
+#include "deck/model.hpp"
 
 #include <algorithm>
 
 #include "base/shared/parallel.hpp"
-#include "deck/model/selection.hpp"
 #include "model/bulk/bulk.hpp"
 #include "model/model_build.hpp"
 #include "model/shared/families.hpp"

@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/model/model.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
+#include "deck/text.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck::detail {

@@ -9,7 +9,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "base/shared/vec.hpp"
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "model/bulk/bulk.hpp"
 #include "model/model_build.hpp"
 #include "model/shared/families.hpp"

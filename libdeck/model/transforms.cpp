@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/shared/vec.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/model.hpp"
 #include "model/model_build.hpp"
 
 namespace deck {

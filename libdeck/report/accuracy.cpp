@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "accuracy/shared/choice.hpp"
 #include <utility>
+#include "accuracy/shared/choice.hpp"
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "report/shared/text_table.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
 #include "keyword/shared/references.hpp"
 #include "lint/shared/geometry.hpp"
 #include "lint/shared/topics.hpp"

@@ -8,7 +8,7 @@
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
 #include "base/shared/vec.hpp"
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "report/shared/inspection.hpp"
 #include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"

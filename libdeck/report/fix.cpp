@@ -7,7 +7,7 @@
 #include <set>
 
 #include "base/shared/escape.hpp"
-#include "deck/contact/view.hpp"
+#include "deck/contacts.hpp"
 #include "report/shared/fix.hpp"
 #include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "deck/report/gaps.hpp"
+#include "deck/report.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared_records.hpp"
 #include "text/shared/read_json.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/shared/length_text.hpp"
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"
 #include "report/shared/parts.hpp"

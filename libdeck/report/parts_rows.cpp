@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
 #include "model/shared/faces.hpp"
 #include "model/shared/families.hpp"
 

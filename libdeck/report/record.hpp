@@ -40,7 +40,7 @@
 #include <variant>
 #include <vector>
 
-#include "deck/report/gaps.hpp"
+#include "deck/report.hpp"
 #include "report/shared/json.hpp"
 
 namespace deck {

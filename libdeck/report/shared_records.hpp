@@ -1,9 +1,8 @@
 // Records that several documents have: the deck, places in it, the verdict, counts, decisions,
 // gate.
 #pragma once
-#include "deck/contact/ties.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/edit/rewrite.hpp"
+#include "deck/contacts.hpp"
+#include "deck/edit.hpp"
 #include "deck/verdict.hpp"
 #include "report/record.hpp"
 #include "report/shared/cycle.hpp"

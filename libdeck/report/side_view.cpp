@@ -11,7 +11,7 @@
 
 #include "base/shared/escape.hpp"
 #include "contact/shared/scene_parts.hpp"
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {

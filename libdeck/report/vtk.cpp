@@ -17,8 +17,7 @@
 #include <vector>
 
 #include "contact/shared/closest.hpp"
-#include "deck/contact/ties.hpp"
-#include "deck/contact/view.hpp"
+#include "deck/contacts.hpp"
 #include "report/html/stream.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/vtk.hpp"

@@ -1,5 +1,5 @@
 // Counts findings by rule and drops those beyond the limit; the text of an id.
-#include "deck/text/diagnostic.hpp"
+#include "deck/text.hpp"
 
 #include <array>
 

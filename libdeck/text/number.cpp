@@ -1,7 +1,7 @@
 // Reading: number_scan.hpp for the spellings that decks are full of (up to 19 digits, small
 // exponents), std::from_chars for the rest. Writing: the candidates of every form, checked by
 // reading them back.
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
 // The pages of the rules that are compiled in.
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,5 +1,5 @@
 // Maps files into memory, unpacks those that are packed, and finds lines and columns in them.
-#include "deck/text/source.hpp"
+#include "deck/text.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>

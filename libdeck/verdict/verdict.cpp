@@ -10,8 +10,8 @@
 
 #include "base/shared/count.hpp"
 #include "base/shared/length_text.hpp"
-#include "deck/contact/ties.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/contacts.hpp"
+#include "deck/text.hpp"
 #include "verdict/shared/of_interface.hpp"
 
 namespace deck {

@@ -1,5 +1,5 @@
 // Edges through segments: exact decisions against brute force with rational numbers.
-#include "deck/contact/crossings.hpp"
+#include "deck/contacts.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

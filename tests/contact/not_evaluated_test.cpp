@@ -1,7 +1,7 @@
 // Contacts that are not judged: something that the deck asks for is not evaluated here, and an
 // answer would be invented.
 #include "contact/small_deck.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
 
 namespace deck::test {
 namespace {

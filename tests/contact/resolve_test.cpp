@@ -1,5 +1,5 @@
 // What the mesh decides is handed back to the interfaces.
-#include "deck/contact/scene.hpp"
+#include "deck/contacts.hpp"
 
 #include <gtest/gtest.h>
 

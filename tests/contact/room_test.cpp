@@ -4,7 +4,7 @@
 #include <string>
 
 #include "contact/published.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/small_deck.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
 
 namespace deck::test {
 namespace {

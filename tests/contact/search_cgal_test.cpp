@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "contact/search_scenes.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contact/shared/closest.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::scenes {
 

@@ -1,6 +1,6 @@
 // The pair search finds exactly the pairs of the brute-force loop, on meshes made to break it:
 // orders, kernels, threads and limits are tried on the same scenes.
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contact/small_deck.hpp"
-#include "deck/contact/crossings.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::test {
 namespace {

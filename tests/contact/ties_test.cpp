@@ -9,7 +9,7 @@
 #include "contact/shared/tie_parts.hpp"
 #include "contact/small_deck.hpp"
 #include "contact/tied_sheet.hpp"
-#include "deck/contact/ties.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::test {
 namespace {

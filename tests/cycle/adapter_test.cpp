@@ -1,5 +1,5 @@
 // From interface cards to the kernel's cards and pairs, on decks of a few elements.
-#include "deck/cycle/adapter.hpp"
+#include "deck/cycle.hpp"
 
 #include <gtest/gtest.h>
 

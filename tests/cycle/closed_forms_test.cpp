@@ -8,7 +8,7 @@
 #include "cycle/plates.hpp"
 #include "cycle/shared/contact_run.hpp"
 #include "cycle/support.hpp"
-#include "deck/cycle/kernel.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

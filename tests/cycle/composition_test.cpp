@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "cycle/support.hpp"
-#include "deck/cycle/assemble.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -10,7 +10,7 @@
 #include "cycle/kernel/block.hpp"
 #include "cycle/shared/heat.hpp"
 #include "cycle/support.hpp"
-#include "deck/cycle/adapter.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -8,7 +8,7 @@
 #include "cycle/plates.hpp"
 #include "cycle/shared/heat.hpp"
 #include "cycle/support.hpp"
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -9,9 +9,7 @@
 #include "cycle/kernel/effects.hpp"
 #include "cycle/plates.hpp"
 #include "cycle/support.hpp"
-#include "deck/cycle/adapter.hpp"
-#include "deck/cycle/scene_cycle.hpp"
-#include "deck/cycle/steps.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "contact/small_deck.hpp"
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

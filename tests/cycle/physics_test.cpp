@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "cycle/support.hpp"
-#include "deck/cycle/assemble.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -1,12 +1,12 @@
 // One force evaluation of whole decks of a few elements: forces, sums, steps, what is left out.
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/cycle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "cycle/plates.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
 
 namespace deck::cycle {
 namespace {

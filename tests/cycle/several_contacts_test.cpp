@@ -8,9 +8,7 @@
 #include "contact/small_deck.hpp"
 #include "cycle/adapter/parts.hpp"
 #include "cycle/plates.hpp"
-#include "deck/cycle/adapter.hpp"
-#include "deck/cycle/scene_cycle.hpp"
-#include "deck/cycle/steps.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

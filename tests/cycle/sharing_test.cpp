@@ -9,7 +9,7 @@
 
 #include "contact/small_deck.hpp"
 #include "cycle/support.hpp"
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

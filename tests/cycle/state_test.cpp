@@ -1,6 +1,6 @@
 // Masses, velocities and temperatures of a deck at the start, on decks of a few elements; masses
 // also against those that the reference solver recorded.
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/cycle.hpp"
 
 #include <gtest/gtest.h>
 

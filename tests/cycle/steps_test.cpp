@@ -1,6 +1,6 @@
 // Steps of prescribed motion: what contacts remember from one evaluation to the next, and which
 // nodes and pairs leave an interface.
-#include "deck/cycle/steps.hpp"
+#include "deck/cycle.hpp"
 
 #include <gtest/gtest.h>
 

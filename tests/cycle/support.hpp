@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "deck/cycle/kernel.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle::testing {
 

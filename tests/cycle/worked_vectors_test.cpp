@@ -4,7 +4,7 @@
 
 #include "cycle/shared/heat.hpp"
 #include "cycle/support.hpp"
-#include "deck/cycle/assemble.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

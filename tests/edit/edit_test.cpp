@@ -1,5 +1,5 @@
 // Values set by name: in the cell, in free format, on lines that are not there, in include trees.
-#include "deck/edit/edit.hpp"
+#include "deck/edit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "deck/deck.hpp"
-#include "deck/keyword/engine_file.hpp"
+#include "deck/keyword.hpp"
 #include "keyword/reading.hpp"
 
 namespace deck {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/contact/scene.hpp"
+#include "deck/contacts.hpp"
 #include "edit/units_support.hpp"
 
 namespace deck::edit_test {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "../contact/small_deck.hpp"
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 #include "edit/extract_support.hpp"
 
 namespace deck {

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "../contact/small_deck.hpp"
-#include "deck/edit/convert.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/edit.hpp"
+#include "deck/model.hpp"
 #include "edit/extract_support.hpp"
 #include "edit/version_support.hpp"
 

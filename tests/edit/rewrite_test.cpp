@@ -1,14 +1,14 @@
 // Tests of edits that are joined or refused.
-#include "deck/edit/rewrite.hpp"
+#include "deck/edit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/text/number.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/keyword.hpp"
+#include "deck/rule_id.hpp"
+#include "deck/text.hpp"
 #include "edit/version_support.hpp"
 #include "keyword/reading.hpp"
 #include "text/shared/edits.hpp"

@@ -1,5 +1,5 @@
 // TYPE19 taken apart: the geometry stage finds the same contacts in the new interfaces.
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 
 #include <gmock/gmock.h>
 

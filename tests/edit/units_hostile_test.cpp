@@ -4,7 +4,7 @@
 #include <random>
 
 #include "../contact/small_deck.hpp"
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 #include "edit/units_support.hpp"
 
 namespace deck {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/edit/rewrite.hpp"
-#include "deck/model/interfaces.hpp"
+#include "deck/edit.hpp"
+#include "deck/model.hpp"
 
 namespace deck::edit_test {
 

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "../contact/small_deck.hpp"
-#include "deck/edit/convert.hpp"
-#include "deck/text/number.hpp"
+#include "deck/edit.hpp"
+#include "deck/text.hpp"
 #include "edit/convert/units/unit_system.hpp"
 #include "edit/units_support.hpp"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "contact/small_deck.hpp"
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 #include "edit/version_support.hpp"
 
 namespace deck::test {

@@ -5,8 +5,8 @@
 #include <random>
 #include <set>
 
-#include "deck/edit/convert.hpp"
-#include "deck/keyword/decode.hpp"
+#include "deck/edit.hpp"
+#include "deck/keyword.hpp"
 #include "edit/version_support.hpp"
 
 namespace deck::test {

@@ -1,9 +1,9 @@
 // Conversion between input versions: cells keep their values, nothing is lost without a word.
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 
 #include <gmock/gmock.h>
 
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 #include "edit/version_support.hpp"
 
 namespace deck::test {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
 #include "lint/shared/example.hpp"
 
 namespace deck::test {

@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "contact/small_deck.hpp"
-#include "deck/model/selection.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/model.hpp"
+#include "deck/rule_id.hpp"
 #include "where.hpp"
 
 namespace deck::test {

@@ -6,8 +6,8 @@
 
 #include "contact/small_deck.hpp"
 #include "deck/deck.hpp"
-#include "deck/model/selection.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/model.hpp"
+#include "deck/rule_id.hpp"
 #include "lint/support.hpp"
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"

@@ -1,6 +1,6 @@
 // Whole decks: reading, decoding every block, the bulk reader with one and two threads. Spans must
 // lie in their files, and the two ways of reading bulk lines must count the same findings.
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 #include "model/bulk/bulk.hpp"
 #include "support.hpp"
 

@@ -3,8 +3,7 @@
 // the last bit.
 #include <array>
 
-#include "deck/edit/convert.hpp"
-#include "deck/edit/fix.hpp"
+#include "deck/edit.hpp"
 #include "edit/shared/conversion.hpp"
 #include "support.hpp"
 

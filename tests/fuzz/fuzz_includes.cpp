@@ -4,7 +4,7 @@
 // times as much as reading.
 #include <nlohmann/json.hpp>
 
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 #include "report/shared/deck_json.hpp"
 #include "support.hpp"
 

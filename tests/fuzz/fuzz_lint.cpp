@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
 #include "lint/shared/baseline.hpp"
 #include "lint/shared/fix.hpp"
 #include "lint/shared/geometry.hpp"

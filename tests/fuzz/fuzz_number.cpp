@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "text/shared/number_scan.hpp"
 
 namespace {

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "deck/contact/crossings.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/cycle/scene_cycle.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/contacts.hpp"
+#include "deck/cycle.hpp"
+#include "deck/report.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/params_report.hpp"
 #include "support.hpp"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/keyword/schema.hpp"
+#include "deck/keyword.hpp"
 #include "lint/shared/example.hpp"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
 #include "lint/shared/example.hpp"
 
 namespace {

@@ -10,10 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "deck/edit/rewrite.hpp"
-#include "deck/keyword/deck.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/model/model.hpp"
+#include "deck/edit.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
 
 namespace deck::fuzz {
 

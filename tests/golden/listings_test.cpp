@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "deck/text/source.hpp"
+#include "deck/text.hpp"
 #include "golden/reference.hpp"
 #include "lint/shared/topics.hpp"
 #include "report/shared/inspection.hpp"

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "deck/cycle/adapter.hpp"
+#include "deck/cycle.hpp"
 #include "golden/reference.hpp"
 #include "replay/replay.hpp"
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-#include "deck/cycle/steps.hpp"
+#include "deck/cycle.hpp"
 #include "replay/replay.hpp"
 #include "replay/table.hpp"
 #include "where.hpp"

@@ -11,8 +11,8 @@
 #include "contact/search/sweep.hpp"
 #include "contact/shared/dd.hpp"
 #include "contact/shared/filtered.hpp"
-#include "deck/contact/search.hpp"
-#include "deck/cycle/kernel.hpp"
+#include "deck/contacts.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck {
 namespace {

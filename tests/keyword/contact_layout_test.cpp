@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "deck/keyword/schema.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck {
 namespace {

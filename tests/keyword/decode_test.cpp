@@ -1,6 +1,6 @@
 // Cells of a block against a schema written for the test. The forms of lists and groups are held by
 // check_random_blocks.py, for every keyword.
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // Engine files beside a deck, cut into keywords, lines and cells.
-#include "deck/keyword/engine_file.hpp"
+#include "deck/keyword.hpp"
 
 #include "keyword/reading.hpp"
 #include "keyword/shared/engine_layout.hpp"

@@ -5,9 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "deck/keyword/deck.hpp"
-#include "deck/keyword/decode.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/keyword.hpp"
+#include "deck/rule_id.hpp"
 #include "folder.hpp"
 
 namespace deck::testing_support {

@@ -1,5 +1,5 @@
 // The built-in keyword schemas as a whole, the look-up of headers, and the loader of schema files.
-#include "deck/keyword/schema.hpp"
+#include "deck/keyword.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,6 @@
 #include <thread>
 
 #include "base/shared/embedded.hpp"
-#include "deck/keyword/decode.hpp"
 #include "keyword/reading.hpp"
 #include "keyword/schema/json.hpp"
 #include "keyword/shared/schema_facts.hpp"

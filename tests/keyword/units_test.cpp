@@ -1,7 +1,7 @@
 // Unit codes and conversion factors.
 #include <gtest/gtest.h>
 
-#include "deck/keyword/deck.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "deck/contact/view.hpp"
+#include "deck/contacts.hpp"
 #include "lint/support.hpp"
 
 namespace deck::test {

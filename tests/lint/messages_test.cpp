@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 namespace {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
 #include "folder.hpp"
 #include "lint/shared/example.hpp"
 #include "lint/shared/geometry.hpp"

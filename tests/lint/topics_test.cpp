@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/shared/columns.hpp"
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
 
 namespace deck {
 namespace {

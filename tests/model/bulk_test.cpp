@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
 #include "keyword/reading.hpp"
 
 namespace deck {

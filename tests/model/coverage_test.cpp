@@ -1,5 +1,5 @@
 // What a verdict says about interfaces that were not examined, and about files that were missing.
-#include "deck/model/interfaces.hpp"
+#include "deck/model.hpp"
 
 #include <gtest/gtest.h>
 

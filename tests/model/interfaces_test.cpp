@@ -1,6 +1,6 @@
 // Effective values of interfaces and where they come from: one row a card.
-#include "deck/model/interfaces.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/model.hpp"
+#include "deck/rule_id.hpp"
 
 #include <gtest/gtest.h>
 

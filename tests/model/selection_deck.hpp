@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/model/model.hpp"
-#include "deck/model/selection.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/model.hpp"
+#include "deck/rule_id.hpp"
 
 namespace deck::test {
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "contact/small_deck.hpp"
-#include "deck/contact/crossings.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::test {
 namespace {

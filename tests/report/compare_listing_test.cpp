@@ -2,7 +2,7 @@
 
 #include <cctype>
 
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
 #include "model/shared/mesh.hpp"
 #include "report/inspected.hpp"
 #include "report/shared/inspection.hpp"

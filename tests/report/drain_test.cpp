@@ -4,8 +4,8 @@
 #include <string>
 
 #include "contact/small_deck.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/contacts.hpp"
+#include "deck/report.hpp"
 #include "report/html/stream.hpp"
 #include "report/page.hpp"
 

@@ -1,7 +1,7 @@
 // The JSON of `deck gaps`: lengths of pairs, ties, the verdict.
 #include <nlohmann/json.hpp>
 
-#include "deck/report/gaps.hpp"
+#include "deck/report.hpp"
 #include "deck/verdict.hpp"
 #include "report/inspected.hpp"
 

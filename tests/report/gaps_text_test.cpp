@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "base/shared/columns.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/report.hpp"
 #include "deck/verdict.hpp"
 #include "report/inspected.hpp"
 

@@ -1,5 +1,5 @@
 // The interactive page: its data are readable, whatever the titles hold.
-#include "deck/report/html.hpp"
+#include "deck/report.hpp"
 
 #include <gmock/gmock.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "contact/small_deck.hpp"
-#include "deck/contact/scene.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::test {
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "inspect/shared/listing.hpp"
 
 namespace deck {

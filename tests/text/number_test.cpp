@@ -1,5 +1,5 @@
 // Tests of numbers in cells, read and written.
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
 // Tests of files, lines and columns.
-#include "deck/text/source.hpp"
+#include "deck/text.hpp"
 
 #include <gtest/gtest.h>
 
-#include "deck/text/diagnostic.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
 #include "keyword/reading.hpp"
 #include "text/shared/gzip.hpp"
 

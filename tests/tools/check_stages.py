@@ -12,8 +12,10 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 ROW = ["base", "text", "keyword", "model", "contact", "cycle", "accuracy"]
 MAY = {stage: set(ROW[:i + 1]) for i, stage in enumerate(ROW)}
-# Headers that lie above the folders: what brings all, and the verdict.
-TOP = {"libdeck/include/deck/deck.hpp": "all", "libdeck/include/deck/verdict.hpp": "verdict"}
+# The public headers and their stages.
+PUBLIC = {"deck": "all", "point3": "base", "text": "text", "rule_id": "text", "keyword": "keyword", "model": "model",
+          "interface_fields": "model", "contacts": "contact", "cycle": "cycle", "loaded_deck": "front", "edit": "edit",
+          "lint": "lint", "verdict": "verdict", "report": "report"}
 MAY["front"] = {*ROW[:ROW.index("cycle") + 1], "front"}
 MAY["inspect"] = {*ROW[:ROW.index("contact") + 1], "front", "inspect", "verdict"}
 MAY["edit"] = {*ROW, "front", "inspect", "edit"}
@@ -22,7 +24,7 @@ MAY["verdict"] = {*ROW, "front", "verdict"}
 MAY["report"] = {*ROW, "front", "inspect", "edit", "lint", "verdict", "report"}
 MAY["all"] = set(MAY["report"])
 PRIVATE = re.compile(r'^\s*#\s*include\s+"(([a-z_]+)/(?!shared/)[^"]+)"', re.M)
-INCLUDE = re.compile(r'^\s*#\s*include\s+"(?:deck/)?([a-z_]+)(?:/|\.hpp)', re.M)
+INCLUDE = re.compile(r'^\s*#\s*include\s+"(?:deck/([a-z_0-9]+)\.hpp|([a-z_]+)/)', re.M)
 COMMENT = re.compile(r"(?:^|\s)(//.*|/?\*.*)$", re.M)
 FILE_NAME = re.compile(r"(?<![\w./<*-])((?:\w[\w-]*/)*\w[\w-]*\.(?:cpp|hpp))\b")
 GENERATED = {"rule_id.hpp", "interface_fields.hpp"}
@@ -38,14 +40,14 @@ FOR_THEMSELVES = {
 
 
 def stage_files():
-    for path, stage in TOP.items():
-        yield stage, os.path.join(ROOT, path)
-    for top in ("libdeck", "libdeck/include/deck"):
-        for stage in MAY:
-            for folder, _, names in os.walk(os.path.join(ROOT, top, stage)):
-                for name in sorted(names):
-                    if name.endswith((".cpp", ".hpp")):
-                        yield stage, os.path.join(folder, name)
+    public = os.path.join(ROOT, "libdeck/include/deck")
+    for name in sorted(os.listdir(public)):
+        yield PUBLIC[name.removesuffix(".hpp")], os.path.join(public, name)
+    for stage in MAY:
+        for folder, _, names in os.walk(os.path.join(ROOT, "libdeck", stage)):
+            for name in sorted(names):
+                if name.endswith((".cpp", ".hpp")):
+                    yield stage, os.path.join(folder, name)
 
 
 def source_files():
@@ -95,7 +97,7 @@ def main():
         files += 1
         with open(path, encoding="utf-8") as f:
             text = f.read()
-        read = {"all" if s == "deck" else s for s in INCLUDE.findall(text)}
+        read = {PUBLIC.get(header, folder) for header, folder in INCLUDE.findall(text)}
         private = [name for name, of in PRIVATE.findall(text) if of in MAY and of != stage]
         if private:
             failed += 1
@@ -110,7 +112,7 @@ def main():
         files += 1
         if path not in FOR_THEMSELVES:
             failed += 1
-            print("FAILED  %s builds a model, a scene or a first cycle: it belongs to LoadedDeck (deck/front/loaded_deck.hpp)" % path)
+            print("FAILED  %s builds a model, a scene or a first cycle: it belongs to LoadedDeck (deck/loaded_deck.hpp)" % path)
         elif path not in found:
             failed += 1
             print("FAILED  %s is listed here and builds nothing for itself any more" % path)

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
 #include "deck/verdict.hpp"
 #include "report/inspected.hpp"
 #include "verdict/shared/of_interface.hpp"

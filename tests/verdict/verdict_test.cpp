@@ -1,7 +1,7 @@
 // The verdict of a deck: its level, its sentences, its counts, and the exit code that follows.
 #include "deck/verdict.hpp"
 
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 #include "report/inspected.hpp"
 #include "verdict/shared/of_interface.hpp"
 

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "deck/contact/crossings.hpp"
+#include "deck/contacts.hpp"
 #include "harness.hpp"
 
 namespace {

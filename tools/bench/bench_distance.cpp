@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "accuracy/shared/accuracy.hpp"
-#include "deck/front/loaded_deck.hpp"
+#include "deck/loaded_deck.hpp"
 #include "distance/tiers.hpp"
 #include "harness.hpp"
 

@@ -17,8 +17,8 @@
 #include <string>
 #include <thread>
 
-#include "deck/keyword/deck.hpp"
-#include "deck/text/number.hpp"
+#include "deck/keyword.hpp"
+#include "deck/text.hpp"
 #include "harness.hpp"
 #include "model/bulk/bulk.hpp"
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "deck/cycle/assemble.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle::sheet {
 

@@ -16,7 +16,7 @@
 #include "base/shared/escape.hpp"
 #include "base/shared/spelling.hpp"
 #include "common.hpp"
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 
 namespace deck::cli {
 

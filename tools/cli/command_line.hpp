@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/text/result.hpp"
+#include "deck/text.hpp"
 #include "session.hpp"
 
 namespace CLI {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "deck/front/loaded_deck.hpp"
-#include "deck/text/source.hpp"
+#include "deck/loaded_deck.hpp"
+#include "deck/text.hpp"
 #include "edit/shared/write.hpp"
 
 namespace deck::cli {

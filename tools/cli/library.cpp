@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/shared/paths.hpp"
-#include "deck/keyword/engine_file.hpp"
+#include "deck/keyword.hpp"
 #include "text/shared/gzip.hpp"
 
 namespace deck::cli {

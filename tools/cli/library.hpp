@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/text/result.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/include_scan.hpp"
 
 namespace deck::cli {

@@ -10,10 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "deck/edit/rewrite.hpp"
-#include "deck/report/gaps.hpp"
-#include "deck/text/result.hpp"
-#include "deck/text/source.hpp"
+#include "deck/edit.hpp"
+#include "deck/report.hpp"
+#include "deck/text.hpp"
 #include "edit/shared/write.hpp"
 #include "keyword/shared/include_scan.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "accuracy/shared/accuracy.hpp"
-#include "deck/contact/scene.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "deck/base/point3.hpp"
+#include "deck/point3.hpp"
 
 namespace deck {
 

@@ -1,6 +1,6 @@
 // Crossed elements: edges of the secondary side that pass through main segments, counted once.
-#include "deck/contact/crossings.hpp"
 #include "contact/shared/node_elements.hpp"
+#include "deck/contacts.hpp"
 
 #include <algorithm>
 #include <cmath>

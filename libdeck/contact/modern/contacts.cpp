@@ -7,7 +7,7 @@
 #include "contact/modern/parts.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/shared/filtered_decisions.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 

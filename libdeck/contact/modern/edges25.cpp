@@ -6,7 +6,7 @@
 
 #include "contact/modern/parts.hpp"
 #include "contact/shared/filtered.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::detail::modern {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/modern/patch_rule.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::detail::modern {
 namespace {

@@ -14,7 +14,7 @@
 #include "contact/modern/facet_rule.hpp"
 #include "contact/modern/through_rule.hpp"
 #include "contact/shared/scene_parts.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::detail::modern {
 

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "base/shared/vec.hpp"
-#include "deck/base/point3.hpp"
+#include "deck/point3.hpp"
 
 namespace deck::detail::modern {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "base/shared/vec.hpp"
-#include "deck/base/point3.hpp"
+#include "deck/point3.hpp"
 
 namespace deck::detail::modern {
 

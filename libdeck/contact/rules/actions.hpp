@@ -10,7 +10,7 @@
 
 #include "base/shared/vec.hpp"
 #include "contact/shared/closest.hpp"
-#include "deck/contact/scene.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::detail {
 

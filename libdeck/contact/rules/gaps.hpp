@@ -9,8 +9,7 @@
 #include <span>
 
 #include "base/shared/vec.hpp"
-#include "deck/contact/scene.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::detail {
 

@@ -1,5 +1,5 @@
 // Finds for every penetration of a scene the one that an earlier run had there.
-#include "deck/contact/view.hpp"
+#include "deck/contacts.hpp"
 
 #include <algorithm>
 #include <cmath>

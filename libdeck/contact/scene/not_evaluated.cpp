@@ -5,7 +5,7 @@
 #include <set>
 
 #include "contact/scene/complete_contacts.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/rule_id.hpp"
 #include "keyword/shared/place.hpp"
 #include "text/shared/columns.hpp"
 

@@ -13,7 +13,7 @@
 #include "contact/shared/filtered_decisions.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 
 namespace deck::detail {
 namespace {

@@ -1,5 +1,5 @@
 // Turns the interfaces of a model into elementary contacts, in the order of the solver.
-#include "deck/contact/scene.hpp"
+#include "deck/contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "contact/shared/filtered_decisions.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/tie_parts.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 namespace {

@@ -1,5 +1,5 @@
 // Tables and totals of a scene that every medium shows: nodes, edges and pairs counted apart.
-#include "deck/contact/view.hpp"
+#include "deck/contacts.hpp"
 
 #include <algorithm>
 #include <cmath>

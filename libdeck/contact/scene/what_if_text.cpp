@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "deck/base/point3.hpp"
+#include "deck/point3.hpp"
 
 namespace deck {
 

@@ -19,7 +19,7 @@
 #include "base/shared/parallel.hpp"
 #include "contact/search/box_order.hpp"
 #include "contact/search/box_tree.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck {
 

@@ -14,8 +14,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "deck/base/point3.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
+#include "deck/point3.hpp"
 
 namespace deck {
 

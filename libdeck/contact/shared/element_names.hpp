@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/shared/node_elements.hpp"
-#include "deck/contact/view.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck {
 

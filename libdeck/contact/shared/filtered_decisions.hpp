@@ -5,7 +5,7 @@
 #include <array>
 
 #include "contact/shared/filtered.hpp"
-#include "deck/contact/scene.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::detail {
 

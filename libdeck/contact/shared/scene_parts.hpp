@@ -8,8 +8,8 @@
 #include "base/shared/vec.hpp"
 #include "contact/rules/gaps.hpp"
 #include "contact/shared/node_elements.hpp"
-#include "deck/contact/scene.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/contacts.hpp"
+#include "deck/model.hpp"
 
 namespace deck::detail {
 

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "contact/search/sweep.hpp"
-#include "deck/contact/scene.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::detail {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "contact/shared/scene_parts.hpp"
-#include "deck/contact/ties.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::detail {
 

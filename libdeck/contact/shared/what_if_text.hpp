@@ -2,9 +2,9 @@
 #pragma once
 #include <string>
 
-#include "deck/contact/scene.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/text/result.hpp"
+#include "deck/contacts.hpp"
+#include "deck/model.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "contact/shared/tie_parts.hpp"
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck::detail {
 namespace {

@@ -1,5 +1,5 @@
 // Counts and sentences about ties.
-#include "deck/contact/ties.hpp"
+#include "deck/contacts.hpp"
 
 #include <fmt/format.h>
 

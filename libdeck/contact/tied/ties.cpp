@@ -1,12 +1,12 @@
 // The ties of a scene: sides of every /INTER/TYPE2, search distance, and the steps in their order.
-#include "deck/contact/ties.hpp"
+#include "deck/contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "contact/scene/complete_contacts.hpp"
 #include "contact/shared/tie_parts.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 
 namespace deck::detail {
 namespace {

@@ -1,12 +1,12 @@
 // From a contact of a scene to the card and the pairs that the force stage computes with.
-#include "deck/cycle/adapter.hpp"
+#include "deck/cycle.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "cycle/adapter/parts.hpp"
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -7,8 +7,8 @@
 #include "contact/shared/scene_parts.hpp"
 #include "cycle/adapter/parts.hpp"
 #include "cycle/kernel/block.hpp"
-#include "deck/keyword/decode.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::cycle {

@@ -6,7 +6,7 @@
 
 #include "contact/shared/scene_parts.hpp"
 #include "cycle/adapter/parts.hpp"
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck::cycle {
 namespace detail {

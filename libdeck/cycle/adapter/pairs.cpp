@@ -9,8 +9,7 @@
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
 #include "cycle/adapter/parts.hpp"
-#include "deck/cycle/adapter.hpp"
-#include "deck/cycle/kernel.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "base/shared/vec.hpp"
-#include "deck/cycle/kernel.hpp"
-#include "deck/cycle/packet.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle::detail {
 

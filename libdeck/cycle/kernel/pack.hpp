@@ -8,7 +8,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "deck/base/point3.hpp"
+#include "deck/point3.hpp"
 
 #if defined(__SSE2__)
 #include <immintrin.h>

@@ -1,5 +1,5 @@
 // Memory of a packet: its arrays and their sizes. And what the numbers of a card say by themselves.
-#include "deck/cycle/packet.hpp"
+#include "deck/cycle.hpp"
 
 #include <algorithm>
 #include <cstdlib>

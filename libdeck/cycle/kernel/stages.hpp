@@ -6,7 +6,7 @@
 
 #include "cycle/kernel/block.hpp"
 #include "cycle/kernel/pack.hpp"
-#include "deck/cycle/kernel.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle::detail {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contact/shared/node_elements.hpp"
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 

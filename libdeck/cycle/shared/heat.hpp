@@ -3,7 +3,7 @@
 #pragma once
 #include <array>
 
-#include "deck/cycle/packet.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck::cycle {
 

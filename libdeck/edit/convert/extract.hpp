@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "deck/edit/convert.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/edit.hpp"
+#include "deck/model.hpp"
 #include "edit/cells.hpp"
 #include "keyword/shared/references.hpp"
 #include "model/shared/families.hpp"

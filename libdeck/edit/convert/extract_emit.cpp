@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 
-#include "deck/contact/scene.hpp"
-#include "deck/edit/convert.hpp"
-#include "deck/text/number.hpp"
+#include "deck/contacts.hpp"
+#include "deck/edit.hpp"
+#include "deck/text.hpp"
 #include "edit/convert/extract.hpp"
 
 namespace deck {

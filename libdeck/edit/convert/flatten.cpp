@@ -1,5 +1,5 @@
 // Copies the include tree into one text, with the offsets and parameters of submodels worked in.
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,6 +1,6 @@
 // Reads renumbering rules, computes the new id of every entity, and writes it into all cells that
 // hold ids, or says what stands in the way.
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "base/shared/count.hpp"
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "edit/cells.hpp"
 #include "keyword/shared/reader.hpp"
 #include "keyword/shared/references.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/text/number.hpp"
+#include "deck/keyword.hpp"
+#include "deck/text.hpp"
 #include "edit/cells.hpp"
 
 namespace deck {

@@ -1,13 +1,13 @@
 // Builds the cards, groups and lines that replace a TYPE19, with ids that are free.
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 
 #include <algorithm>
 #include <map>
 #include <set>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/model/selection.hpp"
-#include "deck/text/number.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
+#include "deck/text.hpp"
 #include "edit/cells.hpp"
 #include "keyword/shared/card_forms.hpp"
 #include "text/shared/columns.hpp"

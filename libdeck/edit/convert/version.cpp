@@ -1,11 +1,11 @@
 // Rewrites the blocks whose layout differs between two input versions, with a report of every
 // value.
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 
 #include <algorithm>
 #include <unordered_map>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "edit/cells.hpp"
 #include "keyword/shared/schema_facts.hpp"
 #include "text/shared/columns.hpp"

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <set>
 
-#include "deck/contact/view.hpp"
+#include "deck/contacts.hpp"
 #include "keyword/shared/line_check.hpp"
 
 namespace deck::detail {

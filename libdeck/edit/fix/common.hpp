@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/edit/fix.hpp"
+#include "deck/edit.hpp"
 #include "edit/cells.hpp"
 
 namespace deck::detail {

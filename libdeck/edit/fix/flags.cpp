@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "base/shared/count.hpp"
-#include "deck/contact/view.hpp"
+#include "deck/contacts.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/edit/fix.hpp"
+#include "deck/edit.hpp"
 #include "edit/fix/nodes/ways_out.hpp"
 
 namespace deck::detail {

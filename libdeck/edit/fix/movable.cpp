@@ -7,8 +7,8 @@
 #include <set>
 #include <tuple>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {

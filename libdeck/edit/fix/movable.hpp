@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/contact/crossings.hpp"
+#include "deck/contacts.hpp"
 #include "edit/cells.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"

@@ -1,4 +1,4 @@
-// Conversions beside those of convert.hpp: effective values written into the cards of the contact
+// Conversions beside those of edit.hpp: effective values written into the cards of the contact
 // interfaces; and what all conversions have: the report of every value that changed, and the
 // verification that the deck that came out starts as the deck that went in — the same effective
 // values, gaps, penetrations, actions, forces, masses and time steps, in its own units.
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/edit/rewrite.hpp"
+#include "deck/edit.hpp"
 
 namespace deck {
 

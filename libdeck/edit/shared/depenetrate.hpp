@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "deck/edit/fix.hpp"
+#include "deck/edit.hpp"
 
 namespace deck {
 

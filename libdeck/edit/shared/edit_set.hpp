@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "deck/edit/rewrite.hpp"
-#include "deck/keyword/deck.hpp"
+#include "deck/edit.hpp"
+#include "deck/keyword.hpp"
 #include "edit/shared/write.hpp"
 #include "keyword/shared/include_scan.hpp"
 

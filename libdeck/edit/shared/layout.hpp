@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 #include "text/shared/edits.hpp"
 
 namespace deck {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/text/result.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "deck/model/interfaces.hpp"
+#include "deck/model.hpp"
 #include "edit/verify/verify_parts.hpp"
 
 namespace deck::detail {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/contact/scene.hpp"
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/contacts.hpp"
+#include "deck/cycle.hpp"
 #include "edit/shared/conversion.hpp"
 
 namespace deck::detail {

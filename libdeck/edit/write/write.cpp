@@ -19,7 +19,7 @@
 
 #include "base/shared/hash.hpp"
 #include "base/shared/paths.hpp"
-#include "deck/text/source.hpp"
+#include "deck/text.hpp"
 #include "edit/write/write_plan.hpp"
 
 #if __has_include(<sys/xattr.h>) && defined(__linux__)

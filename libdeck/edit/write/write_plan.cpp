@@ -16,7 +16,7 @@
 #include <sstream>
 
 #include "base/shared/hash.hpp"
-#include "deck/text/source.hpp"
+#include "deck/text.hpp"
 #include "edit/shared/write.hpp"
 
 namespace deck {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/text/result.hpp"
+#include "deck/text.hpp"
 
 namespace deck::detail {
 

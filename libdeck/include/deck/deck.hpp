@@ -96,7 +96,7 @@
 // different decks. There is no global state.
 // Bad input never throws: a Result holds a value or an Error. The library prints nothing.
 #pragma once
-#include "deck/contact/view.hpp"
-#include "deck/edit/edit.hpp"
-#include "deck/front/loaded_deck.hpp"
+#include "deck/contacts.hpp"
+#include "deck/edit.hpp"
+#include "deck/loaded_deck.hpp"
 #include "deck/verdict.hpp"

@@ -11,12 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "deck/contact/view.hpp"
-#include "deck/cycle/scene_cycle.hpp"
-#include "deck/cycle/steps.hpp"
-#include "deck/front/loaded_deck.hpp"
-#include "deck/keyword/deck.hpp"
-#include "deck/model/interfaces.hpp"
+#include "deck/contacts.hpp"
+#include "deck/cycle.hpp"
+#include "deck/keyword.hpp"
+#include "deck/loaded_deck.hpp"
+#include "deck/model.hpp"
 
 namespace deck {
 

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "deck/front/loaded_deck.hpp"
+#include "deck/loaded_deck.hpp"
 
 namespace deck {
 

@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/model/model.hpp"
-#include "deck/text/diagnostic.hpp"
-#include "deck/text/result.hpp"
+#include "deck/model.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "deck/model/interfaces.hpp"
+#include "deck/model.hpp"
 #include "keyword/shared/references.hpp"
 
 namespace deck {

@@ -1,5 +1,5 @@
 // Reads the cells of one line by the fields of its card.
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 
 #include <algorithm>
 

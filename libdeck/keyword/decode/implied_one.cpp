@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 
 namespace deck::detail {
 

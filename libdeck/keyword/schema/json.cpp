@@ -11,8 +11,8 @@
 #include <set>
 #include <tuple>
 
-#include "deck/keyword/deck.hpp"
-#include "deck/text/number.hpp"
+#include "deck/keyword.hpp"
+#include "deck/text.hpp"
 #include "text/shared/read_json.hpp"
 
 namespace deck {
@@ -491,9 +491,8 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   schema.source = source;
   require(json, path, "keyword");
   read(json, path, "keyword", schema.keyword, keyword_of);
-  read(json, path, "aliases", schema.aliases, [](const Json& names, const Path& here) {
-    return list_of(names, here, keyword_of);
-  });
+  read(json, path, "aliases", schema.aliases,
+       [](const Json& names, const Path& here) { return list_of(names, here, keyword_of); });
   read(json, path, "kind", schema.kind);
   read(json, path, "id", schema.has_id);
   read(json, path, "title", schema.has_title);
@@ -513,9 +512,8 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   if (unread && schema.from == 0)
     fail(at(path, "older"), "\"from\" must say which decks are older");
   read(json, path, "doc", schema.doc);
-  read(json, path, "cards", schema.cards, [](const Json& cards, const Path& here) {
-    return list_of(cards, here, card_of);
-  });
+  read(json, path, "cards", schema.cards,
+       [](const Json& cards, const Path& here) { return list_of(cards, here, card_of); });
   extend_to_older_decks(schema, unread);
   return schema;
 }
@@ -635,9 +633,8 @@ Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_
         throw Wrong{path.text() + wrong};
       return out;
     };
-    const auto parsed = Json::parse(text, [&](int, Json::parse_event_t event, Json& json) {
-      return duplicates(event, json);
-    });
+    const auto parsed = Json::parse(
+        text, [&](int, Json::parse_event_t event, Json& json) { return duplicates(event, json); });
     const Json json = written_out(parsed, root);
     if (!json.is_object() || !json.contains("schemas")) return std::vector{one(json, root)};
     expect_object(json, root, {"$schema", "schemas"});

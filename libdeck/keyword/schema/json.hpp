@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/keyword/schema.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck::detail {
 
@@ -18,8 +18,9 @@ struct ReadSchema {
   std::string json;
 };
 
-/// Reads a file of schemas: an object with "keyword", or one with "schemas", a list of such objects.
-/// Lists may hold tables: written_out() in json.cpp. `name` goes into messages and Schema::source.
+/// Reads a file of schemas: an object with "keyword", or one with "schemas", a list of such
+/// objects. Lists may hold tables: written_out() in json.cpp. `name` goes into messages and
+/// Schema::source.
 Result<std::vector<ReadSchema>> read_schemas(std::string_view name, std::string_view text);
 
 /// One schema of a text that read_schemas() has accepted: neither keys that occur twice are looked

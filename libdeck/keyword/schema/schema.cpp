@@ -1,6 +1,6 @@
 // SchemaSet: the table of keywords and aliases, and the search for the longest one that begins a
 // header; the legal words of a keyword. Reading the JSON is in json.cpp.
-#include "deck/keyword/schema.hpp"
+#include "deck/keyword.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,7 @@
 #include <set>
 
 #include "base/shared/embedded.hpp"
-#include "deck/keyword/deck.hpp"
-#include "deck/text/source.hpp"
+#include "deck/text.hpp"
 #include "keyword/schema/json.hpp"
 #include "keyword/shared/schema_facts.hpp"
 #include "text/shared/columns.hpp"

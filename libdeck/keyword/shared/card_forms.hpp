@@ -1,5 +1,6 @@
-// Cards in other forms: the text of a card from its schema and some values; the JSON form of a deck:
-// what a cell's value is, and how bytes that are no UTF-8 are spelled. Private to the library.
+// Cards in other forms: the text of a card from its schema and some values; the JSON form of a
+// deck: what a cell's value is, and how bytes that are no UTF-8 are spelled. Private to the
+// library.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -7,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/keyword.hpp"
+#include "deck/text.hpp"
 
 namespace deck::detail {
 

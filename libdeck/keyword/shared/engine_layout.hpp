@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "deck/keyword/engine_file.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck {
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <string_view>
 
-#include "deck/keyword/schema.hpp"
-#include "deck/text/number.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/keyword.hpp"
+#include "deck/rule_id.hpp"
+#include "deck/text.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck::detail {

@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "deck/keyword/deck.hpp"
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck {
 

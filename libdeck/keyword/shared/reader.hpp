@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/keyword/deck.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/keyword.hpp"
+#include "deck/text.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck::detail {

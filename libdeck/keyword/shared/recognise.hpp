@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "deck/keyword/deck.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck {
 

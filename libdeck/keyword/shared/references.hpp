@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck {
 

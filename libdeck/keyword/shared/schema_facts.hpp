@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "deck/keyword/schema.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck::detail {
 

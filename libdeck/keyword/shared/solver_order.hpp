@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/keyword/deck.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck::detail {
 

@@ -11,7 +11,7 @@
 
 #include "base/shared/count.hpp"
 #include "base/shared/vec.hpp"
-#include "deck/base/point3.hpp"
+#include "deck/point3.hpp"
 #include "lint/check.hpp"
 #include "model/shared/item_spans.hpp"
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <set>
 
-#include "deck/model/selection.hpp"
-#include "deck/text/number.hpp"
+#include "deck/model.hpp"
+#include "deck/text.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {

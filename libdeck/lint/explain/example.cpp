@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/shared/columns.hpp"
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
 #include "text/shared/columns.hpp"
 #include "text/shared/gzip.hpp"
 

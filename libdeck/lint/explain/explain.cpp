@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/shared/columns.hpp"
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
 #include "lint/check.hpp"
 #include "lint/shared/example.hpp"
 #include "lint/shared/topics.hpp"

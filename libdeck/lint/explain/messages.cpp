@@ -10,8 +10,7 @@
 #include "base/shared/columns.hpp"
 #include "base/shared/embedded.hpp"
 #include "base/shared/spelling.hpp"
-#include "deck/text/number.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 #include "lint/check.hpp"
 
 namespace deck {

@@ -8,7 +8,7 @@
 
 #include "base/shared/columns.hpp"
 #include "base/shared/spelling.hpp"
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
 
 namespace deck {
 namespace {

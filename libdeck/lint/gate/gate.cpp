@@ -12,7 +12,7 @@
 
 #include "base/shared/count.hpp"
 #include "base/shared/length_text.hpp"
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "lint/shared/config.hpp"
 
 namespace deck {

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/contact/view.hpp"
-#include "deck/lint/lint.hpp"
-#include "deck/text/result.hpp"
+#include "deck/contacts.hpp"
+#include "deck/lint.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 

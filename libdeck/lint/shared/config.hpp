@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/lint/lint.hpp"
-#include "deck/text/result.hpp"
+#include "deck/lint.hpp"
+#include "deck/text.hpp"
 #include "lint/shared/gate.hpp"
 
 namespace deck {

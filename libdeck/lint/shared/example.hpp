@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "deck/keyword/schema.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/keyword.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/card_forms.hpp"
 
 namespace deck {

@@ -5,9 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/lint/lint.hpp"
-#include "deck/text/diagnostic.hpp"
-#include "deck/text/source.hpp"
+#include "deck/lint.hpp"
+#include "deck/text.hpp"
 #include "text/shared/edits.hpp"
 
 namespace deck {

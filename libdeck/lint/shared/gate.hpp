@@ -9,10 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "deck/contact/view.hpp"
-#include "deck/cycle/scene_cycle.hpp"
-#include "deck/text/diagnostic.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/contacts.hpp"
+#include "deck/cycle.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 

@@ -6,9 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "deck/contact/scene.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/lint/lint.hpp"
+#include "deck/contacts.hpp"
+#include "deck/lint.hpp"
 #include "lint/shared/gate.hpp"
 
 namespace deck {

@@ -7,9 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/keyword/schema.hpp"
-#include "deck/text/diagnostic.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/keyword.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 
@@ -22,7 +21,7 @@ constexpr std::size_t usual_page_width = 92;
 /// longer than `width` (0: the usual). Empty: nothing is known.
 std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std::size_t width = 0);
 
-/// The pages of deck/lint/lint.hpp, as wide as `width` (0: the usual). Cards of examples are
+/// The pages of deck/lint.hpp, as wide as `width` (0: the usual). Cards of examples are
 /// continued on further lines only where a width is given. Of the fields of a rule those that
 /// `selector` names.
 std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width,

@@ -8,7 +8,7 @@
 
 #include "base/shared/pages.hpp"
 #include "base/shared/parallel.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/solver_order.hpp"
 #include "model/bulk/bulk_read.hpp"
 #include "model/shared/families.hpp"

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "deck/keyword/deck.hpp"
-#include "deck/model/model.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
 #include "keyword/shared/line_check.hpp"
 
 namespace deck::detail {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/model/selection.hpp"
-#include "deck/text/number.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/solver_order.hpp"
 #include "model/mesh/mesh_parts.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "deck/model/model.hpp"
+#include "deck/model.hpp"
 #include "model/shared/kinematics.hpp"
 
 namespace deck::detail {

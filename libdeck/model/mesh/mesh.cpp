@@ -7,7 +7,7 @@
 #include <map>
 
 #include "base/shared/parallel.hpp"
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 #include "model/mesh/mesh_parts.hpp"
 #include "model/shared/families.hpp"
 #include "text/shared/columns.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 #include <system_error>
 
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 #include "model/mesh/mesh_parts.hpp"
 #include "model/model_build.hpp"
 

@@ -7,10 +7,9 @@
 #include <map>
 #include <numbers>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/keyword/engine_file.hpp"
-#include "deck/model/selection.hpp"
-#include "deck/text/number.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/solver_order.hpp"
 
 namespace deck::detail {

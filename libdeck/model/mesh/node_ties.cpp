@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "deck/keyword/decode.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
 #include "keyword/shared/solver_order.hpp"
 #include "model/mesh/mesh_parts.hpp"
 

@@ -1,6 +1,6 @@
 // Selections: the table of definitions, id lists, and the public functions; resolving is done per
 // kind in the other selection_*.cpp files.
-#include "deck/model/selection.hpp"
+#include "deck/model.hpp"
 
 #include <algorithm>
 #include <numeric>

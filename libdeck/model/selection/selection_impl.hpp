@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/shared/vec.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/model.hpp"
 #include "model/model_build.hpp"
 #include "model/shared/faces.hpp"
 #include "model/shared/families.hpp"

@@ -1,6 +1,6 @@
 // Whether Stfac is a stiffness or a factor. Private to the library.
 #pragma once
-#include "deck/model/interfaces.hpp"
+#include "deck/model.hpp"
 
 namespace deck::detail {
 

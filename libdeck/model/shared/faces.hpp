@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "deck/model/model.hpp"
+#include "deck/model.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck::detail {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/model/model.hpp"
+#include "deck/model.hpp"
 
 namespace deck::detail {
 

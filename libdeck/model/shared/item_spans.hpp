@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "deck/model/model.hpp"
+#include "deck/model.hpp"
 
 namespace deck::detail {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/model/model.hpp"
+#include "deck/model.hpp"
 #include "model/shared/mesh.hpp"
 
 namespace deck {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/keyword/engine_file.hpp"
-#include "deck/model/model.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
 
 namespace deck {
 

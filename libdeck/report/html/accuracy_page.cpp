@@ -11,7 +11,7 @@
 
 #include "accuracy/shared/choice.hpp"
 #include "base/shared/escape.hpp"
-#include "deck/contact/scene.hpp"
+#include "deck/contacts.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/accuracy.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "contact/shared/element_names.hpp"
-#include "deck/contact/ties.hpp"
+#include "deck/contacts.hpp"
 #include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"
 #include "model/shared/mesh.hpp"

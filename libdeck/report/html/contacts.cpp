@@ -13,7 +13,7 @@
 #include "contact/shared/element_names.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/html/parts.hpp"
 

@@ -1,7 +1,7 @@
 // The page: a static head that is readable without scripts, data blocks, style and script. Text of
 // the deck reaches the page either escaped or as JSON whose '<' is written as an escape, so no
 // title can end an element or start one. A content security policy forbids every request.
-#include "deck/report/html.hpp"
+#include "deck/report.hpp"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,8 @@
 
 #include "base/shared/escape.hpp"
 #include "base/shared/parallel.hpp"
-#include "deck/contact/ties.hpp"
-#include "deck/front/loaded_deck.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/contacts.hpp"
+#include "deck/loaded_deck.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"

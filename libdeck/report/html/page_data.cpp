@@ -7,10 +7,9 @@
 
 #include "base/shared/count.hpp"
 #include "contact/shared/scene_parts.hpp"
-#include "deck/contact/scene.hpp"
-#include "deck/contact/ties.hpp"
-#include "deck/keyword/decode.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/contacts.hpp"
+#include "deck/keyword.hpp"
+#include "deck/report.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/fix.hpp"
 #include "report/shared/gate.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "contact/shared/scene_parts.hpp"
-#include "deck/report/html.hpp"
+#include "deck/report.hpp"
 #include "deck/verdict.hpp"
 #include "report/html/stream.hpp"
 #include "report/record.hpp"

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "base/shared/paths.hpp"
-#include "deck/keyword/decode.hpp"
+#include "deck/keyword.hpp"
 #include "keyword/shared/card_forms.hpp"
 #include "report/shared/json.hpp"
 #include "report/shared_records.hpp"

@@ -2,7 +2,7 @@
 // pair are lengths, for edges as for nodes; what the solver stores of two edges, the square of the
 // gap and what is left of it, is in "solver".
 
-#include "deck/report/gaps.hpp"
+#include "deck/report.hpp"
 #include "model/shared/item_spans.hpp"
 #include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"

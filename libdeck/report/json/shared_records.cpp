@@ -1,7 +1,7 @@
 // Tables of the records that several documents have.
 #include "report/shared_records.hpp"
 
-#include "deck/front/loaded_deck.hpp"
+#include "deck/loaded_deck.hpp"
 #include "report/shared/diagnostics.hpp"
 
 namespace deck {

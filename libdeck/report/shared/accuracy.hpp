@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "accuracy/shared/choice.hpp"
-#include "deck/keyword/deck.hpp"
+#include "deck/keyword.hpp"
 
 namespace deck {
 

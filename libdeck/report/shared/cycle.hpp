@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "accuracy/shared/effect_cost.hpp"
-#include "deck/cycle/steps.hpp"
-#include "deck/keyword/deck.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/cycle.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
+#include "deck/report.hpp"
 #include "deck/verdict.hpp"
 #include "report/shared/vtk.hpp"
 

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/edit/rewrite.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/text/result.hpp"
+#include "deck/edit.hpp"
+#include "deck/model.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 

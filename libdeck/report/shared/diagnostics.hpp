@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/lint/lint.hpp"
-#include "deck/model/interfaces.hpp"
+#include "deck/lint.hpp"
+#include "deck/model.hpp"
 #include "deck/verdict.hpp"
 
 namespace deck {

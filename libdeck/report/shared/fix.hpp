@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "deck/edit/fix.hpp"
-#include "deck/model/interfaces.hpp"
+#include "deck/edit.hpp"
+#include "deck/model.hpp"
 #include "deck/verdict.hpp"
 
 namespace deck {

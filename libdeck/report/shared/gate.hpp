@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/contact/view.hpp"
-#include "deck/keyword/deck.hpp"
+#include "deck/contacts.hpp"
+#include "deck/keyword.hpp"
 #include "deck/verdict.hpp"
 #include "lint/shared/gate.hpp"
 #include "report/shared/diagnostics.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/contact/view.hpp"
-#include "deck/front/loaded_deck.hpp"
+#include "deck/contacts.hpp"
+#include "deck/loaded_deck.hpp"
 #include "inspect/shared/diff.hpp"
 #include "inspect/shared/listing.hpp"
 #include "inspect/shared/show.hpp"

@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "base/shared/escape.hpp"
-#include "deck/keyword/deck.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/model/model.hpp"
-#include "deck/report/gaps.hpp"
-#include "deck/text/number.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
+#include "deck/report.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 

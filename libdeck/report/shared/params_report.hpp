@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "deck/front/loaded_deck.hpp"
+#include "deck/loaded_deck.hpp"
 #include "report/shared/text_table.hpp"
 #include "report/shared_records.hpp"
 

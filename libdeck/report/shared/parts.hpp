@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/front/loaded_deck.hpp"
+#include "deck/loaded_deck.hpp"
 
 namespace deck {
 

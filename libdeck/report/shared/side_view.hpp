@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/contact/scene.hpp"
-#include "deck/text/result.hpp"
+#include "deck/contacts.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/report/gaps.hpp"
+#include "deck/report.hpp"
 
 namespace deck {
 

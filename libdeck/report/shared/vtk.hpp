@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/contact/view.hpp"
-#include "deck/cycle/steps.hpp"
+#include "deck/contacts.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck {
 

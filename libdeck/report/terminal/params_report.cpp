@@ -2,7 +2,7 @@
 #include "report/shared/params_report.hpp"
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
-#include "deck/contact/scene.hpp"
+#include "deck/contacts.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <cmath>
 #include <optional>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "report/shared_records.hpp"
 #include "report/terminal/words.hpp"
 #include "text/shared/columns.hpp"

@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "base/shared/count.hpp"
-#include "deck/contact/crossings.hpp"
-#include "deck/contact/view.hpp"
+#include "deck/contacts.hpp"
 #include "report/shared/text_table.hpp"
 
 namespace deck {

@@ -9,9 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/text/diagnostic.hpp"
-#include "deck/text/result.hpp"
-#include "deck/text/source.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "deck/text/result.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 

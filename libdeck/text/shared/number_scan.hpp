@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck::detail {

@@ -4,8 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "deck/text/result.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 
 namespace deck::detail {
 

@@ -1,7 +1,7 @@
 // Fixes compared: scores and the best one.
 #include <gtest/gtest.h>
 
-#include "deck/edit/fix.hpp"
+#include "deck/edit.hpp"
 
 namespace deck {
 namespace {

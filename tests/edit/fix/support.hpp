@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "contact/small_deck.hpp"
-#include "deck/edit/fix.hpp"
+#include "deck/edit.hpp"
 #include "edit/shared/depenetrate.hpp"
 #include "where.hpp"
 

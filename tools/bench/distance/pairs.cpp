@@ -1,5 +1,5 @@
 // Pairs of a deck's contacts with their gaps.
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 #include "distance/tiers.hpp"
 
 namespace deck::bench {

@@ -7,7 +7,7 @@
 
 #include "accuracy/shared/accuracy.hpp"
 #include "contact/shared/filtered.hpp"
-#include "deck/contact/scene.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck::bench {
 

@@ -8,9 +8,9 @@
 #include <fstream>
 
 #include "base/shared/escape.hpp"
-#include "deck/cycle/adapter.hpp"
-#include "deck/front/loaded_deck.hpp"
-#include "deck/model/interfaces.hpp"
+#include "deck/cycle.hpp"
+#include "deck/loaded_deck.hpp"
+#include "deck/model.hpp"
 #include "replay/replay.hpp"
 #include "report/shared/json.hpp"
 

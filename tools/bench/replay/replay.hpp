@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/cycle/kernel.hpp"
+#include "deck/cycle.hpp"
 
 namespace deck {
 struct Scene;

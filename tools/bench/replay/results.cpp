@@ -8,7 +8,7 @@
 
 #include "cycle/adapter/parts.hpp"
 #include "cycle/shared/heat.hpp"
-#include "deck/cycle/kernel.hpp"
+#include "deck/cycle.hpp"
 #include "replay/node_outputs.hpp"
 
 namespace deck::cycle::detail {

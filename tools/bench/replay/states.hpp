@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/cycle/adapter.hpp"
-#include "deck/cycle/packet.hpp"
+#include "deck/cycle.hpp"
 #include "replay/table.hpp"
 
 namespace deck::cycle::detail {

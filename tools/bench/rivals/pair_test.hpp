@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "contact/shared/closest.hpp"
-#include "deck/contact/search.hpp"
+#include "deck/contacts.hpp"
 
 namespace bench {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/text/result.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/include_scan.hpp"
 
 namespace deck::cli {

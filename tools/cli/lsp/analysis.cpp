@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
-#include "deck/contact/scene.hpp"
-#include "deck/text/number.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/contacts.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/recognise.hpp"
 #include "lint/shared/baseline.hpp"
 #include "lint/shared/geometry.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/front/loaded_deck.hpp"
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
+#include "deck/loaded_deck.hpp"
 #include "keyword/shared/place.hpp"
 #include "keyword/shared/references.hpp"
 #include "lint/shared/config.hpp"

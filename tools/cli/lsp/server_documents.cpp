@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "deck/contact/scene.hpp"
-#include "deck/model/selection.hpp"
-#include "deck/report/html.hpp"
+#include "deck/contacts.hpp"
+#include "deck/model.hpp"
+#include "deck/report.hpp"
 #include "edit/shared/write.hpp"
 #include "keyword/shared/recognise.hpp"
 #include "lint/shared/topics.hpp"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "deck/text/rule.hpp"
+#include "deck/text.hpp"
 #include "lsp/server.hpp"
 
 namespace deck::lsp {

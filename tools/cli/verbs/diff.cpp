@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "common.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/report/html.hpp"
+#include "deck/contacts.hpp"
+#include "deck/model.hpp"
+#include "deck/report.hpp"
 #include "deck/verdict.hpp"
 #include "verbs/gap_page.hpp"
 #include "verbs/gate/options.hpp"

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "deck/contact/crossings.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/contacts.hpp"
+#include "deck/report.hpp"
 #include "report/shared/json.hpp"
 #include "text/shared/gzip.hpp"
 

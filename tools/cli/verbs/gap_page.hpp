@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "common.hpp"
-#include "deck/edit/rewrite.hpp"
-#include "deck/front/loaded_deck.hpp"
-#include "deck/report/html.hpp"
+#include "deck/edit.hpp"
+#include "deck/loaded_deck.hpp"
+#include "deck/report.hpp"
 #include "report/shared/vtk.hpp"
 
 namespace deck::cli {

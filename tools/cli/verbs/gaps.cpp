@@ -6,10 +6,9 @@
 
 #include "common.hpp"
 #include "contact/shared/what_if_text.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/lint/lint.hpp"
-#include "deck/report/gaps.hpp"
-#include "deck/report/html.hpp"
+#include "deck/contacts.hpp"
+#include "deck/lint.hpp"
+#include "deck/report.hpp"
 #include "report/shared/json.hpp"
 #include "verbs/gap_page.hpp"
 #include "verbs/gate/options.hpp"

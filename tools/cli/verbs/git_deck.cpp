@@ -10,7 +10,7 @@
 #include <set>
 
 #include "base/shared/paths.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/report.hpp"
 #include "keyword/shared/include_scan.hpp"
 #include "library.hpp"
 #include "report/shared/json.hpp"

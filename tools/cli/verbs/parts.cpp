@@ -2,7 +2,7 @@
 
 #include "report/shared/parts.hpp"
 #include "common.hpp"
-#include "deck/report/html.hpp"
+#include "deck/report.hpp"
 #include "verbs/gap_page.hpp"
 
 namespace deck::cli::verb_parts {

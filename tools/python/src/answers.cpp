@@ -4,9 +4,8 @@
 #include <mutex>
 #include <utility>
 
-#include "deck/contact/ties.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/contacts.hpp"
+#include "deck/report.hpp"
 #include "deck/verdict.hpp"
 #include "inspect/shared/diff.hpp"
 #include "inspect/shared/listing.hpp"

@@ -1,6 +1,6 @@
 // libdeck._native: values of a deck set by name, and blocks that come and go, kept until somebody
 // writes them.
-#include "deck/edit/edit.hpp"
+#include "deck/edit.hpp"
 
 #include <utility>
 

@@ -3,11 +3,10 @@
 #include <functional>
 #include <map>
 
-#include "deck/edit/convert.hpp"
-#include "deck/edit/fix.hpp"
+#include "deck/edit.hpp"
+#include "edit/shared/conversion.hpp"
 #include "edit/shared/depenetrate.hpp"
 #include "edit/shared/edit_set.hpp"
-#include "edit/shared/conversion.hpp"
 #include "edit/shared/write.hpp"
 #include "native.hpp"
 #include "report/shared/deck_json.hpp"

@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "deck/lint/lint.hpp"
-#include "deck/text/rule.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/lint.hpp"
+#include "deck/rule_id.hpp"
+#include "deck/text.hpp"
 #include "keyword/shared/recognise.hpp"
 #include "lint/shared/geometry.hpp"
 #include "native.hpp"

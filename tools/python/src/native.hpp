@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/front/loaded_deck.hpp"
+#include "deck/loaded_deck.hpp"
 
 namespace deck {
 class EditSet;

@@ -4,12 +4,11 @@
 #include <utility>
 
 #include "contact/shared/what_if_text.hpp"
-#include "deck/contact/crossings.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/cycle/scene_cycle.hpp"
-#include "deck/lint/lint.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/contacts.hpp"
+#include "deck/cycle.hpp"
+#include "deck/lint.hpp"
+#include "deck/model.hpp"
+#include "deck/report.hpp"
 #include "native.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "edit/convert/units/unit_system.hpp"
 #include "text/shared/columns.hpp"
 #include "text/shared/number_scan.hpp"

@@ -2,7 +2,7 @@
 // not be converted.
 #include <algorithm>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "edit/convert/units/unit_system.hpp"
 #include "text/shared/columns.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "edit/convert/units/unit_system.hpp"
 #include "keyword/shared/engine_layout.hpp"
 #include "text/shared/columns.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 #include "edit/cells.hpp"
 
 namespace deck::detail {

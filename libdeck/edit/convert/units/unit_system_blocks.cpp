@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "base/shared/count.hpp"
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "edit/convert/units/unit_system.hpp"
 #include "keyword/shared/decode_parts.hpp"
 #include "keyword/shared/line_check.hpp"

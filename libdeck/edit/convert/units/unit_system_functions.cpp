@@ -2,7 +2,7 @@
 // working units wherever no scale stands between them and the block that uses the function.
 #include <algorithm>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "edit/convert/units/unit_system.hpp"
 #include "keyword/shared/reader.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "contact/shared/node_elements.hpp"
 #include "contact/shared/scene_parts.hpp"
-#include "deck/contact/crossings.hpp"
+#include "deck/contacts.hpp"
 #include "model/shared/faces.hpp"
 
 namespace deck::detail {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/shared/length_text.hpp"
-#include "deck/cycle/scene_cycle.hpp"
-#include "deck/text/number.hpp"
+#include "deck/cycle.hpp"
+#include "deck/text.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "deck/contact/view.hpp"
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/contacts.hpp"
+#include "deck/cycle.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {

@@ -4,8 +4,7 @@
 #include <map>
 #include <set>
 
-#include "deck/contact/crossings.hpp"
-#include "deck/contact/view.hpp"
+#include "deck/contacts.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/shared/vec.hpp"
-#include "deck/contact/ties.hpp"
+#include "deck/contacts.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/shared/count.hpp"
-#include "deck/base/point3.hpp"
-#include "deck/text/number.hpp"
+#include "deck/point3.hpp"
+#include "deck/text.hpp"
 #include "lint/check.hpp"
 #include "model/shared/families.hpp"
 #include "model/shared/kinematics.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "deck/edit/convert.hpp"
-#include "deck/model/selection.hpp"
+#include "deck/edit.hpp"
+#include "deck/model.hpp"
 #include "edit/shared/layout.hpp"
 #include "lint/shared/fix.hpp"
 #include "lsp/view.hpp"

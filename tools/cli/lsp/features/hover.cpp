@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 #include "lint/shared/topics.hpp"
 #include "lsp/view.hpp"
 #include "report/shared/params_report.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "deck/text/number.hpp"
+#include "deck/text.hpp"
 
 namespace deck::lsp {
 

@@ -11,7 +11,7 @@
 
 #include "base/shared/paths.hpp"
 #include "changes.hpp"
-#include "deck/edit/convert.hpp"
+#include "deck/edit.hpp"
 #include "edit/shared/conversion.hpp"
 #include "library.hpp"
 #include "report/shared/deck_json.hpp"

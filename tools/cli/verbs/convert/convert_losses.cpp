@@ -11,8 +11,8 @@
 
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
-#include "deck/keyword/engine_file.hpp"
-#include "deck/text/number.hpp"
+#include "deck/keyword.hpp"
+#include "deck/text.hpp"
 #include "report/shared/text_table.hpp"
 
 namespace deck::cli::verb_convert {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "deck/edit/rewrite.hpp"
+#include "deck/edit.hpp"
 
 namespace deck::cli::verb_convert {
 

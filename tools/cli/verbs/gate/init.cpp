@@ -15,7 +15,7 @@
 #include "base/shared/count.hpp"
 #include "base/shared/escape.hpp"
 #include "base/shared/paths.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/report.hpp"
 #include "library.hpp"
 #include "lint/shared/config.hpp"
 #include "report/shared/json.hpp"

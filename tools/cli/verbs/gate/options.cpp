@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/shared/paths.hpp"
-#include "deck/report/gaps.hpp"
+#include "deck/report.hpp"
 #include "library.hpp"
 #include "lint/shared/config.hpp"
 #include "verbs/git_deck.hpp"

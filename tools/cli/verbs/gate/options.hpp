@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "deck/contact/scene.hpp"
-#include "deck/contact/view.hpp"
+#include "deck/contacts.hpp"
 #include "deck/verdict.hpp"
 #include "lint/shared/baseline.hpp"
 #include "lint/shared/config.hpp"

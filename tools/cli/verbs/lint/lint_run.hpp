@@ -11,7 +11,7 @@
 
 #include "changes.hpp"
 #include "common.hpp"
-#include "deck/lint/lint.hpp"
+#include "deck/lint.hpp"
 #include "lint/shared/fix.hpp"
 #include "report/shared/diagnostics.hpp"
 #include "report/shared/gate.hpp"

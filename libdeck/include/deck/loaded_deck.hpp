@@ -12,13 +12,10 @@
 #include <memory>
 #include <string>
 
-#include "deck/contact/scene.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/cycle/scene_cycle.hpp"
-#include "deck/keyword/deck.hpp"
-#include "deck/keyword/engine_file.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/model/model.hpp"
+#include "deck/contacts.hpp"
+#include "deck/cycle.hpp"
+#include "deck/keyword.hpp"
+#include "deck/model.hpp"
 
 namespace deck {
 

@@ -10,15 +10,10 @@
 #include <unordered_set>
 #include <vector>
 
-#include "deck/front/loaded_deck.hpp"
-#include "deck/keyword/decode.hpp"
-#include "deck/keyword/engine_file.hpp"
-#include "deck/keyword/schema.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/model/model.hpp"
-#include "deck/model/selection.hpp"
-#include "deck/text/diagnostic.hpp"
-#include "deck/text/rule.hpp"
+#include "deck/keyword.hpp"
+#include "deck/loaded_deck.hpp"
+#include "deck/model.hpp"
+#include "deck/text.hpp"
 
 namespace deck {
 
