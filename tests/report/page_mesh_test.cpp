@@ -166,8 +166,13 @@ TEST(PageMoved, ListsNodesThatStandElsewhereFarthestFirst) {
   now.node(9, 1, 2, 9).node(1, 3, 4, 0).node(3, 0, 0, -5).node(4, 5, 5, 5).node(7, 8, 8, 8);
   const Built was(before);
   Page p(now);
-  p.input.before = &was.model;
-  const std::vector<detail::DataBlock> blocks = detail::optional_blocks(p.input, p.nodes);
+  const SceneView view = make_view(p.b.scene);
+  HtmlInput input;
+  input.deck = &p.b.deck;
+  input.scene = &p.b.scene;
+  input.view = &view;
+  input.before = &was.model;
+  const std::vector<detail::DataBlock> blocks = detail::optional_blocks(input, p.nodes);
   p.nodes.number();
   ASSERT_EQ(p.nodes.list().size(), 3u);
   Json rows = Json::parse(PageBlock(blocks.at(0).make()).bytes());
