@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-#include "contact/search/box_order.hpp"
+#include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
 #include "contact/search_scenes.hpp"
 

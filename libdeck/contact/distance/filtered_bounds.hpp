@@ -14,7 +14,6 @@
 #include <limits>
 #include <optional>
 
-#include "contact/distance/filtered_exact.hpp"
 #include "contact/shared/dd.hpp"
 #include "contact/shared/filtered.hpp"
 

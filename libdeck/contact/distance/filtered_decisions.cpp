@@ -1,6 +1,6 @@
 // Decides pairs: first in double with error bounds, then by the exact rational path where those
 // leave a doubt.
-#include "contact/shared/filtered_decisions.hpp"
+#include "contact/shared/filtered.hpp"
 
 #include <algorithm>
 #include <cmath>

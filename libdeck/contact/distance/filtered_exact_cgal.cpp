@@ -1,7 +1,7 @@
 // A guess is proved either by a point nearer than the gap, or by a direction w in which every
 // vertex lies at least the gap away: min_k(w.(node - v_k))^2 >= gap^2 w.w. No division, so exact
 // sums and products of doubles suffice.
-#include "contact/distance/filtered_exact.hpp"
+#include "contact/shared/filtered.hpp"
 
 #include <CGAL/Number_types/internal/Exact_type_selector.h>
 

@@ -6,7 +6,7 @@
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/rules/actions.hpp"
-#include "contact/shared/filtered_decisions.hpp"
+#include "contact/shared/filtered.hpp"
 #include "deck/text.hpp"
 
 namespace deck {

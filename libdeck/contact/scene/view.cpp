@@ -11,7 +11,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"
-#include "contact/shared/element_names.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck {

@@ -1,6 +1,5 @@
 // Hilbert curve by state table, radix sort of its keys, the ordering built on them, and the box
 // tree built on that.
-#include "contact/search/box_order.hpp"
 
 #include <algorithm>
 #include <array>

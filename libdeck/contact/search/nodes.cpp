@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/shared/parallel.hpp"
-#include "contact/search/box_order.hpp"
+#include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
 
 namespace deck {

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "contact/search/box_order.hpp"
 #include "contact/search/box_tree.hpp"
 #include "deck/contacts.hpp"
 
