@@ -270,7 +270,7 @@ TEST(SearchKernels, EveryInstructionSetFindsTheSameMeetingsOfBoxes) {
   double gap = 0;
   const Mesh mesh = scenes::make(0, dice, gap);
   std::vector<Box> boxes;
-  for (const auto& edge : mesh.edges) boxes.push_back(sweep::edge_box(mesh.nodes(), edge, gap));
+  for (const auto& edge : mesh.edges) boxes.push_back(sweep::box_of_nodes(mesh.nodes(), edge, gap));
   boxes.push_back({{-Box::infinity, -Box::infinity, -Box::infinity},
                    {Box::infinity, Box::infinity, Box::infinity}});
   const BoxTree tree(

@@ -41,9 +41,8 @@ std::vector<std::uint32_t> all_of(std::size_t count) {
 /// Exact numbers are made of finite ones only; without a place nothing passes through anything.
 template <std::size_t N>
 bool all_placed(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of) {
-  return std::all_of(of.begin(), of.end(), [&](std::uint32_t n) {
-    return std::isfinite(nodes.x[n]) && std::isfinite(nodes.y[n]) && std::isfinite(nodes.z[n]);
-  });
+  return std::all_of(of.begin(), of.end(),
+                     [&](std::uint32_t n) { return is_finite(sweep::point(nodes, n)); });
 }
 
 /// True where round-off cannot hide that `p` and `q` are on one side of the plane through 0, `b`

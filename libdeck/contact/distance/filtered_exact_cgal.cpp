@@ -16,13 +16,6 @@ namespace {
 using Z = CGAL::internal::Exact_ring_selector<double>::Type;
 using V = Point3<Z>;
 
-template <std::size_t N>
-bool finite_points(const std::array<Point3<double>, N>& points) {
-  for (const Point3<double>& p : points)
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
-  return true;
-}
-
 V vector_of(const Point3<double>& p) { return {Z(p.x), Z(p.y), Z(p.z)}; }
 
 // The distance is at least the gap in direction w for all these vertices (as seen from the node).
@@ -100,7 +93,7 @@ bool is_closer_to_piece(const std::array<Point3<double>, 5>& points, const Segme
 
 std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bool triangle,
                                  int best, const std::array<PartGuess, 4>& guess, double gap) {
-  if (!finite_points(points) || !std::isfinite(gap)) return std::nullopt;
+  if (!all_finite(points) || !std::isfinite(gap)) return std::nullopt;
   const V node = vector_of(points[4]);
   std::array<V, 4> v;
   for (std::size_t k = 0; k < 4; ++k) v[k] = vector_of(points[k]) - node;
@@ -129,7 +122,7 @@ std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bo
 
 std::optional<bool> prove_closer(const std::array<Point3<double>, 4>& x, EdgeFeature secondary,
                                  EdgeFeature main, bool parallel, double gap) {
-  if (!finite_points(x) || !std::isfinite(gap)) return std::nullopt;
+  if (!all_finite(x) || !std::isfinite(gap)) return std::nullopt;
   std::array<V, 4> p;
   for (std::size_t k = 0; k < 4; ++k) p[k] = vector_of(x[k]);
   const Z limit(gap);

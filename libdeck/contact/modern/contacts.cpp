@@ -12,19 +12,9 @@
 namespace deck {
 
 const char* to_string(SegmentKind kind) {
-  switch (kind) {
-    case SegmentKind::solid:
-      return "solid";
-    case SegmentKind::shell:
-      return "shell";
-    case SegmentKind::shell_opposite:
-      return "shell-opposite";
-    case SegmentKind::coat:
-      return "coat";
-    case SegmentKind::coat_opposite:
-      return "coat-opposite";
-  }
-  return "";
+  static constexpr const char* words[] = {"solid", "shell", "shell-opposite", "coat",
+                                          "coat-opposite"};
+  return words[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace deck

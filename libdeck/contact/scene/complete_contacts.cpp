@@ -10,6 +10,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "base/shared/side_by_side.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck::detail {
 namespace {
@@ -23,7 +24,7 @@ NodeIndex last_lost(const Coordinates& x, int threads, const Items& items,
     NodeIndex lost = no_index;
     for (std::size_t i = begin; i < end; ++i)
       each_node_of(items[i], [&](NodeIndex n) {
-        if (!std::isfinite(x.x[n]) || !std::isfinite(x.y[n]) || !std::isfinite(x.z[n])) lost = n;
+        if (!is_finite(at(x, n))) lost = n;
       });
     parts[part] = lost;
   });

@@ -75,23 +75,9 @@ Obstacle obstacle_of(const Contact& contact) {
 }
 
 std::string_view to_string(Obstacle obstacle) {
-  switch (obstacle) {
-    case Obstacle::empty_main:
-      return "empty_main";
-    case Obstacle::empty_secondary:
-      return "empty_secondary";
-    case Obstacle::no_gap:
-      return "no_gap";
-    case Obstacle::no_area:
-      return "no_area";
-    case Obstacle::no_element:
-      return "no_element";
-    case Obstacle::no_stiffness:
-      return "no_stiffness";
-    case Obstacle::none:
-      break;
-  }
-  return {};
+  static constexpr std::string_view words[] = {"",        "empty_main", "empty_secondary", "no_gap",
+                                               "no_area", "no_element", "no_stiffness"};
+  return words[static_cast<std::size_t>(obstacle)];
 }
 
 int on_surface_error(const Contact& contact) {

@@ -169,7 +169,7 @@ void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, Found& 
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t edge = w.mains[first + i];
       const double own = main_reach(*w.options, w.robust_margin, at(in.main_gap, edge, 0.0));
-      boxes[i] = w.tree.rounded(edge_box(in.nodes, in.main[edge], own));
+      boxes[i] = w.tree.rounded(box_of_nodes(in.nodes, in.main[edge], own));
       group.add(boxes[i]);
       sizes += boxes[i].size();
     }
