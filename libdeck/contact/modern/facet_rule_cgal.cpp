@@ -88,30 +88,6 @@ class ExactRule : public FacetSteps<ExactRule, Q> {
   const FacetRule& around_;
 };
 
-}  // namespace
-
-std::optional<ExactChoice> exact_choice(std::span<const FacetRule> pairs, bool solver_penetrates,
-                                        bool adhesion) {
-  std::optional<ExactChoice> best;
-  Q distance(0), most(0);  // of the one that counts; what another may have
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-    ExactRule rule(pairs[i]);
-    if (!rule.counts(adhesion)) continue;
-    if (best && rule.distance_squared() > most) continue;
-    if (adhesion) rule.take_adhesion_off();
-    if (!adhesion && best && rule.distance_squared() == most &&
-        best->penetrates == solver_penetrates && rule.penetrates() != solver_penetrates)
-      continue;
-    distance = rule.distance_squared();
-    most = adhesion ? rule.penetration() : distance;
-    best = ExactChoice{i, rule.penetrates(), 0, rule.gap(), rule.depth()};
-  }
-  if (best) best->distance = rounded_square_root(distance.exact());
-  return best;
-}
-
-namespace {
-
 Q sum_of(const std::array<double, 3>& v) { return Q(v[0]) + Q(v[1]) + Q(v[2]); }
 
 /// The solver's cell of a coordinate.
@@ -160,6 +136,26 @@ Span span_of(const std::array<Vec, 4>& corner, std::size_t axis, const Q& reach)
 }
 
 }  // namespace
+
+std::optional<ExactChoice> exact_choice(std::span<const FacetRule> pairs, bool solver_penetrates,
+                                        bool adhesion) {
+  std::optional<ExactChoice> best;
+  Q distance(0), most(0);  // of the one that counts; what another may have
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    ExactRule rule(pairs[i]);
+    if (!rule.counts(adhesion)) continue;
+    if (best && rule.distance_squared() > most) continue;
+    if (adhesion) rule.take_adhesion_off();
+    if (!adhesion && best && rule.distance_squared() == most &&
+        best->penetrates == solver_penetrates && rule.penetrates() != solver_penetrates)
+      continue;
+    distance = rule.distance_squared();
+    most = adhesion ? rule.penetration() : distance;
+    best = ExactChoice{i, rule.penetrates(), 0, rule.gap(), rule.depth()};
+  }
+  if (best) best->distance = rounded_square_root(distance.exact());
+  return best;
+}
 
 bool is_in_box(const Vec& node, const std::array<Vec, 4>& corner,
                const std::array<double, 3>& reach) {

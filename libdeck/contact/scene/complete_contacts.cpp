@@ -44,43 +44,6 @@ bool gaps_are_finite(const Contact& c) {
          finite(c.main) && finite(c.secondary_edges) && finite(c.main_edges);
 }
 
-}  // namespace
-
-EvaluationFailure check_evaluation(const SceneContext& c, const NotEvaluated& not_evaluated,
-                                   const std::string& card_reason, bool complete,
-                                   Contact& contact) {
-  contact.evaluated = false;
-  const std::string why =
-      card_reason.empty() ? not_evaluated.reason_in_nodes(contact) : card_reason;
-  if (!why.empty()) return {why, Severity::warning, true};
-  NodeIndex lost = no_index;
-  const auto look = [&](const auto& items, const auto& each_node_of) {
-    const NodeIndex last =
-        last_lost(c.scene.coordinates, effective_threads(c.options.threads), items, each_node_of);
-    if (last != no_index) lost = last;
-  };
-  if (!c.all_placed) {
-    look(contact.secondary, [](const SecondaryNode& s, const auto& f) { f(s.node); });
-    look(contact.main, [](const MainSegment& m, const auto& f) {
-      for (const NodeIndex n : m.nodes) f(n);
-    });
-    for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
-      look(*edges, [](const ContactEdge& e, const auto& f) {
-        for (const NodeIndex n : e.nodes) f(n);
-      });
-  }
-  if (lost != no_index)
-    return {"node " + std::to_string(c.model.nodes.id[lost]) +
-            " has a coordinate that is not a finite number"};
-  if (std::string cell = unusable_cell(*c.model.deck, *contact.inter); !cell.empty())
-    return {std::move(cell), Severity::error, true};
-  if (!gaps_are_finite(contact)) return {"the gap is not a finite number"};
-  contact.evaluated = complete;
-  return {};
-}
-
-namespace {
-
 void complete_nodes(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
                     Contact& contact) {
   if (pending.surface) make_main_segments(c, pending.surface->segments, contact);
@@ -145,6 +108,39 @@ struct Common {
 };
 
 }  // namespace
+
+EvaluationFailure check_evaluation(const SceneContext& c, const NotEvaluated& not_evaluated,
+                                   const std::string& card_reason, bool complete,
+                                   Contact& contact) {
+  contact.evaluated = false;
+  const std::string why =
+      card_reason.empty() ? not_evaluated.reason_in_nodes(contact) : card_reason;
+  if (!why.empty()) return {why, Severity::warning, true};
+  NodeIndex lost = no_index;
+  const auto look = [&](const auto& items, const auto& each_node_of) {
+    const NodeIndex last =
+        last_lost(c.scene.coordinates, effective_threads(c.options.threads), items, each_node_of);
+    if (last != no_index) lost = last;
+  };
+  if (!c.all_placed) {
+    look(contact.secondary, [](const SecondaryNode& s, const auto& f) { f(s.node); });
+    look(contact.main, [](const MainSegment& m, const auto& f) {
+      for (const NodeIndex n : m.nodes) f(n);
+    });
+    for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
+      look(*edges, [](const ContactEdge& e, const auto& f) {
+        for (const NodeIndex n : e.nodes) f(n);
+      });
+  }
+  if (lost != no_index)
+    return {"node " + std::to_string(c.model.nodes.id[lost]) +
+            " has a coordinate that is not a finite number"};
+  if (std::string cell = unusable_cell(*c.model.deck, *contact.inter); !cell.empty())
+    return {std::move(cell), Severity::error, true};
+  if (!gaps_are_finite(contact)) return {"the gap is not a finite number"};
+  contact.evaluated = complete;
+  return {};
+}
 
 void complete_contacts(SceneContext& c, const NotEvaluated& not_evaluated,
                        std::vector<PendingContact>& pending,
