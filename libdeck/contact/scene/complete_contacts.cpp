@@ -44,35 +44,28 @@ bool gaps_are_finite(const Contact& c) {
          finite(c.main) && finite(c.secondary_edges) && finite(c.main_edges);
 }
 
-void complete_nodes(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
-                    Contact& contact) {
-  if (pending.surface) make_main_segments(c, pending.surface->segments, contact);
-  set_main_stiffness(c, contact);
-  set_gaps(c, contact, pending.gapmin);
+void complete(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
+              Contact& contact) {
+  const bool edges = contact.kind == ContactKind::edge_edge;
+  if (edges) {
+    set_edge_stiffness(c, contact.main_edges, contact);
+    set_edge_stiffness(c, contact.secondary_edges, contact);
+    set_edge_gaps(c, contact, pending.gapmin);
+  } else {
+    if (pending.surface) make_main_segments(c, pending.surface->segments, contact);
+    set_main_stiffness(c, contact);
+    set_gaps(c, contact, pending.gapmin);
+  }
   contact.drad =
       radiation_distance(pending.thermal, pending.drad, contact.max_gap, contact.shortest_side);
   if (c.options.penetrations) {
     pending.failure =
         check_evaluation(c, not_evaluated, pending.card_reason, pending.complete, contact);
-    if (contact.evaluated) find_penetrations(c, contact, pending.decisions);
+    const auto find = edges ? find_edge_penetrations : find_penetrations;
+    if (contact.evaluated) find(c, contact, pending.decisions);
   }
   report_one_place(c, contact);
-  if (c.options.nodal_stiffness && contact.istf >= 2) set_nodal_stiffness(c, contact);
-}
-
-void complete_edges(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
-                    Contact& contact) {
-  set_edge_stiffness(c, contact.main_edges, contact);
-  set_edge_stiffness(c, contact.secondary_edges, contact);
-  set_edge_gaps(c, contact, pending.gapmin);
-  contact.drad =
-      radiation_distance(pending.thermal, pending.drad, contact.max_gap, contact.shortest_side);
-  if (c.options.penetrations) {
-    pending.failure =
-        check_evaluation(c, not_evaluated, pending.card_reason, pending.complete, contact);
-    if (contact.evaluated) find_edge_penetrations(c, contact, pending.decisions);
-  }
-  report_one_place(c, contact);
+  if (!edges && c.options.nodal_stiffness && contact.istf >= 2) set_nodal_stiffness(c, contact);
 }
 
 constexpr ElementKind lines[] = {ElementKind::truss, ElementKind::beam, ElementKind::spring};
@@ -163,9 +156,7 @@ void complete_contacts(SceneContext& c, const NotEvaluated& not_evaluated,
     SceneContext own{
         c.model,  c.connectivity, c.scene, p.found, share.threads > 1 ? c.options : alone,
         c.shells, c.all_placed};
-    Contact& contact = c.scene.contacts[p.place];
-    const auto complete = contact.kind == ContactKind::edge_edge ? complete_edges : complete_nodes;
-    complete(own, not_evaluated, p, contact);
+    complete(own, not_evaluated, p, c.scene.contacts[p.place]);
     const std::size_t so_far = ++completed;
     if (share.worker == 0 && so_far < pending.size()) progress(so_far);
   });
