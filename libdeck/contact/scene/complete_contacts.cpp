@@ -44,8 +44,8 @@ bool gaps_are_finite(const Contact& c) {
          finite(c.main) && finite(c.secondary_edges) && finite(c.main_edges);
 }
 
-void complete(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
-              Contact& contact) {
+void complete_contact(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
+                      Contact& contact) {
   const bool edges = contact.kind == ContactKind::edge_edge;
   if (edges) {
     set_edge_stiffness(c, contact.main_edges, contact);
@@ -156,7 +156,7 @@ void complete_contacts(SceneContext& c, const NotEvaluated& not_evaluated,
     SceneContext own{
         c.model,  c.connectivity, c.scene, p.found, share.threads > 1 ? c.options : alone,
         c.shells, c.all_placed};
-    complete(own, not_evaluated, p, c.scene.contacts[p.place]);
+    complete_contact(own, not_evaluated, p, c.scene.contacts[p.place]);
     const std::size_t so_far = ++completed;
     if (share.worker == 0 && so_far < pending.size()) progress(so_far);
   });
