@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/shared/filtered_decisions.hpp"
+#include "contact/shared/filtered.hpp"
 
 namespace deck {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/shared/escape.hpp"
 #include "base/shared/length_text.hpp"
-#include "contact/shared/element_names.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "deck/contacts.hpp"
 #include "deck/report.hpp"
 #include "model/shared/families.hpp"

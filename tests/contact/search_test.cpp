@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-#include "contact/search/box_order.hpp"
+#include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
 #include "contact/search_scenes.hpp"
 
@@ -270,7 +270,7 @@ TEST(SearchKernels, EveryInstructionSetFindsTheSameMeetingsOfBoxes) {
   double gap = 0;
   const Mesh mesh = scenes::make(0, dice, gap);
   std::vector<Box> boxes;
-  for (const auto& edge : mesh.edges) boxes.push_back(sweep::edge_box(mesh.nodes(), edge, gap));
+  for (const auto& edge : mesh.edges) boxes.push_back(sweep::box_of_nodes(mesh.nodes(), edge, gap));
   boxes.push_back({{-Box::infinity, -Box::infinity, -Box::infinity},
                    {Box::infinity, Box::infinity, Box::infinity}});
   const BoxTree tree(

@@ -41,9 +41,8 @@ std::vector<std::uint32_t> all_of(std::size_t count) {
 /// Exact numbers are made of finite ones only; without a place nothing passes through anything.
 template <std::size_t N>
 bool all_placed(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of) {
-  return std::all_of(of.begin(), of.end(), [&](std::uint32_t n) {
-    return std::isfinite(nodes.x[n]) && std::isfinite(nodes.y[n]) && std::isfinite(nodes.z[n]);
-  });
+  return std::all_of(of.begin(), of.end(),
+                     [&](std::uint32_t n) { return is_finite(sweep::point(nodes, n)); });
 }
 
 /// True where round-off cannot hide that `p` and `q` are on one side of the plane through 0, `b`
@@ -114,45 +113,6 @@ class SegmentTree {
   BoxTree tree_;
 };
 
-}  // namespace
-
-std::vector<CandidatePair> find_crossing_pairs(
-    const NodeArrays& nodes, std::span<const std::array<std::uint32_t, 2>> edges,
-    std::span<const std::array<std::uint32_t, 4>> segments, int threads) {
-  if (edges.empty() || segments.empty()) return {};
-  threads = effective_threads(threads);
-  const auto segment_of = [&](std::uint32_t i) { return segments[i]; };
-  const SegmentTree tree(nodes, all_of(segments.size()), segment_of, threads);
-  struct Batch {
-    std::vector<Box> boxes;
-    std::vector<sweep::Meeting> near;
-    std::vector<CandidatePair> found;
-  };
-  std::vector<CandidatePair> all;
-  run_in_order<Batch>(
-      (edges.size() + at_once - 1) / at_once, threads,
-      [&](std::size_t piece, Batch& out) {
-        const std::size_t first = piece * at_once;
-        out.boxes.clear();
-        out.found.clear();
-        const auto some = edges.subspan(first, std::min(at_once, edges.size() - first));
-        for (const auto& edge : some) out.boxes.push_back(hull_of(nodes, edge));
-        tree.near(some, out.boxes, out.near);
-        for (const sweep::Meeting& m : out.near) {
-          const auto& edge = edges[first + m.box];
-          if (all_placed(nodes, edge) && passes_through(nodes, edge, tree.corners(m.leaf)))
-            out.found.push_back({static_cast<std::uint32_t>(first + m.box), tree.segment(m.leaf)});
-        }
-      },
-      [&](std::size_t, const Batch& in) {
-        all.insert(all.end(), in.found.begin(), in.found.end());
-      });
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
-namespace {
-
 constexpr LocalEdge bar_edges[] = {{0, 1}};
 constexpr LocalEdge triangle_edges[] = {{0, 1}, {1, 2}, {2, 0}};
 constexpr LocalEdge quad_edges[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
@@ -162,34 +122,6 @@ constexpr LocalEdge penta_edges[] = {{0, 1}, {1, 2}, {2, 0}, {4, 5}, {5, 6},
                                      {6, 4}, {0, 4}, {1, 5}, {2, 6}};
 // The slots of a tetrahedron are n1 n1 n2 n2 n4 n3 n3 n4.
 constexpr LocalEdge tetra_edges[] = {{0, 2}, {2, 5}, {5, 0}, {0, 4}, {2, 4}, {5, 4}};
-
-}  // namespace
-
-std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t e) {
-  switch (family.kind) {
-    case ElementKind::shell4:
-      return quad_edges;
-    case ElementKind::shell3:
-      return triangle_edges;
-    case ElementKind::solid8:
-      switch (family.shape[e]) {
-        case SolidShape::tetra4:
-        case SolidShape::tetra10:
-          return tetra_edges;
-        case SolidShape::penta6:
-          return penta_edges;
-        default:
-          return brick_edges;
-      }
-    case ElementKind::truss:
-    case ElementKind::beam:
-      return bar_edges;
-    default:
-      return {};
-  }
-}
-
-namespace {
 
 /// What is known of a node: 0: it is no secondary node. Else beside this bit one for each side of
 /// the box of the main segments beyond which it lies.
@@ -442,6 +374,65 @@ std::vector<std::vector<Crossing>> crossings_by_contact(const Scene& scene,
 }
 
 }  // namespace
+
+std::vector<CandidatePair> find_crossing_pairs(
+    const NodeArrays& nodes, std::span<const std::array<std::uint32_t, 2>> edges,
+    std::span<const std::array<std::uint32_t, 4>> segments, int threads) {
+  if (edges.empty() || segments.empty()) return {};
+  threads = effective_threads(threads);
+  const auto segment_of = [&](std::uint32_t i) { return segments[i]; };
+  const SegmentTree tree(nodes, all_of(segments.size()), segment_of, threads);
+  struct Batch {
+    std::vector<Box> boxes;
+    std::vector<sweep::Meeting> near;
+    std::vector<CandidatePair> found;
+  };
+  std::vector<CandidatePair> all;
+  run_in_order<Batch>(
+      (edges.size() + at_once - 1) / at_once, threads,
+      [&](std::size_t piece, Batch& out) {
+        const std::size_t first = piece * at_once;
+        out.boxes.clear();
+        out.found.clear();
+        const auto some = edges.subspan(first, std::min(at_once, edges.size() - first));
+        for (const auto& edge : some) out.boxes.push_back(hull_of(nodes, edge));
+        tree.near(some, out.boxes, out.near);
+        for (const sweep::Meeting& m : out.near) {
+          const auto& edge = edges[first + m.box];
+          if (all_placed(nodes, edge) && passes_through(nodes, edge, tree.corners(m.leaf)))
+            out.found.push_back({static_cast<std::uint32_t>(first + m.box), tree.segment(m.leaf)});
+        }
+      },
+      [&](std::size_t, const Batch& in) {
+        all.insert(all.end(), in.found.begin(), in.found.end());
+      });
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t e) {
+  switch (family.kind) {
+    case ElementKind::shell4:
+      return quad_edges;
+    case ElementKind::shell3:
+      return triangle_edges;
+    case ElementKind::solid8:
+      switch (family.shape[e]) {
+        case SolidShape::tetra4:
+        case SolidShape::tetra10:
+          return tetra_edges;
+        case SolidShape::penta6:
+          return penta_edges;
+        default:
+          return brick_edges;
+      }
+    case ElementKind::truss:
+    case ElementKind::beam:
+      return bar_edges;
+    default:
+      return {};
+  }
+}
 
 std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
   threads = effective_threads(threads);

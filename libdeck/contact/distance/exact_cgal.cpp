@@ -3,7 +3,6 @@
 #include "contact/shared/exact.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/number_utils.h>
 
 #include "contact/shared/exact_number.hpp"
 
@@ -11,12 +10,6 @@ namespace deck {
 namespace {
 
 using Q = LazyRational;
-
-Point3<Q> lift(const Point3<double>& p) { return {Q(p.x), Q(p.y), Q(p.z)}; }
-
-std::array<Point3<Q>, 4> lift(const std::array<Point3<double>, 4>& x) {
-  return {lift(x[0]), lift(x[1]), lift(x[2]), lift(x[3])};
-}
 
 // Rounded towards zero, from the exact value: that of a lazy number itself may be off by an
 // interval.
@@ -28,12 +21,14 @@ Point3<double> lower(const Point3<Q>& p) {
 
 SegmentClosest<Q> exact_segment(const Point3<double>& p, const std::array<Point3<double>, 4>& x,
                                 bool triangle) {
-  return closest_on_segment<Form::robust>(lift(p), lift(x), triangle);
+  const std::array corners{to_exact(x[0]), to_exact(x[1]), to_exact(x[2]), to_exact(x[3])};
+  return closest_on_segment<Form::robust>(to_exact(p), corners, triangle);
 }
 
 EdgeClosest<Q> exact_edges(const Point3<double>& s1, const Point3<double>& s2,
                            const Point3<double>& m1, const Point3<double>& m2) {
-  return closest_between_edges<Form::robust>(lift(s1), lift(s2), lift(m1), lift(m2));
+  return closest_between_edges<Form::robust>(to_exact(s1), to_exact(s2), to_exact(m1),
+                                             to_exact(m2));
 }
 
 int compare(const Q& distance_squared, double limit) {

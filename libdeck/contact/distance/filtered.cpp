@@ -112,30 +112,6 @@ bool is_closer(Pair pair, double gap, FilterCounters* counters, const Whole& who
 // True: the gap alone gives the answer.
 bool is_settled(double gap) { return !(gap > 0.0) || gap == unbounded; }
 
-}  // namespace
-
-bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
-                    FilterCounters* counters) {
-  if (is_settled(gap)) return count(counters, FilterStage::double_precision), gap > 0.0;
-  return is_closer(SegmentPair(p, corners, triangle), gap, counters, [&] {
-    return all_finite(points_of(p, corners, triangle)) &&
-           exact_compare_distance(p, corners, triangle, gap) < 0;
-  });
-}
-
-bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double gap,
-                    FilterCounters* counters) {
-  if (is_settled(gap)) return count(counters, FilterStage::double_precision), gap > 0.0;
-  return is_closer(EdgePair({s1, s2, m1, m2}), gap, counters, [&] {
-    return all_finite(std::array<P, 4>{s1, s2, m1, m2}) &&
-           exact_compare_distance(s1, s2, m1, m2, gap) < 0;
-  });
-}
-
-// ---- distances and depths as exact as they are asked for ---------------------------------------
-
-namespace {
-
 // Depth and distance if the bracket [low, high] of the distance fixes both well enough.
 constexpr double depth_tolerance = 0x1p-40;
 template <class T>
@@ -218,6 +194,26 @@ FilteredDepth bracketed_depth(Pair pair, double gap, FilterCounters* counters, c
 }
 
 }  // namespace
+
+bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
+                    FilterCounters* counters) {
+  if (is_settled(gap)) return count(counters, FilterStage::double_precision), gap > 0.0;
+  return is_closer(SegmentPair(p, corners, triangle), gap, counters, [&] {
+    return all_finite(points_of(p, corners, triangle)) &&
+           exact_compare_distance(p, corners, triangle, gap) < 0;
+  });
+}
+
+bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double gap,
+                    FilterCounters* counters) {
+  if (is_settled(gap)) return count(counters, FilterStage::double_precision), gap > 0.0;
+  return is_closer(EdgePair({s1, s2, m1, m2}), gap, counters, [&] {
+    return all_finite(std::array<P, 4>{s1, s2, m1, m2}) &&
+           exact_compare_distance(s1, s2, m1, m2, gap) < 0;
+  });
+}
+
+// ---- distances and depths as exact as they are asked for ---------------------------------------
 
 FilteredDepth filtered_depth(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
                              FilterCounters* counters) {

@@ -14,7 +14,6 @@
 #include <limits>
 #include <optional>
 
-#include "contact/distance/filtered_exact.hpp"
 #include "contact/shared/dd.hpp"
 #include "contact/shared/filtered.hpp"
 
@@ -161,13 +160,6 @@ T upper_bound(const std::array<T, 4>& weights, const Hull<T>& v) {
 }
 
 enum class Answer : std::uint8_t { no, yes, unknown };
-
-template <std::size_t N>
-bool all_finite(const std::array<P, N>& points) {
-  for (const P& q : points)
-    if (!std::isfinite(q.x) || !std::isfinite(q.y) || !std::isfinite(q.z)) return false;
-  return true;
-}
 
 // Five (four) input points brought to a harmless size by a power of two, exactly.
 struct Scaled {

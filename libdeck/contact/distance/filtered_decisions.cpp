@@ -1,6 +1,6 @@
 // Decides pairs: first in double with error bounds, then by the exact rational path where those
 // leave a doubt.
-#include "contact/shared/filtered_decisions.hpp"
+#include "contact/shared/filtered.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,17 +11,8 @@
 namespace deck {
 
 const char* to_string(Accuracy accuracy) {
-  switch (accuracy) {
-    case Accuracy::fast:
-      return "fast";
-    case Accuracy::reference:
-      return "reference";
-    case Accuracy::robust:
-      return "robust";
-    case Accuracy::exact:
-      break;
-  }
-  return "exact";
+  static constexpr const char* words[] = {"fast", "reference", "robust", "exact"};
+  return words[static_cast<std::size_t>(accuracy)];
 }
 
 namespace detail {
@@ -65,15 +56,6 @@ PenetrationRow rounded_row(const std::array<P, 4>& x, double gap) {
   row.weight_s = c.weight_s;
   row.weight_m = c.weight_m;
   return row;
-}
-
-/// Rationals cannot hold what is not finite.
-template <std::size_t N>
-bool all_finite(const std::array<P, N>& x, const P& p, double gap) {
-  bool finite = std::isfinite(gap);
-  for (const P& q : x)
-    finite = finite && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
-  return finite && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
 /// Nodes at one place, bit for bit: their distance is 0 without any arithmetic.
@@ -152,7 +134,8 @@ PairVerdict PairJudge::judge(const P& p, const std::array<P, 4>& corners, bool t
   if (is_at_corner(p, corners)) {
     ++counters_.pairs;
     closer = touching = gap > 0;
-  } else if (accuracy_ == Accuracy::exact && all_finite(corners, p, gap)) {
+  } else if (accuracy_ == Accuracy::exact && all_finite(corners) && is_finite(p) &&
+             std::isfinite(gap)) {
     ++counters_.pairs, ++counters_.double_double, ++counters_.exact;
     closer = gap > 0 && exact_compare_distance(p, corners, triangle, gap) < 0;
     touching = closer && exact_compare_distance(p, corners, triangle, 0.0) == 0;
@@ -173,7 +156,7 @@ PairVerdict PairJudge::judge(const std::array<P, 4>& x, double gap) {
   if (share_an_end(x)) {
     ++counters_.pairs;
     closer = touching = gap > 0;
-  } else if (accuracy_ == Accuracy::exact && all_finite(x, x[0], gap)) {
+  } else if (accuracy_ == Accuracy::exact && all_finite(x) && std::isfinite(gap)) {
     ++counters_.pairs, ++counters_.double_double, ++counters_.exact;
     closer = gap > 0 && exact_compare_distance(x[0], x[1], x[2], x[3], gap) < 0;
     touching = closer && exact_compare_distance(x[0], x[1], x[2], x[3], 0.0) == 0;

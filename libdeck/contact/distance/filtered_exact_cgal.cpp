@@ -1,7 +1,7 @@
 // A guess is proved either by a point nearer than the gap, or by a direction w in which every
 // vertex lies at least the gap away: min_k(w.(node - v_k))^2 >= gap^2 w.w. No division, so exact
 // sums and products of doubles suffice.
-#include "contact/distance/filtered_exact.hpp"
+#include "contact/shared/filtered.hpp"
 
 #include <CGAL/Number_types/internal/Exact_type_selector.h>
 
@@ -15,13 +15,6 @@ namespace {
 // where GMP is, else its own CGAL::MP_Float.
 using Z = CGAL::internal::Exact_ring_selector<double>::Type;
 using V = Point3<Z>;
-
-template <std::size_t N>
-bool finite_points(const std::array<Point3<double>, N>& points) {
-  for (const Point3<double>& p : points)
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
-  return true;
-}
 
 V vector_of(const Point3<double>& p) { return {Z(p.x), Z(p.y), Z(p.z)}; }
 
@@ -100,7 +93,7 @@ bool is_closer_to_piece(const std::array<Point3<double>, 5>& points, const Segme
 
 std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bool triangle,
                                  int best, const std::array<PartGuess, 4>& guess, double gap) {
-  if (!finite_points(points) || !std::isfinite(gap)) return std::nullopt;
+  if (!all_finite(points) || !std::isfinite(gap)) return std::nullopt;
   const V node = vector_of(points[4]);
   std::array<V, 4> v;
   for (std::size_t k = 0; k < 4; ++k) v[k] = vector_of(points[k]) - node;
@@ -129,7 +122,7 @@ std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bo
 
 std::optional<bool> prove_closer(const std::array<Point3<double>, 4>& x, EdgeFeature secondary,
                                  EdgeFeature main, bool parallel, double gap) {
-  if (!finite_points(x) || !std::isfinite(gap)) return std::nullopt;
+  if (!all_finite(x) || !std::isfinite(gap)) return std::nullopt;
   std::array<V, 4> p;
   for (std::size_t k = 0; k < 4; ++k) p[k] = vector_of(x[k]);
   const Z limit(gap);

@@ -2,7 +2,6 @@
 // comparisons of squares.
 #include <CGAL/Exact_integer.h>
 #include <CGAL/Fraction_traits.h>
-#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <bit>
@@ -95,6 +94,11 @@ Rational long_square_root(const Rational& value) {
   for (int left = s.shift; left > 0; left -= exponent_step) root *= step;
   for (int left = s.shift; left < 0; left += exponent_step) root /= step;
   return root;
+}
+
+double rounded_positive_depth(const LazyRational& depth) {
+  const double rounded = rounded_towards_zero(depth.exact());
+  return rounded > 0 ? rounded : std::numeric_limits<double>::denorm_min();
 }
 
 double rounded_depth(double gap, const Rational& squared) {

@@ -6,25 +6,15 @@
 #include "base/shared/parallel.hpp"
 #include "contact/modern/parts.hpp"
 #include "contact/rules/actions.hpp"
-#include "contact/shared/filtered_decisions.hpp"
+#include "contact/shared/filtered.hpp"
 #include "deck/text.hpp"
 
 namespace deck {
 
 const char* to_string(SegmentKind kind) {
-  switch (kind) {
-    case SegmentKind::solid:
-      return "solid";
-    case SegmentKind::shell:
-      return "shell";
-    case SegmentKind::shell_opposite:
-      return "shell-opposite";
-    case SegmentKind::coat:
-      return "coat";
-    case SegmentKind::coat_opposite:
-      return "coat-opposite";
-  }
-  return "";
+  static constexpr const char* words[] = {"solid", "shell", "shell-opposite", "coat",
+                                          "coat-opposite"};
+  return words[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace deck

@@ -27,12 +27,10 @@ struct EdgeRule {
 
 /// False: there is no place, or single precision could not hold a direction.
 inline bool is_finite(const EdgeRule& r) {
-  const auto finite = [](const Vec& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
   const auto all = [&](const RuleEdge& e) {
-    return finite(e.end[0]) && finite(e.end[1]) && finite(e.border[0]) && finite(e.border[1]) &&
-           finite(e.beta) && std::isfinite(e.gap) && std::isfinite(e.inward);
+    return is_finite(e.end[0]) && is_finite(e.end[1]) && is_finite(e.border[0]) &&
+           is_finite(e.border[1]) && is_finite(e.beta) && std::isfinite(e.gap) &&
+           std::isfinite(e.inward);
   };
   return all(r.secondary) && all(r.main) && std::isfinite(r.most_gap);
 }

@@ -3,9 +3,7 @@
 #include "contact/modern/edge_rule.hpp"
 
 #include <CGAL/Interval_nt.h>
-#include <CGAL/number_utils.h>
 
-#include <limits>
 #include <optional>
 
 #include "contact/modern/through_rule.hpp"
@@ -15,13 +13,13 @@ namespace deck::detail::modern {
 
 ExactEdgePair exact_edge_pair(const EdgeRule& r) {
   using Q = LazyRational;
-  const auto lift = [](const Vec& p) { return Point3<Q>{Q(p.x), Q(p.y), Q(p.z)}; };
-  const auto root = [](const Q& square) { return Q(long_square_root(square.exact())); };
+  const auto root = [](const Q& square) { return exact_root(square); };
   const auto same = [](const Point3<Q>& v) { return v; };
   const auto ends = [&](const RuleEdge& e) {
-    std::array<Point3<Q>, 2> out{lift(e.end[0]), lift(e.end[1])};
+    std::array<Point3<Q>, 2> out{to_exact(e.end[0]), to_exact(e.end[1])};
     for (std::size_t k = 0; k < 2 && e.recessed; ++k)
-      out[k] = moved_inward(out[k], Q(e.inward), lift(e.beta), lift(e.border[k]), root, same);
+      out[k] =
+          moved_inward(out[k], Q(e.inward), to_exact(e.beta), to_exact(e.border[k]), root, same);
     return out;
   };
   const auto s = ends(r.secondary), m = ends(r.main);
@@ -33,16 +31,15 @@ ExactEdgePair exact_edge_pair(const EdgeRule& r) {
     return e.one_sided && CGAL::is_positive(along) &&
            along * along > tilt * tilt * c.distance_squared;
   };
-  const auto over = [&](const RuleEdge& e) { return dot(c.vector, lift(e.beta)); };
+  const auto over = [&](const RuleEdge& e) { return dot(c.vector, to_exact(e.beta)); };
   ExactEdgePair out;
   out.gap = rounded_towards_zero(gap.exact());
   out.distance = rounded_square_root(c.distance_squared.exact());
   out.penetrates = CGAL::is_positive(gap) && c.distance_squared < gap * gap &&
                    !beside(r.main, Q(-over(r.main))) && !beside(r.secondary, over(r.secondary));
   if (!out.penetrates) return out;
-  const Q distance = CGAL::is_positive(c.distance_squared) ? root(c.distance_squared) : Q(0);
-  const double depth = rounded_towards_zero(Q(gap - distance).exact());
-  out.depth = depth > 0 ? depth : std::numeric_limits<double>::denorm_min();
+  const Q distance = exact_root(c.distance_squared);
+  out.depth = rounded_positive_depth(Q(gap - distance));
   return out;
 }
 
@@ -68,9 +65,7 @@ ThroughFigures exact_through(const ThroughRule& r, bool figures, std::uint64_t& 
   if (told && (!*told || !figures)) return {*told, 0};
   ++exact;
   using Q = LazyRational;
-  const auto root = [](const Q& square) {
-    return CGAL::is_positive(square) ? Q(long_square_root(square.exact())) : Q(0);
-  };
+  const auto root = [](const Q& square) { return exact_root(square); };
   ThroughFigures out;
   Q depth(0);
   out.passes = ThroughSide<Q, decltype(root)>(r, root).passes(depth);

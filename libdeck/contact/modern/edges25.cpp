@@ -17,9 +17,10 @@ class Lister {
       : x_(c.scene.coordinates), ids_(c.model.nodes.id), s_(s), t_(t) {}
 
   std::vector<SideEdge> edges() {
-    s_.each_face([&](std::uint32_t i, const Face& f) {
+    for (std::uint32_t i = 0; i < s_.count(); ++i) {
+      const Face f = s_.face(i);
       for (std::uint32_t k = 0; k < 4; ++k) add(i, f, k);
-    });
+    }
     const auto key = [this](const SideEdge& e) {
       const std::uint32_t across = e.free() ? 0 : e.across + 1;
       return std::tuple(ids_[e.nodes[0]], ids_[e.nodes[1]], s_.base(e.face), across);

@@ -152,7 +152,7 @@ std::vector<EdgeThroughSegment> edges_through_solids(const SceneContext& c, cons
     boxes.clear();
     near.clear();
     for (std::size_t i = first; i < std::min(edges.size(), first + at_once); ++i)
-      boxes.push_back(sweep::edge_box(nodes, edges[i].nodes, 0));
+      boxes.push_back(sweep::box_of_nodes(nodes, edges[i].nodes, 0));
     sweep::kernels().meetings(tree, boxes, near);
     for (const sweep::Meeting& m : near)
       if (const auto edge = static_cast<std::uint32_t>(first + m.box); edges[edge].kind >= 1)

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "base/shared/vec.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck::detail::modern {
 
@@ -47,13 +48,11 @@ inline Vec sum_single(const Vec& a, const Vec& b) {
 
 /// False: there is no place, or single precision could not hold a direction.
 inline bool is_finite(const FacetRule& r) {
-  const auto finite = [](const Vec& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
-  bool all = finite(r.node) && std::isfinite(r.node_gap) && std::isfinite(r.most_gap);
+  bool all = is_finite(r.node) && std::isfinite(r.node_gap) && std::isfinite(r.most_gap);
   for (std::size_t k = 0; k < 4; ++k)
-    all = all && finite(r.corner[k]) && finite(r.beta[k]) && finite(r.at_corner[k].first) &&
-          finite(r.at_corner[k].second) && std::isfinite(r.corner_gap[k]);
+    all = all && is_finite(r.corner[k]) && is_finite(r.beta[k]) &&
+          is_finite(r.at_corner[k].first) && is_finite(r.at_corner[k].second) &&
+          std::isfinite(r.corner_gap[k]);
   return all;
 }
 

@@ -2,11 +2,8 @@
 // Roots are cut off after 300 binary digits, where they are compared with other lengths.
 #include "contact/modern/facet_rule.hpp"
 
-#include <CGAL/number_utils.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "contact/shared/exact_number.hpp"
@@ -16,11 +13,6 @@ namespace {
 
 using Q = LazyRational;
 using V = Point3<Q>;
-
-V lift(const Vec& p) { return {Q(p.x), Q(p.y), Q(p.z)}; }
-Q root(const Q& square) {
-  return CGAL::is_positive(square) ? Q(long_square_root(square.exact())) : Q(0);
-}
 
 class ExactRule : public FacetSteps<ExactRule, Q> {
  public:
@@ -32,11 +24,7 @@ class ExactRule : public FacetSteps<ExactRule, Q> {
   /// With adhesion half of the gap is no penetration.
   void take_adhesion_off() { depth_ = std::max(Q(0), Q(depth_ - Q(0.5) * f_.gap)); }
   double gap() const { return rounded_towards_zero(f_.gap.exact()); }
-  double depth() const {
-    if (!penetrates()) return 0;
-    const double depth = rounded_towards_zero(depth_.exact());
-    return depth > 0 ? depth : std::numeric_limits<double>::denorm_min();
-  }
+  double depth() const { return penetrates() ? rounded_positive_depth(depth_) : 0; }
   /// False: the pair is left out.
   bool counts(bool adhesion) {
     std::vector<Facet<Q>> all;
@@ -50,7 +38,7 @@ class ExactRule : public FacetSteps<ExactRule, Q> {
 
  private:
   friend FacetSteps;
-  static Q root(const Q& square) { return modern::root(square); }
+  static Q root(const Q& square) { return exact_root(square); }
   static Q length_of(const Facet<Q>& f) { return root(f.normal_size); }
   static void weigh(const Q&) {}
 
@@ -88,30 +76,6 @@ class ExactRule : public FacetSteps<ExactRule, Q> {
   const FacetRule& around_;
 };
 
-}  // namespace
-
-std::optional<ExactChoice> exact_choice(std::span<const FacetRule> pairs, bool solver_penetrates,
-                                        bool adhesion) {
-  std::optional<ExactChoice> best;
-  Q distance(0), most(0);  // of the one that counts; what another may have
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-    ExactRule rule(pairs[i]);
-    if (!rule.counts(adhesion)) continue;
-    if (best && rule.distance_squared() > most) continue;
-    if (adhesion) rule.take_adhesion_off();
-    if (!adhesion && best && rule.distance_squared() == most &&
-        best->penetrates == solver_penetrates && rule.penetrates() != solver_penetrates)
-      continue;
-    distance = rule.distance_squared();
-    most = adhesion ? rule.penetration() : distance;
-    best = ExactChoice{i, rule.penetrates(), 0, rule.gap(), rule.depth()};
-  }
-  if (best) best->distance = rounded_square_root(distance.exact());
-  return best;
-}
-
-namespace {
-
 Q sum_of(const std::array<double, 3>& v) { return Q(v[0]) + Q(v[1]) + Q(v[2]); }
 
 /// The solver's cell of a coordinate.
@@ -131,8 +95,8 @@ Q cell_of(const SearchGrid& grid, std::size_t k, const Q& v) {
 
 Q least_distance_squared(const LookRule& r) {
   std::array<V, 4> p;
-  for (std::size_t k = 0; k < 4; ++k) p[k] = lift(r.corner[k]);
-  const V q = lift(r.node);
+  for (std::size_t k = 0; k < 4; ++k) p[k] = to_exact(r.corner[k]);
+  const V q = to_exact(r.node);
   if (r.triangle)
     return closest_detail::reference_sub_triangle(q, p[2], p[0], p[1]).distance_squared;
   const V o = Q(0.25) * ((p[0] + p[1]) + (p[2] + p[3]));
@@ -160,6 +124,26 @@ Span span_of(const std::array<Vec, 4>& corner, std::size_t axis, const Q& reach)
 }
 
 }  // namespace
+
+std::optional<ExactChoice> exact_choice(std::span<const FacetRule> pairs, bool solver_penetrates,
+                                        bool adhesion) {
+  std::optional<ExactChoice> best;
+  Q distance(0), most(0);  // of the one that counts; what another may have
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    ExactRule rule(pairs[i]);
+    if (!rule.counts(adhesion)) continue;
+    if (best && rule.distance_squared() > most) continue;
+    if (adhesion) rule.take_adhesion_off();
+    if (!adhesion && best && rule.distance_squared() == most &&
+        best->penetrates == solver_penetrates && rule.penetrates() != solver_penetrates)
+      continue;
+    distance = rule.distance_squared();
+    most = adhesion ? rule.penetration() : distance;
+    best = ExactChoice{i, rule.penetrates(), 0, rule.gap(), rule.depth()};
+  }
+  if (best) best->distance = rounded_square_root(distance.exact());
+  return best;
+}
 
 bool is_in_box(const Vec& node, const std::array<Vec, 4>& corner,
                const std::array<double, 3>& reach) {

@@ -104,7 +104,7 @@ SearchResult in_boxes(const SceneContext& context, const Sides& sides,
         const std::size_t first = piece * at_once;
         for (std::size_t i = first; i < std::min(faces.size(), first + at_once); ++i) {
           const Face& f = sides.faces[faces[i]];
-          p.boxes.push_back(sweep::segment_box(x, f.nodes, f.gap + margin(f)));
+          p.boxes.push_back(sweep::box_of_nodes(x, f.nodes, f.gap + margin(f)));
         }
         sweep::kernels().meetings(tree.tree(), p.boxes, p.near);
         for (const sweep::Meeting& m : p.near) {

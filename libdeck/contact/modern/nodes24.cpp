@@ -493,14 +493,7 @@ Found find_nodes24(SceneContext& c, Sides& s) {
                        [&](std::span<const CandidatePair> pairs) { nodes.look(pairs, mine); });
         parts[part] = std::move(mine);
       });
-  for (const Found& part : parts) {
-    out.penetrations.insert(out.penetrations.end(), part.penetrations.begin(),
-                            part.penetrations.end());
-    out.candidates += part.candidates;
-    out.decisions.pairs += part.decisions.pairs;
-    out.decisions.fallback += part.decisions.fallback;
-    out.decisions.exact += part.decisions.exact;
-  }
+  for (Found& part : parts) out.add(std::move(part));
   return out;
 }
 

@@ -423,14 +423,13 @@ class NodeByNode {
     for (std::size_t i = 0; i < near.size(); ++i)
       if (const std::uint32_t o = s_.faces[near[i].main].opposite; o != no_index)
         take(near[i], o, near_[i], both_[i]);
-    kept += counted_;
+    found.candidates += counted_;
     counted_ = 0;
     // If no pair is open none is a penetration, whichever is the nearest.
     if (!any_open_) return {};
-    return chooser_.choose(near.front().secondary, pairs_, doubts_, decisions);
+    return chooser_.choose(near.front().secondary, pairs_, doubts_, found.decisions);
   }
-  std::uint64_t kept = 0, dropped = 0;
-  DecisionReport decisions;
+  Found found;
 
  private:
   void take(const CandidatePair& pair, std::uint32_t face, const sweep::NearDistance& near,
@@ -446,7 +445,7 @@ class NodeByNode {
     both = same ? 1 : 0;
     any_open_ = any_open_ || open;
     if (chooser_.removed({pair.secondary, face})) {
-      dropped += looked.solver ? 1 : 0;
+      found.removed += looked.solver ? 1 : 0;
       return;
     }
     counted_ += looked.solver ? 1 : 0;
@@ -471,6 +470,18 @@ class NodeByNode {
 
 }  // namespace
 
+void Found::add(Found part) {
+  if (penetrations.empty())
+    penetrations = std::move(part.penetrations);
+  else
+    penetrations.insert(penetrations.end(), part.penetrations.begin(), part.penetrations.end());
+  candidates += part.candidates;
+  removed += part.removed;
+  decisions.pairs += part.decisions.pairs;
+  decisions.fallback += part.decisions.fallback;
+  decisions.exact += part.decisions.exact;
+}
+
 Found find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
   Found out;
   const Reach reach = reach_of(c.scene.coordinates, s);
@@ -485,36 +496,18 @@ Found find_nodes25(SceneContext& c, const Sides& s, const Topology& t) {
   c.connectivity.prepare(ElementKind::solid8);
   const Chooser chooser(c, s, t, reach, removal, lists);
   const NodeSegmentInput in = input_of(c.scene.coordinates, lists);
-  struct Part {
-    std::vector<NodePenetration> found;
-    std::uint64_t kept = 0, dropped = 0;
-    DecisionReport decisions;
-  };
-  std::vector<Part> parts(static_cast<std::size_t>(threads));
+  std::vector<Found> parts(static_cast<std::size_t>(threads));
   parallel_parts(threads, s.nodes.size(),
                  [&](std::size_t part, std::size_t begin, std::size_t end) {
-                   Part& mine = parts[part];
                    NodeByNode nodes(chooser, s, in);
-                   mine.found.reserve(end - begin);
+                   nodes.found.penetrations.reserve(end - begin);
                    near.each_node(begin, end, [&](std::span<const CandidatePair> pairs) {
                      const NodePenetration p = nodes.choose(pairs);
-                     if (p.penetration != 0) mine.found.push_back(p);
+                     if (p.penetration != 0) nodes.found.penetrations.push_back(p);
                    });
-                   mine.kept = nodes.kept;
-                   mine.dropped = nodes.dropped;
-                   mine.decisions = nodes.decisions;
+                   parts[part] = std::move(nodes.found);
                  });
-  for (Part& part : parts) {
-    if (out.penetrations.empty())
-      out.penetrations = std::move(part.found);
-    else
-      out.penetrations.insert(out.penetrations.end(), part.found.begin(), part.found.end());
-    out.candidates += part.kept;
-    out.removed += part.dropped;
-    out.decisions.pairs += part.decisions.pairs;
-    out.decisions.fallback += part.decisions.fallback;
-    out.decisions.exact += part.decisions.exact;
-  }
+  for (Found& part : parts) out.add(std::move(part));
   return out;
 }
 

@@ -98,19 +98,10 @@ struct Sides {
   bool is_mirror(std::uint32_t i) const { return i >= faces.size(); }
   /// The segment that `i` mirrors, or its own number.
   std::uint32_t base(std::uint32_t i) const { return is_mirror(i) ? mirrors[i - faces.size()] : i; }
-  /// The other side of a sheet's segment; no_index: it has none.
-  std::uint32_t other_side(std::uint32_t i) const {
-    return is_mirror(i) ? base(i) : faces[i].opposite;
-  }
   Quad nodes_of(std::uint32_t i) const {
     return is_mirror(i) ? mirrored(faces[base(i)].nodes) : faces[i].nodes;
   }
   Face face(std::uint32_t i) const;
-  /// Calls use(number, segment) for all.
-  template <class F>
-  void each_face(F&& use) const {
-    for (std::uint32_t i = 0; i < count(); ++i) use(i, face(i));
-  }
   /// Whether a contact between these is wanted: across the surfaces where there are two.
   bool across(std::uint8_t a, std::uint8_t b) const {
     if (set.level != 2) return true;
@@ -230,6 +221,8 @@ struct Found {
   double largest_accepted = 0;
   bool complete = true;  ///< false: too many pairs
   DecisionReport decisions;
+  /// What another thread found, for the nodes that follow.
+  void add(Found part);
 };
 // nodes25.cpp
 Found find_nodes25(SceneContext& context, const Sides& sides, const Topology& topology);

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "base/shared/vec.hpp"
-#include "deck/point3.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck::detail::modern {
 
@@ -32,11 +32,8 @@ struct PatchRule {
 
 /// False: there is no place, or a direction could not be held.
 inline bool is_finite(const PatchRule& r) {
-  const auto finite = [](const Vec& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
-  bool all = finite(r.node) && finite(r.direction);
-  for (const Vec& corner : r.corner) all = all && finite(corner);
+  bool all = is_finite(r.node) && is_finite(r.direction);
+  for (const Vec& corner : r.corner) all = all && is_finite(corner);
   for (const double v : {r.node_gap, r.segment_gap, r.limit, r.accepted})
     all = all && std::isfinite(v);
   return all;

@@ -2,10 +2,6 @@
 // are cut off after 300 binary digits, where they are compared with other lengths.
 #include "contact/modern/patch_rule.hpp"
 
-#include <CGAL/number_utils.h>
-
-#include <limits>
-
 #include "contact/shared/exact_number.hpp"
 
 namespace deck::detail::modern {
@@ -19,8 +15,8 @@ class ExactPatch {
 
   explicit ExactPatch(const PatchRule& r) : gap_(Q(r.node_gap) + Q(r.segment_gap)) {
     std::array<V, 4> p;
-    for (std::size_t k = 0; k < 4; ++k) p[k] = lift(r.corner[k]);
-    const V q = lift(r.node), o = Q(0.25) * (p[0] + p[1] + p[2] + p[3]);
+    for (std::size_t k = 0; k < 4; ++k) p[k] = to_exact(r.corner[k]);
+    const V q = to_exact(r.node), o = Q(0.25) * (p[0] + p[1] + p[2] + p[3]);
     V n;
     for (std::size_t k = 0; k < 4; ++k) n = n + cross(p[k] - o, p[(k + 1) % 4] - o);
     const Q size = dot(n, n);
@@ -39,11 +35,11 @@ class ExactPatch {
     const V apart = q - closest_on_patch(p, place);
     const Q along = dot(n, apart), height_squared = along * along / size;
     // A root that is a gap is no matter of digits.
-    Q height = height_squared == gap_ * gap_ ? Q(CGAL::abs(gap_)) : root(height_squared);
+    Q height = height_squared == gap_ * gap_ ? Q(CGAL::abs(gap_)) : exact_root(height_squared);
     distance_ = height;
-    const Q away = place.outside ? root(dot(apart, apart)) : height;
+    const Q away = place.outside ? exact_root(dot(apart, apart)) : height;
     if (CGAL::is_negative(along)) height = -height;
-    const bool same_way = !CGAL::is_negative(dot(n, lift(r.direction)));
+    const bool same_way = !CGAL::is_negative(dot(n, to_exact(r.direction)));
     result_ = judge_patch(r, gap_, height, away, place.outside, same_way);
     defined_ = true;
   }
@@ -52,17 +48,10 @@ class ExactPatch {
   void figures(ExactNode& out) const {
     out.gap = rounded_towards_zero(gap_.exact());
     out.distance = rounded_towards_zero(distance_.exact());
-    if (!out.penetrates) return;
-    const double depth = rounded_towards_zero(result_.penetration.exact());
-    out.depth = depth > 0 ? depth : std::numeric_limits<double>::denorm_min();
+    if (out.penetrates) out.depth = rounded_positive_depth(result_.penetration);
   }
 
  private:
-  static V lift(const Vec& p) { return {Q(p.x), Q(p.y), Q(p.z)}; }
-  static Q root(const Q& square) {
-    return CGAL::is_positive(square) ? Q(long_square_root(square.exact())) : Q(0);
-  }
-
   Q gap_, distance_;
   bool defined_ = false;
   PatchResult<Q> result_;

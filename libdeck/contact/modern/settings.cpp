@@ -13,6 +13,11 @@ namespace {
 
 int flag(const EffectiveInt& f) { return f.value == 1000 ? 0 : static_cast<int>(f.value); }
 
+/// An Igap of no meaning acts as 1.
+int igap_of(std::int64_t cell) {
+  return cell == 2 || cell == 3 || cell == 5 ? static_cast<int>(cell) : 1;
+}
+
 template <class Inter>
 void take(const Inter& i, Settings& s) {
   s.level = level_of(i.surf_ID1.value, i.surf_ID2.value);
@@ -39,10 +44,7 @@ Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if)
       s.ipen_max = i.Ipen_max.value;
     }
     if constexpr (requires { i.Ishape; }) {
-      // An Igap of no meaning acts as 1.
-      s.igap = i.Igap.value == 2 || i.Igap.value == 3 || i.Igap.value == 5
-                   ? static_cast<int>(i.Igap.value)
-                   : 1;
+      s.igap = igap_of(i.Igap.value);
       s.ishape = static_cast<int>(i.Ishape.value);
       s.ivis2 = static_cast<int>(i.IVIS2.value);
       s.scale = i.Gap_scale.value;
@@ -65,7 +67,7 @@ Settings settings_of(const InterBase& inter, const std::vector<WhatIf>& what_if)
     if (w.Fscalegap) s.scale = *w.Fscalegap;
     if (w.mesh_size) s.mesh_fraction = mesh_fraction_of(*w.mesh_size);
     if (!w.Igap) continue;
-    s.igap = *w.Igap == 2 || *w.Igap == 3 || *w.Igap == 5 ? *w.Igap : 1;
+    s.igap = igap_of(*w.Igap);
     if (s.igap != 3) continue;
     if (s.ishape == 1) s.ishape = 2;
     s.mesh_fraction = mesh_fraction_of(s.mesh_fraction);

@@ -10,6 +10,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "base/shared/side_by_side.hpp"
+#include "contact/shared/closest.hpp"
 
 namespace deck::detail {
 namespace {
@@ -23,7 +24,7 @@ NodeIndex last_lost(const Coordinates& x, int threads, const Items& items,
     NodeIndex lost = no_index;
     for (std::size_t i = begin; i < end; ++i)
       each_node_of(items[i], [&](NodeIndex n) {
-        if (!std::isfinite(x.x[n]) || !std::isfinite(x.y[n]) || !std::isfinite(x.z[n])) lost = n;
+        if (!is_finite(at(x, n))) lost = n;
       });
     parts[part] = lost;
   });
@@ -43,72 +44,28 @@ bool gaps_are_finite(const Contact& c) {
          finite(c.main) && finite(c.secondary_edges) && finite(c.main_edges);
 }
 
-}  // namespace
-
-EvaluationFailure check_evaluation(const SceneContext& c, const NotEvaluated& not_evaluated,
-                                   const std::string& card_reason, bool complete,
-                                   Contact& contact) {
-  contact.evaluated = false;
-  const std::string why =
-      card_reason.empty() ? not_evaluated.reason_in_nodes(contact) : card_reason;
-  if (!why.empty()) return {why, Severity::warning, true};
-  NodeIndex lost = no_index;
-  const auto look = [&](const auto& items, const auto& each_node_of) {
-    const NodeIndex last =
-        last_lost(c.scene.coordinates, effective_threads(c.options.threads), items, each_node_of);
-    if (last != no_index) lost = last;
-  };
-  if (!c.all_placed) {
-    look(contact.secondary, [](const SecondaryNode& s, const auto& f) { f(s.node); });
-    look(contact.main, [](const MainSegment& m, const auto& f) {
-      for (const NodeIndex n : m.nodes) f(n);
-    });
-    for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
-      look(*edges, [](const ContactEdge& e, const auto& f) {
-        for (const NodeIndex n : e.nodes) f(n);
-      });
+void complete_contact(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
+                      Contact& contact) {
+  const bool edges = contact.kind == ContactKind::edge_edge;
+  if (edges) {
+    set_edge_stiffness(c, contact.main_edges, contact);
+    set_edge_stiffness(c, contact.secondary_edges, contact);
+    set_edge_gaps(c, contact, pending.gapmin);
+  } else {
+    if (pending.surface) make_main_segments(c, pending.surface->segments, contact);
+    set_main_stiffness(c, contact);
+    set_gaps(c, contact, pending.gapmin);
   }
-  if (lost != no_index)
-    return {"node " + std::to_string(c.model.nodes.id[lost]) +
-            " has a coordinate that is not a finite number"};
-  if (std::string cell = unusable_cell(*c.model.deck, *contact.inter); !cell.empty())
-    return {std::move(cell), Severity::error, true};
-  if (!gaps_are_finite(contact)) return {"the gap is not a finite number"};
-  contact.evaluated = complete;
-  return {};
-}
-
-namespace {
-
-void complete_nodes(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
-                    Contact& contact) {
-  if (pending.surface) make_main_segments(c, pending.surface->segments, contact);
-  set_main_stiffness(c, contact);
-  set_gaps(c, contact, pending.gapmin);
   contact.drad =
       radiation_distance(pending.thermal, pending.drad, contact.max_gap, contact.shortest_side);
   if (c.options.penetrations) {
     pending.failure =
         check_evaluation(c, not_evaluated, pending.card_reason, pending.complete, contact);
-    if (contact.evaluated) find_penetrations(c, contact, pending.decisions);
+    const auto find = edges ? find_edge_penetrations : find_penetrations;
+    if (contact.evaluated) find(c, contact, pending.decisions);
   }
   report_one_place(c, contact);
-  if (c.options.nodal_stiffness && contact.istf >= 2) set_nodal_stiffness(c, contact);
-}
-
-void complete_edges(SceneContext& c, const NotEvaluated& not_evaluated, PendingContact& pending,
-                    Contact& contact) {
-  set_edge_stiffness(c, contact.main_edges, contact);
-  set_edge_stiffness(c, contact.secondary_edges, contact);
-  set_edge_gaps(c, contact, pending.gapmin);
-  contact.drad =
-      radiation_distance(pending.thermal, pending.drad, contact.max_gap, contact.shortest_side);
-  if (c.options.penetrations) {
-    pending.failure =
-        check_evaluation(c, not_evaluated, pending.card_reason, pending.complete, contact);
-    if (contact.evaluated) find_edge_penetrations(c, contact, pending.decisions);
-  }
-  report_one_place(c, contact);
+  if (!edges && c.options.nodal_stiffness && contact.istf >= 2) set_nodal_stiffness(c, contact);
 }
 
 constexpr ElementKind lines[] = {ElementKind::truss, ElementKind::beam, ElementKind::spring};
@@ -145,6 +102,39 @@ struct Common {
 
 }  // namespace
 
+EvaluationFailure check_evaluation(const SceneContext& c, const NotEvaluated& not_evaluated,
+                                   const std::string& card_reason, bool complete,
+                                   Contact& contact) {
+  contact.evaluated = false;
+  const std::string why =
+      card_reason.empty() ? not_evaluated.reason_in_nodes(contact) : card_reason;
+  if (!why.empty()) return {why, Severity::warning, true};
+  NodeIndex lost = no_index;
+  const auto look = [&](const auto& items, const auto& each_node_of) {
+    const NodeIndex last =
+        last_lost(c.scene.coordinates, effective_threads(c.options.threads), items, each_node_of);
+    if (last != no_index) lost = last;
+  };
+  if (!c.all_placed) {
+    look(contact.secondary, [](const SecondaryNode& s, const auto& f) { f(s.node); });
+    look(contact.main, [](const MainSegment& m, const auto& f) {
+      for (const NodeIndex n : m.nodes) f(n);
+    });
+    for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
+      look(*edges, [](const ContactEdge& e, const auto& f) {
+        for (const NodeIndex n : e.nodes) f(n);
+      });
+  }
+  if (lost != no_index)
+    return {"node " + std::to_string(c.model.nodes.id[lost]) +
+            " has a coordinate that is not a finite number"};
+  if (std::string cell = unusable_cell(*c.model.deck, *contact.inter); !cell.empty())
+    return {std::move(cell), Severity::error, true};
+  if (!gaps_are_finite(contact)) return {"the gap is not a finite number"};
+  contact.evaluated = complete;
+  return {};
+}
+
 void complete_contacts(SceneContext& c, const NotEvaluated& not_evaluated,
                        std::vector<PendingContact>& pending,
                        const std::function<void(std::size_t)>& progress) {
@@ -166,9 +156,7 @@ void complete_contacts(SceneContext& c, const NotEvaluated& not_evaluated,
     SceneContext own{
         c.model,  c.connectivity, c.scene, p.found, share.threads > 1 ? c.options : alone,
         c.shells, c.all_placed};
-    Contact& contact = c.scene.contacts[p.place];
-    const auto complete = contact.kind == ContactKind::edge_edge ? complete_edges : complete_nodes;
-    complete(own, not_evaluated, p, contact);
+    complete_contact(own, not_evaluated, p, c.scene.contacts[p.place]);
     const std::size_t so_far = ++completed;
     if (share.worker == 0 && so_far < pending.size()) progress(so_far);
   });

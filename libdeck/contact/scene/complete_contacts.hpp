@@ -31,7 +31,6 @@ class NotEvaluated {
   std::string reason_in_nodes(const Contact& contact) const;
 
  private:
-  void find_unplaced();
   /// Groups with members that are left out (DK164) and what their finding says.
   void find_partial();
   std::string partial_group(const Block& inter);

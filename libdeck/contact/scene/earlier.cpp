@@ -109,31 +109,6 @@ class Matcher {
   double width_ = 1;  // of a cell: what is at the same place lies in it or in one beside it
 };
 
-}  // namespace
-
-const char* to_string(Trend trend) {
-  static constexpr const char* words[] = {"new", "worse", "same", "better"};
-  return words[static_cast<std::size_t>(trend)];
-}
-
-std::uint64_t GapsComparison::count(Trend trend) const {
-  return static_cast<std::uint64_t>(
-      std::count_if(rows.begin(), rows.end(), [&](const Row& r) { return r.trend == trend; }));
-}
-
-std::map<const InterBase*, std::vector<std::int64_t>> untied_nodes(const Scene& scene) {
-  std::map<const InterBase*, std::vector<std::int64_t>> out;
-  for (const Contact& c : scene.contacts)
-    for (const std::uint32_t i : untied_secondary(c))
-      out[c.inter].push_back(scene.model->node_id(c.secondary[i].node));
-  for (const Tie& tie : scene.ties)
-    for (const TiedNode& n : tie.nodes)
-      if (n.lost()) out[tie.inter].push_back(scene.model->node_id(n.node));
-  return out;
-}
-
-namespace {
-
 /// Nodes are the same if they have the same id.
 void find_lost_ties(const EarlierGaps& earlier, const Scene& scene, GapsComparison& out) {
   static const std::set<std::int64_t> none;
@@ -159,6 +134,27 @@ std::set<std::int64_t> undecided_interfaces(const Scene& scene) {
 }
 
 }  // namespace
+
+const char* to_string(Trend trend) {
+  static constexpr const char* words[] = {"new", "worse", "same", "better"};
+  return words[static_cast<std::size_t>(trend)];
+}
+
+std::uint64_t GapsComparison::count(Trend trend) const {
+  return static_cast<std::uint64_t>(
+      std::count_if(rows.begin(), rows.end(), [&](const Row& r) { return r.trend == trend; }));
+}
+
+std::map<const InterBase*, std::vector<std::int64_t>> untied_nodes(const Scene& scene) {
+  std::map<const InterBase*, std::vector<std::int64_t>> out;
+  for (const Contact& c : scene.contacts)
+    for (const std::uint32_t i : untied_secondary(c))
+      out[c.inter].push_back(scene.model->node_id(c.secondary[i].node));
+  for (const Tie& tie : scene.ties)
+    for (const TiedNode& n : tie.nodes)
+      if (n.lost()) out[tie.inter].push_back(scene.model->node_id(n.node));
+  return out;
+}
 
 GapsComparison compare_gaps(const EarlierGaps& earlier, const Scene& scene, const SceneView& view) {
   Matcher matcher(earlier, scene, view);

@@ -50,6 +50,40 @@ std::vector<double> node_limits(std::size_t nodes, const std::vector<MainSegment
   return out;
 }
 
+/// Half thickness of the thickest thing attached to a node, before Fscalegap; `shells` is
+/// shell_half_thickness().
+double node_half_thickness(const Surroundings& c, const std::vector<double>& shells,
+                           NodeIndex node) {
+  return std::max(shells[node], line_half_thickness(c, node));
+}
+
+/// What a gap is bounded by, over some items.
+struct Extremes {
+  double shortest = std::numeric_limits<double>::infinity();
+  SideExtremes sides;
+  void add(const Extremes& other) {
+    shortest = std::min(shortest, other.shortest);
+    for (double SideExtremes::*const most :
+         {&SideExtremes::thickest_main, &SideExtremes::thickest_secondary,
+          &SideExtremes::longest_main, &SideExtremes::longest_secondary})
+      sides.*most = std::max(sides.*most, other.sides.*most);
+  }
+};
+
+/// Calls set(item, extremes) for all items on several threads; the extremes of all.
+template <class Item, class Set>
+Extremes set_each(int threads, std::vector<Item>& items, const Set& set) {
+  std::vector<Extremes> parts(pieces_of(threads, items.size()));
+  parallel_pieces(threads, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    Extremes found;  // of this piece alone: neighbours in `parts` share a cache line
+    for (std::size_t i = begin; i < end; ++i) set(items[i], found);
+    parts[part] = found;
+  });
+  Extremes all;
+  for (const Extremes& part : parts) all.add(part);
+  return all;
+}
+
 }  // namespace
 
 const std::vector<double>& shell_half_thickness(const Surroundings& c) {
@@ -90,44 +124,6 @@ double line_half_thickness(const Surroundings& c, NodeIndex node) {
   }
   return half;
 }
-
-namespace {
-
-/// Half thickness of the thickest thing attached to a node, before Fscalegap; `shells` is
-/// shell_half_thickness().
-double node_half_thickness(const Surroundings& c, const std::vector<double>& shells,
-                           NodeIndex node) {
-  return std::max(shells[node], line_half_thickness(c, node));
-}
-
-/// What a gap is bounded by, over some items.
-struct Extremes {
-  double shortest = std::numeric_limits<double>::infinity();
-  SideExtremes sides;
-  void add(const Extremes& other) {
-    shortest = std::min(shortest, other.shortest);
-    for (double SideExtremes::*const most :
-         {&SideExtremes::thickest_main, &SideExtremes::thickest_secondary,
-          &SideExtremes::longest_main, &SideExtremes::longest_secondary})
-      sides.*most = std::max(sides.*most, other.sides.*most);
-  }
-};
-
-/// Calls set(item, extremes) for all items on several threads; the extremes of all.
-template <class Item, class Set>
-Extremes set_each(int threads, std::vector<Item>& items, const Set& set) {
-  std::vector<Extremes> parts(pieces_of(threads, items.size()));
-  parallel_pieces(threads, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    Extremes found;  // of this piece alone: neighbours in `parts` share a cache line
-    for (std::size_t i = begin; i < end; ++i) set(items[i], found);
-    parts[part] = found;
-  });
-  Extremes all;
-  for (const Extremes& part : parts) all.add(part);
-  return all;
-}
-
-}  // namespace
 
 ThicknessSamples shell_thickness(const Contact& contact) {
   ThicknessSamples out;

@@ -39,10 +39,6 @@ std::string unusable_cell(const Deck& deck, const InterBase& inter) {
 
 NotEvaluated::NotEvaluated(const Model& model, Selections& selections)
     : model_(model), selections_(selections) {
-  find_unplaced();
-}
-
-void NotEvaluated::find_unplaced() {
   const Deck& deck = *model_.deck;
   for (const Block& block : deck.blocks) {
     if (!is_below(block.header, "/TRANSFORM")) continue;

@@ -10,7 +10,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"
-#include "contact/shared/filtered_decisions.hpp"
+#include "contact/shared/filtered.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
 #include "deck/text.hpp"

@@ -10,7 +10,7 @@
 #include "contact/modern/parts.hpp"
 #include "contact/rules/gaps.hpp"
 #include "contact/scene/complete_contacts.hpp"
-#include "contact/shared/filtered_decisions.hpp"
+#include "contact/shared/filtered.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/tie_parts.hpp"
 #include "deck/text.hpp"

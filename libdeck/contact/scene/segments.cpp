@@ -12,26 +12,6 @@ namespace {
 
 using Quad = std::array<NodeIndex, 4>;
 
-}  // namespace
-
-bool repair(std::array<NodeIndex, 4>& n) {
-  if (n[0] == n[3]) {
-    n[3] = n[2];
-    return true;
-  }
-  if (n[1] == n[2]) {
-    n[2] = n[3];
-    return true;
-  }
-  if (n[0] == n[1]) {
-    n = {n[0], n[2], n[3], n[3]};
-    return true;
-  }
-  return false;
-}
-
-namespace {
-
 /// The elements come from around the first node of the segment: the node across is the one that
 /// most of them do not have, the first one all do.
 bool contains_all(const NodeIndex* nodes, int width, const Quad& segment) {
@@ -68,22 +48,6 @@ bool solid_contains(const Model& model, std::uint32_t e, const Quad& segment) {
   return contains_all(all, count, segment);
 }
 
-}  // namespace
-
-SolidsOfSegment solids_of(SceneContext& c, const std::array<NodeIndex, 4>& segment) {
-  SolidsOfSegment found;
-  const Elements& family = c.model.solid8;
-  for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, segment[0])) {
-    if (!solid_contains(c.model, e, segment)) continue;
-    if (found.count++ == 0) found.first = e;
-    found.last = e;
-    if (found.best == no_index || family.id[e] > family.id[found.best]) found.best = e;
-  }
-  return found;
-}
-
-namespace {
-
 /// One of the solids that have all nodes of a quadrangle has it not as one of its faces: solids
 /// overlap there.
 bool inside_a_solid(SceneContext& c, const SolidsOfSegment& having, const Quad& segment) {
@@ -96,50 +60,6 @@ bool inside_a_solid(SceneContext& c, const SolidsOfSegment& having, const Quad& 
   const auto& around = c.connectivity.elements(ElementKind::solid8, segment[0]);
   return std::any_of(around.begin(), around.end(), inside);
 }
-
-}  // namespace
-
-ShellOfSegment shell_of(SceneContext& c, const std::array<NodeIndex, 4>& segment) {
-  ShellOfSegment best;
-  double thickness = 0, young = 0;
-  const auto look = [&](ElementKind kind, bool last_wins) {
-    const Elements& family = c.model.family(kind);
-    for (const std::uint32_t e : c.connectivity.elements(kind, segment[0])) {
-      if (!contains_all(family.of(e), family.width, segment)) continue;
-      const double t = stiffness_thickness(c.model, kind, e);
-      const double y = young_of(c.model, kind, e);
-      const bool better = best.element == no_index || t > thickness ||
-                          (t == thickness && (y > young || (last_wins && y == young)));
-      if (!better) continue;
-      best = {kind, e};
-      thickness = t;
-      young = y;
-    }
-  };
-  look(ElementKind::shell4, false);
-  if (segment[2] == segment[3]) look(ElementKind::shell3, true);
-  return best;
-}
-
-bool orient_outward(SceneContext& c, std::uint32_t solid, std::array<NodeIndex, 4>& n) {
-  const Coordinates& x = c.scene.coordinates;
-  Vec centre, middle;
-  const NodeIndex* slots = c.model.solid8.of(solid);
-  if (std::find(slots, slots + 8, no_index) != slots + 8) return false;
-  for (int i = 0; i < 8; ++i) centre = centre + at(x, slots[i]);
-  for (const NodeIndex i : n) middle = middle + at(x, i);
-  const Vec to_centre = 0.125 * centre - 0.25 * middle;
-  const Vec normal = cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1]));
-  // The solver reverses where the normal points towards the centroid, or sideways.
-  if (dot(normal, to_centre) < 0) return false;
-  if (n[2] == n[3])
-    std::swap(n[0], n[1]);
-  else
-    n = {n[3], n[2], n[1], n[0]};
-  return true;
-}
-
-namespace {
 
 /// Area vanishes or the opposite corners point in opposite directions (solver error 558).
 bool degenerate(const Coordinates& c, const Quad& n) {
@@ -218,6 +138,74 @@ void prepare(SceneContext& c, const SegmentList& segments) {
 }
 
 }  // namespace
+
+bool repair(std::array<NodeIndex, 4>& n) {
+  if (n[0] == n[3]) {
+    n[3] = n[2];
+    return true;
+  }
+  if (n[1] == n[2]) {
+    n[2] = n[3];
+    return true;
+  }
+  if (n[0] == n[1]) {
+    n = {n[0], n[2], n[3], n[3]};
+    return true;
+  }
+  return false;
+}
+
+SolidsOfSegment solids_of(SceneContext& c, const std::array<NodeIndex, 4>& segment) {
+  SolidsOfSegment found;
+  const Elements& family = c.model.solid8;
+  for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, segment[0])) {
+    if (!solid_contains(c.model, e, segment)) continue;
+    if (found.count++ == 0) found.first = e;
+    found.last = e;
+    if (found.best == no_index || family.id[e] > family.id[found.best]) found.best = e;
+  }
+  return found;
+}
+
+ShellOfSegment shell_of(SceneContext& c, const std::array<NodeIndex, 4>& segment) {
+  ShellOfSegment best;
+  double thickness = 0, young = 0;
+  const auto look = [&](ElementKind kind, bool last_wins) {
+    const Elements& family = c.model.family(kind);
+    for (const std::uint32_t e : c.connectivity.elements(kind, segment[0])) {
+      if (!contains_all(family.of(e), family.width, segment)) continue;
+      const double t = stiffness_thickness(c.model, kind, e);
+      const double y = young_of(c.model, kind, e);
+      const bool better = best.element == no_index || t > thickness ||
+                          (t == thickness && (y > young || (last_wins && y == young)));
+      if (!better) continue;
+      best = {kind, e};
+      thickness = t;
+      young = y;
+    }
+  };
+  look(ElementKind::shell4, false);
+  if (segment[2] == segment[3]) look(ElementKind::shell3, true);
+  return best;
+}
+
+bool orient_outward(SceneContext& c, std::uint32_t solid, std::array<NodeIndex, 4>& n) {
+  const Coordinates& x = c.scene.coordinates;
+  Vec centre, middle;
+  const NodeIndex* slots = c.model.solid8.of(solid);
+  if (std::find(slots, slots + 8, no_index) != slots + 8) return false;
+  for (int i = 0; i < 8; ++i) centre = centre + at(x, slots[i]);
+  for (const NodeIndex i : n) middle = middle + at(x, i);
+  const Vec to_centre = 0.125 * centre - 0.25 * middle;
+  const Vec normal = cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1]));
+  // The solver reverses where the normal points towards the centroid, or sideways.
+  if (dot(normal, to_centre) < 0) return false;
+  if (n[2] == n[3])
+    std::swap(n[0], n[1]);
+  else
+    n = {n[3], n[2], n[1], n[0]};
+  return true;
+}
 
 void make_main_segments(SceneContext& c, const SegmentList& segments, Contact& contact) {
   const int threads = effective_threads(c.options.threads);

@@ -23,6 +23,25 @@ bool solid_holds(const Elements& solids, std::uint32_t e, NodeIndex n) {
   return any_is(solids.extra_nodes.data() + solids.extra[e], 6, n);
 }
 
+const Part* part_of(const Model& model, const Elements& family, std::uint32_t e) {
+  const std::uint32_t p = family.part[e];
+  return p == no_index ? nullptr : &model.parts[p];
+}
+const Property* property_of(const Model& model, const Elements& family, std::uint32_t e) {
+  const Part* part = part_of(model, family, e);
+  return part == nullptr || part->prop == no_index ? nullptr : &model.properties[part->prop];
+}
+const Material* material_of(const Model& model, const Elements& family, std::uint32_t e) {
+  const Part* part = part_of(model, family, e);
+  return part == nullptr || part->mat == no_index ? nullptr : &model.materials[part->mat];
+}
+double stiffness_thickness(const Model& model, const Elements& family, std::uint32_t e) {
+  if (!model.intthick_v5 && e < family.thickness.size())
+    if (const double own = family.thickness[e]; own != 0) return own;
+  const Property* p = property_of(model, family, e);
+  return p == nullptr ? 0 : p->thickness;
+}
+
 }  // namespace
 
 /// Sum of the stiffnesses of the shells at each node, quadrangles first, each in their order.
@@ -191,29 +210,6 @@ void set_nodal_stiffness(SceneContext& c, Contact& contact) {
     s.nodal_stiffness = s.off ? 0 : k;
   }
 }
-
-namespace {
-
-const Part* part_of(const Model& model, const Elements& family, std::uint32_t e) {
-  const std::uint32_t p = family.part[e];
-  return p == no_index ? nullptr : &model.parts[p];
-}
-const Property* property_of(const Model& model, const Elements& family, std::uint32_t e) {
-  const Part* part = part_of(model, family, e);
-  return part == nullptr || part->prop == no_index ? nullptr : &model.properties[part->prop];
-}
-const Material* material_of(const Model& model, const Elements& family, std::uint32_t e) {
-  const Part* part = part_of(model, family, e);
-  return part == nullptr || part->mat == no_index ? nullptr : &model.materials[part->mat];
-}
-double stiffness_thickness(const Model& model, const Elements& family, std::uint32_t e) {
-  if (!model.intthick_v5 && e < family.thickness.size())
-    if (const double own = family.thickness[e]; own != 0) return own;
-  const Property* p = property_of(model, family, e);
-  return p == nullptr ? 0 : p->thickness;
-}
-
-}  // namespace
 
 double part_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
   const Part* part = part_of(model, model.family(kind), e);

@@ -11,7 +11,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "contact/rules/actions.hpp"
-#include "contact/shared/element_names.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck {
@@ -27,28 +27,6 @@ ElementName name_of(const Model& model, ElementKind kind, std::uint32_t e) {
   return {kind, e, family.id[e], part == no_index ? 0 : model.parts[part].id};
 }
 
-}  // namespace
-
-const Elements* elements_of(const Model& model, Carrier carrier) {
-  const auto kind = detail::family_of_carrier(carrier);
-  return kind ? &model.family(*kind) : nullptr;
-}
-
-ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t e) {
-  const auto kind = detail::family_of_carrier(carrier);
-  return kind && e != no_index ? name_of(model, *kind, e) : ElementName{};
-}
-
-ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex node) {
-  for (const ElementKind kind : families_in_view) {
-    const std::uint32_t e = connectivity.first(kind, node);
-    if (e != no_index) return name_of(model, kind, e);
-  }
-  return {};
-}
-
-namespace {
-
 double ratio(const PenetrationRow& row) { return row.gap > 0 ? row.depth / row.gap : 0; }
 
 bool without_element(const Contact& contact) {
@@ -57,49 +35,6 @@ bool without_element(const Contact& contact) {
          std::any_of(contact.main_edges.begin(), contact.main_edges.end(), lone) ||
          std::any_of(contact.secondary_edges.begin(), contact.secondary_edges.end(), lone);
 }
-
-}  // namespace
-
-Obstacle obstacle_of(const Contact& contact) {
-  if (contact.dropped) return Obstacle::none;
-  if (is_modern(contact.type) && contact.kind == ContactKind::edge_edge) return Obstacle::none;
-  if (contact.main_empty()) return Obstacle::empty_main;
-  if (contact.secondary_empty()) return Obstacle::empty_secondary;
-  if (!is_modern(contact.type) && !(contact.gapmin > 0)) return Obstacle::no_gap;
-  if (contact.degenerate_segments > 0) return Obstacle::no_area;
-  if (without_element(contact)) return Obstacle::no_element;
-  const bool idle = contact.kind == ContactKind::node_segment &&
-                    std::all_of(contact.main.begin(), contact.main.end(),
-                                [](const MainSegment& m) { return m.stiffness == 0; });
-  return idle ? Obstacle::no_stiffness : Obstacle::none;
-}
-
-std::string_view to_string(Obstacle obstacle) {
-  switch (obstacle) {
-    case Obstacle::empty_main:
-      return "empty_main";
-    case Obstacle::empty_secondary:
-      return "empty_secondary";
-    case Obstacle::no_gap:
-      return "no_gap";
-    case Obstacle::no_area:
-      return "no_area";
-    case Obstacle::no_element:
-      return "no_element";
-    case Obstacle::no_stiffness:
-      return "no_stiffness";
-    case Obstacle::none:
-      break;
-  }
-  return {};
-}
-
-int on_surface_error(const Contact& contact) {
-  if (contact.kind == ContactKind::edge_edge) return 0;
-  return detail::on_surface_error(contact.type, contact.itied, contact.fpenmax, contact.inacti);
-}
-
-namespace {
 
 template <class T>
 std::uint64_t distinct(std::vector<T>& items) {
@@ -290,6 +225,49 @@ void pair_parts(const Scene& scene, SceneView& view) {
 }
 
 }  // namespace
+
+const Elements* elements_of(const Model& model, Carrier carrier) {
+  const auto kind = detail::family_of_carrier(carrier);
+  return kind ? &model.family(*kind) : nullptr;
+}
+
+ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t e) {
+  const auto kind = detail::family_of_carrier(carrier);
+  return kind && e != no_index ? name_of(model, *kind, e) : ElementName{};
+}
+
+ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex node) {
+  for (const ElementKind kind : families_in_view) {
+    const std::uint32_t e = connectivity.first(kind, node);
+    if (e != no_index) return name_of(model, kind, e);
+  }
+  return {};
+}
+
+Obstacle obstacle_of(const Contact& contact) {
+  if (contact.dropped) return Obstacle::none;
+  if (is_modern(contact.type) && contact.kind == ContactKind::edge_edge) return Obstacle::none;
+  if (contact.main_empty()) return Obstacle::empty_main;
+  if (contact.secondary_empty()) return Obstacle::empty_secondary;
+  if (!is_modern(contact.type) && !(contact.gapmin > 0)) return Obstacle::no_gap;
+  if (contact.degenerate_segments > 0) return Obstacle::no_area;
+  if (without_element(contact)) return Obstacle::no_element;
+  const bool idle = contact.kind == ContactKind::node_segment &&
+                    std::all_of(contact.main.begin(), contact.main.end(),
+                                [](const MainSegment& m) { return m.stiffness == 0; });
+  return idle ? Obstacle::no_stiffness : Obstacle::none;
+}
+
+std::string_view to_string(Obstacle obstacle) {
+  static constexpr std::string_view words[] = {"",        "empty_main", "empty_secondary", "no_gap",
+                                               "no_area", "no_element", "no_stiffness"};
+  return words[static_cast<std::size_t>(obstacle)];
+}
+
+int on_surface_error(const Contact& contact) {
+  if (contact.kind == ContactKind::edge_edge) return 0;
+  return detail::on_surface_error(contact.type, contact.itied, contact.fpenmax, contact.inacti);
+}
 
 double largest_bounded_gap(const Model& model) {
   double square = 0;

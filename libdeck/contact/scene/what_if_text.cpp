@@ -16,6 +16,15 @@ bool is_flag(std::string_view name) {
   return name == "Igap" || name == "Inacti" || name == "Irem_gap";
 }
 
+/// What the card calls it: TYPE24 and TYPE25 have a largest gap for each side, TYPE25 its own
+/// scale.
+std::string_view name_on_card(std::string_view name, const InterBase& inter) {
+  if (name == "Gapmin" && !is_modern(inter.type)) return traits_of(inter).gap;
+  if (is_modern(inter.type) && name == "Fscalegap") return "Gap_scale";
+  if (is_modern(inter.type) && name == "Gapmax") return "Gap_max_s";
+  return name;
+}
+
 }  // namespace
 
 Result<WhatIf> parse_what_if(const std::string& text) {
@@ -68,19 +77,6 @@ Result<WhatIf> parse_what_if(const std::string& text) {
   }
   return w;
 }
-
-namespace {
-
-/// What the card calls it: TYPE24 and TYPE25 have a largest gap for each side, TYPE25 its own
-/// scale.
-std::string_view name_on_card(std::string_view name, const InterBase& inter) {
-  if (name == "Gapmin" && !is_modern(inter.type)) return traits_of(inter).gap;
-  if (is_modern(inter.type) && name == "Fscalegap") return "Gap_scale";
-  if (is_modern(inter.type) && name == "Gapmax") return "Gap_max_s";
-  return name;
-}
-
-}  // namespace
 
 Result<void> check_what_if(const WhatIf& w, const InterBase& inter) {
   const Schema* schema = inter.block->schema;

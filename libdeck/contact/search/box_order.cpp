@@ -1,6 +1,5 @@
 // Hilbert curve by state table, radix sort of its keys, the ordering built on them, and the box
 // tree built on that.
-#include "contact/search/box_order.hpp"
 
 #include <algorithm>
 #include <array>
@@ -76,77 +75,6 @@ constexpr auto make_double_steps() {
   return steps;
 }
 constexpr auto double_steps = make_double_steps();
-
-}  // namespace
-
-std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z, unsigned bits) {
-  std::uint64_t index = 0;
-  unsigned state = 0;
-  // Two levels at a time; an odd first one alone.
-  if (bits % 2 != 0) {
-    const unsigned top = bits - 1;
-    const Step step =
-        single_steps[0][((x >> top) & 1U) | ((y >> top) & 1U) << 1 | ((z >> top) & 1U) << 2];
-    index = step.octant;
-    state = step.state;
-  }
-  for (unsigned level = bits & ~1U; level > 0;) {
-    level -= 2;
-    const unsigned cell = ((x >> level) & 3U) | ((y >> level) & 3U) << 2 | ((z >> level) & 3U) << 4;
-    const DoubleStep step = double_steps[state][cell];
-    index = (index << 6) | step.rank;
-    state = step.state;
-  }
-  return index;
-}
-
-CurveGrid::CurveGrid(const Point3<double>& low, const Point3<double>& high, unsigned bits)
-    : low_(0.25 * low), bits_(bits) {
-  const Point3<double> size = 0.25 * high - low_;
-  const double extent = std::max(size.x, std::max(size.y, size.z));
-  const double cells = std::ldexp(1.0, static_cast<int>(bits));
-  cells_per_length_ = cells / extent;
-  last_cell_ = cells - 1.0;
-  usable_ = extent > 0.0 && std::isfinite(cells_per_length_) && std::isfinite(extent);
-}
-
-void radix_sort(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& spare, unsigned low,
-                unsigned high, int threads) {
-  constexpr std::size_t small = 2048;
-  constexpr unsigned digit = 11;
-  constexpr std::size_t buckets = std::size_t{1} << digit;
-  if (keys.size() < small) {
-    // The bits below `low` are the position at entry: a full sort is the stable one.
-    std::sort(keys.begin(), keys.end());
-    return;
-  }
-  spare.resize(keys.size());
-  const auto parts = static_cast<std::size_t>(threads);
-  std::vector<std::array<std::size_t, buckets>> counts(parts);
-  for (unsigned shift = low; shift < high; shift += digit) {
-    const std::uint64_t mask = (std::uint64_t{1} << std::min(digit, high - shift)) - 1;
-    parallel_parts(threads, keys.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-      auto& count = counts[part];
-      count.fill(0);
-      for (std::size_t i = begin; i < end; ++i) ++count[(keys[i] >> shift) & mask];
-    });
-    std::size_t sum = 0;
-    for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
-      for (auto& count : counts) {
-        const std::size_t here = count[bucket];
-        count[bucket] = sum;
-        sum += here;
-      }
-    }
-    parallel_parts(threads, keys.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-      auto& place = counts[part];
-      for (std::size_t i = begin; i < end; ++i) spare[place[(keys[i] >> shift) & mask]++] = keys[i];
-    });
-    keys.swap(spare);
-  }
-}
-
-namespace {
 
 struct Scratch {
   std::vector<std::uint64_t> keys, spare;
@@ -248,6 +176,74 @@ void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& 
 }
 
 }  // namespace
+
+std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z, unsigned bits) {
+  std::uint64_t index = 0;
+  unsigned state = 0;
+  // Two levels at a time; an odd first one alone.
+  if (bits % 2 != 0) {
+    const unsigned top = bits - 1;
+    const Step step =
+        single_steps[0][((x >> top) & 1U) | ((y >> top) & 1U) << 1 | ((z >> top) & 1U) << 2];
+    index = step.octant;
+    state = step.state;
+  }
+  for (unsigned level = bits & ~1U; level > 0;) {
+    level -= 2;
+    const unsigned cell = ((x >> level) & 3U) | ((y >> level) & 3U) << 2 | ((z >> level) & 3U) << 4;
+    const DoubleStep step = double_steps[state][cell];
+    index = (index << 6) | step.rank;
+    state = step.state;
+  }
+  return index;
+}
+
+CurveGrid::CurveGrid(const Point3<double>& low, const Point3<double>& high, unsigned bits)
+    : low_(0.25 * low), bits_(bits) {
+  const Point3<double> size = 0.25 * high - low_;
+  const double extent = std::max(size.x, std::max(size.y, size.z));
+  const double cells = std::ldexp(1.0, static_cast<int>(bits));
+  cells_per_length_ = cells / extent;
+  last_cell_ = cells - 1.0;
+  usable_ = extent > 0.0 && std::isfinite(cells_per_length_) && std::isfinite(extent);
+}
+
+void radix_sort(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& spare, unsigned low,
+                unsigned high, int threads) {
+  constexpr std::size_t small = 2048;
+  constexpr unsigned digit = 11;
+  constexpr std::size_t buckets = std::size_t{1} << digit;
+  if (keys.size() < small) {
+    // The bits below `low` are the position at entry: a full sort is the stable one.
+    std::sort(keys.begin(), keys.end());
+    return;
+  }
+  spare.resize(keys.size());
+  const auto parts = static_cast<std::size_t>(threads);
+  std::vector<std::array<std::size_t, buckets>> counts(parts);
+  for (unsigned shift = low; shift < high; shift += digit) {
+    const std::uint64_t mask = (std::uint64_t{1} << std::min(digit, high - shift)) - 1;
+    parallel_parts(threads, keys.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+      auto& count = counts[part];
+      count.fill(0);
+      for (std::size_t i = begin; i < end; ++i) ++count[(keys[i] >> shift) & mask];
+    });
+    std::size_t sum = 0;
+    for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
+      for (auto& count : counts) {
+        const std::size_t here = count[bucket];
+        count[bucket] = sum;
+        sum += here;
+      }
+    }
+    parallel_parts(threads, keys.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+      auto& place = counts[part];
+      for (std::size_t i = begin; i < end; ++i) spare[place[(keys[i] >> shift) & mask]++] = keys[i];
+    });
+    keys.swap(spare);
+  }
+}
+
 }  // namespace deck::order_detail
 
 namespace deck {

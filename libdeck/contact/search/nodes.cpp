@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/shared/parallel.hpp"
-#include "contact/search/box_order.hpp"
+#include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
 
 namespace deck {
@@ -15,8 +15,8 @@ using sweep::at;
 // Box of a segment, widened by its own reach.
 Box reach_of_segment(const NodeSegmentInput& in, const SearchOptions& options, double robust_margin,
                      std::uint32_t i) {
-  return sweep::segment_box(in.nodes, in.segments[i],
-                            sweep::main_reach(options, robust_margin, at(in.segment_gap, i, 0.0)));
+  return sweep::box_of_nodes(in.nodes, in.segments[i],
+                             sweep::main_reach(options, robust_margin, at(in.segment_gap, i, 0.0)));
 }
 
 // The same of a node.
@@ -181,10 +181,11 @@ namespace sweep {
 EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads, double robust)
     : input(&in), options(&o), robust_margin(robust) {
   const auto secondary_box = [&](std::uint32_t i) {
-    return edge_box(in.nodes, in.secondary[i], secondary_reach(o, at(in.secondary_gap, i, 0.0)));
+    return box_of_nodes(in.nodes, in.secondary[i],
+                        secondary_reach(o, at(in.secondary_gap, i, 0.0)));
   };
   const auto main_box = [&](std::uint32_t i) {
-    return edge_box(in.nodes, in.main[i], main_reach(o, robust, at(in.main_gap, i, 0.0)));
+    return box_of_nodes(in.nodes, in.main[i], main_reach(o, robust, at(in.main_gap, i, 0.0)));
   };
   items = active(in.secondary.size(), in.secondary_stiffness);
   mains = active(in.main.size(), in.main_stiffness);

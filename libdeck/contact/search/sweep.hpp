@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
-#include "contact/search/box_order.hpp"
 #include "contact/search/box_tree.hpp"
 #include "deck/contacts.hpp"
 
@@ -380,14 +379,6 @@ Box box_of_nodes(const NodeArrays& nodes, const std::array<std::uint32_t, N>& of
       larger_of(larger_of(0.0, x.farthest()), larger_of(y.farthest(), z.farthest()));
   const double r = Reach::widened(reach, largest);
   return {{x.low - r, y.low - r, z.low - r}, {x.high + r, y.high + r, z.high + r}};
-}
-inline Box edge_box(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
-                    double reach) {
-  return box_of_nodes(nodes, edge, reach);
-}
-inline Box segment_box(const NodeArrays& nodes, const std::array<std::uint32_t, 4>& segment,
-                       double reach) {
-  return box_of_nodes(nodes, segment, reach);
 }
 
 // Orders things in space by their places, place_of(id) each.

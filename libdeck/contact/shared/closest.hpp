@@ -19,6 +19,15 @@
 
 namespace deck {
 
+inline bool is_finite(const Point3<double>& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+template <std::size_t N>
+bool all_finite(const std::array<Point3<double>, N>& points) {
+  return std::all_of(points.begin(), points.end(),
+                     [](const Point3<double>& p) { return is_finite(p); });
+}
+
 // Closest point on one sub-triangle O, A, B (centre, corner k, corner k+1) of a segment.
 template <class T>
 struct SubTriangleClosest {

@@ -4,6 +4,7 @@
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Lazy_exact_nt.h>
+#include <CGAL/number_utils.h>
 
 #include "contact/shared/closest.hpp"
 
@@ -32,6 +33,10 @@ struct NumberTraits<LazyRational> {
   static LazyRational parallel_guard() { return LazyRational(0); }
 };
 
+inline Point3<LazyRational> to_exact(const Point3<double>& p) {
+  return {LazyRational(p.x), LazyRational(p.y), LazyRational(p.z)};
+}
+
 // Squares of the exact distances; finite coordinates only.
 Rational exact_distance_squared(const Point3<double>& p,
                                 const std::array<Point3<double>, 4>& corners, bool triangle);
@@ -47,7 +52,13 @@ double rounded_depth(double gap, const Rational& squared);
 // The double nearest to the square root of an exact non-negative number (ties to even).
 double rounded_square_root(const Rational& value);
 
-// That root cut off after at least 300 binary digits.
+// That root cut off after at least 300 binary digits; 0 of what is not positive.
 Rational long_square_root(const Rational& value);
+inline LazyRational exact_root(const LazyRational& value) {
+  return CGAL::is_positive(value) ? LazyRational(long_square_root(value.exact())) : LazyRational(0);
+}
+
+// The depth of a penetration, rounded towards zero but above it.
+double rounded_positive_depth(const LazyRational& depth);
 
 }  // namespace deck

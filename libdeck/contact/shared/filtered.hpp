@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "contact/shared/closest.hpp"
+#include "deck/contacts.hpp"
 
 namespace deck {
 
@@ -81,5 +83,83 @@ FilteredSegment filtered_closest_on_segment(const Point3<double>& p,
 FilteredEdges filtered_closest_between_edges(const Point3<double>& s1, const Point3<double>& s2,
                                              const Point3<double>& m1, const Point3<double>& m2,
                                              FilterCounters* counters = nullptr);
+
+// Proofs in CGAL's exact sums and products, given a guess of the parts that are closest: the usual
+// exact ties (node on the plane, distance equal to the gap) without rationals.
+
+// Which corners of a sub-triangle (centre, k, k+1) carry the guessed closest point; none set: this
+// sub-triangle needs no proof of its own.
+struct PartGuess {
+  bool o = false, a = false, b = false;
+};
+
+// A plane, line or corner of a segment: through the corner `base`, along up to two directions. Each
+// is the sum of the vectors from there to the corners whose bits are set; none: no direction.
+struct SegmentPiece {
+  std::uint8_t base = 0;
+  std::array<std::uint8_t, 2> corners{};
+};
+
+// Whether the node points[4] is nearer to the piece than the gap, exactly. All points are finite.
+bool is_closer_to_piece(const std::array<Point3<double>, 5>& points, const SegmentPiece& piece,
+                        double gap);
+
+// "distance < gap" proved exactly, or nothing if the guess does not prove it. A gap of 0 asks
+// whether the distance is exactly 0. `points`:
+// four corners, then the node; a triangle uses guess[0] only, with o, a, b = corners 3, 1, 2.
+std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bool triangle,
+                                 int best, const std::array<PartGuess, 4>& guess, double gap);
+
+// The same for edges x[0]-x[1] and x[2]-x[3] with the guessed feature of each.
+std::optional<bool> prove_closer(const std::array<Point3<double>, 4>& x, EdgeFeature secondary,
+                                 EdgeFeature main, bool parallel, double gap);
+
+// One pair judged as the chosen accuracy asks: is it in contact, does the solver think so too, and
+// with which figures. Counts where the two disagree.
+namespace detail {
+
+/// What is known about one pair. `row` has its figures if either answer is yes.
+struct PairVerdict {
+  bool in_contact = false;   ///< by the chosen accuracy
+  bool solver_acts = false;  ///< the arithmetic whose consequences the scene follows says so
+  bool differs = false;      ///< the two are not the same, or not the same on "exactly on it"
+  PenetrationRow row;
+  /// A penetration, of the pair or of the solver's arithmetic only.
+  bool is_row() const { return in_contact || solver_acts; }
+  DecisionDifference difference;  ///< valid if `differs`; action and positions are the caller's
+};
+
+class PairJudge {
+ public:
+  PairJudge(Accuracy accuracy, DecisionReport& report) : accuracy_(accuracy), report_(report) {
+    report_.mode = accuracy;
+  }
+  ~PairJudge();
+  PairJudge(const PairJudge&) = delete;
+  PairJudge& operator=(const PairJudge&) = delete;
+
+  /// Conventions of closest_on_segment; `gap` the pair gap.
+  PairVerdict judge(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
+                    bool triangle, double gap);
+  /// Conventions of closest_between_edges; `x` both nodes of the secondary, then of the main edge.
+  PairVerdict judge(const std::array<Point3<double>, 4>& x, double gap);
+
+  /// Keeps a difference for the report; only the first of them are listed.
+  void note(const DecisionDifference& difference);
+
+ private:
+  template <class Exact>
+  PairVerdict combine(const PenetrationRow& solver, bool touching, double gap, bool closer,
+                      const Exact& exact_row);
+
+  Accuracy accuracy_;
+  DecisionReport& report_;
+  FilterCounters counters_;
+};
+
+/// Adds the decisions about one contact to those of all; `place`: its own among them.
+void add_decisions(const DecisionReport& in, std::size_t place, DecisionReport& all);
+
+}  // namespace detail
 
 }  // namespace deck

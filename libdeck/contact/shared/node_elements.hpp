@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/shared/parallel.hpp"
+#include "deck/contacts.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck {
@@ -73,5 +74,9 @@ class Connectivity {
   std::array<NodeElements, 8> rows_;
   std::array<std::vector<std::uint32_t>, 8> first_;
 };
+
+/// The element that a node is named after: of the first family that has one there, the smallest
+/// index; none: all 0.
+ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex node);
 
 }  // namespace deck

@@ -104,6 +104,19 @@ std::array<Vec, 4> corners_of(const Coordinates& x, const Corners& c) {
   return {at(x, c[0]), at(x, c[1]), at(x, c[2]), at(x, c[3])};
 }
 
+constexpr std::uint32_t leaf_size = 8;
+
+double along(const Vec& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+double square_outside(double x, double low, double high) {
+  const double d = std::max({0.0, low - x, x - high});
+  return d * d;
+}
+
+bool holds(const Corners& c, NodeIndex node) {
+  return std::find(c.begin(), c.end(), node) != c.end();
+}
+
 }  // namespace
 
 double distance_from(const Coordinates& x, NodeIndex node, const Corners& segment) {
@@ -124,23 +137,6 @@ Projection project(const Coordinates& x, NodeIndex node, const Corners& segment,
   return is_triangle(segment) ? on_triangle(p, corners, reach, weights)
                               : on_quad(p, corners, reach);
 }
-
-namespace {
-
-constexpr std::uint32_t leaf_size = 8;
-
-double along(const Vec& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-double square_outside(double x, double low, double high) {
-  const double d = std::max({0.0, low - x, x - high});
-  return d * d;
-}
-
-bool holds(const Corners& c, NodeIndex node) {
-  return std::find(c.begin(), c.end(), node) != c.end();
-}
-
-}  // namespace
 
 NearestSegments::NearestSegments(const Coordinates& x, const std::vector<Corners>& segments)
     : x_(x), segments_(segments), order_(segments.size()) {

@@ -86,20 +86,9 @@ std::string short_reason(const Tie& tie, const TiedNode& n) {
   if (n.tied) return n.message == 0 ? "tied" : fmt::format("tied beyond the rim ({})", n.message);
   const char* why = "far beyond the rim";
   if (n.segment == no_index) {
-    switch (miss_of(tie, n)) {
-      case Miss::far:
-        why = "too far";
-        break;
-      case Miss::box:
-        why = "missed by the solver";
-        break;
-      case Miss::nothing:
-        why = "no segment";
-        break;
-      case Miss::beyond_rim:
-        why = "beyond the rim";
-        break;
-    }
+    static constexpr const char* words[] = {"too far", "beyond the rim", "missed by the solver",
+                                            "no segment"};
+    why = words[static_cast<std::size_t>(miss_of(tie, n))];
   }
   return n.message == 0 ? std::string(why) : fmt::format("{} ({})", why, n.message);
 }

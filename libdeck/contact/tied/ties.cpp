@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/scene/complete_contacts.hpp"
+#include "contact/shared/closest.hpp"
 #include "contact/shared/tie_parts.hpp"
 #include "deck/text.hpp"
 
@@ -44,10 +45,6 @@ void set_sides(SceneContext& c, Tie& tie) {
       tie.nodes.end());
 }
 
-bool finite(const Coordinates& x, NodeIndex n) {
-  return std::isfinite(x.x[n]) && std::isfinite(x.y[n]) && std::isfinite(x.z[n]);
-}
-
 /// Why nothing can be looked for; empty: it can.
 std::string hindrance(SceneContext& c, const Tie& tie) {
   if (!c.model.selections->complete()) return "members of its sides were left out";
@@ -57,10 +54,11 @@ std::string hindrance(SceneContext& c, const Tie& tie) {
   if (std::string cell = unusable_cell(*c.model.deck, *tie.inter); !cell.empty()) return cell;
   const Coordinates& x = c.scene.coordinates;
   for (const TiedNode& n : tie.nodes)
-    if (!finite(x, n.node)) return "a secondary node has a coordinate that is no finite number";
+    if (!is_finite(at(x, n.node)))
+      return "a secondary node has a coordinate that is no finite number";
   for (const Corners& s : tie.main)
     for (const NodeIndex n : s)
-      if (!finite(x, n)) return "a main node has a coordinate that is no finite number";
+      if (!is_finite(at(x, n))) return "a main node has a coordinate that is no finite number";
   return {};
 }
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/shared/element_names.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "deck/contacts.hpp"
 #include "model/shared/families.hpp"
 #include "model/shared/item_spans.hpp"

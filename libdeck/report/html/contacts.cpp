@@ -10,7 +10,7 @@
 
 #include "base/shared/parallel.hpp"
 #include "contact/shared/closest.hpp"
-#include "contact/shared/element_names.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "contact/shared/sides.hpp"
 #include "deck/contacts.hpp"

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/shared/escape.hpp"
-#include "contact/shared/element_names.hpp"
+#include "contact/shared/node_elements.hpp"
 #include "report/html/parts.hpp"
 
 namespace deck {
