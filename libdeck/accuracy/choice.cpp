@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/shared/count.hpp"
+#include "base/shared/words.hpp"
 
 namespace deck {
 namespace {

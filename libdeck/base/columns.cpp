@@ -1,10 +1,8 @@
 // Measures, folds and cuts text for a terminal.
-#include "base/shared/columns.hpp"
+#include "base/shared/shown_text.hpp"
 
 #include <algorithm>
 #include <iterator>
-
-#include "base/shared/escape.hpp"
 
 namespace deck {
 namespace {

@@ -1,5 +1,5 @@
 // Escaping for every medium that text leaves through.
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/shared/spelling.hpp"
+#include "base/shared/words.hpp"
 
 namespace deck {
 

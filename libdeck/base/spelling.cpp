@@ -1,14 +1,12 @@
 // Words in capitals and small letters; distance of two words, one row of the table at a time;
 // numbers as people read them.
-#include "base/shared/spelling.hpp"
+#include "base/shared/words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include "base/shared/length_text.hpp"
 
 namespace deck {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "base/shared/spelling.hpp"
+#include "base/shared/words.hpp"
 #include "deck/edit.hpp"
 #include "deck/text.hpp"
 #include "edit/cells.hpp"

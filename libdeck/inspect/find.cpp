@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "base/shared/spelling.hpp"
+#include "base/shared/words.hpp"
 #include "deck/text.hpp"
 #include "inspect/match.hpp"
 #include "inspect/shared/show.hpp"

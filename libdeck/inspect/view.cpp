@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "base/shared/spelling.hpp"
+#include "base/shared/words.hpp"
 #include "deck/model.hpp"
 #include "inspect/match.hpp"
 #include "inspect/shared/show.hpp"

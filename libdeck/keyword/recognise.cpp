@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "base/shared/escape.hpp"
-#include "base/shared/spelling.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "keyword/shared/reader.hpp"
 #include "text/shared/number_scan.hpp"
 

@@ -34,7 +34,7 @@ struct ParserLost {};
 #include <algorithm>
 #include <filesystem>
 
-#include "base/shared/spelling.hpp"
+#include "base/shared/words.hpp"
 
 namespace deck {
 namespace fs = std::filesystem;

@@ -10,7 +10,7 @@
 #include <map>
 #include <type_traits>
 
-#include "base/shared/length_text.hpp"
+#include "base/shared/words.hpp"
 #include "keyword/shared/references.hpp"
 
 namespace deck {

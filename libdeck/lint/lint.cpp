@@ -9,8 +9,8 @@
 #include <set>
 #include <tuple>
 
-#include "base/shared/count.hpp"
 #include "base/shared/paths.hpp"
+#include "base/shared/words.hpp"
 #include "deck/model.hpp"
 #include "lint/check.hpp"
 #include "lint/shared/config.hpp"

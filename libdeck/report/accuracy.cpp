@@ -5,8 +5,8 @@
 
 #include <utility>
 #include "accuracy/shared/choice.hpp"
-#include "base/shared/count.hpp"
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "report/shared/text_table.hpp"
 #include "report/shared_records.hpp"
 

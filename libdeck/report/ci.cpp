@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "report/shared/diagnostics.hpp"
 #include "report/shared/json.hpp"
 

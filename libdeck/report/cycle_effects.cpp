@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "base/shared/count.hpp"
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "report/shared/accuracy.hpp"
 #include "report/shared/gate.hpp"
 #include "report/shared/text_table.hpp"

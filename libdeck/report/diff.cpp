@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "base/shared/escape.hpp"
-#include "base/shared/length_text.hpp"
+#include "base/shared/shown_text.hpp"
 #include "base/shared/vec.hpp"
+#include "base/shared/words.hpp"
 #include "deck/text.hpp"
 #include "report/shared/inspection.hpp"
 #include "report/shared_records.hpp"

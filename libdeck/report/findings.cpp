@@ -7,9 +7,8 @@
 #include <map>
 #include <set>
 
-#include "base/shared/columns.hpp"
-#include "base/shared/escape.hpp"
 #include "base/shared/paths.hpp"
+#include "base/shared/shown_text.hpp"
 #include "lint/shared/gate.hpp"
 #include "report/shared/diagnostics.hpp"
 #include "report/shared/gate.hpp"

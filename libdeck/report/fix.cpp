@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "deck/contacts.hpp"
 #include "report/shared/fix.hpp"
 #include "report/shared_records.hpp"

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <map>
 
-#include "base/shared/escape.hpp"
-#include "base/shared/length_text.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "contact/shared/node_elements.hpp"
 #include "deck/contacts.hpp"
 #include "deck/report.hpp"

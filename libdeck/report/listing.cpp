@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/shared/columns.hpp"
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "report/shared/inspection.hpp"
 #include "report/shared/parts.hpp"
 #include "report/shared_records.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/shared/length_text.hpp"
+#include "base/shared/words.hpp"
 #include "deck/text.hpp"
 #include "model/shared/kinematics.hpp"
 #include "model/shared/mesh.hpp"

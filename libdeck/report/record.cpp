@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "base/shared/escape.hpp"
-#include "base/shared/length_text.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 
 namespace deck {
 

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "base/shared/columns.hpp"
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "keyword/shared/card_forms.hpp"
 #include "keyword/shared/place.hpp"
 #include "report/shared/inspection.hpp"

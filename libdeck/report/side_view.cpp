@@ -9,7 +9,7 @@
 #include <set>
 #include <span>
 
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "deck/text.hpp"
 #include "report/terminal/words.hpp"

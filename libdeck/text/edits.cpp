@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "text/shared/columns.hpp"
 
 namespace deck {

@@ -8,8 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "base/shared/count.hpp"
-#include "base/shared/length_text.hpp"
+#include "base/shared/words.hpp"
 #include "deck/contacts.hpp"
 #include "deck/text.hpp"
 #include "verdict/shared/of_interface.hpp"

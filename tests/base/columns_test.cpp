@@ -1,5 +1,5 @@
 // Text measured, folded and cut for a terminal.
-#include "base/shared/columns.hpp"
+#include "base/shared/shown_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What a title or a file name may hold, and what of it reaches a terminal, a log and a parser.
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A length as text.
-#include "base/shared/length_text.hpp"
+#include "base/shared/words.hpp"
 
 #include <gtest/gtest.h>
 

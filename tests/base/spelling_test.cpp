@@ -1,5 +1,5 @@
 // Distance of words against its definition.
-#include "base/shared/spelling.hpp"
+#include "base/shared/words.hpp"
 
 #include <gtest/gtest.h>
 

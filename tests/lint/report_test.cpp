@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "base/shared/columns.hpp"
+#include "base/shared/shown_text.hpp"
 #include "lint/support.hpp"
 #include "report/shared/diagnostics.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/shared/columns.hpp"
+#include "base/shared/shown_text.hpp"
 #include "deck/lint.hpp"
 
 namespace deck {

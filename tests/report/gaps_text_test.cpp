@@ -1,7 +1,7 @@
 // The text of `deck gaps`: one row per interface, clean ones in one line, nothing wider than asked.
 #include <algorithm>
 
-#include "base/shared/columns.hpp"
+#include "base/shared/shown_text.hpp"
 #include "deck/report.hpp"
 #include "deck/verdict.hpp"
 #include "report/inspected.hpp"

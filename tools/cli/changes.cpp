@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/shared/count.hpp"
-#include "base/shared/escape.hpp"
 #include "base/shared/paths.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "library.hpp"
 
 namespace deck::cli {

@@ -12,9 +12,8 @@
 #include <map>
 #include <sstream>
 
-#include "base/shared/columns.hpp"
-#include "base/shared/escape.hpp"
-#include "base/shared/spelling.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "common.hpp"
 #include "deck/text.hpp"
 

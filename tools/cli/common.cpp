@@ -15,10 +15,9 @@
 #include <fstream>
 #include <thread>
 
-#include "base/shared/columns.hpp"
-#include "base/shared/escape.hpp"
 #include "base/shared/paths.hpp"
-#include "base/shared/spelling.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "deck/contacts.hpp"
 #include "deck/model.hpp"
 #include "deck/rule_id.hpp"

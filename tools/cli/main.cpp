@@ -17,8 +17,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "base/shared/escape.hpp"
 #include "base/shared/pages.hpp"
+#include "base/shared/shown_text.hpp"
 #include "common.hpp"
 
 namespace {

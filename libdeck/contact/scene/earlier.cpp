@@ -7,7 +7,7 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "base/shared/length_text.hpp"
+#include "base/shared/words.hpp"
 
 namespace deck {
 namespace {

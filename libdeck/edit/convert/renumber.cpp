@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "base/shared/count.hpp"
+#include "base/shared/words.hpp"
 #include "deck/text.hpp"
 #include "edit/cells.hpp"
 #include "keyword/shared/reader.hpp"

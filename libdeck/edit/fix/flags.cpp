@@ -3,7 +3,7 @@
 #include <map>
 #include <tuple>
 
-#include "base/shared/count.hpp"
+#include "base/shared/words.hpp"
 #include "deck/contacts.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "base/shared/count.hpp"
+#include "base/shared/words.hpp"
 #include "edit/fix/common.hpp"
 #include "edit/fix/harm.hpp"
 

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "base/shared/count.hpp"
 #include "base/shared/vec.hpp"
+#include "base/shared/words.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/shared/count.hpp"
 #include "base/shared/vec.hpp"
+#include "base/shared/words.hpp"
 #include "deck/point3.hpp"
 #include "lint/check.hpp"
 #include "model/shared/item_spans.hpp"

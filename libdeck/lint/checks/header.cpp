@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "base/shared/spelling.hpp"
+#include "base/shared/words.hpp"
 #include "keyword/shared/schema_facts.hpp"
 #include "lint/check.hpp"
 

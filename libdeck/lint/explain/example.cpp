@@ -7,7 +7,7 @@
 #include <optional>
 #include <sstream>
 
-#include "base/shared/columns.hpp"
+#include "base/shared/shown_text.hpp"
 #include "deck/lint.hpp"
 #include "text/shared/columns.hpp"
 #include "text/shared/gzip.hpp"

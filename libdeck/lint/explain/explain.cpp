@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/shared/columns.hpp"
+#include "base/shared/shown_text.hpp"
 #include "deck/lint.hpp"
 #include "lint/check.hpp"
 #include "lint/shared/example.hpp"

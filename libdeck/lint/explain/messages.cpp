@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/shared/columns.hpp"
 #include "base/shared/embedded.hpp"
-#include "base/shared/spelling.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "deck/text.hpp"
 #include "lint/check.hpp"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <map>
 
-#include "base/shared/columns.hpp"
-#include "base/shared/spelling.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "deck/lint.hpp"
 
 namespace deck {

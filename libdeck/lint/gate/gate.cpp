@@ -10,8 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "base/shared/count.hpp"
-#include "base/shared/length_text.hpp"
+#include "base/shared/words.hpp"
 #include "deck/text.hpp"
 #include "lint/shared/config.hpp"
 

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "accuracy/shared/choice.hpp"
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "deck/contacts.hpp"
 #include "report/html/parts.hpp"
 #include "report/shared/accuracy.hpp"

@@ -9,8 +9,8 @@
 #include <functional>
 #include <utility>
 
-#include "base/shared/escape.hpp"
 #include "base/shared/parallel.hpp"
+#include "base/shared/shown_text.hpp"
 #include "deck/contacts.hpp"
 #include "deck/loaded_deck.hpp"
 #include "report/html/parts.hpp"

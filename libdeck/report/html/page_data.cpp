@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/shared/count.hpp"
+#include "base/shared/words.hpp"
 #include "contact/shared/scene_parts.hpp"
 #include "deck/contacts.hpp"
 #include "deck/keyword.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "contact/shared/node_elements.hpp"
 #include "report/html/parts.hpp"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "deck/keyword.hpp"
 #include "deck/model.hpp"
 #include "deck/report.hpp"

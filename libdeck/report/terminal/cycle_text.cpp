@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "base/shared/escape.hpp"
-#include "base/shared/length_text.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "report/shared/cycle.hpp"
 #include "report/shared/gate.hpp"
 #include "report/terminal/words.hpp"

@@ -6,9 +6,8 @@
 #include <map>
 #include <tuple>
 
-#include "base/shared/columns.hpp"
-#include "base/shared/escape.hpp"
 #include "base/shared/paths.hpp"
+#include "base/shared/shown_text.hpp"
 #include "report/shared/diagnostics.hpp"
 #include "report/terminal/words.hpp"
 #include "text/shared/rule_page.hpp"

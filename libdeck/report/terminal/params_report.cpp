@@ -1,7 +1,7 @@
 // Tables and JSON of `deck params`.
 #include "report/shared/params_report.hpp"
-#include "base/shared/escape.hpp"
-#include "base/shared/length_text.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "deck/contacts.hpp"
 
 #include <fmt/format.h>

@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "base/shared/columns.hpp"
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 
 namespace deck {
 

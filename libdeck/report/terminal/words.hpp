@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/shared/count.hpp"
+#include "base/shared/words.hpp"
 #include "deck/contacts.hpp"
 #include "report/shared/text_table.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "deck/cycle.hpp"
 #include "deck/loaded_deck.hpp"
 #include "deck/model.hpp"

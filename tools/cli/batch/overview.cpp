@@ -7,9 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "base/shared/count.hpp"
-#include "base/shared/escape.hpp"
-#include "base/shared/length_text.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "batch/record.hpp"
 #include "report/shared/text_table.hpp"
 

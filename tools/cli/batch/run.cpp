@@ -14,10 +14,10 @@
 #include <filesystem>
 #include <thread>
 
-#include "base/shared/count.hpp"
-#include "base/shared/escape.hpp"
 #include "base/shared/hash.hpp"
 #include "base/shared/paths.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "lint/shared/config.hpp"
 #include "report/shared/deck_json.hpp"
 

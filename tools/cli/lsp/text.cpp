@@ -5,8 +5,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include "base/shared/escape.hpp"
 #include "base/shared/paths.hpp"
+#include "base/shared/shown_text.hpp"
 
 namespace deck::lsp {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "common.hpp"
 #include "lint/shared/topics.hpp"
 #include "report/shared/inspection.hpp"

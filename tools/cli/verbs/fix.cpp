@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/shared/count.hpp"
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "changes.hpp"
 #include "common.hpp"
 #include "deck/contacts.hpp"

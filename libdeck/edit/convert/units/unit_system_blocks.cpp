@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/shared/count.hpp"
+#include "base/shared/words.hpp"
 #include "deck/text.hpp"
 #include "edit/convert/units/unit_system.hpp"
 #include "keyword/shared/decode_parts.hpp"

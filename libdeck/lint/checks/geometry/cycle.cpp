@@ -2,7 +2,7 @@
 // steps below that of the mesh, pairs close to the end of their gap.
 #include <algorithm>
 
-#include "base/shared/length_text.hpp"
+#include "base/shared/words.hpp"
 #include "deck/cycle.hpp"
 #include "deck/text.hpp"
 #include "lint/checks/geometry/geometry.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/shared/length_text.hpp"
+#include "base/shared/words.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "base/shared/length_text.hpp"
+#include "base/shared/words.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {

@@ -1,7 +1,7 @@
 // Names of contacts, segments, elements and lists as the findings of the geometry checks say them.
 #include <algorithm>
 
-#include "base/shared/count.hpp"
+#include "base/shared/words.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 #include "lint/shared/geometry.hpp"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "base/shared/count.hpp"
+#include "base/shared/words.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/shared/count.hpp"
+#include "base/shared/words.hpp"
 #include "deck/point3.hpp"
 #include "deck/text.hpp"
 #include "lint/check.hpp"

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "base/shared/count.hpp"
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "deck/keyword.hpp"
 #include "deck/text.hpp"
 #include "report/shared/text_table.hpp"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/shared/count.hpp"
+#include "base/shared/words.hpp"
 #include "report/shared/text_table.hpp"
 #include "verbs/gate/init.hpp"
 #include "verbs/lint/lint_run.hpp"

@@ -12,9 +12,9 @@
 #include <optional>
 #include <vector>
 
-#include "base/shared/count.hpp"
-#include "base/shared/escape.hpp"
 #include "base/shared/paths.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "deck/report.hpp"
 #include "library.hpp"
 #include "lint/shared/config.hpp"

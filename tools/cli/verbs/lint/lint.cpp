@@ -1,6 +1,6 @@
 // deck lint: findings with file, line and column, in every format that people and pipelines read.
 
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 #include "common.hpp"
 #include "verbs/lint/lint_run.hpp"
 

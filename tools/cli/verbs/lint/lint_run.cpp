@@ -8,8 +8,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "base/shared/count.hpp"
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "library.hpp"
 #include "lint/shared/config.hpp"
 #include "lint/shared/fix.hpp"

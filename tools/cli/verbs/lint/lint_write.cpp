@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "base/shared/count.hpp"
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
+#include "base/shared/words.hpp"
 #include "library.hpp"
 #include "verbs/lint/lint_run.hpp"
 

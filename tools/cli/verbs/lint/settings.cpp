@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/shared/escape.hpp"
+#include "base/shared/shown_text.hpp"
 
 namespace deck::cli {
 namespace {
